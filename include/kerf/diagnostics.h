@@ -1,0 +1,80 @@
+// What is wrong with the user's input, said with a place, a stable code and a hint.
+//
+// A function that can fail on user input returns its value and appends to a `Diagnostics` passed in. Nothing in
+// the library prints, exits or throws across a public header. The codes stand in one table, `codes.def`.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "kerf/origin.h"
+
+namespace kerf {
+
+enum class Severity : std::uint8_t { note, warning, error };
+std::string_view to_string(Severity severity);
+
+/// Stable numbers of everything Kerf can say; the table is codes.def.
+enum class Code : std::uint16_t {
+#define KERF_CODE(number, name, meaning) name = number,
+#include "kerf/codes.def"
+#undef KERF_CODE
+};
+/// The code's name as it stands in codes.def, e.g. "no_feed".
+std::string_view name_of(Code code);
+/// One sentence of what the code means, from codes.def.
+std::string_view meaning_of(Code code);
+/// Every code of the table, for documentation and tests.
+const std::vector<Code>& all_codes();
+
+struct DiagnosticNote {
+  Origin where;
+  std::string text;
+};
+
+struct Diagnostic {
+  Severity severity = Severity::error;
+  Code code{};
+  Origin where;
+  std::string message;
+  std::vector<DiagnosticNote> notes;
+  std::string hint;
+};
+
+/// "part.nc:3:7: error: no number after X [2003]" and its notes and hint on lines of their own.
+std::string to_string(const Diagnostic& diagnostic);
+
+/// Collects what a run has to say, in the order found. Of one code at most `limit_per_code` are kept, the rest
+/// counted, so that a broken file of a million lines costs bounded memory.
+class Diagnostics {
+ public:
+  explicit Diagnostics(std::size_t limit_per_code = 50) : limit_per_code_(limit_per_code) {}
+
+  /// Appends; the returned reference (valid until the next call) takes notes and a hint.
+  Diagnostic& error(Code code, Origin where, std::string message);
+  Diagnostic& warning(Code code, Origin where, std::string message);
+  Diagnostic& note(Code code, Origin where, std::string message);
+  Diagnostic& add(Diagnostic diagnostic);
+
+  bool has_errors() const { return errors_ > 0; }
+  std::size_t errors() const { return errors_; }      ///< all of them, kept or only counted
+  std::size_t warnings() const { return warnings_; }  ///< all of them, kept or only counted
+  const std::vector<Diagnostic>& list() const { return list_; }
+  /// How many of a code were counted but not kept.
+  std::size_t dropped(Code code) const;
+  std::vector<Code> dropped_codes() const;
+
+ private:
+  std::size_t limit_per_code_;
+  std::size_t errors_ = 0;
+  std::size_t warnings_ = 0;
+  std::vector<Diagnostic> list_;
+  std::unordered_map<std::uint16_t, std::size_t> seen_;
+  Diagnostic overflow_;  // takes notes of diagnostics that are not kept
+};
+
+}  // namespace kerf

@@ -1,0 +1,111 @@
+// Points, boxes, and arcs as Kerf stores them. Coordinates are mm in work coordinates: Z up, right-handed.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "kerf/units.h"
+
+namespace kerf {
+
+struct Point2 {
+  double x = 0.0, y = 0.0;  // mm
+  bool operator==(const Point2&) const = default;
+};
+constexpr Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; }
+constexpr Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Point2 operator*(double k, Point2 a) { return {k * a.x, k * a.y}; }
+constexpr double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
+constexpr double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
+inline double length(Point2 a) { return std::hypot(a.x, a.y); }
+inline double distance(Point2 a, Point2 b) { return length(b - a); }
+
+struct Point3 {
+  double x = 0.0, y = 0.0, z = 0.0;  // mm
+  bool operator==(const Point3&) const = default;
+  constexpr Point2 xy() const { return {x, y}; }
+  constexpr double& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  constexpr double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
+};
+constexpr Point3 operator+(Point3 a, Point3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr Point3 operator-(Point3 a, Point3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+constexpr Point3 operator*(double k, Point3 a) { return {k * a.x, k * a.y, k * a.z}; }
+constexpr double dot(Point3 a, Point3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+constexpr Point3 cross(Point3 a, Point3 b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline double length(Point3 a) { return std::sqrt(dot(a, a)); }
+inline double distance(Point3 a, Point3 b) { return length(b - a); }
+inline bool finite(Point3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
+
+/// Axis-parallel box in mm; a new one is empty (low above high) and grows by `add`.
+struct Box3 {
+  Point3 low{kFar, kFar, kFar};
+  Point3 high{-kFar, -kFar, -kFar};
+
+  bool empty() const { return low.x > high.x || low.y > high.y || low.z > high.z; }
+  void add(Point3 p) {
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], p[i]);
+      high[i] = std::max(high[i], p[i]);
+    }
+  }
+  void add(const Box3& b) {
+    if (b.empty()) return;
+    add(b.low);
+    add(b.high);
+  }
+  /// Edge lengths in mm; meaningless for an empty box.
+  Point3 size() const { return high - low; }
+  bool operator==(const Box3&) const = default;
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+};
+
+/// The plane an arc lies in. The third axis is the one the plane's name leaves out.
+enum class Plane : std::uint8_t { xy, xz, yz };
+/// Sense of turning, seen from the positive end of the third axis, as in RS274 (G2 is cw).
+enum class Turn : std::uint8_t { cw, ccw };
+
+/// Indices (0 = X, 1 = Y, 2 = Z) of a plane's axes in right-handed order: u towards v is counter-clockwise seen
+/// from +w. So XY gives X Y Z, XZ gives Z X Y, YZ gives Y Z X.
+struct PlaneAxes {
+  int u, v, w;
+};
+constexpr PlaneAxes axes_of(Plane plane) {
+  switch (plane) {
+    case Plane::xz: return {2, 0, 1};
+    case Plane::yz: return {1, 2, 0};
+    case Plane::xy: break;
+  }
+  return {0, 1, 2};
+}
+
+/// An arc in its plane's right-handed (u, v) frame, ready to be walked: at share t of its length it is at angle
+/// start_angle + t * sweep, radius start_radius + t * (end_radius - start_radius), and third axis likewise.
+/// Radii differ by what the program's rounding leaves; the walk then is a spiral that meets both ends.
+struct ArcWalk {
+  Plane plane = Plane::xy;
+  double u = 0.0, v = 0.0;  // centre, mm
+  double start_radius = 0.0, end_radius = 0.0;
+  double start_angle = 0.0;  // radians
+  double sweep = 0.0;        // radians, signed: positive is counter-clockwise
+  double start_w = 0.0, end_w = 0.0;
+
+  Point3 at(double t) const;
+  /// True length in mm, of a helix too (the spiral part by its mean radius).
+  double length() const;
+  /// Chords needed so that none strays from the curve by more than `chord`; at least 1, at most `limit`.
+  int chords(Length chord, int limit = 1 << 20) const;
+  Box3 bounds() const;
+};
+
+/// Makes the walk of an arc. `centre` is in the order of the plane's name (XZ: x, z). An end equal to the start in
+/// the plane (angles within 1e-9 rad) is a full circle; `extra_turns` adds whole circles.
+ArcWalk walk_arc(Point3 from, Point3 to, Point2 centre, Plane plane, Turn turn, int extra_turns);
+
+}  // namespace kerf

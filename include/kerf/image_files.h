@@ -1,0 +1,20 @@
+// Pictures as PNG bytes from plain pixels.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace kerf {
+
+/// Rows from the top, four bytes a pixel (red, green, blue, alpha; sRGB, not premultiplied).
+struct ImageView {
+  int width = 0;
+  int height = 0;
+  std::span<const std::uint8_t> rgba;
+};
+
+/// The file's bytes.
+std::string write_png(const ImageView& image);
+
+}  // namespace kerf

@@ -1,0 +1,31 @@
+// Triangle meshes as files: STL, 3MF, GLB and OBJ bytes from plain arrays. No policy, no geometry.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace kerf {
+
+/// What the writers need, borrowed from the caller. Positions x y z in mm (Z up), three indices a triangle,
+/// counter-clockwise seen from outside. `colour_index` is empty or holds one index into `palette` a triangle.
+/// `step` is empty or holds the toolpath step that made each triangle (kept in GLB as the attribute _STEP).
+struct MeshView {
+  std::span<const float> positions;
+  std::span<const std::uint32_t> triangles;
+  std::span<const std::uint8_t> colour_index;
+  std::span<const std::array<std::uint8_t, 3>> palette;  // sRGB
+  std::span<const std::uint32_t> step;
+  std::string name = "part";
+};
+
+enum class MeshFormat : std::uint8_t { stl, three_mf, glb, obj };
+/// From a file name's ending (.stl .3mf .glb .obj, any case), or nothing.
+std::optional<MeshFormat> mesh_format_of(std::string_view path);
+/// The file's bytes. STL is binary and without colour; OBJ is without colour.
+std::string write_mesh(const MeshView& mesh, MeshFormat format);
+
+}  // namespace kerf

@@ -1,0 +1,27 @@
+// Numbers as text: no locale, never "-0", fixed rounding; and reading them back.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kerf {
+
+/// Appends `value` with at most `decimals` places, trailing zeros dropped ("12.5", "3", "-0.25", never "-0").
+void append_number(std::string& out, double value, int decimals);
+/// Appends `value` with exactly `decimals` places ("12.500").
+void append_fixed(std::string& out, double value, int decimals);
+std::string number_text(double value, int decimals);
+std::string fixed_text(double value, int decimals);
+/// Shortest text that reads back as the same double.
+std::string exact_text(double value);
+
+/// Reads the whole of `text` as a decimal number ("1", "-.5", "+2.50", "1e-3"). Nothing if it is not one or not
+/// finite. Works without floating from_chars, so that it also builds for WebAssembly.
+std::optional<double> parse_number(std::string_view text);
+
+/// The closest of `known` to `word` if it is close enough to be a slip of the fingers ("did you mean ...").
+std::optional<std::string> did_you_mean(std::string_view word, const std::vector<std::string>& known);
+
+}  // namespace kerf

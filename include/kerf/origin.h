@@ -1,0 +1,89 @@
+// Where something came from in the user's own work: a place in a text, a spot in a drawing, a call in a script.
+//
+// Every step of a toolpath and every diagnostic has an origin. Steps store a 4-byte `OriginId`; the table
+// behind it keeps 16 bytes an origin, so that a million G-code lines cost 16 MB.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <variant>
+#include <vector>
+
+namespace kerf {
+
+/// A place in a text file: line and column count from 1; column 0 means "the whole line".
+struct TextSpot {
+  std::string file;
+  std::uint32_t line = 0;
+  std::uint32_t column = 0;
+  bool operator==(const TextSpot&) const = default;
+};
+
+/// A spot in a drawing: x and y in mm, in the drawing's world coordinates.
+struct DxfSpot {
+  std::string file;
+  std::string layer;
+  std::string handle;
+  double x = 0.0;
+  double y = 0.0;
+  bool operator==(const DxfSpot&) const = default;
+};
+
+/// A call of Kerf's interface from a script; file and line are the script's, empty and 0 where unknown.
+struct CallSpot {
+  std::string file;
+  std::uint32_t line = 0;
+  std::string call;
+  bool operator==(const CallSpot&) const = default;
+};
+
+using Origin = std::variant<std::monostate, TextSpot, DxfSpot, CallSpot>;
+
+/// "part.nc:12:5", "plate.dxf: layer 8999, handle 2F, at 10, 20", "job.py:7 (cutline)"; empty for no origin.
+std::string to_string(const Origin& origin);
+
+/// Index into an OriginTable; 0 is "unknown".
+enum class OriginId : std::uint32_t { none = 0 };
+
+/// Compact store of origins. Grows only; ids stay valid. File names are kept once.
+class OriginTable {
+ public:
+  OriginTable();
+
+  /// Returns the index of a file name, for `text()`; the same name gives the same index.
+  std::uint32_t file(std::string_view name);
+  /// A place in a text; `file` comes from `file()`. Not merged with equal ones: call it once per line or word.
+  OriginId text(std::uint32_t file, std::uint32_t line, std::uint32_t column);
+  OriginId add(const Origin& origin);
+  /// Says that `inner` happened because of `caller` (an include, a call of a function or sub-path).
+  void set_caller(OriginId inner, OriginId caller);
+
+  Origin resolve(OriginId id) const;
+  /// The callers of `id`, innermost first; empty for most.
+  std::vector<Origin> callers(OriginId id) const;
+  /// Line of a text or call origin; 0 where there is none.
+  std::uint32_t line(OriginId id) const;
+
+  std::size_t size() const { return records_.size(); }
+  void reserve(std::size_t count) { records_.reserve(count); }
+
+ private:
+  enum class Kind : std::uint32_t { none, text, dxf, call };
+  struct Record {
+    std::uint32_t file = 0;
+    std::uint32_t line = 0;    // dxf: index into dxf_
+    std::uint32_t column = 0;  // call: index into calls_
+    Kind kind = Kind::none;
+  };
+  std::vector<Record> records_;
+  std::vector<std::string> files_;
+  std::unordered_map<std::string, std::uint32_t> file_index_;
+  std::vector<DxfSpot> dxf_;
+  std::vector<std::string> calls_;
+  std::unordered_map<std::string, std::uint32_t> call_index_;
+  std::unordered_map<std::uint32_t, OriginId> callers_;
+};
+
+}  // namespace kerf

@@ -1,0 +1,131 @@
+// The simulator: what a toolpath leaves of the stock, what it touches that it should not, and which step made what.
+//
+// The workpiece is a grid of vertical material columns, each a few intervals [low, high] in z, so that undercutting
+// tools are exact. Every interval end remembers the step that made it. See docs/decisions and design/simulation.md.
+#pragma once
+
+#include <cstdint>
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/geometry.h"
+#include "kerf/progress.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
+
+namespace kerf {
+
+/// The step id of a surface that no step made: the stock's own faces.
+inline constexpr std::uint32_t kStockSurface = 0xffffffffu;
+
+struct SimulationOptions {
+  Length resolution;           // column pitch; 0 chooses one: about 4 million columns, between 0.02 and 1 mm
+  unsigned threads = 0;        // 0: as many as the machine has. The result is the same for any number.
+  std::size_t max_columns = 400'000'000;  // more is an error that says which resolution would do
+  Length hazard_depth = mm(0.001);        // contacts shallower than this are no hazard
+};
+
+enum class HazardKind : std::uint8_t {
+  rapid_in_stock, neck_contact, shank_contact, holder_contact, over_flute, below_floor, spindle_off,
+};
+std::string_view to_string(HazardKind kind);
+
+/// A step that would break a tool or a part. One entry a step and kind.
+struct Hazard {
+  HazardKind kind{};
+  std::uint32_t step = 0;  // index in the toolpath
+  Point3 at;               // mm, the first column met along the move, at the depth of the contact there
+  Length depth;            // largest depth of the contact below the material's surface
+  Volume removed;          // material met
+};
+
+/// One vertical run of material in a column; ids are indices of the steps that made its ends, or kStockSurface.
+struct Interval {
+  float low = 0.0f;   // mm above the workpiece's floor
+  float high = 0.0f;  // mm above the workpiece's floor
+  std::uint32_t low_step = kStockSurface;
+  std::uint32_t high_step = kStockSurface;
+};
+
+/// The material left, as columns. Column (i, j) stands at x = low.x + (i + 0.5) * pitch, y likewise; heights count
+/// from the stock's floor.
+class Workpiece {
+ public:
+  Workpiece(const Stock& stock, Length pitch);
+  Workpiece(Workpiece&&) noexcept;
+  Workpiece& operator=(Workpiece&&) noexcept;
+  ~Workpiece();
+
+  const Box3& bounds() const;  // mm, the stock's block
+  Length pitch() const;
+  int columns_x() const;
+  int columns_y() const;
+  /// The material of a column, lowest first; empty where all is cut away.
+  std::vector<Interval> column(int i, int j) const;
+  Volume volume() const;
+
+  struct Body;
+  Body& body() { return *body_; }
+  const Body& body() const { return *body_; }
+
+ private:
+  std::unique_ptr<Body> body_;
+};
+
+struct Simulation {
+  Workpiece workpiece;
+  Volume stock, removed;
+  std::vector<Hazard> hazards;           // in order of steps
+  std::vector<float> removed_by_step;    // mm3, one a step of the toolpath
+  double seconds = 0.0;                  // of the simulation alone
+  bool stopped = false;                  // interrupted: what is here is the state at that moment
+};
+
+/// Cuts the toolpath out of the stock. Appends errors (unknown tool, too many columns) and returns nothing where it
+/// cannot run. Steps without material effect (dwell, notes) are passed over.
+std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools, const Stock& stock,
+                                   const SimulationOptions& options, Diagnostics& diagnostics,
+                                   Progress* progress = nullptr);
+
+/// A closed triangle mesh, with the step that made each triangle.
+struct Mesh {
+  std::vector<float> positions;           // x y z, mm, work coordinates
+  std::vector<std::uint32_t> triangles;   // three indices each, counter-clockwise from outside
+  std::vector<std::uint32_t> step;        // one a triangle; kStockSurface where none
+};
+
+/// The workpiece's surface; closed and oriented.
+Mesh extract_mesh(const Workpiece& workpiece, Progress* progress = nullptr);
+
+/// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
+/// opposite directions (0 for a sound mesh).
+struct MeshCheck {
+  Volume volume;
+  std::size_t bad_edges = 0;
+};
+MeshCheck check_mesh(const Mesh& mesh);
+
+/// From where a picture is taken.
+struct View {
+  Angle azimuth = degrees(-35);    // about Z; 0 looks along +Y from the front
+  Angle elevation = degrees(50);   // above the horizon; 90 looks straight down
+  int width = 1600, height = 1000; // pixels
+};
+/// "top", "front", "back", "left", "right", "iso", or nothing.
+std::optional<View> named_view(std::string_view name);
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;  // rows from the top
+};
+/// Draws a mesh with light and shade; `colours` holds one sRGB colour a triangle.
+Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
+
+}  // namespace kerf

@@ -1,0 +1,33 @@
+// The stock: the material before the first cut. Lengths in mm, work coordinates (program zero is 0, 0, 0).
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "kerf/diagnostics.h"
+#include "kerf/geometry.h"
+
+namespace kerf {
+
+/// A block of material. Cylinders, imported meshes and left-over stock come with the simulator's further work.
+struct Stock {
+  Box3 block;  // mm, work coordinates
+};
+
+/// Where program zero lies on the block, in plan and in height.
+enum class ZeroCorner : unsigned char {
+  lower_left, lower_centre, lower_right, centre_left, centre, centre_right, top_left, top_centre, top_right,
+};
+enum class ZeroHeight : unsigned char { top, bottom };
+
+/// A block of `size` (mm) with program zero at the named place.
+Stock make_block(Point3 size, ZeroCorner corner, ZeroHeight height);
+/// Reads "Lower-Left", "centre left", "TOPLEFT" ...: case, spaces and hyphens do not count, "center" is "centre".
+std::optional<ZeroCorner> parse_zero_corner(std::string_view name);
+std::optional<ZeroHeight> parse_zero_height(std::string_view name);
+
+/// A block around the cuts: `margin` added sideways, top at Z0 or at the highest cut if that is above, and `floor`
+/// of material below the deepest cut. For programs that say nothing of their stock.
+Stock stock_around(const Box3& cuts, Length margin, Length floor);
+
+}  // namespace kerf

@@ -1,0 +1,147 @@
+// A tool is its silhouette: the half profile of lines and arcs that, turned about the spindle's axis, gives the
+// solid. Square, ball, V, keyhole, dovetail, roundover and shank are the same thing to every algorithm.
+//
+// Frame: r is the distance from the axis, z the height above the control point (the tip), both mm.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/units.h"
+
+namespace kerf {
+
+/// A corner of a half profile. `bulge` belongs to the segment from this knot to the next, as in DXF: tangent of a
+/// quarter of the angle, 0 straight, positive counter-clockwise in the (r, z) plane, which bulges away from the axis.
+struct Knot {
+  double r = 0.0;  // mm, >= 0
+  double z = 0.0;  // mm
+  double bulge = 0.0;
+  bool operator==(const Knot&) const = default;
+};
+
+/// A half profile from bottom to top: z never falls (level segments are steps), r >= 0. Empty = there is no such part.
+/// The solid is all that lies between the axis and the profile.
+struct Profile {
+  std::vector<Knot> knots;
+
+  bool empty() const { return knots.size() < 2; }
+  double bottom() const { return empty() ? 0.0 : knots.front().z; }  // mm
+  double top() const { return empty() ? 0.0 : knots.back().z; }      // mm
+  /// Largest radius in mm, arcs that swell between their ends included.
+  double max_radius() const;
+  /// Radius in mm at height z above the tip (the larger one at a step); 0 outside the profile.
+  double radius_at(double z) const;
+  bool operator==(const Profile&) const = default;
+};
+
+/// What a part of a tool does when it meets material: the cutting part cuts, all others collide.
+enum class ToolPart : std::uint8_t { cutting, neck, shank, holder };
+std::string_view to_string(ToolPart part);
+
+/// The whole tool, each part where it stands: heights are above the tip, parts follow each other upwards.
+struct Silhouette {
+  Profile cutting;
+  Profile neck;    // relief between the flutes and the shank; does not cut
+  Profile shank;
+  Profile holder;
+
+  const Profile& part(ToolPart p) const;
+  double max_radius() const;  // mm, of all parts
+  double top() const;         // mm, of the highest part
+};
+
+/// Parameters of the known shapes. Lengths along the axis are measured from the tip. Where a shape says "flute",
+/// it is the height of the cutting part. Sources: spec/gcodepreview.md sections 4 and 5, CutViewer's guide.
+namespace shape {
+struct Square { Length diameter, flute; };
+struct Ball { Length diameter, flute; };
+/// Flat bottom with a quarter circle at the corner; `corner_radius` at most half the diameter.
+struct BullNose { Length diameter, flute, corner_radius; };
+/// As BullNose; the name that bowl-and-tray bits go by.
+struct Bowl { Length diameter, flute, corner_radius; };
+/// V groove. `tip_diameter` 0 is a point, else a flat; `tip_radius` above 0 rounds the point (and then the flat is 0).
+/// The cone ends at `diameter`; a flute higher than the cone goes on as a cylinder.
+struct Vee { Length diameter, flute; Angle included_angle; Length tip_diameter, tip_radius; };
+/// Ball of `tip_diameter` tangent to a cone of `included_angle` that reaches `diameter`.
+struct TaperedBall { Length diameter, flute; Angle included_angle; Length tip_diameter; };
+/// Head of `diameter` and height `head`; fluted neck of `neck_diameter` from there up to `flute`.
+struct Keyhole { Length diameter, head, neck_diameter, flute; };
+/// Widest at the tip; the side leans inwards by `side_angle` from the axis.
+struct Dovetail { Length diameter, flute; Angle side_angle; };
+/// Concave quarter circle of `radius` above a tip of `tip_diameter`; body diameter is tip + 2 radius.
+struct Roundover { Length tip_diameter, radius, flute; };
+/// One tooth: minor to major to minor diameter within `cut_height`, then a neck of the minor diameter.
+struct ThreadMill { Length minor_diameter, major_diameter, cut_height, length; };
+/// Ball of `diameter` on a neck of `neck_diameter`.
+struct Lollipop { Length diameter, neck_diameter, flute; };
+/// Disc of `diameter` and `thickness` on a neck of `neck_diameter`.
+struct TSlot { Length diameter, thickness, neck_diameter, flute; };
+struct Drill { Length diameter, flute; Angle point_angle; };
+/// Centre drill: pilot of `pilot_diameter` and `pilot_angle`, `pilot_length` long, then a cone of `body_angle` to `diameter`.
+struct CentreDrill { Length pilot_diameter, pilot_length; Angle pilot_angle; Length diameter, flute; Angle body_angle; };
+/// Flat bottom of `tip_diameter`, straight flanks to `diameter` at `flute`.
+struct FlatGroove { Length diameter, flute, tip_diameter; };
+/// Chamfer: `included_angle` cone between `tip_diameter` and `diameter`, then a cylinder to `flute`.
+struct Chamfer { Length diameter, flute; Angle included_angle; Length tip_diameter; };
+/// Corner-rounding mill of CutViewer's CRMILL: `tip_diameter` D1, `diameter` D2, concave `radius`.
+struct CornerRounding { Length tip_diameter, diameter, radius, height, flute; };
+/// Any half profile.
+struct Drawn { Profile cutting; };
+}  // namespace shape
+
+using ToolShape =
+    std::variant<shape::Square, shape::Ball, shape::BullNose, shape::Bowl, shape::Vee, shape::TaperedBall,
+                 shape::Keyhole, shape::Dovetail, shape::Roundover, shape::ThreadMill, shape::Lollipop, shape::TSlot,
+                 shape::Drill, shape::CentreDrill, shape::FlatGroove, shape::Chamfer, shape::CornerRounding, shape::Drawn>;
+/// "square", "ball", "bull nose", "V" ...: the words of the tool files and of `kerf tools list`.
+std::string_view name_of(const ToolShape& shape);
+
+/// What stands above the cutting part. A diameter of 0 leaves the part out.
+struct ToolBody {
+  Length neck_diameter, neck_length;
+  Length shank_diameter, shank_length;  // length above the neck or the flute
+  Length holder_diameter, holder_length;
+};
+
+/// A tool as the rest of Kerf uses it.
+struct Tool {
+  int number = 0;                  // as it stands in the program (T word)
+  std::vector<std::string> names;  // vendor's and generated numbers, "Amana 46200-K"
+  std::string description;
+  ToolShape shape;
+  Silhouette silhouette;  // made from shape and body
+  Length diameter;        // largest of the cutting part
+  Length flute;           // height of the cutting part
+  int teeth = 2;
+  bool plunges = true;  // cuts at its centre, so that it may go straight down
+};
+
+/// Makes the tool of a shape and what is above it. Appends errors (with `where`) for parameters that give no solid
+/// (negative, not finite, a corner radius above half the diameter ...) and returns nothing then.
+std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody& body, const Origin& where,
+                              Diagnostics& diagnostics);
+
+/// Tools by program number. Vendor numbers, generated six-digit numbers and program numbers share one space here
+/// (spec/gcodepreview.md section 3: a two-way map).
+class ToolTable {
+ public:
+  /// The tool of a number, or nullptr.
+  const Tool* find(int number) const;
+  void set(int number, Tool tool);
+  const std::map<int, Tool>& tools() const { return tools_; }
+
+ private:
+  std::map<int, Tool> tools_;
+};
+
+/// The tools that every Kerf knows: data/tools.toml, compiled in. spec/gcodepreview.md section 4.
+const ToolTable& built_in_tools();
+
+}  // namespace kerf

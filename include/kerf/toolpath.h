@@ -1,0 +1,271 @@
+// The toolpath: the one thing every way in makes and every way out reads.
+//
+// A toolpath is a list of steps. Positions are complete, absolute, in mm and work coordinates (rotary axes in
+// degrees); nothing is modal and nothing knows a controller. Arcs stay arcs. Every step knows its origin: the line,
+// drawing entity or call that caused it. A step is 64 bytes, an origin 16 more.
+//
+//   Toolpath path;
+//   auto here = path.origins().add(CallSpot{.call = "example"});
+//   path.add(step::ToolChange{102}, here);
+//   path.add(step::Spindle{rpm(16000), SpindleTurn::cw}, here);
+//   path.add(step::Rapid{{0, 0, 5}}, here);
+//   path.add(step::Cut{{0, 0, -1}, mm_per_min(100)}, here);
+//   path.add(step::Arc{.to = {10, 0, -1}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(400)}, here);
+//
+// Source: the architecture's page "The toolpath"; turning senses as in RS274/NGC section 3.5.3.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "kerf/geometry.h"
+#include "kerf/origin.h"
+#include "kerf/units.h"
+
+namespace kerf {
+
+enum class SpindleTurn : std::uint8_t { off, cw, ccw };
+enum class PathModeKind : std::uint8_t { exact_path, exact_stop, blend };
+enum class Heater : std::uint8_t { nozzle, bed, chamber };
+enum class LaserMode : std::uint8_t { off, constant, dynamic };
+/// Probing: what ends the motion (contact made or contact lost) and whether missing it is an error (G38.2-G38.5).
+enum class ProbeKind : std::uint8_t { contact_or_error, contact, release_or_error, release };
+
+namespace step {
+
+/// A move at rapid speed; the tool must not touch material.
+struct Rapid {
+  Point3 to;
+};
+/// A straight move at feed.
+struct Cut {
+  Point3 to;
+  Feed feed;
+};
+/// An arc, or a helix where the third axis moves. `centre` is absolute, in the order of the plane's name (XZ: x, z).
+struct Arc {
+  Point3 to;
+  Point2 centre;
+  Plane plane = Plane::xy;
+  Turn turn = Turn::ccw;
+  int extra_turns = 0;  // whole circles beyond the first arrival at `to`
+  Feed feed;
+};
+struct Dwell {
+  Duration time;
+};
+struct ToolChange {
+  int tool = 0;
+};
+struct Spindle {
+  SpindleSpeed speed;
+  SpindleTurn turn = SpindleTurn::off;
+};
+struct Coolant {
+  bool mist = false;
+  bool flood = false;
+};
+/// How corners are driven; `tolerance` is the permitted distance from the path when blending, 0 = none given.
+struct PathMode {
+  PathModeKind kind = PathModeKind::exact_path;
+  Length tolerance;
+};
+struct Probe {
+  Point3 to;
+  Feed feed;
+  ProbeKind kind = ProbeKind::contact_or_error;
+};
+/// A straight move that lays down a bead: `volume` mm3 in all, of the given width and height.
+struct Extrude {
+  Point3 to;
+  Volume volume;
+  Length width;
+  Length height;
+  Feed feed;
+};
+struct Temperature {
+  Heater heater = Heater::nozzle;
+  double celsius = 0.0;
+  bool wait = false;
+};
+struct Fan {
+  int fan = 0;
+  double share = 0.0;  // 0 to 1
+};
+struct LaserPower {
+  LaserMode mode = LaserMode::off;
+  double power = 0.0;  // in the units of the program's S word
+};
+struct Layer {
+  std::string name;
+  int colour = 256;  // AutoCAD colour index, 256 = by layer
+};
+struct Note {
+  std::string text;
+};
+/// Text that a front end hands to the controller as it is (and the pauses and program ends M0, M1, M2, M30).
+struct Verbatim {
+  std::string text;
+};
+
+}  // namespace step
+
+enum class StepKind : std::uint8_t {
+  rapid, cut, arc, dwell, tool_change, spindle, coolant, path_mode, probe, extrude, temperature, fan, laser_power,
+  layer, note, verbatim,
+};
+/// The name used in `kerf steps`: "rapid", "cut", "tool", "pathmode" and so on.
+std::string_view name_of(StepKind kind);
+
+/// One step, packed. Read it through `kind()` and the typed getters, which assert that the kind is right; texts and
+/// beads are kept by the Toolpath (`Toolpath::layer()`, `text()`, `extrude()`).
+class Step {
+ public:
+  StepKind kind() const { return kind_; }
+  OriginId origin() const { return origin_; }
+
+  /// True for rapid, cut, arc, probe and extrude: the kinds that have an end position.
+  bool is_motion() const {
+    return kind_ <= StepKind::arc || kind_ == StepKind::probe || kind_ == StepKind::extrude;
+  }
+  /// True for motions that meet material at feed: cut and arc (a probe touches, it does not cut).
+  bool is_cutting() const { return kind_ == StepKind::cut || kind_ == StepKind::arc; }
+  Point3 to() const { return {values_[0], values_[1], values_[2]}; }
+  /// Feed of a cut, arc, probe or extrude; zero means that the program gave none.
+  Feed feed() const { return Feed::raw(values_[3]); }
+  /// Bits 1, 2, 4: at this motion's end X, Y, Z is not known in work coordinates (never commanded yet, or
+  /// commanded in machine coordinates). `to()` then holds what an interpreter with zero offsets takes.
+  unsigned unknown_axes() const { return unknown_axes_; }
+
+  step::Rapid rapid() const;
+  step::Cut cut() const;
+  step::Arc arc() const;
+  step::Dwell dwell() const;
+  step::ToolChange tool_change() const;
+  step::Spindle spindle() const;
+  step::Coolant coolant() const;
+  step::PathMode path_mode() const;
+  step::Probe probe() const;
+  step::Temperature temperature() const;
+  step::Fan fan() const;
+  step::LaserPower laser_power() const;
+
+ private:
+  friend class Toolpath;
+  std::array<double, 6> values_{};
+  std::int32_t count_ = 0;     // extra turns, tool or fan number, index of a text or bead
+  OriginId origin_ = OriginId::none;
+  std::uint32_t extra_ = 0;    // index into the toolpath's extras, 0 = none
+  StepKind kind_ = StepKind::rapid;
+  std::uint8_t plane_ = 0;     // Plane, or the kind's own small enumeration
+  std::uint8_t turn_ = 0;      // Turn or SpindleTurn, or a flag
+  std::uint8_t unknown_axes_ = 0;
+};
+static_assert(sizeof(Step) == 64, "a million steps are to fit in 64 MB");
+
+/// What few motions have besides their place: rotary axes, and a Z that is corrected by measured points.
+struct MotionExtra {
+  std::optional<std::array<double, 3>> abc;  // degrees
+  std::string z_correction;                  // expression over probed values; empty = none
+};
+
+/// The list of steps with their origins and texts. A value; moving it is cheap.
+class Toolpath {
+ public:
+  const std::vector<Step>& steps() const { return steps_; }
+  std::size_t size() const { return steps_.size(); }
+  const Step& operator[](std::size_t i) const { return steps_[i]; }
+
+  OriginTable& origins() { return origins_; }
+  const OriginTable& origins() const { return origins_; }
+  Origin origin_of(std::size_t i) const { return origins_.resolve(steps_[i].origin()); }
+
+  // Each returns the new step's index. Positions must be finite (asserted).
+  std::size_t add(const step::Rapid& s, OriginId origin);
+  std::size_t add(const step::Cut& s, OriginId origin);
+  std::size_t add(const step::Arc& s, OriginId origin);
+  std::size_t add(const step::Dwell& s, OriginId origin);
+  std::size_t add(const step::ToolChange& s, OriginId origin);
+  std::size_t add(const step::Spindle& s, OriginId origin);
+  std::size_t add(const step::Coolant& s, OriginId origin);
+  std::size_t add(const step::PathMode& s, OriginId origin);
+  std::size_t add(const step::Probe& s, OriginId origin);
+  std::size_t add(const step::Extrude& s, OriginId origin);
+  std::size_t add(const step::Temperature& s, OriginId origin);
+  std::size_t add(const step::Fan& s, OriginId origin);
+  std::size_t add(const step::LaserPower& s, OriginId origin);
+  std::size_t add(const step::Layer& s, OriginId origin);
+  std::size_t add(const step::Note& s, OriginId origin);
+  std::size_t add(const step::Verbatim& s, OriginId origin);
+  /// Copies step `i` of another toolpath (made from the same sources), texts, extras and origin included.
+  std::size_t add_copy(const Toolpath& other, std::size_t i);
+
+  /// Marks axes (bits 1, 2, 4 for X, Y, Z) as unknown at the end of motion `i`; see Step::unknown_axes.
+  void set_unknown_axes(std::size_t i, unsigned bits);
+  void set_extra(std::size_t i, MotionExtra extra);
+  /// The motion's extra, or nullptr.
+  const MotionExtra* extra(std::size_t i) const;
+
+  step::Layer layer(std::size_t i) const;
+  step::Extrude extrude(std::size_t i) const;
+  /// The text of a note or verbatim step.
+  std::string_view text(std::size_t i) const;
+
+  void reserve(std::size_t steps);
+
+ private:
+  Step& append(StepKind kind, OriginId origin);
+  Step& append_motion(StepKind kind, Point3 to, OriginId origin);
+  std::int32_t intern(std::string_view text);
+  struct Bead {
+    Length width, height;
+    bool operator==(const Bead&) const = default;
+  };
+
+  std::vector<Step> steps_;
+  OriginTable origins_;
+  std::vector<std::string> texts_;
+  std::unordered_map<std::string, std::int32_t> text_index_;
+  std::vector<Bead> beads_;
+  std::vector<MotionExtra> extras_{1};
+};
+
+/// Walks the motions of a toolpath with their begin positions and the tool, spindle and feed state in force.
+/// Begin of the first motion is X0 Y0 Z0 with all axes unknown.
+struct MotionContext {
+  std::size_t index = 0;        // of the step
+  Point3 from;                  // mm
+  unsigned unknown_from = 7;    // axes of `from` that are not known, see Step::unknown_axes
+  std::optional<int> tool;      // nothing: no tool change yet
+  step::Spindle spindle;
+  bool spindle_stated = false;  // a spindle step was seen
+};
+
+/// Calls visit(step, context) for every motion, in order. `visit` returns void.
+template <class Visit>
+void for_each_motion(const Toolpath& path, Visit&& visit) {
+  MotionContext context;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Step& s = path[i];
+    if (s.kind() == StepKind::tool_change) context.tool = s.tool_change().tool;
+    if (s.kind() == StepKind::spindle) {
+      context.spindle = s.spindle();
+      context.spindle_stated = true;
+    }
+    if (!s.is_motion()) continue;
+    context.index = i;
+    visit(s, static_cast<const MotionContext&>(context));
+    context.from = s.to();
+    context.unknown_from = s.unknown_axes();
+  }
+}
+
+/// The walk of arc step `s` that begins at `from`.
+ArcWalk walk_of(const Step& s, Point3 from);
+
+}  // namespace kerf

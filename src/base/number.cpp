@@ -1,0 +1,96 @@
+// Numbers as text and back, and the closest known word.
+#include "kerf/number.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <numeric>
+
+#include <fmt/format.h>
+
+namespace kerf {
+namespace {
+
+/// True if all digits are zeros, so that a minus sign before them would be "-0".
+bool is_zero_text(std::string_view text) {
+  return text.find_first_of("123456789") == std::string_view::npos;
+}
+
+/// Distance of two words in insertions, deletions, replacements and swaps of neighbours, case left out.
+std::size_t slips_between(std::string_view a, std::string_view b) {
+  auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  std::iota(last.begin(), last.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, last[j - 1] + (same ? 0u : 1u)});
+      if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+        row[j] = std::min(row[j], before[j - 2] + 1);
+    }
+    std::swap(before, last);
+    std::swap(last, row);
+  }
+  return last[b.size()];
+}
+
+}  // namespace
+
+void append_fixed(std::string& out, double value, int decimals) {
+  const std::size_t start = out.size();
+  fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
+  if (out[start] == '-' && is_zero_text(std::string_view(out).substr(start))) out.erase(start, 1);
+}
+
+void append_number(std::string& out, double value, int decimals) {
+  const std::size_t start = out.size();
+  append_fixed(out, value, decimals);
+  if (out.find('.', start) == std::string::npos) return;
+  while (out.back() == '0') out.pop_back();
+  if (out.back() == '.') out.pop_back();
+}
+
+std::string number_text(double value, int decimals) {
+  std::string text;
+  append_number(text, value, decimals);
+  return text;
+}
+
+std::string fixed_text(double value, int decimals) {
+  std::string text;
+  append_fixed(text, value, decimals);
+  return text;
+}
+
+std::string exact_text(double value) {
+  return fmt::format("{}", value == 0.0 ? 0.0 : value);
+}
+
+std::optional<double> parse_number(std::string_view text) {
+  constexpr std::size_t kLongest = 512;  // digits past this change nothing that a double can hold
+  if (text.empty() || text.size() > kLongest) return std::nullopt;
+  if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;
+  const std::string copy(text);  // strtod wants an end; the C locale is never changed by Kerf
+  char* end = nullptr;
+  const double value = std::strtod(copy.c_str(), &end);
+  if (end != copy.c_str() + copy.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+std::optional<std::string> did_you_mean(std::string_view word, const std::vector<std::string>& known) {
+  if (word.size() > 64) return std::nullopt;
+  const std::string* best = nullptr;
+  std::size_t fewest = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : known) {
+    const std::size_t slips = slips_between(word, candidate);
+    if (slips < fewest) {
+      fewest = slips;
+      best = &candidate;
+    }
+  }
+  return best == nullptr ? std::nullopt : std::optional(*best);
+}
+
+}  // namespace kerf

@@ -1,0 +1,253 @@
+// The toolpath: packing and unpacking of steps.
+#include "kerf/toolpath.h"
+
+#include <cassert>
+#include <utility>
+
+namespace kerf {
+
+std::string_view name_of(StepKind kind) {
+  static constexpr std::string_view kNames[] = {
+      "rapid", "cut",         "arc", "dwell", "tool",  "spindle", "coolant", "pathmode",
+      "probe", "extrude", "temperature", "fan", "laser", "layer", "note",    "verbatim",
+  };
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+// ---- reading a step
+
+step::Rapid Step::rapid() const {
+  assert(kind_ == StepKind::rapid);
+  return {to()};
+}
+step::Cut Step::cut() const {
+  assert(kind_ == StepKind::cut);
+  return {to(), feed()};
+}
+step::Arc Step::arc() const {
+  assert(kind_ == StepKind::arc);
+  return {to(), {values_[4], values_[5]}, static_cast<Plane>(plane_), static_cast<Turn>(turn_), count_, feed()};
+}
+step::Dwell Step::dwell() const {
+  assert(kind_ == StepKind::dwell);
+  return {Duration::raw(values_[0])};
+}
+step::ToolChange Step::tool_change() const {
+  assert(kind_ == StepKind::tool_change);
+  return {count_};
+}
+step::Spindle Step::spindle() const {
+  assert(kind_ == StepKind::spindle);
+  return {SpindleSpeed::raw(values_[0]), static_cast<SpindleTurn>(turn_)};
+}
+step::Coolant Step::coolant() const {
+  assert(kind_ == StepKind::coolant);
+  return {(turn_ & 1) != 0, (turn_ & 2) != 0};
+}
+step::PathMode Step::path_mode() const {
+  assert(kind_ == StepKind::path_mode);
+  return {static_cast<PathModeKind>(plane_), Length::raw(values_[0])};
+}
+step::Probe Step::probe() const {
+  assert(kind_ == StepKind::probe);
+  return {to(), feed(), static_cast<ProbeKind>(plane_)};
+}
+step::Temperature Step::temperature() const {
+  assert(kind_ == StepKind::temperature);
+  return {static_cast<Heater>(plane_), values_[0], turn_ != 0};
+}
+step::Fan Step::fan() const {
+  assert(kind_ == StepKind::fan);
+  return {count_, values_[0]};
+}
+step::LaserPower Step::laser_power() const {
+  assert(kind_ == StepKind::laser_power);
+  return {static_cast<LaserMode>(plane_), values_[0]};
+}
+
+// ---- adding steps
+
+Step& Toolpath::append(StepKind kind, OriginId origin) {
+  assert(static_cast<std::size_t>(origin) < origins_.size());
+  Step& s = steps_.emplace_back();
+  s.kind_ = kind;
+  s.origin_ = origin;
+  return s;
+}
+
+Step& Toolpath::append_motion(StepKind kind, Point3 to, OriginId origin) {
+  assert(finite(to));
+  Step& s = append(kind, origin);
+  s.values_[0] = to.x;
+  s.values_[1] = to.y;
+  s.values_[2] = to.z;
+  return s;
+}
+
+std::size_t Toolpath::add(const step::Rapid& s, OriginId origin) {
+  append_motion(StepKind::rapid, s.to, origin);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Cut& s, OriginId origin) {
+  append_motion(StepKind::cut, s.to, origin).values_[3] = s.feed.raw();
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Arc& s, OriginId origin) {
+  Step& out = append_motion(StepKind::arc, s.to, origin);
+  out.values_[3] = s.feed.raw();
+  out.values_[4] = s.centre.x;
+  out.values_[5] = s.centre.y;
+  out.plane_ = static_cast<std::uint8_t>(s.plane);
+  out.turn_ = static_cast<std::uint8_t>(s.turn);
+  out.count_ = s.extra_turns;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Dwell& s, OriginId origin) {
+  append(StepKind::dwell, origin).values_[0] = s.time.raw();
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::ToolChange& s, OriginId origin) {
+  append(StepKind::tool_change, origin).count_ = s.tool;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Spindle& s, OriginId origin) {
+  Step& out = append(StepKind::spindle, origin);
+  out.values_[0] = s.speed.raw();
+  out.turn_ = static_cast<std::uint8_t>(s.turn);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Coolant& s, OriginId origin) {
+  append(StepKind::coolant, origin).turn_ = static_cast<std::uint8_t>((s.mist ? 1 : 0) | (s.flood ? 2 : 0));
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::PathMode& s, OriginId origin) {
+  Step& out = append(StepKind::path_mode, origin);
+  out.plane_ = static_cast<std::uint8_t>(s.kind);
+  out.values_[0] = s.tolerance.raw();
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Probe& s, OriginId origin) {
+  Step& out = append_motion(StepKind::probe, s.to, origin);
+  out.values_[3] = s.feed.raw();
+  out.plane_ = static_cast<std::uint8_t>(s.kind);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Extrude& s, OriginId origin) {
+  const Bead bead{s.width, s.height};
+  if (beads_.empty() || beads_.back() != bead) beads_.push_back(bead);  // a print has long runs of one bead
+  Step& out = append_motion(StepKind::extrude, s.to, origin);
+  out.values_[3] = s.feed.raw();
+  out.values_[4] = s.volume.raw();
+  out.count_ = static_cast<std::int32_t>(beads_.size() - 1);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Temperature& s, OriginId origin) {
+  Step& out = append(StepKind::temperature, origin);
+  out.plane_ = static_cast<std::uint8_t>(s.heater);
+  out.values_[0] = s.celsius;
+  out.turn_ = s.wait ? 1 : 0;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Fan& s, OriginId origin) {
+  Step& out = append(StepKind::fan, origin);
+  out.count_ = s.fan;
+  out.values_[0] = s.share;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::LaserPower& s, OriginId origin) {
+  Step& out = append(StepKind::laser_power, origin);
+  out.plane_ = static_cast<std::uint8_t>(s.mode);
+  out.values_[0] = s.power;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Layer& s, OriginId origin) {
+  Step& out = append(StepKind::layer, origin);
+  out.count_ = intern(s.name);
+  out.values_[0] = s.colour;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Note& s, OriginId origin) {
+  append(StepKind::note, origin).count_ = intern(s.text);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Verbatim& s, OriginId origin) {
+  append(StepKind::verbatim, origin).count_ = intern(s.text);
+  return steps_.size() - 1;
+}
+
+std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
+  const OriginId old = other.steps_[i].origin_;
+  const OriginId origin = origins_.add(other.origins_.resolve(old));
+  OriginId inner = origin;
+  for (const Origin& caller : other.origins_.callers(old)) {
+    const OriginId outer = origins_.add(caller);
+    origins_.set_caller(inner, outer);
+    inner = outer;
+  }
+  switch (other.steps_[i].kind_) {
+    case StepKind::layer: return add(other.layer(i), origin);
+    case StepKind::note: return add(step::Note{std::string(other.text(i))}, origin);
+    case StepKind::verbatim: return add(step::Verbatim{std::string(other.text(i))}, origin);
+    case StepKind::extrude: add(other.extrude(i), origin); break;
+    default: {
+      Step& s = steps_.emplace_back(other.steps_[i]);
+      s.origin_ = origin;
+      s.extra_ = 0;
+    }
+  }
+  if (const MotionExtra* extra = other.extra(i)) set_extra(steps_.size() - 1, *extra);
+  steps_.back().unknown_axes_ = other.steps_[i].unknown_axes_;
+  return steps_.size() - 1;
+}
+
+void Toolpath::set_unknown_axes(std::size_t i, unsigned bits) {
+  assert(steps_[i].is_motion() && bits < 8);
+  steps_[i].unknown_axes_ = static_cast<std::uint8_t>(bits);
+}
+
+void Toolpath::set_extra(std::size_t i, MotionExtra extra) {
+  assert(steps_[i].is_motion());
+  steps_[i].extra_ = static_cast<std::uint32_t>(extras_.size());
+  extras_.push_back(std::move(extra));
+}
+
+const MotionExtra* Toolpath::extra(std::size_t i) const {
+  return steps_[i].extra_ == 0 ? nullptr : &extras_[steps_[i].extra_];
+}
+
+step::Extrude Toolpath::extrude(std::size_t i) const {
+  const Step& s = steps_[i];
+  assert(s.kind_ == StepKind::extrude);
+  const Bead& bead = beads_[static_cast<std::size_t>(s.count_)];
+  return {s.to(), Volume::raw(s.values_[4]), bead.width, bead.height, s.feed()};
+}
+
+step::Layer Toolpath::layer(std::size_t i) const {
+  const Step& s = steps_[i];
+  assert(s.kind_ == StepKind::layer);
+  return {texts_[static_cast<std::size_t>(s.count_)], static_cast<int>(s.values_[0])};
+}
+
+std::string_view Toolpath::text(std::size_t i) const {
+  const Step& s = steps_[i];
+  assert(s.kind_ == StepKind::note || s.kind_ == StepKind::verbatim);
+  return texts_[static_cast<std::size_t>(s.count_)];
+}
+
+void Toolpath::reserve(std::size_t steps) {
+  steps_.reserve(steps);
+  origins_.reserve(steps + 1);
+}
+
+std::int32_t Toolpath::intern(std::string_view text) {
+  auto [it, is_new] = text_index_.try_emplace(std::string(text), static_cast<std::int32_t>(texts_.size()));
+  if (is_new) texts_.emplace_back(text);
+  return it->second;
+}
+
+ArcWalk walk_of(const Step& s, Point3 from) {
+  const step::Arc arc = s.arc();
+  return walk_arc(from, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
+}
+
+}  // namespace kerf

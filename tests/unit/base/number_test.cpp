@@ -1,0 +1,41 @@
+// Numbers as text: rounding, no "-0", and reading back.
+#include <gtest/gtest.h>
+
+#include "kerf/number.h"
+
+namespace kerf {
+namespace {
+
+TEST(Number, DropsTrailingZerosAndNegativeZero) {
+  EXPECT_EQ(number_text(12.5, 3), "12.5");
+  EXPECT_EQ(number_text(3.0, 3), "3");
+  EXPECT_EQ(number_text(100.0, 0), "100");
+  EXPECT_EQ(number_text(-0.0001, 3), "0");
+  EXPECT_EQ(fixed_text(-0.0001, 3), "0.000");
+  EXPECT_EQ(fixed_text(-0.25, 2), "-0.25");
+}
+
+TEST(Number, ReadsOnlyWholeFiniteNumbers) {
+  EXPECT_EQ(parse_number("-.5"), -0.5);
+  EXPECT_EQ(parse_number("+2.50"), 2.5);
+  EXPECT_EQ(parse_number("1e-3"), 0.001);
+  EXPECT_FALSE(parse_number(""));
+  EXPECT_FALSE(parse_number("1e999"));
+  EXPECT_FALSE(parse_number("nan"));
+  EXPECT_FALSE(parse_number("0x10"));
+  EXPECT_FALSE(parse_number("1 "));
+}
+
+TEST(Number, ExactTextReadsBackAsTheSame) {
+  for (const double v : {0.1, -1.0 / 3.0, 1e-300, 123456789.125}) EXPECT_EQ(parse_number(exact_text(v)), v);
+}
+
+TEST(DidYouMean, FindsSlipsButNotOtherWords) {
+  const std::vector<std::string> known{"simulate", "info", "check", "steps"};
+  EXPECT_EQ(did_you_mean("simluate", known), "simulate");
+  EXPECT_EQ(did_you_mean("chek", known), "check");
+  EXPECT_FALSE(did_you_mean("elephant", known));
+}
+
+}  // namespace
+}  // namespace kerf
