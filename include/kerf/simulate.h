@@ -54,8 +54,18 @@ struct Interval {
   std::uint32_t high_step = kStockSurface;
 };
 
-/// The material left, as columns. Column (i, j) stands at x = low.x + (i + 0.5) * pitch, y likewise; heights count
-/// from the stock's floor.
+/// A copy of the columns as plain arrays: column (i, j) is number j * nx + i and owns the intervals first[number] to
+/// first[number + 1] - 1, lowest first. It stands at x = bounds.low.x + (i + 0.5) * pitch, y likewise; heights count
+/// from bounds.low.z. The last column of a row may reach beyond the block when the pitch does not divide it.
+struct ColumnGrid {
+  Box3 bounds;         // mm, the stock's block
+  double pitch = 0.0;  // mm
+  int nx = 0, ny = 0;
+  std::vector<std::uint32_t> first;
+  std::vector<Interval> intervals;
+};
+
+/// The material left, as columns.
 class Workpiece {
  public:
   Workpiece(const Stock& stock, Length pitch);
@@ -69,6 +79,7 @@ class Workpiece {
   int columns_y() const;
   /// The material of a column, lowest first; empty where all is cut away.
   std::vector<Interval> column(int i, int j) const;
+  ColumnGrid grid() const;
   Volume volume() const;
 
   struct Body;
@@ -101,8 +112,8 @@ struct Mesh {
   std::vector<std::uint32_t> step;        // one a triangle; kStockSurface where none
 };
 
-/// The workpiece's surface; closed and oriented.
-Mesh extract_mesh(const Workpiece& workpiece, Progress* progress = nullptr);
+/// The surface of the columns; closed and oriented.
+Mesh extract_mesh(const ColumnGrid& columns, Progress* progress = nullptr);
 
 /// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
 /// opposite directions (0 for a sound mesh).

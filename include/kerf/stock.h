@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
@@ -29,5 +31,22 @@ std::optional<ZeroHeight> parse_zero_height(std::string_view name);
 /// A block around the cuts: `margin` added sideways, top at Z0 or at the highest cut if that is above, and `floor`
 /// of material below the deepest cut. For programs that say nothing of their stock.
 Stock stock_around(const Box3& cuts, Length margin, Length floor);
+
+/// Gathers what a program's comments say of the stock: "STOCK/BLOCK, L, W, H, OX, OY, OZ" (CutViewer: program zero
+/// from the lowest corner) and "stockMin: x, y, z" with "stockMax: ...", in all the spacings seen in real files
+/// (spec/gcodepreview.md sections 2 and 13).
+class StockComments {
+ public:
+  /// True if the comment (without brackets) was one of the stock. Errors go to `diagnostics`.
+  bool read(std::string_view comment, double scale, const Origin& where, Diagnostics& diagnostics);
+  /// The stock told, stockMin/stockMax first; nothing where the comments do not suffice.
+  std::optional<Stock> stock() const;
+
+ private:
+  std::optional<Point3> minimum_, maximum_;
+  std::optional<Box3> block_;
+};
+/// The comments that describe a stock, without brackets: stockMin, stockMax, STOCK/BLOCK.
+std::vector<std::string> write_stock_comments(const Stock& stock);
 
 }  // namespace kerf

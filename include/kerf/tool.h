@@ -141,7 +141,19 @@ class ToolTable {
   std::map<int, Tool> tools_;
 };
 
-/// The tools that every Kerf knows: data/tools.toml, compiled in. spec/gcodepreview.md section 4.
-const ToolTable& built_in_tools();
+/// The six-digit number that gcodepreview's scheme gives a tool's shape, e.g. 100036 for a square mill of 3.175 mm with a
+/// 1/2" flute; nothing where the scheme has no code. spec/gcodepreview.md section 3.
+std::optional<int> encode_tool_number(const Tool& tool);
+/// What a six-digit number says: a shape with the sizes its digits name. Nothing (with an error) for numbers that are
+/// not of the scheme.
+std::optional<ToolShape> decode_tool_number(int number, const Origin& where, Diagnostics& diagnostics);
+
+/// Reads the text of a comment (without its brackets) such as "TOOL/MILL, 3.175, 0.00, 12.7, 0.00" into a shape.
+/// Nothing without a message where the comment is no tool comment; nothing with an error where it is one but wrong.
+/// Numbers are in mm times `scale` (25.4 in a program in inches). spec/gcodepreview.md section 13.
+std::optional<ToolShape> read_tool_comment(std::string_view comment, double scale, const Origin& where,
+                                           Diagnostics& diagnostics);
+/// The comment that describes a shape, without brackets; nothing for shapes that CutViewer cannot say (undercut ones).
+std::optional<std::string> write_tool_comment(const ToolShape& shape);
 
 }  // namespace kerf

@@ -1,0 +1,56 @@
+// What a toolpath does, in numbers: counts, lengths, bounds, tools, feeds, speeds, and a first estimate of time.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "kerf/geometry.h"
+#include "kerf/toolpath.h"
+#include "kerf/units.h"
+
+namespace kerf {
+
+/// Lowest and highest of what was seen; low above high while nothing was.
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  bool empty() const { return low > high; }
+  void add(double v) {
+    low = v < low ? v : low;
+    high = v > high ? v : high;
+  }
+};
+
+/// Counts, lengths and times of a part of a toolpath. Motions with machine coordinates count with the values an
+/// interpreter with zero offsets takes; a helix counts its true length; a move of length 0 is counted.
+struct MotionFigures {
+  std::size_t lines = 0, arcs = 0, rapids = 0;
+  double cut_mm = 0.0, rapid_mm = 0.0;
+  Box3 cut_bounds;        // of feed moves and arcs, mm
+  Range feed;             // mm/min, of cutting moves
+  Range speed;            // rpm, of spindle steps that turn
+  Duration cutting;       // at the programmed feeds, without acceleration
+  Duration rapid;         // at `rapid_feed`, without acceleration
+  Duration dwell;
+};
+
+struct ToolFigures {
+  std::optional<int> tool;      // nothing: before the first tool change
+  MotionFigures figures;
+  std::optional<double> deepest;  // lowest Z of its cutting moves, mm
+};
+
+struct PathReport {
+  MotionFigures all;
+  std::vector<ToolFigures> tools;  // in order of first use; a tool used again is one entry
+};
+
+struct ReportOptions {
+  Feed rapid_feed = mm_per_min(3000);
+};
+
+PathReport report_on(const Toolpath& path, const ReportOptions& options);
+
+}  // namespace kerf
