@@ -1,0 +1,57 @@
+"""Kerf: toolpaths, tools and a simulator, from Python.
+
+A toolpath is built call by call (`Toolpath`) or read from G-code (`read_gcode`, `load`), and cut out of a `Stock` by
+`simulate`, which says what is left, which step made which surface, and which lines would break a tool or a part.
+Lengths are mm, feeds mm/min, angles degrees; Z points up.
+"""
+
+from ._kerf import (
+    Diagnostic,
+    Error,
+    Simulation,
+    Stock,
+    Tool,
+    ToolTable,
+    Toolpath,
+    __version__,
+    built_in_tools,
+    read_gcode,
+    simulate,
+)
+
+__all__ = [
+    "Diagnostic",
+    "Error",
+    "Simulation",
+    "Stock",
+    "Tool",
+    "ToolTable",
+    "Toolpath",
+    "__version__",
+    "built_in_tools",
+    "load",
+    "read_gcode",
+    "simulate",
+]
+
+
+def load(path):
+    """Read a G-code file into a Toolpath.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+
+    Returns
+    -------
+    Toolpath
+
+    Raises
+    ------
+    OSError
+        Where the file cannot be read.
+    kerf.Error
+        Where its text has errors.
+    """
+    with open(path, encoding="latin-1") as file:
+        return read_gcode(file.read(), str(path))

@@ -1,0 +1,128 @@
+// The simulator in Python: what is left of the stock, what was touched that should not be, meshes and pictures.
+#include "bindings.h"
+
+#include <pybind11/numpy.h>
+
+#include <memory>
+
+#include "kerf/files.h"
+#include "kerf/image_files.h"
+#include "kerf/mesh_files.h"
+#include "kerf/number.h"
+#include "kerf/simulate.h"
+#include "kerf/tool_files.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+/// A finished simulation with the toolpath it came from (for origins and colours).
+struct Result {
+  Simulation simulation;
+  std::shared_ptr<const Toolpath> path;
+};
+
+py::dict describe(const Result& result, const Hazard& hazard) {
+  const Origin origin = result.path->origin_of(hazard.step);
+  py::dict d;
+  d["kind"] = std::string(to_string(hazard.kind));
+  d["step"] = hazard.step;
+  d["at"] = to_tuple(hazard.at);
+  d["depth_mm"] = hazard.depth.mm();
+  d["removed_mm3"] = hazard.removed.mm3();
+  d["origin"] = to_string(origin);
+  return d;
+}
+
+Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTable>& tools, double resolution,
+           unsigned threads) {
+  if (finite_number(resolution, "resolution") < 0.0) throw py::value_error("resolution must be 0 (automatic) or above, mm");
+  SimulationOptions options;
+  options.resolution = mm(resolution);
+  options.threads = threads;
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  auto kept = std::make_shared<const Toolpath>(path);
+  std::optional<Simulation> simulation;
+  {
+    const py::gil_scoped_release release;
+    simulation = simulate(*kept, tools ? *tools : built_in_tools(), stock, options, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  return {std::move(*simulation), std::move(kept)};
+}
+
+py::tuple mesh_arrays(const Result& result) {
+  Mesh mesh;
+  {
+    const py::gil_scoped_release release;
+    mesh = extract_mesh(result.simulation.workpiece.grid());
+  }
+  const auto points = static_cast<py::ssize_t>(mesh.positions.size() / 3);
+  const auto faces = static_cast<py::ssize_t>(mesh.triangles.size() / 3);
+  return py::make_tuple(py::array_t<float>({points, py::ssize_t{3}}, mesh.positions.data()),
+                        py::array_t<std::uint32_t>({faces, py::ssize_t{3}}, mesh.triangles.data()),
+                        py::array_t<std::uint32_t>(faces, mesh.step.data()));
+}
+
+py::list column_of(const Result& result, int i, int j) {
+  const Workpiece& w = result.simulation.workpiece;
+  if (i < 0 || j < 0 || i >= w.columns_x() || j >= w.columns_y()) throw py::index_error("no such column");
+  py::list list;
+  for (const Interval& run : w.column(i, j))
+    list.append(py::make_tuple(w.bounds().low.z + static_cast<double>(run.low), w.bounds().low.z + static_cast<double>(run.high)));
+  return list;
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& m) {
+  py::class_<Result>(m, "Simulation", "What a toolpath left of the stock. Made by `simulate`.")
+      .def_property_readonly("stock_mm3", [](const Result& r) { return r.simulation.stock.mm3(); }, "float: volume before, mm3.")
+      .def_property_readonly("removed_mm3", [](const Result& r) { return r.simulation.removed.mm3(); }, "float: volume cut away, mm3.")
+      .def_property_readonly("left_mm3", [](const Result& r) { return (r.simulation.stock - r.simulation.removed).mm3(); }, "float: volume left, mm3.")
+      .def_property_readonly("resolution_mm", [](const Result& r) { return r.simulation.workpiece.pitch().mm(); }, "float: distance of the columns, mm.")
+      .def_property_readonly("columns", [](const Result& r) { return py::make_tuple(r.simulation.workpiece.columns_x(), r.simulation.workpiece.columns_y()); }, "(int, int): columns in X and Y.")
+      .def_property_readonly("seconds", [](const Result& r) { return r.simulation.seconds; }, "float: time the simulation took.")
+      .def_property_readonly(
+          "hazards",
+          [](const Result& r) {
+            py::list list;
+            for (const Hazard& hazard : r.simulation.hazards) list.append(describe(r, hazard));
+            return list;
+          },
+          "list of dict: moves that would break a tool or a part, in order; see `kerf simulate --json`.")
+      .def_property_readonly(
+          "removed_by_step",
+          [](const Result& r) { return py::array_t<float>(static_cast<py::ssize_t>(r.simulation.removed_by_step.size()), r.simulation.removed_by_step.data()); },
+          "ndarray (steps,): volume removed by each step, mm3.")
+      .def("column", &column_of, py::arg("i"), py::arg("j"), "Material of a column: list of (low, high) Z in mm, lowest first.")
+      .def("mesh", &mesh_arrays, "Surface as (points (n, 3) float32 mm, triangles (m, 3) uint32, step of each triangle (m,) uint32).");
+  m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(), py::arg("resolution") = 0.0,
+        py::arg("threads") = 0u,
+        R"(Cut a toolpath out of a stock.
+
+Parameters
+----------
+path : Toolpath
+stock : Stock
+tools : ToolTable, optional
+    The built-in tools where left out.
+resolution : float
+    Distance of the material columns in mm; 0 chooses one.
+threads : int
+    0: as many as the machine has. The result does not depend on it.
+
+Returns
+-------
+Simulation
+
+Raises
+------
+kerf.Error
+    Unknown tool, stock without volume, resolution too fine.)");
+}
+
+}  // namespace kerf::python

@@ -1,0 +1,235 @@
+// The toolpath in Python: building it call by call, reading G-code into it, looking at its steps.
+#include "bindings.h"
+
+#include <array>
+#include <cstdio>
+
+#include "kerf/files.h"
+#include "kerf/gcode.h"
+#include "kerf/report.h"
+#include "kerf/toolpath.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+Turn to_turn(const std::string& name) {
+  if (name == "cw") return Turn::cw;
+  if (name == "ccw") return Turn::ccw;
+  throw py::value_error("turn must be 'cw' or 'ccw', not '" + name + "'");
+}
+
+Plane to_plane(const std::string& name) {
+  if (name == "XY") return Plane::xy;
+  if (name == "XZ") return Plane::xz;
+  if (name == "YZ") return Plane::yz;
+  throw py::value_error("plane must be 'XY', 'XZ' or 'YZ', not '" + name + "'");
+}
+
+const char* name_of_plane(Plane plane) {
+  return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ";
+}
+
+/// The fields of one step as `kerf steps` prints them.
+py::dict describe(const Toolpath& path, std::size_t i) {
+  const Step& s = path[i];
+  py::dict d;
+  d["step"] = std::string(name_of(s.kind()));
+  if (s.is_motion()) d["to"] = py::make_tuple(s.to().x, s.to().y, s.to().z);
+  if (s.is_motion() && s.kind() != StepKind::rapid) d["feed"] = s.feed().mm_per_min();
+  switch (s.kind()) {
+    case StepKind::arc: {
+      const step::Arc arc = s.arc();
+      d["centre"] = py::make_tuple(arc.centre.x, arc.centre.y);
+      d["plane"] = name_of_plane(arc.plane);
+      d["turn"] = arc.turn == Turn::cw ? "cw" : "ccw";
+      d["extra_turns"] = arc.extra_turns;
+      break;
+    }
+    case StepKind::dwell: d["seconds"] = s.dwell().time.seconds(); break;
+    case StepKind::tool_change: d["tool"] = s.tool_change().tool; break;
+    case StepKind::spindle: {
+      const step::Spindle spindle = s.spindle();
+      d["rpm"] = spindle.speed.rpm();
+      d["turn"] = spindle.turn == SpindleTurn::off ? "off" : spindle.turn == SpindleTurn::cw ? "cw" : "ccw";
+      break;
+    }
+    case StepKind::note:
+    case StepKind::verbatim: d["text"] = std::string(path.text(i)); break;
+    case StepKind::layer: d["name"] = path.layer(i).name; break;
+    default: break;
+  }
+  d["origin"] = to_string(path.origin_of(i));
+  return d;
+}
+
+std::size_t checked_index(const Toolpath& path, py::ssize_t i) {
+  const auto size = static_cast<py::ssize_t>(path.size());
+  if (i < 0) i += size;
+  if (i < 0 || i >= size) throw py::index_error("step index out of range");
+  return static_cast<std::size_t>(i);
+}
+
+Feed positive_feed(double value) {
+  if (finite_number(value, "feed") <= 0.0) throw py::value_error("feed must be above 0 mm/min");
+  return mm_per_min(value);
+}
+
+void bind_motions(py::class_<Toolpath>& c) {
+  c.def(
+      "rapid",
+      [](Toolpath& path, const py::object& to) {
+        const Point3 end = to_point3(to, "to");
+        path.add(step::Rapid{end}, path.origins().add(script_spot("rapid")));
+      },
+      py::arg("to"),
+      R"(Append a move at rapid speed.
+
+Parameters
+----------
+to : sequence of 3 float
+    End position, mm, work coordinates.)");
+  c.def(
+      "cut",
+      [](Toolpath& path, const py::object& to, double feed) {
+        const Point3 end = to_point3(to, "to");
+        path.add(step::Cut{end, positive_feed(feed)}, path.origins().add(script_spot("cut")));
+      },
+      py::arg("to"), py::arg("feed"),
+      R"(Append a straight move at feed.
+
+Parameters
+----------
+to : sequence of 3 float
+    End position, mm, work coordinates.
+feed : float
+    mm/min, above 0.)");
+  c.def(
+      "arc",
+      [](Toolpath& path, const py::object& to, const py::object& centre, const std::string& turn, double feed,
+         const std::string& plane, int extra_turns) {
+        step::Arc arc;
+        arc.to = to_point3(to, "to");
+        arc.centre = to_point2(centre, "centre");
+        arc.turn = to_turn(turn);
+        arc.plane = to_plane(plane);
+        arc.feed = positive_feed(feed);
+        if (extra_turns < 0) throw py::value_error("extra_turns must be 0 or more");
+        arc.extra_turns = extra_turns;
+        path.add(arc, path.origins().add(script_spot("arc")));
+      },
+      py::arg("to"), py::arg("centre"), py::arg("turn"), py::arg("feed"), py::arg("plane") = "XY",
+      py::arg("extra_turns") = 0,
+      R"(Append an arc, or a helix where the third axis moves.
+
+Parameters
+----------
+to : sequence of 3 float
+    End position, mm. Equal to the begin in the plane: a full circle.
+centre : sequence of 2 float
+    Centre, mm, absolute, in the order of the plane's name.
+turn : {'cw', 'ccw'}
+    Sense seen from the positive third axis (G2 is 'cw').
+feed : float
+    mm/min, above 0.
+plane : {'XY', 'XZ', 'YZ'}
+extra_turns : int
+    Whole circles beyond the first arrival.)");
+}
+
+void bind_other_steps(py::class_<Toolpath>& c) {
+  c.def(
+      "tool", [](Toolpath& path, int number) { path.add(step::ToolChange{number}, path.origins().add(script_spot("tool"))); },
+      py::arg("number"), "Append a tool change to the tool of this number.");
+  c.def(
+      "spindle",
+      [](Toolpath& path, double rpm_value, const std::string& turn) {
+        if (finite_number(rpm_value, "rpm") < 0.0) throw py::value_error("rpm must be 0 or more");
+        const SpindleTurn sense = turn == "off" ? SpindleTurn::off : to_turn(turn) == Turn::cw ? SpindleTurn::cw : SpindleTurn::ccw;
+        path.add(step::Spindle{rpm(rpm_value), sense}, path.origins().add(script_spot("spindle")));
+      },
+      py::arg("rpm"), py::arg("turn") = "cw", "Start the spindle ('cw', 'ccw') or stop it ('off').");
+  c.def(
+      "dwell",
+      [](Toolpath& path, double value) {
+        if (finite_number(value, "seconds") < 0.0) throw py::value_error("seconds must be 0 or more");
+        path.add(step::Dwell{seconds(value)}, path.origins().add(script_spot("dwell")));
+      },
+      py::arg("seconds"), "Append a pause of the given length in seconds.");
+  c.def(
+      "note",
+      [](Toolpath& path, const std::string& text) { path.add(step::Note{text}, path.origins().add(script_spot("note"))); },
+      py::arg("text"), "Append a remark that posts write as a comment.");
+}
+
+Toolpath read(const std::string& text, const std::string& name) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.file_name = name;
+  SignalProgress progress;
+  GcodeProgram program;
+  {
+    const py::gil_scoped_release release;
+    program = read_gcode(text, options, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  return std::move(program.path);
+}
+
+py::dict report_dict(const Toolpath& path) {
+  const PathReport report = report_on(path, {});
+  py::dict d;
+  d["lines"] = report.all.lines;
+  d["arcs"] = report.all.arcs;
+  d["rapids"] = report.all.rapids;
+  d["cut_mm"] = report.all.cut_mm;
+  d["rapid_mm"] = report.all.rapid_mm;
+  if (!report.all.cut_bounds.empty())
+    d["cut_bounds_mm"] = py::make_tuple(to_tuple(report.all.cut_bounds.low), to_tuple(report.all.cut_bounds.high));
+  return d;
+}
+
+}  // namespace
+
+void bind_toolpath(py::module_& m) {
+  py::class_<Toolpath> c(m, "Toolpath", R"(A list of steps: moves, tool changes, spindle and the rest.
+
+Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step remembers the line
+of the script that made it, so that `simulate` can say which line broke something.
+
+Examples
+--------
+>>> path = Toolpath()
+>>> path.tool(102); path.spindle(16000)
+>>> path.rapid((0, 0, 5)); path.cut((0, 0, -1), feed=100); path.cut((50, 0, -1), feed=400))");
+  c.def(py::init<>());
+  bind_motions(c);
+  bind_other_steps(c);
+  c.def("__len__", &Toolpath::size);
+  c.def(
+      "__getitem__", [](const Toolpath& path, py::ssize_t i) { return describe(path, checked_index(path, i)); },
+      py::arg("index"), "One step as a dict with the fields of `kerf steps`.");
+  c.def("report", &report_dict, "Counts, lengths (mm) and bounds (mm) of the motions, as a dict.");
+  m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>",
+        R"(Read G-code text into a Toolpath.
+
+Parameters
+----------
+text : str
+    A whole program (RS274).
+name : str
+    File name for messages.
+
+Returns
+-------
+Toolpath
+
+Raises
+------
+kerf.Error
+    Where the text has errors; all of them are in its `diagnostics`. Warnings go to the `warnings` module.)");
+}
+
+}  // namespace kerf::python

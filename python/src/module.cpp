@@ -1,0 +1,147 @@
+// The compiled module kerf._kerf: diagnostics, and the list of what is bound.
+#include "bindings.h"
+
+#include <cmath>
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+PyObject* error_type = nullptr;  // kerf.Error; never released, so that no destructor runs after the interpreter's end
+
+py::list origins_of(const Diagnostic& d) {
+  py::list notes;
+  for (const DiagnosticNote& note : d.notes) notes.append(py::make_tuple(to_string(note.where), note.text));
+  return notes;
+}
+
+void bind_diagnostics(py::module_& m) {
+  py::class_<Diagnostic>(m, "Diagnostic", "What is wrong, where, and what helps. Made by Kerf, not by users.")
+      .def_property_readonly(
+          "severity", [](const Diagnostic& d) { return std::string(to_string(d.severity)); },
+          "str: 'error', 'warning' or 'note'.")
+      .def_property_readonly(
+          "code", [](const Diagnostic& d) { return static_cast<int>(d.code); }, "int: stable number of the message.")
+      .def_property_readonly(
+          "name", [](const Diagnostic& d) { return std::string(name_of(d.code)); }, "str: the code's name.")
+      .def_property_readonly(
+          "where", [](const Diagnostic& d) { return to_string(d.where); }, "str: file, line and column, or drawing spot.")
+      .def_property_readonly(
+          "line",
+          [](const Diagnostic& d) -> py::object {
+            if (const auto* spot = std::get_if<TextSpot>(&d.where)) return py::int_(spot->line);
+            if (const auto* spot = std::get_if<CallSpot>(&d.where)) return py::int_(spot->line);
+            return py::none();
+          },
+          "int or None: line in the user's file.")
+      .def_readonly("message", &Diagnostic::message, "str: what is wrong and what was expected.")
+      .def_readonly("hint", &Diagnostic::hint, "str: what may help; may be empty.")
+      .def_property_readonly("notes", &origins_of, "list of (str, str): further places and texts.")
+      .def("__repr__", [](const Diagnostic& d) { return "<kerf.Diagnostic " + to_string(d) + ">"; })
+      .def("__str__", [](const Diagnostic& d) { return to_string(d); });
+}
+
+}  // namespace
+
+py::list to_list(const Diagnostics& diagnostics) {
+  py::list list;
+  for (const Diagnostic& d : diagnostics.list()) list.append(py::cast(d));
+  return list;
+}
+
+void raise_or_warn(const Diagnostics& diagnostics) {
+  if (!diagnostics.has_errors()) {
+    for (const Diagnostic& d : diagnostics.list())
+      if (d.severity == Severity::warning && PyErr_WarnEx(PyExc_UserWarning, to_string(d).c_str(), 2) != 0)
+        throw py::error_already_set();
+    return;
+  }
+  std::string text;
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.severity == Severity::error) text += (text.empty() ? "" : "\n") + to_string(d);
+  py::object error = py::handle(error_type)(text);
+  error.attr("diagnostics") = to_list(diagnostics);
+  PyErr_SetObject(error_type, error.ptr());
+  throw py::error_already_set();
+}
+
+double finite_number(double value, const char* argument) {
+  if (!std::isfinite(value)) throw py::value_error(std::string(argument) + " must be a finite number");
+  return value;
+}
+
+namespace {
+
+void read_numbers(const py::handle& value, const char* argument, double* out, std::size_t count) {
+  const std::string expected = std::string(argument) + " must be " + std::to_string(count) + " finite numbers";
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value)) throw py::type_error(expected);
+  const auto sequence = py::reinterpret_borrow<py::sequence>(value);
+  if (sequence.size() != count) throw py::value_error(expected + ", not " + std::to_string(sequence.size()));
+  for (std::size_t i = 0; i < count; ++i) {
+    const py::object item = sequence[i];
+    out[i] = PyFloat_AsDouble(item.ptr());
+    if (PyErr_Occurred() != nullptr) {
+      PyErr_Clear();
+      throw py::type_error(expected);
+    }
+    if (!std::isfinite(out[i])) throw py::value_error(expected);
+  }
+}
+
+}  // namespace
+
+Point3 to_point3(const py::handle& value, const char* argument) {
+  double v[3];
+  read_numbers(value, argument, v, 3);
+  return {v[0], v[1], v[2]};
+}
+
+Point2 to_point2(const py::handle& value, const char* argument) {
+  double v[2];
+  read_numbers(value, argument, v, 2);
+  return {v[0], v[1]};
+}
+
+py::tuple to_tuple(Point3 p) {
+  return py::make_tuple(p.x, p.y, p.z);
+}
+
+CallSpot script_spot(const char* call) {
+  CallSpot spot;
+  spot.call = call;
+  PyFrameObject* frame = PyEval_GetFrame();  // borrowed
+  if (frame == nullptr) return spot;
+  spot.line = static_cast<std::uint32_t>(PyFrame_GetLineNumber(frame));
+  const auto code = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetCode(frame)));
+  spot.file = py::cast<std::string>(code.attr("co_filename"));
+  return spot;
+}
+
+bool SignalProgress::stop_requested() {
+  if (stopped_) return true;
+  const py::gil_scoped_acquire gil;
+  stopped_ = PyErr_CheckSignals() != 0;
+  return stopped_;
+}
+
+void SignalProgress::rethrow() const {
+  if (stopped_) throw py::error_already_set();
+}
+
+}  // namespace kerf::python
+
+PYBIND11_MODULE(_kerf, m) {
+  using namespace kerf::python;
+  m.doc() = "Kerf's compiled core; import the package `kerf` instead.";
+  m.attr("__version__") = KERF_VERSION;
+  error_type = PyErr_NewExceptionWithDoc(
+      "kerf.Error", "The input is wrong. `diagnostics` lists every kerf.Diagnostic found, errors and warnings.",
+      PyExc_ValueError, nullptr);
+  if (error_type == nullptr) throw pybind11::error_already_set();
+  m.add_object("Error", error_type);
+  bind_diagnostics(m);
+  bind_tools(m);
+  bind_toolpath(m);
+  bind_simulation(m);
+}
