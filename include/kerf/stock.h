@@ -27,6 +27,11 @@ Stock make_block(Point3 size, ZeroCorner corner, ZeroHeight height);
 /// Reads "Lower-Left", "centre left", "TOPLEFT" ...: case, spaces and hyphens do not count, "center" is "centre".
 std::optional<ZeroCorner> parse_zero_corner(std::string_view name);
 std::optional<ZeroHeight> parse_zero_height(std::string_view name);
+/// The names as they are known, for messages: "lower-left", ... and "top", "bottom".
+const std::vector<std::string>& zero_corner_names();
+const std::vector<std::string>& zero_height_names();
+/// Whether the block has a volume: finite and low below high in every axis.
+bool is_solid(const Stock& stock);
 
 /// A block around the cuts: `margin` added sideways, top at Z0 or at the highest cut if that is above, and `floor`
 /// of material below the deepest cut. For programs that say nothing of their stock.
@@ -37,12 +42,17 @@ Stock stock_around(const Box3& cuts, Length margin, Length floor);
 /// (spec/gcodepreview.md sections 2 and 13).
 class StockComments {
  public:
-  /// True if the comment (without brackets) was one of the stock. Errors go to `diagnostics`.
+  /// True if the comment (without brackets) was one of the stock. Errors go to `diagnostics`. Plain numbers are mm
+  /// times `scale` (25.4 in a program in inches); with a unit ("-12.7mm", "4in") they are what they say. A stockMin
+  /// that is not below stockMax is passed over with a warning, and STOCK/BLOCK tells the stock then.
   bool read(std::string_view comment, double scale, const Origin& where, Diagnostics& diagnostics);
   /// The stock told, stockMin/stockMax first; nothing where the comments do not suffice.
   std::optional<Stock> stock() const;
 
  private:
+  void check_corners(const Origin& where, Diagnostics& diagnostics);
+  void check_agreement(const Origin& where, Diagnostics& diagnostics);
+
   std::optional<Point3> minimum_, maximum_;
   std::optional<Box3> block_;
 };

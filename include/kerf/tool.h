@@ -58,7 +58,9 @@ struct Silhouette {
 };
 
 /// Parameters of the known shapes. Lengths along the axis are measured from the tip. Where a shape says "flute",
-/// it is the height of the cutting part. Sources: spec/gcodepreview.md sections 4 and 5, CutViewer's guide.
+/// it is the height of the cutting part. A measure of 0 is "not told" and filled in by make_tool where that makes
+/// sense: a flute by `usual_flute` or, where the shape itself ends, by that end. Arcs of these shapes' silhouettes
+/// never exceed a quarter circle.
 namespace shape {
 struct Square { Length diameter, flute; };
 struct Ball { Length diameter, flute; };
@@ -69,7 +71,8 @@ struct Bowl { Length diameter, flute, corner_radius; };
 /// V groove. `tip_diameter` 0 is a point, else a flat; `tip_radius` above 0 rounds the point (and then the flat is 0).
 /// The cone ends at `diameter`; a flute higher than the cone goes on as a cylinder.
 struct Vee { Length diameter, flute; Angle included_angle; Length tip_diameter, tip_radius; };
-/// Ball of `tip_diameter` tangent to a cone of `included_angle` that reaches `diameter`.
+/// Ball of `tip_diameter` tangent to a cone of `included_angle` that reaches `diameter`; an angle of 0 is the one
+/// that reaches it just at `flute`.
 struct TaperedBall { Length diameter, flute; Angle included_angle; Length tip_diameter; };
 /// Head of `diameter` and height `head`; fluted neck of `neck_diameter` from there up to `flute`.
 struct Keyhole { Length diameter, head, neck_diameter, flute; };
@@ -77,11 +80,13 @@ struct Keyhole { Length diameter, head, neck_diameter, flute; };
 struct Dovetail { Length diameter, flute; Angle side_angle; };
 /// Concave quarter circle of `radius` above a tip of `tip_diameter`; body diameter is tip + 2 radius.
 struct Roundover { Length tip_diameter, radius, flute; };
-/// One tooth: minor to major to minor diameter within `cut_height`, then a neck of the minor diameter.
+/// One tooth: minor to major to minor diameter within `cut_height`, then a neck (not cutting) of the minor diameter
+/// up to `length`.
 struct ThreadMill { Length minor_diameter, major_diameter, cut_height, length; };
-/// Ball of `diameter` on a neck of `neck_diameter`.
+/// Ball of `diameter` on a neck of `neck_diameter`, which cuts up to `flute`; flute 0: only the ball cuts, and a
+/// ToolBody::neck_length gives the neck.
 struct Lollipop { Length diameter, neck_diameter, flute; };
-/// Disc of `diameter` and `thickness` on a neck of `neck_diameter`.
+/// Disc of `diameter` and `thickness` on a neck of `neck_diameter`, as with Lollipop.
 struct TSlot { Length diameter, thickness, neck_diameter, flute; };
 struct Drill { Length diameter, flute; Angle point_angle; };
 /// Centre drill: pilot of `pilot_diameter` and `pilot_angle`, `pilot_length` long, then a cone of `body_angle` to `diameter`.
@@ -90,7 +95,8 @@ struct CentreDrill { Length pilot_diameter, pilot_length; Angle pilot_angle; Len
 struct FlatGroove { Length diameter, flute, tip_diameter; };
 /// Chamfer: `included_angle` cone between `tip_diameter` and `diameter`, then a cylinder to `flute`.
 struct Chamfer { Length diameter, flute; Angle included_angle; Length tip_diameter; };
-/// Corner-rounding mill of CutViewer's CRMILL: `tip_diameter` D1, `diameter` D2, concave `radius`.
+/// Corner-rounding mill of CutViewer's CRMILL: `tip_diameter` D1, `diameter` D2, concave `radius`. The arc ends where
+/// it meets D2; a larger D2 goes on from the arc's end in a step. Cuts up to the higher of `height` and `flute`.
 struct CornerRounding { Length tip_diameter, diameter, radius, height, flute; };
 /// Any half profile.
 struct Drawn { Profile cutting; };
@@ -103,11 +109,37 @@ using ToolShape =
 /// "square", "ball", "bull nose", "V" ...: the words of the tool files and of `kerf tools list`.
 std::string_view name_of(const ToolShape& shape);
 
+/// The measures of a shape by name, for readers, writers and messages: "diameter", "flute", "angle" ...
+struct ShapeParameter {
+  enum class Kind : std::uint8_t { length, angle };
+  enum class Need : std::uint8_t { required, optional };
+  std::string_view name;
+  Kind kind = Kind::length;
+  Need need = Need::required;
+  double (*get)(const ToolShape&) = nullptr;         // mm or degrees
+  void (*set)(ToolShape&, double value) = nullptr;  // mm or degrees
+};
+/// The parameters of a shape's kind; none for a drawn one.
+const std::vector<ShapeParameter>& parameters_of(const ToolShape& shape);
+/// The shape of a name with all measures 0; case, spaces and hyphens do not count, and some other names are known
+/// ("flat", "end mill", "vee", "ball nose").
+std::optional<ToolShape> shape_named(std::string_view name);
+/// What name_of can give, for messages.
+const std::vector<std::string>& shape_names();
+
+/// The flute of a mill of this diameter where none is told: that of the usual router bit of the size (1/32" 1.5875 mm,
+/// 1/16" 6.35, 1/8" 12.7, 1/4" 19.05), else three times the diameter.
+Length usual_flute(Length diameter);
+
+/// How a shank wider than what is below it begins.
+enum class Transition : std::uint8_t { step, cone };  // cone: at 45 degrees
+
 /// What stands above the cutting part. A diameter of 0 leaves the part out.
 struct ToolBody {
   Length neck_diameter, neck_length;
   Length shank_diameter, shank_length;  // length above the neck or the flute
   Length holder_diameter, holder_length;
+  Transition transition = Transition::step;
 };
 
 /// A tool as the rest of Kerf uses it.
@@ -115,7 +147,7 @@ struct Tool {
   int number = 0;                  // as it stands in the program (T word)
   std::vector<std::string> names;  // vendor's and generated numbers, "Amana 46200-K"
   std::string description;
-  ToolShape shape;
+  ToolShape shape;                 // with the measures that were not told filled in
   Silhouette silhouette;  // made from shape and body
   Length diameter;        // largest of the cutting part
   Length flute;           // height of the cutting part
@@ -124,7 +156,9 @@ struct Tool {
 };
 
 /// Makes the tool of a shape and what is above it. Appends errors (with `where`) for parameters that give no solid
-/// (negative, not finite, a corner radius above half the diameter ...) and returns nothing then.
+/// (negative, not finite, a corner radius above half the diameter ...) and returns nothing then. All of them are
+/// reported at once. A warning says that the flute ends before a cone has reached the diameter; catalogues' rounding
+/// (0.01 mm) is made good silently.
 std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody& body, const Origin& where,
                               Diagnostics& diagnostics);
 
@@ -135,6 +169,8 @@ class ToolTable {
   /// The tool of a number, or nullptr.
   const Tool* find(int number) const;
   void set(int number, Tool tool);
+  /// The tool that carries a name ("Amana 46200-K"), compared by fold_name; nullptr if none does.
+  const Tool* find_name(std::string_view name) const;
   const std::map<int, Tool>& tools() const { return tools_; }
 
  private:
@@ -149,11 +185,19 @@ std::optional<int> encode_tool_number(const Tool& tool);
 std::optional<ToolShape> decode_tool_number(int number, const Origin& where, Diagnostics& diagnostics);
 
 /// Reads the text of a comment (without its brackets) such as "TOOL/MILL, 3.175, 0.00, 12.7, 0.00" into a shape.
-/// Nothing without a message where the comment is no tool comment; nothing with an error where it is one but wrong.
-/// Numbers are in mm times `scale` (25.4 in a program in inches). spec/gcodepreview.md section 13.
+/// Nothing without a message where the comment is no tool comment (or one that names no shape: TOOL/ID, COLOR);
+/// nothing with an error where it is one but wrong, and with a warning for measures known from programs that fill in
+/// the fields in another order (corner radius above half the diameter). Lengths are in mm times `scale` (25.4 in a
+/// program in inches). A height of 0 is "not told": usual_flute, and with a taper the cone up to 12.7 mm diameter.
 std::optional<ToolShape> read_tool_comment(std::string_view comment, double scale, const Origin& where,
                                            Diagnostics& diagnostics);
 /// The comment that describes a shape, without brackets; nothing for shapes that CutViewer cannot say (undercut ones).
 std::optional<std::string> write_tool_comment(const ToolShape& shape);
+
+/// Which tool a program means whose comment describes `from_comment` under a number that the table knows as
+/// `from_table`; either may be nullptr, and so is the answer if both are. Where the two agree within what comments
+/// round (see docs/manual/tools.md), the table's, which is exact; else the comment's, with a warning that names both.
+const Tool* choose_tool(const Tool* from_table, const Tool* from_comment, const Origin& where,
+                        Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -1,0 +1,17 @@
+// Names that people write in several ways: "Lower-Left", "lower left" and "LOWERLEFT" are one name.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace kerf {
+
+/// `name` in small letters without spaces, hyphens, underscores; "center" becomes "centre". For comparing only.
+std::string fold_name(std::string_view name);
+/// "a, b or c": a list of words for messages.
+std::string list_text(const std::vector<std::string>& words);
+/// `text` without white space (any character up to the blank) at both ends.
+std::string_view trim(std::string_view text);
+
+}  // namespace kerf

@@ -1,0 +1,24 @@
+// CutViewer's tool comments as a word and its numbers: what reading, writing and comparing share.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "kerf/tool.h"
+
+namespace kerf::detail {
+
+/// TOOL/MILL: all numbers mm, the taper in radians from the axis.
+struct MillFields {
+  double diameter = 0.0, corner_radius = 0.0, height = 0.0, taper = 0.0;
+};
+/// TOOL/CRMILL.
+struct CornerFields {
+  double tip_diameter = 0.0, diameter = 0.0, radius = 0.0, height = 0.0, length = 0.0;
+};
+
+/// The fields that describe a shape; nothing for shapes of other comments or of none.
+std::optional<MillFields> mill_fields(const ToolShape& shape);
+std::optional<CornerFields> corner_fields(const ToolShape& shape);
+
+}  // namespace kerf::detail
