@@ -15,12 +15,13 @@ if(KERF_APP)
   find_package(CLI11 REQUIRED)
 endif()
 
-# Python: the virtual environment that ./dev makes, else Debian's own. A Python that stands earlier in PATH would be
-# one for which neither pybind11 nor the headers are installed.
+# Python: the virtual environment that ./dev makes, else Debian's own. A Python that stands earlier in PATH
+# would be one for which neither pybind11 nor the headers are installed.
 if(KERF_PYTHON OR KERF_TESTS)
   foreach(candidate "${CMAKE_BINARY_DIR}/venv/bin/python" /usr/bin/python3)
     if(NOT Python_EXECUTABLE AND EXISTS "${candidate}")
-      set(Python_EXECUTABLE "${candidate}" CACHE FILEPATH "The Python that the modules are for and the tests run with")
+      set(Python_EXECUTABLE "${candidate}" CACHE FILEPATH
+        "The Python that the modules are for and the tests run with")
     endif()
   endforeach()
   find_package(Python 3.9 REQUIRED COMPONENTS Interpreter OPTIONAL_COMPONENTS Development.Module)

@@ -1,7 +1,7 @@
-# The libraries of the WebAssembly build. Emscripten has no packages in Debian, but fmt, nlohmann-json and toml++ are
-# (or can be used as) headers only. They are reached through a folder of links, because /usr/include itself on the
-# search path would bring the headers of the host's C library. What does not exist there (libpng, minizip, threads)
-# is left out by the modules that would use it.
+# The libraries of the WebAssembly build. Debian packages none for emscripten, but fmt, nlohmann-json and
+# toml++ can be used as headers only. They are reached through a folder of links, because /usr/include itself
+# on the search path would bring the headers of the host's C library. What does not exist there (libpng,
+# minizip, threads) is left out by the modules that would use it.
 set(KERF_WASM_INCLUDE "${CMAKE_BINARY_DIR}/host-include")
 file(MAKE_DIRECTORY "${KERF_WASM_INCLUDE}")
 foreach(library fmt nlohmann toml++)

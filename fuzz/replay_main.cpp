@@ -1,4 +1,5 @@
-// Runs a fuzz target over files and folders given as arguments, without libFuzzer: the corpus as an ordinary test.
+// Runs a fuzz target over files and folders given as arguments, without libFuzzer: the corpus as an ordinary
+// test.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

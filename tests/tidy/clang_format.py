@@ -1,4 +1,7 @@
-"""Every C++ file is in clang-format's shape. `--fix` brings them there. Exit status 77: clang-format is not installed."""
+"""Every C++ file is in clang-format's shape. `--fix` brings them there.
+
+Exit status 77 says that clang-format is not installed.
+"""
 import shutil
 import subprocess
 import sys

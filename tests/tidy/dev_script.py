@@ -19,12 +19,12 @@ def main():
     names = {preset["name"] for preset in presets["configurePresets"]}
     for document in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md"):
         text = (root / document).read_text()
-        problems += [f"{document}: ./dev {word} is no command" for word in re.findall(r"\./dev ([a-z]+)", text)
-                     if word not in known]
-        problems += [f"{document}: preset {word} does not exist" for word in re.findall(r"--preset (\w+)", text)
-                     if word not in names]
-        problems += [f"{document}: the link {target} leads nowhere" for target in re.findall(r"\]\(([^)#:]+)\)", text)
-                     if not (root / target).exists()]
+        problems += [f"{document}: ./dev {word} is no command"
+                     for word in re.findall(r"\./dev ([a-z]+)", text) if word not in known]
+        problems += [f"{document}: preset {word} does not exist"
+                     for word in re.findall(r"--preset (\w+)", text) if word not in names]
+        problems += [f"{document}: the link {target} leads nowhere"
+                     for target in re.findall(r"\]\(([^)#:]+)\)", text) if not (root / target).exists()]
     finish("dev_script", problems)
 
 

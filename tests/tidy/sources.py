@@ -5,7 +5,8 @@ import sys
 from pathlib import Path
 
 # Made by builds and tools, never part of the repository.
-PASSED_OVER = re.compile(r"^(\.git|build.*|demo-output|dist|node_modules|__pycache__|\.pytest_cache|.*\.egg-info)$")
+PASSED_OVER = re.compile(
+    r"^(\.git|build(-.*)?|demo-output|dist|node_modules|__pycache__|\.pytest_cache|.*\.egg-info)$")
 CPP = {".h", ".cpp"}
 
 
@@ -27,9 +28,10 @@ def files(root, suffixes=None):
 
 
 def blank_comments_and_strings(text):
-    """C++ text with comments and the insides of literals replaced by spaces, so that places stay where they are."""
+    """C++ text with comments and literals replaced by spaces, so that places stay where they are."""
     pattern = re.compile(
-        r'//[^\n]*|/\*.*?\*/|R"([^()\s\\]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9A-Za-z_])\'(?:\\.|[^\'\\\n])*\'', re.S)
+        r'//[^\n]*|/\*.*?\*/|R"([^()\s\\]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'
+        r"|(?<![0-9A-Za-z_])'(?:\\.|[^'\\\n])*'", re.S)
     return pattern.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
 
 
