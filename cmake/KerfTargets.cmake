@@ -1,4 +1,5 @@
-# kerf_module(NAME DEPENDS ...): a static library kerf_NAME of every .cpp in the current folder, linked privately.
+# kerf_module(NAME DEPENDS ...): a static library kerf_NAME of every .cpp in the current folder, linked
+# privately.
 
 add_library(kerf_flags INTERFACE)
 target_include_directories(kerf_flags INTERFACE "${CMAKE_SOURCE_DIR}/include")

@@ -1,0 +1,70 @@
+"""Runs every benchmark program of a build and prints each figure with its ratio to the run before.
+
+    bench/report.py BUILD_FOLDER [FILTER]
+
+FILTER is a regular expression over benchmark names. The figures are kept in BUILD_FOLDER/bench-last.json; those
+of benchmarks that did not run this time stay.
+"""
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+# Google Benchmark's own counters aside, what a row may hold besides its time.
+RATES = {"items_per_second": "items/s", "bytes_per_second": "B/s"}
+SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
+
+
+def run(program, pattern):
+    """{name: row} of one program: seconds of wall time, and the rates and counters it reports."""
+    options = ["--benchmark_format=json"] + ([f"--benchmark_filter={pattern}"] if pattern else [])
+    done = subprocess.run([str(program), *options], stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        sys.exit(f"{program.name} ended with status {done.returncode}")
+    rows = {}
+    for row in json.loads(done.stdout or '{"benchmarks": []}')["benchmarks"]:
+        if row.get("error_occurred"):
+            sys.exit(f"{row['name']}: {row.get('error_message')}")
+        rates = {label: row[key] for key, label in RATES.items() if key in row}
+        rows[row["name"]] = {"seconds": row["real_time"] * SECONDS[row["time_unit"]], **rates}
+    return rows
+
+
+def time_text(seconds):
+    for unit, scale in (("s", 1.0), ("ms", 1e-3), ("us", 1e-6)):
+        if seconds >= scale:
+            return f"{seconds / scale:.3g} {unit}"
+    return f"{seconds * 1e9:.3g} ns"
+
+
+def rate_text(row):
+    for label in RATES.values():
+        if label in row:
+            return f"{row[label] / 1e6:10.3f} M{label}"
+    return ""
+
+
+def line(name, row, before):
+    """One row: name, time, ratio to the run before (below 1 is faster), rate."""
+    ratio = f"x{row['seconds'] / before['seconds']:.2f}" if before and before["seconds"] > 0 else "new"
+    return f"{name:<48} {time_text(row['seconds']):>10} {ratio:>7} {rate_text(row)}".rstrip()
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        sys.exit(__doc__)
+    build, pattern = Path(sys.argv[1]), sys.argv[2] if len(sys.argv) == 3 else ""
+    store = build / "bench-last.json"
+    last = json.loads(store.read_text()) if store.exists() else {}
+    programs = sorted(p for p in (build / "bench").glob("bench_*") if p.is_file())
+    print(f"{'benchmark':<48} {'time':>10} {'ratio':>7} rate (ratio: time now / time before)")
+    for program in programs:
+        for name, row in run(program, pattern).items():
+            print(line(name, row, last.get(name)), flush=True)
+            last[name] = row
+    store.write_text(json.dumps(last, indent=1))
+    print(f"{len(programs)} benchmark programs; figures kept in {store}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,150 @@
+"""Who includes whom: reads every #include and fails on a wrong arrow or a ring (see ARCHITECTURE.md).
+
+A new module or public header is added to the two tables below, in the same change as to ARCHITECTURE.md.
+"""
+import re
+import sys
+
+from sources import CPP, files, finish, root_of
+
+GEOMETRY = {"geom", "base"}
+PATH = {"path", "tool", "stock"} | GEOMETRY
+CODEC = {"codec_gcode", "codec_mesh", "codec_png"}
+FRONT = {"front_gcode", "front_tools", "front_stock"}
+# What each module may include besides itself. There is no ring, as each line uses only lines above it.
+ALLOWED = {
+    "base": set(),
+    "geom": {"base"},
+    "tool": GEOMETRY,
+    "stock": GEOMETRY,
+    "path": {"tool", "stock"} | GEOMETRY,
+    **{codec: {"base"} for codec in CODEC},
+    **{front: PATH | CODEC for front in FRONT},
+    "sim": PATH,
+    "app": PATH | CODEC | FRONT | {"sim"},
+    "python": PATH | CODEC | FRONT | {"sim"},
+}
+OUTSIDE = PATH | CODEC | FRONT | {"sim"}  # benchmarks, fuzz targets and the WebAssembly smoke test
+PUBLIC = {
+    "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
+             "codes.def"],
+    "geom": ["geometry.h"],
+    "tool": ["tool.h"],
+    "stock": ["stock.h"],
+    "path": ["toolpath.h", "report.h", "check.h"],
+    "sim": ["simulate.h"],
+    "front_gcode": ["gcode.h"],
+    "front_tools": ["tool_files.h"],
+    "front_stock": ["stock_files.h"],
+    "codec_mesh": ["mesh_files.h"],
+    "codec_png": ["image_files.h"],
+}
+HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
+GROUPS = {"codec", "front", "back"}  # folders whose folders are the modules
+
+
+def module_of(path):
+    """The module of a file of the library, app or python; None for files outside of them."""
+    parts = path.split("/")
+    if path.startswith("include/"):
+        return HEADER_MODULE.get(path, "?")
+    if parts[0] == "python":
+        return "python"
+    if parts[0] == "src" and len(parts) > 2:
+        return "_".join(parts[1:3]) if parts[1] in GROUPS else parts[1]
+    return None
+
+
+def allowed_for(path):
+    """The modules a file may include, or None where the file or its module is not known."""
+    module = module_of(path)
+    if module is not None:
+        return ALLOWED[module] | {module} if module in ALLOWED else None
+    parts = path.split("/")
+    if parts[0] == "tests" and parts[1] == "unit":
+        tested = parts[2]
+        return ALLOWED[tested] | {tested} if tested in ALLOWED else None
+    return OUTSIDE
+
+
+def resolve(including, name, known):
+    """The repository's file that an #include "name" means, or None for a library's header."""
+    folder = including.rsplit("/", 1)[0]
+    for candidate in (f"{folder}/{name}", f"src/{name}", f"include/{name}", f"python/{name}"):
+        if candidate in known:
+            return candidate
+    return None
+
+
+def rings(graph):
+    """Includes that close a ring, as text."""
+    done, found = set(), []
+
+    def visit(node, trail):
+        if node in trail:
+            found.append("ring of includes: " + " -> ".join(trail[trail.index(node):] + [node]))
+            return
+        if node in done:
+            return
+        for after in graph.get(node, []):
+            visit(after, trail + [node])
+        done.add(node)
+
+    for node in sorted(graph):
+        visit(node, [])
+    return found
+
+
+def check(texts):
+    """Problems of a repository given as {path: text}."""
+    problems, graph = [], {}
+    for path, text in sorted(texts.items()):
+        if path.endswith(".def"):
+            continue
+        allowed = allowed_for(path)
+        if allowed is None:
+            problems.append(f"{path}: of no known module; add it to the tables of tests/tidy/arrows.py")
+            continue
+        for number, line in enumerate(text.splitlines(), 1):
+            match = re.match(r'\s*#\s*include\s*["<]([^">]+)[">]', line)
+            if not match:
+                continue
+            target = resolve(path, match.group(1), texts)
+            if target is None:
+                if match.group(1).startswith("kerf/"):
+                    problems.append(f"{path}:{number}: there is no {match.group(1)}")
+                continue
+            graph.setdefault(path, []).append(target)
+            module = module_of(target)
+            if module is not None and module not in allowed:
+                problems.append(
+                    f"{path}:{number}: wrong arrow: may not include {match.group(1)} of module {module}")
+    return problems + rings(graph)
+
+
+def check_links(texts):
+    """Problems of the DEPENDS of kerf_module() in src/**/CMakeLists.txt, given as {path: text}."""
+    problems = []
+    for path, text in sorted(texts.items()):
+        for name, arguments in re.findall(r"kerf_module\((\w+)([^)]*)\)", text):
+            depends = re.search(r"DEPENDS\s+((?:(?!LIBRARIES)\w+\s*)*)", arguments)
+            wrong = set(depends.group(1).split()) - ALLOWED.get(name, set()) if depends else set()
+            if name not in ALLOWED:
+                problems.append(f"{path}: module {name} is not in the tables of tests/tidy/arrows.py")
+            for other in sorted(wrong):
+                problems.append(f"{path}: wrong arrow: {name} links {other}")
+    return problems
+
+
+def main():
+    root = root_of(sys.argv)
+    places = ("src/", "include/", "python/", "tests/unit/", "tests/wasm/", "bench/", "fuzz/")
+    chosen = [p for p in files(root, CPP | {".def"}) if p.as_posix().startswith(places)]
+    texts = {p.as_posix(): (root / p).read_text(errors="replace") for p in chosen}
+    lists = [p for p in files(root, {".txt"}) if p.name == "CMakeLists.txt" and p.parts[0] == "src"]
+    links = {p.as_posix(): (root / p).read_text() for p in lists}
+    finish("arrows", check(texts) + check_links(links))
+
+
+if __name__ == "__main__":
+    main()

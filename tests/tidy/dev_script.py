@@ -1,0 +1,32 @@
+"""The scripts are sound shell, and what README and the presets promise of ./dev exists."""
+import json
+import re
+import subprocess
+import sys
+
+from sources import finish, root_of
+
+
+def main():
+    root = root_of(sys.argv)
+    problems = []
+    for script in ("dev", ".ci/run"):
+        run = subprocess.run(["bash", "-n", str(root / script)], capture_output=True, text=True)
+        problems += [f"{script}: {line}" for line in run.stderr.splitlines()]
+    usage = subprocess.run([str(root / "dev"), "help"], capture_output=True, text=True, check=True).stdout
+    known = set(re.findall(r"^  ([a-z]+) ", usage, re.M))
+    presets = json.loads((root / "CMakePresets.json").read_text())
+    names = {preset["name"] for preset in presets["configurePresets"]}
+    for document in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md"):
+        text = (root / document).read_text()
+        problems += [f"{document}: ./dev {word} is no command"
+                     for word in re.findall(r"\./dev ([a-z]+)", text) if word not in known]
+        problems += [f"{document}: preset {word} does not exist"
+                     for word in re.findall(r"--preset (\w+)", text) if word not in names]
+        problems += [f"{document}: the link {target} leads nowhere"
+                     for target in re.findall(r"\]\(([^)#:]+)\)", text) if not (root / target).exists()]
+    finish("dev_script", problems)
+
+
+if __name__ == "__main__":
+    main()

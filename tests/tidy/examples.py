@@ -1,0 +1,16 @@
+"""The bundled examples are what their scripts write."""
+import subprocess
+import sys
+
+from sources import finish, root_of
+
+
+def main():
+    root = root_of(sys.argv)
+    run = subprocess.run([sys.executable, str(root / "examples/make_demo.py")], capture_output=True, text=True)
+    same = run.stdout == (root / "examples/demo.nc").read_text()
+    finish("examples", [] if same else ["examples/demo.nc is not what make_demo.py writes" + run.stderr])
+
+
+if __name__ == "__main__":
+    main()

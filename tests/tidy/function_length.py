@@ -1,0 +1,96 @@
+"""No function is longer than 70 lines, save those of function_length.txt, which may only shrink."""
+import re
+import subprocess
+import sys
+
+from sources import CPP, blank_comments_and_strings, files, finish, root_of
+
+LIMIT = 70  # lines from the function's head to its closing brace
+RATCHET = "tests/tidy/function_length.txt"
+NOT_A_FUNCTION = re.compile(
+    r"\b(namespace|class|struct|union|enum)\b(?!.*\))|=\s*$|^\s*$|^\s*extern\s*$", re.S)
+
+
+def head_name(head):
+    """The name of the function that `head`, the text before its brace, declares; None if it is none."""
+    if NOT_A_FUNCTION.search(head):
+        return None
+    match = re.search(r"(operator\s*\(\)|operator\s*[^\s(]+|[~\w:]+)\s*\(", head)
+    return match.group(1) if match else None
+
+
+def functions(text):
+    """(name, first line, lines) of every function body that is not itself inside a function."""
+    text = blank_comments_and_strings(text)
+    text = re.sub(r"(?m)^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", lambda m: re.sub(r"[^\n]", " ", m.group()), text)
+    found, depth, inside, head_start = [], 0, None, 0
+    for match in re.finditer(r"[{};]", text):
+        at, mark = match.start(), match.group()
+        if mark == "{":
+            if inside is None:
+                name = head_name(text[head_start:at])
+                if name:
+                    begin = head_start + len(text[head_start:at]) - len(text[head_start:at].lstrip())
+                    inside = (name, depth, text.count("\n", 0, begin) + 1)
+            depth += 1
+        elif mark == "}":
+            depth -= 1
+            if inside is not None and inside[1] == depth and not re.match(r"\s*[,{]", text[at + 1:at + 200]):
+                found.append((inside[0], inside[2], text.count("\n", 0, at) + 2 - inside[2]))
+                inside = None
+        if inside is None:
+            head_start = at + 1
+    return found
+
+
+def read_ratchet(text):
+    """{"path function": lines} from lines of "lines path function"."""
+    rows = [line.split(None, 1) for line in text.splitlines() if line and not line.startswith("#")]
+    return {name: int(lines) for lines, name in rows}
+
+
+def compare(longest, ratchet):
+    """Problems of the functions over the limit, {"path function": lines}, against the ratchet."""
+    problems = []
+    for name, lines in sorted(longest.items()):
+        if name not in ratchet:
+            problems.append(f"{name}: {lines} lines, the limit is {LIMIT}: take it apart")
+        elif lines > ratchet[name]:
+            problems.append(f"{name}: grew from {ratchet[name]} to {lines} lines")
+    for name, lines in sorted(ratchet.items()):
+        if longest.get(name, 0) < lines:
+            now = longest.get(name, f"at most {LIMIT}")
+            problems.append(f"{name}: now {now} lines: lower or drop it in {RATCHET}")
+    return problems
+
+
+def before(root):
+    """The ratchet of the last commit with another content, or None where git has none."""
+    now = (root / RATCHET).read_text()
+    for commit in ("HEAD", "HEAD^"):
+        shown = subprocess.run(["git", "-C", str(root), "show", f"{commit}:{RATCHET}"],
+                               capture_output=True, text=True)
+        if shown.returncode == 0 and shown.stdout != now:
+            return read_ratchet(shown.stdout)
+    return None
+
+
+def main():
+    root = root_of(sys.argv)
+    longest = {}
+    for path in files(root, CPP):
+        for name, _, lines in functions((root / path).read_text(errors="replace")):
+            key = f"{path.as_posix()} {name}"
+            if lines > LIMIT:
+                longest[key] = max(lines, longest.get(key, 0))
+    ratchet = read_ratchet((root / RATCHET).read_text())
+    problems = compare(longest, ratchet)
+    old = before(root)
+    if old is not None:
+        problems += [f"{RATCHET}: {name} was added or raised; the ratchet may only shrink"
+                     for name, lines in sorted(ratchet.items()) if lines > old.get(name, 0)]
+    finish("function_length", problems)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,126 @@
+"""The checks themselves: each finds what it is there for and leaves sound sources alone."""
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+import arrows  # noqa: E402
+import codes  # noqa: E402
+import function_length  # noqa: E402
+import text_rules  # noqa: E402
+
+HEADERS = {
+    "include/kerf/units.h": "",
+    "include/kerf/geometry.h": '#include "kerf/units.h"\n',
+    "include/kerf/toolpath.h": '#include "kerf/geometry.h"\n',
+    "include/kerf/simulate.h": '#include "kerf/geometry.h"\n',
+    "include/kerf/gcode.h": "",
+}
+
+
+def arrow_problems(path, text):
+    return arrows.check({**HEADERS, path: text})
+
+
+class Arrows(unittest.TestCase):
+    def test_right_arrows_pass(self):
+        self.assertEqual(arrow_problems("src/sim/x.cpp", '#include "kerf/toolpath.h"\n#include <map>\n'), [])
+        self.assertEqual(arrow_problems("src/app/main.cpp", '#include "kerf/simulate.h"\n'), [])
+
+    def test_a_wrong_include_is_found_with_its_line(self):
+        problems = arrow_problems("src/geom/arc.cpp", '// x\n#include "kerf/simulate.h"\n')
+        self.assertEqual(len(problems), 1)
+        self.assertIn("src/geom/arc.cpp:2: wrong arrow", problems[0])
+
+    def test_simulator_may_not_see_a_front_end(self):
+        self.assertTrue(arrow_problems("src/sim/x.cpp", '#include "kerf/gcode.h"\n'))
+
+    def test_internal_headers_count_too(self):
+        texts = {**HEADERS, "src/path/inner.h": "", "src/codec/gcode/words.cpp": '#include "path/inner.h"\n'}
+        self.assertIn("wrong arrow", arrows.check(texts)[0])
+        texts = {**HEADERS, "src/sim/inner.h": "", "src/sim/other.cpp": '#include "inner.h"\n'}
+        self.assertEqual(arrows.check(texts), [])
+
+    def test_a_unit_test_sees_what_its_module_sees(self):
+        self.assertEqual(arrow_problems("tests/unit/sim/x_test.cpp", '#include "kerf/simulate.h"\n'), [])
+        self.assertTrue(arrow_problems("tests/unit/geom/x_test.cpp", '#include "kerf/simulate.h"\n'))
+
+    def test_rings_and_unknown_headers_are_found(self):
+        texts = {**HEADERS, "src/sim/a.h": '#include "b.h"\n', "src/sim/b.h": '#include "a.h"\n'}
+        self.assertIn("ring", arrows.check(texts)[0])
+        self.assertTrue(arrow_problems("include/kerf/surprise.h", ""))
+        self.assertTrue(arrow_problems("src/sim/x.cpp", '#include "kerf/no_such.h"\n'))
+
+    def test_links_are_arrows(self):
+        self.assertEqual(arrows.check_links({"a": "kerf_module(geom DEPENDS base LIBRARIES fmt::fmt)"}), [])
+        wrong = arrows.check_links({"a": "kerf_module(geom DEPENDS base path)"})
+        self.assertEqual(wrong, ["a: wrong arrow: geom links path"])
+        self.assertTrue(arrows.check_links({"a": "kerf_module(surprise)"}))
+
+    def test_the_table_itself_forms_no_ring(self):
+        table = {module: sorted(uses) for module, uses in arrows.ALLOWED.items()}
+        self.assertEqual(arrows.rings(table), [])
+
+
+class FunctionLength(unittest.TestCase):
+    def lengths(self, text):
+        return {name: lines for name, _, lines in function_length.functions(text)}
+
+    def test_counts_from_head_to_brace(self):
+        text = ("namespace a {\nint f(int x,\n      int y) {\n  if (x) {\n    return y;\n  }\n"
+                "  return 0;\n}\n}\n")
+        self.assertEqual(self.lengths(text), {"f": 7})
+
+    def test_members_constructors_and_operators_are_functions(self):
+        text = ("class C {\n  C() : a_{1}, b_(2) {\n    g();\n  }\n"
+                "  int operator()(int x) const {\n    return x;\n  }\n"
+                "  int a_ = 0;\n  int v_[2] = {1, 2};\n};\n"
+                "template <class T>\nauto C::h(T t) -> int {\n  return 1;\n}\n")
+        self.assertEqual(self.lengths(text), {"C": 3, "operator()": 3, "C::h": 4})
+
+    def test_tables_lambdas_and_literals_do_not_confuse(self):
+        text = ('const int table[] = {\n  1,\n  2,\n};\nvoid f() {\n  auto g = [](int x) { return x; };\n'
+                '  h("}", \'{\', 1\'000);  // }\n}\nvoid k() {}\n')
+        self.assertEqual(self.lengths(text), {"f": 4, "k": 1})
+
+    def test_the_ratchet_only_shrinks(self):
+        self.assertEqual(function_length.compare({"a f": 90}, {"a f": 90}), [])
+        self.assertIn("grew", function_length.compare({"a f": 91}, {"a f": 90})[0])
+        self.assertIn("take it apart", function_length.compare({"a f": 91}, {})[0])
+        self.assertIn("lower", function_length.compare({"a f": 80}, {"a f": 90})[0])
+        self.assertIn("drop", function_length.compare({}, {"a f": 90})[0])
+
+
+class TextRules(unittest.TestCase):
+    def test_length_opening_comment_and_places(self):
+        self.assertEqual(text_rules.check_text("src/a.cpp", "// What it is for.\nint x;\n"), [])
+        self.assertIn("columns", text_rules.check_text("src/a.cpp", "// " + "x" * 108)[0])
+        self.assertIn("opens with", text_rules.check_text("src/a.cpp", "int x;\n")[0])
+        self.assertIn("machine", text_rules.check_text("docs/a.md", "see /" + "work/x\n")[0])
+        self.assertEqual(text_rules.check_text("docs/a.md", "a frame/" + "work/x and src/work/y\n"), [])
+
+    def test_the_root_holds_only_what_is_known(self):
+        self.assertEqual(text_rules.stray({"README.md", "dev"}, {"src"}), [])
+        self.assertEqual(len(text_rules.stray({"NOTES.md"}, {"scratch"})), 2)
+
+
+class Codes(unittest.TestCase):
+    GOOD = ('KERF_CODE(1001, no_file, "A file is missing.")\n'
+            'KERF_CODE(2001, no_feed,\n          "No feed, "\n          "said twice.")\n')
+
+    def test_a_sound_table_passes(self):
+        rows = codes.parse(self.GOOD)
+        self.assertEqual([row[:2] for row in rows], [(1001, "no_file"), (2001, "no_feed")])
+        self.assertEqual(codes.check(rows, "Code::no_file Code::no_feed"), [])
+
+    def test_each_fault_is_found(self):
+        rows = codes.parse(self.GOOD)
+        self.assertIn("no test provokes", codes.check(rows, "no_file no_feeder")[0])
+        both = "no_file no_feed other"
+        self.assertTrue(any("twice" in p for p in codes.check(rows + [(1001, "other", '"X."')], both)))
+        self.assertTrue(any("no area" in p for p in codes.check([(99, "other", '"X."')], both)))
+        self.assertTrue(any("stands after" in p for p in codes.check(list(reversed(rows)), both)))
+
+
+if __name__ == "__main__":
+    unittest.main()
