@@ -2,8 +2,8 @@
 
     bench/report.py BUILD_FOLDER [FILTER]
 
-FILTER is a regular expression over benchmark names. The figures are kept in BUILD_FOLDER/bench-last.json; those
-of benchmarks that did not run this time stay.
+FILTER is a regular expression over benchmark names. The figures are kept in BUILD_FOLDER/bench-last.json;
+those of benchmarks that did not run this time stay.
 """
 import json
 import subprocess

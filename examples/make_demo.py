@@ -1,4 +1,4 @@
-"""Writes demo.nc, the part that `./dev demo` cuts: a stepped dish, drilled holes, lettering, a relief and a T-slot.
+"""Writes demo.nc, the part that `./dev demo` cuts: dish, drilled holes, lettering, relief, T-slot.
 
     python3 examples/make_demo.py > examples/demo.nc
 
@@ -78,7 +78,7 @@ def holes(p):
 
 
 def slot_for_the_neck(p, x, entry_y, depth):
-    """Room for the keyhole cutter's neck, 7 wide and open to the front, and the hole that its head goes down."""
+    """Room for the keyhole cutter: a slot for its neck, open to the front, and a hole that its head goes down."""
     p.say("slot and entry hole for the keyhole cutter")
     ring_pocket(p, (x, entry_y), outer=5.6, inner=0.0, top=0, bottom=depth, step_down=2)
     side = (7 - 3.175) / 2

@@ -1,0 +1,83 @@
+// Diagnostics and origins: text form, the limit a code, the compact table of places.
+#include "kerf/diagnostics.h"
+
+#include <gtest/gtest.h>
+#include <set>
+#include <string>
+
+namespace kerf {
+namespace {
+
+TEST(Diagnostic, SaysWhereWhatAndHowToMendIt) {
+  Diagnostics diagnostics;
+  Diagnostic& d = diagnostics.warning(Code::file_unreadable, TextSpot{"part.nc", 3, 7}, "no number after X");
+  d.notes.push_back({TextSpot{"part.nc", 1, 0}, "the program begins here"});
+  d.hint = "write X0";
+  EXPECT_EQ(to_string(d),
+            "part.nc:3:7: warning: no number after X [1001]\n"
+            "  note: part.nc:1: the program begins here\n"
+            "  hint: write X0");
+  EXPECT_EQ(to_string(Diagnostic{Severity::error, Code::file_unreadable, {}, "bad", {}, {}}),
+            "error: bad [1001]");
+}
+
+TEST(Diagnostics, KeepsABoundedNumberOfEachCodeAndCountsTheRest) {
+  Diagnostics diagnostics(3);
+  for (int i = 0; i < 1000; ++i) diagnostics.error(Code::file_unreadable, {}, "again").hint = "still valid";
+  diagnostics.warning(Code::file_unwritable, {}, "another");
+  EXPECT_EQ(diagnostics.list().size(), 4u);
+  EXPECT_EQ(diagnostics.errors(), 1000u);
+  EXPECT_EQ(diagnostics.warnings(), 1u);
+  EXPECT_EQ(diagnostics.dropped(Code::file_unreadable), 997u);
+  EXPECT_EQ(diagnostics.dropped(Code::file_unwritable), 0u);
+  EXPECT_EQ(diagnostics.dropped_codes(), std::vector<Code>{Code::file_unreadable});
+}
+
+TEST(Codes, HaveNamesAndMeaningsOfTheirOwn) {
+  std::set<std::string_view> names;
+  for (const Code code : all_codes()) {
+    EXPECT_TRUE(names.insert(name_of(code)).second);
+    EXPECT_FALSE(meaning_of(code).empty());
+  }
+  EXPECT_EQ(name_of(Code::file_unreadable), "file_unreadable");
+}
+
+TEST(Origin, IsWrittenAsEditorsReadIt) {
+  EXPECT_EQ(to_string(Origin{}), "");
+  EXPECT_EQ(to_string(Origin{TextSpot{"part.nc", 12, 5}}), "part.nc:12:5");
+  EXPECT_EQ(to_string(Origin{TextSpot{"part.nc", 12, 0}}), "part.nc:12");
+  EXPECT_EQ(to_string(Origin{TextSpot{"part.nc", 0, 0}}), "part.nc");
+  EXPECT_EQ(to_string(Origin{DxfSpot{"plate.dxf", "8999", "2F", 10, 20.5}}),
+            "plate.dxf: layer 8999, handle 2F, at 10, 20.5");
+  EXPECT_EQ(to_string(Origin{CallSpot{"job.py", 7, "cutline"}}), "job.py:7 (cutline)");
+}
+
+TEST(OriginTable, GivesBackWhatWasPutIn) {
+  OriginTable table;
+  const Origin text = TextSpot{"part.nc", 12, 5};
+  const Origin drawing = DxfSpot{"plate.dxf", "8999", "2F", 10, 20};
+  const Origin call = CallSpot{"job.py", 7, "cutline"};
+  const OriginId a = table.add(text), b = table.add(drawing), c = table.add(call);
+  EXPECT_EQ(table.resolve(a), text);
+  EXPECT_EQ(table.resolve(b), drawing);
+  EXPECT_EQ(table.resolve(c), call);
+  EXPECT_EQ(table.resolve(OriginId::none), Origin{});
+  EXPECT_EQ(table.line(a), 12u);
+  EXPECT_EQ(table.line(c), 7u);
+  EXPECT_EQ(table.file("part.nc"), table.file("part.nc"));
+}
+
+TEST(OriginTable, NamesCallersInnermostFirst) {
+  OriginTable table;
+  const OriginId outer = table.add(TextSpot{"main.ngc", 2, 0});
+  const OriginId middle = table.add(TextSpot{"sub.ngc", 5, 0});
+  const OriginId inner = table.add(TextSpot{"deep.ngc", 9, 0});
+  table.set_caller(middle, outer);
+  table.set_caller(inner, middle);
+  const std::vector<Origin> expected{TextSpot{"sub.ngc", 5, 0}, TextSpot{"main.ngc", 2, 0}};
+  EXPECT_EQ(table.callers(inner), expected);
+  EXPECT_TRUE(table.callers(outer).empty());
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,110 @@
+// Files: what cannot be read is an error with its path, and outputs appear whole and together or not at all.
+#include "kerf/files.h"
+
+#include <filesystem>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+#include <string>
+
+namespace kerf {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+ protected:
+  Files() {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(::testing::TempDir()) / (std::string("kerf_files_") + test->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Files() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  std::string content(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::size_t count() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(Files, ReadsBytesAsTheyAre) {
+  const std::string bytes("G1 X1\r\n\0\xff", 9);
+  std::ofstream(path("a.nc"), std::ios::binary) << bytes;
+  std::ofstream(path("empty.nc"), std::ios::binary);
+  const auto file = InputFile::open(path("a.nc"), diagnostics_);
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->bytes(), bytes);
+  const auto empty = InputFile::open(path("empty.nc"), diagnostics_);
+  ASSERT_TRUE(empty);
+  EXPECT_EQ(empty->bytes(), "");
+  EXPECT_TRUE(diagnostics_.list().empty());
+}
+
+TEST_F(Files, MissingFilesAndFoldersAreUnreadable) {
+  EXPECT_FALSE(InputFile::open(path("missing.nc"), diagnostics_));
+  EXPECT_FALSE(InputFile::open(folder_.string(), diagnostics_));
+  ASSERT_EQ(diagnostics_.errors(), 2u);
+  for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, Code::file_unreadable);
+  EXPECT_EQ(std::get<TextSpot>(diagnostics_.list()[0].where).file, path("missing.nc"));
+}
+
+TEST_F(Files, LargerThanTheLimitIsRefused) {
+  std::ofstream(path("a.nc")) << "0123456789";
+  EXPECT_TRUE(InputFile::open(path("a.nc"), diagnostics_, 10));
+  EXPECT_FALSE(InputFile::open(path("a.nc"), diagnostics_, 9));
+  ASSERT_EQ(diagnostics_.errors(), 1u);
+  EXPECT_EQ(diagnostics_.list()[0].code, Code::file_too_large);
+}
+
+TEST_F(Files, AnEndlessDeviceIsRefusedAtTheLimit) {
+  if (!fs::exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
+  EXPECT_FALSE(InputFile::open("/dev/zero", diagnostics_, 1 << 20));
+  ASSERT_EQ(diagnostics_.errors(), 1u);
+  EXPECT_EQ(diagnostics_.list()[0].code, Code::file_too_large);
+}
+
+TEST_F(Files, OutputsAppearTogetherOnCommit) {
+  std::ofstream(path("a.txt")) << "old";
+  OutputSet outputs;
+  ASSERT_TRUE(outputs.write(path("a.txt"), "new", diagnostics_));
+  ASSERT_TRUE(outputs.write(path("b.txt"), "second", diagnostics_));
+  EXPECT_EQ(content("a.txt"), "old");
+  EXPECT_FALSE(fs::exists(path("b.txt")));
+  ASSERT_TRUE(outputs.commit(diagnostics_));
+  EXPECT_EQ(content("a.txt"), "new");
+  EXPECT_EQ(content("b.txt"), "second");
+  EXPECT_EQ(count(), 2u);
+}
+
+TEST_F(Files, WithoutACommitNothingIsLeft) {
+  {
+    OutputSet outputs;
+    ASSERT_TRUE(outputs.write(path("a.txt"), "x", diagnostics_));
+    EXPECT_EQ(count(), 1u);
+  }
+  EXPECT_EQ(count(), 0u);
+}
+
+TEST_F(Files, AnUnwritablePlaceIsAnError) {
+  {
+    OutputSet outputs;
+    EXPECT_FALSE(outputs.write(path("no/such/folder/a.txt"), "x", diagnostics_));
+    fs::create_directories(path("taken/inside"));
+    ASSERT_TRUE(outputs.write(path("taken"), "x", diagnostics_));
+    EXPECT_FALSE(outputs.commit(diagnostics_));
+  }
+  ASSERT_EQ(diagnostics_.errors(), 2u);
+  for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, Code::file_unwritable);
+  EXPECT_EQ(count(), 1u) << "only the folder that was in the way";
+}
+
+}  // namespace
+}  // namespace kerf
