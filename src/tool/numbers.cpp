@@ -10,7 +10,7 @@
 namespace kerf {
 namespace {
 
-constexpr double kPrinted = 0.02;    // mm: sizes told with two decimals
+constexpr double kPrinted = 0.0065;  // mm: 1/32" is told as 0.80 mm; 1.6 mm is not 1/16"
 constexpr double kEightMm = 0.0625;  // mm: the scheme has 8 mm bits under the code of 5/16"
 constexpr double kLongReach = 19.05;
 constexpr int kOther = 9;            // size code: above an inch, or a size without a code
