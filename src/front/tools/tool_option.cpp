@@ -1,0 +1,117 @@
+// A tool told on the command line: a number, a name, or a shape with its measures.
+#include <fmt/format.h>
+
+#include "front/tools/settings.h"
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+#include "kerf/tool_files.h"
+
+namespace kerf {
+namespace {
+
+constexpr std::size_t kLongestOption = 4096;
+constexpr int kHighestNumber = 99'999'999;
+
+/// A word of the option and where it starts.
+struct Word {
+  std::string_view text;
+  std::uint32_t column = 1;
+};
+
+Origin spot(std::uint32_t column) { return TextSpot{"tool option", 1, column}; }
+
+/// Words between blanks or commas; "=" binds to both sides even where blanks stand around it.
+std::vector<Word> words_of(std::string_view text) {
+  std::vector<Word> words;
+  std::size_t at = 0;
+  const auto blank = [&](std::size_t i) { return static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ','; };
+  const auto skip = [&] { while (at < text.size() && blank(at)) ++at; };
+  for (skip(); at < text.size(); skip()) {
+    const std::size_t start = at;
+    while (at < text.size() && !blank(at)) {
+      if (text[at++] == '=') skip();
+      std::size_t ahead = at;
+      while (ahead < text.size() && blank(ahead)) ++ahead;
+      if (ahead < text.size() && text[ahead] == '=') at = ahead;
+    }
+    words.push_back({text.substr(start, at - start), static_cast<std::uint32_t>(start + 1)});
+  }
+  return words;
+}
+
+std::optional<int> whole_number(std::string_view text) {
+  if (text.empty() || text.size() > 8 || text.find_first_not_of("0123456789") != std::string_view::npos) {
+    return std::nullopt;
+  }
+  const auto value = parse_number(text);
+  return value && *value <= kHighestNumber ? std::optional(static_cast<int>(*value)) : std::nullopt;
+}
+
+/// A tool of the table, or the one that a six-digit number describes.
+std::optional<Tool> tool_of_number(int number, Diagnostics& diagnostics) {
+  if (const Tool* known = built_in_tools().find(number)) return *known;
+  if (number >= 100000 && number <= 999999) {
+    const auto shape = decode_tool_number(number, spot(1), diagnostics);
+    return shape ? make_tool(number, *shape, {}, spot(1), diagnostics) : std::nullopt;
+  }
+  std::vector<std::string> numbers;
+  for (const auto& [known, tool] : built_in_tools().tools()) numbers.push_back(std::to_string(known));
+  Diagnostic& error = diagnostics.error(Code::tool_unknown, spot(1), fmt::format("no tool {} is known", number));
+  if (const auto meant = did_you_mean(std::to_string(number), numbers)) error.hint = fmt::format("did you mean {}?", *meant);
+  return std::nullopt;
+}
+
+/// "square d=3.175": the words before the first "=" are the shape's name.
+std::optional<Tool> tool_of_words(const std::vector<Word>& words, Diagnostics& diagnostics) {
+  std::string name;
+  std::vector<detail::Setting> settings;
+  std::optional<int> number;
+  bool fine = true;
+  for (const Word& word : words) {
+    const std::size_t equals = word.text.find('=');
+    const Origin where = spot(word.column);
+    if (equals == std::string_view::npos) {
+      fine = fine && settings.empty();
+      if (!settings.empty()) {
+        diagnostics.error(Code::tool_value_type, where,
+                          fmt::format("expected KEY=VALUE, found \"{}\"", word.text.substr(0, 40)));
+      } else {
+        if (!name.empty()) name += ' ';
+        name += word.text;
+      }
+      continue;
+    }
+    const std::string key = std::string(trim(word.text.substr(0, equals)));
+    const std::string value = std::string(trim(word.text.substr(equals + 1)));
+    if (key == "number") {
+      number = whole_number(value);
+      if (!number) diagnostics.error(Code::tool_value_type, where, "number must be a whole number");
+      fine = fine && number.has_value();
+    } else {
+      settings.push_back({key, where, value});
+    }
+  }
+  if (settings.empty()) {
+    if (const Tool* known = built_in_tools().find_name(name)) return *known;
+  }
+  const auto blank = detail::blank_shape(name, spot(1), diagnostics);
+  if (!blank) return std::nullopt;
+  std::optional<Tool> tool = detail::tool_of(*blank, settings, 1.0, spot(1), diagnostics);
+  if (!tool || !fine) return std::nullopt;
+  tool->number = number.value_or(0);
+  return tool;
+}
+
+}  // namespace
+
+std::optional<Tool> read_tool_option(std::string_view text, Diagnostics& diagnostics) {
+  if (text.size() > kLongestOption) {
+    diagnostics.error(Code::tool_value_type, spot(1), "a tool option is at most 4096 characters long");
+    return std::nullopt;
+  }
+  if (const auto number = whole_number(trim(text))) return tool_of_number(*number, diagnostics);
+  return tool_of_words(words_of(text), diagnostics);
+}
+
+}  // namespace kerf
