@@ -8,6 +8,7 @@ Interpreter::Interpreter(GcodeProgram& program, const GcodeReadOptions& options,
       path_(program.path),
       talker_(talker),
       max_steps_(options.max_steps),
+      after_end_(options.after_end),
       file_(program.path.origins().file(options.file_name)) {}
 
 void Interpreter::run(const Block& block) {
@@ -18,14 +19,24 @@ void Interpreter::run(const Block& block) {
   const bool empty = block.words.empty() && block.assignments.empty() && !block.o_word;
   if (empty) return;
   words_since_percent_ = true;
-  if (program_.ended && !after_end_said_) {
-    talker_.note(Code::text_after_end, block.words.empty() ? 1 : block.words.front().column,
-                 "the program has ended above; what follows is read as its continuation");
-    after_end_said_ = true;
-  }
+  if (program_.ended && !goes_on(block)) return;
   if (!line_.sort(block, talker_)) return;
   execute();
   line_.report_unused(talker_);
+}
+
+/// Whether a line after the program's end is read.
+bool Interpreter::goes_on(const Block& block) {
+  if (after_end_said_) return true;
+  after_end_said_ = true;
+  stopped_ = after_end_ == AfterEnd::stop;
+  const std::uint32_t column = block.words.empty() ? 1 : block.words.front().column;
+  if (stopped_)
+    talker_.unusual(Code::text_after_end, column, "the program has ended above; from here on nothing is read",
+                    "a file of several programs runs through only where a sender streams it line by line");
+  else
+    talker_.note(Code::text_after_end, column, "the program has ended above; what follows is read as its continuation");
+  return !stopped_;
 }
 
 /// A program stands between two percent lines, or has none.

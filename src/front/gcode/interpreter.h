@@ -61,11 +61,12 @@ class Interpreter {
   void run(const Block& block);
   /// To be called after the last line.
   void finish();
-  /// True once the limit of steps is reached; nothing is added any more.
-  bool full() const { return full_; }
+  /// True once nothing more is to be read: the program has ended, or the limit of steps is reached.
+  bool done() const { return full_ || stopped_; }
 
  private:
   // interpreter.cpp
+  bool goes_on(const Block& block);
   void read_percent();
   void execute();
 
@@ -140,11 +141,13 @@ class Interpreter {
   Toolpath& path_;
   Talker& talker_;
   std::size_t max_steps_;
+  AfterEnd after_end_;
   std::uint32_t file_;
   Line line_;
   std::uint32_t origin_line_ = 0;  // the line that origin_ belongs to
   OriginId origin_ = OriginId::none;
   bool full_ = false;
+  bool stopped_ = false;  // there is text after the program's end, which is not to be read
 
   Modes modes_;
   Place here_;

@@ -24,7 +24,7 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
   gcode::BlockReader reader(text, {options.file_name, options.max_line_bytes, options.strict}, diagnostics);
   gcode::Block block;
   std::size_t lines = 0;
-  while (!interpreter.full() && reader.next(block)) {
+  while (!interpreter.done() && reader.next(block)) {
     interpreter.run(block);
     if (++lines % kLinesPerReport != 0) continue;
     report(progress, static_cast<double>(reader.position()) / static_cast<double>(text.size()));
