@@ -234,7 +234,7 @@ void Interpreter::cycle_cut(const Hole& hole, double level) {
   if (inverse_time && !no_feed_said_)
     talker_.unusual(Code::no_feed, line_.column(), "inverse time feeds mean nothing in a canned cycle; it has no feed");
   if (inverse_time) no_feed_said_ = true;
-  cut(to, inverse_time ? 0.0 : feed_for(distance(here_.at, to.at)));
+  cut(to, inverse_time ? 0.0 : feed_for(0.0));
 }
 
 void Interpreter::cycle_dwell() {

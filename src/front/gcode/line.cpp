@@ -18,8 +18,6 @@ Tenths tenths_of(double value) {
   return static_cast<Tenths>(tenths);
 }
 
-constexpr std::string_view kLettersWithoutMeaning = "EUVW";
-
 }  // namespace
 
 void Talker::error(Code code, std::uint32_t column, std::string message, std::string_view hint) {
@@ -56,28 +54,32 @@ bool Line::sort(const Block& block, Talker& talker) {
 }
 
 bool Line::add_word(const Word& word, Talker& talker) {
-  if (word.kind == ValueKind::expression) {
-    talker.error(Code::expression_unsupported, word.column,
-                 fmt::format("the value of {} is computed, which is not done yet; the line is left out", word.letter));
-    return false;
-  }
-  if (word.letter == 'G' || word.letter == 'M') return add_code(word, talker);
-  if (word.letter == '*') return true;  // a sender's checksum
-  if (word.letter < 'A' || word.letter > 'Z') {
-    talker.error(Code::code_unsupported, word.column, "polar coordinates are not read yet; the line is left out");
-    return false;
-  }
-  if (kLettersWithoutMeaning.find(word.letter) != std::string_view::npos) {
-    talker.unusual(Code::unknown_letter, word.column,
-                   fmt::format("the letter {} has no meaning here and is left out", word.letter));
-    return true;
-  }
+  const bool plain = word.kind == ValueKind::number && word.letter >= 'A' && word.letter <= 'Z';
+  if (!plain) return add_unusual_word(word, talker);
+  if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, talker);
+  if (((bit('E') | bit('U') | bit('V') | bit('W')) & bit(word.letter)) != 0) return add_unusual_word(word, talker);
   if (has(word.letter))
     talker.unusual(Code::word_repeated, word.column,
                    fmt::format("{} stands twice on the line; the last one counts", word.letter));
   letters_ |= bit(word.letter);
   values_[index(word.letter)] = word.value;
   columns_[index(word.letter)] = word.column;
+  return true;
+}
+
+bool Line::add_unusual_word(const Word& word, Talker& talker) {
+  if (word.kind == ValueKind::expression) {
+    talker.error(Code::expression_unsupported, word.column,
+                 fmt::format("the value of {} is computed, which is not done yet; the line is left out", word.letter));
+    return false;
+  }
+  if (word.letter == '*') return true;  // a sender's checksum
+  if (word.letter < 'A' || word.letter > 'Z') {
+    talker.error(Code::code_unsupported, word.column, "polar coordinates are not read yet; the line is left out");
+    return false;
+  }
+  talker.unusual(Code::unknown_letter, word.column,
+                 fmt::format("the letter {} has no meaning here and is left out", word.letter));
   return true;
 }
 
@@ -108,15 +110,8 @@ bool Line::add_code(const Word& word, Talker& talker) {
   return true;
 }
 
-std::optional<double> Line::take(char letter) {
-  if (!unused(letter)) return std::nullopt;
-  used_ |= bit(letter);
-  return values_[index(letter)];
-}
-
-void Line::report_unused(Talker& talker) const {
+void Line::list_unused(Talker& talker) const {
   const std::uint32_t left = letters_ & ~used_;
-  if (left == 0) return;
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     if ((left & bit(letter)) != 0)
       talker.unusual(Code::word_unused, columns_[index(letter)],

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,13 +56,19 @@ class Line {
   /// The value without taking it; 0 where the letter is absent.
   double value(char letter) const { return has(letter) ? values_[index(letter)] : 0.0; }
   /// The value, marked as used; nothing where the letter is absent or was used already.
-  std::optional<double> take(char letter);
+  std::optional<double> take(char letter) {
+    if (!unused(letter)) return std::nullopt;
+    used_ |= bit(letter);
+    return values_[index(letter)];
+  }
   /// Marks letters (a mask of bit()) as used.
   void use(std::uint32_t letters) { used_ |= letters; }
   bool unused(char letter) const { return (letters_ & ~used_ & bit(letter)) != 0; }
   bool has_unused(std::uint32_t letters) const { return (letters_ & ~used_ & letters) != 0; }
   /// Says which words nothing has used.
-  void report_unused(Talker& talker) const;
+  void report_unused(Talker& talker) const {
+    if ((letters_ & ~used_) != 0) list_unused(talker);
+  }
 
   static constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
   static constexpr std::uint32_t bit(Group group) { return 1u << static_cast<unsigned>(group); }
@@ -71,6 +76,8 @@ class Line {
  private:
   static constexpr std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
   bool add_word(const Word& word, Talker& talker);
+  bool add_unusual_word(const Word& word, Talker& talker);
+  void list_unused(Talker& talker) const;
   bool add_code(const Word& word, Talker& talker);
 
   std::uint32_t letters_ = 0, used_ = 0, groups_ = 0;

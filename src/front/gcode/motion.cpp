@@ -117,7 +117,12 @@ bool Interpreter::reachable(Point3 p) {
   return false;
 }
 
-double Interpreter::straight_length(const Place& to) const { return distance(here_.at, to.at); }
+/// What the feed of an inverse time move is worked out from: its mm; 0 in the other
+/// feed modes, which do not ask.
+double Interpreter::straight_length(const Place& to) const {
+  if (modes_.feed_mode != FeedMode::inverse_time) return 0.0;
+  return distance(here_.at, to.at);
+}
 
 /// Feed in mm/min of a move of `length` mm; 0, said once, where the program gives none.
 double Interpreter::feed_for(double length) {
