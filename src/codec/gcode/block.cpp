@@ -1,0 +1,307 @@
+// Splitting of G-code text into blocks. One pass; a line with a fault is reported and left, reading goes on after it.
+#include "codec/gcode/block.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "codec/gcode/decimal.h"
+
+namespace kerf::gcode {
+namespace {
+
+enum class CharClass : std::uint8_t { other, blank, letter, comment, hash };
+
+constexpr std::array<CharClass, 256> make_classes() {
+  std::array<CharClass, 256> classes{};
+  for (unsigned c = 'a'; c <= 'z'; ++c) classes[c] = classes[c - 'a' + 'A'] = CharClass::letter;
+  classes['@'] = classes['^'] = classes['*'] = CharClass::letter;
+  classes[' '] = classes['\t'] = CharClass::blank;
+  classes['('] = classes[';'] = CharClass::comment;
+  classes['#'] = CharClass::hash;
+  return classes;
+}
+constexpr std::array<CharClass, 256> kClasses = make_classes();
+
+CharClass class_of(char c) { return kClasses[static_cast<unsigned char>(c)]; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_blank(char c) { return class_of(c) == CharClass::blank; }
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+/// How a character is named in a message.
+std::string shown(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  if (byte >= 0x21 && byte <= 0x7e) return fmt::format("'{}'", c);
+  return fmt::format("byte 0x{:02X}", byte);
+}
+
+constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN",  "ATAN",   "COS", "EXISTS", "EXP",
+                                           "FIX", "FUP",  "LN", "ROUND", "SIN", "SQRT",   "TAN"};
+
+/// The end of a function's name followed by '[', or `p` where none begins here.
+const char* after_function_name(const char* p, const char* end) {
+  for (const std::string_view name : kFunctions) {
+    const char* q = p;
+    std::size_t i = 0;
+    while (q != end && i < name.size() && upper(*q) == name[i]) ++q, ++i;
+    const char* name_end = q;
+    while (q != end && is_blank(*q)) ++q;
+    if (i == name.size() && q != end && *q == '[') return name_end;
+  }
+  return p;
+}
+
+/// The end of the bracket that opens at `p`, or `end` where it is not closed.
+const char* after_bracket(const char* p, const char* end) {
+  int depth = 0;
+  for (; p != end; ++p) {
+    if (*p == '[') ++depth;
+    if (*p == ']' && --depth == 0) return p + 1;
+  }
+  return end;
+}
+
+const char* after_blanks(const char* p, const char* end) {
+  while (p != end && is_blank(*p)) ++p;
+  return p;
+}
+
+/// The end of a parameter's name that begins with '#' at `p`: #1, ##2, #[...], #<name>, #-less prefixes refused.
+const char* after_parameter(const char* p, const char* end) {
+  while (p != end && (*p == '#' || is_blank(*p))) ++p;
+  if (p == end) return p;
+  if (*p == '[') return after_bracket(p, end);
+  if (*p == '<') {
+    const char* close = std::find(p, end, '>');
+    return close == end ? end : close + 1;
+  }
+  while (p != end && (is_digit(*p) || *p == '.')) ++p;
+  return p;
+}
+
+/// The end of a computed value at `p` (parameter, bracket, function, each with a sign or without), or `p` if there
+/// is none.
+const char* after_computed_value(const char* p, const char* end) {
+  const char* q = p;
+  while (q != end && (is_blank(*q) || *q == '+' || *q == '-')) ++q;
+  if (q == end) return p;
+  if (*q == '#') return after_parameter(q, end);
+  if (*q == '[') return after_bracket(q, end);
+  if (class_of(*q) != CharClass::letter) return p;
+  const char* name_end = after_function_name(q, end);
+  if (name_end == q) return p;
+  q = after_bracket(after_blanks(name_end, end), end);
+  const char* slash = after_blanks(q, end);  // ATAN[a]/[b]
+  if (slash != end && *slash == '/') {
+    const char* second = after_blanks(slash + 1, end);
+    if (second != end && *second == '[') return after_bracket(second, end);
+  }
+  return q;
+}
+
+}  // namespace
+
+BlockReader::BlockReader(std::string_view text, BlockReaderOptions options, Diagnostics& diagnostics)
+    : text_(text), options_(std::move(options)), diagnostics_(diagnostics) {
+  if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.remove_prefix(3);
+  next_line_feed_ = std::min(text_.find('\n'), text_.size());
+  next_return_ = std::min(text_.find('\r'), text_.size());
+}
+
+/// The end of the line at position_. Each kind of line end is searched for only once past the last one found, so
+/// that a text with lone returns costs no more than one with line feeds.
+std::size_t BlockReader::line_end() {
+  if (next_line_feed_ < position_) next_line_feed_ = std::min(text_.find('\n', position_), text_.size());
+  if (next_return_ < position_) next_return_ = std::min(text_.find('\r', position_), text_.size());
+  return std::min(next_line_feed_, next_return_);
+}
+
+bool BlockReader::next(Block& block) {
+  if (position_ >= text_.size()) return false;
+  const std::size_t end = line_end();
+  block.text = text_.substr(position_, end - position_);
+  block.line = ++line_;
+  block.faulty = block.optional = block.percent = false;
+  block.number.reset();
+  block.o_word.reset();
+  block.words.clear();
+  block.comments.clear();
+  block.assignments.clear();
+  unbalanced_ = false;
+  line_start_ = p_ = text_.data() + position_;
+  end_ = text_.data() + end;
+  position_ = end;
+  if (position_ < text_.size()) position_ += text_.substr(position_, 2) == "\r\n" ? 2 : 1;
+  if (block.text.size() > options_.max_line_bytes) {
+    fault(block, Code::line_too_long, line_start_,
+          fmt::format("the line is longer than {} bytes", options_.max_line_bytes), "is this a G-code file?");
+    return true;
+  }
+  read_line(block);
+  return true;
+}
+
+void BlockReader::read_line(Block& block) {
+  if (!read_prefix(block)) return;
+  while (p_ != end_) {
+    if (class_of(*p_) == CharClass::blank) {
+      ++p_;
+      continue;
+    }
+    if (read_item(block)) continue;
+    block.words.clear();
+    block.assignments.clear();
+    return;
+  }
+}
+
+/// What may stand before all words: '%' for a whole line, '/'. False if the line is done.
+bool BlockReader::read_prefix(Block& block) {
+  skip_space();
+  if (p_ == end_) return false;
+  if (*p_ == '%') {
+    block.percent = true;  // what follows on the line is a name for people
+    return false;
+  }
+  if (*p_ == '/') {
+    block.optional = true;
+    ++p_;
+    while (p_ != end_ && is_digit(*p_)) ++p_;  // "/2": switch number of the block delete
+  }
+  return true;
+}
+
+bool BlockReader::read_item(Block& block) {
+  switch (class_of(*p_)) {
+    case CharClass::letter: return upper(*p_) == 'O' ? read_o_word(block) : read_word(block);
+    case CharClass::comment: read_comment(block); return true;
+    case CharClass::hash: return read_assignment(block);
+    case CharClass::blank:
+    case CharClass::other: break;
+  }
+  if (*p_ == '/' && block.number && block.words.empty()) {  // "N10 /G1"
+    block.optional = true;
+    ++p_;
+    return true;
+  }
+  return fault(block, Code::bad_character, p_, fmt::format("{} cannot stand here, expected a letter", shown(*p_)));
+}
+
+bool BlockReader::read_word(Block& block) {
+  const char* letter = p_;
+  const Decimal number = read_decimal(letter + 1, end_);
+  Word word{number.value, column_of(letter), column_of(letter), 0, upper(*letter), ValueKind::number};
+  switch (number.fault) {
+    case DecimalFault::none: break;
+    case DecimalFault::missing: return read_computed_value(block, word);
+    case DecimalFault::malformed:
+      return fault(block, Code::number_malformed, number.end,
+                   fmt::format("{} cannot follow the number of the {} word", shown(*number.end), word.letter),
+                   "numbers have a sign, digits and one point, and no exponent");
+    case DecimalFault::too_large:
+      return fault(block, Code::number_too_large, letter,
+                   fmt::format("the number after {} is too large or too long", word.letter));
+  }
+  p_ = number.end;
+  if (word.letter == 'N' && !block.number && block.words.empty()) {
+    block.number = number.value;
+    return true;
+  }
+  word.value_length = static_cast<std::uint32_t>(p_ - letter) - 1;
+  block.words.push_back(word);
+  return true;
+}
+
+bool BlockReader::read_computed_value(Block& block, Word& word) {
+  const char* letter = p_;
+  const char* value_end = after_computed_value(letter + 1, end_);
+  if (value_end == letter + 1)
+    return fault(block, Code::number_missing, letter, fmt::format("no number after {}", shown(*letter)));
+  word.kind = ValueKind::expression;
+  word.value_length = static_cast<std::uint32_t>(value_end - letter) - 1;
+  p_ = value_end;
+  block.words.push_back(word);
+  return true;
+}
+
+/// "#1 = 2", "#<depth> = [#1 * 2]".
+bool BlockReader::read_assignment(Block& block) {
+  const char* begin = p_;
+  const char* equals = after_blanks(after_parameter(begin, end_), end_);
+  if (equals == end_ || *equals != '=')
+    return fault(block, Code::bad_character, begin, "a parameter at the begin of a word must be given a value with '='");
+  const char* value = equals + 1;
+  const char* value_end = after_computed_value(value, end_);
+  if (value_end == value) {
+    const Decimal number = read_decimal(value, end_);
+    if (number.fault != DecimalFault::none)
+      return fault(block, Code::number_missing, equals, "no value after '='");
+    value_end = number.end;
+  }
+  block.assignments.push_back({{begin, static_cast<std::size_t>(value_end - begin)}, column_of(begin)});
+  p_ = value_end;
+  return true;
+}
+
+/// "O100" alone is a program's number and stays a word; with a name or a keyword after it, it steers the program.
+bool BlockReader::read_o_word(Block& block) {
+  const char* begin = p_;
+  const Decimal number = read_decimal(begin + 1, end_);
+  if (number.fault == DecimalFault::none) {
+    const char* rest = after_blanks(number.end, end_);
+    if (rest == end_ || class_of(*rest) == CharClass::comment) return read_word(block);
+  }
+  const char* stop = std::find_if(begin, end_, [](char c) { return class_of(c) == CharClass::comment; });
+  while (stop != begin && is_blank(stop[-1])) --stop;
+  block.o_word = Computation{{begin, static_cast<std::size_t>(stop - begin)}, column_of(begin)};
+  p_ = stop;
+  return true;
+}
+
+/// Where the comment that opens at p_ ends: at the bracket that closes it, inner pairs counted; else at the first
+/// closing bracket; null if there is none.
+const char* BlockReader::comment_end(const Block& block) {
+  const char* first = std::find(p_ + 1, end_, ')');
+  if (first == end_) return nullptr;
+  if (std::find(p_ + 1, first, '(') == first) return first;
+  unusual(block, Code::comment_nested, p_, "a comment within a comment; controllers end it at the first ')'");
+  int depth = 0;
+  for (const char* q = p_; q != end_ && !unbalanced_; ++q) {
+    if (*q == '(') ++depth;
+    if (*q == ')' && --depth == 0) return q;
+  }
+  unbalanced_ = true;
+  return first;
+}
+
+void BlockReader::read_comment(Block& block) {
+  const std::uint32_t column = column_of(p_);
+  const char* begin = p_ + 1;
+  const char* close = *p_ == ';' ? end_ : comment_end(block);
+  if (close == nullptr) {
+    unusual(block, Code::comment_unclosed, p_, "the comment is not closed; it is taken to reach to the line's end");
+    close = end_;
+  }
+  block.comments.push_back({{begin, static_cast<std::size_t>(close - begin)}, column});
+  p_ = close == end_ ? end_ : close + 1;
+}
+
+void BlockReader::skip_space() {
+  while (p_ != end_ && is_blank(*p_)) ++p_;
+}
+
+bool BlockReader::fault(Block& block, Code code, const char* at, std::string message, std::string_view hint) {
+  block.faulty = true;
+  Diagnostic& d = diagnostics_.error(code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message));
+  d.hint = hint;
+  return false;
+}
+
+void BlockReader::unusual(const Block& block, Code code, const char* at, std::string message) {
+  const Severity severity = options_.strict ? Severity::error : Severity::warning;
+  diagnostics_.add({severity, code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message), {}, {}});
+}
+
+}  // namespace kerf::gcode

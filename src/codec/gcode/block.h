@@ -1,0 +1,103 @@
+// G-code text as blocks of words: what stands on each line and where, without any meaning.
+//
+// The reader hands out one block a line into a block that the caller keeps, so that a million lines allocate nothing.
+// Numbers are read to the nearest double. What a number may be computed from (parameters `#1`, `#<name>`, expressions
+// `[...]`, functions) and O-words are recognised and kept as text with their place; nothing here evaluates them.
+// Texts are views into the program's text, which must outlive the block.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+
+namespace kerf::gcode {
+
+enum class ValueKind : std::uint8_t { number, expression };
+
+/// A letter and its value. Letters are upper case; '@', '^' (polar words) and '*' (a checksum) count as letters.
+struct Word {
+  double value = 0.0;              // of a number; 0 for an expression
+  std::uint32_t column = 0;        // of the letter, from 1
+  std::uint32_t value_offset = 0;  // where the value begins in the block's text
+  std::uint32_t value_length = 0;
+  char letter = 0;
+  ValueKind kind = ValueKind::number;
+};
+
+/// A comment without its brackets or semicolon.
+struct Comment {
+  std::string_view text;
+  std::uint32_t column = 0;  // of the bracket or semicolon
+};
+
+/// Text that is to be computed: an assignment `#1 = [2 + 3]` or an O-word with all that follows it.
+struct Computation {
+  std::string_view text;
+  std::uint32_t column = 0;
+};
+
+/// One line. A faulty one (an error was reported) has no words; its comments up to the fault are kept.
+struct Block {
+  std::uint32_t line = 0;            // from 1
+  std::string_view text;             // the line without its end
+  bool faulty = false;
+  bool optional = false;             // begins with the block delete character '/'
+  bool percent = false;              // a line that begins with '%'
+  std::optional<double> number;      // N word
+  std::vector<Word> words;           // in order, N left out
+  std::vector<Comment> comments;     // in order
+  std::vector<Computation> assignments;
+  std::optional<Computation> o_word;
+
+  std::string_view value_text(const Word& word) const { return text.substr(word.value_offset, word.value_length); }
+};
+
+struct BlockReaderOptions {
+  std::string file_name = "<text>";
+  std::size_t max_line_bytes = 1'000'000;
+  bool strict = false;  // unusual comments are errors
+};
+
+class BlockReader {
+ public:
+  BlockReader(std::string_view text, BlockReaderOptions options, Diagnostics& diagnostics);
+
+  /// Reads the next line into `block`; false at the end of the text.
+  bool next(Block& block);
+  /// Bytes of the text already read.
+  std::size_t position() const { return position_; }
+
+ private:
+  std::size_t line_end();
+  void read_line(Block& block);
+  bool read_prefix(Block& block);
+  bool read_item(Block& block);
+  bool read_word(Block& block);
+  bool read_computed_value(Block& block, Word& word);
+  bool read_assignment(Block& block);
+  bool read_o_word(Block& block);
+  void read_comment(Block& block);
+  const char* comment_end(const Block& block);
+  void skip_space();
+  std::uint32_t column_of(const char* at) const { return static_cast<std::uint32_t>(at - line_start_) + 1; }
+  bool fault(Block& block, Code code, const char* at, std::string message, std::string_view hint = {});
+  void unusual(const Block& block, Code code, const char* at, std::string message);
+
+  std::string_view text_;
+  BlockReaderOptions options_;
+  Diagnostics& diagnostics_;
+  std::size_t position_ = 0;
+  std::size_t next_line_feed_ = 0;  // first '\n' at or after position_, found once
+  std::size_t next_return_ = 0;     // first '\r' likewise
+  std::uint32_t line_ = 0;
+  bool unbalanced_ = false;  // a comment of this line opens more brackets than it closes
+  const char* line_start_ = nullptr;
+  const char* p_ = nullptr;  // the next character of the line
+  const char* end_ = nullptr;
+};
+
+}  // namespace kerf::gcode

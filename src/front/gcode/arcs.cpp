@@ -1,0 +1,127 @@
+// Arcs: the centre from I J K or from a radius, turns, and what to do when they do not fit.
+//
+// Source: LinuxCNC's page "G2, G3 Arc Move"; radii that GRBL refuses are said.
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "front/gcode/interpreter.h"
+
+namespace kerf::gcode {
+namespace {
+
+// The radii at an arc's ends may differ by what rounding to a program's decimals leaves: GRBL's limits.
+constexpr double kRadiusSlack = 0.005;       // mm
+constexpr double kRadiusShare = 0.001;       // of the radius
+constexpr double kHopelessMismatch = 2.83;   // mm; LinuxCNC's limit, past it the centre is not meant so
+constexpr double kChordSlack = 0.0283;       // mm that a radius may be short of half the chord without a word
+constexpr double kSmallestRadius = 1e-9;     // mm; less is a point
+constexpr int kMostTurns = 10'000;
+
+/// u, v of a plane's right-handed frame as a centre in the order of the plane's name.
+Point2 in_name_order(Plane plane, double u, double v) { return plane == Plane::xz ? Point2{v, u} : Point2{u, v}; }
+
+}  // namespace
+
+void Interpreter::arc(Turn turn) {
+  const std::optional<Place> to = target();
+  if (!to) return;
+  const int extra = extra_turns();
+  const std::optional<Point2> centre = centre_of(*to, turn);
+  if (!centre || !radii_agree(*to, *centre)) {  // said; the tool goes on from where the program believes it to be
+    line_.use(Line::bit('I') | Line::bit('J') | Line::bit('K') | Line::bit('R'));
+    return cut(*to, feed_for(straight_length(*to)));
+  }
+  double length = 0.0;
+  if (modes_.feed_mode == FeedMode::inverse_time)
+    length = walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra).length();
+  const Feed feed = mm_per_min(feed_for(length));
+  if (add(step::Arc{to->at, *centre, modes_.plane, turn, extra, feed})) arrive(*to);
+}
+
+std::optional<Point2> Interpreter::centre_of(const Place& to, Turn turn) {
+  const PlaneAxes axes = axes_of(modes_.plane);
+  const bool offsets = line_.unused(static_cast<char>('I' + axes.u)) || line_.unused(static_cast<char>('I' + axes.v));
+  const std::optional<Point2> centre = offsets ? centre_from_offsets() : centre_from_radius(to, turn);
+  if (centre && !reachable({centre->x, centre->y, 0.0})) return std::nullopt;
+  return centre;
+}
+
+std::optional<Point2> Interpreter::centre_from_offsets() {
+  const PlaneAxes axes = axes_of(modes_.plane);
+  const std::optional<double> u = line_.take(static_cast<char>('I' + axes.u));
+  const std::optional<double> v = line_.take(static_cast<char>('I' + axes.v));
+  if (!modes_.absolute_centres)
+    return in_name_order(modes_.plane, here_.at[axes.u] + u.value_or(0.0) * modes_.scale,
+                         here_.at[axes.v] + v.value_or(0.0) * modes_.scale);
+  if (!u || !v) {
+    talker_.error(Code::arc_no_centre, line_.column(),
+                  "with absolute centres (G90.1) an arc needs both of its centre's words; read as a straight cut");
+    return std::nullopt;
+  }
+  return in_name_order(modes_.plane, *u * modes_.scale + shift_[axes.u], *v * modes_.scale + shift_[axes.v]);
+}
+
+/// R above 0 is the arc of less than a half turn, below 0 the other one.
+std::optional<Point2> Interpreter::centre_from_radius(const Place& to, Turn turn) {
+  const std::optional<double> word = line_.take('R');
+  if (!word) {
+    talker_.error(Code::arc_no_centre, line_.column(),
+                  "an arc needs its centre (I J K) or its radius (R); read as a straight cut");
+    return std::nullopt;
+  }
+  const PlaneAxes axes = axes_of(modes_.plane);
+  const double radius = *word * modes_.scale;
+  const Point2 from{here_.at[axes.u], here_.at[axes.v]}, end{to.at[axes.u], to.at[axes.v]};
+  const Point2 middle = 0.5 * (from + end);
+  const double chord = distance(from, end);
+  const double half = 0.5 * chord;
+  if (!(half > kSmallestRadius)) {
+    talker_.error(Code::arc_in_place, line_.column('R'),
+                  "an arc with a radius ends where it begins, which leaves its centre open; read as a straight cut",
+                  "a full circle needs I and J");
+    return std::nullopt;
+  }
+  if (half - std::abs(radius) > kChordSlack)
+    talker_.unusual(Code::arc_radius_too_small, line_.column('R'),
+                    fmt::format("the radius {:.4g} mm does not reach the arc's end, which is {:.4g} mm away; "
+                                "read as a half turn",
+                                std::abs(radius), chord));
+  const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
+  const bool left = (turn == Turn::ccw) == (radius > 0.0);  // of the way from begin to end
+  const Point2 normal{(from.y - end.y) / chord, (end.x - from.x) / chord};
+  const Point2 centre = middle + (left ? height : -height) * normal;
+  return in_name_order(modes_.plane, centre.x, centre.y);
+}
+
+bool Interpreter::radii_agree(const Place& to, Point2 centre) {
+  const ArcWalk walk = walk_arc(here_.at, to.at, centre, modes_.plane, Turn::ccw, 0);
+  if (!(std::max(walk.start_radius, walk.end_radius) > kSmallestRadius)) {
+    talker_.error(Code::arc_no_centre, line_.column(), "an arc of radius 0; read as a straight cut");
+    return false;
+  }
+  const double off = std::abs(walk.start_radius - walk.end_radius);
+  const double share = off / std::max(walk.start_radius, walk.end_radius);
+  if (off <= kRadiusSlack || share <= kRadiusShare) return true;
+  const std::string text = fmt::format("the arc begins {:.4f} mm and ends {:.4f} mm from its centre", walk.start_radius,
+                                       walk.end_radius);
+  if (off <= kHopelessMismatch) {
+    talker_.unusual(Code::arc_radius_mismatch, line_.column(), text);
+    return true;
+  }
+  talker_.error(Code::arc_radius_mismatch, line_.column(), text + "; read as a straight cut",
+                modes_.absolute_centres ? "are I J K offsets from the begin (G91.1)?"
+                                        : "are I J K absolute coordinates (G90.1)?");
+  return false;
+}
+
+int Interpreter::extra_turns() {
+  const std::optional<double> turns = line_.take('P');
+  if (!turns) return 0;
+  if (*turns >= 1.0 && *turns <= kMostTurns && *turns == std::floor(*turns)) return static_cast<int>(*turns) - 1;
+  talker_.error(Code::word_out_of_range, line_.column('P'),
+                fmt::format("the turns of an arc are a whole number from 1 to {}; read as 1", kMostTurns));
+  return 0;
+}
+
+}  // namespace kerf::gcode

@@ -1,0 +1,177 @@
+// What words set: units, feed, speed, tool, spindle, coolant, planes and modes, and the program's stops.
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "front/gcode/interpreter.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr double kMillimetresPerInch = 25.4;
+
+}  // namespace
+
+void Interpreter::set_feed_mode() {
+  const Tenths code = line_.code(Group::feed_mode);
+  const FeedMode mode = code == 930   ? FeedMode::inverse_time
+                        : code == 950 ? FeedMode::per_turn
+                                      : FeedMode::per_minute;
+  if (mode == modes_.feed_mode) return;
+  modes_.feed_mode = mode;
+  modes_.feed = 0.0;  // a feed of one mode means nothing in another
+  no_feed_said_ = false;
+}
+
+void Interpreter::set_units() {
+  const double scale = line_.code(Group::units) == 200 ? kMillimetresPerInch : 1.0;
+  if (scale != modes_.scale && line_.has('F'))
+    talker_.note(Code::feed_with_units, line_.column('F'),
+                 "the feed is taken in the units that its own line sets, as GRBL does; LinuxCNC takes the old ones");
+  modes_.scale = scale;
+}
+
+void Interpreter::set_feed() {
+  const double feed = *line_.take('F');
+  if (feed < 0.0) {
+    talker_.error(Code::word_out_of_range, line_.column('F'), "a feed cannot be negative; it is left out");
+    return;
+  }
+  modes_.feed = modes_.feed_mode == FeedMode::inverse_time ? feed : feed * modes_.scale;
+}
+
+void Interpreter::set_speed() {
+  const double speed = *line_.take('S');
+  if (speed < 0.0) {
+    talker_.error(Code::word_out_of_range, line_.column('S'), "a spindle speed cannot be negative; it is left out");
+    return;
+  }
+  const bool is_news = speed != modes_.speed && modes_.spindle != SpindleTurn::off;
+  modes_.speed = speed;
+  if (is_news && !line_.has(Group::spindle) && !line_.has(Group::tool_change)) spin(modes_.spindle);
+}
+
+void Interpreter::select_tool() {
+  const double number = *line_.take('T');
+  if (!(number >= 0.0 && number <= std::numeric_limits<int>::max()) || number != std::floor(number)) {
+    talker_.error(Code::word_out_of_range, line_.column('T'), "a tool's number is a whole number from 0");
+    return;
+  }
+  modes_.selected_tool = static_cast<int>(number);
+}
+
+void Interpreter::change_tool() {
+  if (line_.code(Group::tool_change) != 60) return;
+  if (!modes_.selected_tool)
+    talker_.unusual(Code::word_missing, line_.column(Group::tool_change), "M6 without a T word before; read as tool 0");
+  if (modes_.spindle != SpindleTurn::off) spin(SpindleTurn::off);
+  const int number = modes_.selected_tool.value_or(0);
+  add(step::ToolChange{number});
+  undescribed_tool_ = number;
+  if (!pending_shape_) return;
+  describe_tool(number, *pending_shape_, pending_spot_);
+  pending_shape_.reset();
+  undescribed_tool_.reset();
+}
+
+void Interpreter::turn_spindle() {
+  switch (line_.code(Group::spindle)) {
+    case 30: return spin(SpindleTurn::cw);
+    case 40: return spin(SpindleTurn::ccw);
+    default: return spin(SpindleTurn::off);
+  }
+}
+
+void Interpreter::spin(SpindleTurn turn) {
+  modes_.spindle = turn;
+  add(step::Spindle{turn == SpindleTurn::off ? rpm(0) : rpm(modes_.speed), turn});
+}
+
+void Interpreter::switch_coolant() {
+  const bool any = line_.has(Group::mist) || line_.has(Group::flood) || line_.has(Group::no_coolant);
+  if (!any) return;
+  const bool off = line_.has(Group::no_coolant);
+  modes_.mist = !off && (modes_.mist || line_.has(Group::mist));
+  modes_.flood = !off && (modes_.flood || line_.has(Group::flood));
+  add(step::Coolant{modes_.mist, modes_.flood});
+}
+
+void Interpreter::dwell() {
+  const std::optional<double> time = line_.take('P');
+  if (!time) {
+    talker_.error(Code::word_missing, line_.column(Group::dwell), "G4 needs its time: P and seconds");
+    return;
+  }
+  if (*time < 0.0) {
+    talker_.error(Code::word_out_of_range, line_.column('P'), "a time cannot be negative");
+    return;
+  }
+  add(step::Dwell{seconds(*time)});
+}
+
+void Interpreter::set_plane() {
+  switch (line_.code(Group::plane)) {
+    case 180: modes_.plane = Plane::xz; break;
+    case 190: modes_.plane = Plane::yz; break;
+    default: modes_.plane = Plane::xy; break;
+  }
+}
+
+void Interpreter::set_path_mode() {
+  step::PathMode mode;
+  const Tenths code = line_.code(Group::path_control);
+  if (code == 611) mode.kind = PathModeKind::exact_stop;
+  if (code == 640) {
+    mode.kind = PathModeKind::blend;
+    const double tolerance = line_.take('P').value_or(0.0);
+    if (tolerance < 0.0) talker_.error(Code::word_out_of_range, line_.column('P'), "a tolerance cannot be negative");
+    if (tolerance > 0.0) mode.tolerance = mm(tolerance * modes_.scale);
+    line_.use(Line::bit('Q'));  // how far straight pieces are joined: nothing for a path that is kept as it is
+  }
+  add(mode);
+}
+
+void Interpreter::set_distance() {
+  if (line_.has(Group::distance)) modes_.absolute = line_.code(Group::distance) == 900;
+  if (line_.has(Group::arc_distance)) modes_.absolute_centres = line_.code(Group::arc_distance) == 901;
+  if (line_.has(Group::retract)) modes_.retract_to_start = line_.code(Group::retract) == 980;
+}
+
+/// Words of codes that are left out are not left over.
+void Interpreter::use_words_of_other_codes() {
+  using L = Line;
+  if (line_.has(Group::tool_length)) line_.use(L::bit('H'));
+  if (line_.has(Group::tool_length) && line_.code(Group::tool_length) == 431) line_.use(kAxisLetters | kRotaryLetters);
+  if (line_.has(Group::compensation)) line_.use(L::bit('D'));
+  if (line_.has(Group::other) || line_.has(Group::tool_change))
+    line_.use(L::bit('P') | L::bit('Q') | L::bit('R') | L::bit('L'));
+  if (line_.has(Group::spindle_mode)) line_.use(L::bit('D'));
+  const bool turned = line_.has(Group::scaling) || line_.has(Group::rotation) || line_.has(Group::polar);
+  if (turned) line_.use(kAxisLetters | L::bit('R') | L::bit('P') | L::bit('I') | L::bit('J') | L::bit('K'));
+}
+
+void Interpreter::end_or_pause() {
+  const Tenths code = line_.code(Group::stop);
+  const bool ends = code == 20 || code == 300;
+  if (ends) end_program();
+  add(step::Verbatim{code_text('M', code)});
+}
+
+/// M2 and M30 set the modes back (LinuxCNC's page "M2, M30"; GRBL does the same). Units, position and tool stay.
+void Interpreter::end_program() {
+  program_.ended = true;
+  if (modes_.spindle != SpindleTurn::off) spin(SpindleTurn::off);
+  if (modes_.mist || modes_.flood) {
+    modes_.mist = modes_.flood = false;
+    add(step::Coolant{});
+  }
+  modes_.motion = 10;
+  modes_.plane = Plane::xy;
+  modes_.absolute = true;
+  if (modes_.feed_mode != FeedMode::per_minute) modes_.feed = 0.0;
+  modes_.feed_mode = FeedMode::per_minute;
+  cycle_ = {};
+}
+
+}  // namespace kerf::gcode

@@ -1,0 +1,82 @@
+// Motion figures of a toolpath.
+#include "kerf/report.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace kerf {
+namespace {
+
+ToolFigures& figures_of(PathReport& report, std::optional<int> tool) {
+  const auto found = std::find_if(report.tools.begin(), report.tools.end(),
+                                  [&](const ToolFigures& entry) { return entry.tool == tool; });
+  if (found != report.tools.end()) return *found;
+  report.tools.push_back({tool, {}, std::nullopt});
+  return report.tools.back();
+}
+
+/// What one motion adds, worked out once for the whole path and for its tool.
+struct Motion {
+  StepKind kind;
+  double length;  // mm
+  Box3 box;
+  Feed feed;
+};
+
+Motion measure(const Step& s, Point3 from) {
+  Motion motion{s.kind(), distance(from, s.to()), {}, s.feed()};
+  motion.box.add(s.to());
+  if (s.kind() == StepKind::arc) {
+    const ArcWalk walk = walk_of(s, from);
+    motion.length = walk.length();
+    motion.box = walk.bounds();
+  }
+  return motion;
+}
+
+void add(MotionFigures& figures, const Motion& motion, Feed rapid_feed) {
+  if (motion.kind == StepKind::probe) return;
+  if (motion.kind == StepKind::rapid) {
+    ++figures.rapids;
+    figures.rapid_mm += motion.length;
+    if (rapid_feed.raw() > 0.0) figures.rapid = figures.rapid + mm(motion.length) / rapid_feed;
+    return;
+  }
+  ++(motion.kind == StepKind::arc ? figures.arcs : figures.lines);
+  figures.cut_mm += motion.length;
+  figures.cut_bounds.add(motion.box);
+  if (!(motion.feed.raw() > 0.0)) return;
+  figures.feed.add(motion.feed.mm_per_min());
+  figures.cutting = figures.cutting + mm(motion.length) / motion.feed;
+}
+
+}  // namespace
+
+PathReport report_on(const Toolpath& path, const ReportOptions& options) {
+  PathReport report;
+  std::optional<int> tool;
+  Point3 at;
+  // Indices, not references: the list of tools grows.
+  const auto for_both = [&](auto&& change) {
+    change(report.all);
+    change(figures_of(report, tool).figures);
+  };
+  for (const Step& s : path.steps()) {
+    if (s.kind() == StepKind::tool_change) tool = s.tool_change().tool;
+    if (s.kind() == StepKind::dwell)
+      for_both([&](MotionFigures& f) { f.dwell = f.dwell + s.dwell().time; });
+    if (s.kind() == StepKind::spindle && s.spindle().turn != SpindleTurn::off)
+      for_both([&](MotionFigures& f) { f.speed.add(s.spindle().speed.rpm()); });
+    if (!s.is_motion()) continue;
+    const Motion motion = measure(s, at);
+    for_both([&](MotionFigures& f) { add(f, motion, options.rapid_feed); });
+    if (s.is_cutting()) {
+      std::optional<double>& deepest = figures_of(report, tool).deepest;
+      deepest = std::min(deepest.value_or(motion.box.low.z), motion.box.low.z);
+    }
+    at = s.to();
+  }
+  return report;
+}
+
+}  // namespace kerf
