@@ -142,7 +142,7 @@ struct Image {
   std::vector<std::uint8_t> rgba;  // rows from the top
 };
 /// Draws a mesh with light and shade, fitted to the picture; `colours` holds one sRGB colour a triangle (missing ones
-/// are drawn grey). Sizes are kept within 1 to 16384 pixels.
+/// are drawn grey). Sizes are kept within 1 to 8192 pixels a side.
 Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
 
 }  // namespace kerf
