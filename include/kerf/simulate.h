@@ -63,6 +63,9 @@ struct ColumnGrid {
   int nx = 0, ny = 0;
   std::vector<std::uint32_t> first;
   std::vector<Interval> intervals;
+  /// Empty, or one a column: for a column without material the step that took the last of it (so that the walls
+  /// around a through cut know who made them), else anything.
+  std::vector<std::uint32_t> cut_through;
 };
 
 /// The material left, as columns.
@@ -112,7 +115,9 @@ struct Mesh {
   std::vector<std::uint32_t> step;        // one a triangle; kStockSurface where none
 };
 
-/// The surface of the columns; closed and oriented.
+/// The surface of the columns: closed, oriented, every edge shared by exactly two triangles. Surfaces run through the
+/// columns' heights, walls stand between columns whose surfaces do not continue each other, the block's own sides and
+/// bottom are exact. See docs/decisions/0006-mesh.md. A stopped run returns an empty mesh.
 Mesh extract_mesh(const ColumnGrid& columns, Progress* progress = nullptr);
 
 /// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
@@ -136,7 +141,8 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  // rows from the top
 };
-/// Draws a mesh with light and shade; `colours` holds one sRGB colour a triangle.
+/// Draws a mesh with light and shade, fitted to the picture; `colours` holds one sRGB colour a triangle (missing ones
+/// are drawn grey). Sizes are kept within 1 to 8192 pixels a side.
 Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
 
 }  // namespace kerf

@@ -1,0 +1,178 @@
+// 3MF: a zip of XML parts. The model is written through the compressor piece by piece; colours are base materials,
+// which every reader knows. Dates are fixed, so that the same mesh gives the same bytes.
+#if KERF_WITH_3MF
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <minizip/zip.h>
+
+#include "codec/mesh/writers.h"
+
+namespace kerf::mesh_format {
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 16;
+
+/// minizip's "file": a string and a place in it.
+struct Memory {
+  std::string bytes;
+  std::size_t at = 0;
+};
+
+voidpf open_memory(voidpf opaque, const void*, int) { return opaque; }
+uLong read_memory(voidpf, voidpf stream, void* to, uLong size) {
+  Memory& memory = *static_cast<Memory*>(stream);
+  const std::size_t n = std::min<std::size_t>(size, memory.bytes.size() - std::min(memory.at, memory.bytes.size()));
+  std::copy_n(memory.bytes.data() + memory.at, n, static_cast<char*>(to));
+  memory.at += n;
+  return static_cast<uLong>(n);
+}
+uLong write_memory(voidpf, voidpf stream, const void* from, uLong size) {
+  Memory& memory = *static_cast<Memory*>(stream);
+  if (memory.bytes.size() < memory.at + size) memory.bytes.resize(memory.at + size);
+  std::copy_n(static_cast<const char*>(from), size, memory.bytes.data() + memory.at);
+  memory.at += size;
+  return size;
+}
+ZPOS64_T tell_memory(voidpf, voidpf stream) { return static_cast<Memory*>(stream)->at; }
+long seek_memory(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
+  Memory& memory = *static_cast<Memory*>(stream);
+  const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR ? memory.at
+                           : origin == ZLIB_FILEFUNC_SEEK_END ? memory.bytes.size()
+                                                              : 0;
+  memory.at = from + static_cast<std::size_t>(offset);
+  return 0;
+}
+int nothing(voidpf, voidpf) { return 0; }
+
+/// A zip in memory. Parts are written one after the other; text is handed to the compressor in pieces.
+class Package {
+ public:
+  Package() {
+    zlib_filefunc64_def calls{open_memory, read_memory, write_memory, tell_memory, seek_memory, nothing, nothing,
+                              &memory_};
+    zip_ = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &calls);
+  }
+  /// Begins a part; `large` where it may be longer than 4 GiB (readers of small files need not know zip64).
+  enum class Size : int { small = 0, large = 1 };
+  void begin(const char* part, Size size = Size::small) {
+    zip_fileinfo info{};
+    info.tmz_date.tm_year = 1980;  // the first day a zip can tell, so that the bytes do not change with time
+    info.tmz_date.tm_mday = 1;
+    zipOpenNewFileInZip64(zip_, part, &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, kLevel,
+                          static_cast<int>(size));
+  }
+  void write(std::string_view text) { zipWriteInFileInZip(zip_, text.data(), static_cast<unsigned>(text.size())); }
+  void end() { zipCloseFileInZip(zip_); }
+  std::string finish() {
+    zipClose(zip_, nullptr);
+    return std::move(memory_.bytes);
+  }
+
+ private:
+  /// Quick compression: meshes shrink little more at higher levels, in several times the time.
+  static constexpr int kLevel = 3;
+  Memory memory_;
+  zipFile zip_ = nullptr;
+};
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&': out += "&amp;"; break;
+      case '<': out += "&lt;"; break;
+      case '>': out += "&gt;"; break;
+      case '"': out += "&quot;"; break;
+      default: out += c;
+    }
+  }
+  return out;
+}
+
+class ModelWriter {
+ public:
+  explicit ModelWriter(Package& package) : package_(package) { text_.reserve(kPiece + 4096); }
+  ~ModelWriter() { package_.write(text_); }
+  template <class... Args>
+  void add(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Args>(args)...);
+    if (text_.size() < kPiece) return;
+    package_.write(text_);
+    text_.clear();
+  }
+
+ private:
+  Package& package_;
+  std::string text_;
+};
+
+void write_model(ModelWriter&& out, const MeshView& mesh) {
+  const bool coloured = !mesh.palette.empty() && !mesh.colour_index.empty();
+  out.add(
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
+      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n"
+      "<metadata name=\"Application\">Kerf</metadata>\n<resources>\n");
+  if (coloured) {
+    out.add("<basematerials id=\"2\">\n");
+    for (std::size_t k = 0; k < mesh.palette.size(); ++k) {
+      const auto& c = mesh.palette[k];
+      out.add("<base name=\"colour {}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n", k, c[0], c[1], c[2]);
+    }
+    out.add("</basematerials>\n");
+  }
+  out.add("<object id=\"1\" type=\"model\" name=\"{}\"{}>\n<mesh>\n<vertices>\n", escaped(plain_name(mesh)),
+          coloured ? " pid=\"2\" pindex=\"0\"" : "");
+  for (std::size_t v = 0; v < vertex_count(mesh); ++v) {
+    const float* p = mesh.positions.data() + 3 * v;
+    out.add("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", p[0], p[1], p[2]);
+  }
+  out.add("</vertices>\n<triangles>\n");
+  for (std::size_t t = 0; t < triangle_count(mesh); ++t) {
+    const std::uint32_t* i = mesh.triangles.data() + 3 * t;
+    const std::size_t colour = colour_of(mesh, t);
+    if (coloured && colour != 0 && colour < mesh.palette.size()) {
+      out.add("<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\" pid=\"2\" p1=\"{}\"/>\n", i[0], i[1], i[2], colour);
+    } else {
+      out.add("<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", i[0], i[1], i[2]);
+    }
+  }
+  out.add("</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n");
+}
+
+constexpr std::string_view kContentTypes =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
+    "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+    "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+    "</Types>\n";
+constexpr std::string_view kRelations =
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+    "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
+    "<Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
+    "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/>\n"
+    "</Relationships>\n";
+
+}  // namespace
+
+std::string write_three_mf(const MeshView& mesh) {
+  Package package;
+  package.begin("[Content_Types].xml");
+  package.write(kContentTypes);
+  package.end();
+  package.begin("_rels/.rels");
+  package.write(kRelations);
+  package.end();
+  // A line of the model has at most 100 bytes.
+  const bool large = (vertex_count(mesh) + triangle_count(mesh)) > (std::size_t{1} << 32) / 100;
+  package.begin("3D/3dmodel.model", large ? Package::Size::large : Package::Size::small);
+  write_model(ModelWriter(package), mesh);
+  package.end();
+  return package.finish();
+}
+
+}  // namespace kerf::mesh_format
+
+#endif

@@ -1,0 +1,272 @@
+// Joins the surfaces of the four columns around each corner and places their vertices.
+#include "sim/mesh_corners.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace kerf::meshing {
+namespace {
+
+/// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
+constexpr double kSlopeShare = 0.5;
+/// A higher step is a slope, not a wall, if the step before or after it in the same direction is at least its
+/// height divided by this: smooth surfaces change their rise by less from column to column until they are walls.
+constexpr double kRiseRatio = 2.5;
+
+constexpr double kFar = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+Columns::Columns(const ColumnGrid& grid)
+    : grid_(grid),
+      size_x_(grid.bounds.high.x - grid.bounds.low.x),
+      size_y_(grid.bounds.high.y - grid.bounds.low.y),
+      height_(grid.bounds.high.z - grid.bounds.low.z) {}
+
+int Columns::facing_end(int i, int j, int end, int other_i, int other_j) const {
+  const int other_ends = ends(other_i, other_j);
+  const int k = end / 2;
+  const Interval& mine = interval(i, j, k);
+  // Void bounded by this end: above a high end, below a low end.
+  const double void_low = end % 2 == 1 ? mine.high : k > 0 ? interval(i, j, k - 1).high : -kFar;
+  const double void_high = end % 2 == 0 ? mine.low : end + 1 < ends(i, j) ? interval(i, j, k + 1).low : kFar;
+  for (int n = 0; 2 * n < other_ends; ++n) {
+    const Interval& other = interval(other_i, other_j, n);
+    if (other.low >= mine.high) break;
+    if (other.high <= mine.low) continue;
+    if (end % 2 == 1) {
+      const double next = 2 * n + 2 < other_ends ? interval(other_i, other_j, n + 1).low : kFar;
+      if (std::max<double>(void_low, other.high) < std::min(void_high, next)) return 2 * n + 1;
+    } else {
+      const double before = n > 0 ? interval(other_i, other_j, n - 1).high : -kFar;
+      if (std::max(void_low, before) < std::min<double>(void_high, other.low)) return 2 * n;
+    }
+  }
+  return -1;
+}
+
+bool Columns::continues(int i, int j, int end, int other_i, int other_j, int other_end) const {
+  const double rise = z(other_i, other_j, other_end) - z(i, j, end);
+  if (std::abs(rise) <= kSlopeShare * pitch()) return true;
+  const int dx = other_i - i, dy = other_j - j;
+  const auto goes_on = [&](double step) { return step * rise > 0.0 && std::abs(rise) <= kRiseRatio * std::abs(step); };
+  const int before = facing_end(i, j, end, i - dx, j - dy);
+  if (before >= 0 && goes_on(z(i, j, end) - z(i - dx, j - dy, before))) return true;
+  const int after = facing_end(other_i, other_j, other_end, other_i + dx, other_j + dy);
+  return after >= 0 && goes_on(z(other_i + dx, other_j + dy, after) - z(other_i, other_j, other_end));
+}
+
+double Columns::slope(int i, int j, int end, int dx, int dy) const {
+  double sum = 0.0;
+  int found = 0;
+  for (const int side : {-1, 1}) {
+    const int other_i = i + side * dx, other_j = j + side * dy;
+    const int other = facing_end(i, j, end, other_i, other_j);
+    if (other < 0 || !continues(i, j, end, other_i, other_j, other)) continue;
+    sum += side * (z(other_i, other_j, other) - z(i, j, end));
+    ++found;
+  }
+  return found == 0 ? 0.0 : sum / (found * pitch());
+}
+
+void CornerRow::build(const Columns& columns, int j) {
+  corners_.clear();
+  sheets_.clear();
+  ranks_.clear();
+  for (int i = 0; i <= columns.nx(); ++i)
+    if (!build_simple(columns, i, j)) build_any(columns, i, j);
+}
+
+/// The common case: four columns of one interval each, with one surface above and one below.
+bool CornerRow::build_simple(const Columns& columns, int i, int j) {
+  if (i == 0 || j == 0 || i == columns.nx() || j == columns.ny()) return false;
+  double low_sum = 0.0, high_sum = 0.0;
+  float low_min = std::numeric_limits<float>::max(), low_max = -low_min, high_min = low_min, high_max = -low_min;
+  for (int q = 0; q < 4; ++q) {
+    if (columns.ends(column_x(i, q), column_y(j, q)) != 2) return false;
+    const Interval& run = columns.interval(column_x(i, q), column_y(j, q), 0);
+    low_sum += run.low;
+    high_sum += run.high;
+    low_min = std::min(low_min, run.low);
+    low_max = std::max(low_max, run.low);
+    high_min = std::min(high_min, run.high);
+    high_max = std::max(high_max, run.high);
+  }
+  const double limit = kSlopeShare * columns.pitch();
+  if (high_max - high_min > limit || low_max - low_min > limit || low_max >= high_min) return false;
+  Corner corner;
+  corner.first_sheet = static_cast<std::uint32_t>(sheets_.size());
+  corner.sheets = 2;
+  const double x = columns.corner_x(i), y = columns.corner_y(j);
+  sheets_.push_back({x, y, low_min == low_max ? low_min : low_sum / 4, kNone, false});
+  sheets_.push_back({x, y, high_min == high_max ? high_min : high_sum / 4, kNone, false});
+  for (std::size_t q = 0; q < 4; ++q) {
+    corner.first_rank[q] = static_cast<std::uint32_t>(ranks_.size());
+    corner.ends[q] = 2;
+  }
+  ranks_.push_back(0);
+  ranks_.push_back(1);
+  corners_.push_back(corner);
+  return true;
+}
+
+void CornerRow::build_any(const Columns& columns, int i, int j) {
+  gather(columns, i, j);
+  join(columns, i, j, 0, 1);
+  join(columns, i, j, 0, 2);
+  join(columns, i, j, 1, 3);
+  join(columns, i, j, 2, 3);
+  sort_groups(columns, i, j);
+
+  Corner corner;
+  corner.first_sheet = static_cast<std::uint32_t>(sheets_.size());
+  corner.sheets = static_cast<std::uint32_t>(groups_.size());
+  for (std::size_t q = 0; q < 4; ++q) {
+    corner.first_rank[q] = static_cast<std::uint32_t>(ranks_.size());
+    corner.ends[q] = static_cast<int>(group_of_[q].size());
+    ranks_.insert(ranks_.end(), group_of_[q].begin(), group_of_[q].end());
+  }
+  for (const Group& group : groups_) sheets_.push_back({0.0, 0.0, group.mean, kNone, false});
+  const bool border = i == 0 || j == 0 || i == columns.nx() || j == columns.ny();
+  const Shift shift = shift_of(columns, corner, border);
+  place(columns, i, j, corner, shift);
+  corners_.push_back(corner);
+}
+
+/// Every end of the four columns becomes a group of its own.
+void CornerRow::gather(const Columns& columns, int i, int j) {
+  groups_.clear();
+  for (std::size_t q = 0; q < 4; ++q) {
+    const int quadrant = static_cast<int>(q);
+    const int ends = columns.ends(column_x(i, quadrant), column_y(j, quadrant));
+    group_of_[q].clear();
+    for (int e = 0; e < ends; ++e) {
+      group_of_[q].push_back(static_cast<int>(groups_.size()));
+      groups_.emplace_back();
+      groups_.back().end[q] = e;
+    }
+  }
+}
+
+/// Joins the groups of neighbouring quadrants whose surfaces continue each other. A group never takes two ends of
+/// one column, so a spiral ramp around the corner stays open on one side.
+void CornerRow::join(const Columns& columns, int i, int j, int q, int other) {
+  const int qi = column_x(i, q), qj = column_y(j, q), oi = column_x(i, other), oj = column_y(j, other);
+  std::vector<int>& mine = group_of_[static_cast<std::size_t>(q)];
+  for (int e = 0; e < static_cast<int>(mine.size()); ++e) {
+    const int f = columns.facing_end(qi, qj, e, oi, oj);
+    if (f < 0 || !columns.continues(qi, qj, e, oi, oj, f)) continue;
+    const int keep = mine[static_cast<std::size_t>(e)];
+    const int gone = group_of_[static_cast<std::size_t>(other)][static_cast<std::size_t>(f)];
+    if (keep == gone) continue;
+    Group& a = groups_[static_cast<std::size_t>(keep)];
+    Group& b = groups_[static_cast<std::size_t>(gone)];
+    bool clash = false;
+    for (std::size_t k = 0; k < 4; ++k) clash = clash || (a.end[k] >= 0 && b.end[k] >= 0);
+    if (clash) continue;
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (b.end[k] < 0) continue;
+      a.end[k] = b.end[k];
+      group_of_[k][static_cast<std::size_t>(b.end[k])] = keep;
+    }
+    b = Group{};
+  }
+}
+
+/// Drops the groups that were joined to others, sorts the rest by height and renumbers.
+void CornerRow::sort_groups(const Columns& columns, int i, int j) {
+  std::size_t kept = 0;
+  for (Group& group : groups_) {
+    double sum = 0.0, lowest = kFar, highest = -kFar;
+    int members = 0;
+    for (int q = 0; q < 4; ++q) {
+      const int e = group.end[static_cast<std::size_t>(q)];
+      if (e < 0) continue;
+      const double z = columns.z(column_x(i, q), column_y(j, q), e);
+      sum += z;
+      lowest = std::min(lowest, z);
+      highest = std::max(highest, z);
+      ++members;
+    }
+    if (members == 0) continue;
+    group.mean = lowest == highest ? lowest : sum / members;
+    groups_[kept++] = group;
+  }
+  groups_.resize(kept);
+  // Equal heights: the material that ends there comes before the material that begins there.
+  const auto begins = [](const Group& g) {
+    for (const int e : g.end)
+      if (e >= 0) return e % 2 == 0;
+    return false;
+  };
+  std::stable_sort(groups_.begin(), groups_.end(), [&](const Group& a, const Group& b) {
+    if (a.mean != b.mean) return a.mean < b.mean;
+    return begins(a) < begins(b);
+  });
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    for (std::size_t q = 0; q < 4; ++q)
+      if (groups_[g].end[q] >= 0) group_of_[q][static_cast<std::size_t>(groups_[g].end[q])] = static_cast<int>(g);
+}
+
+/// Where the corner's line is moved to, so that walls run smoothly past the columns' squares: to the middle of the
+/// points half way between the columns that a wall divides (surface nets in plan), weighted by the walls' heights.
+/// Marks the sheets between which four walls meet. Corners on the block's sides stay.
+CornerRow::Shift CornerRow::shift_of(const Columns& columns, Corner& corner, bool border) {
+  std::array<int, 4> material{};
+  std::array<int, 4> next{};
+  Shift sum;
+  double weight = 0.0;
+  for (std::uint32_t r = 0; r + 1 < corner.sheets; ++r) {
+    for (std::size_t q = 0; q < 4; ++q) {
+      const int e = groups_[r].end[q];
+      if (e >= 0) material[q] += e % 2 == 0 ? 1 : -1;
+      next[q] = material[q] > 0 ? 1 : 0;
+    }
+    const int south = next[0] ^ next[1], north = next[2] ^ next[3], west = next[0] ^ next[2], east = next[1] ^ next[3];
+    const int walls = south + north + west + east;
+    if (walls == 0) continue;
+    Sheet& low = sheets_[corner.first_sheet + r];
+    Sheet& high = sheets_[corner.first_sheet + r + 1];
+    if (walls == 4) low.crossed = high.crossed = true;
+    const double height = groups_[r + 1].mean - groups_[r].mean;
+    sum.x += height * (east - west) / walls;
+    sum.y += height * (north - south) / walls;
+    weight += height;
+  }
+  if (border || weight <= 0.0) return {};
+  return {sum.x / weight * columns.pitch() / 2, sum.y / weight * columns.pitch() / 2};
+}
+
+/// Gives each sheet its point. A sheet with all four columns around an unmoved corner has their mean height; others
+/// are continued to the corner by their slopes, never past half way to the next sheet in the corner's line.
+void CornerRow::place(const Columns& columns, int i, int j, const Corner& corner, Shift shift) {
+  const double x = columns.corner_x(i) + shift.x, y = columns.corner_y(j) + shift.y;
+  for (std::uint32_t r = 0; r < corner.sheets; ++r) {
+    const Group& group = groups_[r];
+    Sheet& sheet = sheets_[corner.first_sheet + r];
+    sheet.x = x;
+    sheet.y = y;
+    const bool whole = std::find(group.end.begin(), group.end.end(), -1) == group.end.end();
+    if (whole && shift.x == 0.0 && shift.y == 0.0) continue;
+    double change = 0.0;
+    int members = 0;
+    for (int q = 0; q < 4; ++q) {
+      const int e = group.end[static_cast<std::size_t>(q)];
+      if (e < 0) continue;
+      const int ci = column_x(i, q), cj = column_y(j, q);
+      change += columns.slope(ci, cj, e, 1, 0) * (x - (ci + 0.5) * columns.pitch());
+      change += columns.slope(ci, cj, e, 0, 1) * (y - (cj + 0.5) * columns.pitch());
+      ++members;
+    }
+    if (change == 0.0) continue;
+    const double below = r > 0 ? (groups_[r - 1].mean + group.mean) / 2 : std::min(0.0, group.mean);
+    const double above =
+        r + 1 < corner.sheets ? (groups_[r + 1].mean + group.mean) / 2 : std::max(columns.height(), group.mean);
+    sheet.z = std::clamp(group.mean + change / members, below, above);
+  }
+}
+
+}  // namespace kerf::meshing

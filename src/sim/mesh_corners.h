@@ -1,0 +1,118 @@
+// The corners of the columns, as the mesh sees them: which surfaces of the four columns around a corner are one
+// surface there, and where its vertex lies. docs/decisions/0006-mesh.md tells the whole method.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "kerf/simulate.h"
+
+namespace kerf::meshing {
+
+/// No vertex yet, or no such end.
+inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Reads a ColumnGrid by column. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the high one.
+class Columns {
+ public:
+  explicit Columns(const ColumnGrid& grid);
+
+  int nx() const { return grid_.nx; }
+  int ny() const { return grid_.ny; }
+  double pitch() const { return grid_.pitch; }
+  double height() const { return height_; }
+  const ColumnGrid& grid() const { return grid_; }
+  /// Position of corner number i (0 to nx) above the block's low side; the last lies on the block's high side.
+  double corner_x(int i) const { return i >= nx() ? size_x_ : std::min(i * pitch(), size_x_); }
+  double corner_y(int j) const { return j >= ny() ? size_y_ : std::min(j * pitch(), size_y_); }
+
+  bool inside(int i, int j) const { return i >= 0 && j >= 0 && i < nx() && j < ny(); }
+  std::size_t number(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx()) + static_cast<std::size_t>(i);
+  }
+  /// Ends of a column; 0 outside the grid.
+  int ends(int i, int j) const {
+    if (!inside(i, j)) return 0;
+    const std::size_t n = number(i, j);
+    return 2 * static_cast<int>(grid_.first[n + 1] - grid_.first[n]);
+  }
+  const Interval& interval(int i, int j, int k) const {
+    return grid_.intervals[grid_.first[number(i, j)] + static_cast<std::size_t>(k)];
+  }
+  double z(int i, int j, int end) const {
+    const Interval& run = interval(i, j, end / 2);
+    return end % 2 == 0 ? run.low : run.high;
+  }
+  std::uint32_t step(int i, int j, int end) const {
+    const Interval& run = interval(i, j, end / 2);
+    return end % 2 == 0 ? run.low_step : run.high_step;
+  }
+  /// The end of a neighbouring column that faces the same void as `end` does with material behind both; -1: none.
+  int facing_end(int i, int j, int end, int other_i, int other_j) const;
+  /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands between.
+  bool continues(int i, int j, int end, int other_i, int other_j, int other_end) const;
+  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that continue it.
+  double slope(int i, int j, int end, int dx, int dy) const;
+
+ private:
+  const ColumnGrid& grid_;
+  double size_x_, size_y_, height_;
+};
+
+/// One surface (or several ends of one column each) at a corner: one vertex.
+struct Sheet {
+  double x = 0.0, y = 0.0, z = 0.0;  // mm from the block's low corner
+  std::uint32_t vertex = kNone;      // made when the first triangle needs it
+  bool crossed = false;              // four walls meet in the corner's line here
+};
+
+/// The sheets at a corner, lowest first, and for each end of the four columns around (quadrant 0: low x and low y,
+/// 1: high x, 2: high y, 3: both) its sheet's rank.
+struct Corner {
+  std::uint32_t first_sheet = 0;
+  std::uint32_t sheets = 0;
+  std::array<std::uint32_t, 4> first_rank{};
+  std::array<int, 4> ends{};
+};
+
+/// The corners with one y. Vectors are kept from row to row, so that no memory is asked for in the long run.
+class CornerRow {
+ public:
+  void build(const Columns& columns, int j);
+  const Corner& corner(int i) const { return corners_[static_cast<std::size_t>(i)]; }
+  Sheet& sheet(const Corner& corner, int rank) { return sheets_[corner.first_sheet + static_cast<std::uint32_t>(rank)]; }
+  int rank(const Corner& corner, int quadrant, int end) const {
+    return ranks_[corner.first_rank[static_cast<std::size_t>(quadrant)] + static_cast<std::uint32_t>(end)];
+  }
+
+ private:
+  struct Group {
+    std::array<int, 4> end{-1, -1, -1, -1};  // the end of each quadrant's column, or -1
+    double mean = 0.0;
+  };
+  struct Shift {
+    double x = 0.0, y = 0.0;
+  };
+
+  bool build_simple(const Columns& columns, int i, int j);
+  void build_any(const Columns& columns, int i, int j);
+  void gather(const Columns& columns, int i, int j);
+  void join(const Columns& columns, int i, int j, int q, int other);
+  void sort_groups(const Columns& columns, int i, int j);
+  Shift shift_of(const Columns& columns, Corner& corner, bool border);
+  void place(const Columns& columns, int i, int j, const Corner& corner, Shift shift);
+
+  std::vector<Corner> corners_;
+  std::vector<Sheet> sheets_;
+  std::vector<int> ranks_;
+  // Scratch of one corner.
+  std::array<std::vector<int>, 4> group_of_;
+  std::vector<Group> groups_;
+};
+
+/// Column of a quadrant around corner (i, j).
+constexpr int column_x(int i, int quadrant) { return i - 1 + (quadrant & 1); }
+constexpr int column_y(int j, int quadrant) { return j - 1 + (quadrant >> 1); }
+
+}  // namespace kerf::meshing

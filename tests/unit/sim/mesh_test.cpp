@@ -1,0 +1,313 @@
+// The columns' surface: closed for every configuration, right in volume and place, with the steps that made it.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <random>
+#include <set>
+
+#include "kerf/simulate.h"
+
+namespace kerf {
+namespace {
+
+using Column = std::vector<Interval>;
+
+ColumnGrid make_grid(int nx, int ny, double pitch, double height, const std::function<Column(double, double)>& at) {
+  ColumnGrid grid;
+  grid.bounds = {{10, 20, -height}, {10 + nx * pitch, 20 + ny * pitch, 0}};
+  grid.pitch = pitch;
+  grid.nx = nx;
+  grid.ny = ny;
+  grid.first.push_back(0);
+  for (int j = 0; j < ny; ++j) {
+    for (int i = 0; i < nx; ++i) {
+      for (const Interval& run : at((i + 0.5) * pitch, (j + 0.5) * pitch)) grid.intervals.push_back(run);
+      grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
+    }
+  }
+  return grid;
+}
+
+double column_volume(const ColumnGrid& grid) {
+  double sum = 0;
+  for (const Interval& run : grid.intervals) sum += run.high - run.low;
+  return sum * grid.pitch * grid.pitch;
+}
+
+Box3 bounds_of(const Mesh& mesh) {
+  Box3 box;
+  for (std::size_t k = 0; k < mesh.positions.size(); k += 3)
+    box.add(Point3{mesh.positions[k], mesh.positions[k + 1], mesh.positions[k + 2]});
+  return box;
+}
+
+/// Each vertex is used, and its triangles form one fan: the mesh is a 2-manifold.
+bool one_fan_a_vertex(const Mesh& mesh) {
+  std::vector<std::map<std::uint32_t, std::uint32_t>> next(mesh.positions.size() / 3);
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
+    for (std::size_t k = 0; k < 3; ++k)
+      next[mesh.triangles[t + k]][mesh.triangles[t + (k + 1) % 3]] = mesh.triangles[t + (k + 2) % 3];
+  for (const auto& link : next) {
+    if (link.empty()) { std::puts("unused"); return false; }
+    std::size_t count = 0;
+    std::uint32_t v = link.begin()->first;
+    do {
+      const auto found = link.find(v);
+      if (found == link.end()) return false;
+      v = found->second;
+      ++count;
+    } while (v != link.begin()->first && count <= link.size());
+    if (count != link.size()) return false;
+  }
+  return true;
+}
+
+void expect_sound(const ColumnGrid& grid, const Mesh& mesh) {
+  EXPECT_EQ(mesh.triangles.size(), 3 * mesh.step.size());
+  EXPECT_EQ(check_mesh(mesh).bad_edges, 0u);
+  EXPECT_TRUE(one_fan_a_vertex(mesh));
+  const Box3 box = bounds_of(mesh);
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GE(box.low[axis], grid.bounds.low[axis] - 1e-5);
+    EXPECT_LE(box.high[axis], grid.bounds.high[axis] + 1e-5);
+  }
+}
+
+TEST(Mesh, NothingLeftIsAnEmptyMesh) {
+  const ColumnGrid grid = make_grid(3, 2, 1, 5, [](double, double) { return Column{}; });
+  EXPECT_TRUE(extract_mesh(grid).triangles.empty());
+  EXPECT_TRUE(extract_mesh(ColumnGrid{}).triangles.empty());
+}
+
+TEST(Mesh, OneColumnIsABox) {
+  const ColumnGrid grid = make_grid(1, 1, 2, 5, [](double, double) { return Column{{0, 5, kStockSurface, 7}}; });
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  EXPECT_EQ(mesh.step.size(), 12u);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 20.0, 1e-4);
+  EXPECT_EQ(std::count(mesh.step.begin(), mesh.step.end(), 7u), 2);
+}
+
+TEST(Mesh, UncutBlockIsExactAndMerged) {
+  ColumnGrid grid = make_grid(300, 200, 0.1, 8, [](double, double) { return Column{{0, 8}}; });
+  grid.bounds.high.x -= 0.03;  // the pitch does not divide the block
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 29.97 * 20 * 8, 0.01);
+  EXPECT_EQ(bounds_of(mesh).low, (Point3{10, 20, -8}));
+  EXPECT_NEAR(bounds_of(mesh).high.x, grid.bounds.high.x, 1e-5);
+  EXPECT_LT(mesh.step.size(), 4u * 300u * 200u / 20u);  // a twentieth of two triangles a column and side
+  for (const std::uint32_t step : mesh.step) EXPECT_EQ(step, kStockSurface);
+}
+
+TEST(Mesh, PocketHasLevelFloorExactVolumeAndWallsOfTheCut) {
+  const ColumnGrid grid = make_grid(100, 80, 0.1, 6, [](double x, double y) {
+    const bool in = x > 2 && x < 7 && y > 3 && y < 6;
+    return Column{{0, in ? 2.0f : 6.0f, kStockSurface, in ? 5u : kStockSurface}};
+  });
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.1 * 16 * 4);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 4 * 0.1 * 0.1 * 4);
+  double floor = 0, walls = 0;
+  for (std::size_t t = 0; t < mesh.step.size(); ++t) {
+    if (mesh.step[t] != 5) continue;
+    std::array<Point3, 3> p;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* v = mesh.positions.data() + 3 * mesh.triangles[3 * t + k];
+      p[k] = {v[0], v[1], v[2]};
+    }
+    const Point3 n = cross(p[1] - p[0], p[2] - p[0]);
+    if (n.z != 0.0) {
+      floor += n.z / 2;
+      for (const Point3& q : p) EXPECT_NEAR(q.z, -4.0, 1e-6);
+    } else {
+      walls += length(n) / 2;
+    }
+  }
+  EXPECT_NEAR(floor, 15.0, 0.02);
+  EXPECT_NEAR(walls, 16 * 4.0, 1.0);
+}
+
+TEST(Mesh, SlopesAreSmooth) {
+  // A roof with slopes of 1 in 1 and 3 in 1, up to the block's sides: every vertex of a cut face lies on the surface.
+  const auto surface = [](double x, double y) { return std::min(1.0 + x, 30.0 - 3 * x) + 0.2 * y; };
+  const ColumnGrid grid = make_grid(90, 60, 0.1, 12, [&](double x, double y) {
+    return Column{{0, static_cast<float>(surface(x, y)), kStockSurface, 1}};
+  });
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  double worst = 0;
+  for (std::size_t t = 0; t < mesh.step.size(); ++t) {
+    if (mesh.step[t] != 1) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* v = mesh.positions.data() + 3 * mesh.triangles[3 * t + k];
+      worst = std::max(worst, std::abs(v[2] + 12 - surface(v[0] - 10.0, v[1] - 20.0)));
+    }
+  }
+  EXPECT_LT(worst, 0.11);  // at the ridge; a stair-cased face would be off by 0.15 everywhere
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.1 * 30 * 1);
+}
+
+TEST(Mesh, BallGrooveIsRoundToColumnAccuracy) {
+  const double r = 1.5;
+  const ColumnGrid grid = make_grid(80, 60, 0.05, 5, [&](double x, double) {
+    const double d = std::abs(x - 2.0);
+    const double z = d < r ? 4.0 - std::sqrt(r * r - d * d) : 5.0;
+    return Column{{0, static_cast<float>(std::min(z, 5.0)), kStockSurface, d < r ? 3u : kStockSurface}};
+  });
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.05 * 6 * 2.5);
+  double worst = 0;
+  for (std::size_t v = 0; v < mesh.positions.size(); v += 3) {
+    const double x = mesh.positions[v] - 12.0, z = mesh.positions[v + 2] + 5.0;
+    if (z > 4.5 || z < 2 || std::abs(x) > 1.2) continue;
+    worst = std::max(worst, std::abs(std::hypot(x, 4.0 - z) - r));
+  }
+  EXPECT_LT(worst, 0.002);
+}
+
+TEST(Mesh, KeyholeUndercutIsHollow) {
+  // A slot 2 wide above a chamber 5 wide.
+  const ColumnGrid grid = make_grid(80, 50, 0.1, 6, [](double x, double) {
+    const double d = std::abs(x - 4.0);
+    if (d < 1.0) return Column{{0, 1, kStockSurface, 2}};
+    if (d < 2.5) return Column{{0, 1, kStockSurface, 2}, {3, 6, 2, kStockSurface}};
+    return Column{{0, 6}};
+  });
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), (8 * 6 - 2 * 3 - 5 * 2) * 5.0, 0.01);
+}
+
+TEST(Mesh, ThroughCutWallsKnowTheirStep) {
+  ColumnGrid grid = make_grid(30, 30, 0.2, 2, [](double x, double y) {
+    return std::hypot(x - 3, y - 3) < 1.5 ? Column{} : Column{{0, 2}};
+  });
+  grid.cut_through.assign(900, 11);
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  EXPECT_GT(std::count(mesh.step.begin(), mesh.step.end(), 11u), 20);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.2 * 9.4 * 2);
+  grid.cut_through.clear();
+  for (const std::uint32_t step : extract_mesh(grid).step) EXPECT_EQ(step, kStockSurface);
+}
+
+TEST(Mesh, DiagonalTouchIsParted) {
+  // Two columns that touch along a line only, free, on a common floor, under a common lid, and both.
+  for (const int kind : {0, 1, 2, 3}) {
+    const ColumnGrid grid = make_grid(2, 2, 1, 6, [&](double x, double y) {
+      const float low = kind == 1 || kind == 3 ? 2.0f : 0.0f, high = kind >= 2 ? 4.0f : 6.0f;
+      Column column;
+      const bool pillar = (x < 1) == (y < 1);
+      if (pillar) return Column{{0, 6}};
+      if (low > 0) column.push_back({0, low});
+      if (high < 6) column.push_back({high, 6});
+      return column;
+    });
+    const Mesh mesh = extract_mesh(grid);
+    SCOPED_TRACE(kind);
+    expect_sound(grid, mesh);
+    EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 1e-4);
+  }
+}
+
+TEST(Mesh, AnyColumnsMakeAClosedMesh) {
+  const unsigned seed = std::random_device{}();
+  std::printf("seed %u\n", seed);
+  std::mt19937 random(seed);
+  const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  for (int round = 0; round < 1500; ++round) {
+    const int nx = 1 + pick(9), ny = 1 + pick(9), levels = 2 + pick(9), most = 1 + pick(4);
+    const double pitch = std::array{0.05, 0.3, 1.0, 4.0}[static_cast<std::size_t>(pick(4))];
+    const ColumnGrid grid = make_grid(nx, ny, pitch, levels, [&](double, double) {
+      std::set<int> ends;
+      for (int n = 2 * pick(most + 1); n > 0; --n) ends.insert(pick(levels + 1));
+      if (ends.size() % 2 == 1) ends.erase(ends.begin());
+      Column column;
+      for (auto it = ends.begin(); it != ends.end(); std::advance(it, 2)) {
+        const auto low = static_cast<float>(*it), high = static_cast<float>(*std::next(it));
+        column.push_back({low, high, static_cast<std::uint32_t>(pick(3)), static_cast<std::uint32_t>(pick(3))});
+      }
+      return column;
+    });
+    SCOPED_TRACE(testing::Message() << "seed " << seed << " round " << round);
+    const Mesh mesh = extract_mesh(grid);
+    if (grid.intervals.empty()) continue;
+    expect_sound(grid, mesh);
+    if (HasFailure()) return;
+  }
+}
+
+TEST(Mesh, RandomHeightsKeepTheVolume) {
+  const unsigned seed = std::random_device{}();
+  std::printf("seed %u\n", seed);
+  std::mt19937 random(seed);
+  // Random pockets of random depth, as a job of flat tools leaves them.
+  struct Pocket { double x0, y0, x1, y1, z; };
+  std::vector<Pocket> pockets;
+  double outline_depth = 0;
+  for (int n = 0; n < 40; ++n) {
+    std::uniform_real_distribution<double> at(0, 18), size(0.5, 6), depth(0.5, 8);
+    const double x = at(random), y = at(random);
+    pockets.push_back({x, y, x + size(random), y + size(random), depth(random)});
+    const Pocket& p = pockets.back();
+    outline_depth += 2 * (p.x1 - p.x0 + p.y1 - p.y0) * (8 - p.z);
+  }
+  const ColumnGrid grid = make_grid(200, 200, 0.1, 8, [&](double x, double y) {
+    Interval run{0, 8};
+    for (std::size_t n = 0; n < pockets.size(); ++n) {
+      const Pocket& p = pockets[n];
+      if (x < p.x0 || x > p.x1 || y < p.y0 || y > p.y1 || p.z >= run.high) continue;
+      run.high = static_cast<float>(p.z);
+      run.high_step = static_cast<std::uint32_t>(n);
+    }
+    return Column{run};
+  });
+  const Mesh mesh = extract_mesh(grid);
+  expect_sound(grid, mesh);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.1 * outline_depth);
+}
+
+TEST(Mesh, SameColumnsSameMesh) {
+  const ColumnGrid grid = make_grid(70, 70, 0.1, 3, [](double x, double y) {
+    return Column{{0, static_cast<float>(2 + std::sin(3 * x) * std::cos(4 * y)), kStockSurface, 1}};
+  });
+  const Mesh a = extract_mesh(grid), b = extract_mesh(grid);
+  EXPECT_EQ(a.positions, b.positions);
+  EXPECT_EQ(a.triangles, b.triangles);
+  EXPECT_EQ(a.step, b.step);
+}
+
+TEST(Mesh, StopsWhenAsked) {
+  struct Stop : Progress {
+    void phase(std::string_view) override {}
+    void report(double) override {}
+    bool stop_requested() override { return true; }
+  } stop;
+  const ColumnGrid grid = make_grid(10, 10, 1, 3, [](double, double) { return Column{{0, 3}}; });
+  EXPECT_TRUE(extract_mesh(grid, &stop).triangles.empty());
+}
+
+TEST(CheckMesh, CountsOpenAndDoubledEdges) {
+  Mesh mesh;
+  mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  mesh.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+  EXPECT_EQ(check_mesh(mesh).bad_edges, 0u);
+  EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 1.0 / 6, 1e-9);
+  std::swap(mesh.triangles[0], mesh.triangles[1]);  // one triangle turned over
+  EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
+  mesh.triangles.resize(9);
+  std::swap(mesh.triangles[0], mesh.triangles[1]);
+  EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
+  mesh.triangles[0] = 99;
+  EXPECT_GT(check_mesh(mesh).bad_edges, 0u);
+}
+
+}  // namespace
+}  // namespace kerf
