@@ -1,0 +1,260 @@
+// The rules of the planner and the sorting of sweeps by tiles.
+#include "sim/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kerf::sim {
+namespace {
+
+/// A batch is cut when it holds this many; enough to keep all threads busy, and bounded memory.
+constexpr std::size_t kBatchSweeps = 1 << 16;
+constexpr std::size_t kBatchPairs = 1 << 22;
+/// Most chords for one arc. More means a circle of kilometres or thousands of turns.
+constexpr int kMostChords = 1 << 20;
+/// A straight move shorter than this in plan is taken as straight up or down, mm.
+constexpr double kNoLength = 1e-6;
+/// An arc at one height whose radii differ by less than this is taken as a circle about its centre, mm.
+constexpr double kSameRadius = 1e-4;
+/// Larger level arcs become chords: single precision about the centre would not do, mm.
+constexpr double kLargestRadius = 1000.0;
+constexpr double kSameLevel = 1e-9;  // mm
+/// Heights of the virtual cylinder above the flutes; higher than any block that is accepted, mm.
+constexpr double kAboveAll = 1e6;
+
+double distance_to_interval(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
+
+/// The x range of the part of a line that lies between two heights in y; empty if there is none.
+struct Span {
+  double low = 1.0, high = 0.0;
+  bool empty() const { return low > high; }
+};
+Span span_between(double x0, double y0, double x1, double y1, double y_low, double y_high) {
+  double t0 = 0.0, t1 = 1.0;
+  const double dy = y1 - y0;
+  if (dy == 0.0) {
+    if (y0 < y_low || y0 > y_high) return {};
+  } else {
+    const double a = (y_low - y0) / dy, b = (y_high - y0) / dy;
+    t0 = std::max(0.0, std::min(a, b));
+    t1 = std::min(1.0, std::max(a, b));
+    if (t0 > t1) return {};
+  }
+  const double xa = x0 + t0 * (x1 - x0), xb = x0 + t1 * (x1 - x0);
+  return {std::min(xa, xb), std::max(xa, xb)};
+}
+
+/// Tiles along one axis whose column centres lie between two places; clipped to the workpiece.
+struct TileRange {
+  int first = 0, last = -1;
+};
+TileRange tiles_between(double low, double high, double pitch, int columns, int tiles) {
+  const double first_column = std::max(std::ceil(low / pitch - 0.5), 0.0);
+  const double last_column = std::min(std::floor(high / pitch - 0.5), columns - 1.0);
+  if (!(first_column <= last_column)) return {};
+  return {static_cast<int>(first_column) / kTileColumns,
+          std::min(static_cast<int>(last_column) / kTileColumns, tiles - 1)};
+}
+
+}  // namespace
+
+bool Batch::full() const { return sweeps.size() >= kBatchSweeps || pairs.size() >= kBatchPairs; }
+
+void Batch::clear() {
+  sweeps.clear();
+  pairs.clear();
+  contacts.clear();
+}
+
+ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
+  ToolSolids solids;
+  solids.cutting = make_solid(tool.cutting, mm(kChord), Length());
+  const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
+  for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kChord), side_clearance);
+  const double rim = solids.cutting.rim - side_clearance.mm();
+  if (rim > 0.0) solids.over_flute = make_cylinder(rim, solids.cutting.top, solids.cutting.top + kAboveAll);
+  return solids;
+}
+
+ChordCount chord_count(const ArcWalk& walk) {
+  const int count = walk.chords(mm(kChord), kMostChords);
+  return {count, count >= kMostChords};
+}
+
+Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth)
+    : body_(body), tools_(tools), hazard_depth_(hazard_depth.mm()), size_(body.bounds.size()) {}
+
+Planner::Motion Planner::motion_of(const Step& step, const MotionContext& context) const {
+  Motion motion;
+  motion.from = context.from - body_.bounds.low;
+  motion.to = step.to() - body_.bounds.low;
+  const unsigned begin = context.unknown_from, end = step.unknown_axes();
+  constexpr unsigned kZ = 4, kXY = 3;
+  if (!step.is_cutting()) {
+    motion.is_swept = end == 0 && (begin & kZ) == 0;
+    if ((begin & kXY) != 0) motion.from = motion.to;
+    return motion;
+  }
+  if ((end & kZ) != 0) motion.is_swept = false;
+  if ((begin & kZ) != 0) motion.from.z = std::max(motion.to.z, size_.z);
+  if ((begin & 1u) != 0) motion.from.x = motion.to.x;
+  if ((begin & 2u) != 0) motion.from.y = motion.to.y;
+  if (step.kind() == StepKind::arc && begin != 0) motion.from = motion.to;
+  return motion;
+}
+
+Sweep Planner::line(Point3 from, Point3 to) const {
+  Sweep sweep;
+  sweep.x = from.x;
+  sweep.y = from.y;
+  sweep.z = from.z;
+  sweep.z_end = to.z;
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  const double length = std::hypot(dx, dy);
+  if (length < kNoLength) return sweep;
+  sweep.length = length;
+  sweep.ux = dx / length;
+  sweep.uy = dy / length;
+  return sweep;
+}
+
+std::optional<Sweep> Planner::level_arc(const ArcWalk& walk) const {
+  if (walk.plane != Plane::xy || std::abs(walk.start_w - walk.end_w) > kSameLevel) return std::nullopt;
+  const double radius = 0.5 * (walk.start_radius + walk.end_radius);
+  if (std::abs(walk.start_radius - walk.end_radius) > kSameRadius) return std::nullopt;
+  if (radius > kLargestRadius || radius < kSameRadius) return std::nullopt;
+  Sweep sweep;
+  sweep.is_arc = true;
+  sweep.x = walk.u;
+  sweep.y = walk.v;
+  sweep.z = sweep.z_end = walk.start_w;
+  sweep.ux = std::cos(walk.start_angle);
+  sweep.uy = std::sin(walk.start_angle);
+  sweep.radius = radius;
+  sweep.turn = walk.sweep;
+  sweep.length = radius * std::abs(walk.sweep);
+  return sweep;
+}
+
+bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
+  const ToolSolids& solids = tools_[tool];
+  double rim = solids.cutting.rim;
+  for (const Solid& solid : solids.touching) rim = std::max(rim, solid.rim);
+  const Box3 box = walk.bounds();
+  return box.low.x < size_.x + rim && box.high.x > -rim && box.low.y < size_.y + rim && box.high.y > -rim &&
+         box.low.z < size_.z;
+}
+
+std::uint8_t Planner::passes_that_meet(const Sweep& sweep, std::uint8_t wanted, double& reach) const {
+  const ToolSolids& tool = tools_[sweep.tool];
+  const double low = std::min(sweep.z, sweep.z_end), high = std::max(sweep.z, sweep.z_end);
+  int passes = wanted & kPassSpindleOff;
+  const auto check = [&](int bit, const Solid& solid, double ignore) {
+    if ((wanted & bit) == 0 || solid.empty()) return;
+    if (low + solid.bottom >= size_.z - ignore || high + solid.top <= 0.0) return;
+    passes |= bit;
+    reach = std::max(reach, solid.rim);
+  };
+  check(kPassCut, tool.cutting, 0.0);
+  check(kPassRapid, tool.touching[0], hazard_depth_);
+  check(kPassOverFlute, tool.over_flute, hazard_depth_);
+  check(kPassNeck, tool.touching[1], hazard_depth_);
+  check(kPassShank, tool.touching[2], hazard_depth_);
+  check(kPassHolder, tool.touching[3], hazard_depth_);
+  // That a rapid's parts are no feed's is remembered even where the cutting part itself is clear.
+  const int any = passes & ~kPassSpindleOff;
+  if (any != 0 && (wanted & kPassRapid) != 0) passes |= kPassRapid;
+  return any == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(passes);
+}
+
+void Planner::emit(Sweep sweep, Batch& batch) {
+  if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < -hazard_depth_)
+    note_below_floor(sweep, batch);
+  double reach = 0.0;
+  sweep.passes = passes_that_meet(sweep, sweep.passes, reach);
+  if (sweep.passes == 0) return;
+  const std::size_t before = batch.pairs.size();
+  const auto number = static_cast<std::uint32_t>(batch.sweeps.size());
+  if (sweep.is_arc) {
+    pair_arc(sweep, reach, number, batch);
+  } else {
+    pair_line(sweep, reach, number, batch);
+  }
+  if (batch.pairs.size() != before) batch.sweeps.push_back(sweep);
+}
+
+void Planner::pair_line(const Sweep& s, double reach, std::uint32_t number, Batch& batch) const {
+  const double x1 = s.x + s.length * s.ux, y1 = s.y + s.length * s.uy;
+  const TileRange rows =
+      tiles_between(std::min(s.y, y1) - reach, std::max(s.y, y1) + reach, body_.pitch, body_.ny, body_.tiles_y);
+  for (int row = rows.first; row <= rows.last; ++row) {
+    const double low = (row * kTileColumns + 0.5) * body_.pitch - reach;
+    const double high = ((row + 1) * kTileColumns - 0.5) * body_.pitch + reach;
+    const Span span = span_between(s.x, s.y, x1, y1, low, high);
+    if (span.empty()) continue;
+    const TileRange columns =
+        tiles_between(span.low - reach, span.high + reach, body_.pitch, body_.nx, body_.tiles_x);
+    for (int column = columns.first; column <= columns.last; ++column)
+      batch.pairs.push_back({static_cast<std::uint32_t>(row * body_.tiles_x + column), number});
+  }
+}
+
+void Planner::pair_arc(const Sweep& s, double reach, std::uint32_t number, Batch& batch) const {
+  ArcWalk walk;
+  walk.u = s.x;
+  walk.v = s.y;
+  walk.start_radius = walk.end_radius = s.radius;
+  walk.start_angle = std::atan2(s.uy, s.ux);
+  walk.sweep = s.turn;
+  const Box3 box = walk.bounds();
+  const TileRange rows = tiles_between(box.low.y - reach, box.high.y + reach, body_.pitch, body_.ny, body_.tiles_y);
+  const TileRange columns =
+      tiles_between(box.low.x - reach, box.high.x + reach, body_.pitch, body_.nx, body_.tiles_x);
+  const double tile = kTileColumns * body_.pitch;
+  for (int row = rows.first; row <= rows.last; ++row) {
+    for (int column = columns.first; column <= columns.last; ++column) {
+      const double x0 = column * tile, y0 = row * tile;
+      const double near_to =
+          std::hypot(distance_to_interval(s.x, x0, x0 + tile), distance_to_interval(s.y, y0, y0 + tile));
+      const double far_from = std::hypot(std::max(std::abs(s.x - x0), std::abs(s.x - x0 - tile)),
+                                         std::max(std::abs(s.y - y0), std::abs(s.y - y0 - tile)));
+      if (near_to > s.radius + reach || far_from < s.radius - reach) continue;
+      batch.pairs.push_back({static_cast<std::uint32_t>(row * body_.tiles_x + column), number});
+    }
+  }
+}
+
+void Planner::note_below_floor(const Sweep& s, Batch& batch) const {
+  const Solid& solid = tools_[s.tool].cutting;
+  const double deepest = std::min(s.z, s.z_end);
+  const double reach = solid.reach_below(-deepest);
+  // The share of the way that is below the floor, walked in steps small against the tool.
+  constexpr double kStep = 0.1;       // mm
+  constexpr double kMostSteps = 4096;
+  const double slope = s.length > 0.0 ? (s.z_end - s.z) : 0.0;
+  double begin = 0.0, end = 1.0;
+  if (slope < 0.0) begin = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
+  if (slope > 0.0) end = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
+  const int steps = static_cast<int>(std::clamp(std::ceil((end - begin) * s.length / kStep), 1.0, kMostSteps));
+  Contact contact;
+  contact.step = s.step;
+  contact.kind = HazardKind::below_floor;
+  for (int k = 0; k <= steps; ++k) {
+    const double t = begin + (end - begin) * k / steps;
+    double x = s.x + t * s.length * s.ux, y = s.y + t * s.length * s.uy;
+    if (s.is_arc) {
+      const double c = std::cos(t * s.turn), d = std::sin(t * s.turn);
+      x = s.x + s.radius * (s.ux * c - s.uy * d);
+      y = s.y + s.radius * (s.ux * d + s.uy * c);
+    }
+    if (std::hypot(distance_to_interval(x, 0.0, size_.x), distance_to_interval(y, 0.0, size_.y)) >= reach) continue;
+    const double z = s.length > 0.0 ? s.z + t * (s.z_end - s.z) : deepest;
+    contact.depth = std::max(contact.depth, -z);
+    if (contact.share <= 1.0) continue;
+    contact.share = static_cast<double>(s.share_begin) + t * static_cast<double>(s.share_end - s.share_begin);
+    contact.at = {std::clamp(x, 0.0, size_.x), std::clamp(y, 0.0, size_.y), z};
+  }
+  if (contact.share <= 1.0) batch.contacts.push_back(contact);
+}
+
+}  // namespace kerf::sim

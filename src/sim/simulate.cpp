@@ -1,0 +1,384 @@
+// The driver: checks what it is given, sends the planner's batches through the kernels, gathers what they found.
+#include "kerf/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kerf/number.h"
+#include "sim/kernels.h"
+#include "sim/parallel.h"
+#include "sim/plan.h"
+
+namespace kerf {
+
+std::string_view to_string(HazardKind kind) {
+  switch (kind) {
+    case HazardKind::rapid_in_stock: return "rapid_in_stock";
+    case HazardKind::neck_contact: return "neck_contact";
+    case HazardKind::shank_contact: return "shank_contact";
+    case HazardKind::holder_contact: return "holder_contact";
+    case HazardKind::over_flute: return "over_flute";
+    case HazardKind::below_floor: return "below_floor";
+    case HazardKind::spindle_off: break;
+  }
+  return "spindle_off";
+}
+
+namespace sim {
+namespace {
+
+// What is accepted. Beyond it single precision or patience ends, and the input is a slip in any case.
+constexpr double kLargestStock = 1e5;       // mm
+constexpr double kFarthestMotion = 1e7;     // mm from the stock
+constexpr double kFinestPitch = 1e-4;       // mm
+constexpr double kDefaultColumns = 4e6;     // of the automatic resolution
+constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
+/// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.
+constexpr double kLeastClearance = 1e-4;
+
+// ---- what is asked for
+
+bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
+  const Box3& block = stock.block;
+  const Point3 size = block.size();
+  if (!finite(block.low) || !finite(block.high) || !(size.x > 0.0) || !(size.y > 0.0) || !(size.z > 0.0)) {
+    diagnostics.error(Code::stock_empty, {}, "the stock is empty: its length, width and height must be above 0");
+    return false;
+  }
+  const double largest = std::max({size.x, size.y, size.z});
+  const double reach = std::max(std::max(length(block.low), length(block.high)) / kFarthestMotion, largest / kLargestStock);
+  if (reach <= 1.0) return true;
+  diagnostics.error(Code::stock_empty, {},
+                    fmt::format("the stock measures {} x {} x {} mm; at most {} mm can be simulated", number_text(size.x, 3),
+                                number_text(size.y, 3), number_text(size.z, 3), number_text(kLargestStock, 0)));
+  return false;
+}
+
+/// The column pitch to use, or nothing with an error.
+std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size, Diagnostics& diagnostics) {
+  double pitch = options.resolution.mm();
+  if (pitch == 0.0) pitch = std::clamp(std::sqrt(size.x * size.y / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
+  if (!std::isfinite(pitch) || pitch < kFinestPitch) {
+    diagnostics.error(Code::bad_resolution, {},
+                      fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 to have one chosen",
+                                  number_text(pitch, 9), number_text(kFinestPitch, 4)));
+    return std::nullopt;
+  }
+  pitch = std::min(pitch, std::max(size.x, size.y));  // never less than one column
+  const double columns = std::ceil(size.x / pitch) * std::ceil(size.y / pitch);
+  const auto most = static_cast<double>(std::min(options.max_columns, std::size_t{0xfffffff0}));
+  if (columns <= most) return pitch;
+  const double would_do = 1.001 * std::sqrt(size.x * size.y / most) + pitch * 1e-3;
+  Diagnostic& error = diagnostics.error(
+      Code::too_many_columns, {},
+      fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed", number_text(pitch, 6), columns, most));
+  error.hint = fmt::format("a resolution of {} mm would do", number_text(std::ceil(would_do * 1e4) / 1e4, 4));
+  return std::nullopt;
+}
+
+/// Which tool cuts where, found before anything is cut so that a missing tool costs no time.
+struct Survey {
+  std::map<int, std::uint32_t> index;  // tool number to place in `solids`
+  std::vector<ToolSolids> solids;
+  std::optional<int> only_tool;        // of a table with one tool: used until the program chooses
+  bool judges_spindle = false;         // the program says something of the spindle and is not for a laser
+};
+
+class Surveyor {
+ public:
+  Surveyor(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance, Diagnostics& diagnostics)
+      : path_(path), tools_(tools), centre_(0.5 * (stock.block.low + stock.block.high)), clearance_(clearance),
+        diagnostics_(diagnostics) {}
+
+  Survey run() {
+    if (tools_.tools().size() == 1) survey_.only_tool = tools_.tools().begin()->first;
+    bool has_spindle = false, has_laser = false;
+    for (const Step& step : path_.steps()) {
+      has_spindle = has_spindle || step.kind() == StepKind::spindle;
+      has_laser = has_laser || step.kind() == StepKind::laser_power;
+    }
+    survey_.judges_spindle = has_spindle && !has_laser;
+    for_each_motion(path_, [&](const Step& step, const MotionContext& context) { look_at(step, context); });
+    return std::move(survey_);
+  }
+
+ private:
+  void look_at(const Step& step, const MotionContext& context) {
+    check_place(step, context);
+    check_extras(step, context);
+    const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
+    if (number && survey_.index.count(*number) == 0) add_tool(*number);
+    if (!step.is_cutting()) return;
+    if (!number) return no_tool(context);
+    if (survey_.index.count(*number) == 0) no_such_tool(*number, context);
+    if (step.kind() == StepKind::arc && context.unknown_from == 0 && chord_count(walk_of(step, context.from)).too_coarse)
+      diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
+                           "the arc is so long that it is simulated with chords coarser than usual");
+    if (step.unknown_axes() != 0) warn_unknown_place(context);
+  }
+
+  void add_tool(int number) {
+    const Tool* tool = tools_.find(number);
+    if (tool == nullptr) return;
+    survey_.index[number] = static_cast<std::uint32_t>(survey_.solids.size());
+    survey_.solids.push_back(make_tool_solids(tool->silhouette, mm(clearance_)));
+  }
+
+  void check_place(const Step& step, const MotionContext& context) {
+    Point3 arc_centre = centre_;
+    if (step.kind() == StepKind::arc) {
+      const Point2 c = step.arc().centre;
+      arc_centre = centre_ + Point3{c.x, c.y, 0.0};
+    }
+    if (distance(step.to(), centre_) < kFarthestMotion && distance(arc_centre, centre_) < kFarthestMotion) return;
+    diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
+                       fmt::format("the motion goes further than {} km from the stock", number_text(kFarthestMotion * 1e-6, 0)));
+  }
+
+  void check_extras(const Step& step, const MotionContext& context) {
+    if (step.kind() == StepKind::extrude)
+      once(Code::extrusion_not_simulated, context, "printing is not simulated; extruding moves are passed over");
+    const MotionExtra* extra = path_.extra(context.index);
+    if (extra == nullptr) return;
+    if (extra->abc)
+      once(Code::rotary_not_simulated, context, "rotary axes are not simulated; the tool is taken as upright throughout");
+    if (!extra->z_correction.empty())
+      once(Code::z_correction_not_simulated, context, "corrections of Z by measured points are not simulated");
+  }
+
+  void no_such_tool(int number, const MotionContext& context) {
+    if (std::find(missing_.begin(), missing_.end(), number) != missing_.end()) return;
+    missing_.push_back(number);
+    Diagnostic& error = diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
+                                           fmt::format("tool {} cuts here, but its shape is not known", number));
+    error.hint = fmt::format("give it with --tool, e.g. --tool {}=square:6.35", number);
+  }
+
+  void no_tool(const MotionContext& context) {
+    if (std::exchange(said_no_tool_, true)) return;
+    Diagnostic& error = diagnostics_.error(Code::no_tool_chosen, path_.origin_of(context.index),
+                                           "the program cuts here before it has chosen a tool");
+    error.hint = "give exactly one tool with --tool, which is then used until the program chooses another";
+  }
+
+  void warn_unknown_place(const MotionContext& context) {
+    once(Code::cut_at_unknown_place, context,
+         "the program cuts here before it has said where X, Y and Z are; X0 Y0 are taken, and without a Z nothing is cut");
+  }
+
+  void once(Code code, const MotionContext& context, std::string message) {
+    if (std::find(said_.begin(), said_.end(), code) != said_.end()) return;
+    said_.push_back(code);
+    diagnostics_.warning(code, path_.origin_of(context.index), std::move(message));
+  }
+
+  const Toolpath& path_;
+  const ToolTable& tools_;
+  Point3 centre_;
+  double clearance_;
+  Diagnostics& diagnostics_;
+  Survey survey_;
+  std::vector<int> missing_;
+  std::vector<Code> said_;
+  bool said_no_tool_ = false;
+};
+
+// ---- the run
+
+class Run {
+ public:
+  Run(Workpiece& workpiece, const Toolpath& path, Survey survey, const SimulationOptions& options, Progress* progress)
+      : body_(workpiece.body()),
+        path_(path),
+        survey_(std::move(survey)),
+        planner_(body_, survey_.solids, options.hazard_depth),
+        threads_(thread_count(options.threads)),
+        progress_(progress),
+        removed_(path.size(), 0.0) {
+    for (const ToolSolids& solids : survey_.solids) tools_.emplace_back(solids);
+    field_.pitch = body_.pitch;
+    field_.height = body_.height;
+    field_.same_height = body_.same_height;
+    field_.hazard_depth = static_cast<Real>(options.hazard_depth.mm());
+    for (int i = 0; i < kTileColumns; ++i) field_.step[i] = static_cast<Real>(i * body_.pitch);
+    for (int i = 0; i < body_.tiles_x * kTileColumns; ++i) share_x_.push_back(static_cast<Real>(body_.share_x(i)));
+    for (int j = 0; j < body_.tiles_y * kTileColumns; ++j) share_y_.push_back(static_cast<Real>(body_.share_y(j)));
+  }
+
+  void cut_all() {
+    if (progress_ != nullptr) progress_->phase("cutting");
+    for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
+      if (!stopped_) add(step, context);
+    });
+    if (!stopped_) flush(path_.size());
+    report(progress_, 1.0);
+  }
+
+  bool stopped() const { return stopped_; }
+  double removed_length(std::size_t step) const { return removed_[step]; }
+  std::vector<Hazard> hazards() const;
+
+ private:
+  void add(const Step& step, const MotionContext& context) {
+    if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_.interrupt();
+    const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
+    const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
+    if (tool == survey_.index.end()) return planner_.interrupt();  // a rapid before the first tool
+    const bool spindle_off = survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off);
+    planner_.add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
+    if (batch_.full()) flush(context.index);
+  }
+
+  bool flush(std::size_t steps_done);
+  void sort_by_tile();
+  void cut_tile_number(std::size_t k);
+  void merge_contacts();
+  void merge(const Contact& contact);
+
+  Workpiece::Body& body_;
+  const Toolpath& path_;
+  Survey survey_;
+  Planner planner_;
+  unsigned threads_;
+  Progress* progress_;
+  std::vector<LaneTool> tools_;
+  Field field_{};
+  std::vector<Real> share_x_, share_y_;
+  std::vector<double> removed_;  // length of column, one a step
+  bool stopped_ = false;
+
+  Batch batch_;
+  // The batch's pairs in order of tiles: tile busy_[k] has the sweeps list_[start_[k]] to list_[start_[k + 1] - 1].
+  std::vector<std::uint32_t> busy_, list_;
+  std::vector<std::size_t> start_, order_;
+  std::vector<std::uint32_t> count_;
+  std::vector<double> pair_removed_;
+  std::vector<std::vector<Contact>> contacts_;
+  std::map<std::pair<std::uint32_t, HazardKind>, Contact> merged_;
+};
+
+void Run::sort_by_tile() {
+  count_.resize(body_.tiles.size(), 0);
+  busy_.clear();
+  for (const Batch::Pair& pair : batch_.pairs)
+    if (count_[pair.tile]++ == 0) busy_.push_back(pair.tile);
+  std::sort(busy_.begin(), busy_.end());
+  start_.assign(1, 0);
+  for (const std::uint32_t tile : busy_) {
+    start_.push_back(start_.back() + count_[tile]);
+    count_[tile] = static_cast<std::uint32_t>(start_[start_.size() - 2]);  // from here on where the next one goes
+  }
+  list_.resize(batch_.pairs.size());
+  for (const Batch::Pair& pair : batch_.pairs) list_[count_[pair.tile]++] = pair.sweep;
+  for (const std::uint32_t tile : busy_) count_[tile] = 0;
+  order_.resize(busy_.size());
+  for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = k;
+  // The largest first, so that the threads end together.
+  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    const std::size_t na = start_[a + 1] - start_[a], nb = start_[b + 1] - start_[b];
+    return na != nb ? na > nb : a < b;
+  });
+}
+
+void Run::cut_tile_number(std::size_t k) {
+  const std::size_t tile = busy_[k];
+  const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
+  const auto column = static_cast<int>(tile % tiles_x) * kTileColumns;
+  const auto row = static_cast<int>(tile / tiles_x) * kTileColumns;
+  TileJob job;
+  job.field = &field_;
+  job.tile = &body_.touch(tile);
+  job.x = (column + 0.5) * body_.pitch;
+  job.y = (row + 0.5) * body_.pitch;
+  job.share_x = share_x_.data() + column;
+  job.share_y = share_y_.data() + row;
+  job.tools = &tools_;
+  job.sweeps = batch_.sweeps.data();
+  job.list = list_.data() + start_[k];
+  job.count = start_[k + 1] - start_[k];
+  job.removed = pair_removed_.data() + start_[k];
+  job.contacts = &contacts_[k];
+  cut_tile(job);
+}
+
+bool Run::flush(std::size_t steps_done) {
+  sort_by_tile();
+  pair_removed_.assign(list_.size(), 0.0);
+  contacts_.assign(busy_.size(), {});
+  parallel_for(
+      threads_, busy_.size(), [&](std::size_t n) { cut_tile_number(order_[n]); },
+      [&] { return stopped_ = stopped_ || stop_requested(progress_); });
+  // In order of tiles, whichever thread was first: sums of floating numbers depend on the order.
+  for (std::size_t k = 0; k < list_.size(); ++k) removed_[batch_.sweeps[list_[k]].step] += pair_removed_[k];
+  merge_contacts();
+  batch_.clear();
+  report(progress_, path_.size() == 0 ? 1.0 : static_cast<double>(steps_done) / static_cast<double>(path_.size()));
+  stopped_ = stopped_ || stop_requested(progress_);
+  return !stopped_;
+}
+
+void Run::merge_contacts() {
+  for (const Contact& contact : batch_.contacts) merge(contact);
+  for (const std::vector<Contact>& of_tile : contacts_)
+    for (const Contact& contact : of_tile) merge(contact);
+}
+
+void Run::merge(const Contact& contact) {
+  const auto [it, is_new] = merged_.try_emplace({contact.step, contact.kind}, contact);
+  if (is_new) return;
+  Contact& all = it->second;
+  if (contact.share < all.share) {
+    all.share = contact.share;
+    all.at = contact.at;
+  }
+  all.depth = std::max(all.depth, contact.depth);
+  all.removed += contact.removed;
+}
+
+std::vector<Hazard> Run::hazards() const {
+  std::vector<Hazard> list;
+  for (const auto& [key, contact] : merged_)
+    list.push_back({key.second, key.first, contact.at + body_.bounds.low, mm(contact.depth), mm3(contact.removed)});
+  return list;
+}
+
+}  // namespace
+}  // namespace sim
+
+std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools, const Stock& stock,
+                                   const SimulationOptions& options, Diagnostics& diagnostics, Progress* progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  if (!sim::stock_is_sound(stock, diagnostics)) return std::nullopt;
+  const std::optional<double> pitch = sim::choose_pitch(options, stock.block.size(), diagnostics);
+  if (!pitch) return std::nullopt;
+  const std::size_t errors_before = diagnostics.errors();
+  const double clearance = std::max(options.hazard_depth.mm(), sim::kLeastClearance);
+  sim::Survey survey = sim::Surveyor(path, tools, stock, clearance, diagnostics).run();
+  if (diagnostics.errors() != errors_before) return std::nullopt;
+
+  Simulation result{.workpiece = Workpiece(stock, mm(*pitch)), .stock = {}, .removed = {}, .hazards = {}, .removed_by_step = {}};
+  const Point3 size = stock.block.size();
+  result.stock = mm3(size.x * size.y * size.z);
+  sim::Run run(result.workpiece, path, std::move(survey), options, progress);
+  run.cut_all();
+  const double area = *pitch * *pitch;
+  double removed = 0.0;
+  result.removed_by_step.reserve(path.size());
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const double volume = run.removed_length(i) * area;
+    removed += volume;
+    result.removed_by_step.push_back(static_cast<float>(volume));
+  }
+  result.removed = mm3(removed);
+  result.hazards = run.hazards();
+  result.stopped = run.stopped();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace kerf

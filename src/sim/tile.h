@@ -1,0 +1,94 @@
+// The workpiece's inside: tiles of 64 x 64 columns, each tile 4 x 4 supers of 4 x 4 micros of 4 x 4 columns.
+//
+// The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Most columns are
+// one run of material that stands on the floor: a micro then keeps only tops. The first undercut in a micro gives it
+// a chain of slots, each with one interval a column; a chain grows as long as needed. Heights are mm above the
+// block's floor, single precision.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "kerf/simulate.h"
+
+namespace kerf::sim {
+
+using Real = float;
+inline constexpr int kLanes = 16;         // columns of a micro
+inline constexpr int kMicros = 256;       // micros of a tile
+inline constexpr int kSupers = 16;        // supers of a tile, and micros of a super
+inline constexpr int kTileColumns = 64;   // columns along a tile's edge
+inline constexpr Real kFar = 1e30f;       // stands for "no material here", safe to calculate with
+
+struct alignas(64) Lanes {
+  Real v[kLanes];
+  Real& operator[](int i) { return v[i]; }
+  Real operator[](int i) const { return v[i]; }
+};
+
+/// One interval in each column of a micro; low above high where there is none.
+struct Slot {
+  Lanes low, high;
+  alignas(64) std::uint32_t low_step[kLanes];
+  alignas(64) std::uint32_t high_step[kLanes];
+  std::int32_t next = -1;  // slot of the same chain
+};
+
+/// Number of a column in its tile's arrays, from its place in the tile.
+constexpr int lane_index(int x, int y) {
+  const int super = (y >> 4) * 4 + (x >> 4);
+  const int micro = ((y >> 2) & 3) * 4 + ((x >> 2) & 3);
+  return (super * kSupers + micro) * kLanes + (y & 3) * 4 + (x & 3);
+}
+
+struct Tile {
+  /// All columns full up to `height`, but for those beyond `columns_x` and `columns_y`, which do not exist.
+  Tile(Real height, int columns_x, int columns_y);
+
+  Lanes top[kMicros];  // tops of columns that stand on the floor, 0 where cut away; unused in a micro with a chain
+  alignas(64) std::uint32_t top_step[kMicros][kLanes];
+  alignas(64) Real micro_top[kMicros];     // highest and lowest material of each micro
+  alignas(64) Real micro_bottom[kMicros];
+  alignas(64) Real super_top[kSupers];
+  alignas(64) Real super_bottom[kSupers];
+  std::int32_t chain[kMicros];  // first slot, or -1
+  std::vector<Slot> slots;
+
+  /// Gives a micro a chain, if it has none yet.
+  void make_chain(int micro);
+  /// Adds an empty slot to the end of a micro's chain.
+  Slot& add_slot(int micro);
+  /// Appends the intervals of a column, lowest first.
+  void intervals(int index, std::vector<Interval>& out) const;
+  /// Recomputes a micro's bounds from its chain.
+  void update_bounds(int micro);
+};
+
+}  // namespace kerf::sim
+
+namespace kerf {
+
+/// What is behind Workpiece.
+struct Workpiece::Body {
+  Body(const Box3& bounds, double pitch);
+
+  Box3 bounds;
+  double pitch = 0.0;
+  int nx = 0, ny = 0;
+  int tiles_x = 0, tiles_y = 0;
+  sim::Real height = 0.0f;
+  /// Ends of intervals nearer than this are taken as the same height, mm: beyond what single precision tells apart.
+  sim::Real same_height = 0.0f;
+  /// Tiles that nothing has touched yet do not exist.
+  std::vector<std::unique_ptr<sim::Tile>> tiles;
+
+  sim::Tile& touch(std::size_t tile);
+  int columns_x_of(std::size_t tile) const;
+  int columns_y_of(std::size_t tile) const;
+  /// Share of column i (of row j) that lies in the block, 0 to 1.
+  double share_x(int i) const;
+  double share_y(int j) const;
+};
+
+}  // namespace kerf

@@ -1,0 +1,205 @@
+// The material columns: making them, reading them, their volume.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "sim/tile.h"
+
+namespace kerf {
+namespace sim {
+
+Tile::Tile(Real height, int columns_x, int columns_y) {
+  for (int micro = 0; micro < kMicros; ++micro) {
+    std::fill_n(top[micro].v, kLanes, 0.0f);
+    std::fill_n(top_step[micro], kLanes, kStockSurface);
+    chain[micro] = -1;
+    micro_top[micro] = 0.0f;
+    micro_bottom[micro] = 0.0f;
+  }
+  for (int y = 0; y < columns_y; ++y) {
+    for (int x = 0; x < columns_x; ++x) {
+      const int index = lane_index(x, y);
+      top[index / kLanes][index % kLanes] = height;
+      micro_top[index / kLanes] = height;
+    }
+  }
+  for (int super = 0; super < kSupers; ++super) {
+    super_top[super] = *std::max_element(micro_top + super * kSupers, micro_top + (super + 1) * kSupers);
+    super_bottom[super] = 0.0f;
+  }
+}
+
+Slot& Tile::add_slot(int micro) {
+  const auto number = static_cast<std::int32_t>(slots.size());
+  std::int32_t* link = &chain[micro];
+  while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
+  *link = number;  // before the vector grows, which moves the links
+  Slot& slot = slots.emplace_back();
+  for (int i = 0; i < kLanes; ++i) {
+    slot.low[i] = kFar;
+    slot.high[i] = -kFar;
+    slot.low_step[i] = slot.high_step[i] = kStockSurface;
+  }
+  return slot;
+}
+
+void Tile::make_chain(int micro) {
+  if (chain[micro] >= 0) return;
+  Slot& slot = add_slot(micro);
+  for (int i = 0; i < kLanes; ++i) {
+    if (!(top[micro][i] > 0.0f)) continue;
+    slot.low[i] = 0.0f;
+    slot.high[i] = top[micro][i];
+    slot.high_step[i] = top_step[micro][i];
+  }
+}
+
+void Tile::intervals(int index, std::vector<Interval>& out) const {
+  const int micro = index / kLanes, lane = index % kLanes;
+  if (chain[micro] < 0) {
+    const Real high = top[micro][lane];
+    if (high > 0.0f) out.push_back({0.0f, high, kStockSurface, top_step[micro][lane]});
+    return;
+  }
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
+    const Slot& slot = slots[static_cast<std::size_t>(k)];
+    if (slot.high[lane] > slot.low[lane])
+      out.push_back({slot.low[lane], slot.high[lane], slot.low_step[lane], slot.high_step[lane]});
+  }
+  std::sort(out.begin() + begin, out.end(), [](const Interval& a, const Interval& b) { return a.low < b.low; });
+}
+
+void Tile::update_bounds(int micro) {
+  Real high = -kFar, low = kFar;
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
+    const Slot& slot = slots[static_cast<std::size_t>(k)];
+    for (int i = 0; i < kLanes; ++i) {
+      high = high > slot.high[i] ? high : slot.high[i];
+      low = low < slot.low[i] ? low : slot.low[i];
+    }
+  }
+  micro_top[micro] = high;
+  micro_bottom[micro] = low;
+}
+
+namespace {
+
+/// A last column that holds less than this share of a pitch is rounding of the division, not material.
+constexpr double kNoColumn = 1e-6;
+/// Smallest difference in height that is kept, mm, and in units of the height's last place.
+constexpr double kSameHeight = 1e-5;
+constexpr double kSameHeightUlps = 4.0;
+
+int column_count(double size, double pitch) {
+  const double count = std::ceil(size / pitch - kNoColumn);
+  assert(count >= 1.0 && count < static_cast<double>(std::numeric_limits<int>::max() - kTileColumns));
+  return static_cast<int>(count);
+}
+
+double share_inside(int i, double pitch, double size) { return std::clamp(size / pitch - i, 0.0, 1.0); }
+
+}  // namespace
+}  // namespace sim
+
+Workpiece::Body::Body(const Box3& block, double column_pitch) : bounds(block), pitch(column_pitch) {
+  const Point3 size = bounds.size();
+  nx = sim::column_count(size.x, pitch);
+  ny = sim::column_count(size.y, pitch);
+  tiles_x = (nx + sim::kTileColumns - 1) / sim::kTileColumns;
+  tiles_y = (ny + sim::kTileColumns - 1) / sim::kTileColumns;
+  height = static_cast<sim::Real>(size.z);
+  const double last_place = std::nextafter(height, sim::kFar) - height;
+  same_height = static_cast<sim::Real>(std::max(sim::kSameHeight, sim::kSameHeightUlps * last_place));
+  tiles.resize(static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y));
+}
+
+int Workpiece::Body::columns_x_of(std::size_t tile) const {
+  const int first = static_cast<int>(tile % static_cast<std::size_t>(tiles_x)) * sim::kTileColumns;
+  return std::min(nx - first, sim::kTileColumns);
+}
+
+int Workpiece::Body::columns_y_of(std::size_t tile) const {
+  const int first = static_cast<int>(tile / static_cast<std::size_t>(tiles_x)) * sim::kTileColumns;
+  return std::min(ny - first, sim::kTileColumns);
+}
+
+sim::Tile& Workpiece::Body::touch(std::size_t tile) {
+  if (!tiles[tile])
+    tiles[tile] = std::make_unique<sim::Tile>(height, columns_x_of(tile), columns_y_of(tile));
+  return *tiles[tile];
+}
+
+double Workpiece::Body::share_x(int i) const { return sim::share_inside(i, pitch, bounds.size().x); }
+double Workpiece::Body::share_y(int j) const { return sim::share_inside(j, pitch, bounds.size().y); }
+
+Workpiece::Workpiece(const Stock& stock, Length pitch) : body_(std::make_unique<Body>(stock.block, pitch.mm())) {}
+Workpiece::Workpiece(Workpiece&&) noexcept = default;
+Workpiece& Workpiece::operator=(Workpiece&&) noexcept = default;
+Workpiece::~Workpiece() = default;
+
+const Box3& Workpiece::bounds() const { return body_->bounds; }
+Length Workpiece::pitch() const { return mm(body_->pitch); }
+int Workpiece::columns_x() const { return body_->nx; }
+int Workpiece::columns_y() const { return body_->ny; }
+
+std::vector<Interval> Workpiece::column(int i, int j) const {
+  assert(i >= 0 && i < body_->nx && j >= 0 && j < body_->ny);
+  std::vector<Interval> out;
+  const std::size_t tile = static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body_->tiles_x) +
+                           static_cast<std::size_t>(i / sim::kTileColumns);
+  if (!body_->tiles[tile]) {
+    out.push_back({0.0f, body_->height, kStockSurface, kStockSurface});
+  } else {
+    body_->tiles[tile]->intervals(sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns), out);
+  }
+  return out;
+}
+
+ColumnGrid Workpiece::grid() const {
+  const Body& body = *body_;
+  ColumnGrid grid{.bounds = body.bounds, .pitch = body.pitch, .nx = body.nx, .ny = body.ny, .first = {}, .intervals = {}};
+  const std::size_t count = static_cast<std::size_t>(body.nx) * static_cast<std::size_t>(body.ny);
+  grid.first.reserve(count + 1);
+  grid.intervals.reserve(count);
+  for (int j = 0; j < body.ny; ++j) {
+    const std::size_t row = static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
+    for (int i = 0; i < body.nx; ++i) {
+      grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
+      const sim::Tile* tile = body.tiles[row + static_cast<std::size_t>(i / sim::kTileColumns)].get();
+      if (tile == nullptr) {
+        grid.intervals.push_back({0.0f, body.height, kStockSurface, kStockSurface});
+      } else {
+        tile->intervals(sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns), grid.intervals);
+      }
+    }
+  }
+  grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
+  return grid;
+}
+
+Volume Workpiece::volume() const {
+  const Body& body = *body_;
+  double sum = 0.0;
+  std::vector<Interval> column;
+  for (int j = 0; j < body.ny; ++j) {
+    const std::size_t row = static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
+    double line = 0.0;
+    for (int i = 0; i < body.nx; ++i) {
+      const sim::Tile* tile = body.tiles[row + static_cast<std::size_t>(i / sim::kTileColumns)].get();
+      double length = body.height;
+      if (tile != nullptr) {
+        column.clear();
+        tile->intervals(sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns), column);
+        length = 0.0;
+        for (const Interval& run : column) length += static_cast<double>(run.high) - static_cast<double>(run.low);
+      }
+      line += length * body.share_x(i);
+    }
+    sum += line * body.share_y(j);
+  }
+  return mm3(sum * body.pitch * body.pitch);
+}
+
+}  // namespace kerf
