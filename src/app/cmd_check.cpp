@@ -1,14 +1,14 @@
 // kerf check: what would break a tool, a part or the machine's patience, found without writing any file.
 #include <algorithm>
 #include <cmath>
-#include <memory>
-
 #include <fmt/format.h>
+#include <memory>
 
 #include "app/command.h"
 #include "app/findings.h"
 #include "app/job.h"
 #include "app/terminal_progress.h"
+
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -32,8 +32,8 @@ Length resolution_for(const Stock& stock, double told) {
 }
 
 /// The hazards met in the material; nothing where it could not be simulated (`diagnostics` says why).
-std::optional<std::vector<Finding>> findings_in_material(const Job& job, double resolution, Diagnostics& diagnostics,
-                                                         Progress& progress) {
+std::optional<std::vector<Finding>> findings_in_material(const Job& job, double resolution,
+                                                         Diagnostics& diagnostics, Progress& progress) {
   const bool toolless = job.tool_sources.empty();
   if (!job.stock || toolless) {
     diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
@@ -53,9 +53,8 @@ void show_result(Console& console, const LoadedProgram& program, const std::vect
                  const Diagnostics& diagnostics) {
   console.show(diagnostics);
   if (console.json()) {
-    const Json out{{"source", program.source},
-                   {"hazards", json_of(findings)},
-                   {"diagnostics", json_of(diagnostics)}};
+    const Json out{
+        {"source", program.source}, {"hazards", json_of(findings)}, {"diagnostics", json_of(diagnostics)}};
     console.print_json(text_of(out, Layout::indented));
     return;
   }
@@ -105,8 +104,9 @@ Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 
 Command add_check(CLI::App& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "check", "Look for hazards in a program, without writing files; exit status 3",
-                              kExamples + std::string(kJobHelp), options->output);
+  CLI::App* app =
+      new_command(root, "check", "Look for hazards in a program, without writing files; exit status 3",
+                  kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
   add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns in mm (default: coarse, by the stock's size)");

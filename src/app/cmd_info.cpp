@@ -1,14 +1,14 @@
 // kerf info: what a program does, in numbers: size, time, tools, feeds, stock.
 #include <algorithm>
-#include <memory>
-
 #include <fmt/format.h>
+#include <memory>
 
 #include "app/command.h"
 #include "app/job.h"
 #include "app/json.h"
 #include "app/machine.h"
 #include "app/terminal_progress.h"
+
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -22,12 +22,8 @@ struct Options {
   std::string machine;
 };
 
-double motion_seconds(const MotionFigures& f) {
-  return (f.cutting + f.rapid).seconds();
-}
-double total_seconds(const MotionFigures& f) {
-  return (f.cutting + f.rapid + f.dwell).seconds();
-}
+double motion_seconds(const MotionFigures& f) { return (f.cutting + f.rapid).seconds(); }
+double total_seconds(const MotionFigures& f) { return (f.cutting + f.rapid + f.dwell).seconds(); }
 
 /// Flute shorter than the deepest cut below the stock's top: something to look at.
 bool deeper_than_flute(const Job& job, const ToolFigures& t, const Tool* tool) {
@@ -47,12 +43,10 @@ Json motion_json(const MotionFigures& f) {
 }
 
 Json time_json(const PathReport& report) {
-  Json out{{"total", json_of(total_seconds(report.all))},
-           {"motion", json_of(motion_seconds(report.all))},
-           {"cutting", json_of(report.all.cutting.seconds())},
-           {"rapid", json_of(report.all.rapid.seconds())},
-           {"dwell", json_of(report.all.dwell.seconds())},
-           {"method", kTimeMethod}};
+  Json out{
+      {"total", json_of(total_seconds(report.all))},      {"motion", json_of(motion_seconds(report.all))},
+      {"cutting", json_of(report.all.cutting.seconds())}, {"rapid", json_of(report.all.rapid.seconds())},
+      {"dwell", json_of(report.all.dwell.seconds())},     {"method", kTimeMethod}};
   Json& tools = out["tools"] = Json::array();
   for (const ToolFigures& t : report.tools)
     tools.push_back(Json{{"number", t.tool ? Json(*t.tool) : Json(nullptr)},
@@ -127,8 +121,11 @@ void print_tools(Console& console, const Job& job) {
   for (const ToolFigures& t : job.report.tools) {
     const Tool* tool = t.tool ? job.tools.find(*t.tool) : nullptr;
     std::string line = t.tool ? fmt::format("  T{:<6}", *t.tool) : std::string("  none   ");
-    line += fmt::format("{:<28}", tool != nullptr ? short_name(*tool) : t.tool ? "unknown shape" : "before any change");
-    line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1), clock_text(total_seconds(t.figures)));
+    line += fmt::format("{:<28}", tool != nullptr ? short_name(*tool)
+                                  : t.tool        ? "unknown shape"
+                                                  : "before any change");
+    line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1),
+                        clock_text(total_seconds(t.figures)));
     if (t.deepest) line += fmt::format(", deepest Z {}", number_text(*t.deepest, 3));
     if (tool != nullptr) line += fmt::format(", flute {} mm", number_text(tool->flute.mm(), 3));
     if (deeper_than_flute(job, t, tool)) line += "  <- deeper than its flute";
@@ -140,7 +137,8 @@ void print_tools(Console& console, const Job& job) {
 void print_info(Console& console, const Job& job) {
   const MotionFigures& all = job.report.all;
   console.print(fmt::format("{}: {}, {}, {} steps\n\n", job.program.source, job.program.front_end,
-                            job.program.units == InputUnits::inch ? "inches" : "mm", job.program.path.size()));
+                            job.program.units == InputUnits::inch ? "inches" : "mm",
+                            job.program.path.size()));
   console.print(fmt::format("Moves     {} lines, {} arcs, {} rapids\n", all.lines, all.arcs, all.rapids));
   console.print(fmt::format("Length    {} mm cut, {} mm rapid\n", number_text(all.cut_mm, 1),
                             number_text(all.rapid_mm, 1)));
@@ -158,7 +156,8 @@ void print_info(Console& console, const Job& job) {
 
 Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
   console.show(diagnostics);
-  if (console.json()) console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
+  if (console.json())
+    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
   return status;
 }
 

@@ -1,12 +1,13 @@
-// kerf simulate: cuts a program out of its stock, tells what was removed and what went wrong, writes meshes and pictures.
-#include <memory>
-
+// kerf simulate: cuts a program out of its stock, tells what was removed and what went wrong, writes meshes
+// and pictures.
 #include <fmt/format.h>
+#include <memory>
 
 #include "app/command.h"
 #include "app/findings.h"
 #include "app/outputs.h"
 #include "app/terminal_progress.h"
+
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -44,9 +45,7 @@ std::map<std::optional<int>, double> removed_by_tool(const Job& job, const Simul
   return removed;
 }
 
-double seconds_of(const MotionFigures& f) {
-  return (f.cutting + f.rapid + f.dwell).seconds();
-}
+double seconds_of(const MotionFigures& f) { return (f.cutting + f.rapid + f.dwell).seconds(); }
 
 Json tools_json(const Result& result) {
   const auto removed = removed_by_tool(result.job, result.simulation);
@@ -75,8 +74,8 @@ Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
   out["resolution_mm"] = json_of(s.workpiece.pitch().mm());
   out["steps"] = result.job.program.path.size();
   out["seconds"] = json_of(s.seconds);
-  out["stock"] = Json{{"block_mm", json_of(result.job.stock->block)},
-                      {"source", to_string(result.job.stock_source)}};
+  out["stock"] =
+      Json{{"block_mm", json_of(result.job.stock->block)}, {"source", to_string(result.job.stock_source)}};
   out["hazards"] = json_of(result.findings);
   out["tools"] = tools_json(result);
   Json& files = out["outputs"] = Json::array();
@@ -93,9 +92,9 @@ void show_summary(Console& console, const Result& result) {
   const Simulation& s = result.simulation;
   const Point3 size = result.job.stock->block.size();
   console.summary(fmt::format("{}: {} steps", result.job.program.source, result.job.program.path.size()));
-  console.summary(fmt::format("stock    {} x {} x {} mm ({}), {} mm3", number_text(size.x, 3), number_text(size.y, 3),
-                              number_text(size.z, 3), to_string(result.job.stock_source),
-                              number_text(s.stock.mm3(), 1)));
+  console.summary(fmt::format("stock    {} x {} x {} mm ({}), {} mm3", number_text(size.x, 3),
+                              number_text(size.y, 3), number_text(size.z, 3),
+                              to_string(result.job.stock_source), number_text(s.stock.mm3(), 1)));
   const double share = s.stock.mm3() > 0.0 ? 100.0 * s.removed.mm3() / s.stock.mm3() : 0.0;
   console.summary(fmt::format("removed  {} mm3 ({}%), left {} mm3", number_text(s.removed.mm3(), 1),
                               number_text(share, 1), number_text(s.stock.mm3() - s.removed.mm3(), 1)));
@@ -104,20 +103,20 @@ void show_summary(Console& console, const Result& result) {
     if (!t.tool) continue;
     const Tool* tool = result.job.tools.find(*t.tool);
     const auto it = removed.find(t.tool);
-    console.summary(fmt::format("tool {:<4}{}: {} mm3 in about {}", *t.tool,
-                                tool != nullptr ? short_name(*tool) : "unknown",
-                                number_text(it == removed.end() ? 0.0 : it->second, 1),
-                                clock_text(seconds_of(t.figures))));
+    console.summary(fmt::format(
+        "tool {:<4}{}: {} mm3 in about {}", *t.tool, tool != nullptr ? short_name(*tool) : "unknown",
+        number_text(it == removed.end() ? 0.0 : it->second, 1), clock_text(seconds_of(t.figures))));
   }
-  console.summary(fmt::format("columns  {} mm apart, simulated in {} s", number_text(s.workpiece.pitch().mm(), 4),
-                              number_text(s.seconds, 3)));
+  console.summary(fmt::format("columns  {} mm apart, simulated in {} s",
+                              number_text(s.workpiece.pitch().mm(), 4), number_text(s.seconds, 3)));
   for (const OutputFile& f : result.outputs) console.summary(fmt::format("wrote    {}", f.path));
   console.summary(fmt::format("hazards  {}", hazard_count(result.findings.size())));
 }
 
 Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
   console.show(diagnostics);
-  if (console.json()) console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
+  if (console.json())
+    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
   return status;
 }
 
@@ -187,16 +186,20 @@ const char* const kExamples =
 
 Command add_simulate(CLI::App& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
-                              kExamples + std::string(kJobHelp), options->output);
+  CLI::App* app =
+      new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
+                  kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
-  add_repeated(*app, "-o,--output", options->outputs, "Write the part: .stl .3mf .glb .obj, or a picture: .png");
+  add_repeated(*app, "-o,--output", options->outputs,
+               "Write the part: .stl .3mf .glb .obj, or a picture: .png");
   add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns in mm (default: by the stock's size)");
-  app->add_option("--view", options->view, "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
+  app->add_option("--view", options->view,
+                  "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
       ->capture_default_str();
   app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")->capture_default_str();
-  add_number(*app, "--threads", options->threads, 0, kMostThreads, "Threads to use (default: all; same result)");
+  add_number(*app, "--threads", options->threads, 0, kMostThreads,
+             "Threads to use (default: all; same result)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

@@ -28,7 +28,8 @@ Status run(Console& console, const Options& options) {
   if (interrupted()) return Status::interrupted;
   if (!program || diagnostics.has_errors()) return Status::input_errors;
 
-  std::string buffer = text_of(Json{{"kerf_steps", 1}, {"units", "mm"}, {"source", program->source}}, Layout::line);
+  std::string buffer =
+      text_of(Json{{"kerf_steps", 1}, {"units", "mm"}, {"source", program->source}}, Layout::line);
   std::optional<int> tool;
   for (std::size_t i = 0; i < program->path.size(); ++i) {
     if (program->path[i].kind() == StepKind::tool_change) tool = program->path[i].tool_change().tool;
@@ -54,8 +55,10 @@ and in mm, feeds in mm/min, and where in the file the step comes from. Nothing i
 
 Command add_steps(CLI::App& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "steps", "Print a program's toolpath as JSON lines", kExamples, options->output);
-  app->add_option("FILE", options->file, "The program: " + known_endings() + "; - reads G-code from standard input")
+  CLI::App* app =
+      new_command(root, "steps", "Print a program's toolpath as JSON lines", kExamples, options->output);
+  app->add_option("FILE", options->file,
+                  "The program: " + known_endings() + "; - reads G-code from standard input")
       ->required();
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }

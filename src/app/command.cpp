@@ -12,7 +12,8 @@ CLI::App* new_command(CLI::App& parent, const std::string& name, const std::stri
   CLI::App* app = parent.add_subcommand(name, summary);
   app->footer("\nExamples:\n" + examples);
   app->add_flag("--json", output.json, "Print one JSON object (messages included) instead of text");
-  app->add_flag("-q,--quiet", output.quiet, "No progress bar, notes or summary; warnings, errors and hazards stay");
+  app->add_flag("-q,--quiet", output.quiet,
+                "No progress bar, notes or summary; warnings, errors and hazards stay");
   return app;
 }
 
@@ -30,7 +31,11 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, d
 
 CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
                           const std::string& summary) {
-  return app.add_option(name, values, summary)->type_size(1)->expected(1)->take_all()->allow_extra_args(false);
+  return app.add_option(name, values, summary)
+      ->type_size(1)
+      ->expected(1)
+      ->take_all()
+      ->allow_extra_args(false);
 }
 
 }  // namespace kerf::app

@@ -1,12 +1,11 @@
-// What a subcommand of `kerf` is: a name and options for the command line, and what it does. One file each (cmd_*.cpp);
-// a new one is a function declared here and a line in main.cpp.
+// What a subcommand of `kerf` is: a name and options for the command line, and what it does. One file each
+// (cmd_*.cpp); a new one is a function declared here and a line in main.cpp.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
-
-#include <CLI/CLI.hpp>
 
 #include "app/console.h"
 
@@ -28,7 +27,8 @@ Command add_steps(CLI::App& root);
 Command add_tools_list(CLI::App& tools);
 Command add_tools_show(CLI::App& tools);
 
-/// Makes a subcommand with its examples below the options in the help, and the options all have (--json, --quiet).
+/// Makes a subcommand with its examples below the options in the help, and the options all have (--json,
+/// --quiet).
 CLI::App* new_command(CLI::App& parent, const std::string& name, const std::string& summary,
                       const std::string& examples, OutputOptions& output);
 

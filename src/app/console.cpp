@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -40,21 +39,13 @@ std::string printable(std::string text) {
 
 }  // namespace
 
-bool stderr_is_terminal() {
-  return isatty(STDERR_FILENO) != 0 && !dumb_terminal();
-}
+bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0 && !dumb_terminal(); }
 
-bool stderr_has_colour() {
-  return stderr_is_terminal() && !is_set("NO_COLOR");
-}
+bool stderr_has_colour() { return stderr_is_terminal() && !is_set("NO_COLOR"); }
 
-void Console::print(std::string_view text) {
-  print_json(printable(std::string(text)));
-}
+void Console::print(std::string_view text) { print_json(printable(std::string(text))); }
 
-void Console::print_json(std::string_view text) {
-  std::fwrite(text.data(), 1, text.size(), stdout);
-}
+void Console::print_json(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stdout); }
 
 void Console::summary(std::string_view line) {
   if (options_.quiet || options_.json) return;
@@ -91,8 +82,6 @@ void Console::complain(std::string_view message) {
   }
 }
 
-bool Console::finish() {
-  return std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-}
+bool Console::finish() { return std::fflush(stdout) == 0 && std::ferror(stdout) == 0; }
 
 }  // namespace kerf::app

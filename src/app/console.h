@@ -1,4 +1,5 @@
-// Where the command says things: results to stdout, messages to stderr (or, with --json, inside the one object).
+// Where the command says things: results to stdout, messages to stderr (or, with --json, inside the one
+// object).
 #pragma once
 
 #include <string>
@@ -31,8 +32,8 @@ class Console {
   void print_json(std::string_view text);
   /// A line of the summary to stdout; nothing with --quiet.
   void summary(std::string_view line);
-  /// Diagnostics to stderr as text, in colour on a terminal, notes left out with --quiet; nothing with --json,
-  /// where they stand in the object.
+  /// Diagnostics to stderr as text, in colour on a terminal, notes left out with --quiet; nothing with
+  /// --json, where they stand in the object.
   void show(const Diagnostics& diagnostics);
   /// A message of the command itself to stderr.
   void complain(std::string_view message);

@@ -2,9 +2,8 @@
 #include "app/findings.h"
 
 #include <algorithm>
-#include <map>
-
 #include <fmt/format.h>
+#include <map>
 
 #include "kerf/number.h"
 
@@ -16,10 +15,13 @@ constexpr std::size_t kMostLines = 30;  // of hazards as text; JSON has them all
 std::string message_of(const Hazard& hazard) {
   const std::string depth = number_text(hazard.depth.mm(), 3);
   switch (hazard.kind) {
-    case HazardKind::rapid_in_stock: return fmt::format("a rapid move goes {} mm deep through the stock", depth);
+    case HazardKind::rapid_in_stock:
+      return fmt::format("a rapid move goes {} mm deep through the stock", depth);
     case HazardKind::neck_contact: return fmt::format("the tool's neck rubs {} mm deep in the stock", depth);
-    case HazardKind::shank_contact: return fmt::format("the tool's shank goes {} mm deep into the stock", depth);
-    case HazardKind::holder_contact: return fmt::format("the tool's holder goes {} mm deep into the stock", depth);
+    case HazardKind::shank_contact:
+      return fmt::format("the tool's shank goes {} mm deep into the stock", depth);
+    case HazardKind::holder_contact:
+      return fmt::format("the tool's holder goes {} mm deep into the stock", depth);
     case HazardKind::over_flute: return fmt::format("a cut {} mm deeper than the flute is long", depth);
     case HazardKind::below_floor: return fmt::format("a cut {} mm below the floor of the stock", depth);
     case HazardKind::spindle_off: break;
@@ -54,7 +56,8 @@ std::string line_of(const Finding& f) {
   if (!line.empty()) line += ": ";
   line += f.message;
   if (f.steps > 1) line += fmt::format(", in {} moves from here", f.steps);
-  line += fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
+  line +=
+      fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
   if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
   return line + fmt::format(") [{}]\n", f.kind);
 }
@@ -64,7 +67,8 @@ std::string line_of(const Finding& f) {
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
   for (const PathHazard& h : hazards)
-    out.push_back({std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step), h.message});
+    out.push_back(
+        {std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step), h.message});
   return out;
 }
 
@@ -105,7 +109,8 @@ void show(Console& console, const std::vector<Finding>& findings) {
   const std::vector<Finding> lines = grouped(findings);
   for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) console.print(line_of(lines[i]));
   if (lines.size() > kMostLines)
-    console.print(fmt::format("... and {} more hazards (--json lists them all)\n", lines.size() - kMostLines));
+    console.print(
+        fmt::format("... and {} more hazards (--json lists them all)\n", lines.size() - kMostLines));
 }
 
 }  // namespace kerf::app

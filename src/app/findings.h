@@ -6,18 +6,19 @@
 
 #include "app/console.h"
 #include "app/json.h"
+
 #include "kerf/check.h"
 #include "kerf/simulate.h"
 
 namespace kerf::app {
 
 struct Finding {
-  std::string kind;           // "rapid_in_stock", "no_feed" ...
-  std::size_t step = 0;       // index in the toolpath
-  std::size_t steps = 1;      // moves concerned, this one and following ones
-  Point3 at;                  // mm
-  double depth_mm = 0.0;      // 0 for the toolpath's own
-  double removed_mm3 = 0.0;   // 0 for the toolpath's own
+  std::string kind;          // "rapid_in_stock", "no_feed" ...
+  std::size_t step = 0;      // index in the toolpath
+  std::size_t steps = 1;     // moves concerned, this one and following ones
+  Point3 at;                 // mm
+  double depth_mm = 0.0;     // 0 for the toolpath's own
+  double removed_mm3 = 0.0;  // 0 for the toolpath's own
   Origin origin;
   std::string message;
 };

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cctype>
-
 #include <fmt/format.h>
+
+#include "app/text.h"
 
 namespace kerf::app {
 namespace {
@@ -52,12 +53,13 @@ std::string known_endings() {
   std::string text;
   for (const FrontEnd& f : front_ends()) {
     if (!text.empty()) text += ", ";
-    text += fmt::format("{} ({})", fmt::join(f.endings, " "), f.name);
+    text += joined(f.endings, " ") + " (" + std::string(f.name) + ")";
   }
   return text;
 }
 
-std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics, Progress* progress) {
+std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
+                                          Progress* progress) {
   if (progress != nullptr) progress->phase("reading");
   const std::optional<InputFile> file = InputFile::open(path, diagnostics);
   if (!file) return std::nullopt;

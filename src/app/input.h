@@ -1,5 +1,5 @@
-// The way in: any file that describes work becomes a LoadedProgram. Which front end reads it is told by the file's
-// ending; a new front end is one file that makes a FrontEnd, and a line in input.cpp.
+// The way in: any file that describes work becomes a LoadedProgram. Which front end reads it is told by the
+// file's ending; a new front end is one file that makes a FrontEnd, and a line in input.cpp.
 #pragma once
 
 #include <map>
@@ -39,9 +39,10 @@ struct FrontEnd {
 };
 FrontEnd gcode_front_end();
 
-/// Reads the program of a file ("-": standard input, as G-code). What was understood is returned with the errors in
-/// `diagnostics`; nothing is returned where there is nothing to read or no front end for it.
-std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics, Progress* progress);
+/// Reads the program of a file ("-": standard input, as G-code). What was understood is returned with the
+/// errors in `diagnostics`; nothing is returned where there is nothing to read or no front end for it.
+std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
+                                          Progress* progress);
 
 /// ".nc .ngc ..." of every front end, for the help.
 std::string known_endings();

@@ -3,12 +3,14 @@
 #include <utility>
 
 #include "app/input.h"
+
 #include "kerf/gcode.h"
 
 namespace kerf::app {
 namespace {
 
-/// Text in which a line begins with a word such as G0, M3, T1, N10 or X5, or with % or a comment and then such a line.
+/// Text in which a line begins with a word such as G0, M3, T1, N10 or X5, or with % or a comment and then
+/// such a line.
 bool looks_like_gcode(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) return false;
   constexpr std::string_view kLetters = "GMTNXYZFSO";
@@ -19,7 +21,8 @@ bool looks_like_gcode(std::string_view text) {
     while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
     if (line.size() < 2) continue;
     const auto letter = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
-    const bool number = std::isdigit(static_cast<unsigned char>(line[1])) != 0 || line[1] == '-' || line[1] == '.';
+    const bool number =
+        std::isdigit(static_cast<unsigned char>(line[1])) != 0 || line[1] == '-' || line[1] == '.';
     if (kLetters.find(letter) != std::string_view::npos && number) return true;
     if (letter != '(' && letter != ';' && letter != '%') return false;
   }

@@ -2,8 +2,6 @@
 #include "app/job.h"
 
 #include <algorithm>
-#include <cctype>
-
 #include <fmt/format.h>
 
 #include "kerf/number.h"
@@ -34,7 +32,8 @@ const Length kStockFloor = mm(1);   // of an assumed block, below the deepest cu
 std::pair<std::optional<int>, std::string_view> split_number(std::string_view text) {
   const std::size_t end = text.find_first_not_of("0123456789");
   constexpr std::size_t kMostDigits = 9;  // fits an int
-  if (end == 0 || end == std::string_view::npos || end > kMostDigits || text[end] != '=') return {std::nullopt, text};
+  if (end == 0 || end == std::string_view::npos || end > kMostDigits || text[end] != '=')
+    return {std::nullopt, text};
   return {std::stoi(std::string(text.substr(0, end))), text.substr(end + 1)};
 }
 
@@ -51,7 +50,8 @@ void read_tool_files(const std::vector<std::string>& names, JobSettings& setting
   }
 }
 
-/// The tool numbers of a path in order of first use, and whether something is cut before the first tool change.
+/// The tool numbers of a path in order of first use, and whether something is cut before the first tool
+/// change.
 struct Uses {
   std::vector<int> numbers;
   bool cuts_before = false;
@@ -73,9 +73,10 @@ Uses uses_of(const Toolpath& path) {
   return uses;
 }
 
-/// The tool for what comes before any tool change: the one option, else the one tool that the program describes.
-std::optional<std::pair<Tool, ToolSource>> tool_for_start(const LoadedProgram& program, const JobSettings& settings,
-                                                          const Uses& uses) {
+/// The tool for what comes before any tool change: the one option, else the one tool that the program
+/// describes.
+std::optional<std::pair<Tool, ToolSource>> tool_for_start(const LoadedProgram& program,
+                                                          const JobSettings& settings, const Uses& uses) {
   if (settings.any_number) return {{*settings.any_number, ToolSource::option}};
   if (!uses.numbers.empty()) return std::nullopt;
   if (settings.numbered.size() == 1) return {{settings.numbered.begin()->second, ToolSource::option}};
@@ -110,40 +111,40 @@ struct Choice {
   ToolSource source = ToolSource::unknown;
 };
 
-Choice choose(int number, const LoadedProgram& program, const JobSettings& settings) {
-  if (const auto it = settings.numbered.find(number); it != settings.numbered.end())
-    return {&it->second, ToolSource::option};
-  if (settings.any_number) return {&*settings.any_number, ToolSource::option};
-  if (const auto it = program.tools.find(number); it != program.tools.end()) return {&it->second, ToolSource::comment};
-  if (const Tool* tool = settings.table.find(number))
-    return {tool, settings.from_file.count(number) > 0 ? ToolSource::file : ToolSource::built_in};
+/// Where the program first asks for a tool.
+Origin first_use_of(int number, const Toolpath& path) {
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].kind() == StepKind::tool_change && path[i].tool_change().tool == number)
+      return path.origin_of(i);
   return {};
 }
 
-void tell_unknown(int number, const Toolpath& path, UnknownTool unknown, Diagnostics& diagnostics) {
-  Origin where;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    if (path[i].kind() != StepKind::tool_change || path[i].tool_change().tool != number) continue;
-    where = path.origin_of(i);
-    break;
-  }
-  const auto message = fmt::format("nobody knows the shape of tool {}", number);
-  Diagnostic& told = unknown == UnknownTool::error ? diagnostics.error(Code::no_tool_shape, where, message)
-                                                   : diagnostics.warning(Code::no_tool_shape, where, message);
-  told.hint = fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", number);
+Choice choose(int number, const LoadedProgram& program, const JobSettings& settings,
+              Diagnostics& diagnostics) {
+  if (const auto it = settings.numbered.find(number); it != settings.numbered.end())
+    return {&it->second, ToolSource::option};
+  if (settings.any_number) return {&*settings.any_number, ToolSource::option};
+  const Tool* in_table = settings.table.find(number);
+  const auto described = program.tools.find(number);
+  const Tool* in_comment = described == program.tools.end() ? nullptr : &described->second;
+  const Tool* chosen = choose_tool(in_table, in_comment, first_use_of(number, program.path), diagnostics);
+  if (chosen == nullptr) return {};
+  if (chosen == in_comment) return {chosen, ToolSource::comment};
+  return {chosen, settings.from_file.count(number) > 0 ? ToolSource::file : ToolSource::built_in};
+}
+
+/// An unknown shape: an error where it is needed, else a warning.
+Diagnostic& tell(UnknownTool unknown, Origin where, std::string message, Diagnostics& diagnostics) {
+  if (unknown == UnknownTool::error) return diagnostics.error(Code::no_tool_shape, std::move(where), message);
+  return diagnostics.warning(Code::no_tool_shape, std::move(where), message);
 }
 
 void tell_no_tool(const Toolpath& path, UnknownTool unknown, Diagnostics& diagnostics) {
-  Origin where;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    if (!path[i].is_cutting()) continue;
-    where = path.origin_of(i);
-    break;
-  }
-  const char* const message = "the program cuts before any tool change, and does not describe its tool";
-  Diagnostic& told = unknown == UnknownTool::error ? diagnostics.error(Code::no_tool_shape, where, message)
-                                                   : diagnostics.warning(Code::no_tool_shape, where, message);
-  told.hint = "tell the tool, e.g. --tool \"square d=3.175 flute=12.7\"";
+  const auto& steps = path.steps();
+  const auto first = std::find_if(steps.begin(), steps.end(), [](const Step& s) { return s.is_cutting(); });
+  tell(unknown, path.origin_of(static_cast<std::size_t>(first - steps.begin())),
+       "the program cuts before any tool change, and does not describe its tool", diagnostics)
+      .hint = "tell the tool, e.g. --tool \"square d=3.175 flute=12.7\"";
 }
 
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
@@ -151,10 +152,12 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
   give_start_tool(job, settings, uses);
   if (uses.cuts_before && job.tool_sources.empty()) tell_no_tool(job.program.path, unknown, diagnostics);
   for (const int number : uses.numbers) {
-    const Choice choice = choose(number, job.program, settings);
+    const Choice choice = choose(number, job.program, settings, diagnostics);
     job.tool_sources[number] = choice.source;
     if (choice.tool == nullptr) {
-      tell_unknown(number, job.program.path, unknown, diagnostics);
+      tell(unknown, first_use_of(number, job.program.path),
+           fmt::format("nobody knows the shape of tool {}", number), diagnostics)
+          .hint = fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", number);
       continue;
     }
     Tool tool = *choice.tool;
@@ -183,21 +186,24 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   job.stock_source = StockSource::assumed;
   const Box3& b = job.stock->block;
   const Point3 size = b.size();
-  diagnostics.note(Code::stock_assumed, TextSpot{job.program.source, 0, 0},
-                   fmt::format("the program does not tell its stock; assumed {} x {} x {} mm around the cuts, from "
-                               "X{} Y{} Z{} to X{} Y{} Z{}",
-                               number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
-                               number_text(b.low.x, 3), number_text(b.low.y, 3), number_text(b.low.z, 3),
-                               number_text(b.high.x, 3), number_text(b.high.y, 3), number_text(b.high.z, 3)))
+  diagnostics
+      .note(Code::stock_assumed, TextSpot{job.program.source, 0, 0},
+            fmt::format("the program does not tell its stock; assumed {} x {} x {} mm around the cuts, from "
+                        "X{} Y{} Z{} to X{} Y{} Z{}",
+                        number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
+                        number_text(b.low.x, 3), number_text(b.low.y, 3), number_text(b.low.z, 3),
+                        number_text(b.high.x, 3), number_text(b.high.y, 3), number_text(b.high.z, 3)))
       .hint = "tell it with --stock";
 }
 
 }  // namespace
 
 void add_job_options(CLI::App& app, JobOptions& options) {
-  app.add_option("FILE", options.file, "The program: " + known_endings() + "; - reads G-code from standard input")
+  app.add_option("FILE", options.file,
+                 "The program: " + known_endings() + "; - reads G-code from standard input")
       ->required();
-  add_repeated(app, "-t,--tool", options.tools, "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
+  add_repeated(app, "-t,--tool", options.tools,
+               "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
   add_repeated(app, "--tools", options.tool_files, "A file of tools (TOML)");
   app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)");
 }
@@ -216,7 +222,8 @@ JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diag
       settings.any_number = std::move(tool);
     }
   }
-  if (!options.stock.empty()) settings.stock = read_stock_option(options.stock, CallSpot{"", 0, "--stock"}, usage);
+  if (!options.stock.empty())
+    settings.stock = read_stock_option(options.stock, CallSpot{"", 0, "--stock"}, usage);
   read_tool_files(options.tool_files, settings, diagnostics);
   return settings;
 }
@@ -242,8 +249,8 @@ std::string_view to_string(StockSource source) {
   return "unknown";
 }
 
-Job make_job(LoadedProgram program, const JobSettings& settings, const ReportOptions& report, UnknownTool unknown,
-             Diagnostics& diagnostics) {
+Job make_job(LoadedProgram program, const JobSettings& settings, const ReportOptions& report,
+             UnknownTool unknown, Diagnostics& diagnostics) {
   Job job;
   job.program = std::move(program);
   choose_tools(job, settings, unknown, diagnostics);

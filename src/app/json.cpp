@@ -7,9 +7,7 @@
 namespace kerf::app {
 namespace {
 
-Json origin_json(std::monostate) {
-  return nullptr;
-}
+Json origin_json(std::monostate) { return nullptr; }
 Json origin_json(const TextSpot& spot) {
   return {{"file", spot.file}, {"line", spot.line}, {"column", spot.column}};
 }
@@ -23,17 +21,15 @@ Json origin_json(const CallSpot& spot) {
   return {{"file", spot.file}, {"line", spot.line}, {"call", spot.call}};
 }
 
-std::string_view word(Plane plane) {
-  return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ";
-}
-std::string_view word(Turn turn) {
-  return turn == Turn::cw ? "cw" : "ccw";
-}
+std::string_view word(Plane plane) { return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ"; }
+std::string_view word(Turn turn) { return turn == Turn::cw ? "cw" : "ccw"; }
 std::string_view word(SpindleTurn turn) {
   return turn == SpindleTurn::off ? "off" : turn == SpindleTurn::cw ? "cw" : "ccw";
 }
 std::string_view word(PathModeKind kind) {
-  return kind == PathModeKind::exact_path ? "exact_path" : kind == PathModeKind::exact_stop ? "exact_stop" : "blend";
+  return kind == PathModeKind::exact_path   ? "exact_path"
+         : kind == PathModeKind::exact_stop ? "exact_stop"
+                                            : "blend";
 }
 std::string_view word(Heater heater) {
   return heater == Heater::nozzle ? "nozzle" : heater == Heater::bed ? "bed" : "chamber";
@@ -55,7 +51,8 @@ void add_motion(Json& out, const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   out["to"] = json_of(s.to());
   if (const MotionExtra* extra = path.extra(i)) {
-    if (extra->abc) out["abc"] = {json_of((*extra->abc)[0]), json_of((*extra->abc)[1]), json_of((*extra->abc)[2])};
+    if (extra->abc)
+      out["abc"] = {json_of((*extra->abc)[0]), json_of((*extra->abc)[1]), json_of((*extra->abc)[2])};
     if (!extra->z_correction.empty()) out["z_correction"] = extra->z_correction;
   }
   if (s.unknown_axes() == 0) return;
@@ -124,9 +121,7 @@ Json json_of(double value) {
   return value == 0.0 ? 0.0 : value;
 }
 
-Json json_of(Point3 p) {
-  return Json::array({json_of(p.x), json_of(p.y), json_of(p.z)});
-}
+Json json_of(Point3 p) { return Json::array({json_of(p.x), json_of(p.y), json_of(p.z)}); }
 
 Json json_of(const Box3& box) {
   if (box.empty()) return nullptr;

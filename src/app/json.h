@@ -1,15 +1,16 @@
-// Kerf's values as JSON, in the form that the other tools rely on: one function a type, used by every subcommand.
-// Keys keep the order in which they are set; numbers are never "-0" and never missing (null where there is none).
+// Kerf's values as JSON, in the form that the other tools rely on: one function a type, used by every
+// subcommand. Keys keep the order in which they are set; numbers are never "-0" and never missing (null where
+// there is none).
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
-
-#include <nlohmann/json.hpp>
 
 #include "kerf/diagnostics.h"
 #include "kerf/report.h"
 #include "kerf/stock.h"
+#include "kerf/tool.h"
 #include "kerf/toolpath.h"
 
 namespace kerf::app {
@@ -22,8 +23,8 @@ Json json_of(Point3 p);
 Json json_of(const Box3& box);
 /// {"min": .., "max": ..}, null where nothing was seen.
 Json json_of(const Range& range);
-/// {"file":..,"line":..,"column":..}, {"file":..,"layer":..,"handle":..,"at":[x,y]}, {"file":..,"line":..,"call":..},
-/// or null.
+/// {"file":..,"line":..,"column":..}, {"file":..,"layer":..,"handle":..,"at":[x,y]},
+/// {"file":..,"line":..,"call":..}, or null.
 Json json_of(const Origin& origin);
 Json json_of(const Diagnostic& diagnostic);
 /// The kept ones; with a last entry for each code of which some were only counted.

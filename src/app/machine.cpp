@@ -48,7 +48,8 @@ std::optional<Machine> read_machine(const std::string& path, Diagnostics& diagno
     }
   }
   if (seen[0] && seen[1] && seen[2]) return machine;
-  diagnostics.error(Code::machine_file, TextSpot{path, 0, 0}, "expected GRBL's settings with $110=, $111= and $112=")
+  diagnostics
+      .error(Code::machine_file, TextSpot{path, 0, 0}, "expected GRBL's settings with $110=, $111= and $112=")
       .hint = "save what the controller answers to $$ (TOML profiles of machines are not read yet)";
   return std::nullopt;
 }

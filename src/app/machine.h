@@ -14,8 +14,8 @@ struct Machine {
   std::array<Feed, 3> rapid;  // X, Y, Z: $110, $111, $112
 };
 
-/// Reads a file of lines such as "$110=3000.000" (text behind a number is passed over). Errors where it has none of
-/// the rapid rates, or one that is not above 0.
+/// Reads a file of lines such as "$110=3000.000" (text behind a number is passed over). Errors where it has
+/// none of the rapid rates, or one that is not above 0.
 std::optional<Machine> read_machine(const std::string& path, Diagnostics& diagnostics);
 
 }  // namespace kerf::app

@@ -5,9 +5,8 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <set>
-
 #include <fmt/format.h>
+#include <set>
 #include <unistd.h>
 
 #include "kerf/image_files.h"
@@ -61,8 +60,9 @@ void test_folder(const std::string& path, Diagnostics& diagnostics) {
     diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
                       fmt::format("cannot write the file: there is no folder {}", folder.string()));
   } else if (access(folder.c_str(), W_OK) != 0) {
-    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
-                      fmt::format("cannot write the file: the folder {} may not be written to", folder.string()));
+    diagnostics.error(
+        Code::file_unwritable, TextSpot{path, 0, 0},
+        fmt::format("cannot write the file: the folder {} may not be written to", folder.string()));
   }
 }
 
@@ -88,7 +88,8 @@ std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vect
 std::vector<std::uint8_t> colours_of_triangles(const Mesh& mesh, const std::vector<std::uint8_t>& of_step) {
   std::vector<std::uint8_t> colours;
   colours.reserve(mesh.step.size());
-  for (const std::uint32_t step : mesh.step) colours.push_back(step < of_step.size() ? of_step[step] : kStockColour);
+  for (const std::uint32_t step : mesh.step)
+    colours.push_back(step < of_step.size() ? of_step[step] : kStockColour);
   return colours;
 }
 
@@ -129,8 +130,9 @@ std::vector<OutputFile> read_outputs(const std::vector<std::string>& names, cons
   for (const std::string& name : names) {
     const auto mesh = mesh_format_of(name);
     if (!mesh && !is_png(name)) {
-      usage.error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
-                  fmt::format("\"{}\" ends in no format that can be written", name))
+      usage
+          .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+                 fmt::format("\"{}\" ends in no format that can be written", name))
           .hint = "known endings: .stl .3mf .glb .obj for the part's surface, .png for a picture";
       continue;
     }
@@ -158,17 +160,20 @@ std::optional<View> read_view(const std::string& view, const std::string& size, 
     out.azimuth = degrees(angles->first);
     out.elevation = degrees(angles->second);
   } else {
-    problem = fmt::format("--view: \"{}\" is neither top, front, back, left, right or iso nor AZIMUTH,ELEVATION",
-                          view.substr(0, 40));
+    problem =
+        fmt::format("--view: \"{}\" is neither top, front, back, left, right or iso nor AZIMUTH,ELEVATION",
+                    view.substr(0, 40));
     if (const auto close = did_you_mean(view, {"top", "front", "back", "left", "right", "iso"}))
       problem += fmt::format("; did you mean {}?", *close);
     return std::nullopt;
   }
   const auto pixels = split_pair(size, 'x');
-  const auto good = [](double v) { return v >= 16 && v <= kMostPixels && v == static_cast<double>(static_cast<int>(v)); };
+  const auto good = [](double v) {
+    return v >= 16 && v <= kMostPixels && v == static_cast<double>(static_cast<int>(v));
+  };
   if (!pixels || !good(pixels->first) || !good(pixels->second)) {
-    problem = fmt::format("--size: \"{}\" is no WIDTHxHEIGHT in pixels, each from 16 to {}", size.substr(0, 40),
-                          kMostPixels);
+    problem = fmt::format("--size: \"{}\" is no WIDTHxHEIGHT in pixels, each from 16 to {}",
+                          size.substr(0, 40), kMostPixels);
     return std::nullopt;
   }
   out.width = static_cast<int>(pixels->first);

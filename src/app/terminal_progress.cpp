@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
-
 #include <fmt/format.h>
 
 namespace kerf::app {
@@ -13,13 +12,11 @@ namespace {
 constexpr int kBarCells = 24;
 constexpr auto kBetweenDraws = std::chrono::milliseconds(100);
 constexpr auto kBeforeFirstDraw = std::chrono::milliseconds(300);  // short work shows no bar at all
-constexpr double kGuessBelow = 0.02;  // a share too small to foretell the rest
+constexpr double kGuessBelow = 0.02;                               // a share too small to foretell the rest
 
 volatile std::sig_atomic_t stop_flag = 0;
 
-extern "C" void on_signal(int) {
-  stop_flag = 1;
-}
+extern "C" void on_signal(int) { stop_flag = 1; }
 
 }  // namespace
 
@@ -32,9 +29,7 @@ void catch_interrupts() {
   }
 }
 
-bool interrupted() {
-  return stop_flag != 0;
-}
+bool interrupted() { return stop_flag != 0; }
 
 std::string clock_text(double seconds) {
   if (!(seconds >= 0.0) || seconds > 1e9) return "?";
@@ -48,11 +43,10 @@ std::string time_left(double share, double elapsed) {
   return clock_text(elapsed * (1.0 - share) / share) + " left";
 }
 
-TerminalProgress::TerminalProgress(const Console& console) : visible_(stderr_is_terminal() && !console.quiet()) {}
+TerminalProgress::TerminalProgress(const Console& console)
+    : visible_(stderr_is_terminal() && !console.quiet()) {}
 
-TerminalProgress::~TerminalProgress() {
-  clear();
-}
+TerminalProgress::~TerminalProgress() { clear(); }
 
 void TerminalProgress::phase(std::string_view what) {
   what_ = what;
@@ -70,8 +64,8 @@ void TerminalProgress::report(double share) {
 void TerminalProgress::draw(double share, Clock::time_point now) {
   const auto cells = static_cast<std::size_t>(std::lround(share * kBarCells));
   const double elapsed = std::chrono::duration<double>(now - begun_).count();
-  fmt::print(stderr, "\r\x1b[K{}  [{:.<{}}] {:3.0f}%  {}", what_, std::string(cells, '#'), kBarCells, share * 100.0,
-             time_left(share, elapsed));
+  fmt::print(stderr, "\r\x1b[K{}  [{:.<{}}] {:3.0f}%  {}", what_, std::string(cells, '#'), kBarCells,
+             share * 100.0, time_left(share, elapsed));
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "app/console.h"
+
 #include "kerf/progress.h"
 
 namespace kerf::app {
@@ -13,8 +14,8 @@ namespace kerf::app {
 void catch_interrupts();
 bool interrupted();
 
-/// Draws "cutting  [#####.....]  52%  0:03 left" on stderr, at most ten times a second, and takes it away at the end.
-/// On anything but a terminal, and with --quiet, it draws nothing and only tells of interrupts.
+/// Draws "cutting  [#####.....]  52%  0:03 left" on stderr, at most ten times a second, and takes it away at
+/// the end. On anything but a terminal, and with --quiet, it draws nothing and only tells of interrupts.
 class TerminalProgress : public Progress {
  public:
   explicit TerminalProgress(const Console& console);
@@ -39,7 +40,8 @@ class TerminalProgress : public Progress {
   Clock::time_point last_ = Clock::now();
 };
 
-/// "0:03", "1:02:03"; the time left when `share` of the work took `elapsed` seconds, empty while that is a guess.
+/// "0:03", "1:02:03"; the time left when `share` of the work took `elapsed` seconds, empty while that is a
+/// guess.
 std::string time_left(double share, double elapsed);
 std::string clock_text(double seconds);
 
