@@ -199,7 +199,8 @@ Command add_info(CLI::App& root) {
   CLI::App* app = new_command(root, "info", "Tell a program's size, time, tools, feeds and stock",
                               kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
-  app->add_option("--machine", options->machine, "GRBL's $$ settings; its rapid rates are used for the time");
+  app->add_option("--machine", options->machine, "GRBL's $$ settings; its rapid rates are used for the time")
+      ->type_name("PATH");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

@@ -192,12 +192,15 @@ Command add_simulate(CLI::App& root) {
   add_job_options(*app, options->job);
   add_repeated(*app, "-o,--output", options->outputs,
                "Write the part: .stl .3mf .glb .obj, or a picture: .png");
-  add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
              "Distance of the material columns in mm (default: by the stock's size)");
   app->add_option("--view", options->view,
                   "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
+      ->type_name("VIEW")
       ->capture_default_str();
-  app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")->capture_default_str();
+  app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
   add_number(*app, "--threads", options->threads, 0, kMostThreads,
              "Threads to use (default: all; same result)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};

@@ -57,9 +57,7 @@ Command add_steps(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "steps", "Print a program's toolpath as JSON lines", kExamples, options->output);
-  app->add_option("FILE", options->file,
-                  "The program: " + known_endings() + "; - reads G-code from standard input")
-      ->required();
+  add_program(*app, options->file);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

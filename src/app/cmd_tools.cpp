@@ -151,7 +151,7 @@ Command add_tools_list(CLI::App& tools) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(tools, "list", "List the tools that Kerf knows", kListExamples, options->output);
-  add_repeated(*app, "--tools", options->files, "A file of tools (TOML) to add");
+  add_repeated(*app, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
   return {app, &options->output, [options](Console& console) { return run_list(console, *options); }};
 }
 
@@ -161,8 +161,9 @@ Command add_tools_show(CLI::App& tools) {
                               kShowExamples, options->output);
   app->add_option("TOOL", options->asked,
                   "A number or a vendor's name of the list, or a shape: \"square d=3.175\"")
-      ->required();
-  add_repeated(*app, "--tools", options->files, "A file of tools (TOML) to add");
+      ->required()
+      ->type_name("");
+  add_repeated(*app, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
   return {app, &options->output, [options](Console& console) { return run_show(console, *options); }};
 }
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "app/input.h"
+
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -18,7 +20,7 @@ CLI::App* new_command(CLI::App& parent, const std::string& name, const std::stri
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
-                        const std::string& summary) {
+                        const std::string& unit, const std::string& summary) {
   const auto read = [&value, name, low, high](const std::string& text) {
     const std::optional<double> number = parse_number(text);
     if (!number || *number < low || *number > high)
@@ -26,7 +28,14 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, d
                                                    exact_text(low), exact_text(high)));
     value = *number;
   };
-  return app.add_option_function<std::string>(name, read, summary);
+  return app.add_option_function<std::string>(name, read, summary)->type_name(unit);
+}
+
+CLI::Option* add_program(CLI::App& app, std::string& file) {
+  return app
+      .add_option("FILE", file, "The program: " + known_endings() + "; - reads G-code from standard input")
+      ->required()
+      ->type_name("");
 }
 
 CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,

@@ -34,9 +34,11 @@ CLI::App* new_command(CLI::App& parent, const std::string& name, const std::stri
 
 /// An option whose value is a finite number from `low` to `high`; anything else is wrong usage.
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
-                        const std::string& summary);
+                        const std::string& unit, const std::string& summary);
+/// The positional FILE of the commands that read a program.
+CLI::Option* add_program(CLI::App& app, std::string& file);
 /// An option that may be given several times, one value each time.
 CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
-                          const std::string& summary);
+                          const std::string& kind, const std::string& summary);
 
 }  // namespace kerf::app

@@ -199,13 +199,12 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
 }  // namespace
 
 void add_job_options(CLI::App& app, JobOptions& options) {
-  app.add_option("FILE", options.file,
-                 "The program: " + known_endings() + "; - reads G-code from standard input")
-      ->required();
+  add_program(app, options.file);
   add_repeated(app, "-t,--tool", options.tools,
                "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
-  add_repeated(app, "--tools", options.tool_files, "A file of tools (TOML)");
-  app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)");
+  add_repeated(app, "--tools", options.tool_files, "PATH", "A file of tools (TOML)");
+  app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
+      ->type_name("SPEC");
 }
 
 JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {

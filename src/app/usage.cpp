@@ -55,7 +55,9 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error) {
   const std::vector<std::string> commands = command_names(app);
   if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
     return "a command is needed: " + joined(commands, ", ");
-  return error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return error.what();
+  const std::string what = error.what();  // "--output: 1 required PATH missing", and the like
+  return what.substr(0, what.find(':')) + " needs one value";
 }
 
 }  // namespace kerf::app
