@@ -190,7 +190,7 @@ Command add_simulate(CLI::App& root) {
       new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
                   kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
-  add_repeated(*app, "-o,--output", options->outputs,
+  add_repeated(*app, "-o,--output", options->outputs, "PATH",
                "Write the part: .stl .3mf .glb .obj, or a picture: .png");
   add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
              "Distance of the material columns in mm (default: by the stock's size)");
@@ -201,7 +201,7 @@ Command add_simulate(CLI::App& root) {
   app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")
       ->type_name("WxH")
       ->capture_default_str();
-  add_number(*app, "--threads", options->threads, 0, kMostThreads,
+  add_number(*app, "--threads", options->threads, 0, kMostThreads, "N",
              "Threads to use (default: all; same result)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }

@@ -200,7 +200,7 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
 
 void add_job_options(CLI::App& app, JobOptions& options) {
   add_program(app, options.file);
-  add_repeated(app, "-t,--tool", options.tools,
+  add_repeated(app, "-t,--tool", options.tools, "SPEC",
                "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
   add_repeated(app, "--tools", options.tool_files, "PATH", "A file of tools (TOML)");
   app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
