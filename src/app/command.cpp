@@ -39,12 +39,9 @@ CLI::Option* add_program(CLI::App& app, std::string& file) {
 }
 
 CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
-                          const std::string& summary) {
-  return app.add_option(name, values, summary)
-      ->type_size(1)
-      ->expected(1)
-      ->take_all()
-      ->allow_extra_args(false);
+                          const std::string& kind, const std::string& summary) {
+  CLI::Option* option = app.add_option(name, values, summary);
+  return option->type_size(1)->expected(1)->take_all()->allow_extra_args(false)->type_name(kind);
 }
 
 }  // namespace kerf::app
