@@ -82,7 +82,7 @@ std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolp
 
 std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> of_material) {
   for (Finding& f : of_material)
-    if (f.kind != name_of(Code::spindle_off)) of_path.push_back(std::move(f));
+    if (f.kind != to_string(HazardKind::spindle_off)) of_path.push_back(std::move(f));
   std::stable_sort(of_path.begin(), of_path.end(),
                    [](const Finding& a, const Finding& b) { return a.step < b.step; });
   return of_path;

@@ -81,8 +81,8 @@ struct Rule {
 };
 /// Further rules (limits of the machine, chip load) are further lines.
 constexpr Rule kRules[] = {
-    {Code::no_feed, no_feed},         {Code::negative_feed, negative_feed}, {Code::no_tool, no_tool},
-    {Code::spindle_off, spindle_off}, {Code::arc_radii, arc_radii},
+    {Code::path_no_feed, no_feed},         {Code::path_negative_feed, negative_feed}, {Code::path_no_tool, no_tool},
+    {Code::path_spindle_off, spindle_off}, {Code::path_arc_radii, arc_radii},
 };
 
 /// Tells whether a motion takes part in runs of a rule: rapids between cuts do not end a run of cuts.
@@ -93,7 +93,8 @@ bool ends_runs(const Step& s) {
 }  // namespace
 
 std::string_view kind_of(const PathHazard& hazard) {
-  return name_of(hazard.code);
+  constexpr std::string_view kPrefix = "path_";  // sets these codes apart from what readers say of their text
+  return name_of(hazard.code).substr(kPrefix.size());
 }
 
 std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& options) {
@@ -120,7 +121,7 @@ std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& opt
     const auto last = static_cast<std::uint32_t>(path.size() - 1);
     Point3 at;
     for_each_motion(path, [&](const Step& s, const MotionContext&) { at = s.to(); });
-    found.push_back({Code::no_program_end, last, 1, at,
+    found.push_back({Code::path_no_program_end, last, 1, at,
                      "the program stops here without M2, M30 or a closing %: the file may be cut off"});
   }
   return found;

@@ -49,7 +49,7 @@ TEST(CheckPath, CutsWithoutFeedAreOneRunWithTheFirstStep) {
   job.add(step::Cut{{0, 0, -1}, Feed{}}).add(step::Rapid{{0, 0, 5}}).add(step::Cut{{1, 0, -1}, Feed{}});
   const auto found = check_path(job.path, {});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::no_feed);
+  EXPECT_EQ(found[0].code, Code::path_no_feed);
   EXPECT_EQ(found[0].step, 3u);
   EXPECT_EQ(found[0].steps, 2u);
   EXPECT_EQ(found[0].at, (Point3{0, 0, -1}));
@@ -74,7 +74,7 @@ TEST(CheckPath, NegativeFeedSaysItsValue) {
   job.add(step::Cut{{0, 0, -1}, mm_per_min(-12.5)});
   const auto found = check_path(job.path, {});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::negative_feed);
+  EXPECT_EQ(found[0].code, Code::path_negative_feed);
   EXPECT_NE(found[0].message.find("-12.5"), std::string::npos);
 }
 
@@ -134,7 +134,7 @@ TEST(CheckPath, AMissingEndIsToldAtTheLastStep) {
   job.add(step::Cut{{3, 0, -1}, mm_per_min(100)}).add(step::Dwell{seconds(1)});
   const auto found = check_path(job.path, {.end = ProgramEnd::missing});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].code, Code::no_program_end);
+  EXPECT_EQ(found[0].code, Code::path_no_program_end);
   EXPECT_EQ(found[0].step, 4u);
   EXPECT_EQ(found[0].at, (Point3{3, 0, -1}));
 }
