@@ -1,0 +1,51 @@
+// What is dangerous or wrong in a toolpath by itself, before any material is thought of: cuts without a feed,
+// a tool or a turning spindle, arcs whose ends do not lie on one circle, programs cut off before their end.
+//
+// What a toolpath does to material (rapids through the stock, shank and holder contact) is simulate.h's
+// matter; `kerf check` shows both.
+//
+//   std::vector<PathHazard> found = check_path(path, {});
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/geometry.h"
+#include "kerf/toolpath.h"
+#include "kerf/units.h"
+
+namespace kerf {
+
+/// What the front end knows of a program's end. Toolpaths made by calls have none and need none.
+enum class ProgramEnd : std::uint8_t { not_asked, seen, missing };
+
+struct CheckOptions {
+  /// GRBL 1.1 refuses an arc whose two radii differ by more than `arc_radii_apart` and by more than the share
+  /// `arc_radii_share` of the radius, or by more than `arc_radii_limit` whatever its radius.
+  Length arc_radii_apart = mm(0.005);
+  double arc_radii_share = 0.001;
+  Length arc_radii_limit = mm(0.5);
+  ProgramEnd end = ProgramEnd::not_asked;
+};
+
+/// Something wrong from step `step` on. Neighbouring motions with the same trouble are one entry.
+struct PathHazard {
+  Code code{};              // a 5xxx code; its name is the hazard's kind
+  std::uint32_t step = 0;   // index in the toolpath of the first motion concerned
+  std::uint32_t steps = 1;  // motions concerned, this one and those after it
+  Point3 at;                // mm, where the first motion concerned ends
+  std::string message;
+};
+
+/// "no_feed", "negative_feed", "no_tool", "arc_radii", "spindle_off", "no_program_end".
+std::string_view kind_of(const PathHazard& hazard);
+
+/// Looks through a whole toolpath; what it finds is in the order of steps. The spindle is not asked for in
+/// programs that switch a laser, the tool is not asked for in programs that lay down beads.
+std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& options);
+
+}  // namespace kerf

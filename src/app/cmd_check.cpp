@@ -1,0 +1,116 @@
+// kerf check: what would break a tool, a part or the machine's patience, found without writing any file.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+#include "app/command.h"
+#include "app/findings.h"
+#include "app/job.h"
+#include "app/terminal_progress.h"
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr double kColumns = 500'000;                // of the coarse simulation that finds hazards
+constexpr double kFinestDefault = 0.05;             // mm
+constexpr double kCoarsestDefault = 1.0;            // mm
+constexpr double kFinest = 0.0005, kCoarsest = 50;  // mm, --resolution
+
+struct Options {
+  OutputOptions output;
+  JobOptions job;
+  double resolution = 0.0;
+};
+
+Length resolution_for(const Stock& stock, double told) {
+  if (told > 0.0) return mm(told);
+  const Point3 size = stock.block.size();
+  return mm(std::clamp(std::sqrt(size.x * size.y / kColumns), kFinestDefault, kCoarsestDefault));
+}
+
+/// The hazards met in the material; nothing where it could not be simulated (`diagnostics` says why).
+std::optional<std::vector<Finding>> findings_in_material(const Job& job, double resolution,
+                                                         Diagnostics& diagnostics, Progress& progress) {
+  const bool toolless = job.tool_sources.empty();
+  if (!job.stock || toolless) {
+    diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
+                        toolless ? "no tool is known, so the material was not looked at"
+                                 : "nothing is cut and no stock is told, so the material was not looked at");
+    return std::nullopt;
+  }
+  SimulationOptions how;
+  how.resolution = resolution_for(*job.stock, resolution);
+  progress.phase("checking");
+  const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
+  if (!simulation) return std::nullopt;
+  return findings_of(simulation->hazards, job.program.path);
+}
+
+void show_result(Console& console, const LoadedProgram& program, const std::vector<Finding>& findings,
+                 const Diagnostics& diagnostics) {
+  console.show(diagnostics);
+  if (console.json()) {
+    const Json out{
+        {"source", program.source}, {"hazards", json_of(findings)}, {"diagnostics", json_of(diagnostics)}};
+    console.print_json(text_of(out, Layout::indented));
+    return;
+  }
+  show(console, findings);
+  if (findings.empty() && !diagnostics.has_errors())
+    console.summary(fmt::format("{}: {} steps, no hazard found", program.source, program.path.size()));
+}
+
+Status run(Console& console, const Options& options) {
+  Diagnostics usage, diagnostics;
+  const JobSettings settings = read_job_options(options.job, usage, diagnostics);
+  if (usage.has_errors()) return console.show(usage), Status::wrong_usage;
+  TerminalProgress progress(console);
+  std::optional<LoadedProgram> program;
+  if (!diagnostics.has_errors()) program = load_program(options.job.file, diagnostics, &progress);
+  progress.clear();
+  if (!program) {
+    show_result(console, LoadedProgram{}, {}, diagnostics);
+    return Status::input_errors;
+  }
+  std::vector<Finding> findings;
+  CheckOptions checks;
+  checks.end = program->end;
+  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
+  findings = findings_of(check_path(job.program.path, checks), job.program.path);
+  if (!diagnostics.has_errors()) {
+    auto material = findings_in_material(job, options.resolution, diagnostics, progress);
+    if (material) findings = merged(std::move(findings), std::move(*material));
+  }
+  progress.clear();
+  if (interrupted()) return console.complain("interrupted"), Status::interrupted;
+  show_result(console, job.program, findings, diagnostics);
+  if (diagnostics.has_errors()) return Status::input_errors;
+  return findings.empty() ? Status::done : Status::hazards;
+}
+
+const char* const kExamples =
+    R"(  kerf check part.nc && echo "good to cut"
+  kerf check part.nc --json --stock "100x60x12 at lower-left top"
+
+Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor, cuts
+without feed, tool or turning spindle, arcs that controllers refuse, a missing program end.
+Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
+)";
+
+}  // namespace
+
+Command add_check(CLI::App& root) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      new_command(root, "check", "Look for hazards in a program, without writing files; exit status 3",
+                  kExamples + std::string(kJobHelp), options->output);
+  add_job_options(*app, options->job);
+  add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
+             "Distance of the material columns in mm (default: coarse, by the stock's size)");
+  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+}
+
+}  // namespace kerf::app

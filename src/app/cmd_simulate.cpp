@@ -1,0 +1,209 @@
+// kerf simulate: cuts a program out of its stock, tells what was removed and what went wrong, writes meshes
+// and pictures.
+#include <fmt/format.h>
+#include <memory>
+
+#include "app/command.h"
+#include "app/findings.h"
+#include "app/outputs.h"
+#include "app/terminal_progress.h"
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr double kFinest = 0.0005, kCoarsest = 50.0;  // mm, --resolution
+constexpr double kMostThreads = 1024;
+
+struct Options {
+  OutputOptions output;
+  JobOptions job;
+  std::vector<std::string> outputs;
+  double resolution = 0.0;
+  double threads = 0.0;
+  std::string view = "-35,50";
+  std::string size = "1600x1000";
+};
+
+/// All that a finished simulation has to tell.
+struct Result {
+  const Job& job;
+  const Simulation& simulation;
+  std::vector<Finding> findings;
+  const std::vector<OutputFile>& outputs;
+};
+
+/// mm3 removed and seconds, by the tool in force; key nothing: before any tool change.
+std::map<std::optional<int>, double> removed_by_tool(const Job& job, const Simulation& simulation) {
+  std::map<std::optional<int>, double> removed;
+  std::optional<int> tool;
+  for (std::size_t i = 0; i < job.program.path.size(); ++i) {
+    if (job.program.path[i].kind() == StepKind::tool_change) tool = job.program.path[i].tool_change().tool;
+    removed[tool] += static_cast<double>(simulation.removed_by_step[i]);
+  }
+  return removed;
+}
+
+double seconds_of(const MotionFigures& f) { return (f.cutting + f.rapid + f.dwell).seconds(); }
+
+Json tools_json(const Result& result) {
+  const auto removed = removed_by_tool(result.job, result.simulation);
+  Json list = Json::array();
+  for (const ToolFigures& t : result.job.report.tools) {
+    const auto it = removed.find(t.tool);
+    Json entry;
+    entry["number"] = t.tool ? Json(*t.tool) : Json(nullptr);
+    const Tool* tool = t.tool ? result.job.tools.find(*t.tool) : nullptr;
+    entry["name"] = tool != nullptr ? Json(short_name(*tool)) : Json(nullptr);
+    if (t.tool) entry["source"] = to_string(result.job.tool_sources.at(*t.tool));
+    entry["removed_mm3"] = json_of(it == removed.end() ? 0.0 : it->second);
+    entry["time_s"] = json_of(seconds_of(t.figures));
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
+  const Simulation& s = result.simulation;
+  Json out;
+  out["source"] = result.job.program.source;
+  out["stock_mm3"] = json_of(s.stock.mm3());
+  out["removed_mm3"] = json_of(s.removed.mm3());
+  out["left_mm3"] = json_of(s.stock.mm3() - s.removed.mm3());
+  out["resolution_mm"] = json_of(s.workpiece.pitch().mm());
+  out["steps"] = result.job.program.path.size();
+  out["seconds"] = json_of(s.seconds);
+  out["stock"] =
+      Json{{"block_mm", json_of(result.job.stock->block)}, {"source", to_string(result.job.stock_source)}};
+  out["hazards"] = json_of(result.findings);
+  out["tools"] = tools_json(result);
+  Json& files = out["outputs"] = Json::array();
+  for (const OutputFile& f : result.outputs) files.push_back(f.path);
+  out["diagnostics"] = json_of(diagnostics);
+  return out;
+}
+
+std::string hazard_count(std::size_t count) {
+  return count == 0 ? "none" : count == 1 ? "1" : fmt::format("{}", count);
+}
+
+void show_summary(Console& console, const Result& result) {
+  const Simulation& s = result.simulation;
+  const Point3 size = result.job.stock->block.size();
+  console.summary(fmt::format("{}: {} steps", result.job.program.source, result.job.program.path.size()));
+  console.summary(fmt::format("stock    {} x {} x {} mm ({}), {} mm3", number_text(size.x, 3),
+                              number_text(size.y, 3), number_text(size.z, 3),
+                              to_string(result.job.stock_source), number_text(s.stock.mm3(), 1)));
+  const double share = s.stock.mm3() > 0.0 ? 100.0 * s.removed.mm3() / s.stock.mm3() : 0.0;
+  console.summary(fmt::format("removed  {} mm3 ({}%), left {} mm3", number_text(s.removed.mm3(), 1),
+                              number_text(share, 1), number_text(s.stock.mm3() - s.removed.mm3(), 1)));
+  const auto removed = removed_by_tool(result.job, s);
+  for (const ToolFigures& t : result.job.report.tools) {
+    if (!t.tool) continue;
+    const Tool* tool = result.job.tools.find(*t.tool);
+    const auto it = removed.find(t.tool);
+    console.summary(fmt::format(
+        "tool {:<4}{}: {} mm3 in about {}", *t.tool, tool != nullptr ? short_name(*tool) : "unknown",
+        number_text(it == removed.end() ? 0.0 : it->second, 1), clock_text(seconds_of(t.figures))));
+  }
+  console.summary(fmt::format("columns  {} mm apart, simulated in {} s",
+                              number_text(s.workpiece.pitch().mm(), 4), number_text(s.seconds, 3)));
+  for (const OutputFile& f : result.outputs) console.summary(fmt::format("wrote    {}", f.path));
+  console.summary(fmt::format("hazards  {}", hazard_count(result.findings.size())));
+}
+
+Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
+  console.show(diagnostics);
+  if (console.json())
+    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
+  return status;
+}
+
+Status stop(Console& console) {
+  console.complain("interrupted; nothing was written");
+  return Status::interrupted;
+}
+
+Status simulate_job(Console& console, const Options& options, const JobSettings& settings,
+                    const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
+  TerminalProgress progress(console);
+  auto program = load_program(options.job.file, diagnostics, &progress);
+  progress.clear();
+  if (interrupted()) return stop(console);
+  if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
+  if (!job.stock && !diagnostics.has_errors())
+    diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
+                      "the program cuts nothing and tells no stock, so there is nothing to simulate");
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+
+  SimulationOptions how;
+  how.resolution = mm(options.resolution);
+  how.threads = static_cast<unsigned>(options.threads);
+  progress.phase("cutting");
+  const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
+  OutputSet files;
+  const bool written = simulation && !simulation->stopped && !diagnostics.has_errors() &&
+                       write_outputs(outputs, job, *simulation, view, files, diagnostics, progress);
+  progress.clear();
+  if (interrupted()) return stop(console);
+  if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+
+  const Result result{job, *simulation, findings_of(simulation->hazards, job.program.path), outputs};
+  console.show(diagnostics);
+  if (console.json()) {
+    console.print_json(text_of(json_of_result(result, diagnostics), Layout::indented));
+    return Status::done;
+  }
+  show_summary(console, result);
+  show(console, result.findings);
+  return Status::done;
+}
+
+Status run(Console& console, const Options& options) {
+  Diagnostics usage, diagnostics;
+  const JobSettings settings = read_job_options(options.job, usage, diagnostics);
+  const auto outputs = read_outputs(options.outputs, options.job.file, usage, diagnostics);
+  std::string problem;
+  const auto view = read_view(options.view, options.size, problem);
+  if (!view) console.complain(problem);
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  if (!view) return Status::wrong_usage;
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  return simulate_job(console, options, settings, outputs, *view, diagnostics);
+}
+
+const char* const kExamples =
+    R"(  kerf simulate part.nc                              what is removed, and what goes wrong
+  kerf simulate part.nc -o part.stl -o part.png      the part as a mesh and as a picture
+  kerf simulate part.nc -o top.png --view top --size 1200x800
+  kerf simulate part.nc --tool "ball d=3.175 flute=12.7" --stock "100x60x12 at lower-left top"
+  cat part.nc | kerf simulate - --json --resolution 0.05
+)";
+
+}  // namespace
+
+Command add_simulate(CLI::App& root) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
+                  kExamples + std::string(kJobHelp), options->output);
+  add_job_options(*app, options->job);
+  add_repeated(*app, "-o,--output", options->outputs, "PATH",
+               "Write the part: .stl .3mf .glb .obj, or a picture: .png");
+  add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
+             "Distance of the material columns in mm (default: by the stock's size)");
+  app->add_option("--view", options->view,
+                  "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
+      ->type_name("VIEW")
+      ->capture_default_str();
+  app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  add_number(*app, "--threads", options->threads, 0, kMostThreads, "N",
+             "Threads to use (default: all; same result)");
+  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,64 @@
+// kerf steps: a program's toolpath as JSON lines, for other programs to read.
+#include <memory>
+
+#include "app/command.h"
+#include "app/input.h"
+#include "app/json.h"
+#include "app/terminal_progress.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr std::size_t kStepsBetweenLooks = 4096;  // at the interrupt flag
+constexpr std::size_t kBufferBytes = 1 << 16;
+
+struct Options {
+  OutputOptions output;
+  std::string file;
+};
+
+Status run(Console& console, const Options& options) {
+  Diagnostics diagnostics;
+  TerminalProgress progress(console);
+  const auto program = load_program(options.file, diagnostics, &progress);
+  progress.clear();
+  // The lines are for a program; messages go to stderr as text whatever --json says.
+  Console messages({.json = false, .quiet = console.quiet()});
+  messages.show(diagnostics);
+  if (interrupted()) return Status::interrupted;
+  if (!program || diagnostics.has_errors()) return Status::input_errors;
+
+  std::string buffer =
+      text_of(Json{{"kerf_steps", 1}, {"units", "mm"}, {"source", program->source}}, Layout::line);
+  std::optional<int> tool;
+  for (std::size_t i = 0; i < program->path.size(); ++i) {
+    if (program->path[i].kind() == StepKind::tool_change) tool = program->path[i].tool_change().tool;
+    buffer += text_of(step_json(program->path, i, tool), Layout::line);
+    if (i % kStepsBetweenLooks == 0 && interrupted()) return Status::interrupted;
+    if (buffer.size() < kBufferBytes) continue;
+    console.print_json(buffer);
+    buffer.clear();
+  }
+  console.print_json(buffer);
+  return Status::done;
+}
+
+const char* const kExamples =
+    R"(  kerf steps part.nc
+  kerf steps part.nc | grep '"step":"tool"'
+
+Prints a line {"kerf_steps":1,"units":"mm","source":FILE}, then one JSON object a step: positions complete, absolute
+and in mm, feeds in mm/min, and where in the file the step comes from. Nothing is printed for a program with errors.
+)";
+
+}  // namespace
+
+Command add_steps(CLI::App& root) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      new_command(root, "steps", "Print a program's toolpath as JSON lines", kExamples, options->output);
+  add_program(*app, options->file);
+  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+}
+
+}  // namespace kerf::app

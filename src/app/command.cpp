@@ -1,0 +1,47 @@
+// What the subcommands share in setting up their options.
+#include "app/command.h"
+
+#include <fmt/format.h>
+
+#include "app/input.h"
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+
+CLI::App* new_command(CLI::App& parent, const std::string& name, const std::string& summary,
+                      const std::string& examples, OutputOptions& output) {
+  CLI::App* app = parent.add_subcommand(name, summary);
+  app->footer("\nExamples:\n" + examples);
+  app->add_flag("--json", output.json, "Print one JSON object (messages included) instead of text");
+  app->add_flag("-q,--quiet", output.quiet,
+                "No progress bar, notes or summary; warnings, errors and hazards stay");
+  return app;
+}
+
+CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
+                        const std::string& unit, const std::string& summary) {
+  const auto read = [&value, name, low, high](const std::string& text) {
+    const std::optional<double> number = parse_number(text);
+    if (!number || *number < low || *number > high)
+      throw CLI::ValidationError(name, fmt::format("\"{}\" is not a number from {} to {}", text.substr(0, 40),
+                                                   exact_text(low), exact_text(high)));
+    value = *number;
+  };
+  return app.add_option_function<std::string>(name, read, summary)->type_name(unit);
+}
+
+CLI::Option* add_program(CLI::App& app, std::string& file) {
+  return app
+      .add_option("FILE", file, "The program: " + known_endings() + "; - reads G-code from standard input")
+      ->required()
+      ->type_name("");
+}
+
+CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
+                          const std::string& kind, const std::string& summary) {
+  CLI::Option* option = app.add_option(name, values, summary);
+  return option->type_size(1)->expected(1)->take_all()->allow_extra_args(false)->type_name(kind);
+}
+
+}  // namespace kerf::app

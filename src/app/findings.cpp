@@ -1,0 +1,116 @@
+// Hazards as text and as JSON.
+#include "app/findings.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr std::size_t kMostLines = 30;  // of hazards as text; JSON has them all
+
+std::string message_of(const Hazard& hazard) {
+  const std::string depth = number_text(hazard.depth.mm(), 3);
+  switch (hazard.kind) {
+    case HazardKind::rapid_in_stock:
+      return fmt::format("a rapid move goes {} mm deep through the stock", depth);
+    case HazardKind::neck_contact: return fmt::format("the tool's neck rubs {} mm deep in the stock", depth);
+    case HazardKind::shank_contact:
+      return fmt::format("the tool's shank goes {} mm deep into the stock", depth);
+    case HazardKind::holder_contact:
+      return fmt::format("the tool's holder goes {} mm deep into the stock", depth);
+    case HazardKind::over_flute: return fmt::format("a cut {} mm deeper than the flute is long", depth);
+    case HazardKind::below_floor: return fmt::format("a cut {} mm below the floor of the stock", depth);
+    case HazardKind::spindle_off: break;
+  }
+  return "the spindle stands still while the tool is in the stock";
+}
+
+/// Neighbouring steps with the same kind become one line; the deepest contact tells.
+std::vector<Finding> grouped(const std::vector<Finding>& findings) {
+  std::vector<Finding> lines;
+  std::map<std::string, std::size_t> open;
+  for (const Finding& f : findings) {
+    const auto it = open.find(f.kind);
+    if (it != open.end() && lines[it->second].step + lines[it->second].steps >= f.step) {
+      Finding& line = lines[it->second];
+      line.steps = f.step + f.steps - line.step;
+      line.removed_mm3 += f.removed_mm3;
+      if (f.depth_mm > line.depth_mm) {
+        line.depth_mm = f.depth_mm;
+        line.message = f.message;
+      }
+      continue;
+    }
+    open[f.kind] = lines.size();
+    lines.push_back(f);
+  }
+  return lines;
+}
+
+std::string line_of(const Finding& f) {
+  std::string line = to_string(f.origin);
+  if (!line.empty()) line += ": ";
+  line += f.message;
+  if (f.steps > 1) line += fmt::format(", in {} moves from here", f.steps);
+  line +=
+      fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
+  if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
+  return line + fmt::format(") [{}]\n", f.kind);
+}
+
+}  // namespace
+
+std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path) {
+  std::vector<Finding> out;
+  for (const PathHazard& h : hazards)
+    out.push_back(
+        {std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step), h.message});
+  return out;
+}
+
+std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolpath& path) {
+  std::vector<Finding> out;
+  for (const Hazard& h : hazards)
+    out.push_back({std::string(to_string(h.kind)), h.step, 1, h.at, h.depth.mm(), h.removed.mm3(),
+                   path.origin_of(h.step), message_of(h)});
+  return out;
+}
+
+std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> of_material) {
+  for (Finding& f : of_material)
+    if (f.kind != to_string(HazardKind::spindle_off)) of_path.push_back(std::move(f));
+  std::stable_sort(of_path.begin(), of_path.end(),
+                   [](const Finding& a, const Finding& b) { return a.step < b.step; });
+  return of_path;
+}
+
+Json json_of(const Finding& f) {
+  return {{"kind", f.kind},
+          {"at", json_of(f.at)},
+          {"depth_mm", json_of(f.depth_mm)},
+          {"removed_mm3", json_of(f.removed_mm3)},
+          {"step", f.step},
+          {"steps", f.steps},
+          {"message", f.message},
+          {"origin", json_of(f.origin)}};
+}
+
+Json json_of(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& f : findings) list.push_back(json_of(f));
+  return list;
+}
+
+void show(Console& console, const std::vector<Finding>& findings) {
+  const std::vector<Finding> lines = grouped(findings);
+  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) console.print(line_of(lines[i]));
+  if (lines.size() > kMostLines)
+    console.print(
+        fmt::format("... and {} more hazards (--json lists them all)\n", lines.size() - kMostLines));
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,37 @@
+// Hazards of both kinds (the toolpath's own, and those met in the material) in one form, as text and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/console.h"
+#include "app/json.h"
+
+#include "kerf/check.h"
+#include "kerf/simulate.h"
+
+namespace kerf::app {
+
+struct Finding {
+  std::string kind;          // "rapid_in_stock", "no_feed" ...
+  std::size_t step = 0;      // index in the toolpath
+  std::size_t steps = 1;     // moves concerned, this one and following ones
+  Point3 at;                 // mm
+  double depth_mm = 0.0;     // 0 for the toolpath's own
+  double removed_mm3 = 0.0;  // 0 for the toolpath's own
+  Origin origin;
+  std::string message;
+};
+
+std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path);
+std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolpath& path);
+/// Both lists in the order of steps. The path's own "spindle_off" covers that of the material.
+std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> of_material);
+
+Json json_of(const Finding& finding);
+Json json_of(const std::vector<Finding>& findings);
+
+/// One line a hazard, neighbouring moves with the same hazard as one, to stdout.
+void show(Console& console, const std::vector<Finding>& findings);
+
+}  // namespace kerf::app

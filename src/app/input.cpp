@@ -1,0 +1,75 @@
+// Chooses the front end of a file.
+#include "app/input.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fmt/format.h>
+
+#include "app/text.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr std::size_t kBeginning = 4096;  // bytes looked at where the ending says nothing
+
+const std::vector<FrontEnd>& front_ends() {
+  static const std::vector<FrontEnd> all{gcode_front_end()};
+  return all;
+}
+
+std::string ending_of(std::string_view path) {
+  const std::size_t slash = path.find_last_of("/\\");
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string_view::npos || (slash != std::string_view::npos && dot < slash)) return {};
+  std::string ending(path.substr(dot));
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending;
+}
+
+const FrontEnd* by_ending(std::string_view ending) {
+  for (const FrontEnd& f : front_ends())
+    if (std::find(f.endings.begin(), f.endings.end(), ending) != f.endings.end()) return &f;
+  return nullptr;
+}
+
+/// For a file whose ending says nothing: by its text, and the user is told.
+const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
+  for (const FrontEnd& f : front_ends()) {
+    if (!f.looks_like(file.bytes().substr(0, kBeginning))) continue;
+    diagnostics.note(Code::input_kind_guessed, TextSpot{file.path(), 0, 0},
+                     fmt::format("the file's ending is not known; it looks like {} and is read so", f.name));
+    return &f;
+  }
+  diagnostics
+      .error(Code::input_kind_unknown, TextSpot{file.path(), 0, 0},
+             "cannot tell what kind of file this is, neither by its ending nor by its text")
+      .hint = "known endings: " + known_endings();
+  return nullptr;
+}
+
+}  // namespace
+
+std::string known_endings() {
+  std::string text;
+  for (const FrontEnd& f : front_ends()) {
+    if (!text.empty()) text += ", ";
+    text += joined(f.endings, " ") + " (" + std::string(f.name) + ")";
+  }
+  return text;
+}
+
+std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
+                                          Progress* progress) {
+  if (progress != nullptr) progress->phase("reading");
+  const std::optional<InputFile> file = InputFile::open(path, diagnostics);
+  if (!file) return std::nullopt;
+  const FrontEnd* front_end = path == "-" ? &front_ends().front() : by_ending(ending_of(path));
+  if (front_end == nullptr) front_end = by_text(*file, diagnostics);
+  if (front_end == nullptr) return std::nullopt;
+  LoadedProgram program = front_end->read(*file, diagnostics, progress);
+  program.source = file->path();
+  program.front_end = front_end->name;
+  return program;
+}
+
+}  // namespace kerf::app

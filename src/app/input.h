@@ -1,0 +1,50 @@
+// The way in: any file that describes work becomes a LoadedProgram. Which front end reads it is told by the
+// file's ending; a new front end is one file that makes a FrontEnd, and a line in input.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/check.h"
+#include "kerf/diagnostics.h"
+#include "kerf/files.h"
+#include "kerf/progress.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
+
+namespace kerf::app {
+
+enum class InputUnits { mm, inch };
+
+struct LoadedProgram {
+  std::string source;     // the file's name as the user told it
+  std::string front_end;  // "G-code"
+  Toolpath path;
+  InputUnits units = InputUnits::mm;  // of the program's text; the toolpath is always in mm
+  std::map<int, Tool> tools;          // those that the program itself describes
+  std::optional<Stock> stock;         // where the program itself describes it
+  ProgramEnd end = ProgramEnd::not_asked;
+};
+
+/// A way to read files. `endings` are in lower case with their dot.
+struct FrontEnd {
+  std::string_view name;
+  std::vector<std::string_view> endings;
+  bool (*looks_like)(std::string_view beginning);
+  LoadedProgram (*read)(const InputFile& file, Diagnostics& diagnostics, Progress* progress);
+};
+FrontEnd gcode_front_end();
+
+/// Reads the program of a file ("-": standard input, as G-code). What was understood is returned with the
+/// errors in `diagnostics`; nothing is returned where there is nothing to read or no front end for it.
+std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
+                                          Progress* progress);
+
+/// ".nc .ngc ..." of every front end, for the help.
+std::string known_endings();
+
+}  // namespace kerf::app

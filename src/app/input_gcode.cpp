@@ -1,0 +1,51 @@
+// G-code as a way in.
+#include <cctype>
+#include <utility>
+
+#include "app/input.h"
+
+#include "kerf/gcode.h"
+
+namespace kerf::app {
+namespace {
+
+/// Text in which a line begins with a word such as G0, M3, T1, N10 or X5, or with % or a comment and then
+/// such a line.
+bool looks_like_gcode(std::string_view text) {
+  if (text.find('\0') != std::string_view::npos) return false;
+  constexpr std::string_view kLetters = "GMTNXYZFSO";
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    while (!line.empty() && (line.front() == ' ' || line.front() == '\t')) line.remove_prefix(1);
+    if (line.size() < 2) continue;
+    const auto letter = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
+    const bool number =
+        std::isdigit(static_cast<unsigned char>(line[1])) != 0 || line[1] == '-' || line[1] == '.';
+    if (kLetters.find(letter) != std::string_view::npos && number) return true;
+    if (letter != '(' && letter != ';' && letter != '%') return false;
+  }
+  return false;
+}
+
+LoadedProgram read(const InputFile& file, Diagnostics& diagnostics, Progress* progress) {
+  GcodeReadOptions options;
+  options.file_name = file.path();
+  GcodeProgram program = read_gcode(file.bytes(), options, diagnostics, progress);
+  LoadedProgram loaded;
+  loaded.path = std::move(program.path);
+  loaded.units = program.inch ? InputUnits::inch : InputUnits::mm;
+  loaded.tools = std::move(program.tools);
+  loaded.stock = program.stock;
+  loaded.end = program.ended ? ProgramEnd::seen : ProgramEnd::missing;
+  return loaded;
+}
+
+}  // namespace
+
+FrontEnd gcode_front_end() {
+  return {"G-code", {".nc", ".ngc", ".gcode", ".tap", ".gc", ".cnc", ".txt"}, looks_like_gcode, read};
+}
+
+}  // namespace kerf::app

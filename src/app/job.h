@@ -1,0 +1,66 @@
+// The job: a program with the tools and the stock it is done with, gathered from options, tool files, the
+// program's own comments and the built-in table. info, check and simulate all begin with it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/command.h"
+#include "app/input.h"
+
+#include "kerf/report.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
+
+namespace kerf::app {
+
+/// The options as told.
+struct JobOptions {
+  std::string file;
+  std::vector<std::string> tools;       // --tool [N=]SPEC
+  std::vector<std::string> tool_files;  // --tools FILE
+  std::string stock;                    // --stock SPEC
+};
+void add_job_options(CLI::App& app, JobOptions& options);
+/// Text for the help of the commands that take --tool and --stock.
+extern const char* const kJobHelp;
+
+/// The options read.
+struct JobSettings {
+  std::map<int, Tool> numbered;          // --tool N=SPEC
+  std::optional<Tool> any_number;        // --tool SPEC
+  ToolTable table;                       // built in and from files
+  std::map<int, std::string> from_file;  // which numbers of the table came from which --tools file
+  std::optional<Stock> stock;
+};
+/// Reads the tool and stock options. What the command line got wrong goes to `usage`, what files got wrong to
+/// `diagnostics`.
+JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics);
+
+enum class ToolSource { unknown, option, comment, file, built_in };
+std::string_view to_string(ToolSource source);
+enum class StockSource { unknown, option, program, assumed };
+std::string_view to_string(StockSource source);
+
+struct Job {
+  LoadedProgram program;  // its path begins with a tool change where --tool had to give one
+  PathReport report;
+  ToolTable tools;                         // those used and known
+  std::map<int, ToolSource> tool_sources;  // of every number used
+  std::optional<Stock> stock;
+  StockSource stock_source = StockSource::unknown;
+};
+
+/// How bad a tool number without a shape is: info goes on, simulate cannot.
+enum class UnknownTool { warning, error };
+/// Puts a job together. Unknown tools and an assumed stock are told in `diagnostics`; where there is no stock
+/// and no cut to put one around, `stock` stays empty without a message.
+Job make_job(LoadedProgram program, const JobSettings& settings, const ReportOptions& report,
+             UnknownTool unknown, Diagnostics& diagnostics);
+
+/// A tool in a few words: "square 3.175 mm".
+std::string short_name(const Tool& tool);
+
+}  // namespace kerf::app

@@ -1,0 +1,196 @@
+// Kerf's values as JSON.
+#include "app/json.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace kerf::app {
+namespace {
+
+Json origin_json(std::monostate) { return nullptr; }
+Json origin_json(const TextSpot& spot) {
+  return {{"file", spot.file}, {"line", spot.line}, {"column", spot.column}};
+}
+Json origin_json(const DxfSpot& spot) {
+  return {{"file", spot.file},
+          {"layer", spot.layer},
+          {"handle", spot.handle},
+          {"at", {json_of(spot.x), json_of(spot.y)}}};
+}
+Json origin_json(const CallSpot& spot) {
+  return {{"file", spot.file}, {"line", spot.line}, {"call", spot.call}};
+}
+
+std::string_view word(Plane plane) { return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ"; }
+std::string_view word(Turn turn) { return turn == Turn::cw ? "cw" : "ccw"; }
+std::string_view word(SpindleTurn turn) {
+  return turn == SpindleTurn::off ? "off" : turn == SpindleTurn::cw ? "cw" : "ccw";
+}
+std::string_view word(PathModeKind kind) {
+  return kind == PathModeKind::exact_path   ? "exact_path"
+         : kind == PathModeKind::exact_stop ? "exact_stop"
+                                            : "blend";
+}
+std::string_view word(Heater heater) {
+  return heater == Heater::nozzle ? "nozzle" : heater == Heater::bed ? "bed" : "chamber";
+}
+std::string_view word(LaserMode mode) {
+  return mode == LaserMode::off ? "off" : mode == LaserMode::constant ? "constant" : "dynamic";
+}
+std::string_view word(ProbeKind kind) {
+  switch (kind) {
+    case ProbeKind::contact_or_error: return "contact_or_error";
+    case ProbeKind::contact: return "contact";
+    case ProbeKind::release_or_error: return "release_or_error";
+    case ProbeKind::release: break;
+  }
+  return "release";
+}
+
+void add_motion(Json& out, const Toolpath& path, std::size_t i) {
+  const Step& s = path[i];
+  out["to"] = json_of(s.to());
+  if (const MotionExtra* extra = path.extra(i)) {
+    if (extra->abc)
+      out["abc"] = {json_of((*extra->abc)[0]), json_of((*extra->abc)[1]), json_of((*extra->abc)[2])};
+    if (!extra->z_correction.empty()) out["z_correction"] = extra->z_correction;
+  }
+  if (s.unknown_axes() == 0) return;
+  Json& axes = out["unknown_axes"] = Json::array();
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if ((s.unknown_axes() >> axis & 1u) != 0) axes.push_back(std::string(1, "XYZ"[axis]));
+}
+
+void add_arc(Json& out, const step::Arc& arc) {
+  out["centre"] = {json_of(arc.centre.x), json_of(arc.centre.y)};
+  out["plane"] = word(arc.plane);
+  out["turn"] = word(arc.turn);
+  out["extra_turns"] = arc.extra_turns;
+}
+
+void add_bead(Json& out, const step::Extrude& bead) {
+  out["volume"] = json_of(bead.volume.mm3());
+  out["width"] = json_of(bead.width.mm());
+  out["height"] = json_of(bead.height.mm());
+}
+
+/// What a step that is no motion says.
+void add_setting(Json& out, const Toolpath& path, std::size_t i) {
+  const Step& s = path[i];
+  switch (s.kind()) {
+    case StepKind::dwell: out["seconds"] = json_of(s.dwell().time.seconds()); break;
+    case StepKind::spindle:
+      out["rpm"] = json_of(s.spindle().speed.rpm());
+      out["turn"] = word(s.spindle().turn);
+      break;
+    case StepKind::coolant:
+      out["mist"] = s.coolant().mist;
+      out["flood"] = s.coolant().flood;
+      break;
+    case StepKind::path_mode:
+      out["mode"] = word(s.path_mode().kind);
+      out["tolerance"] = json_of(s.path_mode().tolerance.mm());
+      break;
+    case StepKind::temperature:
+      out["heater"] = word(s.temperature().heater);
+      out["celsius"] = json_of(s.temperature().celsius);
+      out["wait"] = s.temperature().wait;
+      break;
+    case StepKind::fan:
+      out["fan"] = s.fan().fan;
+      out["share"] = json_of(s.fan().share);
+      break;
+    case StepKind::laser_power:
+      out["mode"] = word(s.laser_power().mode);
+      out["power"] = json_of(s.laser_power().power);
+      break;
+    case StepKind::layer:
+      out["name"] = path.layer(i).name;
+      out["colour"] = path.layer(i).colour;
+      break;
+    case StepKind::note:
+    case StepKind::verbatim: out["text"] = path.text(i); break;
+    default: break;
+  }
+}
+
+}  // namespace
+
+Json json_of(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return value == 0.0 ? 0.0 : value;
+}
+
+Json json_of(Point3 p) { return Json::array({json_of(p.x), json_of(p.y), json_of(p.z)}); }
+
+Json json_of(const Box3& box) {
+  if (box.empty()) return nullptr;
+  return Json::array({json_of(box.low), json_of(box.high)});
+}
+
+Json json_of(const Range& range) {
+  if (range.empty()) return nullptr;
+  return {{"min", json_of(range.low)}, {"max", json_of(range.high)}};
+}
+
+Json json_of(const Origin& origin) {
+  return std::visit([](const auto& spot) { return origin_json(spot); }, origin);
+}
+
+Json json_of(const Diagnostic& diagnostic) {
+  Json out{{"severity", to_string(diagnostic.severity)},
+           {"code", static_cast<unsigned>(diagnostic.code)},
+           {"name", name_of(diagnostic.code)},
+           {"message", diagnostic.message},
+           {"origin", json_of(diagnostic.where)}};
+  if (!diagnostic.notes.empty()) {
+    Json& notes = out["notes"] = Json::array();
+    for (const DiagnosticNote& note : diagnostic.notes)
+      notes.push_back(Json{{"message", note.text}, {"origin", json_of(note.where)}});
+  }
+  if (!diagnostic.hint.empty()) out["hint"] = diagnostic.hint;
+  return out;
+}
+
+Json json_of(const Diagnostics& diagnostics) {
+  Json list = Json::array();
+  for (const Diagnostic& d : diagnostics.list()) list.push_back(json_of(d));
+  for (const Code code : diagnostics.dropped_codes())
+    list.push_back(Json{{"severity", "note"},
+                        {"code", static_cast<unsigned>(code)},
+                        {"name", name_of(code)},
+                        {"message", std::to_string(diagnostics.dropped(code)) + " more of this code"},
+                        {"origin", nullptr}});
+  return list;
+}
+
+Json json_of(const Profile& profile) {
+  Json knots = Json::array();
+  for (const Knot& k : profile.knots)
+    knots.push_back(Json{{"r", json_of(k.r)}, {"z", json_of(k.z)}, {"bulge", json_of(k.bulge)}});
+  return knots;
+}
+
+Json step_json(const Toolpath& path, std::size_t i, std::optional<int> tool) {
+  const Step& s = path[i];
+  Json out{{"step", name_of(s.kind())}};
+  if (s.is_motion()) {
+    add_motion(out, path, i);
+    if (s.kind() == StepKind::arc) add_arc(out, s.arc());
+    if (s.kind() == StepKind::extrude) add_bead(out, path.extrude(i));
+    if (s.kind() == StepKind::probe) out["kind"] = word(s.probe().kind);
+    if (s.kind() != StepKind::rapid) out["feed"] = json_of(s.feed().mm_per_min());
+  } else {
+    add_setting(out, path, i);
+  }
+  if (tool) out["tool"] = *tool;
+  out["origin"] = json_of(path.origin_of(i));
+  return out;
+}
+
+std::string text_of(const Json& json, Layout layout) {
+  // Bytes that are no UTF-8 (an old file's comment) come out as the replacement character.
+  return json.dump(layout == Layout::line ? -1 : 2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace kerf::app

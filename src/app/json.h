@@ -1,0 +1,41 @@
+// Kerf's values as JSON, in the form that the other tools rely on: one function a type, used by every
+// subcommand. Keys keep the order in which they are set; numbers are never "-0" and never missing (null where
+// there is none).
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "kerf/diagnostics.h"
+#include "kerf/report.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
+
+namespace kerf::app {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(double value);
+Json json_of(Point3 p);
+/// [[x, y, z low], [x, y, z high]], null for an empty box.
+Json json_of(const Box3& box);
+/// {"min": .., "max": ..}, null where nothing was seen.
+Json json_of(const Range& range);
+/// {"file":..,"line":..,"column":..}, {"file":..,"layer":..,"handle":..,"at":[x,y]},
+/// {"file":..,"line":..,"call":..}, or null.
+Json json_of(const Origin& origin);
+Json json_of(const Diagnostic& diagnostic);
+/// The kept ones; with a last entry for each code of which some were only counted.
+Json json_of(const Diagnostics& diagnostics);
+Json json_of(const Profile& profile);
+
+/// Step `i` as one line of `kerf steps`; `tool` is the one in force.
+Json step_json(const Toolpath& path, std::size_t i, std::optional<int> tool);
+
+/// The object as text with a line end: one line, or indented for a person.
+enum class Layout { line, indented };
+std::string text_of(const Json& json, Layout layout);
+
+}  // namespace kerf::app

@@ -1,0 +1,95 @@
+// The kerf command: finds the subcommand, runs it, and turns what it says into an exit status.
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+#include <vector>
+
+#include "app/command.h"
+#include "app/terminal_progress.h"
+#include "app/usage.h"
+
+namespace kerf::app {
+namespace {
+
+const char* const kExamples = R"(
+Examples:
+  kerf simulate part.nc -o part.png    what a program cuts, as a picture
+  kerf check part.nc                   what would go wrong; exit status 3 if anything
+  kerf info part.nc                    size, time, tools, feeds, stock
+  kerf tools show 102                  a tool that Kerf knows
+  kerf help simulate                   all about one command
+
+Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage, 3 check found hazards.
+)";
+
+std::vector<Command> add_commands(CLI::App& root) {
+  std::vector<Command> commands{add_simulate(root), add_check(root), add_info(root), add_steps(root)};
+  CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show");
+  tools->require_subcommand(1);
+  commands.push_back(add_tools_list(*tools));
+  commands.push_back(add_tools_show(*tools));
+  return commands;
+}
+
+/// `kerf help simulate` is `kerf simulate --help`; `kerf help` and no argument at all are `kerf --help`.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) words = {"--help"};
+  if (words.front() == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  return {words.rbegin(), words.rend()};  // the order in which CLI11 takes them
+}
+
+Status run_asked(const std::vector<Command>& commands) {
+  for (const Command& command : commands) {
+    if (!command.app->parsed()) continue;
+    catch_interrupts();
+    Console console(*command.output);
+    const Status status = command.run(console);
+    if (console.finish()) return status;
+    console.complain("cannot write to standard output");
+    return Status::input_errors;
+  }
+  return Status::wrong_usage;
+}
+
+int run(int argc, char** argv) {
+  CLI::App root(
+      "Kerf: describe what a router, mill, laser or printer shall make; see it cut before it is cut.",
+      "kerf");
+  root.set_version_flag("--version", "kerf " KERF_VERSION, "Print the version");
+  root.footer(kExamples);
+  root.require_subcommand(1);
+  const std::vector<Command> commands = add_commands(root);
+  try {
+    root.parse(arguments_of(argc, argv));
+  } catch (const CLI::Success& asked) {  // --help, --version
+    return root.exit(asked);
+  } catch (const CLI::ParseError& error) {
+    Console({}).complain(usage_message(root, error));
+    const CLI::App& app = reached(root);
+    const std::string name =
+        &app == &root
+            ? ""
+            : (app.get_parent() == &root ? "" : app.get_parent()->get_name() + " ") + app.get_name() + " ";
+    fmt::print(stderr, "try: kerf {}--help\n", name);
+    return static_cast<int>(Status::wrong_usage);
+  }
+  return static_cast<int>(run_asked(commands));
+}
+
+}  // namespace
+}  // namespace kerf::app
+
+int main(int argc, char** argv) {
+  try {
+    return kerf::app::run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "kerf: error: not enough memory for this work\n");
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "kerf: error: {}\n", error.what());
+  }
+  return static_cast<int>(kerf::app::Status::input_errors);
+}

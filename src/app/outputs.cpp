@@ -1,0 +1,202 @@
+// Meshes and pictures of a simulation.
+#include "app/outputs.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <fmt/format.h>
+#include <set>
+#include <unistd.h>
+
+#include "kerf/image_files.h"
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+// Index 0 is the stock's own surface, 1 a surface made by a hazard, the rest one a tool (and round again).
+constexpr std::array<Colour, 12> kPalette{{{222, 196, 156},
+                                           {214, 40, 40},
+                                           {86, 140, 190},
+                                           {106, 168, 110},
+                                           {232, 160, 64},
+                                           {146, 112, 180},
+                                           {72, 170, 170},
+                                           {204, 130, 160},
+                                           {150, 150, 70},
+                                           {120, 130, 150},
+                                           {176, 112, 80},
+                                           {60, 110, 130}}};
+constexpr std::uint8_t kStockColour = 0;
+constexpr std::uint8_t kHazardColour = 1;
+constexpr std::size_t kFirstToolColour = 2;
+constexpr int kMostPixels = 16384;  // a side of a picture
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
+}
+
+bool is_png(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".png";
+}
+
+/// Says early what would otherwise be said only after a long simulation.
+void test_folder(const std::string& path, Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0}, "cannot write the file: it is a folder");
+    return;
+  }
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
+                      fmt::format("cannot write the file: there is no folder {}", folder.string()));
+  } else if (access(folder.c_str(), W_OK) != 0) {
+    diagnostics.error(
+        Code::file_unwritable, TextSpot{path, 0, 0},
+        fmt::format("cannot write the file: the folder {} may not be written to", folder.string()));
+  }
+}
+
+/// The palette's index of every step: of the tool in force, or of a hazard.
+std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vector<Hazard>& hazards) {
+  std::vector<std::uint8_t> colours(path.size(), kFirstToolColour);
+  std::vector<int> seen;
+  std::uint8_t now = kFirstToolColour;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].kind() == StepKind::tool_change) {
+      const int tool = path[i].tool_change().tool;
+      const auto it = std::find(seen.begin(), seen.end(), tool);
+      const auto place = static_cast<std::size_t>(it - seen.begin());
+      if (it == seen.end()) seen.push_back(tool);
+      now = static_cast<std::uint8_t>(kFirstToolColour + place % (kPalette.size() - kFirstToolColour));
+    }
+    colours[i] = now;
+  }
+  for (const Hazard& h : hazards) colours[h.step] = kHazardColour;
+  return colours;
+}
+
+std::vector<std::uint8_t> colours_of_triangles(const Mesh& mesh, const std::vector<std::uint8_t>& of_step) {
+  std::vector<std::uint8_t> colours;
+  colours.reserve(mesh.step.size());
+  for (const std::uint32_t step : mesh.step)
+    colours.push_back(step < of_step.size() ? of_step[step] : kStockColour);
+  return colours;
+}
+
+std::string picture_of(const Mesh& mesh, const std::vector<std::uint8_t>& colours, const View& view) {
+  std::vector<Colour> rgb;
+  rgb.reserve(colours.size());
+  for (const std::uint8_t c : colours) rgb.push_back(kPalette[c]);
+  const Image image = render(mesh, rgb, view);
+  return write_png({image.width, image.height, image.rgba});
+}
+
+std::string mesh_file_of(const Mesh& mesh, const std::vector<std::uint8_t>& colours, MeshFormat format,
+                         const std::string& source) {
+  MeshView view;
+  view.positions = mesh.positions;
+  view.triangles = mesh.triangles;
+  view.colour_index = colours;
+  view.palette = kPalette;
+  view.step = mesh.step;
+  view.name = std::filesystem::path(source).stem().string();
+  return write_mesh(view, format);
+}
+
+std::optional<std::pair<double, double>> split_pair(const std::string& text, char separator) {
+  const std::size_t at = text.find(separator);
+  if (at == std::string::npos) return std::nullopt;
+  const auto a = parse_number(std::string_view(text).substr(0, at));
+  const auto b = parse_number(std::string_view(text).substr(at + 1));
+  if (!a || !b) return std::nullopt;
+  return {{*a, *b}};
+}
+
+}  // namespace
+
+std::vector<OutputFile> read_outputs(const std::vector<std::string>& names, const std::string& input,
+                                     Diagnostics& usage, Diagnostics& diagnostics) {
+  std::vector<OutputFile> files;
+  for (const std::string& name : names) {
+    const auto mesh = mesh_format_of(name);
+    if (!mesh && !is_png(name)) {
+      usage
+          .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+                 fmt::format("\"{}\" ends in no format that can be written", name))
+          .hint = "known endings: .stl .3mf .glb .obj for the part's surface, .png for a picture";
+      continue;
+    }
+    const auto again = [&name](const OutputFile& other) { return same_file(other.path, name); };
+    if (same_file(name, input) || std::any_of(files.begin(), files.end(), again)) {
+      usage.error(Code::output_is_input, CallSpot{"", 0, "-o"},
+                  fmt::format("\"{}\" is the input, or stands twice among the outputs", name));
+      continue;
+    }
+    test_folder(name, diagnostics);
+    files.push_back({name, mesh});
+  }
+  return files;
+}
+
+std::optional<View> read_view(const std::string& view, const std::string& size, std::string& problem) {
+  View out;
+  if (const auto named = named_view(view)) {
+    out = *named;
+  } else if (const auto angles = split_pair(view, ',')) {
+    if (std::abs(angles->first) > 360.0 || std::abs(angles->second) > 90.0) {
+      problem = "--view: the azimuth goes from -360 to 360 degrees and the elevation from -90 to 90";
+      return std::nullopt;
+    }
+    out.azimuth = degrees(angles->first);
+    out.elevation = degrees(angles->second);
+  } else {
+    problem =
+        fmt::format("--view: \"{}\" is neither top, front, back, left, right or iso nor AZIMUTH,ELEVATION",
+                    view.substr(0, 40));
+    if (const auto close = did_you_mean(view, {"top", "front", "back", "left", "right", "iso"}))
+      problem += fmt::format("; did you mean {}?", *close);
+    return std::nullopt;
+  }
+  const auto pixels = split_pair(size, 'x');
+  const auto good = [](double v) {
+    return v >= 16 && v <= kMostPixels && v == static_cast<double>(static_cast<int>(v));
+  };
+  if (!pixels || !good(pixels->first) || !good(pixels->second)) {
+    problem = fmt::format("--size: \"{}\" is no WIDTHxHEIGHT in pixels, each from 16 to {}",
+                          size.substr(0, 40), kMostPixels);
+    return std::nullopt;
+  }
+  out.width = static_cast<int>(pixels->first);
+  out.height = static_cast<int>(pixels->second);
+  return out;
+}
+
+bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
+                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
+  if (files.empty()) return true;
+  progress.phase("making the surface");
+  const Mesh mesh = extract_mesh(simulation.workpiece.grid(), &progress);
+  if (progress.stop_requested()) return false;
+  const auto colours = colours_of_triangles(mesh, colours_of_steps(job.program.path, simulation.hazards));
+  progress.phase("writing");
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    progress.report(static_cast<double>(i) / static_cast<double>(files.size()));
+    const OutputFile& file = files[i];
+    const std::string bytes = file.mesh ? mesh_file_of(mesh, colours, *file.mesh, job.program.source)
+                                        : picture_of(mesh, colours, view);
+    if (!set.write(file.path, bytes, diagnostics) || progress.stop_requested()) return false;
+  }
+  return true;
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,35 @@
+// The files that a simulation is written to: meshes and pictures, chosen by their ending, coloured by tool.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/job.h"
+
+#include "kerf/files.h"
+#include "kerf/mesh_files.h"
+#include "kerf/progress.h"
+#include "kerf/simulate.h"
+
+namespace kerf::app {
+
+/// One file asked for with -o; no mesh format means a picture.
+struct OutputFile {
+  std::string path;
+  std::optional<MeshFormat> mesh;
+};
+/// Understands the names of -o. Errors (an unknown ending, a name twice, the input's name) go to `usage`; a
+/// folder that is missing or cannot be written to goes to `diagnostics`, before any work is done.
+std::vector<OutputFile> read_outputs(const std::vector<std::string>& names, const std::string& input,
+                                     Diagnostics& usage, Diagnostics& diagnostics);
+
+/// Reads "top", "iso" ... or "AZIMUTH,ELEVATION" in degrees, and "WIDTHxHEIGHT" in pixels. The text of what
+/// is wrong is put in `problem`.
+std::optional<View> read_view(const std::string& view, const std::string& size, std::string& problem);
+
+/// Writes all files into `set` (not committed). False where one fails or the user stops it.
+bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
+                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress);
+
+}  // namespace kerf::app

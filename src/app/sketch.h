@@ -1,0 +1,13 @@
+// A tool's silhouette drawn with characters, for a person at a terminal.
+#pragma once
+
+#include <string>
+
+#include "kerf/tool.h"
+
+namespace kerf::app {
+
+/// About `rows` lines: '#' cuts, '=' neck, '|' shank, 'H' holder, with heights in mm at the left.
+std::string sketch(const Silhouette& silhouette, int rows = 24);
+
+}  // namespace kerf::app

@@ -1,0 +1,80 @@
+// The progress bar and the interrupt flag.
+#include "app/terminal_progress.h"
+
+#include <algorithm>
+#include <cmath>
+#include <csignal>
+#include <fmt/format.h>
+
+namespace kerf::app {
+namespace {
+
+constexpr int kBarCells = 24;
+constexpr auto kBetweenDraws = std::chrono::milliseconds(100);
+constexpr auto kBeforeFirstDraw = std::chrono::milliseconds(300);  // short work shows no bar at all
+constexpr double kGuessBelow = 0.02;                               // a share too small to foretell the rest
+
+volatile std::sig_atomic_t stop_flag = 0;
+
+extern "C" void on_signal(int) { stop_flag = 1; }
+
+}  // namespace
+
+void catch_interrupts() {
+  for (const int which : {SIGINT, SIGTERM}) {
+    struct sigaction action {};
+    action.sa_handler = on_signal;
+    action.sa_flags = static_cast<int>(SA_RESETHAND);  // and no SA_RESTART: a waiting read returns
+    sigaction(which, &action, nullptr);
+  }
+}
+
+bool interrupted() { return stop_flag != 0; }
+
+std::string clock_text(double seconds) {
+  if (!(seconds >= 0.0) || seconds > 1e9) return "?";
+  const long long total = std::llround(seconds);
+  if (total < 3600) return fmt::format("{}:{:02}", total / 60, total % 60);
+  return fmt::format("{}:{:02}:{:02}", total / 3600, total / 60 % 60, total % 60);
+}
+
+std::string time_left(double share, double elapsed) {
+  if (!(share >= kGuessBelow)) return {};
+  return clock_text(elapsed * (1.0 - share) / share) + " left";
+}
+
+TerminalProgress::TerminalProgress(const Console& console)
+    : visible_(stderr_is_terminal() && !console.quiet()) {}
+
+TerminalProgress::~TerminalProgress() { clear(); }
+
+void TerminalProgress::phase(std::string_view what) {
+  what_ = what;
+  begun_ = last_ = Clock::now();
+}
+
+void TerminalProgress::report(double share) {
+  if (!visible_) return;
+  const Clock::time_point now = Clock::now();
+  if (now - last_ < kBetweenDraws || now - begun_ < kBeforeFirstDraw) return;
+  last_ = now;
+  draw(std::clamp(share, 0.0, 1.0), now);
+}
+
+void TerminalProgress::draw(double share, Clock::time_point now) {
+  const auto cells = static_cast<std::size_t>(std::lround(share * kBarCells));
+  const double elapsed = std::chrono::duration<double>(now - begun_).count();
+  fmt::print(stderr, "\r\x1b[K{}  [{:.<{}}] {:3.0f}%  {}", what_, std::string(cells, '#'), kBarCells,
+             share * 100.0, time_left(share, elapsed));
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+void TerminalProgress::clear() {
+  if (!drawn_) return;
+  fmt::print(stderr, "\r\x1b[K");
+  std::fflush(stderr);
+  drawn_ = false;
+}
+
+}  // namespace kerf::app
