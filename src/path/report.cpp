@@ -63,8 +63,7 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
   };
   for (const Step& s : path.steps()) {
     if (s.kind() == StepKind::tool_change) tool = s.tool_change().tool;
-    if (s.kind() == StepKind::dwell)
-      for_both([&](MotionFigures& f) { f.dwell = f.dwell + s.dwell().time; });
+    if (s.kind() == StepKind::dwell) for_both([&](MotionFigures& f) { f.dwell = f.dwell + s.dwell().time; });
     if (s.kind() == StepKind::spindle && s.spindle().turn != SpindleTurn::off)
       for_both([&](MotionFigures& f) { f.speed.add(s.spindle().speed.rpm()); });
     if (!s.is_motion()) continue;

@@ -1,10 +1,10 @@
-// Splitting of G-code text into blocks. One pass; a line with a fault is reported and left, reading goes on after it.
+// Splitting of G-code text into blocks. One pass; a line with a fault is reported and left, reading goes on
+// after it.
 #include "codec/gcode/block.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-
 #include <fmt/format.h>
 
 #include "codec/gcode/decimal.h"
@@ -37,8 +37,8 @@ std::string shown(char c) {
   return fmt::format("byte 0x{:02X}", byte);
 }
 
-constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN",  "ATAN",   "COS", "EXISTS", "EXP",
-                                           "FIX", "FUP",  "LN", "ROUND", "SIN", "SQRT",   "TAN"};
+constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP",
+                                           "FIX", "FUP",  "LN",   "ROUND", "SIN", "SQRT",   "TAN"};
 
 /// The end of a function's name followed by '[', or `p` where none begins here.
 const char* after_function_name(const char* p, const char* end) {
@@ -68,7 +68,8 @@ const char* after_blanks(const char* p, const char* end) {
   return p;
 }
 
-/// The end of a parameter's name that begins with '#' at `p`: #1, ##2, #[...], #<name>, #-less prefixes refused.
+/// The end of a parameter's name that begins with '#' at `p`: #1, ##2, #[...], #<name>, #-less prefixes
+/// refused.
 const char* after_parameter(const char* p, const char* end) {
   while (p != end && (*p == '#' || is_blank(*p))) ++p;
   if (p == end) return p;
@@ -81,8 +82,8 @@ const char* after_parameter(const char* p, const char* end) {
   return p;
 }
 
-/// The end of a computed value at `p` (parameter, bracket, function, each with a sign or without), or `p` if there
-/// is none.
+/// The end of a computed value at `p` (parameter, bracket, function, each with a sign or without), or `p` if
+/// there is none.
 const char* after_computed_value(const char* p, const char* end) {
   const char* q = p;
   while (q != end && (is_blank(*q) || *q == '+' || *q == '-')) ++q;
@@ -110,8 +111,8 @@ BlockReader::BlockReader(std::string_view text, BlockReaderOptions options, Diag
   next_return_ = std::min(text_.find('\r'), text_.size());
 }
 
-/// The end of the line at position_. Each kind of line end is searched for only once past the last one found, so
-/// that a text with lone returns costs no more than one with line feeds.
+/// The end of the line at position_. Each kind of line end is searched for only once past the last one found,
+/// so that a text with lone returns costs no more than one with line feeds.
 std::size_t BlockReader::line_end() {
   if (next_line_feed_ < position_) next_line_feed_ = std::min(text_.find('\n', position_), text_.size());
   if (next_return_ < position_) next_return_ = std::min(text_.find('\r', position_), text_.size());
@@ -186,7 +187,8 @@ bool BlockReader::read_item(Block& block) {
     ++p_;
     return true;
   }
-  return fault(block, Code::bad_character, p_, fmt::format("{} cannot stand here, expected a letter", shown(*p_)));
+  return fault(block, Code::bad_character, p_,
+               fmt::format("{} cannot stand here, expected a letter", shown(*p_)));
 }
 
 bool BlockReader::read_word(Block& block) {
@@ -231,7 +233,8 @@ bool BlockReader::read_assignment(Block& block) {
   const char* begin = p_;
   const char* equals = after_blanks(after_parameter(begin, end_), end_);
   if (equals == end_ || *equals != '=')
-    return fault(block, Code::bad_character, begin, "a parameter at the begin of a word must be given a value with '='");
+    return fault(block, Code::bad_character, begin,
+                 "a parameter at the begin of a word must be given a value with '='");
   const char* value = equals + 1;
   const char* value_end = after_computed_value(value, end_);
   if (value_end == value) {
@@ -245,7 +248,8 @@ bool BlockReader::read_assignment(Block& block) {
   return true;
 }
 
-/// "O100" alone is a program's number and stays a word; with a name or a keyword after it, it steers the program.
+/// "O100" alone is a program's number and stays a word; with a name or a keyword after it, it steers the
+/// program.
 bool BlockReader::read_o_word(Block& block) {
   const char* begin = p_;
   const Decimal number = read_decimal(begin + 1, end_);
@@ -260,8 +264,8 @@ bool BlockReader::read_o_word(Block& block) {
   return true;
 }
 
-/// Where the comment that opens at p_ ends: at the bracket that closes it, inner pairs counted; else at the first
-/// closing bracket; null if there is none.
+/// Where the comment that opens at p_ ends: at the bracket that closes it, inner pairs counted; else at the
+/// first closing bracket; null if there is none.
 const char* BlockReader::comment_end(const Block& block) {
   const char* first = std::find(p_ + 1, end_, ')');
   if (first == end_) return nullptr;
@@ -281,7 +285,8 @@ void BlockReader::read_comment(Block& block) {
   const char* begin = p_ + 1;
   const char* close = *p_ == ';' ? end_ : comment_end(block);
   if (close == nullptr) {
-    unusual(block, Code::comment_unclosed, p_, "the comment is not closed; it is taken to reach to the line's end");
+    unusual(block, Code::comment_unclosed, p_,
+            "the comment is not closed; it is taken to reach to the line's end");
     close = end_;
   }
   block.comments.push_back({{begin, static_cast<std::size_t>(close - begin)}, column});
@@ -294,14 +299,16 @@ void BlockReader::skip_space() {
 
 bool BlockReader::fault(Block& block, Code code, const char* at, std::string message, std::string_view hint) {
   block.faulty = true;
-  Diagnostic& d = diagnostics_.error(code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message));
+  Diagnostic& d =
+      diagnostics_.error(code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message));
   d.hint = hint;
   return false;
 }
 
 void BlockReader::unusual(const Block& block, Code code, const char* at, std::string message) {
   const Severity severity = options_.strict ? Severity::error : Severity::warning;
-  diagnostics_.add({severity, code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message), {}, {}});
+  diagnostics_.add(
+      {severity, code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message), {}, {}});
 }
 
 }  // namespace kerf::gcode

@@ -1,9 +1,10 @@
 // G-code text as blocks of words: what stands on each line and where, without any meaning.
 //
-// The reader hands out one block a line into a block that the caller keeps, so that a million lines allocate nothing.
-// Numbers are read to the nearest double. What a number may be computed from (parameters `#1`, `#<name>`, expressions
-// `[...]`, functions) and O-words are recognised and kept as text with their place; nothing here evaluates them.
-// Texts are views into the program's text, which must outlive the block.
+// The reader hands out one block a line into a block that the caller keeps, so that a million lines allocate
+// nothing. Numbers are read to the nearest double. What a number may be computed from (parameters `#1`,
+// `#<name>`, expressions
+// `[...]`, functions) and O-words are recognised and kept as text with their place; nothing here evaluates
+// them. Texts are views into the program's text, which must outlive the block.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,8 @@ namespace kerf::gcode {
 
 enum class ValueKind : std::uint8_t { number, expression };
 
-/// A letter and its value. Letters are upper case; '@', '^' (polar words) and '*' (a checksum) count as letters.
+/// A letter and its value. Letters are upper case; '@', '^' (polar words) and '*' (a checksum) count as
+/// letters.
 struct Word {
   double value = 0.0;              // of a number; 0 for an expression
   std::uint32_t column = 0;        // of the letter, from 1
@@ -42,18 +44,20 @@ struct Computation {
 
 /// One line. A faulty one (an error was reported) has no words; its comments up to the fault are kept.
 struct Block {
-  std::uint32_t line = 0;            // from 1
-  std::string_view text;             // the line without its end
+  std::uint32_t line = 0;  // from 1
+  std::string_view text;   // the line without its end
   bool faulty = false;
-  bool optional = false;             // begins with the block delete character '/'
-  bool percent = false;              // a line that begins with '%'
-  std::optional<double> number;      // N word
-  std::vector<Word> words;           // in order, N left out
-  std::vector<Comment> comments;     // in order
+  bool optional = false;          // begins with the block delete character '/'
+  bool percent = false;           // a line that begins with '%'
+  std::optional<double> number;   // N word
+  std::vector<Word> words;        // in order, N left out
+  std::vector<Comment> comments;  // in order
   std::vector<Computation> assignments;
   std::optional<Computation> o_word;
 
-  std::string_view value_text(const Word& word) const { return text.substr(word.value_offset, word.value_length); }
+  std::string_view value_text(const Word& word) const {
+    return text.substr(word.value_offset, word.value_length);
+  }
 };
 
 struct BlockReaderOptions {

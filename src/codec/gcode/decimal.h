@@ -26,7 +26,8 @@ inline constexpr double kTenTo[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
 /// The way for all numbers: blanks inside, any count of digits, everything that is wrong.
 Decimal read_any_decimal(const char* begin, const char* end);
 
-/// True if the number read up to `p` surely ends there: a line end, a letter but E, or a blank before a letter.
+/// True if the number read up to `p` surely ends there: a line end, a letter but E, or a blank before a
+/// letter.
 inline bool ends_plainly(const char* p, const char* end) {
   if (p == end) return true;
   if (*p == ' ' && ++p == end) return true;
@@ -35,8 +36,8 @@ inline bool ends_plainly(const char* p, const char* end) {
 
 }  // namespace detail
 
-/// Reads the number that begins at `begin`, to the nearest double; never "-0". Usual numbers take the short way: up to
-/// 15 digits are one exact division, which rounds to the nearest double.
+/// Reads the number that begins at `begin`, to the nearest double; never "-0". Usual numbers take the short
+/// way: up to 15 digits are one exact division, which rounds to the nearest double.
 inline Decimal read_decimal(const char* begin, const char* end) {
   const char* p = begin;
   const bool negative = p != end && *p == '-';

@@ -2,7 +2,6 @@
 //
 // Source: LinuxCNC's page "G2, G3 Arc Move"; radii that GRBL refuses are said.
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "front/gcode/interpreter.h"
@@ -11,15 +10,17 @@ namespace kerf::gcode {
 namespace {
 
 // The radii at an arc's ends may differ by what rounding to a program's decimals leaves: GRBL's limits.
-constexpr double kRadiusSlack = 0.005;       // mm
-constexpr double kRadiusShare = 0.001;       // of the radius
-constexpr double kHopelessMismatch = 2.83;   // mm; LinuxCNC's limit, past it the centre is not meant so
-constexpr double kChordSlack = 0.0283;       // mm that a radius may be short of half the chord without a word
-constexpr double kSmallestRadius = 1e-9;     // mm; less is a point
+constexpr double kRadiusSlack = 0.005;      // mm
+constexpr double kRadiusShare = 0.001;      // of the radius
+constexpr double kHopelessMismatch = 2.83;  // mm; LinuxCNC's limit, past it the centre is not meant so
+constexpr double kChordSlack = 0.0283;      // mm that a radius may be short of half the chord without a word
+constexpr double kSmallestRadius = 1e-9;    // mm; less is a point
 constexpr int kMostTurns = 10'000;
 
 /// u, v of a plane's right-handed frame as a centre in the order of the plane's name.
-Point2 in_name_order(Plane plane, double u, double v) { return plane == Plane::xz ? Point2{v, u} : Point2{u, v}; }
+Point2 in_name_order(Plane plane, double u, double v) {
+  return plane == Plane::xz ? Point2{v, u} : Point2{u, v};
+}
 
 }  // namespace
 
@@ -28,7 +29,8 @@ void Interpreter::arc(Turn turn) {
   if (!to) return;
   const int extra = extra_turns();
   const std::optional<Point2> centre = centre_of(*to, turn);
-  if (!centre || !radii_agree(*to, *centre)) {  // said; the tool goes on from where the program believes it to be
+  if (!centre ||
+      !radii_agree(*to, *centre)) {  // said; the tool goes on from where the program believes it to be
     line_.use(Line::bit('I') | Line::bit('J') | Line::bit('K') | Line::bit('R'));
     return cut(*to, feed_for(straight_length(*to)));
   }
@@ -41,7 +43,8 @@ void Interpreter::arc(Turn turn) {
 
 std::optional<Point2> Interpreter::centre_of(const Place& to, Turn turn) {
   const PlaneAxes axes = axes_of(modes_.plane);
-  const bool offsets = line_.unused(static_cast<char>('I' + axes.u)) || line_.unused(static_cast<char>('I' + axes.v));
+  const bool offsets =
+      line_.unused(static_cast<char>('I' + axes.u)) || line_.unused(static_cast<char>('I' + axes.v));
   const std::optional<Point2> centre = offsets ? centre_from_offsets() : centre_from_radius(to, turn);
   if (centre && !reachable({centre->x, centre->y, 0.0})) return std::nullopt;
   return centre;
@@ -55,8 +58,9 @@ std::optional<Point2> Interpreter::centre_from_offsets() {
     return in_name_order(modes_.plane, here_.at[axes.u] + u.value_or(0.0) * modes_.scale,
                          here_.at[axes.v] + v.value_or(0.0) * modes_.scale);
   if (!u || !v) {
-    talker_.error(Code::arc_no_centre, line_.column(),
-                  "with absolute centres (G90.1) an arc needs both of its centre's words; read as a straight cut");
+    talker_.error(
+        Code::arc_no_centre, line_.column(),
+        "with absolute centres (G90.1) an arc needs both of its centre's words; read as a straight cut");
     return std::nullopt;
   }
   return in_name_order(modes_.plane, *u * modes_.scale + shift_[axes.u], *v * modes_.scale + shift_[axes.v]);
@@ -77,9 +81,10 @@ std::optional<Point2> Interpreter::centre_from_radius(const Place& to, Turn turn
   const double chord = distance(from, end);
   const double half = 0.5 * chord;
   if (!(half > kSmallestRadius)) {
-    talker_.error(Code::arc_in_place, line_.column('R'),
-                  "an arc with a radius ends where it begins, which leaves its centre open; read as a straight cut",
-                  "a full circle needs I and J");
+    talker_.error(
+        Code::arc_in_place, line_.column('R'),
+        "an arc with a radius ends where it begins, which leaves its centre open; read as a straight cut",
+        "a full circle needs I and J");
     return std::nullopt;
   }
   if (half - std::abs(radius) > kChordSlack)
@@ -103,8 +108,8 @@ bool Interpreter::radii_agree(const Place& to, Point2 centre) {
   const double off = std::abs(walk.start_radius - walk.end_radius);
   const double share = off / std::max(walk.start_radius, walk.end_radius);
   if (off <= kRadiusSlack || share <= kRadiusShare) return true;
-  const std::string text = fmt::format("the arc begins {:.4f} mm and ends {:.4f} mm from its centre", walk.start_radius,
-                                       walk.end_radius);
+  const std::string text = fmt::format("the arc begins {:.4f} mm and ends {:.4f} mm from its centre",
+                                       walk.start_radius, walk.end_radius);
   if (off <= kHopelessMismatch) {
     talker_.unusual(Code::arc_radius_mismatch, line_.column(), text);
     return true;
@@ -118,7 +123,8 @@ bool Interpreter::radii_agree(const Place& to, Point2 centre) {
 int Interpreter::extra_turns() {
   const std::optional<double> turns = line_.take('P');
   if (!turns) return 0;
-  if (*turns >= 1.0 && *turns <= kMostTurns && *turns == std::floor(*turns)) return static_cast<int>(*turns) - 1;
+  if (*turns >= 1.0 && *turns <= kMostTurns && *turns == std::floor(*turns))
+    return static_cast<int>(*turns) - 1;
   talker_.error(Code::word_out_of_range, line_.column('P'),
                 fmt::format("the turns of an arc are a whole number from 1 to {}; read as 1", kMostTurns));
   return 0;

@@ -2,56 +2,98 @@
 #include "front/gcode/codes.h"
 
 #include <array>
-
 #include <fmt/format.h>
 
 namespace kerf::gcode {
 namespace {
 
 constexpr CodeEntry kGCodes[] = {
-    {0, Group::motion, Support::read},            {10, Group::motion, Support::read},
-    {20, Group::motion, Support::read},           {30, Group::motion, Support::read},
-    {40, Group::dwell, Support::read},            {50, Group::motion, Support::missing},
-    {51, Group::motion, Support::missing},        {52, Group::motion, Support::missing},
-    {53, Group::motion, Support::missing},        {70, Group::lathe, Support::missing},
-    {80, Group::lathe, Support::idle},            {100, Group::reference, Support::missing},
-    {150, Group::polar, Support::idle},           {160, Group::polar, Support::missing},
-    {170, Group::plane, Support::read},           {180, Group::plane, Support::read},
-    {190, Group::plane, Support::read},           {200, Group::units, Support::read},
-    {210, Group::units, Support::read},           {280, Group::reference, Support::read},
-    {281, Group::reference, Support::read},       {300, Group::reference, Support::read},
-    {301, Group::reference, Support::read},       {330, Group::motion, Support::missing},
-    {331, Group::motion, Support::missing},       {382, Group::motion, Support::read},
-    {383, Group::motion, Support::read},          {384, Group::motion, Support::read},
-    {385, Group::motion, Support::read},          {400, Group::compensation, Support::idle},
-    {410, Group::compensation, Support::missing}, {411, Group::compensation, Support::missing},
-    {420, Group::compensation, Support::missing}, {421, Group::compensation, Support::missing},
-    {430, Group::tool_length, Support::ignored},  {431, Group::tool_length, Support::ignored},
-    {432, Group::tool_length, Support::ignored},  {490, Group::tool_length, Support::idle},
-    {500, Group::scaling, Support::idle},         {510, Group::scaling, Support::missing},
-    {520, Group::reference, Support::missing},    {530, Group::machine_coordinates, Support::read},
-    {540, Group::coordinates, Support::read},     {550, Group::coordinates, Support::read},
-    {560, Group::coordinates, Support::read},     {570, Group::coordinates, Support::read},
-    {580, Group::coordinates, Support::read},     {590, Group::coordinates, Support::read},
-    {591, Group::coordinates, Support::read},     {592, Group::coordinates, Support::read},
-    {593, Group::coordinates, Support::read},     {610, Group::path_control, Support::read},
-    {611, Group::path_control, Support::read},    {640, Group::path_control, Support::read},
-    {680, Group::rotation, Support::missing},     {690, Group::rotation, Support::idle},
-    {700, Group::motion, Support::missing},       {710, Group::motion, Support::missing},
-    {720, Group::motion, Support::missing},       {730, Group::motion, Support::read},
-    {740, Group::motion, Support::read},          {760, Group::motion, Support::missing},
-    {800, Group::motion, Support::read},          {810, Group::motion, Support::read},
-    {820, Group::motion, Support::read},          {830, Group::motion, Support::read},
-    {840, Group::motion, Support::read},          {850, Group::motion, Support::read},
-    {860, Group::motion, Support::read},          {870, Group::motion, Support::read},
-    {880, Group::motion, Support::read},          {890, Group::motion, Support::read},
-    {900, Group::distance, Support::read},        {901, Group::arc_distance, Support::read},
-    {910, Group::distance, Support::read},        {911, Group::arc_distance, Support::read},
-    {920, Group::reference, Support::read},       {921, Group::reference, Support::read},
-    {922, Group::reference, Support::read},       {923, Group::reference, Support::read},
-    {930, Group::feed_mode, Support::read},       {940, Group::feed_mode, Support::read},
-    {950, Group::feed_mode, Support::read},       {960, Group::spindle_mode, Support::missing},
-    {970, Group::spindle_mode, Support::idle},    {980, Group::retract, Support::read},
+    {0, Group::motion, Support::read},
+    {10, Group::motion, Support::read},
+    {20, Group::motion, Support::read},
+    {30, Group::motion, Support::read},
+    {40, Group::dwell, Support::read},
+    {50, Group::motion, Support::missing},
+    {51, Group::motion, Support::missing},
+    {52, Group::motion, Support::missing},
+    {53, Group::motion, Support::missing},
+    {70, Group::lathe, Support::missing},
+    {80, Group::lathe, Support::idle},
+    {100, Group::reference, Support::missing},
+    {150, Group::polar, Support::idle},
+    {160, Group::polar, Support::missing},
+    {170, Group::plane, Support::read},
+    {180, Group::plane, Support::read},
+    {190, Group::plane, Support::read},
+    {200, Group::units, Support::read},
+    {210, Group::units, Support::read},
+    {280, Group::reference, Support::read},
+    {281, Group::reference, Support::read},
+    {300, Group::reference, Support::read},
+    {301, Group::reference, Support::read},
+    {330, Group::motion, Support::missing},
+    {331, Group::motion, Support::missing},
+    {382, Group::motion, Support::read},
+    {383, Group::motion, Support::read},
+    {384, Group::motion, Support::read},
+    {385, Group::motion, Support::read},
+    {400, Group::compensation, Support::idle},
+    {410, Group::compensation, Support::missing},
+    {411, Group::compensation, Support::missing},
+    {420, Group::compensation, Support::missing},
+    {421, Group::compensation, Support::missing},
+    {430, Group::tool_length, Support::ignored},
+    {431, Group::tool_length, Support::ignored},
+    {432, Group::tool_length, Support::ignored},
+    {490, Group::tool_length, Support::idle},
+    {500, Group::scaling, Support::idle},
+    {510, Group::scaling, Support::missing},
+    {520, Group::reference, Support::missing},
+    {530, Group::machine_coordinates, Support::read},
+    {540, Group::coordinates, Support::read},
+    {550, Group::coordinates, Support::read},
+    {560, Group::coordinates, Support::read},
+    {570, Group::coordinates, Support::read},
+    {580, Group::coordinates, Support::read},
+    {590, Group::coordinates, Support::read},
+    {591, Group::coordinates, Support::read},
+    {592, Group::coordinates, Support::read},
+    {593, Group::coordinates, Support::read},
+    {610, Group::path_control, Support::read},
+    {611, Group::path_control, Support::read},
+    {640, Group::path_control, Support::read},
+    {680, Group::rotation, Support::missing},
+    {690, Group::rotation, Support::idle},
+    {700, Group::motion, Support::missing},
+    {710, Group::motion, Support::missing},
+    {720, Group::motion, Support::missing},
+    {730, Group::motion, Support::read},
+    {740, Group::motion, Support::read},
+    {760, Group::motion, Support::missing},
+    {800, Group::motion, Support::read},
+    {810, Group::motion, Support::read},
+    {820, Group::motion, Support::read},
+    {830, Group::motion, Support::read},
+    {840, Group::motion, Support::read},
+    {850, Group::motion, Support::read},
+    {860, Group::motion, Support::read},
+    {870, Group::motion, Support::read},
+    {880, Group::motion, Support::read},
+    {890, Group::motion, Support::read},
+    {900, Group::distance, Support::read},
+    {901, Group::arc_distance, Support::read},
+    {910, Group::distance, Support::read},
+    {911, Group::arc_distance, Support::read},
+    {920, Group::reference, Support::read},
+    {921, Group::reference, Support::read},
+    {922, Group::reference, Support::read},
+    {923, Group::reference, Support::read},
+    {930, Group::feed_mode, Support::read},
+    {940, Group::feed_mode, Support::read},
+    {950, Group::feed_mode, Support::read},
+    {960, Group::spindle_mode, Support::missing},
+    {970, Group::spindle_mode, Support::idle},
+    {980, Group::retract, Support::read},
     {990, Group::retract, Support::read},
 };
 
@@ -97,14 +139,16 @@ template <std::size_t N>
 constexpr std::array<std::uint8_t, 1000> index_of(const CodeEntry (&entries)[N]) {
   static_assert(N < 255);
   std::array<std::uint8_t, 1000> index{};
-  for (std::size_t i = 0; i < N; ++i) index[static_cast<std::size_t>(entries[i].number)] = static_cast<std::uint8_t>(i + 1);
+  for (std::size_t i = 0; i < N; ++i)
+    index[static_cast<std::size_t>(entries[i].number)] = static_cast<std::uint8_t>(i + 1);
   return index;
 }
 constexpr auto kGIndex = index_of(kGCodes);
 constexpr auto kMIndex = index_of(kMCodes);
 
 template <std::size_t N>
-const CodeEntry* find(const CodeEntry (&entries)[N], const std::array<std::uint8_t, 1000>& index, Tenths number) {
+const CodeEntry* find(const CodeEntry (&entries)[N], const std::array<std::uint8_t, 1000>& index,
+                      Tenths number) {
   if (number < 0 || number >= 1000) return nullptr;
   const std::uint8_t at = index[static_cast<std::size_t>(number)];
   return at == 0 ? nullptr : &entries[at - 1];
@@ -112,13 +156,9 @@ const CodeEntry* find(const CodeEntry (&entries)[N], const std::array<std::uint8
 
 }  // namespace
 
-const CodeEntry* find_g_code(Tenths number) {
-  return find(kGCodes, kGIndex, number);
-}
+const CodeEntry* find_g_code(Tenths number) { return find(kGCodes, kGIndex, number); }
 
-const CodeEntry* find_m_code(Tenths number) {
-  return find(kMCodes, kMIndex, number);
-}
+const CodeEntry* find_m_code(Tenths number) { return find(kMCodes, kMIndex, number); }
 
 std::string code_text(char letter, Tenths number) {
   if (number % 10 == 0) return fmt::format("{}{}", letter, number / 10);

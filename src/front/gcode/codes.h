@@ -10,18 +10,41 @@ namespace kerf::gcode {
 
 /// Codes of one group exclude each other on a line.
 enum class Group : std::uint8_t {
-  motion, plane, distance, arc_distance, feed_mode, units, compensation, tool_length, retract, coordinates,
-  path_control, spindle_mode, lathe, scaling, polar, rotation,
-  dwell, machine_coordinates, reference,           // not modal: G4, G53, and what uses the line's axis words itself
-  stop, tool_change, spindle, mist, flood, no_coolant, override_switch, other,
+  motion,
+  plane,
+  distance,
+  arc_distance,
+  feed_mode,
+  units,
+  compensation,
+  tool_length,
+  retract,
+  coordinates,
+  path_control,
+  spindle_mode,
+  lathe,
+  scaling,
+  polar,
+  rotation,
+  dwell,
+  machine_coordinates,
+  reference,  // not modal: G4, G53, and what uses the line's axis words itself
+  stop,
+  tool_change,
+  spindle,
+  mist,
+  flood,
+  no_coolant,
+  override_switch,
+  other,
 };
 inline constexpr int kGroups = static_cast<int>(Group::other) + 1;
 
 enum class Support : std::uint8_t {
-  read,      // has its meaning
-  idle,      // known, and of no effect on a milling path: nothing is said
-  ignored,   // known, left out with a note
-  missing,   // known, would change the path, not read yet: an error
+  read,     // has its meaning
+  idle,     // known, and of no effect on a milling path: nothing is said
+  ignored,  // known, left out with a note
+  missing,  // known, would change the path, not read yet: an error
 };
 
 /// A code's number in tenths: G38.2 is 382.

@@ -1,7 +1,6 @@
-// Canned cycles G73, G74 and G81 to G89 as the rapids, cuts and dwells they stand for, in the order and with the
-// clearances that LinuxCNC's interpreter gives them.
+// Canned cycles G73, G74 and G81 to G89 as the rapids, cuts and dwells they stand for, in the order and with
+// the clearances that LinuxCNC's interpreter gives them.
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "front/gcode/interpreter.h"
@@ -21,9 +20,9 @@ bool needs_peck(Tenths cycle) { return cycle == 730 || cycle == 830; }
 
 /// One hole: where it is in the plane, and its levels along the third axis in mm.
 struct Interpreter::Hole {
-  Place place;          // the third axis is set by each move
-  int axis = 2;         // index of the third axis
-  double r = 0.0;       // from here on at feed
+  Place place;     // the third axis is set by each move
+  int axis = 2;    // index of the third axis
+  double r = 0.0;  // from here on at feed
   double bottom = 0.0;
   double travel = 0.0;  // level of the way to the hole
   double clear = 0.0;   // level after the hole
@@ -31,7 +30,8 @@ struct Interpreter::Hole {
 };
 
 void Interpreter::cycle(Tenths motion) {
-  if (cycle_.motion != motion) {  // another cycle of the same series knows only the level where the series began
+  if (cycle_.motion !=
+      motion) {  // another cycle of the same series knows only the level where the series began
     const std::optional<double> level = cycle_.start_level;
     cycle_ = {};
     cycle_.motion = motion;
@@ -71,13 +71,15 @@ bool Interpreter::take_cycle_words(Tenths motion) {
     keep(cycle_.back_level, static_cast<char>('I' + axes.w), modes_.scale);
   }
   const auto missing = [&](char letter, std::string_view what) {
-    talker_.error(Code::word_missing, line_.column(),
-                  fmt::format("{} needs {} ({}); the line is left out", code_text('G', motion), letter, what));
+    talker_.error(
+        Code::word_missing, line_.column(),
+        fmt::format("{} needs {} ({}); the line is left out", code_text('G', motion), letter, what));
     return false;
   };
   if (!cycle_.r) return missing('R', "the clearance plane");
   if (!cycle_.bottom) return missing(bottom_letter, "the bottom of the hole");
-  if (needs_peck(motion) && !(cycle_.peck.value_or(0.0) > 0.0)) return missing('Q', "the depth of a peck, above 0");
+  if (needs_peck(motion) && !(cycle_.peck.value_or(0.0) > 0.0))
+    return missing('Q', "the depth of a peck, above 0");
   if (motion == 870 && !cycle_.back_level)
     return missing(static_cast<char>('I' + axes.w), "the level to bore back to");
   if (cycle_.dwell.value_or(0.0) < 0.0) {
@@ -95,9 +97,11 @@ bool Interpreter::take_cycle_words(Tenths motion) {
 int Interpreter::repeats() {
   const std::optional<double> count = line_.take('L');
   if (!count) return 1;
-  if (*count >= 1.0 && *count <= kMostRepeats && *count == std::floor(*count)) return static_cast<int>(*count);
-  talker_.error(Code::word_out_of_range, line_.column('L'),
-                fmt::format("the repeats of a cycle are a whole number from 1 to {}; read as 1", kMostRepeats));
+  if (*count >= 1.0 && *count <= kMostRepeats && *count == std::floor(*count))
+    return static_cast<int>(*count);
+  talker_.error(
+      Code::word_out_of_range, line_.column('L'),
+      fmt::format("the repeats of a cycle are a whole number from 1 to {}; read as 1", kMostRepeats));
   return 1;
 }
 
@@ -112,9 +116,10 @@ std::optional<Interpreter::Hole> Interpreter::plan_hole() {
   hole.r = modes_.absolute ? *cycle_.r + shift_[axes.w] : level + *cycle_.r;
   hole.bottom = modes_.absolute ? *cycle_.bottom + shift_[axes.w] : hole.r + *cycle_.bottom;
   if (hole.r < hole.bottom) {
-    talker_.error(Code::cycle_upside_down, line_.column(),
-                  fmt::format("the clearance plane R lies {:.4g} mm below the bottom of the hole; the line is left out",
-                              hole.bottom - hole.r));
+    talker_.error(
+        Code::cycle_upside_down, line_.column(),
+        fmt::format("the clearance plane R lies {:.4g} mm below the bottom of the hole; the line is left out",
+                    hole.bottom - hole.r));
     return std::nullopt;
   }
   Point3 levels;
@@ -153,9 +158,7 @@ void Interpreter::drill(Tenths motion, const Hole& hole) {
   if (needs_dwell(motion)) cycle_dwell();
   const SpindleTurn turn = modes_.spindle;
   switch (motion) {
-    case 850:
-      cycle_cut(hole, hole.r);
-      return cycle_rapid(hole, hole.clear);
+    case 850: cycle_cut(hole, hole.r); return cycle_rapid(hole, hole.clear);
     case 860:
       spin(SpindleTurn::off);
       cycle_rapid(hole, hole.clear);
@@ -173,8 +176,9 @@ void Interpreter::drill(Tenths motion, const Hole& hole) {
 void Interpreter::peck(Tenths motion, const Hole& hole) {
   const double depth = *cycle_.peck;
   if ((hole.r - hole.bottom) / depth > kMostPecks) {
-    talker_.error(Code::word_out_of_range, line_.column(),
-                  fmt::format("pecks of {:g} mm make more than {:g} in one hole; read as one", depth, kMostPecks));
+    talker_.error(
+        Code::word_out_of_range, line_.column(),
+        fmt::format("pecks of {:g} mm make more than {:g} in one hole; read as one", depth, kMostPecks));
     cycle_cut(hole, hole.bottom);
     return cycle_rapid(hole, hole.clear);
   }
@@ -232,7 +236,8 @@ void Interpreter::cycle_cut(const Hole& hole, double level) {
   to.at[hole.axis] = level;
   const bool inverse_time = modes_.feed_mode == FeedMode::inverse_time;
   if (inverse_time && !no_feed_said_)
-    talker_.unusual(Code::no_feed, line_.column(), "inverse time feeds mean nothing in a canned cycle; it has no feed");
+    talker_.unusual(Code::no_feed, line_.column(),
+                    "inverse time feeds mean nothing in a canned cycle; it has no feed");
   if (inverse_time) no_feed_said_ = true;
   cut(to, inverse_time ? 0.0 : feed_for(0.0));
 }

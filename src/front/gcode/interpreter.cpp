@@ -35,7 +35,8 @@ bool Interpreter::goes_on(const Block& block) {
     talker_.unusual(Code::text_after_end, column, "the program has ended above; from here on nothing is read",
                     "a file of several programs runs through only where a sender streams it line by line");
   else
-    talker_.note(Code::text_after_end, column, "the program has ended above; what follows is read as its continuation");
+    talker_.note(Code::text_after_end, column,
+                 "the program has ended above; what follows is read as its continuation");
   return !stopped_;
 }
 
@@ -49,8 +50,10 @@ void Interpreter::read_percent() {
   words_since_percent_ = false;
 }
 
-/// The order is that of LinuxCNC's "Order of Execution", except that new units hold for the feed of their own line.
+/// The order is that of LinuxCNC's "Order of Execution", except that new units hold for the feed of their own
+/// line.
 void Interpreter::execute() {
+  line_.use(Line::bit('O'));  // the program's number
   if (line_.has_codes()) {
     if (line_.has(Group::feed_mode)) set_feed_mode();
     if (line_.has(Group::units)) set_units();
@@ -79,7 +82,8 @@ void Interpreter::finish() {
     talker_.diagnostics().warning(Code::tool_comment_unused, pending_spot_,
                                   "the comment describes a tool, but no tool change follows");
   if (!program_.ended)
-    talker_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)", "was it cut off?");
+    talker_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",
+                    "was it cut off?");
 }
 
 OriginId Interpreter::origin() {

@@ -1,7 +1,7 @@
 // What the words mean: the modal state of a controller, and the steps that a line makes in that state.
 //
-// The order in which a line's words take effect, and what each does, is that of LinuxCNC's interpreter; where it
-// refuses a line that other controllers read, the line is read as those do and the difference is said.
+// The order in which a line's words take effect, and what each does, is that of LinuxCNC's interpreter; where
+// it refuses a line that other controllers read, the line is read as those do and the difference is said.
 #pragma once
 
 #include <array>
@@ -10,8 +10,9 @@
 #include <optional>
 
 #include "front/gcode/line.h"
-#include "kerf/geometry.h"
+
 #include "kerf/gcode.h"
+#include "kerf/geometry.h"
 #include "kerf/progress.h"
 
 namespace kerf::gcode {
@@ -19,9 +20,9 @@ namespace kerf::gcode {
 enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_turn };
 
 inline constexpr unsigned kAllAxes = 7;
-inline constexpr Tenths kNoMotion = 800;       // G80
-inline constexpr Tenths kMotionNotSaid = -1;   // before the first motion code
-inline constexpr Tenths kMotionNotRead = -2;   // after one that is not supported
+inline constexpr Tenths kNoMotion = 800;      // G80
+inline constexpr Tenths kMotionNotSaid = -1;  // before the first motion code
+inline constexpr Tenths kMotionNotRead = -2;  // after one that is not supported
 
 /// A place with its unknown axes (Step::unknown_axes).
 struct Place {
@@ -45,7 +46,8 @@ struct Modes {
   std::optional<int> selected_tool;
 };
 
-/// What canned cycles keep from hole to hole. R and Z as the program gave them, in mm; the rest in mm and seconds.
+/// What canned cycles keep from hole to hole. R and Z as the program gave them, in mm; the rest in mm and
+/// seconds.
 struct CycleMemory {
   Tenths motion = kNoMotion;  // the cycle these belong to
   std::optional<double> r, bottom, dwell, peck;
@@ -173,7 +175,8 @@ template <class S>
 bool Interpreter::add(const S& step) {
   if (path_.size() >= max_steps_) {
     if (!full_)
-      talker_.error(Code::too_many_steps, line_.column(), "the program makes more steps than are read; the rest is left out");
+      talker_.error(Code::too_many_steps, line_.column(),
+                    "the program makes more steps than are read; the rest is left out");
     full_ = true;
     return false;
   }

@@ -2,9 +2,8 @@
 #include "front/gcode/line.h"
 
 #include <cmath>
-#include <utility>
-
 #include <fmt/format.h>
+#include <utility>
 
 namespace kerf::gcode {
 namespace {
@@ -32,7 +31,8 @@ void Talker::note(Code code, std::uint32_t column, std::string message) {
   say(Severity::note, code, column, std::move(message), {});
 }
 
-void Talker::say(Severity severity, Code code, std::uint32_t column, std::string message, std::string_view hint) {
+void Talker::say(Severity severity, Code code, std::uint32_t column, std::string message,
+                 std::string_view hint) {
   diagnostics_.add({severity, code, spot(column), std::move(message), {}, std::string(hint)});
 }
 
@@ -45,7 +45,8 @@ bool Line::sort(const Block& block, Talker& talker) {
     return false;
   }
   if (block.o_word) {
-    talker.error(Code::o_word_unsupported, block.o_word->column, "O-words are not read yet; the line is left out");
+    talker.error(Code::o_word_unsupported, block.o_word->column,
+                 "O-words are not read yet; the line is left out");
     return false;
   }
   for (const Word& word : block.words)
@@ -57,7 +58,8 @@ bool Line::add_word(const Word& word, Talker& talker) {
   const bool plain = word.kind == ValueKind::number && word.letter >= 'A' && word.letter <= 'Z';
   if (!plain) return add_unusual_word(word, talker);
   if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, talker);
-  if (((bit('E') | bit('U') | bit('V') | bit('W')) & bit(word.letter)) != 0) return add_unusual_word(word, talker);
+  if (((bit('E') | bit('U') | bit('V') | bit('W')) & bit(word.letter)) != 0)
+    return add_unusual_word(word, talker);
   if (has(word.letter))
     talker.unusual(Code::word_repeated, word.column,
                    fmt::format("{} stands twice on the line; the last one counts", word.letter));
@@ -69,13 +71,15 @@ bool Line::add_word(const Word& word, Talker& talker) {
 
 bool Line::add_unusual_word(const Word& word, Talker& talker) {
   if (word.kind == ValueKind::expression) {
-    talker.error(Code::expression_unsupported, word.column,
-                 fmt::format("the value of {} is computed, which is not done yet; the line is left out", word.letter));
+    talker.error(
+        Code::expression_unsupported, word.column,
+        fmt::format("the value of {} is computed, which is not done yet; the line is left out", word.letter));
     return false;
   }
   if (word.letter == '*') return true;  // a sender's checksum
   if (word.letter < 'A' || word.letter > 'Z') {
-    talker.error(Code::code_unsupported, word.column, "polar coordinates are not read yet; the line is left out");
+    talker.error(Code::code_unsupported, word.column,
+                 "polar coordinates are not read yet; the line is left out");
     return false;
   }
   talker.unusual(Code::unknown_letter, word.column,

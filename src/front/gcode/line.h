@@ -1,4 +1,5 @@
-// The words of one line, sorted: G and M codes by modal group, all other letters by name, and which of them were used.
+// The words of one line, sorted: G and M codes by modal group, all other letters by name, and which of them
+// were used.
 #pragma once
 
 #include <array>
@@ -9,11 +10,13 @@
 
 #include "codec/gcode/block.h"
 #include "front/gcode/codes.h"
+
 #include "kerf/diagnostics.h"
 
 namespace kerf::gcode {
 
-/// Says things about the program, each with its place. Unusual things are warnings, or errors in a strict reading.
+/// Says things about the program, each with its place. Unusual things are warnings, or errors in a strict
+/// reading.
 class Talker {
  public:
   Talker(std::string file, bool strict, Diagnostics& diagnostics)
@@ -39,8 +42,8 @@ class Talker {
 
 class Line {
  public:
-  /// Sorts a block's words. Two words of a letter or two codes of a group: the last one counts, and it is said.
-  /// False if the line cannot be meant (an expression, a word of no meaning), which is then said.
+  /// Sorts a block's words. Two words of a letter or two codes of a group: the last one counts, and it is
+  /// said. False if the line cannot be meant (an expression, a word of no meaning), which is then said.
   bool sort(const Block& block, Talker& talker);
 
   std::uint32_t column() const { return column_of_block_; }

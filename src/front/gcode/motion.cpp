@@ -1,6 +1,5 @@
 // Straight moves, machine coordinates, homes and shifts of zero; and which motion a line's words mean.
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "front/gcode/interpreter.h"
@@ -8,8 +7,9 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kFarthest = 1e7;           // mm; 10 km
-constexpr double kSlowestInverse = 0.1;     // mm/min; what LinuxCNC takes for a move of no length in inverse time
+constexpr double kFarthest = 1e7;  // mm; 10 km
+constexpr double kSlowestInverse =
+    0.1;  // mm/min; what LinuxCNC takes for a move of no length in inverse time
 constexpr std::uint32_t kArcLetters = Line::bit('I') | Line::bit('J') | Line::bit('K') | Line::bit('R');
 constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
 
@@ -31,7 +31,8 @@ void Interpreter::move() {
   const bool axes = line_.has_unused(kAxisLetters | kRotaryLetters);
   if (axes || (is_arc(modes_.motion) && line_.has_unused(kArcLetters))) return move_in(modes_.motion);
   if (!stated || line_.has(Group::reference)) return;
-  if (modes_.motion == 0 || modes_.motion == 10) return straight(modes_.motion);  // a move of length 0, as LinuxCNC's
+  if (modes_.motion == 0 || modes_.motion == 10)
+    return straight(modes_.motion);  // a move of length 0, as LinuxCNC's
   if (modes_.motion != kNoMotion)
     talker_.unusual(Code::word_missing, line_.column(Group::motion),
                     fmt::format("{} without axis words makes no move here", code_text('G', modes_.motion)));
@@ -39,15 +40,16 @@ void Interpreter::move() {
 
 void Interpreter::move_in(Tenths motion) {
   if (motion == kMotionNotSaid) {
-    talker_.unusual(Code::no_motion_mode, line_.column(), "axis words before any motion code; read as rapid moves");
+    talker_.unusual(Code::no_motion_mode, line_.column(),
+                    "axis words before any motion code; read as rapid moves");
     motion = modes_.motion = 0;
   }
   const bool in_machine = line_.has(Group::machine_coordinates);
   const bool straight_motion = motion == 0 || motion == 10;
   if (motion == kNoMotion || motion == kMotionNotRead || (in_machine && !straight_motion)) {
-    const std::string_view why = motion == kNoMotion  ? "axis words while no motion is in force (after G80)"
-                                 : in_machine         ? "G53 goes with G0 and G1 only"
-                                                      : "axis words in a motion that is not read yet";
+    const std::string_view why = motion == kNoMotion ? "axis words while no motion is in force (after G80)"
+                                 : in_machine        ? "G53 goes with G0 and G1 only"
+                                                     : "axis words in a motion that is not read yet";
     talker_.error(Code::no_motion_mode, line_.column(), fmt::format("{}; the move is left out", why));
     return line_.use(kAllLetters);
   }
@@ -65,15 +67,16 @@ void Interpreter::straight(Tenths motion) {
 }
 
 void Interpreter::probe(Tenths motion) {
-  constexpr ProbeKind kKinds[] = {ProbeKind::contact_or_error, ProbeKind::contact, ProbeKind::release_or_error,
-                                  ProbeKind::release};
+  constexpr ProbeKind kKinds[] = {ProbeKind::contact_or_error, ProbeKind::contact,
+                                  ProbeKind::release_or_error, ProbeKind::release};
   const std::optional<Place> to = target();
   if (!to) return;
   const double feed = feed_for(straight_length(*to));
   if (add(step::Probe{to->at, mm_per_min(feed), kKinds[motion - 382]})) arrive(*to);
 }
 
-/// Where the line's axis words lead in work coordinates; marks them as used. Nothing (said) if it is out of reach.
+/// Where the line's axis words lead in work coordinates; marks them as used. Nothing (said) if it is out of
+/// reach.
 std::optional<Place> Interpreter::target() {
   Place to = here_;
   for (int axis = 0; axis < 3; ++axis) {
@@ -87,7 +90,8 @@ std::optional<Place> Interpreter::target() {
     rotary_used_ = true;
     for (int axis = 0; axis < 3; ++axis)
       if (const auto word = line_.take(static_cast<char>('A' + axis)))
-        rotary_[static_cast<std::size_t>(axis)] = modes_.absolute ? *word : rotary_[static_cast<std::size_t>(axis)] + *word;
+        rotary_[static_cast<std::size_t>(axis)] =
+            modes_.absolute ? *word : rotary_[static_cast<std::size_t>(axis)] + *word;
   }
   if (!reachable(to.at)) return std::nullopt;
   return to;
@@ -111,8 +115,9 @@ std::optional<Place> Interpreter::machine_target() {
 
 bool Interpreter::reachable(Point3 p) {
   if (std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest) return true;
-  talker_.error(Code::position_too_far, line_.column(),
-                fmt::format("a position lies farther than {:g} mm from zero; the move is left out", kFarthest));
+  talker_.error(
+      Code::position_too_far, line_.column(),
+      fmt::format("a position lies farther than {:g} mm from zero; the move is left out", kFarthest));
   line_.use(kAllLetters);
   return false;
 }
@@ -127,12 +132,14 @@ double Interpreter::straight_length(const Place& to) const {
 /// Feed in mm/min of a move of `length` mm; 0, said once, where the program gives none.
 double Interpreter::feed_for(double length) {
   if (modes_.feed_mode == FeedMode::inverse_time && !line_.has('F') && modes_.feed > 0.0)
-    talker_.unusual(Code::word_missing, line_.column(), "in inverse time each cutting line needs its F; the last one is kept");
+    talker_.unusual(Code::word_missing, line_.column(),
+                    "in inverse time each cutting line needs its F; the last one is kept");
   double feed = modes_.feed;
   if (modes_.feed_mode == FeedMode::per_turn) feed *= modes_.speed;
   if (!(feed > 0.0)) {
     if (!no_feed_said_)
-      talker_.unusual(Code::no_feed, line_.column(), "a cutting move without a feed; the program gives no F for it",
+      talker_.unusual(Code::no_feed, line_.column(),
+                      "a cutting move without a feed; the program gives no F for it",
                       "put an F word before the first G1");
     no_feed_said_ = true;
     return 0.0;
@@ -179,8 +186,8 @@ void Interpreter::go_home(const Place& home) {
   rapid(*to);
 }
 
-/// G92: the place where the tool stands gets new coordinates. Where the place was not known, they are simply its
-/// coordinates from now on.
+/// G92: the place where the tool stands gets new coordinates. Where the place was not known, they are simply
+/// its coordinates from now on.
 void Interpreter::shift_zero() {
   if (!line_.has_unused(kAxisLetters | kRotaryLetters)) {
     talker_.error(Code::word_missing, line_.column(Group::reference), "G92 needs the coordinates to set");

@@ -3,14 +3,15 @@
 
 #include "codec/gcode/block.h"
 #include "front/gcode/interpreter.h"
+
 #include "kerf/gcode.h"
 
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLinesPerReport = 16'384;      // a stop is noticed within some milliseconds
-constexpr std::size_t kBytesPerStep = 16;            // of usual programs, for the first reservation
-constexpr std::size_t kMostReserved = 2'000'000;     // steps; a longer program grows as it goes
+constexpr std::size_t kLinesPerReport = 16'384;   // a stop is noticed within some milliseconds
+constexpr std::size_t kBytesPerStep = 16;         // of usual programs, for the first reservation
+constexpr std::size_t kMostReserved = 2'000'000;  // steps; a longer program grows as it goes
 
 }  // namespace
 

@@ -1,8 +1,7 @@
 // What words set: units, feed, speed, tool, spindle, coolant, planes and modes, and the program's stops.
 #include <cmath>
-#include <limits>
-
 #include <fmt/format.h>
+#include <limits>
 
 #include "front/gcode/interpreter.h"
 
@@ -27,8 +26,9 @@ void Interpreter::set_feed_mode() {
 void Interpreter::set_units() {
   const double scale = line_.code(Group::units) == 200 ? kMillimetresPerInch : 1.0;
   if (scale != modes_.scale && line_.has('F'))
-    talker_.note(Code::feed_with_units, line_.column('F'),
-                 "the feed is taken in the units that its own line sets, as GRBL does; LinuxCNC takes the old ones");
+    talker_.note(
+        Code::feed_with_units, line_.column('F'),
+        "the feed is taken in the units that its own line sets, as GRBL does; LinuxCNC takes the old ones");
   modes_.scale = scale;
 }
 
@@ -44,7 +44,8 @@ void Interpreter::set_feed() {
 void Interpreter::set_speed() {
   const double speed = *line_.take('S');
   if (speed < 0.0) {
-    talker_.error(Code::word_out_of_range, line_.column('S'), "a spindle speed cannot be negative; it is left out");
+    talker_.error(Code::word_out_of_range, line_.column('S'),
+                  "a spindle speed cannot be negative; it is left out");
     return;
   }
   const bool is_news = speed != modes_.speed && modes_.spindle != SpindleTurn::off;
@@ -64,7 +65,8 @@ void Interpreter::select_tool() {
 void Interpreter::change_tool() {
   if (line_.code(Group::tool_change) != 60) return;
   if (!modes_.selected_tool)
-    talker_.unusual(Code::word_missing, line_.column(Group::tool_change), "M6 without a T word before; read as tool 0");
+    talker_.unusual(Code::word_missing, line_.column(Group::tool_change),
+                    "M6 without a T word before; read as tool 0");
   if (modes_.spindle != SpindleTurn::off) spin(SpindleTurn::off);
   const int number = modes_.selected_tool.value_or(0);
   add(step::ToolChange{number});
@@ -125,9 +127,11 @@ void Interpreter::set_path_mode() {
   if (code == 640) {
     mode.kind = PathModeKind::blend;
     const double tolerance = line_.take('P').value_or(0.0);
-    if (tolerance < 0.0) talker_.error(Code::word_out_of_range, line_.column('P'), "a tolerance cannot be negative");
+    if (tolerance < 0.0)
+      talker_.error(Code::word_out_of_range, line_.column('P'), "a tolerance cannot be negative");
     if (tolerance > 0.0) mode.tolerance = mm(tolerance * modes_.scale);
-    line_.use(Line::bit('Q'));  // how far straight pieces are joined: nothing for a path that is kept as it is
+    line_.use(
+        Line::bit('Q'));  // how far straight pieces are joined: nothing for a path that is kept as it is
   }
   add(mode);
 }
@@ -142,7 +146,8 @@ void Interpreter::set_distance() {
 void Interpreter::use_words_of_other_codes() {
   using L = Line;
   if (line_.has(Group::tool_length)) line_.use(L::bit('H'));
-  if (line_.has(Group::tool_length) && line_.code(Group::tool_length) == 431) line_.use(kAxisLetters | kRotaryLetters);
+  if (line_.has(Group::tool_length) && line_.code(Group::tool_length) == 431)
+    line_.use(kAxisLetters | kRotaryLetters);
   if (line_.has(Group::compensation)) line_.use(L::bit('D'));
   if (line_.has(Group::other) || line_.has(Group::tool_change))
     line_.use(L::bit('P') | L::bit('Q') | L::bit('R') | L::bit('L'));
@@ -158,7 +163,8 @@ void Interpreter::end_or_pause() {
   add(step::Verbatim{code_text('M', code)});
 }
 
-/// M2 and M30 set the modes back (LinuxCNC's page "M2, M30"; GRBL does the same). Units, position and tool stay.
+/// M2 and M30 set the modes back (LinuxCNC's page "M2, M30"; GRBL does the same). Units, position and tool
+/// stay.
 void Interpreter::end_program() {
   program_.ended = true;
   if (modes_.spindle != SpindleTurn::off) spin(SpindleTurn::off);

@@ -1,0 +1,146 @@
+// One program for each thing that the reader says, with its place, its severity, and what is read all the
+// same.
+#include <gtest/gtest.h>
+
+#include "kerf/gcode.h"
+
+namespace kerf {
+namespace {
+
+struct Case {
+  std::string_view text;  // M2 is added
+  Code code;
+  Severity severity;
+  std::uint32_t line, column;
+  std::size_t motions;  // that are read all the same
+};
+
+constexpr Severity kWarning = Severity::warning, kError = Severity::error, kNote = Severity::note;
+
+const Case kCases[] = {
+    {"G0 X#1", Code::expression_unsupported, kError, 1, 4, 0},
+    {"#1 = 2", Code::expression_unsupported, kError, 1, 1, 0},
+    {"G0 X1 Y[2*3]", Code::expression_unsupported, kError, 1, 7, 0},
+    {"O100 sub", Code::o_word_unsupported, kError, 1, 1, 0},
+    {"G0 X1 E5", Code::unknown_letter, kWarning, 1, 7, 1},
+    {"G0 X1 G77.7", Code::unknown_g_code, kWarning, 1, 7, 1},
+    {"G0 X1 G1000", Code::unknown_g_code, kWarning, 1, 7, 1},
+    {"G0 X1 M199", Code::unknown_m_code, kWarning, 1, 7, 1},
+    {"G0 X1 G1.05", Code::unknown_g_code, kWarning, 1, 7, 1},
+    {"F9 G1 X1\nG5 X2 I1 J1 P1 Q1", Code::code_unsupported, kError, 2, 1, 1},
+    {"G41 D1", Code::code_unsupported, kError, 1, 1, 0},
+    {"G10 L2 P1 X5", Code::code_unsupported, kError, 1, 1, 0},
+    {"G0 @10 ^45", Code::code_unsupported, kError, 1, 4, 0},
+    {"M98 P100", Code::code_unsupported, kError, 1, 1, 0},
+    {"M48", Code::code_ignored, kNote, 1, 1, 0},
+    {"G43 H1", Code::code_ignored, kNote, 1, 1, 0},
+    {"F9 G2 X2 I1 K0", Code::word_unused, kWarning, 1, 13, 1},
+    {"G0 X1 P2", Code::word_unused, kWarning, 1, 7, 1},
+    {"G1 G0 X5", Code::modal_conflict, kWarning, 1, 4, 1},
+    {"G0 X5 X6", Code::word_repeated, kWarning, 1, 7, 1},
+    {"G1 X5\nX6", Code::no_feed, kWarning, 1, 1, 2},
+    {"F9 G93 G81 X1 R1 Z0", Code::no_feed, kWarning, 1, 1, 4},
+    {"X5", Code::no_motion_mode, kWarning, 1, 1, 1},
+    {"G80\nX5", Code::no_motion_mode, kError, 2, 1, 0},
+    {"F9 G2 G53 X5 I1", Code::no_motion_mode, kError, 1, 1, 0},
+    {"G4", Code::word_missing, kError, 1, 1, 0},
+    {"M6", Code::word_missing, kWarning, 1, 1, 0},
+    {"G92", Code::word_missing, kError, 1, 1, 0},
+    {"F9 G81 X1 Z-1", Code::word_missing, kError, 1, 1, 0},
+    {"F9 G81 X1 R1", Code::word_missing, kError, 1, 1, 0},
+    {"F9 G83 X1 R1 Z-1", Code::word_missing, kError, 1, 1, 0},
+    {"F9 G87 X1 R1 Z-1", Code::word_missing, kError, 1, 1, 0},
+    {"F9 G82 X1 R1 Z0", Code::word_missing, kWarning, 1, 1, 4},
+    {"G93 G1 X1 F2\nX2", Code::word_missing, kWarning, 2, 1, 2},
+    {"G81", Code::word_missing, kWarning, 1, 1, 0},
+    {"F-1", Code::word_out_of_range, kError, 1, 1, 0},
+    {"S-1", Code::word_out_of_range, kError, 1, 1, 0},
+    {"T1.5", Code::word_out_of_range, kError, 1, 1, 0},
+    {"T-1", Code::word_out_of_range, kError, 1, 1, 0},
+    {"T99999999999", Code::word_out_of_range, kError, 1, 1, 0},
+    {"G4 P-1", Code::word_out_of_range, kError, 1, 4, 0},
+    {"G64 P-1", Code::word_out_of_range, kError, 1, 5, 0},
+    {"F9 G2 I1 P1.5", Code::word_out_of_range, kError, 1, 10, 1},
+    {"F9 G2 I1 P1000000", Code::word_out_of_range, kError, 1, 10, 1},
+    {"F9 G81 X1 R1 Z0 L0", Code::word_out_of_range, kError, 1, 17, 4},
+    {"F9 G81 X1 R1 Z0 L1000000", Code::word_out_of_range, kError, 1, 17, 4},
+    {"F9 G82 X1 R1 Z0 P-1", Code::word_out_of_range, kError, 1, 1, 4},
+    {"F9 G83 X1 R1000 Z0 Q.0001", Code::word_out_of_range, kError, 1, 1, 4},
+    {"F9 G2 X5", Code::arc_no_centre, kError, 1, 1, 1},
+    {"F9 G2 I0", Code::arc_no_centre, kError, 1, 1, 1},
+    {"F9 G90.1 G2 X2 I1", Code::arc_no_centre, kError, 1, 1, 1},
+    {"F9 G2 X5 I2.6", Code::arc_radius_mismatch, kWarning, 1, 1, 1},
+    {"F9 G2 X50 I2.6", Code::arc_radius_mismatch, kError, 1, 1, 1},
+    {"F9 G2 X50 R20", Code::arc_radius_too_small, kWarning, 1, 11, 1},
+    {"F9 G2 X0 R20", Code::arc_in_place, kError, 1, 10, 1},
+    {"F9 G81 X5 R1 Z2", Code::cycle_upside_down, kError, 1, 1, 0},
+    {"G91 G53 G0 Z-5", Code::g53_incremental, kWarning, 1, 5, 1},
+    {"G0 X99999999", Code::position_too_far, kError, 1, 1, 0},
+    {"F9 G2 X1 I99999999", Code::position_too_far, kError, 1, 1, 1},
+    {"(TOOL/MILL, 3, 0, 10, 0)\nG0 X1", Code::tool_comment_unused, kWarning, 1, 1, 1},
+    {"G20 F9", Code::feed_with_units, kNote, 1, 5, 0},
+    {"M2\nG0 X1", Code::text_after_end, kWarning, 2, 1, 0},
+};
+
+std::size_t motions_of(const Toolpath& path) {
+  std::size_t count = 0;
+  for (const Step& s : path.steps()) count += s.is_motion() ? 1 : 0;
+  return count;
+}
+
+TEST(GcodeDiagnostics, EachIsSaidAtItsPlace) {
+  for (const Case& c : kCases) {
+    Diagnostics diagnostics;
+    const GcodeProgram program = read_gcode(std::string(c.text) + "\nM2\n", {}, diagnostics);
+    const Diagnostic* found = nullptr;
+    for (const Diagnostic& d : diagnostics.list())
+      if (found == nullptr && d.code == c.code) found = &d;
+    ASSERT_NE(found, nullptr) << c.text;
+    EXPECT_EQ(found->severity, c.severity) << c.text;
+    EXPECT_EQ(found->where, Origin(TextSpot{"<text>", c.line, c.column}))
+        << c.text << ": " << to_string(*found);
+    EXPECT_EQ(motions_of(program.path), c.motions) << c.text << ": " << to_string(*found);
+  }
+}
+
+TEST(GcodeDiagnostics, StrictReadingTurnsWarningsIntoErrors) {
+  for (const Case& c : kCases) {
+    if (c.severity != kWarning || c.code == Code::tool_comment_unused) continue;
+    Diagnostics diagnostics;
+    read_gcode(std::string(c.text) + "\nM2\n", {.strict = true}, diagnostics);
+    EXPECT_TRUE(diagnostics.has_errors()) << c.text;
+  }
+}
+
+TEST(GcodeDiagnostics, APlainProgramHasNone) {
+  Diagnostics diagnostics;
+  const std::string_view text =
+      "%\nO1000 (part)\nN1 G17 G21 G40 G49 G54 G80 G90 G94 (start)\nN2 T1 M6\nM3 S1000 M8\nG0 X0 Y0 Z5\n"
+      "G1 Z-1 F100\nG2 X10 I5\nG3 X0 I-5\n/G0 Z5\nM5 M9\nM30\n%\n";
+  const GcodeProgram program = read_gcode(text, {.strict = true}, diagnostics);
+  EXPECT_TRUE(diagnostics.list().empty()) << to_string(diagnostics.list().front());
+  EXPECT_TRUE(program.ended);
+}
+
+TEST(GcodeDiagnostics, EndsThatLack) {
+  Diagnostics none;
+  EXPECT_FALSE(read_gcode("G0 X1\n", {}, none).ended);
+  ASSERT_EQ(none.list().size(), 1u);
+  EXPECT_EQ(none.list()[0].code, Code::no_program_end);
+  Diagnostics lone;
+  EXPECT_TRUE(read_gcode("G0 X1\n%\n", {}, lone).ended);
+  ASSERT_EQ(lone.list().size(), 1u);
+  EXPECT_EQ(lone.list()[0].code, Code::lone_percent);
+}
+
+TEST(GcodeDiagnostics, ManyFaultsCostBoundedMemory) {
+  std::string text;
+  for (int i = 0; i < 100'000; ++i) text += "G1 X\x01\n";
+  Diagnostics diagnostics;
+  read_gcode(text, {}, diagnostics);
+  EXPECT_EQ(diagnostics.errors(), 100'000u);
+  EXPECT_LT(diagnostics.list().size(), 100u);
+}
+
+}  // namespace
+}  // namespace kerf

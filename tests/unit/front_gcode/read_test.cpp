@@ -1,0 +1,178 @@
+// Reading of G-code beyond the moves: settings as steps, unknown axes, feeds, tools and stock of comments,
+// limits.
+#include <gtest/gtest.h>
+
+#include "kerf/gcode.h"
+
+namespace kerf {
+namespace {
+
+struct Reading {
+  GcodeProgram program;
+  Diagnostics diagnostics;
+  const Step& operator[](std::size_t i) const { return program.path[i]; }
+  std::size_t size() const { return program.path.size(); }
+};
+
+Reading read(std::string_view text, GcodeReadOptions options = {}) {
+  Reading r;
+  r.program = read_gcode(text, options, r.diagnostics);
+  return r;
+}
+
+std::string kinds(const Toolpath& path) {
+  std::string text;
+  for (const Step& s : path.steps())
+    text += std::string(text.empty() ? "" : " ") + std::string(name_of(s.kind()));
+  return text;
+}
+
+double feed_of(const Reading& r, std::size_t i) { return r[i].feed().mm_per_min(); }
+
+TEST(ReadGcode, SettingsBecomeStepsInTheOrderOfTheirEffect) {
+  const Reading r =
+      read("G21\nM8 M3 M6 T102 S16000 G61.1 X1 G0\nG64 P0.02\nM7\nM9\nS9000\nM4\nM5\nM0\nG4 P1.5\nM30\n");
+  EXPECT_TRUE(r.diagnostics.list().empty()) << to_string(r.diagnostics.list().front());
+  ASSERT_EQ(kinds(r.program.path),
+            "tool spindle coolant pathmode rapid pathmode coolant coolant spindle spindle spindle verbatim "
+            "dwell verbatim");
+  EXPECT_EQ(r[0].tool_change().tool, 102);
+  EXPECT_EQ(r[1].spindle().speed, rpm(16000));
+  EXPECT_EQ(r[1].spindle().turn, SpindleTurn::cw);
+  EXPECT_TRUE(r[2].coolant().flood);
+  EXPECT_EQ(r[3].path_mode().kind, PathModeKind::exact_stop);
+  EXPECT_EQ(r[5].path_mode().tolerance, mm(0.02));
+  EXPECT_TRUE(r[6].coolant().mist && r[6].coolant().flood);
+  EXPECT_FALSE(r[7].coolant().mist || r[7].coolant().flood);
+  EXPECT_EQ(r[8].spindle().speed, rpm(9000));
+  EXPECT_EQ(r[9].spindle().turn, SpindleTurn::ccw);
+  EXPECT_EQ(r[10].spindle().turn, SpindleTurn::off);
+  EXPECT_EQ(r.program.path.text(11), "M0");
+  EXPECT_NEAR(r[12].dwell().time.seconds(), 1.5, 1e-12);
+  EXPECT_EQ(r.program.path.text(13), "M30");
+  EXPECT_TRUE(r.program.ended);
+}
+
+TEST(ReadGcode, StepsKnowTheirLineAndColumn) {
+  const Reading r = read("\n  G0 X1\n\n N5 G81 X1 Z-1 R1 F50\nM2");
+  EXPECT_EQ(to_string(r.program.path.origin_of(0)), "<text>:2:3");
+  EXPECT_EQ(to_string(r.program.path.origin_of(1)), "<text>:4:5");
+  EXPECT_EQ(to_string(r.program.path.origin_of(3)), "<text>:4:5");
+  EXPECT_EQ(r[1].origin(), r[3].origin());
+}
+
+TEST(ReadGcode, AxesBecomeKnownWhenCommandedInWorkCoordinates) {
+  const Reading r = read("G0 Z5\nG91 X1\nG90 X2\nG53 Z-5\nG0 Y3\nZ1\nG28 G91 Z0\nG90 G0 Z2\nM2");
+  const unsigned want[] = {3, 3, 2, 6, 4, 0, 0, 4, 0};
+  ASSERT_EQ(r.size(), 10u);
+  for (std::size_t i = 0; i < 9; ++i) EXPECT_EQ(r[i].unknown_axes(), want[i]) << i;
+  EXPECT_EQ(r[3].to(), (Point3{2, 0, -5}));
+}
+
+TEST(ReadGcode, FeedsOfAllModes) {
+  const Reading mm_mode = read("G21 G1 X10 F300\nX20\nF120\nX30\nM2");
+  EXPECT_EQ(feed_of(mm_mode, 0), 300);
+  EXPECT_EQ(feed_of(mm_mode, 1), 300);
+  EXPECT_EQ(feed_of(mm_mode, 2), 120);
+  EXPECT_NEAR(feed_of(read("G20\nG1 X10 F10\nM2"), 0), 254, 1e-9);
+  const Reading inverse = read("G93 G1 X10 F2\nX20 F4\nM2");
+  EXPECT_NEAR(feed_of(inverse, 0), 20, 1e-12);
+  EXPECT_NEAR(feed_of(inverse, 1), 40, 1e-12);
+  const Reading arc = read("G0 X10\nG93 G3 X0 Y10 I-10 F2\nM2");
+  EXPECT_NEAR(feed_of(arc, 1), 31.41592653589793, 1e-9);
+  EXPECT_NEAR(feed_of(read("S1000 M3\nG95 G1 X10 F0.1\nM2"), 1), 100, 1e-12);
+}
+
+TEST(ReadGcode, UnitsHoldForTheFeedOfTheirLine) {
+  const Reading r = read("G20 F6\nG1 X1\nM2");
+  EXPECT_NEAR(feed_of(r, 0), 152.4, 1e-9);
+  EXPECT_TRUE(r.program.inch);
+  ASSERT_EQ(r.diagnostics.list().size(), 1u);
+  EXPECT_EQ(r.diagnostics.list()[0].code, Code::feed_with_units);
+  EXPECT_EQ(r.diagnostics.list()[0].severity, Severity::note);
+  EXPECT_FALSE(read("G21 G0 X1\nG20 X2\nM2").program.inch);
+}
+
+TEST(ReadGcode, ShiftedZeroKeepsTheFrameOfWhatWasCutBefore) {
+  const Reading r = read("G0 X10 Y0\nG92 X0\nG0 X5\nG2 X7 I1 F10\nG92.2\nG0 X5\nG92.3\nX5\nG92.1\nX5\nM2");
+  EXPECT_EQ(r[1].to().x, 15);
+  EXPECT_EQ(r[2].to().x, 17);
+  EXPECT_EQ(r[2].arc().centre.x, 16);
+  EXPECT_EQ(r[3].to().x, 5);
+  EXPECT_EQ(r[4].to().x, 15);
+  EXPECT_EQ(r[5].to().x, 5);
+  const Reading first = read("G92 X3 Y4\nG91 G0 X1\nM2");  // nothing was known before: simply the coordinates
+  EXPECT_EQ(first[0].to(), (Point3{4, 4, 0}));
+  EXPECT_EQ(first[0].unknown_axes(), 4u);
+}
+
+TEST(ReadGcode, ProbesAndRotaryAxes) {
+  const Reading r = read("F50 G38.3 Z-5\nG1 X5 A90\nG91 X1 A5 C-1\nM2");
+  EXPECT_EQ(r[0].probe().kind, ProbeKind::contact);
+  EXPECT_EQ(r[0].to().z, -5);
+  EXPECT_EQ(r.program.path.extra(0), nullptr);
+  ASSERT_NE(r.program.path.extra(2), nullptr);
+  EXPECT_EQ((*r.program.path.extra(1)->abc)[0], 90);
+  EXPECT_EQ((*r.program.path.extra(2)->abc)[0], 95);
+  EXPECT_EQ((*r.program.path.extra(2)->abc)[2], -1);
+}
+
+TEST(ReadGcode, ToolsAndStockOfComments) {
+  const Reading r = read(
+      "(stockMin:0.00mm, 0.00mm, -1.00mm)\n(stockMax:100.00mm, 50.00mm, 0.00mm)\nG90 G21\n"
+      "(TOOL/MILL,3.175, 0.00, 12.7, 0.00)\nM6T102\nG0 X1\nM6 T2\n(TOOL/MILL, 6.35, 3.175, 12.7, 0)\nG0 X2\n"
+      "G20\n(TOOL/MILL, 0.125, 0, 0.5, 0)\nT3\nM6\nM2\n");
+  ASSERT_TRUE(r.program.stock);
+  EXPECT_EQ(r.program.stock->block.high, (Point3{100, 50, 0}));
+  ASSERT_EQ(r.program.tools.size(), 3u);
+  EXPECT_NEAR(r.program.tools.at(102).diameter.mm(), 3.175, 1e-12);
+  EXPECT_EQ(name_of(r.program.tools.at(2).shape), "ball");
+  EXPECT_NEAR(r.program.tools.at(3).diameter.mm(), 3.175, 1e-12);
+}
+
+TEST(ReadGcode, MessagesForTheOperatorAreKept) {
+  const Reading r = read("(MSG, turn the part)\n(just a comment)\nG0 X1\nM2");
+  ASSERT_EQ(kinds(r.program.path), "note rapid verbatim");
+  EXPECT_EQ(r.program.path.text(0), "turn the part");
+}
+
+TEST(ReadGcode, TheEndStopsOrNot) {
+  const std::string text = "G18 G91 M3 S100\nG0 X1\nM30\n%\nX5 Z5\nM2";
+  const Reading stop = read(text);
+  EXPECT_EQ(kinds(stop.program.path), "spindle rapid spindle verbatim");
+  EXPECT_TRUE(stop.program.ended);
+  const Reading on = read(text, {.after_end = AfterEnd::read_on});
+  ASSERT_EQ(kinds(on.program.path), "spindle rapid spindle verbatim cut verbatim");
+  EXPECT_EQ(on[4].to(), (Point3{5, 0, 5}));  // the end set G90 and G1
+  EXPECT_EQ(on.diagnostics.list()[0].code, Code::lone_percent);
+}
+
+TEST(ReadGcode, LimitsAreErrors) {
+  const Reading r = read("G0 X1\nX2\nX3\nX4\nM2", {.max_steps = 2});
+  EXPECT_EQ(r.size(), 2u);
+  ASSERT_EQ(r.diagnostics.errors(), 1u);
+  EXPECT_EQ(r.diagnostics.list()[0].code, Code::too_many_steps);
+  const Reading many = read("F1 G91 G83 X1 Z-1000 R0 Q0.02 L10000\nM2", {.max_steps = 1000});
+  EXPECT_EQ(many.size(), 1000u);
+}
+
+class Stopper : public Progress {
+ public:
+  void phase(std::string_view) override {}
+  void report(double share) override { last = share; }
+  bool stop_requested() override { return true; }
+  double last = -1.0;
+};
+
+TEST(ReadGcode, CanBeStopped) {
+  std::string text;
+  for (int i = 0; i < 100'000; ++i) text += "G0 X1\n";
+  Diagnostics diagnostics;
+  Stopper stopper;
+  EXPECT_EQ(read_gcode(text, {}, diagnostics, &stopper).path.size(), 0u);
+  EXPECT_GT(stopper.last, 0.0);
+  EXPECT_LT(stopper.last, 0.5);
+}
+
+}  // namespace
+}  // namespace kerf

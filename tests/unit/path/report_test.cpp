@@ -1,0 +1,64 @@
+// Motion figures: counts, lengths, bounds and times, in all and for each tool.
+#include "kerf/report.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace kerf {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+TEST(Report, CountsLengthsBoundsAndTimes) {
+  Toolpath path;
+  const OriginId none = OriginId::none;
+  path.add(step::Rapid{{0, 0, 4}}, none);
+  path.add(step::ToolChange{7}, none);
+  path.add(step::Spindle{rpm(12000), SpindleTurn::cw}, none);
+  path.add(step::Rapid{{3, 0, 4}}, none);
+  path.add(step::Cut{{3, 0, -1}, mm_per_min(100)}, none);
+  path.add(step::Arc{{3, 0, -1}, {2, 0}, Plane::xy, Turn::ccw, 1, mm_per_min(200)}, none);
+  path.add(step::Dwell{seconds(3)}, none);
+  path.add(step::Spindle{rpm(0), SpindleTurn::off}, none);
+  path.add(step::ToolChange{8}, none);
+  path.add(step::Cut{{3, 0, -1}, Feed{}}, none);
+  path.add(step::Probe{{3, 0, -9}, mm_per_min(10), ProbeKind::contact}, none);
+  path.add(step::ToolChange{7}, none);
+  path.add(step::Cut{{3, 0, -3}, mm_per_min(60)}, none);
+
+  const PathReport report = report_on(path, {.rapid_feed = mm_per_min(1400)});
+  const MotionFigures& all = report.all;
+  EXPECT_EQ(all.lines, 3u);
+  EXPECT_EQ(all.arcs, 1u);
+  EXPECT_EQ(all.rapids, 2u);
+  EXPECT_NEAR(all.rapid_mm, 7, 1e-12);
+  EXPECT_NEAR(all.cut_mm, 5 + 4 * kPi + 6, 1e-12);
+  EXPECT_NEAR(all.cut_bounds.low.x, 1, 1e-12);
+  EXPECT_NEAR(all.cut_bounds.high.y, 1, 1e-12);
+  EXPECT_NEAR(all.cut_bounds.low.z, -3, 1e-12);
+  EXPECT_EQ(all.feed.low, 60);
+  EXPECT_EQ(all.feed.high, 200);
+  EXPECT_EQ(all.speed.low, 12000);
+  EXPECT_NEAR(all.rapid.minutes(), 7.0 / 1400, 1e-12);
+  EXPECT_NEAR(all.cutting.minutes(), 0.05 + 4 * kPi / 200 + 0.1, 1e-12);
+  EXPECT_NEAR(all.dwell.seconds(), 3, 1e-12);
+
+  ASSERT_EQ(report.tools.size(), 3u);
+  EXPECT_FALSE(report.tools[0].tool);
+  EXPECT_FALSE(report.tools[0].deepest);
+  EXPECT_EQ(report.tools[1].tool, 7);
+  EXPECT_EQ(report.tools[1].deepest, -3);
+  EXPECT_EQ(report.tools[1].figures.lines, 2u);
+  EXPECT_EQ(report.tools[2].tool, 8);
+  EXPECT_NEAR(report.tools[2].figures.cut_mm, 0, 1e-12);
+}
+
+TEST(Report, OfAnEmptyPathIsEmpty) {
+  const PathReport report = report_on(Toolpath{}, {});
+  EXPECT_TRUE(report.tools.empty());
+  EXPECT_TRUE(report.all.cut_bounds.empty());
+  EXPECT_TRUE(report.all.feed.empty());
+}
+
+}  // namespace
+}  // namespace kerf
