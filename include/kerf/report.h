@@ -1,4 +1,5 @@
-// What a toolpath does, in numbers: counts, lengths, bounds, tools, feeds, speeds, and a first estimate of time.
+// What a toolpath does, in numbers: counts, lengths, bounds, tools, feeds, speeds, and a first estimate of
+// time.
 #pragma once
 
 #include <cstddef>
@@ -23,21 +24,21 @@ struct Range {
   }
 };
 
-/// Counts, lengths and times of a part of a toolpath. Motions with machine coordinates count with the values an
-/// interpreter with zero offsets takes; a helix counts its true length; a move of length 0 is counted.
+/// Counts, lengths and times of a part of a toolpath. Motions with machine coordinates count with the values
+/// an interpreter with zero offsets takes; a helix counts its true length; a move of length 0 is counted.
 struct MotionFigures {
   std::size_t lines = 0, arcs = 0, rapids = 0;
   double cut_mm = 0.0, rapid_mm = 0.0;
-  Box3 cut_bounds;        // of feed moves and arcs, mm
-  Range feed;             // mm/min, of cutting moves
-  Range speed;            // rpm, of spindle steps that turn
-  Duration cutting;       // at the programmed feeds, without acceleration
-  Duration rapid;         // at `rapid_feed`, without acceleration
+  Box3 cut_bounds;   // of feed moves and arcs, mm
+  Range feed;        // mm/min, of cutting moves
+  Range speed;       // rpm, of spindle steps that turn
+  Duration cutting;  // at the programmed feeds, without acceleration
+  Duration rapid;    // at `rapid_feed`, without acceleration
   Duration dwell;
 };
 
 struct ToolFigures {
-  std::optional<int> tool;      // nothing: before the first tool change
+  std::optional<int> tool;  // nothing: before the first tool change
   MotionFigures figures;
   std::optional<double> deepest;  // lowest Z of its cutting moves, mm
 };
