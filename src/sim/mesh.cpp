@@ -1,4 +1,5 @@
-// The surface of the columns as a closed mesh: corners row by row, walls, inner caps, then the merged outer caps.
+// The surface of the columns as a closed mesh: corners row by row, walls, inner caps, then the merged outer
+// caps.
 #include <utility>
 
 #include "sim/mesh_build.h"
@@ -21,8 +22,10 @@ void add_walls_along_row(WallFiller& walls, const Columns& columns, CornerRow& r
   }
 }
 
-/// Walls between the columns (i - 1, j) and (i, j), whose sides run from the corner row below to the one above.
-void add_walls_across_row(WallFiller& walls, const Columns& columns, CornerRow& below, CornerRow& above, int j) {
+/// Walls between the columns (i - 1, j) and (i, j), whose sides run from the corner row below to the one
+/// above.
+void add_walls_across_row(WallFiller& walls, const Columns& columns, CornerRow& below, CornerRow& above,
+                          int j) {
   for (int i = 0; i <= columns.nx(); ++i) {
     const FaceLine left{below, below.corner(i), 2, 3}, right{above, above.corner(i), 0, 1};
     walls.fill({i - 1, j}, {i, j}, left, right);

@@ -1,5 +1,5 @@
-// The parts that make triangles: the mesh under construction, walls, flat-merging caps, and the final split of edges
-// that more than two triangles share. docs/decisions/0006-mesh.md tells the whole method.
+// The parts that make triangles: the mesh under construction, walls, flat-merging caps, and the final split
+// of edges that more than two triangles share. docs/decisions/0006-mesh.md tells the whole method.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace kerf::meshing {
 
-/// A mesh that grows. Vertices whose edges may be shared by four triangles are remembered for `split_shared_edges`.
+/// A mesh that grows. Vertices whose edges may be shared by four triangles are remembered for
+/// `split_shared_edges`.
 struct Builder {
   const Columns& columns;
   Mesh mesh;
@@ -30,8 +31,8 @@ struct FaceLine {
   int quadrant_a, quadrant_b;
 };
 
-/// Fills the face between column A and column B, seen from B with `left` at the left hand, where one of them has
-/// material and the other has none.
+/// Fills the face between column A and column B, seen from B with `left` at the left hand, where one of them
+/// has material and the other has none.
 class WallFiller {
  public:
   explicit WallFiller(Builder& builder) : builder_(builder) {}
@@ -57,8 +58,9 @@ class WallFiller {
   std::vector<Edge> edges_;
 };
 
-/// The caps of all columns on one side, the tops of their highest intervals or the bottoms of their lowest, with
-/// level areas of one step merged: a right-triangulated irregular network over the corners, without T-junctions.
+/// The caps of all columns on one side, the tops of their highest intervals or the bottoms of their lowest,
+/// with level areas of one step merged: a right-triangulated irregular network over the corners, without
+/// T-junctions.
 class CapSheet {
  public:
   enum class Side : std::uint8_t { top, bottom };
@@ -89,13 +91,14 @@ class CapSheet {
   Builder& builder_;
   Side side_;
   int stride_ = 0, rows_ = 0;
-  std::vector<std::uint8_t> needed_;      // corners that must be vertices, padded to whole squares
-  std::vector<std::uint32_t> known_;      // vertex of each corner, or kNone, or kMany + number in parts_
+  std::vector<std::uint8_t> needed_;  // corners that must be vertices, padded to whole squares
+  std::vector<std::uint32_t> known_;  // vertex of each corner, or kNone, or kMany + number in parts_
   std::vector<std::array<std::uint32_t, 4>> parts_;  // vertices by quadrant where the cap is torn
 };
 
-/// Makes every edge the edge of exactly two triangles, by parting vertices (and, where that does not part an edge,
-/// by halving it). All edges must already have as many triangles on one side as on the other.
+/// Makes every edge the edge of exactly two triangles and every vertex the tip of one fan, by parting
+/// vertices (and, where that does not part an edge, by halving it). All edges must already have as many
+/// triangles on one side as on the other.
 void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects);
 
 }  // namespace kerf::meshing

@@ -1,5 +1,5 @@
-// Caps: the upper and lower surfaces of the columns. Where the columns around a corner are level and cut by the same
-// step the corner is dropped; right triangles are halved only as far as the needed corners ask.
+// Caps: the upper and lower surfaces of the columns. Where the columns around a corner are level and cut by
+// the same step the corner is dropped; right triangles are halved only as far as the needed corners ask.
 #include <algorithm>
 #include <cassert>
 
@@ -13,7 +13,9 @@ constexpr int kSquare = 64;
 /// Marks in CapSheet::known_ a corner whose quadrants have vertices of their own.
 constexpr std::uint32_t kMany = 0x80000000u;
 
-constexpr int whole_squares(int n) { return (n + kSquare - 1) / kSquare * kSquare; }
+constexpr int whole_squares(int n) {
+  return (n + kSquare - 1) / kSquare * kSquare;
+}
 
 }  // namespace
 
@@ -23,7 +25,8 @@ CapSheet::CapSheet(Builder& builder, Side side)
       stride_(whole_squares(builder.columns.nx()) + 1),
       rows_(whole_squares(builder.columns.ny()) + 1),
       needed_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_), 0),
-      known_((static_cast<std::size_t>(builder.columns.nx()) + 1) * (static_cast<std::size_t>(builder.columns.ny()) + 1),
+      known_((static_cast<std::size_t>(builder.columns.nx()) + 1) *
+                 (static_cast<std::size_t>(builder.columns.ny()) + 1),
              kNone) {}
 
 void CapSheet::take(CornerRow& row, int j) {
@@ -84,7 +87,8 @@ void CapSheet::propagate() {
     for (int y = s; y < rows_; y += d) {  // middles of squares of side 2 s
       for (int x = s; x < stride_; x += d) {
         if (!needed_[index(x, y)]) continue;
-        // The diagonal runs between the corner and the centre of the square of side 4 s; the apexes are the others.
+        // The diagonal runs between the corner and the centre of the square of side 4 s; the apexes are the
+        // others.
         const bool diagonal = ((x - s) / d + (y - s) / d) % 2 == 0;
         need(diagonal ? x + s : x - s, y - s);
         need(diagonal ? x - s : x + s, y + s);
@@ -121,7 +125,9 @@ void CapSheet::cover(Node a, Node b, Node apex) {
 void CapSheet::leaf(Node a, Node b, Node apex) {
   const int sx = a.x + b.x + apex.x, sy = a.y + b.y + apex.y;
   // The column beside a corner of the triangle that lies inside it.
-  const auto inner = [&](Node n) { return Node{3 * n.x <= sx ? n.x : n.x - 1, 3 * n.y <= sy ? n.y : n.y - 1}; };
+  const auto inner = [&](Node n) {
+    return Node{3 * n.x <= sx ? n.x : n.x - 1, 3 * n.y <= sy ? n.y : n.y - 1};
+  };
   const Node column = inner(apex);
   const Columns& columns = builder_.columns;
   if (columns.ends(column.x, column.y) == 0) return;

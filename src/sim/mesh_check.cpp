@@ -14,7 +14,8 @@ struct Side {
   int forward;
 };
 
-/// Signed volume of the tetrahedra from the first vertex, in double precision: no digit is lost far from zero.
+/// Signed volume of the tetrahedra from the first vertex, in double precision: no digit is lost far from
+/// zero.
 double enclosed(const Mesh& mesh) {
   const auto at = [&](std::uint32_t v) {
     const float* p = mesh.positions.data() + std::size_t{3} * v;

@@ -13,7 +13,8 @@ namespace {
 /// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
 constexpr double kSlopeShare = 0.5;
 /// A higher step is a slope, not a wall, if the step before or after it in the same direction is at least its
-/// height divided by this: smooth surfaces change their rise by less from column to column until they are walls.
+/// height divided by this: smooth surfaces change their rise by less from column to column until they are
+/// walls.
 constexpr double kRiseRatio = 2.5;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
@@ -52,7 +53,9 @@ bool Columns::continues(int i, int j, int end, int other_i, int other_j, int oth
   const double rise = z(other_i, other_j, other_end) - z(i, j, end);
   if (std::abs(rise) <= kSlopeShare * pitch()) return true;
   const int dx = other_i - i, dy = other_j - j;
-  const auto goes_on = [&](double step) { return step * rise > 0.0 && std::abs(rise) <= kRiseRatio * std::abs(step); };
+  const auto goes_on = [&](double step) {
+    return step * rise > 0.0 && std::abs(rise) <= kRiseRatio * std::abs(step);
+  };
   const int before = facing_end(i, j, end, i - dx, j - dy);
   if (before >= 0 && goes_on(z(i, j, end) - z(i - dx, j - dy, before))) return true;
   const int after = facing_end(other_i, other_j, other_end, other_i + dx, other_j + dy);
@@ -84,7 +87,8 @@ void CornerRow::build(const Columns& columns, int j) {
 bool CornerRow::build_simple(const Columns& columns, int i, int j) {
   if (i == 0 || j == 0 || i == columns.nx() || j == columns.ny()) return false;
   double low_sum = 0.0, high_sum = 0.0;
-  float low_min = std::numeric_limits<float>::max(), low_max = -low_min, high_min = low_min, high_max = -low_min;
+  float low_min = std::numeric_limits<float>::max(), low_max = -low_min, high_min = low_min,
+        high_max = -low_min;
   for (int q = 0; q < 4; ++q) {
     if (columns.ends(column_x(i, q), column_y(j, q)) != 2) return false;
     const Interval& run = columns.interval(column_x(i, q), column_y(j, q), 0);
@@ -115,10 +119,11 @@ bool CornerRow::build_simple(const Columns& columns, int i, int j) {
 
 void CornerRow::build_any(const Columns& columns, int i, int j) {
   gather(columns, i, j);
-  join(columns, i, j, 0, 1);
-  join(columns, i, j, 0, 2);
-  join(columns, i, j, 1, 3);
-  join(columns, i, j, 2, 3);
+  bool suspect =
+      false;  // surfaces above each other, or a spiral, can meet in a vertex without sharing an edge
+  for (const auto& [q, other] : {std::pair{0, 1}, {0, 2}, {1, 3}, {2, 3}})
+    suspect = !join(columns, i, j, q, other) || suspect;
+  for (const std::vector<int>& ends : group_of_) suspect = suspect || ends.size() > 2;
   sort_groups(columns, i, j);
 
   Corner corner;
@@ -129,7 +134,7 @@ void CornerRow::build_any(const Columns& columns, int i, int j) {
     corner.ends[q] = static_cast<int>(group_of_[q].size());
     ranks_.insert(ranks_.end(), group_of_[q].begin(), group_of_[q].end());
   }
-  for (const Group& group : groups_) sheets_.push_back({0.0, 0.0, group.mean, kNone, false});
+  for (const Group& group : groups_) sheets_.push_back({0.0, 0.0, group.mean, kNone, suspect});
   const bool border = i == 0 || j == 0 || i == columns.nx() || j == columns.ny();
   const Shift shift = shift_of(columns, corner, border);
   place(columns, i, j, corner, shift);
@@ -151,11 +156,12 @@ void CornerRow::gather(const Columns& columns, int i, int j) {
   }
 }
 
-/// Joins the groups of neighbouring quadrants whose surfaces continue each other. A group never takes two ends of
-/// one column, so a spiral ramp around the corner stays open on one side.
-void CornerRow::join(const Columns& columns, int i, int j, int q, int other) {
+/// Joins the groups of neighbouring quadrants whose surfaces continue each other. A group never takes two
+/// ends of one column, so a spiral ramp around the corner stays open on one side; false where that happened.
+bool CornerRow::join(const Columns& columns, int i, int j, int q, int other) {
   const int qi = column_x(i, q), qj = column_y(j, q), oi = column_x(i, other), oj = column_y(j, other);
   std::vector<int>& mine = group_of_[static_cast<std::size_t>(q)];
+  bool all = true;
   for (int e = 0; e < static_cast<int>(mine.size()); ++e) {
     const int f = columns.facing_end(qi, qj, e, oi, oj);
     if (f < 0 || !columns.continues(qi, qj, e, oi, oj, f)) continue;
@@ -166,7 +172,10 @@ void CornerRow::join(const Columns& columns, int i, int j, int q, int other) {
     Group& b = groups_[static_cast<std::size_t>(gone)];
     bool clash = false;
     for (std::size_t k = 0; k < 4; ++k) clash = clash || (a.end[k] >= 0 && b.end[k] >= 0);
-    if (clash) continue;
+    if (clash) {
+      all = false;
+      continue;
+    }
     for (std::size_t k = 0; k < 4; ++k) {
       if (b.end[k] < 0) continue;
       a.end[k] = b.end[k];
@@ -174,6 +183,7 @@ void CornerRow::join(const Columns& columns, int i, int j, int q, int other) {
     }
     b = Group{};
   }
+  return all;
 }
 
 /// Drops the groups that were joined to others, sorts the rest by height and renumbers.
@@ -208,12 +218,13 @@ void CornerRow::sort_groups(const Columns& columns, int i, int j) {
   });
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::size_t q = 0; q < 4; ++q)
-      if (groups_[g].end[q] >= 0) group_of_[q][static_cast<std::size_t>(groups_[g].end[q])] = static_cast<int>(g);
+      if (groups_[g].end[q] >= 0)
+        group_of_[q][static_cast<std::size_t>(groups_[g].end[q])] = static_cast<int>(g);
 }
 
-/// Where the corner's line is moved to, so that walls run smoothly past the columns' squares: to the middle of the
-/// points half way between the columns that a wall divides (surface nets in plan), weighted by the walls' heights.
-/// Marks the sheets between which four walls meet. Corners on the block's sides stay.
+/// Where the corner's line is moved to, so that walls run smoothly past the columns' squares: to the middle
+/// of the points half way between the columns that a wall divides (surface nets in plan), weighted by the
+/// walls' heights. Marks the sheets between which four walls meet. Corners on the block's sides stay.
 CornerRow::Shift CornerRow::shift_of(const Columns& columns, Corner& corner, bool border) {
   std::array<int, 4> material{};
   std::array<int, 4> next{};
@@ -225,12 +236,13 @@ CornerRow::Shift CornerRow::shift_of(const Columns& columns, Corner& corner, boo
       if (e >= 0) material[q] += e % 2 == 0 ? 1 : -1;
       next[q] = material[q] > 0 ? 1 : 0;
     }
-    const int south = next[0] ^ next[1], north = next[2] ^ next[3], west = next[0] ^ next[2], east = next[1] ^ next[3];
+    const int south = next[0] ^ next[1], north = next[2] ^ next[3], west = next[0] ^ next[2],
+              east = next[1] ^ next[3];
     const int walls = south + north + west + east;
     if (walls == 0) continue;
     Sheet& low = sheets_[corner.first_sheet + r];
     Sheet& high = sheets_[corner.first_sheet + r + 1];
-    if (walls == 4) low.crossed = high.crossed = true;
+    if (walls == 4) low.suspect = high.suspect = true;
     const double height = groups_[r + 1].mean - groups_[r].mean;
     sum.x += height * (east - west) / walls;
     sum.y += height * (north - south) / walls;
@@ -240,8 +252,9 @@ CornerRow::Shift CornerRow::shift_of(const Columns& columns, Corner& corner, boo
   return {sum.x / weight * columns.pitch() / 2, sum.y / weight * columns.pitch() / 2};
 }
 
-/// Gives each sheet its point. A sheet with all four columns around an unmoved corner has their mean height; others
-/// are continued to the corner by their slopes, never past half way to the next sheet in the corner's line.
+/// Gives each sheet its point. A sheet with all four columns around an unmoved corner has their mean height;
+/// others are continued to the corner by their slopes, never past half way to the next sheet in the corner's
+/// line.
 void CornerRow::place(const Columns& columns, int i, int j, const Corner& corner, Shift shift) {
   const double x = columns.corner_x(i) + shift.x, y = columns.corner_y(j) + shift.y;
   for (std::uint32_t r = 0; r < corner.sheets; ++r) {
@@ -263,8 +276,8 @@ void CornerRow::place(const Columns& columns, int i, int j, const Corner& corner
     }
     if (change == 0.0) continue;
     const double below = r > 0 ? (groups_[r - 1].mean + group.mean) / 2 : std::min(0.0, group.mean);
-    const double above =
-        r + 1 < corner.sheets ? (groups_[r + 1].mean + group.mean) / 2 : std::max(columns.height(), group.mean);
+    const double above = r + 1 < corner.sheets ? (groups_[r + 1].mean + group.mean) / 2
+                                               : std::max(columns.height(), group.mean);
     sheet.z = std::clamp(group.mean + change / members, below, above);
   }
 }

@@ -1,5 +1,5 @@
-// The corners of the columns, as the mesh sees them: which surfaces of the four columns around a corner are one
-// surface there, and where its vertex lies. docs/decisions/0006-mesh.md tells the whole method.
+// The corners of the columns, as the mesh sees them: which surfaces of the four columns around a corner are
+// one surface there, and where its vertex lies. docs/decisions/0006-mesh.md tells the whole method.
 #pragma once
 
 #include <array>
@@ -13,7 +13,8 @@ namespace kerf::meshing {
 /// No vertex yet, or no such end.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Reads a ColumnGrid by column. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the high one.
+/// Reads a ColumnGrid by column. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the
+/// high one.
 class Columns {
  public:
   explicit Columns(const ColumnGrid& grid);
@@ -23,7 +24,8 @@ class Columns {
   double pitch() const { return grid_.pitch; }
   double height() const { return height_; }
   const ColumnGrid& grid() const { return grid_; }
-  /// Position of corner number i (0 to nx) above the block's low side; the last lies on the block's high side.
+  /// Position of corner number i (0 to nx) above the block's low side; the last lies on the block's high
+  /// side.
   double corner_x(int i) const { return i >= nx() ? size_x_ : std::min(i * pitch(), size_x_); }
   double corner_y(int j) const { return j >= ny() ? size_y_ : std::min(j * pitch(), size_y_); }
 
@@ -48,11 +50,14 @@ class Columns {
     const Interval& run = interval(i, j, end / 2);
     return end % 2 == 0 ? run.low_step : run.high_step;
   }
-  /// The end of a neighbouring column that faces the same void as `end` does with material behind both; -1: none.
+  /// The end of a neighbouring column that faces the same void as `end` does with material behind both; -1:
+  /// none.
   int facing_end(int i, int j, int end, int other_i, int other_j) const;
-  /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands between.
+  /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands
+  /// between.
   bool continues(int i, int j, int end, int other_i, int other_j, int other_end) const;
-  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that continue it.
+  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that
+  /// continue it.
   double slope(int i, int j, int end, int dx, int dy) const;
 
  private:
@@ -64,11 +69,11 @@ class Columns {
 struct Sheet {
   double x = 0.0, y = 0.0, z = 0.0;  // mm from the block's low corner
   std::uint32_t vertex = kNone;      // made when the first triangle needs it
-  bool crossed = false;              // four walls meet in the corner's line here
+  bool suspect = false;              // more than one fan of triangles may meet here, or four walls
 };
 
-/// The sheets at a corner, lowest first, and for each end of the four columns around (quadrant 0: low x and low y,
-/// 1: high x, 2: high y, 3: both) its sheet's rank.
+/// The sheets at a corner, lowest first, and for each end of the four columns around (quadrant 0: low x and
+/// low y, 1: high x, 2: high y, 3: both) its sheet's rank.
 struct Corner {
   std::uint32_t first_sheet = 0;
   std::uint32_t sheets = 0;
@@ -81,7 +86,9 @@ class CornerRow {
  public:
   void build(const Columns& columns, int j);
   const Corner& corner(int i) const { return corners_[static_cast<std::size_t>(i)]; }
-  Sheet& sheet(const Corner& corner, int rank) { return sheets_[corner.first_sheet + static_cast<std::uint32_t>(rank)]; }
+  Sheet& sheet(const Corner& corner, int rank) {
+    return sheets_[corner.first_sheet + static_cast<std::uint32_t>(rank)];
+  }
   int rank(const Corner& corner, int quadrant, int end) const {
     return ranks_[corner.first_rank[static_cast<std::size_t>(quadrant)] + static_cast<std::uint32_t>(end)];
   }
@@ -98,7 +105,7 @@ class CornerRow {
   bool build_simple(const Columns& columns, int i, int j);
   void build_any(const Columns& columns, int i, int j);
   void gather(const Columns& columns, int i, int j);
-  void join(const Columns& columns, int i, int j, int q, int other);
+  bool join(const Columns& columns, int i, int j, int q, int other);
   void sort_groups(const Columns& columns, int i, int j);
   Shift shift_of(const Columns& columns, Corner& corner, bool border);
   void place(const Columns& columns, int i, int j, const Corner& corner, Shift shift);
@@ -112,7 +119,11 @@ class CornerRow {
 };
 
 /// Column of a quadrant around corner (i, j).
-constexpr int column_x(int i, int quadrant) { return i - 1 + (quadrant & 1); }
-constexpr int column_y(int j, int quadrant) { return j - 1 + (quadrant >> 1); }
+constexpr int column_x(int i, int quadrant) {
+  return i - 1 + (quadrant & 1);
+}
+constexpr int column_y(int j, int quadrant) {
+  return j - 1 + (quadrant >> 1);
+}
 
 }  // namespace kerf::meshing

@@ -1,6 +1,7 @@
-// Parts edges that more than two triangles share, as where two columns touch along a line only. The triangles at such
-// an edge are paired so that the material between them stays together; vertices are then parted into the fans that
-// the pairs leave connected. An edge whose two pairs still meet at both ends is halved, once a pair.
+// Parts edges that more than two triangles share, as where two columns touch along a line only, and vertices
+// in which more than one fan of triangles meet. The triangles at such an edge are paired so that the material
+// between them stays together; vertices are then parted into the fans that the pairs leave connected. An edge
+// whose two pairs still meet at both ends is halved, once a pair.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,7 +33,9 @@ class Splitter {
   bool round();
 
  private:
-  std::uint32_t& index(std::size_t triangle, std::size_t corner) { return mesh_.triangles[triangle + corner]; }
+  std::uint32_t& index(std::size_t triangle, std::size_t corner) {
+    return mesh_.triangles[triangle + corner];
+  }
   Point3 point(std::uint32_t v) const;
   double angle(const Side& side);
   void collect();
@@ -45,12 +48,12 @@ class Splitter {
   void halve_side(const Side& side, std::uint32_t middle);
 
   Mesh& mesh_;
-  std::vector<std::uint8_t> suspect_, parted_;
-  std::vector<std::size_t> triangles_;     // those with a suspect vertex
-  std::vector<Side> sides_;                // of these, with both ends suspect or one parted
+  std::vector<std::uint8_t> suspect_, parted_;  // one a vertex
+  std::vector<std::size_t> triangles_;          // those with a suspect vertex
+  std::vector<Side> sides_;                     // of these, with both ends suspect or one parted
   std::vector<Pair> pairs_, shared_pairs_;
-  std::vector<std::size_t> slot_;          // place of a triangle in triangles_
-  std::vector<std::size_t> parent_;        // union-find over the corners of triangles_
+  std::vector<std::size_t> slot_;    // place of a triangle in triangles_
+  std::vector<std::size_t> parent_;  // union-find over the corners of triangles_
 };
 
 Splitter::Splitter(Mesh& mesh, const std::vector<std::uint32_t>& suspects)
@@ -85,7 +88,8 @@ void Splitter::collect() {
     triangles_.push_back(t);
     for (std::uint8_t k = 0; k < 3; ++k) {
       const std::uint32_t a = index(t, k), b = index(t, (k + std::size_t{1}) % 3);
-      if (suspect_[a] != 0 || suspect_[b] != 0) sides_.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
+      if (suspect_[a] != 0 || suspect_[b] != 0)
+        sides_.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
     }
   }
   std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
@@ -97,12 +101,13 @@ void Splitter::collect() {
 void Splitter::pair_up() {
   pairs_.clear();
   shared_pairs_.clear();
-  parted_.assign(mesh_.positions.size() / 3, 0);
+  parted_ = suspect_;
   for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
-    while (end < sides_.size() && sides_[end].low == sides_[begin].low && sides_[end].high == sides_[begin].high) ++end;
+    while (end < sides_.size() && sides_[end].low == sides_[begin].low &&
+           sides_[end].high == sides_[begin].high)
+      ++end;
     if (end - begin > 2) {
       pair_shared(begin, end);
-      parted_[sides_[begin].low] = parted_[sides_[begin].high] = 1;
     } else if (end - begin == 2) {
       pairs_.push_back({sides_[begin], sides_[begin + 1]});
     }
@@ -112,7 +117,8 @@ void Splitter::pair_up() {
 void Splitter::pair_shared(std::size_t begin, std::size_t end) {
   constexpr double kTurn = 2 * std::numbers::pi;
   std::vector<std::pair<double, Side>> forward, backward;
-  for (std::size_t k = begin; k < end; ++k) (sides_[k].forward ? forward : backward).emplace_back(angle(sides_[k]), sides_[k]);
+  for (std::size_t k = begin; k < end; ++k)
+    (sides_[k].forward ? forward : backward).emplace_back(angle(sides_[k]), sides_[k]);
   for (const auto& [turn, side] : forward) {
     if (backward.empty()) return;
     std::size_t best = 0;
@@ -166,7 +172,8 @@ void Splitter::part_vertices() {
       mine = vertex;
       if (kept[vertex] != 0) {
         mine = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
-        for (std::size_t k = 0; k < 3; ++k) mesh_.positions.push_back(mesh_.positions[std::size_t{3} * vertex + k]);
+        for (std::size_t k = 0; k < 3; ++k)
+          mesh_.positions.push_back(mesh_.positions[std::size_t{3} * vertex + k]);
       }
       kept[vertex] = 1;
     }
@@ -180,7 +187,8 @@ bool Splitter::halve() {
   std::vector<Key> keys;
   for (std::size_t k = 0; k < shared_pairs_.size(); ++k) {
     const Side& side = shared_pairs_[k].forward;
-    const std::uint32_t a = index(side.triangle, side.corner), b = index(side.triangle, (side.corner + 1u) % 3);
+    const std::uint32_t a = index(side.triangle, side.corner),
+                        b = index(side.triangle, (side.corner + 1u) % 3);
     keys.emplace_back(std::min(a, b), std::max(a, b), k);
   }
   std::sort(keys.begin(), keys.end());
@@ -188,7 +196,8 @@ bool Splitter::halve() {
   bool any = false;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const auto same = [&](std::size_t n) {
-      return n < keys.size() && std::get<0>(keys[n]) == std::get<0>(keys[k]) && std::get<1>(keys[n]) == std::get<1>(keys[k]);
+      return n < keys.size() && std::get<0>(keys[n]) == std::get<0>(keys[k]) &&
+             std::get<1>(keys[n]) == std::get<1>(keys[k]);
     };
     if (!same(k + 1) && !(k > 0 && same(k - 1))) continue;
     any = true;
@@ -199,7 +208,8 @@ bool Splitter::halve() {
     first = second = 1;
     const Point3 a = point(std::get<0>(keys[k])), b = point(std::get<1>(keys[k]));
     const auto middle = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
-    for (int axis = 0; axis < 3; ++axis) mesh_.positions.push_back(static_cast<float>((a[axis] + b[axis]) / 2));
+    for (int axis = 0; axis < 3; ++axis)
+      mesh_.positions.push_back(static_cast<float>((a[axis] + b[axis]) / 2));
     halve_side(pair.forward, middle);
     halve_side(pair.backward, middle);
   }
@@ -217,7 +227,6 @@ void Splitter::halve_side(const Side& side, std::uint32_t middle) {
 bool Splitter::round() {
   collect();
   pair_up();
-  if (shared_pairs_.empty()) return false;
   part_vertices();
   return halve();
 }

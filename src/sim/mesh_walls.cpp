@@ -1,6 +1,6 @@
-// Walls between neighbouring columns. Each column's side is a band of edges between its two corner lines; the wall is
-// the difference of the two columns' sides, cut at every vertex of the lines, so that all faces around a corner's
-// line use the same pieces of it and the surface closes whatever the columns are.
+// Walls between neighbouring columns. Each column's side is a band of edges between its two corner lines; the
+// wall is the difference of the two columns' sides, cut at every vertex of the lines, so that all faces
+// around a corner's line use the same pieces of it and the surface closes whatever the columns are.
 #include <algorithm>
 #include <cassert>
 
@@ -18,7 +18,7 @@ std::uint32_t Builder::add_vertex(double x, double y, double z) {
 std::uint32_t Builder::vertex(Sheet& sheet) {
   if (sheet.vertex == kNone) {
     sheet.vertex = add_vertex(sheet.x, sheet.y, sheet.z);
-    if (sheet.crossed) suspects.push_back(sheet.vertex);
+    if (sheet.suspect) suspects.push_back(sheet.vertex);
   }
   return sheet.vertex;
 }
@@ -48,15 +48,17 @@ bool WallFiller::all_joined(const FaceLine& left, const FaceLine& right) const {
   const int ends = left.corner.ends[static_cast<std::size_t>(left.quadrant_a)];
   if (ends != left.corner.ends[static_cast<std::size_t>(left.quadrant_b)]) return false;
   for (int e = 0; e < ends; ++e) {
-    if (left.row.rank(left.corner, left.quadrant_a, e) != left.row.rank(left.corner, left.quadrant_b, e)) return false;
-    if (right.row.rank(right.corner, right.quadrant_a, e) != right.row.rank(right.corner, right.quadrant_b, e))
+    if (left.row.rank(left.corner, left.quadrant_a, e) != left.row.rank(left.corner, left.quadrant_b, e))
+      return false;
+    if (right.row.rank(right.corner, right.quadrant_a, e) !=
+        right.row.rank(right.corner, right.quadrant_b, e))
       return false;
   }
   return true;
 }
 
-/// Collects the edges of both columns from below. True if some cross or coincide in a way that may leave an edge to
-/// more than two triangles.
+/// Collects the edges of both columns from below. True if some cross or coincide in a way that may leave an
+/// edge to more than two triangles.
 bool WallFiller::gather(const FaceLine& left, const FaceLine& right) {
   edges_.clear();
   for (const bool of_a : {true, false}) {
@@ -65,7 +67,8 @@ bool WallFiller::gather(const FaceLine& left, const FaceLine& right) {
     assert(ends == right.corner.ends[static_cast<std::size_t>(rq)]);
     for (int e = 0; e < ends; ++e) {
       const int change = (e % 2 == 0) == of_a ? 1 : -1;
-      edges_.push_back({left.row.rank(left.corner, lq, e), right.row.rank(right.corner, rq, e), change, e, of_a});
+      edges_.push_back(
+          {left.row.rank(left.corner, lq, e), right.row.rank(right.corner, rq, e), change, e, of_a});
     }
   }
   std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
@@ -86,14 +89,16 @@ bool WallFiller::gather(const FaceLine& left, const FaceLine& right) {
   return suspect;
 }
 
-/// Who made the wall above edge `above - 1`: the cut whose floor lies below it in the column that has no material
-/// there, else the cut whose ceiling lies above, else the cut that went through.
+/// Who made the wall above edge `above - 1`: the cut whose floor lies below it in the column that has no
+/// material there, else the cut whose ceiling lies above, else the cut that went through.
 std::uint32_t WallFiller::step_of(ColumnAt column, bool is_a, std::size_t above) const {
   const Columns& columns = builder_.columns;
   for (std::size_t k = above; k-- > 0;)
-    if (edges_[k].of_a == is_a && edges_[k].end % 2 == 1) return columns.step(column.i, column.j, edges_[k].end);
+    if (edges_[k].of_a == is_a && edges_[k].end % 2 == 1)
+      return columns.step(column.i, column.j, edges_[k].end);
   for (std::size_t k = above; k < edges_.size(); ++k)
-    if (edges_[k].of_a == is_a && edges_[k].end % 2 == 0) return columns.step(column.i, column.j, edges_[k].end);
+    if (edges_[k].of_a == is_a && edges_[k].end % 2 == 0)
+      return columns.step(column.i, column.j, edges_[k].end);
   if (!columns.inside(column.i, column.j) || columns.grid().cut_through.empty()) return kStockSurface;
   return columns.grid().cut_through[columns.number(column.i, column.j)];
 }

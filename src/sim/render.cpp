@@ -1,5 +1,6 @@
-// The proof picture: a mesh drawn without a display. Depth first, then light a sample at a time: a key light with
-// shadows, a fill light, sky light dimmed in pockets, thin lines at outlines and creases, on a light ground.
+// The proof picture: a mesh drawn without a display. Depth first, then light a sample at a time: a key light
+// with shadows, a fill light, sky light dimmed in pockets, thin lines at outlines and creases, on a light
+// ground.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,13 +14,13 @@ namespace {
 
 using Colour = Point3;  // linear light, 0 to 1
 
-constexpr int kLargest = 8192;                      // pixels a side
-constexpr double kMargin = 0.06;                    // share of the picture around the part
-constexpr double kViewDistance = 3.6;               // of the viewer, in radii of the part
-constexpr int kShadowSize = 3072;                   // samples a side of the shadow map
-constexpr double kOcclusionRadius = 0.05;           // of the part's size: how far pockets darken themselves
-constexpr double kSmoothCosine = 0.82;              // faces that turn by less (35 degrees) are shaded as one surface
-constexpr double kCreaseCosine = 0.6;               // sharper turns get a line
+constexpr int kLargest = 8192;             // pixels a side
+constexpr double kMargin = 0.06;           // share of the picture around the part
+constexpr double kViewDistance = 3.6;      // of the viewer, in radii of the part
+constexpr int kShadowSize = 3072;          // samples a side of the shadow map
+constexpr double kOcclusionRadius = 0.05;  // of the part's size: how far pockets darken themselves
+constexpr double kSmoothCosine = 0.82;     // faces that turn by less (35 degrees) are shaded as one surface
+constexpr double kCreaseCosine = 0.6;      // sharper turns get a line
 constexpr Colour kMissingColour{0.45, 0.45, 0.45};  // of triangles without one
 constexpr std::array<std::uint8_t, 3> kSkyTop{250, 251, 252}, kSkyLow{222, 226, 230};  // background, sRGB
 
@@ -27,7 +28,9 @@ double linear(std::uint8_t value) {
   const double s = value / 255.0;
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
-Colour linear(const std::array<std::uint8_t, 3>& c) { return {linear(c[0]), linear(c[1]), linear(c[2])}; }
+Colour linear(const std::array<std::uint8_t, 3>& c) {
+  return {linear(c[0]), linear(c[1]), linear(c[2])};
+}
 
 std::uint8_t encoded(double value) {
   const double v = std::clamp(value, 0.0, 1.0);
@@ -40,13 +43,17 @@ Point3 unit(Point3 a) {
   return n > 0.0 ? (1.0 / n) * a : Point3{0, 0, 1};
 }
 
-Colour times(Colour a, Colour b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+Colour times(Colour a, Colour b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 
 /// A unit vector in six bytes.
 struct PackedNormal {
   std::array<std::int16_t, 3> n{};
   static PackedNormal of(Point3 v) {
-    const auto pack = [](double c) { return static_cast<std::int16_t>(std::lround(32767.0 * std::clamp(c, -1.0, 1.0))); };
+    const auto pack = [](double c) {
+      return static_cast<std::int16_t>(std::lround(32767.0 * std::clamp(c, -1.0, 1.0)));
+    };
     return {{pack(v.x), pack(v.y), pack(v.z)}};
   }
   Point3 get() const { return {n[0] / 32767.0, n[1] / 32767.0, n[2] / 32767.0}; }
@@ -58,13 +65,27 @@ class Painter {
   Image paint();
 
  private:
+  static constexpr int kDirections = 8, kSteps = 5;  // of the occlusion's looks around
+  struct Offset {
+    int x, y;
+  };
+  using Ray = std::array<Offset, kSteps>;
+  struct Place {
+    float x, y, z;
+  };
+
   void aim(const View& view, double radius);
   void draw_shadows();
   void smooth_normals();
   void lay_ground_and_normals();
   Point3 normal_at(std::uint32_t triangle, double x, double y) const;
+  std::size_t pixel(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  void place_pixels();
+  std::vector<Ray> rays_of(int cell) const;
+  float occlusion_at(int x, int y, const std::vector<Ray>& rays) const;
   void occlude();
-  double occlusion_at(int x, int y) const;
   void blur_occlusion();
   double lit_share(Point3 p, Point3 normal) const;
   double line_at(int x, int y) const;
@@ -83,6 +104,7 @@ class Painter {
   std::vector<Spot> spots_;
   std::vector<std::array<float, 3>> vertex_normals_;
   std::vector<PackedNormal> normals_;
+  std::vector<Place> places_;     // one a pixel, viewer's frame, mm
   std::vector<float> occlusion_;  // one a pixel, 0 open to 1 closed
 };
 
@@ -92,15 +114,18 @@ Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> 
       width_(std::clamp(view.width, 1, kLargest)),
       height_(std::clamp(view.height, 1, kLargest)),
       fine_(static_cast<std::int64_t>(width_) * height_ > 4096 * 4096 ? 1 : 2) {
-  for (std::size_t v = 0; 3 * v + 2 < mesh.positions.size(); ++v) box_.add(vertex(mesh, static_cast<std::uint32_t>(v)));
+  for (std::size_t v = 0; 3 * v + 2 < mesh.positions.size(); ++v)
+    box_.add(vertex(mesh, static_cast<std::uint32_t>(v)));
   if (box_.empty()) return;
   size_ = length(box_.size());
   aim(view, size_ / 2);
 }
 
-/// Sets up the viewer and the lights. Looking straight along an axis the picture is parallel, so that it measures true.
+/// Sets up the viewer and the lights. Looking straight along an axis the picture is parallel, so that it
+/// measures true.
 void Painter::aim(const View& view, double radius) {
-  const double a = view.azimuth.rad(), e = std::clamp(view.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
+  const double a = view.azimuth.rad(),
+               e = std::clamp(view.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
   const Point3 ahead{-std::sin(a), std::cos(a), 0};
   eye_.centre = 0.5 * (box_.low + box_.high);
   eye_.right = {std::cos(a), std::sin(a), 0};
@@ -111,8 +136,8 @@ void Painter::aim(const View& view, double radius) {
   eye_.fit(mesh_, width_ * fine_, height_ * fine_, kMargin);
   ground_ = std::sin(e) > 0.1;
 
-  // From the left; from the front for a viewer beside the part, from behind for one above it, as drawings are lit:
-  // a pocket lit from below looks like a boss.
+  // From the left; from the front for a viewer beside the part, from behind for one above it, as drawings are
+  // lit: a pocket lit from below looks like a boss.
   const double above = std::clamp((std::sin(e) - 0.8) / 0.15, 0.0, 1.0);
   const Point3 light = unit(-0.62 * eye_.right + (0.95 * above - 0.42) * ahead + Point3{0, 0, 0.95});
   fill_ = unit(0.75 * eye_.right - 0.45 * ahead + Point3{0, 0, 0.35});
@@ -134,7 +159,8 @@ void Painter::smooth_normals() {
   vertex_normals_.assign(mesh_.positions.size() / 3, {});
   for (std::size_t t = 0; t + 2 < mesh_.triangles.size(); t += 3) {
     const Point3 a = vertex(mesh_, mesh_.triangles[t]);
-    const Point3 n = cross(vertex(mesh_, mesh_.triangles[t + 1]) - a, vertex(mesh_, mesh_.triangles[t + 2]) - a);
+    const Point3 n =
+        cross(vertex(mesh_, mesh_.triangles[t + 1]) - a, vertex(mesh_, mesh_.triangles[t + 2]) - a);
     for (std::size_t k = 0; k < 3; ++k) {
       auto& sum = vertex_normals_[mesh_.triangles[t + k]];
       for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<float>(n[static_cast<int>(axis)]);
@@ -187,47 +213,76 @@ void Painter::lay_ground_and_normals() {
   });
 }
 
-/// How much of the sky around a pixel's surface is hidden by what stands within the occlusion radius.
-double Painter::occlusion_at(int x, int y) const {
-  constexpr int kDirections = 8, kSteps = 5;
-  const int sx = x * fine_, sy = y * fine_;
-  const std::size_t at = seen_.index(sx, sy);
-  if (seen_.depth[at] >= kFarDepth) return 0.0;
-  const Point3 p = eye_.point(sx + 0.5, sy + 0.5, seen_.depth[at]);
-  const Point3 n = normals_[at].get();
-  const double radius = kOcclusionRadius * size_, reach = radius * eye_.scale;
-  // A pattern of 4 x 4 turns and lengths, averaged by the blur afterwards.
-  const int cell = (x & 3) + 4 * (y & 3);
+/// Where each pixel's surface lies in the viewer's frame: right, up, into.
+void Painter::place_pixels() {
+  places_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  in_bands(height_, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
+        Place& place = places_[pixel(x, y)];
+        place.z = kFarDepth;
+        if (depth >= kFarDepth) continue;
+        const double far = depth / (1.0 - eye_.nearness * depth),
+                     w = (1.0 + eye_.nearness * far) / eye_.scale;
+        place = {static_cast<float>((x * fine_ + 0.5 - eye_.x0) * w),
+                 static_cast<float>((eye_.y0 - y * fine_ - 0.5) * w), static_cast<float>(far)};
+      }
+    }
+  });
+}
+
+/// The pixels around one to look at: a pattern of 4 x 4 turns and lengths, averaged by the blur afterwards.
+std::vector<Painter::Ray> Painter::rays_of(int cell) const {
+  const double reach = kOcclusionRadius * size_ * eye_.scale / fine_;
   const double turn = (cell * 7 % 16) / 16.0, stretch = (cell * 11 % 16 + 0.5) / 16.0;
-  double sum = 0.0;
+  std::vector<Ray> rays(kDirections);
   for (int d = 0; d < kDirections; ++d) {
     const double angle = 2 * std::numbers::pi * (d + turn) / kDirections;
-    const double cx = std::cos(angle), cy = std::sin(angle);
-    double most = 0.0;
     for (int s = 0; s < kSteps; ++s) {
       const double share = (s + stretch) / kSteps, far = std::max(reach * share * share, 1.0 + s);
-      const int qx = sx + static_cast<int>(std::lround(cx * far)), qy = sy + static_cast<int>(std::lround(cy * far));
-      if (qx < 0 || qy < 0 || qx >= seen_.width || qy >= seen_.height) break;
-      const float depth = seen_.depth[seen_.index(qx, qy)];
-      if (depth >= kFarDepth) continue;
-      const Point3 way = eye_.point(qx + 0.5, qy + 0.5, depth) - p;
-      const double distance = length(way);
-      if (distance <= 0.0) continue;
-      const double fade = 1.0 - distance * distance / (radius * radius);
-      most = std::max(most, (dot(n, way) / distance - 0.08) * std::max(fade, 0.0));
+      rays[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)] = {
+          static_cast<int>(std::lround(std::cos(angle) * far)),
+          static_cast<int>(std::lround(std::sin(angle) * far))};
+    }
+  }
+  return rays;
+}
+
+/// How much of the sky around a pixel's surface is hidden by what stands within the occlusion radius.
+float Painter::occlusion_at(int x, int y, const std::vector<Ray>& rays) const {
+  const Place& p = places_[pixel(x, y)];
+  if (p.z >= kFarDepth) return 0.0f;
+  const Point3 normal = normals_[seen_.index(x * fine_, y * fine_)].get();
+  const Place n{static_cast<float>(dot(normal, eye_.right)), static_cast<float>(dot(normal, eye_.up)),
+                static_cast<float>(dot(normal, eye_.into))};
+  const auto radius = static_cast<float>(kOcclusionRadius * size_);
+  constexpr float kSlant = 0.08f;  // lower horizons are the surface's own unevenness
+  float sum = 0.0f;
+  for (const Ray& ray : rays) {
+    float most = 0.0f;
+    for (const Offset& offset : ray) {
+      const int qx = x + offset.x, qy = y + offset.y;
+      if (qx < 0 || qy < 0 || qx >= width_ || qy >= height_) break;
+      const Place& q = places_[pixel(qx, qy)];
+      const float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
+      const float height = n.x * dx + n.y * dy + n.z * dz, square = dx * dx + dy * dy + dz * dz;
+      if (height <= 0.0f || square >= radius * radius) continue;
+      most = std::max(most, (height / std::sqrt(square) - kSlant) * (1.0f - square / (radius * radius)));
     }
     sum += most;
   }
-  return std::min(1.0, sum / kDirections);
+  return std::min(1.0f, sum / kDirections);
 }
 
 void Painter::occlude() {
-  occlusion_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0f);
+  place_pixels();
+  std::vector<std::vector<Ray>> rays;
+  for (int cell = 0; cell < 16; ++cell) rays.push_back(rays_of(cell));
   in_bands(height_, [&](int first, int last) {
     for (int y = first; y < last; ++y)
       for (int x = 0; x < width_; ++x)
-        occlusion_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)] =
-            static_cast<float>(occlusion_at(x, y));
+        occlusion_[pixel(x, y)] = occlusion_at(x, y, rays[static_cast<std::size_t>((x & 3) + 4 * (y & 3))]);
   });
   blur_occlusion();
 }
@@ -239,9 +294,6 @@ void Painter::blur_occlusion() {
   in_bands(height_, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < width_; ++x) {
-        const auto pixel = [&](int px, int py) {
-          return static_cast<std::size_t>(py) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(px);
-        };
         const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
         double sum = 0.0;
         int count = 0;
@@ -264,17 +316,23 @@ double Painter::lit_share(Point3 p, Point3 normal) const {
   const double texel = 1.0 / sun_.scale;
   const Point3 q = sun_.project(p + 2.5 * texel * normal);
   const int cx = static_cast<int>(std::floor(q.x)), cy = static_cast<int>(std::floor(q.y));
-  int lit = 0, count = 0;
-  for (int y = cy - 2; y <= cy + 2; ++y) {
-    for (int x = cx - 2; x <= cx + 2; ++x) {
-      ++count;
-      if (x < 0 || y < 0 || x >= kShadowSize || y >= kShadowSize || shadow_.depth[shadow_.index(x, y)] > q.z - texel) ++lit;
-    }
-  }
-  return static_cast<double>(lit) / count;
+  const auto lit = [&](int x, int y) {
+    return x < 0 || y < 0 || x >= kShadowSize || y >= kShadowSize ||
+                   shadow_.depth[shadow_.index(x, y)] > q.z - texel
+               ? 1
+               : 0;
+  };
+  const int outer =
+      lit(cx - 2, cy - 2) + lit(cx + 2, cy - 2) + lit(cx - 2, cy + 2) + lit(cx + 2, cy + 2) + lit(cx, cy);
+  if (outer == 0 || outer == 5) return outer / 5.0;  // not at a shadow's edge
+  int sum = 0;
+  for (int y = cy - 2; y <= cy + 2; ++y)
+    for (int x = cx - 2; x <= cx + 2; ++x) sum += lit(x, y);
+  return sum / 25.0;
 }
 
-/// 1 where no line is, less at outlines and creases: where the next sample to the right or below is another thing.
+/// 1 where no line is, less at outlines and creases: where the next sample to the right or below is another
+/// thing.
 double Painter::line_at(int x, int y) const {
   const std::size_t at = seen_.index(x, y);
   if (seen_.triangle[at] == kNothing) return 1.0;
@@ -309,22 +367,22 @@ Colour Painter::shade(int x, int y) const {
   if (triangle == kNothing && seen_.depth[at] >= kFarDepth) return background(y);
   const Point3 p = eye_.point(x + 0.5, y + 0.5, seen_.depth[at]);
   const Point3 n = normals_[at].get();
-  const double closed = occlusion_[static_cast<std::size_t>(y / fine_) * static_cast<std::size_t>(width_) +
-                                   static_cast<std::size_t>(x / fine_)];
-  const double open = 1.0 - 0.85 * closed;
+  const double closed = std::min(1.0, 1.35 * occlusion_[pixel(x / fine_, y / fine_)]);
+  const double open = 1.0 - 0.9 * closed;
   const double lit = lit_share(p, n);
   if (triangle == kNothing) return (1.0 - (0.28 * (1.0 - lit) + 0.3 * closed)) * background(y);
 
   const Colour albedo = triangle < colours_.size() ? linear(colours_[triangle]) : kMissingColour;
   const Point3 light = -1.0 * sun_.into;
-  const double key = 0.85 * std::max(0.0, dot(n, light)) * lit;
+  const double key = 0.85 * std::max(0.0, dot(n, light)) * lit * (1.0 - 0.25 * closed);
   const double fill = 0.16 * std::max(0.0, dot(n, fill_)) * open;
   const double up = 0.5 + 0.5 * n.z;
   const Colour sky = (0.36 * up * open) * Colour{0.97, 1.0, 1.04};
   const Colour bounce = (0.16 * (1.0 - up) * open) * Colour{1.05, 1.0, 0.94};
   const Colour direct = key * Colour{1.03, 1.0, 0.95} + fill * Colour{0.95, 0.98, 1.05};
   const Point3 half = unit(light - eye_.into);
-  const double shine = 0.10 * lit * std::pow(std::max(0.0, dot(n, half)), 28.0);
+  const double mirror = dot(n, half);
+  const double shine = lit > 0.0 && mirror > 0.7 ? 0.08 * lit * std::pow(mirror, 28.0) : 0.0;
   const Colour colour = times(albedo, direct + sky + bounce) + Colour{shine, shine, shine};
   return line_at(x, y) * colour;
 }
@@ -350,9 +408,10 @@ Image Painter::paint() {
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < width_; ++x) {
         Colour sum{};
-        for (int s = 0; s < fine_ * fine_; ++s) sum = sum + shade(x * fine_ + s % fine_, y * fine_ + s / fine_);
+        for (int s = 0; s < fine_ * fine_; ++s)
+          sum = sum + shade(x * fine_ + s % fine_, y * fine_ + s / fine_);
         sum = (1.0 / (fine_ * fine_)) * sum;
-        std::uint8_t* out = image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x));
+        std::uint8_t* out = image.rgba.data() + 4 * pixel(x, y);
         out[0] = encoded(sum.x);
         out[1] = encoded(sum.y);
         out[2] = encoded(sum.z);

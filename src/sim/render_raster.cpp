@@ -1,4 +1,5 @@
-// Projects and fills triangles. Bands of rows are independent, so the picture is the same for any number of threads.
+// Projects and fills triangles. Bands of rows are independent, so the picture is the same for any number of
+// threads.
 #include "sim/render_raster.h"
 
 #include <algorithm>
@@ -19,7 +20,8 @@ struct Edge {
   double at(double x, double y) const { return a * x + b * y + c; }
 };
 
-void fill(const Spot& p, const Spot& q, const Spot& r, std::uint32_t number, Target& target, int first, int last) {
+void fill(const Spot& p, const Spot& q, const Spot& r, std::uint32_t number, Target& target, int first,
+          int last) {
   const float low_x = std::min({p.x, q.x, r.x}), high_x = std::max({p.x, q.x, r.x});
   const float low_y = std::min({p.y, q.y, r.y}), high_y = std::max({p.y, q.y, r.y});
   const int y_begin = std::max(first, static_cast<int>(std::ceil(low_y - 0.5f)));
@@ -61,7 +63,8 @@ void Projection::fit(const Mesh& mesh, int width, int height, double margin) {
   }
   const double room = 1.0 - 2.0 * margin;
   const double tiny = 1e-9;  // mm: a mesh without width in the picture keeps a finite scale
-  scale = std::min(room * width / std::max(right_side - left, tiny), room * height / std::max(bottom - top, tiny));
+  scale = std::min(room * width / std::max(right_side - left, tiny),
+                   room * height / std::max(bottom - top, tiny));
   x0 = width / 2.0 - scale * (left + right_side) / 2;
   y0 = height / 2.0 - scale * (top + bottom) / 2;
 }
@@ -71,7 +74,8 @@ std::vector<Spot> project_all(const Mesh& mesh, const Projection& projection) {
   in_bands(static_cast<int>(spots.size()), [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       const Point3 p = projection.project(vertex(mesh, static_cast<std::uint32_t>(v)));
-      spots[static_cast<std::size_t>(v)] = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      spots[static_cast<std::size_t>(v)] = {static_cast<float>(p.x), static_cast<float>(p.y),
+                                            static_cast<float>(p.z)};
     }
   });
   return spots;

@@ -14,8 +14,8 @@ namespace kerf::rendering {
 inline constexpr std::uint32_t kNothing = 0xffffffffu;
 inline constexpr float kFarDepth = 3.0e38f;
 
-/// From mm to samples of a picture and back. Mildly perspective, or parallel where `nearness` is 0. Depth is affine
-/// over the picture for plane faces in both cases.
+/// From mm to samples of a picture and back. Mildly perspective, or parallel where `nearness` is 0. Depth is
+/// affine over the picture for plane faces in both cases.
 struct Projection {
   Point3 centre;           // mm
   Point3 right, up, into;  // unit vectors of the picture; into: away from the viewer
@@ -33,7 +33,8 @@ struct Projection {
     const double far = depth / (1.0 - nearness * depth), w = 1.0 + nearness * far;
     return centre + (x - x0) * w / scale * right + (y0 - y) * w / scale * up + far * into;
   }
-  /// Places and scales the picture so that the mesh fills `width` x `height` samples but for a margin (share of it).
+  /// Places and scales the picture so that the mesh fills `width` x `height` samples but for a margin (share
+  /// of it).
   void fit(const Mesh& mesh, int width, int height, double margin);
 };
 
@@ -42,7 +43,8 @@ struct Spot {
   float x, y, z;
 };
 
-/// Depth and the number of the triangle seen at each sample; `triangle` is left empty for a depth-only target.
+/// Depth and the number of the triangle seen at each sample; `triangle` is left empty for a depth-only
+/// target.
 struct Target {
   int width = 0, height = 0;
   std::vector<float> depth;

@@ -1,11 +1,11 @@
-// GLB (glTF 2.0, binary): one primitive a colour, vertices of their own for each triangle, so that every vertex can
-// carry the step of its triangle. Without normals viewers shade faces flat, as glTF asks, in half the bytes. The node turns Z up into Y up and mm into metres.
+// GLB (glTF 2.0, binary): one primitive a colour, vertices of their own for each triangle, so that every
+// vertex can carry the step of its triangle. Without normals viewers shade faces flat, as glTF asks, in half
+// the bytes. The node turns Z up into Y up and mm into metres.
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
-
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "codec/mesh/writers.h"
 
@@ -38,13 +38,18 @@ class Asset {
 
   const MeshView& mesh_;
   std::string binary_;
-  Json accessors_ = Json::array(), views_ = Json::array(), materials_ = Json::array(), primitives_ = Json::array();
+  Json accessors_ = Json::array(), views_ = Json::array(), materials_ = Json::array(),
+       primitives_ = Json::array();
 };
 
 /// Describes what was appended to the binary part since `offset`.
 std::size_t Asset::add_accessor(std::size_t offset, const char* type, std::size_t count) {
-  views_.push_back({{"buffer", 0}, {"byteOffset", offset}, {"byteLength", binary_.size() - offset}, {"target", kArrayBuffer}});
-  accessors_.push_back({{"bufferView", views_.size() - 1}, {"componentType", kFloat}, {"count", count}, {"type", type}});
+  views_.push_back({{"buffer", 0},
+                    {"byteOffset", offset},
+                    {"byteLength", binary_.size() - offset},
+                    {"target", kArrayBuffer}});
+  accessors_.push_back(
+      {{"bufferView", views_.size() - 1}, {"componentType", kFloat}, {"count", count}, {"type", type}});
   return accessors_.size() - 1;
 }
 
@@ -79,7 +84,8 @@ void Asset::add_primitive(const std::vector<std::uint32_t>& triangles, std::size
 
   Json attributes = {{"POSITION", positions}};
   if (!mesh_.step.empty()) {
-    // Attributes of a mesh may not be 32-bit integers; a float holds steps up to 16 million exactly. -1: no step.
+    // Attributes of a mesh may not be 32-bit integers; a float holds steps up to 16 million exactly. -1: no
+    // step.
     const std::size_t steps_at = binary_.size();
     for (const std::uint32_t t : triangles) {
       const bool known = t < mesh_.step.size() && mesh_.step[t] != std::numeric_limits<std::uint32_t>::max();
@@ -99,9 +105,10 @@ std::string Asset::finish() {
     // Columns of the matrix: x to x, y to -z, z to y, all in metres.
     json["scene"] = 0;
     json["scenes"] = Json::array({{{"nodes", {0}}}});
-    json["nodes"] = Json::array({{{"name", name},
-                                  {"mesh", 0},
-                                  {"matrix", {kMetres, 0, 0, 0, 0, 0, -kMetres, 0, 0, kMetres, 0, 0, 0, 0, 0, 1}}}});
+    json["nodes"] =
+        Json::array({{{"name", name},
+                      {"mesh", 0},
+                      {"matrix", {kMetres, 0, 0, 0, 0, 0, -kMetres, 0, 0, kMetres, 0, 0, 0, 0, 0, 1}}}});
     json["meshes"] = Json::array({{{"name", name}, {"primitives", primitives_}}});
     json["materials"] = materials_;
     json["accessors"] = accessors_;

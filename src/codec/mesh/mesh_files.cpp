@@ -21,7 +21,8 @@ std::array<float, 3> unit_normal(const MeshView& mesh, std::size_t triangle) {
   }
   const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
   if (!(length > 0.0)) return {};
-  return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length), static_cast<float>(n[2] / length)};
+  return {static_cast<float>(n[0] / length), static_cast<float>(n[1] / length),
+          static_cast<float>(n[2] / length)};
 }
 
 std::string plain_name(const MeshView& mesh) {

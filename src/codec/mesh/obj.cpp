@@ -1,7 +1,6 @@
 // Wavefront OBJ: text, vertices and faces, no colours.
-#include <iterator>
-
 #include <fmt/format.h>
+#include <iterator>
 
 #include "codec/mesh/writers.h"
 

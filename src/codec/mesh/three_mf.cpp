@@ -1,11 +1,10 @@
-// 3MF: a zip of XML parts. The model is written through the compressor piece by piece; colours are base materials,
-// which every reader knows. Dates are fixed, so that the same mesh gives the same bytes.
+// 3MF: a zip of XML parts. The model is written through the compressor piece by piece; colours are base
+// materials, which every reader knows. Dates are fixed, so that the same mesh gives the same bytes.
 #if KERF_WITH_3MF
 
 #include <algorithm>
-#include <iterator>
-
 #include <fmt/format.h>
+#include <iterator>
 #include <minizip/zip.h>
 
 #include "codec/mesh/writers.h"
@@ -21,10 +20,13 @@ struct Memory {
   std::size_t at = 0;
 };
 
-voidpf open_memory(voidpf opaque, const void*, int) { return opaque; }
+voidpf open_memory(voidpf opaque, const void*, int) {
+  return opaque;
+}
 uLong read_memory(voidpf, voidpf stream, void* to, uLong size) {
   Memory& memory = *static_cast<Memory*>(stream);
-  const std::size_t n = std::min<std::size_t>(size, memory.bytes.size() - std::min(memory.at, memory.bytes.size()));
+  const std::size_t n =
+      std::min<std::size_t>(size, memory.bytes.size() - std::min(memory.at, memory.bytes.size()));
   std::copy_n(memory.bytes.data() + memory.at, n, static_cast<char*>(to));
   memory.at += n;
   return static_cast<uLong>(n);
@@ -36,23 +38,27 @@ uLong write_memory(voidpf, voidpf stream, const void* from, uLong size) {
   memory.at += size;
   return size;
 }
-ZPOS64_T tell_memory(voidpf, voidpf stream) { return static_cast<Memory*>(stream)->at; }
+ZPOS64_T tell_memory(voidpf, voidpf stream) {
+  return static_cast<Memory*>(stream)->at;
+}
 long seek_memory(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
   Memory& memory = *static_cast<Memory*>(stream);
-  const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR ? memory.at
+  const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? memory.at
                            : origin == ZLIB_FILEFUNC_SEEK_END ? memory.bytes.size()
                                                               : 0;
   memory.at = from + static_cast<std::size_t>(offset);
   return 0;
 }
-int nothing(voidpf, voidpf) { return 0; }
+int nothing(voidpf, voidpf) {
+  return 0;
+}
 
 /// A zip in memory. Parts are written one after the other; text is handed to the compressor in pieces.
 class Package {
  public:
   Package() {
-    zlib_filefunc64_def calls{open_memory, read_memory, write_memory, tell_memory, seek_memory, nothing, nothing,
-                              &memory_};
+    zlib_filefunc64_def calls{open_memory, read_memory, write_memory, tell_memory,
+                              seek_memory, nothing,     nothing,      &memory_};
     zip_ = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &calls);
   }
   /// Begins a part; `large` where it may be longer than 4 GiB (readers of small files need not know zip64).
@@ -64,7 +70,9 @@ class Package {
     zipOpenNewFileInZip64(zip_, part, &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, kLevel,
                           static_cast<int>(size));
   }
-  void write(std::string_view text) { zipWriteInFileInZip(zip_, text.data(), static_cast<unsigned>(text.size())); }
+  void write(std::string_view text) {
+    zipWriteInFileInZip(zip_, text.data(), static_cast<unsigned>(text.size()));
+  }
   void end() { zipCloseFileInZip(zip_); }
   std::string finish() {
     zipClose(zip_, nullptr);
@@ -139,7 +147,9 @@ void write_model(ModelWriter&& out, const MeshView& mesh) {
       out.add("<triangle v1=\"{}\" v2=\"{}\" v3=\"{}\"/>\n", i[0], i[1], i[2]);
     }
   }
-  out.add("</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n");
+  out.add(
+      "</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item "
+      "objectid=\"1\"/>\n</build>\n</model>\n");
 }
 
 constexpr std::string_view kContentTypes =

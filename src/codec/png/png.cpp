@@ -1,8 +1,7 @@
-// PNG through libpng. libpng leaves a failed call by longjmp, which must not cross C++ objects: the frame that libpng
-// can jump back to holds plain pointers only, and the objects live in the caller.
-#include <png.h>
-
+// PNG through libpng. libpng leaves a failed call by longjmp, which must not cross C++ objects: the frame
+// that libpng can jump back to holds plain pointers only, and the objects live in the caller.
 #include <csetjmp>
+#include <png.h>
 #include <vector>
 
 #include "kerf/image_files.h"
@@ -16,14 +15,17 @@ void append_bytes(png_structp png, png_bytep data, png_size_t size) {
 }
 void flush_nothing(png_structp) {}
 void ignore_warning(png_structp, png_const_charp) {}
-void leave(png_structp png, png_const_charp) { png_longjmp(png, 1); }
+void leave(png_structp png, png_const_charp) {
+  png_longjmp(png, 1);
+}
 
 /// The calls that can jump. Everything they touch was made by the caller and is destroyed by the caller.
 bool write_rows(png_structp png, png_infop info, const ImageView& image, png_bytepp rows, std::string* out) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, out, append_bytes, flush_nothing);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
-               PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+               PNG_COLOR_TYPE_RGB_ALPHA, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(png, info);
   png_write_image(png, rows);

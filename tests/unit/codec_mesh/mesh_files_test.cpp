@@ -1,16 +1,15 @@
 // Mesh files read back with small readers of the tests' own: counts, bounds, volumes, colours and steps.
-#include <gtest/gtest.h>
-#include <zlib.h>
+#include "kerf/mesh_files.h"
 
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
-
-#include "kerf/mesh_files.h"
+#include <zlib.h>
 
 namespace kerf {
 namespace {
@@ -39,7 +38,8 @@ struct Box {
 double volume(const std::vector<Triangle>& triangles) {
   double six = 0;
   for (const auto& [a, b, c] : triangles) {
-    six += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    six += a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
   }
   return six / 6;
 }
@@ -66,9 +66,11 @@ T number_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// For looking at the files with other programs: they are written to the folder KERF_KEEP names, if it is set.
+/// For looking at the files with other programs: they are written to the folder KERF_KEEP names, if it is
+/// set.
 void keep(const std::string& name, const std::string& bytes) {
-  if (const char* folder = std::getenv("KERF_KEEP")) std::ofstream(std::string(folder).append("/").append(name), std::ios::binary) << bytes;
+  if (const char* folder = std::getenv("KERF_KEEP"))
+    std::ofstream(std::string(folder).append("/").append(name), std::ios::binary) << bytes;
 }
 
 /// The parts of a zip by its central directory, inflated.
@@ -80,7 +82,8 @@ std::map<std::string, std::string> unzip(const std::string& zip) {
     const auto packed = number_at<std::uint32_t>(zip, at + 20), size = number_at<std::uint32_t>(zip, at + 24);
     const auto name_size = number_at<std::uint16_t>(zip, at + 28);
     const std::size_t local = number_at<std::uint32_t>(zip, at + 42);
-    const std::size_t data = local + 30u + number_at<std::uint16_t>(zip, local + 26) + number_at<std::uint16_t>(zip, local + 28);
+    const std::size_t data =
+        local + 30u + number_at<std::uint16_t>(zip, local + 26) + number_at<std::uint16_t>(zip, local + 28);
     std::string out(size, '\0');
     z_stream stream{};
     EXPECT_EQ(inflateInit2(&stream, -15), Z_OK);
@@ -90,7 +93,8 @@ std::map<std::string, std::string> unzip(const std::string& zip) {
     stream.avail_out = size;
     EXPECT_EQ(inflate(&stream, Z_FINISH), Z_STREAM_END);
     inflateEnd(&stream);
-    EXPECT_EQ(crc32(0, reinterpret_cast<const Bytef*>(out.data()), size), number_at<std::uint32_t>(zip, at + 16));
+    EXPECT_EQ(crc32(0, reinterpret_cast<const Bytef*>(out.data()), size),
+              number_at<std::uint32_t>(zip, at + 16));
     parts[zip.substr(at + 46, name_size)] = out;
     at += 46u + name_size + number_at<std::uint16_t>(zip, at + 30) + number_at<std::uint16_t>(zip, at + 32);
   }
@@ -171,11 +175,13 @@ TEST(MeshFiles, ThreeMfReadsBack) {
   int red = 0;
   std::istringstream in(model);
   for (std::string line; std::getline(in, line);) {
-    if (line.rfind("<vertex ", 0) == 0) points.push_back({attribute(line, "x"), attribute(line, "y"), attribute(line, "z")});
+    if (line.rfind("<vertex ", 0) == 0)
+      points.push_back({attribute(line, "x"), attribute(line, "y"), attribute(line, "z")});
     if (line.rfind("<triangle ", 0) != 0) continue;
     triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)
-      triangles.back()[k] = points.at(static_cast<std::size_t>(attribute(line, std::string(1, 'v').append(std::to_string(k + 1)))));
+      triangles.back()[k] = points.at(
+          static_cast<std::size_t>(attribute(line, std::string(1, 'v').append(std::to_string(k + 1)))));
     if (attribute(line, "p1") == 1) ++red;
   }
   EXPECT_EQ(points.size(), 8u);
@@ -196,16 +202,21 @@ TEST(MeshFiles, GlbReadsBack) {
   for (const auto& primitive : json["meshes"][0]["primitives"]) {
     const auto& accessor = json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()];
     const auto& steps = json["accessors"][primitive["attributes"]["_STEP"].get<std::size_t>()];
-    const std::size_t at = binary + json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
-    const std::size_t steps_at = binary + json["bufferViews"][steps["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
-    const auto colour = json["materials"][primitive["material"].get<std::size_t>()]["pbrMetallicRoughness"]["baseColorFactor"];
+    const std::size_t at =
+        binary +
+        json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
+    const std::size_t steps_at =
+        binary + json["bufferViews"][steps["bufferView"].get<std::size_t>()]["byteOffset"].get<std::size_t>();
+    const auto colour = json["materials"][primitive["material"].get<std::size_t>()]["pbrMetallicRoughness"]
+                            ["baseColorFactor"];
     const auto count = accessor["count"].get<std::size_t>();
     EXPECT_EQ(count, steps["count"].get<std::size_t>());
     const bool top = count == 6;
     EXPECT_NEAR(colour[0].get<double>(), top ? 1.0 : std::pow((200 / 255.0 + 0.055) / 1.055, 2.4), 1e-9);
     for (std::size_t v = 0; v < count; ++v) {
       if (v % 3 == 0) triangles.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) triangles.back()[v % 3][k] = number_at<float>(bytes, at + 12 * v + 4 * k);
+      for (std::size_t k = 0; k < 3; ++k)
+        triangles.back()[v % 3][k] = number_at<float>(bytes, at + 12 * v + 4 * k);
       EXPECT_EQ(number_at<float>(bytes, steps_at + 4 * v), top ? 42.0f : -1.0f);
     }
   }

@@ -1,7 +1,6 @@
 // PNG files: read back by libpng's simple interface, and refused where there is no picture.
 #include <gtest/gtest.h>
 #include <png.h>
-
 #include <vector>
 
 #include "kerf/image_files.h"
@@ -30,8 +29,9 @@ TEST(Png, RefusesWhatIsNoPicture) {
   const std::vector<std::uint8_t> pixels(40);
   EXPECT_EQ(write_png({}), "");
   EXPECT_EQ(write_png({-1, 4, pixels}), "");
-  EXPECT_EQ(write_png({4, 4, pixels}), "");           // too few pixels
-  const std::vector<std::uint8_t> wide(4'000'004, 0);  // libpng's own limit of a million columns: its error path
+  EXPECT_EQ(write_png({4, 4, pixels}), "");  // too few pixels
+  const std::vector<std::uint8_t> wide(4'000'004,
+                                       0);  // libpng's own limit of a million columns: its error path
   EXPECT_EQ(write_png({1'000'001, 1, wide}), "");
 }
 

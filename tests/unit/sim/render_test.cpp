@@ -1,0 +1,139 @@
+// Proof pictures: views by name, where the part lies in the picture, light on its faces, and the same picture
+// twice.
+#include <array>
+#include <cstdlib>
+#include <gtest/gtest.h>
+
+#include "kerf/simulate.h"
+
+namespace kerf {
+namespace {
+
+using Rgb = std::array<std::uint8_t, 3>;
+
+/// A block 20 x 10 x 5 mm with a step: the half at low x is lower by `depth`.
+Mesh stepped_block(float depth) {
+  ColumnGrid grid;
+  grid.bounds = {{0, 0, -5}, {20, 10, 0}};
+  grid.pitch = 0.5;
+  grid.nx = 40;
+  grid.ny = 20;
+  grid.first.push_back(0);
+  for (int j = 0; j < grid.ny; ++j) {
+    for (int i = 0; i < grid.nx; ++i) {
+      grid.intervals.push_back(
+          {0.0f, i < 20 ? 5.0f - depth : 5.0f, kStockSurface, i < 20 ? 4u : kStockSurface});
+      grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
+    }
+  }
+  return extract_mesh(grid);
+}
+
+std::vector<Rgb> colours_of(const Mesh& mesh) {
+  std::vector<Rgb> colours;
+  for (const std::uint32_t step : mesh.step)
+    colours.push_back(step == 4 ? Rgb{40, 60, 220} : Rgb{220, 60, 40});
+  return colours;
+}
+
+struct Seen {
+  int red = 0, blue = 0, other = 0;
+  int left = 1 << 20, right = -1, top = 1 << 20, bottom = -1;  // of the coloured pixels
+};
+Seen look(const Image& image) {
+  Seen seen;
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      const std::uint8_t* p =
+          image.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                                   static_cast<std::size_t>(x));
+      const int balance = p[0] - p[2];
+      if (std::abs(balance) < 40) {
+        ++seen.other;
+        continue;
+      }
+      ++(balance > 0 ? seen.red : seen.blue);
+      seen.left = std::min(seen.left, x);
+      seen.right = std::max(seen.right, x);
+      seen.top = std::min(seen.top, y);
+      seen.bottom = std::max(seen.bottom, y);
+    }
+  }
+  return seen;
+}
+
+View small(const char* name) {
+  View view = named_view(name).value();
+  view.width = 400;
+  view.height = 300;
+  return view;
+}
+
+TEST(Render, KnowsItsViews) {
+  for (const char* name : {"top", "front", "back", "left", "right", "iso"})
+    EXPECT_TRUE(named_view(name)) << name;
+  EXPECT_FALSE(named_view("below"));
+  EXPECT_FALSE(named_view("TOP"));
+  EXPECT_DOUBLE_EQ(named_view("top")->elevation.deg(), 90);
+  EXPECT_DOUBLE_EQ(named_view("front")->azimuth.deg(), 0);
+}
+
+TEST(Render, TopMeasuresTrueAndIsFitted) {
+  const Mesh mesh = stepped_block(1);
+  const Seen seen = look(render(mesh, colours_of(mesh), small("top")));
+  // 20 x 10 mm in 88 % of 400 pixels: 352 x 176 pixels in the middle, half of it cut.
+  EXPECT_NEAR(seen.right - seen.left + 1, 352, 3);
+  EXPECT_NEAR(seen.bottom - seen.top + 1, 176, 3);
+  EXPECT_NEAR(seen.left + seen.right, 399, 3);
+  EXPECT_NEAR(seen.top + seen.bottom, 299, 3);
+  EXPECT_NEAR(seen.blue, 176 * 176, 1000);
+  EXPECT_NEAR(seen.red, 176 * 176, 1000);
+}
+
+TEST(Render, SidesShowWhatStandsThere) {
+  const Mesh mesh = stepped_block(3);
+  const auto colours = colours_of(mesh);
+  // From the front the lower half is at the left, from behind at the right; nothing of the cut faces is seen.
+  const Image front = render(mesh, colours, small("front")), back = render(mesh, colours, small("back"));
+  const auto red_at = [](const Image& image, int x, int y) {
+    const std::uint8_t* p = image.rgba.data() + 4 * (y * image.width + x);
+    return p[0] - p[2] > 40;
+  };
+  EXPECT_EQ(look(front).blue, 0);
+  EXPECT_FALSE(red_at(front, 100, 120));
+  EXPECT_TRUE(red_at(front, 300, 120));
+  EXPECT_TRUE(red_at(back, 100, 120));
+  EXPECT_FALSE(red_at(back, 300, 120));
+  // From the left the wall of the step is seen above the low side, from the right the stock only.
+  EXPECT_GT(look(render(mesh, colours, small("left"))).blue, 2000);
+  EXPECT_EQ(look(render(mesh, colours, small("right"))).blue, 0);
+}
+
+TEST(Render, IsoShowsLightAndShade) {
+  const Mesh mesh = stepped_block(3);
+  const Image image = render(mesh, {}, small("iso"));
+  std::array<int, 256> grey{};
+  for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
+    EXPECT_EQ(image.rgba[k + 3], 255);
+    ++grey[image.rgba[k]];
+  }
+  int shades = 0;
+  for (const int count : grey) shades += count > 200 ? 1 : 0;
+  EXPECT_GT(shades, 6);
+}
+
+TEST(Render, SamePictureTwiceAndNothingToDraw) {
+  const Mesh mesh = stepped_block(2);
+  EXPECT_EQ(render(mesh, colours_of(mesh), small("iso")).rgba,
+            render(mesh, colours_of(mesh), small("iso")).rgba);
+  const Image empty = render(Mesh{}, {}, small("iso"));
+  EXPECT_EQ(empty.rgba.size(), 4u * 400 * 300);
+  EXPECT_EQ(look(empty).other, 400 * 300);
+  View none = small("top");
+  none.width = -5;
+  none.height = 0;
+  EXPECT_EQ(render(mesh, {}, none).rgba.size(), 4u);
+}
+
+}  // namespace
+}  // namespace kerf
