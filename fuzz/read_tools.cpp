@@ -1,4 +1,5 @@
-// Fuzz target: tool files, tool options, tool comments, stock comments and tool numbers. The first byte picks one.
+// Fuzz target: tool files, tool options, tool comments, stock comments, tool numbers. The first byte picks
+// one.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -15,7 +16,8 @@ void use(const kerf::Tool& tool) {
   if (!(top > 0.0) || !(tool.diameter.mm() > 0.0)) std::abort();
   for (const double share : {0.0, 0.3, 1.0}) {
     const double radius = tool.silhouette.cutting.radius_at(share * top);
-    if (!(radius >= 0.0) || !(radius <= tool.silhouette.cutting.max_radius() * (1.0 + 1e-6) + 1e-9)) std::abort();
+    if (!(radius >= 0.0) || !(radius <= tool.silhouette.cutting.max_radius() * (1.0 + 1e-6) + 1e-9))
+      std::abort();
   }
   (void)kerf::encode_tool_number(tool);
   (void)kerf::write_tool_comment(tool.shape);
