@@ -7,7 +7,8 @@
 
 namespace kerf {
 
-/// `name` in small letters without spaces, hyphens, underscores; "center" becomes "centre". For comparing only.
+/// `name` in small letters without spaces, hyphens, underscores; "center" becomes "centre". For comparing
+/// only.
 std::string fold_name(std::string_view name);
 /// "a, b or c": a list of words for messages.
 std::string list_text(const std::vector<std::string>& words);

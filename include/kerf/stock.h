@@ -11,20 +11,30 @@
 
 namespace kerf {
 
-/// A block of material. Cylinders, imported meshes and left-over stock come with the simulator's further work.
+/// A block of material. Cylinders, imported meshes and left-over stock come with the simulator's further
+/// work.
 struct Stock {
   Box3 block;  // mm, work coordinates
 };
 
 /// Where program zero lies on the block, in plan and in height.
 enum class ZeroCorner : unsigned char {
-  lower_left, lower_centre, lower_right, centre_left, centre, centre_right, top_left, top_centre, top_right,
+  lower_left,
+  lower_centre,
+  lower_right,
+  centre_left,
+  centre,
+  centre_right,
+  top_left,
+  top_centre,
+  top_right,
 };
 enum class ZeroHeight : unsigned char { top, bottom };
 
 /// A block of `size` (mm) with program zero at the named place.
 Stock make_block(Point3 size, ZeroCorner corner, ZeroHeight height);
-/// Reads "Lower-Left", "centre left", "TOPLEFT" ...: case, spaces and hyphens do not count, "center" is "centre".
+/// Reads "Lower-Left", "centre left", "TOPLEFT" ...: case, spaces and hyphens do not count, "center" is
+/// "centre".
 std::optional<ZeroCorner> parse_zero_corner(std::string_view name);
 std::optional<ZeroHeight> parse_zero_height(std::string_view name);
 /// The names as they are known, for messages: "lower-left", ... and "top", "bottom".
@@ -33,18 +43,19 @@ const std::vector<std::string>& zero_height_names();
 /// Whether the block has a volume: finite and low below high in every axis.
 bool is_solid(const Stock& stock);
 
-/// A block around the cuts: `margin` added sideways, top at Z0 or at the highest cut if that is above, and `floor`
-/// of material below the deepest cut. For programs that say nothing of their stock.
+/// A block around the cuts: `margin` added sideways, top at Z0 or at the highest cut if that is above, and
+/// `floor` of material below the deepest cut. For programs that say nothing of their stock.
 Stock stock_around(const Box3& cuts, Length margin, Length floor);
 
-/// Gathers what a program's comments say of the stock: "STOCK/BLOCK, L, W, H, OX, OY, OZ" (CutViewer: program zero
-/// from the lowest corner) and "stockMin: x, y, z" with "stockMax: ...", in all the spacings seen in real files
-/// (spec/gcodepreview.md sections 2 and 13).
+/// Gathers what a program's comments say of the stock: "STOCK/BLOCK, L, W, H, OX, OY, OZ" (CutViewer: program
+/// zero from the lowest corner) and "stockMin: x, y, z" with "stockMax: ...", in all the spacings seen in
+/// real files (spec/gcodepreview.md sections 2 and 13).
 class StockComments {
  public:
-  /// True if the comment (without brackets) was one of the stock. Errors go to `diagnostics`. Plain numbers are mm
-  /// times `scale` (25.4 in a program in inches); with a unit ("-12.7mm", "4in") they are what they say. A stockMin
-  /// that is not below stockMax is passed over with a warning, and STOCK/BLOCK tells the stock then.
+  /// True if the comment (without brackets) was one of the stock. Errors go to `diagnostics`. Plain numbers
+  /// are mm times `scale` (25.4 in a program in inches); with a unit ("-12.7mm", "4in") they are what they
+  /// say. A stockMin that is not below stockMax is passed over with a warning, and STOCK/BLOCK tells the
+  /// stock then.
   bool read(std::string_view comment, double scale, const Origin& where, Diagnostics& diagnostics);
   /// The stock told, stockMin/stockMax first; nothing where the comments do not suffice.
   std::optional<Stock> stock() const;

@@ -9,16 +9,17 @@
 
 namespace kerf {
 
-/// The tools that every Kerf knows: data/tools.toml, compiled in. Vendor's, generated and program numbers are keys.
-/// spec/gcodepreview.md section 4.
+/// The tools that every Kerf knows: data/tools.toml, compiled in. Vendor's, generated and program numbers are
+/// keys. spec/gcodepreview.md section 4.
 const ToolTable& built_in_tools();
 
-/// Reads a tool file in Kerf's TOML form (docs/manual/tools.md) into `table`. Every error of the file is reported with
-/// its place; tools without an error are kept. `file_name` is for the messages.
-void read_tool_file(std::string_view text, std::string_view file_name, ToolTable& table, Diagnostics& diagnostics);
+/// Reads a tool file in Kerf's TOML form (docs/manual/tools.md) into `table`. Every error of the file is
+/// reported with its place; tools without an error are kept. `file_name` is for the messages.
+void read_tool_file(std::string_view text, std::string_view file_name, ToolTable& table,
+                    Diagnostics& diagnostics);
 
-/// Reads a tool told on the command line: "square d=3.175 flute=12.7", "V d=12.7 angle=90", or the number of a built-in
-/// tool. Errors name the option.
+/// Reads a tool told on the command line: "square d=3.175 flute=12.7", "V d=12.7 angle=90", or the number of
+/// a built-in tool. Errors name the option.
 std::optional<Tool> read_tool_option(std::string_view text, Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -98,8 +98,8 @@ std::vector<std::string> write_stock_comments(const Stock& stock) {
   const Box3& box = stock.block;
   const Point3 size = box.size();
   return {point("stockMin", box.low), point("stockMax", box.high),
-          "STOCK/BLOCK, " + text(size.x) + ", " + text(size.y) + ", " + text(size.z) + ", " + text(-box.low.x) +
-              ", " + text(-box.low.y) + ", " + text(-box.low.z)};
+          "STOCK/BLOCK, " + text(size.x) + ", " + text(size.y) + ", " + text(size.z) + ", " +
+              text(-box.low.x) + ", " + text(-box.low.y) + ", " + text(-box.low.z)};
 }
 
 }  // namespace kerf

@@ -1,4 +1,5 @@
-// Stock comments as real programs write them: "stockMin:0.00mm, -30.0mm, -12.7mm", "STOCK/BLOCK,100, 60, ...".
+// Stock comments as real programs write them: "stockMin:0.00mm, -30.0mm, -12.7mm", "STOCK/BLOCK,100, 60,
+// ...".
 #include <array>
 #include <cmath>
 
@@ -9,8 +10,8 @@
 namespace kerf {
 namespace {
 
-constexpr double kFarthest = 1e6;   // mm; a stock beyond a kilometre is a slip
-constexpr double kPrinted = 0.05;   // mm: what two comments may differ by from printing
+constexpr double kFarthest = 1e6;  // mm; a stock beyond a kilometre is a slip
+constexpr double kPrinted = 0.05;  // mm: what two comments may differ by from printing
 
 /// Takes the word in front of the numbers and what separates it from them: "stockmin", "stock/block".
 std::string_view take_word(std::string_view& text) {
@@ -58,21 +59,26 @@ std::optional<std::array<double, N>> numbers(std::string_view list, double scale
 
 Point3 to_point(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-bool solid(const Box3& box) { return box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z; }
+bool solid(const Box3& box) {
+  return box.low.x < box.high.x && box.low.y < box.high.y && box.low.z < box.high.z;
+}
 
 bool alike(Point3 a, Point3 b) {
-  return std::abs(a.x - b.x) <= kPrinted && std::abs(a.y - b.y) <= kPrinted && std::abs(a.z - b.z) <= kPrinted;
+  return std::abs(a.x - b.x) <= kPrinted && std::abs(a.y - b.y) <= kPrinted &&
+         std::abs(a.z - b.z) <= kPrinted;
 }
 
 }  // namespace
 
-bool StockComments::read(std::string_view comment, double scale, const Origin& where, Diagnostics& diagnostics) {
+bool StockComments::read(std::string_view comment, double scale, const Origin& where,
+                         Diagnostics& diagnostics) {
   std::string_view list = trim(comment);
   const std::string word = fold_name(take_word(list));
   if (word == "stockmin" || word == "stockmax") {
     const auto values = numbers<3>(list, scale);
     if (!values) {
-      diagnostics.error(Code::stock_comment_malformed, where, "stock comment: expected three coordinates, x, y, z");
+      diagnostics.error(Code::stock_comment_malformed, where,
+                        "stock comment: expected three coordinates, x, y, z");
       return true;
     }
     (word == "stockmin" ? minimum_ : maximum_) = to_point(*values);
@@ -90,7 +96,8 @@ bool StockComments::read(std::string_view comment, double scale, const Origin& w
   const Point3 low = Point3{0.0, 0.0, 0.0} - Point3{v[3], v[4], v[5]};
   const Box3 box{low, low + Point3{v[0], v[1], v[2]}};
   if (!solid(box)) {
-    diagnostics.error(Code::stock_impossible, where, "stock comment: length, width and height must be above 0");
+    diagnostics.error(Code::stock_impossible, where,
+                      "stock comment: length, width and height must be above 0");
     return true;
   }
   block_ = box;
@@ -102,7 +109,8 @@ bool StockComments::read(std::string_view comment, double scale, const Origin& w
 void StockComments::check_corners(const Origin& where, Diagnostics& diagnostics) {
   if (!minimum_ || !maximum_) return;
   if (!solid({*minimum_, *maximum_})) {
-    diagnostics.warning(Code::stock_impossible, where, "stockMin is not below stockMax in every axis; passed over");
+    diagnostics.warning(Code::stock_impossible, where,
+                        "stockMin is not below stockMax in every axis; passed over");
     minimum_.reset();
     maximum_.reset();
     return;
@@ -111,9 +119,11 @@ void StockComments::check_corners(const Origin& where, Diagnostics& diagnostics)
 }
 
 void StockComments::check_agreement(const Origin& where, Diagnostics& diagnostics) {
-  if (!minimum_ || !maximum_ || !block_ || (alike(*minimum_, block_->low) && alike(*maximum_, block_->high))) return;
-  diagnostics.warning(Code::stock_comments_differ, where,
-                      "STOCK/BLOCK and stockMin, stockMax describe different blocks; stockMin, stockMax hold");
+  if (!minimum_ || !maximum_ || !block_ || (alike(*minimum_, block_->low) && alike(*maximum_, block_->high)))
+    return;
+  diagnostics.warning(
+      Code::stock_comments_differ, where,
+      "STOCK/BLOCK and stockMin, stockMax describe different blocks; stockMin, stockMax hold");
 }
 
 std::optional<Stock> StockComments::stock() const {

@@ -1,8 +1,7 @@
 // Whether a half profile drawn by a user is one that the rest of Kerf can work with.
 #include <cmath>
-#include <numbers>
-
 #include <fmt/format.h>
+#include <numbers>
 
 #include "tool/arc.h"
 #include "tool/silhouette.h"
@@ -15,7 +14,8 @@ constexpr double kFarthest = 10000.0;      // mm
 constexpr double kHeading = 1e-9;          // radians: rounding of an arc's heading at its ends
 
 std::string knot_fault(const Knot& knot) {
-  if (!std::isfinite(knot.r) || !std::isfinite(knot.z) || !std::isfinite(knot.bulge)) return "is not a finite number";
+  if (!std::isfinite(knot.r) || !std::isfinite(knot.z) || !std::isfinite(knot.bulge))
+    return "is not a finite number";
   if (knot.r < 0.0) return "lies left of the axis (r below 0)";
   if (knot.r > kFarthest || std::abs(knot.z) > kFarthest) return "is farther than 10 m away";
   if (std::abs(knot.bulge) > 1.0) return "has a bulge beyond a half circle (-1 to 1)";

@@ -1,7 +1,6 @@
 // Makes a tool of a shape and what stands above it; the table of tools.
 #include <algorithm>
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "tool/silhouette.h"
@@ -23,7 +22,9 @@ std::string measure_fault(double value, ShapeParameter::Kind kind, ShapeParamete
   if (value < 0.0) return fmt::format("is {}, but must not be negative", number_text(value, 6));
   if (value == 0.0) return need == ShapeParameter::Need::required ? "is missing or 0" : "";
   if (kind == ShapeParameter::Kind::length) {
-    return value > kLongest ? "is longer than 10 m" : value < 1e-6 ? "is smaller than a millionth of a millimetre" : "";
+    return value > kLongest ? "is longer than 10 m"
+           : value < 1e-6   ? "is smaller than a millionth of a millimetre"
+                            : "";
   }
   if (value < kSmallestAngle || value > kLargestAngle) {
     return fmt::format("is {} degrees, but must be between {} and {}", number_text(value, 6), kSmallestAngle,
@@ -44,8 +45,10 @@ class MeasureCheck {
   }
 
   void check(const ToolBody& body, const ToolShape& shape) {
-    const bool own_neck = std::holds_alternative<shape::Lollipop>(shape) || std::holds_alternative<shape::TSlot>(shape);
-    part("neck", body.neck_diameter, own_neck && body.neck_diameter.mm() == 0.0 ? Length() : body.neck_length);
+    const bool own_neck =
+        std::holds_alternative<shape::Lollipop>(shape) || std::holds_alternative<shape::TSlot>(shape);
+    part("neck", body.neck_diameter,
+         own_neck && body.neck_diameter.mm() == 0.0 ? Length() : body.neck_length);
     if (own_neck) length("neck_length", body.neck_length);
     part("shank", body.shank_diameter, body.shank_length);
     part("holder", body.holder_diameter, body.holder_length);
@@ -108,7 +111,8 @@ Silhouette silhouette_of(detail::Cutting& drawn, const ToolBody& body) {
   silhouette.cutting = std::move(drawn.cutting);
   Seat seat{silhouette.cutting.knots.back().r, silhouette.cutting.top()};
   if (!drawn.neck.empty()) seat = {drawn.neck.knots.back().r, drawn.neck.top()};
-  silhouette.neck = join(std::move(drawn.neck), stack(seat, body.neck_diameter, body.neck_length, Transition::step));
+  silhouette.neck =
+      join(std::move(drawn.neck), stack(seat, body.neck_diameter, body.neck_length, Transition::step));
   silhouette.shank = stack(seat, body.shank_diameter, body.shank_length, body.transition);
   silhouette.holder = stack(seat, body.holder_diameter, body.holder_length, Transition::step);
   return silhouette;
@@ -122,13 +126,16 @@ std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody
   check.check(shape);
   check.check(body, shape);
   if (!check.fine()) return std::nullopt;
-  detail::Cutting drawn = detail::cutting_of(shape, body.neck_diameter.mm() == 0.0 ? body.neck_length : Length());
+  detail::Cutting drawn =
+      detail::cutting_of(shape, body.neck_diameter.mm() == 0.0 ? body.neck_length : Length());
   if (!drawn.error.empty()) {
-    diagnostics.error(Code::tool_shape_impossible, where, fmt::format("{} tool: {}", name_of(shape), drawn.error));
+    diagnostics.error(Code::tool_shape_impossible, where,
+                      fmt::format("{} tool: {}", name_of(shape), drawn.error));
     return std::nullopt;
   }
   if (!drawn.warning.empty()) {
-    diagnostics.warning(Code::tool_flute_short, where, fmt::format("{} tool: {}", name_of(shape), drawn.warning));
+    diagnostics.warning(Code::tool_flute_short, where,
+                        fmt::format("{} tool: {}", name_of(shape), drawn.warning));
   }
   Tool tool;
   tool.number = number;

@@ -1,7 +1,7 @@
-// The six-digit tool numbers of gcodepreview: kind, two size codes, flute code. docs/manual/tools.md tells the scheme.
+// The six-digit tool numbers of gcodepreview: kind, two size codes, flute code. docs/manual/tools.md tells
+// the scheme.
 #include <array>
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "kerf/number.h"
@@ -13,19 +13,20 @@ namespace {
 constexpr double kPrinted = 0.0065;  // mm: 1/32" is told as 0.80 mm; 1.6 mm is not 1/16"
 constexpr double kEightMm = 0.0625;  // mm: the scheme has 8 mm bits under the code of 5/16"
 constexpr double kLongReach = 19.05;
-constexpr int kOther = 9;            // size code: above an inch, or a size without a code
+constexpr int kOther = 9;  // size code: above an inch, or a size without a code
 
 struct SizeCode {
   int code;
   double mm;
 };
-constexpr std::array kSizes{SizeCode{1, 0.79375}, SizeCode{2, 1.5875}, SizeCode{3, 3.175}, SizeCode{4, 6.35},
-                            SizeCode{5, 7.9375},  SizeCode{6, 9.525},  SizeCode{7, 12.7},  SizeCode{8, 19.05}};
+constexpr std::array kSizes{SizeCode{1, 0.79375}, SizeCode{2, 1.5875}, SizeCode{3, 3.175},
+                            SizeCode{4, 6.35},    SizeCode{5, 7.9375}, SizeCode{6, 9.525},
+                            SizeCode{7, 12.7},    SizeCode{8, 19.05}};
 constexpr std::array kFlutes{SizeCode{2, 1.5875}, SizeCode{3, 3.175}, SizeCode{4, 6.35},
                              SizeCode{5, 7.9375}, SizeCode{6, 12.7},  SizeCode{7, 19.05}};
-constexpr std::array kTips{SizeCode{1, 0.254},   SizeCode{2, 0.396875}, SizeCode{3, 0.7493}, SizeCode{4, 0.79375},
-                           SizeCode{5, 0.8509},  SizeCode{6, 0.89916},  SizeCode{7, 1.5875}, SizeCode{8, 3.175},
-                           SizeCode{9, 6.35}};
+constexpr std::array kTips{SizeCode{1, 0.254},   SizeCode{2, 0.396875}, SizeCode{3, 0.7493},
+                           SizeCode{4, 0.79375}, SizeCode{5, 0.8509},   SizeCode{6, 0.89916},
+                           SizeCode{7, 1.5875},  SizeCode{8, 3.175},    SizeCode{9, 6.35}};
 
 template <std::size_t N>
 std::optional<int> code_of(const std::array<SizeCode, N>& table, double size) {
@@ -48,7 +49,8 @@ int size_code(double size) {
   if (const auto code = code_of(kSizes, size)) return *code;
   if (std::abs(size - 8.0) <= kPrinted && std::abs(size - 7.9375) <= kEightMm + kPrinted) return 5;
   const double tenths = std::round(10.0 * size);
-  return std::abs(0.1 * tenths - size) <= 1e-6 && tenths >= 10.0 && tenths <= 99.0 ? static_cast<int>(tenths) : kOther;
+  return std::abs(0.1 * tenths - size) <= 1e-6 && tenths >= 10.0 && tenths <= 99.0 ? static_cast<int>(tenths)
+                                                                                   : kOther;
 }
 
 /// Whole degrees of two digits.
@@ -63,7 +65,9 @@ int flute_code(double flute, int otherwise) {
   return flute > kLongReach ? 8 : otherwise;
 }
 
-int number_of(int kind, int shape, int size, int flute) { return 100000 * kind + 1000 * shape + 10 * size + flute; }
+int number_of(int kind, int shape, int size, int flute) {
+  return 100000 * kind + 1000 * shape + 10 * size + flute;
+}
 
 struct Encoder {
   int number;  // the tool's own
@@ -93,7 +97,8 @@ struct Encoder {
     if (!angle || !tip || !size) return std::nullopt;
     return number_of(5, *angle, 10 * *tip + *size, flute_code(s.flute.mm(), 1));
   }
-  /// Radius and diameter as the catalogue has them: the body, and half of it; the tip's code in the last digit.
+  /// Radius and diameter as the catalogue has them: the body, and half of it; the tip's code in the last
+  /// digit.
   std::optional<int> operator()(const shape::Roundover& s) const {
     const double body = (s.tip_diameter + 2.0 * s.radius).mm();
     auto tip = code_of(kTips, s.tip_diameter.mm());
@@ -108,10 +113,13 @@ struct Encoder {
     return number_of(8, *angle, size_code(s.diameter.mm()), 1);
   }
   std::optional<int> operator()(const shape::Keyhole& s) const {
-    return number_of(9, size_code(s.diameter.mm()), size_code(s.neck_diameter.mm()), flute_code(s.head.mm(), 0));
+    return number_of(9, size_code(s.diameter.mm()), size_code(s.neck_diameter.mm()),
+                     flute_code(s.head.mm(), 0));
   }
   template <class Other>
-  std::optional<int> operator()(const Other&) const { return std::nullopt; }
+  std::optional<int> operator()(const Other&) const {
+    return std::nullopt;
+  }
 };
 
 /// The five digits after the kind, and what they say.
@@ -173,7 +181,8 @@ std::optional<ToolShape> Decoder::ball() {
   const auto diameter = length(size_, "diameter");
   if (!diameter) return std::nullopt;
   if (shape_ != size_) return no("has a ball whose two diameter codes differ");
-  const auto height = flute(flute_ == 9 ? std::optional(0.5 * *diameter) : std::nullopt, usual_flute(mm(*diameter)));
+  const auto height =
+      flute(flute_ == 9 ? std::optional(0.5 * *diameter) : std::nullopt, usual_flute(mm(*diameter)));
   if (!height || *height < 0.5 * *diameter) return no("has a ball higher than its flute");
   return shape::Ball{mm(*diameter), mm(*height)};
 }
@@ -191,7 +200,8 @@ std::optional<ToolShape> Decoder::vee() {
 std::optional<ToolShape> Decoder::tapered_ball() {
   const auto tip = size_of(kTips, size_ / 10);
   const auto diameter = size_of(kSizes, size_ % 10);
-  if (shape_ == 0 || !tip || !diameter || *tip >= *diameter) return no("has no tapered ball's angle, tip and diameter");
+  if (shape_ == 0 || !tip || !diameter || *tip >= *diameter)
+    return no("has no tapered ball's angle, tip and diameter");
   const auto height = flute(flute_ == 1 ? std::optional(0.0) : std::nullopt, Length());
   if (!height) return std::nullopt;
   return shape::TaperedBall{mm(*diameter), mm(*height), degrees(shape_), mm(*tip)};
@@ -244,13 +254,21 @@ std::optional<ToolShape> Decoder::shape() {
 
 }  // namespace
 
-std::optional<int> encode_tool_number(const Tool& tool) { return std::visit(Encoder{tool.number}, tool.shape); }
+std::optional<int> encode_tool_number(const Tool& tool) {
+  return std::visit(Encoder{tool.number}, tool.shape);
+}
 
 std::optional<ToolShape> decode_tool_number(int number, const Origin& where, Diagnostics& diagnostics) {
   Decoder decoder(number < 100000 || number > 999999 ? 0 : number);
   std::optional<ToolShape> shape = decoder.shape();
+  Diagnostics unheard;  // digits can each be right and not fit together
+  if (shape && !make_tool(number, *shape, {}, where, unheard)) {
+    shape.reset();
+    decoder.fault = "says sizes that do not fit together";
+  }
   if (!shape) {
-    diagnostics.error(Code::tool_number_unclear, where, fmt::format("tool number {} {}", number, decoder.fault));
+    diagnostics.error(Code::tool_number_unclear, where,
+                      fmt::format("tool number {} {}", number, decoder.fault));
   }
   return shape;
 }

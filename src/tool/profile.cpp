@@ -75,8 +75,6 @@ double Silhouette::max_radius() const {
   return std::max({cutting.max_radius(), neck.max_radius(), shank.max_radius(), holder.max_radius()});
 }
 
-double Silhouette::top() const {
-  return std::max({cutting.top(), neck.top(), shank.top(), holder.top()});
-}
+double Silhouette::top() const { return std::max({cutting.top(), neck.top(), shank.top(), holder.top()}); }
 
 }  // namespace kerf

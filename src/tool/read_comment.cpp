@@ -1,9 +1,9 @@
-// CutViewer's tool comments, read as they stand in real programs: odd spacing, two printed decimals, fields left 0.
+// CutViewer's tool comments, read as they stand in real programs: odd spacing, two printed decimals, fields
+// left 0.
 #include <array>
 #include <cmath>
-#include <numbers>
-
 #include <fmt/format.h>
+#include <numbers>
 
 #include "tool/silhouette.h"
 
@@ -14,9 +14,9 @@
 namespace kerf {
 namespace {
 
-constexpr double kPrinted = 0.01;            // mm: half of "3.17" is printed as "1.59"
-constexpr double kLargestRoundedTip = 0.2;   // mm: programs write a pointed V as a ball of 0.10 mm on a cone
-constexpr double kUsualVeeDiameter = 12.7;   // mm: where neither height nor diameter of a V is told
+constexpr double kPrinted = 0.01;           // mm: half of "3.17" is printed as "1.59"
+constexpr double kLargestRoundedTip = 0.2;  // mm: programs write a pointed V as a ball of 0.10 mm on a cone
+constexpr double kUsualVeeDiameter = 12.7;  // mm: where neither height nor diameter of a V is told
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 /// The numbers of a comment after its word.
@@ -38,10 +38,12 @@ class CommentReader {
     return std::nullopt;
   }
   std::nullopt_t unusable(const std::string& why) {
-    diagnostics_.warning(Code::tool_comment_unusable, where_, fmt::format("tool comment passed over: {}", why));
+    diagnostics_.warning(Code::tool_comment_unusable, where_,
+                         fmt::format("tool comment passed over: {}", why));
     return std::nullopt;
   }
-  /// Reads between `least` and `most` numbers, none negative but where `sign` allows it; false after an error.
+  /// Reads between `least` and `most` numbers, none negative but where `sign` allows it; false after an
+  /// error.
   bool numbers(std::string_view word, std::string_view list, std::size_t least, std::size_t most);
   double length(std::size_t i) const { return scale_ * fields_.values[i]; }
   double angle(std::size_t i) const { return fields_.values[i] * std::numbers::pi / 180.0; }
@@ -70,7 +72,8 @@ std::string_view next_field(std::string_view& list) {
   return field;
 }
 
-bool CommentReader::numbers(std::string_view word, std::string_view list, std::size_t least, std::size_t most) {
+bool CommentReader::numbers(std::string_view word, std::string_view list, std::size_t least,
+                            std::size_t most) {
   fields_ = {};
   while (!trim(list).empty() && fields_.count < most) {
     const std::string_view field = next_field(list);
@@ -90,7 +93,8 @@ bool CommentReader::numbers(std::string_view word, std::string_view list, std::s
 bool CommentReader::angle_fits(std::size_t i, double low, double high) {
   const double value = fields_.values[i];
   if (value > low && value < high) return true;
-  malformed(fmt::format("an angle of {} degrees; expected one between {} and {}", number_text(value, 4), low, high));
+  malformed(fmt::format("an angle of {} degrees; expected one between {} and {}", number_text(value, 4), low,
+                        high));
   return false;
 }
 
@@ -102,8 +106,9 @@ std::optional<ToolShape> CommentReader::mill(std::string_view list) {
   const double taper = angle(3);  // 0 where not given
   if (diameter < 0.0 || height < 0.0) return malformed("a negative diameter or height");
   if (corner < 0.0) {
-    return malformed("a ball whose control point is its centre (negative corner radius) is not supported; "
-                     "write the program for the tip and give the radius as positive");
+    return malformed(
+        "a ball whose control point is its centre (negative corner radius) is not supported; "
+        "write the program for the tip and give the radius as positive");
   }
   if (corner > 0.5 * diameter + kPrinted) {
     return unusable(fmt::format("a corner radius of {} mm is more than half the diameter of {} mm",
@@ -115,27 +120,33 @@ std::optional<ToolShape> CommentReader::mill(std::string_view list) {
   }
   if (diameter == 0.0) return unusable("a diameter of 0 and no taper");
   if (corner == 0.0) return shape::Square{mm(diameter), mm(height)};
-  if (corner >= 0.5 * diameter - std::min(kPrinted, 0.1 * diameter)) return shape::Ball{mm(diameter), mm(height)};
+  if (corner >= 0.5 * diameter - std::min(kPrinted, 0.1 * diameter))
+    return shape::Ball{mm(diameter), mm(height)};
   return shape::BullNose{mm(diameter), mm(height), mm(corner)};
 }
 
-/// The diameter is the one at the tip. A corner radius lies tangent between the tip's flat and the cone; at half the
-/// diameter that is a ball.
-std::optional<ToolShape> CommentReader::tapered_mill(double diameter, double corner, double height, double taper) {
+/// The diameter is the one at the tip. A corner radius lies tangent between the tip's flat and the cone; at
+/// half the diameter that is a ball.
+std::optional<ToolShape> CommentReader::tapered_mill(double diameter, double corner, double height,
+                                                     double taper) {
   const bool ball = corner > 0.0 && corner >= 0.5 * diameter - std::min(kPrinted, 0.1 * diameter);
   if (ball) corner = 0.5 * diameter;
   const double flat = 0.5 * diameter - corner;
   const double tangent_r = flat + corner * std::cos(taper);
   const double tangent_z = corner * (1.0 - std::sin(taper));
-  if (height == 0.0) height = tangent_z + std::max(0.5 * kUsualVeeDiameter - tangent_r, tangent_r) / std::tan(taper);
+  if (height == 0.0)
+    height = tangent_z + std::max(0.5 * kUsualVeeDiameter - tangent_r, tangent_r) / std::tan(taper);
   if (height <= tangent_z) return unusable("the height ends below the cone");
   const Length widest = mm(2.0 * (tangent_r + (height - tangent_z) * std::tan(taper)));
   const Angle included = radians(2.0 * taper);
   if (corner == 0.0) return shape::Vee{widest, mm(height), included, mm(diameter), Length()};
-  if (ball && diameter <= kLargestRoundedTip) return shape::Vee{widest, mm(height), included, Length(), mm(corner)};
+  if (ball && diameter <= kLargestRoundedTip)
+    return shape::Vee{widest, mm(height), included, Length(), mm(corner)};
   if (ball) return shape::TaperedBall{widest, mm(height), included, mm(diameter)};
   detail::Outline outline(0.0, 0.0);
-  outline.line_to(flat, 0.0).arc_to(tangent_r, tangent_z, kQuarter - taper).line_to(0.5 * widest.mm(), height);
+  outline.line_to(flat, 0.0)
+      .arc_to(tangent_r, tangent_z, kQuarter - taper)
+      .line_to(0.5 * widest.mm(), height);
   return shape::Drawn{outline.take()};
 }
 
@@ -144,13 +155,15 @@ std::optional<ToolShape> CommentReader::corner_mill(std::string_view list) {
   for (std::size_t i = 0; i < fields_.count; ++i) {
     if (fields_.values[i] < 0.0) return malformed("a negative number in TOOL/CRMILL");
   }
-  if (length(1) <= length(0) || length(2) == 0.0) return unusable("the second diameter is not larger than the first");
+  if (length(1) <= length(0) || length(2) == 0.0)
+    return unusable("the second diameter is not larger than the first");
   return shape::CornerRounding{mm(length(0)), mm(length(1)), mm(length(2)), mm(length(3)), mm(length(4))};
 }
 
 std::optional<ToolShape> CommentReader::chamfer(std::string_view list) {
   if (!numbers("CHAMFER", list, 3, 4) || !angle_fits(1, 0.0, 179.0)) return std::nullopt;
-  if (length(0) <= 0.0 || length(2) < 0.0 || length(3) < 0.0) return malformed("a diameter that is not above 0");
+  if (length(0) <= 0.0 || length(2) < 0.0 || length(3) < 0.0)
+    return malformed("a diameter that is not above 0");
   const double tip = length(0) - 2.0 * length(3) * std::tan(0.5 * angle(1));
   if (length(3) > 0.0 && tip < 0.0) return unusable("the chamfer is longer than its cone");
   return shape::Chamfer{mm(length(0)), mm(length(2)), radians(angle(1)), mm(length(3) > 0.0 ? tip : 0.0)};
@@ -163,22 +176,26 @@ std::optional<ToolShape> CommentReader::drill(std::string_view list) {
 }
 
 std::optional<ToolShape> CommentReader::centre_drill(std::string_view list) {
-  if (!numbers("CDRILL", list, 6, 6) || !angle_fits(1, 0.0, 179.0) || !angle_fits(4, 0.0, 179.0)) return std::nullopt;
+  if (!numbers("CDRILL", list, 6, 6) || !angle_fits(1, 0.0, 179.0) || !angle_fits(4, 0.0, 179.0))
+    return std::nullopt;
   if (length(0) <= 0.0 || length(2) <= 0.0 || length(3) <= 0.0 || length(5) < 0.0) {
     return malformed("a diameter or length that is not above 0");
   }
-  return shape::CentreDrill{mm(length(0)), mm(length(2)),      radians(angle(1)),
+  return shape::CentreDrill{mm(length(0)), mm(length(2)), radians(angle(1)),
                             mm(length(3)), mm(length(5)), radians(angle(4))};
 }
 
 std::optional<ToolShape> CommentReader::read() {
   std::string_view text = comment_;
-  while (!text.empty() && (text.front() == '(' || text.front() == ';' || static_cast<unsigned char>(text.front()) <= ' ')) {
+  while (!text.empty() &&
+         (text.front() == '(' || text.front() == ';' || static_cast<unsigned char>(text.front()) <= ' ')) {
     text.remove_prefix(1);
   }
-  while (!text.empty() && (text.back() == ')' || static_cast<unsigned char>(text.back()) <= ' ')) text.remove_suffix(1);
+  while (!text.empty() && (text.back() == ')' || static_cast<unsigned char>(text.back()) <= ' '))
+    text.remove_suffix(1);
   const std::size_t slash = text.find('/');
-  if (slash == std::string_view::npos || slash > 8 || fold_name(text.substr(0, slash)) != "tool") return std::nullopt;
+  if (slash == std::string_view::npos || slash > 8 || fold_name(text.substr(0, slash)) != "tool")
+    return std::nullopt;
   text.remove_prefix(slash + 1);
   const std::size_t comma = text.find(',');
   if (comma == std::string_view::npos || comma > 16) return std::nullopt;  // TOOL/ID=7, TOOL/Description=...

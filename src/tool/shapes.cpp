@@ -89,9 +89,9 @@ std::vector<Entry> plain_entries() {
       {"centre drill",
        CentreDrill{},
        {parameter<&CentreDrill::pilot_diameter>("pilot_diameter"),
-        parameter<&CentreDrill::pilot_length>("pilot_length"), parameter<&CentreDrill::pilot_angle>("pilot_angle"),
-        parameter<&CentreDrill::diameter>("diameter"), parameter<&CentreDrill::flute>("flute", kOptional),
-        parameter<&CentreDrill::body_angle>("angle")}},
+        parameter<&CentreDrill::pilot_length>("pilot_length"),
+        parameter<&CentreDrill::pilot_angle>("pilot_angle"), parameter<&CentreDrill::diameter>("diameter"),
+        parameter<&CentreDrill::flute>("flute", kOptional), parameter<&CentreDrill::body_angle>("angle")}},
       {"flat groove",
        FlatGroove{},
        {parameter<&FlatGroove::diameter>("diameter"), parameter<&FlatGroove::flute>("flute"),
@@ -99,7 +99,8 @@ std::vector<Entry> plain_entries() {
       {"chamfer",
        Chamfer{},
        {parameter<&Chamfer::diameter>("diameter"), parameter<&Chamfer::flute>("flute", kOptional),
-        parameter<&Chamfer::included_angle>("angle"), parameter<&Chamfer::tip_diameter>("tip_diameter", kOptional)}},
+        parameter<&Chamfer::included_angle>("angle"),
+        parameter<&Chamfer::tip_diameter>("tip_diameter", kOptional)}},
   };
 }
 
@@ -115,12 +116,13 @@ std::vector<Entry> undercut_entries() {
         parameter<&Dovetail::side_angle>("angle")}},
       {"roundover",
        Roundover{},
-       {parameter<&Roundover::tip_diameter>("tip_diameter", kOptional), parameter<&Roundover::radius>("radius"),
-        parameter<&Roundover::flute>("flute", kOptional)}},
+       {parameter<&Roundover::tip_diameter>("tip_diameter", kOptional),
+        parameter<&Roundover::radius>("radius"), parameter<&Roundover::flute>("flute", kOptional)}},
       {"thread mill",
        ThreadMill{},
        {parameter<&ThreadMill::minor_diameter>("minor_diameter"),
-        parameter<&ThreadMill::major_diameter>("major_diameter"), parameter<&ThreadMill::cut_height>("cut_height"),
+        parameter<&ThreadMill::major_diameter>("major_diameter"),
+        parameter<&ThreadMill::cut_height>("cut_height"),
         parameter<&ThreadMill::length>("length", kOptional)}},
       {"lollipop",
        Lollipop{},
@@ -156,17 +158,28 @@ struct OtherName {
   std::string_view other, name;  // folded
 };
 constexpr std::array kOtherNames{
-    OtherName{"flat", "square"},          OtherName{"endmill", "square"},
-    OtherName{"flatendmill", "square"},   OtherName{"squareendmill", "square"},
-    OtherName{"oflute", "square"},        OtherName{"ballnose", "ball"},
-    OtherName{"ballendmill", "ball"},     OtherName{"bull", "bullnose"},
-    OtherName{"bullnoseendmill", "bullnose"}, OtherName{"bowlandtray", "bowl"},
-    OtherName{"vee", "v"},                OtherName{"vbit", "v"},
-    OtherName{"vgroove", "v"},            OtherName{"taperedballnose", "taperedball"},
-    OtherName{"taperball", "taperedball"}, OtherName{"cove", "roundover"},
-    OtherName{"threadmilling", "threadmill"}, OtherName{"spotdrill", "drill"},
-    OtherName{"flatv", "flatgroove"},     OtherName{"flatvgroove", "flatgroove"},
-    OtherName{"chamfermill", "chamfer"},  OtherName{"cornerround", "cornerrounding"},
+    OtherName{"flat", "square"},
+    OtherName{"endmill", "square"},
+    OtherName{"flatendmill", "square"},
+    OtherName{"squareendmill", "square"},
+    OtherName{"oflute", "square"},
+    OtherName{"ballnose", "ball"},
+    OtherName{"ballendmill", "ball"},
+    OtherName{"bull", "bullnose"},
+    OtherName{"bullnoseendmill", "bullnose"},
+    OtherName{"bowlandtray", "bowl"},
+    OtherName{"vee", "v"},
+    OtherName{"vbit", "v"},
+    OtherName{"vgroove", "v"},
+    OtherName{"taperedballnose", "taperedball"},
+    OtherName{"taperball", "taperedball"},
+    OtherName{"cove", "roundover"},
+    OtherName{"threadmilling", "threadmill"},
+    OtherName{"spotdrill", "drill"},
+    OtherName{"flatv", "flatgroove"},
+    OtherName{"flatvgroove", "flatgroove"},
+    OtherName{"chamfermill", "chamfer"},
+    OtherName{"cornerround", "cornerrounding"},
     OtherName{"profile", "drawn"},
 };
 
@@ -177,9 +190,7 @@ constexpr double kPrintedDiameter = 0.02;  // mm: "3.17" and "0.80" are the 1/8"
 
 }  // namespace
 
-std::string_view name_of(const ToolShape& shape) {
-  return entries()[shape.index()].name;
-}
+std::string_view name_of(const ToolShape& shape) { return entries()[shape.index()].name; }
 
 const std::vector<ShapeParameter>& parameters_of(const ToolShape& shape) {
   return entries()[shape.index()].parameters;

@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-
 #include <fmt/format.h>
+#include <numbers>
 
 #include "kerf/number.h"
 
@@ -47,9 +46,11 @@ class Drawer {
   /// Keeps the first reason; true if `fits`.
   bool require(bool fits, const std::string& reason);
   void corner_mill(Length diameter, Length& flute, Length corner_radius);
-  /// Ball of `tip_radius` tangent to a cone of the half angle that reaches `radius`, then a cylinder to the flute.
+  /// Ball of `tip_radius` tangent to a cone of the half angle that reaches `radius`, then a cylinder to the
+  /// flute.
   void rounded_cone(double tip_radius, double half_angle, double radius, Length& flute);
-  /// A cone that goes on from the outline to `radius`, then a cylinder to the flute; flute 0 is the cone's end.
+  /// A cone that goes on from the outline to `radius`, then a cylinder to the flute; flute 0 is the cone's
+  /// end.
   void cone(Outline outline, double half_angle, double radius, Length& flute);
   /// From a head's end inwards to a neck: cutting up to `flute`, or not at all where that is not told.
   void necked(Outline head, Length neck_diameter, Length& flute);
@@ -73,8 +74,9 @@ void Drawer::operator()(shape::Square& s) {
 void Drawer::operator()(shape::Ball& s) {
   if (s.flute.mm() == 0.0) s.flute = usual_flute(s.diameter);
   const double radius = 0.5 * s.diameter.mm();
-  if (!require(s.flute.mm() >= radius, fmt::format("a ball of diameter {} needs a flute of at least {}, not {}",
-                                                   mm_text(2.0 * radius), mm_text(radius), mm_text(s.flute.mm())))) {
+  if (!require(s.flute.mm() >= radius,
+               fmt::format("a ball of diameter {} needs a flute of at least {}, not {}",
+                           mm_text(2.0 * radius), mm_text(radius), mm_text(s.flute.mm())))) {
     return;
   }
   Outline outline(0.0, 0.0);
@@ -112,8 +114,9 @@ void Drawer::cone(Outline outline, double half_angle, double radius, Length& flu
   } else {
     const double reached = start_r + (flute.mm() - start_z) * std::tan(half_angle);
     outline.line_to(reached, flute.mm());
-    result.warning = fmt::format("the flute of {} ends where the cone is {} wide; {} would need a flute of {}",
-                                 mm_text(flute.mm()), mm_text(2.0 * reached), mm_text(2.0 * radius), mm_text(end));
+    result.warning =
+        fmt::format("the flute of {} ends where the cone is {} wide; {} would need a flute of {}",
+                    mm_text(flute.mm()), mm_text(2.0 * reached), mm_text(2.0 * radius), mm_text(end));
   }
   keep(outline);
 }
@@ -133,14 +136,16 @@ void Drawer::rounded_cone(double tip_radius, double half_angle, double radius, L
 void Drawer::operator()(shape::Vee& s) {
   const double half_angle = 0.5 * s.included_angle.rad();
   if (s.tip_radius.mm() > 0.0) {
-    if (!require(s.tip_diameter.mm() == 0.0, "a V is either flat (tip_diameter) or rounded (tip_radius), not both")) {
+    if (!require(s.tip_diameter.mm() == 0.0,
+                 "a V is either flat (tip_diameter) or rounded (tip_radius), not both")) {
       return;
     }
     rounded_cone(s.tip_radius.mm(), half_angle, 0.5 * s.diameter.mm(), s.flute);
     return;
   }
-  if (!require(s.tip_diameter < s.diameter, fmt::format("the tip diameter of {} is not less than the diameter of {}",
-                                                        mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
+  if (!require(s.tip_diameter < s.diameter,
+               fmt::format("the tip diameter of {} is not less than the diameter of {}",
+                           mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
     return;
   }
   Outline outline(0.0, 0.0);
@@ -168,11 +173,10 @@ void Drawer::operator()(shape::Keyhole& s) {
   if (s.flute.mm() == 0.0) s.flute = 2.0 * s.head;
   const double radius = 0.5 * s.diameter.mm();
   const double neck = 0.5 * s.neck_diameter.mm();
-  const bool fits =
-      require(neck < radius, fmt::format("the neck of {} is not narrower than the head of {}", mm_text(2.0 * neck),
-                                         mm_text(2.0 * radius))) &&
-      require(s.flute >= s.head, fmt::format("the flute of {} ends within the head of {}", mm_text(s.flute.mm()),
-                                             mm_text(s.head.mm())));
+  const bool fits = require(neck < radius, fmt::format("the neck of {} is not narrower than the head of {}",
+                                                       mm_text(2.0 * neck), mm_text(2.0 * radius))) &&
+                    require(s.flute >= s.head, fmt::format("the flute of {} ends within the head of {}",
+                                                           mm_text(s.flute.mm()), mm_text(s.head.mm())));
   if (!fits) return;
   Outline outline(0.0, 0.0);
   outline.line_to(radius, 0.0).line_to(radius, s.head.mm());
@@ -211,10 +215,11 @@ void Drawer::operator()(shape::ThreadMill& s) {
   const double minor = 0.5 * s.minor_diameter.mm();
   const double major = 0.5 * s.major_diameter.mm();
   const double height = s.cut_height.mm();
-  const bool fits = require(minor < major, fmt::format("the minor diameter of {} is not less than the major one of {}",
-                                                       mm_text(2.0 * minor), mm_text(2.0 * major))) &&
-                    require(s.length >= s.cut_height, fmt::format("the length of {} is less than the cut height of {}",
-                                                                  mm_text(s.length.mm()), mm_text(height)));
+  const bool fits =
+      require(minor < major, fmt::format("the minor diameter of {} is not less than the major one of {}",
+                                         mm_text(2.0 * minor), mm_text(2.0 * major))) &&
+      require(s.length >= s.cut_height, fmt::format("the length of {} is less than the cut height of {}",
+                                                    mm_text(s.length.mm()), mm_text(height)));
   if (!fits) return;
   Outline outline(0.0, 0.0);
   outline.line_to(minor, 0.0).line_to(major, 0.5 * height).line_to(minor, height);
@@ -232,14 +237,15 @@ void Drawer::necked(Outline head, Length neck_diameter, Length& flute) {
   }
   if (flute.mm() > end) head.line_to(neck, end).line_to(neck, flute.mm());
   keep(head);
-  if (neck_length_ > 0.0) result.neck = Outline(neck, flute.mm()).line_to(neck, flute.mm() + neck_length_).take();
+  if (neck_length_ > 0.0)
+    result.neck = Outline(neck, flute.mm()).line_to(neck, flute.mm() + neck_length_).take();
 }
 
 void Drawer::operator()(shape::Lollipop& s) {
   const double radius = 0.5 * s.diameter.mm();
   const double neck = 0.5 * s.neck_diameter.mm();
-  if (!require(neck < radius, fmt::format("the neck of {} is not narrower than the ball of {}", mm_text(2.0 * neck),
-                                          mm_text(2.0 * radius)))) {
+  if (!require(neck < radius, fmt::format("the neck of {} is not narrower than the ball of {}",
+                                          mm_text(2.0 * neck), mm_text(2.0 * radius)))) {
     return;
   }
   Outline head(0.0, 0.0);
@@ -250,8 +256,9 @@ void Drawer::operator()(shape::Lollipop& s) {
 
 void Drawer::operator()(shape::TSlot& s) {
   const double radius = 0.5 * s.diameter.mm();
-  if (!require(s.neck_diameter < s.diameter, fmt::format("the neck of {} is not narrower than the disc of {}",
-                                                         mm_text(s.neck_diameter.mm()), mm_text(2.0 * radius)))) {
+  if (!require(s.neck_diameter < s.diameter,
+               fmt::format("the neck of {} is not narrower than the disc of {}",
+                           mm_text(s.neck_diameter.mm()), mm_text(2.0 * radius)))) {
     return;
   }
   Outline head(0.0, 0.0);
@@ -270,8 +277,9 @@ void Drawer::operator()(shape::CentreDrill& s) {
   const double pilot = 0.5 * s.pilot_diameter.mm();
   const double point = pilot / std::tan(0.5 * s.pilot_angle.rad());
   const bool fits =
-      require(s.pilot_diameter < s.diameter, fmt::format("the pilot of {} is not narrower than the diameter of {}",
-                                                         mm_text(2.0 * pilot), mm_text(s.diameter.mm()))) &&
+      require(s.pilot_diameter < s.diameter,
+              fmt::format("the pilot of {} is not narrower than the diameter of {}", mm_text(2.0 * pilot),
+                          mm_text(s.diameter.mm()))) &&
       require(s.pilot_length.mm() >= point, fmt::format("the pilot of {} is shorter than its point of {}",
                                                         mm_text(s.pilot_length.mm()), mm_text(point)));
   if (!fits) return;
@@ -281,8 +289,9 @@ void Drawer::operator()(shape::CentreDrill& s) {
 }
 
 void Drawer::operator()(shape::FlatGroove& s) {
-  if (!require(s.tip_diameter <= s.diameter, fmt::format("the tip diameter of {} is more than the diameter of {}",
-                                                         mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
+  if (!require(s.tip_diameter <= s.diameter,
+               fmt::format("the tip diameter of {} is more than the diameter of {}",
+                           mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
     return;
   }
   Outline outline(0.0, 0.0);
@@ -291,8 +300,9 @@ void Drawer::operator()(shape::FlatGroove& s) {
 }
 
 void Drawer::operator()(shape::Chamfer& s) {
-  if (!require(s.tip_diameter < s.diameter, fmt::format("the tip diameter of {} is not less than the diameter of {}",
-                                                        mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
+  if (!require(s.tip_diameter < s.diameter,
+               fmt::format("the tip diameter of {} is not less than the diameter of {}",
+                           mm_text(s.tip_diameter.mm()), mm_text(s.diameter.mm())))) {
     return;
   }
   Outline outline(0.0, 0.0);
@@ -313,8 +323,8 @@ void Drawer::operator()(shape::CornerRounding& s) {
   const double arc_z = std::sqrt((radius - left) * (radius + left));
   if (s.flute.mm() == 0.0) s.flute = std::max(s.height, mm(arc_z));
   const double top = std::max(s.flute, s.height).mm();
-  if (!require(top >= arc_z, fmt::format("the height of {} ends below the arc, which is {} high", mm_text(top),
-                                         mm_text(arc_z)))) {
+  if (!require(top >= arc_z, fmt::format("the height of {} ends below the arc, which is {} high",
+                                         mm_text(top), mm_text(arc_z)))) {
     return;
   }
   Outline outline(0.0, 0.0);
@@ -351,8 +361,8 @@ Cutting cutting_of(const ToolShape& shape, Length neck_length) {
 
 bool cuts_at_centre(const ToolShape& shape) {
   if (const auto* chamfer = std::get_if<shape::Chamfer>(&shape)) return chamfer->tip_diameter.mm() == 0.0;
-  return !std::holds_alternative<shape::Dovetail>(shape) && !std::holds_alternative<shape::ThreadMill>(shape) &&
-         !std::holds_alternative<shape::TSlot>(shape);
+  return !std::holds_alternative<shape::Dovetail>(shape) &&
+         !std::holds_alternative<shape::ThreadMill>(shape) && !std::holds_alternative<shape::TSlot>(shape);
 }
 
 }  // namespace kerf::detail

@@ -1,6 +1,5 @@
 // CutViewer's tool comments written, and the fields behind them.
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "tool/comment_fields.h"
@@ -24,7 +23,8 @@ double cone_height(const shape::Vee& v, double half_angle) {
 }  // namespace
 
 std::optional<MillFields> mill_fields(const ToolShape& shape) {
-  if (const auto* s = std::get_if<shape::Square>(&shape)) return MillFields{s->diameter.mm(), 0.0, s->flute.mm(), 0.0};
+  if (const auto* s = std::get_if<shape::Square>(&shape))
+    return MillFields{s->diameter.mm(), 0.0, s->flute.mm(), 0.0};
   if (const auto* s = std::get_if<shape::Ball>(&shape)) {
     return MillFields{s->diameter.mm(), 0.5 * s->diameter.mm(), s->flute.mm(), 0.0};
   }
@@ -40,7 +40,8 @@ std::optional<MillFields> mill_fields(const ToolShape& shape) {
     return MillFields{tip, s->tip_radius.mm(), cone_height(*s, half), half};
   }
   if (const auto* s = std::get_if<shape::TaperedBall>(&shape)) {
-    return MillFields{s->tip_diameter.mm(), 0.5 * s->tip_diameter.mm(), s->flute.mm(), 0.5 * s->included_angle.rad()};
+    return MillFields{s->tip_diameter.mm(), 0.5 * s->tip_diameter.mm(), s->flute.mm(),
+                      0.5 * s->included_angle.rad()};
   }
   if (const auto* s = std::get_if<shape::FlatGroove>(&shape)) {
     const double widening = 0.5 * (s->diameter - s->tip_diameter).mm();
@@ -51,11 +52,12 @@ std::optional<MillFields> mill_fields(const ToolShape& shape) {
 
 std::optional<CornerFields> corner_fields(const ToolShape& shape) {
   if (const auto* s = std::get_if<shape::Roundover>(&shape)) {
-    return CornerFields{s->tip_diameter.mm(), (s->tip_diameter + 2.0 * s->radius).mm(), s->radius.mm(), s->flute.mm(),
-                        s->flute.mm()};
+    return CornerFields{s->tip_diameter.mm(), (s->tip_diameter + 2.0 * s->radius).mm(), s->radius.mm(),
+                        s->flute.mm(), s->flute.mm()};
   }
   if (const auto* s = std::get_if<shape::CornerRounding>(&shape)) {
-    return CornerFields{s->tip_diameter.mm(), s->diameter.mm(), s->radius.mm(), s->height.mm(), s->flute.mm()};
+    return CornerFields{s->tip_diameter.mm(), s->diameter.mm(), s->radius.mm(), s->height.mm(),
+                        s->flute.mm()};
   }
   return std::nullopt;
 }
@@ -80,22 +82,23 @@ std::string degree_field(double value) { return field(value, 2); }
 
 std::optional<std::string> write_tool_comment(const ToolShape& shape) {
   if (const auto mill = detail::mill_fields(shape)) {
-    return fmt::format("TOOL/MILL, {}, {}, {}, {}", length_field(mill->diameter), length_field(mill->corner_radius),
-                       length_field(mill->height), degree_field(radians(mill->taper).deg()));
+    return fmt::format("TOOL/MILL, {}, {}, {}, {}", length_field(mill->diameter),
+                       length_field(mill->corner_radius), length_field(mill->height),
+                       degree_field(radians(mill->taper).deg()));
   }
   if (const auto corner = detail::corner_fields(shape)) {
     return fmt::format("TOOL/CRMILL, {}, {}, {}, {}, {}", length_field(corner->tip_diameter),
-                       length_field(corner->diameter), length_field(corner->radius), length_field(corner->height),
-                       length_field(corner->length));
+                       length_field(corner->diameter), length_field(corner->radius),
+                       length_field(corner->height), length_field(corner->length));
   }
   if (const auto* s = std::get_if<shape::Drill>(&shape)) {
-    return fmt::format("TOOL/DRILL, {}, {}, {}", length_field(s->diameter), degree_field(s->point_angle.deg()),
-                       length_field(s->flute));
+    return fmt::format("TOOL/DRILL, {}, {}, {}", length_field(s->diameter),
+                       degree_field(s->point_angle.deg()), length_field(s->flute));
   }
   if (const auto* s = std::get_if<shape::CentreDrill>(&shape)) {
     return fmt::format("TOOL/CDRILL, {}, {}, {}, {}, {}, {}", length_field(s->pilot_diameter),
-                       degree_field(s->pilot_angle.deg()), length_field(s->pilot_length), length_field(s->diameter),
-                       degree_field(s->body_angle.deg()), length_field(s->flute));
+                       degree_field(s->pilot_angle.deg()), length_field(s->pilot_length),
+                       length_field(s->diameter), degree_field(s->body_angle.deg()), length_field(s->flute));
   }
   if (const auto* s = std::get_if<shape::Chamfer>(&shape)) {
     std::string text = fmt::format("TOOL/CHAMFER, {}, {}, {}", length_field(s->diameter),

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "kerf/names.h"
@@ -19,21 +18,33 @@ struct BodyKey {
   Length ToolBody::*member;
 };
 constexpr std::array kBodyKeys{
-    BodyKey{"neck_diameter", &ToolBody::neck_diameter},     BodyKey{"neck_length", &ToolBody::neck_length},
-    BodyKey{"shank_diameter", &ToolBody::shank_diameter},   BodyKey{"shank_length", &ToolBody::shank_length},
-    BodyKey{"holder_diameter", &ToolBody::holder_diameter}, BodyKey{"holder_length", &ToolBody::holder_length},
+    BodyKey{"neck_diameter", &ToolBody::neck_diameter},
+    BodyKey{"neck_length", &ToolBody::neck_length},
+    BodyKey{"shank_diameter", &ToolBody::shank_diameter},
+    BodyKey{"shank_length", &ToolBody::shank_length},
+    BodyKey{"holder_diameter", &ToolBody::holder_diameter},
+    BodyKey{"holder_length", &ToolBody::holder_length},
 };
 
 struct ShortKey {
   std::string_view shorter, key;
 };
 constexpr std::array kShortKeys{
-    ShortKey{"d", "diameter"},         ShortKey{"dia", "diameter"},   ShortKey{"r", "corner_radius"},
-    ShortKey{"r", "radius"},           ShortKey{"r", "tip_radius"},   ShortKey{"a", "angle"},
-    ShortKey{"tip", "tip_diameter"},   ShortKey{"neck", "neck_diameter"},
-    ShortKey{"shank", "shank_diameter"}, ShortKey{"shaft", "shank_diameter"},
-    ShortKey{"holder", "holder_diameter"}, ShortKey{"pitch", "cut_height"},
-    ShortKey{"included_angle", "angle"}, ShortKey{"point_angle", "angle"}, ShortKey{"side_angle", "angle"},
+    ShortKey{"d", "diameter"},
+    ShortKey{"dia", "diameter"},
+    ShortKey{"r", "corner_radius"},
+    ShortKey{"r", "radius"},
+    ShortKey{"r", "tip_radius"},
+    ShortKey{"a", "angle"},
+    ShortKey{"tip", "tip_diameter"},
+    ShortKey{"neck", "neck_diameter"},
+    ShortKey{"shank", "shank_diameter"},
+    ShortKey{"shaft", "shank_diameter"},
+    ShortKey{"holder", "holder_diameter"},
+    ShortKey{"pitch", "cut_height"},
+    ShortKey{"included_angle", "angle"},
+    ShortKey{"point_angle", "angle"},
+    ShortKey{"side_angle", "angle"},
 };
 constexpr std::array<std::string_view, 3> kTextKeys{"name", "description", "transition"};
 
@@ -52,7 +63,8 @@ class SettingReader {
   void unknown(const Setting& setting);
   void wrong(const Setting& setting, std::string_view expected) {
     fine_ = false;
-    diagnostics_.error(Code::tool_value_type, setting.where, fmt::format("{} must be {}", setting.key, expected));
+    diagnostics_.error(Code::tool_value_type, setting.where,
+                       fmt::format("{} must be {}", setting.key, expected));
   }
   /// The key in full: "d" is the diameter, "r" whichever radius the shape has.
   std::string full_key(const std::string& key) const;
@@ -96,7 +108,8 @@ std::optional<double> SettingReader::number(const Setting& setting, ShapeParamet
   if (const auto* value = std::get_if<double>(&setting.value)) return is_length ? scale_ * *value : *value;
   if (const auto* text = std::get_if<std::string>(&setting.value)) {
     std::string_view angle = trim(*text);
-    if (angle.size() > 3 && angle.substr(angle.size() - 3) == "deg") angle = trim(angle.substr(0, angle.size() - 3));
+    if (angle.size() > 3 && angle.substr(angle.size() - 3) == "deg")
+      angle = trim(angle.substr(0, angle.size() - 3));
     const auto value = is_length ? parse_length(*text, scale_) : parse_number(angle);
     if (value) return value;
   }
@@ -140,9 +153,12 @@ bool SettingReader::read_rest(const Setting& setting) {
   }
   const auto* text = std::get_if<std::string>(&setting.value);
   if (setting.key == "plunges") {
-    if (const auto* value = std::get_if<bool>(&setting.value)) plunges_ = *value;
-    else if (text != nullptr && (*text == "true" || *text == "false")) plunges_ = *text == "true";
-    else wrong(setting, "true or false");
+    if (const auto* value = std::get_if<bool>(&setting.value))
+      plunges_ = *value;
+    else if (text != nullptr && (*text == "true" || *text == "false"))
+      plunges_ = *text == "true";
+    else
+      wrong(setting, "true or false");
     return true;
   }
   bool known = false;
@@ -190,7 +206,8 @@ void SettingReader::read(const Setting& told) {
 
 std::optional<Tool> SettingReader::make() {
   if (!fine_) return std::nullopt;
-  if (body_.shank_diameter.mm() != 0.0 && body_.shank_length.mm() == 0.0) body_.shank_length = mm(kUsualShankLength);
+  if (body_.shank_diameter.mm() != 0.0 && body_.shank_length.mm() == 0.0)
+    body_.shank_length = mm(kUsualShankLength);
   std::optional<Tool> tool = make_tool(0, shape_, body_, where_, diagnostics_);
   if (!tool) return std::nullopt;
   tool->names = std::move(names_);
@@ -222,7 +239,8 @@ std::optional<double> parse_length(std::string_view text, double scale) {
   }
   const std::size_t slash = text.find('/');
   const auto over = parse_number(trim(text.substr(0, slash)));
-  const auto under = slash == std::string_view::npos ? std::optional(1.0) : parse_number(trim(text.substr(slash + 1)));
+  const auto under =
+      slash == std::string_view::npos ? std::optional(1.0) : parse_number(trim(text.substr(slash + 1)));
   if (!over || !under || *under == 0.0) return std::nullopt;
   const double value = *over / *under * scale;
   return std::isfinite(value) ? std::optional(value) : std::nullopt;

@@ -25,7 +25,8 @@ std::optional<double> parse_length(std::string_view text, double scale);
 
 /// The blank shape of a name. Unknown names are an error with a hint.
 std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where, Diagnostics& diagnostics);
-/// Makes a tool of a blank shape and its settings; lengths are mm times `scale`. Every wrong setting is reported.
+/// Makes a tool of a blank shape and its settings; lengths are mm times `scale`. Every wrong setting is
+/// reported.
 std::optional<Tool> tool_of(const ToolShape& blank, const std::vector<Setting>& settings, double scale,
                             const Origin& where, Diagnostics& diagnostics);
 

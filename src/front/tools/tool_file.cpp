@@ -4,12 +4,10 @@
 #undef TOML_SHARED_LIB
 #define TOML_HEADER_ONLY 1
 #define TOML_EXCEPTIONS 0
-#include <toml++/toml.h>
-
 #include <cassert>
-#include <map>
-
 #include <fmt/format.h>
+#include <map>
+#include <toml++/toml.h>
 
 #include "front/tools/built_in_text.h"
 #include "front/tools/settings.h"
@@ -35,7 +33,9 @@ class FileReader {
  private:
   Origin spot(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
   Origin spot(const toml::node& node) const { return spot(node.source().begin); }
-  void error(Code code, const Origin& where, const std::string& message) { diagnostics_.error(code, where, message); }
+  void error(Code code, const Origin& where, const std::string& message) {
+    diagnostics_.error(code, where, message);
+  }
 
   void read_root(const toml::table& root);
   void read_tool(const toml::table& tool);
@@ -106,8 +106,10 @@ std::vector<std::string> FileReader::read_names(const toml::table& tool) {
   if (list == nullptr) error(Code::tool_value_type, spot(*node), "names must be a list of texts");
   if (list == nullptr) return names;
   for (const toml::node& element : *list) {
-    if (const auto name = element.value_exact<std::string>()) names.push_back(*name);
-    else error(Code::tool_value_type, spot(element), "a name must be a text in quotes");
+    if (const auto name = element.value_exact<std::string>())
+      names.push_back(*name);
+    else
+      error(Code::tool_value_type, spot(element), "a name must be a text in quotes");
   }
   return names;
 }
@@ -151,7 +153,8 @@ std::optional<detail::Setting> FileReader::read_setting(const toml::key& key, co
     if (!profile) return std::nullopt;
     setting.value = std::move(*profile);
   } else {
-    error(Code::tool_value_type, spot(node), fmt::format("{} must be a number or a text", setting.key.substr(0, 40)));
+    error(Code::tool_value_type, spot(node),
+          fmt::format("{} must be a number or a text", setting.key.substr(0, 40)));
     return std::nullopt;
   }
   return setting;
@@ -169,7 +172,8 @@ void FileReader::read_tool(const toml::table& table) {
     if (auto setting = read_setting(key, node)) settings.push_back(std::move(*setting));
   }
   const toml::node* shape = table.get("shape");
-  if (shape == nullptr) return error(Code::tool_key_missing, where, "a tool needs its shape, such as shape = \"square\"");
+  if (shape == nullptr)
+    return error(Code::tool_key_missing, where, "a tool needs its shape, such as shape = \"square\"");
   const auto shape_name = shape->value_exact<std::string_view>();
   if (!shape_name) return error(Code::tool_value_type, spot(*shape), "shape must be a text in quotes");
   const auto blank = detail::blank_shape(*shape_name, spot(*shape), diagnostics_);
@@ -201,19 +205,23 @@ void FileReader::read_root(const toml::table& root) {
   for (const auto& [key, node] : root) {
     if (key.str() == "unit") continue;
     if (key.str() != "tool") {
-      Diagnostic& unknown = diagnostics_.error(Code::tool_key_unknown, spot(key.source().begin),
-                                               fmt::format("a tool file has no \"{}\"", key.str().substr(0, 40)));
+      Diagnostic& unknown =
+          diagnostics_.error(Code::tool_key_unknown, spot(key.source().begin),
+                             fmt::format("a tool file has no \"{}\"", key.str().substr(0, 40)));
       const auto meant = did_you_mean(key.str(), {"tool", "unit"});
       unknown.hint = meant ? fmt::format("did you mean {}?", *meant == "tool" ? "[[tool]]" : *meant)
                            : "a tool file has unit = \"mm\" and [[tool]] tables";
       continue;
     }
     const toml::array* tools = node.as_array();
-    if (tools == nullptr) error(Code::tool_value_type, spot(node), "tool must be written [[tool]], one table a tool");
+    if (tools == nullptr)
+      error(Code::tool_value_type, spot(node), "tool must be written [[tool]], one table a tool");
     if (tools == nullptr) continue;
     for (const toml::node& tool : *tools) {
-      if (const toml::table* table = tool.as_table()) read_tool(*table);
-      else error(Code::tool_value_type, spot(tool), "tool must be written [[tool]], one table a tool");
+      if (const toml::table* table = tool.as_table())
+        read_tool(*table);
+      else
+        error(Code::tool_value_type, spot(tool), "tool must be written [[tool]], one table a tool");
     }
   }
 }
@@ -230,7 +238,8 @@ void FileReader::read(std::string_view text) {
 
 }  // namespace
 
-void read_tool_file(std::string_view text, std::string_view file_name, ToolTable& table, Diagnostics& diagnostics) {
+void read_tool_file(std::string_view text, std::string_view file_name, ToolTable& table,
+                    Diagnostics& diagnostics) {
   FileReader(file_name, table, diagnostics).read(text);
 }
 

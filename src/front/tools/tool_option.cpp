@@ -25,8 +25,12 @@ Origin spot(std::uint32_t column) { return TextSpot{"tool option", 1, column}; }
 std::vector<Word> words_of(std::string_view text) {
   std::vector<Word> words;
   std::size_t at = 0;
-  const auto blank = [&](std::size_t i) { return static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ','; };
-  const auto skip = [&] { while (at < text.size() && blank(at)) ++at; };
+  const auto blank = [&](std::size_t i) {
+    return static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ',';
+  };
+  const auto skip = [&] {
+    while (at < text.size() && blank(at)) ++at;
+  };
   for (skip(); at < text.size(); skip()) {
     const std::size_t start = at;
     while (at < text.size() && !blank(at)) {
@@ -57,8 +61,10 @@ std::optional<Tool> tool_of_number(int number, Diagnostics& diagnostics) {
   }
   std::vector<std::string> numbers;
   for (const auto& [known, tool] : built_in_tools().tools()) numbers.push_back(std::to_string(known));
-  Diagnostic& error = diagnostics.error(Code::tool_unknown, spot(1), fmt::format("no tool {} is known", number));
-  if (const auto meant = did_you_mean(std::to_string(number), numbers)) error.hint = fmt::format("did you mean {}?", *meant);
+  Diagnostic& error =
+      diagnostics.error(Code::tool_unknown, spot(1), fmt::format("no tool {} is known", number));
+  if (const auto meant = did_you_mean(std::to_string(number), numbers))
+    error.hint = fmt::format("did you mean {}?", *meant);
   return std::nullopt;
 }
 

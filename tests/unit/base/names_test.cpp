@@ -1,7 +1,7 @@
 // Names compare without regard to case, spaces and hyphens.
-#include <gtest/gtest.h>
-
 #include "kerf/names.h"
+
+#include <gtest/gtest.h>
 
 namespace kerf {
 namespace {

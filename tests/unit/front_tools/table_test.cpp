@@ -1,12 +1,11 @@
-// The built-in table: complete, valid, consistent with the number scheme, and equal to the given exact profiles.
-#include <gtest/gtest.h>
-
+// The built-in table: complete, valid, consistent with the number scheme, and equal to the given exact
+// profiles.
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
-
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "kerf/tool_files.h"
 
@@ -23,7 +22,8 @@ const Tool& tool(int number) {
 TEST(BuiltInTools, TheFileHasNoFault) {
   ToolTable table;
   Diagnostics diagnostics;
-  std::ifstream file(std::filesystem::path(KERF_TEST_DATA).parent_path().parent_path() / "data" / "tools.toml");
+  std::ifstream file(std::filesystem::path(KERF_TEST_DATA).parent_path().parent_path() / "data" /
+                     "tools.toml");
   ASSERT_TRUE(file);
   std::stringstream text;
   text << file.rdbuf();
@@ -35,12 +35,14 @@ TEST(BuiltInTools, TheFileHasNoFault) {
 
 TEST(BuiltInTools, EveryNumberIsThere) {
   for (const int number :
-       {102, 100036, 201, 100047, 112, 100024, 122, 100012, 324, 205, 100048, 282, 100204, 274, 278, 202, 204047, 101,
-        203036, 111, 202024, 121, 201012, 325, 204048, 301, 390074, 302, 360071, 390, 390032, 327, 360098, 323, 330041,
-        374, 906043, 375, 906053, 376, 907040, 378, 907050, 45981, 445981, 45982, 445982, 1370, 401370, 1372, 401372, 501,
-        530131, 502, 540131, 56125, 603042, 56142, 602032, 814, 814071, 808079, 808071, 45828, 204, 304, 312, 1568, 603032,
-        1570, 600002, 1572, 604042, 1574, 600062, 13921, 648, 602, 603, 326, 251, 322, 690, 211, 213, 214, 100058, 212,
-        205058, 311, 390121, 360121}) {
+       {102,    100036, 201,    100047, 112,    100024, 122,    100012, 324,    205,   100048, 282,
+        100204, 274,    278,    202,    204047, 101,    203036, 111,    202024, 121,   201012, 325,
+        204048, 301,    390074, 302,    360071, 390,    390032, 327,    360098, 323,   330041, 374,
+        906043, 375,    906053, 376,    907040, 378,    907050, 45981,  445981, 45982, 445982, 1370,
+        401370, 1372,   401372, 501,    530131, 502,    540131, 56125,  603042, 56142, 602032, 814,
+        814071, 808079, 808071, 45828,  204,    304,    312,    1568,   603032, 1570,  600002, 1572,
+        604042, 1574,   600062, 13921,  648,    602,    603,    326,    251,    322,   690,    211,
+        213,    214,    100058, 212,    205058, 311,    390121, 360121}) {
     EXPECT_NE(built_in_tools().find(number), nullptr) << number;
   }
 }
@@ -64,7 +66,8 @@ TEST(BuiltInTools, SixDigitNumbersAreThoseOfTheScheme) {
   for (const auto& [number, t] : built_in_tools().tools()) {
     const auto generated = encode_tool_number(t);
     if (!generated) continue;
-    const bool other = *generated / 10 % 100 == 9;  // "above an inch or other": no tool needs to stand under it
+    const bool other =
+        *generated / 10 % 100 == 9;  // "above an inch or other": no tool needs to stand under it
     if (other && built_in_tools().find(*generated) == nullptr) continue;
     const Tool& plain = tool(*generated);
     EXPECT_EQ(encode_tool_number(plain), generated) << number;
@@ -125,7 +128,8 @@ std::vector<Segment> segments_of(const nlohmann::json& profile) {
 }
 
 /// Checks a cutting part against the given one, knot by knot.
-void expect_profile(const Profile& ours, const nlohmann::json& given, double within, const std::string& what) {
+void expect_profile(const Profile& ours, const nlohmann::json& given, double within,
+                    const std::string& what) {
   const std::vector<Segment> segments = segments_of(given["profile_rz"]);
   ASSERT_EQ(ours.knots.size(), segments.size() + 1) << what;
   for (std::size_t i = 0; i < segments.size(); ++i) {
@@ -160,7 +164,8 @@ TEST(BuiltInTools, EqualTheGivenExactProfiles) {
     EXPECT_EQ(again->index(), shape->index()) << number;
     for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
       const double z = share * std::min(told->flute, known.flute).mm();
-      EXPECT_NEAR(told->silhouette.cutting.radius_at(z), known.silhouette.cutting.radius_at(z), 5e-5) << comment;
+      EXPECT_NEAR(told->silhouette.cutting.radius_at(z), known.silhouette.cutting.radius_at(z), 5e-5)
+          << comment;
     }
   }
 }

@@ -85,7 +85,8 @@ TEST(ToolFile, UnknownKeysAreErrorsWithAGuess) {
   const File root = read("[[tools]]\nnumber = 2\n");
   EXPECT_EQ(first_code(root), Code::tool_key_unknown);
   EXPECT_EQ(root.diagnostics.list()[0].hint, "did you mean [[tool]]?");
-  EXPECT_EQ(first_code(read("[[tool]]\nnumber=2\nshape=\"square\"\ndiameter=2\nangle=3\n")), Code::tool_key_unknown);
+  EXPECT_EQ(first_code(read("[[tool]]\nnumber=2\nshape=\"square\"\ndiameter=2\nangle=3\n")),
+            Code::tool_key_unknown);
 }
 
 TEST(ToolFile, UnknownShapesAreErrorsWithAGuess) {
@@ -95,21 +96,27 @@ TEST(ToolFile, UnknownShapesAreErrorsWithAGuess) {
 }
 
 TEST(ToolFile, WrongKindsOfValues) {
-  for (const char* text :
-       {"tool = 3", "tool = [1, 2]", "unit = \"parsec\"", "unit = 3", "[[tool]]\nnumber = -1\nshape=\"square\"\ndiameter=1",
-        "[[tool]]\nnumber = 1.5\nshape=\"square\"\ndiameter=1", "[[tool]]\nnumbers = [\"a\"]\nshape=\"square\"\ndiameter=1",
-        "[[tool]]\nnumber = 1\nshape = 3", "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = \"wide\"",
-        "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = true", "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = {a=1}",
-        "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\nteeth = 2.5",
-        "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\nplunges = 1",
-        "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\ndescription = 1",
-        "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\ntransition = \"x\"",
-        "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\nd = 2",
-        "[[tool]]\nnumber = 1\nnames=3\nshape=\"square\"\ndiameter = 1",
-        "[[tool]]\nnumber = 1\nnames=[3]\nshape=\"square\"\ndiameter = 1",
-        "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = [[0, 0], [1]]",
-        "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = [[0, 0], [1, true]]",
-        "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = 3"}) {
+  for (const char* text : {"tool = 3",
+                           "tool = [1, 2]",
+                           "unit = \"parsec\"",
+                           "unit = 3",
+                           "[[tool]]\nnumber = -1\nshape=\"square\"\ndiameter=1",
+                           "[[tool]]\nnumber = 1.5\nshape=\"square\"\ndiameter=1",
+                           "[[tool]]\nnumbers = [\"a\"]\nshape=\"square\"\ndiameter=1",
+                           "[[tool]]\nnumber = 1\nshape = 3",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = \"wide\"",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = true",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = {a=1}",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\nteeth = 2.5",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\nplunges = 1",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\ndescription = 1",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\ntransition = \"x\"",
+                           "[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = 1\nd = 2",
+                           "[[tool]]\nnumber = 1\nnames=3\nshape=\"square\"\ndiameter = 1",
+                           "[[tool]]\nnumber = 1\nnames=[3]\nshape=\"square\"\ndiameter = 1",
+                           "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = [[0, 0], [1]]",
+                           "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = [[0, 0], [1, true]]",
+                           "[[tool]]\nnumber = 1\nshape=\"drawn\"\nprofile = 3"}) {
     const File file = read(text);
     EXPECT_EQ(first_code(file), Code::tool_value_type) << text << first(file);
     EXPECT_TRUE(file.table.tools().empty()) << text;
@@ -125,7 +132,8 @@ TEST(ToolFile, MissingNumbersAndShapes) {
 
 TEST(ToolFile, NotFiniteNumbersAreRefused) {
   for (const char* value : {"nan", "inf", "-inf", "1e308", "-3", "0"}) {
-    const File file = read(std::string("unit=\"inch\"\n[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = ") + value);
+    const File file =
+        read(std::string("unit=\"inch\"\n[[tool]]\nnumber = 1\nshape=\"square\"\ndiameter = ") + value);
     EXPECT_EQ(first_code(file), Code::tool_measure_bad) << value;
   }
 }

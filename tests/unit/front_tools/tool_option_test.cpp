@@ -9,7 +9,8 @@ namespace {
 Tool read(std::string_view text) {
   Diagnostics diagnostics;
   auto tool = read_tool_option(text, diagnostics);
-  for (const Diagnostic& diagnostic : diagnostics.list()) ADD_FAILURE() << text << ": " << to_string(diagnostic);
+  for (const Diagnostic& diagnostic : diagnostics.list())
+    ADD_FAILURE() << text << ": " << to_string(diagnostic);
   EXPECT_TRUE(tool) << text;
   return tool.value_or(Tool{});
 }
@@ -66,8 +67,8 @@ TEST(ToolOption, AllFaultsAtOnceWithTheirColumns) {
 }
 
 TEST(ToolOption, OddTextsEndInAnError) {
-  for (const char* text : {"", "=", "==", "square d=", "d=3", ",,,", "square d=1/0", "square d=nan", "square d=1e999", "-5",
-                           "999999999999", "square d=-1", "square d==3"}) {
+  for (const char* text : {"", "=", "==", "square d=", "d=3", ",,,", "square d=1/0", "square d=nan",
+                           "square d=1e999", "-5", "999999999999", "square d=-1", "square d==3"}) {
     faults(text);
   }
   faults("square d=" + std::string(10000, '1'));

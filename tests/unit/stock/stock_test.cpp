@@ -1,7 +1,7 @@
 // Stock from names, cuts and comments.
-#include <gtest/gtest.h>
-
 #include "kerf/stock.h"
+
+#include <gtest/gtest.h>
 
 namespace kerf {
 namespace {
@@ -65,7 +65,8 @@ Told told(std::initializer_list<std::string_view> comments, double scale = 1.0) 
 
 TEST(StockComments, AllSpacings) {
   const Point3 low{-109.5, -75, -8.35}, high{109.5, 75, 0};
-  for (const auto& comments : {std::initializer_list<std::string_view>{"stockMin: -109.5, -75mm, -8.35mm", "stockMax:109.5mm, 75mm, 0.00mm"},
+  for (const auto& comments : {std::initializer_list<std::string_view>{"stockMin: -109.5, -75mm, -8.35mm",
+                                                                       "stockMax:109.5mm, 75mm, 0.00mm"},
                                {"(stockMin:-109.5mm,-75mm,-8.35mm)", "(stockMax:  109.5 mm , 75 mm , 0 mm )"},
                                {"STOCK/BLOCK, 219, 150, 8.35, 109.5, 75, 8.35"},
                                {"(STOCK/BLOCK,219.00, 150.00, 8.35,109.50, 75.00, 8.35)"},
@@ -78,13 +79,15 @@ TEST(StockComments, AllSpacings) {
 
 TEST(StockComments, InchesScaleAndUnitsHold) {
   expect_box(told({"STOCK/BLOCK, 4, 2, 1, 0, 0, 1"}, 25.4).stock, {0, 0, -25.4}, {101.6, 50.8, 0});
-  expect_box(told({"stockMin:0mm, 0mm, -10mm", "stockMax:1in, 50mm, 0mm"}, 25.4).stock, {0, 0, -10}, {25.4, 50, 0});
+  expect_box(told({"stockMin:0mm, 0mm, -10mm", "stockMax:1in, 50mm, 0mm"}, 25.4).stock, {0, 0, -10},
+             {25.4, 50, 0});
 }
 
 TEST(StockComments, OtherCommentsAreNotOfTheStock) {
   StockComments reader;
   Diagnostics diagnostics;
-  for (const char* comment : {"", "stock is oak", "TOOL/MILL, 1, 2, 3, 4", "Stock: 3", "STOCK/CYLINDER, 1, 2, 3, 4, 5, 6"}) {
+  for (const char* comment :
+       {"", "stock is oak", "TOOL/MILL, 1, 2, 3, 4", "Stock: 3", "STOCK/CYLINDER, 1, 2, 3, 4, 5, 6"}) {
     EXPECT_FALSE(reader.read(comment, 1.0, {}, diagnostics)) << comment;
   }
   EXPECT_TRUE(diagnostics.list().empty());
@@ -92,8 +95,9 @@ TEST(StockComments, OtherCommentsAreNotOfTheStock) {
 }
 
 TEST(StockComments, MalformedOnesAreErrors) {
-  for (const char* comment : {"stockMin:", "stockMin:1,2", "stockMin:1,2,3,4", "stockMax: a, b, c", "STOCK/BLOCK, 1, 2, 3",
-                              "STOCK/BLOCK, 1, 2, 3, 4, 5, 6, 7", "stockMin: nan, 0, 0", "stockMin: 1e300, 0, 0"}) {
+  for (const char* comment :
+       {"stockMin:", "stockMin:1,2", "stockMin:1,2,3,4", "stockMax: a, b, c", "STOCK/BLOCK, 1, 2, 3",
+        "STOCK/BLOCK, 1, 2, 3, 4, 5, 6, 7", "stockMin: nan, 0, 0", "stockMin: 1e300, 0, 0"}) {
     const Told found = told({comment});
     ASSERT_EQ(found.diagnostics.errors(), 1u) << comment;
     EXPECT_EQ(found.diagnostics.list()[0].code, Code::stock_comment_malformed) << comment;
@@ -112,7 +116,8 @@ TEST(StockComments, AStockMaxBelowStockMinLeavesTheBlock) {
 }
 
 TEST(StockComments, ContradictionsAreWarned) {
-  const Told found = told({"stockMin:0, 0, -10", "stockMax:100, 60, 0", "STOCK/BLOCK, 100, 60, 12, 0, 0, 12"});
+  const Told found =
+      told({"stockMin:0, 0, -10", "stockMax:100, 60, 0", "STOCK/BLOCK, 100, 60, 12, 0, 0, 12"});
   EXPECT_EQ(found.diagnostics.list().at(0).code, Code::stock_comments_differ);
   expect_box(found.stock, {0, 0, -10}, {100, 60, 0});
 }

@@ -1,7 +1,6 @@
 // Tool comments as real programs write them, their writing, and the choice between comment and table.
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "kerf/tool.h"
 
@@ -45,8 +44,9 @@ TEST(ReadToolComment, Mills) {
 }
 
 TEST(ReadToolComment, OddSpacingAndLeadingCharacters) {
-  for (const char* comment : {"(TOOL/MILL, 3.17, 0.00, 0.00, 0.00)", ";TOOL/MILL,3.17,0,0", " tool / mill ,3.17 , 0 ,0 , 0 ",
-                              "TOOL/MILL,3.17,0.00,0.00,0.00, COLOR,255,0,0"}) {
+  for (const char* comment :
+       {"(TOOL/MILL, 3.17, 0.00, 0.00, 0.00)", ";TOOL/MILL,3.17,0,0", " tool / mill ,3.17 , 0 ,0 , 0 ",
+        "TOOL/MILL,3.17,0.00,0.00,0.00, COLOR,255,0,0"}) {
     EXPECT_EQ(as<shape::Square>(read(comment)).diameter, mm(3.17)) << comment;
   }
 }
@@ -96,17 +96,19 @@ TEST(ReadToolComment, InchProgramsScaleLengthsOnly) {
 }
 
 TEST(ReadToolComment, CommentsWithoutAShapeAreSilent) {
-  for (const char* comment : {"", "hello", "tool 374 keyhole", "TOOL/ID=5", "TOOL/Description=1/4, flat", "COLOR,255,0,0",
-                              "FROM/0,0,10", "TOOL/", "TOOL/LASER, 1, 2", "T1  D=6.35 CR=0 - flat end mill"}) {
+  for (const char* comment :
+       {"", "hello", "tool 374 keyhole", "TOOL/ID=5", "TOOL/Description=1/4, flat", "COLOR,255,0,0",
+        "FROM/0,0,10", "TOOL/", "TOOL/LASER, 1, 2", "T1  D=6.35 CR=0 - flat end mill"}) {
     EXPECT_FALSE(read(comment)) << comment;
   }
 }
 
 TEST(ReadToolComment, MalformedOnesAreErrors) {
-  for (const char* comment : {"TOOL/MILL, 3.175", "TOOL/MILL, a, b, c", "TOOL/MILL, 6, -3, 20, 0", "TOOL/MILL, -6, 0, 20",
-                              "TOOL/MILL, 6, 0, 20, 95", "TOOL/MILL, 6, 0, 20, -5", "TOOL/MILL, 1e300, 0, 1, 0",
-                              "TOOL/MILL, nan, 0, 1, 0", "TOOL/DRILL, 5, 0, 30", "TOOL/CDRILL, 1, 2, 3",
-                              "TOOL/CHAMFER, 0, 90, 5", "TOOL/CRMILL, 1, 2, -3, 4, 5", "TOOL/MILL,,,"}) {
+  for (const char* comment :
+       {"TOOL/MILL, 3.175", "TOOL/MILL, a, b, c", "TOOL/MILL, 6, -3, 20, 0", "TOOL/MILL, -6, 0, 20",
+        "TOOL/MILL, 6, 0, 20, 95", "TOOL/MILL, 6, 0, 20, -5", "TOOL/MILL, 1e300, 0, 1, 0",
+        "TOOL/MILL, nan, 0, 1, 0", "TOOL/DRILL, 5, 0, 30", "TOOL/CDRILL, 1, 2, 3", "TOOL/CHAMFER, 0, 90, 5",
+        "TOOL/CRMILL, 1, 2, -3, 4, 5", "TOOL/MILL,,,"}) {
     const Diagnostics found = faults(comment);
     ASSERT_EQ(found.errors(), 1u) << comment;
     EXPECT_EQ(found.list()[0].code, Code::tool_comment_malformed) << comment;
@@ -114,8 +116,9 @@ TEST(ReadToolComment, MalformedOnesAreErrors) {
 }
 
 TEST(ReadToolComment, FieldsInAnotherOrderArePassedOverWithAWarning) {
-  for (const char* comment : {"TOOL/MILL, 12.7, 6.367, 12.7, 0.00", "TOOL/MILL, 11.1125, 8, 3.175, 0.00",
-                              "TOOL/CRMILL, 6, 2, 1, 4, 5", "TOOL/MILL, 0, 0, 5, 0", "TOOL/CHAMFER, 2, 90, 9, 8"}) {
+  for (const char* comment :
+       {"TOOL/MILL, 12.7, 6.367, 12.7, 0.00", "TOOL/MILL, 11.1125, 8, 3.175, 0.00",
+        "TOOL/CRMILL, 6, 2, 1, 4, 5", "TOOL/MILL, 0, 0, 5, 0", "TOOL/CHAMFER, 2, 90, 9, 8"}) {
     const Diagnostics found = faults(comment);
     EXPECT_EQ(found.errors(), 0u) << comment;
     ASSERT_EQ(found.warnings(), 1u) << comment;
@@ -125,12 +128,16 @@ TEST(ReadToolComment, FieldsInAnotherOrderArePassedOverWithAWarning) {
 
 TEST(WriteToolComment, WhatIsWrittenReadsBackAsTheSameSolid) {
   const std::vector<ToolShape> shapes{
-      shape::Square{mm(3.175), mm(12.7)}, shape::Ball{mm(0.79375), mm(1.5875)}, shape::BullNose{mm(6), mm(20), mm(1)},
+      shape::Square{mm(3.175), mm(12.7)},
+      shape::Ball{mm(0.79375), mm(1.5875)},
+      shape::BullNose{mm(6), mm(20), mm(1)},
       shape::Vee{mm(12.7), Length(), degrees(60), Length(), Length()},
       shape::Vee{mm(12), Length(), degrees(90), mm(2), Length()},
       shape::Vee{mm(12), Length(), degrees(90), Length(), mm(0.5)},
-      shape::TaperedBall{mm(6.35), mm(38.1), Angle(), mm(1.5875)}, shape::FlatGroove{mm(31.75), mm(12.7), mm(6.35)},
-      shape::Chamfer{mm(10), mm(9), degrees(90), mm(2)}, shape::Drill{mm(5), mm(30), degrees(118)},
+      shape::TaperedBall{mm(6.35), mm(38.1), Angle(), mm(1.5875)},
+      shape::FlatGroove{mm(31.75), mm(12.7), mm(6.35)},
+      shape::Chamfer{mm(10), mm(9), degrees(90), mm(2)},
+      shape::Drill{mm(5), mm(30), degrees(118)},
       shape::CentreDrill{mm(2), mm(3), degrees(118), mm(6), mm(20), degrees(60)},
       shape::Roundover{mm(0.508), mm(1.3335), mm(4.2545)},
       shape::CornerRounding{mm(2), mm(8), mm(3), mm(10), mm(6)}};
@@ -140,7 +147,8 @@ TEST(WriteToolComment, WhatIsWrittenReadsBackAsTheSameSolid) {
     ASSERT_TRUE(comment) << name_of(shape);
     const Tool again = made(1, *read(*comment));
     for (double z = 0.01; z < tool.flute.mm(); z += 0.37) {
-      EXPECT_NEAR(again.silhouette.cutting.radius_at(z), tool.silhouette.cutting.radius_at(z), 2e-5) << *comment << z;
+      EXPECT_NEAR(again.silhouette.cutting.radius_at(z), tool.silhouette.cutting.radius_at(z), 2e-5)
+          << *comment << z;
     }
   }
 }
@@ -173,8 +181,10 @@ TEST(ChooseTool, TheTableWhereBothAgree) {
   const shape::Keyhole keyhole{mm(9.525), mm(3.175), mm(6.35), mm(6.35)};
   EXPECT_EQ(choice(keyhole, "TOOL/MILL, 9.53, 0.00, 3.17, 0.00"), "t");
   const shape::Bowl bowl{mm(19.05), mm(15.875), mm(6.35)};
-  EXPECT_EQ(choice(bowl, "TOOL/MILL, 15.875, 6.35, 19.05, 0.00"), "t");  // diameter and height have changed places
-  EXPECT_EQ(choice(shape::TaperedBall{mm(3.175), mm(5.561), degrees(30), mm(0.254)}, "TOOL/MILL,0.03, 0.00, 10.00, 30.00"),
+  EXPECT_EQ(choice(bowl, "TOOL/MILL, 15.875, 6.35, 19.05, 0.00"),
+            "t");  // diameter and height have changed places
+  EXPECT_EQ(choice(shape::TaperedBall{mm(3.175), mm(5.561), degrees(30), mm(0.254)},
+                   "TOOL/MILL,0.03, 0.00, 10.00, 30.00"),
             "t");  // the full angle
 }
 

@@ -1,7 +1,6 @@
 // Six-digit tool numbers: the printed ones, and encoding against decoding.
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 
 #include "kerf/tool.h"
 
@@ -68,8 +67,8 @@ TEST(DecodeToolNumber, SaysTheSizesOfItsDigits) {
 }
 
 TEST(DecodeToolNumber, RefusesWhatIsNotOfTheScheme) {
-  for (const int number : {-1, 0, 102, 99999, 1000000, 2147483647, 100096, 100006, 201022, 300000, 445981, 700000, 600000,
-                           500000, 800000, 900000, 904060, 590000, 899071}) {
+  for (const int number : {-1, 0, 102, 99999, 1000000, 2147483647, 100096, 100006, 201022, 300000, 445981,
+                           700000, 600000, 500000, 800000, 900000, 904060, 590000, 899071}) {
     EXPECT_FALSE(decoded(number)) << number;
   }
 }

@@ -1,7 +1,6 @@
 // Silhouettes: exact knots, tangencies, and every parameter that gives no solid.
-#include <gtest/gtest.h>
-
 #include <cmath>
+#include <gtest/gtest.h>
 #include <limits>
 
 #include "kerf/tool.h"
@@ -107,7 +106,8 @@ TEST(Silhouette, VeeIsPointedFlatOrRounded) {
 
 TEST(Silhouette, ConeShorterThanItsDiameterIsCutOffWithAWarning) {
   Diagnostics diagnostics;
-  const auto tool = make_tool(1, shape::Vee{mm(12.0), mm(4.0), degrees(90.0), Length(), Length()}, {}, {}, diagnostics);
+  const auto tool =
+      make_tool(1, shape::Vee{mm(12.0), mm(4.0), degrees(90.0), Length(), Length()}, {}, {}, diagnostics);
   ASSERT_TRUE(tool);
   EXPECT_NEAR(tool->diameter.mm(), 8.0, kExact);
   ASSERT_EQ(diagnostics.list().size(), 1u);
@@ -116,7 +116,8 @@ TEST(Silhouette, ConeShorterThanItsDiameterIsCutOffWithAWarning) {
 
 TEST(Silhouette, CatalogueRoundingOfAConeIsMadeGood) {
   Diagnostics diagnostics;
-  const auto tool = make_tool(1, shape::Vee{mm(6.35), mm(11.849), degrees(30.0), Length(), Length()}, {}, {}, diagnostics);
+  const auto tool =
+      make_tool(1, shape::Vee{mm(6.35), mm(11.849), degrees(30.0), Length(), Length()}, {}, {}, diagnostics);
   ASSERT_TRUE(tool);
   EXPECT_TRUE(diagnostics.list().empty());
   EXPECT_EQ(tool->diameter, mm(6.35));
@@ -136,7 +137,8 @@ TEST(Silhouette, UndercutShapes) {
   EXPECT_EQ(keyhole.radius_at(3.175), 4.7625);  // the larger one at the step
   EXPECT_EQ(keyhole.radius_at(3.2), 3.175);
   const Tool dovetail = made(shape::Dovetail{mm(12.7), mm(12.7), degrees(14.0)});
-  EXPECT_NEAR(2.0 * dovetail.silhouette.cutting.radius_at(12.7), 12.7 - 2 * 12.7 * std::tan(degrees(14.0).rad()), kExact);
+  EXPECT_NEAR(2.0 * dovetail.silhouette.cutting.radius_at(12.7),
+              12.7 - 2 * 12.7 * std::tan(degrees(14.0).rad()), kExact);
   EXPECT_FALSE(dovetail.plunges);
   const Tool thread = made(shape::ThreadMill{mm(2.4), mm(4.8), mm(0.75), mm(18.0)});
   EXPECT_EQ(thread.silhouette.cutting.radius_at(0.375), 2.4);
@@ -167,7 +169,8 @@ TEST(Silhouette, DrillsAndChamfers) {
   EXPECT_NEAR(drill.radius_at(1.0), 1.0, kExact);
   EXPECT_EQ(drill.top(), 18.0);
   const Profile centre =
-      made(shape::CentreDrill{mm(2.0), mm(3.0), degrees(90.0), mm(6.0), mm(10.0), degrees(90.0)}).silhouette.cutting;
+      made(shape::CentreDrill{mm(2.0), mm(3.0), degrees(90.0), mm(6.0), mm(10.0), degrees(90.0)})
+          .silhouette.cutting;
   EXPECT_NEAR(centre.radius_at(0.5), 0.5, kExact);
   EXPECT_NEAR(centre.radius_at(2.0), 1.0, kExact);
   EXPECT_NEAR(centre.radius_at(4.0), 2.0, kExact);
@@ -180,7 +183,9 @@ TEST(Silhouette, DrillsAndChamfers) {
 }
 
 TEST(Silhouette, CornerRoundingEndsAtTheSecondDiameter) {
-  const auto radius_at = [](const shape::CornerRounding& s, double z) { return made(s).silhouette.cutting.radius_at(z); };
+  const auto radius_at = [](const shape::CornerRounding& s, double z) {
+    return made(s).silhouette.cutting.radius_at(z);
+  };
   const shape::CornerRounding exact{mm(2.0), mm(8.0), mm(3.0), mm(10.0), mm(6.0)};
   EXPECT_NEAR(radius_at(exact, 3.0), 4.0, kExact);
   EXPECT_EQ(made(exact).flute, mm(10.0));
@@ -212,11 +217,11 @@ TEST(Silhouette, DrawnProfilesAreChecked) {
   const Profile bulb{{{1, 0, 0}, {1, 2, semi}, {1, 6, 0}, {1, 9, 0}}};
   EXPECT_NEAR(made(shape::Drawn{bulb}).silhouette.cutting.max_radius(), 3.0, kExact);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  for (const Profile& bad : {Profile{}, Profile{{{1, 0, 0}}}, Profile{{{1, 0, 0}, {1, -1, 0}}},
-                             Profile{{{-1, 0, 0}, {1, 1, 0}}}, Profile{{{nan, 0, 0}, {1, 1, 0}}},
-                             Profile{{{1, 0, 1.5}, {1, 1, 0}}}, Profile{{{0, 0, 0}, {0, 1, 0}}},
-                             Profile{{{1, 1, 0}, {1, 2, 0}}}, Profile{{{1, 0, 0.9}, {5, 0.1, 0}}},
-                             Profile{{{1, 0, -1.0}, {1, 6, 0}}}, Profile{{{1, 0, 0.5}, {1, 0, 0}}}}) {
+  for (const Profile& bad :
+       {Profile{}, Profile{{{1, 0, 0}}}, Profile{{{1, 0, 0}, {1, -1, 0}}}, Profile{{{-1, 0, 0}, {1, 1, 0}}},
+        Profile{{{nan, 0, 0}, {1, 1, 0}}}, Profile{{{1, 0, 1.5}, {1, 1, 0}}}, Profile{{{0, 0, 0}, {0, 1, 0}}},
+        Profile{{{1, 1, 0}, {1, 2, 0}}}, Profile{{{1, 0, 0.9}, {5, 0.1, 0}}},
+        Profile{{{1, 0, -1.0}, {1, 6, 0}}}, Profile{{{1, 0, 0.5}, {1, 0, 0}}}}) {
     EXPECT_EQ(first_code(faults(shape::Drawn{bad})), Code::tool_shape_impossible);
   }
 }
@@ -289,7 +294,8 @@ TEST(ShapeParameters, SetAndGetTheSameMember) {
     double value = 1.0;
     for (const ShapeParameter& parameter : parameters_of(shape)) parameter.set(shape, value++);
     value = 1.0;
-    for (const ShapeParameter& parameter : parameters_of(shape)) EXPECT_NEAR(parameter.get(shape), value++, kExact);
+    for (const ShapeParameter& parameter : parameters_of(shape))
+      EXPECT_NEAR(parameter.get(shape), value++, kExact);
   }
 }
 
