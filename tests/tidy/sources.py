@@ -37,7 +37,7 @@ def blank_comments_and_strings(text):
 
 
 def git(root, *arguments):
-    """What git answers in the repository, or None where it refuses, or is not installed (a tarball needs none)."""
+    """What git answers in the repository, or None where it refuses or is not installed."""
     try:
         run = subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, text=True)
     except FileNotFoundError:
