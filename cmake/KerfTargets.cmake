@@ -6,7 +6,8 @@ target_include_directories(kerf_flags INTERFACE "${CMAKE_SOURCE_DIR}/include")
 target_compile_options(kerf_flags INTERFACE
   -Wall -Wextra -Wconversion -Wshadow -Wpedantic -Wnon-virtual-dtor -Werror -ffp-contract=off)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(kerf_flags INTERFACE -Wno-restrict)  # GCC bug 105651: false alarms in std::string's +
+  # GCC bug 105651: false alarms in the + of std::string
+  target_compile_options(kerf_flags INTERFACE -Wno-restrict)
 endif()
 if(KERF_SANITIZE)
   target_compile_options(kerf_flags INTERFACE -fsanitize=${KERF_SANITIZE} -fno-omit-frame-pointer -g)

@@ -78,7 +78,7 @@ def holes(p):
 
 
 def slot_for_the_neck(p, x, entry_y, depth):
-    """Room for the keyhole cutter: a slot for its neck, open to the front, and a hole that its head goes down."""
+    """Room for the keyhole cutter: a slot for its neck, open to the front, and a hole for its head."""
     p.say("slot and entry hole for the keyhole cutter")
     ring_pocket(p, (x, entry_y), outer=5.6, inner=0.0, top=0, bottom=depth, step_down=2)
     side = (7 - 3.175) / 2

@@ -7,7 +7,8 @@ from sources import finish, root_of
 
 def main():
     root = root_of(sys.argv)
-    run = subprocess.run([sys.executable, str(root / "examples/make_demo.py")], capture_output=True, text=True)
+    script = str(root / "examples/make_demo.py")
+    run = subprocess.run([sys.executable, script], capture_output=True, text=True)
     same = run.stdout == (root / "examples/demo.nc").read_text()
     finish("examples", [] if same else ["examples/demo.nc is not what make_demo.py writes" + run.stderr])
 

@@ -1,9 +1,8 @@
 """No function is longer than 70 lines, save those of function_length.txt, which may only shrink."""
 import re
-import subprocess
 import sys
 
-from sources import CPP, blank_comments_and_strings, files, finish, root_of
+from sources import CPP, blank_comments_and_strings, files, finish, git, root_of
 
 LIMIT = 70  # lines from the function's head to its closing brace
 RATCHET = "tests/tidy/function_length.txt"
@@ -68,10 +67,9 @@ def before(root):
     """The ratchet of the last commit with another content, or None where git has none."""
     now = (root / RATCHET).read_text()
     for commit in ("HEAD", "HEAD^"):
-        shown = subprocess.run(["git", "-C", str(root), "show", f"{commit}:{RATCHET}"],
-                               capture_output=True, text=True)
-        if shown.returncode == 0 and shown.stdout != now:
-            return read_ratchet(shown.stdout)
+        then = git(root, "show", f"{commit}:{RATCHET}")
+        if then is not None and then != now:
+            return read_ratchet(then)
     return None
 
 

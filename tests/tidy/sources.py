@@ -1,6 +1,7 @@
 """Which files the checks read, and how they report: shared by all of tests/tidy. Standard library only."""
 import os
 import re
+import subprocess
 import sys
 from pathlib import Path
 
@@ -33,6 +34,15 @@ def blank_comments_and_strings(text):
         r'//[^\n]*|/\*.*?\*/|R"([^()\s\\]*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"'
         r"|(?<![0-9A-Za-z_])'(?:\\.|[^'\\\n])*'", re.S)
     return pattern.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
+
+
+def git(root, *arguments):
+    """What git answers in the repository, or None where it refuses or is not installed."""
+    try:
+        run = subprocess.run(["git", "-C", str(root), *arguments], capture_output=True, text=True)
+    except FileNotFoundError:
+        return None
+    return run.stdout if run.returncode == 0 else None
 
 
 def finish(check, problems):

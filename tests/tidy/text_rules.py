@@ -1,9 +1,8 @@
 """Rules for every text: line length, opening comment, nothing stray in the root, no place of one machine."""
 import re
-import subprocess
 import sys
 
-from sources import CPP, files, finish, root_of
+from sources import CPP, files, finish, git, root_of
 
 COLUMNS = 110
 LENGTH_SUFFIXES = CPP | {".py", ".def", ".cmake", ".ts"}
@@ -46,19 +45,13 @@ def main():
     every = files(root)
     names = {p.parts[0] for p in every if len(p.parts) == 1}
     # In a working tree of git, what is git's own or ignored is nobody's stray file.
-    names = {n for n in names if n != ".git" and not ignored(root, n)}
+    names = {n for n in names if n != ".git" and git(root, "check-ignore", n) is None}
     problems = stray(names, {p.parts[0] for p in every if len(p.parts) > 1})
     for path in every:
         if path.suffix in BINARY or path.parts[:2] == ("fuzz", "corpus") or path.name == ".git":
             continue
         problems += check_text(path.as_posix(), (root / path).read_text(errors="replace"))
     finish("text_rules", problems)
-
-
-def ignored(root, name):
-    """True if git is told to ignore a name in the root; false without git."""
-    asked = subprocess.run(["git", "-C", str(root), "check-ignore", "-q", name], capture_output=True)
-    return asked.returncode == 0
 
 
 if __name__ == "__main__":
