@@ -1,0 +1,21 @@
+"""The given cases: figures of real G-code files, and exact removed volumes, through the judge that comes with them."""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+KERF = os.environ["KERF"]
+CASES = os.environ.get("KERF_CASES_DIR", "")
+pytestmark = pytest.mark.skipif(not CASES or not Path(CASES, "judge.py").exists(),
+                                reason="KERF_CASES_DIR names no folder of given cases; the comparison is left out")
+
+
+@pytest.mark.parametrize("what", ["gcode", "volume"])
+def test_the_judge_finds_no_difference(what):
+    run = subprocess.run([sys.executable, Path(CASES, "judge.py"), what, "--kerf", KERF], capture_output=True,
+                         text=True, timeout=550)
+    failed = [line for line in run.stdout.splitlines() if line.startswith("FAIL ")]
+    assert not failed, "\n".join(failed)
+    assert int(run.stdout.splitlines()[-1].split(" ")[0]) > 0, run.stdout + run.stderr

@@ -1,0 +1,69 @@
+"""kerf check: exit status 3 with the hazards of the path and of the material; 0 for a sound program."""
+import pytest
+from conftest import SOUND
+
+
+def kinds(run):
+    return sorted({h["kind"] for h in run.json["hazards"]})
+
+
+def test_a_sound_program(kerf, program, files):
+    run = kerf("check", "--json", program())
+    assert run.status == 0, run.out
+    assert run.json["hazards"] == []
+    assert files() == ["part.nc"]
+    text = kerf("check", program())
+    assert text.status == 0 and "no hazard found" in text.out
+    assert kerf("check", "-q", program()).out == ""
+
+
+@pytest.mark.parametrize("old, new, kind", [
+    ("F100\nG1 X20 F400", "\nG1 X20", "no_feed"),
+    ("M6 T102\n", "", "no_tool"),
+    ("M3 S10000\n", "", "spindle_off"),
+    ("M3 S10000\n", "M3 S10000\nM5\n", "spindle_off"),
+    ("M2\n", "", "no_program_end"),
+    ("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5", "rapid_in_stock"),
+    ("G1 Z-1", "G1 Z-8", "below_floor"),
+])
+def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
+    assert old in SOUND
+    run = kerf("check", "--json", program(SOUND.replace(old, new)))
+    assert run.status == 3, run.out
+    assert kind in kinds(run)
+    for hazard in run.json["hazards"]:
+        assert set(hazard) >= {"kind", "at", "depth_mm", "removed_mm3", "origin", "message", "step"}
+        assert len(hazard["at"]) == 3 and hazard["origin"]["line"] > 0
+
+
+def test_a_cut_deeper_than_the_flute(kerf, program):
+    text = SOUND.replace("-6.00mm", "-30.00mm").replace("G1 Z-1", "G1 Z-20")
+    run = kerf("check", "--json", program(text))
+    assert run.status == 3
+    assert {"over_flute", "shank_contact"} & set(kinds(run))
+
+
+def test_hazards_as_text_name_file_and_line(kerf, program):
+    path = program(SOUND.replace("M3 S10000\n", ""))
+    run = kerf("check", path)
+    assert run.status == 3
+    assert f"{path}:7" in run.out and "[spindle_off]" in run.out
+
+
+def test_hazards_of_path_and_material_are_in_the_order_of_steps(kerf, program):
+    run = kerf("check", "--json", program(SOUND.replace("G0 Z5\nM5\nM2\n", "G0 X30\nM5\nG1 X31\n")))
+    steps = [h["step"] for h in run.json["hazards"]]
+    assert steps == sorted(steps) and len(steps) >= 3
+
+
+def test_errors_of_the_program_come_before_hazards(kerf, program):
+    run = kerf("check", "--json", program(SOUND.replace("T102", "T77")))
+    assert run.status == 1
+    assert "no_tool_shape" in run.codes()
+
+
+def test_without_any_tool_the_material_is_left_out_and_said_so(kerf, program):
+    run = kerf("check", "--json", program(SOUND.replace("M6 T102\n", "")))
+    assert run.status == 3
+    assert kinds(run) == ["no_tool"]
+    assert "not_simulated" in run.codes()

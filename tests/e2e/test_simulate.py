@@ -1,0 +1,162 @@
+"""kerf simulate: figures, tools, stock, files, and the ways in which it must refuse."""
+import math
+import struct
+
+import pytest
+from conftest import SOUND
+
+
+def exact_removed():
+    """mm3 that the sound program removes, 1 mm deep: the line's strip, the half ring, half a disc at both ends."""
+    r = 3.175 / 2
+    return 2 * r * 10 + math.pi * 5 * 2 * r + math.pi * r * r
+
+
+def test_figures_of_a_sound_program(kerf, program):
+    run = kerf("simulate", "--json", "--resolution", "0.02", program())
+    assert run.status == 0, run.err
+    got = run.json
+    assert got["stock_mm3"] == pytest.approx(40 * 30 * 6, rel=1e-9)
+    assert got["removed_mm3"] == pytest.approx(exact_removed(), rel=2e-3)
+    assert got["left_mm3"] == pytest.approx(got["stock_mm3"] - got["removed_mm3"], abs=1e-6)
+    assert got["resolution_mm"] == 0.02
+    assert got["steps"] > 5 and got["seconds"] >= 0
+    assert got["hazards"] == [] and got["outputs"] == []
+    assert got["stock"]["source"] == "program"
+    assert [t["number"] for t in got["tools"]] == [102]
+    assert got["tools"][0]["removed_mm3"] == pytest.approx(got["removed_mm3"], rel=1e-3)
+    assert got["tools"][0]["time_s"] > 0
+    assert not [d for d in got["diagnostics"] if d["severity"] == "error"]
+    assert run.err == ""
+
+
+def test_the_summary_is_for_people_and_quiet_leaves_it_out(kerf, program):
+    run = kerf("simulate", program())
+    assert run.status == 0
+    assert "removed" in run.out and "hazards  none" in run.out
+    assert kerf("simulate", "--quiet", program()).out == ""
+
+
+def test_a_rapid_through_the_stock_is_told_with_its_line(kerf, program):
+    path = program(SOUND.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5"))
+    run = kerf("simulate", "--json", path)
+    assert run.status == 0
+    hazard, = [h for h in run.json["hazards"] if h["kind"] == "rapid_in_stock"]
+    assert hazard["origin"]["line"] == 11
+    assert hazard["depth_mm"] == pytest.approx(1, abs=0.01) and hazard["removed_mm3"] > 1
+    assert len(hazard["at"]) == 3 and "rapid" in hazard["message"]
+    text = kerf("simulate", path).out
+    assert f"{path}:11" in text and "[rapid_in_stock]" in text
+
+
+def test_every_kind_of_output(kerf, program, files):
+    path = program()
+    run = kerf("simulate", "--json", "--resolution", "0.5", path, *sum((["-o", f"part.{e}"] for e in
+               ("stl", "3mf", "glb", "obj", "png")), []), "--view", "top", "--size", "320x200")
+    assert run.status == 0, run.err
+    assert run.json["outputs"] == ["part.stl", "part.3mf", "part.glb", "part.obj", "part.png"]
+    assert files() == sorted(["part.nc"] + run.json["outputs"])
+    folder = path.parent
+    stl = (folder / "part.stl").read_bytes()
+    assert len(stl) == 84 + 50 * struct.unpack_from("<I", stl, 80)[0]
+    assert (folder / "part.3mf").read_bytes()[:2] == b"PK"
+    assert (folder / "part.glb").read_bytes()[:4] == b"glTF"
+    assert "\nf " in (folder / "part.obj").read_text()
+    png = (folder / "part.png").read_bytes()
+    assert png[:8] == b"\x89PNG\r\n\x1a\n" and struct.unpack(">II", png[16:24]) == (320, 200)
+
+
+@pytest.mark.parametrize("view", ["top", "front", "back", "left", "right", "iso", "-35,50", "120,-20"])
+def test_views(kerf, program, files, view):
+    run = kerf("simulate", "--resolution", "0.5", program(), "-o", "v.png", "--view", view, "--size", "64x48")
+    assert run.status == 0, run.err
+    assert "v.png" in files()
+
+
+def test_the_result_is_the_same_for_any_number_of_threads(kerf, program):
+    path = program()
+    one = kerf("simulate", "--json", "--resolution", "0.1", "--threads", "1", path).json
+    four = kerf("simulate", "--json", "--resolution", "0.1", "--threads", "4", path).json
+    assert one["removed_mm3"] == four["removed_mm3"]
+
+
+def test_standard_input_is_gcode(kerf):
+    run = kerf("simulate", "--json", "-", stdin=SOUND.encode())
+    assert run.status == 0, run.err
+    assert run.json["source"] == "<stdin>" and run.json["removed_mm3"] > 0
+
+
+def test_stock_option_wins_over_comments(kerf, program):
+    run = kerf("simulate", "--json", program(), "--stock", "50x50x10 at lower-left top")
+    assert run.json["stock_mm3"] == pytest.approx(25000)
+    assert run.json["stock"] == {"block_mm": [[0, 0, -10], [50, 50, 0]], "source": "option"}
+
+
+def test_a_stock_is_assumed_around_the_cuts_and_said_so(kerf, program):
+    text = "\n".join(line for line in SOUND.split("\n") if "stock" not in line)
+    run = kerf("simulate", "--json", program(text))
+    assert run.status == 0
+    assert "stock_assumed" in run.codes()
+    low, high = run.json["stock"]["block_mm"]
+    margin = 3.175 / 2 + 2
+    assert low == pytest.approx([10 - margin, 10 - margin, -2])
+    assert high[0] == pytest.approx(25 + margin) and high[1] == pytest.approx(20 + margin)
+
+
+def test_an_unknown_tool_is_an_error_with_an_example(kerf, program, files):
+    run = kerf("simulate", program(SOUND.replace("T102", "T77")), "-o", "part.stl")
+    assert run.status == 1
+    assert "part.nc:5" in run.err and "[1009]" in run.err  # no_tool_shape
+    assert '--tool 77="square d=3.175 flute=12.7"' in run.err
+    assert files() == ["part.nc"]
+
+
+def test_tool_options(kerf, program):
+    path = program(SOUND.replace("T102", "T77"))
+    by_number = kerf("simulate", "--json", path, "--tool", "77=square d=3.175 flute=12.7").json
+    for_all = kerf("simulate", "--json", path, "--tool", "square d=3.175 flute=12.7").json
+    of_table = kerf("simulate", "--json", path, "--tool", "77=102").json
+    assert by_number["removed_mm3"] == for_all["removed_mm3"] == of_table["removed_mm3"]
+    assert by_number["tools"][0]["source"] == "option"
+    wider = kerf("simulate", "--json", program(), "--tool", "102=square d=6 flute=12").json
+    assert wider["removed_mm3"] > 1.8 * by_number["removed_mm3"]
+
+
+def test_one_tool_option_for_several_tools_is_noted(kerf, program):
+    two = SOUND.replace("M5\n", "M6 T101\nG1 X30 F100\nM5\n")
+    assert "tool_option_wide" in kerf("simulate", "--json", program(two), "--tool", "square d=3 flute=9").codes()
+
+
+def test_a_program_without_a_tool_change(kerf, program):
+    path = program(SOUND.replace("M6 T102\n", ""))
+    run = kerf("simulate", path)
+    assert run.status == 1
+    assert "[1009]" in run.err and "--tool" in run.err  # no_tool_shape
+    with_tool = kerf("simulate", "--json", path, "--tool", "square d=3.175 flute=12.7")
+    assert with_tool.status == 0
+    assert with_tool.json["removed_mm3"] == kerf("simulate", "--json", program()).json["removed_mm3"]
+
+
+def test_tools_from_a_file(kerf, program):
+    kerf_file = program('[[tool]]\nnumber = 77\nshape = "square"\ndiameter = 6.0\nflute = 12.0\n', "shop.toml")
+    run = kerf("simulate", "--json", program(SOUND.replace("T102", "T77")), "--tools", kerf_file)
+    assert run.status == 0, run.out
+    assert run.json["tools"][0]["source"] == "tool file"
+
+
+def test_a_broken_tool_file_is_an_error_with_its_place(kerf, program):
+    run = kerf("simulate", program(), "--tools", program("[[tool]\nnumber=", "shop.toml"))
+    assert run.status == 1
+    assert "shop.toml:1" in run.err
+
+
+def test_nothing_to_cut(kerf, program):
+    run = kerf("simulate", "--json", program("G21\nG0 X1 Y1 Z1\nM2\n"))
+    assert run.status == 1
+    assert "nothing_to_cut" in run.codes()
+
+
+def test_a_resolution_too_fine_says_which_would_do(kerf, program):
+    run = kerf("simulate", program(), "--stock", "5000x5000x10", "--resolution", "0.001")
+    assert run.status == 1
+    assert "[6004]" in run.err  # too_many_columns

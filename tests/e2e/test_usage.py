@@ -1,0 +1,102 @@
+"""Wrong usage, help and version: exit status 2 with what was probably meant; help with examples."""
+import re
+
+import pytest
+
+COMMANDS = ["simulate", "check", "info", "steps", "tools list", "tools show"]
+
+
+def test_version_is_one_line_and_stable(kerf):
+    run = kerf("--version")
+    assert run.status == 0
+    assert re.fullmatch(r"kerf \d+\.\d+\.\d+\n", run.out)
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["help"], ["-h"]])
+def test_help_names_every_command_and_the_exit_statuses(kerf, arguments):
+    run = kerf(*arguments)
+    assert run.status == 0
+    for word in ("simulate", "check", "info", "steps", "tools", "Examples:", "Exit status"):
+        assert word in run.out
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_has_help_with_examples(kerf, command):
+    run = kerf(*command.split(), "--help")
+    assert run.status == 0
+    assert "Examples:\n  kerf " + command in run.out
+    assert "--json" in run.out and "--quiet" in run.out
+    assert run.out == kerf("help", *command.split()).out
+
+
+@pytest.mark.parametrize("arguments, meant", [
+    (["simlate", "part.nc"], "simulate"),
+    (["infp", "part.nc"], "info"),
+    (["tools", "lst"], "list"),
+    (["simulate", "--resolutoin", "1", "part.nc"], "--resolution"),
+    (["check", "part.nc", "--jsom"], "--json"),
+    (["simulate", "part.nc", "--view", "tpo"], "top"),
+])
+def test_slips_of_the_fingers(kerf, program, arguments, meant):
+    program()
+    run = kerf(*arguments)
+    assert run.status == 2
+    assert f"did you mean {meant}?" in run.err
+    assert run.out == ""
+
+
+@pytest.mark.parametrize("arguments", [
+    ["simulate"], ["info"], ["steps"], ["tools"], ["tools", "show"],
+    ["simulate", "part.nc", "other.nc"],
+    ["simulate", "part.nc", "-o"],
+    ["simulate", "part.nc", "--resolution", "fine"],
+    ["simulate", "part.nc", "--resolution", "nan"],
+    ["simulate", "part.nc", "--resolution", "-1"],
+    ["simulate", "part.nc", "--resolution", "1e308"],
+    ["simulate", "part.nc", "--threads", "1000000"],
+    ["simulate", "part.nc", "--size", "0x0"],
+    ["simulate", "part.nc", "--size", "1000000x1000000"],
+    ["simulate", "part.nc", "--size", "big"],
+    ["simulate", "part.nc", "--view", "10,100"],
+    ["simulate", "part.nc", "--view", "nan,0"],
+    ["simulate", "part.nc", "--stock", "a lot"],
+    ["simulate", "part.nc", "--tool", "spoon d=3"],
+    ["simulate", "part.nc", "--tool", "1=spoon d=3"],
+    ["check", "part.nc", "--tool", ""],
+    ["info", "part.nc", "--stock", "1x1x1e999"],
+    ["simulate", "part.nc", "-o", "part.xyz"],
+    ["simulate", "part.nc", "-o", "part"],
+    ["simulate", "part.nc", "-o", "a.stl", "-o", "./a.stl"],
+    ["--nothing"],
+])
+def test_wrong_usage_is_status_2_with_a_message(kerf, program, files, arguments):
+    program()
+    run = kerf(*arguments)
+    assert run.status == 2, run.out + run.err
+    assert "error" in run.err
+    assert files() == ["part.nc"]
+
+
+def test_a_stock_that_is_not_understood_is_named_with_a_hint(kerf, program):
+    run = kerf("simulate", program(), "--stock", "100x60")
+    assert run.status == 2
+    assert "--stock: error: " in run.err and "[4101]" in run.err and "hint: expected" in run.err  # stock_option
+
+
+def test_an_output_must_not_replace_the_input(kerf, program):
+    path = program(name="part.stl")  # whatever it holds
+    run = kerf("simulate", path, "-o", path)
+    assert run.status == 2
+    assert "[1008]" in run.err  # output_is_input
+
+
+def test_an_output_of_unknown_kind_lists_the_known_ones(kerf, program):
+    run = kerf("simulate", program(), "-o", "part.step")
+    assert run.status == 2
+    assert "[1007]" in run.err and ".stl" in run.err and ".png" in run.err  # output_kind_unknown
+
+
+def test_wrong_option_values_stand_in_the_json_too(kerf, program):
+    run = kerf("simulate", "--json", program(), "--stock", "much")
+    assert run.status == 2
+    assert run.codes() == ["stock_option"]
