@@ -65,7 +65,7 @@ struct ColumnGrid {
   std::vector<Interval> intervals;
   /// Empty, or one a column: for a column without material the step that took the last of it (so that the walls
   /// around a through cut know who made them), else anything.
-  std::vector<std::uint32_t> cut_through;
+  std::vector<std::uint32_t> cut_through = {};
 };
 
 /// The material left, as columns.
