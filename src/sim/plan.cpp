@@ -68,16 +68,16 @@ void Batch::clear() {
 
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
   ToolSolids solids;
-  solids.cutting = make_solid(tool.cutting, mm(kChord), Length());
+  solids.cutting = make_solid(tool.cutting, mm(kProfileChord), Length());
   const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
-  for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kChord), side_clearance);
+  for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kProfileChord), side_clearance);
   const double rim = solids.cutting.rim - side_clearance.mm();
   if (rim > 0.0) solids.over_flute = make_cylinder(rim, solids.cutting.top, solids.cutting.top + kAboveAll);
   return solids;
 }
 
 ChordCount chord_count(const ArcWalk& walk) {
-  const int count = walk.chords(mm(kChord), kMostChords);
+  const int count = walk.chords(mm(kPathChord), kMostChords);
   return {count, count >= kMostChords};
 }
 

@@ -33,9 +33,11 @@ struct ToolSolids {
 /// `side_clearance`: contacts that are less deep than this sideways are none.
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance);
 
-/// Largest error of chords that stand for helices, spirals, arcs in XZ and YZ and hollow profiles. Half of
-/// the micron that columns may be off, so that a contact one micron deep is never made of chords alone.
-inline constexpr double kChord = 0.0005;  // mm
+/// How far chords stray from helices, spirals and arcs in XZ and YZ, mm: a tenth of the micron that surfaces may be off,
+/// since a steep flank turns a path's error sideways into a larger one in height.
+inline constexpr double kPathChord = 0.0001;
+/// How far the frusta that stand for a hollow arc of a tool's profile stray from it, mm.
+inline constexpr double kProfileChord = 0.0005;
 
 struct Sweep {
   double x = 0.0, y = 0.0, z = 0.0;  // begin; of an arc the centre
