@@ -1,5 +1,5 @@
-// The inner loops: sweeps against the columns of one tile. Everything that is worth exchanging for speed is behind
-// `cut_tile`; the planner and the bookkeeping around it know nothing of lanes.
+// The inner loops: sweeps against the columns of one tile. Everything that is worth exchanging for speed is
+// behind `cut_tile`; the planner and the bookkeeping around it know nothing of lanes.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@ struct LaneSolid {
   explicit LaneSolid(const Solid& solid);
 
   std::vector<LanePiece> pieces;
+  LanePiece lid;  // of one envelope: its flat top
   bool one_envelope = false;
   Real rim = 0, bottom = 0, top = 0;
   Real offset[kCullLines] = {}, slope[kCullLines] = {};
@@ -48,14 +49,14 @@ struct Field {
 struct TileJob {
   const Field* field = nullptr;
   Tile* tile = nullptr;
-  double x = 0.0, y = 0.0;            // of the tile's first column, block frame
-  const Real* share_x = nullptr;      // share of each column of the tile in the block, 64 each
+  double x = 0.0, y = 0.0;        // of the tile's first column, block frame
+  const Real* share_x = nullptr;  // share of each column of the tile in the block, 64 each; null: all 1
   const Real* share_y = nullptr;
   const std::vector<LaneTool>* tools = nullptr;
   const Sweep* sweeps = nullptr;
   const std::uint32_t* list = nullptr;
   std::size_t count = 0;
-  double* removed = nullptr;          // out: length of column taken by each of the sweeps, mm
+  double* removed = nullptr;                 // out: length of column taken by each of the sweeps, mm
   std::vector<Contact>* contacts = nullptr;  // out, appended
 };
 

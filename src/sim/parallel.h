@@ -23,8 +23,8 @@ inline unsigned thread_count(unsigned wanted) {
   return count == 0 ? 1 : count < kMost ? count : kMost;
 }
 
-/// Calls work(i) once for each i below `count`, in no fixed order. The calling thread takes part and asks stop()
-/// between pieces; after that returned true no further piece is begun.
+/// Calls work(i) once for each i below `count`, in no fixed order. The calling thread takes part and asks
+/// stop() between pieces; after that returned true no further piece is begun.
 template <class Work, class Stop>
 void parallel_for(unsigned threads, std::size_t count, const Work& work, const Stop& stop) {
   std::atomic<std::size_t> next{0};

@@ -68,16 +68,16 @@ void Batch::clear() {
 
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
   ToolSolids solids;
-  solids.cutting = make_solid(tool.cutting, mm(kChord), Length());
+  solids.cutting = make_solid(tool.cutting, mm(kProfileChord), Length());
   const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
-  for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kChord), side_clearance);
+  for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kProfileChord), side_clearance);
   const double rim = solids.cutting.rim - side_clearance.mm();
   if (rim > 0.0) solids.over_flute = make_cylinder(rim, solids.cutting.top, solids.cutting.top + kAboveAll);
   return solids;
 }
 
 ChordCount chord_count(const ArcWalk& walk) {
-  const int count = walk.chords(mm(kChord), kMostChords);
+  const int count = walk.chords(mm(kPathChord), kMostChords);
   return {count, count >= kMostChords};
 }
 
@@ -185,8 +185,8 @@ void Planner::emit(Sweep sweep, Batch& batch) {
 
 void Planner::pair_line(const Sweep& s, double reach, std::uint32_t number, Batch& batch) const {
   const double x1 = s.x + s.length * s.ux, y1 = s.y + s.length * s.uy;
-  const TileRange rows =
-      tiles_between(std::min(s.y, y1) - reach, std::max(s.y, y1) + reach, body_.pitch, body_.ny, body_.tiles_y);
+  const TileRange rows = tiles_between(std::min(s.y, y1) - reach, std::max(s.y, y1) + reach, body_.pitch,
+                                       body_.ny, body_.tiles_y);
   for (int row = rows.first; row <= rows.last; ++row) {
     const double low = (row * kTileColumns + 0.5) * body_.pitch - reach;
     const double high = ((row + 1) * kTileColumns - 0.5) * body_.pitch + reach;
@@ -207,7 +207,8 @@ void Planner::pair_arc(const Sweep& s, double reach, std::uint32_t number, Batch
   walk.start_angle = std::atan2(s.uy, s.ux);
   walk.sweep = s.turn;
   const Box3 box = walk.bounds();
-  const TileRange rows = tiles_between(box.low.y - reach, box.high.y + reach, body_.pitch, body_.ny, body_.tiles_y);
+  const TileRange rows =
+      tiles_between(box.low.y - reach, box.high.y + reach, body_.pitch, body_.ny, body_.tiles_y);
   const TileRange columns =
       tiles_between(box.low.x - reach, box.high.x + reach, body_.pitch, body_.nx, body_.tiles_x);
   const double tile = kTileColumns * body_.pitch;
@@ -229,13 +230,14 @@ void Planner::note_below_floor(const Sweep& s, Batch& batch) const {
   const double deepest = std::min(s.z, s.z_end);
   const double reach = solid.reach_below(-deepest);
   // The share of the way that is below the floor, walked in steps small against the tool.
-  constexpr double kStep = 0.1;       // mm
+  constexpr double kStep = 0.1;  // mm
   constexpr double kMostSteps = 4096;
   const double slope = s.length > 0.0 ? (s.z_end - s.z) : 0.0;
   double begin = 0.0, end = 1.0;
   if (slope < 0.0) begin = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
   if (slope > 0.0) end = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
-  const int steps = static_cast<int>(std::clamp(std::ceil((end - begin) * s.length / kStep), 1.0, kMostSteps));
+  const int steps =
+      static_cast<int>(std::clamp(std::ceil((end - begin) * s.length / kStep), 1.0, kMostSteps));
   Contact contact;
   contact.step = s.step;
   contact.kind = HazardKind::below_floor;
@@ -247,7 +249,8 @@ void Planner::note_below_floor(const Sweep& s, Batch& batch) const {
       x = s.x + s.radius * (s.ux * c - s.uy * d);
       y = s.y + s.radius * (s.ux * d + s.uy * c);
     }
-    if (std::hypot(distance_to_interval(x, 0.0, size_.x), distance_to_interval(y, 0.0, size_.y)) >= reach) continue;
+    if (std::hypot(distance_to_interval(x, 0.0, size_.x), distance_to_interval(y, 0.0, size_.y)) >= reach)
+      continue;
     const double z = s.length > 0.0 ? s.z + t * (s.z_end - s.z) : deepest;
     contact.depth = std::max(contact.depth, -z);
     if (contact.share <= 1.0) continue;

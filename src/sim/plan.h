@@ -1,13 +1,15 @@
 // From the motions of a toolpath to sweeps, sorted by the tiles that they can touch.
 //
-// Where a motion begins is not always known (see Step::unknown_axes). A path that was never commanded must neither
-// cut nor be reported, so:
+// Where a motion begins is not always known (see Step::unknown_axes). A path that was never commanded must
+// neither cut nor be reported, so:
 //   rapid   whose end, or the height of whose begin, is unknown: not swept;
-//           whose begin is unknown in X or Y only: the tool at its end, which is the one place where it surely is;
+//           whose begin is unknown in X or Y only: the tool at its end, which is the one place where it
+//           surely is;
 //   cut     whose end height is unknown: not swept;
 //           whose begin height is unknown: begins above the block, or at its end if that is higher;
 //           whose begin is unknown in X or Y: begins at its end's;
-//           whose end is unknown in X or Y: goes where an interpreter with zero offsets goes (with a warning);
+//           whose end is unknown in X or Y: goes where an interpreter with zero offsets goes (with a
+//           warning);
 //   arc     whose begin is unknown: the tool at its end.
 #pragma once
 
@@ -15,9 +17,10 @@
 #include <optional>
 #include <vector>
 
-#include "kerf/toolpath.h"
 #include "sim/sweep.h"
 #include "sim/tile.h"
+
+#include "kerf/toolpath.h"
 
 namespace kerf::sim {
 
@@ -39,8 +42,8 @@ class Planner {
  public:
   Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth);
 
-  /// Adds a motion of a tool; `spindle_off`: what it cuts is cut with a spindle that stands. `flush` is called
-  /// whenever the batch is full and returns false to stop.
+  /// Adds a motion of a tool; `spindle_off`: what it cuts is cut with a spindle that stands. `flush` is
+  /// called whenever the batch is full and returns false to stop.
   template <class Flush>
   void add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off, Batch& batch,
            const Flush& flush);
@@ -78,14 +81,15 @@ struct ChordCount {
 ChordCount chord_count(const ArcWalk& walk);
 
 template <class Flush>
-void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off, Batch& batch,
-                  const Flush& flush) {
+void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
+                  Batch& batch, const Flush& flush) {
   const Motion motion = motion_of(step, context);
   const bool cuts = step.is_cutting();
   if (!motion.is_swept) return interrupt();
   const bool follows = cuts && cutting_tool_ == tool && end_ == motion.from;
   const int parts = kPassNeck | kPassShank | kPassHolder;
-  const int passes = cuts ? kPassCut | kPassOverFlute | parts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | parts;
+  const int passes =
+      cuts ? kPassCut | kPassOverFlute | parts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | parts;
   const auto send = [&](Sweep sweep, bool follows_on) {
     sweep.step = static_cast<std::uint32_t>(context.index);
     sweep.tool = tool;

@@ -1,18 +1,19 @@
-// The driver: checks what it is given, sends the planner's batches through the kernels, gathers what they found.
+// The driver: checks what it is given, sends the planner's batches through the kernels, gathers what they
+// found.
 #include "kerf/simulate.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <fmt/format.h>
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "kerf/number.h"
 #include "sim/kernels.h"
 #include "sim/parallel.h"
 #include "sim/plan.h"
+
+#include "kerf/number.h"
 
 namespace kerf {
 
@@ -33,10 +34,10 @@ namespace sim {
 namespace {
 
 // What is accepted. Beyond it single precision or patience ends, and the input is a slip in any case.
-constexpr double kLargestStock = 1e5;       // mm
-constexpr double kFarthestMotion = 1e7;     // mm from the stock
-constexpr double kFinestPitch = 1e-4;       // mm
-constexpr double kDefaultColumns = 4e6;     // of the automatic resolution
+constexpr double kLargestStock = 1e5;                            // mm
+constexpr double kFarthestMotion = 1e7;                          // mm from the stock
+constexpr double kFinestPitch = 1e-4;                            // mm
+constexpr double kDefaultColumns = 4e6;                          // of the automatic resolution
 constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
 /// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.
 constexpr double kLeastClearance = 1e-4;
@@ -47,26 +48,31 @@ bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
   const Box3& block = stock.block;
   const Point3 size = block.size();
   if (!finite(block.low) || !finite(block.high) || !(size.x > 0.0) || !(size.y > 0.0) || !(size.z > 0.0)) {
-    diagnostics.error(Code::stock_empty, {}, "the stock is empty: its length, width and height must be above 0");
+    diagnostics.error(Code::stock_empty, {},
+                      "the stock is empty: its length, width and height must be above 0");
     return false;
   }
   const double largest = std::max({size.x, size.y, size.z});
-  const double reach = std::max(std::max(length(block.low), length(block.high)) / kFarthestMotion, largest / kLargestStock);
+  const double reach =
+      std::max(std::max(length(block.low), length(block.high)) / kFarthestMotion, largest / kLargestStock);
   if (reach <= 1.0) return true;
   diagnostics.error(Code::stock_empty, {},
-                    fmt::format("the stock measures {} x {} x {} mm; at most {} mm can be simulated", number_text(size.x, 3),
-                                number_text(size.y, 3), number_text(size.z, 3), number_text(kLargestStock, 0)));
+                    fmt::format("the stock measures {} x {} x {} mm; at most {} mm can be simulated",
+                                number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
+                                number_text(kLargestStock, 0)));
   return false;
 }
 
 /// The column pitch to use, or nothing with an error.
 std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size, Diagnostics& diagnostics) {
   double pitch = options.resolution.mm();
-  if (pitch == 0.0) pitch = std::clamp(std::sqrt(size.x * size.y / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
+  if (pitch == 0.0)
+    pitch = std::clamp(std::sqrt(size.x * size.y / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
   if (!std::isfinite(pitch) || pitch < kFinestPitch) {
-    diagnostics.error(Code::bad_resolution, {},
-                      fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 to have one chosen",
-                                  number_text(pitch, 9), number_text(kFinestPitch, 4)));
+    diagnostics.error(
+        Code::bad_resolution, {},
+        fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 to have one chosen",
+                    number_text(pitch, 9), number_text(kFinestPitch, 4)));
     return std::nullopt;
   }
   pitch = std::min(pitch, std::max(size.x, size.y));  // never less than one column
@@ -74,9 +80,10 @@ std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size
   const auto most = static_cast<double>(std::min(options.max_columns, std::size_t{0xfffffff0}));
   if (columns <= most) return pitch;
   const double would_do = 1.001 * std::sqrt(size.x * size.y / most) + pitch * 1e-3;
-  Diagnostic& error = diagnostics.error(
-      Code::too_many_columns, {},
-      fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed", number_text(pitch, 6), columns, most));
+  Diagnostic& error =
+      diagnostics.error(Code::too_many_columns, {},
+                        fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed",
+                                    number_text(pitch, 6), columns, most));
   error.hint = fmt::format("a resolution of {} mm would do", number_text(std::ceil(would_do * 1e4) / 1e4, 4));
   return std::nullopt;
 }
@@ -85,14 +92,18 @@ std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size
 struct Survey {
   std::map<int, std::uint32_t> index;  // tool number to place in `solids`
   std::vector<ToolSolids> solids;
-  std::optional<int> only_tool;        // of a table with one tool: used until the program chooses
-  bool judges_spindle = false;         // the program says something of the spindle and is not for a laser
+  std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
+  bool judges_spindle = false;   // the program says something of the spindle and is not for a laser
 };
 
 class Surveyor {
  public:
-  Surveyor(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance, Diagnostics& diagnostics)
-      : path_(path), tools_(tools), centre_(0.5 * (stock.block.low + stock.block.high)), clearance_(clearance),
+  Surveyor(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance,
+           Diagnostics& diagnostics)
+      : path_(path),
+        tools_(tools),
+        centre_(0.5 * (stock.block.low + stock.block.high)),
+        clearance_(clearance),
         diagnostics_(diagnostics) {}
 
   Survey run() {
@@ -116,7 +127,8 @@ class Surveyor {
     if (!step.is_cutting()) return;
     if (!number) return no_tool(context);
     if (survey_.index.count(*number) == 0) no_such_tool(*number, context);
-    if (step.kind() == StepKind::arc && context.unknown_from == 0 && chord_count(walk_of(step, context.from)).too_coarse)
+    if (step.kind() == StepKind::arc && context.unknown_from == 0 &&
+        chord_count(walk_of(step, context.from)).too_coarse)
       diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
                            "the arc is so long that it is simulated with chords coarser than usual");
     if (step.unknown_axes() != 0) warn_unknown_place(context);
@@ -135,27 +147,33 @@ class Surveyor {
       const Point2 c = step.arc().centre;
       arc_centre = centre_ + Point3{c.x, c.y, 0.0};
     }
-    if (distance(step.to(), centre_) < kFarthestMotion && distance(arc_centre, centre_) < kFarthestMotion) return;
+    if (distance(step.to(), centre_) < kFarthestMotion && distance(arc_centre, centre_) < kFarthestMotion)
+      return;
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
-                       fmt::format("the motion goes further than {} km from the stock", number_text(kFarthestMotion * 1e-6, 0)));
+                       fmt::format("the motion goes further than {} km from the stock",
+                                   number_text(kFarthestMotion * 1e-6, 0)));
   }
 
   void check_extras(const Step& step, const MotionContext& context) {
     if (step.kind() == StepKind::extrude)
-      once(Code::extrusion_not_simulated, context, "printing is not simulated; extruding moves are passed over");
+      once(Code::extrusion_not_simulated, context,
+           "printing is not simulated; extruding moves are passed over");
     const MotionExtra* extra = path_.extra(context.index);
     if (extra == nullptr) return;
     if (extra->abc)
-      once(Code::rotary_not_simulated, context, "rotary axes are not simulated; the tool is taken as upright throughout");
+      once(Code::rotary_not_simulated, context,
+           "rotary axes are not simulated; the tool is taken as upright throughout");
     if (!extra->z_correction.empty())
-      once(Code::z_correction_not_simulated, context, "corrections of Z by measured points are not simulated");
+      once(Code::z_correction_not_simulated, context,
+           "corrections of Z by measured points are not simulated");
   }
 
   void no_such_tool(int number, const MotionContext& context) {
     if (std::find(missing_.begin(), missing_.end(), number) != missing_.end()) return;
     missing_.push_back(number);
-    Diagnostic& error = diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
-                                           fmt::format("tool {} cuts here, but its shape is not known", number));
+    Diagnostic& error =
+        diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
+                           fmt::format("tool {} cuts here, but its shape is not known", number));
     error.hint = fmt::format("give it with --tool, e.g. --tool {}=square:6.35", number);
   }
 
@@ -168,7 +186,8 @@ class Surveyor {
 
   void warn_unknown_place(const MotionContext& context) {
     once(Code::cut_at_unknown_place, context,
-         "the program cuts here before it has said where X, Y and Z are; X0 Y0 are taken, and without a Z nothing is cut");
+         "the program cuts here before it has said where X, Y and Z are; X0 Y0 are taken, and without a Z "
+         "nothing is cut");
   }
 
   void once(Code code, const MotionContext& context, std::string message) {
@@ -192,7 +211,8 @@ class Surveyor {
 
 class Run {
  public:
-  Run(Workpiece& workpiece, const Toolpath& path, Survey survey, const SimulationOptions& options, Progress* progress)
+  Run(Workpiece& workpiece, const Toolpath& path, Survey survey, const SimulationOptions& options,
+      Progress* progress)
       : body_(workpiece.body()),
         path_(path),
         survey_(std::move(survey)),
@@ -206,8 +226,10 @@ class Run {
     field_.same_height = body_.same_height;
     field_.hazard_depth = static_cast<Real>(options.hazard_depth.mm());
     for (int i = 0; i < kTileColumns; ++i) field_.step[i] = static_cast<Real>(i * body_.pitch);
-    for (int i = 0; i < body_.tiles_x * kTileColumns; ++i) share_x_.push_back(static_cast<Real>(body_.share_x(i)));
-    for (int j = 0; j < body_.tiles_y * kTileColumns; ++j) share_y_.push_back(static_cast<Real>(body_.share_y(j)));
+    for (int i = 0; i < body_.tiles_x * kTileColumns; ++i)
+      share_x_.push_back(static_cast<Real>(body_.share_x(i)));
+    for (int j = 0; j < body_.tiles_y * kTileColumns; ++j)
+      share_y_.push_back(static_cast<Real>(body_.share_y(j)));
   }
 
   void cut_all() {
@@ -229,7 +251,8 @@ class Run {
     const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
     const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
     if (tool == survey_.index.end()) return planner_.interrupt();  // a rapid before the first tool
-    const bool spindle_off = survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off);
+    const bool spindle_off =
+        survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off);
     planner_.add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
     if (batch_.full()) flush(context.index);
   }
@@ -253,7 +276,8 @@ class Run {
   bool stopped_ = false;
 
   Batch batch_;
-  // The batch's pairs in order of tiles: tile busy_[k] has the sweeps list_[start_[k]] to list_[start_[k + 1] - 1].
+  // The batch's pairs in order of tiles: tile busy_[k] has the sweeps list_[start_[k]] to list_[start_[k + 1]
+  // - 1].
   std::vector<std::uint32_t> busy_, list_;
   std::vector<std::size_t> start_, order_;
   std::vector<std::uint32_t> count_;
@@ -271,7 +295,8 @@ void Run::sort_by_tile() {
   start_.assign(1, 0);
   for (const std::uint32_t tile : busy_) {
     start_.push_back(start_.back() + count_[tile]);
-    count_[tile] = static_cast<std::uint32_t>(start_[start_.size() - 2]);  // from here on where the next one goes
+    count_[tile] =
+        static_cast<std::uint32_t>(start_[start_.size() - 2]);  // from here on where the next one goes
   }
   list_.resize(batch_.pairs.size());
   for (const Batch::Pair& pair : batch_.pairs) list_[count_[pair.tile]++] = pair.sweep;
@@ -295,8 +320,11 @@ void Run::cut_tile_number(std::size_t k) {
   job.tile = &body_.touch(tile);
   job.x = (column + 0.5) * body_.pitch;
   job.y = (row + 0.5) * body_.pitch;
-  job.share_x = share_x_.data() + column;
-  job.share_y = share_y_.data() + row;
+  const bool at_border = column + kTileColumns >= body_.nx || row + kTileColumns >= body_.ny;
+  if (at_border) {
+    job.share_x = share_x_.data() + column;
+    job.share_y = share_y_.data() + row;
+  }
   job.tools = &tools_;
   job.sweeps = batch_.sweeps.data();
   job.list = list_.data() + start_[k];
@@ -317,7 +345,8 @@ bool Run::flush(std::size_t steps_done) {
   for (std::size_t k = 0; k < list_.size(); ++k) removed_[batch_.sweeps[list_[k]].step] += pair_removed_[k];
   merge_contacts();
   batch_.clear();
-  report(progress_, path_.size() == 0 ? 1.0 : static_cast<double>(steps_done) / static_cast<double>(path_.size()));
+  report(progress_,
+         path_.size() == 0 ? 1.0 : static_cast<double>(steps_done) / static_cast<double>(path_.size()));
   stopped_ = stopped_ || stop_requested(progress_);
   return !stopped_;
 }
@@ -343,7 +372,8 @@ void Run::merge(const Contact& contact) {
 std::vector<Hazard> Run::hazards() const {
   std::vector<Hazard> list;
   for (const auto& [key, contact] : merged_)
-    list.push_back({key.second, key.first, contact.at + body_.bounds.low, mm(contact.depth), mm3(contact.removed)});
+    list.push_back(
+        {key.second, key.first, contact.at + body_.bounds.low, mm(contact.depth), mm3(contact.removed)});
   return list;
 }
 
@@ -351,7 +381,8 @@ std::vector<Hazard> Run::hazards() const {
 }  // namespace sim
 
 std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools, const Stock& stock,
-                                   const SimulationOptions& options, Diagnostics& diagnostics, Progress* progress) {
+                                   const SimulationOptions& options, Diagnostics& diagnostics,
+                                   Progress* progress) {
   const auto begin = std::chrono::steady_clock::now();
   if (!sim::stock_is_sound(stock, diagnostics)) return std::nullopt;
   const std::optional<double> pitch = sim::choose_pitch(options, stock.block.size(), diagnostics);
@@ -361,7 +392,11 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   sim::Survey survey = sim::Surveyor(path, tools, stock, clearance, diagnostics).run();
   if (diagnostics.errors() != errors_before) return std::nullopt;
 
-  Simulation result{.workpiece = Workpiece(stock, mm(*pitch)), .stock = {}, .removed = {}, .hazards = {}, .removed_by_step = {}};
+  Simulation result{.workpiece = Workpiece(stock, mm(*pitch)),
+                    .stock = {},
+                    .removed = {},
+                    .hazards = {},
+                    .removed_by_step = {}};
   const Point3 size = stock.block.size();
   result.stock = mm3(size.x * size.y * size.z);
   sim::Run run(result.workpiece, path, std::move(survey), options, progress);

@@ -42,7 +42,8 @@ ArcShape arc_shape(const Knot& a, const Knot& b) {
   const double dr = b.r - a.r, dz = b.z - a.z;
   const double chord = std::hypot(dr, dz);
   const double bulge = a.bulge;
-  const double offset = 0.25 * (1.0 / bulge - bulge);  // of the centre from the chord's middle, in chords, to its left
+  const double offset =
+      0.25 * (1.0 / bulge - bulge);  // of the centre from the chord's middle, in chords, to its left
   ArcShape arc;
   arc.r = 0.5 * (a.r + b.r) - offset * dz;
   arc.z = 0.5 * (a.z + b.z) + offset * dr;
@@ -52,8 +53,12 @@ ArcShape arc_shape(const Knot& a, const Knot& b) {
 
 Cap arc_cap(double flat, double height, double centre_r, double centre_z, double radius) {
   const bool on_axis = std::abs(centre_r) < kSameRadius;
-  return {.curve = on_axis ? CapCurve::ball : CapCurve::torus, .flat = flat, .height = height,
-          .centre_r = on_axis ? 0.0 : centre_r, .centre_z = centre_z, .radius = radius};
+  return {.curve = on_axis ? CapCurve::ball : CapCurve::torus,
+          .flat = flat,
+          .height = height,
+          .centre_r = on_axis ? 0.0 : centre_r,
+          .centre_z = centre_z,
+          .radius = radius};
 }
 
 /// A zone bounded by an arc that bulges away from the axis.

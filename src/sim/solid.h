@@ -1,8 +1,8 @@
 // A part of a tool as convex pieces: what the sweeps of the simulator are computed from.
 //
-// A convex piece that is turned about the spindle's axis meets every vertical line in one interval, and so does the
-// solid that it sweeps along a straight line. Pieces are cylinders, cone frusta and zones of spheres and tori; an arc
-// that is hollow seen from outside becomes frusta. Heights are above the tip, mm.
+// A convex piece that is turned about the spindle's axis meets every vertical line in one interval, and so
+// does the solid that it sweeps along a straight line. Pieces are cylinders, cone frusta and zones of spheres
+// and tori; an arc that is hollow seen from outside becomes frusta. Heights are above the tip, mm.
 #pragma once
 
 #include <cstdint>
@@ -15,9 +15,10 @@ namespace kerf::sim {
 
 enum class CapCurve : std::uint8_t { flat, cone, ball, torus };
 
-/// The underside of a convex piece as a function of the distance rho from the axis: `height` up to `flat`, from there
-/// to the piece's rim a line of the given slope, or an arc about (centre_r, centre_z) with its centre above the curve.
-/// It never falls and is convex. A ball is a torus whose centre lies on the axis and which has the closed form.
+/// The underside of a convex piece as a function of the distance rho from the axis: `height` up to `flat`,
+/// from there to the piece's rim a line of the given slope, or an arc about (centre_r, centre_z) with its
+/// centre above the curve. It never falls and is convex. A ball is a torus whose centre lies on the axis and
+/// which has the closed form.
 struct Cap {
   CapCurve curve = CapCurve::flat;
   double flat = 0.0;
@@ -35,8 +36,8 @@ struct Piece {
   Cap upper;
 };
 
-/// A line below the underside of a whole solid: height >= offset + slope * rho. The highest of a few such lines is
-/// what culling compares with.
+/// A line below the underside of a whole solid: height >= offset + slope * rho. The highest of a few such
+/// lines is what culling compares with.
 struct CullLine {
   double offset = 0.0, slope = 0.0;
 };
@@ -55,8 +56,8 @@ struct Solid {
   double reach_below(double height) const;
 };
 
-/// Pieces of a profile. Hollow arcs become frusta that stray at most `chord` from the arc. All surfaces but level ones
-/// are moved inwards by `shrink`: what only touches sideways then meets nothing.
+/// Pieces of a profile. Hollow arcs become frusta that stray at most `chord` from the arc. All surfaces but
+/// level ones are moved inwards by `shrink`: what only touches sideways then meets nothing.
 Solid make_solid(const Profile& profile, Length chord, Length shrink);
 
 /// A cylinder from `bottom` to `top`.

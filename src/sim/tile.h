@@ -1,9 +1,9 @@
 // The workpiece's inside: tiles of 64 x 64 columns, each tile 4 x 4 supers of 4 x 4 micros of 4 x 4 columns.
 //
-// The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Most columns are
-// one run of material that stands on the floor: a micro then keeps only tops. The first undercut in a micro gives it
-// a chain of slots, each with one interval a column; a chain grows as long as needed. Heights are mm above the
-// block's floor, single precision.
+// The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Most
+// columns are one run of material that stands on the floor: a micro then keeps only tops. The first undercut
+// in a micro gives it a chain of slots, each with one interval a column; a chain grows as long as needed.
+// Heights are mm above the block's floor, single precision.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,11 @@
 namespace kerf::sim {
 
 using Real = float;
-inline constexpr int kLanes = 16;         // columns of a micro
-inline constexpr int kMicros = 256;       // micros of a tile
-inline constexpr int kSupers = 16;        // supers of a tile, and micros of a super
-inline constexpr int kTileColumns = 64;   // columns along a tile's edge
-inline constexpr Real kFar = 1e30f;       // stands for "no material here", safe to calculate with
+inline constexpr int kLanes = 16;        // columns of a micro
+inline constexpr int kMicros = 256;      // micros of a tile
+inline constexpr int kSupers = 16;       // supers of a tile, and micros of a super
+inline constexpr int kTileColumns = 64;  // columns along a tile's edge
+inline constexpr Real kFar = 1e30f;      // stands for "no material here", safe to calculate with
 
 struct alignas(64) Lanes {
   Real v[kLanes];
@@ -46,9 +46,10 @@ struct Tile {
   /// All columns full up to `height`, but for those beyond `columns_x` and `columns_y`, which do not exist.
   Tile(Real height, int columns_x, int columns_y);
 
-  Lanes top[kMicros];  // tops of columns that stand on the floor, 0 where cut away; unused in a micro with a chain
+  Lanes top[kMicros];  // tops of columns that stand on the floor, 0 where cut away; unused in a micro with a
+                       // chain
   alignas(64) std::uint32_t top_step[kMicros][kLanes];
-  alignas(64) Real micro_top[kMicros];     // highest and lowest material of each micro
+  alignas(64) Real micro_top[kMicros];  // highest and lowest material of each micro
   alignas(64) Real micro_bottom[kMicros];
   alignas(64) Real super_top[kSupers];
   alignas(64) Real super_bottom[kSupers];
@@ -78,7 +79,8 @@ struct Workpiece::Body {
   int nx = 0, ny = 0;
   int tiles_x = 0, tiles_y = 0;
   sim::Real height = 0.0f;
-  /// Ends of intervals nearer than this are taken as the same height, mm: beyond what single precision tells apart.
+  /// Ends of intervals nearer than this are taken as the same height, mm: beyond what single precision tells
+  /// apart.
   sim::Real same_height = 0.0f;
   /// Tiles that nothing has touched yet do not exist.
   std::vector<std::unique_ptr<sim::Tile>> tiles;

@@ -68,7 +68,8 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
     if (slot.high[lane] > slot.low[lane])
       out.push_back({slot.low[lane], slot.high[lane], slot.low_step[lane], slot.high_step[lane]});
   }
-  std::sort(out.begin() + begin, out.end(), [](const Interval& a, const Interval& b) { return a.low < b.low; });
+  std::sort(out.begin() + begin, out.end(),
+            [](const Interval& a, const Interval& b) { return a.low < b.low; });
 }
 
 void Tile::update_bounds(int micro) {
@@ -126,15 +127,15 @@ int Workpiece::Body::columns_y_of(std::size_t tile) const {
 }
 
 sim::Tile& Workpiece::Body::touch(std::size_t tile) {
-  if (!tiles[tile])
-    tiles[tile] = std::make_unique<sim::Tile>(height, columns_x_of(tile), columns_y_of(tile));
+  if (!tiles[tile]) tiles[tile] = std::make_unique<sim::Tile>(height, columns_x_of(tile), columns_y_of(tile));
   return *tiles[tile];
 }
 
 double Workpiece::Body::share_x(int i) const { return sim::share_inside(i, pitch, bounds.size().x); }
 double Workpiece::Body::share_y(int j) const { return sim::share_inside(j, pitch, bounds.size().y); }
 
-Workpiece::Workpiece(const Stock& stock, Length pitch) : body_(std::make_unique<Body>(stock.block, pitch.mm())) {}
+Workpiece::Workpiece(const Stock& stock, Length pitch)
+    : body_(std::make_unique<Body>(stock.block, pitch.mm())) {}
 Workpiece::Workpiece(Workpiece&&) noexcept = default;
 Workpiece& Workpiece::operator=(Workpiece&&) noexcept = default;
 Workpiece::~Workpiece() = default;
@@ -147,8 +148,9 @@ int Workpiece::columns_y() const { return body_->ny; }
 std::vector<Interval> Workpiece::column(int i, int j) const {
   assert(i >= 0 && i < body_->nx && j >= 0 && j < body_->ny);
   std::vector<Interval> out;
-  const std::size_t tile = static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body_->tiles_x) +
-                           static_cast<std::size_t>(i / sim::kTileColumns);
+  const std::size_t tile =
+      static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body_->tiles_x) +
+      static_cast<std::size_t>(i / sim::kTileColumns);
   if (!body_->tiles[tile]) {
     out.push_back({0.0f, body_->height, kStockSurface, kStockSurface});
   } else {
@@ -159,12 +161,14 @@ std::vector<Interval> Workpiece::column(int i, int j) const {
 
 ColumnGrid Workpiece::grid() const {
   const Body& body = *body_;
-  ColumnGrid grid{.bounds = body.bounds, .pitch = body.pitch, .nx = body.nx, .ny = body.ny, .first = {}, .intervals = {}};
+  ColumnGrid grid{
+      .bounds = body.bounds, .pitch = body.pitch, .nx = body.nx, .ny = body.ny, .first = {}, .intervals = {}};
   const std::size_t count = static_cast<std::size_t>(body.nx) * static_cast<std::size_t>(body.ny);
   grid.first.reserve(count + 1);
   grid.intervals.reserve(count);
   for (int j = 0; j < body.ny; ++j) {
-    const std::size_t row = static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
+    const std::size_t row =
+        static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
     for (int i = 0; i < body.nx; ++i) {
       grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
       const sim::Tile* tile = body.tiles[row + static_cast<std::size_t>(i / sim::kTileColumns)].get();
@@ -184,7 +188,8 @@ Volume Workpiece::volume() const {
   double sum = 0.0;
   std::vector<Interval> column;
   for (int j = 0; j < body.ny; ++j) {
-    const std::size_t row = static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
+    const std::size_t row =
+        static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
     double line = 0.0;
     for (int i = 0; i < body.nx; ++i) {
       const sim::Tile* tile = body.tiles[row + static_cast<std::size_t>(i / sim::kTileColumns)].get();
@@ -193,7 +198,8 @@ Volume Workpiece::volume() const {
         column.clear();
         tile->intervals(sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns), column);
         length = 0.0;
-        for (const Interval& run : column) length += static_cast<double>(run.high) - static_cast<double>(run.low);
+        for (const Interval& run : column)
+          length += static_cast<double>(run.high) - static_cast<double>(run.low);
       }
       line += length * body.share_x(i);
     }

@@ -1,0 +1,310 @@
+// Single sweeps of every tool and every kind of motion against an independent reference: the tool's position is
+// sampled densely along the true curve, and each end of what it removes above a column is refined, all in double.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "jobs.h"
+
+namespace kerf::test {
+namespace {
+
+constexpr double kMicron = 0.001;
+constexpr double kTop = 12.0;  // of the block, whose floor is at 0
+
+/// Where a static tool's material lies at a distance from the axis: intervals above the tip, by the half profile alone.
+class Silhouette2 {
+ public:
+  explicit Silhouette2(const Profile& profile) {
+    for (std::size_t i = 0; i + 1 < profile.knots.size(); ++i) add(profile.knots[i], profile.knots[i + 1]);
+  }
+  double top() const { return segments_.back().z1; }
+  double max_radius() const {
+    double r = 0;
+    for (const Segment& s : segments_)
+      for (int k = 0; k <= 200; ++k) r = std::max(r, s.radius(s.z0 + (s.z1 - s.z0) * k / 200));
+    return r;
+  }
+  /// Radius just above (side > 0) or below a height.
+  bool contains(double rho, double z) const {
+    for (const Segment& s : segments_)
+      if (z >= s.z0 && z <= s.z1 && rho <= s.radius(z)) return true;
+    return false;
+  }
+  struct Run {
+    double low, high;
+  };
+  /// The runs of material at a distance, each segment's own (they may adjoin).
+  void runs(double rho, std::vector<Run>& out) const {
+    out.clear();
+    for (const Segment& s : segments_) s.run(rho, out);
+  }
+
+ private:
+  struct Segment {
+    double r0, z0, r1, z1, bulge, cr, cz, q;
+    double radius(double z) const {
+      if (bulge == 0) return r0 + (r1 - r0) * (z - z0) / (z1 - z0);
+      const double w = std::sqrt(std::max(0.0, q * q - (z - cz) * (z - cz)));
+      return bulge > 0 ? cr + w : cr - w;
+    }
+    /// All segments used here have radii that rise to one peak (or only rise or fall), so that one run remains.
+    void run(double rho, std::vector<Run>& out) const {
+      double peak = r0 > r1 ? z0 : z1;
+      if (bulge > 0 && cz > z0 && cz < z1) peak = cz;
+      if (radius(peak) < rho) return;
+      double low = z0, high = z1;
+      if (radius(z0) < rho) low = crossing(rho, z0, peak);
+      if (radius(z1) < rho) high = crossing(rho, z1, peak);
+      out.push_back({low, high});
+    }
+    /// The height between `outside` and `inside` at which the radius is rho.
+    double crossing(double rho, double outside, double inside) const {
+      if (bulge == 0) return r1 == r0 ? inside : z0 + (rho - r0) * (z1 - z0) / (r1 - r0);
+      const double w = std::sqrt(std::max(0.0, q * q - (rho - cr) * (rho - cr)));
+      const double low = std::min(outside, inside), high = std::max(outside, inside);
+      const double below = std::clamp(cz - w, low, high), above = std::clamp(cz + w, low, high);
+      return std::abs(radius(below) - rho) < std::abs(radius(above) - rho) ? below : above;
+    }
+  };
+  void add(const Knot& a, const Knot& b) {
+    if (b.z <= a.z) return;
+    Segment s{a.r, a.z, b.r, b.z, a.bulge, 0, 0, 0};
+    if (a.bulge != 0) {
+      const double k = 0.25 * (1 / a.bulge - a.bulge);
+      s.cr = 0.5 * (a.r + b.r) - k * (b.z - a.z);
+      s.cz = 0.5 * (a.z + b.z) + k * (b.r - a.r);
+      s.q = std::hypot(a.r - s.cr, a.z - s.cz);
+    }
+    segments_.push_back(s);
+  }
+  std::vector<Segment> segments_;
+};
+
+struct Motion {
+  std::string name;
+  Point3 from;
+  std::optional<step::Arc> arc;  // else straight to `to`
+  Point3 to;
+};
+
+std::vector<Motion> motions() {
+  const Point3 a{8.03, 9.07, 6.0};
+  std::vector<Motion> list{
+      {"level", a, {}, {21.3, 13.9, 6.0}},
+      {"along_x", a, {}, {20.0, 9.07, 6.0}},
+      {"plunge", {12.0, 11.0, 14.0}, {}, {12.0, 11.0, 5.5}},
+      {"up", {12.0, 11.0, 5.5}, {}, {12.0, 11.0, 9.0}},
+      {"slope_down", {8, 9, 8.0}, {}, {20.5, 14.0, 4.5}},
+      {"slope_up", {8, 9, 4.5}, {}, {20.5, 14.0, 8.0}},
+      {"steep_down", {12, 11, 11.0}, {}, {13.1, 12.0, 4.5}},
+      {"steep_up", {13.1, 12, 4.5}, {}, {12, 11, 11.0}},
+      {"dot", a, {}, a},
+  };
+  const auto arc = [&](std::string name, Point3 from, Point3 to, Point2 centre, Turn turn, Plane plane = Plane::xy,
+                       int turns = 0) {
+    list.push_back({std::move(name), from, step::Arc{.to = to, .centre = centre, .plane = plane, .turn = turn,
+                                                     .extra_turns = turns, .feed = mm_per_min(300)}, to});
+  };
+  arc("arc_ccw_short", {18, 12, 6}, {14, 16, 6}, {14, 12}, Turn::ccw);
+  arc("arc_cw_long", {18, 12, 6}, {14, 16, 6}, {14, 12}, Turn::cw);
+  arc("arc_cw_short", {14, 16, 6}, {18, 12, 6}, {14, 12}, Turn::cw);
+  arc("circle", {19, 12, 6}, {19, 12, 6}, {14, 12}, Turn::ccw);
+  arc("small_circle", {15, 12, 6}, {15, 12, 6}, {14, 12}, Turn::cw);
+  arc("helix", {18, 12, 8}, {18, 12, 5}, {14, 12}, Turn::cw, Plane::xy, 1);
+  arc("helix_up", {18, 12, 5}, {10, 12, 7}, {14, 12}, Turn::ccw);
+  arc("spiral", {18, 12, 6}, {14, 15, 6}, {14, 12}, Turn::ccw);
+  arc("xz", {10, 12, 7}, {16, 12, 7}, {13, 7}, Turn::cw, Plane::xz);
+  arc("yz", {14, 8, 7}, {14, 14, 7}, {11, 7}, Turn::ccw, Plane::yz);
+  return list;
+}
+
+/// What the tool removes above one place: merged runs.
+class Reference {
+ public:
+  Reference(const Profile& profile, const Motion& motion) : tool_(profile), motion_(motion) {
+    if (motion.arc) walk_ = walk_arc(motion.from, motion.arc->to, motion.arc->centre, motion.arc->plane, motion.arc->turn,
+                                     motion.arc->extra_turns);
+    const double length = walk_ ? walk_->length() : distance(motion.from, motion.to);
+    samples_ = std::max(2, static_cast<int>(length / 0.05));
+    for (int k = 0; k <= samples_; ++k) points_.push_back(at(k / static_cast<double>(samples_)));
+    rim_ = tool_.max_radius();
+  }
+  Point3 at(double t) const {
+    return walk_ ? walk_->at(t) : motion_.from + t * (motion_.to - motion_.from);
+  }
+
+  using Run = Silhouette2::Run;
+  std::vector<Run> removed(double x, double y) const {
+    std::vector<Sample> all;
+    std::vector<Run> runs;
+    for (int k = 0; k <= samples_; ++k) {
+      const double rho = std::hypot(x - points_[k].x, y - points_[k].y);
+      if (rho > rim_ + 1e-12) continue;
+      tool_.runs(rho, runs);
+      for (const Run& r : runs) all.push_back({r.low + points_[k].z, r.high + points_[k].z, k});
+    }
+    add_rim_touches(x, y, all);
+    std::sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.low < b.low; });
+    std::vector<Run> out;
+    for (std::size_t i = 0; i < all.size();) {
+      Sample low = all[i], high = all[i];
+      for (; i < all.size() && all[i].low <= high.high + 0.06; ++i)
+        if (all[i].high > high.high) high = all[i];
+      out.push_back({refined(x, y, low, false), refined(x, y, high, true)});
+    }
+    return out;
+  }
+
+ private:
+  struct Sample {
+    double low, high;
+    int k;
+  };
+  /// Runs at moments between two samples of which one is out of reach: found by halving.
+  void add_rim_touches(double x, double y, std::vector<Sample>& all) const {
+    std::vector<Run> runs;
+    const auto reach = [&](double t) {
+      const Point3 p = at(t);
+      tool_.runs(std::hypot(x - p.x, y - p.y), runs);
+      return runs.size();
+    };
+    for (int k = 0; k < samples_; ++k) {
+      double in = k / static_cast<double>(samples_), out = (k + 1) / static_cast<double>(samples_);
+      if (std::hypot(x - points_[k].x, y - points_[k].y) > rim_ + 0.1) continue;
+      std::size_t in_count = reach(in);
+      const std::size_t out_count = reach(out);
+      if (in_count == out_count) continue;
+      if (in_count < out_count) std::swap(in, out), in_count = out_count;
+      for (int n = 0; n < 50; ++n) {
+        const double middle = 0.5 * (in + out);
+        (reach(middle) == in_count ? in : out) = middle;
+      }
+      reach(in);
+      for (const Run& r : runs) all.push_back({r.low + at(in).z, r.high + at(in).z, k});
+    }
+  }
+  /// The lowest low (highest high) near the best sample, by golden section on each side of it.
+  double refined(double x, double y, const Sample& sample, bool upper) const {
+    const double best = upper ? sample.high : sample.low;
+    double result = best;
+    std::vector<Run> runs;
+    const auto value = [&](double t) {
+      const Point3 p = at(std::clamp(t, 0.0, 1.0));
+      tool_.runs(std::hypot(x - p.x, y - p.y), runs);
+      double v = upper ? -1e9 : 1e9;
+      for (const Run& r : runs) {
+        const double end = (upper ? r.high : r.low) + p.z;
+        if (std::abs(end - best) < 0.2) v = upper ? std::max(v, end) : std::min(v, end);
+      }
+      return upper ? -v : v;
+    };
+    double a = (sample.k - 1.0) / samples_, b = (sample.k + 1.0) / samples_;
+    for (int n = 0; n < 60; ++n) {
+      const double l = a + 0.382 * (b - a), r = b - 0.382 * (b - a);
+      (value(l) < value(r) ? b : a) = value(l) < value(r) ? r : l;
+    }
+    const double found = value(0.5 * (a + b));
+    if (std::abs(found) < 1e8) result = upper ? std::max(result, -found) : std::min(result, found);
+    return result;
+  }
+
+  Silhouette2 tool_;
+  const Motion& motion_;
+  std::optional<ArcWalk> walk_;
+  int samples_ = 0;
+  double rim_ = 0;
+  std::vector<Point3> points_;
+};
+
+std::vector<Silhouette2::Run> left_of(const std::vector<Silhouette2::Run>& removed) {
+  std::vector<Silhouette2::Run> left;
+  double from = 0.0;
+  for (const auto& r : removed) {
+    if (std::min(r.low, kTop) > from) left.push_back({from, std::min(r.low, kTop)});
+    from = std::max(from, r.high);
+  }
+  if (from < kTop) left.push_back({from, kTop});
+  std::erase_if(left, [](const auto& r) { return r.high - r.low < 2e-5; });
+  return left;
+}
+
+double difference(const std::vector<Interval>& have, const std::vector<Silhouette2::Run>& want) {
+  if (have.size() != want.size()) return 1e9;
+  double worst = 0.0;
+  for (std::size_t k = 0; k < have.size(); ++k) {
+    worst = std::max(worst, std::abs(static_cast<double>(have[k].low) - want[k].low));
+    worst = std::max(worst, std::abs(static_cast<double>(have[k].high) - want[k].high));
+  }
+  return worst;
+}
+
+/// Where the surface is steep, a micron sideways counts as much as a micron in height.
+template <class Left>
+double surface_error(double x, double y, const std::vector<Interval>& have, const Left& left) {
+  double best = difference(have, left(x, y));
+  for (int k = 0; k < 8 && best > kMicron; ++k) {
+    const double angle = k * std::numbers::pi / 4;
+    best = std::min(best, difference(have, left(x + kMicron * std::cos(angle), y + kMicron * std::sin(angle))));
+  }
+  return best;
+}
+
+/// The job of one motion: straight down to its begin, then the motion.
+Toolpath path_of(const Motion& motion) {
+  Path path;
+  path.tool(1).rapid({motion.from.x, motion.from.y, 40}).cut(motion.from);
+  if (motion.arc) {
+    path.arc(*motion.arc);
+  } else {
+    path.cut(motion.to);
+  }
+  return path.path();
+}
+
+/// Largest error over a pattern of columns, mm; reports columns that are worse than a micron.
+double worst_error(const NamedProfile& tool, const Motion& motion, const Workpiece& workpiece) {
+  const Motion approach{"approach", {motion.from.x, motion.from.y, 40}, {}, motion.from};
+  const Reference down(tool.profile, approach), along(tool.profile, motion);
+  const auto left = [&](double x, double y) {
+    std::vector<Silhouette2::Run> runs = down.removed(x, y);
+    const auto more = along.removed(x, y);
+    runs.insert(runs.end(), more.begin(), more.end());
+    std::sort(runs.begin(), runs.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
+    return left_of(runs);
+  };
+  const double pitch = workpiece.pitch().mm();
+  double worst = 0.0;
+  for (int j = 0; j < workpiece.columns_y(); ++j) {
+    for (int i = (3 * j) % 11; i < workpiece.columns_x(); i += 11) {
+      const double x = (i + 0.5) * pitch, y = (j + 0.5) * pitch;
+      const double error = surface_error(x, y, workpiece.column(i, j), left);
+      if (error > kMicron && worst <= kMicron)
+        ADD_FAILURE() << tool.name << " " << motion.name << " at " << x << ", " << y << ": " << error << " mm";
+      worst = std::max(worst, error);
+    }
+  }
+  return worst;
+}
+
+class Sweeps : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Sweeps, MatchTheReferenceWithinAMicron) {
+  const NamedProfile tool = all_profiles()[GetParam()];
+  ToolTable tools;
+  tools.set(1, make_drawn(1, tool.profile));
+  for (const Motion& motion : motions()) {
+    Diagnostics diagnostics;
+    const auto result = run(path_of(motion), tools, block({0, 0, 0}, {28, 24, kTop}), 0.25, diagnostics);
+    ASSERT_TRUE(result);
+    const double worst = worst_error(tool, motion, result->workpiece);
+    EXPECT_LE(worst, kMicron) << tool.name << " " << motion.name;
+    RecordProperty(motion.name, std::to_string(worst * 1000) + " um");
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllTools, Sweeps, testing::Range<std::size_t>(0, all_profiles().size()),
+                         [](const auto& tool) { return all_profiles()[tool.param].name; });
+
+}  // namespace
+}  // namespace kerf::test
