@@ -159,7 +159,7 @@ std::vector<Interval> Workpiece::column(int i, int j) const {
 
 ColumnGrid Workpiece::grid() const {
   const Body& body = *body_;
-  ColumnGrid grid{.bounds = body.bounds, .pitch = body.pitch, .nx = body.nx, .ny = body.ny, .first = {}, .intervals = {}};
+  ColumnGrid grid{.bounds = body.bounds, .pitch = body.pitch, .nx = body.nx, .ny = body.ny, .first = {}, .intervals = {}, .cut_through = {}};
   const std::size_t count = static_cast<std::size_t>(body.nx) * static_cast<std::size_t>(body.ny);
   grid.first.reserve(count + 1);
   grid.intervals.reserve(count);
