@@ -66,7 +66,7 @@ void show_result(Console& console, const LoadedProgram& program, const std::vect
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
-  if (usage.has_errors()) return console.show(usage), Status::wrong_usage;
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   TerminalProgress progress(console);
   std::optional<LoadedProgram> program;
   if (!diagnostics.has_errors()) program = load_program(options.job.file, diagnostics, &progress);
@@ -85,7 +85,7 @@ Status run(Console& console, const Options& options) {
     if (material) findings = merged(std::move(findings), std::move(*material));
   }
   progress.clear();
-  if (interrupted()) return console.complain("interrupted"), Status::interrupted;
+  if (interrupted()) return tell_stopped(console);
   show_result(console, job.program, findings, diagnostics);
   if (diagnostics.has_errors()) return Status::input_errors;
   return findings.empty() ? Status::done : Status::hazards;
@@ -95,8 +95,8 @@ const char* const kExamples =
     R"(  kerf check part.nc && echo "good to cut"
   kerf check part.nc --json --stock "100x60x12 at lower-left top"
 
-Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor, cuts
-without feed, tool or turning spindle, arcs that controllers refuse, a missing program end.
+Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor,
+cuts without feed, tool or turning spindle, arcs that controllers refuse, a missing program end.
 Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 )";
 

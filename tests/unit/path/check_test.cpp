@@ -40,9 +40,7 @@ TEST(CheckPath, SoundJobHasNoHazards) {
   EXPECT_EQ(kinds(job, {.end = ProgramEnd::seen}), Kinds{});
 }
 
-TEST(CheckPath, EmptyPathHasNoHazards) {
-  EXPECT_EQ(kinds(Job{}, {.end = ProgramEnd::missing}), Kinds{});
-}
+TEST(CheckPath, EmptyPathHasNoHazards) { EXPECT_EQ(kinds(Job{}, {.end = ProgramEnd::missing}), Kinds{}); }
 
 TEST(CheckPath, CutsWithoutFeedAreOneRunWithTheFirstStep) {
   Job job = started();
@@ -82,6 +80,12 @@ TEST(CheckPath, CutBeforeAToolChange) {
   Job job;
   job.add(step::Spindle{rpm(1000), SpindleTurn::ccw}).add(step::Cut{{0, 0, -1}, mm_per_min(10)});
   EXPECT_EQ(kinds(job), Kinds{"no_tool"});
+}
+
+TEST(CheckPath, KindsAreTheCodesNamesWithoutTheirArea) {
+  EXPECT_EQ(kind_of(PathHazard{Code::path_no_tool, 0, 1, {}, {}}), "no_tool");
+  EXPECT_EQ(kind_of(PathHazard{Code::path_arc_radii, 0, 1, {}, {}}), "arc_radii");
+  EXPECT_EQ(kind_of(PathHazard{Code::path_spindle_off, 0, 1, {}, {}}), "spindle_off");
 }
 
 TEST(CheckPath, SpindleNeverStartedStoppedOrAtZero) {
