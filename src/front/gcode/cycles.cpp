@@ -30,8 +30,8 @@ struct Interpreter::Hole {
 };
 
 void Interpreter::cycle(Tenths motion) {
-  if (cycle_.motion !=
-      motion) {  // another cycle of the same series knows only the level where the series began
+  if (cycle_.motion != motion) {
+    // Another cycle of the same series knows only the level where the series began.
     const std::optional<double> level = cycle_.start_level;
     cycle_ = {};
     cycle_.motion = motion;
