@@ -32,7 +32,8 @@ void Interpreter::move() {
   if (axes || (is_arc(modes_.motion) && line_.has_unused(kArcLetters))) return move_in(modes_.motion);
   if (!stated || line_.has(Group::reference)) return;
   if (modes_.motion == 0 || modes_.motion == 10) {
-    // A move of length 0, as LinuxCNC makes it; in a program's header, where nothing has moved yet, only the mode.
+    // A move of length 0, as LinuxCNC makes it; in a program's header, where nothing has moved yet, only the
+    // mode.
     if (moved_ && (modes_.motion == 0 || modes_.feed > 0.0)) straight(modes_.motion);
     return;
   }
