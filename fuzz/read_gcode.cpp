@@ -19,9 +19,11 @@ void touch(const kerf::Toolpath& path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const kerf::Step& s = path[i];
     require(!to_string(path.origin_of(i)).empty());
-    if (s.kind() == kerf::StepKind::note || s.kind() == kerf::StepKind::verbatim) require(path.text(i).size() < 2000);
+    if (s.kind() == kerf::StepKind::note || s.kind() == kerf::StepKind::verbatim)
+      require(path.text(i).size() < 2000);
     if (s.kind() == kerf::StepKind::dwell) require(s.dwell().time.seconds() >= 0.0);
-    if (s.is_motion()) require(std::isfinite(s.feed().mm_per_min()) && finite(s.to()) && s.unknown_axes() < 8);
+    if (s.is_motion())
+      require(std::isfinite(s.feed().mm_per_min()) && finite(s.to()) && s.unknown_axes() < 8);
   }
 }
 

@@ -30,8 +30,8 @@ struct Interpreter::Hole {
 };
 
 void Interpreter::cycle(Tenths motion) {
-  if (cycle_.motion !=
-      motion) {  // another cycle of the same series knows only the level where the series began
+  if (cycle_.motion != motion) {
+    // Another cycle of the same series knows only the level where the series began.
     const std::optional<double> level = cycle_.start_level;
     cycle_ = {};
     cycle_.motion = motion;
@@ -134,7 +134,8 @@ std::optional<Interpreter::Hole> Interpreter::plan_hole() {
   cycle_.start_level = level;
   const double begin = std::max(level, hole.r);
   hole.clear = modes_.retract_to_start ? begin : hole.r;
-  hole.travel = std::max(here_.at[axes.w], hole.clear);
+  const double now = level < hole.r ? hole.r : here_.at[axes.w];  // after the approach
+  hole.travel = std::max(now, hole.clear);
   return hole;
 }
 
@@ -163,9 +164,10 @@ void Interpreter::drill(Tenths motion, const Hole& hole) {
       spin(SpindleTurn::off);
       cycle_rapid(hole, hole.clear);
       return spin(turn);
-    case 880:  // the operator retracts by hand
+    case 880:  // the operator retracts by hand; the rapid stands for that
       spin(SpindleTurn::off);
       add(step::Verbatim{"M0"});
+      cycle_rapid(hole, hole.clear);
       return spin(turn);
     case 890: return cycle_cut(hole, hole.clear);
     default: return cycle_rapid(hole, hole.clear);

@@ -31,8 +31,12 @@ void Interpreter::move() {
   const bool axes = line_.has_unused(kAxisLetters | kRotaryLetters);
   if (axes || (is_arc(modes_.motion) && line_.has_unused(kArcLetters))) return move_in(modes_.motion);
   if (!stated || line_.has(Group::reference)) return;
-  if (modes_.motion == 0 || modes_.motion == 10)
-    return straight(modes_.motion);  // a move of length 0, as LinuxCNC's
+  if (modes_.motion == 0 || modes_.motion == 10) {
+    // A move of length 0, as LinuxCNC makes it; in a program's header, where nothing has moved yet, only the
+    // mode.
+    if (moved_ && (modes_.motion == 0 || modes_.feed > 0.0)) straight(modes_.motion);
+    return;
+  }
   if (modes_.motion != kNoMotion)
     talker_.unusual(Code::word_missing, line_.column(Group::motion),
                     fmt::format("{} without axis words makes no move here", code_text('G', modes_.motion)));

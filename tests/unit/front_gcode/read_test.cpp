@@ -130,6 +130,21 @@ TEST(ReadGcode, ToolsAndStockOfComments) {
   EXPECT_NEAR(r.program.tools.at(3).diameter.mm(), 3.175, 1e-12);
 }
 
+TEST(ReadGcode, TheHandRetractionOfG88IsARapid) {
+  const Reading r = read("M3 S100\nG0 Z5\nG88 X10 Z-3 R2 P0.5 F9\nM2");
+  ASSERT_EQ(kinds(r.program.path),
+            "spindle rapid rapid rapid cut dwell spindle verbatim rapid spindle spindle verbatim");
+  EXPECT_EQ(r.program.path.text(7), "M0");
+  EXPECT_EQ(r[8].to(), (Point3{10, 0, 2}));
+}
+
+TEST(ReadGcode, MotionCodesAloneSetTheModeInAHeader) {
+  const Reading r = read("G1 G17\nG20\nX1 F1\nG1\nM2");
+  ASSERT_EQ(kinds(r.program.path), "cut cut verbatim");  // the second is of length 0
+  EXPECT_TRUE(r.program.inch);
+  EXPECT_TRUE(r.diagnostics.list().empty()) << to_string(r.diagnostics.list().front());
+}
+
 TEST(ReadGcode, MessagesForTheOperatorAreKept) {
   const Reading r = read("(MSG, turn the part)\n(just a comment)\nG0 X1\nM2");
   ASSERT_EQ(kinds(r.program.path), "note rapid verbatim");
