@@ -1,16 +1,11 @@
 // Kerf's tool files: TOML into tools, every fault with its line and column.
-// Header-only and without exceptions: the library of the distribution throws, and WebAssembly has none.
-#undef TOML_HEADER_ONLY
-#undef TOML_SHARED_LIB
-#define TOML_HEADER_ONLY 1
-#define TOML_EXCEPTIONS 0
 #include <cassert>
 #include <fmt/format.h>
 #include <map>
-#include <toml++/toml.h>
 
 #include "front/tools/built_in_text.h"
 #include "front/tools/settings.h"
+#include "front/tools/toml.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"

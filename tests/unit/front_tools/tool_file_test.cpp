@@ -178,6 +178,9 @@ corner_radius = 4
 TEST(ToolFile, JunkAndDeepNestingEndInAnError) {
   EXPECT_TRUE(read(std::string_view("\xff\xfe\x00\x01", 4)).diagnostics.has_errors());
   EXPECT_TRUE(read("a = " + std::string(100000, '[')).diagnostics.has_errors());
+  EXPECT_EQ(first_code(read("[=]")), Code::tool_file_syntax);  // the parser's own assertion is wrong here
+  EXPECT_EQ(first_code(read(std::string_view("[[\0tool]]", 9))), Code::tool_file_syntax);
+  EXPECT_EQ(first_code(read("\xc3\xa9 = 1")), Code::tool_file_syntax);  // a letter outside ASCII
   EXPECT_TRUE(read("").diagnostics.list().empty());
 }
 
