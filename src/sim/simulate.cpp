@@ -79,7 +79,11 @@ std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size
   const double columns = std::ceil(size.x / pitch) * std::ceil(size.y / pitch);
   const auto most = static_cast<double>(std::min(options.max_columns, std::size_t{0xfffffff0}));
   if (columns <= most) return pitch;
-  const double would_do = 1.001 * std::sqrt(size.x * size.y / most) + pitch * 1e-3;
+  // The finest that does for certain: (x / p + 1) (y / p + 1) = most, for the last column may be a part of
+  // one.
+  const double area = size.x * size.y, edges = size.x + size.y, longest = std::max(size.x, size.y);
+  const double root = std::sqrt(edges * edges + 4.0 * area * std::max(most - 1.0, 0.0));
+  const double would_do = root > edges ? std::min(2.0 * area / (root - edges), longest) : longest;
   Diagnostic& error =
       diagnostics.error(Code::too_many_columns, {},
                         fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed",

@@ -33,8 +33,8 @@ struct ToolSolids {
 /// `side_clearance`: contacts that are less deep than this sideways are none.
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance);
 
-/// How far chords stray from helices, spirals and arcs in XZ and YZ, mm: a tenth of the micron that surfaces may be off,
-/// since a steep flank turns a path's error sideways into a larger one in height.
+/// How far chords stray from helices, spirals and arcs in XZ and YZ, mm: a tenth of the micron that surfaces
+/// may be off, since a steep flank turns a path's error sideways into a larger one in height.
 inline constexpr double kPathChord = 0.0001;
 /// How far the frusta that stand for a hollow arc of a tool's profile stray from it, mm.
 inline constexpr double kProfileChord = 0.0005;

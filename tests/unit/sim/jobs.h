@@ -1,5 +1,5 @@
-// Tools and single-motion jobs for the simulator's tests: silhouettes drawn by hand, so that these tests depend on
-// nothing else, and the exact half-profile queries that the reference needs.
+// Tools and single-motion jobs for the simulator's tests: silhouettes drawn by hand, so that these tests
+// depend on nothing else, and the exact half-profile queries that the reference needs.
 #pragma once
 
 #include <cmath>
@@ -24,7 +24,8 @@ inline Profile profile(std::vector<Knot> knots) { return Profile{std::move(knots
 inline Profile tapered_ball(double r, double a, double R) {
   const double touch_r = r * std::cos(a), touch_z = r - r * std::sin(a);
   const double sweep = std::numbers::pi / 2 - a;
-  return profile({{0, 0, std::tan(sweep / 4)}, {touch_r, touch_z, 0}, {R, touch_z + (R - touch_r) / std::tan(a), 0}});
+  return profile(
+      {{0, 0, std::tan(sweep / 4)}, {touch_r, touch_z, 0}, {R, touch_z + (R - touch_r) / std::tan(a), 0}});
 }
 
 inline std::vector<NamedProfile> all_profiles() {
@@ -40,9 +41,13 @@ inline std::vector<NamedProfile> all_profiles() {
       {"dovetail", profile({{0, 0, 0}, {5, 0, 0}, {3, 7, 0}})},
       {"roundover", profile({{0, 0, 0}, {0.5, 0, -kQuarter}, {2.5, 2, 0}, {2.5, 6, 0}})},
       {"thread_mill", profile({{1.5, 0, 0}, {3, 1, 0}, {1.5, 2, 0}, {1.5, 6, 0}})},
-      {"lollipop", profile({{0, 0, kQuarter}, {3, 3, std::tan(std::acos(0.5) / 4 + 0.0)}, {1.5, 3 + 3 * std::sin(std::acos(0.5)), 0}, {1.5, 8, 0}})},
+      {"lollipop", profile({{0, 0, kQuarter},
+                            {3, 3, std::tan(std::acos(0.5) / 4 + 0.0)},
+                            {1.5, 3 + 3 * std::sin(std::acos(0.5)), 0},
+                            {1.5, 8, 0}})},
       {"t_slot", profile({{0, 0, 0}, {5, 0, 0}, {5, 2, 0}, {1.5, 2, 0}, {1.5, 7, 0}})},
-      {"rounded_disc", profile({{0, 0, 0}, {3, 0, kQuarter}, {4, 1, kQuarter}, {3, 2, 0}, {1, 2, 0}, {1, 7, 0}})},
+      {"rounded_disc",
+       profile({{0, 0, 0}, {3, 0, kQuarter}, {4, 1, kQuarter}, {3, 2, 0}, {1, 2, 0}, {1, 7, 0}})},
   };
 }
 
@@ -77,8 +82,8 @@ class Path {
   OriginId origin_;
 };
 
-inline std::optional<Simulation> run(const Toolpath& path, const ToolTable& tools, const Stock& stock, double pitch,
-                                     Diagnostics& diagnostics, unsigned threads = 1) {
+inline std::optional<Simulation> run(const Toolpath& path, const ToolTable& tools, const Stock& stock,
+                                     double pitch, Diagnostics& diagnostics, unsigned threads = 1) {
   SimulationOptions options;
   options.resolution = mm(pitch);
   options.threads = threads;

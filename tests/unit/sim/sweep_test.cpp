@@ -1,8 +1,9 @@
-// Single sweeps of every tool and every kind of motion against an independent reference: the tool's position is
-// sampled densely along the true curve, and each end of what it removes above a column is refined, all in double.
-#include <gtest/gtest.h>
-
+// Single sweeps of every tool and every kind of motion against an independent reference: the tool's position
+// is sampled densely along the true curve, and each end of what it removes above a column is refined, all in
+// double.
 #include <algorithm>
+#include <gtest/gtest.h>
+#include <utility>
 
 #include "jobs.h"
 
@@ -12,32 +13,28 @@ namespace {
 constexpr double kMicron = 0.001;
 constexpr double kTop = 12.0;  // of the block, whose floor is at 0
 
-/// Where a static tool's material lies at a distance from the axis: intervals above the tip, by the half profile alone.
+/// Where a static tool's material lies at a distance from the axis: intervals above the tip, by the half
+/// profile alone.
 class Silhouette2 {
  public:
   explicit Silhouette2(const Profile& profile) {
     for (std::size_t i = 0; i + 1 < profile.knots.size(); ++i) add(profile.knots[i], profile.knots[i + 1]);
   }
-  double top() const { return segments_.back().z1; }
+  int segments() const { return static_cast<int>(segments_.size()); }
   double max_radius() const {
     double r = 0;
     for (const Segment& s : segments_)
       for (int k = 0; k <= 200; ++k) r = std::max(r, s.radius(s.z0 + (s.z1 - s.z0) * k / 200));
     return r;
   }
-  /// Radius just above (side > 0) or below a height.
-  bool contains(double rho, double z) const {
-    for (const Segment& s : segments_)
-      if (z >= s.z0 && z <= s.z1 && rho <= s.radius(z)) return true;
-    return false;
-  }
   struct Run {
     double low, high;
+    int segment = 0;
   };
   /// The runs of material at a distance, each segment's own (they may adjoin).
   void runs(double rho, std::vector<Run>& out) const {
     out.clear();
-    for (const Segment& s : segments_) s.run(rho, out);
+    for (std::size_t k = 0; k < segments_.size(); ++k) segments_[k].run(rho, static_cast<int>(k), out);
   }
 
  private:
@@ -48,15 +45,16 @@ class Silhouette2 {
       const double w = std::sqrt(std::max(0.0, q * q - (z - cz) * (z - cz)));
       return bulge > 0 ? cr + w : cr - w;
     }
-    /// All segments used here have radii that rise to one peak (or only rise or fall), so that one run remains.
-    void run(double rho, std::vector<Run>& out) const {
+    /// All segments used here have radii that rise to one peak (or only rise or fall), so that one run
+    /// remains.
+    void run(double rho, int number, std::vector<Run>& out) const {
       double peak = r0 > r1 ? z0 : z1;
       if (bulge > 0 && cz > z0 && cz < z1) peak = cz;
       if (radius(peak) < rho) return;
       double low = z0, high = z1;
       if (radius(z0) < rho) low = crossing(rho, z0, peak);
       if (radius(z1) < rho) high = crossing(rho, z1, peak);
-      out.push_back({low, high});
+      out.push_back({low, high, number});
     }
     /// The height between `outside` and `inside` at which the radius is rho.
     double crossing(double rho, double outside, double inside) const {
@@ -101,10 +99,16 @@ std::vector<Motion> motions() {
       {"steep_up", {13.1, 12, 4.5}, {}, {12, 11, 11.0}},
       {"dot", a, {}, a},
   };
-  const auto arc = [&](std::string name, Point3 from, Point3 to, Point2 centre, Turn turn, Plane plane = Plane::xy,
-                       int turns = 0) {
-    list.push_back({std::move(name), from, step::Arc{.to = to, .centre = centre, .plane = plane, .turn = turn,
-                                                     .extra_turns = turns, .feed = mm_per_min(300)}, to});
+  const auto arc = [&](std::string name, Point3 from, Point3 to, Point2 centre, Turn turn,
+                       Plane plane = Plane::xy, int turns = 0) {
+    list.push_back({std::move(name), from,
+                    step::Arc{.to = to,
+                              .centre = centre,
+                              .plane = plane,
+                              .turn = turn,
+                              .extra_turns = turns,
+                              .feed = mm_per_min(300)},
+                    to});
   };
   arc("arc_ccw_short", {18, 12, 6}, {14, 16, 6}, {14, 12}, Turn::ccw);
   arc("arc_cw_long", {18, 12, 6}, {14, 16, 6}, {14, 12}, Turn::cw);
@@ -123,70 +127,80 @@ std::vector<Motion> motions() {
 class Reference {
  public:
   Reference(const Profile& profile, const Motion& motion) : tool_(profile), motion_(motion) {
-    if (motion.arc) walk_ = walk_arc(motion.from, motion.arc->to, motion.arc->centre, motion.arc->plane, motion.arc->turn,
-                                     motion.arc->extra_turns);
+    if (motion.arc)
+      walk_ = walk_arc(motion.from, motion.arc->to, motion.arc->centre, motion.arc->plane, motion.arc->turn,
+                       motion.arc->extra_turns);
     const double length = walk_ ? walk_->length() : distance(motion.from, motion.to);
     samples_ = std::max(2, static_cast<int>(length / 0.05));
     for (int k = 0; k <= samples_; ++k) points_.push_back(at(k / static_cast<double>(samples_)));
     rim_ = tool_.max_radius();
   }
-  Point3 at(double t) const {
-    return walk_ ? walk_->at(t) : motion_.from + t * (motion_.to - motion_.from);
-  }
+  Point3 at(double t) const { return walk_ ? walk_->at(t) : motion_.from + t * (motion_.to - motion_.from); }
 
   using Run = Silhouette2::Run;
   std::vector<Run> removed(double x, double y) const {
     std::vector<Sample> all;
-    std::vector<Run> runs;
-    for (int k = 0; k <= samples_; ++k) {
-      const double rho = std::hypot(x - points_[k].x, y - points_[k].y);
-      if (rho > rim_ + 1e-12) continue;
-      tool_.runs(rho, runs);
-      for (const Run& r : runs) all.push_back({r.low + points_[k].z, r.high + points_[k].z, k});
-    }
-    add_rim_touches(x, y, all);
+    for (int segment = 0; segment < tool_.segments(); ++segment) add_segment(x, y, segment, all);
     std::sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.low < b.low; });
     std::vector<Run> out;
     for (std::size_t i = 0; i < all.size();) {
-      Sample low = all[i], high = all[i];
-      for (; i < all.size() && all[i].low <= high.high + 0.06; ++i)
-        if (all[i].high > high.high) high = all[i];
-      out.push_back({refined(x, y, low, false), refined(x, y, high, true)});
+      Sample whole = all[i];
+      for (; i < all.size() && all[i].low <= whole.high + kAdjoining; ++i) {
+        if (all[i].high > whole.high) whole.high = all[i].high, whole.t_high = all[i].t_high;
+      }
+      out.push_back(
+          {refined(x, y, whole.low, whole.t_low, false), refined(x, y, whole.high, whole.t_high, true), 0});
     }
     return out;
   }
 
  private:
+  static constexpr double kAdjoining = 1e-4;  // mm: parts of a tool that touch leave nothing between them
   struct Sample {
-    double low, high;
-    int k;
+    double low, high, t_low, t_high;
   };
-  /// Runs at moments between two samples of which one is out of reach: found by halving.
-  void add_rim_touches(double x, double y, std::vector<Sample>& all) const {
+  std::optional<Run> run_at(double x, double y, int segment, double t) const {
+    const Point3 p = at(t);
+    const double rho = std::hypot(x - p.x, y - p.y);
+    if (rho > rim_ + 1e-12) return std::nullopt;
     std::vector<Run> runs;
-    const auto reach = [&](double t) {
-      const Point3 p = at(t);
-      tool_.runs(std::hypot(x - p.x, y - p.y), runs);
-      return runs.size();
+    tool_.runs(rho, runs);
+    for (const Run& r : runs)
+      if (r.segment == segment) return Run{r.low + p.z, r.high + p.z, segment};
+    return std::nullopt;
+  }
+  /// What one segment of the profile removes: while it reaches the column without a break, that is one run.
+  void add_segment(double x, double y, int segment, std::vector<Sample>& all) const {
+    std::optional<Sample> current;
+    const auto join = [&](double t) {
+      const std::optional<Run> run = run_at(x, y, segment, t);
+      if (!run) return;
+      if (!current) current = Sample{run->low, run->high, t, t};
+      if (run->low < current->low) current->low = run->low, current->t_low = t;
+      if (run->high > current->high) current->high = run->high, current->t_high = t;
     };
-    for (int k = 0; k < samples_; ++k) {
-      double in = k / static_cast<double>(samples_), out = (k + 1) / static_cast<double>(samples_);
-      if (std::hypot(x - points_[k].x, y - points_[k].y) > rim_ + 0.1) continue;
-      std::size_t in_count = reach(in);
-      const std::size_t out_count = reach(out);
-      if (in_count == out_count) continue;
-      if (in_count < out_count) std::swap(in, out), in_count = out_count;
-      for (int n = 0; n < 50; ++n) {
-        const double middle = 0.5 * (in + out);
-        (reach(middle) == in_count ? in : out) = middle;
-      }
-      reach(in);
-      for (const Run& r : runs) all.push_back({r.low + at(in).z, r.high + at(in).z, k});
+    bool was_in = false;
+    for (int k = 0; k <= samples_; ++k) {
+      const double t = k / static_cast<double>(samples_);
+      const bool is_in = run_at(x, y, segment, t).has_value();
+      if (k > 0 && is_in != was_in)
+        join(edge(x, y, segment, is_in ? t : t - 1.0 / samples_, is_in ? t - 1.0 / samples_ : t));
+      if (is_in) join(t);
+      if (!is_in && current) all.push_back(*std::exchange(current, std::nullopt));
+      was_in = is_in;
     }
+    if (current) all.push_back(*current);
+  }
+  /// The last moment between `in` and `out` at which the segment reaches the column.
+  double edge(double x, double y, int segment, double in, double out) const {
+    for (int n = 0; n < 50; ++n) {
+      const double middle = 0.5 * (in + out);
+      (run_at(x, y, segment, middle) ? in : out) = middle;
+    }
+    return in;
   }
   /// The lowest low (highest high) near the best sample, by golden section on each side of it.
-  double refined(double x, double y, const Sample& sample, bool upper) const {
-    const double best = upper ? sample.high : sample.low;
+  double refined(double x, double y, double best, double t_best, bool upper) const {
     double result = best;
     std::vector<Run> runs;
     const auto value = [&](double t) {
@@ -199,7 +213,7 @@ class Reference {
       }
       return upper ? -v : v;
     };
-    double a = (sample.k - 1.0) / samples_, b = (sample.k + 1.0) / samples_;
+    double a = t_best - 1.0 / samples_, b = t_best + 1.0 / samples_;
     for (int n = 0; n < 60; ++n) {
       const double l = a + 0.382 * (b - a), r = b - 0.382 * (b - a);
       (value(l) < value(r) ? b : a) = value(l) < value(r) ? r : l;
@@ -221,33 +235,44 @@ std::vector<Silhouette2::Run> left_of(const std::vector<Silhouette2::Run>& remov
   std::vector<Silhouette2::Run> left;
   double from = 0.0;
   for (const auto& r : removed) {
-    if (std::min(r.low, kTop) > from) left.push_back({from, std::min(r.low, kTop)});
+    if (std::min(r.low, kTop) > from) left.push_back({from, std::min(r.low, kTop), 0});
     from = std::max(from, r.high);
   }
-  if (from < kTop) left.push_back({from, kTop});
+  if (from < kTop) left.push_back({from, kTop, 0});
   std::erase_if(left, [](const auto& r) { return r.high - r.low < 2e-5; });
   return left;
 }
 
-double difference(const std::vector<Interval>& have, const std::vector<Silhouette2::Run>& want) {
-  if (have.size() != want.size()) return 1e9;
-  double worst = 0.0;
-  for (std::size_t k = 0; k < have.size(); ++k) {
-    worst = std::max(worst, std::abs(static_cast<double>(have[k].low) - want[k].low));
-    worst = std::max(worst, std::abs(static_cast<double>(have[k].high) - want[k].high));
-  }
-  return worst;
-}
-
-/// Where the surface is steep, a micron sideways counts as much as a micron in height.
+/// How far the ends of a column's intervals lie from where they may be. Where the surface is steep, a micron
+/// sideways counts as much as a micron in height: an end may be anywhere between the heights that the
+/// reference gives within a micron of the column. `left(x, y)` is the reference.
 template <class Left>
 double surface_error(double x, double y, const std::vector<Interval>& have, const Left& left) {
-  double best = difference(have, left(x, y));
-  for (int k = 0; k < 8 && best > kMicron; ++k) {
+  std::vector<Silhouette2::Run> low, high;
+  const auto allow = [&](const std::vector<Silhouette2::Run>& want) {
+    if (want.size() != have.size()) return;
+    if (low.empty()) low = high = want;
+    for (std::size_t k = 0; k < want.size(); ++k) {
+      low[k] = {std::min(low[k].low, want[k].low), std::min(low[k].high, want[k].high), 0};
+      high[k] = {std::max(high[k].low, want[k].low), std::max(high[k].high, want[k].high), 0};
+    }
+  };
+  const auto error = [&] {
+    if (low.size() != have.size()) return 1e9;
+    double worst = 0.0;
+    for (std::size_t k = 0; k < have.size(); ++k) {
+      const double bottom = static_cast<double>(have[k].low), top = static_cast<double>(have[k].high);
+      worst =
+          std::max({worst, low[k].low - bottom, bottom - high[k].low, low[k].high - top, top - high[k].high});
+    }
+    return worst;
+  };
+  allow(left(x, y));
+  for (int k = 0; k < 8 && error() > kMicron; ++k) {
     const double angle = k * std::numbers::pi / 4;
-    best = std::min(best, difference(have, left(x + kMicron * std::cos(angle), y + kMicron * std::sin(angle))));
+    allow(left(x + kMicron * std::cos(angle), y + kMicron * std::sin(angle)));
   }
-  return best;
+  return error();
 }
 
 /// The job of one motion: straight down to its begin, then the motion.
@@ -260,6 +285,13 @@ Toolpath path_of(const Motion& motion) {
     path.cut(motion.to);
   }
   return path.path();
+}
+
+template <class Runs>
+std::string text_of(const Runs& runs) {
+  std::string text;
+  for (const auto& run : runs) text += std::to_string(run.low) + " to " + std::to_string(run.high) + "\n";
+  return text;
 }
 
 /// Largest error over a pattern of columns, mm; reports columns that are worse than a micron.
@@ -280,7 +312,10 @@ double worst_error(const NamedProfile& tool, const Motion& motion, const Workpie
       const double x = (i + 0.5) * pitch, y = (j + 0.5) * pitch;
       const double error = surface_error(x, y, workpiece.column(i, j), left);
       if (error > kMicron && worst <= kMicron)
-        ADD_FAILURE() << tool.name << " " << motion.name << " at " << x << ", " << y << ": " << error << " mm";
+        ADD_FAILURE() << tool.name << " " << motion.name << " at " << x << ", " << y << ": " << error
+                      << " mm\n"
+                      << text_of(workpiece.column(i, j)) << "reference\n"
+                      << text_of(left(x, y));
       worst = std::max(worst, error);
     }
   }

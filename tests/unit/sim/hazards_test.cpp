@@ -1,0 +1,205 @@
+// What is reported as a hazard, and the near misses that must not be.
+#include <gtest/gtest.h>
+
+#include "jobs.h"
+
+namespace kerf::test {
+namespace {
+
+constexpr double kPitch = 0.1;
+
+/// Square mill of 6 mm, 10 mm of flute, a neck of 5 mm up to 20, a shank of 8 mm up to 40 and a holder of 30
+/// mm.
+Tool whole_tool(int number) {
+  Tool tool = make_drawn(number, profile({{0, 0, 0}, {3, 0, 0}, {3, 10, 0}}));
+  tool.silhouette.neck = profile({{2.5, 10, 0}, {2.5, 20, 0}});
+  tool.silhouette.shank = profile({{4, 20, 0}, {4, 40, 0}});
+  tool.silhouette.holder = profile({{15, 40, 0}, {15, 60, 0}});
+  return tool;
+}
+
+/// The block is 60 x 40 x 30 with its top at Z0.
+std::vector<Hazard> hazards_of(Path& path, double depth_of_block = 30) {
+  ToolTable tools;
+  tools.set(1, whole_tool(1));
+  Diagnostics diagnostics;
+  const auto result =
+      run(path.path(), tools, block({0, 0, -depth_of_block}, {60, 40, 0}), kPitch, diagnostics, 2);
+  EXPECT_TRUE(result);
+  return result ? result->hazards : std::vector<Hazard>{};
+}
+
+bool has(const std::vector<Hazard>& hazards, HazardKind kind) {
+  for (const Hazard& h : hazards)
+    if (h.kind == kind) return true;
+  return false;
+}
+
+TEST(Hazards, RapidThroughTheStockIsReportedWithPlaceDepthAndVolume) {
+  Path path;
+  path.tool(1).rapid({-10, 20, 5}).rapid({-10, 20, -2}).rapid({30, 20, -2});
+  const auto hazards = hazards_of(path);
+  ASSERT_EQ(hazards.size(), 1u);
+  EXPECT_EQ(hazards[0].kind, HazardKind::rapid_in_stock);
+  EXPECT_EQ(hazards[0].step, 3u);
+  EXPECT_NEAR(hazards[0].at.x, 0.05, 1e-6);
+  EXPECT_NEAR(hazards[0].at.z, -2.0, 1e-4);
+  EXPECT_NEAR(hazards[0].at.y, 20.0, 0.2);
+  EXPECT_NEAR(hazards[0].depth.mm(), 2.0, 1e-4);
+  const double exact = (30 * 6 + std::numbers::pi * 9 / 2) * 2;
+  EXPECT_NEAR(hazards[0].removed.mm3(), exact, 0.01 * exact);
+}
+
+TEST(Hazards, RapidAtTheTopTouchesNothing) {
+  Path path;
+  path.tool(1).rapid({-10, 20, 0}).rapid({70, 20, 0});
+  EXPECT_TRUE(hazards_of(path).empty());
+}
+
+TEST(Hazards, RapidAHundredthTooDeepIsReported) {
+  Path path;
+  path.tool(1).rapid({-10, 20, -0.01}).rapid({70, 20, -0.01});
+  const auto hazards = hazards_of(path);
+  ASSERT_EQ(hazards.size(), 1u);
+  EXPECT_NEAR(hazards[0].depth.mm(), 0.01, 1e-4);
+}
+
+TEST(Hazards, RapidBesideTheStockTouchesNothingButOneColumnIsReported) {
+  Path beside;  // the tool's side is exactly at the block's
+  beside.tool(1).rapid({-10, -3, 5}).rapid({-10, -3, -5}).rapid({70, -3, -5});
+  EXPECT_TRUE(hazards_of(beside).empty());
+  Path inside;  // reaches the first row of columns, which stand at 0.05
+  inside.tool(1).rapid({-10, -2.94, 5}).rapid({-10, -2.94, -5}).rapid({70, -2.94, -5});
+  EXPECT_EQ(hazards_of(inside).size(), 1u);
+}
+
+TEST(Hazards, LeavingAndReturningAlongWhatIsCutIsNone) {
+  Path path;
+  path.tool(1).rapid({10, 10, 2}).cut({10, 10, -4}).rapid({10, 10, 2}).rapid({10, 10, -4});
+  path.cut({30.3, 17.7, -4}).rapid({10, 10, -4}).rapid({30.3, 17.7, -4}).rapid({30.3, 17.7, 5});
+  path.arc({.to = {30.3, 17.7, 5}, .centre = {25, 17.7}, .feed = mm_per_min(100)});
+  EXPECT_TRUE(hazards_of(path).empty());
+}
+
+TEST(Hazards, WalkingAlongWallsAndCircleCutBeforeIsNone) {
+  Path path;
+  path.tool(1).rapid({35, 20, 2}).cut({35, 20, -4});
+  path.arc({.to = {35, 20, -4}, .centre = {30, 20}, .turn = Turn::ccw, .feed = mm_per_min(100)});
+  path.rapid({35, 20, -3.9}).rapid({35, 20, -4}).rapid({35, 20, 1});
+  path.arc(
+      {.to = {35, 20, -4}, .centre = {30, 20}, .turn = Turn::cw, .extra_turns = 2, .feed = mm_per_min(100)});
+  EXPECT_TRUE(hazards_of(path).empty());
+}
+
+TEST(Hazards, DeepPassesInAWidenedSlotAreNone) {
+  // 18 mm deep in steps of 6: the neck is thinner, and all above the flutes was cut before.
+  Path path;
+  path.tool(1).rapid({10, 20, 2});
+  for (const double z : {-6.0, -12.0, -18.0}) path.cut({10, 20, z}).cut({40, 20, z}).cut({10, 20, z});
+  path.rapid({10, 20, 5});
+  EXPECT_TRUE(hazards_of(path).empty());
+}
+
+TEST(Hazards, CuttingDeeperThanTheFluteInOneGo) {
+  Path path;
+  path.tool(1).rapid({-10, 20, 2}).cut({-10, 20, -12}).cut({30, 20, -12});
+  const auto hazards = hazards_of(path);
+  EXPECT_TRUE(has(hazards, HazardKind::over_flute));
+  EXPECT_TRUE(has(hazards, HazardKind::neck_contact));
+  EXPECT_FALSE(has(hazards, HazardKind::shank_contact));
+  for (const Hazard& h : hazards) {
+    if (h.kind == HazardKind::over_flute) {
+      EXPECT_NEAR(h.depth.mm(), 2.0, 1e-3);
+    }
+  }
+}
+
+TEST(Hazards, FluteJustLongEnoughIsNone) {
+  Path path;
+  path.tool(1).rapid({-10, 20, 2}).cut({-10, 20, -10}).cut({30, 20, -10});
+  EXPECT_TRUE(hazards_of(path).empty());
+}
+
+TEST(Hazards, ShankMeetsTheWallItIsTooThickFor) {
+  Path path;
+  path.tool(1).rapid({10, 20, 2});
+  for (const double z : {-8.0, -16.0, -20.0, -22.0}) path.cut({10, 20, z}).cut({40, 20, z}).cut({10, 20, z});
+  const auto hazards = hazards_of(path);
+  ASSERT_TRUE(has(hazards, HazardKind::shank_contact));
+  for (const Hazard& h : hazards) {
+    EXPECT_EQ(h.kind, HazardKind::shank_contact);
+    EXPECT_NEAR(h.depth.mm(), 2.0, 1e-3);
+  }
+}
+
+TEST(Hazards, HolderMeetsTheTop) {
+  ToolTable tools;
+  Tool tool = whole_tool(1);
+  tool.silhouette.neck = {};
+  tool.silhouette.shank = {};
+  tool.silhouette.holder = profile({{15, 10, 0}, {15, 30, 0}});
+  tools.set(1, tool);
+  Path path;
+  path.tool(1).rapid({30, 20, 2}).cut({30, 20, -9.99}).cut({30, 20, -10.02});
+  Diagnostics diagnostics;
+  const auto result = run(path.path(), tools, block({0, 0, -30}, {60, 40, 0}), kPitch, diagnostics);
+  ASSERT_TRUE(result);
+  ASSERT_TRUE(has(result->hazards, HazardKind::holder_contact));
+  for (const Hazard& h : result->hazards) EXPECT_EQ(h.step, 3u);
+}
+
+TEST(Hazards, BelowTheFloor) {
+  Path through;
+  through.tool(1).rapid({30, 20, 2}).cut({30, 20, -5.5}).cut({80, 20, -5.5}).cut({80, 20, -9});
+  const auto hazards = hazards_of(through, 5);
+  ASSERT_EQ(hazards.size(), 2u);  // the last move is beside the block
+  EXPECT_EQ(hazards[0].kind, HazardKind::below_floor);
+  EXPECT_NEAR(hazards[0].depth.mm(), 0.5, 1e-6);
+  EXPECT_EQ(hazards[1].step, 3u);
+  Path flush;
+  flush.tool(1).rapid({30, 20, 2}).cut({30, 20, -5}).cut({40, 20, -5});
+  EXPECT_TRUE(hazards_of(flush, 5).empty());
+}
+
+TEST(Hazards, SpindleOff) {
+  Path off;
+  off.tool(1)
+      .spindle(SpindleTurn::cw)
+      .rapid({10, 20, 2})
+      .cut({10, 20, -2})
+      .spindle(SpindleTurn::off)
+      .cut({20, 20, -2});
+  off.cut({15, 20, -2});  // through what is cut: nothing to report
+  const auto hazards = hazards_of(off);
+  ASSERT_EQ(hazards.size(), 1u);
+  EXPECT_EQ(hazards[0].kind, HazardKind::spindle_off);
+  EXPECT_EQ(hazards[0].step, 5u);
+  Path never;  // the program says nothing of the spindle
+  never.tool(1).rapid({10, 20, 2}).cut({10, 20, -2});
+  EXPECT_TRUE(hazards_of(never).empty());
+  Path late;
+  late.tool(1).rapid({10, 20, 2}).cut({10, 20, -2}).spindle(SpindleTurn::cw).cut({20, 20, -2});
+  EXPECT_EQ(hazards_of(late).size(), 1u);
+  Path laser = late;
+  laser.path().add(step::LaserPower{LaserMode::dynamic, 100}, laser.origin());
+  EXPECT_TRUE(hazards_of(laser).empty());
+}
+
+TEST(Hazards, ContactsInAnUndercutSlot) {
+  // A keyhole head may only leave where it came in.
+  ToolTable tools;
+  tools.set(1, make_drawn(1, profile({{0, 0, 0}, {4, 0, 0}, {4, 2.5, 0}, {2, 2.5, 0}, {2, 9, 0}})));
+  for (const bool at_the_hole : {true, false}) {
+    Path path;
+    path.tool(1).rapid({20, 20, 2}).cut({20, 20, -6}).cut({35, 20, -6});
+    if (at_the_hole) path.cut({20, 20, -6});
+    path.rapid({at_the_hole ? 20.0 : 35.0, 20, 2});
+    Diagnostics diagnostics;
+    const auto result = run(path.path(), tools, block({0, 0, -12}, {60, 40, 0}), kPitch, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(has(result->hazards, HazardKind::rapid_in_stock), !at_the_hole);
+  }
+}
+
+}  // namespace
+}  // namespace kerf::test
