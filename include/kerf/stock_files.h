@@ -1,11 +1,12 @@
 // Stock told in words: the text of the command's --stock option and of the Python module's stock().
 //
-//   100x60x12                          a block 100 mm in X, 60 in Y, 12 in Z; program zero at its lower left, on top
-//   100x60x12 at centre bottom         program zero elsewhere: lower-left, lower-centre, lower-right, centre-left,
-//                                      centre, centre-right, top-left, top-centre, top-right; top or bottom face
-//   block 4in 2.5in 0.75in zero lower-left top      the same, with words between; mm unless a number says "in"
-//   0,0,-12 to 100,60,0                its lowest and its highest corner in work coordinates
-//   min 0,0,-12 max 100,60,0           the same
+//   100x60x12                     a block 100 mm in X, 60 in Y, 12 in Z; program zero at the lower left of
+//   its top 100x60x12 at centre bottom    program zero elsewhere: lower-left, lower-centre, lower-right,
+//   centre-left,
+//                                 centre, centre-right, top-left, top-centre, top-right; top or bottom face
+//   block 4in 2.5in 0.75in zero lower-left top    the same, with words between; mm unless a number says "in"
+//   0,0,-12 to 100,60,0           its lowest and its highest corner in work coordinates
+//   min 0,0,-12 max 100,60,0      the same
 #pragma once
 
 #include <optional>
@@ -16,8 +17,8 @@
 
 namespace kerf {
 
-/// Reads such a text. Appends an error that says what was expected, and returns nothing, for anything else, for
-/// edges that are not above 0, and for numbers that are not finite. `where` is the error's place.
+/// Reads such a text. Appends an error that says what was expected, and returns nothing, for anything else,
+/// for edges that are not above 0, and for numbers that are not finite. `where` is the error's place.
 std::optional<Stock> read_stock_option(std::string_view text, const Origin& where, Diagnostics& diagnostics);
 
 }  // namespace kerf

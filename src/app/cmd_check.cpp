@@ -95,8 +95,8 @@ const char* const kExamples =
     R"(  kerf check part.nc && echo "good to cut"
   kerf check part.nc --json --stock "100x60x12 at lower-left top"
 
-Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor, cuts
-without feed, tool or turning spindle, arcs that controllers refuse, a missing program end.
+Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor,
+cuts without feed, tool or turning spindle, arcs that controllers refuse, a missing program end.
 Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 )";
 

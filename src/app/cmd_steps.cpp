@@ -47,8 +47,9 @@ const char* const kExamples =
     R"(  kerf steps part.nc
   kerf steps part.nc | grep '"step":"tool"'
 
-Prints a line {"kerf_steps":1,"units":"mm","source":FILE}, then one JSON object a step: positions complete, absolute
-and in mm, feeds in mm/min, and where in the file the step comes from. Nothing is printed for a program with errors.
+Prints a line {"kerf_steps":1,"units":"mm","source":FILE}, then one JSON object a step: positions complete,
+absolute and in mm, feeds in mm/min, and where in the file the step comes from. Nothing is printed for a
+program with errors.
 )";
 
 }  // namespace

@@ -28,13 +28,16 @@ namespace {
 const Length kStockMargin = mm(2);  // of an assumed block, beyond the largest tool's radius
 const Length kStockFloor = mm(1);   // of an assumed block, below the deepest cut
 
-/// Splits "102=square d=3" into 102 and the rest; no number where none stands before the first '='.
+/// Splits "102=square d=3" or "102 = square d=3" into 102 and the rest; no number where none stands before
+/// the first '='.
 std::pair<std::optional<int>, std::string_view> split_number(std::string_view text) {
-  const std::size_t end = text.find_first_not_of("0123456789");
   constexpr std::size_t kMostDigits = 9;  // fits an int
-  if (end == 0 || end == std::string_view::npos || end > kMostDigits || text[end] != '=')
+  const std::size_t digits = text.find_first_not_of("0123456789");
+  const std::size_t equals = text.find_first_not_of(' ', digits);
+  if (digits == 0 || digits > kMostDigits || equals == std::string_view::npos || text[equals] != '=')
     return {std::nullopt, text};
-  return {std::stoi(std::string(text.substr(0, end))), text.substr(end + 1)};
+  const std::size_t rest = std::min(text.find_first_not_of(' ', equals + 1), text.size());
+  return {std::stoi(std::string(text.substr(0, digits))), text.substr(rest)};
 }
 
 void read_tool_files(const std::vector<std::string>& names, JobSettings& settings, Diagnostics& diagnostics) {

@@ -81,14 +81,13 @@ struct Rule {
 };
 /// Further rules (limits of the machine, chip load) are further lines.
 constexpr Rule kRules[] = {
-    {Code::path_no_feed, no_feed},         {Code::path_negative_feed, negative_feed}, {Code::path_no_tool, no_tool},
-    {Code::path_spindle_off, spindle_off}, {Code::path_arc_radii, arc_radii},
+    {Code::path_no_feed, no_feed},     {Code::path_negative_feed, negative_feed},
+    {Code::path_no_tool, no_tool},     {Code::path_spindle_off, spindle_off},
+    {Code::path_arc_radii, arc_radii},
 };
 
 /// Tells whether a motion takes part in runs of a rule: rapids between cuts do not end a run of cuts.
-bool ends_runs(const Step& s) {
-  return needs_feed(s);
-}
+bool ends_runs(const Step& s) { return needs_feed(s); }
 
 }  // namespace
 

@@ -40,9 +40,7 @@ TEST(CheckPath, SoundJobHasNoHazards) {
   EXPECT_EQ(kinds(job, {.end = ProgramEnd::seen}), Kinds{});
 }
 
-TEST(CheckPath, EmptyPathHasNoHazards) {
-  EXPECT_EQ(kinds(Job{}, {.end = ProgramEnd::missing}), Kinds{});
-}
+TEST(CheckPath, EmptyPathHasNoHazards) { EXPECT_EQ(kinds(Job{}, {.end = ProgramEnd::missing}), Kinds{}); }
 
 TEST(CheckPath, CutsWithoutFeedAreOneRunWithTheFirstStep) {
   Job job = started();
