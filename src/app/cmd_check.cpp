@@ -66,7 +66,7 @@ void show_result(Console& console, const LoadedProgram& program, const std::vect
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
-  if (usage.has_errors()) return console.show(usage), Status::wrong_usage;
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   TerminalProgress progress(console);
   std::optional<LoadedProgram> program;
   if (!diagnostics.has_errors()) program = load_program(options.job.file, diagnostics, &progress);
@@ -85,7 +85,7 @@ Status run(Console& console, const Options& options) {
     if (material) findings = merged(std::move(findings), std::move(*material));
   }
   progress.clear();
-  if (interrupted()) return console.complain("interrupted"), Status::interrupted;
+  if (interrupted()) return tell_stopped(console);
   show_result(console, job.program, findings, diagnostics);
   if (diagnostics.has_errors()) return Status::input_errors;
   return findings.empty() ? Status::done : Status::hazards;

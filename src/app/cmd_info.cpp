@@ -154,13 +154,6 @@ void print_info(Console& console, const Job& job) {
   if (job.program.end == ProgramEnd::missing) console.print("\nThe program has no M2, M30 or closing %.\n");
 }
 
-Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
-  console.show(diagnostics);
-  if (console.json())
-    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
-  return status;
-}
-
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
@@ -174,7 +167,7 @@ Status run(Console& console, const Options& options) {
   TerminalProgress progress(console);
   auto program = load_program(options.job.file, diagnostics, &progress);
   progress.clear();
-  if (interrupted()) return Status::interrupted;
+  if (interrupted()) return tell_stopped(console);
   if (!program) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job(std::move(*program), settings, report, UnknownTool::warning, diagnostics);
   console.show(diagnostics);

@@ -113,24 +113,12 @@ void show_summary(Console& console, const Result& result) {
   console.summary(fmt::format("hazards  {}", hazard_count(result.findings.size())));
 }
 
-Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
-  console.show(diagnostics);
-  if (console.json())
-    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
-  return status;
-}
-
-Status stop(Console& console) {
-  console.complain("interrupted; nothing was written");
-  return Status::interrupted;
-}
-
 Status simulate_job(Console& console, const Options& options, const JobSettings& settings,
                     const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
   TerminalProgress progress(console);
   auto program = load_program(options.job.file, diagnostics, &progress);
   progress.clear();
-  if (interrupted()) return stop(console);
+  if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
@@ -147,7 +135,7 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   const bool written = simulation && !simulation->stopped && !diagnostics.has_errors() &&
                        write_outputs(outputs, job, *simulation, view, files, diagnostics, progress);
   progress.clear();
-  if (interrupted()) return stop(console);
+  if (interrupted()) return tell_stopped(console);
   if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
 
   const Result result{job, *simulation, findings_of(simulation->hazards, job.program.path), outputs};

@@ -22,10 +22,8 @@ Status run(Console& console, const Options& options) {
   TerminalProgress progress(console);
   const auto program = load_program(options.file, diagnostics, &progress);
   progress.clear();
-  // The lines are for a program; messages go to stderr as text whatever --json says.
-  Console messages({.json = false, .quiet = console.quiet()});
-  messages.show(diagnostics);
-  if (interrupted()) return Status::interrupted;
+  if (interrupted()) return tell_stopped(console);
+  console.show(diagnostics, Console::Channel::always_text);  // the lines are for another program
   if (!program || diagnostics.has_errors()) return Status::input_errors;
 
   std::string buffer =
@@ -34,7 +32,7 @@ Status run(Console& console, const Options& options) {
   for (std::size_t i = 0; i < program->path.size(); ++i) {
     if (program->path[i].kind() == StepKind::tool_change) tool = program->path[i].tool_change().tool;
     buffer += text_of(step_json(program->path, i, tool), Layout::line);
-    if (i % kStepsBetweenLooks == 0 && interrupted()) return Status::interrupted;
+    if (i % kStepsBetweenLooks == 0 && interrupted()) return tell_stopped(console);
     if (buffer.size() < kBufferBytes) continue;
     console.print_json(buffer);
     buffer.clear();

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/input.h"
+#include "app/json.h"
 
 #include "kerf/number.h"
 
@@ -17,6 +18,20 @@ CLI::App* new_command(CLI::App& parent, const std::string& name, const std::stri
   app->add_flag("-q,--quiet", output.quiet,
                 "No progress bar, notes or summary; warnings, errors and hazards stay");
   return app;
+}
+
+Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
+  console.show(diagnostics);
+  if (console.json())
+    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
+  return status;
+}
+
+Status tell_stopped(Console& console) {
+  Diagnostics diagnostics;
+  diagnostics.error(Code::stopped, {}, "interrupted; nothing was written");
+  console.show(diagnostics, Console::Channel::always_text);
+  return Status::interrupted;
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,

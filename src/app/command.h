@@ -32,6 +32,11 @@ Command add_tools_show(CLI::App& tools);
 CLI::App* new_command(CLI::App& parent, const std::string& name, const std::string& summary,
                       const std::string& examples, OutputOptions& output);
 
+/// Ends a run without a result: the messages as text, or with --json as an object that holds nothing else.
+Status fail(Console& console, const Diagnostics& diagnostics, Status status);
+/// Says that the user stopped the work, and which status that is.
+Status tell_stopped(Console& console);
+
 /// An option whose value is a finite number from `low` to `high`; anything else is wrong usage.
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
                         const std::string& unit, const std::string& summary);

@@ -53,8 +53,8 @@ void Console::summary(std::string_view line) {
   print("\n");
 }
 
-void Console::show(const Diagnostics& diagnostics) {
-  if (options_.json) return;
+void Console::show(const Diagnostics& diagnostics, Channel channel) {
+  if (options_.json && channel == Channel::text_or_object) return;
   std::fflush(stdout);
   for (const Diagnostic& d : diagnostics.list()) {
     if (options_.quiet && d.severity == Severity::note) continue;

@@ -32,9 +32,10 @@ class Console {
   void print_json(std::string_view text);
   /// A line of the summary to stdout; nothing with --quiet.
   void summary(std::string_view line);
-  /// Diagnostics to stderr as text, in colour on a terminal, notes left out with --quiet; nothing with
-  /// --json, where they stand in the object.
-  void show(const Diagnostics& diagnostics);
+  /// Where diagnostics go: with --json they stand in the object, unless there is none.
+  enum class Channel { text_or_object, always_text };
+  /// Diagnostics to stderr as text, in colour on a terminal, notes left out with --quiet.
+  void show(const Diagnostics& diagnostics, Channel channel = Channel::text_or_object);
   /// A message of the command itself to stderr.
   void complain(std::string_view message);
   /// Pushes out what was printed; false if stdout could not take it (a full disk, a closed pipe).

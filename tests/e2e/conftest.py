@@ -8,7 +8,7 @@ import pytest
 
 KERF = os.environ["KERF"]
 
-# Tool 102 of the built-in table: square, 3.175 mm, flute 12.7 mm. One plunge, a line, a half circle: 1 mm deep.
+# Tool 102 of the built-in table: square, 3.175 mm, flute 12.7 mm. A plunge, a line, a half circle: 1 mm deep.
 SOUND = """(a little job)
 (stockMin:0.00mm, 0.00mm, -6.00mm)
 (stockMax:40.00mm, 30.00mm, 0.00mm)

@@ -1,4 +1,4 @@
-"""Bad input: an error with file and line, a non-zero status, bounded time and memory, and no partial output."""
+"""Bad input: an error with file and line, a non-zero status, bounded time and memory, no partial output."""
 import os
 import resource
 import signal
@@ -45,7 +45,7 @@ def test_an_empty_file_is_no_crash(kerf, program, command):
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-@pytest.mark.parametrize("path, words", [("nothing.nc", "No such file"), (".", "folder"), ("", "cannot read")])
+@pytest.mark.parametrize("path, words", [("nothing.nc", "No such"), (".", "folder"), ("", "cannot read")])
 def test_a_file_that_cannot_be_read(kerf, command, path, words):
     run = kerf(*command, path)
     assert run.status == 1
@@ -101,7 +101,7 @@ def test_an_interrupted_simulation_writes_nothing(program, files, tmp_path, whic
     process.send_signal(which)
     out, err = process.communicate(timeout=60)
     assert process.returncode == 130, err
-    assert out == b"" and b"interrupted" in err  # the code "stopped" is the library's word for it
+    assert out == b"" and b"[1004]" in err  # stopped
     assert files() == ["part.nc"]
 
 

@@ -7,7 +7,7 @@ from conftest import SOUND
 
 
 def exact_removed():
-    """mm3 that the sound program removes, 1 mm deep: the line's strip, the half ring, half a disc at both ends."""
+    """mm3 that the sound program removes, 1 mm deep: a strip, half a ring, half a disc at both ends."""
     r = 3.175 / 2
     return 2 * r * 10 + math.pi * 5 * 2 * r + math.pi * r * r
 
@@ -124,7 +124,8 @@ def test_tool_options(kerf, program):
 
 def test_one_tool_option_for_several_tools_is_noted(kerf, program):
     two = SOUND.replace("M5\n", "M6 T101\nG1 X30 F100\nM5\n")
-    assert "tool_option_wide" in kerf("simulate", "--json", program(two), "--tool", "square d=3 flute=9").codes()
+    run = kerf("simulate", "--json", program(two), "--tool", "square d=3 flute=9")
+    assert "tool_option_wide" in run.codes()
 
 
 def test_a_program_without_a_tool_change(kerf, program):
@@ -138,8 +139,8 @@ def test_a_program_without_a_tool_change(kerf, program):
 
 
 def test_tools_from_a_file(kerf, program):
-    kerf_file = program('[[tool]]\nnumber = 77\nshape = "square"\ndiameter = 6.0\nflute = 12.0\n', "shop.toml")
-    run = kerf("simulate", "--json", program(SOUND.replace("T102", "T77")), "--tools", kerf_file)
+    shop = program('[[tool]]\nnumber = 77\nshape = "square"\ndiameter = 6.0\nflute = 12.0\n', "shop.toml")
+    run = kerf("simulate", "--json", program(SOUND.replace("T102", "T77")), "--tools", shop)
     assert run.status == 0, run.out
     assert run.json["tools"][0]["source"] == "tool file"
 

@@ -82,6 +82,12 @@ TEST(CheckPath, CutBeforeAToolChange) {
   EXPECT_EQ(kinds(job), Kinds{"no_tool"});
 }
 
+TEST(CheckPath, KindsAreTheCodesNamesWithoutTheirArea) {
+  EXPECT_EQ(kind_of(PathHazard{Code::path_no_tool, 0, 1, {}, {}}), "no_tool");
+  EXPECT_EQ(kind_of(PathHazard{Code::path_arc_radii, 0, 1, {}, {}}), "arc_radii");
+  EXPECT_EQ(kind_of(PathHazard{Code::path_spindle_off, 0, 1, {}, {}}), "spindle_off");
+}
+
 TEST(CheckPath, SpindleNeverStartedStoppedOrAtZero) {
   Job never;
   never.add(step::ToolChange{1}).add(step::Cut{{0, 0, -1}, mm_per_min(10)});
