@@ -2,6 +2,7 @@
 // time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -50,6 +51,9 @@ struct PathReport {
 
 struct ReportOptions {
   Feed rapid_feed = mm_per_min(3000);
+  /// Highest rates of X, Y and Z. Where all are above 0, a rapid takes what its slowest axis takes, whatever
+  /// `rapid_feed` says.
+  std::array<Feed, 3> axis_rates{};
 };
 
 PathReport report_on(const Toolpath& path, const ReportOptions& options);

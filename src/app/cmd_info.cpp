@@ -161,7 +161,7 @@ Status run(Console& console, const Options& options) {
   ReportOptions report;
   if (!options.machine.empty()) {
     const auto machine = read_machine(options.machine, diagnostics);
-    if (machine) report.rapid_feed = std::min(machine->rapid[0], machine->rapid[1]);
+    if (machine) report.axis_rates = machine->rapid;
   }
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);

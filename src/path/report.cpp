@@ -2,6 +2,7 @@
 #include "kerf/report.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace kerf {
@@ -19,12 +20,13 @@ ToolFigures& figures_of(PathReport& report, std::optional<int> tool) {
 struct Motion {
   StepKind kind;
   double length;  // mm
+  Point3 way;     // mm, from begin to end
   Box3 box;
   Feed feed;
 };
 
 Motion measure(const Step& s, Point3 from) {
-  Motion motion{s.kind(), distance(from, s.to()), {}, s.feed()};
+  Motion motion{s.kind(), distance(from, s.to()), s.to() - from, {}, s.feed()};
   motion.box.add(s.to());
   if (s.kind() == StepKind::arc) {
     const ArcWalk walk = walk_of(s, from);
@@ -34,12 +36,23 @@ Motion measure(const Step& s, Point3 from) {
   return motion;
 }
 
-void add(MotionFigures& figures, const Motion& motion, Feed rapid_feed) {
+Duration rapid_time(const Motion& motion, const ReportOptions& options) {
+  Duration slowest;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Feed rate = options.axis_rates[static_cast<std::size_t>(axis)];
+    if (!(rate.raw() > 0.0))
+      return options.rapid_feed.raw() > 0.0 ? mm(motion.length) / options.rapid_feed : Duration{};
+    slowest = std::max(slowest, mm(std::abs(motion.way[axis])) / rate);
+  }
+  return slowest;
+}
+
+void add(MotionFigures& figures, const Motion& motion, const ReportOptions& options) {
   if (motion.kind == StepKind::probe) return;
   if (motion.kind == StepKind::rapid) {
     ++figures.rapids;
     figures.rapid_mm += motion.length;
-    if (rapid_feed.raw() > 0.0) figures.rapid = figures.rapid + mm(motion.length) / rapid_feed;
+    figures.rapid = figures.rapid + rapid_time(motion, options);
     return;
   }
   ++(motion.kind == StepKind::arc ? figures.arcs : figures.lines);
@@ -68,7 +81,7 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
       for_both([&](MotionFigures& f) { f.speed.add(s.spindle().speed.rpm()); });
     if (!s.is_motion()) continue;
     const Motion motion = measure(s, at);
-    for_both([&](MotionFigures& f) { add(f, motion, options.rapid_feed); });
+    for_both([&](MotionFigures& f) { add(f, motion, options); });
     if (s.is_cutting()) {
       std::optional<double>& deepest = figures_of(report, tool).deepest;
       deepest = std::min(deepest.value_or(motion.box.low.z), motion.box.low.z);

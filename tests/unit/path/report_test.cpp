@@ -60,5 +60,16 @@ TEST(Report, OfAnEmptyPathIsEmpty) {
   EXPECT_TRUE(report.all.feed.empty());
 }
 
+TEST(Report, ARapidTakesWhatItsSlowestAxisTakes) {
+  Toolpath path;
+  path.add(step::Rapid{{30, 40, 0}}, OriginId::none);
+  path.add(step::Rapid{{30, 40, -10}}, OriginId::none);
+  ReportOptions options;
+  options.axis_rates = {mm_per_min(3000), mm_per_min(2000), mm_per_min(500)};
+  EXPECT_NEAR(report_on(path, options).all.rapid.seconds(), (40.0 / 2000 + 10.0 / 500) * 60, 1e-12);
+  options.axis_rates[2] = Feed{};
+  EXPECT_NEAR(report_on(path, options).all.rapid.seconds(), 60.0 / 3000 * 60, 1e-12);
+}
+
 }  // namespace
 }  // namespace kerf
