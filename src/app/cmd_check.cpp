@@ -78,7 +78,7 @@ Status run(Console& console, const Options& options) {
   std::vector<Finding> findings;
   CheckOptions checks;
   checks.end = program->end;
-  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
+  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error_if_numbered, diagnostics);
   findings = findings_of(check_path(job.program.path, checks), job.program.path);
   if (!diagnostics.has_errors()) {
     auto material = findings_in_material(job, options.resolution, diagnostics, progress);

@@ -42,6 +42,16 @@ Json tool_json(int number, const Tool& tool) {
   return out;
 }
 
+std::string_view key_of(ToolPart part) {
+  switch (part) {
+    case ToolPart::cutting: return "cutting";
+    case ToolPart::neck: return "neck";
+    case ToolPart::shank: return "shank";
+    case ToolPart::holder: break;
+  }
+  return "holder";
+}
+
 Json shown_json(int number, const Tool& tool) {
   Json out = tool_json(number, tool);
   const auto encoded = encode_tool_number(tool);
@@ -51,7 +61,7 @@ Json shown_json(int number, const Tool& tool) {
   Json& profile = out["profile_mm"] = Json::object();
   for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder})
     if (!tool.silhouette.part(part).empty())
-      profile[std::string(to_string(part))] = json_of(tool.silhouette.part(part));
+      profile[std::string(key_of(part))] = json_of(tool.silhouette.part(part));
   return out;
 }
 

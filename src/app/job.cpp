@@ -138,7 +138,8 @@ Choice choose(int number, const LoadedProgram& program, const JobSettings& setti
 
 /// An unknown shape: an error where it is needed, else a warning.
 Diagnostic& tell(UnknownTool unknown, Origin where, std::string message, Diagnostics& diagnostics) {
-  if (unknown == UnknownTool::error) return diagnostics.error(Code::no_tool_shape, std::move(where), message);
+  if (unknown != UnknownTool::warning)
+    return diagnostics.error(Code::no_tool_shape, std::move(where), message);
   return diagnostics.warning(Code::no_tool_shape, std::move(where), message);
 }
 
@@ -153,7 +154,8 @@ void tell_no_tool(const Toolpath& path, UnknownTool unknown, Diagnostics& diagno
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
   const Uses uses = uses_of(job.program.path);
   give_start_tool(job, settings, uses);
-  if (uses.cuts_before && job.tool_sources.empty()) tell_no_tool(job.program.path, unknown, diagnostics);
+  if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::error_if_numbered)
+    tell_no_tool(job.program.path, unknown, diagnostics);
   for (const int number : uses.numbers) {
     const Choice choice = choose(number, job.program, settings, diagnostics);
     job.tool_sources[number] = choice.source;

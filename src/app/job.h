@@ -53,8 +53,9 @@ struct Job {
   StockSource stock_source = StockSource::unknown;
 };
 
-/// How bad a tool number without a shape is: info goes on, simulate cannot.
-enum class UnknownTool { warning, error };
+/// How bad an unknown tool is: info goes on, simulate cannot; check has a hazard of its own for cuts without
+/// any tool.
+enum class UnknownTool { warning, error, error_if_numbered };
 /// Puts a job together. Unknown tools and an assumed stock are told in `diagnostics`; where there is no stock
 /// and no cut to put one around, `stock` stays empty without a message.
 Job make_job(LoadedProgram program, const JobSettings& settings, const ReportOptions& report,

@@ -287,7 +287,7 @@ KERF_LANES Vector torus_best(const LaneCap& c, Real rim2, const View& w, Real sl
     high = first > 0 ? best : high;
     low = first > 0 ? low : best;
     const Vector next = best - first / higher_of(second, tiny);
-    best = (next > low) & (next < high) ? next : 0.5f * (low + high);
+    best = ((next > low) & (next < high)) ? next : 0.5f * (low + high);
   }
   return best;
 }
