@@ -1,5 +1,5 @@
-// toml++ as Kerf uses it: headers only (the distribution's library throws, and WebAssembly has none), no exceptions,
-// and two faults of version 3.3 made good that bad input can reach.
+// toml++ as Kerf uses it: headers only (the distribution's library throws, and WebAssembly has none), no
+// exceptions, and two faults of version 3.3 made good that bad input can reach.
 #pragma once
 
 // clang-format off: the order matters
