@@ -17,7 +17,7 @@ COUNTED = "the volume counts whole columns: near a small tool's outline that is 
 KNOWN = {
     "gcode": {
         "estlcam_Enclosure.nc": "O-words are reported, not understood yet",
-        "camotics_vcarve.ngc": "its length was recorded with points rounded to 0.0001 inch; exact it is 56.081 mm",
+        "camotics_vcarve.ngc": "recorded with points rounded to 0.0001 inch; its exact length is 56.081 mm",
     },
     "volume": {f"job{n}.nc": COUNTED for n in ("01", "03", "17", "51", "57", "59", "68", "79", "86", "87")},
 }

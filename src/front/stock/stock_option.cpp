@@ -41,6 +41,11 @@ std::optional<double> length_of(std::string_view text) {
   return *value * scale;
 }
 
+/// The x of "100 x 60 x 12": alone, or before a number.
+bool stands_between(std::string_view text, std::size_t i) {
+  return text[i] == 'x' && (i + 1 == text.size() || text[i + 1] == ' ' || begins_number(text[i + 1]));
+}
+
 /// Cuts at blanks and commas, and at the x between two lengths. Nothing where something that begins as a
 /// number is none.
 std::optional<std::vector<Token>> tokens_of(std::string_view text) {
@@ -48,7 +53,7 @@ std::optional<std::vector<Token>> tokens_of(std::string_view text) {
   std::size_t i = 0;
   while (i < text.size()) {
     const char c = text[i];
-    if (c == ' ' || c == '\t' || c == ',') {
+    if (c == ' ' || c == '\t' || c == ',' || stands_between(text, i)) {
       ++i;
       continue;
     }

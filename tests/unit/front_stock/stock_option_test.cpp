@@ -23,7 +23,7 @@ Box3 box(Point3 low, Point3 high) {
 TEST(StockOption, ZeroIsLowerLeftOnTopUnlessTold) {
   const Box3 want = box({0, 0, -12}, {100, 60, 0});
   for (const char* text :
-       {"100x60x12", "100 60 12", "100,60,12", "100mm x60mmX12mm", "block 100 60 12",
+       {"100x60x12", "100 60 12", "100 x 60 x 12", "100,60,12", "100mm x60mmX12mm", "block 100 60 12",
         "100x60x12 at lower-left top", "BLOCK 100 60 12 zero Lower-Left Top", "100x60x12 top"})
     EXPECT_EQ(block(text), want) << text;
 }
