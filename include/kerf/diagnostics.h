@@ -1,7 +1,7 @@
 // What is wrong with the user's input, said with a place, a stable code and a hint.
 //
-// A function that can fail on user input returns its value and appends to a `Diagnostics` passed in. Nothing in
-// the library prints, exits or throws across a public header. The codes stand in one table, `codes.def`.
+// A function that can fail on user input returns its value and appends to a `Diagnostics` passed in. Nothing
+// in the library prints, exits or throws across a public header. The codes stand in one table, `codes.def`.
 #pragma once
 
 #include <cstddef>
@@ -48,8 +48,8 @@ struct Diagnostic {
 /// "part.nc:3:7: error: no number after X [2003]" and its notes and hint on lines of their own.
 std::string to_string(const Diagnostic& diagnostic);
 
-/// Collects what a run has to say, in the order found. Of one code at most `limit_per_code` are kept, the rest
-/// counted, so that a broken file of a million lines costs bounded memory.
+/// Collects what a run has to say, in the order found. Of one code at most `limit_per_code` are kept, the
+/// rest counted, so that a broken file of a million lines costs bounded memory.
 class Diagnostics {
  public:
   explicit Diagnostics(std::size_t limit_per_code = 50) : limit_per_code_(limit_per_code) {}

@@ -1,4 +1,5 @@
-// Files in and out: inputs read whole (mapped where possible), outputs that appear whole, by rename, or not at all.
+// Files in and out: inputs read whole (mapped where possible), outputs that appear whole, by rename, or not
+// at all.
 #pragma once
 
 #include <cstddef>

@@ -71,8 +71,8 @@ enum class Plane : std::uint8_t { xy, xz, yz };
 /// Sense of turning, seen from the positive end of the third axis, as in RS274 (G2 is cw).
 enum class Turn : std::uint8_t { cw, ccw };
 
-/// Indices (0 = X, 1 = Y, 2 = Z) of a plane's axes in right-handed order: u towards v is counter-clockwise seen
-/// from +w. So XY gives X Y Z, XZ gives Z X Y, YZ gives Y Z X.
+/// Indices (0 = X, 1 = Y, 2 = Z) of a plane's axes in right-handed order: u towards v is counter-clockwise
+/// seen from +w. So XY gives X Y Z, XZ gives Z X Y, YZ gives Y Z X.
 struct PlaneAxes {
   int u, v, w;
 };
@@ -85,9 +85,10 @@ constexpr PlaneAxes axes_of(Plane plane) {
   return {0, 1, 2};
 }
 
-/// An arc in its plane's right-handed (u, v) frame, ready to be walked: at share t of its length it is at angle
-/// start_angle + t * sweep, radius start_radius + t * (end_radius - start_radius), and third axis likewise.
-/// Radii differ by what the program's rounding leaves; the walk then is a spiral that meets both ends.
+/// An arc in its plane's right-handed (u, v) frame, ready to be walked: at share t of its length it is at
+/// angle start_angle + t * sweep, radius start_radius + t * (end_radius - start_radius), and third axis
+/// likewise. Radii differ by what the program's rounding leaves; the walk then is a spiral that meets both
+/// ends.
 struct ArcWalk {
   Plane plane = Plane::xy;
   double u = 0.0, v = 0.0;  // centre, mm
@@ -104,8 +105,8 @@ struct ArcWalk {
   Box3 bounds() const;
 };
 
-/// Makes the walk of an arc. `centre` is in the order of the plane's name (XZ: x, z). An end equal to the start in
-/// the plane (angles within 1e-9 rad) is a full circle; `extra_turns` adds whole circles.
+/// Makes the walk of an arc. `centre` is in the order of the plane's name (XZ: x, z). An end equal to the
+/// start in the plane (angles within 1e-9 rad) is a full circle; `extra_turns` adds whole circles.
 ArcWalk walk_arc(Point3 from, Point3 to, Point2 centre, Plane plane, Turn turn, int extra_turns);
 
 }  // namespace kerf

@@ -14,7 +14,8 @@ struct ImageView {
   std::span<const std::uint8_t> rgba;
 };
 
-/// The file's bytes; empty if the picture has no pixels, fewer than its size says, or more than a PNG can hold.
+/// The file's bytes; empty if the picture has no pixels, fewer than its size says, or more than a PNG can
+/// hold.
 std::string write_png(const ImageView& image);
 
 }  // namespace kerf

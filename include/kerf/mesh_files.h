@@ -25,9 +25,10 @@ struct MeshView {
 enum class MeshFormat : std::uint8_t { stl, three_mf, glb, obj };
 /// From a file name's ending (.stl .3mf .glb .obj, any case), or nothing.
 std::optional<MeshFormat> mesh_format_of(std::string_view path);
-/// The file's bytes. STL is binary and without colour; OBJ is without colour. The same mesh gives the same bytes.
-/// Steps are kept in GLB as floats (exact up to 16 million), -1 where there is none. Empty
-/// where the format cannot hold the mesh (GLB over 4 GiB: about 85 million triangles) and for 3MF in a WebAssembly build.
+/// The file's bytes. STL is binary and without colour; OBJ is without colour. The same mesh gives the same
+/// bytes. Steps are kept in GLB as floats (exact up to 16 million), -1 where there is none. Empty where the
+/// format cannot hold the mesh (GLB over 4 GiB: about 85 million triangles) and for 3MF in a WebAssembly
+/// build.
 std::string write_mesh(const MeshView& mesh, MeshFormat format);
 
 }  // namespace kerf

@@ -17,8 +17,8 @@ std::string fixed_text(double value, int decimals);
 /// Shortest text that reads back as the same double.
 std::string exact_text(double value);
 
-/// Reads the whole of `text` as a decimal number ("1", "-.5", "+2.50", "1e-3"). Nothing if it is not one or not
-/// finite. Works without floating from_chars, so that it also builds for WebAssembly.
+/// Reads the whole of `text` as a decimal number ("1", "-.5", "+2.50", "1e-3"). Nothing if it is not one or
+/// not finite. Works without floating from_chars, so that it also builds for WebAssembly.
 std::optional<double> parse_number(std::string_view text);
 
 /// The closest of `known` to `word` if it is close enough to be a slip of the fingers ("did you mean ...").

@@ -1,4 +1,5 @@
-// Where something came from in the user's own work: a place in a text, a spot in a drawing, a call in a script.
+// Where something came from in the user's own work: a place in a text, a spot in a drawing, a call in a
+// script.
 //
 // Every step of a toolpath and every diagnostic has an origin. Steps store a 4-byte `OriginId`; the table
 // behind it keeps 16 bytes an origin, so that a million G-code lines cost 16 MB.
@@ -54,7 +55,8 @@ class OriginTable {
 
   /// Returns the index of a file name, for `text()`; the same name gives the same index.
   std::uint32_t file(std::string_view name);
-  /// A place in a text; `file` comes from `file()`. Not merged with equal ones: call it once per line or word.
+  /// A place in a text; `file` comes from `file()`. Not merged with equal ones: call it once per line or
+  /// word.
   OriginId text(std::uint32_t file, std::uint32_t line, std::uint32_t column);
   OriginId add(const Origin& origin);
   /// Says that `inner` happened because of `caller` (an include, a call of a function or sub-path).

@@ -1,15 +1,17 @@
-// The simulator: what a toolpath leaves of the stock, what it touches that it should not, and which step made what.
+// The simulator: what a toolpath leaves of the stock, what it touches that it should not, and which step made
+// what.
 //
-// The workpiece is a grid of vertical material columns, each a few intervals [low, high] in z, so that undercutting
-// tools are exact. Every interval end remembers the step that made it. See docs/decisions and design/simulation.md.
+// The workpiece is a grid of vertical material columns, each a few intervals [low, high] in z, so that
+// undercutting tools are exact. Every interval end remembers the step that made it. See docs/decisions and
+// design/simulation.md.
 #pragma once
 
-#include <cstdint>
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,14 +28,20 @@ namespace kerf {
 inline constexpr std::uint32_t kStockSurface = 0xffffffffu;
 
 struct SimulationOptions {
-  Length resolution;           // column pitch; 0 chooses one: about 4 million columns, between 0.02 and 1 mm
-  unsigned threads = 0;        // 0: as many as the machine has. The result is the same for any number.
+  Length resolution;     // column pitch; 0 chooses one: about 4 million columns, between 0.02 and 1 mm
+  unsigned threads = 0;  // 0: as many as the machine has. The result is the same for any number.
   std::size_t max_columns = 400'000'000;  // more is an error that says which resolution would do
   Length hazard_depth = mm(0.001);        // contacts shallower than this are no hazard
 };
 
 enum class HazardKind : std::uint8_t {
-  rapid_in_stock, neck_contact, shank_contact, holder_contact, over_flute, below_floor, spindle_off,
+  rapid_in_stock,
+  neck_contact,
+  shank_contact,
+  holder_contact,
+  over_flute,
+  below_floor,
+  spindle_off,
 };
 std::string_view to_string(HazardKind kind);
 
@@ -46,7 +54,8 @@ struct Hazard {
   Volume removed;          // material met
 };
 
-/// One vertical run of material in a column; ids are indices of the steps that made its ends, or kStockSurface.
+/// One vertical run of material in a column; ids are indices of the steps that made its ends, or
+/// kStockSurface.
 struct Interval {
   float low = 0.0f;   // mm above the workpiece's floor
   float high = 0.0f;  // mm above the workpiece's floor
@@ -54,17 +63,18 @@ struct Interval {
   std::uint32_t high_step = kStockSurface;
 };
 
-/// A copy of the columns as plain arrays: column (i, j) is number j * nx + i and owns the intervals first[number] to
-/// first[number + 1] - 1, lowest first. It stands at x = bounds.low.x + (i + 0.5) * pitch, y likewise; heights count
-/// from bounds.low.z. The last column of a row may reach beyond the block when the pitch does not divide it.
+/// A copy of the columns as plain arrays: column (i, j) is number j * nx + i and owns the intervals
+/// first[number] to first[number + 1] - 1, lowest first. It stands at x = bounds.low.x + (i + 0.5) * pitch, y
+/// likewise; heights count from bounds.low.z. The last column of a row may reach beyond the block when the
+/// pitch does not divide it.
 struct ColumnGrid {
   Box3 bounds;         // mm, the stock's block
   double pitch = 0.0;  // mm
   int nx = 0, ny = 0;
   std::vector<std::uint32_t> first;
   std::vector<Interval> intervals;
-  /// Empty, or one a column: for a column without material the step that took the last of it (so that the walls
-  /// around a through cut know who made them), else anything.
+  /// Empty, or one a column: for a column without material the step that took the last of it (so that the
+  /// walls around a through cut know who made them), else anything.
   std::vector<std::uint32_t> cut_through = {};
 };
 
@@ -96,28 +106,29 @@ class Workpiece {
 struct Simulation {
   Workpiece workpiece;
   Volume stock, removed;
-  std::vector<Hazard> hazards;           // in order of steps
-  std::vector<float> removed_by_step;    // mm3, one a step of the toolpath
-  double seconds = 0.0;                  // of the simulation alone
-  bool stopped = false;                  // interrupted: what is here is the state at that moment
+  std::vector<Hazard> hazards;         // in order of steps
+  std::vector<float> removed_by_step;  // mm3, one a step of the toolpath
+  double seconds = 0.0;                // of the simulation alone
+  bool stopped = false;                // interrupted: what is here is the state at that moment
 };
 
-/// Cuts the toolpath out of the stock. Appends errors (unknown tool, too many columns) and returns nothing where it
-/// cannot run. Steps without material effect (dwell, notes) are passed over.
+/// Cuts the toolpath out of the stock. Appends errors (unknown tool, too many columns) and returns nothing
+/// where it cannot run. Steps without material effect (dwell, notes) are passed over.
 std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools, const Stock& stock,
                                    const SimulationOptions& options, Diagnostics& diagnostics,
                                    Progress* progress = nullptr);
 
 /// A closed triangle mesh, with the step that made each triangle.
 struct Mesh {
-  std::vector<float> positions;           // x y z, mm, work coordinates
-  std::vector<std::uint32_t> triangles;   // three indices each, counter-clockwise from outside
-  std::vector<std::uint32_t> step;        // one a triangle; kStockSurface where none
+  std::vector<float> positions;          // x y z, mm, work coordinates
+  std::vector<std::uint32_t> triangles;  // three indices each, counter-clockwise from outside
+  std::vector<std::uint32_t> step;       // one a triangle; kStockSurface where none
 };
 
-/// The surface of the columns: closed, oriented, every edge shared by exactly two triangles. Surfaces run through the
-/// columns' heights, walls stand between columns whose surfaces do not continue each other, the block's own sides and
-/// bottom are exact. See docs/decisions/0006-mesh.md. A stopped run returns an empty mesh.
+/// The surface of the columns: closed, oriented, every edge shared by exactly two triangles. Surfaces run
+/// through the columns' heights, walls stand between columns whose surfaces do not continue each other, the
+/// block's own sides and bottom are exact. See docs/decisions/0006-mesh.md. A stopped run returns an empty
+/// mesh.
 Mesh extract_mesh(const ColumnGrid& columns, Progress* progress = nullptr);
 
 /// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
@@ -130,9 +141,9 @@ MeshCheck check_mesh(const Mesh& mesh);
 
 /// From where a picture is taken.
 struct View {
-  Angle azimuth = degrees(-35);    // about Z; 0 looks along +Y from the front
-  Angle elevation = degrees(50);   // above the horizon; 90 looks straight down
-  int width = 1600, height = 1000; // pixels
+  Angle azimuth = degrees(-35);     // about Z; 0 looks along +Y from the front
+  Angle elevation = degrees(50);    // above the horizon; 90 looks straight down
+  int width = 1600, height = 1000;  // pixels
 };
 /// "top", "front", "back", "left", "right", "iso", or nothing.
 std::optional<View> named_view(std::string_view name);
@@ -141,8 +152,8 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  // rows from the top
 };
-/// Draws a mesh with light and shade, fitted to the picture; `colours` holds one sRGB colour a triangle (missing ones
-/// are drawn grey). Sizes are kept within 1 to 8192 pixels a side.
+/// Draws a mesh with light and shade, fitted to the picture; `colours` holds one sRGB colour a triangle
+/// (missing ones are drawn grey). Sizes are kept within 1 to 8192 pixels a side.
 Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
 
 }  // namespace kerf

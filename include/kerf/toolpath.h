@@ -1,8 +1,8 @@
 // The toolpath: the one thing every way in makes and every way out reads.
 //
 // A toolpath is a list of steps. Positions are complete, absolute, in mm and work coordinates (rotary axes in
-// degrees); nothing is modal and nothing knows a controller. Arcs stay arcs. Every step knows its origin: the line,
-// drawing entity or call that caused it. A step is 64 bytes, an origin 16 more.
+// degrees); nothing is modal and nothing knows a controller. Arcs stay arcs. Every step knows its origin: the
+// line, drawing entity or call that caused it. A step is 64 bytes, an origin 16 more.
 //
 //   Toolpath path;
 //   auto here = path.origins().add(CallSpot{.call = "example"});
@@ -10,7 +10,8 @@
 //   path.add(step::Spindle{rpm(16000), SpindleTurn::cw}, here);
 //   path.add(step::Rapid{{0, 0, 5}}, here);
 //   path.add(step::Cut{{0, 0, -1}, mm_per_min(100)}, here);
-//   path.add(step::Arc{.to = {10, 0, -1}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(400)}, here);
+//   path.add(step::Arc{.to = {10, 0, -1}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(400)},
+//   here);
 //
 // Source: the architecture's page "The toolpath"; turning senses as in RS274/NGC section 3.5.3.
 #pragma once
@@ -33,7 +34,8 @@ enum class SpindleTurn : std::uint8_t { off, cw, ccw };
 enum class PathModeKind : std::uint8_t { exact_path, exact_stop, blend };
 enum class Heater : std::uint8_t { nozzle, bed, chamber };
 enum class LaserMode : std::uint8_t { off, constant, dynamic };
-/// Probing: what ends the motion (contact made or contact lost) and whether missing it is an error (G38.2-G38.5).
+/// Probing: what ends the motion (contact made or contact lost) and whether missing it is an error
+/// (G38.2-G38.5).
 enum class ProbeKind : std::uint8_t { contact_or_error, contact, release_or_error, release };
 
 namespace step {
@@ -47,7 +49,8 @@ struct Cut {
   Point3 to;
   Feed feed;
 };
-/// An arc, or a helix where the third axis moves. `centre` is absolute, in the order of the plane's name (XZ: x, z).
+/// An arc, or a helix where the third axis moves. `centre` is absolute, in the order of the plane's name (XZ:
+/// x, z).
 struct Arc {
   Point3 to;
   Point2 centre;
@@ -116,14 +119,28 @@ struct Verbatim {
 }  // namespace step
 
 enum class StepKind : std::uint8_t {
-  rapid, cut, arc, dwell, tool_change, spindle, coolant, path_mode, probe, extrude, temperature, fan, laser_power,
-  layer, note, verbatim,
+  rapid,
+  cut,
+  arc,
+  dwell,
+  tool_change,
+  spindle,
+  coolant,
+  path_mode,
+  probe,
+  extrude,
+  temperature,
+  fan,
+  laser_power,
+  layer,
+  note,
+  verbatim,
 };
 /// The name used in `kerf steps`: "rapid", "cut", "tool", "pathmode" and so on.
 std::string_view name_of(StepKind kind);
 
-/// One step, packed. Read it through `kind()` and the typed getters, which assert that the kind is right; texts and
-/// beads are kept by the Toolpath (`Toolpath::layer()`, `text()`, `extrude()`).
+/// One step, packed. Read it through `kind()` and the typed getters, which assert that the kind is right;
+/// texts and beads are kept by the Toolpath (`Toolpath::layer()`, `text()`, `extrude()`).
 class Step {
  public:
   StepKind kind() const { return kind_; }
@@ -158,12 +175,12 @@ class Step {
  private:
   friend class Toolpath;
   std::array<double, 6> values_{};
-  std::int32_t count_ = 0;     // extra turns, tool or fan number, index of a text or bead
+  std::int32_t count_ = 0;  // extra turns, tool or fan number, index of a text or bead
   OriginId origin_ = OriginId::none;
-  std::uint32_t extra_ = 0;    // index into the toolpath's extras, 0 = none
+  std::uint32_t extra_ = 0;  // index into the toolpath's extras, 0 = none
   StepKind kind_ = StepKind::rapid;
-  std::uint8_t plane_ = 0;     // Plane, or the kind's own small enumeration
-  std::uint8_t turn_ = 0;      // Turn or SpindleTurn, or a flag
+  std::uint8_t plane_ = 0;  // Plane, or the kind's own small enumeration
+  std::uint8_t turn_ = 0;   // Turn or SpindleTurn, or a flag
   std::uint8_t unknown_axes_ = 0;
 };
 static_assert(sizeof(Step) == 64, "a million steps are to fit in 64 MB");
@@ -238,10 +255,10 @@ class Toolpath {
 /// Walks the motions of a toolpath with their begin positions and the tool, spindle and feed state in force.
 /// Begin of the first motion is X0 Y0 Z0 with all axes unknown.
 struct MotionContext {
-  std::size_t index = 0;        // of the step
-  Point3 from;                  // mm
-  unsigned unknown_from = 7;    // axes of `from` that are not known, see Step::unknown_axes
-  std::optional<int> tool;      // nothing: no tool change yet
+  std::size_t index = 0;      // of the step
+  Point3 from;                // mm
+  unsigned unknown_from = 7;  // axes of `from` that are not known, see Step::unknown_axes
+  std::optional<int> tool;    // nothing: no tool change yet
   step::Spindle spindle;
   bool spindle_stated = false;  // a spindle step was seen
 };

@@ -1,9 +1,9 @@
-// The simulator in Python: what is left of the stock, what was touched that should not be, meshes and pictures.
-#include "bindings.h"
-
+// The simulator in Python: what is left of the stock, what was touched that should not be, meshes and
+// pictures.
+#include <memory>
 #include <pybind11/numpy.h>
 
-#include <memory>
+#include "bindings.h"
 
 #include "kerf/files.h"
 #include "kerf/image_files.h"
@@ -37,7 +37,8 @@ py::dict describe(const Result& result, const Hazard& hazard) {
 
 Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTable>& tools, double resolution,
            unsigned threads) {
-  if (finite_number(resolution, "resolution") < 0.0) throw py::value_error("resolution must be 0 (automatic) or above, mm");
+  if (finite_number(resolution, "resolution") < 0.0)
+    throw py::value_error("resolution must be 0 (automatic) or above, mm");
   SimulationOptions options;
   options.resolution = mm(resolution);
   options.threads = threads;
@@ -72,7 +73,8 @@ py::list column_of(const Result& result, int i, int j) {
   if (i < 0 || j < 0 || i >= w.columns_x() || j >= w.columns_y()) throw py::index_error("no such column");
   py::list list;
   for (const Interval& run : w.column(i, j))
-    list.append(py::make_tuple(w.bounds().low.z + static_cast<double>(run.low), w.bounds().low.z + static_cast<double>(run.high)));
+    list.append(py::make_tuple(w.bounds().low.z + static_cast<double>(run.low),
+                               w.bounds().low.z + static_cast<double>(run.high)));
   return list;
 }
 
@@ -80,12 +82,25 @@ py::list column_of(const Result& result, int i, int j) {
 
 void bind_simulation(py::module_& m) {
   py::class_<Result>(m, "Simulation", "What a toolpath left of the stock. Made by `simulate`.")
-      .def_property_readonly("stock_mm3", [](const Result& r) { return r.simulation.stock.mm3(); }, "float: volume before, mm3.")
-      .def_property_readonly("removed_mm3", [](const Result& r) { return r.simulation.removed.mm3(); }, "float: volume cut away, mm3.")
-      .def_property_readonly("left_mm3", [](const Result& r) { return (r.simulation.stock - r.simulation.removed).mm3(); }, "float: volume left, mm3.")
-      .def_property_readonly("resolution_mm", [](const Result& r) { return r.simulation.workpiece.pitch().mm(); }, "float: distance of the columns, mm.")
-      .def_property_readonly("columns", [](const Result& r) { return py::make_tuple(r.simulation.workpiece.columns_x(), r.simulation.workpiece.columns_y()); }, "(int, int): columns in X and Y.")
-      .def_property_readonly("seconds", [](const Result& r) { return r.simulation.seconds; }, "float: time the simulation took.")
+      .def_property_readonly(
+          "stock_mm3", [](const Result& r) { return r.simulation.stock.mm3(); }, "float: volume before, mm3.")
+      .def_property_readonly(
+          "removed_mm3", [](const Result& r) { return r.simulation.removed.mm3(); },
+          "float: volume cut away, mm3.")
+      .def_property_readonly(
+          "left_mm3", [](const Result& r) { return (r.simulation.stock - r.simulation.removed).mm3(); },
+          "float: volume left, mm3.")
+      .def_property_readonly(
+          "resolution_mm", [](const Result& r) { return r.simulation.workpiece.pitch().mm(); },
+          "float: distance of the columns, mm.")
+      .def_property_readonly(
+          "columns",
+          [](const Result& r) {
+            return py::make_tuple(r.simulation.workpiece.columns_x(), r.simulation.workpiece.columns_y());
+          },
+          "(int, int): columns in X and Y.")
+      .def_property_readonly(
+          "seconds", [](const Result& r) { return r.simulation.seconds; }, "float: time the simulation took.")
       .def_property_readonly(
           "hazards",
           [](const Result& r) {
@@ -96,12 +111,18 @@ void bind_simulation(py::module_& m) {
           "list of dict: moves that would break a tool or a part, in order; see `kerf simulate --json`.")
       .def_property_readonly(
           "removed_by_step",
-          [](const Result& r) { return py::array_t<float>(static_cast<py::ssize_t>(r.simulation.removed_by_step.size()), r.simulation.removed_by_step.data()); },
+          [](const Result& r) {
+            return py::array_t<float>(static_cast<py::ssize_t>(r.simulation.removed_by_step.size()),
+                                      r.simulation.removed_by_step.data());
+          },
           "ndarray (steps,): volume removed by each step, mm3.")
-      .def("column", &column_of, py::arg("i"), py::arg("j"), "Material of a column: list of (low, high) Z in mm, lowest first.")
-      .def("mesh", &mesh_arrays, "Surface as (points (n, 3) float32 mm, triangles (m, 3) uint32, step of each triangle (m,) uint32).");
-  m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(), py::arg("resolution") = 0.0,
-        py::arg("threads") = 0u,
+      .def("column", &column_of, py::arg("i"), py::arg("j"),
+           "Material of a column: list of (low, high) Z in mm, lowest first.")
+      .def("mesh", &mesh_arrays,
+           "Surface as (points (n, 3) float32 mm, triangles (m, 3) uint32, step of each triangle (m,) "
+           "uint32).");
+  m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(),
+        py::arg("resolution") = 0.0, py::arg("threads") = 0u,
         R"(Cut a toolpath out of a stock.
 
 Parameters

@@ -1,8 +1,8 @@
 // The toolpath in Python: building it call by call, reading G-code into it, looking at its steps.
-#include "bindings.h"
-
 #include <array>
 #include <cstdio>
+
+#include "bindings.h"
 
 #include "kerf/files.h"
 #include "kerf/gcode.h"
@@ -140,13 +140,18 @@ extra_turns : int
 
 void bind_other_steps(py::class_<Toolpath>& c) {
   c.def(
-      "tool", [](Toolpath& path, int number) { path.add(step::ToolChange{number}, path.origins().add(script_spot("tool"))); },
+      "tool",
+      [](Toolpath& path, int number) {
+        path.add(step::ToolChange{number}, path.origins().add(script_spot("tool")));
+      },
       py::arg("number"), "Append a tool change to the tool of this number.");
   c.def(
       "spindle",
       [](Toolpath& path, double rpm_value, const std::string& turn) {
         if (finite_number(rpm_value, "rpm") < 0.0) throw py::value_error("rpm must be 0 or more");
-        const SpindleTurn sense = turn == "off" ? SpindleTurn::off : to_turn(turn) == Turn::cw ? SpindleTurn::cw : SpindleTurn::ccw;
+        const SpindleTurn sense = turn == "off"               ? SpindleTurn::off
+                                  : to_turn(turn) == Turn::cw ? SpindleTurn::cw
+                                                              : SpindleTurn::ccw;
         path.add(step::Spindle{rpm(rpm_value), sense}, path.origins().add(script_spot("spindle")));
       },
       py::arg("rpm"), py::arg("turn") = "cw", "Start the spindle ('cw', 'ccw') or stop it ('off').");
@@ -159,7 +164,9 @@ void bind_other_steps(py::class_<Toolpath>& c) {
       py::arg("seconds"), "Append a pause of the given length in seconds.");
   c.def(
       "note",
-      [](Toolpath& path, const std::string& text) { path.add(step::Note{text}, path.origins().add(script_spot("note"))); },
+      [](Toolpath& path, const std::string& text) {
+        path.add(step::Note{text}, path.origins().add(script_spot("note")));
+      },
       py::arg("text"), "Append a remark that posts write as a comment.");
 }
 
@@ -187,7 +194,8 @@ py::dict report_dict(const Toolpath& path) {
   d["cut_mm"] = report.all.cut_mm;
   d["rapid_mm"] = report.all.rapid_mm;
   if (!report.all.cut_bounds.empty())
-    d["cut_bounds_mm"] = py::make_tuple(to_tuple(report.all.cut_bounds.low), to_tuple(report.all.cut_bounds.high));
+    d["cut_bounds_mm"] =
+        py::make_tuple(to_tuple(report.all.cut_bounds.low), to_tuple(report.all.cut_bounds.high));
   return d;
 }
 
@@ -196,8 +204,8 @@ py::dict report_dict(const Toolpath& path) {
 void bind_toolpath(py::module_& m) {
   py::class_<Toolpath> c(m, "Toolpath", R"(A list of steps: moves, tool changes, spindle and the rest.
 
-Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step remembers the line
-of the script that made it, so that `simulate` can say which line broke something.
+Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step
+remembers the line of the script that made it, so that `simulate` can say which line broke something.
 
 Examples
 --------
@@ -209,7 +217,8 @@ Examples
   bind_other_steps(c);
   c.def("__len__", &Toolpath::size);
   c.def(
-      "__getitem__", [](const Toolpath& path, py::ssize_t i) { return describe(path, checked_index(path, i)); },
+      "__getitem__",
+      [](const Toolpath& path, py::ssize_t i) { return describe(path, checked_index(path, i)); },
       py::arg("index"), "One step as a dict with the fields of `kerf steps`.");
   c.def("report", &report_dict, "Counts, lengths (mm) and bounds (mm) of the motions, as a dict.");
   m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>",

@@ -11,11 +11,13 @@ namespace py = pybind11;
 
 namespace {
 
-/// "square" and {diameter: 3.175} as the text that tools are told by on the command line, so that one reader checks both.
+/// "square" and {diameter: 3.175} as the text that tools are told by on the command line, so that one reader
+/// checks both.
 std::string option_text(const std::string& shape_name, const py::kwargs& sizes) {
   std::string text = shape_name;
   for (const auto& [key, value] : sizes)
-    text += " " + py::cast<std::string>(key) + "=" + exact_text(finite_number(py::cast<double>(value), "a size"));
+    text +=
+        " " + py::cast<std::string>(key) + "=" + exact_text(finite_number(py::cast<double>(value), "a size"));
   return text;
 }
 
@@ -47,9 +49,13 @@ Tool drawn_tool(const py::sequence& knots, int number) {
 
 Stock block_of(const py::object& size, const std::string& zero, const std::string& zero_height) {
   const Point3 edges = to_point3(size, "size");
-  if (edges.x <= 0.0 || edges.y <= 0.0 || edges.z <= 0.0) throw py::value_error("size must be above 0 mm in every axis");
+  if (edges.x <= 0.0 || edges.y <= 0.0 || edges.z <= 0.0)
+    throw py::value_error("size must be above 0 mm in every axis");
   const std::optional<ZeroCorner> corner = parse_zero_corner(zero);
-  if (!corner) throw py::value_error("unknown place of zero '" + zero + "'; known: lower-left, lower-centre, lower-right, centre-left, centre, centre-right, top-left, top-centre, top-right");
+  if (!corner)
+    throw py::value_error("unknown place of zero '" + zero +
+                          "'; known: lower-left, lower-centre, lower-right, centre-left, centre, "
+                          "centre-right, top-left, top-centre, top-right");
   const std::optional<ZeroHeight> height = parse_zero_height(zero_height);
   if (!height) throw py::value_error("unknown height of zero '" + zero_height + "'; known: top, bottom");
   return make_block(edges, *corner, *height);
@@ -63,26 +69,40 @@ void bind_tools(py::module_& m) {
 Parameters
 ----------
 spec : str
-    As on the command line: ``"square d=3.175 flute=12.7"``, ``"V d=12.7 angle=90"``, or the number of a built-in tool.
+    As on the command line: ``"square d=3.175 flute=12.7"``, ``"V d=12.7 angle=90"``, or a built-in tool's number.
 number : int
     Its number in programs; 0 keeps the number of a built-in tool.)")
       .def(py::init(&tool_from_text), py::arg("spec"), py::arg("number") = 0)
       .def_static(
-          "make", [](const std::string& shape_name, int number, const py::kwargs& sizes) { return tool_from_text(option_text(shape_name, sizes), number); },
-          py::arg("shape"), py::arg("number") = 0, "Make a tool of a named shape; sizes in mm and degrees as keywords.")
+          "make",
+          [](const std::string& shape_name, int number, const py::kwargs& sizes) {
+            return tool_from_text(option_text(shape_name, sizes), number);
+          },
+          py::arg("shape"), py::arg("number") = 0,
+          "Make a tool of a named shape; sizes in mm and degrees as keywords.")
       .def_static("drawn", &drawn_tool, py::arg("knots"), py::arg("number") = 0,
-                  "Make a tool from its half profile: (r, z, bulge) knots in mm from the tip upwards; bulge as in DXF.")
+                  "Make a tool from its half profile: (r, z, bulge) knots in mm from the tip upwards; bulge "
+                  "as in DXF.")
       .def_readonly("number", &Tool::number)
       .def_readonly("names", &Tool::names)
       .def_readonly("description", &Tool::description)
       .def_property_readonly("shape", [](const Tool& t) { return std::string(name_of(t.shape)); })
-      .def_property_readonly("diameter", [](const Tool& t) { return t.diameter.mm(); }, "float: mm.")
-      .def_property_readonly("flute", [](const Tool& t) { return t.flute.mm(); }, "float: height of the cutting part, mm.")
-      .def_property_readonly("profile", [](const Tool& t) { return knots_of(t.silhouette.cutting); },
-                             "list of (r, z, bulge): half profile of the cutting part, mm.")
-      .def("diameter_at", [](const Tool& t, double depth) { return 2.0 * t.silhouette.cutting.radius_at(finite_number(depth, "depth")); },
-           py::arg("depth"), "Diameter (mm) at a height above the tip (mm).")
-      .def("__repr__", [](const Tool& t) { return "<kerf.Tool " + std::to_string(t.number) + " " + std::string(name_of(t.shape)) + ">"; });
+      .def_property_readonly(
+          "diameter", [](const Tool& t) { return t.diameter.mm(); }, "float: mm.")
+      .def_property_readonly(
+          "flute", [](const Tool& t) { return t.flute.mm(); }, "float: height of the cutting part, mm.")
+      .def_property_readonly(
+          "profile", [](const Tool& t) { return knots_of(t.silhouette.cutting); },
+          "list of (r, z, bulge): half profile of the cutting part, mm.")
+      .def(
+          "diameter_at",
+          [](const Tool& t, double depth) {
+            return 2.0 * t.silhouette.cutting.radius_at(finite_number(depth, "depth"));
+          },
+          py::arg("depth"), "Diameter (mm) at a height above the tip (mm).")
+      .def("__repr__", [](const Tool& t) {
+        return "<kerf.Tool " + std::to_string(t.number) + " " + std::string(name_of(t.shape)) + ">";
+      });
 
   py::class_<ToolTable>(m, "ToolTable", "Tools by their number in programs.")
       .def(py::init<>())
@@ -100,10 +120,13 @@ number : int
         for (const auto& [number, tool] : table.tools()) list.append(number);
         return list;
       });
-  m.def("built_in_tools", [] { return built_in_tools(); }, "A copy of the table of tools that every Kerf knows.");
+  m.def(
+      "built_in_tools", [] { return built_in_tools(); },
+      "A copy of the table of tools that every Kerf knows.");
 
   py::class_<Stock>(m, "Stock", "The material before the first cut: a block, mm, work coordinates.")
-      .def_static("block", &block_of, py::arg("size"), py::arg("zero") = "lower-left", py::arg("zero_height") = "top",
+      .def_static("block", &block_of, py::arg("size"), py::arg("zero") = "lower-left",
+                  py::arg("zero_height") = "top",
                   R"(A block with program zero at a named place.
 
 Parameters
@@ -113,8 +136,10 @@ size : sequence of 3 float
 zero : str
     'lower-left', 'centre', 'top-right' ...; case, spaces and hyphens do not count.
 zero_height : {'top', 'bottom'})")
-      .def_property_readonly("low", [](const Stock& s) { return to_tuple(s.block.low); }, "tuple: lowest corner, mm.")
-      .def_property_readonly("high", [](const Stock& s) { return to_tuple(s.block.high); }, "tuple: highest corner, mm.");
+      .def_property_readonly(
+          "low", [](const Stock& s) { return to_tuple(s.block.low); }, "tuple: lowest corner, mm.")
+      .def_property_readonly(
+          "high", [](const Stock& s) { return to_tuple(s.block.high); }, "tuple: highest corner, mm.");
 }
 
 }  // namespace kerf::python

@@ -3,7 +3,6 @@
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
-
 #include <string>
 
 #include "kerf/diagnostics.h"
@@ -17,7 +16,8 @@ void raise_or_warn(const Diagnostics& diagnostics);
 /// A list of kerf.Diagnostic.
 pybind11::list to_list(const Diagnostics& diagnostics);
 
-/// A point from any sequence of three numbers; raises ValueError naming the argument where it is not, or not finite.
+/// A point from any sequence of three numbers; raises ValueError naming the argument where it is not, or not
+/// finite.
 Point3 to_point3(const pybind11::handle& value, const char* argument);
 Point2 to_point2(const pybind11::handle& value, const char* argument);
 pybind11::tuple to_tuple(Point3 p);
@@ -27,8 +27,8 @@ double finite_number(double value, const char* argument);
 /// Where in the user's script the call that is running stands.
 CallSpot script_spot(const char* call);
 
-/// Lets Ctrl-C stop long work: asks Python for signals now and then. Made and used with the GIL held by the caller's
-/// thread; `check` re-raises what the signal handler raised.
+/// Lets Ctrl-C stop long work: asks Python for signals now and then. Made and used with the GIL held by the
+/// caller's thread; `check` re-raises what the signal handler raised.
 class SignalProgress final : public Progress {
  public:
   void phase(std::string_view) override {}

@@ -1,14 +1,15 @@
 // The compiled module kerf._kerf: diagnostics, and the list of what is bound.
-#include "bindings.h"
-
 #include <cmath>
+
+#include "bindings.h"
 
 namespace kerf::python {
 namespace py = pybind11;
 
 namespace {
 
-PyObject* error_type = nullptr;  // kerf.Error; never released, so that no destructor runs after the interpreter's end
+PyObject* error_type =
+    nullptr;  // kerf.Error; never released, so that no destructor runs after the interpreter's end
 
 py::list origins_of(const Diagnostic& d) {
   py::list notes;
@@ -22,11 +23,13 @@ void bind_diagnostics(py::module_& m) {
           "severity", [](const Diagnostic& d) { return std::string(to_string(d.severity)); },
           "str: 'error', 'warning' or 'note'.")
       .def_property_readonly(
-          "code", [](const Diagnostic& d) { return static_cast<int>(d.code); }, "int: stable number of the message.")
+          "code", [](const Diagnostic& d) { return static_cast<int>(d.code); },
+          "int: stable number of the message.")
       .def_property_readonly(
           "name", [](const Diagnostic& d) { return std::string(name_of(d.code)); }, "str: the code's name.")
       .def_property_readonly(
-          "where", [](const Diagnostic& d) { return to_string(d.where); }, "str: file, line and column, or drawing spot.")
+          "where", [](const Diagnostic& d) { return to_string(d.where); },
+          "str: file, line and column, or drawing spot.")
       .def_property_readonly(
           "line",
           [](const Diagnostic& d) -> py::object {
@@ -74,7 +77,8 @@ double finite_number(double value, const char* argument) {
 namespace {
 
 void read_numbers(const py::handle& value, const char* argument, double* out, std::size_t count) {
-  const std::string expected = std::string(argument) + " must be " + std::to_string(count) + " finite numbers";
+  const std::string expected =
+      std::string(argument) + " must be " + std::to_string(count) + " finite numbers";
   if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value)) throw py::type_error(expected);
   const auto sequence = py::reinterpret_borrow<py::sequence>(value);
   if (sequence.size() != count) throw py::value_error(expected + ", not " + std::to_string(sequence.size()));
@@ -103,9 +107,7 @@ Point2 to_point2(const py::handle& value, const char* argument) {
   return {v[0], v[1]};
 }
 
-py::tuple to_tuple(Point3 p) {
-  return py::make_tuple(p.x, p.y, p.z);
-}
+py::tuple to_tuple(Point3 p) { return py::make_tuple(p.x, p.y, p.z); }
 
 CallSpot script_spot(const char* call) {
   CallSpot spot;
@@ -136,7 +138,8 @@ PYBIND11_MODULE(_kerf, m) {
   m.doc() = "Kerf's compiled core; import the package `kerf` instead.";
   m.attr("__version__") = KERF_VERSION;
   error_type = PyErr_NewExceptionWithDoc(
-      "kerf.Error", "The input is wrong. `diagnostics` lists every kerf.Diagnostic found, errors and warnings.",
+      "kerf.Error",
+      "The input is wrong. `diagnostics` lists every kerf.Diagnostic found, errors and warnings.",
       PyExc_ValueError, nullptr);
   if (error_type == nullptr) throw pybind11::error_already_set();
   m.add_object("Error", error_type);

@@ -2,9 +2,8 @@
 #include "kerf/diagnostics.h"
 
 #include <cassert>
-#include <utility>
-
 #include <fmt/format.h>
+#include <utility>
 
 namespace kerf {
 namespace {
@@ -39,13 +38,9 @@ std::string_view to_string(Severity severity) {
   return "error";
 }
 
-std::string_view name_of(Code code) {
-  return entry_of(code).name;
-}
+std::string_view name_of(Code code) { return entry_of(code).name; }
 
-std::string_view meaning_of(Code code) {
-  return entry_of(code).meaning;
-}
+std::string_view meaning_of(Code code) { return entry_of(code).meaning; }
 
 const std::vector<Code>& all_codes() {
   static const std::vector<Code> codes = [] {
@@ -58,8 +53,9 @@ const std::vector<Code>& all_codes() {
 
 std::string to_string(const Diagnostic& diagnostic) {
   const std::string where = to_string(diagnostic.where);
-  std::string text = fmt::format("{}{}{}: {} [{}]", where, where.empty() ? "" : ": ", to_string(diagnostic.severity),
-                                 diagnostic.message, static_cast<unsigned>(diagnostic.code));
+  std::string text =
+      fmt::format("{}{}{}: {} [{}]", where, where.empty() ? "" : ": ", to_string(diagnostic.severity),
+                  diagnostic.message, static_cast<unsigned>(diagnostic.code));
   for (const DiagnosticNote& note : diagnostic.notes) {
     const std::string place = to_string(note.where);
     text += fmt::format("\n  note: {}{}{}", place, place.empty() ? "" : ": ", note.text);

@@ -5,9 +5,8 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <utility>
-
 #include <fmt/format.h>
+#include <utility>
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>
@@ -56,12 +55,14 @@ void too_large(const std::string& path, std::size_t limit, Diagnostics& diagnost
 }
 
 void unreadable(const std::string& path, std::string_view why, Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0}, fmt::format("cannot read the file: {}", why));
+  diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0},
+                    fmt::format("cannot read the file: {}", why));
 }
 
 }  // namespace
 
-InputFile::InputFile(std::string path, std::unique_ptr<Body> body) : path_(std::move(path)), body_(std::move(body)) {}
+InputFile::InputFile(std::string path, std::unique_ptr<Body> body)
+    : path_(std::move(path)), body_(std::move(body)) {}
 InputFile::InputFile(InputFile&&) noexcept = default;
 InputFile& InputFile::operator=(InputFile&&) noexcept = default;
 InputFile::~InputFile() = default;
@@ -71,10 +72,12 @@ std::string_view InputFile::bytes() const {
   return body_->own;
 }
 
-std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& diagnostics, std::size_t limit_bytes) {
+std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& diagnostics,
+                                         std::size_t limit_bytes) {
   auto body = std::make_unique<Body>();
   if (path == "-") {
-    if (!read_all(stdin, limit_bytes, body->own)) return too_large(path, limit_bytes, diagnostics), std::nullopt;
+    if (!read_all(stdin, limit_bytes, body->own))
+      return too_large(path, limit_bytes, diagnostics), std::nullopt;
     return InputFile("<stdin>", std::move(body));
   }
 #if defined(__unix__) || defined(__APPLE__)

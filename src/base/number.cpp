@@ -4,18 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <iterator>
 #include <numeric>
-
-#include <fmt/format.h>
 
 namespace kerf {
 namespace {
 
 /// True if all digits are zeros, so that a minus sign before them would be "-0".
-bool is_zero_text(std::string_view text) {
-  return text.find_first_of("123456789") == std::string_view::npos;
-}
+bool is_zero_text(std::string_view text) { return text.find_first_of("123456789") == std::string_view::npos; }
 
 /// Distance of two words in insertions, deletions, replacements and swaps of neighbours, case left out.
 std::size_t slips_between(std::string_view a, std::string_view b) {
@@ -64,9 +61,7 @@ std::string fixed_text(double value, int decimals) {
   return text;
 }
 
-std::string exact_text(double value) {
-  return fmt::format("{}", value == 0.0 ? 0.0 : value);
-}
+std::string exact_text(double value) { return fmt::format("{}", value == 0.0 ? 0.0 : value); }
 
 std::optional<double> parse_number(std::string_view text) {
   constexpr std::size_t kLongest = 512;  // digits past this change nothing that a double can hold

@@ -2,7 +2,6 @@
 #include "kerf/origin.h"
 
 #include <cassert>
-
 #include <fmt/format.h>
 
 #include "kerf/number.h"
@@ -17,8 +16,8 @@ std::string text_of(const TextSpot& spot) {
 }
 
 std::string text_of(const DxfSpot& spot) {
-  return fmt::format("{}: layer {}, handle {}, at {}, {}", spot.file, spot.layer, spot.handle, number_text(spot.x, 3),
-                     number_text(spot.y, 3));
+  return fmt::format("{}: layer {}, handle {}, at {}, {}", spot.file, spot.layer, spot.handle,
+                     number_text(spot.x, 3), number_text(spot.y, 3));
 }
 
 std::string text_of(const CallSpot& spot) {
@@ -26,9 +25,7 @@ std::string text_of(const CallSpot& spot) {
   return fmt::format("{}:{} ({})", spot.file, spot.line, spot.call);
 }
 
-std::string text_of(std::monostate) {
-  return {};
-}
+std::string text_of(std::monostate) { return {}; }
 
 }  // namespace
 
@@ -51,7 +48,8 @@ OriginId OriginTable::text(std::uint32_t file, std::uint32_t line, std::uint32_t
 }
 
 OriginId OriginTable::add(const Origin& origin) {
-  if (const auto* spot = std::get_if<TextSpot>(&origin)) return text(file(spot->file), spot->line, spot->column);
+  if (const auto* spot = std::get_if<TextSpot>(&origin))
+    return text(file(spot->file), spot->line, spot->column);
   if (const auto* spot = std::get_if<DxfSpot>(&origin)) {
     dxf_.push_back(*spot);
     records_.push_back({file(spot->file), static_cast<std::uint32_t>(dxf_.size() - 1), 0, Kind::dxf});
@@ -67,7 +65,8 @@ OriginId OriginTable::add(const Origin& origin) {
 }
 
 void OriginTable::set_caller(OriginId inner, OriginId caller) {
-  assert(static_cast<std::size_t>(inner) < records_.size() && static_cast<std::size_t>(caller) < records_.size());
+  assert(static_cast<std::size_t>(inner) < records_.size() &&
+         static_cast<std::size_t>(caller) < records_.size());
   callers_[static_cast<std::uint32_t>(inner)] = caller;
 }
 

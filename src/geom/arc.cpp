@@ -8,7 +8,8 @@ namespace kerf {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-/// Ends closer than this in angle close the circle; the same rule as the interpreters that programs are made for.
+/// Ends closer than this in angle close the circle; the same rule as the interpreters that programs are made
+/// for.
 constexpr double kFullCircleAngle = 1e-9;  // radians
 
 }  // namespace

@@ -8,8 +8,8 @@ namespace kerf {
 
 std::string_view name_of(StepKind kind) {
   static constexpr std::string_view kNames[] = {
-      "rapid", "cut",         "arc", "dwell", "tool",  "spindle", "coolant", "pathmode",
-      "probe", "extrude", "temperature", "fan", "laser", "layer", "note",    "verbatim",
+      "rapid", "cut",     "arc",         "dwell", "tool",  "spindle", "coolant", "pathmode",
+      "probe", "extrude", "temperature", "fan",   "laser", "layer",   "note",    "verbatim",
   };
   return kNames[static_cast<std::size_t>(kind)];
 }
@@ -26,7 +26,8 @@ step::Cut Step::cut() const {
 }
 step::Arc Step::arc() const {
   assert(kind_ == StepKind::arc);
-  return {to(), {values_[4], values_[5]}, static_cast<Plane>(plane_), static_cast<Turn>(turn_), count_, feed()};
+  return {to(),  {values_[4], values_[5]}, static_cast<Plane>(plane_), static_cast<Turn>(turn_), count_,
+          feed()};
 }
 step::Dwell Step::dwell() const {
   assert(kind_ == StepKind::dwell);

@@ -20,9 +20,7 @@ struct Memory {
   std::size_t at = 0;
 };
 
-voidpf open_memory(voidpf opaque, const void*, int) {
-  return opaque;
-}
+voidpf open_memory(voidpf opaque, const void*, int) { return opaque; }
 uLong read_memory(voidpf, voidpf stream, void* to, uLong size) {
   Memory& memory = *static_cast<Memory*>(stream);
   const std::size_t n =
@@ -38,9 +36,7 @@ uLong write_memory(voidpf, voidpf stream, const void* from, uLong size) {
   memory.at += size;
   return size;
 }
-ZPOS64_T tell_memory(voidpf, voidpf stream) {
-  return static_cast<Memory*>(stream)->at;
-}
+ZPOS64_T tell_memory(voidpf, voidpf stream) { return static_cast<Memory*>(stream)->at; }
 long seek_memory(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
   Memory& memory = *static_cast<Memory*>(stream);
   const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? memory.at
@@ -49,9 +45,7 @@ long seek_memory(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
   memory.at = from + static_cast<std::size_t>(offset);
   return 0;
 }
-int nothing(voidpf, voidpf) {
-  return 0;
-}
+int nothing(voidpf, voidpf) { return 0; }
 
 /// A zip in memory. Parts are written one after the other; text is handed to the compressor in pieces.
 class Package {

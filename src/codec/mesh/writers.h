@@ -31,12 +31,8 @@ void append_little(std::string& out, T value) {
   out.append(bytes.data(), bytes.size());
 }
 
-inline std::size_t triangle_count(const MeshView& mesh) {
-  return mesh.triangles.size() / 3;
-}
-inline std::size_t vertex_count(const MeshView& mesh) {
-  return mesh.positions.size() / 3;
-}
+inline std::size_t triangle_count(const MeshView& mesh) { return mesh.triangles.size() / 3; }
+inline std::size_t vertex_count(const MeshView& mesh) { return mesh.positions.size() / 3; }
 
 /// The triangle's colour as an index into the palette; `palette.size()` where it has none.
 inline std::size_t colour_of(const MeshView& mesh, std::size_t triangle) {

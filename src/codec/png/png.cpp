@@ -15,9 +15,7 @@ void append_bytes(png_structp png, png_bytep data, png_size_t size) {
 }
 void flush_nothing(png_structp) {}
 void ignore_warning(png_structp, png_const_charp) {}
-void leave(png_structp png, png_const_charp) {
-  png_longjmp(png, 1);
-}
+void leave(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 
 /// The calls that can jump. Everything they touch was made by the caller and is destroyed by the caller.
 bool write_rows(png_structp png, png_infop info, const ImageView& image, png_bytepp rows, std::string* out) {

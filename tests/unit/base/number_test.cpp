@@ -1,7 +1,7 @@
 // Numbers as text: rounding, no "-0", and reading back.
-#include <gtest/gtest.h>
-
 #include "kerf/number.h"
+
+#include <gtest/gtest.h>
 
 namespace kerf {
 namespace {

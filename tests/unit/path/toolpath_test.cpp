@@ -1,7 +1,7 @@
 // The toolpath's packing: what goes in comes out.
-#include <gtest/gtest.h>
-
 #include "kerf/toolpath.h"
+
+#include <gtest/gtest.h>
 
 namespace kerf {
 namespace {

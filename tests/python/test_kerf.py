@@ -1,0 +1,103 @@
+"""The Python module: building a toolpath, cutting it, and being told what is wrong."""
+import math
+
+import pytest
+
+import kerf
+
+
+def slot():
+    path = kerf.Toolpath()
+    path.tool(102)
+    path.spindle(16000)
+    path.rapid((10, 10, 5))
+    path.cut((10, 10, -2), feed=100)
+    path.cut((30, 10, -2), feed=400)
+    path.rapid((30, 10, 5))
+    return path
+
+
+def test_a_slot_removes_its_volume():
+    result = kerf.simulate(slot(), kerf.Stock.block((40, 20, 6)), resolution=0.05)
+    exact = 2 * (20 * 3.175 + math.pi * 3.175**2 / 4)
+    assert result.removed_mm3 == pytest.approx(exact, rel=2e-3)
+    assert result.stock_mm3 == pytest.approx(4800)
+    assert result.hazards == []
+    assert result.removed_by_step.sum() == pytest.approx(result.removed_mm3, rel=1e-6)
+    assert result.column(*(n // 2 for n in result.columns))[0][1] == pytest.approx(-2, abs=1e-3)
+
+
+def test_the_mesh_is_closed_and_encloses_what_is_left():
+    result = kerf.simulate(slot(), kerf.Stock.block((40, 20, 6)), resolution=0.2)
+    points, triangles, step = result.mesh()
+    a, b, c = (points[triangles[:, k]].astype(float) for k in range(3))
+    volume = (a * __import__("numpy").cross(b, c)).sum() / 6
+    assert volume == pytest.approx(result.left_mm3, rel=5e-3)
+    assert len(step) == len(triangles)
+
+
+def test_a_rapid_through_stock_names_the_line_of_the_script():
+    path = slot()
+    path.rapid((10, 15, -1))
+    line = [path[i]["origin"] for i in range(len(path))][-1]
+    result = kerf.simulate(path, kerf.Stock.block((40, 20, 6)), resolution=0.2)
+    assert [h["kind"] for h in result.hazards] == ["rapid_in_stock"]
+    assert result.hazards[0]["origin"] == line
+    assert "test_kerf.py" in line
+
+
+def test_arcs_and_reports():
+    path = kerf.Toolpath()
+    path.rapid((10, 0, 1))
+    path.arc((10, 0, -1), centre=(0, 0), turn="cw", feed=300)
+    figures = path.report()
+    assert (figures["arcs"], figures["rapids"]) == (1, 1)
+    assert figures["cut_mm"] == pytest.approx(math.hypot(2 * math.pi * 10, 2))
+
+
+@pytest.mark.parametrize("call", [
+    lambda p: p.rapid((0, 0)),
+    lambda p: p.rapid((0, 0, float("nan"))),
+    lambda p: p.cut((0, 0, 0), feed=0),
+    lambda p: p.arc((1, 0, 0), centre=(0, 0), turn="left", feed=100),
+    lambda p: p.dwell(-1),
+])
+def test_wrong_values_are_value_errors(call):
+    with pytest.raises(ValueError):
+        call(kerf.Toolpath())
+
+
+def test_wrong_types_are_type_errors():
+    with pytest.raises(TypeError):
+        kerf.Toolpath().rapid("abc")
+    with pytest.raises(TypeError):
+        kerf.Toolpath().rapid((0, "x", 0))
+
+
+def test_gcode_errors_carry_their_places():
+    with pytest.raises(kerf.Error) as caught:
+        kerf.read_gcode("G21\nG1 X1 F100\nG1 Xnan\nG2 X5 Y5\nM2\n", "bad.nc")
+    lines = sorted({d.line for d in caught.value.diagnostics if d.severity == "error"})
+    assert lines == [3, 4]
+    assert "bad.nc:3" in str(caught.value)
+
+
+def test_unknown_tool_is_an_error():
+    path = kerf.Toolpath()
+    path.tool(99999999)
+    path.rapid((0, 0, 5))
+    path.cut((0, 0, -1), feed=100)
+    with pytest.raises(kerf.Error, match="99999999"):
+        kerf.simulate(path, kerf.Stock.block((10, 10, 5)))
+
+
+def test_tools():
+    tool = kerf.Tool("V d=12.7 angle=90", number=301)
+    assert tool.diameter_at(1.0) == pytest.approx(2.0)
+    assert kerf.Tool.make("square", number=7, diameter=6, flute=20).flute == 20
+    table = kerf.built_in_tools()
+    assert 102 in table and table[102].diameter == pytest.approx(3.175)
+    drawn = kerf.Tool.drawn([(0, 0, 0), (3, 0, 0), (3, 10, 0)], number=9)
+    assert drawn.diameter == pytest.approx(6)
+    with pytest.raises(kerf.Error):
+        kerf.Tool("squale d=3")
