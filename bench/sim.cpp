@@ -3,9 +3,9 @@
 //
 // The peers' figures were measured on the same kind of machine (two cores) on the same jobs; they are printed
 // as counters: seconds of processor time for the whole job, at the resolution their name says.
+#include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "kerf/simulate.h"
@@ -17,8 +17,8 @@ constexpr double kQuarter = 0.41421356237309503;  // bulge of a quarter circle
 
 Stock block() {
   Stock stock;
-  stock.block.add({0, 0, -8.35});
-  stock.block.add({220, 150, 0});
+  stock.block.add(Point3{0, 0, -8.35});
+  stock.block.add(Point3{220, 150, 0});
   return stock;
 }
 

@@ -48,6 +48,7 @@ struct View {
   Real slope = 0, z = 0;
   Real ball_lead = 0;          // slope / sqrt(1 + slope^2)
   Real z_low = 0, z_high = 0;  // of the whole sweep
+  bool level_follow = false;   // a level line that begins where the sweep before has ended
   Real behind = -kFar;         // what lies before this along a line was cut by the sweep before
   Real box_low_x = 0, box_high_x = 0, box_low_y = 0, box_high_y = 0;  // of the path in plan
   Real radius = 0;                                                    // of an arc, whose centre is the origin
@@ -173,6 +174,22 @@ KERF_LANES Nearness near_arc(const View& w, const Blocks& b) {
   return {root(higher_of(dr * dr, dx * dx + dy * dy)), all(w.z_low), all(w.z_high), ~Mask{}};
 }
 
+/// Most pieces for which `new_ground` is worth its time.
+constexpr std::size_t kFewPieces = 4;
+
+/// Of a level line that follows another: blocks in which some piece takes what it did not take at the line's
+/// begin. A cylinder takes nothing new from a block that its first disc covers.
+KERF_LANES Mask new_ground(const View& w, const LaneSolid& solid, const Blocks& b, Vector distance) {
+  const Vector x = b.x + kColumn * b.step - w.t_low * w.cx, y = b.y + kRow * b.step - w.t_low * w.cy;
+  const Vector far2 = square(absolute(x) + b.half) + square(absolute(y) + b.half);
+  Mask any{};
+  for (const LanePiece& piece : solid.pieces) {
+    const bool cylinder = piece.lower.curve == CapCurve::flat && piece.upper.curve == CapCurve::flat;
+    any |= (distance < piece.rim) & (cylinder ? far2 >= piece.rim2 : ~Mask{});
+  }
+  return any;
+}
+
 /// Bits of the blocks that a solid can meet, given the blocks' highest and lowest material.
 KERF_LANES int cull(const View& w, const LaneSolid& solid, const Blocks& b, const Real* top,
                     const Real* bottom) {
@@ -180,8 +197,10 @@ KERF_LANES int cull(const View& w, const LaneSolid& solid, const Blocks& b, cons
   Vector under = solid.offset[0] + solid.slope[0] * n.distance;
   for (int k = 1; k < kCullLines; ++k)
     under = higher_of(under, solid.offset[k] + solid.slope[k] * n.distance);
-  return bits_of((n.distance < solid.rim) & (n.z_low + under < load(top)) &
-                 (n.z_high + solid.top > load(bottom)) & n.ahead);
+  Mask meets = (n.distance < solid.rim) & (n.z_low + under < load(top)) &
+               (n.z_high + solid.top > load(bottom)) & n.ahead;
+  if (w.level_follow && solid.pieces.size() <= kFewPieces) meets &= new_ground(w, solid, b, n.distance);
+  return bits_of(meets);
 }
 
 // ---- a convex piece swept: the lowest point of its underside above (or below) each column
@@ -406,6 +425,17 @@ struct Remnant {
   free->high_step[rest.lane] = rest.high_step;
 }
 
+/// Finds the highest and lowest material of a micro with a chain again.
+KERF_LANES void update_bounds(Tile& tile, int micro) {
+  Vector high = all(-kFar), low = all(kFar);
+  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
+    high = higher_of(high, load(tile.slots[static_cast<std::size_t>(k)].high));
+    low = lower_of(low, load(tile.slots[static_cast<std::size_t>(k)].low));
+  }
+  tile.micro_top[micro] = highest_of(high);
+  tile.micro_bottom[micro] = lowest_of(low);
+}
+
 /// Takes [low, high] from a micro with a chain.
 KERF_LANES Real take_from_chain(Tile& tile, int micro, Vector low, Vector high, std::uint32_t step,
                                 Vector weight, Real same) {
@@ -423,13 +453,16 @@ KERF_LANES Real take_from_chain(Tile& tile, int micro, Vector low, Vector high, 
     }
     k = slot.next;
   }
+  if (bits_of(taken > 0) == 0) return 0;
   for (int n = 0; n < count; ++n) store_remnant(tile, micro, rests[n], step);
-  tile.update_bounds(micro);
+  update_bounds(tile, micro);
   return sum_of(taken * weight);
 }
 
 KERF_LANES Real take(Tile& tile, int micro, Vector low, Vector high, std::uint32_t step, Vector weight,
                      Real same) {
+  const Mask any = (low < high) & (low < tile.micro_top[micro]) & (high > tile.micro_bottom[micro]);
+  if (bits_of(any) == 0) return 0;
   if (tile.chain[micro] < 0) {
     const Vector top = load(tile.top[micro]);
     const Mask meets = (low < top) & (high > same);
@@ -588,6 +621,8 @@ KERF_LANES void run_pass(Work& work, const Pass& pass, Contact& contact) {
   View& w = work.view;
   const bool open = w.z_low + solid.top >= field.height;
   w.behind = pass.is_hazard ? -kFar : behind_of(w, work.sweep, solid, open);
+  w.level_follow =
+      !pass.is_hazard && work.sweep.follows && !w.is_arc && work.sweep.length > 0.0 && w.slope == 0;
   const Real pitch = field.step[1];
   const Blocks supers{w.x + 7.5f * pitch, w.y + 7.5f * pitch, 16 * pitch, 7.5f * pitch};
   for (int bits = cull(w, solid, supers, tile.super_top, tile.super_bottom); bits != 0; bits &= bits - 1)

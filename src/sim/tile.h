@@ -62,8 +62,6 @@ struct Tile {
   Slot& add_slot(int micro);
   /// Appends the intervals of a column, lowest first.
   void intervals(int index, std::vector<Interval>& out) const;
-  /// Recomputes a micro's bounds from its chain.
-  void update_bounds(int micro);
 };
 
 }  // namespace kerf::sim

@@ -72,19 +72,6 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
             [](const Interval& a, const Interval& b) { return a.low < b.low; });
 }
 
-void Tile::update_bounds(int micro) {
-  Real high = -kFar, low = kFar;
-  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
-    const Slot& slot = slots[static_cast<std::size_t>(k)];
-    for (int i = 0; i < kLanes; ++i) {
-      high = high > slot.high[i] ? high : slot.high[i];
-      low = low < slot.low[i] ? low : slot.low[i];
-    }
-  }
-  micro_top[micro] = high;
-  micro_bottom[micro] = low;
-}
-
 namespace {
 
 /// A last column that holds less than this share of a pitch is rounding of the division, not material.
