@@ -1,8 +1,8 @@
 """Kerf: toolpaths, tools and a simulator, from Python.
 
 A toolpath is built call by call (`Toolpath`) or read from G-code (`read_gcode`, `load`), and cut out of a
-`Stock` by `simulate`, which says what is left, which step made which surface, and which lines would break a tool
-or a part.
+`Stock` by `simulate`, which says what is left, which step made which surface, and which lines would break a
+tool or a part.
 Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 

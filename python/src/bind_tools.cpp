@@ -69,7 +69,7 @@ void bind_tools(py::module_& m) {
 Parameters
 ----------
 spec : str
-    As on the command line: ``"square d=3.175 flute=12.7"``, ``"V d=12.7 angle=90"``, or a built-in tool's number.
+    As on the command line: ``"square d=3.175 flute=12.7"``, ``"V d=12.7 angle=90"``, or a tool's number.
 number : int
     Its number in programs; 0 keeps the number of a built-in tool.)")
       .def(py::init(&tool_from_text), py::arg("spec"), py::arg("number") = 0)
