@@ -13,9 +13,7 @@ constexpr int kSquare = 64;
 /// Marks in CapSheet::known_ a corner whose quadrants have vertices of their own.
 constexpr std::uint32_t kMany = 0x80000000u;
 
-constexpr int whole_squares(int n) {
-  return (n + kSquare - 1) / kSquare * kSquare;
-}
+constexpr int whole_squares(int n) { return (n + kSquare - 1) / kSquare * kSquare; }
 
 }  // namespace
 

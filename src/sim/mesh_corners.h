@@ -119,11 +119,7 @@ class CornerRow {
 };
 
 /// Column of a quadrant around corner (i, j).
-constexpr int column_x(int i, int quadrant) {
-  return i - 1 + (quadrant & 1);
-}
-constexpr int column_y(int j, int quadrant) {
-  return j - 1 + (quadrant >> 1);
-}
+constexpr int column_x(int i, int quadrant) { return i - 1 + (quadrant & 1); }
+constexpr int column_y(int j, int quadrant) { return j - 1 + (quadrant >> 1); }
 
 }  // namespace kerf::meshing

@@ -28,9 +28,7 @@ double linear(std::uint8_t value) {
   const double s = value / 255.0;
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
-Colour linear(const std::array<std::uint8_t, 3>& c) {
-  return {linear(c[0]), linear(c[1]), linear(c[2])};
-}
+Colour linear(const std::array<std::uint8_t, 3>& c) { return {linear(c[0]), linear(c[1]), linear(c[2])}; }
 
 std::uint8_t encoded(double value) {
   const double v = std::clamp(value, 0.0, 1.0);
@@ -43,9 +41,7 @@ Point3 unit(Point3 a) {
   return n > 0.0 ? (1.0 / n) * a : Point3{0, 0, 1};
 }
 
-Colour times(Colour a, Colour b) {
-  return {a.x * b.x, a.y * b.y, a.z * b.z};
-}
+Colour times(Colour a, Colour b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 /// A unit vector in six bytes.
 struct PackedNormal {
