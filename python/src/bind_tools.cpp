@@ -61,9 +61,7 @@ Stock block_of(const py::object& size, const std::string& zero, const std::strin
   return make_block(edges, *corner, *height);
 }
 
-}  // namespace
-
-void bind_tools(py::module_& m) {
+void bind_tool(py::module_& m) {
   py::class_<Tool>(m, "Tool", R"(A cutting tool: its silhouette of lines and arcs, turned about the axis.
 
 Parameters
@@ -103,7 +101,9 @@ number : int
       .def("__repr__", [](const Tool& t) {
         return "<kerf.Tool " + std::to_string(t.number) + " " + std::string(name_of(t.shape)) + ">";
       });
+}
 
+void bind_tool_table(py::module_& m) {
   py::class_<ToolTable>(m, "ToolTable", "Tools by their number in programs.")
       .def(py::init<>())
       .def("__setitem__", [](ToolTable& table, int number, const Tool& tool) { table.set(number, tool); })
@@ -123,7 +123,9 @@ number : int
   m.def(
       "built_in_tools", [] { return built_in_tools(); },
       "A copy of the table of tools that every Kerf knows.");
+}
 
+void bind_stock(py::module_& m) {
   py::class_<Stock>(m, "Stock", "The material before the first cut: a block, mm, work coordinates.")
       .def_static("block", &block_of, py::arg("size"), py::arg("zero") = "lower-left",
                   py::arg("zero_height") = "top",
@@ -140,6 +142,14 @@ zero_height : {'top', 'bottom'})")
           "low", [](const Stock& s) { return to_tuple(s.block.low); }, "tuple: lowest corner, mm.")
       .def_property_readonly(
           "high", [](const Stock& s) { return to_tuple(s.block.high); }, "tuple: highest corner, mm.");
+}
+
+}  // namespace
+
+void bind_tools(py::module_& m) {
+  bind_tool(m);
+  bind_tool_table(m);
+  bind_stock(m);
 }
 
 }  // namespace kerf::python
