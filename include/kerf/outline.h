@@ -1,0 +1,194 @@
+// Outlines of lines and arcs in the plane, and what a router bit can make of their corners.
+//
+// A router bit of radius r cannot cut a sharp inner corner. Each corner of an outline therefore carries a request:
+//   0         leave it as it is
+//   r > 0     smooth it: one arc of radius r, tangent to both neighbours
+//   r < 0     enlarge it: clear the corner with a bit of radius |r|. The bit's centre lies on the line from the
+//             corner to the centre of the arc that would smooth it, and its circle passes through the corner;
+//             where the corner is sharper than the bit, a channel as wide as the bit leads there.
+// Only the two segments that meet at a corner decide how it is changed.
+//
+// Frame: x to the right, y up, mm, counter-clockwise is positive. No function changes its argument. User errors go
+// to Diagnostics (codes 7xxx); a corner that cannot be cut is a warning and stays sharp.
+//
+//   Outline plate;
+//   plate.segments = {{{40, 0}, {}, mm(3)}, {{40, 20}, {}, mm(-3)}, {{0, 20}}, {{0, 0}}};
+//   Diagnostics diagnostics;
+//   const auto cut = cut_corners(plate, {.name = "plate"}, diagnostics);
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/geometry.h"
+#include "kerf/units.h"
+
+namespace kerf {
+
+/// A line or an arc, from the end of the segment before (or the outline's start) to `to`.
+struct Segment {
+  Point2 to;                  // mm
+  std::optional<Point2> via;  // an arc passes through this point, anywhere between its ends; none: a line
+  Length corner;              // request for the corner at `to`, see above
+  bool operator==(const Segment&) const = default;
+};
+
+/// A chain of segments. It is closed if its last end is exactly its start; the corner there is then
+/// `start_corner`, and the last segment's own request must be 0.
+struct Outline {
+  Point2 start;         // mm
+  Length start_corner;  // request; of closed outlines only
+  std::vector<Segment> segments;
+
+  bool closed() const { return !segments.empty() && segments.back().to == start; }
+  /// Ends of segments by element number: 0 is the start, i the end of segment i - 1.
+  Point2 point(std::size_t element) const { return element == 0 ? start : segments[element - 1].to; }
+  std::size_t elements() const { return segments.size() + 1; }
+  bool operator==(const Outline&) const = default;
+};
+
+struct Circle {
+  Point2 centre;  // mm
+  Length radius;  // > 0
+  bool operator==(const Circle&) const = default;
+};
+
+/// The outlines of one part: the first is its outside, the others are holes.
+using Figure = std::vector<std::variant<Outline, Circle>>;
+
+/// The circle that an arc segment lies on, and how far it goes.
+struct ArcCircle {
+  Point2 centre;  // mm
+  double radius = 0.0;
+  Turn turn = Turn::ccw;
+  Angle sweep;  // above 0, below a full turn
+};
+/// Nothing for a line, and for an arc so flat that it is one (its three points bend by less than 1e-6 rad).
+std::optional<ArcCircle> arc_circle(Point2 from, const Segment& segment);
+
+// ------------------------------------------------------------------------------------------------- corners
+
+/// Who gets an edge that two corners want and that is too short for both.
+enum class EdgeSharing : std::uint8_t {
+  in_order,  ///< the corner of the smaller element number, and element 0 before all: as Cnc25D does
+  even       ///< half of the edge is each corner's own; beyond it only what the other leaves. Independent of the start
+};
+
+struct CornerOptions {
+  Tolerance tolerance{};  ///< weld: points closer than this are one; a fit that misses by less is a fit
+  /// Corners that turn by less are smooth already; corners of two lines or two arcs that come nearer than this to
+  /// turning back are folds. Neither is changed.
+  Angle straight = radians(std::numbers::pi / 1000.0);
+  EdgeSharing sharing = EdgeSharing::in_order;
+  std::string name;  ///< a corner is called NAME.ELEMENT in messages
+  Origin where;      ///< of the messages
+};
+
+enum class CornerOutcome : std::uint8_t { smoothed, enlarged, sharp };
+/// Why a corner with a request stays sharp.
+enum class SharpReason : std::uint8_t {
+  none,
+  straight,       ///< the neighbours are tangent: there is no corner
+  folded,         ///< the outline turns back on itself: no arc of any size touches both neighbours
+  short_segment,  ///< a neighbour is too short, or taken already by the corner at its other end
+  no_circle,      ///< no circle of this radius touches both neighbours
+  no_neighbour,   ///< a neighbour has no length
+  tiny,           ///< the radius is below the weld tolerance
+  shared          ///< EdgeSharing::even: the corner at the other end needs the edge, too
+};
+std::string_view to_string(SharpReason reason);
+
+/// What became of one corner that had a request.
+struct CornerReport {
+  std::uint32_t element = 0;  ///< of the input
+  CornerOutcome outcome = CornerOutcome::sharp;
+  SharpReason reason = SharpReason::none;
+  std::uint32_t first = 0;  ///< element of the result where the replacement begins
+  std::uint32_t count = 0;  ///< elements of the result that it consists of; 0 if sharp
+  /// Where it stays sharp: the largest radius that could be cut here (0: none), given what the corners before it
+  /// took. A lower bound within 1e-6.
+  Length largest;
+};
+
+struct CutOutline {
+  Outline outline;                    ///< without requests; arcs have their `via` in the middle of their sweep
+  std::vector<CornerReport> corners;  ///< one for each corner with a request, in order of elements
+};
+
+/// Replaces the corners of an outline as requested. Order of work: corner 0 of a closed outline first, then by
+/// element; each corner sees what the one before left of the shared segment. A closed result begins where the
+/// replacement of corner 0 begins. Segments of no length are left out.
+/// Nothing, with errors appended, for an outline without a segment, a closed one of a single segment, coordinates
+/// that are not finite or beyond 1e60, and arcs that end where they begin. Requests at the ends of an open outline
+/// (for a closed one: of its last element) are ignored with a warning.
+std::optional<CutOutline> cut_corners(const Outline& outline, const CornerOptions& options, Diagnostics& diagnostics);
+
+/// The sentence of a report: "corner plate.2 stays sharp: ...". `request` is the corner's.
+std::string corner_message(const CornerReport& report, Length request, std::string_view name);
+
+// -------------------------------------------------------------------------------------------------- curves
+
+/// A sample of a curve with its direction of travel.
+struct CurvePoint {
+  Point2 at;      // mm
+  Angle heading;  // from +x, counter-clockwise
+  bool operator==(const CurvePoint&) const = default;
+};
+using Curve = std::vector<CurvePoint>;
+
+struct CurveOptions {
+  Tolerance tolerance{};
+  /// A piece whose end tangents are closer than this to its chord becomes a line.
+  Angle straight = radians(std::numbers::pi / 1000.0);
+  Length least_radius;  ///< arcs of a smaller radius get a warning; 0: none does
+  std::string name;     ///< piece k is called NAME.k in messages
+  Origin where;
+};
+
+/// A chain of arcs through all samples with the samples' headings: two arcs a piece that meet in the incentre of
+/// the triangle of chord and tangents. Pieces with an inflexion and straight pieces become lines, with a warning.
+/// Nothing, with errors appended, for fewer than two samples, for equal neighbours, for numbers that are not
+/// finite, and where a heading is more than a right angle off the chord.
+std::optional<Outline> smooth_curve(const Curve& curve, const CurveOptions& options, Diagnostics& diagnostics);
+
+/// Guesses the heading of each point from its neighbours; exact for evenly sampled circles, of which closed ones
+/// are smooth at the seam too. Two points give a line. Fails as `smooth_curve` does, and where an open end turns
+/// by more than 60 degrees.
+std::optional<Curve> guess_headings(const std::vector<Point2>& points, const CurveOptions& options,
+                                    Diagnostics& diagnostics);
+
+// ---------------------------------------------------------------------------------------------- transforms
+
+/// p -> offset + factor * p, each axis by itself. Mirroring (one factor negative) also reverses the order, so
+/// that the sense of a closed outline stays. Requests stay as they are. Factors must not be 0; arcs stay arcs
+/// through the moved points, also where the factors differ.
+struct Placement {
+  Point2 offset;
+  Point2 factor{1.0, 1.0};
+  bool mirrors() const { return (factor.x < 0.0) != (factor.y < 0.0); }
+};
+Outline placed(const Outline& outline, const Placement& placement);
+Curve placed(const Curve& curve, const Placement& placement);
+/// The radius is scaled by the geometric mean of the factors' sizes.
+Circle placed(const Circle& circle, const Placement& placement);
+
+Outline rotated(const Outline& outline, Point2 centre, Angle angle);
+Curve rotated(const Curve& curve, Point2 centre, Angle angle);
+Circle rotated(const Circle& circle, Point2 centre, Angle angle);
+
+/// The same way walked backwards. Requests stay with their corners.
+Outline reversed(const Outline& outline);
+Curve reversed(const Curve& curve);
+/// Closed by a line where it is open.
+Outline closed(const Outline& outline);
+/// Without requests.
+Outline ideal(const Outline& outline);
+
+}  // namespace kerf

@@ -1,0 +1,147 @@
+"""Helpers that move, reverse, close and resolve outlines."""
+
+import math
+
+from . import _outline
+from ._outline import OutlineError
+from ._say import warn
+
+
+def refuse(number, text):
+    """The OutlineError of a message number."""
+    error = OutlineError(f"ERR{number}: Error, {text}")
+    error.code, error.outline, error.element = number, "", None
+    return error
+
+
+def outline_shift_x(outline, x_offset, x_factor, *, outline_format=None):
+    """x -> x_offset + x_factor * x; see `outline_shift_xy`."""
+    return outline_shift_xy(outline, x_offset, x_factor, 0, 1, outline_format=outline_format)
+
+
+def outline_shift_y(outline, y_offset, y_factor, *, outline_format=None):
+    """y -> y_offset + y_factor * y; see `outline_shift_xy`."""
+    return outline_shift_xy(outline, 0, 1, y_offset, y_factor, outline_format=outline_format)
+
+
+def outline_shift_xy(outline, x_offset, x_factor, y_offset, y_factor, *, outline_format=None):
+    """Shift, scale or mirror an outline (format A, B or a circle; format C with outline_format="C").
+
+    A mirrored outline is also reversed, so that its sense stays. Requests stay as they are. The radius of a circle is
+    scaled; where the factors differ in size a warning says that it stays a circle.
+
+    Format C looks like format A, three numbers an element. Only with `outline_format="C"` are its inclinations
+    mirrored and reversed with the points.
+
+    Raises
+    ------
+    OutlineError
+        Malformed lists, factors of 0.
+    """
+    made = _outline.place(outline, x_offset, x_factor, y_offset, y_factor, outline_format or "")
+    if made and not isinstance(made[0], tuple) and abs(x_factor) != abs(y_factor):
+        warn(358, f"factors {x_factor} and {y_factor} would make an ellipse: a circle of their mean radius is made")
+    return made
+
+
+def outline_rotate(outline, center_x, center_y, rotation_angle, *, outline_format=None):
+    """Turn an outline about a point by an angle in radians (format C with outline_format="C": inclinations, too)."""
+    return _outline.rotate(outline, center_x, center_y, rotation_angle, outline_format or "")
+
+
+def outline_close(outline):
+    """A copy of the outline, closed by a line where it is open. A circle comes back as it is."""
+    kind = _outline.check(outline, 237, 247)
+    if kind == "circle":
+        return list(outline)
+    end = -2 if kind == "B" else -3
+    first, last = outline[0], outline[-1]
+    made = list(outline)
+    if first[0] == last[end] and first[1] == last[end + 1]:
+        warn(421, "the outline is already closed!")
+    else:
+        made.append([first[0], first[1]] if kind == "B" else [first[0], first[1], 0])
+    return made
+
+
+def outline_reverse(outline, *, outline_format=None):
+    """The same outline walked backwards; requests stay with their corners.
+
+    Format C with outline_format="C": inclinations are turned by pi.
+    """
+    if outline_format == "C":
+        return _outline.reverse_curve(outline)
+    kind = _outline.check(outline, 257, 258)
+    if kind == "circle":
+        return list(outline)
+    ends = [tuple(row[-2:]) if kind == "B" else tuple(row[-3:-1]) for row in outline]
+    requests = [() if kind == "B" else (row[-1],) for row in outline]
+    if kind == "A" and ends[0] == ends[-1]:
+        if requests[-1] != (0,):
+            warn(567, f"the last router_bit request of the closed outline is not set to zero: {requests[-1][0]}")
+        requests = [(0,)] + requests[1:-1] + [requests[0]]
+    made = [ends[-1] + requests[-1]]
+    for i in range(len(outline) - 1, 0, -1):
+        via = tuple(outline[i][:2]) if len(outline[i]) > 3 else ()
+        made.append(via + ends[i - 1] + requests[i - 1])
+    return made
+
+
+def ideal_outline(outline, error_mark_string=""):
+    """Format A or C without its last column: format B. Format B and circles come back as they are, with a warning."""
+    kind = _outline.check(outline, 868, 868)
+    if kind != "A":
+        warn(441, f"{error_mark_string} is a circle or of format B already")
+        return outline
+    return [type(row)(row[:-1]) if type(row) in (list, tuple) else tuple(row[:-1]) for row in outline]
+
+
+def outline_arc_line(outline, backend="tkinter"):
+    """An outline of format B (or a circle) as chords, for drawing: a list of (x1, y1, x2, y2).
+
+    There are twelve chords for each unit of radius in a full circle, and never less than three. Other backends than
+    "tkinter" drew into objects of other libraries: `write_figure_in_svg` and `write_figure_in_dxf` write files.
+    """
+    if backend != "tkinter":
+        raise refuse(264, f"backend {backend!r}: only 'tkinter' gives a list; files come from write_figure_in_svg/dxf")
+    kind = _outline.check(outline, 237, 247)
+    if kind == "circle":
+        return _circle_chords(*outline)
+    if kind == "A":
+        warn(231, "format A or C used in outline_arc_line(); ideal_outline() converts it")
+        outline = ideal_outline(outline)
+    chords = []
+    start = tuple(outline[0])
+    for row in outline[1:]:
+        points = _arc_points(start, tuple(row[:2]), tuple(row[2:])) if len(row) == 4 else [tuple(row)]
+        for point in points:
+            chords.append(start + point)
+            start = point
+    return chords
+
+
+def _circle_chords(x, y, radius):
+    if radius <= 0:
+        raise refuse(409, f"the radius {radius} of a circle is not above 0")
+    count = max(3, int(12 * radius))
+    points = [(x + radius * math.cos(2 * math.pi * i / count), y + radius * math.sin(2 * math.pi * i / count))
+              for i in range(count)]
+    return [points[i] + points[(i + 1) % count] for i in range(count)]
+
+
+def _arc_points(start, via, end):
+    """Points of an arc after its start; the end and the passing point are among them."""
+    circle = _outline.arc_circle(start, via, end)
+    if circle is None:
+        return [end]
+    x, y, radius, turn = circle
+    step = 2 * math.pi / (12 * radius)
+    points = []
+    for begin, stop in ((start, via), (via, end)):
+        angle = math.atan2(begin[1] - y, begin[0] - x)
+        sweep = (turn * (math.atan2(stop[1] - y, stop[0] - x) - angle)) % (2 * math.pi)
+        count = min(int(sweep / step), 100000)
+        points += [(x + radius * math.cos(angle + turn * sweep * i / (count + 1)),
+                    y + radius * math.sin(angle + turn * sweep * i / (count + 1))) for i in range(1, count + 1)]
+        points.append(stop)
+    return points

@@ -1,0 +1,283 @@
+// The compiled part of cnc25d_api: lists in, lists and messages out. The functions users call are in
+// cnc25d_api/__init__.py, which prints the messages.
+#include <cmath>
+
+#include "lists.h"
+
+namespace cnc25d {
+namespace {
+
+using kerf::Code;
+using kerf::SharpReason;
+
+PyObject* error_type = nullptr;  // OutlineError; never released, so that no destructor runs after the interpreter's end
+
+std::string quoted(const std::string& name) {
+  return name.empty() ? "outline" : "outline " + name;
+}
+
+void raise(const Refusal& refusal) {
+  std::string text = "ERR" + (refusal.code < 100 ? "0" + std::to_string(refusal.code) : std::to_string(refusal.code)) +
+                     ": Error, " + quoted(refusal.outline);
+  if (refusal.element >= 0) text += ", element " + std::to_string(refusal.element);
+  text += ": " + refusal.text;
+  py::object error = py::handle(error_type)(text);
+  error.attr("code") = refusal.code;
+  error.attr("outline") = refusal.outline;
+  error.attr("element") = refusal.element >= 0 ? py::object(py::int_(refusal.element)) : py::none();
+  PyErr_SetObject(error_type, error.ptr());
+}
+
+/// The number that Cnc25D's users know a message by; Kerf's own where there was none.
+int catalogue_number(Code code) {
+  switch (code) {
+    case Code::outline_arc_straight: return 810;
+    case Code::outline_arc_undetermined: return 682;
+    case Code::outline_end_request: return 947;
+    case Code::curve_turns_fast: return 639;
+    case Code::curve_turns_much: return 649;
+    case Code::curve_piece_straight: return 659;
+    case Code::curve_inflexion: return 669;
+    case Code::curve_radius_small: return 446;
+    default: return static_cast<int>(code);
+  }
+}
+
+/// The same for a corner that stays sharp.
+int catalogue_number(SharpReason reason, bool enlarge, int arcs) {
+  switch (reason) {
+    case SharpReason::straight: return arcs == 0 ? (enlarge ? 573 : 673) : arcs == 1 ? 942 : 932;
+    case SharpReason::folded: return arcs == 0 ? (enlarge ? 574 : 674) : 933;
+    case SharpReason::short_segment: return arcs == 0 ? (enlarge ? 575 : 675) : arcs == 1 ? 684 : 693;
+    case SharpReason::no_circle: return arcs == 1 ? 684 : 693;
+    case SharpReason::no_neighbour: return enlarge ? 506 : 406;
+    case SharpReason::shared: return static_cast<int>(Code::corner_shared);
+    default: return static_cast<int>(Code::corner_radius_tiny);
+  }
+}
+
+std::string warning_text(int number, const std::string& message) {
+  return "WARN" + std::to_string(number) + ": Warning, " + message;
+}
+
+/// Turns what was said into the lines to print; refuses where there was an error.
+class Messages {
+ public:
+  void add(const std::string& text) { list_.append(py::str(text)); }
+  void add(const kerf::Diagnostics& diagnostics) {
+    for (const kerf::Diagnostic& d : diagnostics.list()) {
+      if (d.severity == kerf::Severity::error) throw Refusal{catalogue_number(d.code), {}, -1, d.message};
+      if (!about_corner(d.code)) add(warning_text(catalogue_number(d.code), d.message));
+    }
+    for (const Code code : diagnostics.dropped_codes())
+      add(warning_text(catalogue_number(code), "and " + std::to_string(diagnostics.dropped(code)) + " more: " +
+                                                   std::string(kerf::meaning_of(code))));
+  }
+  py::list list() const { return list_; }
+
+ private:
+  static bool about_corner(Code code) { return code >= Code::corner_straight && code <= Code::corner_shared; }
+  py::list list_;
+};
+
+void add_corner_messages(Messages& messages, const kerf::Outline& outline, const kerf::CutOutline& cut,
+                         const std::string& name) {
+  constexpr int kMost = 50;
+  int said = 0;
+  for (const kerf::CornerReport& report : cut.corners) {
+    if (report.reason == SharpReason::none) continue;
+    if (++said > kMost) return;  // the rest is in the counts of the diagnostics
+    const std::size_t i = report.element, n = outline.segments.size();
+    const kerf::Length request = i == 0 ? outline.start_corner : outline.segments[i - 1].corner;
+    const int arcs = (outline.segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (outline.segments[i].via ? 1 : 0);
+    const int number = catalogue_number(report.reason, request < kerf::Length(), arcs);
+    messages.add(warning_text(number, kerf::corner_message(report, request, name)));
+  }
+}
+
+py::list report_list(const kerf::CutOutline& cut) {
+  py::list list;
+  for (const kerf::CornerReport& r : cut.corners) {
+    const char* outcome = r.outcome == kerf::CornerOutcome::smoothed   ? "smoothed"
+                          : r.outcome == kerf::CornerOutcome::enlarged ? "enlarged"
+                                                                       : "sharp";
+    py::dict d;
+    d["element"] = r.element;
+    d["outcome"] = outcome;
+    d["reason"] = std::string(kerf::to_string(r.reason));
+    d["first"] = r.first;
+    d["count"] = r.count;
+    d["largest"] = r.largest.mm();
+    list.append(d);
+  }
+  return list;
+}
+
+/// (format B, messages, reports or None)
+py::tuple cut(const py::object& list, const std::string& name, bool even, bool report) {
+  const FormatCodes codes{.single = 202, .first_length = 564, .segment_a = 563};
+  const kerf::Outline outline = read_outline(list.ptr(), Format::a, codes, name);
+  if (outline.segments.empty()) throw Refusal{202, name, 0, "at least one segment is needed"};
+  if (outline.closed() && outline.segments.size() < 2) throw Refusal{203, name, 1, "a closed outline needs two segments"};
+  require_finite(outline, name);
+  kerf::CornerOptions options;
+  options.tolerance = tolerance_for(outline);
+  options.sharing = even ? kerf::EdgeSharing::even : kerf::EdgeSharing::in_order;
+  options.name = name;
+  kerf::Diagnostics diagnostics;
+  const auto made = kerf::cut_corners(outline, options, diagnostics);
+  Messages messages;
+  messages.add(diagnostics);
+  if (diagnostics.warnings() > 0) add_corner_messages(messages, outline, *made, name);
+  const double gap = distance(outline.start, outline.segments.back().to);
+  if (!outline.closed() && gap <= 1e3 * options.tolerance.weld.mm())
+    messages.add(warning_text(static_cast<int>(Code::outline_malformed),
+                              quoted(name) + ": its ends differ by " + std::to_string(gap) +
+                                  ", so it counts as open; outline_close() closes it"));
+  return py::make_tuple(make_list(made->outline), messages.list(), report ? py::object(report_list(*made)) : py::none());
+}
+
+kerf::CurveOptions curve_options(double precision, double least_radius, const std::string& name) {
+  if (!std::isfinite(precision) || !std::isfinite(least_radius) || precision < 0.0)
+    throw Refusal{7002, name, -1, "precision and router_bit_request must be finite numbers, precision not below 0"};
+  kerf::CurveOptions options;
+  options.straight = kerf::radians(precision);
+  options.least_radius = kerf::mm(least_radius);
+  options.name = name;
+  return options;
+}
+
+py::tuple smooth(const kerf::Curve& curve, const kerf::CurveOptions& options, Messages& messages) {
+  kerf::Diagnostics diagnostics;
+  const auto made = kerf::smooth_curve(curve, options, diagnostics);
+  messages.add(diagnostics);
+  return py::make_tuple(make_list(*made), messages.list());
+}
+
+py::tuple smooth_c(const py::object& list, double precision, double least_radius, const std::string& name) {
+  const FormatCodes codes{.empty = 609, .single = 609, .first_length = 619, .segment_a = 629};
+  const kerf::CurveOptions options = curve_options(precision, least_radius, name);
+  const kerf::Curve curve = read_curve(list.ptr(), codes, name);
+  if (curve.size() < 2) throw Refusal{609, name, 0, "at least two samples are needed"};
+  require_finite(curve, name);
+  Messages messages;
+  constexpr double kHalfTurn = 3.1415926535898;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (std::abs(curve[i].heading.rad()) <= kHalfTurn) continue;
+    messages.add(warning_text(639, name + "." + std::to_string(i) +
+                                       ": a tangent inclination beyond pi; whole turns are taken off"));
+    break;
+  }
+  return smooth(curve, options, messages);
+}
+
+py::tuple smooth_b(const py::object& list, double precision, double least_radius, const std::string& name) {
+  const FormatCodes codes{.empty = 309, .single = 309, .first_length = 319, .segment_b = 319};
+  const kerf::CurveOptions options = curve_options(precision, least_radius, name);
+  const kerf::Outline outline = read_outline(list.ptr(), Format::b, codes, name);
+  if (outline.segments.empty()) throw Refusal{309, name, 0, "at least two points are needed"};
+  require_finite(outline, name);
+  std::vector<kerf::Point2> points;
+  points.reserve(outline.elements());
+  for (std::size_t i = 0; i < outline.elements(); ++i) {
+    if (i > 0 && outline.segments[i - 1].via)
+      throw Refusal{319, name, static_cast<Py_ssize_t>(i), "2 numbers are expected, not 4: a curve has no arcs yet"};
+    points.push_back(outline.point(i));
+  }
+  kerf::Diagnostics diagnostics;
+  const auto curve = kerf::guess_headings(points, options, diagnostics);
+  Messages messages;
+  messages.add(diagnostics);
+  return smooth(*curve, options, messages);
+}
+
+/// One of the moves of a list that has a format of its own; "C" must be said, as it looks like A.
+template <class Move>
+py::list moved(const py::object& list, const std::string& format, const FormatCodes& codes, const Move& move) {
+  const std::string name;
+  if (format == "C") {
+    const kerf::Curve curve = read_curve(list.ptr(), codes, name);
+    require_finite(curve, name);
+    return make_list(move(curve));
+  }
+  const Format kind = format_of(list.ptr(), codes, name);
+  if (kind == Format::circle) return make_list(move(read_circle(list.ptr(), codes, name)));
+  const kerf::Outline outline = read_outline(list.ptr(), kind, codes, name);
+  require_finite(outline, name);
+  return make_list(move(outline), kind);
+}
+
+double finite(double value, const char* what) {
+  if (!std::isfinite(value)) throw Refusal{7002, {}, -1, std::string(what) + " must be a finite number"};
+  return value;
+}
+
+py::list place(const py::object& list, double dx, double fx, double dy, double fy, const std::string& format) {
+  const kerf::Placement placement{{finite(dx, "the offset"), finite(dy, "the offset")},
+                                  {finite(fx, "the factor"), finite(fy, "the factor")}};
+  if (fx == 0.0 || fy == 0.0) throw Refusal{439, {}, -1, "a factor of 0 would flatten the outline"};
+  return moved(list, format, {}, [&](const auto& shape) { return placed(shape, placement); });
+}
+
+py::list rotate(const py::object& list, double x, double y, double angle, const std::string& format) {
+  const kerf::Point2 centre{finite(x, "the centre"), finite(y, "the centre")};
+  finite(angle, "the angle");
+  return moved(list, format, {}, [&](const auto& shape) { return rotated(shape, centre, kerf::radians(angle)); });
+}
+
+py::list reverse_curve(const py::object& list) {
+  return moved(list, "C", {}, [&](const auto& shape) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, kerf::Curve>) return reversed(shape);
+    else return shape;
+  });
+}
+
+/// (centre x, centre y, radius, turn) or None for three points on a line.
+py::object arc_circle(std::pair<double, double> from, std::pair<double, double> via, std::pair<double, double> to) {
+  const kerf::Segment segment{{to.first, to.second}, kerf::Point2{via.first, via.second}, {}};
+  const auto circle = kerf::arc_circle({from.first, from.second}, segment);
+  if (!circle) return py::none();
+  return py::make_tuple(circle->centre.x, circle->centre.y, circle->radius, circle->turn == kerf::Turn::ccw ? 1 : -1);
+}
+
+/// "A", "B" or "circle", everything about the list checked.
+std::string check(const py::object& list, int segment_b, int segment_a) {
+  const FormatCodes codes{.segment_b = segment_b, .segment_a = segment_a};
+  const Format kind = format_of(list.ptr(), codes, {});
+  if (kind == Format::circle) {
+    read_circle(list.ptr(), codes, {});
+    return "circle";
+  }
+  require_finite(read_outline(list.ptr(), kind, codes, {}), {});
+  return kind == Format::a ? "A" : "B";
+}
+
+}  // namespace
+}  // namespace cnc25d
+
+PYBIND11_MODULE(_outline, m) {
+  namespace py = pybind11;
+  using namespace cnc25d;
+  m.doc() = "The compiled part of cnc25d_api.";
+  error_type = PyErr_NewExceptionWithDoc("cnc25d_api.OutlineError",
+                                         "An outline is refused. `code` is the number of the message, `outline` the "
+                                         "name given to the call, `element` the index in the list or None.",
+                                         PyExc_ValueError, nullptr);
+  if (error_type == nullptr) throw py::error_already_set();
+  m.add_object("OutlineError", error_type);
+  py::register_local_exception_translator([](std::exception_ptr p) {
+    try {
+      if (p) std::rethrow_exception(p);
+    } catch (const Refusal& refusal) {
+      raise(refusal);
+    }
+  });
+  m.def("cut", &cut);
+  m.def("smooth_c", &smooth_c);
+  m.def("smooth_b", &smooth_b);
+  m.def("place", &place);
+  m.def("rotate", &rotate);
+  m.def("reverse_curve", &reverse_curve);
+  m.def("check", &check);
+  m.def("arc_circle", &arc_circle);
+}

@@ -1,0 +1,55 @@
+// One corner: the arc that smooths it or the slot that enlarges it, from its two neighbours alone.
+//
+// All coordinates are relative to the corner. A neighbour is seen from the corner outwards (a `Side`), the incoming
+// one backwards, so that the rules are written once for both.
+#pragma once
+
+#include "segment.h"
+
+namespace kerf::outline_detail {
+
+/// One of the two segments that meet at a corner, as far as it is still there.
+struct Side {
+  Point2 away;          // unit, leaving the corner
+  Point2 end;           // far end
+  double length = 0.0;  // of a line
+  Point2 centre;        // of an arc
+  double radius = 0.0;  // of an arc
+  double turn = 0.0;    // of an arc leaving the corner: +1 counter-clockwise, -1 clockwise; 0: a line
+  Point2 middle;        // of an arc: unit, from the centre to the middle of what is still there
+  double bound = 0.0;   // of an arc: what lies further than this along `middle` is on it
+  double side = 0.0;    // +1: the inside of the corner is left of `away`, -1: right
+  bool is_arc() const { return turn != 0.0; }
+};
+
+/// The side of the segment that arrives at the corner; `start` is where what is left of it begins.
+Side arriving(const Carrier& carrier, Point2 start, double weld);
+/// The side of the segment that leaves the corner; `end` is where what is left of it ends.
+Side leaving(const Carrier& carrier, Point2 end, double weld);
+
+struct CornerLimits {
+  double weld = 0.0;      // mm
+  double straight = 0.0;  // sine of CornerOptions::straight
+};
+
+/// What replaces a corner: `count` pieces after the point `first` on the arriving segment. The last ends on the
+/// leaving segment.
+struct Replacement {
+  struct Piece {
+    Point2 to, via;
+    bool is_arc = false;
+  };
+  SharpReason reason = SharpReason::none;  // other than none: there is no replacement
+  Point2 first;
+  int count = 0;
+  Piece pieces[3];
+};
+
+/// Solves a corner. `request` as in Segment::corner, not 0.
+Replacement solve_corner(Side in, Side out, double request, const CornerLimits& limits);
+/// The largest radius with the sign of `request` and below it that can be cut; 0 where none can.
+double largest_radius(const Side& in, const Side& out, double request, const CornerLimits& limits);
+/// How much of a side, measured along it, a replacement takes that reaches it at `point`.
+double taken(const Side& side, Point2 point);
+
+}  // namespace kerf::outline_detail

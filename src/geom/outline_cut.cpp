@@ -1,0 +1,270 @@
+// The corners of a whole outline: who is cut first, what the others find left, and what is said about it.
+#include <cassert>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "corner.h"
+#include "outline_check.h"
+
+#include "kerf/outline.h"
+
+namespace kerf {
+namespace {
+
+using namespace outline_detail;
+
+/// At most this many messages of one kind are put into words; the rest are only counted (as Diagnostics does).
+constexpr std::size_t kMessages = 50;
+
+Code code_of(SharpReason reason) {
+  switch (reason) {
+    case SharpReason::straight: return Code::corner_straight;
+    case SharpReason::folded: return Code::corner_folded;
+    case SharpReason::no_neighbour: return Code::corner_no_neighbour;
+    case SharpReason::tiny: return Code::corner_radius_tiny;
+    case SharpReason::shared: return Code::corner_shared;
+    default: return Code::corner_too_large;
+  }
+}
+
+/// Works through one outline. Corner i joins carrier i - 1 and carrier i; of a closed outline corner 0 joins the
+/// last carrier and the first.
+class CornerPass {
+ public:
+  CornerPass(const Outline& outline, const CornerOptions& options, Diagnostics& diagnostics)
+      : outline_(outline), options_(options), diagnostics_(diagnostics), weld_(options.tolerance.weld.mm()) {
+    limits_ = {weld_, std::sin(options.straight.rad())};
+  }
+  CutOutline run();
+
+ private:
+  double request(std::size_t corner) const {
+    return corner == 0 ? outline_.start_corner.mm() : outline_.segments[corner - 1].corner.mm();
+  }
+  void make_carriers();
+  void share_evenly();
+  void begin();
+  void cut(std::size_t corner);
+  void finish();
+  void report(std::size_t corner, const Replacement& made, const Side& in, const Side& out);
+  void say(const CornerReport& report);
+  void follow(const Carrier& carrier, Point2 to);
+  void append(const Replacement& made, Point2 corner);
+  std::uint32_t elements() const { return static_cast<std::uint32_t>(result_.outline.elements()); }
+
+  const Outline& outline_;
+  const CornerOptions& options_;
+  Diagnostics& diagnostics_;
+  double weld_;
+  CornerLimits limits_;
+  std::vector<Carrier> carriers_;
+  std::vector<bool> crowded_;  // EdgeSharing::even: corners that are not to be cut
+  Point2 here_;                // end of the result so far
+  std::size_t said_[16] = {};  // by reason
+  CutOutline result_;
+};
+
+void CornerPass::make_carriers() {
+  std::size_t requests = request(0) != 0.0 ? 1 : 0, arcs = 0;
+  carriers_.reserve(outline_.segments.size());
+  Point2 from = outline_.start;
+  for (const Segment& segment : outline_.segments) {
+    const Carrier& carrier = carriers_.emplace_back(make_carrier(from, segment, weld_));
+    if (segment.via && !carrier.is_arc())
+      diagnostics_.warning(Code::outline_arc_straight, options_.where,
+                           arcs++ < kMessages ? fmt::format("the arc to {}.{} is straight: a line is cut",
+                                                            options_.name, carriers_.size())
+                                              : std::string());
+    if (segment.corner != Length()) requests += segment.corner < Length() ? 3 : 1;
+    from = segment.to;
+  }
+  result_.outline.segments.reserve(outline_.segments.size() + requests + 1);
+  result_.corners.reserve(std::min(requests, outline_.segments.size()));
+}
+
+/// Takes from the corners that do not fit beside each other those that want more than their half of an edge.
+void CornerPass::share_evenly() {
+  const std::size_t n = outline_.segments.size();
+  crowded_.assign(n + 1, false);
+  struct Want {
+    double before = 0.0, after = 0.0;  // along the arriving and the leaving segment
+  };
+  std::vector<Want> wants(n + 1);
+  for (std::size_t i = outline_.closed() ? 0 : 1; i < n; ++i) {
+    if (request(i) == 0.0) continue;
+    const Carrier& before = carriers_[i == 0 ? n - 1 : i - 1];
+    const Side in = arriving(before, before.from, weld_), out = leaving(carriers_[i], carriers_[i].to, weld_);
+    const Replacement made = solve_corner(in, out, request(i), limits_);
+    if (made.reason != SharpReason::none) continue;
+    wants[i] = {taken(in, made.first), taken(out, made.pieces[made.count - 1].to)};
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = i + 1 == n && outline_.closed() ? 0 : i + 1;
+    const Carrier& c = carriers_[i];
+    const double whole = c.is_arc() ? taken(leaving(c, c.to, weld_), c.to - c.from) : c.length;
+    const double a = wants[i].after, b = wants[next].before, slack = weld_ + 1e-9 * whole;
+    if (a <= 0.0 || b <= 0.0 || a + b <= whole + slack) continue;
+    if (a > 0.5 * whole) crowded_[i] = true;
+    if (b > 0.5 * whole) crowded_[next] = true;
+  }
+}
+
+/// Appends what is left of a segment up to `to`; nothing where that is no length.
+void CornerPass::follow(const Carrier& carrier, Point2 to) {
+  const Point2 rest = to - here_;
+  if (dot(rest, rest) <= weld_ * weld_) return;
+  Segment segment{to, std::nullopt, {}};
+  if (carrier.is_arc())  // about the segment's own begin, where its centre is accurate
+    segment.via = carrier.from + arc_middle(here_ - carrier.from, to - carrier.from, carrier.centre,
+                                            carrier.radius, carrier.turn);
+  result_.outline.segments.push_back(segment);
+  here_ = to;
+}
+
+void CornerPass::append(const Replacement& made, Point2 corner) {
+  for (int i = 0; i < made.count; ++i) {
+    const Replacement::Piece& piece = made.pieces[i];
+    here_ = corner + piece.to;
+    Segment& segment = result_.outline.segments.emplace_back();
+    segment.to = here_;
+    if (piece.is_arc) segment.via = corner + piece.via;
+  }
+}
+
+void CornerPass::begin() {
+  here_ = result_.outline.start = outline_.start;
+  if (!outline_.closed() || request(0) == 0.0) return;
+  const Carrier& last = carriers_.back();
+  const Side in = arriving(last, last.from, weld_);
+  const Side out = leaving(carriers_.front(), carriers_.front().to, weld_);
+  Replacement made = solve_corner(in, out, request(0), limits_);
+  if (!crowded_.empty() && crowded_[0]) made.reason = SharpReason::shared;
+  if (made.reason == SharpReason::none) {
+    here_ = result_.outline.start = outline_.start + made.first;
+    append(made, outline_.start);
+  }
+  report(0, made, in, out);
+}
+
+void CornerPass::cut(std::size_t corner) {
+  const Carrier& before = carriers_[corner - 1];
+  const Carrier& after = carriers_[corner];
+  if (request(corner) == 0.0) return follow(before, before.to);
+  const bool meets_start = corner + 1 == outline_.segments.size() && outline_.closed();
+  const Side in = arriving(before, here_, weld_);
+  const Side out = leaving(after, meets_start ? result_.outline.start : after.to, weld_);
+  Replacement made = solve_corner(in, out, request(corner), limits_);
+  if (!crowded_.empty() && crowded_[corner]) made.reason = SharpReason::shared;
+  if (made.reason == SharpReason::none) {
+    follow(before, before.to + made.first);
+    append(made, before.to);
+  } else {
+    follow(before, before.to);
+  }
+  report(corner, made, in, out);
+}
+
+void CornerPass::finish() {
+  std::vector<Segment>& made = result_.outline.segments;
+  const Point2 end = outline_.closed() ? result_.outline.start : outline_.segments.back().to;
+  const std::size_t before = made.size();
+  follow(carriers_.back(), end);
+  // Where nothing was left to add, what stands there ends within a hair of the end: exactly there, then.
+  if (made.size() == before && !made.empty()) made.back().to = end;
+}
+
+void CornerPass::report(std::size_t corner, const Replacement& made, const Side& in, const Side& out) {
+  CornerReport& report = result_.corners.emplace_back();
+  report.element = static_cast<std::uint32_t>(corner);
+  report.reason = made.reason;
+  if (made.reason == SharpReason::none) {
+    report.outcome = request(corner) > 0.0 ? CornerOutcome::smoothed : CornerOutcome::enlarged;
+    report.count = static_cast<std::uint32_t>(made.count) + 1;
+    report.first = elements() - report.count;
+    return;
+  }
+  if (code_of(made.reason) == Code::corner_too_large)
+    report.largest = mm(largest_radius(in, out, request(corner), limits_));
+  say(report);
+}
+
+void CornerPass::say(const CornerReport& report) {
+  const bool in_words = said_[static_cast<std::size_t>(report.reason)]++ < kMessages;
+  diagnostics_.warning(
+      code_of(report.reason), options_.where,
+      in_words ? corner_message(report, mm(request(report.element)), options_.name) : std::string());
+}
+
+CutOutline CornerPass::run() {
+  make_carriers();
+  if (options_.sharing == EdgeSharing::even) share_evenly();
+  begin();
+  for (std::size_t corner = 1; corner < outline_.segments.size(); ++corner) cut(corner);
+  finish();
+  return std::move(result_);
+}
+
+/// The outline without the requests at its ends, where there is no corner; nothing if it has none.
+std::optional<Outline> without_end_requests(const Outline& outline, const CornerOptions& options,
+                                            Diagnostics& diagnostics) {
+  const bool at_start = !outline.closed() && outline.start_corner != Length();
+  const bool at_end = outline.segments.back().corner != Length();
+  if (!at_start && !at_end) return std::nullopt;
+  const auto warn = [&](std::size_t element, const char* what) {
+    diagnostics.warning(Code::outline_end_request, options.where,
+                        fmt::format("{}.{}: {}; its request is ignored", options.name, element, what));
+  };
+  Outline copy = outline;
+  if (at_start) {
+    copy.start_corner = Length();
+    warn(0, "an open outline has no corner at its start");
+  }
+  if (at_end) {
+    copy.segments.back().corner = Length();
+    warn(outline.segments.size(), outline.closed() ? "the corner of a closed outline's end is that of its start"
+                                                   : "an open outline has no corner at its end");
+  }
+  return copy;
+}
+
+std::string_view words(SharpReason reason) {
+  switch (reason) {
+    case SharpReason::straight: return "its neighbours are tangent already";
+    case SharpReason::folded: return "the outline turns back on itself";
+    case SharpReason::short_segment: return "its neighbours are too short";
+    case SharpReason::no_circle: return "no circle of this radius touches both of its neighbours";
+    case SharpReason::no_neighbour: return "a neighbour has no length";
+    case SharpReason::tiny: return "the radius is below the tolerance";
+    case SharpReason::shared: return "the corner at the other end of a shared edge needs it, too";
+    case SharpReason::none: break;
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string_view to_string(SharpReason reason) {
+  static constexpr std::string_view kNames[] = {"none",      "straight",     "folded", "short_segment",
+                                                "no_circle", "no_neighbour", "tiny",   "shared"};
+  return kNames[static_cast<std::size_t>(reason)];
+}
+
+std::string corner_message(const CornerReport& report, Length request, std::string_view name) {
+  const double r = std::abs(request.mm());
+  std::string text = fmt::format("corner {}.{} stays sharp, it cannot be {} with radius {:g}: {}", name, report.element,
+                                 request.mm() > 0.0 ? "smoothed" : "enlarged", r, words(report.reason));
+  if (report.largest > Length())
+    text += fmt::format("; the radius is {:g} too large, the largest here is {:g}", r - report.largest.mm(),
+                        report.largest.mm());
+  return text;
+}
+
+std::optional<CutOutline> cut_corners(const Outline& outline, const CornerOptions& options,
+                                      Diagnostics& diagnostics) {
+  if (!check_outline(outline, options.name, options.where, diagnostics)) return std::nullopt;
+  const std::optional<Outline> copy = without_end_requests(outline, options, diagnostics);
+  return CornerPass(copy ? *copy : outline, options, diagnostics).run();
+}
+
+}  // namespace kerf
