@@ -13,6 +13,7 @@ constexpr double kFit = 1e-9;
 /// Where two loci touch, rounding decides whether they meet. A squared distance within this share of the squared
 /// radius counts as touching; the radius is then wrong by half of it at most.
 constexpr double kTouch = 1e-12;
+constexpr double kCusp = 1e-9;  // sine; below it rounding decides to which side a line and an arc fold back
 constexpr int kHalvings = 22;  // of an interval of radii: a largest radius is found within 1e-6 of the request
 
 void finish_arc(Side& side, double weld) {
@@ -241,8 +242,9 @@ Replacement solve_corner(Side in, Side out, double request, const CornerLimits& 
   if (r <= limits.weld) return sharp(SharpReason::tiny);
   const double sine = -cross(in.away, out.away);  // of the turn at the corner, and its cosine
   const double cosine = -dot(in.away, out.away);
-  const bool same_kind = in.is_arc() == out.is_arc();
-  if (std::abs(sine) < limits.straight && (cosine > 0.0 || same_kind))
+  // A line and an arc that run back on each other still bend apart; only at an exact cusp is no side the inside.
+  const bool bend_apart = in.is_arc() != out.is_arc() && cosine < 0.0;
+  if (std::abs(sine) < (bend_apart ? kCusp : limits.straight))
     return sharp(cosine > 0.0 ? SharpReason::straight : SharpReason::folded);
   out.side = sine > 0.0 ? 1.0 : -1.0;
   in.side = -out.side;
