@@ -2,7 +2,6 @@
 #include "corner.h"
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 namespace kerf::outline_detail {
@@ -16,14 +15,12 @@ constexpr double kTouch = 1e-12;
 constexpr double kCusp = 1e-9;  // sine; below it rounding decides to which side a line and an arc fold back
 constexpr int kHalvings = 22;  // of an interval of radii: a largest radius is found within 1e-6 of the request
 
-void finish_arc(Side& side, double weld) {
-  if (norm(side.end) <= weld) {
-    side.bound = std::numeric_limits<double>::infinity();
-    return;
-  }
-  side.middle = (1.0 / side.radius) *
-                (arc_middle({}, side.end, side.centre, side.radius, side.turn) - side.centre);
-  side.bound = dot(-side.centre, side.middle);
+/// Whether a point of the arc's circle lies on the arc itself.
+bool on_arc(const Side& side, Point2 point) {
+  const Point2 begin = -side.centre, at = point - side.centre, end = side.end - side.centre;
+  const bool after_begin = side.turn * cross(begin, at) >= 0.0, before_end = side.turn * cross(at, end) >= 0.0;
+  const bool below_half = side.turn * cross(begin, end) >= 0.0;
+  return below_half ? after_begin && before_end : after_begin || before_end;
 }
 
 /// Moves `point`, which lies on the side's carrier, onto the side's end where it is one with it. False where it
@@ -36,10 +33,11 @@ bool place_on(const Side& side, Point2& point, double weld) {
     if (along > side.length - weld) point = side.end;
     return true;
   }
-  const double to_end = norm(point - side.end);
-  const bool inside = dot(point - side.centre, side.middle) >= side.bound;
-  if (!inside && to_end > slack && norm(point) > slack) return false;
-  if (to_end <= (inside ? weld : slack)) point = side.end;
+  const Point2 off_end = point - side.end;
+  const double to_end = dot(off_end, off_end);
+  const bool inside = on_arc(side, point);
+  if (!inside && to_end > slack * slack && dot(point, point) > slack * slack) return false;
+  if (to_end <= (inside ? weld * weld : slack * slack)) point = side.end;
   return true;
 }
 
@@ -199,12 +197,12 @@ Replacement enlarge(const Side& in, const Side& out, double r, const CornerLimit
 }
 
 bool has_length(const Side& side, double weld) {
-  return side.is_arc() ? norm(side.end) > weld : side.length > weld;
+  return side.is_arc() ? dot(side.end, side.end) > weld * weld : side.length > weld;
 }
 
 }  // namespace
 
-Side arriving(const Carrier& carrier, Point2 start, double weld) {
+Side arriving(const Carrier& carrier, Point2 start) {
   Side side;
   side.end = start - carrier.to;
   if (!carrier.is_arc()) {
@@ -216,11 +214,10 @@ Side arriving(const Carrier& carrier, Point2 start, double weld) {
   side.radius = carrier.radius;
   side.turn = -carrier.turn;
   side.away = (side.turn / side.radius) * left_of(-side.centre);
-  finish_arc(side, weld);
   return side;
 }
 
-Side leaving(const Carrier& carrier, Point2 end, double weld) {
+Side leaving(const Carrier& carrier, Point2 end) {
   Side side;
   side.end = end - carrier.from;
   if (!carrier.is_arc()) {
@@ -232,11 +229,10 @@ Side leaving(const Carrier& carrier, Point2 end, double weld) {
   side.radius = carrier.radius;
   side.turn = carrier.turn;
   side.away = (side.turn / side.radius) * left_of(-side.centre);
-  finish_arc(side, weld);
   return side;
 }
 
-Replacement solve_corner(Side in, Side out, double request, const CornerLimits& limits) {
+Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits& limits) {
   const double r = std::abs(request);
   if (dot(in.away, in.away) == 0.0 || dot(out.away, out.away) == 0.0) return sharp(SharpReason::no_neighbour);
   if (r <= limits.weld) return sharp(SharpReason::tiny);
@@ -252,7 +248,24 @@ Replacement solve_corner(Side in, Side out, double request, const CornerLimits& 
   return request > 0.0 ? smooth(in, out, r, limits.weld) : enlarge(in, out, r, limits);
 }
 
-double largest_radius(const Side& in, const Side& out, double request, const CornerLimits& limits) {
+bool smooth_lines(const Carrier& before, Point2 start, const Carrier& after, double r, const CornerLimits& limits,
+                  Replacement& made) {
+  const Point2 u = before.direction, v = after.direction;
+  const double sine = std::abs(cross(u, v)), cosine = dot(u, v);
+  if (!(sine >= limits.straight) || !(r > limits.weld)) return false;  // a line of no length has no direction
+  const double reach = r * sine / (1.0 + cosine);  // from the corner to where the arc touches
+  const double left = dot(before.to - start, u);
+  if (reach > left - limits.weld || reach > after.length - limits.weld) return false;  // a fit, or too long
+  const double half_cosine = std::sqrt(0.5 * (1.0 + cosine));
+  made.first = -reach * u;
+  made.count = 1;
+  const Point2 last = reach * v;
+  // The middle lies between the middle of the arc's chord and the corner.
+  made.pieces[0] = {last, (0.5 / (1.0 + half_cosine)) * (made.first + last), true};
+  return true;
+}
+
+double largest_radius(Side in, Side out, double request, const CornerLimits& limits) {
   double good = 0.0, bad = 1.0;  // shares of the request
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (good + bad);

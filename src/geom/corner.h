@@ -16,16 +16,14 @@ struct Side {
   Point2 centre;        // of an arc
   double radius = 0.0;  // of an arc
   double turn = 0.0;    // of an arc leaving the corner: +1 counter-clockwise, -1 clockwise; 0: a line
-  Point2 middle;        // of an arc: unit, from the centre to the middle of what is still there
-  double bound = 0.0;   // of an arc: what lies further than this along `middle` is on it
   double side = 0.0;    // +1: the inside of the corner is left of `away`, -1: right
   bool is_arc() const { return turn != 0.0; }
 };
 
 /// The side of the segment that arrives at the corner; `start` is where what is left of it begins.
-Side arriving(const Carrier& carrier, Point2 start, double weld);
+Side arriving(const Carrier& carrier, Point2 start);
 /// The side of the segment that leaves the corner; `end` is where what is left of it ends.
-Side leaving(const Carrier& carrier, Point2 end, double weld);
+Side leaving(const Carrier& carrier, Point2 end);
 
 struct CornerLimits {
   double weld = 0.0;      // mm
@@ -45,10 +43,14 @@ struct Replacement {
   Piece pieces[3];
 };
 
-/// Solves a corner. `request` as in Segment::corner, not 0.
-Replacement solve_corner(Side in, Side out, double request, const CornerLimits& limits);
+/// Solves a corner. `request` as in Segment::corner, not 0. Sets which side of each neighbour is the inside.
+Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits& limits);
+/// The commonest corner by a shorter way: two lines smoothed, `before` left from `start` on, `after` whole. Sets
+/// the first three members of the replacement (relative to the corner); false: the long way is to be gone.
+bool smooth_lines(const Carrier& before, Point2 start, const Carrier& after, double r, const CornerLimits& limits,
+                  Replacement& made);
 /// The largest radius with the sign of `request` and below it that can be cut; 0 where none can.
-double largest_radius(const Side& in, const Side& out, double request, const CornerLimits& limits);
+double largest_radius(Side in, Side out, double request, const CornerLimits& limits);
 /// How much of a side, measured along it, a replacement takes that reaches it at `point`.
 double taken(const Side& side, Point2 point);
 

@@ -1,5 +1,4 @@
 // The corners of a whole outline: who is cut first, what the others find left, and what is said about it.
-#include <cassert>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -28,12 +27,13 @@ Code code_of(SharpReason reason) {
   }
 }
 
-/// Works through one outline. Corner i joins carrier i - 1 and carrier i; of a closed outline corner 0 joins the
-/// last carrier and the first.
+/// Works through one outline. Corner i joins segment i - 1 and segment i; of a closed outline corner 0 joins the
+/// last segment and the first.
 class CornerPass {
  public:
   CornerPass(const Outline& outline, const CornerOptions& options, Diagnostics& diagnostics)
-      : outline_(outline), options_(options), diagnostics_(diagnostics), weld_(options.tolerance.weld.mm()) {
+      : outline_(outline), options_(options), diagnostics_(diagnostics),
+        weld_(options.tolerance.weld.mm()), closed_(outline.closed()) {
     limits_ = {weld_, std::sin(options.straight.rad())};
   }
   CutOutline run();
@@ -42,12 +42,18 @@ class CornerPass {
   double request(std::size_t corner) const {
     return corner == 0 ? outline_.start_corner.mm() : outline_.segments[corner - 1].corner.mm();
   }
-  void make_carriers();
+  Carrier carrier(std::size_t segment) const {
+    return make_carrier(outline_.point(segment), outline_.segments[segment], weld_);
+  }
+  void reserve();
   void share_evenly();
-  void begin();
-  void cut(std::size_t corner);
-  void finish();
-  void report(std::size_t corner, const Replacement& made, const Side& in, const Side& out);
+  void begin(const Carrier& first);
+  void cut(std::size_t corner, const Carrier& before, const Carrier& after);
+  void cut_the_long_way(std::size_t corner, const Carrier& before, const Carrier& after);
+  void finish(const Carrier& last);
+  void note_straight_arc(std::size_t segment);
+  void report_cut(std::size_t corner, int count);
+  void report_sharp(std::size_t corner, SharpReason reason, const Side& in, const Side& out);
   void say(const CornerReport& report);
   void follow(const Carrier& carrier, Point2 to);
   void append(const Replacement& made, Point2 corner);
@@ -58,29 +64,30 @@ class CornerPass {
   Diagnostics& diagnostics_;
   double weld_;
   CornerLimits limits_;
-  std::vector<Carrier> carriers_;
   std::vector<bool> crowded_;  // EdgeSharing::even: corners that are not to be cut
   Point2 here_;                // end of the result so far
   std::size_t said_[16] = {};  // by reason
+  std::size_t straight_arcs_ = 0;
+  bool closed_;
   CutOutline result_;
 };
 
-void CornerPass::make_carriers() {
-  std::size_t requests = request(0) != 0.0 ? 1 : 0, arcs = 0;
-  carriers_.reserve(outline_.segments.size());
-  Point2 from = outline_.start;
+void CornerPass::reserve() {
+  std::size_t requests = request(0) != 0.0 ? 1 : 0, more = 3 * requests;
   for (const Segment& segment : outline_.segments) {
-    const Carrier& carrier = carriers_.emplace_back(make_carrier(from, segment, weld_));
-    if (segment.via && !carrier.is_arc())
-      diagnostics_.warning(Code::outline_arc_straight, options_.where,
-                           arcs++ < kMessages ? fmt::format("the arc to {}.{} is straight: a line is cut",
-                                                            options_.name, carriers_.size())
-                                              : std::string());
-    if (segment.corner != Length()) requests += segment.corner < Length() ? 3 : 1;
-    from = segment.to;
+    if (segment.corner == Length()) continue;
+    ++requests;
+    more += segment.corner < Length() ? 3 : 1;
   }
-  result_.outline.segments.reserve(outline_.segments.size() + requests + 1);
-  result_.corners.reserve(std::min(requests, outline_.segments.size()));
+  result_.outline.segments.reserve(outline_.segments.size() + more + 1);
+  result_.corners.reserve(requests);
+}
+
+void CornerPass::note_straight_arc(std::size_t segment) {
+  const bool in_words = straight_arcs_++ < kMessages;
+  diagnostics_.warning(
+      Code::outline_arc_straight, options_.where,
+      in_words ? fmt::format("the arc to {}.{} is straight: a line is cut", options_.name, segment + 1) : std::string());
 }
 
 /// Takes from the corners that do not fit beside each other those that want more than their half of an edge.
@@ -91,20 +98,22 @@ void CornerPass::share_evenly() {
     double before = 0.0, after = 0.0;  // along the arriving and the leaving segment
   };
   std::vector<Want> wants(n + 1);
-  for (std::size_t i = outline_.closed() ? 0 : 1; i < n; ++i) {
+  for (std::size_t i = closed_ ? 0 : 1; i < n; ++i) {
     if (request(i) == 0.0) continue;
-    const Carrier& before = carriers_[i == 0 ? n - 1 : i - 1];
-    const Side in = arriving(before, before.from, weld_), out = leaving(carriers_[i], carriers_[i].to, weld_);
+    const Carrier before = carrier(i == 0 ? n - 1 : i - 1), after = carrier(i);
+    Side in = arriving(before, before.from), out = leaving(after, after.to);
     const Replacement made = solve_corner(in, out, request(i), limits_);
     if (made.reason != SharpReason::none) continue;
     wants[i] = {taken(in, made.first), taken(out, made.pieces[made.count - 1].to)};
   }
+  constexpr double kFit = 1e-9;  // as for the fit of one corner
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t next = i + 1 == n && outline_.closed() ? 0 : i + 1;
-    const Carrier& c = carriers_[i];
-    const double whole = c.is_arc() ? taken(leaving(c, c.to, weld_), c.to - c.from) : c.length;
-    const double a = wants[i].after, b = wants[next].before, slack = weld_ + 1e-9 * whole;
-    if (a <= 0.0 || b <= 0.0 || a + b <= whole + slack) continue;
+    const std::size_t next = i + 1 == n && closed_ ? 0 : i + 1;
+    const double a = wants[i].after, b = wants[next].before;
+    if (a <= 0.0 || b <= 0.0) continue;
+    const Carrier c = carrier(i);
+    const double whole = c.is_arc() ? taken(leaving(c, c.to), c.to - c.from) : c.length;
+    if (a + b <= whole + weld_ + kFit * whole) continue;
     if (a > 0.5 * whole) crowded_[i] = true;
     if (b > 0.5 * whole) crowded_[next] = true;
   }
@@ -132,59 +141,69 @@ void CornerPass::append(const Replacement& made, Point2 corner) {
   }
 }
 
-void CornerPass::begin() {
+void CornerPass::begin(const Carrier& first) {
   here_ = result_.outline.start = outline_.start;
-  if (!outline_.closed() || request(0) == 0.0) return;
-  const Carrier& last = carriers_.back();
-  const Side in = arriving(last, last.from, weld_);
-  const Side out = leaving(carriers_.front(), carriers_.front().to, weld_);
+  if (!closed_ || request(0) == 0.0) return;
+  const Carrier last = carrier(outline_.segments.size() - 1);
+  Side in = arriving(last, last.from), out = leaving(first, first.to);
   Replacement made = solve_corner(in, out, request(0), limits_);
   if (!crowded_.empty() && crowded_[0]) made.reason = SharpReason::shared;
-  if (made.reason == SharpReason::none) {
-    here_ = result_.outline.start = outline_.start + made.first;
-    append(made, outline_.start);
-  }
-  report(0, made, in, out);
+  if (made.reason != SharpReason::none) return report_sharp(0, made.reason, in, out);
+  here_ = result_.outline.start = outline_.start + made.first;
+  append(made, outline_.start);
+  report_cut(0, made.count);
 }
 
-void CornerPass::cut(std::size_t corner) {
-  const Carrier& before = carriers_[corner - 1];
-  const Carrier& after = carriers_[corner];
-  if (request(corner) == 0.0) return follow(before, before.to);
-  const bool meets_start = corner + 1 == outline_.segments.size() && outline_.closed();
-  const Side in = arriving(before, here_, weld_);
-  const Side out = leaving(after, meets_start ? result_.outline.start : after.to, weld_);
+void CornerPass::cut(std::size_t corner, const Carrier& before, const Carrier& after) {
+  const double wish = request(corner);
+  if (wish == 0.0) return follow(before, before.to);
+  const bool meets_start = corner + 1 == outline_.segments.size() && closed_;
+  const bool lines = !before.is_arc() && !after.is_arc();
+  Replacement made;
+  if (wish < 0.0 || !lines || meets_start || !crowded_.empty() ||
+      !smooth_lines(before, here_, after, wish, limits_, made))
+    return cut_the_long_way(corner, before, after);
+  follow(before, before.to + made.first);
+  append(made, before.to);
+  report_cut(corner, made.count);
+}
+
+void CornerPass::cut_the_long_way(std::size_t corner, const Carrier& before, const Carrier& after) {
+  const bool meets_start = corner + 1 == outline_.segments.size() && closed_;
+  Side in = arriving(before, here_), out = leaving(after, meets_start ? result_.outline.start : after.to);
   Replacement made = solve_corner(in, out, request(corner), limits_);
   if (!crowded_.empty() && crowded_[corner]) made.reason = SharpReason::shared;
-  if (made.reason == SharpReason::none) {
-    follow(before, before.to + made.first);
-    append(made, before.to);
-  } else {
+  if (made.reason != SharpReason::none) {
     follow(before, before.to);
+    return report_sharp(corner, made.reason, in, out);
   }
-  report(corner, made, in, out);
+  follow(before, before.to + made.first);
+  append(made, before.to);
+  report_cut(corner, made.count);
 }
 
-void CornerPass::finish() {
+void CornerPass::finish(const Carrier& last) {
   std::vector<Segment>& made = result_.outline.segments;
-  const Point2 end = outline_.closed() ? result_.outline.start : outline_.segments.back().to;
+  const Point2 end = closed_ ? result_.outline.start : outline_.segments.back().to;
   const std::size_t before = made.size();
-  follow(carriers_.back(), end);
+  follow(last, end);
   // Where nothing was left to add, what stands there ends within a hair of the end: exactly there, then.
   if (made.size() == before && !made.empty()) made.back().to = end;
 }
 
-void CornerPass::report(std::size_t corner, const Replacement& made, const Side& in, const Side& out) {
+void CornerPass::report_cut(std::size_t corner, int count) {
   CornerReport& report = result_.corners.emplace_back();
   report.element = static_cast<std::uint32_t>(corner);
-  report.reason = made.reason;
-  if (made.reason == SharpReason::none) {
-    report.outcome = request(corner) > 0.0 ? CornerOutcome::smoothed : CornerOutcome::enlarged;
-    report.count = static_cast<std::uint32_t>(made.count) + 1;
-    report.first = elements() - report.count;
-    return;
-  }
-  if (code_of(made.reason) == Code::corner_too_large)
+  report.outcome = request(corner) > 0.0 ? CornerOutcome::smoothed : CornerOutcome::enlarged;
+  report.count = static_cast<std::uint32_t>(count) + 1;
+  report.first = elements() - report.count;
+}
+
+void CornerPass::report_sharp(std::size_t corner, SharpReason reason, const Side& in, const Side& out) {
+  CornerReport& report = result_.corners.emplace_back();
+  report.element = static_cast<std::uint32_t>(corner);
+  report.reason = reason;
+  if (code_of(reason) == Code::corner_too_large)
     report.largest = mm(largest_radius(in, out, request(corner), limits_));
   say(report);
 }
@@ -197,11 +216,18 @@ void CornerPass::say(const CornerReport& report) {
 }
 
 CutOutline CornerPass::run() {
-  make_carriers();
+  reserve();
   if (options_.sharing == EdgeSharing::even) share_evenly();
-  begin();
-  for (std::size_t corner = 1; corner < outline_.segments.size(); ++corner) cut(corner);
-  finish();
+  Carrier before = carrier(0);
+  begin(before);
+  for (std::size_t i = 0;; ++i) {
+    if (outline_.segments[i].via && !before.is_arc()) note_straight_arc(i);
+    if (i + 1 == outline_.segments.size()) break;
+    const Carrier after = carrier(i + 1);
+    cut(i + 1, before, after);
+    before = after;
+  }
+  finish(before);
   return std::move(result_);
 }
 

@@ -18,7 +18,7 @@ ThreePoints circle_through(Point2 via, Point2 to) {
   const Point2 u = -via, v = to - via;
   const double twice_area = cross(u, v);
   const double uu = dot(u, u), vv = dot(v, v);
-  if (!(std::abs(twice_area) > kFlatArc * std::sqrt(uu * vv))) return {{}, 0.0};
+  if (!(twice_area * twice_area > kFlatArc * kFlatArc * uu * vv)) return {{}, 0.0};
   const double scale = 0.5 / twice_area;
   const Point2 about_via{scale * (v.y * uu - u.y * vv), scale * (u.x * vv - v.x * uu)};
   return {via + about_via, twice_area > 0.0 ? -1.0 : 1.0};

@@ -1,0 +1,86 @@
+// Corners and curves: ten thousand of each kind, cut through the C++ interface. The Python lists are measured by
+// bench/outline_lists.py.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "kerf/outline.h"
+
+namespace {
+
+using namespace kerf;
+
+constexpr int kCorners = 10000;
+
+enum class Kind { line_line, line_arc, arc_arc };
+
+/// A saw of teeth 20 wide: every corner has a request, and each kind of neighbour is there.
+Outline saw(Kind kind, double request) {
+  Outline outline;
+  for (int i = 1; i <= kCorners + 1; ++i) {
+    const Point2 from = outline.point(outline.segments.size());
+    Segment segment{{20.0 * i, i % 2 == 0 ? 0.0 : 15.0}, std::nullopt, mm(i <= kCorners ? request : 0.0)};
+    if (kind == Kind::arc_arc || (kind == Kind::line_arc && i % 2 == 0)) {
+      const Point2 half = 0.5 * (segment.to - from);
+      segment.via = from + half + Point2{-0.2 * half.y, 0.2 * half.x};
+    }
+    outline.segments.push_back(segment);
+  }
+  return outline;
+}
+
+void cut(benchmark::State& state, Kind kind, double request) {
+  const Outline outline = saw(kind, request);
+  for (auto _ : state) {
+    Diagnostics diagnostics;
+    auto made = cut_corners(outline, {}, diagnostics);
+    if (!made || diagnostics.warnings() > 0) state.SkipWithError("not every corner was cut");
+    benchmark::DoNotOptimize(made);
+  }
+  state.SetItemsProcessed(state.iterations() * kCorners);
+}
+BENCHMARK_CAPTURE(cut, line_line_unchanged, Kind::line_line, 0.0)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(cut, line_line_smooth, Kind::line_line, 2.0)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(cut, line_line_enlarge, Kind::line_line, -2.0)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(cut, line_arc_smooth, Kind::line_arc, 2.0)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(cut, line_arc_enlarge, Kind::line_arc, -2.0)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(cut, arc_arc_smooth, Kind::arc_arc, 2.0)->Unit(benchmark::kMicrosecond);
+BENCHMARK_CAPTURE(cut, arc_arc_enlarge, Kind::arc_arc, -2.0)->Unit(benchmark::kMicrosecond);
+
+/// A spiral, sampled with its tangents.
+Curve spiral() {
+  Curve curve;
+  for (int i = 0; i <= kCorners; ++i) {
+    const double t = 0.05 * i, r = 50.0 + t;
+    curve.push_back({{r * std::cos(t), r * std::sin(t)}, radians(t + std::atan2(r, 1.0))});
+  }
+  return curve;
+}
+
+void smooth_c_curve(benchmark::State& state) {
+  const Curve curve = spiral();
+  for (auto _ : state) {
+    Diagnostics diagnostics;
+    auto made = smooth_curve(curve, {}, diagnostics);
+    if (!made || diagnostics.warnings() > 0) state.SkipWithError("not every piece became arcs");
+    benchmark::DoNotOptimize(made);
+  }
+  state.SetItemsProcessed(state.iterations() * kCorners);
+}
+BENCHMARK(smooth_c_curve)->Unit(benchmark::kMicrosecond);
+
+void smooth_b_curve(benchmark::State& state) {
+  std::vector<Point2> points;
+  for (const CurvePoint& p : spiral()) points.push_back(p.at);
+  for (auto _ : state) {
+    Diagnostics diagnostics;
+    const auto curve = guess_headings(points, {}, diagnostics);
+    auto made = smooth_curve(*curve, {}, diagnostics);
+    benchmark::DoNotOptimize(made);
+  }
+  state.SetItemsProcessed(state.iterations() * kCorners);
+}
+BENCHMARK(smooth_b_curve)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
