@@ -248,23 +248,6 @@ Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits
   return request > 0.0 ? smooth(in, out, r, limits.weld) : enlarge(in, out, r, limits);
 }
 
-bool smooth_lines(const Carrier& before, Point2 start, const Carrier& after, double r, const CornerLimits& limits,
-                  Replacement& made) {
-  const Point2 u = before.direction, v = after.direction;
-  const double sine = std::abs(cross(u, v)), cosine = dot(u, v);
-  if (!(sine >= limits.straight) || !(r > limits.weld)) return false;  // a line of no length has no direction
-  const double reach = r * sine / (1.0 + cosine);  // from the corner to where the arc touches
-  const double left = dot(before.to - start, u);
-  if (reach > left - limits.weld || reach > after.length - limits.weld) return false;  // a fit, or too long
-  const double half_cosine = std::sqrt(0.5 * (1.0 + cosine));
-  made.first = -reach * u;
-  made.count = 1;
-  const Point2 last = reach * v;
-  // The middle lies between the middle of the arc's chord and the corner.
-  made.pieces[0] = {last, (0.5 / (1.0 + half_cosine)) * (made.first + last), true};
-  return true;
-}
-
 double largest_radius(Side in, Side out, double request, const CornerLimits& limits) {
   double good = 0.0, bad = 1.0;  // shares of the request
   for (int i = 0; i < kHalvings; ++i) {

@@ -45,10 +45,6 @@ struct Replacement {
 
 /// Solves a corner. `request` as in Segment::corner, not 0. Sets which side of each neighbour is the inside.
 Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits& limits);
-/// The commonest corner by a shorter way: two lines smoothed, `before` left from `start` on, `after` whole. Sets
-/// the first three members of the replacement (relative to the corner); false: the long way is to be gone.
-bool smooth_lines(const Carrier& before, Point2 start, const Carrier& after, double r, const CornerLimits& limits,
-                  Replacement& made);
 /// The largest radius with the sign of `request` and below it that can be cut; 0 where none can.
 double largest_radius(Side in, Side out, double request, const CornerLimits& limits);
 /// How much of a side, measured along it, a replacement takes that reaches it at `point`.

@@ -49,7 +49,7 @@ class CornerPass {
   void share_evenly();
   void begin(const Carrier& first);
   void cut(std::size_t corner, const Carrier& before, const Carrier& after);
-  void cut_the_long_way(std::size_t corner, const Carrier& before, const Carrier& after);
+  std::size_t smooth_lines(std::size_t corner);
   void finish(const Carrier& last);
   void note_straight_arc(std::size_t segment);
   void report_cut(std::size_t corner, int count);
@@ -155,20 +155,7 @@ void CornerPass::begin(const Carrier& first) {
 }
 
 void CornerPass::cut(std::size_t corner, const Carrier& before, const Carrier& after) {
-  const double wish = request(corner);
-  if (wish == 0.0) return follow(before, before.to);
-  const bool meets_start = corner + 1 == outline_.segments.size() && closed_;
-  const bool lines = !before.is_arc() && !after.is_arc();
-  Replacement made;
-  if (wish < 0.0 || !lines || meets_start || !crowded_.empty() ||
-      !smooth_lines(before, here_, after, wish, limits_, made))
-    return cut_the_long_way(corner, before, after);
-  follow(before, before.to + made.first);
-  append(made, before.to);
-  report_cut(corner, made.count);
-}
-
-void CornerPass::cut_the_long_way(std::size_t corner, const Carrier& before, const Carrier& after) {
+  if (request(corner) == 0.0) return follow(before, before.to);
   const bool meets_start = corner + 1 == outline_.segments.size() && closed_;
   Side in = arriving(before, here_), out = leaving(after, meets_start ? result_.outline.start : after.to);
   Replacement made = solve_corner(in, out, request(corner), limits_);
@@ -180,6 +167,41 @@ void CornerPass::cut_the_long_way(std::size_t corner, const Carrier& before, con
   follow(before, before.to + made.first);
   append(made, before.to);
   report_cut(corner, made.count);
+}
+
+/// The commonest corners by a shorter way: smooths corners of two lines from `corner` on, until one is of another
+/// kind, does not fit or fits closely. Returns that one.
+std::size_t CornerPass::smooth_lines(std::size_t corner) {
+  const std::vector<Segment>& from = outline_.segments;
+  std::vector<Segment>& made = result_.outline.segments;
+  const std::size_t end = from.size() - (closed_ ? 1 : 0);  // the last corner of a closed outline meets the first
+  if (!crowded_.empty() || corner >= end || from[corner - 1].via) return corner;
+  Point2 at = from[corner - 1].to, u = at - outline_.point(corner - 1);
+  double length = norm(u);
+  if (!(length > weld_)) return corner;
+  u = (1.0 / length) * u;
+  for (; corner < end; ++corner) {
+    const double r = from[corner - 1].corner.mm();
+    if (from[corner].via || r <= weld_) break;
+    const Point2 next = from[corner].to;
+    Point2 v = next - at;
+    length = norm(v);
+    if (!(length > weld_)) break;
+    v = (1.0 / length) * v;
+    const double sine = std::abs(cross(u, v)), cosine = dot(u, v);
+    if (sine < limits_.straight) break;
+    const double reach = r * sine / (1.0 + cosine);  // from the corner to where the arc touches
+    if (reach > dot(at - here_, u) - weld_ || reach > length - weld_) break;
+    // The middle of the arc lies between the middle of its chord and the corner.
+    const double share = 0.5 * reach / (1.0 + std::sqrt(0.5 * (1.0 + cosine)));
+    here_ = at + reach * v;
+    made.push_back({at - reach * u, std::nullopt, {}});
+    made.push_back({here_, at + share * (v - u), {}});
+    report_cut(corner, 1);
+    at = next;
+    u = v;
+  }
+  return corner;
 }
 
 void CornerPass::finish(const Carrier& last) {
@@ -218,15 +240,20 @@ void CornerPass::say(const CornerReport& report) {
 CutOutline CornerPass::run() {
   reserve();
   if (options_.sharing == EdgeSharing::even) share_evenly();
+  const std::size_t n = outline_.segments.size();
   Carrier before = carrier(0);
   begin(before);
-  for (std::size_t i = 0;; ++i) {
-    if (outline_.segments[i].via && !before.is_arc()) note_straight_arc(i);
-    if (i + 1 == outline_.segments.size()) break;
-    const Carrier after = carrier(i + 1);
-    cut(i + 1, before, after);
+  for (std::size_t corner = 1; corner < n; ++corner) {
+    const std::size_t first = corner;
+    corner = smooth_lines(corner);
+    if (corner != first) before = carrier(corner - 1);
+    if (outline_.segments[corner - 1].via && !before.is_arc()) note_straight_arc(corner - 1);
+    if (corner == n) break;
+    const Carrier after = carrier(corner);
+    cut(corner, before, after);
     before = after;
   }
+  if (outline_.segments[n - 1].via && !before.is_arc()) note_straight_arc(n - 1);
   finish(before);
   return std::move(result_);
 }

@@ -60,10 +60,6 @@ Carrier make_carrier(Point2 from, const Segment& segment, double weld) {
   return c;
 }
 
-bool usable(Point2 p) {
-  return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate;
-}
-
 }  // namespace kerf::outline_detail
 
 namespace kerf {

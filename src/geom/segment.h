@@ -42,6 +42,9 @@ Carrier make_carrier(Point2 from, const Segment& segment, double weld);
 /// The middle of the arc from `from` to `to` about `centre`.
 Point2 arc_middle(Point2 from, Point2 to, Point2 centre, double radius, double turn);
 
-bool usable(Point2 p);  ///< finite and within the largest coordinate
+/// Finite and within the largest coordinate.
+inline bool usable(Point2 p) {
+  return std::abs(p.x) <= kLargestCoordinate && std::abs(p.y) <= kLargestCoordinate;
+}
 
 }  // namespace kerf::outline_detail
