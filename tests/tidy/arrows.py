@@ -9,8 +9,9 @@ from sources import CPP, files, finish, root_of
 
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
-CODEC = {"codec_gcode", "codec_mesh", "codec_png"}
-FRONT = {"front_gcode", "front_tools", "front_stock"}
+CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png"}
+FRONT = {"front_gcode", "front_tools", "front_stock", "front_outline"}
+BACK = {"back_drawing"}
 # What each module may include besides itself. There is no ring, as each line uses only lines above it.
 ALLOWED = {
     "base": set(),
@@ -20,15 +21,16 @@ ALLOWED = {
     "path": {"tool", "stock"} | GEOMETRY,
     **{codec: {"base"} for codec in CODEC},
     **{front: PATH | CODEC for front in FRONT},
+    **{back: PATH | CODEC for back in BACK},
     "sim": PATH,
-    "app": PATH | CODEC | FRONT | {"sim"},
-    "python": PATH | CODEC | FRONT | {"sim"},
+    "app": PATH | CODEC | FRONT | BACK | {"sim"},
+    "python": PATH | CODEC | FRONT | BACK | {"sim"},
 }
-OUTSIDE = PATH | CODEC | FRONT | {"sim"}  # benchmarks, fuzz targets and the WebAssembly smoke test
+OUTSIDE = PATH | CODEC | FRONT | BACK | {"sim"}  # benchmarks, fuzz targets and the WebAssembly smoke test
 PUBLIC = {
     "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
              "codes.def"],
-    "geom": ["geometry.h"],
+    "geom": ["geometry.h", "outline.h", "extrude.h"],
     "tool": ["tool.h"],
     "stock": ["stock.h"],
     "path": ["toolpath.h", "report.h", "check.h"],
@@ -36,6 +38,9 @@ PUBLIC = {
     "front_gcode": ["gcode.h"],
     "front_tools": ["tool_files.h"],
     "front_stock": ["stock_files.h"],
+    "front_outline": ["outline_files.h"],
+    "back_drawing": ["outline_drawing.h"],
+    "codec_drawing": ["drawing_files.h"],
     "codec_mesh": ["mesh_files.h"],
     "codec_png": ["image_files.h"],
 }
