@@ -1,5 +1,8 @@
 """Figures: lists of outlines that belong to one part."""
 
+import os
+import tempfile
+
 from . import _outline
 from ._lists import ideal_outline, outline_rotate, outline_shift_xy
 
@@ -45,8 +48,77 @@ def flip_rotate_and_translate_figure(figure, zero_x, zero_y, size_x, size_y, fli
     return made
 
 
-def figure_simple_display(figure, overlay_figure=(), parameter_info=""):
-    raise NotImplementedError
+def figure_simple_display(figure, overlay_figure=(), parameter_info="", *, filename=None):
+    """Draw a figure (red) over another one (orange, dashed): the cut figure over the ideal one.
+
+    No window is opened, so that it works everywhere: an SVG file is written and its name printed; any browser shows
+    it.
+
+    Parameters
+    ----------
+    figure, overlay_figure : list of format-B outlines and circles
+    parameter_info : str
+        A text that goes into the file as its title.
+    filename : str, optional
+        Where to; a new file in the folder for temporary files where left out.
+
+    Returns
+    -------
+    str
+        The name of the file.
+    """
+    text = _outline.figure_svg(figure, overlay_figure, str(parameter_info))
+    if filename is None:
+        handle, filename = tempfile.mkstemp(prefix="cnc25d_", suffix=".svg")
+        os.close(handle)
+    _write(filename, text)
+    print(f"figure_simple_display: the picture is in {filename}")
+    return filename
 
 
-figure_mesh = write_figure_in_3mf = write_figure_in_dxf = write_figure_in_stl = write_figure_in_svg = figure_simple_display
+def write_figure_in_svg(figure, filename):
+    """Write a figure as SVG in its true size in mm; arcs stay arcs, y points up on the page."""
+    _write(filename, _outline.figure_svg(figure, (), os.path.basename(str(filename))))
+
+
+def write_figure_in_dxf(figure, filename, *, polylines=False, unit="mm"):
+    """Write a figure as DXF (AutoCAD 2000), arcs as arcs.
+
+    Parameters
+    ----------
+    figure : list of format-B outlines and circles
+    filename : str or os.PathLike
+    polylines : bool
+        True: one LWPOLYLINE with bulges for each outline. False: LINE, ARC and CIRCLE.
+    unit : {'mm', 'inch'}
+        What the numbers are; noted in the file.
+    """
+    _write(filename, _outline.figure_dxf(figure, bool(polylines), unit))
+
+
+def figure_mesh(figure, height, *, chord=0.01):
+    """The figure given a thickness: (points, triangles) of a closed mesh between z = 0 and `height`.
+
+    The first outline is the outside, the others are holes. Arcs become chords that stray by at most `chord`.
+
+    Raises
+    ------
+    OutlineError
+        Open outlines, outlines that cross.
+    """
+    return _outline.figure_mesh(figure, height, chord)
+
+
+def write_figure_in_stl(figure, height, filename, *, chord=0.01):
+    """Write the figure given a thickness as a binary STL file; see `figure_mesh`."""
+    _write(filename, _outline.figure_solid_file(figure, height, chord, "stl"))
+
+
+def write_figure_in_3mf(figure, height, filename, *, chord=0.01):
+    """Write the figure given a thickness as a 3MF file; see `figure_mesh`."""
+    _write(filename, _outline.figure_solid_file(figure, height, chord, "3mf"))
+
+
+def _write(filename, content):
+    with open(filename, "wb") as file:
+        file.write(content.encode("utf-8") if isinstance(content, str) else content)

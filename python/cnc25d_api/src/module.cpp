@@ -4,6 +4,11 @@
 
 #include "lists.h"
 
+#include "kerf/drawing_files.h"
+#include "kerf/extrude.h"
+#include "kerf/mesh_files.h"
+#include "kerf/outline_drawing.h"
+
 namespace cnc25d {
 namespace {
 
@@ -232,6 +237,73 @@ py::list reverse_curve(const py::object& list) {
   });
 }
 
+/// A figure of format-B outlines and circles; requests of format A are left out.
+kerf::Figure read_figure(const py::object& list) {
+  if (!PyList_Check(list.ptr()) && !PyTuple_Check(list.ptr()))
+    throw Refusal{937, "figure", -1, "a figure is a list or a tuple of outlines"};
+  kerf::Figure figure;
+  for (const py::handle item : list) {
+    const std::string name = "figure.ol" + std::to_string(figure.size());
+    const FormatCodes codes;
+    const Format kind = format_of(item.ptr(), codes, name);
+    if (kind == Format::circle) {
+      const kerf::Circle circle = read_circle(item.ptr(), codes, name);
+      if (circle.radius <= kerf::Length()) throw Refusal{409, name, -1, "the radius of a circle is not above 0"};
+      figure.emplace_back(circle);
+    } else {
+      const kerf::Outline outline = read_outline(item.ptr(), kind, codes, name);
+      require_finite(outline, name);
+      figure.emplace_back(ideal(outline));
+    }
+  }
+  return figure;
+}
+
+py::str figure_svg(const py::object& figure, const py::object& under, const std::string& title) {
+  return kerf::write_svg(kerf::overlay_picture(read_figure(figure), read_figure(under), title));
+}
+
+py::str figure_dxf(const py::object& figure, bool polylines, const std::string& unit) {
+  kerf::Drawing drawing;
+  if (unit == "inch") drawing.unit = kerf::DrawingUnit::inch;
+  else if (unit != "mm") throw Refusal{264, {}, -1, "unit must be 'mm' or 'inch', not '" + unit + "'"};
+  draw(drawing, 0, read_figure(figure),
+       polylines ? kerf::OutlineEntities::polyline : kerf::OutlineEntities::pieces);
+  return kerf::write_dxf(drawing);
+}
+
+kerf::SolidMesh solid_of(const py::object& list, double height, double chord) {
+  if (!(chord > 0.0) || !std::isfinite(chord)) throw Refusal{7002, {}, -1, "chord must be a finite number above 0"};
+  kerf::Tolerance tolerance;
+  tolerance.chord = kerf::mm(chord);
+  kerf::Diagnostics diagnostics;
+  auto solid = kerf::extrude(read_figure(list), kerf::mm(height), tolerance, diagnostics);
+  for (const kerf::Diagnostic& d : diagnostics.list())
+    if (d.severity == kerf::Severity::error) throw Refusal{catalogue_number(d.code), {}, -1, d.message};
+  return std::move(*solid);
+}
+
+/// (list of (x, y, z), list of (a, b, c))
+py::tuple figure_mesh(const py::object& list, double height, double chord) {
+  const kerf::SolidMesh solid = solid_of(list, height, chord);
+  py::list points, triangles;
+  for (std::size_t i = 0; i + 2 < solid.positions.size(); i += 3)
+    points.append(py::make_tuple(solid.positions[i], solid.positions[i + 1], solid.positions[i + 2]));
+  for (std::size_t i = 0; i + 2 < solid.triangles.size(); i += 3)
+    triangles.append(py::make_tuple(solid.triangles[i], solid.triangles[i + 1], solid.triangles[i + 2]));
+  return py::make_tuple(points, triangles);
+}
+
+py::bytes figure_solid_file(const py::object& list, double height, double chord, const std::string& ending) {
+  const auto format = kerf::mesh_format_of("figure." + ending);
+  if (!format) throw Refusal{264, {}, -1, "no mesh is written as ." + ending};
+  const kerf::SolidMesh solid = solid_of(list, height, chord);
+  kerf::MeshView view;
+  view.positions = solid.positions;
+  view.triangles = solid.triangles;
+  return kerf::write_mesh(view, *format);
+}
+
 /// (centre x, centre y, radius, turn) or None for three points on a line.
 py::object arc_circle(std::pair<double, double> from, std::pair<double, double> via, std::pair<double, double> to) {
   const kerf::Segment segment{{to.first, to.second}, kerf::Point2{via.first, via.second}, {}};
@@ -280,4 +352,8 @@ PYBIND11_MODULE(_outline, m) {
   m.def("reverse_curve", &reverse_curve);
   m.def("check", &check);
   m.def("arc_circle", &arc_circle);
+  m.def("figure_svg", &figure_svg);
+  m.def("figure_dxf", &figure_dxf);
+  m.def("figure_mesh", &figure_mesh);
+  m.def("figure_solid_file", &figure_solid_file);
 }
