@@ -103,6 +103,7 @@ enum class SharpReason : std::uint8_t {
   tiny,           ///< the radius is below the weld tolerance
   shared          ///< EdgeSharing::even: the corner at the other end needs the edge, too
 };
+std::string_view to_string(CornerOutcome outcome);
 std::string_view to_string(SharpReason reason);
 
 /// What became of one corner that had a request.

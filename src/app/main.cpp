@@ -23,7 +23,8 @@ Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage, 3 
 )";
 
 std::vector<Command> add_commands(CLI::App& root) {
-  std::vector<Command> commands{add_simulate(root), add_check(root), add_info(root), add_steps(root)};
+  std::vector<Command> commands{add_simulate(root), add_check(root), add_info(root), add_steps(root),
+                                add_outline(root)};
   CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show");
   tools->require_subcommand(1);
   commands.push_back(add_tools_list(*tools));

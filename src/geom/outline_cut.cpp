@@ -297,6 +297,11 @@ std::string_view words(SharpReason reason) {
 
 }  // namespace
 
+std::string_view to_string(CornerOutcome outcome) {
+  static constexpr std::string_view kNames[] = {"smoothed", "enlarged", "sharp"};
+  return kNames[static_cast<std::size_t>(outcome)];
+}
+
 std::string_view to_string(SharpReason reason) {
   static constexpr std::string_view kNames[] = {"none",      "straight",     "folded", "short_segment",
                                                 "no_circle", "no_neighbour", "tiny",   "shared"};

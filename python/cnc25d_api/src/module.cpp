@@ -103,12 +103,9 @@ void add_corner_messages(Messages& messages, const kerf::Outline& outline, const
 py::list report_list(const kerf::CutOutline& cut) {
   py::list list;
   for (const kerf::CornerReport& r : cut.corners) {
-    const char* outcome = r.outcome == kerf::CornerOutcome::smoothed   ? "smoothed"
-                          : r.outcome == kerf::CornerOutcome::enlarged ? "enlarged"
-                                                                       : "sharp";
     py::dict d;
     d["element"] = r.element;
-    d["outcome"] = outcome;
+    d["outcome"] = std::string(kerf::to_string(r.outcome));
     d["reason"] = std::string(kerf::to_string(r.reason));
     d["first"] = r.first;
     d["count"] = r.count;

@@ -1,0 +1,85 @@
+// Running Python: which one, with which path, and how it ended.
+#include "app/python_script.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <map>
+
+namespace kerf::app {
+namespace {
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string interpreter() {
+  if (const std::string told = variable("KERF_PYTHON"); !told.empty()) return told;
+  if (const std::string venv = variable("VIRTUAL_ENV"); !venv.empty()) return venv + "/bin/python";
+  return "python3";
+}
+
+/// The folder of Kerf's Python modules beside the command, as a build leaves it; empty where they are installed.
+std::string module_folder() {
+  std::error_code failed;
+  const auto command = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed) return "";
+  const auto folder = command.parent_path() / "python";
+  return std::filesystem::is_directory(folder, failed) ? folder.string() : "";
+}
+
+/// The environment of the script as "NAME=value" texts.
+std::vector<std::string> environment_of(const std::vector<std::pair<std::string, std::string>>& added) {
+  std::map<std::string, std::string> variables;
+  for (char** v = environ; *v != nullptr; ++v) {
+    const std::string text = *v;
+    const std::size_t equals = text.find('=');
+    if (equals != std::string::npos) variables[text.substr(0, equals)] = text.substr(equals + 1);
+  }
+  if (const std::string folder = module_folder(); !folder.empty()) {
+    std::string& path = variables["PYTHONPATH"];
+    path = path.empty() ? folder : folder + ":" + path;
+  }
+  for (const auto& [name, value] : added) variables[name] = value;
+  std::vector<std::string> texts;
+  for (const auto& [name, value] : variables) texts.push_back(name + "=" + value);
+  return texts;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> list;
+  for (std::string& text : texts) list.push_back(text.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+}  // namespace
+
+int run_python(const std::string& script, const std::vector<std::pair<std::string, std::string>>& environment,
+               Diagnostics& diagnostics) {
+  std::vector<std::string> words{interpreter(), script}, variables = environment_of(environment);
+  const std::vector<char*> arguments = pointers(words), environment_texts = pointers(variables);
+  const auto fail = [&](const std::string& message) {
+    diagnostics.error(Code::script_failed, TextSpot{script, 0, 0}, message);
+    return -1;
+  };
+  const pid_t child = fork();
+  if (child < 0) return fail("no process can be started");
+  if (child == 0) {
+    dup2(STDERR_FILENO, STDOUT_FILENO);
+    execvpe(arguments[0], arguments.data(), environment_texts.data());
+    _exit(127);  // as a shell does for a command that is not there
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return fail("the script's end cannot be waited for");
+  if (!WIFEXITED(status)) return fail(fmt::format("the script was ended by signal {}", WTERMSIG(status)));
+  if (WEXITSTATUS(status) == 127) return fail(fmt::format("\"{}\" cannot be run; KERF_PYTHON names a Python", words[0]));
+  return WEXITSTATUS(status);
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,18 @@
+// Running a user's Python script with Kerf's modules at hand.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+
+namespace kerf::app {
+
+/// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3. Kerf's modules are on its
+/// path, `environment` is added to its environment, and what it prints goes to stderr. Returns its exit status;
+/// -1, with an error appended, where it could not be started or ended by a signal.
+int run_python(const std::string& script, const std::vector<std::pair<std::string, std::string>>& environment,
+               Diagnostics& diagnostics);
+
+}  // namespace kerf::app
