@@ -111,6 +111,15 @@ Replacement sharp(SharpReason reason) {
   return none;
 }
 
+/// The middle of a smoothing arc. That of a short one is set up on its chord, so that its radius stays accurate where
+/// the corner is nearly straight.
+Point2 middle_of_smooth(Point2 first, Point2 last, Point2 centre, double r, double side) {
+  if (dot(first - centre, last - centre) <= 0.0) return arc_middle(first, last, centre, r, side);
+  const Point2 half = 0.5 * (last - first);
+  const double depth = std::sqrt(std::max(0.0, r * r - dot(half, half)));  // of the centre behind the chord
+  return first + half - (side / (r + depth)) * norm(half) * left_of(half);
+}
+
 Replacement smooth(const Side& in, const Side& out, double r, double weld) {
   const Centres centres = centres_of(in, out, r);
   for (int i = 0; i < centres.count; ++i) {
@@ -120,7 +129,7 @@ Replacement smooth(const Side& in, const Side& out, double r, double weld) {
     Replacement made;
     made.first = first;
     made.count = 1;
-    made.pieces[0] = {last, arc_middle(first, last, centre, r, out.side), true};
+    made.pieces[0] = {last, middle_of_smooth(first, last, centre, r, out.side), true};
     return made;
   }
   return sharp(centres.count > 0 ? SharpReason::short_segment : SharpReason::no_circle);

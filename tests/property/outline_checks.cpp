@@ -71,7 +71,7 @@ std::string wrong_with_corner(const Piece& in, const Piece& out, double request,
   }
   if (arcs.size() != 1) return fmt::format("has {} arcs", arcs.size());
   // Rounding its coordinates moves the arc's middle against its chord, which its radius hangs on.
-  const double rounding = 4e-16 * std::max({std::abs(first.x), std::abs(first.y), std::abs(last.x), std::abs(last.y)});
+  const double rounding = 8e-16 * std::max({std::abs(first.x), std::abs(first.y), std::abs(last.x), std::abs(last.y)});
   const double rise = r * (1.0 - std::cos(0.5 * arcs[0].sweep));
   if (std::abs(arcs[0].radius - r) > (1e-6 + rounding / rise) * r + 1e-9) return fmt::format("has radius {:.9g}, not {:.9g}", arcs[0].radius, r);
   return request > 0.0 ? wrong_with_smoothing(in, out, arcs[0]) : wrong_with_enlarging(in, made, arcs[0], r);
