@@ -1,11 +1,10 @@
-// Corners and curves: ten thousand of each kind, cut through the C++ interface. The Python lists are measured by
-// bench/outline_lists.py.
-#include <benchmark/benchmark.h>
+// Corners and curves: ten thousand of each kind, cut through the C++ interface. The Python lists are measured
+// by bench/outline_lists.py.
+#include "kerf/outline.h"
 
+#include <benchmark/benchmark.h>
 #include <cmath>
 #include <numbers>
-
-#include "kerf/outline.h"
 
 namespace {
 

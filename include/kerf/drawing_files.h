@@ -1,7 +1,7 @@
 // Flat drawings as files: DXF and SVG bytes from plain structs. No policy, no geometry.
 //
-// Frame: x to the right, y up, in the drawing's unit; the SVG writer turns y down in its numbers. Angles are degrees,
-// counter-clockwise from +x. Numbers must be finite.
+// Frame: x to the right, y up, in the drawing's unit; the SVG writer turns y down in its numbers. Angles are
+// degrees, counter-clockwise from +x. Numbers must be finite.
 #pragma once
 
 #include <array>
@@ -18,9 +18,9 @@ enum class LineKind : std::uint8_t { solid, dashed };
 
 struct DrawingLayer {
   std::string name = "0";
-  int colour = 7;                         // AutoCAD colour index, 1 to 255; for DXF
-  std::array<std::uint8_t, 3> rgb{};      // sRGB; for SVG
-  double line_width = 0.25;               // in the drawing's unit; for SVG
+  int colour = 7;                     // AutoCAD colour index, 1 to 255; for DXF
+  std::array<std::uint8_t, 3> rgb{};  // sRGB; for SVG
+  double line_width = 0.25;           // in the drawing's unit; for SVG
   LineKind line = LineKind::solid;
 };
 
@@ -36,7 +36,8 @@ struct Circle {
 };
 struct Vertex {
   double x = 0.0, y = 0.0;
-  double bulge = 0.0;  // tangent of a quarter of the sweep to the next vertex, above 0 counter-clockwise; 0: a line
+  double bulge =
+      0.0;  // tangent of a quarter of the sweep to the next vertex, above 0 counter-clockwise; 0: a line
 };
 struct Polyline {
   std::vector<Vertex> vertices;  // at least two
@@ -63,12 +64,12 @@ struct Drawing {
 /// Low x, low y, high x, high y of all entities, arcs and bulges included; zeros for an empty drawing.
 std::array<double, 4> drawing_bounds(const Drawing& drawing);
 
-/// A complete AutoCAD 2000 file: header with unit and extents, tables of layers and line types, entities with their
-/// subclass markers, so that strict readers take it.
+/// A complete AutoCAD 2000 file: header with unit and extents, tables of layers and line types, entities with
+/// their subclass markers, so that strict readers take it.
 std::string write_dxf(const Drawing& drawing);
 
-/// SVG 1.1 with its true size: width and height in mm or inch, one unit of the view box is one of the drawing. Each
-/// layer is a group; arcs stay arcs. Without a unit the size is in pixels.
+/// SVG 1.1 with its true size: width and height in mm or inch, one unit of the view box is one of the
+/// drawing. Each layer is a group; arcs stay arcs. Without a unit the size is in pixels.
 std::string write_svg(const Drawing& drawing);
 
 }  // namespace kerf

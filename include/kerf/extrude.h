@@ -9,16 +9,16 @@
 
 namespace kerf {
 
-/// Triangles of a solid: positions x y z in mm, three indices a triangle, counter-clockwise seen from outside.
-/// Every edge belongs to exactly two triangles.
+/// Triangles of a solid: positions x y z in mm, three indices a triangle, counter-clockwise seen from
+/// outside. Every edge belongs to exactly two triangles.
 struct SolidMesh {
   std::vector<float> positions;
   std::vector<std::uint32_t> triangles;
 };
 
-/// The first outline is the outside, the others are holes; their sense of turning does not matter. Arcs become chords
-/// within `tolerance.chord`. Nothing, with errors appended, for an empty figure, an open outline, a height or radius
-/// not above 0, and outlines that cross themselves or each other.
+/// The first outline is the outside, the others are holes; their sense of turning does not matter. Arcs
+/// become chords within `tolerance.chord`. Nothing, with errors appended, for an empty figure, an open
+/// outline, a height or radius not above 0, and outlines that cross themselves or each other.
 std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tolerance& tolerance,
                                  Diagnostics& diagnostics);
 

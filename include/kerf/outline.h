@@ -1,15 +1,17 @@
 // Outlines of lines and arcs in the plane, and what a router bit can make of their corners.
 //
-// A router bit of radius r cannot cut a sharp inner corner. Each corner of an outline therefore carries a request:
+// A router bit of radius r cannot cut a sharp inner corner. Each corner of an outline therefore carries a
+// request:
 //   0         leave it as it is
 //   r > 0     smooth it: one arc of radius r, tangent to both neighbours
-//   r < 0     enlarge it: clear the corner with a bit of radius |r|. The bit's centre lies on the line from the
+//   r < 0     enlarge it: clear the corner with a bit of radius |r|. The bit's centre lies on the line from
+//   the
 //             corner to the centre of the arc that would smooth it, and its circle passes through the corner;
 //             where the corner is sharper than the bit, a channel as wide as the bit leads there.
 // Only the two segments that meet at a corner decide how it is changed.
 //
-// Frame: x to the right, y up, mm, counter-clockwise is positive. No function changes its argument. User errors go
-// to Diagnostics (codes 7xxx); a corner that cannot be cut is a warning and stays sharp.
+// Frame: x to the right, y up, mm, counter-clockwise is positive. No function changes its argument. User
+// errors go to Diagnostics (codes 7xxx); a corner that cannot be cut is a warning and stays sharp.
 //
 //   Outline plate;
 //   plate.segments = {{{40, 0}, {}, mm(3)}, {{40, 20}, {}, mm(-3)}, {{0, 20}}, {{0, 0}}};
@@ -78,17 +80,18 @@ std::optional<ArcCircle> arc_circle(Point2 from, const Segment& segment);
 /// Who gets an edge that two corners want and that is too short for both.
 enum class EdgeSharing : std::uint8_t {
   in_order,  ///< the corner of the smaller element number, and element 0 before all: as Cnc25D does
-  even       ///< half of the edge is each corner's own; beyond it only what the other leaves. Independent of the start
+  even  ///< half of the edge is each corner's own; beyond it only what the other leaves. Independent of the
+        ///< start
 };
 
 struct CornerOptions {
   Tolerance tolerance{};  ///< weld: points closer than this are one; a fit that misses by less is a fit
-  /// Corners that turn by less are smooth already; corners of two lines or two arcs that come nearer than this to
-  /// turning back are folds. Neither is changed.
+  /// Corners that turn by less are smooth already; corners of two lines or two arcs that come nearer than
+  /// this to turning back are folds. Neither is changed.
   Angle straight = radians(std::numbers::pi / 1000.0);
   EdgeSharing sharing = EdgeSharing::in_order;
-  std::string name;  ///< a corner is called NAME.ELEMENT in messages
-  Origin where;      ///< of the messages
+  std::string name{};  ///< a corner is called NAME.ELEMENT in messages
+  Origin where{};      ///< of the messages
 };
 
 enum class CornerOutcome : std::uint8_t { smoothed, enlarged, sharp };
@@ -113,23 +116,24 @@ struct CornerReport {
   SharpReason reason = SharpReason::none;
   std::uint32_t first = 0;  ///< element of the result where the replacement begins
   std::uint32_t count = 0;  ///< elements of the result that it consists of; 0 if sharp
-  /// Where it stays sharp: the largest radius that could be cut here (0: none), given what the corners before it
-  /// took. A lower bound within 1e-6.
+  /// Where it stays sharp: the largest radius that could be cut here (0: none), given what the corners before
+  /// it took. A lower bound within 1e-6.
   Length largest;
 };
 
 struct CutOutline {
-  Outline outline;                    ///< without requests; arcs have their `via` in the middle of their sweep
+  Outline outline;  ///< without requests; arcs have their `via` in the middle of their sweep
   std::vector<CornerReport> corners;  ///< one for each corner with a request, in order of elements
 };
 
-/// Replaces the corners of an outline as requested. Order of work: corner 0 of a closed outline first, then by
-/// element; each corner sees what the one before left of the shared segment. A closed result begins where the
-/// replacement of corner 0 begins. Segments of no length are left out.
-/// Nothing, with errors appended, for an outline without a segment, a closed one of a single segment, coordinates
-/// that are not finite or beyond 1e60, and arcs that end where they begin. Requests at the ends of an open outline
-/// (for a closed one: of its last element) are ignored with a warning.
-std::optional<CutOutline> cut_corners(const Outline& outline, const CornerOptions& options, Diagnostics& diagnostics);
+/// Replaces the corners of an outline as requested. Order of work: corner 0 of a closed outline first, then
+/// by element; each corner sees what the one before left of the shared segment. A closed result begins where
+/// the replacement of corner 0 begins. Segments of no length are left out. Nothing, with errors appended, for
+/// an outline without a segment, a closed one of a single segment, coordinates that are not finite or beyond
+/// 1e60, and arcs that end where they begin. Requests at the ends of an open outline (for a closed one: of
+/// its last element) are ignored with a warning.
+std::optional<CutOutline> cut_corners(const Outline& outline, const CornerOptions& options,
+                                      Diagnostics& diagnostics);
 
 /// The sentence of a report: "corner plate.2 stays sharp: ...". `request` is the corner's.
 std::string corner_message(const CornerReport& report, Length request, std::string_view name);
@@ -148,20 +152,21 @@ struct CurveOptions {
   Tolerance tolerance{};
   /// A piece whose end tangents are closer than this to its chord becomes a line.
   Angle straight = radians(std::numbers::pi / 1000.0);
-  Length least_radius;  ///< arcs of a smaller radius get a warning; 0: none does
-  std::string name;     ///< piece k is called NAME.k in messages
-  Origin where;
+  Length least_radius{};  ///< arcs of a smaller radius get a warning; 0: none does
+  std::string name{};     ///< piece k is called NAME.k in messages
+  Origin where{};
 };
 
-/// A chain of arcs through all samples with the samples' headings: two arcs a piece that meet in the incentre of
-/// the triangle of chord and tangents. Pieces with an inflexion and straight pieces become lines, with a warning.
-/// Nothing, with errors appended, for fewer than two samples, for equal neighbours, for numbers that are not
-/// finite, and where a heading is more than a right angle off the chord.
-std::optional<Outline> smooth_curve(const Curve& curve, const CurveOptions& options, Diagnostics& diagnostics);
+/// A chain of arcs through all samples with the samples' headings: two arcs a piece that meet in the incentre
+/// of the triangle of chord and tangents. Pieces with an inflexion and straight pieces become lines, with a
+/// warning. Nothing, with errors appended, for fewer than two samples, for equal neighbours, for numbers that
+/// are not finite, and where a heading is more than a right angle off the chord.
+std::optional<Outline> smooth_curve(const Curve& curve, const CurveOptions& options,
+                                    Diagnostics& diagnostics);
 
-/// Guesses the heading of each point from its neighbours; exact for evenly sampled circles, of which closed ones
-/// are smooth at the seam too. Two points give a line. Fails as `smooth_curve` does, and where an open end turns
-/// by more than 60 degrees.
+/// Guesses the heading of each point from its neighbours; exact for evenly sampled circles, of which closed
+/// ones are smooth at the seam too. Two points give a line. Fails as `smooth_curve` does, and where an open
+/// end turns by more than 60 degrees.
 std::optional<Curve> guess_headings(const std::vector<Point2>& points, const CurveOptions& options,
                                     Diagnostics& diagnostics);
 

@@ -1,4 +1,5 @@
-// Outlines as drawings, for DXF and SVG files: as they are, or the ideal one under the cut one with the router bit.
+// Outlines as drawings, for DXF and SVG files: as they are, or the ideal one under the cut one with the
+// router bit.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +26,9 @@ struct CutPair {
   Outline ideal;
   CutOutline cut;
 };
-/// The picture of the corners: the ideal outlines dashed, the cut ones over them, and the router bit's circle at each
-/// changed corner. Layers "ideal", "bit" and "cut", in the order of drawing; line widths go with the size.
+/// The picture of the corners: the ideal outlines dashed, the cut ones over them, and the router bit's circle
+/// at each changed corner. Layers "ideal", "bit" and "cut", in the order of drawing; line widths go with the
+/// size.
 Drawing corner_picture(const std::vector<CutPair>& pairs, std::string title);
 /// The same for figures without corner reports: the first over the second.
 Drawing overlay_picture(const Figure& over, const Figure& under, std::string title);

@@ -1,10 +1,9 @@
 // kerf outline: cuts the corners of outlines from a JSON file or a Python script, and draws what changed.
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
+#include <unistd.h>
 
 #include "app/command.h"
 #include "app/json.h"
@@ -90,9 +89,7 @@ Result cut_all(const std::vector<NamedOutline>& outlines, const Options& options
   return result;
 }
 
-Json point_json(Point2 p) {
-  return Json::array({json_of(p.x), json_of(p.y)});
-}
+Json point_json(Point2 p) { return Json::array({json_of(p.x), json_of(p.y)}); }
 
 Json outline_json(const std::string& name, const CutPair& pair) {
   Json out{{"name", name}, {"closed", pair.cut.outline.closed()}};
@@ -115,7 +112,8 @@ Json outline_json(const std::string& name, const CutPair& pair) {
   return out;
 }
 
-void show_result(Console& console, const Options& options, const Result& result, const Diagnostics& diagnostics) {
+void show_result(Console& console, const Options& options, const Result& result,
+                 const Diagnostics& diagnostics) {
   console.show(diagnostics);
   std::vector<std::string> outputs;
   for (const std::string& path : {options.svg, options.dxf})
@@ -124,15 +122,19 @@ void show_result(Console& console, const Options& options, const Result& result,
     Json outlines = Json::array();
     for (std::size_t i = 0; i < result.pairs.size(); ++i)
       outlines.push_back(outline_json(result.names[i], result.pairs[i]));
-    const Json out{{"source", options.file}, {"unit", "mm"}, {"outlines", outlines},
-                   {"outputs", outputs}, {"diagnostics", json_of(diagnostics)}};
+    const Json out{{"source", options.file},
+                   {"unit", "mm"},
+                   {"outlines", outlines},
+                   {"outputs", outputs},
+                   {"diagnostics", json_of(diagnostics)}};
     return console.print_json(text_of(out, Layout::indented));
   }
   for (std::size_t i = 0; i < result.pairs.size(); ++i) {
     int count[3] = {};
     for (const CornerReport& r : result.pairs[i].cut.corners) ++count[static_cast<int>(r.outcome)];
-    console.summary(fmt::format("{}: {} segments; corners: {} smoothed, {} enlarged, {} left sharp", result.names[i],
-                                result.pairs[i].cut.outline.segments.size(), count[0], count[1], count[2]));
+    console.summary(fmt::format("{}: {} segments; corners: {} smoothed, {} enlarged, {} left sharp",
+                                result.names[i], result.pairs[i].cut.outline.segments.size(), count[0],
+                                count[1], count[2]));
   }
   for (const std::string& path : outputs) console.summary("wrote " + path);
 }
@@ -180,8 +182,9 @@ Command add_outline(CLI::App& root) {
       ->type_name("");
   app->add_option("--svg", options->svg, "Write the picture of the corners")->type_name("PATH");
   app->add_option("--dxf", options->dxf, "Write the cut outlines as polylines with arcs")->type_name("PATH");
-  app->add_flag("--fair", options->fair,
-                "Share an edge that is too short for both of its corners evenly, instead of first come first served");
+  app->add_flag(
+      "--fair", options->fair,
+      "Share an edge that is too short for both of its corners evenly, instead of first come first served");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

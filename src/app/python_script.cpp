@@ -1,13 +1,12 @@
 // Running Python: which one, with which path, and how it ended.
 #include "app/python_script.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace kerf::app {
 namespace {
@@ -23,7 +22,8 @@ std::string interpreter() {
   return "python3";
 }
 
-/// The folder of Kerf's Python modules beside the command, as a build leaves it; empty where they are installed.
+/// The folder of Kerf's Python modules beside the command, as a build leaves it; empty where they are
+/// installed.
 std::string module_folder() {
   std::error_code failed;
   const auto command = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -78,7 +78,8 @@ int run_python(const std::string& script, const std::vector<std::pair<std::strin
   while (waitpid(child, &status, 0) < 0)
     if (errno != EINTR) return fail("the script's end cannot be waited for");
   if (!WIFEXITED(status)) return fail(fmt::format("the script was ended by signal {}", WTERMSIG(status)));
-  if (WEXITSTATUS(status) == 127) return fail(fmt::format("\"{}\" cannot be run; KERF_PYTHON names a Python", words[0]));
+  if (WEXITSTATUS(status) == 127)
+    return fail(fmt::format("\"{}\" cannot be run; KERF_PYTHON names a Python", words[0]));
   return WEXITSTATUS(status);
 }
 

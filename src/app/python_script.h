@@ -9,9 +9,9 @@
 
 namespace kerf::app {
 
-/// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3. Kerf's modules are on its
-/// path, `environment` is added to its environment, and what it prints goes to stderr. Returns its exit status;
-/// -1, with an error appended, where it could not be started or ended by a signal.
+/// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3. Kerf's modules are
+/// on its path, `environment` is added to its environment, and what it prints goes to stderr. Returns its
+/// exit status; -1, with an error appended, where it could not be started or ended by a signal.
 int run_python(const std::string& script, const std::vector<std::pair<std::string, std::string>>& environment,
                Diagnostics& diagnostics);
 

@@ -1,8 +1,7 @@
 // Curves through samples as pairs of arcs (biarcs).
 #include <cmath>
-#include <numbers>
-
 #include <fmt/format.h>
+#include <numbers>
 
 #include "segment.h"
 
@@ -13,7 +12,7 @@ namespace {
 
 using namespace outline_detail;
 
-constexpr std::size_t kMessages = 50;  // as many of one kind are put into words
+constexpr std::size_t kMessages = 50;             // as many of one kind are put into words
 constexpr double kMuch = std::numbers::pi / 3.0;  // a heading further off its chord than this gets a warning
 /// Below this half angle the two arcs differ from their chord by less than a rounding of its length.
 constexpr double kFlatHalfAngle = 0.5 * kFlatArc;
@@ -21,11 +20,13 @@ constexpr double kFlatHalfAngle = 0.5 * kFlatArc;
 /// Collects the messages of one curve.
 class CurveSpeaker {
  public:
-  CurveSpeaker(const CurveOptions& options, Diagnostics& diagnostics) : options_(options), diagnostics_(diagnostics) {}
+  CurveSpeaker(const CurveOptions& options, Diagnostics& diagnostics)
+      : options_(options), diagnostics_(diagnostics) {}
   void warn(Code code, std::size_t piece, std::string_view what) {
     std::size_t& said = said_[static_cast<std::size_t>(code) % 8];
-    diagnostics_.warning(code, options_.where,
-                         said++ < kMessages ? fmt::format("{}.{}: {}", options_.name, piece, what) : std::string());
+    diagnostics_.warning(
+        code, options_.where,
+        said++ < kMessages ? fmt::format("{}.{}: {}", options_.name, piece, what) : std::string());
   }
   bool refuse(Code code, std::size_t piece, std::string_view what) {
     diagnostics_.error(code, options_.where, fmt::format("{}.{}: {}", options_.name, piece, what));
@@ -58,8 +59,8 @@ Piece make_piece(Point2 from, Point2 heading_a, Point2 to, Point2 heading_b) {
   return p;
 }
 
-/// The middle of an arc over a chord of half length `half` (vector), whose tangent is off the chord by an angle
-/// with the half tangent `p`, on the side `sign` (+1 left).
+/// The middle of an arc over a chord of half length `half` (vector), whose tangent is off the chord by an
+/// angle with the half tangent `p`, on the side `sign` (+1 left).
 Point2 middle_over(Point2 start, Point2 half, double p, double sign) {
   const double quarter = p / (1.0 + std::sqrt(1.0 + p * p));  // tangent of half of the half angle
   return start + half + (sign * quarter) * left_of(half);
@@ -68,7 +69,9 @@ Point2 middle_over(Point2 start, Point2 half, double p, double sign) {
 class CurveSmoother {
  public:
   CurveSmoother(const CurveOptions& options, Diagnostics& diagnostics)
-      : options_(options), speaker_(options, diagnostics), half_straight_(std::tan(0.5 * options.straight.rad())) {}
+      : options_(options),
+        speaker_(options, diagnostics),
+        half_straight_(std::tan(0.5 * options.straight.rad())) {}
   bool add(std::size_t index, const Piece& piece, Point2 to);
   Outline outline;
 
@@ -103,7 +106,8 @@ bool CurveSmoother::add(std::size_t index, const Piece& piece, Point2 to) {
   return true;
 }
 
-/// The arcs meet in the incentre of the triangle of the chord and the tangents, where both run along the chord.
+/// The arcs meet in the incentre of the triangle of the chord and the tangents, where both run along the
+/// chord.
 void CurveSmoother::arcs(std::size_t index, const Piece& piece, double p, double q, Point2 to) {
   const double sign = piece.sine_a > 0.0 ? 1.0 : -1.0;
   const double x = piece.length * q / (p + q);
@@ -132,17 +136,14 @@ bool usable_curve(const Curve& curve, CurveSpeaker& speaker) {
   return true;
 }
 
-double wrap(double angle) {
-  return std::remainder(angle, 2.0 * std::numbers::pi);
-}
+double wrap(double angle) { return std::remainder(angle, 2.0 * std::numbers::pi); }
 
-double heading_of(Point2 from, Point2 to) {
-  return std::atan2(to.y - from.y, to.x - from.x);
-}
+double heading_of(Point2 from, Point2 to) { return std::atan2(to.y - from.y, to.x - from.x); }
 
 }  // namespace
 
-std::optional<Outline> smooth_curve(const Curve& curve, const CurveOptions& options, Diagnostics& diagnostics) {
+std::optional<Outline> smooth_curve(const Curve& curve, const CurveOptions& options,
+                                    Diagnostics& diagnostics) {
   CurveSpeaker speaker(options, diagnostics);
   if (!usable_curve(curve, speaker)) return std::nullopt;
   CurveSmoother smoother(options, diagnostics);
@@ -168,23 +169,28 @@ std::optional<Curve> guess_headings(const std::vector<Point2>& points, const Cur
   const std::size_t n = points.size();
   for (std::size_t i = 0; i + 1 < n; ++i)
     if (points[i] == points[i + 1] || (i + 2 < n && points[i] == points[i + 2] && n != 3))
-      return speaker.refuse(Code::curve_malformed, i, "two samples at one place leave no direction"), std::nullopt;
-  for (std::size_t i = 1; i + 1 < n; ++i) curve[i].heading = radians(heading_of(points[i - 1], points[i + 1]));
+      return speaker.refuse(Code::curve_malformed, i, "two samples at one place leave no direction"),
+             std::nullopt;
+  for (std::size_t i = 1; i + 1 < n; ++i)
+    curve[i].heading = radians(heading_of(points[i - 1], points[i + 1]));
   if (n == 2) {
     curve[0].heading = curve[1].heading = radians(heading_of(points[0], points[1]));
     return curve;
   }
   if (points.front() == points.back()) {
-    if (n == 3) return speaker.refuse(Code::curve_malformed, 1, "the curve turns back on itself"), std::nullopt;
+    if (n == 3)
+      return speaker.refuse(Code::curve_malformed, 1, "the curve turns back on itself"), std::nullopt;
     curve[0].heading = curve[n - 1].heading = radians(heading_of(points[n - 2], points[1]));
     return curve;
   }
   // An open end: half of what the chord to the neighbour and the one to the next but one differ by.
   const auto end_heading = [&](double near, double far) { return near - 0.5 * wrap(far - near); };
   const double begin = heading_of(points[0], points[1]), begin_far = heading_of(points[0], points[2]);
-  const double end = heading_of(points[n - 2], points[n - 1]), end_far = heading_of(points[n - 3], points[n - 1]);
+  const double end = heading_of(points[n - 2], points[n - 1]),
+               end_far = heading_of(points[n - 3], points[n - 1]);
   if (std::abs(wrap(begin_far - begin)) > kMuch || std::abs(wrap(end_far - end)) > kMuch)
-    return speaker.refuse(Code::curve_turns_fast, 0, "an open end turns by more than 60 degrees"), std::nullopt;
+    return speaker.refuse(Code::curve_turns_fast, 0, "an open end turns by more than 60 degrees"),
+           std::nullopt;
   curve[0].heading = radians(end_heading(begin, begin_far));
   curve[n - 1].heading = radians(end_heading(end, end_far));
   return curve;

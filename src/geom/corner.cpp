@@ -9,22 +9,24 @@ namespace {
 
 /// A request that fits exactly may miss by rounding: this share of a segment's length is let through.
 constexpr double kFit = 1e-9;
-/// Where two loci touch, rounding decides whether they meet. A squared distance within this share of the squared
-/// radius counts as touching; the radius is then wrong by half of it at most.
+/// Where two loci touch, rounding decides whether they meet. A squared distance within this share of the
+/// squared radius counts as touching; the radius is then wrong by half of it at most.
 constexpr double kTouch = 1e-12;
 constexpr double kCusp = 1e-9;  // sine; below it rounding decides to which side a line and an arc fold back
-constexpr int kHalvings = 22;  // of an interval of radii: a largest radius is found within 1e-6 of the request
+constexpr int kHalvings =
+    22;  // of an interval of radii: a largest radius is found within 1e-6 of the request
 
 /// Whether a point of the arc's circle lies on the arc itself.
 bool on_arc(const Side& side, Point2 point) {
   const Point2 begin = -side.centre, at = point - side.centre, end = side.end - side.centre;
-  const bool after_begin = side.turn * cross(begin, at) >= 0.0, before_end = side.turn * cross(at, end) >= 0.0;
+  const bool after_begin = side.turn * cross(begin, at) >= 0.0,
+             before_end = side.turn * cross(at, end) >= 0.0;
   const bool below_half = side.turn * cross(begin, end) >= 0.0;
   return below_half ? after_begin && before_end : after_begin || before_end;
 }
 
-/// Moves `point`, which lies on the side's carrier, onto the side's end where it is one with it. False where it
-/// lies outside of the side.
+/// Moves `point`, which lies on the side's carrier, onto the side's end where it is one with it. False where
+/// it lies outside of the side.
 bool place_on(const Side& side, Point2& point, double weld) {
   const double slack = weld + kFit * (side.is_arc() ? side.radius : side.length);
   if (!side.is_arc()) {
@@ -42,9 +44,7 @@ bool place_on(const Side& side, Point2& point, double weld) {
 }
 
 /// Radius of the circle about an arc's centre on which the bit's centre must lie.
-double locus_radius(const Side& arc, double r) {
-  return arc.radius - arc.turn * arc.side * r;
-}
+double locus_radius(const Side& arc, double r) { return arc.radius - arc.turn * arc.side * r; }
 
 /// Where a circle about `centre` touches the side's carrier.
 Point2 foot(const Side& side, Point2 centre, double r) {
@@ -111,8 +111,8 @@ Replacement sharp(SharpReason reason) {
   return none;
 }
 
-/// The middle of a smoothing arc. That of a short one is set up on its chord, so that its radius stays accurate where
-/// the corner is nearly straight.
+/// The middle of a smoothing arc. That of a short one is set up on its chord, so that its radius stays
+/// accurate where the corner is nearly straight.
 Point2 middle_of_smooth(Point2 first, Point2 last, Point2 centre, double r, double side) {
   if (dot(first - centre, last - centre) <= 0.0) return arc_middle(first, last, centre, r, side);
   const Point2 half = 0.5 * (last - first);
@@ -142,11 +142,12 @@ struct Mouth {
   Point2 on_side, on_arc;
 };
 
-/// `hole` is the bit's centre, `deep` the unit vector to it from the corner, `smooth_centre` where the bit would
-/// smooth the corner. `force` decides about the channel: +1 channel, -1 none, 0 geometry decides.
+/// `hole` is the bit's centre, `deep` the unit vector to it from the corner, `smooth_centre` where the bit
+/// would smooth the corner. `force` decides about the channel: +1 channel, -1 none, 0 geometry decides.
 Mouth mouth_of(const Side& side, Point2 hole, Point2 deep, Point2 smooth_centre, double r, int force,
                double weld) {
-  const Point2 wall = hole - (side.side * r) * left_of(deep);  // where the channel's wall meets the bit's circle
+  const Point2 wall =
+      hole - (side.side * r) * left_of(deep);  // where the channel's wall meets the bit's circle
   double along = 0.0;  // from there to the side, along the wall; below 0 the side cuts into the circle
   if (!side.is_arc()) {
     const double across = cross(deep, side.away);
@@ -190,7 +191,8 @@ Replacement enlarge(const Side& in, const Side& out, double r, const CornerLimit
   if (bend < 0.0) return sharp(SharpReason::no_circle);  // the smoothing arc would go round more than half
   const Point2 deep = (1.0 / distance) * smooth_centre;
   const Point2 hole = r * deep;
-  int force = 0;  // two lines are alike on both sides, and a right angle within the tolerance needs no channel
+  int force =
+      0;  // two lines are alike on both sides, and a right angle within the tolerance needs no channel
   if (!in.is_arc() && !out.is_arc()) force = dot(in.away, out.away) < limits.straight ? -1 : 1;
   const Mouth a = mouth_of(in, hole, deep, smooth_centre, r, force, limits.weld);
   const Mouth b = mouth_of(out, hole, deep, smooth_centre, r, force, limits.weld);
@@ -247,7 +249,8 @@ Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits
   if (r <= limits.weld) return sharp(SharpReason::tiny);
   const double sine = -cross(in.away, out.away);  // of the turn at the corner, and its cosine
   const double cosine = -dot(in.away, out.away);
-  // A line and an arc that run back on each other still bend apart; only at an exact cusp is no side the inside.
+  // A line and an arc that run back on each other still bend apart; only at an exact cusp is no side the
+  // inside.
   const bool bend_apart = in.is_arc() != out.is_arc() && cosine < 0.0;
   if (std::abs(sine) < (bend_apart ? kCusp : limits.straight))
     return sharp(cosine > 0.0 ? SharpReason::straight : SharpReason::folded);

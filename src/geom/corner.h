@@ -1,7 +1,7 @@
 // One corner: the arc that smooths it or the slot that enlarges it, from its two neighbours alone.
 //
-// All coordinates are relative to the corner. A neighbour is seen from the corner outwards (a `Side`), the incoming
-// one backwards, so that the rules are written once for both.
+// All coordinates are relative to the corner. A neighbour is seen from the corner outwards (a `Side`), the
+// incoming one backwards, so that the rules are written once for both.
 #pragma once
 
 #include "segment.h"
@@ -30,8 +30,8 @@ struct CornerLimits {
   double straight = 0.0;  // sine of CornerOptions::straight
 };
 
-/// What replaces a corner: `count` pieces after the point `first` on the arriving segment. The last ends on the
-/// leaving segment.
+/// What replaces a corner: `count` pieces after the point `first` on the arriving segment. The last ends on
+/// the leaving segment.
 struct Replacement {
   struct Piece {
     Point2 to, via;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "outline_check.h"
@@ -14,8 +13,8 @@ namespace {
 
 using namespace outline_detail;
 
-constexpr int kMostChords = 1 << 16;   // of one arc
-constexpr int kFewestChords = 16;      // of a full circle, so that a coarse tolerance still leaves it round
+constexpr int kMostChords = 1 << 16;  // of one arc
+constexpr int kFewestChords = 16;     // of a full circle, so that a coarse tolerance still leaves it round
 
 /// Appends the points of an arc after its begin, without its end.
 void add_arc(Ring& ring, Point2 from, const ArcCircle& circle, double chord) {
@@ -83,15 +82,17 @@ std::vector<Ring> rings_of(const Figure& figure, const Tolerance& tolerance, Dia
 std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tolerance& tolerance,
                                  Diagnostics& diagnostics) {
   if (figure.empty() || !std::isfinite(height.mm()) || height <= Length()) {
-    diagnostics.error(Code::figure_not_solid, {}, "a figure with an outline, and a height above 0, are needed");
+    diagnostics.error(Code::figure_not_solid, {},
+                      "a figure with an outline, and a height above 0, are needed");
     return std::nullopt;
   }
   const std::vector<Ring> rings = rings_of(figure, tolerance, diagnostics);
   if (rings.empty()) return std::nullopt;
   const auto caps = triangulate(rings);
   if (caps.empty()) {
-    diagnostics.error(Code::figure_crosses, {},
-                      "outlines of the figure cross themselves or each other, or a hole is not inside the first");
+    diagnostics.error(
+        Code::figure_crosses, {},
+        "outlines of the figure cross themselves or each other, or a hole is not inside the first");
     return std::nullopt;
   }
   SolidMesh mesh;

@@ -2,14 +2,14 @@
 #include "outline_check.h"
 
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "segment.h"
 
 namespace kerf::outline_detail {
 
-bool check_outline(const Outline& outline, const std::string& name, const Origin& where, Diagnostics& diagnostics) {
+bool check_outline(const Outline& outline, const std::string& name, const Origin& where,
+                   Diagnostics& diagnostics) {
   const auto refuse = [&](Code code, std::size_t element, std::string_view what) {
     diagnostics.error(code, where, fmt::format("outline \"{}\", element {}: {}", name, element, what));
     return false;

@@ -1,6 +1,5 @@
 // The corners of a whole outline: who is cut first, what the others find left, and what is said about it.
 #include <cmath>
-
 #include <fmt/format.h>
 
 #include "corner.h"
@@ -13,7 +12,8 @@ namespace {
 
 using namespace outline_detail;
 
-/// At most this many messages of one kind are put into words; the rest are only counted (as Diagnostics does).
+/// At most this many messages of one kind are put into words; the rest are only counted (as Diagnostics
+/// does).
 constexpr std::size_t kMessages = 50;
 
 Code code_of(SharpReason reason) {
@@ -27,13 +27,16 @@ Code code_of(SharpReason reason) {
   }
 }
 
-/// Works through one outline. Corner i joins segment i - 1 and segment i; of a closed outline corner 0 joins the
-/// last segment and the first.
+/// Works through one outline. Corner i joins segment i - 1 and segment i; of a closed outline corner 0 joins
+/// the last segment and the first.
 class CornerPass {
  public:
   CornerPass(const Outline& outline, const CornerOptions& options, Diagnostics& diagnostics)
-      : outline_(outline), options_(options), diagnostics_(diagnostics),
-        weld_(options.tolerance.weld.mm()), closed_(outline.closed()) {
+      : outline_(outline),
+        options_(options),
+        diagnostics_(diagnostics),
+        weld_(options.tolerance.weld.mm()),
+        closed_(outline.closed()) {
     limits_ = {weld_, std::sin(options.straight.rad())};
   }
   CutOutline run();
@@ -87,7 +90,8 @@ void CornerPass::note_straight_arc(std::size_t segment) {
   const bool in_words = straight_arcs_++ < kMessages;
   diagnostics_.warning(
       Code::outline_arc_straight, options_.where,
-      in_words ? fmt::format("the arc to {}.{} is straight: a line is cut", options_.name, segment + 1) : std::string());
+      in_words ? fmt::format("the arc to {}.{} is straight: a line is cut", options_.name, segment + 1)
+               : std::string());
 }
 
 /// Takes from the corners that do not fit beside each other those that want more than their half of an edge.
@@ -169,12 +173,13 @@ void CornerPass::cut(std::size_t corner, const Carrier& before, const Carrier& a
   report_cut(corner, made.count);
 }
 
-/// The commonest corners by a shorter way: smooths corners of two lines from `corner` on, until one is of another
-/// kind, does not fit or fits closely. Returns that one.
+/// The commonest corners by a shorter way: smooths corners of two lines from `corner` on, until one is of
+/// another kind, does not fit or fits closely. Returns that one.
 std::size_t CornerPass::smooth_lines(std::size_t corner) {
   const std::vector<Segment>& from = outline_.segments;
   std::vector<Segment>& made = result_.outline.segments;
-  const std::size_t end = from.size() - (closed_ ? 1 : 0);  // the last corner of a closed outline meets the first
+  const std::size_t end =
+      from.size() - (closed_ ? 1 : 0);  // the last corner of a closed outline meets the first
   if (!crowded_.empty() || corner >= end || from[corner - 1].via) return corner;
   Point2 at = from[corner - 1].to, u = at - outline_.point(corner - 1);
   double length = norm(u);
@@ -275,8 +280,9 @@ std::optional<Outline> without_end_requests(const Outline& outline, const Corner
   }
   if (at_end) {
     copy.segments.back().corner = Length();
-    warn(outline.segments.size(), outline.closed() ? "the corner of a closed outline's end is that of its start"
-                                                   : "an open outline has no corner at its end");
+    warn(outline.segments.size(), outline.closed()
+                                      ? "the corner of a closed outline's end is that of its start"
+                                      : "an open outline has no corner at its end");
   }
   return copy;
 }
@@ -310,8 +316,9 @@ std::string_view to_string(SharpReason reason) {
 
 std::string corner_message(const CornerReport& report, Length request, std::string_view name) {
   const double r = std::abs(request.mm());
-  std::string text = fmt::format("corner {}.{} stays sharp, it cannot be {} with radius {:g}: {}", name, report.element,
-                                 request.mm() > 0.0 ? "smoothed" : "enlarged", r, words(report.reason));
+  std::string text =
+      fmt::format("corner {}.{} stays sharp, it cannot be {} with radius {:g}: {}", name, report.element,
+                  request.mm() > 0.0 ? "smoothed" : "enlarged", r, words(report.reason));
   if (report.largest > Length())
     text += fmt::format("; the radius is {:g} too large, the largest here is {:g}", r - report.largest.mm(),
                         report.largest.mm());

@@ -14,7 +14,8 @@ Point2 placed_point(Point2 p, const Placement& placement) {
 /// Turns points about a centre; works the sine and cosine out once.
 class Rotation {
  public:
-  Rotation(Point2 centre, Angle angle) : centre_(centre), cosine_(std::cos(angle.rad())), sine_(std::sin(angle.rad())) {}
+  Rotation(Point2 centre, Angle angle)
+      : centre_(centre), cosine_(std::cos(angle.rad())), sine_(std::sin(angle.rad())) {}
   Point2 operator()(Point2 p) const {
     const Point2 d = p - centre_;
     return {centre_.x + (cosine_ * d.x - sine_ * d.y), centre_.y + (sine_ * d.x + cosine_ * d.y)};
@@ -84,7 +85,9 @@ Outline reversed(const Outline& outline) {
   made.start_corner = outline.closed() || n == 0 ? outline.start_corner : outline.segments.back().corner;
   made.segments.reserve(n);
   for (std::size_t i = n; i-- > 0;) {
-    const Length corner = i > 0 ? outline.segments[i - 1].corner : outline.closed() ? Length() : outline.start_corner;
+    const Length corner = i > 0              ? outline.segments[i - 1].corner
+                          : outline.closed() ? Length()
+                                             : outline.start_corner;
     made.segments.push_back({outline.point(i), outline.segments[i].via, corner});
   }
   return made;

@@ -13,19 +13,13 @@ inline constexpr double kFlatArc = 1e-6;  // radians
 /// Coordinates beyond this are refused, so that products of four of them stay finite.
 inline constexpr double kLargestCoordinate = 1e60;  // mm
 
-constexpr Point2 left_of(Point2 direction) {
-  return {-direction.y, direction.x};
-}
+constexpr Point2 left_of(Point2 direction) { return {-direction.y, direction.x}; }
 /// Length without hypot's care for extremes, which the largest coordinate makes needless.
-inline double norm(Point2 v) {
-  return std::sqrt(dot(v, v));
-}
-constexpr Point2 operator-(Point2 v) {
-  return {-v.x, -v.y};
-}
+inline double norm(Point2 v) { return std::sqrt(dot(v, v)); }
+constexpr Point2 operator-(Point2 v) { return {-v.x, -v.y}; }
 
-/// `from` and `to` are those of the outline, digit by digit. Directions and centres are relative to `from`, which
-/// keeps their accuracy far from the origin.
+/// `from` and `to` are those of the outline, digit by digit. Directions and centres are relative to `from`,
+/// which keeps their accuracy far from the origin.
 struct Carrier {
   Point2 from, to;
   Point2 direction;     // of a line: unit

@@ -17,9 +17,7 @@ struct Node {
 };
 
 /// Twice the area of a triangle, above 0 if counter-clockwise.
-double turn(Point2 a, Point2 b, Point2 c) {
-  return cross(b - a, c - a);
-}
+double turn(Point2 a, Point2 b, Point2 c) { return cross(b - a, c - a); }
 
 bool inside(Point2 p, Point2 a, Point2 b, Point2 c) {
   return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
@@ -49,7 +47,8 @@ class Clipper {
 std::size_t Clipper::add_ring(const Ring& ring, std::uint32_t first) {
   const std::size_t begin = nodes_.size(), n = ring.size();
   for (std::size_t i = 0; i < n; ++i)
-    nodes_.push_back({ring[i], first + static_cast<std::uint32_t>(i), begin + (i + n - 1) % n, begin + (i + 1) % n});
+    nodes_.push_back(
+        {ring[i], first + static_cast<std::uint32_t>(i), begin + (i + n - 1) % n, begin + (i + 1) % n});
   left_ += n;
   area_ += area(ring);
   return begin;
@@ -73,7 +72,8 @@ Clipper::Clipper(const std::vector<Ring>& rings) {
   for (const std::size_t hole : rightmost) bridge(hole);
 }
 
-/// The node of the outside that a bridge from the hole's rightmost point may go to; the number of nodes if none.
+/// The node of the outside that a bridge from the hole's rightmost point may go to; the number of nodes if
+/// none.
 std::size_t Clipper::visible_from(const Node& hole) const {
   const Point2 h = hole.at;
   // The nearest edge to the right, and its end further right.
@@ -91,7 +91,8 @@ std::size_t Clipper::visible_from(const Node& hole) const {
     i = nodes_[i].after;
   } while (i != outside_);
   if (found == nodes_.size()) return found;
-  // Reflex corners inside the triangle of point, edge and end may hide the end: the one least off the ray wins.
+  // Reflex corners inside the triangle of point, edge and end may hide the end: the one least off the ray
+  // wins.
   const Point2 hit{nearest, h.y}, end = nodes_[found].at;
   double least = std::abs(end.y - h.y) / std::max(end.x - h.x, 1e-300);
   i = outside_;

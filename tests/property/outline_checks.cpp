@@ -12,15 +12,18 @@ using kerf::Outline;
 
 std::string wrong_with_smoothing(const Piece& in, const Piece& out, const Piece& arc) {
   const double turn = angle_between(in.tangent(in.to), out.tangent(out.from));
-  if (std::abs(angle_between(in.tangent(arc.from), arc.tangent(arc.from))) > kTangent) return "not tangent to the arriving";
-  if (std::abs(angle_between(out.tangent(arc.to), arc.tangent(arc.to))) > kTangent) return "not tangent to the leaving";
+  if (std::abs(angle_between(in.tangent(arc.from), arc.tangent(arc.from))) > kTangent)
+    return "not tangent to the arriving";
+  if (std::abs(angle_between(out.tangent(arc.to), arc.tangent(arc.to))) > kTangent)
+    return "not tangent to the leaving";
   if (std::numbers::pi - std::abs(turn) > kFlat && arc.sense * turn < 0.0) return "turns to the wrong side";
   return "";
 }
 
 std::string wrong_with_enlarging(const Piece& in, const Outline& made, const Piece& arc, double r) {
   const Point2 corner = in.to;
-  if (std::abs(distance(arc.centre, corner) - r) > kSlack * std::max(1.0, r)) return "the bit does not reach the corner";
+  if (std::abs(distance(arc.centre, corner) - r) > kSlack * std::max(1.0, r))
+    return "the bit does not reach the corner";
   const double at = arc.along(corner);
   if (at < -kSlack || at > arc.length + kSlack) return "the corner is not on the arc";
   Point2 from = made.start;
@@ -45,9 +48,11 @@ Outline part_of(const Outline& result, const CornerReport& report) {
 std::string wrong_with_ends(const Outline& outline, const Outline& made) {
   if (outline.closed() != made.closed()) return "closed became open, or open closed";
   if (!outline.closed() && !(made.start == outline.start)) return "the open start was moved";
-  if (!outline.closed() && !(made.segments.back().to == outline.segments.back().to)) return "the open end was moved";
+  if (!outline.closed() && !(made.segments.back().to == outline.segments.back().to))
+    return "the open end was moved";
   for (std::size_t i = 0; i < made.segments.size(); ++i)
-    if (distance(made.point(i), made.point(i + 1)) < 1e-9) return fmt::format("element {} has no length", i + 1);
+    if (distance(made.point(i), made.point(i + 1)) < 1e-9)
+      return fmt::format("element {} has no length", i + 1);
   return "";
 }
 
@@ -58,9 +63,11 @@ std::string wrong_with_corner(const Piece& in, const Piece& out, double request,
   const Point2 first = made.start, last = made.segments.back().to;
   if (in.off(first) > slack) return "begins beside the arriving segment";
   if (out.off(last) > slack) return "ends beside the leaving segment";
-  if (in.along(first) < -slack) return fmt::format("begins {:g} before the arriving segment", -in.along(first));
+  if (in.along(first) < -slack)
+    return fmt::format("begins {:g} before the arriving segment", -in.along(first));
   if (in.along(first) > in.length + slack) return "begins beyond the corner";
-  if (out.along(last) > out.length + slack) return fmt::format("ends {:g} after the leaving segment", out.along(last));
+  if (out.along(last) > out.length + slack)
+    return fmt::format("ends {:g} after the leaving segment", out.along(last));
   if (out.along(last) < -slack) return "ends before the corner";
   std::vector<Piece> arcs;
   Point2 from = first;
@@ -71,9 +78,11 @@ std::string wrong_with_corner(const Piece& in, const Piece& out, double request,
   }
   if (arcs.size() != 1) return fmt::format("has {} arcs", arcs.size());
   // Rounding its coordinates moves the arc's middle against its chord, which its radius hangs on.
-  const double rounding = 8e-16 * std::max({std::abs(first.x), std::abs(first.y), std::abs(last.x), std::abs(last.y)});
+  const double rounding =
+      8e-16 * std::max({std::abs(first.x), std::abs(first.y), std::abs(last.x), std::abs(last.y)});
   const double rise = r * (1.0 - std::cos(0.5 * arcs[0].sweep));
-  if (std::abs(arcs[0].radius - r) > (1e-6 + rounding / rise) * r + 1e-9) return fmt::format("has radius {:.9g}, not {:.9g}", arcs[0].radius, r);
+  if (std::abs(arcs[0].radius - r) > (1e-6 + rounding / rise) * r + 1e-9)
+    return fmt::format("has radius {:.9g}, not {:.9g}", arcs[0].radius, r);
   return request > 0.0 ? wrong_with_smoothing(in, out, arcs[0]) : wrong_with_enlarging(in, made, arcs[0], r);
 }
 
@@ -83,11 +92,15 @@ std::string wrong_with_cut(const Outline& outline, const kerf::CutOutline& cut, 
   const std::size_t n = outline.segments.size();
   std::vector<const CornerReport*> of(n + 1, nullptr);
   for (const CornerReport& report : cut.corners) of[report.element] = &report;
-  const auto begin_of = [&](std::size_t i) { return of[i] && of[i]->count ? part_of(result, *of[i]).start : outline.point(i); };
+  const auto begin_of = [&](std::size_t i) {
+    return of[i] && of[i]->count ? part_of(result, *of[i]).start : outline.point(i);
+  };
   const auto end_of = [&](std::size_t i) {
     return of[i] && of[i]->count ? part_of(result, *of[i]).segments.back().to : outline.point(i);
   };
-  const auto piece_of = [&](std::size_t i) { return Piece(outline.point(i), outline.point(i + 1), outline.segments[i].via); };
+  const auto piece_of = [&](std::size_t i) {
+    return Piece(outline.point(i), outline.point(i + 1), outline.segments[i].via);
+  };
   // What is left of segment i between the corners at its ends; it must run forward.
   for (std::size_t i = 0; i < n; ++i) {
     const Piece whole = piece_of(i);

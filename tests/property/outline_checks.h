@@ -1,5 +1,5 @@
-// Geometric checks of cut outlines that share nothing with the code that cuts: a property must hold, whoever made the
-// result. Positions along a segment are arc lengths from its begin.
+// Geometric checks of cut outlines that share nothing with the code that cuts: a property must hold, whoever
+// made the result. Positions along a segment are arc lengths from its begin.
 #pragma once
 
 #include <algorithm>
@@ -15,9 +15,9 @@ namespace outline_checks {
 
 using kerf::Point2;
 
-inline constexpr double kSlack = 1e-6;     // mm, of positions
+inline constexpr double kSlack = 1e-6;      // mm, of positions
 inline constexpr double kTangent = 1.7e-5;  // radians, a thousandth of a degree
-inline constexpr double kFlat = 4e-3;      // radians: corners nearer to straight or to a fold are not judged
+inline constexpr double kFlat = 4e-3;       // radians: corners nearer to straight or to a fold are not judged
 
 inline Point2 unit(Point2 v) {
   const double n = std::hypot(v.x, v.y);
@@ -75,7 +75,8 @@ inline bool can_be_smoothed(const Piece& in, const Piece& out, double r) {
   std::vector<Point2> centres;
   const auto line_begin = [&](const Piece& p) { return p.from + (side * r) * left(p.direction); };
   if (!in.arc() && !out.arc()) {
-    const double k = cross(line_begin(out) - line_begin(in), out.direction) / cross(in.direction, out.direction);
+    const double k =
+        cross(line_begin(out) - line_begin(in), out.direction) / cross(in.direction, out.direction);
     centres.push_back(line_begin(in) + k * in.direction);
   } else if (in.arc() && out.arc()) {
     const Point2 between = out.centre - in.centre;
@@ -103,10 +104,12 @@ inline bool can_be_smoothed(const Piece& in, const Piece& out, double r) {
     const double t = p.along(foot);
     return t > kSlack && t < p.length - kSlack;
   };
-  return std::any_of(centres.begin(), centres.end(), [&](Point2 s) { return touches(in, s) && touches(out, s); });
+  return std::any_of(centres.begin(), centres.end(),
+                     [&](Point2 s) { return touches(in, s) && touches(out, s); });
 }
 
-/// What is wrong with a replaced corner: `made` are its points and arcs, from the one on `in` to the one on `out`.
+/// What is wrong with a replaced corner: `made` are its points and arcs, from the one on `in` to the one on
+/// `out`.
 std::string wrong_with_corner(const Piece& in, const Piece& out, double request, const kerf::Outline& made);
 /// What is wrong with a whole result; empty if nothing. `even` leaves corners sharp that could be cut.
 std::string wrong_with_cut(const kerf::Outline& outline, const kerf::CutOutline& cut, bool even);

@@ -1,11 +1,11 @@
 // Random outlines, cut and checked: corner count, kinds of neighbours, radii and sizes are drawn at random.
 //   property_outline [COUNT] [SEED]
-// Prints the seed, and each outline that fails as an outline file that `kerf outline` reads. Exit status 1 if any does.
+// Prints the seed, and each outline that fails as an outline file that `kerf outline` reads. Exit status 1 if
+// any does.
 #include <cstdio>
 #include <cstdlib>
-#include <random>
-
 #include <fmt/format.h>
+#include <random>
 
 #include "outline_checks.h"
 
@@ -29,7 +29,9 @@ Outline Drawer::outline() {
   const double size = sizes[static_cast<int>(in(0.0, 4.0))], largest = radii[static_cast<int>(in(0.0, 3.0))];
   const int corners = 2 + static_cast<int>(in(0.0, 10.0));
   const bool closed = corners > 2 && chance(0.5);
-  const auto request = [&] { return mm(chance(0.15) ? 0.0 : (chance(0.5) ? 1.0 : -1.0) * in(0.02, largest)); };
+  const auto request = [&] {
+    return mm(chance(0.15) ? 0.0 : (chance(0.5) ? 1.0 : -1.0) * in(0.02, largest));
+  };
   const auto place = [&] { return Point2{in(-size, size), in(-size, size)}; };
   Outline made;
   made.start = place();
@@ -50,8 +52,9 @@ Outline Drawer::outline() {
 }
 
 std::string file_text(const Outline& outline) {
-  std::string text = fmt::format("{{\"outlines\": [{{\"first\": {{\"at\": [{}, {}], \"corner\": {}}}, \"segments\": [",
-                                 outline.start.x, outline.start.y, outline.start_corner.mm());
+  std::string text =
+      fmt::format("{{\"outlines\": [{{\"first\": {{\"at\": [{}, {}], \"corner\": {}}}, \"segments\": [",
+                  outline.start.x, outline.start.y, outline.start_corner.mm());
   const char* comma = "";
   for (const Segment& s : outline.segments) {
     text += fmt::format("{}{{\"to\": [{}, {}], \"corner\": {}", comma, s.to.x, s.to.y, s.corner.mm());
@@ -78,8 +81,8 @@ int main(int argc, char** argv) {
     options.sharing = even ? EdgeSharing::even : EdgeSharing::in_order;
     Diagnostics diagnostics;
     const auto cut = cut_corners(outline, options, diagnostics);
-    const std::string wrong =
-        cut ? outline_checks::wrong_with_cut(outline, *cut, even) : "refused: " + to_string(diagnostics.list()[0]);
+    const std::string wrong = cut ? outline_checks::wrong_with_cut(outline, *cut, even)
+                                  : "refused: " + to_string(diagnostics.list()[0]);
     if (cut)
       for (const CornerReport& report : cut->corners) ++corners[static_cast<int>(report.outcome)];
     if (wrong.empty()) continue;

@@ -9,8 +9,8 @@ namespace {
 
 using kerf::Point2;
 
-/// A list or tuple whose items are looked at one by one. Its size is asked each time: a number's own conversion may
-/// run Python code that changes the list.
+/// A list or tuple whose items are looked at one by one. Its size is asked each time: a number's own
+/// conversion may run Python code that changes the list.
 class Items {
  public:
   explicit Items(PyObject* object) : object_(object), is_list_(PyList_Check(object)) {}
@@ -26,14 +26,16 @@ class Items {
 };
 
 bool is_number(PyObject* object) {
-  return PyFloat_Check(object) || PyLong_Check(object) || (PyNumber_Check(object) && !PyComplex_Check(object));
+  return PyFloat_Check(object) || PyLong_Check(object) ||
+         (PyNumber_Check(object) && !PyComplex_Check(object));
 }
 
 /// Reads the numbers of one element.
 class Row {
  public:
   Row(PyObject* object, Py_ssize_t element, const std::string& name) : element_(element), name_(name) {
-    if (!Items::fits(object)) refuse(std::string("a list or tuple of numbers is expected, not ") + Py_TYPE(object)->tp_name);
+    if (!Items::fits(object))
+      refuse(std::string("a list or tuple of numbers is expected, not ") + Py_TYPE(object)->tp_name);
     object_ = py::reinterpret_borrow<py::object>(object);
   }
   Py_ssize_t size() const { return Items(object_.ptr()).size(); }
@@ -48,7 +50,8 @@ class Row {
  private:
   [[noreturn]] void refuse(std::string text) const { throw Refusal{7001, name_, element_, std::move(text)}; }
   double convert(const py::object& item) const {
-    if (!is_number(item.ptr())) refuse(std::string("a number is expected, not ") + Py_TYPE(item.ptr())->tp_name);
+    if (!is_number(item.ptr()))
+      refuse(std::string("a number is expected, not ") + Py_TYPE(item.ptr())->tp_name);
     const double value = PyFloat_AsDouble(item.ptr());
     if (value == -1.0 && PyErr_Occurred() != nullptr) {
       PyErr_Clear();
@@ -72,7 +75,8 @@ Items items_of(PyObject* list, const FormatCodes& codes, const std::string& name
 
 [[noreturn]] void refuse_length(int code, const std::string& name, Py_ssize_t element, Py_ssize_t length,
                                 const char* expected) {
-  throw Refusal{code, name, element, std::string(expected) + " numbers are expected, not " + std::to_string(length)};
+  throw Refusal{code, name, element,
+                std::string(expected) + " numbers are expected, not " + std::to_string(length)};
 }
 
 /// A tuple of floats that the garbage collector need not look at (it would, at each seven hundredth).
@@ -121,7 +125,8 @@ kerf::Outline read_outline(PyObject* list, Format format, const FormatCodes& cod
       continue;
     }
     if (length != 2 + extra && length != 4 + extra)
-      refuse_length(extra == 1 ? codes.segment_a : codes.segment_b, name, i, length, extra == 1 ? "3 or 5" : "2 or 4");
+      refuse_length(extra == 1 ? codes.segment_a : codes.segment_b, name, i, length,
+                    extra == 1 ? "3 or 5" : "2 or 4");
     kerf::Segment& segment = outline.segments.emplace_back();
     const Py_ssize_t end = length - extra - 2;
     if (end == 2) segment.via = Point2{row(0), row(1)};
@@ -133,7 +138,8 @@ kerf::Outline read_outline(PyObject* list, Format format, const FormatCodes& cod
 
 kerf::Circle read_circle(PyObject* list, const FormatCodes& codes, const std::string& name) {
   const Row row(list, -1, name);
-  if (row.size() != 3) refuse_length(codes.circle_length, name, -1, row.size(), "3 (centre x, centre y, radius)");
+  if (row.size() != 3)
+    refuse_length(codes.circle_length, name, -1, row.size(), "3 (centre x, centre y, radius)");
   const kerf::Circle circle{{row(0), row(1)}, kerf::mm(row(2))};
   if (!finite(circle.centre) || !std::isfinite(circle.radius.mm()))
     throw Refusal{7002, name, -1, "a number is not finite"};
@@ -146,7 +152,8 @@ kerf::Curve read_curve(PyObject* list, const FormatCodes& codes, const std::stri
   curve.reserve(static_cast<std::size_t>(items.size()));
   for (Py_ssize_t i = 0; i < items.size(); ++i) {
     const Row row(items[i], i, name);
-    if (row.size() != 3) refuse_length(i == 0 ? codes.first_length : codes.segment_a, name, i, row.size(), "3");
+    if (row.size() != 3)
+      refuse_length(i == 0 ? codes.first_length : codes.segment_a, name, i, row.size(), "3");
     const double x = row(0), y = row(1), heading = row(2);
     curve.push_back({{x, y}, kerf::radians(heading)});
   }

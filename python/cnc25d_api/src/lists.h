@@ -1,9 +1,8 @@
-// Outlines as Python lists: the formats A, B and C and circles of cnc25d_api, read and made with Python's C interface
-// (a list of ten thousand corners must not cost more than the geometry).
+// Outlines as Python lists: the formats A, B and C and circles of cnc25d_api, read and made with Python's C
+// interface (a list of ten thousand corners must not cost more than the geometry).
 #pragma once
 
 #include <pybind11/pybind11.h>
-
 #include <string>
 
 #include "kerf/outline.h"
@@ -40,8 +39,8 @@ py::list make_list(const kerf::Outline& outline, Format format = Format::b);
 py::list make_list(const kerf::Curve& curve);
 py::list make_list(const kerf::Circle& circle);
 
-/// Points of an outline closer than this are one: a hundred thousand millionth of its size, and never less than what
-/// rounding does to its coordinates.
+/// Points of an outline closer than this are one: a hundred thousand millionth of its size, and never less
+/// than what rounding does to its coordinates.
 kerf::Tolerance tolerance_for(const kerf::Outline& outline);
 
 /// Refuses what is not finite, naming the element (for functions whose geometry does not check).

@@ -15,15 +15,15 @@ namespace {
 using kerf::Code;
 using kerf::SharpReason;
 
-PyObject* error_type = nullptr;  // OutlineError; never released, so that no destructor runs after the interpreter's end
+PyObject* error_type =
+    nullptr;  // OutlineError; never released, so that no destructor runs after the interpreter's end
 
-std::string quoted(const std::string& name) {
-  return name.empty() ? "outline" : "outline " + name;
-}
+std::string quoted(const std::string& name) { return name.empty() ? "outline" : "outline " + name; }
 
 void raise(const Refusal& refusal) {
-  std::string text = "ERR" + (refusal.code < 100 ? "0" + std::to_string(refusal.code) : std::to_string(refusal.code)) +
-                     ": Error, " + quoted(refusal.outline);
+  std::string text =
+      "ERR" + (refusal.code < 100 ? "0" + std::to_string(refusal.code) : std::to_string(refusal.code)) +
+      ": Error, " + quoted(refusal.outline);
   if (refusal.element >= 0) text += ", element " + std::to_string(refusal.element);
   text += ": " + refusal.text;
   py::object error = py::handle(error_type)(text);
@@ -75,8 +75,8 @@ class Messages {
       if (!about_corner(d.code)) add(warning_text(catalogue_number(d.code), d.message));
     }
     for (const Code code : diagnostics.dropped_codes())
-      add(warning_text(catalogue_number(code), "and " + std::to_string(diagnostics.dropped(code)) + " more: " +
-                                                   std::string(kerf::meaning_of(code))));
+      add(warning_text(catalogue_number(code), "and " + std::to_string(diagnostics.dropped(code)) +
+                                                   " more: " + std::string(kerf::meaning_of(code))));
   }
   py::list list() const { return list_; }
 
@@ -94,7 +94,8 @@ void add_corner_messages(Messages& messages, const kerf::Outline& outline, const
     if (++said > kMost) return;  // the rest is in the counts of the diagnostics
     const std::size_t i = report.element, n = outline.segments.size();
     const kerf::Length request = i == 0 ? outline.start_corner : outline.segments[i - 1].corner;
-    const int arcs = (outline.segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (outline.segments[i].via ? 1 : 0);
+    const int arcs =
+        (outline.segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (outline.segments[i].via ? 1 : 0);
     const int number = catalogue_number(report.reason, request < kerf::Length(), arcs);
     messages.add(warning_text(number, kerf::corner_message(report, request, name)));
   }
@@ -120,7 +121,8 @@ py::tuple cut(const py::object& list, const std::string& name, bool even, bool r
   const FormatCodes codes{.single = 202, .first_length = 564, .segment_a = 563};
   const kerf::Outline outline = read_outline(list.ptr(), Format::a, codes, name);
   if (outline.segments.empty()) throw Refusal{202, name, 0, "at least one segment is needed"};
-  if (outline.closed() && outline.segments.size() < 2) throw Refusal{203, name, 1, "a closed outline needs two segments"};
+  if (outline.closed() && outline.segments.size() < 2)
+    throw Refusal{203, name, 1, "a closed outline needs two segments"};
   require_finite(outline, name);
   kerf::CornerOptions options;
   options.tolerance = tolerance_for(outline);
@@ -136,12 +138,14 @@ py::tuple cut(const py::object& list, const std::string& name, bool even, bool r
     messages.add(warning_text(static_cast<int>(Code::outline_malformed),
                               quoted(name) + ": its ends differ by " + std::to_string(gap) +
                                   ", so it counts as open; outline_close() closes it"));
-  return py::make_tuple(make_list(made->outline), messages.list(), report ? py::object(report_list(*made)) : py::none());
+  return py::make_tuple(make_list(made->outline), messages.list(),
+                        report ? py::object(report_list(*made)) : py::none());
 }
 
 kerf::CurveOptions curve_options(double precision, double least_radius, const std::string& name) {
   if (!std::isfinite(precision) || !std::isfinite(least_radius) || precision < 0.0)
-    throw Refusal{7002, name, -1, "precision and router_bit_request must be finite numbers, precision not below 0"};
+    throw Refusal{7002, name, -1,
+                  "precision and router_bit_request must be finite numbers, precision not below 0"};
   kerf::CurveOptions options;
   options.straight = kerf::radians(precision);
   options.least_radius = kerf::mm(least_radius);
@@ -183,7 +187,8 @@ py::tuple smooth_b(const py::object& list, double precision, double least_radius
   points.reserve(outline.elements());
   for (std::size_t i = 0; i < outline.elements(); ++i) {
     if (i > 0 && outline.segments[i - 1].via)
-      throw Refusal{319, name, static_cast<Py_ssize_t>(i), "2 numbers are expected, not 4: a curve has no arcs yet"};
+      throw Refusal{319, name, static_cast<Py_ssize_t>(i),
+                    "2 numbers are expected, not 4: a curve has no arcs yet"};
     points.push_back(outline.point(i));
   }
   kerf::Diagnostics diagnostics;
@@ -195,7 +200,8 @@ py::tuple smooth_b(const py::object& list, double precision, double least_radius
 
 /// One of the moves of a list that has a format of its own; "C" must be said, as it looks like A.
 template <class Move>
-py::list moved(const py::object& list, const std::string& format, const FormatCodes& codes, const Move& move) {
+py::list moved(const py::object& list, const std::string& format, const FormatCodes& codes,
+               const Move& move) {
   const std::string name;
   if (format == "C") {
     const kerf::Curve curve = read_curve(list.ptr(), codes, name);
@@ -214,7 +220,8 @@ double finite(double value, const char* what) {
   return value;
 }
 
-py::list place(const py::object& list, double dx, double fx, double dy, double fy, const std::string& format) {
+py::list place(const py::object& list, double dx, double fx, double dy, double fy,
+               const std::string& format) {
   const kerf::Placement placement{{finite(dx, "the offset"), finite(dy, "the offset")},
                                   {finite(fx, "the factor"), finite(fy, "the factor")}};
   if (fx == 0.0 || fy == 0.0) throw Refusal{439, {}, -1, "a factor of 0 would flatten the outline"};
@@ -224,13 +231,16 @@ py::list place(const py::object& list, double dx, double fx, double dy, double f
 py::list rotate(const py::object& list, double x, double y, double angle, const std::string& format) {
   const kerf::Point2 centre{finite(x, "the centre"), finite(y, "the centre")};
   finite(angle, "the angle");
-  return moved(list, format, {}, [&](const auto& shape) { return rotated(shape, centre, kerf::radians(angle)); });
+  return moved(list, format, {},
+               [&](const auto& shape) { return rotated(shape, centre, kerf::radians(angle)); });
 }
 
 py::list reverse_curve(const py::object& list) {
   return moved(list, "C", {}, [&](const auto& shape) {
-    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, kerf::Curve>) return reversed(shape);
-    else return shape;
+    if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, kerf::Curve>)
+      return reversed(shape);
+    else
+      return shape;
   });
 }
 
@@ -245,7 +255,8 @@ kerf::Figure read_figure(const py::object& list) {
     const Format kind = format_of(item.ptr(), codes, name);
     if (kind == Format::circle) {
       const kerf::Circle circle = read_circle(item.ptr(), codes, name);
-      if (circle.radius <= kerf::Length()) throw Refusal{409, name, -1, "the radius of a circle is not above 0"};
+      if (circle.radius <= kerf::Length())
+        throw Refusal{409, name, -1, "the radius of a circle is not above 0"};
       figure.emplace_back(circle);
     } else {
       const kerf::Outline outline = read_outline(item.ptr(), kind, codes, name);
@@ -262,15 +273,18 @@ py::str figure_svg(const py::object& figure, const py::object& under, const std:
 
 py::str figure_dxf(const py::object& figure, bool polylines, const std::string& unit) {
   kerf::Drawing drawing;
-  if (unit == "inch") drawing.unit = kerf::DrawingUnit::inch;
-  else if (unit != "mm") throw Refusal{264, {}, -1, "unit must be 'mm' or 'inch', not '" + unit + "'"};
+  if (unit == "inch")
+    drawing.unit = kerf::DrawingUnit::inch;
+  else if (unit != "mm")
+    throw Refusal{264, {}, -1, "unit must be 'mm' or 'inch', not '" + unit + "'"};
   draw(drawing, 0, read_figure(figure),
        polylines ? kerf::OutlineEntities::polyline : kerf::OutlineEntities::pieces);
   return kerf::write_dxf(drawing);
 }
 
 kerf::SolidMesh solid_of(const py::object& list, double height, double chord) {
-  if (!(chord > 0.0) || !std::isfinite(chord)) throw Refusal{7002, {}, -1, "chord must be a finite number above 0"};
+  if (!(chord > 0.0) || !std::isfinite(chord))
+    throw Refusal{7002, {}, -1, "chord must be a finite number above 0"};
   kerf::Tolerance tolerance;
   tolerance.chord = kerf::mm(chord);
   kerf::Diagnostics diagnostics;
@@ -302,11 +316,13 @@ py::bytes figure_solid_file(const py::object& list, double height, double chord,
 }
 
 /// (centre x, centre y, radius, turn) or None for three points on a line.
-py::object arc_circle(std::pair<double, double> from, std::pair<double, double> via, std::pair<double, double> to) {
+py::object arc_circle(std::pair<double, double> from, std::pair<double, double> via,
+                      std::pair<double, double> to) {
   const kerf::Segment segment{{to.first, to.second}, kerf::Point2{via.first, via.second}, {}};
   const auto circle = kerf::arc_circle({from.first, from.second}, segment);
   if (!circle) return py::none();
-  return py::make_tuple(circle->centre.x, circle->centre.y, circle->radius, circle->turn == kerf::Turn::ccw ? 1 : -1);
+  return py::make_tuple(circle->centre.x, circle->centre.y, circle->radius,
+                        circle->turn == kerf::Turn::ccw ? 1 : -1);
 }
 
 /// "A", "B" or "circle", everything about the list checked.
@@ -328,10 +344,11 @@ PYBIND11_MODULE(_outline, m) {
   namespace py = pybind11;
   using namespace cnc25d;
   m.doc() = "The compiled part of cnc25d_api.";
-  error_type = PyErr_NewExceptionWithDoc("cnc25d_api.OutlineError",
-                                         "An outline is refused. `code` is the number of the message, `outline` the "
-                                         "name given to the call, `element` the index in the list or None.",
-                                         PyExc_ValueError, nullptr);
+  error_type =
+      PyErr_NewExceptionWithDoc("cnc25d_api.OutlineError",
+                                "An outline is refused. `code` is the number of the message, `outline` the "
+                                "name given to the call, `element` the index in the list or None.",
+                                PyExc_ValueError, nullptr);
   if (error_type == nullptr) throw py::error_already_set();
   m.add_object("OutlineError", error_type);
   py::register_local_exception_translator([](std::exception_ptr p) {

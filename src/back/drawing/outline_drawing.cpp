@@ -66,19 +66,17 @@ void set_widths(Drawing& drawing) {
   for (DrawingLayer& layer : drawing.layers) layer.line_width *= side > 0.0 ? kLineShare * side : 1.0;
 }
 
-DrawingLayer ideal_layer() {
-  return {"ideal", 30, {0xe0, 0x80, 0x10}, 1.0, LineKind::dashed};
-}
-DrawingLayer cut_layer() {
-  return {"cut", 1, {0xc0, 0x10, 0x20}, 1.5, LineKind::solid};
-}
+DrawingLayer ideal_layer() { return {"ideal", 30, {0xe0, 0x80, 0x10}, 1.0, LineKind::dashed}; }
+DrawingLayer cut_layer() { return {"cut", 1, {0xc0, 0x10, 0x20}, 1.5, LineKind::solid}; }
 
 }  // namespace
 
 void draw(Drawing& drawing, std::size_t layer, const Outline& outline, OutlineEntities as) {
   if (outline.segments.empty()) return;
-  if (as == OutlineEntities::pieces) draw_pieces(drawing, layer, outline);
-  else draw_polyline(drawing, layer, outline);
+  if (as == OutlineEntities::pieces)
+    draw_pieces(drawing, layer, outline);
+  else
+    draw_polyline(drawing, layer, outline);
 }
 
 void draw(Drawing& drawing, std::size_t layer, const Circle& circle) {
@@ -87,8 +85,10 @@ void draw(Drawing& drawing, std::size_t layer, const Circle& circle) {
 
 void draw(Drawing& drawing, std::size_t layer, const Figure& figure, OutlineEntities as) {
   for (const auto& shape : figure) {
-    if (const auto* outline = std::get_if<Outline>(&shape)) draw(drawing, layer, *outline, as);
-    else draw(drawing, layer, std::get<Circle>(shape));
+    if (const auto* outline = std::get_if<Outline>(&shape))
+      draw(drawing, layer, *outline, as);
+    else
+      draw(drawing, layer, std::get<Circle>(shape));
   }
 }
 

@@ -30,7 +30,8 @@ class Bounds {
   void operator()(const drawing::Text& text) { point(text.x, text.y); }
   void operator()(const drawing::Arc& arc) {
     const auto at = [&](double degrees) {
-      point(arc.x + arc.radius * std::cos(degrees * kDegree), arc.y + arc.radius * std::sin(degrees * kDegree));
+      point(arc.x + arc.radius * std::cos(degrees * kDegree),
+            arc.y + arc.radius * std::sin(degrees * kDegree));
     };
     at(arc.start);
     at(arc.end);

@@ -1,8 +1,8 @@
-// AutoCAD 2000 (AC1015) files, complete: strict readers refuse files without tables, owners and subclass markers.
+// AutoCAD 2000 (AC1015) files, complete: strict readers refuse files without tables, owners and subclass
+// markers.
 #include <cmath>
-#include <string_view>
-
 #include <fmt/format.h>
+#include <string_view>
 
 #include "kerf/drawing_files.h"
 #include "kerf/number.h"
@@ -16,7 +16,8 @@ constexpr int kDecimals = 10;
 std::string symbol(std::string_view name) {
   std::string made;
   for (const char c : name) {
-    const bool unfit = static_cast<unsigned char>(c) < ' ' || std::string_view("<>/\\\":;?*|=`,").find(c) < 14;
+    const bool unfit =
+        static_cast<unsigned char>(c) < ' ' || std::string_view("<>/\\\":;?*|=`,").find(c) < 14;
     made += unfit ? '_' : c;
   }
   return made.empty() ? "_" : made;
@@ -29,9 +30,20 @@ class DxfWriter {
 
  private:
   // Handles that other records refer to; the rest are counted on from kFirstFree.
-  enum Handle : unsigned { kBlockRecords = 1, kModel = 2, kPaper = 3, kLayers = 4, kLinetypes = 5, kRoot = 6,
-                           kGroups = 7, kStyles = 8, kFirstFree = 0x20 };
-  void tag(int group, std::string_view value) { fmt::format_to(std::back_inserter(out_), "{:>3}\n{}\n", group, value); }
+  enum Handle : unsigned {
+    kBlockRecords = 1,
+    kModel = 2,
+    kPaper = 3,
+    kLayers = 4,
+    kLinetypes = 5,
+    kRoot = 6,
+    kGroups = 7,
+    kStyles = 8,
+    kFirstFree = 0x20
+  };
+  void tag(int group, std::string_view value) {
+    fmt::format_to(std::back_inserter(out_), "{:>3}\n{}\n", group, value);
+  }
   void tag(int group, const std::string& value) { tag(group, std::string_view(value)); }
   void tag(int group, const char* value) { tag(group, std::string_view(value)); }
   void tag(int group, int value) { tag(group, std::to_string(value)); }
@@ -102,8 +114,10 @@ void DxfWriter::begin_table(std::string_view name, unsigned own, int count) {
 
 void DxfWriter::record(std::string_view type, std::string_view marker, unsigned own, unsigned table) {
   tag(0, type);
-  if (type == "DIMSTYLE") tag(105, fmt::format("{:X}", own));
-  else handle(own);
+  if (type == "DIMSTYLE")
+    tag(105, fmt::format("{:X}", own));
+  else
+    handle(own);
   owner(table);
   tag(100, "AcDbSymbolTableRecord");
   tag(100, marker);
@@ -298,7 +312,8 @@ std::string DxfWriter::write() {
   block(kPaper, "*Paper_Space");
   tag(0, "ENDSEC");
   section("ENTITIES");
-  for (const DrawingEntity& e : drawing_.entities) std::visit([&](const auto& s) { shape(s, e.layer); }, e.shape);
+  for (const DrawingEntity& e : drawing_.entities)
+    std::visit([&](const auto& s) { shape(s, e.layer); }, e.shape);
   tag(0, "ENDSEC");
   objects();
   tag(0, "EOF");
@@ -307,8 +322,6 @@ std::string DxfWriter::write() {
 
 }  // namespace
 
-std::string write_dxf(const Drawing& drawing) {
-  return DxfWriter(drawing).write();
-}
+std::string write_dxf(const Drawing& drawing) { return DxfWriter(drawing).write(); }
 
 }  // namespace kerf

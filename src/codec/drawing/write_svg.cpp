@@ -1,9 +1,8 @@
 // SVG 1.1 of a drawing, at its true size.
 #include <cmath>
+#include <fmt/format.h>
 #include <numbers>
 #include <string_view>
-
-#include <fmt/format.h>
 
 #include "kerf/drawing_files.h"
 #include "kerf/number.h"
@@ -18,11 +17,16 @@ constexpr double kMargin = 0.05;  // of the larger side, so that lines at the ed
 std::string escaped(std::string_view text) {
   std::string made;
   for (const char c : text) {
-    if (c == '&') made += "&amp;";
-    else if (c == '<') made += "&lt;";
-    else if (c == '>') made += "&gt;";
-    else if (c == '"') made += "&quot;";
-    else if (static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t') made += c;
+    if (c == '&')
+      made += "&amp;";
+    else if (c == '<')
+      made += "&lt;";
+    else if (c == '>')
+      made += "&gt;";
+    else if (c == '"')
+      made += "&quot;";
+    else if (static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t')
+      made += c;
   }
   return made;
 }
@@ -40,9 +44,7 @@ class SvgWriter {
   static std::string arc_to(double radius, bool large, bool ccw, double x, double y) {
     return fmt::format(" A{0},{0} 0 {1} {2} {3}", text(radius), large ? 1 : 0, ccw ? 0 : 1, at(x, y));
   }
-  void shape(const drawing::Line& line) {
-    path("M" + at(line.x1, line.y1) + " L" + at(line.x2, line.y2));
-  }
+  void shape(const drawing::Line& line) { path("M" + at(line.x1, line.y1) + " L" + at(line.x2, line.y2)); }
   void shape(const drawing::Arc& arc);
   void shape(const drawing::Circle& circle) {
     fmt::format_to(std::back_inserter(out_), "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", text(circle.x),
@@ -50,10 +52,11 @@ class SvgWriter {
   }
   void shape(const drawing::Polyline& line);
   void shape(const drawing::Text& label) {
-    fmt::format_to(std::back_inserter(out_),
-                   "<text x=\"{}\" y=\"{}\" font-size=\"{}\" font-family=\"sans-serif\" fill=\"currentColor\" "
-                   "stroke=\"none\">{}</text>\n",
-                   text(label.x), text(-label.y), text(label.height), escaped(label.text));
+    fmt::format_to(
+        std::back_inserter(out_),
+        "<text x=\"{}\" y=\"{}\" font-size=\"{}\" font-family=\"sans-serif\" fill=\"currentColor\" "
+        "stroke=\"none\">{}</text>\n",
+        text(label.x), text(-label.y), text(label.height), escaped(label.text));
   }
   void open();
   void layer(std::size_t index);
@@ -67,7 +70,8 @@ void SvgWriter::shape(const drawing::Arc& arc) {
   if (sweep <= 0.0) sweep += 360.0;
   if (sweep == 360.0) return shape(drawing::Circle{arc.x, arc.y, arc.radius});
   const auto on = [&](double degrees) {
-    return std::pair(arc.x + arc.radius * std::cos(degrees * kDegree), arc.y + arc.radius * std::sin(degrees * kDegree));
+    return std::pair(arc.x + arc.radius * std::cos(degrees * kDegree),
+                     arc.y + arc.radius * std::sin(degrees * kDegree));
   };
   const auto [x1, y1] = on(arc.start);
   const auto [x2, y2] = on(arc.end);
@@ -113,11 +117,12 @@ void SvgWriter::open() {
 void SvgWriter::layer(std::size_t index) {
   const DrawingLayer& layer = drawing_.layers[index];
   const std::string colour = fmt::format("#{:02x}{:02x}{:02x}", layer.rgb[0], layer.rgb[1], layer.rgb[2]);
-  const std::string dashes =
-      layer.line == LineKind::dashed ? fmt::format(" stroke-dasharray=\"{}\"", text(8.0 * layer.line_width)) : "";
+  const std::string dashes = layer.line == LineKind::dashed
+                                 ? fmt::format(" stroke-dasharray=\"{}\"", text(8.0 * layer.line_width))
+                                 : "";
   fmt::format_to(std::back_inserter(out_),
-                 "<g id=\"layer-{}\" fill=\"none\" stroke=\"{}\" color=\"{}\" stroke-width=\"{}\"{}>\n", index, colour,
-                 colour, text(layer.line_width), dashes);
+                 "<g id=\"layer-{}\" fill=\"none\" stroke=\"{}\" color=\"{}\" stroke-width=\"{}\"{}>\n",
+                 index, colour, colour, text(layer.line_width), dashes);
   out_ += "<title>" + escaped(layer.name) + "</title>\n";
   for (const DrawingEntity& entity : drawing_.entities)
     if (entity.layer == index) std::visit([&](const auto& s) { shape(s); }, entity.shape);
@@ -133,8 +138,6 @@ std::string SvgWriter::write() {
 
 }  // namespace
 
-std::string write_svg(const Drawing& drawing) {
-  return SvgWriter(drawing).write();
-}
+std::string write_svg(const Drawing& drawing) { return SvgWriter(drawing).write(); }
 
 }  // namespace kerf

@@ -1,9 +1,8 @@
 // Outline files: JSON to outlines, every value checked for its kind.
 #include <cmath>
-#include <optional>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -16,7 +15,8 @@ using Json = nlohmann::json;
 
 class OutlineFileReader {
  public:
-  OutlineFileReader(const std::string& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+  OutlineFileReader(const std::string& file, Diagnostics& diagnostics)
+      : file_(file), diagnostics_(diagnostics) {}
   std::vector<NamedOutline> read(const Json& root);
 
  private:
@@ -41,15 +41,17 @@ bool OutlineFileReader::keys(const Json& object, const std::vector<std::string>&
   for (const auto& item : object.items()) {
     bool found = false;
     for (const std::string& key : known) found = found || item.key() == key;
-    if (!found) return error(fmt::format("unknown key \"{}\"; expected: {}", item.key().substr(0, 40), list_text(known)));
+    if (!found)
+      return error(
+          fmt::format("unknown key \"{}\"; expected: {}", item.key().substr(0, 40), list_text(known)));
   }
   return true;
 }
 
 bool OutlineFileReader::point(const Json& object, const char* key, Point2& out) {
   const auto found = object.find(key);
-  const bool sound = found != object.end() && found->is_array() && found->size() == 2 && (*found)[0].is_number() &&
-                     (*found)[1].is_number();
+  const bool sound = found != object.end() && found->is_array() && found->size() == 2 &&
+                     (*found)[0].is_number() && (*found)[1].is_number();
   if (!sound) return error(fmt::format("\"{}\" must be two numbers, [x, y]", key));
   out = scale_ * Point2{(*found)[0].get<double>(), (*found)[1].get<double>()};
   return true;
@@ -77,7 +79,8 @@ bool OutlineFileReader::outline(const Json& object, Outline& out) {
   for (const Json& item : *segments) {
     Segment segment;
     place_ = fmt::format("{}segment {}: ", whole, out.segments.size() + 1);
-    if (!keys(item, {"to", "via", "corner"}) || !point(item, "to", segment.to) || !corner(item, segment.corner))
+    if (!keys(item, {"to", "via", "corner"}) || !point(item, "to", segment.to) ||
+        !corner(item, segment.corner))
       return false;
     Point2 via;
     if (item.contains("via")) {
@@ -90,16 +93,20 @@ bool OutlineFileReader::outline(const Json& object, Outline& out) {
   const auto closed_key = object.find("closed");
   if (closed_key == object.end()) return true;
   if (!closed_key->is_boolean()) return error("\"closed\" must be true or false");
-  if (closed_key->get<bool>()) out = closed(out);
-  else if (out.closed()) return error("\"closed\" is false, but the last point is the first");
+  if (closed_key->get<bool>())
+    out = closed(out);
+  else if (out.closed())
+    return error("\"closed\" is false, but the last point is the first");
   return true;
 }
 
 std::vector<NamedOutline> OutlineFileReader::read(const Json& root) {
   if (!keys(root, {"unit", "outlines"})) return {};
   const Json unit = root.value("unit", Json("mm"));
-  if (unit == "inch") scale_ = inch(1.0).mm();
-  else if (unit != "mm") return error("\"unit\" must be \"mm\" or \"inch\""), std::vector<NamedOutline>();
+  if (unit == "inch")
+    scale_ = inch(1.0).mm();
+  else if (unit != "mm")
+    return error("\"unit\" must be \"mm\" or \"inch\""), std::vector<NamedOutline>();
   const auto outlines = root.find("outlines");
   if (outlines == root.end() || !outlines->is_array() || outlines->empty())
     return error("\"outlines\" must be a list of at least one outline"), std::vector<NamedOutline>();

@@ -1,0 +1,323 @@
+// Corners of outlines: each kind by its geometry, each reason why one stays sharp, order of work, transforms.
+#include "kerf/outline.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace kerf {
+namespace {
+
+constexpr double kNear = 1e-9;
+
+Outline square(double side, double request) {
+  Outline outline;
+  outline.start_corner = mm(request);
+  for (const Point2 p : {Point2{side, 0}, {side, side}, {0, side}, {0, 0}})
+    outline.segments.push_back({p, std::nullopt, p == Point2{} ? Length() : mm(request)});
+  return outline;
+}
+
+/// An open outline of two segments with one corner at the origin.
+Outline corner(Point2 from, std::optional<Point2> via_in, double request, std::optional<Point2> via_out,
+               Point2 to) {
+  Outline outline;
+  outline.start = from;
+  outline.segments = {{{0, 0}, via_in, mm(request)}, {to, via_out, {}}};
+  return outline;
+}
+
+CutOutline cut(const Outline& outline, CornerOptions options = {}) {
+  Diagnostics diagnostics;
+  auto made = cut_corners(outline, options, diagnostics);
+  EXPECT_TRUE(made.has_value());
+  return made.value_or(CutOutline{});
+}
+
+/// The only diagnostic of cutting an outline.
+Diagnostic complaint(const Outline& outline, CornerOptions options = {}) {
+  Diagnostics diagnostics;
+  options.name = "plate";
+  cut_corners(outline, options, diagnostics);
+  EXPECT_EQ(diagnostics.list().size(), 1u);
+  return diagnostics.list().empty() ? Diagnostic{} : diagnostics.list()[0];
+}
+
+void expect_point(Point2 got, Point2 wanted) {
+  EXPECT_NEAR(got.x, wanted.x, kNear);
+  EXPECT_NEAR(got.y, wanted.y, kNear);
+}
+
+TEST(Corners, ASmoothedSquareKeepsItsArea) {
+  const CutOutline made = cut(square(10, 2));
+  ASSERT_EQ(made.corners.size(), 4u);
+  EXPECT_TRUE(made.outline.closed());
+  EXPECT_EQ(made.outline.segments.size(), 8u);
+  expect_point(made.outline.start, {0, 2});
+  for (const CornerReport& report : made.corners) {
+    EXPECT_EQ(report.outcome, CornerOutcome::smoothed);
+    const auto arc = arc_circle(made.outline.point(report.first), made.outline.segments[report.first]);
+    ASSERT_TRUE(arc);
+    EXPECT_NEAR(arc->radius, 2.0, kNear);
+    EXPECT_NEAR(arc->sweep.deg(), 90.0, 1e-6);
+    EXPECT_EQ(arc->turn, Turn::ccw);
+  }
+}
+
+TEST(Corners, EnlargingARightAngleMakesOneArcThroughTheCorner) {
+  const Outline made = cut(corner({-10, 0}, {}, -2, {}, {0, 10})).outline;
+  ASSERT_EQ(made.segments.size(), 3u);
+  const double reach = 2.0 * std::sqrt(2.0);
+  expect_point(made.segments[0].to, {-reach, 0});
+  ASSERT_TRUE(made.segments[1].via);
+  expect_point(*made.segments[1].via, {0, 0});
+  expect_point(made.segments[1].to, {0, reach});
+}
+
+TEST(Corners, EnlargingAnAcuteAngleMakesAChannelAsWideAsTheBit) {
+  // The two lines meet under 60 degrees, so the channel's walls start r / sin(30) from the corner.
+  const Outline made = cut(corner({-20, 0}, {}, -1, {}, {-10, 10 * std::sqrt(3.0)})).outline;
+  ASSERT_EQ(made.segments.size(), 5u);
+  expect_point(made.segments[0].to, {-2, 0});
+  EXPECT_FALSE(made.segments[1].via);
+  ASSERT_TRUE(made.segments[2].via);
+  EXPECT_FALSE(made.segments[3].via);
+  EXPECT_NEAR(distance(made.segments[1].to, made.segments[2].to), 2.0, kNear);
+  EXPECT_NEAR(distance(made.segments[0].to, made.segments[3].to), 2.0, kNear);
+}
+
+TEST(Corners, LineAndArcBothWaysRoundAreMirrorImages) {
+  const Outline one = corner({-30, 0}, {}, 2, Point2{-5, 8}, {-4, 20});
+  const Outline other = reversed(one);
+  const Outline a = cut(one).outline, b = reversed(cut(other).outline);
+  ASSERT_EQ(a.segments.size(), 3u);
+  ASSERT_EQ(b.segments.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) expect_point(a.segments[i].to, b.segments[i].to);
+}
+
+TEST(Corners, ArcsMeetTangentially) {
+  const CutOutline made = cut(corner({-17, 10}, Point2{-10, 3}, 2, Point2{10, 8}, {12, 20}));
+  ASSERT_EQ(made.corners.at(0).outcome, CornerOutcome::smoothed);
+  const auto in = arc_circle(made.outline.start, made.outline.segments[0]);
+  const auto bit = arc_circle(made.outline.point(1), made.outline.segments[1]);
+  const auto out = arc_circle(made.outline.point(2), made.outline.segments[2]);
+  ASSERT_TRUE(in && bit && out);
+  EXPECT_NEAR(bit->radius, 2.0, kNear);
+  // Circles touch where their centres are the sum or the difference of the radii apart.
+  const auto gap = [](const ArcCircle& a, const ArcCircle& b) {
+    const double d = distance(a.centre, b.centre);
+    return std::min(std::abs(d - a.radius - b.radius), std::abs(d - std::abs(a.radius - b.radius)));
+  };
+  EXPECT_NEAR(gap(*in, *bit), 0.0, kNear);
+  EXPECT_NEAR(gap(*out, *bit), 0.0, kNear);
+}
+
+TEST(Corners, AnEnlargedCornerOfArcsLetsTheBitReachIt) {
+  const CutOutline made = cut(corner({-17, 10}, Point2{-10, 3}, -2, Point2{10, 8}, {12, 20}));
+  ASSERT_EQ(made.corners.at(0).outcome, CornerOutcome::enlarged);
+  bool reached = false;
+  for (std::size_t i = 0; i < made.outline.segments.size(); ++i)
+    if (made.outline.segments[i].via == Point2{}) {
+      const auto bit = arc_circle(made.outline.point(i), made.outline.segments[i]);
+      reached = bit && std::abs(bit->radius - 2.0) < kNear;
+    }
+  EXPECT_TRUE(reached);
+}
+
+TEST(Corners, AnExactFitLeavesNoSegmentWithoutLength) {
+  const CutOutline made = cut(square(10, 5));
+  EXPECT_EQ(made.outline.segments.size(), 4u);  // four quarter circles
+  EXPECT_TRUE(made.outline.closed());
+}
+
+TEST(Corners, TheFirstCornerWinsAnEdgeThatIsTooShortForTwo) {
+  Diagnostics diagnostics;
+  const auto made = cut_corners(square(10, 6), {.name = "plate"}, diagnostics);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->corners[0].outcome, CornerOutcome::smoothed);
+  EXPECT_EQ(made->corners[1].outcome, CornerOutcome::sharp);
+  EXPECT_EQ(made->corners[2].outcome, CornerOutcome::smoothed);
+  EXPECT_EQ(made->corners[3].outcome, CornerOutcome::sharp);
+  EXPECT_EQ(diagnostics.warnings(), 2u);
+  EXPECT_NEAR(made->corners[1].largest.mm(), 4.0, 1e-5);
+  EXPECT_EQ(diagnostics.list()[0].code, Code::corner_too_large);
+  EXPECT_NE(diagnostics.list()[0].message.find("plate.1"), std::string::npos);
+  EXPECT_NE(diagnostics.list()[0].message.find("2 too large"), std::string::npos)
+      << diagnostics.list()[0].message;
+}
+
+TEST(Corners, SharedEvenlyTheResultDoesNotDependOnTheStart) {
+  Outline outline = square(10, 6);
+  outline.segments[0].corner = mm(4);
+  CornerOptions options{.sharing = EdgeSharing::even, .name = "plate"};
+  Diagnostics diagnostics;
+  const auto made = cut_corners(outline, options, diagnostics);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->corners[0].outcome, CornerOutcome::sharp);
+  EXPECT_EQ(made->corners[1].outcome, CornerOutcome::smoothed);  // 4 of 10: within its half
+  EXPECT_EQ(made->corners[0].reason, SharpReason::shared);
+  EXPECT_EQ(diagnostics.list()[0].code, Code::corner_shared);
+}
+
+TEST(Corners, EachReasonToStaySharpIsSaid) {
+  EXPECT_EQ(complaint(corner({-10, 0}, {}, 1, {}, {10, 0.001})).code, Code::corner_straight);
+  EXPECT_EQ(complaint(corner({-10, 0}, {}, 1, {}, {-10, 0.001})).code, Code::corner_folded);
+  EXPECT_EQ(complaint(corner({-1, 0}, {}, 5, {}, {0, 10})).code, Code::corner_too_large);
+  EXPECT_EQ(complaint(corner({0, 0}, {}, 1, {}, {0, 10})).code, Code::corner_no_neighbour);
+  EXPECT_EQ(complaint(corner({-1, 0}, {}, 1e-9, {}, {0, 10})).code, Code::corner_radius_tiny);
+  // A circle of radius 12 does not fit into an arc of radius 10.
+  EXPECT_EQ(complaint(corner({-30, 0}, {}, 12, Point2{10, 10}, {0, 20})).code, Code::corner_too_large);
+}
+
+TEST(Corners, ATangentPointNeverLiesOffItsLine) {
+  // The line is shorter than the corner needs; the arc is long enough.
+  const CutOutline made = cut(corner({-17, 10}, Point2{-10, 2.7}, 5, {}, {0, -1}));
+  EXPECT_EQ(made.corners.at(0).outcome, CornerOutcome::sharp);
+  EXPECT_GT(made.corners.at(0).largest.mm(), 0.0);
+  const Outline again = corner({-17, 10}, Point2{-10, 2.7}, made.corners[0].largest.mm(), {}, {0, -1});
+  EXPECT_EQ(cut(again).corners.at(0).outcome, CornerOutcome::smoothed);
+}
+
+TEST(Corners, RequestsAtOpenEndsAreIgnoredWithAWarning) {
+  Outline outline = corner({-10, 0}, {}, 1, {}, {0, 10});
+  outline.start_corner = mm(3);
+  EXPECT_EQ(complaint(outline).code, Code::outline_end_request);
+  outline = square(10, 1);
+  outline.segments.back().corner = mm(3);
+  EXPECT_EQ(complaint(outline).code, Code::outline_end_request);
+  EXPECT_EQ(outline.segments.back().corner, mm(3));
+}
+
+TEST(Corners, AStraightArcBecomesALineWithAWarning) {
+  const Outline outline = corner({-10, 0}, Point2{-5, 0}, 1, {}, {0, 10});
+  EXPECT_EQ(complaint(outline).code, Code::outline_arc_straight);
+  EXPECT_EQ(cut(outline).outline.segments.size(), 3u);
+}
+
+TEST(Corners, MalformedOutlinesAreRefusedByElement) {
+  EXPECT_EQ(complaint({}).code, Code::outline_malformed);
+  Outline outline = square(10, 1);
+  outline.segments[2].to.x = std::nan("");
+  const Diagnostic d = complaint(outline);
+  EXPECT_EQ(d.code, Code::outline_not_finite);
+  EXPECT_NE(d.message.find("\"plate\", element 3"), std::string::npos) << d.message;
+  outline = square(10, 1);
+  outline.segments[1].corner = mm(std::numeric_limits<double>::infinity());
+  EXPECT_EQ(complaint(outline).code, Code::outline_not_finite);
+  EXPECT_EQ(complaint(corner({0, 0}, Point2{5, 5}, 0, {}, {0, 10})).code, Code::outline_arc_undetermined);
+}
+
+TEST(Corners, ScalingEverythingScalesTheResult) {
+  const Outline small = square(10, 2);
+  CornerOptions options;
+  const Outline one = cut(small, options).outline;
+  const Placement scale{{}, {1e-3, 1e-3}};
+  Outline tiny = placed(small, scale);
+  tiny.start_corner = 1e-3 * tiny.start_corner;
+  for (Segment& s : tiny.segments) s.corner = 1e-3 * s.corner;
+  options.tolerance.weld = 1e-3 * options.tolerance.weld;
+  const Outline other = cut(tiny, options).outline;
+  ASSERT_EQ(one.segments.size(), other.segments.size());
+  for (std::size_t i = 0; i < one.segments.size(); ++i)
+    expect_point(1e3 * other.segments[i].to, one.segments[i].to);
+}
+
+TEST(Transforms, MirroringKeepsTheSenseAndReversingTwiceGivesTheSame) {
+  const Outline outline = corner({-17, 10}, Point2{-10, 2.7}, 5, {}, {0, -1});
+  EXPECT_EQ(reversed(reversed(outline)), outline);
+  EXPECT_EQ(reversed(reversed(square(10, 2))), square(10, 2));
+  const Outline mirrored = placed(square(10, 2), {{100, 0}, {-1, 1}});
+  expect_point(mirrored.point(1), {100, 10});
+  EXPECT_TRUE(closed(outline).closed());
+  EXPECT_EQ(ideal(square(10, 2)), square(10, 0));
+}
+
+TEST(Transforms, ACurveTurnsItsTangents) {
+  const Curve curve{{{0, 0}, radians(0.5)}, {{10, 0}, radians(-0.5)}};
+  const Curve turned = rotated(curve, {0, 0}, degrees(90));
+  EXPECT_NEAR(turned[0].heading.rad(), 0.5 + std::numbers::pi / 2, kNear);
+  const Curve back = reversed(curve);
+  EXPECT_NEAR(back[0].heading.rad(), std::numbers::pi - 0.5, kNear);
+  // Mirrored in x it runs the other way, so that its order is turned round: the shape stays.
+  const Curve mirrored = placed(curve, {{0, 0}, {-1, 1}});
+  expect_point(mirrored[0].at, {-10, 0});
+  EXPECT_NEAR(mirrored[0].heading.rad(), 0.5, kNear);
+}
+
+TEST(Transforms, ACircleIsScaledWithItsFigure) {
+  EXPECT_EQ(placed(Circle{{5, 7}, mm(3)}, {{0, 0}, {2, -2}}), (Circle{{10, -14}, mm(6)}));
+}
+
+// ---- curves
+
+Curve circle_samples(double r, int count) {
+  Curve curve;
+  for (int i = 0; i <= count; ++i) {
+    const double t = 2.0 * std::numbers::pi * (i % count) / count;
+    curve.push_back({{r * std::cos(t), r * std::sin(t)}, radians(t + std::numbers::pi / 2)});
+  }
+  return curve;
+}
+
+TEST(Curves, SamplesOfACircleGiveArcsOfItsRadius) {
+  for (const int count : {4, 12, 499, 501, 900}) {  // beyond 499 the original gives up
+    Diagnostics diagnostics;
+    const auto made = smooth_curve(circle_samples(10, count), {}, diagnostics);
+    ASSERT_TRUE(made) << count;
+    EXPECT_EQ(made->segments.size(), 2u * static_cast<std::size_t>(count));
+    for (std::size_t i = 0; i < made->segments.size(); ++i) {
+      const auto arc = arc_circle(made->point(i), made->segments[i]);
+      ASSERT_TRUE(arc);
+      EXPECT_NEAR(arc->radius, 10.0, 1e-5);
+    }
+  }
+}
+
+TEST(Curves, AClosedCurveWithoutTangentsIsSmoothAtItsSeam) {
+  std::vector<Point2> points;
+  for (const CurvePoint& p : circle_samples(10, 6)) points.push_back(p.at);
+  points.back() = points.front();
+  Diagnostics diagnostics;
+  const auto curve = guess_headings(points, {}, diagnostics);
+  ASSERT_TRUE(curve);
+  const auto made = smooth_curve(*curve, {}, diagnostics);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->segments.size(), 12u);
+  EXPECT_TRUE(made->closed());
+  EXPECT_EQ(diagnostics.warnings(), 0u);
+}
+
+Code code_of_curve(const Curve& curve, CurveOptions options = {}) {
+  Diagnostics diagnostics;
+  smooth_curve(curve, options, diagnostics);
+  EXPECT_FALSE(diagnostics.list().empty());
+  return diagnostics.list().empty() ? Code{} : diagnostics.list()[0].code;
+}
+
+TEST(Curves, EachComplaintHasItsCode) {
+  EXPECT_EQ(code_of_curve({{{0, 0}, {}}}), Code::curve_malformed);
+  EXPECT_EQ(code_of_curve({{{0, 0}, {}}, {{0, 0}, {}}}), Code::curve_malformed);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(2)}, {{10, 0}, radians(-0.5)}}), Code::curve_turns_fast);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(1.2)}, {{10, 0}, radians(-0.5)}}), Code::curve_turns_much);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.001)}, {{10, 0}, radians(-0.5)}}), Code::curve_piece_straight);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(0.5)}}), Code::curve_inflexion);
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(-0.5)}}, {.least_radius = mm(50)}),
+            Code::curve_radius_small);
+  EXPECT_EQ(code_of_curve({{{0, std::nan("")}, {}}, {{10, 0}, {}}}), Code::outline_not_finite);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(guess_headings({{0, 0}, {10, 0}, {2, 4}}, {}, diagnostics));
+  EXPECT_EQ(diagnostics.list()[0].code, Code::curve_turns_fast);
+}
+
+TEST(Curves, MillionsOfSharpCornersCostFewMessages) {
+  Outline outline;
+  for (int i = 1; i <= 2000; ++i)
+    outline.segments.push_back({{1.0 * i, i % 2 == 0 ? 0.0 : 1.0}, std::nullopt, mm(i < 2000 ? 50 : 0)});
+  Diagnostics diagnostics;
+  ASSERT_TRUE(cut_corners(outline, {}, diagnostics));
+  EXPECT_EQ(diagnostics.warnings(), 1999u);
+  EXPECT_LE(diagnostics.list().size(), 50u);
+}
+
+}  // namespace
+}  // namespace kerf
