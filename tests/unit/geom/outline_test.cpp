@@ -166,7 +166,7 @@ TEST(Corners, EachReasonToStaySharpIsSaid) {
   EXPECT_EQ(complaint(corner({0, 0}, {}, 1, {}, {0, 10})).code, Code::corner_no_neighbour);
   EXPECT_EQ(complaint(corner({-1, 0}, {}, 1e-9, {}, {0, 10})).code, Code::corner_radius_tiny);
   // A circle of radius 12 does not fit into an arc of radius 10.
-  EXPECT_EQ(complaint(corner({-30, 0}, {}, 12, Point2{10, 10}, {0, 20})).code, Code::corner_too_large);
+  EXPECT_EQ(complaint(corner({-30, 0}, {}, 12, Point2{-3, 7}, {-10, 10})).code, Code::corner_too_large);
 }
 
 TEST(Corners, ATangentPointNeverLiesOffItsLine) {
