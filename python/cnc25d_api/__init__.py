@@ -1,6 +1,7 @@
 """cnc25d_api: outlines whose corners a router bit can make, curves as arcs, and figures of outlines.
 
-The functions have the names, arguments and list formats of Cnc25D's outline interface; the geometry is Kerf's.
+The functions have the names, arguments and list formats of Cnc25D's outline interface; the geometry is
+Kerf's.
 
 Formats (lists or tuples, lengths in one unit of the user's choice, angles in radians):
 
@@ -12,8 +13,9 @@ figure   [outline, outline, ...]          the first is the outside of a part, th
 
 `rbrr`, the router-bit radius request of a corner: 0 leaves it, above 0 smooths it, below 0 enlarges it.
 
-No function changes its arguments, none stops the process. What cannot be done is a warning on `sys.stdout` (a line
-that begins with WARN and its number) where a useful answer remains, and the exception `OutlineError` where none does.
+No function changes its arguments, none stops the process. What cannot be done is a warning on
+`sys.stdout` (a line that begins with WARN and its number) where a useful answer remains, and the
+exception `OutlineError` where none does.
 """
 
 from . import _outline
@@ -79,15 +81,15 @@ def cnc_cut_outline(outline, error_msg_id="", *, fair=False):
     error_msg_id : str
         Names the outline in messages; corner 3 of "plank" is called "plank.3".
     fair : bool
-        Who gets an edge that is too short for the corners at both of its ends. False: the corner of the smaller
-        number. True: half of the edge is each one's own, so that the result does not depend on where the outline
-        begins.
+        Who gets an edge that is too short for the corners at both of its ends. False: the corner of the
+        smaller number. True: half of the edge is each one's own, so that the result does not depend on
+        where the outline begins.
 
     Returns
     -------
     list of tuple, format B
-        Arcs have their passing point in the middle. A corner that cannot be cut stays sharp; the warning names it,
-        says why, and by how much the radius is too large.
+        Arcs have their passing point in the middle. A corner that cannot be cut stays sharp; the warning
+        names it, says why, and by how much the radius is too large.
 
     Raises
     ------
@@ -107,8 +109,8 @@ def corner_reports(outline, error_msg_id="", *, fair=False):
     -------
     list of dict
         `element` of the input; `outcome` ('smoothed', 'enlarged' or 'sharp'); `reason` where it stays sharp;
-        `largest`, the largest radius that would fit there; `first` and `count`, the elements of the result that
-        replace it.
+        `largest`, the largest radius that would fit there; `first` and `count`, the elements of the
+        result that replace it.
     """
     return _outline.cut(outline, str(error_msg_id), bool(fair), True)[2]
 

@@ -17,8 +17,11 @@ def cnc_cut_figure(figure, error_figure_id="", *, fair=False):
     Outline k is called "<error_figure_id>.ol<k>" in messages.
     """
     from . import cnc_cut_outline
-    return [cnc_cut_outline(outline, f"{error_figure_id}.ol{k}", fair=fair) if _format(outline) == "A" else outline
-            for k, outline in enumerate(figure)]
+    made = []
+    for k, outline in enumerate(figure):
+        is_wish = _format(outline) == "A"
+        made.append(cnc_cut_outline(outline, f"{error_figure_id}.ol{k}", fair=fair) if is_wish else outline)
+    return made
 
 
 def ideal_figure(figure, error_figure_id=""):
@@ -35,7 +38,8 @@ def rotate_and_translate_figure(figure, center_x, center_y, rotation_angle, tran
 
 def flip_rotate_and_translate_figure(figure, zero_x, zero_y, size_x, size_y, flip_x, flip_y, rotation_angle,
                                      translate_x, translate_y):
-    """Flip a figure of a given corner and size about its middle, turn it, and shift its corner to (translate_x, _y).
+    """Flip a figure of a given corner and size about its middle, turn it, and shift its corner to
+    (translate_x, _y).
 
     flip_x, flip_y are 1 or -1.
     """
@@ -51,8 +55,8 @@ def flip_rotate_and_translate_figure(figure, zero_x, zero_y, size_x, size_y, fli
 def figure_simple_display(figure, overlay_figure=(), parameter_info="", *, filename=None):
     """Draw a figure (red) over another one (orange, dashed): the cut figure over the ideal one.
 
-    No window is opened, so that it works everywhere: an SVG file is written and its name printed; any browser shows
-    it.
+    No window is opened, so that it works everywhere: an SVG file is written and its name printed; any
+    browser shows it.
 
     Parameters
     ----------

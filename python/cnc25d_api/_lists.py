@@ -27,11 +27,11 @@ def outline_shift_y(outline, y_offset, y_factor, *, outline_format=None):
 def outline_shift_xy(outline, x_offset, x_factor, y_offset, y_factor, *, outline_format=None):
     """Shift, scale or mirror an outline (format A, B or a circle; format C with outline_format="C").
 
-    A mirrored outline is also reversed, so that its sense stays. Requests stay as they are. The radius of a circle is
-    scaled; where the factors differ in size a warning says that it stays a circle.
+    A mirrored outline is also reversed, so that its sense stays. Requests stay as they are. The radius of
+    a circle is scaled; where the factors differ in size a warning says that it stays a circle.
 
-    Format C looks like format A, three numbers an element. Only with `outline_format="C"` are its inclinations
-    mirrored and reversed with the points.
+    Format C looks like format A, three numbers an element. Only with `outline_format="C"` are its
+    inclinations mirrored and reversed with the points.
 
     Raises
     ------
@@ -40,12 +40,12 @@ def outline_shift_xy(outline, x_offset, x_factor, y_offset, y_factor, *, outline
     """
     made = _outline.place(outline, x_offset, x_factor, y_offset, y_factor, outline_format or "")
     if made and not isinstance(made[0], tuple) and abs(x_factor) != abs(y_factor):
-        warn(358, f"factors {x_factor} and {y_factor} would make an ellipse: a circle of their mean radius is made")
+        warn(358, f"factors {x_factor} and {y_factor} would make an ellipse: a circle is made")
     return made
 
 
 def outline_rotate(outline, center_x, center_y, rotation_angle, *, outline_format=None):
-    """Turn an outline about a point by an angle in radians (format C with outline_format="C": inclinations, too)."""
+    """Turn an outline about a point by an angle in radians (with outline_format="C": inclinations, too)."""
     return _outline.rotate(outline, center_x, center_y, rotation_angle, outline_format or "")
 
 
@@ -78,7 +78,7 @@ def outline_reverse(outline, *, outline_format=None):
     requests = [() if kind == "B" else (row[-1],) for row in outline]
     if kind == "A" and ends[0] == ends[-1]:
         if requests[-1] != (0,):
-            warn(567, f"the last router_bit request of the closed outline is not set to zero: {requests[-1][0]}")
+            warn(567, f"the last request of the closed outline is not zero: {requests[-1][0]}")
         requests = [(0,)] + requests[1:-1] + [requests[0]]
     made = [ends[-1] + requests[-1]]
     for i in range(len(outline) - 1, 0, -1):
@@ -88,8 +88,8 @@ def outline_reverse(outline, *, outline_format=None):
 
 
 def ideal_outline(outline, error_mark_string=""):
-    """Format A or C without its last column: format B. Format B and circles come back as they are, with a warning."""
-    kind = _outline.check(outline, 868, 868)
+    """Format A or C without its last column: format B. Format B and circles come back as they are, with a
+    warning.""" kind = _outline.check(outline, 868, 868)
     if kind != "A":
         warn(441, f"{error_mark_string} is a circle or of format B already")
         return outline
@@ -99,11 +99,12 @@ def ideal_outline(outline, error_mark_string=""):
 def outline_arc_line(outline, backend="tkinter"):
     """An outline of format B (or a circle) as chords, for drawing: a list of (x1, y1, x2, y2).
 
-    There are twelve chords for each unit of radius in a full circle, and never less than three. Other backends than
-    "tkinter" drew into objects of other libraries: `write_figure_in_svg` and `write_figure_in_dxf` write files.
+    There are twelve chords for each unit of radius in a full circle, and never less than three. Other
+    backends than "tkinter" drew into objects of other libraries: `write_figure_in_svg` and
+    `write_figure_in_dxf` write files.
     """
     if backend != "tkinter":
-        raise refuse(264, f"backend {backend!r}: only 'tkinter' gives a list; files come from write_figure_in_svg/dxf")
+        raise refuse(264, f"backend {backend!r}: only 'tkinter' gives a list; see write_figure_in_svg")
     kind = _outline.check(outline, 237, 247)
     if kind == "circle":
         return _circle_chords(*outline)
@@ -142,6 +143,7 @@ def _arc_points(start, via, end):
         sweep = (turn * (math.atan2(stop[1] - y, stop[0] - x) - angle)) % (2 * math.pi)
         count = min(int(sweep / step), 100000)
         points += [(x + radius * math.cos(angle + turn * sweep * i / (count + 1)),
-                    y + radius * math.sin(angle + turn * sweep * i / (count + 1))) for i in range(1, count + 1)]
+                    y + radius * math.sin(angle + turn * sweep * i / (count + 1))) for i in range(1, count
+                    + 1)]
         points.append(stop)
     return points

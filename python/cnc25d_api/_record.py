@@ -1,4 +1,4 @@
-"""`kerf outline FILE.py` asks a script for its outlines: each that is cut is then noted in the file KERF_OUTLINES."""
+"""`kerf outline FILE.py` asks a script for its outlines: those that it cuts are noted in a file."""
 
 import atexit
 import json

@@ -12,8 +12,8 @@ def circle_of(a, b, c):
 
 
 def middle(row, start, a, b):
-    """A point in the middle of the part a..b of the segment that `row` describes, which begins at `start`; None for
-    a line."""
+    """A point in the middle of the part a..b of the segment that `row` describes, which begins at
+    `start`; None for a line."""
     if len(row) != 5:
         return None
     circle = circle_of(start, row[:2], row[2:4])

@@ -121,7 +121,8 @@ def test_numbers_of_other_types_are_taken():
 
 @pytest.mark.parametrize("bad, element", [
     (5, None), ("abc", None), ([], None), ([[0, 0, 0]], 0), ([[0, 0, 0], 5], 1), ([[0, 0, 0], "ab3"], 1),
-    ([[0, 0, 0], [1, [2], 0]], 1), ([[0, 0, 0], [1, None, 0]], 1), ([[0, 0, 0], [1, 1, 0], [1, float("nan"), 0]], 2),
+    ([[0, 0, 0], [1, [2], 0]], 1), ([[0, 0, 0], [1, None, 0]], 1),
+    ([[0, 0, 0], [1, 1, 0], [1, float("nan"), 0]], 2),
     ([[0, 0, 0], [1, 1, float("inf")]], 1), ([[0, 0, 0], [1, 10**400, 0]], 1), ([[0, 0, 0], {}], 1),
     ([[0, 0, 0], [1, 2, 3, 4, 5, 6]], 1), ([[0, 0, 0], [1j, 0, 0]], 1),
 ])
@@ -252,8 +253,8 @@ def test_the_example_is_written_and_runs(tmp_path):
     generate = [sys.executable, "-m", "cnc25d_api.example_generator", str(tmp_path)]
     assert subprocess.run(generate, capture_output=True).returncode == 0
     assert subprocess.run(generate, capture_output=True).returncode == 1  # not over a changed one
-    run = subprocess.run([sys.executable, tmp_path / "cnc25d_api_example.py", tmp_path / "out"], capture_output=True,
-                         text=True)
+    run = subprocess.run([sys.executable, tmp_path / "cnc25d_api_example.py", tmp_path / "out"],
+                         capture_output=True, text=True)
     assert run.returncode == 0, run.stderr
     assert "WARN" not in run.stdout, run.stdout
     assert {p.name for p in (tmp_path / "out").iterdir()} == {
