@@ -38,10 +38,41 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-void append_fixed(std::string& out, double value, int decimals) {
+char* write_fixed(char* out, double value, int decimals) {
+  constexpr int kMostDecimals = 15;
+  static constexpr double kPowers[kMostDecimals + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                        1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr double kLargest = 1125899906842624.0;  // 2^50: the scaled number and its fraction are then still exact enough
+  constexpr double kDoubt = 0x1p-51;               // more than the relative error of one multiplication
+  if (decimals < 0 || decimals > kMostDecimals) return nullptr;
+  const double scaled = std::fabs(value) * kPowers[decimals];
+  if (!(scaled < kLargest)) return nullptr;
+  auto digits = static_cast<std::uint64_t>(scaled);
+  const double fraction = scaled - static_cast<double>(digits);
+  // At a half the exact value decides, and that is not known here.
+  if (std::fabs(fraction - 0.5) <= scaled * kDoubt) return nullptr;
+  if (fraction > 0.5) ++digits;
+  if (std::signbit(value)) *out++ = '-';
+
+  char reversed[24];
+  char* end = reversed + sizeof reversed;
+  char* at = end;
+  for (int i = 0; i < decimals; ++i, digits /= 10) *--at = static_cast<char>('0' + digits % 10);
+  if (decimals > 0) *--at = '.';
+  do {
+    *--at = static_cast<char>('0' + digits % 10);
+    digits /= 10;
+  } while (digits != 0);
+  return std::copy(at, end, out);
+}
+
+void append_fixed(std::string& out, double value, int decimals, MinusZero zero) {
   const std::size_t start = out.size();
-  fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
-  if (out[start] == '-' && is_zero_text(std::string_view(out).substr(start))) out.erase(start, 1);
+  char fast[kFixedRoom];
+  if (const char* end = write_fixed(fast, value, decimals)) out.append(fast, static_cast<std::size_t>(end - fast));
+  else fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
+  if (zero == MinusZero::drop && out[start] == '-' && is_zero_text(std::string_view(out).substr(start)))
+    out.erase(start, 1);
 }
 
 void append_number(std::string& out, double value, int decimals) {
