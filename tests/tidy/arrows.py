@@ -10,7 +10,8 @@ from sources import CPP, files, finish, root_of
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 CODEC = {"codec_gcode", "codec_mesh", "codec_png"}
-FRONT = {"front_gcode", "front_tools", "front_stock"}
+FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock"}
+BACK = {"back_gcmc"}
 # What each module may include besides itself. There is no ring, as each line uses only lines above it.
 ALLOWED = {
     "base": set(),
@@ -20,11 +21,12 @@ ALLOWED = {
     "path": {"tool", "stock"} | GEOMETRY,
     **{codec: {"base"} for codec in CODEC},
     **{front: PATH | CODEC for front in FRONT},
+    **{back: PATH | CODEC for back in BACK},
     "sim": PATH,
-    "app": PATH | CODEC | FRONT | {"sim"},
-    "python": PATH | CODEC | FRONT | {"sim"},
+    "app": PATH | CODEC | FRONT | BACK | {"sim"},
+    "python": PATH | CODEC | FRONT | BACK | {"sim"},
 }
-OUTSIDE = PATH | CODEC | FRONT | {"sim"}  # benchmarks, fuzz targets and the WebAssembly smoke test
+OUTSIDE = PATH | CODEC | FRONT | BACK | {"sim"}  # benchmarks, fuzz targets and the WebAssembly smoke test
 PUBLIC = {
     "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
              "codes.def"],
@@ -34,6 +36,8 @@ PUBLIC = {
     "path": ["toolpath.h", "report.h", "check.h"],
     "sim": ["simulate.h"],
     "front_gcode": ["gcode.h"],
+    "front_gcmc": ["gcmc.h"],
+    "back_gcmc": ["gcmc_drawing.h"],
     "front_tools": ["tool_files.h"],
     "front_stock": ["stock_files.h"],
     "codec_mesh": ["mesh_files.h"],

@@ -166,18 +166,19 @@ int turns_of(const Call& call, int i) {
 
 /// The centre, seen from the begin, of the arc of radius |r| to (du, dv): the short way round for r > 0.
 Point2 arc_centre(const Call& call, double du, double dv, double radius, bool right_of_chord) {
-  const double chord = std::hypot(du, dv);
+  const double square = du * du + dv * dv;
+  const double chord = std::sqrt(square);
   if (chord < kEpsilon) {
     call.fail(Code::gcmc_geometry,
               fmt::format("{}() distance between start and endpoint zero ({:e})", call.name, chord));
   }
-  const double rise = radius * radius - chord * chord / 4.0;
+  const double rise = radius * radius - square / 4.0;
   if (rise < -kEpsilon) {
     call.fail(Code::gcmc_geometry,
               fmt::format("{}() radius ({:e}) is less than two times distance from start to end (D={:e})", call.name,
                           radius, rise));
   }
-  const double height = std::sqrt(std::max(rise, 0.0)) / chord;
+  const double height = std::sqrt(std::max(rise, 0.0) / square);
   const double side = right_of_chord ? 1.0 : -1.0;
   return {du / 2.0 + side * height * dv, dv / 2.0 - side * height * du};
 }

@@ -219,16 +219,21 @@ void Vm::do_need_target(const Instruction& in) {
   if (reference.target()->is_absent()) fail_unknown("Variable", reference.reference_name(), {});
 }
 
-Value& Vm::writable_target(const Value& reference) {
-  Value& target = *reference.target();
+/// What the reference in a slot refers to. A slot with a name is a parameter, whose own name is told too.
+Value& Vm::writable_target(std::int32_t reference) {
+  Value& target = *frame_[reference].target();
   if (!target.constant()) return target;
+  const std::string name = name_text(frame_[reference].reference_name());
+  if (reference >= running().variables)
+    fail(Code::gcmc_constant, fmt::format("Attempt to assign to const variable '{}'", name));
   fail(Code::gcmc_constant,
-       fmt::format("Attempt to assign to const variable '{}'", name_text(reference.reference_name())));
+       fmt::format("Attempt to assign to const variable '{}' (from '{}')",
+                   name_text(running().slot_names[static_cast<std::size_t>(reference)]), name));
 }
 
 void Vm::do_store(const Instruction& in) {
   const Value& v = present(in.a);
-  Value& target = writable_target(frame_[in.x]);
+  Value& target = writable_target(in.x);
   if (in.flags & kTakeA) target = std::move(frame_[in.a]);
   else target = v;
 }
@@ -249,7 +254,7 @@ void Vm::do_operate(const Instruction& in) {
 
 void Vm::do_apply(const Instruction& in) {
   const Value& b = present(in.a);
-  Value& target = writable_target(frame_[in.x]);
+  Value& target = writable_target(in.x);
   if (target.is_absent()) fail_unknown("Variable", frame_[in.x].reference_name(), {});
   if (&target == &b) {
     const Value copy = b;
@@ -296,7 +301,7 @@ void Vm::do_step(const Instruction& in) {
 
 void Vm::do_step_target(const Instruction& in) {
   do_need_target(in);
-  step_in(in, writable_target(frame_[in.a]));
+  step_in(in, writable_target(in.a));
 }
 
 // ---- elements
@@ -325,7 +330,7 @@ void Vm::do_set_element(const Instruction& in) {
   const Value& item = present(in.c);
   const Value& first = present(in.a);
   const Value* second = in.b == kNoOperand ? nullptr : &present(in.b);
-  Value& target = writable_target(frame_[in.x]);
+  Value& target = writable_target(in.x);
   if (target.is_absent()) fail_unknown("Variable", frame_[in.x].reference_name(), {});
   const Value copy = item;  // item may be the target itself
   set_element(*this, target, first, second, copy);
@@ -333,7 +338,7 @@ void Vm::do_set_element(const Instruction& in) {
 
 void Vm::do_step_element(const Instruction& in) {
   do_need_target(in);
-  Value& target = writable_target(frame_[in.a]);
+  Value& target = writable_target(in.a);
   const Value& first = present(in.b);
   const Value* second = in.c == kNoOperand ? nullptr : &present(in.c);
   Value v;

@@ -128,7 +128,7 @@ class Vm final : public Runtime {
   void do_wrong_count(const Instruction& in);
   Pc enter(const Instruction& in, Pc pc);
   Pc leave(const Instruction* in);
-  Value& writable_target(const Value& reference);
+  Value& writable_target(std::int32_t reference);
   void report(GcmcSaid said, Code code, std::string text, std::string hint);
 
   const Tree& tree_;

@@ -141,7 +141,7 @@ TEST(GcmcBuiltins, NormalizingNothingWarns) {
 TEST(GcmcBuiltins, MessagesAreLinesForOtherPrograms) {
   const auto ran = run("message(\"a\\n\", \"b\\n\");\nwarning(1);\nerror(\"bad \", 2mm); message();");
   ASSERT_EQ(ran.messages.size(), 4u);
-  EXPECT_EQ(to_line(ran.messages[0]), "t.gcmc:1:20: Runtime message(): a\nb");
+  EXPECT_EQ(to_line(ran.messages[0]), "t.gcmc:1:21: Runtime message(): a\nb");
   EXPECT_EQ(to_line(ran.messages[1]), "t.gcmc:2:10: Runtime warning(): 1");
   EXPECT_EQ(to_line(ran.messages[2]), "t.gcmc:3:18: Runtime error(): bad 2mm");
   EXPECT_EQ(to_line(ran.messages[3]), "t.gcmc:3:29: Runtime message(): ");

@@ -311,7 +311,7 @@ TEST(GcmcLanguage, PlacesAreThoseOfTheRealProgram) {
   EXPECT_EQ(at("message(__undefined ? 1 : 2);"), "1:21");
   EXPECT_EQ(at("x = [1] << 2in;"), "1:15");
   EXPECT_EQ(at("repeat([1]) {}"), "1:1");
-  EXPECT_EQ(at("message(~5mm);"), "1:10");
+  EXPECT_EQ(at("message(~5mm);"), "1:11");
   EXPECT_EQ(at("1+2;"), "1:5");
 }
 

@@ -72,7 +72,7 @@ TEST(GcmcText, BriefLeavesOutWhatIsInForce) {
                 "arc_cw([4, 2], 1); move([4, 3]);",
                 options)
                 .text,
-            "F10.000\nG0 X1.000 Y2.000 Z3.000\nZ4.000\nG1\nX2.000\nG2 X4.000 Y2.000 I1.000 J0.000\nG1 X4.000 Y3.000\n");
+            "F10.000\nG0 X1.000 Y2.000 Z3.000\nZ4.000\nG1\nX2.000\nG2 X4.000 Y2.000 I1.000 J0.000\nG1 Y3.000\n");
 }
 
 TEST(GcmcText, NumbersKeepTheirSignAndRounding) {
@@ -124,7 +124,7 @@ TEST(GcmcPath, EverythingElseHasItsStep) {
                        "comment(\"c\"); literal(\"G4\", \" P1\\nM9\"); layerstack(\"a\"); layer(\"a\"); feedmode(2); move([1], 2);"
                        "svg_closepath(); fixpos_store(1); goto([1,2,3,0,0,90]); fixpos_restore(1);");
   const Toolpath& p = ran.run.path;
-  ASSERT_EQ(p.size(), 17u);
+  ASSERT_EQ(p.size(), 16u);
   EXPECT_EQ(p[0].spindle().turn, SpindleTurn::ccw);
   EXPECT_DOUBLE_EQ(p[1].spindle().speed.rpm(), 50);
   EXPECT_EQ(p[1].spindle().turn, SpindleTurn::ccw);
