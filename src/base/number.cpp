@@ -17,6 +17,15 @@ bool is_zero_text(std::string_view text) {
   return text.find_first_of("123456789") == std::string_view::npos;
 }
 
+/// Writes two digits.
+inline void put_pair(char* at, std::uint64_t value) {
+  static constexpr char kPairs[] =
+      "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243444546474849"
+      "5051525354555657585960616263646566676869707172737475767778798081828384858687888990919293949596979899";
+  at[0] = kPairs[value * 2];
+  at[1] = kPairs[value * 2 + 1];
+}
+
 /// Distance of two words in insertions, deletions, replacements and swaps of neighbours, case left out.
 std::size_t slips_between(std::string_view a, std::string_view b) {
   auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -55,14 +64,17 @@ char* write_fixed(char* out, double value, int decimals) {
   if (std::signbit(value)) *out++ = '-';
 
   char reversed[24];
-  char* end = reversed + sizeof reversed;
+  char* const end = reversed + sizeof reversed;
   char* at = end;
-  for (int i = 0; i < decimals; ++i, digits /= 10) *--at = static_cast<char>('0' + digits % 10);
-  if (decimals > 0) *--at = '.';
-  do {
+  int left = decimals;
+  for (; left >= 2; left -= 2, digits /= 100) put_pair(at -= 2, digits % 100);
+  if (left == 1) {
     *--at = static_cast<char>('0' + digits % 10);
     digits /= 10;
-  } while (digits != 0);
+  }
+  if (decimals > 0) *--at = '.';
+  for (; digits >= 10; digits /= 100) put_pair(at -= 2, digits % 100);
+  if (digits != 0 || at == end || *at == '.') *--at = static_cast<char>('0' + digits);
   return std::copy(at, end, out);
 }
 

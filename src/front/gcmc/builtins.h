@@ -15,6 +15,7 @@ struct Call {
   std::string_view name;
   Value* arguments;
   int count;
+  bool value_used = true;   // nobody asks for the value otherwise
 
   Value& operator[](int i) const { return arguments[i]; }
   /// Argument `i` as a scalar, an error else; messages count arguments from 1.

@@ -104,7 +104,7 @@ void move_one(const Call& call, const Value& v, bool rapid, From from, double fe
 }
 
 Value moves(const Call& call, bool rapid, From from) {
-  const Value before = position_value(call, 3);
+  const Value before = call.value_used ? position_value(call, 3) : Value::undef();
   const double feed = call.count > 1 ? call.length(1) : 0.0;
   const Value& v = call[0];
   if (v.is_vector()) {

@@ -152,20 +152,38 @@ namespace {
 
 // ---- addition and its kin
 
+/// The operation on plain scalars, false where the language has more to say about it.
+inline bool plain_operation(Op op, Scalar a, Scalar b, Scalar& out) {
+  switch (op) {
+    case Op::add:
+    case Op::add_or: return add_plain(a, b, out);
+    case Op::sub:
+    case Op::sub_or: return subtract_plain(a, b, out);
+    case Op::mul: return multiply_plain(a, b, out);
+    case Op::div: return divide_plain(a, b, out);
+    default: return false;
+  }
+}
+
+inline Scalar coordinate_operation(Runtime& rt, Op op, Scalar a, Scalar b) {
+  Scalar out;
+  return plain_operation(op, a, b, out) ? out : scalar_operation(rt, op, a, b);
+}
+
 void vector_with_vector(Runtime& rt, Op op, Value& a, const Value& b) {
   const std::size_t count = std::max(a.vector_size(), b.vector_size());
   for (std::size_t i = 0; i < count; ++i)
-    a.set_coordinate(i, scalar_operation(rt, op, a.coordinate_or_undef(i), b.coordinate_or_undef(i)), rt.meter);
+    a.set_coordinate(i, coordinate_operation(rt, op, a.coordinate_or_undef(i), b.coordinate_or_undef(i)), rt.meter);
 }
 
 void vector_with_scalar(Runtime& rt, Op op, Value& a, Scalar b) {
   for (std::size_t i = 0; i < a.vector_size(); ++i)
-    a.set_coordinate(i, scalar_operation(rt, op, a.coordinate(i), b), rt.meter);
+    a.set_coordinate(i, coordinate_operation(rt, op, a.coordinate(i), b), rt.meter);
 }
 
 void scalar_with_vector(Runtime& rt, Op op, Scalar a, Value& b) {
   for (std::size_t i = 0; i < b.vector_size(); ++i)
-    b.set_coordinate(i, scalar_operation(rt, op, a, b.coordinate(i)), rt.meter);
+    b.set_coordinate(i, coordinate_operation(rt, op, a, b.coordinate(i)), rt.meter);
 }
 
 template <class Change>
@@ -554,15 +572,13 @@ void set_element(Runtime& rt, Value& target, const Value& first, const Value* se
 }
 
 void step_value(Runtime& rt, Value& v, bool down) {
-  const Scalar s = v.is_scalar() ? v.scalar() : Scalar{};
-  const std::int32_t by = down ? -1 : 1;
-  switch (s.kind()) {
-    case Kind::integer: v = Value::integer(wrap_add(s.p.i, by), s.unit()); return;
-    case Kind::real: v = Value::real(s.p.d + by, s.unit()); return;
-    case Kind::undef:
-      rt.warn(Code::gcmc_type, fmt::format("{} on non-scalar ({}) has no effect", down ? "Decrement" : "Increment",
-                                           type_name(v)));
+  Scalar stepped;
+  if (v.is_scalar() && step_plain(v.scalar(), down, stepped)) {
+    v = Value(stepped);
+    return;
   }
+  rt.warn(Code::gcmc_type,
+          fmt::format("{} on non-scalar ({}) has no effect", down ? "Decrement" : "Increment", type_name(v)));
 }
 
 }  // namespace kerf::gcmc

@@ -53,6 +53,35 @@ inline bool multiply_plain(Scalar a, Scalar b, Scalar& out) {
   return true;
 }
 
+/// Division of plain numbers; false as well where the divisor is, or may be, zero.
+inline bool divide_plain(Scalar a, Scalar b, Scalar& out) {
+  Unit unit;
+  if (!plain(a.tag, b.tag, unit)) return false;
+  if (a.unit() == b.unit()) unit = Unit::none;
+  if (both_integers(a.tag, b.tag)) {
+    if (b.p.i == 0 || b.p.i == -1) return false;
+    out = Scalar::integer(a.p.i / b.p.i, unit);
+    return true;
+  }
+  const double divisor = b.number();
+  if (!(divisor >= kEpsilon || divisor <= -kEpsilon)) return false;
+  out = Scalar::real(a.number() / divisor, unit);
+  return true;
+}
+inline bool modulo_plain(Scalar a, Scalar b, Scalar& out) {
+  Unit unit;
+  if (!plain(a.tag, b.tag, unit) || !both_integers(a.tag, b.tag) || b.p.i == 0 || b.p.i == -1) return false;
+  out = Scalar::integer(a.p.i % b.p.i, unit);
+  return true;
+}
+/// One more or one less; false for what is no number.
+inline bool step_plain(Scalar s, bool down, Scalar& out) {
+  if (s.kind() == Kind::integer) out = Scalar::integer(wrap_add(s.p.i, down ? -1 : 1), s.unit());
+  else if (s.kind() == Kind::real) out = Scalar::real(s.p.d + (down ? -1 : 1), s.unit());
+  else return false;
+  return true;
+}
+
 /// a op b of scalars, with all of the language's rules on units and undef.
 Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b);
 /// a = a op b of any values; `b` is not part of `a`. What only `a` owns is changed in place.

@@ -1,6 +1,8 @@
 // The writer of the gcmc text form.
 #include "front/gcmc/text_sink.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "kerf/number.h"
@@ -9,50 +11,58 @@ namespace kerf::gcmc {
 namespace {
 
 constexpr std::size_t kPiece = 1 << 16;  // bytes handed on at once
+constexpr std::size_t kLongestLine = 1 << 13;  // nine axes, offsets, feed: numbers of 330 digits at most
 constexpr std::string_view kLetters[] = {" X", " Y", " Z", " A", " B", " C", " U", " V", " W"};
 constexpr std::string_view kOffsets[] = {" I", " J", " K"};
 
 }  // namespace
 
-TextSink::TextSink(const GcmcOptions& options, GcmcOutput& output) : options_(options), output_(output) {
-  buffer_.reserve(kPiece + 1024);
-}
+TextSink::TextSink(const GcmcOptions& options, GcmcOutput& output)
+    : options_(options), output_(output), buffer_(new char[kPiece + kLongestLine]), at_(buffer_.get()) {}
 
 void TextSink::flush() {
-  if (!buffer_.empty()) output_.text(buffer_);
-  buffer_.clear();
+  const std::string_view piece(buffer_.get(), static_cast<std::size_t>(at_ - buffer_.get()));
+  if (!piece.empty()) output_.text(piece);
+  at_ = buffer_.get();
 }
 
-void TextSink::flush_if_full() {
-  if (buffer_.size() >= kPiece) flush();
+/// Before a line: there is room for the longest one afterwards.
+void TextSink::make_room() {
+  if (at_ >= buffer_.get() + kPiece) flush();
+}
+
+/// Text of any length.
+void TextSink::put(std::string_view text) {
+  make_room();
+  if (text.size() > kLongestLine) {
+    flush();
+    output_.text(text);
+    return;
+  }
+  at_ = std::copy(text.begin(), text.end(), at_);
 }
 
 void TextSink::line(std::string_view text) {
-  buffer_ += text;
-  buffer_ += '\n';
-  flush_if_full();
+  put(text);
+  end_line();
 }
 
 void TextSink::word(std::string_view letters, double value) {
-  const std::size_t had = buffer_.size();
-  buffer_.resize(had + letters.size() + kFixedRoom);
-  char* at = buffer_.data() + had;
-  for (char c : letters) *at++ = c;
-  char* end = write_fixed(at, value, options_.precision);
-  buffer_.resize(static_cast<std::size_t>((end != nullptr ? end : at) - buffer_.data()));
-  if (end == nullptr) append_fixed(buffer_, value, options_.precision, MinusZero::keep);
-}
-
-void TextSink::end_line() {
-  buffer_ += '\n';
-  flush_if_full();
+  for (char c : letters) *at_++ = c;
+  if (char* end = write_fixed(at_, value, options_.precision)) {
+    at_ = end;
+    return;
+  }
+  std::string slow;
+  append_fixed(slow, value, options_.precision, MinusZero::keep);
+  at_ = std::copy(slow.begin(), slow.end(), at_);
 }
 
 // ---- what stands around the program
 
 void TextSink::begin() {
   if (!options_.prologue.empty()) {
-    buffer_ += options_.prologue;
+    put(options_.prologue);
     return;
   }
   if (options_.frame == GcmcFrame::bare) return;
@@ -81,7 +91,7 @@ void TextSink::begin() {
 
 void TextSink::end() {
   if (!options_.epilogue.empty()) {
-    buffer_ += options_.epilogue;
+    put(options_.epilogue);
   } else if (options_.frame == GcmcFrame::subroutine) {
     line(fmt::format("o<{}> endsub", options_.subroutine));
     line(options_.subroutine_ends_program ? "M2" : "%");
@@ -96,13 +106,9 @@ void TextSink::end() {
 
 /// The words of a motion; brief text leaves out a word that is in force.
 void TextSink::begin_motion(std::string_view motion, bool modal) {
-  line_start_ = buffer_.size();
-  if (!options_.brief) {
-    buffer_ += motion;
-    return;
-  }
-  if (mode_ != motion) buffer_ += motion;
-  mode_ = modal ? std::string(motion) : std::string();
+  make_room();
+  if (!options_.brief || mode_ != motion) at_ = std::copy(motion.begin(), motion.end(), at_);
+  mode_ = modal ? motion : std::string_view();
 }
 
 void TextSink::axes(const Axes& to, unsigned named) {
@@ -117,13 +123,15 @@ void TextSink::axes(const Axes& to, unsigned named) {
 }
 
 void TextSink::move(const Move& m) {
+  make_room();
+  char* const start = at_;
   begin_motion(m.rapid ? "G0" : "G1", true);
   axes(m.to, m.named);
   if (m.feed > 0.0 && !(options_.brief && m.feed == feed_)) word(" F", m.feed);
   if (m.feed > 0.0) feed_ = m.feed;
   last_ = m.to;
-  if (options_.brief && buffer_.size() == line_start_) return;  // nothing changes: no line
-  if (options_.brief && buffer_[line_start_] == ' ') buffer_.erase(line_start_, 1);
+  if (at_ == start) return;  // brief, and nothing changes: no line
+  if (*start == ' ') at_ = std::copy(start + 1, at_, start);
   end_line();
 }
 
@@ -135,7 +143,7 @@ void TextSink::arc(const ArcMove& m) {
   const auto& plane = kPlaneAxes[static_cast<std::size_t>(m.plane)];
   word(kOffsets[plane[0]], m.offset.x);
   word(kOffsets[plane[1]], m.offset.y);
-  if (m.turns > 0) buffer_ += fmt::format(" P{}", m.turns);
+  if (m.turns > 0) at_ = fmt::format_to(at_, " P{}", m.turns);
   last_ = m.to;
   end_line();
 }
@@ -147,7 +155,7 @@ void TextSink::drill(const DrillCycle& m) {
   axes(m.to, m.named & 7u);
   word(" R", options_.relative ? m.retract - before[2] : m.retract);
   word(" Q", m.delta);
-  if (m.repeat > 0) buffer_ += fmt::format(" L{}", m.repeat);
+  if (m.repeat > 0) at_ = fmt::format_to(at_, " L{}", m.repeat);
   last_ = m.to;
   last_[2] = m.retract;
   forget();
@@ -158,7 +166,7 @@ void TextSink::broken_move(bool rapid) { line(rapid ? "G0" : "G1"); }
 
 void TextSink::forget() {
   known_ = 0;
-  mode_.clear();
+  mode_ = {};
 }
 
 // ---- state
@@ -166,6 +174,7 @@ void TextSink::forget() {
 void TextSink::feed_rate(double feed) {
   if (options_.brief && feed == feed_) return;
   feed_ = feed;
+  make_room();
   word("F", feed);
   end_line();
 }
@@ -178,12 +187,14 @@ void TextSink::feed_mode(int mode) {
 
 void TextSink::spindle(double speed) {
   if (speed == 0.0) return line("M5");
+  make_room();
   word("S", speed < 0.0 ? -speed : speed);
   end_line();
   line(speed > 0.0 ? "M3" : "M4");
 }
 
 void TextSink::spindle_speed(double speed) {
+  make_room();
   word("S", speed);
   end_line();
 }
@@ -202,12 +213,13 @@ void TextSink::tool_change(int tool, bool length_offset) {
 }
 
 void TextSink::dwell(double seconds) {
+  make_room();
   word("G4 P", seconds);
   end_line();
 }
 
 void TextSink::path_mode(bool exact, std::optional<double> p, std::optional<double> q) {
-  buffer_ += exact ? "G61" : "G64";
+  put(exact ? "G61" : "G64");
   if (p) word(" P", *p);
   if (q) word(" Q", *q);
   end_line();
@@ -221,23 +233,21 @@ void TextSink::plane(Plane plane) {
 }
 
 void TextSink::comment(std::string_view text) {
-  buffer_ += '(';
-  buffer_ += text;
-  buffer_ += ")\n";
-  flush_if_full();
+  put("(");
+  put(text);
+  put(")\n");
 }
 
 void TextSink::literal(std::string_view text) {
-  buffer_ += text;
+  put(text);
   forget();  // it may have set anything
   feed_ = -1.0;
-  flush_if_full();
 }
 
 void TextSink::store_position(bool second) { line(second ? "G30.1" : "G28.1"); }
 
 void TextSink::restore_position(bool second, const Axes& via, unsigned named, const Axes& end) {
-  buffer_ += second ? "G30" : "G28";
+  put(second ? "G30" : "G28");
   if (options_.brief) known_ = 0;
   axes(via, named);
   last_ = end;

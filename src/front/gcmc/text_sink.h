@@ -1,6 +1,7 @@
 // The text that the real program writes: every word of every call, no modal suppression unless asked for.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "kerf/gcmc.h"
@@ -38,21 +39,22 @@ class TextSink final : public Sink {
   void close_path() override {}
 
  private:
+  void make_room();
+  void put(std::string_view text);
   void line(std::string_view text);
   void word(std::string_view letters, double value);
   void axes(const Axes& to, unsigned named);
   void begin_motion(std::string_view word, bool modal);
-  void end_line();
-  void flush_if_full();
+  void end_line() { *at_++ = '\n'; }
   void forget();
 
   const GcmcOptions& options_;
   GcmcOutput& output_;
-  std::string buffer_;
+  std::unique_ptr<char[]> buffer_;
+  char* at_;               // where the next character goes
   Axes last_{};          // of the machine, offsets included
   unsigned known_ = 0;   // axes whose place the reader of the text knows (brief only)
-  std::string mode_;     // the motion word in force (brief only)
-  std::size_t line_start_ = 0;
+  std::string_view mode_;  // the motion word in force (brief only)
   double feed_ = -1.0;
 };
 

@@ -117,17 +117,9 @@ void Value::settle() {
 
 // ---- vectors
 
-std::size_t Value::vector_size() const {
-  return type_ == Type::vector ? count_ : static_cast<LongVector*>(c_[0].block)->items.size();
-}
+std::size_t Value::long_size() const { return static_cast<LongVector*>(c_[0].block)->items.size(); }
 
-Scalar Value::coordinate(std::size_t i) const {
-  if (type_ == Type::long_vector) return static_cast<LongVector*>(c_[0].block)->items[i];
-  Scalar s;
-  s.p = c_[i];
-  s.tag = tag_[i];
-  return s;
-}
+Scalar Value::long_coordinate(std::size_t i) const { return static_cast<LongVector*>(c_[0].block)->items[i]; }
 
 std::vector<Scalar> Value::coordinates() const {
   std::vector<Scalar> all(vector_size());
@@ -135,12 +127,7 @@ std::vector<Scalar> Value::coordinates() const {
   return all;
 }
 
-void Value::set_coordinate(std::size_t i, Scalar s, Meter& meter) {
-  if (type_ == Type::vector && i < 3) {
-    while (count_ <= i) tag_[count_++] = kUndefTag;
-    put(i, s.p, s.tag);
-    return;
-  }
+void Value::set_long_coordinate(std::size_t i, Scalar s, Meter& meter) {
   if (type_ == Type::vector) {
     std::vector<Scalar> all = coordinates();
     all.resize(i + 1);

@@ -168,11 +168,25 @@ class Value {
   }
 
   // Vectors
-  std::size_t vector_size() const;
-  Scalar coordinate(std::size_t i) const;
+  std::size_t vector_size() const { return type_ == Type::vector ? count_ : long_size(); }
+  Scalar coordinate(std::size_t i) const {
+    if (type_ == Type::long_vector) return long_coordinate(i);
+    Scalar s;
+    s.p = c_[i];
+    s.tag = tag_[i];
+    return s;
+  }
   /// Coordinate `i`, undef beyond the end.
   Scalar coordinate_or_undef(std::size_t i) const { return i < vector_size() ? coordinate(i) : Scalar{}; }
-  void set_coordinate(std::size_t i, Scalar s, Meter& meter);  // grows with undef
+  /// Sets coordinate `i`; what lies between it and the end becomes undef.
+  void set_coordinate(std::size_t i, Scalar s, Meter& meter) {
+    if (type_ == Type::vector && i < 3) {
+      while (count_ <= i) tag_[count_++] = kUndefTag;
+      put(i, s.p, s.tag);
+    } else {
+      set_long_coordinate(i, s, meter);
+    }
+  }
   std::vector<Scalar> coordinates() const;
   /// Begins an inline vector of `count` <= 3 coordinates, to be filled by put().
   void make_vector(std::size_t count) {
@@ -228,6 +242,9 @@ class Value {
     if (is_block()) release(c_[0].block);
   }
   void make_own(Meter& meter);
+  std::size_t long_size() const;
+  Scalar long_coordinate(std::size_t i) const;
+  void set_long_coordinate(std::size_t i, Scalar s, Meter& meter);
 
   Payload c_[3]{};
   Type type_;

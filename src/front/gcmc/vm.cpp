@@ -407,7 +407,7 @@ void Vm::do_call_builtin(const Instruction& in) {
                                            : fmt::format("{}() requires {} arguments", f.name, wanted));
   }
   if (f.most == 0 && in.c > 0) warn(Code::gcmc_arguments, fmt::format("{}() takes no arguments, ignored", f.name));
-  const Call call{*this, f.name, frame_ + in.b, in.c};
+  const Call call{*this, f.name, frame_ + in.b, in.c, (in.flags & kValueUsed) != 0};
   Value result = f.function(call);
   for (std::int32_t i = 0; i < in.c; ++i)
     if (frame_[in.b + i].is_block()) frame_[in.b + i].clear();
@@ -615,23 +615,15 @@ constexpr Op comparison_of(Op jump) {
 }  // namespace
 
 // Additions and comparisons of plain scalars are decided here, everything else by the members above.
-#define KERF_ARITHMETIC(op, integer_result, real_result)                                       \
-  case Op::op: {                                                                               \
-    const Value& a = operand(in.a, frame, constants);                                          \
-    const Value& b = operand(in.b, frame, constants);                                          \
-    Unit unit;                                                                                 \
-    if (a.is_scalar() && b.is_scalar() && plain(a.tag(), b.tag(), unit)) {                     \
-      const Payload l = a.payload(), r = b.payload();                                          \
-      if (both_integers(a.tag(), b.tag())) {                                                   \
-        frame[in.x].store_integer(integer_result, make_tag(Kind::integer, unit));              \
-      } else {                                                                                 \
-        const double ln = number_of(l, a.tag()), rn = number_of(r, b.tag());                   \
-        frame[in.x].store_real(real_result, make_tag(Kind::real, unit));                       \
-      }                                                                                        \
-      break;                                                                                   \
-    }                                                                                          \
-    do_operate(in);                                                                            \
-    break;                                                                                     \
+#define KERF_ARITHMETIC(op, operation)                                            \
+  case Op::op: {                                                                  \
+    const Value& a = operand(in.a, frame, constants);                             \
+    const Value& b = operand(in.b, frame, constants);                             \
+    Scalar result;                                                                \
+    if (a.is_scalar() && b.is_scalar() && operation(a.scalar(), b.scalar(), result)) \
+      frame[in.x].store(result.p, result.tag);                                    \
+    else do_operate(in);                                                          \
+    break;                                                                        \
   }
 #define KERF_COMPARING_JUMP(op)                                                                \
   case Op::op: {                                                                               \
@@ -665,16 +657,26 @@ void Vm::loop() {
     const Instruction& in = *pc++;
     at_ = &in;
     switch (in.op) {
-      KERF_ARITHMETIC(add, wrap_add(l.i, r.i), ln + rn)
-      KERF_ARITHMETIC(sub, wrap_sub(l.i, r.i), ln - rn)
-      KERF_ARITHMETIC(mul, wrap_mul(l.i, r.i), ln * rn)
+      KERF_ARITHMETIC(add, add_plain)
+      KERF_ARITHMETIC(sub, subtract_plain)
+      KERF_ARITHMETIC(mul, multiply_plain)
+      KERF_ARITHMETIC(div, divide_plain)
+      KERF_ARITHMETIC(mod, modulo_plain)
       KERF_COMPARING_JUMP(jump_less)
       KERF_COMPARING_JUMP(jump_greater)
       KERF_COMPARING_JUMP(jump_less_equal)
       KERF_COMPARING_JUMP(jump_greater_equal)
       KERF_COMPARING_JUMP(jump_equal)
       KERF_COMPARING_JUMP(jump_not_equal)
-      case Op::div: case Op::mod: case Op::add_or: case Op::sub_or: case Op::bit_and: case Op::bit_or:
+      case Op::step: {
+        Value& v = frame[in.a];
+        Scalar stepped;
+        if (!(in.flags & kValueUsed) && v.is_scalar() && step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped))
+          v.store(stepped.p, stepped.tag);
+        else do_step(in);
+        break;
+      }
+      case Op::add_or: case Op::sub_or: case Op::bit_and: case Op::bit_or:
       case Op::bit_xor: case Op::shift_left: case Op::shift_right: do_operate(in); break;
       case Op::equal: case Op::not_equal: case Op::less: case Op::greater: case Op::less_equal:
       case Op::greater_equal: do_compare(in); break;
@@ -694,7 +696,7 @@ void Vm::loop() {
       case Op::stop: return;
       KERF_CALL_MEMBER(move) KERF_CALL_MEMBER(get_global) KERF_CALL_MEMBER(get_dynamic)
       KERF_CALL_MEMBER(dereference) KERF_CALL_MEMBER(refer) KERF_CALL_MEMBER(refer_dynamic)
-      KERF_CALL_MEMBER(need_target) KERF_CALL_MEMBER(store) KERF_CALL_MEMBER(apply) KERF_CALL_MEMBER(step)
+      KERF_CALL_MEMBER(need_target) KERF_CALL_MEMBER(store) KERF_CALL_MEMBER(apply)
       KERF_CALL_MEMBER(step_target) KERF_CALL_MEMBER(step_element) KERF_CALL_MEMBER(logic_not)
       KERF_CALL_MEMBER(bit_not) KERF_CALL_MEMBER(index) KERF_CALL_MEMBER(element) KERF_CALL_MEMBER(set_element)
       KERF_CALL_MEMBER(vector) KERF_CALL_MEMBER(list) KERF_CALL_MEMBER(call_builtin) KERF_CALL_MEMBER(define)
