@@ -181,7 +181,7 @@ const Value* named_variable(const Call& call) {
 Value is_defined(const Call& call) { return Value::boolean(named_variable(call) != nullptr); }
 Value is_const(const Call& call) {
   const Value* v = named_variable(call);
-  return v == nullptr ? Value::undef() : Value::boolean(v->constant());
+  return v == nullptr ? Value::undef() : Value::boolean(call.vm.is_constant(*v));
 }
 
 Value is_mode_mm(const Call& call) { return Value::boolean(!call.vm.options().imperial); }

@@ -93,6 +93,7 @@ struct FunctionCode {
   std::int32_t parameters = 0;
   std::int32_t variables = 0;   // slots with names, parameters among them
   std::int32_t frame = 0;       // all slots
+  bool constants = false;       // it declares some
   std::vector<NameId> slot_names;
   std::vector<bool> by_reference;
 };

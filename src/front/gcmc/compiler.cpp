@@ -379,6 +379,7 @@ void Compiler::declaration(const Node& n) {
   if (n.kind == NodeKind::constant) {
     const bool inside = function_ != nullptr;
     const std::int32_t slot = inside ? slots_[n.name] : global_slot;
+    frame_->constants = true;
     const std::size_t i = emit(n.at, Op::declare_constant, slot, value, inside ? global_slot : -1);
     at(i).flags = take(value, kTakeA);
     if (references_.count(n.name) == 0) own_.insert(n.name);

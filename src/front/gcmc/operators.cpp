@@ -170,6 +170,17 @@ inline Scalar coordinate_operation(Runtime& rt, Op op, Scalar a, Scalar b) {
   return plain_operation(op, a, b, out) ? out : scalar_operation(rt, op, a, b);
 }
 
+/// The coordinates of a op b, where there are at most three and all are plain.
+template <class First, class Second>
+bool plain_coordinates(Op op, std::size_t count, First first, Second second, Value& out) {
+  Scalar r[3];
+  for (std::size_t i = 0; i < count; ++i)
+    if (!plain_operation(op, first(i), second(i), r[i])) return false;
+  out.make_vector(count);
+  for (std::size_t i = 0; i < count; ++i) out.put(i, r[i]);
+  return true;
+}
+
 void vector_with_vector(Runtime& rt, Op op, Value& a, const Value& b) {
   const std::size_t count = std::max(a.vector_size(), b.vector_size());
   for (std::size_t i = 0; i < count; ++i)
@@ -361,6 +372,22 @@ void shift(Runtime& rt, Op op, Value& a, const Value& b) {
 }
 
 }  // namespace
+
+bool vectors_plain(Op op, const Value& a, const Value& b, Value& out) {
+  const auto of_a = [&](std::size_t i) { return a.short_coordinate(i); };
+  const auto of_b = [&](std::size_t i) { return b.short_coordinate(i); };
+  if (a.is_short_vector()) {
+    if (b.is_scalar() && (op == Op::mul || op == Op::div)) {
+      const Scalar s = b.scalar();
+      return plain_coordinates(op, a.short_size(), of_a, [&](std::size_t) { return s; }, out);
+    }
+    if (!b.is_short_vector() || (op != Op::add && op != Op::sub) || a.short_size() != b.short_size()) return false;
+    return plain_coordinates(op, a.short_size(), of_a, of_b, out);
+  }
+  if (!a.is_scalar() || !b.is_short_vector() || op != Op::mul) return false;
+  const Scalar s = a.scalar();
+  return plain_coordinates(op, b.short_size(), [&](std::size_t) { return s; }, of_b, out);
+}
 
 void operate(Runtime& rt, Op op, Value& a, const Value& b) {
   const bool shifts = op == Op::shift_left || op == Op::shift_right;

@@ -81,14 +81,14 @@ class Setter {
   void pen(bool up) {
     Value v;
     v.make_vector(3);
-    v.put(2, Scalar::real(up ? 1.0 : 0.0).p, make_tag(Kind::real, Unit::none));
+    v.put(2, Scalar::real(up ? 1.0 : 0.0));
     add(std::move(v));
   }
   void point(double x, double y) {
     Value v;
     v.make_vector(3);
-    v.put(0, Scalar::real(x / kCapitalHeight).p, make_tag(Kind::real, Unit::none));
-    v.put(1, Scalar::real(y / kCapitalHeight).p, make_tag(Kind::real, Unit::none));
+    v.put(0, Scalar::real(x / kCapitalHeight));
+    v.put(1, Scalar::real(y / kCapitalHeight));
     add(std::move(v));
   }
   void glyph(const Glyph& g) {

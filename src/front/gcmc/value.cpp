@@ -45,7 +45,7 @@ Value Value::string(std::u32string text, Meter& meter) {
   auto* block = new Text(&meter);
   block->items = std::move(text);
   v.c_[0].block = block;
-  v.type_ = Type::string;
+  v.head_ = head_of(Type::string);
   charge_items(*block);
   return v;
 }
@@ -60,13 +60,13 @@ Value Value::vector(const Scalar* coordinates, std::size_t count, Meter& meter) 
   Value v;
   if (count <= 3) {
     v.make_vector(count);
-    for (std::size_t i = 0; i < count; ++i) v.put(i, coordinates[i].p, coordinates[i].tag);
+    for (std::size_t i = 0; i < count; ++i) v.put(i, coordinates[i]);
     return v;
   }
   auto* block = new LongVector(&meter);
   block->items.assign(coordinates, coordinates + count);
   v.c_[0].block = block;
-  v.type_ = Type::long_vector;
+  v.head_ = head_of(Type::long_vector);
   charge_items(*block);
   return v;
 }
@@ -76,7 +76,7 @@ Value Value::list(std::vector<Value> vectors, Meter& meter) {
   auto* block = new List(&meter);
   block->items = std::move(vectors);
   v.c_[0].block = block;
-  v.type_ = Type::list;
+  v.head_ = head_of(Type::list);
   charge_items(*block);
   return v;
 }
@@ -85,7 +85,7 @@ Value Value::reference(Value* target, std::int32_t name) {
   Value v;
   v.c_[0].target = target;
   v.c_[1].i = name;
-  v.type_ = Type::reference;
+  v.head_ = head_of(Type::reference);
   return v;
 }
 
@@ -93,7 +93,7 @@ void Value::make_own(Meter& meter) {
   Block* shared = c_[0].block;
   if (shared->owners == 1) return;
   Value copy;
-  switch (type_) {
+  switch (type()) {
     case Type::long_vector: {
       const auto& items = static_cast<LongVector*>(shared)->items;
       copy = vector(items.data(), items.size(), meter);
@@ -107,7 +107,7 @@ void Value::make_own(Meter& meter) {
 }
 
 void Value::settle() {
-  switch (type_) {
+  switch (type()) {
     case Type::long_vector: charge_items(static_cast<LongVector&>(*c_[0].block)); break;
     case Type::list: charge_items(static_cast<List&>(*c_[0].block)); break;
     case Type::string: charge_items(static_cast<Text&>(*c_[0].block)); break;
@@ -128,7 +128,7 @@ std::vector<Scalar> Value::coordinates() const {
 }
 
 void Value::set_long_coordinate(std::size_t i, Scalar s, Meter& meter) {
-  if (type_ == Type::vector) {
+  if (type() == Type::vector) {
     std::vector<Scalar> all = coordinates();
     all.resize(i + 1);
     all[i] = s;

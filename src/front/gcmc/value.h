@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -99,14 +98,17 @@ void release(Block* block);
 
 class Value {
  public:
-  Value() { set_head(Type::absent, kUndefTag); }
-  Value(const Value& o) { copy_bytes(o), retain(); }
-  Value(Value&& o) noexcept { copy_bytes(o), o.set_head(Type::absent, kUndefTag); }
-  Value(Scalar s) { set_scalar(s.p, s.tag); }
-  ~Value() {
-    if (is_block()) release(c_[0].block);
+  Value() : head_(head_of(Type::absent)) {}
+  Value(const Value& o) {
+    copy_bytes(o);
+    if (is_block()) ++c_[0].block->owners;
   }
-  /// Assignment keeps the flags: they belong to the variable, not to what it holds.
+  Value(Value&& o) noexcept {
+    copy_bytes(o);
+    o.head_ = head_of(Type::absent);
+  }
+  Value(Scalar s) { set_scalar(s.p, s.tag); }
+  ~Value() { drop(); }
   Value& operator=(const Value& o) {
     if (o.is_block()) ++o.c_[0].block->owners;
     drop();
@@ -117,19 +119,20 @@ class Value {
     if (this == &o) return *this;
     drop();
     copy_bytes(o);
-    o.set_head(Type::absent, kUndefTag);
+    o.head_ = head_of(Type::absent);
     return *this;
   }
 
-  Type type() const { return type_; }
-  bool is_scalar() const { return type_ == Type::scalar; }
-  bool is_vector() const { return type_ == Type::vector || type_ == Type::long_vector; }
-  bool is_list() const { return type_ == Type::list; }
-  bool is_string() const { return type_ == Type::string; }
-  bool is_undef() const { return is_scalar() && kind_of(tag_[0]) == Kind::undef; }
-  bool is_absent() const { return type_ == Type::absent; }
+  Type type() const { return static_cast<Type>(head_ & 0xFF); }
+  bool is_scalar() const { return type() == Type::scalar; }
+  bool is_vector() const { return type() == Type::vector || type() == Type::long_vector; }
+  bool is_short_vector() const { return type() == Type::vector; }
+  bool is_list() const { return type() == Type::list; }
+  bool is_string() const { return type() == Type::string; }
+  bool is_undef() const { return is_scalar() && kind_of(tag()) == Kind::undef; }
+  bool is_absent() const { return type() == Type::absent; }
   bool is_block() const {
-    return type_ == Type::long_vector || type_ == Type::list || type_ == Type::string;
+    return type() == Type::long_vector || type() == Type::list || type() == Type::string;
   }
 
   static Value undef() { return Value(Scalar{}); }
@@ -143,60 +146,53 @@ class Value {
   static Value reference(Value* target, std::int32_t name);
 
   // Scalars
-  Tag tag() const { return tag_[0]; }
+  Tag tag() const { return static_cast<Tag>(head_ >> 8); }
   Payload payload() const { return c_[0]; }
   Scalar scalar() const {
     Scalar s;
     s.p = c_[0];
-    s.tag = tag_[0];
+    s.tag = tag();
     return s;
   }
   /// Overwrites with a scalar; what was held is let go.
-  void store(Payload p, Tag tag) {
+  void store(Scalar s) {
     drop();
-    set_scalar(p, tag);
-  }
-  void store_integer(std::int32_t v, Tag tag) {
-    Payload p;
-    p.i = v;
-    store(p, tag);
-  }
-  void store_real(double v, Tag tag) {
-    Payload p;
-    p.d = v;
-    store(p, tag);
+    set_scalar(s.p, s.tag);
   }
 
   // Vectors
-  std::size_t vector_size() const { return type_ == Type::vector ? count_ : long_size(); }
-  Scalar coordinate(std::size_t i) const {
-    if (type_ == Type::long_vector) return long_coordinate(i);
+  std::size_t vector_size() const { return type() == Type::vector ? short_size() : long_size(); }
+  std::size_t short_size() const { return head_ >> 32; }
+  Scalar short_coordinate(std::size_t i) const {
     Scalar s;
     s.p = c_[i];
-    s.tag = tag_[i];
+    s.tag = static_cast<Tag>(head_ >> (8 + 8 * i));
     return s;
+  }
+  Scalar coordinate(std::size_t i) const {
+    return type() == Type::long_vector ? long_coordinate(i) : short_coordinate(i);
   }
   /// Coordinate `i`, undef beyond the end.
   Scalar coordinate_or_undef(std::size_t i) const { return i < vector_size() ? coordinate(i) : Scalar{}; }
   /// Sets coordinate `i`; what lies between it and the end becomes undef.
   void set_coordinate(std::size_t i, Scalar s, Meter& meter) {
-    if (type_ == Type::vector && i < 3) {
-      while (count_ <= i) tag_[count_++] = kUndefTag;
-      put(i, s.p, s.tag);
+    if (type() == Type::vector && i < 3) {
+      while (short_size() <= i) head_ += std::uint64_t{1} << 32;  // tags beyond the end are those of undef
+      put(i, s);
     } else {
       set_long_coordinate(i, s, meter);
     }
   }
   std::vector<Scalar> coordinates() const;
-  /// Begins an inline vector of `count` <= 3 coordinates, to be filled by put().
+  /// Begins an inline vector of `count` <= 3 coordinates, all undef, to be filled by put().
   void make_vector(std::size_t count) {
     drop();
-    set_head(Type::vector, kUndefTag);
-    count_ = static_cast<std::uint8_t>(count);
+    head_ = head_of(Type::vector) | std::uint64_t{count} << 32;
   }
-  void put(std::size_t i, Payload p, Tag tag) {
-    c_[i] = p;
-    tag_[i] = tag;
+  void put(std::size_t i, Scalar s) {
+    const std::size_t shift = 8 + 8 * i;
+    c_[i] = s.p;
+    head_ = (head_ & ~(std::uint64_t{0xFF} << shift)) | std::uint64_t{s.tag} << shift;
   }
 
   // Lists and strings
@@ -211,32 +207,26 @@ class Value {
   Value* target() const { return c_[0].target; }
   std::int32_t reference_name() const { return c_[1].i; }
 
-  bool constant() const { return flags_ != 0; }
-  void set_constant(bool on) { flags_ = on ? 1 : 0; }
   /// Back to a variable that does not exist.
   void clear() {
     drop();
-    set_head(Type::absent, kUndefTag);
-    flags_ = 0;
+    head_ = head_of(Type::absent);
   }
 
  private:
-  void set_head(Type type, Tag tag) {
-    type_ = type;
-    tag_[0] = tag;
-  }
+  // The last 8 bytes: type, the tags of three coordinates, the number of coordinates. They are always written as a
+  // whole, because a processor that reads more bytes than the last write had waits for that write to be done.
+  static constexpr std::uint64_t head_of(Type type) { return static_cast<std::uint64_t>(type); }
   void set_scalar(Payload p, Tag tag) {
     c_[0] = p;
-    set_head(Type::scalar, tag);
+    head_ = head_of(Type::scalar) | std::uint64_t{tag} << 8;
   }
   void copy_bytes(const Value& o) {
-    for (int i = 0; i < 3; ++i) c_[i] = o.c_[i];
-    type_ = o.type_;
-    std::memcpy(tag_, o.tag_, sizeof tag_);
-    count_ = o.count_;
-  }
-  void retain() {
-    if (is_block()) ++c_[0].block->owners;
+    c_[0] = o.c_[0];
+    head_ = o.head_;
+    if (o.is_scalar()) return;
+    c_[1] = o.c_[1];
+    c_[2] = o.c_[2];
   }
   void drop() {
     if (is_block()) release(c_[0].block);
@@ -247,11 +237,9 @@ class Value {
   void set_long_coordinate(std::size_t i, Scalar s, Meter& meter);
 
   Payload c_[3]{};
-  Type type_;
-  Tag tag_[3]{};
-  std::uint8_t count_ = 0;
-  std::uint8_t flags_ = 0;
+  std::uint64_t head_;
 };
+static_assert(static_cast<int>(kUndefTag) == 0, "coordinates that are not set are undef");
 static_assert(sizeof(Value) == 32, "a stored 3D vector is to take at most 64 bytes");
 
 struct LongVector : Block {

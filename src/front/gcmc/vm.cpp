@@ -60,7 +60,7 @@ void Vm::define_constant(NameId name, Value value) {
   if (found == code_.global_slots.end()) return;
   Value& v = stack_[found->second];
   v = std::move(value);
-  v.set_constant(true);
+  constants_.insert(&v);
 }
 
 int Vm::run() {
@@ -222,7 +222,7 @@ void Vm::do_need_target(const Instruction& in) {
 /// What the reference in a slot refers to. A slot with a name is a parameter, whose own name is told too.
 Value& Vm::writable_target(std::int32_t reference) {
   Value& target = *frame_[reference].target();
-  if (!target.constant()) return target;
+  if (!is_constant(target)) return target;
   const std::string name = name_text(frame_[reference].reference_name());
   if (reference >= running().variables)
     fail(Code::gcmc_constant, fmt::format("Attempt to assign to const variable '{}'", name));
@@ -243,6 +243,7 @@ void Vm::do_store(const Instruction& in) {
 void Vm::do_operate(const Instruction& in) {
   const Value& a = present(in.a);
   const Value& b = present(in.b);
+  if (vectors_plain(in.op, a, b, frame_[in.x])) return;
   Value left;
   if (&a == &b || in.a < 0) left = a;
   else if ((in.flags & kTakeA) || in.a == in.x) left = std::move(frame_[in.a]);
@@ -354,25 +355,21 @@ void Vm::do_step_element(const Instruction& in) {
 
 // ---- literals
 
-void Vm::put_entry(Value& v, std::size_t i, std::int32_t o) {
-  const Value& entry = operand(o, frame_, code_.constants.data());
-  if (entry.is_scalar() && !entry.is_undef()) {
-    v.put(i, entry.payload(), entry.tag());
-  } else if (entry.type() == Type::reference) {  // the mark of a coordinate left out
-    v.put(i, {}, kUndefTag);
-  } else {
-    present(o);
-    fail(Code::gcmc_type, "Vector entries must be scalar");
-  }
+Scalar Vm::entry(std::int32_t o) {
+  const Value& v = operand(o, frame_, code_.constants.data());
+  if (v.is_scalar() && !v.is_undef()) return v.scalar();
+  if (v.type() == Type::reference) return {};  // the mark of a coordinate left out
+  present(o);
+  fail(Code::gcmc_type, "Vector entries must be scalar");
 }
 
 void Vm::do_small_vector(const Instruction& in, std::size_t count) {
-  Value v;
+  const Scalar a = entry(in.a), b = entry(in.b), c = count == 3 ? entry(in.c) : Scalar{};
+  Value& v = frame_[in.x];
   v.make_vector(count);
-  put_entry(v, 0, in.a);
-  put_entry(v, 1, in.b);
-  if (count == 3) put_entry(v, 2, in.c);
-  frame_[in.x] = std::move(v);
+  v.put(0, a);
+  v.put(1, b);
+  if (count == 3) v.put(2, c);
 }
 
 void Vm::do_vector(const Instruction& in) {
@@ -454,19 +451,26 @@ Vm::Pc Vm::leave(const Instruction* in) {
     status_ = result.is_scalar() ? to_integer(result.scalar()) : 0;
     return nullptr;
   }
-  const Frame f = frames_.back();
+  const Frame& f = frames_.back();
   const FunctionCode& code = code_.functions[static_cast<std::size_t>(f.function)];
+  const Pc after = f.after;
+  if (!constants_.empty() && code.constants) forget_constants(code);
   for (Value* v = frame_; v < frame_ + code.frame; ++v) v->clear();
-  frames_.pop_back();
   frame_ = f.base;
+  frames_.pop_back();  // f stays readable: nothing is pushed before the end
   if (in == nullptr && f.value_used) {
-    at_ = f.after - 1;
+    at_ = after - 1;
     fail(Code::gcmc_control,
          fmt::format("Function call '{}()' did not return a value, but is used in assignment or calculation",
                      name_text(code.name)));
   }
   if (in != nullptr) frame_[f.x] = std::move(result);
-  return f.after;
+  return after;
+}
+
+/// The constants of a function that ends are variables that do not exist any more.
+void Vm::forget_constants(const FunctionCode& code) {
+  for (Value* v = frame_; v < frame_ + code.variables; ++v) constants_.erase(v);
 }
 
 void Vm::do_unknown_function(const Instruction& in) {
@@ -507,10 +511,10 @@ void Vm::do_declare_constant(const Instruction& in) {
   if (known != nullptr) {
     fail(Code::gcmc_defined_twice, fmt::format("Constant '{}' already defined{}",
                                                name_text(running().slot_names[in.x]),
-                                               known->constant() ? "" : " as variable"));
+                                               is_constant(*known) ? "" : " as variable"));
   }
   v = value;
-  v.set_constant(true);
+  constants_.insert(&v);
 }
 
 void Vm::do_warn_global(const Instruction& in) {
@@ -538,8 +542,8 @@ bool Vm::do_repeat_next(const Instruction& in) {
   const std::int32_t last = frame_[in.x + 1].payload().i;
   if (last == limit) return false;
   const std::int32_t next = limit > 0 ? last + 1 : last - 1;
-  frame_[in.x + 1].store_integer(next, make_tag(Kind::integer, Unit::none));
-  frame_[in.a].store_integer(next, make_tag(Kind::integer, Unit::none));
+  frame_[in.x + 1].store(Scalar::integer(next));
+  frame_[in.a].store(Scalar::integer(next));
   return true;
 }
 
@@ -562,7 +566,7 @@ bool Vm::do_foreach_next(const Instruction& in) {
     if (i >= source.vector_size()) return false;
     frame_[in.a] = Value(source.coordinate(i));
   }
-  frame_[in.x + 1].store_integer(static_cast<std::int32_t>(i + 1), make_tag(Kind::integer, Unit::none));
+  frame_[in.x + 1].store(Scalar::integer(static_cast<std::int32_t>(i + 1)));
   return true;
 }
 
@@ -621,7 +625,7 @@ constexpr Op comparison_of(Op jump) {
     const Value& b = operand(in.b, frame, constants);                             \
     Scalar result;                                                                \
     if (a.is_scalar() && b.is_scalar() && operation(a.scalar(), b.scalar(), result)) \
-      frame[in.x].store(result.p, result.tag);                                    \
+      frame[in.x].store(result);                                    \
     else do_operate(in);                                                          \
     break;                                                                        \
   }
@@ -672,7 +676,7 @@ void Vm::loop() {
         Value& v = frame[in.a];
         Scalar stepped;
         if (!(in.flags & kValueUsed) && v.is_scalar() && step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped))
-          v.store(stepped.p, stepped.tag);
+          v.store(stepped);
         else do_step(in);
         break;
       }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <unordered_set>
 #include <vector>
 
 #include "kerf/gcmc.h"
@@ -59,6 +60,7 @@ class Vm final : public Runtime {
 
   /// The variable of that name as the running code sees it, or nullptr.
   const Value* variable(std::string_view name) const;
+  bool is_constant(const Value& variable) const { return constants_.count(&variable) != 0; }
   /// Something came out: the program is not lost in a loop.
   void show_life() { quiet_steps_ = 0; }
 
@@ -110,7 +112,8 @@ class Vm final : public Runtime {
   void do_set_element(const Instruction& in);
   void do_vector(const Instruction& in);
   void do_small_vector(const Instruction& in, std::size_t count);
-  void put_entry(Value& v, std::size_t i, std::int32_t o);
+  Scalar entry(std::int32_t o);
+  void forget_constants(const FunctionCode& code);
   void do_list(const Instruction& in);
   void do_call_builtin(const Instruction& in);
   void do_define(const Instruction& in);
@@ -148,6 +151,7 @@ class Vm final : public Runtime {
   Pc at_ = nullptr;            // the running instruction
   std::vector<Frame> frames_;
   std::vector<bool> defined_;
+  std::unordered_set<const Value*> constants_;   // variables that may not be assigned to
   std::int32_t fuel_ = 0;
   std::uint64_t quiet_steps_ = 0;
   std::size_t script_errors_ = 0;
