@@ -1,6 +1,8 @@
 // Numbers as text: no locale, never "-0", fixed rounding; and reading them back.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -10,8 +12,15 @@ namespace kerf {
 
 /// Appends `value` with at most `decimals` places, trailing zeros dropped ("12.5", "3", "-0.25", never "-0").
 void append_number(std::string& out, double value, int decimals);
-/// Appends `value` with exactly `decimals` places ("12.500").
-void append_fixed(std::string& out, double value, int decimals);
+/// Whether a negative number that rounds to zero keeps its sign ("-0.00", as C's printf writes it).
+enum class MinusZero : std::uint8_t { drop, keep };
+/// Appends `value` with exactly `decimals` places ("12.500"), rounded as the exact binary value demands.
+void append_fixed(std::string& out, double value, int decimals, MinusZero zero = MinusZero::drop);
+/// Room that write_fixed needs.
+inline constexpr std::size_t kFixedRoom = 40;
+/// Writes what append_fixed(MinusZero::keep) appends at `out`, which has kFixedRoom bytes, and returns the end; nullptr,
+/// with nothing written, for the rare numbers that this fast way cannot round for certain.
+char* write_fixed(char* out, double value, int decimals);
 std::string number_text(double value, int decimals);
 std::string fixed_text(double value, int decimals);
 /// Shortest text that reads back as the same double.

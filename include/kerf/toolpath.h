@@ -158,6 +158,10 @@ class Step {
   /// Bits 1, 2, 4: at this motion's end X, Y, Z is not known in work coordinates (never commanded yet, or
   /// commanded in machine coordinates). `to()` then holds what an interpreter with zero offsets takes.
   unsigned unknown_axes() const { return unknown_axes_; }
+  /// Bits 1, 2, 4, 8, 16, 32: the program named X, Y, Z, A, B, C for this motion; 0 = that is not told.
+  /// `to()` is complete either way. A post that prints words as the user gave them may use it; nothing else
+  /// may depend on it.
+  unsigned named_axes() const { return named_axes_; }
 
   step::Rapid rapid() const;
   step::Cut cut() const;
@@ -179,8 +183,9 @@ class Step {
   OriginId origin_ = OriginId::none;
   std::uint32_t extra_ = 0;  // index into the toolpath's extras, 0 = none
   StepKind kind_ = StepKind::rapid;
-  std::uint8_t plane_ = 0;  // Plane, or the kind's own small enumeration
-  std::uint8_t turn_ = 0;   // Turn or SpindleTurn, or a flag
+  std::uint8_t plane_ = 0;     // Plane, or the kind's own small enumeration
+  std::uint8_t turn_ : 2 = 0;  // Turn or SpindleTurn, or two flags
+  std::uint8_t named_axes_ : 6 = 0;
   std::uint8_t unknown_axes_ = 0;
 };
 static_assert(sizeof(Step) == 64, "a million steps are to fit in 64 MB");
@@ -224,6 +229,8 @@ class Toolpath {
 
   /// Marks axes (bits 1, 2, 4 for X, Y, Z) as unknown at the end of motion `i`; see Step::unknown_axes.
   void set_unknown_axes(std::size_t i, unsigned bits);
+  /// Tells which axes the program named for motion `i`; see Step::named_axes.
+  void set_named_axes(std::size_t i, unsigned bits);
   void set_extra(std::size_t i, MotionExtra extra);
   /// The motion's extra, or nullptr.
   const MotionExtra* extra(std::size_t i) const;

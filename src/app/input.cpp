@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kBeginning = 4096;  // bytes looked at where the ending says nothing
 
 const std::vector<FrontEnd>& front_ends() {
-  static const std::vector<FrontEnd> all{gcode_front_end()};
+  static const std::vector<FrontEnd> all{gcode_front_end(), gcmc_front_end()};
   return all;
 }
 

@@ -38,6 +38,7 @@ struct FrontEnd {
   LoadedProgram (*read)(const InputFile& file, Diagnostics& diagnostics, Progress* progress);
 };
 FrontEnd gcode_front_end();
+FrontEnd gcmc_front_end();
 
 /// Reads the program of a file ("-": standard input, as G-code). What was understood is returned with the
 /// errors in `diagnostics`; nothing is returned where there is nothing to read or no front end for it.

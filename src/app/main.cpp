@@ -2,9 +2,12 @@
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 #include "app/command.h"
+#include "app/gcmc_command.h"
 #include "app/terminal_progress.h"
 #include "app/usage.h"
 
@@ -29,6 +32,7 @@ std::vector<Command> add_commands(CLI::App& root) {
   tools->require_subcommand(1);
   commands.push_back(add_tools_list(*tools));
   commands.push_back(add_tools_show(*tools));
+  root.add_subcommand("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");
   return commands;
 }
 
@@ -56,7 +60,16 @@ Status run_asked(const std::vector<Command>& commands) {
   return Status::wrong_usage;
 }
 
+/// Commands that take the arguments of the program that they stand in for, which no common parser understands.
+std::optional<int> run_drop_in(int argc, char** argv) {
+  if (argc < 2 || std::string_view(argv[1]) != "gcmc") return std::nullopt;
+  catch_interrupts();
+  InterruptOnly progress;
+  return gcmc_command({argv + 2, argv + argc}, &progress);
+}
+
 int run(int argc, char** argv) {
+  if (const auto status = run_drop_in(argc, argv)) return *status;
   CLI::App root(
       "Kerf: describe what a router, mill, laser or printer shall make; see it cut before it is cut.",
       "kerf");

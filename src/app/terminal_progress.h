@@ -40,6 +40,14 @@ class TerminalProgress : public Progress {
   Clock::time_point last_ = Clock::now();
 };
 
+/// Draws nothing and only tells of interrupts: for commands whose output is another program's.
+class InterruptOnly : public Progress {
+ public:
+  void phase(std::string_view) override {}
+  void report(double) override {}
+  bool stop_requested() override { return interrupted(); }
+};
+
 /// "0:03", "1:02:03"; the time left when `share` of the work took `elapsed` seconds, empty while that is a
 /// guess.
 std::string time_left(double share, double elapsed);

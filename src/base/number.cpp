@@ -14,6 +14,15 @@ namespace {
 /// True if all digits are zeros, so that a minus sign before them would be "-0".
 bool is_zero_text(std::string_view text) { return text.find_first_of("123456789") == std::string_view::npos; }
 
+/// Writes two digits.
+inline void put_pair(char* at, std::uint64_t value) {
+  static constexpr char kPairs[] =
+      "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243444546474849"
+      "5051525354555657585960616263646566676869707172737475767778798081828384858687888990919293949596979899";
+  at[0] = kPairs[value * 2];
+  at[1] = kPairs[value * 2 + 1];
+}
+
 /// Distance of two words in insertions, deletions, replacements and swaps of neighbours, case left out.
 std::size_t slips_between(std::string_view a, std::string_view b) {
   auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -35,10 +44,44 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-void append_fixed(std::string& out, double value, int decimals) {
+char* write_fixed(char* out, double value, int decimals) {
+  constexpr int kMostDecimals = 15;
+  static constexpr double kPowers[kMostDecimals + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                        1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr double kLargest = 1125899906842624.0;  // 2^50: the scaled number and its fraction are then still exact enough
+  constexpr double kDoubt = 0x1p-51;               // more than the relative error of one multiplication
+  if (decimals < 0 || decimals > kMostDecimals) return nullptr;
+  const double scaled = std::fabs(value) * kPowers[decimals];
+  if (!(scaled < kLargest)) return nullptr;
+  auto digits = static_cast<std::uint64_t>(scaled);
+  const double fraction = scaled - static_cast<double>(digits);
+  // At a half the exact value decides, and that is not known here.
+  if (std::fabs(fraction - 0.5) <= scaled * kDoubt) return nullptr;
+  if (fraction > 0.5) ++digits;
+  if (std::signbit(value)) *out++ = '-';
+
+  char reversed[24];
+  char* const end = reversed + sizeof reversed;
+  char* at = end;
+  int left = decimals;
+  for (; left >= 2; left -= 2, digits /= 100) put_pair(at -= 2, digits % 100);
+  if (left == 1) {
+    *--at = static_cast<char>('0' + digits % 10);
+    digits /= 10;
+  }
+  if (decimals > 0) *--at = '.';
+  for (; digits >= 10; digits /= 100) put_pair(at -= 2, digits % 100);
+  if (digits != 0 || at == end || *at == '.') *--at = static_cast<char>('0' + digits);
+  return std::copy(at, end, out);
+}
+
+void append_fixed(std::string& out, double value, int decimals, MinusZero zero) {
   const std::size_t start = out.size();
-  fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
-  if (out[start] == '-' && is_zero_text(std::string_view(out).substr(start))) out.erase(start, 1);
+  char fast[kFixedRoom];
+  if (const char* end = write_fixed(fast, value, decimals)) out.append(fast, static_cast<std::size_t>(end - fast));
+  else fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
+  if (zero == MinusZero::drop && out[start] == '-' && is_zero_text(std::string_view(out).substr(start)))
+    out.erase(start, 1);
 }
 
 void append_number(std::string& out, double value, int decimals) {

@@ -99,7 +99,7 @@ std::size_t Toolpath::add(const step::Arc& s, OriginId origin) {
   out.values_[4] = s.centre.x;
   out.values_[5] = s.centre.y;
   out.plane_ = static_cast<std::uint8_t>(s.plane);
-  out.turn_ = static_cast<std::uint8_t>(s.turn);
+  out.turn_ = static_cast<std::uint8_t>(s.turn) & 3;
   out.count_ = s.extra_turns;
   return steps_.size() - 1;
 }
@@ -114,11 +114,11 @@ std::size_t Toolpath::add(const step::ToolChange& s, OriginId origin) {
 std::size_t Toolpath::add(const step::Spindle& s, OriginId origin) {
   Step& out = append(StepKind::spindle, origin);
   out.values_[0] = s.speed.raw();
-  out.turn_ = static_cast<std::uint8_t>(s.turn);
+  out.turn_ = static_cast<std::uint8_t>(s.turn) & 3;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Coolant& s, OriginId origin) {
-  append(StepKind::coolant, origin).turn_ = static_cast<std::uint8_t>((s.mist ? 1 : 0) | (s.flood ? 2 : 0));
+  append(StepKind::coolant, origin).turn_ = static_cast<std::uint8_t>((s.mist ? 1 : 0) | (s.flood ? 2 : 0)) & 3;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::PathMode& s, OriginId origin) {
@@ -198,12 +198,18 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
   }
   if (const MotionExtra* extra = other.extra(i)) set_extra(steps_.size() - 1, *extra);
   steps_.back().unknown_axes_ = other.steps_[i].unknown_axes_;
+  steps_.back().named_axes_ = other.steps_[i].named_axes_;
   return steps_.size() - 1;
 }
 
 void Toolpath::set_unknown_axes(std::size_t i, unsigned bits) {
   assert(steps_[i].is_motion() && bits < 8);
   steps_[i].unknown_axes_ = static_cast<std::uint8_t>(bits);
+}
+
+void Toolpath::set_named_axes(std::size_t i, unsigned bits) {
+  assert(steps_[i].is_motion() && bits < 64);
+  steps_[i].named_axes_ = bits & 63;
 }
 
 void Toolpath::set_extra(std::size_t i, MotionExtra extra) {

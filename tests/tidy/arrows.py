@@ -10,8 +10,8 @@ from sources import CPP, files, finish, root_of
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png"}
-FRONT = {"front_gcode", "front_tools", "front_stock", "front_outline"}
-BACK = {"back_drawing"}
+FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
+BACK = {"back_drawing", "back_gcmc"}
 # What each module may include besides itself. There is no ring, as each line uses only lines above it.
 ALLOWED = {
     "base": set(),
@@ -36,6 +36,8 @@ PUBLIC = {
     "path": ["toolpath.h", "report.h", "check.h"],
     "sim": ["simulate.h"],
     "front_gcode": ["gcode.h"],
+    "front_gcmc": ["gcmc.h"],
+    "back_gcmc": ["gcmc_drawing.h"],
     "front_tools": ["tool_files.h"],
     "front_stock": ["stock_files.h"],
     "front_outline": ["outline_files.h"],

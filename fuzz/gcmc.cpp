@@ -1,0 +1,62 @@
+// Fuzz target: any text as a gcmc program, with limits that keep a run short.
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "kerf/gcmc.h"
+#include "kerf/gcmc_drawing.h"
+
+namespace {
+
+class Nobody final : public kerf::GcmcOutput {
+ public:
+  void message(const kerf::GcmcMessage& m) override {
+    if (++said_ < 100) (void)kerf::to_line(m);
+    stop_ = said_ > kMostMessages;
+  }
+  void text(std::string_view) override {}
+  bool too_talkative() const { return stop_; }
+
+ private:
+  static constexpr int kMostMessages = 20'000;
+  int said_ = 0;
+  bool stop_ = false;
+};
+
+class Patience final : public kerf::Progress {
+ public:
+  explicit Patience(const Nobody& nobody) : nobody_(nobody) {}
+  void phase(std::string_view) override {}
+  void report(double) override {}
+  bool stop_requested() override { return ++looks_ > 20 || nobody_.too_talkative(); }
+
+ private:
+  const Nobody& nobody_;
+  int looks_ = 0;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  kerf::GcmcOptions options;
+  options.want_text = true;
+  options.max_memory = std::size_t{16} << 20;
+  options.max_path_steps = 20'000;
+  if (size > 0) {  // the first byte chooses
+    options.imperial = (data[0] & 1) != 0;
+    options.relative = (data[0] & 2) != 0;
+    options.brief = (data[0] & 4) != 0;
+    options.target = (data[0] & 8) != 0 ? kerf::GcmcTarget::svg : kerf::GcmcTarget::gcode;
+    ++data, --size;
+  }
+  Nobody nobody;
+  Patience patience(nobody);
+  kerf::Diagnostics diagnostics;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const kerf::GcmcRun run = kerf::run_gcmc(text, options, nobody, diagnostics, &patience);
+  if (options.target == kerf::GcmcTarget::svg) {
+    (void)kerf::gcmc_svg(run.path, {});
+    (void)kerf::gcmc_dxf(run.path, {});
+  }
+  return 0;
+}

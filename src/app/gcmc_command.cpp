@@ -1,0 +1,238 @@
+// `kerf gcmc`.
+#include "app/gcmc_command.h"
+
+#include <cstdio>
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+#include "kerf/files.h"
+#include "kerf/gcmc.h"
+#include "kerf/gcmc_drawing.h"
+
+#include "app/gcmc_options.h"
+
+namespace kerf::app {
+namespace {
+
+bool stderr_is_for_people() {
+#if defined(__unix__) || defined(__APPLE__)
+  return isatty(STDERR_FILENO) != 0;
+#else
+  return false;
+#endif
+}
+
+std::string date_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+#if defined(__unix__) || defined(__APPLE__)
+  localtime_r(&now, &local);
+#else
+  local = *std::localtime(&now);
+#endif
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S", &local);
+  return text;
+}
+
+/// Text that flows to standard output, or into a file that appears whole at the end or not at all.
+class TextOut {
+ public:
+  explicit TextOut(std::string path) : path_(std::move(path)) {
+    if (path_.empty()) return;
+    part_ = fmt::format("{}.{}.part", path_, std::time(nullptr));
+    file_ = std::fopen(part_.c_str(), "wb");
+    good_ = file_ != nullptr;
+  }
+  ~TextOut() {
+    if (file_ != nullptr) std::fclose(file_), std::remove(part_.c_str());
+  }
+  TextOut(const TextOut&) = delete;
+  TextOut& operator=(const TextOut&) = delete;
+
+  void write(std::string_view text) {
+    std::FILE* to = path_.empty() ? stdout : file_;
+    good_ = good_ && std::fwrite(text.data(), 1, text.size(), to) == text.size();
+  }
+  bool good() const { return good_; }
+  /// Puts the file into place; false where something could not be written.
+  bool finish() {
+    if (path_.empty()) return std::fflush(stdout) == 0 && good_;
+    if (file_ == nullptr) return false;
+    good_ = std::fclose(file_) == 0 && good_;
+    file_ = nullptr;
+    std::error_code error;
+    if (good_) std::filesystem::rename(part_, path_, error);
+    if (!good_ || error) std::remove(part_.c_str());
+    return good_ && !error;
+  }
+
+ private:
+  std::string path_, part_;
+  std::FILE* file_ = nullptr;
+  bool good_ = true;
+};
+
+/// Messages to stderr, in the form that other programs read; for people with the line and what helps.
+class Listener final : public GcmcOutput {
+ public:
+  Listener(TextOut& out, bool explain) : out_(out), explain_(explain) {}
+
+  void know(const std::string& name, std::string_view text) { texts_[name] = text; }
+  void message(const GcmcMessage& m) override {
+    if (silent) return;
+    std::fflush(stdout);
+    std::string text = to_line(m) + "\n";
+    if (explain_ && m.said != GcmcSaid::message) text += explanation(m);
+    std::fwrite(text.data(), 1, text.size(), stderr);
+  }
+  void text(std::string_view piece) override { out_.write(piece); }
+  bool silent = false;
+
+ private:
+  std::string explanation(const GcmcMessage& m) {
+    std::string text;
+    const std::string line = line_of(m.where);
+    if (!line.empty() && m.where.column > 0) {
+      // Errors of syntax are told behind the word they mean.
+      const bool behind = m.code == Code::gcmc_syntax || m.code == Code::gcmc_word || m.code == Code::gcmc_defined_twice;
+      const std::size_t at = std::min<std::size_t>(m.where.column - (behind && m.where.column > 1 ? 2 : 1), line.size());
+      std::string space = line.substr(0, at);
+      for (char& c : space) c = c == '\t' ? '\t' : ' ';
+      text += fmt::format("    {}\n    {}^\n", line, space);
+    }
+    for (const DiagnosticNote& n : m.calls) text += fmt::format("  {}: note: {}\n", to_string(n.where), n.text);
+    if (!m.hint.empty()) text += fmt::format("  hint: {}\n", m.hint);
+    return text;
+  }
+
+  std::string line_of(const TextSpot& spot) {
+    constexpr std::size_t kLongest = 200;
+    auto known = texts_.find(spot.file);
+    if (known == texts_.end()) {
+      Diagnostics ignored;
+      const auto file = InputFile::open(spot.file, ignored);
+      known = texts_.emplace(spot.file, file ? std::string(file->bytes()) : std::string()).first;
+    }
+    const std::string& text = known->second;
+    std::size_t begin = 0;
+    for (std::uint32_t i = 1; i < spot.line; ++i) {
+      begin = text.find('\n', begin);
+      if (begin == std::string::npos) return {};
+      ++begin;
+    }
+    return text.substr(begin, std::min(std::min(text.find('\n', begin), text.size()) - begin, kLongest));
+  }
+
+  TextOut& out_;
+  bool explain_;
+  std::map<std::string, std::string> texts_;
+};
+
+void complain(std::string_view text) { fmt::print(stderr, "kerf gcmc: {}\n", text); }
+
+bool read_text(const std::string& path, std::string& text) {
+  if (path.empty()) return true;
+  Diagnostics diagnostics;
+  const auto file = InputFile::open(path, diagnostics);
+  if (!file) {
+    complain(to_string(diagnostics.list().front()));
+    return false;
+  }
+  text = std::string(file->bytes());
+  return true;
+}
+
+/// What an editor asks: the diagnostics of a file, as lines or as JSON.
+int check(const GcmcCommandLine& line, std::string_view text, Listener& listener) {
+  Diagnostics diagnostics(1000);
+  listener.silent = line.json;
+  const bool good = check_gcmc(text, line.run, listener, diagnostics);
+  if (line.json) {
+    auto list = nlohmann::json::array();
+    for (const Diagnostic& d : diagnostics.list()) {
+      const auto* spot = std::get_if<TextSpot>(&d.where);
+      list.push_back({{"severity", to_string(d.severity)},
+                      {"code", static_cast<int>(d.code)},
+                      {"name", name_of(d.code)},
+                      {"file", spot != nullptr ? spot->file : ""},
+                      {"line", spot != nullptr ? spot->line : 0},
+                      {"column", spot != nullptr ? spot->column : 0},
+                      {"message", d.message},
+                      {"hint", d.hint}});
+    }
+    using Json = nlohmann::json;
+    const std::string out = Json{{"diagnostics", list}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    std::fwrite(out.data(), 1, out.size(), stdout);
+  }
+  return good ? 0 : 1;
+}
+
+int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, Listener& listener, Progress* progress) {
+  const bool draws = line.run.target != GcmcTarget::gcode;
+  line.run.want_path = draws;
+  line.run.want_text = !draws;
+  line.run.date = date_now();
+  Diagnostics diagnostics;
+  const GcmcRun run = run_gcmc(text, line.run, listener, diagnostics, progress);
+  const bool complete = run.completed;
+  if (complete && draws) {
+    line.drawing.layers = run.layers;
+    out.write(line.run.target == GcmcTarget::svg ? gcmc_svg(run.path, line.drawing) : gcmc_dxf(run.path, line.drawing));
+  }
+  if (!complete && !line.output.empty()) return run.status;  // nothing is written
+  if (!out.finish()) {
+    complain(fmt::format("cannot write {}", line.output.empty() ? "to standard output" : line.output));
+    return 1;
+  }
+  if (complete && line.warnings_are_errors && run.warnings > 0) {
+    fmt::print(stderr, "error: Runtime warnings considered to be errors\n");
+    return 1;
+  }
+  return run.status;
+}
+
+}  // namespace
+
+int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) {
+  GcmcCommandLine line = parse_gcmc_options(arguments);
+  if (line.version) {
+    fmt::print("gcmc version 1.0.0-oracle, as Kerf understands it\nKerf is licensed under the Apache License 2.0\n");
+    return 0;
+  }
+  for (const std::string& error : line.errors) complain(error);
+  if (line.help || !line.errors.empty()) {
+    fmt::print(stderr, "{}", line.help ? gcmc_usage() : "Try: kerf gcmc --help\n");
+    return 1;
+  }
+  if (!read_text(line.prologue_file, line.run.prologue) || !read_text(line.epilogue_file, line.run.epilogue)) return 1;
+
+  Diagnostics diagnostics;
+  const auto file = InputFile::open(line.input.empty() ? "-" : line.input, diagnostics);
+  if (!file) {
+    complain(to_string(diagnostics.list().front()));
+    return 1;
+  }
+  if (!line.input.empty()) line.run.file_name = line.input;
+  TextOut out(line.check ? std::string() : line.output);
+  if (!out.good()) {
+    complain(fmt::format("cannot write {}", line.output));
+    return 1;
+  }
+  Listener listener(out, line.explain || stderr_is_for_people());
+  listener.know(line.run.file_name, file->bytes());
+  if (line.check) return check(line, file->bytes(), listener);
+  return run_program(line, file->bytes(), out, listener, progress);
+}
+
+}  // namespace kerf::app

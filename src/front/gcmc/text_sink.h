@@ -1,0 +1,61 @@
+// The text that the real program writes: every word of every call, no modal suppression unless asked for.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "kerf/gcmc.h"
+
+#include "front/gcmc/sink.h"
+
+namespace kerf::gcmc {
+
+class TextSink final : public Sink {
+ public:
+  TextSink(const GcmcOptions& options, GcmcOutput& output);
+  void begin();
+  void end();
+  void flush();
+
+  void move(const Move& m) override;
+  void arc(const ArcMove& m) override;
+  void drill(const DrillCycle& m) override;
+  void broken_move(bool rapid) override;
+  void feed_rate(double feed) override;
+  void feed_mode(int mode) override;
+  void spindle(double speed) override;
+  void spindle_speed(double speed) override;
+  void coolant(int bits) override;
+  void tool_change(int tool, bool length_offset) override;
+  void dwell(double seconds) override;
+  void path_mode(bool exact, std::optional<double> p, std::optional<double> q) override;
+  void pause(bool optional) override;
+  void plane(Plane plane) override;
+  void comment(std::string_view text) override;
+  void literal(std::string_view text) override;
+  void store_position(bool second) override;
+  void restore_position(bool second, const Axes& via, unsigned named, const Axes& end) override;
+  void layer(const std::string&) override {}
+  void close_path() override {}
+
+ private:
+  void make_room();
+  void put(std::string_view text);
+  void line(std::string_view text);
+  void word(std::string_view letters, double value);
+  void axes(const Axes& to, unsigned named);
+  void begin_motion(std::string_view word, bool modal);
+  void end_line() { *at_++ = '\n'; }
+  void forget();
+
+  const GcmcOptions& options_;
+  GcmcOutput& output_;
+  std::unique_ptr<char[]> buffer_;
+  char* at_;               // where the next character goes
+  Axes last_{};          // of the machine, offsets included
+  unsigned known_ = 0;   // axes whose place the reader of the text knows (brief only)
+  std::string_view mode_;  // the motion word in force (brief only)
+  double feed_ = -1.0;
+};
+
+}  // namespace kerf::gcmc

@@ -1,0 +1,715 @@
+// The machine that runs compiled programs: the loop, and the instructions.
+#include "front/gcmc/vm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "kerf/number.h"
+
+#include "front/gcmc/builtins.h"
+#include "front/gcmc/operators.h"
+
+namespace kerf::gcmc {
+namespace {
+
+constexpr std::size_t kStackSlots = 1'000'000;  // of variables and temporaries, 32 MB, touched as they are used
+constexpr std::int32_t kStepsPerLook = 20'000;  // loop steps between looks at the clock, the limits and the user
+constexpr std::size_t kMostCallNotes = 16;
+
+}  // namespace
+
+Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const GcmcOptions& options,
+       GcmcOutput& output, Diagnostics& diagnostics, Progress* progress)
+    : tree_(tree),
+      sources_(sources),
+      code_(code),
+      options_(options),
+      output_(output),
+      diagnostics_(diagnostics),
+      progress_(progress),
+      storage_(new std::byte[kStackSlots * sizeof(Value)]),
+      defined_(code.functions.size(), false),
+      fuel_(kStepsPerLook) {
+  stack_ = reinterpret_cast<Value*>(storage_.get());
+  stack_end_ = stack_ + kStackSlots;
+  reached_ = frame_ = stack_;
+  at_ = code_.instructions.data();
+  native = options.imperial ? Unit::inch : Unit::mm;
+  decimals = options.precision;
+  meter.limit = options.max_memory;
+  machine_.plane = options.plane;
+  machine_.fixed_offset = options.offsets;
+  if (static_cast<std::size_t>(code_.program.frame) < kStackSlots) reach(stack_ + code_.program.frame);
+}
+
+Vm::~Vm() {
+  for (Value* v = stack_; v != reached_; ++v) v->~Value();
+}
+
+/// Constructs the slots before `end`.
+void Vm::reach(Value* end) {
+  for (; reached_ < end; ++reached_) new (reached_) Value();
+}
+
+void Vm::define_constant(NameId name, Value value) {
+  const auto found = code_.global_slots.find(name);
+  if (found == code_.global_slots.end()) return;
+  Value& v = stack_[found->second];
+  v = std::move(value);
+  constants_.insert(&v);
+}
+
+int Vm::run() {
+  if (static_cast<std::size_t>(code_.program.frame) >= kStackSlots)
+    fail(Code::gcmc_limit, "The program has too many variables");
+  try {
+    loop();
+  } catch (const OutOfMemory&) {
+    fail(Code::gcmc_limit, fmt::format("The program uses more than {} MB for vectors, lists and strings",
+                                       meter.limit >> 20));
+  } catch (const std::bad_alloc&) {
+    fail(Code::gcmc_limit, "There is no memory left");
+  }
+  return status_;
+}
+
+// ---- messages
+
+TextSpot Vm::spot(std::size_t instruction) const {
+  const Place place = code_.places[instruction];
+  return {sources_[place.file].name, place.line, place.column};
+}
+
+void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
+  GcmcMessage message;
+  message.said = said;
+  message.code = code;
+  message.where = spot(current_instruction());
+  message.text = std::move(text);
+  message.hint = std::move(hint);
+  for (std::size_t i = frames_.size(); i-- > 0 && message.calls.size() < kMostCallNotes;) {
+    const std::string name = name_text(code_.functions[static_cast<std::size_t>(frames_[i].function)].name);
+    message.calls.push_back({spot(call_site(i)), fmt::format("in the call of {}()", name)});
+  }
+  output_.message(message);
+  show_life();
+  if (said == GcmcSaid::message) return;
+  Diagnostic d;
+  d.severity = said == GcmcSaid::warning || said == GcmcSaid::script_warning ? Severity::warning : Severity::error;
+  d.code = code;
+  d.where = message.where;
+  d.message = message.text;
+  d.notes = std::move(message.calls);
+  d.hint = message.hint;
+  diagnostics_.add(std::move(d));
+}
+
+void Vm::warn(Code code, std::string text) {
+  ++warnings_;
+  report(GcmcSaid::warning, code, std::move(text), {});
+}
+
+void Vm::say_error(Code code, std::string text, std::string hint) {
+  report(GcmcSaid::error, code, std::move(text), std::move(hint));
+}
+
+void Vm::say(GcmcSaid said, std::string text) {
+  if (said == GcmcSaid::script_error) ++script_errors_;
+  report(said, Code::gcmc_script, std::move(text), {});
+}
+
+void Vm::fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known) {
+  const auto similar = did_you_mean(name_text(name), known);
+  const std::string hint = similar ? fmt::format("did you mean '{}'?", *similar) : std::string();
+  const char* what = kind == "Function" ? "not found" : "undefined";
+  fail(Code::gcmc_unknown_name, fmt::format("{} '{}' {}", kind, name_text(name), what), hint);
+}
+
+const FunctionCode& Vm::running() const {
+  return frames_.empty() ? code_.program : code_.functions[static_cast<std::size_t>(frames_.back().function)];
+}
+
+void Vm::fail_absent(std::int32_t slot) {
+  const FunctionCode& f = running();
+  if (slot < 0 || slot >= f.variables) fail(Code::gcmc_unknown_name, "A value is missing");
+  std::vector<std::string> known;
+  for (std::int32_t i = 0; i < f.variables; ++i)
+    if (!frame_[i].is_absent()) known.push_back(name_text(f.slot_names[static_cast<std::size_t>(i)]));
+  fail_unknown("Variable", f.slot_names[static_cast<std::size_t>(slot)], known);
+}
+
+const Value* Vm::variable(std::string_view name) const {
+  const auto known = tree_.name_index.find(std::string(name));
+  if (known == tree_.name_index.end()) return nullptr;
+  const FunctionCode& f = running();
+  if (!frames_.empty()) {
+    for (std::size_t i = 0; i < f.slot_names.size(); ++i) {
+      if (f.slot_names[i] != known->second || frame_[i].is_absent()) continue;
+      return frame_[i].type() == Type::reference ? frame_[i].target() : &frame_[i];
+    }
+  }
+  const auto global = code_.global_slots.find(known->second);
+  if (global == code_.global_slots.end() || stack_[global->second].is_absent()) return nullptr;
+  return &stack_[global->second];
+}
+
+void Vm::refuel() {
+  fuel_ = kStepsPerLook;
+  quiet_steps_ += kStepsPerLook;
+  if (stop_requested(progress_)) {
+    stopped_ = true;
+    fail(Code::stopped, "Interrupted");
+  }
+  if (quiet_steps_ > options_.max_quiet_steps)
+    fail(Code::gcmc_limit, fmt::format("No output or message in {} loop steps: an endless loop?", quiet_steps_));
+}
+
+// ---- moving values
+
+/// The operand's value; a variable that does not exist is an error.
+const Value& Vm::present(std::int32_t o) {
+  const Value& v = operand(o, frame_, code_.constants.data());
+  if (v.is_absent()) fail_absent(o);
+  return v;
+}
+
+void Vm::do_move(const Instruction& in) {
+  const Value& v = present(in.a);
+  if (in.flags & kTakeA) frame_[in.x] = std::move(frame_[in.a]);
+  else frame_[in.x] = v;
+}
+
+void Vm::do_get_global(const Instruction& in) {
+  const Value& v = stack_[in.a];
+  if (v.is_absent()) fail_unknown("Variable", code_.program.slot_names[static_cast<std::size_t>(in.a)], {});
+  frame_[in.x] = v;
+}
+
+void Vm::do_get_dynamic(const Instruction& in) {
+  const Value& own = frame_[in.a];
+  const Value& v = own.is_absent() ? stack_[in.b] : own;
+  if (v.is_absent()) fail_absent(in.a);
+  frame_[in.x] = v;
+}
+
+void Vm::do_dereference(const Instruction& in) {
+  const Value& v = *frame_[in.a].target();
+  if (v.is_absent()) fail_unknown("Variable", frame_[in.a].reference_name(), {});
+  frame_[in.x] = v;
+}
+
+void Vm::do_refer(const Instruction& in) {
+  const NameId name = in.a < running().variables ? running().slot_names[static_cast<std::size_t>(in.a)] : kNoName;
+  frame_[in.x] = Value::reference(&frame_[in.a], name);
+}
+
+void Vm::do_refer_dynamic(const Instruction& in) {
+  Value* own = in.a == kNoOperand ? nullptr : &frame_[in.a];
+  Value* global = &stack_[in.b];
+  Value* target = own != nullptr && (!own->is_absent() || global->is_absent()) ? own : global;
+  frame_[in.x] = Value::reference(target, in.c);
+}
+
+void Vm::do_need_target(const Instruction& in) {
+  const Value& reference = frame_[in.a];
+  if (reference.target()->is_absent()) fail_unknown("Variable", reference.reference_name(), {});
+}
+
+/// What the reference in a slot refers to. A slot with a name is a parameter, whose own name is told too.
+Value& Vm::writable_target(std::int32_t reference) {
+  Value& target = *frame_[reference].target();
+  if (!is_constant(target)) return target;
+  const std::string name = name_text(frame_[reference].reference_name());
+  if (reference >= running().variables)
+    fail(Code::gcmc_constant, fmt::format("Attempt to assign to const variable '{}'", name));
+  fail(Code::gcmc_constant,
+       fmt::format("Attempt to assign to const variable '{}' (from '{}')",
+                   name_text(running().slot_names[static_cast<std::size_t>(reference)]), name));
+}
+
+void Vm::do_store(const Instruction& in) {
+  const Value& v = present(in.a);
+  Value& target = writable_target(in.x);
+  if (in.flags & kTakeA) target = std::move(frame_[in.a]);
+  else target = v;
+}
+
+// ---- operators
+
+void Vm::do_operate(const Instruction& in) {
+  const Value& a = present(in.a);
+  const Value& b = present(in.b);
+  if (vectors_plain(in.op, a, b, frame_[in.x])) return;
+  Value left;
+  if (&a == &b || in.a < 0) left = a;
+  else if ((in.flags & kTakeA) || in.a == in.x) left = std::move(frame_[in.a]);
+  else left = a;
+  operate(*this, in.op, left, b);
+  if ((in.flags & kTakeB) && b.is_block()) frame_[in.b].clear();
+  frame_[in.x] = std::move(left);
+}
+
+void Vm::do_apply(const Instruction& in) {
+  const Value& b = present(in.a);
+  Value& target = writable_target(in.x);
+  if (target.is_absent()) fail_unknown("Variable", frame_[in.x].reference_name(), {});
+  if (&target == &b) {
+    const Value copy = b;
+    operate(*this, static_cast<Op>(in.b), target, copy);
+  } else {
+    operate(*this, static_cast<Op>(in.b), target, b);
+  }
+  if ((in.flags & kTakeA) && b.is_block()) frame_[in.a].clear();
+}
+
+bool Vm::slow_holds(const Instruction& in, Op op) {
+  const Value& a = present(in.a);
+  const Value& b = present(in.b);
+  const bool result = compare(*this, op, a, b);
+  if ((in.flags & kTakeA) && a.is_block()) frame_[in.a].clear();
+  if ((in.flags & kTakeB) && b.is_block()) frame_[in.b].clear();
+  return result;
+}
+
+void Vm::do_compare(const Instruction& in) { frame_[in.x] = Value::boolean(slow_holds(in, in.op)); }
+
+bool Vm::slow_truth(const Instruction& in) {
+  const Value& a = present(in.a);
+  const bool result = truth(a);
+  if ((in.flags & kTakeA) && a.is_block()) frame_[in.a].clear();
+  return result;
+}
+
+void Vm::do_logic_not(const Instruction& in) { frame_[in.x] = Value::boolean(!slow_truth(in)); }
+
+void Vm::do_bit_not(const Instruction& in) { frame_[in.x] = bit_not(*this, present(in.a)); }
+
+void Vm::step_in(const Instruction& in, Value& v) {
+  const bool used = (in.flags & kValueUsed) != 0;
+  if (used && !(in.flags & kPrefix)) frame_[in.x] = v;
+  step_value(*this, v, (in.flags & kMinus) != 0);
+  if (used && (in.flags & kPrefix)) frame_[in.x] = v;
+}
+
+void Vm::do_step(const Instruction& in) {
+  present(in.a);
+  step_in(in, frame_[in.a]);
+}
+
+void Vm::do_step_target(const Instruction& in) {
+  do_need_target(in);
+  step_in(in, writable_target(in.a));
+}
+
+// ---- elements
+
+void Vm::do_index(const Instruction& in) {
+  const Value& v = present(in.a);
+  const Value& i = present(in.b);
+  Value result = element(*this, v, i);
+  if ((in.flags & kTakeA) && v.is_block()) frame_[in.a].clear();
+  frame_[in.x] = std::move(result);
+}
+
+void Vm::do_element(const Instruction& in) {
+  do_need_target(in);
+  Value v;
+  bool found = find_element(*this, *frame_[in.a].target(), present(in.b), v);
+  if (found && in.c != kNoOperand) {
+    const Value vector = std::move(v);
+    found = find_element(*this, vector, present(in.c), v);
+  }
+  if (!found) fail(Code::gcmc_range, "Lvalue expected");
+  frame_[in.x] = std::move(v);
+}
+
+void Vm::do_set_element(const Instruction& in) {
+  const Value& item = present(in.c);
+  const Value& first = present(in.a);
+  const Value* second = in.b == kNoOperand ? nullptr : &present(in.b);
+  Value& target = writable_target(in.x);
+  if (target.is_absent()) fail_unknown("Variable", frame_[in.x].reference_name(), {});
+  const Value copy = item;  // item may be the target itself
+  set_element(*this, target, first, second, copy);
+}
+
+void Vm::do_step_element(const Instruction& in) {
+  do_need_target(in);
+  Value& target = writable_target(in.a);
+  const Value& first = present(in.b);
+  const Value* second = in.c == kNoOperand ? nullptr : &present(in.c);
+  Value v;
+  bool found = find_element(*this, target, first, v);
+  if (found && second != nullptr) {
+    const Value vector = std::move(v);
+    found = find_element(*this, vector, *second, v);
+  }
+  if (!found) v = Value::undef();
+  step_in(in, v);
+  if (found && v.is_scalar()) set_element(*this, target, first, second, v);
+}
+
+// ---- literals
+
+Scalar Vm::entry(std::int32_t o) {
+  const Value& v = operand(o, frame_, code_.constants.data());
+  if (v.is_scalar() && !v.is_undef()) return v.scalar();
+  if (v.type() == Type::reference) return {};  // the mark of a coordinate left out
+  present(o);
+  fail(Code::gcmc_type, "Vector entries must be scalar");
+}
+
+void Vm::do_small_vector(const Instruction& in, std::size_t count) {
+  const Scalar a = entry(in.a), b = entry(in.b), c = count == 3 ? entry(in.c) : Scalar{};
+  Value& v = frame_[in.x];
+  v.make_vector(count);
+  v.put(0, a);
+  v.put(1, b);
+  if (count == 3) v.put(2, c);
+}
+
+void Vm::do_vector(const Instruction& in) {
+  std::vector<Scalar> all(static_cast<std::size_t>(in.b));
+  for (std::int32_t i = 0; i < in.b; ++i) {
+    const Value& entry = frame_[in.a + i];
+    if (entry.type() == Type::reference) continue;
+    if (!entry.is_scalar() || entry.is_undef()) fail(Code::gcmc_type, "Vector entries must be scalar");
+    all[static_cast<std::size_t>(i)] = entry.scalar();
+  }
+  frame_[in.x] = Value::vector(all.data(), all.size(), meter);
+}
+
+void Vm::do_list(const Instruction& in) {
+  std::vector<Value> all;
+  all.reserve(static_cast<std::size_t>(in.b));
+  for (std::int32_t i = 0; i < in.b; ++i) {
+    if (!frame_[in.a + i].is_vector()) fail(Code::gcmc_type, "Vectorlist entries must be vectors");
+    all.push_back(std::move(frame_[in.a + i]));
+  }
+  frame_[in.x] = Value::list(std::move(all), meter);
+}
+
+// ---- calls
+
+void Vm::do_call_builtin(const Instruction& in) {
+  const Builtin& f = all_builtins()[static_cast<std::size_t>(in.a)];
+  static constexpr std::string_view kCounts[] = {"no arguments", "one argument", "two arguments", "three arguments"};
+  if (in.c < f.least || (f.most != kAnyCount && in.c > f.most && f.most != 0)) {
+    const int wanted = in.c < f.least ? f.least : f.most;
+    fail(Code::gcmc_arguments, wanted <= 3 ? fmt::format("{}() requires {}", f.name, kCounts[wanted])
+                                           : fmt::format("{}() requires {} arguments", f.name, wanted));
+  }
+  if (f.most == 0 && in.c > 0) warn(Code::gcmc_arguments, fmt::format("{}() takes no arguments, ignored", f.name));
+  const Call call{*this, f.name, frame_ + in.b, in.c, (in.flags & kValueUsed) != 0};
+  Value result = f.function(call);
+  for (std::int32_t i = 0; i < in.c; ++i)
+    if (frame_[in.b + i].is_block()) frame_[in.b + i].clear();
+  frame_[in.x] = std::move(result);
+}
+
+void Vm::do_define(const Instruction& in) {
+  const auto i = static_cast<std::size_t>(in.a);
+  if (defined_[i])
+    fail(Code::gcmc_defined_twice, fmt::format("Function '{}' already defined", name_text(code_.functions[i].name)));
+  defined_[i] = true;
+}
+
+/// Begins a user's function: its arguments stand where its frame begins.
+Vm::Pc Vm::enter(const Instruction& in, Pc pc) {
+  const auto index = static_cast<std::size_t>(in.a);
+  const FunctionCode& f = code_.functions[index];
+  if (!defined_[index]) {
+    fail(Code::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(f.name)),
+         "it is defined further down, and exists only after that");
+  }
+  if (--fuel_ <= 0) refuel();
+  Value* base = frame_ + in.b;
+  Value* end = base + f.frame;
+  if (frames_.size() >= options_.max_calls || end > stack_end_)
+    fail(Code::gcmc_limit, fmt::format("Calls are nested too deeply ({}): an endless recursion?", frames_.size()));
+  if (end > reached_) reach(end);
+  for (Value* v = base + f.parameters; v < base + f.variables; ++v) v->clear();
+  frames_.push_back({pc, frame_, in.a, in.x, (in.flags & kValueUsed) != 0});
+  frame_ = base;
+  return code_.instructions.data() + f.entry;
+}
+
+/// Ends the running function, or the program; `in` is the instruction that gives the value, null for none.
+Vm::Pc Vm::leave(const Instruction* in) {
+  Value result;
+  if (in != nullptr) {
+    present(in->a);
+    if (in->flags & kTakeA) result = std::move(frame_[in->a]);
+    else result = operand(in->a, frame_, code_.constants.data());
+    if (result.type() == Type::reference) result = Value(*result.target());
+  }
+  if (frames_.empty()) {
+    status_ = result.is_scalar() ? to_integer(result.scalar()) : 0;
+    return nullptr;
+  }
+  const Frame& f = frames_.back();
+  const FunctionCode& code = code_.functions[static_cast<std::size_t>(f.function)];
+  const Pc after = f.after;
+  if (!constants_.empty() && code.constants) forget_constants(code);
+  for (Value* v = frame_; v < frame_ + code.frame; ++v) v->clear();
+  frame_ = f.base;
+  frames_.pop_back();  // f stays readable: nothing is pushed before the end
+  if (in == nullptr && f.value_used) {
+    at_ = after - 1;
+    fail(Code::gcmc_control,
+         fmt::format("Function call '{}()' did not return a value, but is used in assignment or calculation",
+                     name_text(code.name)));
+  }
+  if (in != nullptr) frame_[f.x] = std::move(result);
+  return after;
+}
+
+/// The constants of a function that ends are variables that do not exist any more.
+void Vm::forget_constants(const FunctionCode& code) {
+  for (Value* v = frame_; v < frame_ + code.variables; ++v) constants_.erase(v);
+}
+
+void Vm::do_unknown_function(const Instruction& in) {
+  std::vector<std::string> known = builtin_names();
+  for (const FunctionCode& f : code_.functions) known.push_back(name_text(f.name));
+  fail_unknown("Function", in.a, known);
+}
+
+void Vm::do_by_reference(const Instruction& in) {
+  fail(Code::gcmc_arguments, fmt::format("{} argument {}: Cannot pass expression by reference", name_text(in.a), in.b));
+}
+
+void Vm::do_wrong_count(const Instruction& in) {
+  if (!defined_[static_cast<std::size_t>(in.b)])
+    fail(Code::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(in.a)));
+  fail(Code::gcmc_arguments, fmt::format("Incorrect number of arguments in call to '{}'", name_text(in.a)));
+}
+
+// ---- declarations
+
+void Vm::do_declare_local(const Instruction& in) {
+  const Value& value = present(in.a);
+  Value& v = frame_[in.x];
+  if (!v.is_absent()) {
+    warn(Code::gcmc_suspicious,
+         fmt::format("Local scope variable '{}' already available in local scope",
+                     name_text(running().slot_names[in.x])));
+    return;
+  }
+  if (in.flags & kTakeA) v = std::move(frame_[in.a]);
+  else v = value;
+}
+
+void Vm::do_declare_constant(const Instruction& in) {
+  const Value& value = present(in.a);
+  Value& v = frame_[in.x];
+  const Value* known = !v.is_absent() ? &v : in.b >= 0 && !stack_[in.b].is_absent() ? &stack_[in.b] : nullptr;
+  if (known != nullptr) {
+    fail(Code::gcmc_defined_twice, fmt::format("Constant '{}' already defined{}",
+                                               name_text(running().slot_names[in.x]),
+                                               is_constant(*known) ? "" : " as variable"));
+  }
+  v = value;
+  constants_.insert(&v);
+}
+
+void Vm::do_warn_global(const Instruction& in) {
+  warn(Code::gcmc_suspicious,
+       fmt::format("Locally scoped variable '{}' setting without local scope, adding to global scope", name_text(in.a)));
+}
+
+// ---- loops
+
+void Vm::do_repeat_begin(const Instruction& in) {
+  const Value& n = present(in.a);
+  if (!n.is_scalar() || n.is_undef()) fail(Code::gcmc_type, "Repeat's source must be scalar");
+  const Scalar s = n.scalar();
+  if (s.unit() != Unit::none) warn(Code::gcmc_unit, "Repeat's source has units associated, ignored");
+  if (s.kind() == Kind::real && std::fabs(s.p.d - std::nearbyint(s.p.d)) >= kEpsilon) {
+    warn(Code::gcmc_type,
+         "Repeat's source is floating point and has a non-integer fraction, truncated to integer");
+  }
+  frame_[in.x] = Value::integer(to_integer(s));
+  frame_[in.x + 1] = Value::integer(0);
+}
+
+bool Vm::do_repeat_next(const Instruction& in) {
+  const std::int32_t limit = frame_[in.x].payload().i;
+  const std::int32_t last = frame_[in.x + 1].payload().i;
+  if (last == limit) return false;
+  const std::int32_t next = limit > 0 ? last + 1 : last - 1;
+  frame_[in.x + 1].store(Scalar::integer(next));
+  frame_[in.a].store(Scalar::integer(next));
+  return true;
+}
+
+void Vm::do_foreach_begin(const Instruction& in) {
+  const Value& source = present(in.a);
+  if (!source.is_vector() && !source.is_list())
+    fail(Code::gcmc_type, "Foreach's source must be vector or vectorlist");
+  if (in.flags & kTakeA) frame_[in.x] = std::move(frame_[in.a]);
+  else frame_[in.x] = source;
+  frame_[in.x + 1] = Value::integer(0);
+}
+
+bool Vm::do_foreach_next(const Instruction& in) {
+  const Value& source = frame_[in.x];
+  const auto i = static_cast<std::size_t>(frame_[in.x + 1].payload().i);
+  if (source.is_list()) {
+    if (i >= source.vectors().size()) return false;
+    frame_[in.a] = source.vectors()[i];
+  } else {
+    if (i >= source.vector_size()) return false;
+    frame_[in.a] = Value(source.coordinate(i));
+  }
+  frame_[in.x + 1].store(Scalar::integer(static_cast<std::int32_t>(i + 1)));
+  return true;
+}
+
+void Vm::do_clear(const Instruction& in) {
+  for (std::int32_t i = in.a; i < in.b; ++i) frame_[i].clear();
+}
+
+void Vm::do_stray_break(const Instruction& in) {
+  if (in.a == 0) fail(Code::gcmc_control, "Unexpected break or continue");
+  fail(Code::gcmc_type, "Lvalue expected", "a vector list has entries, and these coordinates: nothing lies deeper");
+}
+
+// ---- the loop
+
+namespace {
+
+inline bool holds_plain(Op op, double d) {
+  switch (op) {
+    case Op::jump_equal: return std::fabs(d) < kEpsilon;
+    case Op::jump_not_equal: return !(std::fabs(d) < kEpsilon);
+    case Op::jump_less: return d < -kEpsilon;
+    case Op::jump_greater: return d > kEpsilon;
+    case Op::jump_less_equal: return d < kEpsilon;
+    default: return d > -kEpsilon;
+  }
+}
+
+inline bool holds_plain(Op op, std::int32_t a, std::int32_t b) {
+  switch (op) {
+    case Op::jump_equal: return a == b;
+    case Op::jump_not_equal: return a != b;
+    case Op::jump_less: return a < b;
+    case Op::jump_greater: return a > b;
+    case Op::jump_less_equal: return a <= b;
+    default: return a >= b;
+  }
+}
+
+constexpr Op comparison_of(Op jump) {
+  switch (jump) {
+    case Op::jump_equal: return Op::equal;
+    case Op::jump_not_equal: return Op::not_equal;
+    case Op::jump_less: return Op::less;
+    case Op::jump_greater: return Op::greater;
+    case Op::jump_less_equal: return Op::less_equal;
+    default: return Op::greater_equal;
+  }
+}
+
+}  // namespace
+
+// Additions and comparisons of plain scalars are decided here, everything else by the members above.
+#define KERF_ARITHMETIC(op, operation)                                            \
+  case Op::op: {                                                                  \
+    const Value& a = operand(in.a, frame, constants);                             \
+    const Value& b = operand(in.b, frame, constants);                             \
+    Scalar result;                                                                \
+    if (a.is_scalar() && b.is_scalar() && operation(a.scalar(), b.scalar(), result)) \
+      frame[in.x].store(result);                                    \
+    else do_operate(in);                                                          \
+    break;                                                                        \
+  }
+#define KERF_COMPARING_JUMP(op)                                                                \
+  case Op::op: {                                                                               \
+    const Value& a = operand(in.a, frame, constants);                                          \
+    const Value& b = operand(in.b, frame, constants);                                          \
+    bool yes;                                                                                  \
+    if (a.is_scalar() && b.is_scalar() && ((a.tag() ^ b.tag()) >> 2) == 0 && (a.tag() & 3) != 0 && \
+        (b.tag() & 3) != 0) {                                                                  \
+      yes = both_integers(a.tag(), b.tag())                                                    \
+                ? holds_plain(Op::op, a.payload().i, b.payload().i)                            \
+                : holds_plain(Op::op, number_of(a.payload(), a.tag()) - number_of(b.payload(), b.tag())); \
+    } else {                                                                                   \
+      yes = slow_holds(in, comparison_of(Op::op));                                             \
+    }                                                                                          \
+    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                      \
+    break;                                                                                     \
+  }
+#define KERF_JUMP()                                                    \
+  do {                                                                 \
+    if ((in.flags & kBackward) && --fuel_ <= 0) refuel();              \
+    pc += in.c;                                                        \
+  } while (false)
+#define KERF_CALL_MEMBER(op) \
+  case Op::op: do_##op(in); break;
+
+void Vm::loop() {
+  Pc pc = code_.instructions.data();
+  const Value* const constants = code_.constants.data();
+  Value* frame = frame_;
+  for (;;) {
+    const Instruction& in = *pc++;
+    at_ = &in;
+    switch (in.op) {
+      KERF_ARITHMETIC(add, add_plain)
+      KERF_ARITHMETIC(sub, subtract_plain)
+      KERF_ARITHMETIC(mul, multiply_plain)
+      KERF_ARITHMETIC(div, divide_plain)
+      KERF_ARITHMETIC(mod, modulo_plain)
+      KERF_COMPARING_JUMP(jump_less)
+      KERF_COMPARING_JUMP(jump_greater)
+      KERF_COMPARING_JUMP(jump_less_equal)
+      KERF_COMPARING_JUMP(jump_greater_equal)
+      KERF_COMPARING_JUMP(jump_equal)
+      KERF_COMPARING_JUMP(jump_not_equal)
+      case Op::step: {
+        Value& v = frame[in.a];
+        Scalar stepped;
+        if (!(in.flags & kValueUsed) && v.is_scalar() && step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped))
+          v.store(stepped);
+        else do_step(in);
+        break;
+      }
+      case Op::add_or: case Op::sub_or: case Op::bit_and: case Op::bit_or:
+      case Op::bit_xor: case Op::shift_left: case Op::shift_right: do_operate(in); break;
+      case Op::equal: case Op::not_equal: case Op::less: case Op::greater: case Op::less_equal:
+      case Op::greater_equal: do_compare(in); break;
+      case Op::vector2: do_small_vector(in, 2); break;
+      case Op::vector3: do_small_vector(in, 3); break;
+      case Op::jump: KERF_JUMP(); break;
+      case Op::jump_if: if (slow_truth(in)) KERF_JUMP(); break;
+      case Op::jump_unless: if (!slow_truth(in)) KERF_JUMP(); break;
+      case Op::repeat_next: if (do_repeat_next(in)) KERF_JUMP(); break;
+      case Op::foreach_next: if (do_foreach_next(in)) KERF_JUMP(); break;
+      case Op::call: pc = enter(in, pc); frame = frame_; break;
+      case Op::give_back:
+        if ((pc = leave(&in)) == nullptr) return;
+        frame = frame_;
+        break;
+      case Op::give_nothing: pc = leave(nullptr); frame = frame_; break;
+      case Op::stop: return;
+      KERF_CALL_MEMBER(move) KERF_CALL_MEMBER(get_global) KERF_CALL_MEMBER(get_dynamic)
+      KERF_CALL_MEMBER(dereference) KERF_CALL_MEMBER(refer) KERF_CALL_MEMBER(refer_dynamic)
+      KERF_CALL_MEMBER(need_target) KERF_CALL_MEMBER(store) KERF_CALL_MEMBER(apply)
+      KERF_CALL_MEMBER(step_target) KERF_CALL_MEMBER(step_element) KERF_CALL_MEMBER(logic_not)
+      KERF_CALL_MEMBER(bit_not) KERF_CALL_MEMBER(index) KERF_CALL_MEMBER(element) KERF_CALL_MEMBER(set_element)
+      KERF_CALL_MEMBER(vector) KERF_CALL_MEMBER(list) KERF_CALL_MEMBER(call_builtin) KERF_CALL_MEMBER(define)
+      KERF_CALL_MEMBER(declare_local) KERF_CALL_MEMBER(declare_constant) KERF_CALL_MEMBER(warn_global)
+      KERF_CALL_MEMBER(repeat_begin) KERF_CALL_MEMBER(foreach_begin) KERF_CALL_MEMBER(clear)
+      KERF_CALL_MEMBER(stray_break) KERF_CALL_MEMBER(unknown_function) KERF_CALL_MEMBER(by_reference)
+      KERF_CALL_MEMBER(wrong_count)
+    }
+  }
+}
+
+}  // namespace kerf::gcmc

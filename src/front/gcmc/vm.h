@@ -1,0 +1,163 @@
+// The machine that runs compiled programs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+#include "kerf/gcmc.h"
+
+#include "front/gcmc/code.h"
+#include "front/gcmc/machine.h"
+#include "front/gcmc/parser.h"
+#include "front/gcmc/runtime.h"
+
+namespace kerf::gcmc {
+
+/// A call in progress.
+struct Frame {
+  const Instruction* after = nullptr;  // where the caller goes on
+  Value* base = nullptr;               // of the caller
+  std::int32_t function = -1;          // running
+  std::uint16_t x = 0;                 // the caller's slot for the value
+  bool value_used = false;
+};
+
+/// Where the program is: for messages and origins.
+struct Spot {
+  std::size_t instruction = 0;
+  std::size_t calls = 0;   // depth
+};
+
+class Vm final : public Runtime {
+ public:
+  Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const GcmcOptions& options,
+     GcmcOutput& output, Diagnostics& diagnostics, Progress* progress);
+  ~Vm() override;
+  Vm(const Vm&) = delete;
+  Vm& operator=(const Vm&) = delete;
+
+  /// Defines a constant of the language before the program runs.
+  void define_constant(NameId name, Value value);
+  /// Runs to the end; throws Stop after an error. Returns the exit status that the program gave.
+  int run();
+
+  void warn(Code code, std::string text) override;
+  /// message(), warning() and error() of the program itself.
+  void say(GcmcSaid said, std::string text);
+
+  Machine& machine() { return machine_; }
+  const GcmcOptions& options() const { return options_; }
+  const Tree& tree() const { return tree_; }
+  bool script_failed() const { return script_errors_ > 0; }
+  std::size_t warnings() const { return warnings_; }
+  bool was_stopped() const { return stopped_; }
+
+  /// The variable of that name as the running code sees it, or nullptr.
+  const Value* variable(std::string_view name) const;
+  bool is_constant(const Value& variable) const { return constants_.count(&variable) != 0; }
+  /// Something came out: the program is not lost in a loop.
+  void show_life() { quiet_steps_ = 0; }
+
+  std::size_t current_instruction() const { return static_cast<std::size_t>(at_ - code_.instructions.data()); }
+  const std::vector<Frame>& frames() const { return frames_; }
+  std::size_t call_site(std::size_t frame) const {
+    return static_cast<std::size_t>(frames_[frame].after - code_.instructions.data()) - 1;
+  }
+  TextSpot spot(std::size_t instruction) const;
+
+ private:
+  using Pc = const Instruction*;
+  void say_error(Code code, std::string text, std::string hint) override;
+  void loop();
+  const Value& operand(std::int32_t o, const Value* frame, const Value* constants) const {
+    return o < 0 ? constants[~o] : frame[o];
+  }
+  Value& slot(std::int32_t o);
+  const Value& present(std::int32_t o);
+  [[noreturn]] void fail_absent(std::int32_t slot);
+  [[noreturn]] void fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known);
+  std::string name_text(NameId name) const { return tree_.names[static_cast<std::size_t>(name)]; }
+  const FunctionCode& running() const;
+  void reach(Value* end);
+  void refuel();
+
+  // instructions that are more than a few lines
+  void do_move(const Instruction& in);
+  void do_operate(const Instruction& in);
+  void do_compare(const Instruction& in);
+  bool slow_holds(const Instruction& in, Op op);
+  bool slow_truth(const Instruction& in);
+  void do_get_global(const Instruction& in);
+  void do_get_dynamic(const Instruction& in);
+  void do_dereference(const Instruction& in);
+  void do_refer(const Instruction& in);
+  void do_refer_dynamic(const Instruction& in);
+  void do_need_target(const Instruction& in);
+  void do_store(const Instruction& in);
+  void do_apply(const Instruction& in);
+  void do_step(const Instruction& in);
+  void do_step_target(const Instruction& in);
+  void do_step_element(const Instruction& in);
+  void step_in(const Instruction& in, Value& v);
+  void do_logic_not(const Instruction& in);
+  void do_bit_not(const Instruction& in);
+  void do_index(const Instruction& in);
+  void do_element(const Instruction& in);
+  void do_set_element(const Instruction& in);
+  void do_vector(const Instruction& in);
+  void do_small_vector(const Instruction& in, std::size_t count);
+  Scalar entry(std::int32_t o);
+  void forget_constants(const FunctionCode& code);
+  void do_list(const Instruction& in);
+  void do_call_builtin(const Instruction& in);
+  void do_define(const Instruction& in);
+  void do_declare_local(const Instruction& in);
+  void do_declare_constant(const Instruction& in);
+  void do_warn_global(const Instruction& in);
+  void do_repeat_begin(const Instruction& in);
+  bool do_repeat_next(const Instruction& in);
+  void do_foreach_begin(const Instruction& in);
+  bool do_foreach_next(const Instruction& in);
+  void do_clear(const Instruction& in);
+  void do_stray_break(const Instruction& in);
+  void do_unknown_function(const Instruction& in);
+  void do_by_reference(const Instruction& in);
+  void do_wrong_count(const Instruction& in);
+  Pc enter(const Instruction& in, Pc pc);
+  Pc leave(const Instruction* in);
+  Value& writable_target(std::int32_t reference);
+  void report(GcmcSaid said, Code code, std::string text, std::string hint);
+
+  const Tree& tree_;
+  const std::deque<Source>& sources_;
+  Program& code_;
+  const GcmcOptions& options_;
+  GcmcOutput& output_;
+  Diagnostics& diagnostics_;
+  Progress* progress_;
+  Machine machine_;
+
+  std::unique_ptr<std::byte[]> storage_;
+  Value* stack_ = nullptr;
+  Value* stack_end_ = nullptr;
+  Value* reached_ = nullptr;   // slots before this are constructed
+  Value* frame_ = nullptr;     // of the running function
+  Pc at_ = nullptr;            // the running instruction
+  std::vector<Frame> frames_;
+  std::vector<bool> defined_;
+  std::unordered_set<const Value*> constants_;   // variables that may not be assigned to
+  std::int32_t fuel_ = 0;
+  std::uint64_t quiet_steps_ = 0;
+  std::size_t script_errors_ = 0;
+  std::size_t warnings_ = 0;
+  bool stopped_ = false;
+  int status_ = 0;
+};
+
+}  // namespace kerf::gcmc

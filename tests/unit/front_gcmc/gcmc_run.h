@@ -1,0 +1,71 @@
+// Runs gcmc programs for tests: what they said, what they wrote, what toolpath they made.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kerf/gcmc.h"
+
+namespace kerf::test {
+
+struct Ran {
+  std::string text;                  // what was written
+  std::vector<std::string> said;     // message lines without "file:line:col: "
+  std::vector<GcmcMessage> messages;
+  GcmcRun run;
+  Diagnostics diagnostics;
+};
+
+class Collector final : public GcmcOutput {
+ public:
+  explicit Collector(Ran& ran) : ran_(ran) {}
+  void message(const GcmcMessage& m) override {
+    const std::string line = to_line(m);
+    const std::string place = m.where.file + ":" + std::to_string(m.where.line) + ":" +
+                              std::to_string(m.where.column) + ": ";
+    ran_.said.push_back(line.substr(place.size()));
+    ran_.messages.push_back(m);
+  }
+  void text(std::string_view piece) override { ran_.text += piece; }
+
+ private:
+  Ran& ran_;
+};
+
+inline GcmcOptions bare() {
+  GcmcOptions options;
+  options.file_name = "t.gcmc";
+  options.frame = GcmcFrame::bare;
+  options.precision = 3;
+  options.want_text = true;
+  return options;
+}
+
+inline Ran run(const std::string& program, const GcmcOptions& options = bare(), Progress* progress = nullptr) {
+  Ran ran;
+  Collector collector(ran);
+  ran.run = run_gcmc(program, options, collector, ran.diagnostics, progress);
+  return ran;
+}
+
+/// What message(EXPRESSION) says after its head; all lines joined by '|' if there is more.
+inline std::string value_of(const std::string& expression, const GcmcOptions& options = bare()) {
+  const Ran ran = run("message(" + expression + ");", options);
+  std::string all;
+  for (const std::string& line : ran.said) {
+    const std::string head = "Runtime message(): ";
+    if (!all.empty()) all += "|";
+    all += line.compare(0, head.size(), head) == 0 ? line.substr(head.size()) : line;
+  }
+  return all;
+}
+
+/// All that a program said, joined by '|'.
+inline std::string said_by(const std::string& program, const GcmcOptions& options = bare()) {
+  const Ran ran = run(program, options);
+  std::string all;
+  for (const std::string& line : ran.said) all += (all.empty() ? "" : "|") + line;
+  return all;
+}
+
+}  // namespace kerf::test

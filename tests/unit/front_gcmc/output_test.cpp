@@ -1,0 +1,286 @@
+// The two forms of output: the text, and the toolpath with its origins; and the library.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "gcmc_run.h"
+
+namespace kerf {
+namespace {
+
+using test::bare;
+using test::run;
+using test::said_by;
+using test::value_of;
+
+GcmcOptions with(void (*change)(GcmcOptions&)) {
+  GcmcOptions options = bare();
+  change(options);
+  return options;
+}
+
+// ---- text
+
+TEST(GcmcText, HeadAndEnd) {
+  GcmcOptions options = bare();
+  options.frame = GcmcFrame::usual;
+  options.date = "2026-01-31 12:00:00";
+  options.imperial = options.relative = true;
+  options.plane = Plane::xz;
+  EXPECT_EQ(run("", options).text,
+            "(gcmc compiled code, do not change)\n(2026-01-31 12:00:00)\n(-- prologue begin --)\nG18 ( Use XZ plane )\n"
+            "G20 ( Use inch )\nG40 ( Cancel cutter radius compensation )\nG49 ( Cancel tool length compensation )\n"
+            "G54 ( Default coordinate system )\nG80 ( Cancel canned cycle )\nG91 ( Use relative distance mode )\n"
+            "G94 ( Units Per Minute feed rate mode )\nG64 ( Enable path blending for best speed )\n"
+            "(-- prologue end --)\n(-- epilogue begin --)\nM30 (-- epilogue end --)\n");
+}
+
+TEST(GcmcText, SubroutineAndOwnFrames) {
+  GcmcOptions options = bare();
+  options.frame = GcmcFrame::subroutine;
+  options.subroutine = "part";
+  EXPECT_EQ(run("goto([1]);", options).text,
+            "(gcmc compiled function: part, do not change)\no<part> sub\nG0 X1.000\no<part> endsub\nM2\n");
+  options.subroutine_ends_program = false;
+  EXPECT_EQ(run("", options).text,
+            "%\n(gcmc compiled function: part, do not change)\no<part> sub\no<part> endsub\n%\n");
+  options.prologue = "(begin)\n";
+  options.epilogue = "(end)\n";
+  EXPECT_EQ(run("goto([1]);", options).text, "(begin)\nG0 X1.000\n(end)\n");
+}
+
+TEST(GcmcText, RelativeModeWritesDifferences) {
+  const GcmcOptions options = with([](GcmcOptions& o) { o.relative = true; });
+  EXPECT_EQ(run("goto([1, 2, 3]); move([1, 3]); move_r([0, 1]); move_r([0, 0]);", options).text,
+            "G0 X1.000 Y2.000 Z3.000\nG1 X0.000 Y1.000\nG1 Y1.000\nG1 X0.000 Y0.000\n");
+  EXPECT_EQ(run("arc_cw([10, 0], 5); arc_ccw([0, 0, -1], 5);", options).text,
+            "G2 X10.000 Y0.000 I5.000 J0.000\nG3 X-10.000 Y0.000 Z-1.000 I-5.000 J0.000\n");
+}
+
+TEST(GcmcText, OffsetsAndUvw) {
+  GcmcOptions options = bare();
+  options.offsets = {10, 0, 0, 5, 0, 0, 1, 0, 0};
+  options.uvw = true;
+  EXPECT_EQ(run("goto([1, 2, 3, 4, 5, 6, 7, 8, 9]);", options).text,
+            "G0 X11.000 Y2.000 Z3.000 A9.000 B5.000 C6.000 U8.000 V8.000 W9.000\n");
+}
+
+TEST(GcmcText, BriefLeavesOutWhatIsInForce) {
+  const GcmcOptions options = with([](GcmcOptions& o) { o.brief = true; });
+  EXPECT_EQ(run("feedrate(10); feedrate(10); goto([1, 2, 3]); goto([1, 2, 4]); move([1, 2, 4]); move([2, 2], 10);"
+                "arc_cw([4, 2], 1); move([4, 3]);",
+                options)
+                .text,
+            "F10.000\nG0 X1.000 Y2.000 Z3.000\nZ4.000\nG1\nX2.000\nG2 X4.000 Y2.000 I1.000 J0.000\nG1 Y3.000\n");
+}
+
+TEST(GcmcText, NumbersKeepTheirSignAndRounding) {
+  const GcmcOptions options = with([](GcmcOptions& o) { o.precision = 8; });
+  EXPECT_EQ(run("move([-0.000000001, -0.0, 123456.789012345]);", options).text,
+            "G1 X-0.00000000 Y0.00000000 Z123456.78901235\n");
+}
+
+TEST(GcmcText, WhatWasWrittenBeforeAnErrorStands) {
+  const auto ran = run("goto([1]); goto([-]);");
+  EXPECT_EQ(ran.text, "G0 X1.000\nG0\n");
+  EXPECT_EQ(ran.run.status, 1);
+}
+
+// ---- toolpath
+
+TEST(GcmcPath, PositionsAreCompleteInMillimetres) {
+  const GcmcOptions options = with([](GcmcOptions& o) { o.imperial = true; });
+  const auto ran = run("feedrate(10); goto([1, 2]); move([-, -, -1]); toolchange(3); dwell(2);", options);
+  const Toolpath& path = ran.run.path;
+  ASSERT_EQ(path.size(), 4u);
+  EXPECT_EQ(path[0].to(), (Point3{25.4, 50.8, 0}));
+  EXPECT_EQ(path[0].unknown_axes(), 4u);
+  EXPECT_EQ(path[0].named_axes(), 3u);
+  EXPECT_EQ(path[1].to(), (Point3{25.4, 50.8, -25.4}));
+  EXPECT_EQ(path[1].named_axes(), 4u);
+  EXPECT_EQ(path[1].unknown_axes(), 0u);
+  EXPECT_DOUBLE_EQ(path[1].feed().mm_per_min(), 254.0);
+  EXPECT_EQ(path[2].tool_change().tool, 3);
+  EXPECT_DOUBLE_EQ(path[3].dwell().time.seconds(), 2.0);
+}
+
+TEST(GcmcPath, ArcsHaveAbsoluteCentres) {
+  const auto ran = run("goto([10, 0, 0]); arc_ccw([0, 10], 10, 2); plane(PLANE_XZ); arc_cw([10, -, 0], 5);");
+  const Toolpath& path = ran.run.path;
+  const step::Arc first = path[1].arc();
+  EXPECT_NEAR(first.centre.x, 0, 1e-12);
+  EXPECT_NEAR(first.centre.y, 0, 1e-12);
+  EXPECT_EQ(first.extra_turns, 1);
+  EXPECT_EQ(first.turn, Turn::ccw);
+  // In XZ clockwise is seen from +Y: the arc from X0 to X10 goes through negative Z.
+  const ArcWalk walk = walk_of(path[2], path[1].to());
+  EXPECT_NEAR(walk.at(0.5).z, -5, 1e-9);
+  EXPECT_NEAR(walk.at(0.5).x, 5, 1e-9);
+}
+
+TEST(GcmcPath, EverythingElseHasItsStep) {
+  const auto ran = run("spindle(-100); spindlespeed(50); coolant(3); pathmode(1); pathmode(0.5, 1); pause(1);"
+                       "comment(\"c\"); literal(\"G4\", \" P1\\nM9\"); layerstack(\"a\"); layer(\"a\"); feedmode(2); move([1], 2);"
+                       "svg_closepath(); fixpos_store(1); goto([1,2,3,0,0,90]); fixpos_restore(1);");
+  const Toolpath& p = ran.run.path;
+  ASSERT_EQ(p.size(), 16u);
+  EXPECT_EQ(p[0].spindle().turn, SpindleTurn::ccw);
+  EXPECT_DOUBLE_EQ(p[1].spindle().speed.rpm(), 50);
+  EXPECT_EQ(p[1].spindle().turn, SpindleTurn::ccw);
+  EXPECT_TRUE(p[2].coolant().mist && p[2].coolant().flood);
+  EXPECT_EQ(p[3].path_mode().kind, PathModeKind::exact_path);
+  EXPECT_DOUBLE_EQ(p[4].path_mode().tolerance.mm(), 0.5);
+  EXPECT_EQ(p.text(5), "M1");
+  EXPECT_EQ(p.text(6), "c");
+  EXPECT_EQ(p.text(7), "G4 P1");
+  EXPECT_EQ(p.layer(8).name, "a");
+  EXPECT_EQ(p.text(9), "G95\n");
+  EXPECT_DOUBLE_EQ(p[10].feed().mm_per_min(), 100);  // 2 mm a turn at 50 turns
+  EXPECT_EQ((*p.extra(13)->abc)[2], 90);
+  EXPECT_EQ(p[14].kind(), StepKind::rapid);
+  EXPECT_EQ(p.text(15), "M9");
+}
+
+TEST(GcmcPath, DrillIsMadeOfItsMoves) {
+  const auto ran = run("goto([0, 0, 10]); drill([1, 2, -2.5], 5, 5);");
+  const Toolpath& p = ran.run.path;
+  ASSERT_EQ(p.size(), 7u);
+  EXPECT_EQ(p[1].to(), (Point3{1, 2, 10}));
+  EXPECT_EQ(p[3].to(), (Point3{1, 2, 0}));
+  EXPECT_EQ(p[5].to(), (Point3{1, 2, -2.5}));
+  EXPECT_TRUE(p[5].is_cutting());
+  EXPECT_EQ(p[6].to(), (Point3{1, 2, 5}));
+}
+
+TEST(GcmcPath, OriginsNameLineAndCalls) {
+  const auto ran = run("function f() {\n  goto([1]);\n}\nf();\nrepeat(3) { move([2]); }\nf();");
+  const Toolpath& p = ran.run.path;
+  EXPECT_EQ(to_string(p.origin_of(0)), "t.gcmc:2:11");
+  const auto calls = p.origins().callers(p[0].origin());
+  ASSERT_EQ(calls.size(), 1u);
+  EXPECT_EQ(to_string(calls[0]), "t.gcmc:4:3");
+  EXPECT_EQ(p[1].origin(), p[3].origin());  // one place is one origin
+  EXPECT_EQ(to_string(p.origins().callers(p[4].origin()).at(0)), "t.gcmc:6:3");
+}
+
+TEST(GcmcPath, OriginsReachThroughTheLibrary) {
+  const auto ran = run("include(\"tracepath.inc.gcmc\");\ntracepath({[1, 1], [2, 2]}, -1mm);");
+  const Toolpath& p = ran.run.path;
+  const auto* spot = std::get_if<TextSpot>(&p.origins().callers(p[1].origin()).at(0));
+  ASSERT_NE(spot, nullptr);
+  EXPECT_EQ(spot->line, 2u);
+}
+
+TEST(GcmcPath, TheNumberOfStepsIsLimited) {
+  GcmcOptions options = bare();
+  options.max_path_steps = 100;
+  EXPECT_EQ(said_by("repeat(1000; i) { move([i]); }", options), "error: The toolpath has more than 100 steps");
+}
+
+// ---- include
+
+TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
+  const std::string folder = testing::TempDir();
+  const std::string file = folder + "/kerf_gcmc_included.gcmc";
+  std::ofstream(file) << "inside = 7;\nmessage(oops);\n";
+  GcmcOptions options = bare();
+  options.include_paths = {folder};
+  const auto ran = run("include(\"kerf_gcmc_included.gcmc\");", options);
+  EXPECT_EQ(to_string(ran.messages.at(0).where), folder + "/kerf_gcmc_included.gcmc:2:13");
+  std::ofstream(file) << "include(\"kerf_gcmc_included.gcmc\");\n";
+  EXPECT_NE(said_by("include(\"kerf_gcmc_included.gcmc\");", options).find("nested too deeply"), std::string::npos);
+  std::remove(file.c_str());
+}
+
+// ---- library
+
+const std::string kDrill = "include(\"canned_drill.inc.gcmc\"); ";
+
+TEST(GcmcLibrary, DrillCycle) {
+  EXPECT_EQ(run(kDrill + "goto([0,0,10]); canned_drill({[1,1,-2],[2],[-,3,-3]}, 5, 0.5, 1);").text,
+            "G0 X0.000 Y0.000 Z10.000\n(-- canned_drill R-plane=5.000mm dewlling=0.500 return-to-old-Z=1 --)\nG61\n"
+            "G0 X1.000 Y1.000\nG0 Z5.000\nG1 Z-2.000\nG4 P0.500\nG0 Z10.000\n"
+            "G0 X2.000\nG0 Z5.000\nG1 Z-2.000\nG4 P0.500\nG0 Z10.000\n"
+            "G0 Y3.000\nG0 Z5.000\nG1 Z-3.000\nG4 P0.500\nG0 Z10.000\nG0 Z10.000\n(-- end canned_drill --)\n");
+}
+
+TEST(GcmcLibrary, PeckCycle) {
+  EXPECT_EQ(run(kDrill + "goto([0,0,10]); canned_drill_peck({[1,1,-4]}, 5mm, 3mm, 0);").text,
+            "G0 X0.000 Y0.000 Z10.000\n(-- canned_drill_peck R-plane=5.000mm peck-increment=3.000mm "
+            "return-to-old-Z=0 --)\nG61\nG0 X1.000 Y1.000\nG0 Z5.000\nG1 Z2.000\nG0 Z5.000\nG0 Z2.200\nG1 Z-1.000\n"
+            "G0 Z5.000\nG0 Z-0.800\nG1 Z-4.000\nG0 Z5.000\n(-- end canned_drill_peck --)\n");
+}
+
+TEST(GcmcLibrary, DrillRefusals) {
+  EXPECT_EQ(said_by(kDrill + "canned_drill({[1,1]}, 5mm, -1, 0);"),
+            "Runtime error(): canned_drill(): Argument 1 'holelist[0]' has no Z-coordinate");
+  EXPECT_EQ(said_by(kDrill + "canned_drill({}, 5mm, -1, 0);"),
+            "Runtime warning(): canned_drill(): Argument 1 'holelist' has no entries, canned cycle not performed");
+  EXPECT_EQ(said_by(kDrill + "canned_drill_peck({[1,1,-6]}, 5mm, 0mm, 0);"),
+            "Runtime error(): canned_drill_peck(): Argument 3 'delta' must > 0.0");
+  EXPECT_EQ(said_by(kDrill + "canned_drill({[1,1,6]}, 5mm, -1, 0);"),
+            "Runtime warning(): canned_drill(): drilling at [1,1] to depth 6mm is higher than retract-plane (5.000mm), "
+            "skipping");
+}
+
+TEST(GcmcLibrary, Tracepath) {
+  EXPECT_EQ(run("include(\"tracepath.inc.gcmc\"); goto([0,0,5]); tracepath({[1,1,7],[2,2]}, -1mm, 0.25);").text,
+            "G0 X0.000 Y0.000 Z5.000\n(-- tracepath at Z=-1mm --)\nG0 X1.000 Y1.000 Z7.000\nG1 Z-1.000\nG4 P0.250\n"
+            "G1 X2.000 Y2.000\nG4 P0.250\nG1 X1.000 Y1.000 Z7.000\nG4 P0.250\nG1 Z5.000\n(-- tracepath end --)\n");
+  EXPECT_EQ(run("include(\"tracepath.inc.gcmc\"); tracepath({[1,1]});").text,
+            "(-- tracepath at Z=<undef> --)\nG0 X1.000 Y1.000\nG1 X1.000 Y1.000\n(-- tracepath end --)\n");
+}
+
+TEST(GcmcLibrary, Engrave) {
+  EXPECT_EQ(run("include(\"engrave.inc.gcmc\"); engrave({[-,-,1],[2,2,-],[-,-,0],[3,3,-]}, 1, -1);").text,
+            "G0 Z1.000\nG0 X2.000 Y2.000\nG1 Z-1.000\nG1 X3.000 Y3.000\n");
+  EXPECT_EQ(said_by("include(\"engrave.inc.gcmc\"); engrave({}, 1deg, -1);"),
+            "Runtime warning(): engrave(): Argument 2, 'zup', must be distance");
+}
+
+TEST(GcmcLibrary, ArcsAsPoints) {
+  const std::string varcs = "include(\"varcs.inc.gcmc\"); ";
+  const auto points = [&](const std::string& expression) { return said_by(varcs + "message(" + expression + ");"); };
+  EXPECT_EQ(points("varc_cw([10mm,0mm],5mm,0,5mm,45deg)"),
+            "Runtime message(): {[1.464mm,3.536mm],[5.000mm,5.000mm],[8.536mm,3.536mm],[10mm,0mm]}");
+  EXPECT_EQ(points("varc_ccw([10mm,0mm],5mm,0,5mm,90deg)"),
+            "Runtime message(): {[2.500mm,-4.330mm],[7.500mm,-4.330mm],[10mm,0mm]}");
+  EXPECT_EQ(points("count(varc_cw([10mm,0mm],5mm)), \" \", count(vcircle_cw([0mm,50mm])), \" \", "
+                   "count(vcircle_cw([0mm,1mm]))"),
+            "Runtime message(): 180 3142 360");
+  EXPECT_EQ(points("vcircle_cw([-,5mm,0mm],0,10mm,90deg,PLANE_YZ)[0]"), "Runtime message(): [-,5.000mm,5.000mm]");
+  EXPECT_EQ(points("varc_cw([10mm,3mm,0mm],8mm,0,10mm,45deg,PLANE_XZ)"),
+            "Runtime message(): {[5.000mm,1.500mm,1.755mm],[10mm,3mm,0mm]}");
+  EXPECT_EQ(points("varc_cw([10mm,0mm],4mm)"), "Runtime error(): varc_cw() radius (4mm) is less than two times distance "
+                                               "from start to end (D=-36.000mm)|Runtime message(): {}");
+}
+
+TEST(GcmcLibrary, BezierCurves) {
+  const std::string bezier = "include(\"vbezier.inc.gcmc\"); ";
+  EXPECT_EQ(said_by(bezier + "message(vbezier3([0mm,0mm],[0mm,10mm],[10mm,10mm],[10mm,0mm],1.0,5mm));"),
+            "Runtime message(): {[5.000mm,7.500mm],[10mm,0mm]}");
+  EXPECT_EQ(said_by(bezier + "message(count(vbezier3([0mm,0mm],[0mm,10mm],[10mm,10mm],[10mm,0mm])), \" \", "
+                             "count(vbezier2([0mm,0mm],[5mm,10mm],[10mm,0mm])));"),
+            "Runtime message(): 326 168");
+  EXPECT_EQ(said_by(bezier + "message(vbezier3([0,0],[1,0],[2,0],[3,0],-1));"),
+            "Runtime error(): vbezier3(): Argument 'flatness' must be larger than zero|Runtime message(): {}");
+}
+
+TEST(GcmcLibrary, CompensatedTrace) {
+  const std::string square = "include(\"tracepath_comp.inc.gcmc\"); goto([0,0,5]); "
+                             "sq = {[0,0,-1],[0,10],[10,10],[10,0]} * 1mm; ";
+  EXPECT_EQ(run(square + "tracepath_comp(sq, 1mm, TPC_LEFT|TPC_ARCIN|TPC_ARCOUT|TPC_KEEPZ|TPC_OLDZ);").text,
+            "G0 X0.000 Y0.000 Z5.000\n(-- tracepath_comp at left side at width=1.000mm --)\nG0 X-2.000 Y-1.000\n"
+            "G1 X-2.000 Y-1.000\nG3 X-1.000 Y0.000 I0.000 J1.000\nG1 X-1.000 Y10.000\nG2 X0.000 Y11.000 I1.000 J0.000\n"
+            "G1 X10.000 Y11.000\nG2 X11.000 Y10.000 I0.000 J-1.000\nG1 X11.000 Y0.000\n"
+            "G3 X12.000 Y-1.000 I1.000 J0.000\nG0 Z5.000\n(-- tracepath_comp end --)\n");
+  EXPECT_EQ(said_by("include(\"tracepath_comp.inc.gcmc\"); "
+                    "tracepath_comp({[0,0,-1],[0,10],[0.5,10],[0.5,0],[10,0]}*1mm, 1mm, TPC_RIGHT);"),
+            "Runtime warning(): Removed 1 unreachable internal corner(s)");
+  EXPECT_EQ(said_by("include(\"tracepath_comp.inc.gcmc\"); tracepath_comp({[0,0]}, 1mm, TPC_RIGHT);"),
+            "Runtime error(): tracepath_comp(): Argument 1 'path' has fewer than 2 points");
+}
+
+}  // namespace
+}  // namespace kerf
