@@ -88,8 +88,8 @@ def outline_reverse(outline, *, outline_format=None):
 
 
 def ideal_outline(outline, error_mark_string=""):
-    """Format A or C without its last column: format B. Format B and circles come back as they are, with a
-    warning.""" kind = _outline.check(outline, 868, 868)
+    """Format A or C without its last column: format B. Format B and circles come back, with a warning."""
+    kind = _outline.check(outline, 868, 868)
     if kind != "A":
         warn(441, f"{error_mark_string} is a circle or of format B already")
         return outline
