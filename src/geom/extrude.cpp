@@ -13,7 +13,7 @@ namespace {
 
 using namespace outline_detail;
 
-constexpr int kMostChords = 1 << 16;  // of one arc
+constexpr int kMostChords = 1 << 12;  // of one arc
 constexpr int kFewestChords = 16;     // of a full circle, so that a coarse tolerance still leaves it round
 
 /// Appends the points of an arc after its begin, without its end.
@@ -88,8 +88,13 @@ std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tole
   }
   const std::vector<Ring> rings = rings_of(figure, tolerance, diagnostics);
   if (rings.empty()) return std::nullopt;
-  const auto caps = triangulate(rings);
-  if (caps.empty()) {
+  const Triangulation caps = triangulate(rings);
+  if (caps.too_much) {
+    diagnostics.error(Code::figure_not_solid, {},
+                      "the figure has too many points; a coarser chord tolerance helps");
+    return std::nullopt;
+  }
+  if (caps.triangles.empty()) {
     diagnostics.error(
         Code::figure_crosses, {},
         "outlines of the figure cross themselves or each other, or a hole is not inside the first");
@@ -102,7 +107,7 @@ std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tole
     for (const Ring& ring : rings)
       for (const Point2 p : ring)
         for (const double v : {p.x, p.y, z}) mesh.positions.push_back(static_cast<float>(v));
-  for (const auto& [a, b, c] : caps)
+  for (const auto& [a, b, c] : caps.triangles)
     for (const std::uint32_t i : {a, c, b, a + points, b + points, c + points}) mesh.triangles.push_back(i);
   std::uint32_t first = 0;
   for (const Ring& ring : rings) {

@@ -9,6 +9,10 @@ namespace {
 
 /// Triangles may miss the region's area by this share of it, from rounding.
 constexpr double kAreaShare = 1e-9;
+/// Points looked at in all, a few seconds of work. Ordinary shapes of a hundred thousand points stay far
+/// below.
+constexpr std::size_t kMostLooks = 1'000'000'000;
+constexpr double kMostCells = 512.0;  // along a side of the grid
 
 struct Node {
   Point2 at;
@@ -23,22 +27,67 @@ bool inside(Point2 p, Point2 a, Point2 b, Point2 c) {
   return turn(a, b, p) >= 0.0 && turn(b, c, p) >= 0.0 && turn(c, a, p) >= 0.0;
 }
 
+/// Which nodes lie near a box: squares over the whole, with the nodes in them.
+class Grid {
+ public:
+  void build(const std::vector<Node>& nodes, const std::vector<std::size_t>& chosen);
+  /// Calls `look(node)` for the chosen nodes near the box until it returns true; says whether one did.
+  template <class Look>
+  bool any(Point2 low, Point2 high, Look look) const {
+    const int x0 = column(low.x, low_.x, step_.x), x1 = column(high.x, low_.x, step_.x);
+    const int y0 = column(low.y, low_.y, step_.y), y1 = column(high.y, low_.y, step_.y);
+    for (int y = y0; y <= y1; ++y)
+      for (int x = x0; x <= x1; ++x)
+        for (const std::size_t node : cells_[static_cast<std::size_t>(y * side_ + x)])
+          if (look(node)) return true;
+    return false;
+  }
+
+ private:
+  int column(double at, double low, double step) const {
+    return step > 0.0 ? static_cast<int>(std::clamp((at - low) / step, 0.0, side_ - 1.0)) : 0;
+  }
+  int side_ = 1;
+  Point2 low_, step_;
+  std::vector<std::vector<std::size_t>> cells_;
+};
+
+void Grid::build(const std::vector<Node>& nodes, const std::vector<std::size_t>& chosen) {
+  Point2 high = low_ = nodes.front().at;
+  for (const Node& node : nodes) {
+    low_ = {std::min(low_.x, node.at.x), std::min(low_.y, node.at.y)};
+    high = {std::max(high.x, node.at.x), std::max(high.y, node.at.y)};
+  }
+  side_ = static_cast<int>(std::clamp(std::sqrt(static_cast<double>(chosen.size())), 1.0, kMostCells));
+  step_ = (1.0 / side_) * (high - low_);
+  cells_.assign(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), {});
+  for (const std::size_t i : chosen) {
+    const int x = column(nodes[i].at.x, low_.x, step_.x), y = column(nodes[i].at.y, low_.y, step_.y);
+    cells_[static_cast<std::size_t>(y * side_ + x)].push_back(i);
+  }
+}
+
 class Clipper {
  public:
   explicit Clipper(const std::vector<Ring>& rings);
-  std::vector<std::array<std::uint32_t, 3>> run();
+  Triangulation run();
 
  private:
   std::size_t add_ring(const Ring& ring, std::uint32_t first);
   void bridge(std::size_t hole);
   std::size_t visible_from(const Node& hole) const;
   std::size_t copy(std::size_t node);
-  bool is_ear(std::size_t i) const;
+  bool is_ear(std::size_t i);
+  void build_grid();
+  bool opens_to(std::size_t i, Point2 p) const;
   double corner(std::size_t i) const {
     return turn(nodes_[nodes_[i].before].at, nodes_[i].at, nodes_[nodes_[i].after].at);
   }
 
   std::vector<Node> nodes_;
+  std::vector<bool> gone_;  // cut off
+  Grid reflex_;             // the corners that turn to the right at first; no other ever will
+  std::size_t looks_ = 0;
   std::size_t outside_ = 0;
   std::size_t left_ = 0;  // nodes of the outside that are not cut off yet
   double area_ = 0.0;
@@ -69,7 +118,20 @@ Clipper::Clipper(const std::vector<Ring>& rings) {
   // The hole furthest to the right sees the outside; joined, it is outside for the next.
   std::sort(rightmost.begin(), rightmost.end(),
             [&](std::size_t a, std::size_t b) { return nodes_[a].at.x > nodes_[b].at.x; });
-  for (const std::size_t hole : rightmost) bridge(hole);
+  for (const std::size_t hole : rightmost) {
+    looks_ += nodes_.size();
+    if (looks_ > kMostLooks) return;
+    bridge(hole);
+  }
+  build_grid();
+}
+
+void Clipper::build_grid() {
+  gone_.assign(nodes_.size(), false);
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < nodes_.size(); ++i)
+    if (corner(i) <= 0.0) chosen.push_back(i);
+  reflex_.build(nodes_, chosen);
 }
 
 /// The node of the outside that a bridge from the hole's rightmost point may go to; the number of nodes if
@@ -99,7 +161,7 @@ std::size_t Clipper::visible_from(const Node& hole) const {
   do {
     const Point2 p = nodes_[i].at;
     const bool within = end.y < h.y ? inside(p, h, end, hit) : inside(p, h, hit, end);
-    if (i != found && p.x >= h.x && corner(i) <= 0.0 && within && !(p == end)) {
+    if (i != found && p.x >= h.x && corner(i) <= 0.0 && within && !(p == end) && opens_to(i, h)) {
       const double slope = std::abs(p.y - h.y) / std::max(p.x - h.x, 1e-300);
       if (slope < least || (slope == least && p.x < nodes_[found].at.x)) {
         least = slope;
@@ -109,6 +171,15 @@ std::size_t Clipper::visible_from(const Node& hole) const {
     i = nodes_[i].after;
   } while (i != outside_);
   return found;
+}
+
+/// Whether the region begins at a node in the direction of a point: bridges leave several nodes at one place,
+/// each with its own part of the region.
+bool Clipper::opens_to(std::size_t i, Point2 p) const {
+  const Node& node = nodes_[i];
+  const Point2 before = nodes_[node.before].at, after = nodes_[node.after].at;
+  const bool left_in = turn(before, node.at, p) >= 0.0, left_out = turn(node.at, after, p) >= 0.0;
+  return turn(before, node.at, after) > 0.0 ? left_in && left_out : left_in || left_out;
 }
 
 std::size_t Clipper::copy(std::size_t node) {
@@ -133,42 +204,44 @@ void Clipper::bridge(std::size_t hole) {
   nodes_[to_next].before = to_copy;
 }
 
-bool Clipper::is_ear(std::size_t i) const {
+bool Clipper::is_ear(std::size_t i) {
   const Node& node = nodes_[i];
   const Point2 a = nodes_[node.before].at, b = node.at, c = nodes_[node.after].at;
-  if (turn(a, b, c) < 0.0) return false;
-  const double low_x = std::min({a.x, b.x, c.x}), high_x = std::max({a.x, b.x, c.x});
-  const double low_y = std::min({a.y, b.y, c.y}), high_y = std::max({a.y, b.y, c.y});
-  for (std::size_t k = nodes_[node.after].after; k != node.before; k = nodes_[k].after) {
+  if (turn(a, b, c) < 0.0 || !opens_to(node.before, c) || !opens_to(node.after, a)) return false;
+  const Point2 low{std::min({a.x, b.x, c.x}), std::min({a.y, b.y, c.y})};
+  const Point2 high{std::max({a.x, b.x, c.x}), std::max({a.y, b.y, c.y})};
+  return !reflex_.any(low, high, [&](std::size_t k) {
+    ++looks_;
     const Point2 p = nodes_[k].at;
-    if (p.x < low_x || p.x > high_x || p.y < low_y || p.y > high_y) continue;
-    if (p == a || p == b || p == c || corner(k) > 0.0) continue;
-    if (inside(p, a, b, c)) return false;
-  }
-  return true;
+    if (gone_[k] || p.x < low.x || p.x > high.x || p.y < low.y || p.y > high.y) return false;
+    return !(p == a) && !(p == b) && !(p == c) && corner(k) <= 0.0 && inside(p, a, b, c);
+  });
 }
 
-std::vector<std::array<std::uint32_t, 3>> Clipper::run() {
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+Triangulation Clipper::run() {
+  Triangulation made;
   double covered = 0.0;
   std::size_t i = outside_, tried = 0;
-  while (left_ >= 3 && tried <= left_) {
+  while (left_ >= 3 && tried <= left_ && looks_ <= kMostLooks) {
     const Node node = nodes_[i];
+    ++looks_;
     if (!is_ear(i)) {
       ++tried;
       i = node.after;
       continue;
     }
     covered += 0.5 * corner(i);
-    triangles.push_back({nodes_[node.before].point, node.point, nodes_[node.after].point});
+    made.triangles.push_back({nodes_[node.before].point, node.point, nodes_[node.after].point});
     nodes_[node.before].after = node.after;
     nodes_[node.after].before = node.before;
+    gone_[i] = true;
     --left_;
     tried = 0;
     i = nodes_[node.after].after;  // not the next one, which would make a fan of slivers
   }
-  if (left_ > 2 || std::abs(covered - area_) > kAreaShare * area_) return {};
-  return triangles;
+  made.too_much = looks_ > kMostLooks;
+  if (left_ > 2 || !(std::abs(covered - area_) <= kAreaShare * area_)) made.triangles.clear();
+  return made;
 }
 
 }  // namespace
@@ -180,8 +253,6 @@ double area(const Ring& ring) {
   return 0.5 * twice;
 }
 
-std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<Ring>& rings) {
-  return Clipper(rings).run();
-}
+Triangulation triangulate(const std::vector<Ring>& rings) { return Clipper(rings).run(); }
 
 }  // namespace kerf::outline_detail

@@ -242,6 +242,25 @@ def test_a_solid_is_closed():
         api.figure_mesh([[[0, 0], [10, 0], [10, 10]]], 5)
 
 
+def test_solids_with_many_holes_are_closed():
+    seed = random.randrange(10**9)
+    rng = random.Random(seed)
+    for _ in range(20):
+        count = rng.randint(5, 100)
+        star = []
+        for i in range(count):
+            radius, angle = rng.uniform(50, 100), 2 * math.pi * i / count
+            star.append([radius * math.cos(angle), radius * math.sin(angle)])
+        figure = [star + star[:1]]
+        for x in range(-18, 19, 12):  # in rows and columns, so that bridges meet corners
+            for y in range(-18, 19, 12):
+                hole = [[x - 2, y - 2], [x + 3, y - 2], [x + rng.uniform(-1, 3), y + 3], [x - 2, y - 2]]
+                figure.append([x, y, rng.uniform(0.5, 5)] if rng.random() < 0.5 else hole)
+        _, triangles = api.figure_mesh(figure, 5, chord=0.05)
+        edges = collections.Counter((t[i], t[(i + 1) % 3]) for t in triangles for i in range(3))
+        assert all(n == 1 and edges[(b, a)] == 1 for (a, b), n in list(edges.items())), f"seed {seed}"
+
+
 def test_a_shallow_arc_stays_an_arc_in_every_direction(tmp_path):
     for degrees in range(0, 360, 15):
         arc = api.outline_rotate([[0, 0], [50, 0.25, 100, 0]], 0, 0, math.radians(degrees))
