@@ -1,7 +1,6 @@
 // The simulator in Python: what is left of the stock, what was touched that should not be, meshes and
 // pictures.
 #include <memory>
-#include <pybind11/numpy.h>
 
 #include "bindings.h"
 
@@ -55,17 +54,25 @@ Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTab
   return {std::move(*simulation), std::move(kept)};
 }
 
+/// A numpy array of its own memory. Made through numpy's Python interface, which does not depend on the
+/// binding library and numpy agreeing on the layout of numpy's structures.
+template <class T>
+py::object to_array(const std::vector<T>& values, const char* type, py::ssize_t columns) {
+  const py::object bytes = py::reinterpret_steal<py::object>(PyByteArray_FromStringAndSize(
+      reinterpret_cast<const char*>(values.data()), static_cast<py::ssize_t>(values.size() * sizeof(T))));
+  if (!bytes) throw py::error_already_set();
+  const py::object array = py::module_::import("numpy").attr("frombuffer")(bytes, type);
+  return columns == 1 ? array : array.attr("reshape")(-1, columns);
+}
+
 py::tuple mesh_arrays(const Result& result) {
   Mesh mesh;
   {
     const py::gil_scoped_release release;
     mesh = extract_mesh(result.simulation.workpiece.grid());
   }
-  const auto points = static_cast<py::ssize_t>(mesh.positions.size() / 3);
-  const auto faces = static_cast<py::ssize_t>(mesh.triangles.size() / 3);
-  return py::make_tuple(py::array_t<float>({points, py::ssize_t{3}}, mesh.positions.data()),
-                        py::array_t<std::uint32_t>({faces, py::ssize_t{3}}, mesh.triangles.data()),
-                        py::array_t<std::uint32_t>(faces, mesh.step.data()));
+  return py::make_tuple(to_array(mesh.positions, "float32", 3), to_array(mesh.triangles, "uint32", 3),
+                        to_array(mesh.step, "uint32", 1));
 }
 
 py::list column_of(const Result& result, int i, int j) {
@@ -111,10 +118,7 @@ void bind_simulation(py::module_& m) {
           "list of dict: moves that would break a tool or a part, in order; see `kerf simulate --json`.")
       .def_property_readonly(
           "removed_by_step",
-          [](const Result& r) {
-            return py::array_t<float>(static_cast<py::ssize_t>(r.simulation.removed_by_step.size()),
-                                      r.simulation.removed_by_step.data());
-          },
+          [](const Result& r) { return to_array(r.simulation.removed_by_step, "float32", 1); },
           "ndarray (steps,): volume removed by each step, mm3.")
       .def("column", &column_of, py::arg("i"), py::arg("j"),
            "Material of a column: list of (low, high) Z in mm, lowest first.")

@@ -34,6 +34,7 @@ def test_the_mesh_is_closed_and_encloses_what_is_left():
     volume = (a * __import__("numpy").cross(b, c)).sum() / 6
     assert volume == pytest.approx(result.left_mm3, rel=5e-3)
     assert len(step) == len(triangles)
+    assert {3, 4} & set(step.tolist()), "the cuts' own steps made faces"
 
 
 def test_a_rapid_through_stock_names_the_line_of_the_script():
