@@ -12,6 +12,7 @@
 #include "sim/kernels.h"
 #include "sim/parallel.h"
 #include "sim/plan.h"
+#include "sim/walls.h"
 
 #include "kerf/number.h"
 
@@ -220,7 +221,7 @@ class Run {
       : body_(workpiece.body()),
         path_(path),
         survey_(std::move(survey)),
-        planner_(body_, survey_.solids, options.hazard_depth),
+        hazard_depth_(options.hazard_depth),
         threads_(thread_count(options.threads)),
         progress_(progress),
         removed_(path.size(), 0.0) {
@@ -238,12 +239,12 @@ class Run {
 
   void cut_all() {
     if (progress_ != nullptr) progress_->phase("cutting");
-    for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
-      if (!stopped_) add(step, context);
-    });
-    if (!stopped_) flush(path_.size());
+    send_all({});
     report(progress_, 1.0);
   }
+
+  /// Counts the columns at walls anew, see walls.h. Stopped meanwhile, all is as it was before.
+  void refine_walls();
 
   bool stopped() const { return stopped_; }
   double removed_length(std::size_t step) const { return removed_[step]; }
@@ -251,14 +252,23 @@ class Run {
 
  private:
   void add(const Step& step, const MotionContext& context) {
-    if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_.interrupt();
+    if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_->interrupt();
     const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
     const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
-    if (tool == survey_.index.end()) return planner_.interrupt();  // a rapid before the first tool
+    if (tool == survey_.index.end()) return planner_->interrupt();  // a rapid before the first tool
     const bool spindle_off =
         survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off);
-    planner_.add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
+    planner_->add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
     if (batch_.full()) flush(context.index);
+  }
+
+  /// Plans all motions and cuts them, in batches.
+  void send_all(PlanScope scope) {
+    planner_.emplace(body_, survey_.solids, hazard_depth_, scope);
+    for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
+      if (!stopped_) add(step, context);
+    });
+    if (!stopped_) flush(path_.size());
   }
 
   bool flush(std::size_t steps_done);
@@ -270,13 +280,15 @@ class Run {
   Workpiece::Body& body_;
   const Toolpath& path_;
   Survey survey_;
-  Planner planner_;
+  Length hazard_depth_;
+  std::optional<Planner> planner_;
   unsigned threads_;
   Progress* progress_;
   std::vector<LaneTool> tools_;
   Field field_{};
   std::vector<Real> share_x_, share_y_;
   std::vector<double> removed_;  // length of column, one a step
+  WallGroup* walls_ = nullptr;   // what is cut instead of the workpiece, if any
   bool stopped_ = false;
 
   Batch batch_;
@@ -321,7 +333,6 @@ void Run::cut_tile_number(std::size_t k) {
   const auto row = static_cast<int>(tile / tiles_x) * kTileColumns;
   TileJob job;
   job.field = &field_;
-  job.tile = &body_.touch(tile);
   job.x = (column + 0.5) * body_.pitch;
   job.y = (row + 0.5) * body_.pitch;
   const bool at_border = column + kTileColumns >= body_.nx || row + kTileColumns >= body_.ny;
@@ -335,7 +346,31 @@ void Run::cut_tile_number(std::size_t k) {
   job.count = start_[k + 1] - start_[k];
   job.removed = pair_removed_.data() + start_[k];
   job.contacts = &contacts_[k];
+  if (walls_ != nullptr) return walls_->cut(tile, job);
+  job.tile = &body_.touch(tile);
   cut_tile(job);
+}
+
+void Run::refine_walls() {
+  if (stopped_) return;
+  const std::vector<WallColumns> found = find_walls(body_, threads_);
+  if (found.empty()) return;
+  if (progress_ != nullptr) progress_->phase("measuring walls");
+  std::vector<double> counted = removed_;
+  double excess = 0.0;
+  for (std::size_t next = 0; next < found.size() && !stopped_;) {
+    WallGroup group(body_, found, next);
+    walls_ = &group;
+    send_all({.margin = body_.pitch, .tiles = &group.tiles()});
+    excess += group.excess();
+    walls_ = nullptr;
+  }
+  if (stopped_) {
+    removed_ = std::move(counted);
+  } else {
+    body_.wall_volume = excess * body_.pitch * body_.pitch;
+  }
+  report(progress_, 1.0);
 }
 
 bool Run::flush(std::size_t steps_done) {
@@ -347,7 +382,7 @@ bool Run::flush(std::size_t steps_done) {
       [&] { return stopped_ = stopped_ || stop_requested(progress_); });
   // In order of tiles, whichever thread was first: sums of floating numbers depend on the order.
   for (std::size_t k = 0; k < list_.size(); ++k) removed_[batch_.sweeps[list_[k]].step] += pair_removed_[k];
-  merge_contacts();
+  if (walls_ == nullptr) merge_contacts();
   batch_.clear();
   report(progress_,
          path_.size() == 0 ? 1.0 : static_cast<double>(steps_done) / static_cast<double>(path_.size()));
@@ -405,6 +440,7 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   result.stock = mm3(size.x * size.y * size.z);
   sim::Run run(result.workpiece, path, std::move(survey), options, progress);
   run.cut_all();
+  run.refine_walls();
   const double area = *pitch * *pitch;
   double removed = 0.0;
   result.removed_by_step.reserve(path.size());
