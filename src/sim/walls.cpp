@@ -16,8 +16,12 @@ namespace {
 constexpr Real kLeastStep = 0.25f;
 /// The same between two level surfaces, where nothing else explains a step.
 constexpr Real kLeastLevelStep = 0.002f;
-/// How much of the steps beside it explains a step: a curve's slope changes from column to column.
-constexpr Real kExplained = 2.0f;
+/// How much of the lower of the steps beside it explains a step, if all three go the same way: a curve's
+/// slope changes from column to column. And of the higher one: ridges and edges of slopes, whose error is
+/// small against a wall's; but no more than so many pitches, as that one may be a wall itself.
+constexpr Real kExplainedByLower = 2.0f;
+constexpr Real kExplainedByHigher = 1.5f;
+constexpr Real kMostExplained = 4.0f;
 /// Most columns that are counted anew: a share of all columns and in any case this many; bounds the time.
 constexpr double kMostShare = 0.25;
 constexpr std::size_t kAlways = 1 << 16;
@@ -30,6 +34,16 @@ constexpr std::size_t kGroupColumns = 1 << 19;
 constexpr int kRing = 2;  // columns around a tile that are looked at
 constexpr int kWindow = kTileColumns + 2 * kRing;
 constexpr int kGrades = 32;
+
+/// Place of a column in its tile, from its lane_index.
+struct Place {
+  int x, y;
+};
+Place place_of(int index) {
+  const int super = index >> 8, micro = (index >> 4) & 15, lane = index & 15;
+  return {(super & 3) * 16 + (micro & 3) * 4 + (lane & 3),
+          (super >> 2) * 16 + (micro >> 2) * 4 + (lane >> 2)};
+}
 
 /// Length of material of a column.
 Real length_in(const Tile& tile, int index) {
@@ -62,13 +76,15 @@ class Window {
  private:
   static bool untouched(const Workpiece::Body& body, int tile_x, int tile_y);
   void read(const Workpiece::Body& body, int column, int row, const Tile* tile);
-  int grade_of(Real before, Real a, Real b, Real after) const;
+  Real excess(Real before, Real a, Real b, Real after) const;
+  bool grade_row(int y);
   void note(int x, int y, int grade) {
     if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
     grade_[y][x] = static_cast<std::int8_t>(std::max<int>(grade_[y][x], grade));
   }
 
-  Real least_ = 0, least_level_ = 0, same_height_ = 0;
+  Real same_height_ = 0, most_explained_ = 0;
+  Real per_least_ = 0, per_least_level_ = 0;  // one divided by the least step that counts
   int columns_ = 0, rows_ = 0;
   Real length_[kWindow][kWindow];
   std::int8_t grade_[kTileColumns][kTileColumns];
@@ -85,30 +101,63 @@ bool Window::untouched(const Workpiece::Body& body, int tile_x, int tile_y) {
 
 void Window::read(const Workpiece::Body& body, int column, int row, const Tile* tile) {
   for (int y = 0; y < kWindow; ++y) {
-    const int j = y - kRing;
+    const bool inside = tile != nullptr && y >= kRing && y < kRing + rows_;
     for (int x = 0; x < kWindow; ++x) {
-      const int i = x - kRing;
-      const bool inside = i >= 0 && j >= 0 && i < columns_ && j < rows_ && tile != nullptr;
-      length_[y][x] = inside ? length_in(*tile, lane_index(i, j)) : length_at(body, column + i, row + j);
+      if (inside && x == kRing) x += columns_;
+      if (x < kWindow) length_[y][x] = length_at(body, column + x - kRing, row + y - kRing);
+    }
+  }
+  if (tile == nullptr) return;
+  for (int micro = 0; micro < kMicros; ++micro) {
+    const Place place = place_of(micro * kLanes);
+    if (place.x >= columns_ || place.y >= rows_) continue;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int x = place.x + lane % 4, y = place.y + lane / 4;
+      if (x < columns_ && y < rows_)
+        length_[y + kRing][x + kRing] =
+            tile->chain[micro] < 0 ? tile->top[micro][lane] : length_in(*tile, micro * kLanes + lane);
     }
   }
 }
 
-int Window::grade_of(Real before, Real a, Real b, Real after) const {
-  const Real step = std::abs(b - a);
-  if (step <= least_level_) return -1;
-  Real left = a - before, right = after - b;
-  Real ratio = 0;
-  if (std::abs(left) <= same_height_ && std::abs(right) <= same_height_) {
-    ratio = step / least_level_;
-  } else {
-    if (b < a) {
-      left = -left;
-      right = -right;
-    }
-    ratio = (step - kExplained * std::max(std::min(left, right), 0.0f)) / least_;
+/// Of four columns in a row: by how much the step in the middle exceeds what is explained, in least steps
+/// that count.
+inline Real Window::excess(Real before, Real a, Real b, Real after) const {
+  const Real middle = b - a, left = a - before, right = after - b;
+  const Real step = std::abs(middle), l = std::abs(left), r = std::abs(right);
+  const Real lower = l < r ? l : r, higher = l < r ? r : l;
+  const Real same_way = (left * middle > 0) & (right * middle > 0) ? kExplainedByLower : 0.0f;
+  const Real by_lower = same_way * lower;
+  const Real by_higher =
+      kExplainedByHigher * higher < most_explained_ ? kExplainedByHigher * higher : most_explained_;
+  const Real rest = (step - (by_lower > by_higher ? by_lower : by_higher)) * per_least_;
+  const Real level = higher <= same_height_ ? step * per_least_level_ : 0.0f;
+  return rest > level ? rest : level;
+}
+
+/// Grades the steps between a row's columns, and between them and the next row's.
+bool Window::grade_row(int y) {
+  Real across[kWindow], along[kWindow];
+  Real most = 0;
+  for (int x = kRing - 1; x < kWindow - kRing; ++x) {
+    across[x] = excess(length_[y][x - 1], length_[y][x], length_[y][x + 1], length_[y][x + 2]);
+    along[x] = excess(length_[y - 1][x], length_[y][x], length_[y + 1][x], length_[y + 2][x]);
+    const Real larger = across[x] > along[x] ? across[x] : along[x];
+    most = larger > most ? larger : most;
   }
-  return ratio >= 1 ? std::min(std::ilogb(ratio), kGrades - 1) : -1;
+  if (most < 1) return false;
+  const auto grade = [](Real excess) { return std::min(std::ilogb(excess), kGrades - 1); };
+  for (int x = kRing - 1; x < kWindow - kRing; ++x) {
+    if (across[x] >= 1) {
+      note(x - kRing, y - kRing, grade(across[x]));
+      note(x + 1 - kRing, y - kRing, grade(across[x]));
+    }
+    if (along[x] >= 1) {
+      note(x - kRing, y - kRing, grade(along[x]));
+      note(x - kRing, y + 1 - kRing, grade(along[x]));
+    }
+  }
+  return true;
 }
 
 bool Window::look(const Workpiece::Body& body, std::size_t tile) {
@@ -116,26 +165,16 @@ bool Window::look(const Workpiece::Body& body, std::size_t tile) {
   const auto tile_x = static_cast<int>(tile % tiles_x), tile_y = static_cast<int>(tile / tiles_x);
   if (!body.tiles[tile] && untouched(body, tile_x, tile_y)) return false;
   const auto pitch = static_cast<Real>(body.pitch);
-  least_ = kLeastStep * pitch;
-  least_level_ = std::max(kLeastLevelStep * pitch, body.same_height);
+  per_least_ = 1 / (kLeastStep * pitch);
+  per_least_level_ = 1 / std::max(kLeastLevelStep * pitch, body.same_height);
+  most_explained_ = kMostExplained * pitch;
   same_height_ = body.same_height;
   columns_ = body.columns_x_of(tile);
   rows_ = body.columns_y_of(tile);
   read(body, tile_x * kTileColumns, tile_y * kTileColumns, body.tiles[tile].get());
   for (auto& row : grade_) std::fill(std::begin(row), std::end(row), std::int8_t{-1});
   bool any = false;
-  for (int y = kRing - 1; y < kWindow - kRing; ++y) {
-    for (int x = kRing - 1; x < kWindow - kRing; ++x) {
-      const Real here = length_[y][x];
-      const int across = grade_of(length_[y][x - 1], here, length_[y][x + 1], length_[y][x + 2]);
-      const int along = grade_of(length_[y - 1][x], here, length_[y + 1][x], length_[y + 2][x]);
-      if (across < 0 && along < 0) continue;
-      any = true;
-      note(x - kRing, y - kRing, std::max(across, along));
-      if (across >= 0) note(x + 1 - kRing, y - kRing, across);
-      if (along >= 0) note(x - kRing, y + 1 - kRing, along);
-    }
-  }
+  for (int y = kRing - 1; y < kWindow - kRing; ++y) any = grade_row(y) || any;
   return any;
 }
 
@@ -161,16 +200,6 @@ std::uint32_t scrambled(std::uint32_t i, std::uint32_t j) {
   return v ^ (v >> 15);
 }
 Real unit_share(std::uint32_t bits) { return static_cast<Real>(bits & 0xffffu) / 65536.0f; }
-
-/// Place of a column in its tile, from its lane_index.
-struct Place {
-  int x, y;
-};
-Place place_of(int index) {
-  const int super = index >> 8, micro = (index >> 4) & 15, lane = index & 15;
-  return {(super & 3) * 16 + (micro & 3) * 4 + (lane & 3),
-          (super >> 2) * 16 + (micro >> 2) * 4 + (lane >> 2)};
-}
 
 /// Leaves only the micros that `wanted` names to be cut.
 template <class Wanted>
