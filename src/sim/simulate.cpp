@@ -239,7 +239,8 @@ class Run {
 
   void cut_all() {
     if (progress_ != nullptr) progress_->phase("cutting");
-    send_all({});
+    in_tile_.assign(body_.tiles.size(), {});
+    send_all(nullptr);
     report(progress_, 1.0);
   }
 
@@ -251,7 +252,17 @@ class Run {
   std::vector<Hazard> hazards() const;
 
  private:
+  /// From a first step to a last one; none while the first is after the last.
+  struct Steps {
+    std::size_t first = SIZE_MAX, last = 0;
+    void add(const Steps& more) {
+      first = std::min(first, more.first);
+      last = std::max(last, more.last);
+    }
+  };
+
   void add(const Step& step, const MotionContext& context) {
+    if (context.index < wanted_.first || context.index > wanted_.last) return planner_->interrupt();
     if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_->interrupt();
     const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
     const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
@@ -262,9 +273,12 @@ class Run {
     if (batch_.full()) flush(context.index);
   }
 
-  /// Plans all motions and cuts them, in batches.
-  void send_all(PlanScope scope) {
-    planner_.emplace(body_, survey_.solids, hazard_depth_, scope);
+  /// Plans all motions and cuts them, in batches; given tiles, only what goes there.
+  void send_all(const std::vector<bool>* tiles) {
+    planner_.emplace(body_, survey_.solids, hazard_depth_, PlanScope{.margin = body_.pitch, .tiles = tiles});
+    wanted_ = tiles == nullptr ? Steps{0, path_.size()} : Steps{};
+    for (std::size_t tile = 0; tiles != nullptr && tile < tiles->size(); ++tile)
+      if ((*tiles)[tile]) wanted_.add(in_tile_[tile]);
     for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
       if (!stopped_) add(step, context);
     });
@@ -289,6 +303,8 @@ class Run {
   std::vector<Real> share_x_, share_y_;
   std::vector<double> removed_;  // length of column, one a step
   WallGroup* walls_ = nullptr;   // what is cut instead of the workpiece, if any
+  Steps wanted_;                 // to be planned
+  std::vector<Steps> in_tile_;   // which steps each tile has seen
   bool stopped_ = false;
 
   Batch batch_;
@@ -316,7 +332,11 @@ void Run::sort_by_tile() {
   }
   list_.resize(batch_.pairs.size());
   for (const Batch::Pair& pair : batch_.pairs) list_[count_[pair.tile]++] = pair.sweep;
-  for (const std::uint32_t tile : busy_) count_[tile] = 0;
+  for (std::size_t k = 0; k < busy_.size(); ++k) {
+    count_[busy_[k]] = 0;
+    in_tile_[busy_[k]].add(
+        {batch_.sweeps[list_[start_[k]]].step, batch_.sweeps[list_[start_[k + 1] - 1]].step});
+  }
   order_.resize(busy_.size());
   for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = k;
   // The largest first, so that the threads end together.
@@ -361,7 +381,7 @@ void Run::refine_walls() {
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
     WallGroup group(body_, found, next);
     walls_ = &group;
-    send_all({.margin = body_.pitch, .tiles = &group.tiles()});
+    send_all(&group.tiles());
     excess += group.excess();
     walls_ = nullptr;
   }
