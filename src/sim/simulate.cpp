@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
@@ -260,9 +261,15 @@ class Run {
       last = std::max(last, more.last);
     }
   };
+  std::vector<Steps> steps_in(const std::vector<bool>& tiles) const;
+
+  bool is_wanted(std::size_t step) {
+    while (next_wanted_ < wanted_.size() && wanted_[next_wanted_].last < step) ++next_wanted_;
+    return next_wanted_ < wanted_.size() && wanted_[next_wanted_].first <= step;
+  }
 
   void add(const Step& step, const MotionContext& context) {
-    if (context.index < wanted_.first || context.index > wanted_.last) return planner_->interrupt();
+    if (!is_wanted(context.index)) return planner_->interrupt();
     if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_->interrupt();
     const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
     const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
@@ -276,9 +283,8 @@ class Run {
   /// Plans all motions and cuts them, in batches; given tiles, only what goes there.
   void send_all(const std::vector<bool>* tiles) {
     planner_.emplace(body_, survey_.solids, hazard_depth_, PlanScope{.margin = body_.pitch, .tiles = tiles});
-    wanted_ = tiles == nullptr ? Steps{0, path_.size()} : Steps{};
-    for (std::size_t tile = 0; tiles != nullptr && tile < tiles->size(); ++tile)
-      if ((*tiles)[tile]) wanted_.add(in_tile_[tile]);
+    wanted_ = tiles == nullptr ? std::vector{Steps{0, path_.size()}} : steps_in(*tiles);
+    next_wanted_ = 0;
     for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
       if (!stopped_) add(step, context);
     });
@@ -303,8 +309,9 @@ class Run {
   std::vector<Real> share_x_, share_y_;
   std::vector<double> removed_;  // length of column, one a step
   WallGroup* walls_ = nullptr;   // what is cut instead of the workpiece, if any
-  Steps wanted_;                 // to be planned
-  std::vector<Steps> in_tile_;   // which steps each tile has seen
+  std::vector<Steps> wanted_;    // to be planned, in order and apart
+  std::size_t next_wanted_ = 0;
+  std::vector<Steps> in_tile_;  // which steps each tile has seen
   bool stopped_ = false;
 
   Batch batch_;
@@ -369,6 +376,22 @@ void Run::cut_tile_number(std::size_t k) {
   if (walls_ != nullptr) return walls_->cut(tile, job);
   job.tile = &body_.touch(tile);
   cut_tile(job);
+}
+
+std::vector<Run::Steps> Run::steps_in(const std::vector<bool>& tiles) const {
+  std::vector<Steps> all;
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+    if (tiles[tile] && in_tile_[tile].first <= in_tile_[tile].last) all.push_back(in_tile_[tile]);
+  std::sort(all.begin(), all.end(), [](const Steps& a, const Steps& b) { return a.first < b.first; });
+  std::vector<Steps> apart;
+  for (const Steps& next : all) {
+    if (apart.empty() || apart.back().last < next.first) {
+      apart.push_back(next);
+    } else {
+      apart.back().add(next);
+    }
+  }
+  return apart;
 }
 
 void Run::refine_walls() {
