@@ -128,11 +128,14 @@ Real behind_of(const View& w, const Sweep& s, const LaneSolid& solid, bool open)
 
 // ---- culling
 
-/// Sixteen square blocks of columns, 4 x 4: the centre of the first, their distance, half the reach of their
-/// columns.
+/// Sixteen square blocks of columns: their centres, half the reach of their columns.
 struct Blocks {
-  Real x, y, step, half;
+  Vector x, y, half;
 };
+/// Blocks in 4 rows of 4: the centre of the first, their distance, half the reach of their columns.
+KERF_LANES Blocks square_of_blocks(Real x, Real y, Real step, Real half) {
+  return {x + kColumn * step, y + kRow * step, all(half)};
+}
 
 /// How far the path is from the blocks at least, in plan, and the heights of the tip while the tool is over
 /// them.
@@ -144,8 +147,8 @@ struct Nearness {
 KERF_LANES Vector outside(Vector v, Real low, Real high) { return higher_of(low - v, v - high); }
 
 KERF_LANES Nearness near_line(const View& w, const Blocks& b, Real rim) {
-  const Real reach = b.half * (std::abs(w.cx) + std::abs(w.cy));
-  const Vector x = b.x + kColumn * b.step, y = b.y + kRow * b.step;
+  const Vector reach = b.half * (std::abs(w.cx) + std::abs(w.cy));
+  const Vector x = b.x, y = b.y;
   const Vector u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
   const Vector du = higher_of(outside(u, w.t_low, w.t_high) - reach, Vector{});
   const Vector dv = higher_of(absolute(v) - reach, Vector{});
@@ -167,7 +170,7 @@ KERF_LANES Nearness near_line(const View& w, const Blocks& b, Real rim) {
 
 KERF_LANES Nearness near_arc(const View& w, const Blocks& b) {
   constexpr Real kDiagonal = 1.4142136f;
-  const Vector x = b.x + kColumn * b.step, y = b.y + kRow * b.step;
+  const Vector x = b.x, y = b.y;
   const Vector dr = higher_of(absolute(root(x * x + y * y) - w.radius) - kDiagonal * b.half, Vector{});
   const Vector dx = higher_of(outside(x, w.box_low_x, w.box_high_x) - b.half, Vector{});
   const Vector dy = higher_of(outside(y, w.box_low_y, w.box_high_y) - b.half, Vector{});
@@ -180,7 +183,7 @@ constexpr std::size_t kFewPieces = 4;
 /// Of a level line that follows another: blocks in which some piece takes what it did not take at the line's
 /// begin. A cylinder takes nothing new from a block that its first disc covers.
 KERF_LANES Mask new_ground(const View& w, const LaneSolid& solid, const Blocks& b, Vector distance) {
-  const Vector x = b.x + kColumn * b.step - w.t_low * w.cx, y = b.y + kRow * b.step - w.t_low * w.cy;
+  const Vector x = b.x - w.t_low * w.cx, y = b.y - w.t_low * w.cy;
   const Vector far2 = square(absolute(x) + b.half) + square(absolute(y) + b.half);
   Mask any{};
   for (const LanePiece& piece : solid.pieces) {
@@ -334,12 +337,24 @@ KERF_LANES Vector sloped_cap(const LanePiece& piece, const LaneCap& c, const Vie
       });
 }
 
-KERF_LANES MicroView look_at(const View& w, const Field& field, int micro) {
+/// Where the 16 points of a column stand, see PointPlaces.
+KERF_LANES Vector points_along(const Real* at, Real shift, Real middle, Real size) {
+  const Vector share = load(at) + shift;
+  return middle + ((share >= 1 ? share - 1 : share) - 0.5f) * size;
+}
+
+KERF_LANES MicroView look_at(const View& w, const TileJob& job, int micro) {
+  const Field& field = *job.field;
   const int super = micro / kSupers, inner = micro % kSupers;
   const int column = (super & 3) * 16 + (inner & 3) * 4, row = (super >> 2) * 16 + (inner >> 2) * 4;
   MicroView m;
-  m.x = w.x + field.step[column] + kColumn * field.step[1];
-  m.y = w.y + field.step[row] + kRow * field.step[1];
+  if (const PointPlaces* p = job.points) {
+    m.x = w.x + points_along(kPointsX.v, p->shift_x[micro], p->x[micro], p->size_x[micro]);
+    m.y = w.y + points_along(kPointsY.v, p->shift_y[micro], p->y[micro], p->size_y[micro]);
+  } else {
+    m.x = w.x + field.step[column] + kColumn * field.step[1];
+    m.y = w.y + field.step[row] + kRow * field.step[1];
+  }
   if (w.slope == 0) {
     m.u = Vector{};
     m.v2 = path_distance2(w, m.x, m.y);
@@ -562,6 +577,7 @@ struct Work {
 };
 
 KERF_LANES Vector weights_of(const TileJob& job, int micro) {
+  if (job.weights != nullptr) return load(job.weights + micro * kLanes);
   if (job.share_x == nullptr) return all(1);
   const int super = micro / kSupers, inner = micro % kSupers;
   const Real* x = job.share_x + (super & 3) * 16 + (inner & 3) * 4;
@@ -576,7 +592,7 @@ KERF_LANES void cut_micro(Work& work, const Pass& pass, bool open, int micro, Co
   const Field& field = *job.field;
   const LaneSolid& solid = *pass.solid;
   Tile& tile = *job.tile;
-  const MicroView m = look_at(work.view, field, micro);
+  const MicroView m = look_at(work.view, job, micro);
   const Vector weight = weights_of(job, micro);
   const std::size_t groups = solid.one_envelope ? 1 : solid.pieces.size();
   for (std::size_t g = 0; g < groups; ++g) {
@@ -603,8 +619,13 @@ KERF_LANES void cut_super(Work& work, const Pass& pass, bool open, int super, Co
   const Real pitch = field.step[1];
   Real* top = tile.micro_top + super * kSupers;
   Real* bottom = tile.micro_bottom + super * kSupers;
-  const Blocks micros{w.x + field.step[(super & 3) * 16] + 1.5f * pitch,
-                      w.y + field.step[(super >> 2) * 16] + 1.5f * pitch, 4 * pitch, 1.5f * pitch};
+  const PointPlaces* points = work.job.points;
+  const Blocks micros =
+      points == nullptr
+          ? square_of_blocks(w.x + field.step[(super & 3) * 16] + 1.5f * pitch,
+                             w.y + field.step[(super >> 2) * 16] + 1.5f * pitch, 4 * pitch, 1.5f * pitch)
+          : Blocks{w.x + load(points->x + super * kSupers), w.y + load(points->y + super * kSupers),
+                   all(0.5f * pitch)};
   int bits = cull(w, *pass.solid, micros, top, bottom);
   if (bits == 0) return;
   for (; bits != 0; bits &= bits - 1)
@@ -624,7 +645,11 @@ KERF_LANES void run_pass(Work& work, const Pass& pass, Contact& contact) {
   w.level_follow =
       !pass.is_hazard && work.sweep.follows && !w.is_arc && work.sweep.length > 0.0 && w.slope == 0;
   const Real pitch = field.step[1];
-  const Blocks supers{w.x + 7.5f * pitch, w.y + 7.5f * pitch, 16 * pitch, 7.5f * pitch};
+  const PointPlaces* points = work.job.points;
+  const Blocks supers =
+      points == nullptr
+          ? square_of_blocks(w.x + 7.5f * pitch, w.y + 7.5f * pitch, 16 * pitch, 7.5f * pitch)
+          : Blocks{w.x + load(points->super_x), w.y + load(points->super_y), load(points->super_half)};
   for (int bits = cull(w, solid, supers, tile.super_top, tile.super_bottom); bits != 0; bits &= bits - 1)
     cut_super(work, pass, open, __builtin_ctz(static_cast<unsigned>(bits)), contact);
 }

@@ -45,6 +45,23 @@ struct Field {
   Real step[kTileColumns];  // i * pitch
 };
 
+/// A tile whose micros are single columns, each seen at 16 points of a lattice that fills the column evenly
+/// in every direction. Each column has its lattice shifted by amounts of its own, so that errors of points
+/// that lie along a wall do not add up. Lengths in mm from the tile's first column.
+struct PointPlaces {
+  alignas(64) Real x[kMicros], y[kMicros];  // middle of the column, of the part in the block
+  Real size_x[kMicros], size_y[kMicros];    // of that part
+  Real shift_x[kMicros], shift_y[kMicros];  // of the lattice, 0 to 1
+  alignas(64) Real super_x[kSupers], super_y[kSupers], super_half[kSupers];  // a square around 16 columns
+};
+/// The lattice, as shares of the column's size.
+inline constexpr Lanes kPointsX = {{0 / 16.0f, 1 / 16.0f, 2 / 16.0f, 3 / 16.0f, 4 / 16.0f, 5 / 16.0f,
+                                    6 / 16.0f, 7 / 16.0f, 8 / 16.0f, 9 / 16.0f, 10 / 16.0f, 11 / 16.0f,
+                                    12 / 16.0f, 13 / 16.0f, 14 / 16.0f, 15 / 16.0f}};
+inline constexpr Lanes kPointsY = {{0 / 16.0f, 5 / 16.0f, 10 / 16.0f, 15 / 16.0f, 4 / 16.0f, 9 / 16.0f,
+                                    14 / 16.0f, 3 / 16.0f, 8 / 16.0f, 13 / 16.0f, 2 / 16.0f, 7 / 16.0f,
+                                    12 / 16.0f, 1 / 16.0f, 6 / 16.0f, 11 / 16.0f}};
+
 /// The work on one tile: sweeps `list[0]` to `list[count - 1]` in time order.
 struct TileJob {
   const Field* field = nullptr;
@@ -52,6 +69,8 @@ struct TileJob {
   double x = 0.0, y = 0.0;        // of the tile's first column, block frame
   const Real* share_x = nullptr;  // share of each column of the tile in the block, 64 each; null: all 1
   const Real* share_y = nullptr;
+  const PointPlaces* points = nullptr;  // not null: the micros are columns seen at 16 points
+  const Real* weights = nullptr;        // instead of the shares: one a column (or point) in the tile's order
   const std::vector<LaneTool>* tools = nullptr;
   const Sweep* sweeps = nullptr;
   const std::uint32_t* list = nullptr;

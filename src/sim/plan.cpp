@@ -81,8 +81,13 @@ ChordCount chord_count(const ArcWalk& walk) {
   return {count, count >= kMostChords};
 }
 
-Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth)
-    : body_(body), tools_(tools), hazard_depth_(hazard_depth.mm()), size_(body.bounds.size()) {}
+Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
+                 PlanScope scope)
+    : body_(body),
+      tools_(tools),
+      hazard_depth_(hazard_depth.mm()),
+      scope_(scope),
+      size_(body.bounds.size()) {}
 
 Planner::Motion Planner::motion_of(const Step& step, const MotionContext& context) const {
   Motion motion;
@@ -173,6 +178,7 @@ void Planner::emit(Sweep sweep, Batch& batch) {
   double reach = 0.0;
   sweep.passes = passes_that_meet(sweep, sweep.passes, reach);
   if (sweep.passes == 0) return;
+  reach += scope_.margin;
   const std::size_t before = batch.pairs.size();
   const auto number = static_cast<std::uint32_t>(batch.sweeps.size());
   if (sweep.is_arc) {
@@ -181,6 +187,11 @@ void Planner::emit(Sweep sweep, Batch& batch) {
     pair_line(sweep, reach, number, batch);
   }
   if (batch.pairs.size() != before) batch.sweeps.push_back(sweep);
+}
+
+void Planner::pair(int column, int row, std::uint32_t number, Batch& batch) const {
+  const auto tile = static_cast<std::uint32_t>(row * body_.tiles_x + column);
+  if (scope_.tiles == nullptr || (*scope_.tiles)[tile]) batch.pairs.push_back({tile, number});
 }
 
 void Planner::pair_line(const Sweep& s, double reach, std::uint32_t number, Batch& batch) const {
@@ -194,8 +205,7 @@ void Planner::pair_line(const Sweep& s, double reach, std::uint32_t number, Batc
     if (span.empty()) continue;
     const TileRange columns =
         tiles_between(span.low - reach, span.high + reach, body_.pitch, body_.nx, body_.tiles_x);
-    for (int column = columns.first; column <= columns.last; ++column)
-      batch.pairs.push_back({static_cast<std::uint32_t>(row * body_.tiles_x + column), number});
+    for (int column = columns.first; column <= columns.last; ++column) pair(column, row, number, batch);
   }
 }
 
@@ -220,7 +230,7 @@ void Planner::pair_arc(const Sweep& s, double reach, std::uint32_t number, Batch
       const double far_from = std::hypot(std::max(std::abs(s.x - x0), std::abs(s.x - x0 - tile)),
                                          std::max(std::abs(s.y - y0), std::abs(s.y - y0 - tile)));
       if (near_to > s.radius + reach || far_from < s.radius - reach) continue;
-      batch.pairs.push_back({static_cast<std::uint32_t>(row * body_.tiles_x + column), number});
+      pair(column, row, number, batch);
     }
   }
 }

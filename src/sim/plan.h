@@ -38,9 +38,17 @@ struct Batch {
   void clear();
 };
 
+/// Which pairs of sweep and tile are wanted. The usual ones: of all tiles, where a column's centre is
+/// reached.
+struct PlanScope {
+  double margin = 0.0;                       // mm, how far from the centres there is something to reach
+  const std::vector<bool>* tiles = nullptr;  // only these
+};
+
 class Planner {
  public:
-  Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth);
+  Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
+          PlanScope scope = {});
 
   /// Adds a motion of a tool; `spindle_off`: what it cuts is cut with a spindle that stands. `flush` is
   /// called whenever the batch is full and returns false to stop.
@@ -64,10 +72,12 @@ class Planner {
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
   void pair_line(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
   void pair_arc(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
+  void pair(int column, int row, std::uint32_t number, Batch& batch) const;
 
   const Workpiece::Body& body_;
   const std::vector<ToolSolids>& tools_;
   double hazard_depth_;
+  PlanScope scope_;
   Point3 size_;
   std::optional<std::uint32_t> cutting_tool_;  // of the sweep before, if that cut
   Point3 end_;                                 // where it ended, block frame

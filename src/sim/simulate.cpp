@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <fmt/format.h>
 #include <map>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "sim/kernels.h"
 #include "sim/parallel.h"
 #include "sim/plan.h"
+#include "sim/walls.h"
 
 #include "kerf/number.h"
 
@@ -220,7 +222,7 @@ class Run {
       : body_(workpiece.body()),
         path_(path),
         survey_(std::move(survey)),
-        planner_(body_, survey_.solids, options.hazard_depth),
+        hazard_depth_(options.hazard_depth),
         threads_(thread_count(options.threads)),
         progress_(progress),
         removed_(path.size(), 0.0) {
@@ -238,27 +240,55 @@ class Run {
 
   void cut_all() {
     if (progress_ != nullptr) progress_->phase("cutting");
-    for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
-      if (!stopped_) add(step, context);
-    });
-    if (!stopped_) flush(path_.size());
+    in_tile_.assign(body_.tiles.size(), {});
+    send_all(nullptr);
     report(progress_, 1.0);
   }
+
+  /// Counts the columns at walls anew, see walls.h. Stopped meanwhile, all is as it was before.
+  void refine_walls();
 
   bool stopped() const { return stopped_; }
   double removed_length(std::size_t step) const { return removed_[step]; }
   std::vector<Hazard> hazards() const;
 
  private:
+  /// From a first step to a last one; none while the first is after the last.
+  struct Steps {
+    std::size_t first = SIZE_MAX, last = 0;
+    void add(const Steps& more) {
+      first = std::min(first, more.first);
+      last = std::max(last, more.last);
+    }
+  };
+  std::vector<Steps> steps_in(const std::vector<bool>& tiles) const;
+
+  bool is_wanted(std::size_t step) {
+    while (next_wanted_ < wanted_.size() && wanted_[next_wanted_].last < step) ++next_wanted_;
+    return next_wanted_ < wanted_.size() && wanted_[next_wanted_].first <= step;
+  }
+
   void add(const Step& step, const MotionContext& context) {
-    if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_.interrupt();
+    if (!is_wanted(context.index)) return planner_->interrupt();
+    if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_->interrupt();
     const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
     const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
-    if (tool == survey_.index.end()) return planner_.interrupt();  // a rapid before the first tool
+    if (tool == survey_.index.end()) return planner_->interrupt();  // a rapid before the first tool
     const bool spindle_off =
         survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off);
-    planner_.add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
+    planner_->add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
     if (batch_.full()) flush(context.index);
+  }
+
+  /// Plans all motions and cuts them, in batches; given tiles, only what goes there.
+  void send_all(const std::vector<bool>* tiles) {
+    planner_.emplace(body_, survey_.solids, hazard_depth_, PlanScope{.margin = body_.pitch, .tiles = tiles});
+    wanted_ = tiles == nullptr ? std::vector{Steps{0, path_.size()}} : steps_in(*tiles);
+    next_wanted_ = 0;
+    for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
+      if (!stopped_) add(step, context);
+    });
+    if (!stopped_) flush(path_.size());
   }
 
   bool flush(std::size_t steps_done);
@@ -270,13 +300,18 @@ class Run {
   Workpiece::Body& body_;
   const Toolpath& path_;
   Survey survey_;
-  Planner planner_;
+  Length hazard_depth_;
+  std::optional<Planner> planner_;
   unsigned threads_;
   Progress* progress_;
   std::vector<LaneTool> tools_;
   Field field_{};
   std::vector<Real> share_x_, share_y_;
   std::vector<double> removed_;  // length of column, one a step
+  WallGroup* walls_ = nullptr;   // what is cut instead of the workpiece, if any
+  std::vector<Steps> wanted_;    // to be planned, in order and apart
+  std::size_t next_wanted_ = 0;
+  std::vector<Steps> in_tile_;  // which steps each tile has seen
   bool stopped_ = false;
 
   Batch batch_;
@@ -304,7 +339,11 @@ void Run::sort_by_tile() {
   }
   list_.resize(batch_.pairs.size());
   for (const Batch::Pair& pair : batch_.pairs) list_[count_[pair.tile]++] = pair.sweep;
-  for (const std::uint32_t tile : busy_) count_[tile] = 0;
+  for (std::size_t k = 0; k < busy_.size(); ++k) {
+    count_[busy_[k]] = 0;
+    in_tile_[busy_[k]].add(
+        {batch_.sweeps[list_[start_[k]]].step, batch_.sweeps[list_[start_[k + 1] - 1]].step});
+  }
   order_.resize(busy_.size());
   for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = k;
   // The largest first, so that the threads end together.
@@ -321,7 +360,6 @@ void Run::cut_tile_number(std::size_t k) {
   const auto row = static_cast<int>(tile / tiles_x) * kTileColumns;
   TileJob job;
   job.field = &field_;
-  job.tile = &body_.touch(tile);
   job.x = (column + 0.5) * body_.pitch;
   job.y = (row + 0.5) * body_.pitch;
   const bool at_border = column + kTileColumns >= body_.nx || row + kTileColumns >= body_.ny;
@@ -335,7 +373,47 @@ void Run::cut_tile_number(std::size_t k) {
   job.count = start_[k + 1] - start_[k];
   job.removed = pair_removed_.data() + start_[k];
   job.contacts = &contacts_[k];
+  if (walls_ != nullptr) return walls_->cut(tile, job);
+  job.tile = &body_.touch(tile);
   cut_tile(job);
+}
+
+std::vector<Run::Steps> Run::steps_in(const std::vector<bool>& tiles) const {
+  std::vector<Steps> all;
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+    if (tiles[tile] && in_tile_[tile].first <= in_tile_[tile].last) all.push_back(in_tile_[tile]);
+  std::sort(all.begin(), all.end(), [](const Steps& a, const Steps& b) { return a.first < b.first; });
+  std::vector<Steps> apart;
+  for (const Steps& next : all) {
+    if (apart.empty() || apart.back().last < next.first) {
+      apart.push_back(next);
+    } else {
+      apart.back().add(next);
+    }
+  }
+  return apart;
+}
+
+void Run::refine_walls() {
+  if (stopped_) return;
+  const std::vector<WallColumns> found = find_walls(body_, threads_);
+  if (found.empty()) return;
+  if (progress_ != nullptr) progress_->phase("measuring walls");
+  std::vector<double> counted = removed_;
+  double excess = 0.0;
+  for (std::size_t next = 0; next < found.size() && !stopped_;) {
+    WallGroup group(body_, found, next);
+    walls_ = &group;
+    send_all(&group.tiles());
+    excess += group.excess();
+    walls_ = nullptr;
+  }
+  if (stopped_) {
+    removed_ = std::move(counted);
+  } else {
+    body_.wall_volume = excess * body_.pitch * body_.pitch;
+  }
+  report(progress_, 1.0);
 }
 
 bool Run::flush(std::size_t steps_done) {
@@ -347,7 +425,7 @@ bool Run::flush(std::size_t steps_done) {
       [&] { return stopped_ = stopped_ || stop_requested(progress_); });
   // In order of tiles, whichever thread was first: sums of floating numbers depend on the order.
   for (std::size_t k = 0; k < list_.size(); ++k) removed_[batch_.sweeps[list_[k]].step] += pair_removed_[k];
-  merge_contacts();
+  if (walls_ == nullptr) merge_contacts();
   batch_.clear();
   report(progress_,
          path_.size() == 0 ? 1.0 : static_cast<double>(steps_done) / static_cast<double>(path_.size()));
@@ -405,6 +483,7 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   result.stock = mm3(size.x * size.y * size.z);
   sim::Run run(result.workpiece, path, std::move(survey), options, progress);
   run.cut_all();
+  run.refine_walls();
   const double area = *pitch * *pitch;
   double removed = 0.0;
   result.removed_by_step.reserve(path.size());

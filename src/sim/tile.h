@@ -80,6 +80,8 @@ struct Workpiece::Body {
   /// Ends of intervals nearer than this are taken as the same height, mm: beyond what single precision tells
   /// apart.
   sim::Real same_height = 0.0f;
+  /// What the columns at walls hold more (or less) than their centres say, mm3; see walls.h.
+  double wall_volume = 0.0;
   /// Tiles that nothing has touched yet do not exist.
   std::vector<std::unique_ptr<sim::Tile>> tiles;
 

@@ -192,7 +192,7 @@ Volume Workpiece::volume() const {
     }
     sum += line * body.share_y(j);
   }
-  return mm3(sum * body.pitch * body.pitch);
+  return mm3(sum * body.pitch * body.pitch + body.wall_volume);
 }
 
 }  // namespace kerf

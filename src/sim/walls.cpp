@@ -1,0 +1,355 @@
+// Finding the columns that walls go through, and counting them at 16 points each.
+#include "sim/walls.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "sim/parallel.h"
+
+namespace kerf::sim {
+namespace {
+
+/// A step between two columns that exceeds what the slopes beside it explain by less than this much of a
+/// pitch is left to the centres: curved surfaces have such steps everywhere.
+constexpr Real kLeastStep = 0.25f;
+/// The same between two level surfaces, where nothing else explains a step.
+constexpr Real kLeastLevelStep = 0.002f;
+/// How much of the lower of the steps beside it explains a step, if all three go the same way: a curve's
+/// slope changes from column to column. And of the higher one: ridges and edges of slopes, whose error is
+/// small against a wall's; but no more than so many pitches, as that one may be a wall itself.
+constexpr Real kExplainedByLower = 2.0f;
+constexpr Real kExplainedByHigher = 1.5f;
+constexpr Real kMostExplained = 4.0f;
+/// Most columns that are counted anew: a share of all columns and in any case this many; bounds the time.
+constexpr double kMostShare = 0.25;
+constexpr std::size_t kAlways = 1 << 16;
+constexpr std::size_t kMostColumns = 1 << 22;
+/// Columns kept as points at a time; bounds the memory to about 100 MB.
+constexpr std::size_t kGroupColumns = 1 << 19;
+
+// ---- finding
+
+constexpr int kRing = 2;  // columns around a tile that are looked at
+constexpr int kWindow = kTileColumns + 2 * kRing;
+constexpr int kGrades = 32;
+
+/// Place of a column in its tile, from its lane_index.
+struct Place {
+  int x, y;
+};
+Place place_of(int index) {
+  const int super = index >> 8, micro = (index >> 4) & 15, lane = index & 15;
+  return {(super & 3) * 16 + (micro & 3) * 4 + (lane & 3),
+          (super >> 2) * 16 + (micro >> 2) * 4 + (lane >> 2)};
+}
+
+/// Length of material of a column.
+Real length_in(const Tile& tile, int index) {
+  const int micro = index / kLanes, lane = index % kLanes;
+  if (tile.chain[micro] < 0) return tile.top[micro][lane];
+  Real length = 0;
+  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
+    const Slot& slot = tile.slots[static_cast<std::size_t>(k)];
+    if (slot.high[lane] > slot.low[lane]) length += slot.high[lane] - slot.low[lane];
+  }
+  return length;
+}
+
+Real length_at(const Workpiece::Body& body, int i, int j) {
+  i = std::clamp(i, 0, body.nx - 1);  // beyond the block it goes on as at its border
+  j = std::clamp(j, 0, body.ny - 1);
+  const auto tile = static_cast<std::size_t>(j / kTileColumns) * static_cast<std::size_t>(body.tiles_x) +
+                    static_cast<std::size_t>(i / kTileColumns);
+  if (!body.tiles[tile]) return body.height;
+  return length_in(*body.tiles[tile], lane_index(i % kTileColumns, j % kTileColumns));
+}
+
+/// The steps around the columns of one tile, graded by powers of two of the least that counts.
+class Window {
+ public:
+  /// False if there is nothing to see in and around the tile.
+  bool look(const Workpiece::Body& body, std::size_t tile);
+  int grade(int x, int y) const { return grade_[y][x]; }  // -1: no wall
+
+ private:
+  static bool untouched(const Workpiece::Body& body, int tile_x, int tile_y);
+  void read(const Workpiece::Body& body, int column, int row, const Tile* tile);
+  Real excess(Real before, Real a, Real b, Real after) const;
+  bool grade_row(int y);
+  void note(int x, int y, int grade) {
+    if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
+    grade_[y][x] = static_cast<std::int8_t>(std::max<int>(grade_[y][x], grade));
+  }
+
+  Real same_height_ = 0, most_explained_ = 0;
+  Real per_least_ = 0, per_least_level_ = 0;  // one divided by the least step that counts
+  int columns_ = 0, rows_ = 0;
+  Real length_[kWindow][kWindow];
+  std::int8_t grade_[kTileColumns][kTileColumns];
+};
+
+bool Window::untouched(const Workpiece::Body& body, int tile_x, int tile_y) {
+  for (int y = std::max(tile_y - 1, 0); y <= std::min(tile_y + 1, body.tiles_y - 1); ++y)
+    for (int x = std::max(tile_x - 1, 0); x <= std::min(tile_x + 1, body.tiles_x - 1); ++x)
+      if (body.tiles[static_cast<std::size_t>(y) * static_cast<std::size_t>(body.tiles_x) +
+                     static_cast<std::size_t>(x)])
+        return false;
+  return true;
+}
+
+void Window::read(const Workpiece::Body& body, int column, int row, const Tile* tile) {
+  for (int y = 0; y < kWindow; ++y) {
+    const bool inside = tile != nullptr && y >= kRing && y < kRing + rows_;
+    for (int x = 0; x < kWindow; ++x) {
+      if (inside && x == kRing) x += columns_;
+      if (x < kWindow) length_[y][x] = length_at(body, column + x - kRing, row + y - kRing);
+    }
+  }
+  if (tile == nullptr) return;
+  for (int micro = 0; micro < kMicros; ++micro) {
+    const Place place = place_of(micro * kLanes);
+    if (place.x >= columns_ || place.y >= rows_) continue;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int x = place.x + lane % 4, y = place.y + lane / 4;
+      if (x < columns_ && y < rows_)
+        length_[y + kRing][x + kRing] =
+            tile->chain[micro] < 0 ? tile->top[micro][lane] : length_in(*tile, micro * kLanes + lane);
+    }
+  }
+}
+
+/// Of four columns in a row: by how much the step in the middle exceeds what is explained, in least steps
+/// that count.
+inline Real Window::excess(Real before, Real a, Real b, Real after) const {
+  const Real middle = b - a, left = a - before, right = after - b;
+  const Real step = std::abs(middle), l = std::abs(left), r = std::abs(right);
+  const Real lower = l < r ? l : r, higher = l < r ? r : l;
+  const Real same_way = (left * middle > 0) & (right * middle > 0) ? kExplainedByLower : 0.0f;
+  const Real by_lower = same_way * lower;
+  const Real by_higher =
+      kExplainedByHigher * higher < most_explained_ ? kExplainedByHigher * higher : most_explained_;
+  const Real rest = (step - (by_lower > by_higher ? by_lower : by_higher)) * per_least_;
+  const Real level = higher <= same_height_ ? step * per_least_level_ : 0.0f;
+  return rest > level ? rest : level;
+}
+
+/// Grades the steps between a row's columns, and between them and the next row's.
+bool Window::grade_row(int y) {
+  Real across[kWindow], along[kWindow];
+  Real most = 0;
+  for (int x = kRing - 1; x < kWindow - kRing; ++x) {
+    across[x] = excess(length_[y][x - 1], length_[y][x], length_[y][x + 1], length_[y][x + 2]);
+    along[x] = excess(length_[y - 1][x], length_[y][x], length_[y + 1][x], length_[y + 2][x]);
+    const Real larger = across[x] > along[x] ? across[x] : along[x];
+    most = larger > most ? larger : most;
+  }
+  if (most < 1) return false;
+  const auto grade = [](Real excess) { return std::min(std::ilogb(excess), kGrades - 1); };
+  for (int x = kRing - 1; x < kWindow - kRing; ++x) {
+    if (across[x] >= 1) {
+      note(x - kRing, y - kRing, grade(across[x]));
+      note(x + 1 - kRing, y - kRing, grade(across[x]));
+    }
+    if (along[x] >= 1) {
+      note(x - kRing, y - kRing, grade(along[x]));
+      note(x - kRing, y + 1 - kRing, grade(along[x]));
+    }
+  }
+  return true;
+}
+
+bool Window::look(const Workpiece::Body& body, std::size_t tile) {
+  const auto tiles_x = static_cast<std::size_t>(body.tiles_x);
+  const auto tile_x = static_cast<int>(tile % tiles_x), tile_y = static_cast<int>(tile / tiles_x);
+  if (!body.tiles[tile] && untouched(body, tile_x, tile_y)) return false;
+  const auto pitch = static_cast<Real>(body.pitch);
+  per_least_ = 1 / (kLeastStep * pitch);
+  per_least_level_ = 1 / std::max(kLeastLevelStep * pitch, body.same_height);
+  most_explained_ = kMostExplained * pitch;
+  same_height_ = body.same_height;
+  columns_ = body.columns_x_of(tile);
+  rows_ = body.columns_y_of(tile);
+  read(body, tile_x * kTileColumns, tile_y * kTileColumns, body.tiles[tile].get());
+  for (auto& row : grade_) std::fill(std::begin(row), std::end(row), std::int8_t{-1});
+  bool any = false;
+  for (int y = kRing - 1; y < kWindow - kRing; ++y) any = grade_row(y) || any;
+  return any;
+}
+
+/// The lowest grade that leaves no more columns than are affordable.
+int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, const Workpiece::Body& body) {
+  const double all = static_cast<double>(body.nx) * static_cast<double>(body.ny);
+  const std::size_t most =
+      std::min(kMostColumns, std::max(kAlways, static_cast<std::size_t>(kMostShare * all)));
+  std::size_t sum = 0;
+  int grade = kGrades;
+  while (grade > 0 && sum + count[static_cast<std::size_t>(grade - 1)] <= most)
+    sum += count[static_cast<std::size_t>(--grade)];
+  return grade;
+}
+
+// ---- points
+
+/// Numbers between 0 and 1 that follow no pattern, from a column's place.
+std::uint32_t scrambled(std::uint32_t i, std::uint32_t j) {
+  std::uint32_t v = i * 0x9e3779b1u ^ (j * 0x85ebca77u + 0x165667b1u);
+  v = (v ^ (v >> 15)) * 0x2c1b3c6du;
+  v = (v ^ (v >> 12)) * 0x297a2d39u;
+  return v ^ (v >> 15);
+}
+Real unit_share(std::uint32_t bits) { return static_cast<Real>(bits & 0xffffu) / 65536.0f; }
+
+/// Leaves only the micros that `wanted` names to be cut.
+template <class Wanted>
+void keep_micros(Tile& tile, const Wanted& wanted) {
+  for (int micro = 0; micro < kMicros; ++micro)
+    if (!wanted(micro)) tile.micro_top[micro] = -kFar;
+  for (int super = 0; super < kSupers; ++super)
+    tile.super_top[super] =
+        *std::max_element(tile.micro_top + super * kSupers, tile.micro_top + (super + 1) * kSupers);
+}
+
+/// A square around each 16 columns that are points.
+void enclose(PointPlaces& points, int count, Real pitch) {
+  for (int super = 0; super * kSupers < count; ++super) {
+    const int begin = super * kSupers, end = std::min(count, begin + kSupers);
+    const auto [x0, x1] = std::minmax_element(points.x + begin, points.x + end);
+    const auto [y0, y1] = std::minmax_element(points.y + begin, points.y + end);
+    points.super_x[super] = 0.5f * (*x0 + *x1);
+    points.super_y[super] = 0.5f * (*y0 + *y1);
+    points.super_half[super] = 0.5f * std::max(*x1 - *x0, *y1 - *y0) + 0.5f * pitch;
+  }
+}
+
+double weighted_length(const Tile& tile, const std::vector<Real>& weights) {
+  double sum = 0.0;
+  for (int index = 0; index < kMicros * kLanes; ++index) {
+    const Real weight = weights[static_cast<std::size_t>(index)];
+    if (weight != 0) sum += static_cast<double>(length_in(tile, index)) * static_cast<double>(weight);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned threads) {
+  const auto never = [] { return false; };
+  std::array<std::atomic<std::size_t>, kGrades> count{};
+  std::vector<char> has_walls(body.tiles.size(), 0);
+  parallel_for(
+      threads, body.tiles.size(),
+      [&](std::size_t tile) {
+        Window window;
+        if (!window.look(body, tile)) return;
+        has_walls[tile] = 1;
+        for (int index = 0; index < kTileColumns * kTileColumns; ++index) {
+          const int grade = window.grade(index % kTileColumns, index / kTileColumns);
+          if (grade >= 0) ++count[static_cast<std::size_t>(grade)];
+        }
+      },
+      never);
+  const int lowest = lowest_grade(count, body);
+  std::vector<WallColumns> found;
+  for (std::size_t tile = 0; tile < has_walls.size(); ++tile)
+    if (has_walls[tile] != 0) found.push_back({static_cast<std::uint32_t>(tile), {}});
+  parallel_for(
+      threads, found.size(),
+      [&](std::size_t n) {
+        Window window;
+        window.look(body, found[n].tile);
+        for (int index = 0; index < kTileColumns * kTileColumns; ++index) {
+          const Place place = place_of(index);
+          if (window.grade(place.x, place.y) >= lowest)
+            found[n].columns.push_back(static_cast<std::uint16_t>(index));
+        }
+      },
+      never);
+  std::erase_if(found, [](const WallColumns& walls) { return walls.columns.empty(); });
+  return found;
+}
+
+WallTile::WallTile(const Workpiece::Body& body, const WallColumns& walls)
+    : centres_(body.height, body.columns_x_of(walls.tile), body.columns_y_of(walls.tile)),
+      centre_weights_(kMicros * kLanes, 0.0f) {
+  const auto tiles_x = static_cast<std::uint32_t>(body.tiles_x);
+  const int column = static_cast<int>(walls.tile % tiles_x) * kTileColumns;
+  const int row = static_cast<int>(walls.tile / tiles_x) * kTileColumns;
+  bool has_wall[kMicros] = {};
+  for (const std::uint16_t index : walls.columns) {
+    const Place place = place_of(index);
+    centre_weights_[index] = -static_cast<Real>(body.share_x(column + place.x) * body.share_y(row + place.y));
+    has_wall[index / kLanes] = true;
+  }
+  keep_micros(centres_, [&](int micro) { return has_wall[micro]; });
+  const auto pitch = static_cast<Real>(body.pitch);
+  for (std::size_t first = 0; first < walls.columns.size(); first += kMicros) {
+    const int count = static_cast<int>(std::min<std::size_t>(kMicros, walls.columns.size() - first));
+    Part& part = *parts_.emplace_back(std::make_unique<Part>(body.height));
+    part.weights.assign(kMicros * kLanes, 0.0f);
+    for (int n = 0; n < count; ++n)
+      add_point_column(part, body, walls.tile, n, walls.columns[first + static_cast<std::size_t>(n)]);
+    enclose(part.points, count, pitch);
+    keep_micros(part.tile, [&](int micro) { return micro < count; });
+  }
+}
+
+void WallTile::add_point_column(Part& part, const Workpiece::Body& body, std::uint32_t tile, int number,
+                                int lane) const {
+  const auto tiles_x = static_cast<std::uint32_t>(body.tiles_x);
+  const Place place = place_of(lane);
+  const int i = static_cast<int>(tile % tiles_x) * kTileColumns + place.x;
+  const int j = static_cast<int>(tile / tiles_x) * kTileColumns + place.y;
+  const double share_x = body.share_x(i), share_y = body.share_y(j);
+  PointPlaces& points = part.points;
+  points.x[number] = static_cast<Real>((place.x - 0.5 + 0.5 * share_x) * body.pitch);
+  points.y[number] = static_cast<Real>((place.y - 0.5 + 0.5 * share_y) * body.pitch);
+  points.size_x[number] = static_cast<Real>(share_x * body.pitch);
+  points.size_y[number] = static_cast<Real>(share_y * body.pitch);
+  const std::uint32_t bits = scrambled(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
+  points.shift_x[number] = unit_share(bits);
+  points.shift_y[number] = unit_share(bits >> 16);
+  std::fill_n(part.weights.begin() + number * kLanes, kLanes, static_cast<Real>(share_x * share_y / kLanes));
+}
+
+void WallTile::cut(TileJob job) {
+  std::vector<double> removed(job.count);
+  double* const sum = job.removed;
+  job.removed = removed.data();
+  const auto cut_one = [&](Tile& tile, const std::vector<Real>& weights, const PointPlaces* points) {
+    job.tile = &tile;
+    job.weights = weights.data();
+    job.points = points;
+    cut_tile(job);
+    for (std::size_t k = 0; k < job.count; ++k) sum[k] += removed[k];
+    job.contacts->clear();  // the columns' centres have told them
+  };
+  cut_one(centres_, centre_weights_, nullptr);
+  for (const std::unique_ptr<Part>& part : parts_) cut_one(part->tile, part->weights, &part->points);
+}
+
+double WallTile::excess() const {
+  double sum = weighted_length(centres_, centre_weights_);
+  for (const std::unique_ptr<Part>& part : parts_) sum += weighted_length(part->tile, part->weights);
+  return sum;
+}
+
+WallGroup::WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next)
+    : wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
+  for (std::size_t columns = 0; next < found.size() && columns < kGroupColumns; ++next) {
+    const WallColumns& walls = found[next];
+    columns += walls.columns.size();
+    wanted_[walls.tile] = true;
+    place_[walls.tile] = static_cast<std::uint32_t>(walls_.size());
+    walls_.push_back(std::make_unique<WallTile>(body, walls));
+  }
+}
+
+double WallGroup::excess() const {
+  double sum = 0.0;
+  for (const std::unique_ptr<WallTile>& walls : walls_) sum += walls->excess();
+  return sum;
+}
+
+}  // namespace kerf::sim
