@@ -1,9 +1,10 @@
 // Fuzz target: any text as a gcmc program, with limits that keep a run short.
+#include "kerf/gcmc.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
 
-#include "kerf/gcmc.h"
 #include "kerf/gcmc_drawing.h"
 
 namespace {

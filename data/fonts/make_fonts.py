@@ -3,8 +3,9 @@
 
   python3 data/fonts/make_fonts.py [FOLDER OF THE .jhf FILES] > data/fonts/strokes.txt
 
-One line a glyph: code point (hexadecimal), advance, strokes separated by '|', points 'x,y' separated by blanks. The
-unit is 1/21 of a capital letter's height, x counts from the glyph's left bearing, y from the baseline.
+One line a glyph: code point (hexadecimal), advance, strokes separated by '|', points 'x,y' separated by
+blanks. The unit is 1/21 of a capital letter's height, x counts from the glyph's left bearing, y from the
+baseline.
 
 What is not Hershey's is drawn here: low punctuation, single brackets, the doubled signs of HSANS_2, accents.
 """
@@ -12,7 +13,8 @@ import sys
 
 SPACE = 12           # the width of a space, which is narrower than in the data
 FONTS = [            # number of the font in the language, file, name
-    (1, "futural", "HSANS_1"), (2, "futuram", "HSANS_2"), (3, "scripts", "HSCRIPT_1"), (4, "scriptc", "HSCRIPT_2"),
+    (1, "futural", "HSANS_1"), (2, "futuram", "HSANS_2"),
+    (3, "scripts", "HSCRIPT_1"), (4, "scriptc", "HSCRIPT_2"),
     (5, "timesr", "HTIMES"), (6, "futural", "HSANS_1_RS"), (0x105, "timesrb", "HTIMES_BOLD"),
     (0x205, "timesi", "HTIMES_ITALIC"), (0x305, "timesib", "HTIMES_ITALIC_BOLD"),
 ]
@@ -95,21 +97,25 @@ ACCENTS = {
     "acute": [[(3, 5), (-2, 0)]],
     "circumflex": [[(-4, 0), (0, 4), (4, 0)]],
     "tilde": [[(-5, 0), (-4, 2), (-2, 3), (0, 2), (2, 1), (4, 2), (5, 4)]],
-    "diaeresis": [[(-4, 1), (-3, 0), (-4, -1), (-5, 0), (-4, 1)], [(4, 1), (5, 0), (4, -1), (3, 0), (4, 1)]],
+    "diaeresis": [[(-4, 1), (-3, 0), (-4, -1), (-5, 0), (-4, 1)],
+                  [(4, 1), (5, 0), (4, -1), (3, 0), (4, 1)]],
     "ring": [[(0, 5), (-2, 4), (-3, 2), (-2, 0), (0, -1), (2, 0), (3, 2), (2, 4), (0, 5)]],
 }
 CEDILLA = [[(0, 0), (-1, -2), (1, -3), (2, -4), (1, -6), (-1, -7), (-3, -6)]]
 LETTERS = {
-    0xC0: "A grave", 0xC1: "A acute", 0xC2: "A circumflex", 0xC3: "A tilde", 0xC4: "A diaeresis", 0xC5: "A ring",
+    0xC0: "A grave", 0xC1: "A acute", 0xC2: "A circumflex", 0xC3: "A tilde", 0xC4: "A diaeresis",
+    0xC5: "A ring",
     0xC8: "E grave", 0xC9: "E acute", 0xCA: "E circumflex", 0xCB: "E diaeresis",
     0xCC: "I grave", 0xCD: "I acute", 0xCE: "I circumflex", 0xCF: "I diaeresis", 0xD1: "N tilde",
     0xD2: "O grave", 0xD3: "O acute", 0xD4: "O circumflex", 0xD5: "O tilde", 0xD6: "O diaeresis",
     0xD9: "U grave", 0xDA: "U acute", 0xDB: "U circumflex", 0xDC: "U diaeresis", 0xDD: "Y acute",
-    0xE0: "a grave", 0xE1: "a acute", 0xE2: "a circumflex", 0xE3: "a tilde", 0xE4: "a diaeresis", 0xE5: "a ring",
+    0xE0: "a grave", 0xE1: "a acute", 0xE2: "a circumflex", 0xE3: "a tilde", 0xE4: "a diaeresis",
+    0xE5: "a ring",
     0xE8: "e grave", 0xE9: "e acute", 0xEA: "e circumflex", 0xEB: "e diaeresis",
     0xEC: "i grave", 0xED: "i acute", 0xEE: "i circumflex", 0xEF: "i diaeresis", 0xF1: "n tilde",
     0xF2: "o grave", 0xF3: "o acute", 0xF4: "o circumflex", 0xF5: "o tilde", 0xF6: "o diaeresis",
-    0xF9: "u grave", 0xFA: "u acute", 0xFB: "u circumflex", 0xFC: "u diaeresis", 0xFD: "y acute", 0xFF: "y diaeresis",
+    0xF9: "u grave", 0xFA: "u acute", 0xFB: "u circumflex", 0xFC: "u diaeresis", 0xFD: "y acute",
+    0xFF: "y diaeresis",
 }
 
 
@@ -205,8 +211,8 @@ def glyphs_of(font, folder):
 
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else "/usr/share/hershey-fonts"
-    print("# The Hershey Fonts were originally created by Dr. A. V. Hershey while working at the U. S. National Bureau")
-    print("# of Standards. Made by make_fonts.py, see there and NOTICE.")
+    print("# The Hershey Fonts were originally created by Dr. A. V. Hershey while working at the U. S.")
+    print("# National Bureau of Standards. Made by make_fonts.py, see there and NOTICE.")
     for font in FONTS:
         print(f"font {font[0]} {font[2]}")
         for code, (width, strokes) in sorted(glyphs_of(font, folder).items()):

@@ -1,12 +1,13 @@
-// gcmc programs in: the G-Code Meta Compiler's language becomes a toolpath, or the text that the real program writes.
+// gcmc programs in: the G-Code Meta Compiler's language becomes a toolpath, or the text that the real program
+// writes.
 //
 //   GcmcOptions options;
 //   options.file_name = "part.gcmc";
 //   GcmcRun run = run_gcmc(text, options, output, diagnostics);
 //
-// What a program says (message(), warnings, errors) goes to GcmcOutput while it runs, in the order said, and is
-// collected in the Diagnostics as well. Lengths of the text are mm, or inch where `imperial` is set; the toolpath is
-// mm always. Where Kerf differs from the real program on purpose: docs/differences.md.
+// What a program says (message(), warnings, errors) goes to GcmcOutput while it runs, in the order said, and
+// is collected in the Diagnostics as well. Lengths of the text are mm, or inch where `imperial` is set; the
+// toolpath is mm always. Where Kerf differs from the real program on purpose: docs/differences.md.
 #pragma once
 
 #include <array>
@@ -30,30 +31,31 @@ enum class GcmcTarget : std::uint8_t { gcode, svg, dxf };
 enum class GcmcFrame : std::uint8_t { usual, bare, subroutine };
 
 struct GcmcOptions {
-  std::string file_name = "--stdin--";         // for messages and origins
-  std::vector<std::string> include_paths;      // looked through after the current folder, before Kerf's own library
-  std::vector<std::string> defines;            // statements that run first, "depth=5mm"
-  bool imperial = false;                       // inch is native
-  bool relative = false;                       // text in G91
-  int precision = 8;                           // decimals, 1 to 15
+  std::string file_name = "--stdin--";  // for messages and origins
+  std::vector<std::string>
+      include_paths;                 // looked through after the current folder, before Kerf's own library
+  std::vector<std::string> defines;  // statements that run first, "depth=5mm"
+  bool imperial = false;             // inch is native
+  bool relative = false;             // text in G91
+  int precision = 8;                 // decimals, 1 to 15
   Plane plane = Plane::xy;
-  std::array<double, 9> offsets{};             // X Y Z A B C U V W, native units and degrees, added to all output
+  std::array<double, 9> offsets{};  // X Y Z A B C U V W, native units and degrees, added to all output
   GcmcTarget target = GcmcTarget::gcode;
 
-  bool want_path = true;                       // GcmcRun::path
-  bool want_text = false;                      // GcmcOutput::text
-  bool uvw = false;                            // U V W words in the text
-  bool brief = false;                          // words that repeat what is in force are left out of the text
+  bool want_path = true;   // GcmcRun::path
+  bool want_text = false;  // GcmcOutput::text
+  bool uvw = false;        // U V W words in the text
+  bool brief = false;      // words that repeat what is in force are left out of the text
   GcmcFrame frame = GcmcFrame::usual;
-  std::string subroutine;                      // name, for GcmcFrame::subroutine
-  bool subroutine_ends_program = true;         // M2 behind the subroutine
-  std::string date;                            // for the head of the text, "2026-01-31 12:00:00"
-  std::string prologue, epilogue;              // texts that replace the usual ones where not empty
+  std::string subroutine;               // name, for GcmcFrame::subroutine
+  bool subroutine_ends_program = true;  // M2 behind the subroutine
+  std::string date;                     // for the head of the text, "2026-01-31 12:00:00"
+  std::string prologue, epilogue;       // texts that replace the usual ones where not empty
 
-  std::size_t max_memory = std::size_t{2} << 30;    // bytes of vectors, lists and strings
-  std::size_t max_calls = 20'000;                   // calls inside of calls
-  std::uint64_t max_quiet_steps = 2'000'000'000;    // loop steps and calls without any output or message
-  std::size_t max_path_steps = 50'000'000;          // steps of the toolpath
+  std::size_t max_memory = std::size_t{2} << 30;  // bytes of vectors, lists and strings
+  std::size_t max_calls = 20'000;                 // calls inside of calls
+  std::uint64_t max_quiet_steps = 2'000'000'000;  // loop steps and calls without any output or message
+  std::size_t max_path_steps = 50'000'000;        // steps of the toolpath
 };
 
 enum class GcmcSaid : std::uint8_t { message, script_warning, script_error, warning, error, fatal };
@@ -83,21 +85,22 @@ struct GcmcRun {
   Toolpath path;
   /// The real program's exit status: 0, 1 after errors, or what the program returned.
   int status = 0;
-  std::size_t warnings = 0;                   // of the language, not the program's own
-  bool completed = false;                     // ran to its end or to a return; errors of its own may have been said
-  bool stopped = false;                       // by Progress::stop_requested
+  std::size_t warnings = 0;  // of the language, not the program's own
+  bool completed = false;    // ran to its end or to a return; errors of its own may have been said
+  bool stopped = false;      // by Progress::stop_requested
   /// Layers in order of their stack, where the program named any.
   std::vector<std::string> layers;
   /// The texts that took part: name as in messages, bytes. For showing lines.
   std::vector<std::pair<std::string, std::string>> sources;
 };
 
-/// Parses and runs a program. After a syntax error nothing runs; after a runtime error path and text hold what was
-/// made before it. Errors and warnings are appended to `diagnostics`.
-GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output, Diagnostics& diagnostics,
-                 Progress* progress = nullptr);
+/// Parses and runs a program. After a syntax error nothing runs; after a runtime error path and text hold
+/// what was made before it. Errors and warnings are appended to `diagnostics`.
+GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
+                 Diagnostics& diagnostics, Progress* progress = nullptr);
 
 /// Parses only: what an editor asks. Returns true where there is no error.
-bool check_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output, Diagnostics& diagnostics);
+bool check_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
+                Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -18,8 +18,8 @@ enum class MinusZero : std::uint8_t { drop, keep };
 void append_fixed(std::string& out, double value, int decimals, MinusZero zero = MinusZero::drop);
 /// Room that write_fixed needs.
 inline constexpr std::size_t kFixedRoom = 40;
-/// Writes what append_fixed(MinusZero::keep) appends at `out`, which has kFixedRoom bytes, and returns the end; nullptr,
-/// with nothing written, for the rare numbers that this fast way cannot round for certain.
+/// Writes what append_fixed(MinusZero::keep) appends at `out`, which has kFixedRoom bytes, and returns the
+/// end; nullptr, with nothing written, for the rare numbers that this fast way cannot round for certain.
 char* write_fixed(char* out, double value, int decimals);
 std::string number_text(double value, int decimals);
 std::string fixed_text(double value, int decimals);

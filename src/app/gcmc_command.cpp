@@ -4,22 +4,21 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <fmt/format.h>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
-
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #if defined(__unix__) || defined(__APPLE__)
 #include <unistd.h>
 #endif
 
+#include "app/gcmc_options.h"
+
 #include "kerf/files.h"
 #include "kerf/gcmc.h"
 #include "kerf/gcmc_drawing.h"
-
-#include "app/gcmc_options.h"
 
 namespace kerf::app {
 namespace {
@@ -105,13 +104,16 @@ class Listener final : public GcmcOutput {
     const std::string line = line_of(m.where);
     if (!line.empty() && m.where.column > 0) {
       // Errors of syntax are told behind the word they mean.
-      const bool behind = m.code == Code::gcmc_syntax || m.code == Code::gcmc_word || m.code == Code::gcmc_defined_twice;
-      const std::size_t at = std::min<std::size_t>(m.where.column - (behind && m.where.column > 1 ? 2 : 1), line.size());
+      const bool behind =
+          m.code == Code::gcmc_syntax || m.code == Code::gcmc_word || m.code == Code::gcmc_defined_twice;
+      const std::size_t at =
+          std::min<std::size_t>(m.where.column - (behind && m.where.column > 1 ? 2 : 1), line.size());
       std::string space = line.substr(0, at);
       for (char& c : space) c = c == '\t' ? '\t' : ' ';
       text += fmt::format("    {}\n    {}^\n", line, space);
     }
-    for (const DiagnosticNote& n : m.calls) text += fmt::format("  {}: note: {}\n", to_string(n.where), n.text);
+    for (const DiagnosticNote& n : m.calls)
+      text += fmt::format("  {}: note: {}\n", to_string(n.where), n.text);
     if (!m.hint.empty()) text += fmt::format("  hint: {}\n", m.hint);
     return text;
   }
@@ -172,13 +174,15 @@ int check(const GcmcCommandLine& line, std::string_view text, Listener& listener
                       {"hint", d.hint}});
     }
     using Json = nlohmann::json;
-    const std::string out = Json{{"diagnostics", list}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string out =
+        Json{{"diagnostics", list}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
     std::fwrite(out.data(), 1, out.size(), stdout);
   }
   return good ? 0 : 1;
 }
 
-int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, Listener& listener, Progress* progress) {
+int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, Listener& listener,
+                Progress* progress) {
   const bool draws = line.run.target != GcmcTarget::gcode;
   line.run.want_path = draws;
   line.run.want_text = !draws;
@@ -188,7 +192,8 @@ int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, List
   const bool complete = run.completed;
   if (complete && draws) {
     line.drawing.layers = run.layers;
-    out.write(line.run.target == GcmcTarget::svg ? gcmc_svg(run.path, line.drawing) : gcmc_dxf(run.path, line.drawing));
+    out.write(line.run.target == GcmcTarget::svg ? gcmc_svg(run.path, line.drawing)
+                                                 : gcmc_dxf(run.path, line.drawing));
   }
   if (!complete && !line.output.empty()) return run.status;  // nothing is written
   if (!out.finish()) {
@@ -207,7 +212,8 @@ int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, List
 int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) {
   GcmcCommandLine line = parse_gcmc_options(arguments);
   if (line.version) {
-    fmt::print("gcmc version 1.0.0-oracle, as Kerf understands it\nKerf is licensed under the Apache License 2.0\n");
+    fmt::print(
+        "gcmc version 1.0.0-oracle, as Kerf understands it\nKerf is licensed under the Apache License 2.0\n");
     return 0;
   }
   for (const std::string& error : line.errors) complain(error);
@@ -215,7 +221,8 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
     fmt::print(stderr, "{}", line.help ? gcmc_usage() : "Try: kerf gcmc --help\n");
     return 1;
   }
-  if (!read_text(line.prologue_file, line.run.prologue) || !read_text(line.epilogue_file, line.run.epilogue)) return 1;
+  if (!read_text(line.prologue_file, line.run.prologue) || !read_text(line.epilogue_file, line.run.epilogue))
+    return 1;
 
   Diagnostics diagnostics;
   const auto file = InputFile::open(line.input.empty() ? "-" : line.input, diagnostics);

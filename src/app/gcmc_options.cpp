@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <iterator>
 #include <optional>
-
-#include <fmt/format.h>
 
 #include "kerf/number.h"
 
@@ -19,15 +18,44 @@ constexpr double kMmPerInch = 25.4;
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
 enum class Id : std::uint8_t {
-  offset, brief, check, debug, define, dxf, epilogue, explain, function, gcode, help, hex_handles, imperial, include,
-  json, no_flip, no_grid, no_m2, no_moves, opacity, output, pedantic, plane, precision, prologue, quiet, relative, svg,
-  tool_width, uvw, version, warnings,
+  offset,
+  brief,
+  check,
+  debug,
+  define,
+  dxf,
+  epilogue,
+  explain,
+  function,
+  gcode,
+  help,
+  hex_handles,
+  imperial,
+  include,
+  json,
+  no_flip,
+  no_grid,
+  no_m2,
+  no_moves,
+  opacity,
+  output,
+  pedantic,
+  plane,
+  precision,
+  prologue,
+  quiet,
+  relative,
+  svg,
+  tool_width,
+  uvw,
+  version,
+  warnings,
 };
 
 struct Option {
-  char letter;            // '\0': none
+  char letter;  // '\0': none
   std::string_view name;
-  std::string_view value; // its name in the help; empty: takes none
+  std::string_view value;  // its name in the help; empty: takes none
   Id id;
   std::string_view help;
 };
@@ -91,7 +119,9 @@ std::optional<Quantity> parse_quantity(const std::string& text) {
 }
 
 std::optional<double> as_length(const Quantity& q, bool imperial) {
-  const double mm = q.unit == "mm" ? q.value : q.unit == "in" ? q.value * kMmPerInch : q.value * kMmPerInch / 1000.0;
+  const double mm = q.unit == "mm"   ? q.value
+                    : q.unit == "in" ? q.value * kMmPerInch
+                                     : q.value * kMmPerInch / 1000.0;
   if (q.unit.empty()) return q.value;
   if (q.unit == "deg" || q.unit == "rad") return std::nullopt;
   return imperial ? mm / kMmPerInch : mm;
@@ -148,13 +178,18 @@ class Reader {
     }
     const Option& o = *found.front();
     if (o.value.empty()) {
-      if (equals != std::string::npos) error(fmt::format("option '--{}' doesn't allow an argument", o.name));
-      else apply(o, {});
+      if (equals != std::string::npos)
+        error(fmt::format("option '--{}' doesn't allow an argument", o.name));
+      else
+        apply(o, {});
       return;
     }
-    const auto value = equals != std::string::npos ? std::optional<std::string>(word.substr(equals + 1)) : next();
-    if (value) apply(o, *value);
-    else error(fmt::format("option '--{}' requires an argument", o.name));
+    const auto value =
+        equals != std::string::npos ? std::optional<std::string>(word.substr(equals + 1)) : next();
+    if (value)
+      apply(o, *value);
+    else
+      error(fmt::format("option '--{}' requires an argument", o.name));
   }
 
   template <class Next>
@@ -171,8 +206,10 @@ class Reader {
         continue;
       }
       const auto value = k + 1 < word.size() ? std::optional<std::string>(word.substr(k + 1)) : next();
-      if (value) apply(*o, *value);
-      else error(fmt::format("option requires an argument -- '{}'", word[k]));
+      if (value)
+        apply(*o, *value);
+      else
+        error(fmt::format("option requires an argument -- '{}'", word[k]));
       return;
     }
   }
@@ -269,17 +306,23 @@ class Reader {
         continue;
       }
       const auto value = axis >= 3 && axis <= 5 ? as_angle(*q) : as_length(*q, run.imperial);
-      if (!value) error(fmt::format("Invalid units for global {}-offset", name));
-      else if (std::fabs(*value) > kLargestOffset) error(fmt::format("Global {}-offset out of range", name));
-      else run.offsets[axis] = *value;
+      if (!value)
+        error(fmt::format("Invalid units for global {}-offset", name));
+      else if (std::fabs(*value) > kLargestOffset)
+        error(fmt::format("Global {}-offset out of range", name));
+      else
+        run.offsets[axis] = *value;
     }
-    if (run.relative && std::any_of(run.offsets.begin(), run.offsets.end(), [](double v) { return v != 0.0; }))
+    if (run.relative &&
+        std::any_of(run.offsets.begin(), run.offsets.end(), [](double v) { return v != 0.0; }))
       error("Offsets must be zero when using relative addressing");
     if (!tool_width_.empty()) {
       const auto q = parse_quantity(tool_width_);
       const auto value = q ? as_length(*q, run.imperial) : std::nullopt;
-      if (!value || *value <= 0.0) error("Invalid SVG toolwidth");
-      else out_.drawing.tool_width = *value;
+      if (!value || *value <= 0.0)
+        error("Invalid SVG toolwidth");
+      else
+        out_.drawing.tool_width = *value;
     }
     if (quiet_ && run.frame == GcmcFrame::usual) run.frame = GcmcFrame::bare;
     if (run.target == GcmcTarget::gcode) return;
@@ -295,7 +338,9 @@ class Reader {
 
 }  // namespace
 
-GcmcCommandLine parse_gcmc_options(const std::vector<std::string>& arguments) { return Reader().run(arguments); }
+GcmcCommandLine parse_gcmc_options(const std::vector<std::string>& arguments) {
+  return Reader().run(arguments);
+}
 
 std::string gcmc_usage() {
   std::string text = "Usage: kerf gcmc [options] [file]\n";

@@ -12,8 +12,8 @@ namespace kerf::app {
 struct GcmcCommandLine {
   GcmcOptions run;
   GcmcDrawingOptions drawing;
-  std::string input;          // empty: standard input
-  std::string output;         // empty: standard output
+  std::string input;   // empty: standard input
+  std::string output;  // empty: standard output
   std::string prologue_file, epilogue_file;
   bool warnings_are_errors = false;
   bool help = false, version = false;

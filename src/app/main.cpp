@@ -60,7 +60,8 @@ Status run_asked(const std::vector<Command>& commands) {
   return Status::wrong_usage;
 }
 
-/// Commands that take the arguments of the program that they stand in for, which no common parser understands.
+/// Commands that take the arguments of the program that they stand in for, which no common parser
+/// understands.
 std::optional<int> run_drop_in(int argc, char** argv) {
   if (argc < 2 || std::string_view(argv[1]) != "gcmc") return std::nullopt;
   catch_interrupts();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fmt/format.h>
 #include <iterator>
 #include <numeric>
@@ -48,8 +49,9 @@ char* write_fixed(char* out, double value, int decimals) {
   constexpr int kMostDecimals = 15;
   static constexpr double kPowers[kMostDecimals + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                         1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  constexpr double kLargest = 1125899906842624.0;  // 2^50: the scaled number and its fraction are then still exact enough
-  constexpr double kDoubt = 0x1p-51;               // more than the relative error of one multiplication
+  constexpr double kLargest =
+      1125899906842624.0;             // 2^50: the scaled number and its fraction are then still exact enough
+  constexpr double kDoubt = 0x1p-51;  // more than the relative error of one multiplication
   if (decimals < 0 || decimals > kMostDecimals) return nullptr;
   const double scaled = std::fabs(value) * kPowers[decimals];
   if (!(scaled < kLargest)) return nullptr;
@@ -60,8 +62,9 @@ char* write_fixed(char* out, double value, int decimals) {
   if (fraction > 0.5) ++digits;
   if (std::signbit(value)) *out++ = '-';
 
-  char reversed[24];
-  char* const end = reversed + sizeof reversed;
+  constexpr std::size_t kMostDigits = 24;  // of any number below kLargest, with its point
+  char reversed[2 * kMostDigits] = {};     // twice: copying a fixed number of bytes is quicker
+  char* const end = reversed + kMostDigits;
   char* at = end;
   int left = decimals;
   for (; left >= 2; left -= 2, digits /= 100) put_pair(at -= 2, digits % 100);
@@ -72,14 +75,17 @@ char* write_fixed(char* out, double value, int decimals) {
   if (decimals > 0) *--at = '.';
   for (; digits >= 10; digits /= 100) put_pair(at -= 2, digits % 100);
   if (digits != 0 || at == end || *at == '.') *--at = static_cast<char>('0' + digits);
-  return std::copy(at, end, out);
+  std::memcpy(out, at, kMostDigits);
+  return out + (end - at);
 }
 
 void append_fixed(std::string& out, double value, int decimals, MinusZero zero) {
   const std::size_t start = out.size();
   char fast[kFixedRoom];
-  if (const char* end = write_fixed(fast, value, decimals)) out.append(fast, static_cast<std::size_t>(end - fast));
-  else fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
+  if (const char* end = write_fixed(fast, value, decimals))
+    out.append(fast, static_cast<std::size_t>(end - fast));
+  else
+    fmt::format_to(std::back_inserter(out), "{:.{}f}", value, decimals);
   if (zero == MinusZero::drop && out[start] == '-' && is_zero_text(std::string_view(out).substr(start)))
     out.erase(start, 1);
 }

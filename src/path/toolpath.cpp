@@ -118,7 +118,8 @@ std::size_t Toolpath::add(const step::Spindle& s, OriginId origin) {
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Coolant& s, OriginId origin) {
-  append(StepKind::coolant, origin).turn_ = static_cast<std::uint8_t>((s.mist ? 1 : 0) | (s.flood ? 2 : 0)) & 3;
+  append(StepKind::coolant, origin).turn_ =
+      static_cast<std::uint8_t>((s.mist ? 1 : 0) | (s.flood ? 2 : 0)) & 3;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::PathMode& s, OriginId origin) {

@@ -1,13 +1,12 @@
 // The DXF drawing: a skeleton that AutoCAD 2000 and later read, and an entity for each piece that is cut.
 #include <cmath>
+#include <fmt/format.h>
 #include <iterator>
 #include <numbers>
 
-#include <fmt/format.h>
+#include "back/gcmc/strokes.h"
 
 #include "kerf/gcmc_drawing.h"
-
-#include "back/gcmc/strokes.h"
 
 namespace kerf {
 namespace {
@@ -153,11 +152,14 @@ class Writer {
   void entity(std::string_view type, std::string_view subclass, const Piece& p) {
     ++count_;
     tag(0, type);
-    tag(5, options_.hex_handles ? fmt::format("{:X}", kFirstHexHandle + static_cast<int>(drawing_.layers.size()) + count_)
-                                : fmt::format("path{}", count_));
+    tag(5, options_.hex_handles
+               ? fmt::format("{:X}", kFirstHexHandle + static_cast<int>(drawing_.layers.size()) + count_)
+               : fmt::format("path{}", count_));
     tag(100, "AcDbEntity");
-    if (options_.hex_handles) tag(8, drawing_.layers[p.layer]);  // of the common part
-    else tag(100, subclass), tag(8, drawing_.layers[p.layer]);
+    if (options_.hex_handles)
+      tag(8, drawing_.layers[p.layer]);  // of the common part
+    else
+      tag(100, subclass), tag(8, drawing_.layers[p.layer]);
     tag(62, "256");
     tag(370, "-1");
     tag(6, "ByLayer");

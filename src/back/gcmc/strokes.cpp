@@ -7,8 +7,10 @@ namespace kerf::gcmc_drawing {
 namespace {
 
 constexpr double kMmPerInch = 25.4;
-constexpr double kSamePlace = 1e-12;   // drawing's unit; closer than this an arc's ends are one point
-constexpr Length kChord = mm(0.01);    // how far chords may stray from an arc that cannot be drawn as one
+constexpr double kSamePlace = 1e-12;  // drawing's unit; closer than this an arc's ends are one point
+constexpr Length kChord = mm(0.01);   // how far chords may stray from an arc that cannot be drawn as one
+
+constexpr int kMostChords = 2000;  // of one arc
 
 class Drawer {
  public:
@@ -20,10 +22,14 @@ class Drawer {
   Drawing run() {
     for (std::size_t i = 0; i < path_.size(); ++i) {
       const Step& s = path_[i];
-      if (s.kind() == StepKind::layer) set_layer(path_.layer(i).name);
-      else if (s.kind() == StepKind::verbatim && path_.text(i) == "(close path)") close();
-      else if (s.kind() == StepKind::arc) arc(s);
-      else if (s.is_motion()) straight(s.to(), s.kind() == StepKind::rapid);
+      if (s.kind() == StepKind::layer)
+        set_layer(path_.layer(i).name);
+      else if (s.kind() == StepKind::verbatim && path_.text(i) == "(close path)")
+        close();
+      else if (s.kind() == StepKind::arc)
+        arc(s);
+      else if (s.is_motion())
+        straight(s.to(), s.kind() == StepKind::rapid);
     }
     return std::move(out_);
   }
@@ -60,7 +66,7 @@ class Drawer {
     const step::Arc a = s.arc();
     if (a.plane != Plane::xy) {
       const ArcWalk walk = walk_of(s, at_mm_);
-      const int chords = walk.chords(kChord);
+      const int chords = walk.chords(kChord, kMostChords);
       for (int i = 1; i < chords; ++i) straight(walk.at(static_cast<double>(i) / chords), false);
       straight(a.to, false);
       return;
@@ -101,6 +107,8 @@ class Drawer {
 
 }  // namespace
 
-Drawing drawing_of(const Toolpath& path, const GcmcDrawingOptions& options) { return Drawer(path, options).run(); }
+Drawing drawing_of(const Toolpath& path, const GcmcDrawingOptions& options) {
+  return Drawer(path, options).run();
+}
 
 }  // namespace kerf::gcmc_drawing

@@ -13,8 +13,8 @@ namespace kerf::gcmc_drawing {
 struct Piece {
   enum class Kind : std::uint8_t { rapid, line, arc, close };
   Kind kind = Kind::line;
-  Point3 from, to;      // drawing's unit
-  Point2 centre;        // arcs
+  Point3 from, to;  // drawing's unit
+  Point2 centre;    // arcs
   Turn turn = Turn::ccw;
   bool full_circle = false;
   std::size_t layer = 0;

@@ -1,11 +1,10 @@
 // The SVG drawing.
+#include <fmt/format.h>
 #include <iterator>
 
-#include <fmt/format.h>
+#include "back/gcmc/strokes.h"
 
 #include "kerf/gcmc_drawing.h"
-
-#include "back/gcmc/strokes.h"
 
 namespace kerf {
 namespace {
@@ -65,19 +64,21 @@ class Writer {
   void head() {
     const double width = box_.size().x + tool_, height = box_.size().y + tool_;
     const char* unit = options_.imperial ? "in" : "mm";
-    out_ += "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\"?>\n"
-            "<!-- Created with Kerf -->\n"
-            "<svg\n"
-            "  xmlns=\"http://www.w3.org/2000/svg\"\n"
-            "  xmlns:sodipodi=\"http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd\"\n"
-            "  xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
-            "  version=\"1.1\"\n";
+    out_ +=
+        "<?xml version=\"1.0\" encoding=\"UTF-8\" standalone=\"no\"?>\n"
+        "<!-- Created with Kerf -->\n"
+        "<svg\n"
+        "  xmlns=\"http://www.w3.org/2000/svg\"\n"
+        "  xmlns:sodipodi=\"http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd\"\n"
+        "  xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"\n"
+        "  version=\"1.1\"\n";
     put("  width=\"{:f}{}\"\n  height=\"{:f}{}\"\n", width, unit, height, unit);
     put("  viewBox=\"0.0 0.0 {:f} {:f}\"\n>\n", width * scale_, height * scale_);
-    put("<sodipodi:namedview\n  inkscape:document-units=\"{0}\"\n  units=\"{0}\"\n  showgrid=\"{1}\">\n", unit,
-        options_.show_grid ? "true" : "false");
+    put("<sodipodi:namedview\n  inkscape:document-units=\"{0}\"\n  units=\"{0}\"\n  showgrid=\"{1}\">\n",
+        unit, options_.show_grid ? "true" : "false");
     if (options_.show_grid) {
-      put("  <inkscape:grid\n    type=\"xygrid\"\n    units=\"{}\"\n    empspacing=\"4\"\n    visible=\"true\"\n"
+      put("  <inkscape:grid\n    type=\"xygrid\"\n    units=\"{}\"\n    empspacing=\"4\"\n    "
+          "visible=\"true\"\n"
           "    enabled=\"true\"\n    snapvisiblegridlinesonly=\"true\" />\n",
           unit);
     }
@@ -87,7 +88,8 @@ class Writer {
   void begin_layer(const std::string& label, const std::string& id) {
     const double x = tool_ / 2 - box_.low.x;
     const double y = tool_ / 2 + (options_.flip ? box_.high.y : -box_.low.y);
-    put("<g inkscape:label=\"{}\" inkscape:groupmode=\"layer\" id=\"{}\" transform=\"scale({:f}) translate({:f} {:f})",
+    put("<g inkscape:label=\"{}\" inkscape:groupmode=\"layer\" id=\"{}\" transform=\"scale({:f}) "
+        "translate({:f} {:f})",
         label, id, scale_, x, y);
     out_ += options_.flip ? " scale(1 -1)\">\n" : "\">\n";
   }
@@ -95,11 +97,12 @@ class Writer {
   void begin_path(const Piece& p, bool moves) {
     ++count_;
     if (moves) {
-      put("<path style=\"stroke:{};stroke-width:{:f};fill:none\" id=\"path{}\" d=\"", any_move_ ? "#000000" : "#ff0000",
-          kMoveWidth / scale_, count_);
+      put("<path style=\"stroke:{};stroke-width:{:f};fill:none\" id=\"path{}\" d=\"",
+          any_move_ ? "#000000" : "#ff0000", kMoveWidth / scale_, count_);
       any_move_ = true;
     } else {
-      put("<path style=\"stroke:#000000;stroke-width:{:f};fill:none;stroke-linecap:round;stroke-linejoin:round;"
+      put("<path "
+          "style=\"stroke:#000000;stroke-width:{:f};fill:none;stroke-linecap:round;stroke-linejoin:round;"
           "stroke-opacity:{:f}\" id=\"path{}\" d=\"",
           tool_, options_.opacity, count_);
     }
@@ -108,7 +111,8 @@ class Writer {
 
   void arc_to(const Piece& p, Point2 to, bool large) {
     const double radius = distance(p.from.xy(), p.centre);
-    put(" A {:f},{:f} 0 {},{} {:f},{:f}", radius, radius, large ? 1 : 0, p.turn == Turn::ccw ? 1 : 0, to.x, to.y);
+    put(" A {:f},{:f} 0 {},{} {:f},{:f}", radius, radius, large ? 1 : 0, p.turn == Turn::ccw ? 1 : 0, to.x,
+        to.y);
   }
 
   void arc(const Piece& p) {
@@ -133,9 +137,12 @@ class Writer {
         begin_path(p, moves);
         open = true;
       }
-      if (p.kind == Piece::Kind::arc) arc(p);
-      else if (p.kind == Piece::Kind::close) out_ += " Z";
-      else put(" L {:f},{:f}", p.to.x, p.to.y);
+      if (p.kind == Piece::Kind::arc)
+        arc(p);
+      else if (p.kind == Piece::Kind::close)
+        out_ += " Z";
+      else
+        put(" L {:f},{:f}", p.to.x, p.to.y);
     }
     if (open) out_ += "\"/>\n";
   }

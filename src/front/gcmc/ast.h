@@ -32,20 +32,20 @@ enum class NodeKind : std::uint8_t {
   assign,     // a op b
   step,       // ++ or -- (op) on a; `prefix` tells which form
   // statements
-  block,        // list of statements
-  expression,   // a
-  if_else,      // if a b else c
-  for_loop,     // for(a; b; c) d
-  while_loop,   // while a b
-  do_loop,      // do b while a
-  foreach_loop, // foreach(a; name) b
-  repeat_loop,  // repeat(a; name) b
-  function,     // definition of Tree::functions[a]
-  return_value, // return a
+  block,         // list of statements
+  expression,    // a
+  if_else,       // if a b else c
+  for_loop,      // for(a; b; c) d
+  while_loop,    // while a b
+  do_loop,       // do b while a
+  foreach_loop,  // foreach(a; name) b
+  repeat_loop,   // repeat(a; name) b
+  function,      // definition of Tree::functions[a]
+  return_value,  // return a
   break_loop,
   continue_loop,
-  local,        // name = a
-  constant,     // name = a
+  local,     // name = a
+  constant,  // name = a
 };
 
 struct Node {
@@ -57,6 +57,7 @@ struct Node {
   NodeId a = kNoNode, b = kNoNode, c = kNoNode, d = kNoNode;
   NameId name = kNoName;
   std::uint32_t first = 0, count = 0;  // children in Tree::children
+  std::uint32_t height = 0;            // of an expression's tree
   Scalar number;
 };
 

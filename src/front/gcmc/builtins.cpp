@@ -87,7 +87,8 @@ Scalar Call::scalar(int i) const {
 double Call::length(int i) const {
   const Scalar s = scalar(i);
   if (is_angle(s.unit())) {
-    warn(Code::gcmc_unit, fmt::format("{}() argument {} has incompatible angular units attached", name, i + 1));
+    warn(Code::gcmc_unit,
+         fmt::format("{}() argument {} has incompatible angular units attached", name, i + 1));
     return s.number();
   }
   return native_number(vm, s);
@@ -103,7 +104,8 @@ double Call::unitless(int i) const {
 double Call::angle(int i) const {
   const Scalar s = scalar(i);
   if (is_distance(s.unit())) {
-    warn(Code::gcmc_unit, fmt::format("{}() argument {} has incompatible distance units attached", name, i + 1));
+    warn(Code::gcmc_unit,
+         fmt::format("{}() argument {} has incompatible distance units attached", name, i + 1));
     return s.number();
   }
   return s.unit() == Unit::deg ? convert(s.number(), Unit::deg, Unit::rad) : s.number();

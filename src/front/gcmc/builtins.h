@@ -15,7 +15,7 @@ struct Call {
   std::string_view name;
   Value* arguments;
   int count;
-  bool value_used = true;   // nobody asks for the value otherwise
+  bool value_used = true;  // nobody asks for the value otherwise
 
   Value& operator[](int i) const { return arguments[i]; }
   /// Argument `i` as a scalar, an error else; messages count arguments from 1.
@@ -24,7 +24,7 @@ struct Call {
   double length(int i) const;
   double number(int i) const { return scalar(i).number(); }
   double unitless(int i) const;
-  double angle(int i) const;   // radians; without unit it is taken as such
+  double angle(int i) const;  // radians; without unit it is taken as such
   std::int32_t integer(int i) const;
   bool truth(int i) const;
   [[noreturn]] void fail(Code code, std::string text) const;
@@ -36,7 +36,7 @@ struct Builtin {
   std::string_view name;
   BuiltinFunction function;
   int least;
-  int most;   // -1: any number
+  int most;  // -1: any number
 };
 
 constexpr int kAnyCount = -1;

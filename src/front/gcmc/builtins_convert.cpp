@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <utility>
 
-#include "kerf/number.h"
-
 #include "front/gcmc/builtins.h"
 #include "front/gcmc/operators.h"
+
+#include "kerf/number.h"
 
 namespace kerf::gcmc {
 namespace {
@@ -29,7 +29,8 @@ Value change_scalars(const Call& call, Change change) {
   } else if (v.is_list()) {
     for (Value& item : v.own_vectors(call.vm.meter)) each(item);
   } else {
-    call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be scalar, vector or vectorlist", call.name));
+    call.fail(Code::gcmc_type,
+              fmt::format("{}() argument 1 must be scalar, vector or vectorlist", call.name));
   }
   return v;
 }
@@ -38,11 +39,11 @@ template <Unit unit>
 Value to_unit(const Call& call) {
   return change_scalars(call, [&](Scalar s, bool) {
     if (s.unit() != Unit::none && is_distance(s.unit()) != is_distance(unit)) {
-      call.warn(Code::gcmc_unit,
-                is_angle(s.unit()) ? fmt::format("Angular units {} converted to distance units {}",
-                                                 unit_name(s.unit()), unit_name(unit))
-                                   : fmt::format("Distance units {} converted to angular units {}",
-                                                 unit_name(s.unit()), unit_name(unit)));
+      call.warn(Code::gcmc_unit, is_angle(s.unit())
+                                     ? fmt::format("Angular units {} converted to distance units {}",
+                                                   unit_name(s.unit()), unit_name(unit))
+                                     : fmt::format("Distance units {} converted to angular units {}",
+                                                   unit_name(s.unit()), unit_name(unit)));
     }
     return convert(s, unit);
   });
@@ -63,8 +64,8 @@ Value to_distance(const Call& call) {
   return change_scalars(call, [&](Scalar s, bool) {
     if (is_distance(s.unit())) return s;
     if (is_angle(s.unit())) {
-      call.warn(Code::gcmc_unit, fmt::format("Angular units {} converted to distance units {}", unit_name(s.unit()),
-                                             unit_name(call.vm.native)));
+      call.warn(Code::gcmc_unit, fmt::format("Angular units {} converted to distance units {}",
+                                             unit_name(s.unit()), unit_name(call.vm.native)));
     }
     return s.with_unit(call.vm.native);
   });
@@ -78,9 +79,10 @@ Unit unit_of_text(const Call& call, std::string_view rest, bool& mil) {
   if (mil) return Unit::inch;
   for (const Unit u : {Unit::none, Unit::mm, Unit::inch, Unit::deg, Unit::rad})
     if (rest == unit_suffix(u)) return u;
-  call.warn(Code::gcmc_unit,
-            fmt::format("{}(): String has a trailing context '{}' which does not translate into a recognized unit",
-                        call.name, rest));
+  call.warn(
+      Code::gcmc_unit,
+      fmt::format("{}(): String has a trailing context '{}' which does not translate into a recognized unit",
+                  call.name, rest));
   return Unit::none;
 }
 
@@ -108,8 +110,9 @@ Value to_int(const Call& call) {
   if (call.count > 1) {
     base = call.integer(1);
     if (base != 0 && (base < 2 || base > 36)) {
-      call.warn(Code::gcmc_range,
-                fmt::format("{}(): Base argument must be zero or between [2..36], setting to zero", call.name));
+      call.warn(
+          Code::gcmc_range,
+          fmt::format("{}(): Base argument must be zero or between [2..36], setting to zero", call.name));
       base = 0;
     }
   }
@@ -134,7 +137,8 @@ Value to_float(const Call& call) {
   const Unit unit = unit_of_text(call, end, mil);
   if (std::isnan(value)) call.warn(Code::gcmc_range, fmt::format("{}(): Value evaluates to NaN", call.name));
   if (std::isinf(value))
-    call.warn(Code::gcmc_range, fmt::format("{}(): Value evaluates to {}Inf", call.name, value > 0 ? '+' : '-'));
+    call.warn(Code::gcmc_range,
+              fmt::format("{}(): Value evaluates to {}Inf", call.name, value > 0 ? '+' : '-'));
   if (mil) value /= 1000.0;
   return Value::real(value, unit);
 }
@@ -146,7 +150,8 @@ Value to_chr(const Call& call) {
   const std::int32_t code = call.integer(0);
   if (code < 0 || code > kLastCodePoint)
     call.fail(Code::gcmc_range, fmt::format("to_chr() argument 1 is no character ({})", code));
-  return Value::string(code == 0 ? std::u32string() : std::u32string(1, static_cast<char32_t>(code)), call.vm.meter);
+  return Value::string(code == 0 ? std::u32string() : std::u32string(1, static_cast<char32_t>(code)),
+                       call.vm.meter);
 }
 
 Value to_val(const Call& call) {
@@ -174,7 +179,8 @@ Value is_any_angle(const Call& call) { return Value::boolean(!is_distance(call.s
 Value is_any_distance(const Call& call) { return Value::boolean(!is_angle(call.scalar(0).unit())); }
 
 const Value* named_variable(const Call& call) {
-  if (!call[0].is_string()) call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be string", call.name));
+  if (!call[0].is_string())
+    call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be string", call.name));
   return call.vm.variable(to_utf8(call[0].text()));
 }
 

@@ -28,20 +28,25 @@ PlaneOrder order_of(Plane plane) {
 
 void finite_or_fail(const Call& call, double v, std::size_t axis) {
   if (std::isfinite(v)) return;
-  call.fail(Code::gcmc_geometry, fmt::format("{}() coordinate {} is not a finite number", call.name, "XYZABCUVW"[axis]));
+  call.fail(Code::gcmc_geometry,
+            fmt::format("{}() coordinate {} is not a finite number", call.name, "XYZABCUVW"[axis]));
 }
 
 /// A coordinate in what the machine takes: native lengths, degrees.
 double machine_number(const Call& call, Scalar s, std::size_t axis) {
+  if (s.kind() == Kind::real && s.unit() == call.vm.native && axis < 3 && std::isfinite(s.p.d)) return s.p.d;
   if (is_rotary(axis)) {
     if (is_distance(s.unit()))
-      call.warn(Code::gcmc_unit, fmt::format("{}() argument 1 has incompatible distance units attached", call.name));
-    else if (s.unit() == Unit::rad) s = convert(s, Unit::deg);
+      call.warn(Code::gcmc_unit,
+                fmt::format("{}() argument 1 has incompatible distance units attached", call.name));
+    else if (s.unit() == Unit::rad)
+      s = convert(s, Unit::deg);
     finite_or_fail(call, s.number(), axis);
     return s.number();
   }
   if (is_angle(s.unit())) {
-    call.warn(Code::gcmc_unit, fmt::format("{}() argument 1 has incompatible angular units attached", call.name));
+    call.warn(Code::gcmc_unit,
+              fmt::format("{}() argument 1 has incompatible angular units attached", call.name));
     finite_or_fail(call, s.number(), axis);
     return s.number();
   }
@@ -78,28 +83,26 @@ Axes target_of(const Call& call, const Value& v, From from, unsigned& named) {
   return to;
 }
 
-/// Relative moves in relative text leave out what does not move, unless nothing would be left.
-unsigned without_standing(const Axes& from, const Axes& to, unsigned named) {
-  unsigned moving = 0;
-  for (std::size_t i = 0; i < kAxes; ++i)
-    if (std::fabs(to[i] - from[i]) >= kEpsilon) moving |= named & 1u << i;
-  return moving == 0 ? named : moving;
-}
-
 void move_one(const Call& call, const Value& v, bool rapid, From from, double feed) {
   Machine& m = call.vm.machine();
-  Move out;
-  out.rapid = rapid;
-  out.feed = feed;
-  const Axes to = target_of(call, v, from, out.named);
-  if (out.named == 0) {
+  unsigned named = 0, moving = 0;
+  const std::size_t count = std::min(v.vector_size(), kAxes);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Scalar s = v.coordinate(i);
+    if (!s.defined()) continue;
+    const double value = machine_number(call, s, i);
+    m.set_axis(i, from == From::here ? m.position[i] + value : value);
+    named |= 1u << i;
+    if (std::fabs(value) >= kEpsilon) moving |= 1u << i;
+  }
+  if (named == 0) {
     m.tell([&](Sink& sink) { sink.broken_move(rapid); });
     call.fail(Code::gcmc_geometry, fmt::format("All coordinates in {}() undefined", call.name));
   }
-  if (from == From::here && call.vm.options().relative) out.named = without_standing(m.position, to, out.named);
-  m.position = to;
-  out.to = m.with_offset(to);
+  // Relative moves in relative text leave out what does not move, unless nothing would be left.
+  if (from == From::here && call.vm.options().relative && moving != 0) named = moving;
   call.vm.show_life();
+  const Move out{rapid, m.told, named, feed};
   m.tell([&](Sink& sink) { sink.move(out); });
 }
 
@@ -134,12 +137,13 @@ Value position(const Call& call) {
 Value relocate(const Call& call) {
   Machine& m = call.vm.machine();
   m.relocation = {};
-  if (call.count == 0) return Value::undef();
-  if (!call[0].is_vector()) call.fail(Code::gcmc_type, "relocate() argument 1 must be vector");
-  for (std::size_t i = 0; i < std::min(call[0].vector_size(), kAxes); ++i) {
+  if (call.count > 0 && !call[0].is_vector())
+    call.fail(Code::gcmc_type, "relocate() argument 1 must be vector");
+  for (std::size_t i = 0; call.count > 0 && i < std::min(call[0].vector_size(), kAxes); ++i) {
     const Scalar s = call[0].coordinate(i);
     if (s.defined()) m.relocation[i] = machine_number(call, s, i);
   }
+  m.set_position(m.position);
   return Value::undef();
 }
 
@@ -150,7 +154,8 @@ Value internal_axes(const Call& call) {
   std::array<Scalar, 6> all;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double v = offset ? m.fixed_offset[i] + m.relocation[i] : m.position[i];
-    all[i] = is_rotary(i) ? Scalar::real(convert(v, Unit::deg, Unit::rad), Unit::rad) : Scalar::real(v, call.vm.native);
+    all[i] = is_rotary(i) ? Scalar::real(convert(v, Unit::deg, Unit::rad), Unit::rad)
+                          : Scalar::real(v, call.vm.native);
   }
   return Value::vector(all.data(), all.size(), call.vm.meter);
 }
@@ -175,8 +180,8 @@ Point2 arc_centre(const Call& call, double du, double dv, double radius, bool ri
   const double rise = radius * radius - square / 4.0;
   if (rise < -kEpsilon) {
     call.fail(Code::gcmc_geometry,
-              fmt::format("{}() radius ({:e}) is less than two times distance from start to end (D={:e})", call.name,
-                          radius, rise));
+              fmt::format("{}() radius ({:e}) is less than two times distance from start to end (D={:e})",
+                          call.name, radius, rise));
   }
   const double height = std::sqrt(std::max(rise, 0.0) / square);
   const double side = right_of_chord ? 1.0 : -1.0;
@@ -184,7 +189,8 @@ Point2 arc_centre(const Call& call, double du, double dv, double radius, bool ri
 }
 
 Value arc(const Call& call, Turn turn, From from) {
-  if (!call[0].is_vector()) call.fail(Code::gcmc_type, fmt::format("{}(): First argument must be a vector", call.name));
+  if (!call[0].is_vector())
+    call.fail(Code::gcmc_type, fmt::format("{}(): First argument must be a vector", call.name));
   Machine& m = call.vm.machine();
   const PlaneOrder axes = order_of(m.plane);
   ArcMove out;
@@ -195,15 +201,16 @@ Value arc(const Call& call, Turn turn, From from) {
   finite_or_fail(call, radius, axes.u);
   out.turns = turns_of(call, 2);
   if ((out.named & (1u << axes.u | 1u << axes.v)) == 0) {
-    call.fail(Code::gcmc_geometry, fmt::format("{}() in plane {} is missing both plane coordinates", call.name,
-                                               kPlaneNames[static_cast<std::size_t>(m.plane)]));
+    call.fail(Code::gcmc_geometry, fmt::format("{}() in plane {} is missing both plane coordinates",
+                                               call.name, kPlaneNames[static_cast<std::size_t>(m.plane)]));
   }
   // In XZ the turning sense is seen from +Y, from where Z points to the left of X: the sides change places.
   const bool mirrored = m.plane == Plane::xz;
   const bool right = ((turn == Turn::cw) == (radius > 0.0)) != mirrored;
-  out.offset = arc_centre(call, to[axes.u] - m.position[axes.u], to[axes.v] - m.position[axes.v], radius, right);
-  m.position = to;
-  out.to = m.with_offset(to);
+  out.offset =
+      arc_centre(call, to[axes.u] - m.position[axes.u], to[axes.v] - m.position[axes.v], radius, right);
+  m.set_position(to);
+  out.to = m.told;
   call.vm.show_life();
   m.tell([&](Sink& sink) { sink.arc(out); });
   return std::move(call[0]);
@@ -251,13 +258,16 @@ Value circle(const Call& call, Turn turn, From from) {
   out.turn = turn;
   out.plane = m.plane;
   Axes to = m.position;
-  if (call[0].is_vector()) circle_by_centre(call, from, out, to);
-  else if (call[0].is_scalar()) circle_by_radius(call, out);
-  else call.fail(Code::gcmc_type, fmt::format("{}(): First argument neither vector nor scalar", call.name));
+  if (call[0].is_vector())
+    circle_by_centre(call, from, out, to);
+  else if (call[0].is_scalar())
+    circle_by_radius(call, out);
+  else
+    call.fail(Code::gcmc_type, fmt::format("{}(): First argument neither vector nor scalar", call.name));
   if (std::hypot(out.offset.x, out.offset.y) < kEpsilon)
     call.fail(Code::gcmc_geometry, fmt::format("{}() radius is zero", call.name));
-  m.position = to;
-  out.to = m.with_offset(to);
+  m.set_position(to);
+  out.to = m.told;
   call.vm.show_life();
   m.tell([&](Sink& sink) { sink.arc(out); });
   return std::move(call[0]);
@@ -284,10 +294,10 @@ Value drill(const Call& call) {
     out.repeat = call.integer(3);
     if (out.repeat < 1) call.fail(Code::gcmc_range, "drill() argument 4 must be > 0");
   }
-  out.to = m.with_offset(to);
-  m.position = to;
-  m.position[2] = retract;
-  out.retract = m.with_offset(m.position)[2];
+  m.set_position(to);
+  out.to = m.told;
+  m.set_axis(2, retract);
+  out.retract = m.told[2];
   m.tell([&](Sink& sink) { sink.drill(out); });
   return Value::undef();
 }
@@ -295,7 +305,8 @@ Value drill(const Call& call) {
 // ---- state
 
 double finite_argument(const Call& call, double v, int i) {
-  if (!std::isfinite(v)) call.fail(Code::gcmc_range, fmt::format("{}() argument {} is not finite", call.name, i + 1));
+  if (!std::isfinite(v))
+    call.fail(Code::gcmc_range, fmt::format("{}() argument {} is not finite", call.name, i + 1));
   return v;
 }
 
@@ -399,8 +410,9 @@ Value plane(const Call& call) {
   if (call[0].is_undef()) return before;
   const int plane = choice_of(call, {"xy", "xz", "yz"});
   if (plane < 0) {
-    call.fail(Code::gcmc_range,
-              "plane() only accepts PLANE_XY (0), PLANE_XZ (1), PLANE_YZ (2) or strings \"XY\"|\"XZ\"|\"YZ\"");
+    call.fail(
+        Code::gcmc_range,
+        "plane() only accepts PLANE_XY (0), PLANE_XZ (1), PLANE_YZ (2) or strings \"XY\"|\"XZ\"|\"YZ\"");
   }
   if (plane != 0 && call.vm.options().target != GcmcTarget::gcode)
     call.warn(Code::gcmc_suspicious, "plane() other than PLANE_XY has no meaning in a drawing");
@@ -442,12 +454,12 @@ Value restore_position(const Call& call) {
   }
   const Machine::Stored& stored = m.stored[second ? 1 : 0];
   if (!stored.known) {
-    call.warn(Code::gcmc_suspicious, fmt::format("Position for {} not previously set, tracking may be off",
-                                                 second ? "G30" : "G28"));
+    call.warn(Code::gcmc_suspicious,
+              fmt::format("Position for {} not previously set, tracking may be off", second ? "G30" : "G28"));
   }
-  m.position = stored.position;
+  m.set_position(stored.position);
   call.vm.show_life();
-  m.tell([&](Sink& sink) { sink.restore_position(second, via, named, m.with_offset(stored.position)); });
+  m.tell([&](Sink& sink) { sink.restore_position(second, via, named, m.told); });
   return Value::undef();
 }
 
@@ -464,7 +476,8 @@ std::string layer_name(const Call& call, int i) {
     call.fail(Code::gcmc_type, fmt::format("{}() argument {} must be string", call.name, i + 1));
   std::string name = to_utf8(call[i].text());
   if (!is_layer_name(name)) {
-    call.fail(Code::gcmc_arguments, fmt::format("{}() invalid characters in layer name {}", call.name, i + 1));
+    call.fail(Code::gcmc_arguments,
+              fmt::format("{}() invalid characters in layer name {}", call.name, i + 1));
   }
   return name;
 }

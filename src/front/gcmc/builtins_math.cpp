@@ -93,7 +93,8 @@ Value arc_tangent(const Call& call) {
 template <int across, int up>
 Value arc_tangent_of_vector(const Call& call) {
   static constexpr char kNames[] = "XYZ";
-  if (!call[0].is_vector()) call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be vector", call.name));
+  if (!call[0].is_vector())
+    call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be vector", call.name));
   const Scalar x = call[0].coordinate_or_undef(across), y = call[0].coordinate_or_undef(up);
   if (!x.defined() || !y.defined()) {
     call.fail(Code::gcmc_arguments, fmt::format("{}(): Both {} and {} coordinates must be present", call.name,

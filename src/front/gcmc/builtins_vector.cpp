@@ -15,12 +15,14 @@ Value make_vector(const Call& call, const std::vector<Scalar>& all) {
 }
 
 void need_vector(const Call& call, int i) {
-  if (!call[i].is_vector()) call.fail(Code::gcmc_type, fmt::format("{}() argument {} must be vector", call.name, i + 1));
+  if (!call[i].is_vector())
+    call.fail(Code::gcmc_type, fmt::format("{}() argument {} must be vector", call.name, i + 1));
 }
 
 void need_vector_or_list(const Call& call, int i) {
   if (!call[i].is_vector() && !call[i].is_list())
-    call.fail(Code::gcmc_type, fmt::format("{}() argument {} must be vector or vectorlist", call.name, i + 1));
+    call.fail(Code::gcmc_type,
+              fmt::format("{}() argument {} must be vector or vectorlist", call.name, i + 1));
 }
 
 /// Calls `change` on the vector, or on each of the list.
@@ -28,7 +30,8 @@ template <class Change>
 Value change_vectors(const Call& call, Change change) {
   need_vector_or_list(call, 0);
   Value v = std::move(call[0]);
-  if (v.is_vector()) change(v);
+  if (v.is_vector())
+    change(v);
   else
     for (Value& item : v.own_vectors(call.vm.meter)) change(item);
   return v;
@@ -37,10 +40,14 @@ Value change_vectors(const Call& call, Change change) {
 Value count(const Call& call) {
   const Value& v = call[0];
   std::size_t n = 0;
-  if (v.is_vector()) n = v.vector_size();
-  else if (v.is_list()) n = v.vectors().size();
-  else if (v.is_string()) n = v.text().size();
-  else call.fail(Code::gcmc_type, "count() can only count vectors, vectorlists and strings");
+  if (v.is_vector())
+    n = v.vector_size();
+  else if (v.is_list())
+    n = v.vectors().size();
+  else if (v.is_string())
+    n = v.text().size();
+  else
+    call.fail(Code::gcmc_type, "count() can only count vectors, vectorlists and strings");
   return Value::integer(static_cast<std::int32_t>(std::min<std::size_t>(n, INT32_MAX)));
 }
 
@@ -56,7 +63,8 @@ double squares(const Call& call, Unit& unit) {
     sum += n * n;
   }
   if (distance && angle) {
-    call.warn(Code::gcmc_unit, fmt::format("Mix of distance and angular units in vector in {}() operation", call.name));
+    call.warn(Code::gcmc_unit,
+              fmt::format("Mix of distance and angular units in vector in {}() operation", call.name));
   }
   unit = distance ? call.vm.native : angle ? Unit::deg : Unit::none;
   return sum;
@@ -73,7 +81,8 @@ Value normalize(const Call& call) {
   need_vector(call, 0);
   Unit unit;
   const double size = std::sqrt(squares(call, unit));
-  if (size < kEpsilon) call.warn(Code::gcmc_range, "normalize() argument 1 has no length, the result is not a number");
+  if (size < kEpsilon)
+    call.warn(Code::gcmc_range, "normalize() argument 1 has no length, the result is not a number");
   std::vector<Scalar> all = call[0].coordinates();
   for (Scalar& s : all)
     if (s.defined()) s = Scalar::real(native_number(call.vm, s) / size);
@@ -128,7 +137,9 @@ Value tail(const Call& call) {
   return make_vector(call, all);
 }
 
-std::string_view kind_name(const Value& v) { return v.is_vector() ? "vector" : v.is_list() ? "vectorlist" : "string"; }
+std::string_view kind_name(const Value& v) {
+  return v.is_vector() ? "vector" : v.is_list() ? "vectorlist" : "string";
+}
 
 Value remove(const Call& call) {
   const std::size_t size = size_of_sequence(call);
@@ -147,8 +158,8 @@ Value remove(const Call& call) {
   std::int64_t gone = call.count > 2 ? call.integer(2) : 1;
   if (gone < 0) call.fail(Code::gcmc_range, fmt::format("{}(): argument 2 must not be negative", call.name));
   if (from + gone > n) {
-    call.warn(Code::gcmc_range, fmt::format("{}(): argument 2 count {} is beyond the end, clipped to {}", call.name,
-                                            gone, n - from));
+    call.warn(Code::gcmc_range, fmt::format("{}(): argument 2 count {} is beyond the end, clipped to {}",
+                                            call.name, gone, n - from));
     gone = n - from;
   }
   const auto at = static_cast<std::size_t>(from), drop = static_cast<std::size_t>(gone);
@@ -171,8 +182,8 @@ void check_inserted(const Call& call) {
   if (v.is_list() && !item.is_vector() && !item.is_list()) needed = "vector or vectorlist";
   if (v.is_string() && !item.is_string()) needed = "string";
   if (needed.empty()) return;
-  call.fail(Code::gcmc_type, fmt::format("{}() argument 1 must be {} for argument 0 as {}", call.name, needed,
-                                         kind_name(v)));
+  call.fail(Code::gcmc_type,
+            fmt::format("{}() argument 1 must be {} for argument 0 as {}", call.name, needed, kind_name(v)));
 }
 
 Value insert(const Call& call) {
@@ -193,8 +204,10 @@ Value insert(const Call& call) {
   }
   if (v.is_list()) {
     auto& all = v.own_vectors(call.vm.meter);
-    if (item.is_vector()) all.insert(all.begin() + place, item);
-    else all.insert(all.begin() + place, item.vectors().begin(), item.vectors().end());
+    if (item.is_vector())
+      all.insert(all.begin() + place, item);
+    else
+      all.insert(all.begin() + place, item.vectors().begin(), item.vectors().end());
     v.settle();
     return v;
   }
@@ -232,7 +245,8 @@ Value scale(const Call& call) {
   return change_vectors(call, [&](Value& v) {
     for (std::size_t i = 0; i < factors.size(); ++i) {
       const Scalar s = v.coordinate_or_undef(i);
-      if (i >= v.vector_size()) v.set_coordinate(i, Scalar{}, call.vm.meter);
+      if (i >= v.vector_size())
+        v.set_coordinate(i, Scalar{}, call.vm.meter);
       else if (factors[i].defined())
         v.set_coordinate(i, scalar_operation(call.vm, Op::mul, s, factors[i]), call.vm.meter);
     }
@@ -248,9 +262,9 @@ Value rotate(const Call& call) {
     const Scalar a = v.coordinate_or_undef(first), b = v.coordinate_or_undef(second);
     if (a.unit() != b.unit()) {
       call.warn(Code::gcmc_unit,
-                fmt::format("{}() Vector coordinates for {} and {} have different units ({}={}, {}={})", call.name,
-                            kNames[first], kNames[second], kNames[first], unit_name(a.unit()), kNames[second],
-                            unit_name(b.unit())));
+                fmt::format("{}() Vector coordinates for {} and {} have different units ({}={}, {}={})",
+                            call.name, kNames[first], kNames[second], kNames[first], unit_name(a.unit()),
+                            kNames[second], unit_name(b.unit())));
     }
     const Unit unit = b.unit() == Unit::none ? a.unit() : b.unit();
     const double x = convert(a.number(), a.unit(), unit), y = b.number();

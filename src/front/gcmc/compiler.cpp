@@ -1,8 +1,8 @@
 // The compiler of gcmc programs.
 //
-// A name in a function means the function's own variable if that exists at that moment, else the global one. Where
-// the program's text decides which (a parameter, after `local`, a name that no global has) the slot is used
-// directly; else the instruction decides when it runs.
+// A name in a function means the function's own variable if that exists at that moment, else the global one.
+// Where the program's text decides which (a parameter, after `local`, a name that no global has) the slot is
+// used directly; else the instruction decides when it runs.
 #include "front/gcmc/compiler.h"
 
 #include <algorithm>
@@ -32,18 +32,30 @@ struct Loop {
 
 Op op_of(Token t) {
   switch (t) {
-    case Token::plus: case Token::plus_assign: return Op::add;
-    case Token::minus: case Token::minus_assign: return Op::sub;
-    case Token::star: case Token::star_assign: return Op::mul;
-    case Token::slash: case Token::slash_assign: return Op::div;
-    case Token::percent: case Token::percent_assign: return Op::mod;
-    case Token::add_or: case Token::add_or_assign: return Op::add_or;
-    case Token::sub_or: case Token::sub_or_assign: return Op::sub_or;
-    case Token::amp: case Token::amp_assign: return Op::bit_and;
-    case Token::pipe: case Token::pipe_assign: return Op::bit_or;
-    case Token::caret: case Token::caret_assign: return Op::bit_xor;
-    case Token::shift_left: case Token::shift_left_assign: return Op::shift_left;
-    case Token::shift_right: case Token::shift_right_assign: return Op::shift_right;
+    case Token::plus:
+    case Token::plus_assign: return Op::add;
+    case Token::minus:
+    case Token::minus_assign: return Op::sub;
+    case Token::star:
+    case Token::star_assign: return Op::mul;
+    case Token::slash:
+    case Token::slash_assign: return Op::div;
+    case Token::percent:
+    case Token::percent_assign: return Op::mod;
+    case Token::add_or:
+    case Token::add_or_assign: return Op::add_or;
+    case Token::sub_or:
+    case Token::sub_or_assign: return Op::sub_or;
+    case Token::amp:
+    case Token::amp_assign: return Op::bit_and;
+    case Token::pipe:
+    case Token::pipe_assign: return Op::bit_or;
+    case Token::caret:
+    case Token::caret_assign: return Op::bit_xor;
+    case Token::shift_left:
+    case Token::shift_left_assign: return Op::shift_left;
+    case Token::shift_right:
+    case Token::shift_right_assign: return Op::shift_right;
     case Token::equal: return Op::equal;
     case Token::not_equal: return Op::not_equal;
     case Token::less: return Op::less;
@@ -89,9 +101,12 @@ class Compiler {
   bool may_be_constant(NameId name) const { return constant_names_.count(name) != 0; }
 
   // instructions
-  std::size_t emit(Place at, Op op, std::int32_t x, std::int32_t a = 0, std::int32_t b = 0, std::int32_t c = 0);
+  std::size_t emit(Place at, Op op, std::int32_t x, std::int32_t a = 0, std::int32_t b = 0,
+                   std::int32_t c = 0);
   Instruction& at(std::size_t i) { return code_.instructions[i]; }
-  std::uint8_t take(std::int32_t operand, std::uint8_t bit) const { return is_temporary(operand) ? bit : std::uint8_t{0}; }
+  std::uint8_t take(std::int32_t operand, std::uint8_t bit) const {
+    return is_temporary(operand) ? bit : std::uint8_t{0};
+  }
   std::size_t here() const { return code_.instructions.size(); }
   void patch(std::size_t jump) { at(jump).c = static_cast<std::int32_t>(here() - jump - 1); }
   void jump_back(std::size_t jump, std::size_t target);
@@ -201,7 +216,8 @@ void Compiler::collect_names(NodeId id, bool assigned_only, Names& out) const {
   // Presets of a function's parameters are evaluated where it is called.
   const auto called = tree_.function_index.find(n.name);
   if (called == tree_.function_index.end() || !out.functions.insert(n.name).second) return;
-  for (const Parameter& p : tree_.functions[static_cast<std::size_t>(called->second)].parameters) below(p.preset);
+  for (const Parameter& p : tree_.functions[static_cast<std::size_t>(called->second)].parameters)
+    below(p.preset);
 }
 
 void Compiler::begin_function(const FunctionTree* function) {
@@ -268,7 +284,8 @@ std::int32_t Compiler::temporary(std::int32_t count) {
 
 // ---- instructions
 
-std::size_t Compiler::emit(Place place, Op op, std::int32_t x, std::int32_t a, std::int32_t b, std::int32_t c) {
+std::size_t Compiler::emit(Place place, Op op, std::int32_t x, std::int32_t a, std::int32_t b,
+                           std::int32_t c) {
   if (code_.instructions.size() >= kMostInstructions) throw TooManySlots{};
   code_.instructions.push_back({op, 0, static_cast<std::uint16_t>(x), a, b, c});
   code_.places.push_back(place);
@@ -287,8 +304,10 @@ std::int32_t Compiler::constant(Value v) {
 
 std::int32_t Compiler::number_constant(Scalar s) {
   std::uint64_t bits = 0;
-  if (s.kind() == Kind::real) std::memcpy(&bits, &s.p.d, sizeof bits);
-  else bits = static_cast<std::uint32_t>(s.kind() == Kind::integer ? s.p.i : 0);
+  if (s.kind() == Kind::real)
+    std::memcpy(&bits, &s.p.d, sizeof bits);
+  else
+    bits = static_cast<std::uint32_t>(s.kind() == Kind::integer ? s.p.i : 0);
   bits = bits * 31 + s.tag;  // a table for each low tag keeps equal bits of other tags apart
   auto& index = number_index_[s.tag & 15];
   const auto found = index.find(bits);
@@ -366,9 +385,12 @@ void Compiler::statement(NodeId id) {
 void Compiler::effect(NodeId id) {
   const std::int32_t temporaries = next_;
   const Node& n = node(id);
-  if (n.kind == NodeKind::call) call(n, temporary(), false);
-  else if (n.kind == NodeKind::step) step(n, false);
-  else operand(id);
+  if (n.kind == NodeKind::call)
+    call(n, temporary(), false);
+  else if (n.kind == NodeKind::step)
+    step(n, false);
+  else
+    operand(id);
   next_ = temporaries;
 }
 
@@ -571,7 +593,8 @@ std::int32_t Compiler::operand(NodeId id) {
     return v->is_scalar() ? number_constant(v->scalar()) : constant(std::move(*v));
   }
   switch (n.kind) {
-    case NodeKind::text: return constant(Value::string(tree_.strings[static_cast<std::size_t>(n.name)], meter_));
+    case NodeKind::text:
+      return constant(Value::string(tree_.strings[static_cast<std::size_t>(n.name)], meter_));
     case NodeKind::list:
       if (auto v = constant_list(n)) return constant(std::move(*v));
       break;
@@ -598,7 +621,8 @@ std::int32_t Compiler::stable_operand(NodeId id, NodeId later1, NodeId later2) {
   return copy;
 }
 
-/// Evaluates an expression into slot `x`. Only the last instruction writes there, as `x` may be read on the way.
+/// Evaluates an expression into slot `x`. Only the last instruction writes there, as `x` may be read on the
+/// way.
 void Compiler::into(NodeId id, std::int32_t x) {
   const Node& n = node(id);
   switch (n.kind) {
@@ -737,8 +761,10 @@ void Compiler::vector(const Node& n, std::int32_t x) {
   for (std::int32_t i = 0; i < count; ++i) {
     const NodeId e = entry(static_cast<std::size_t>(i));
     const std::int32_t temporaries = next_;
-    if (e == kNoNode) emit(n.at, Op::move, base + i, undefined_mark_);
-    else into(e, base + i);
+    if (e == kNoNode)
+      emit(n.at, Op::move, base + i, undefined_mark_);
+    else
+      into(e, base + i);
     next_ = temporaries;
   }
   emit(n.at, Op::vector, x, base, count);
@@ -803,7 +829,8 @@ void Compiler::arguments(const Node& n, const FunctionTree& f, std::int32_t base
       if (++preset_depth_ > kDeepestPresets) throw TooManySlots{};
       into(p.preset, x);
       --preset_depth_;
-    } else if (p.by_reference) argument_by_reference(n, child(n, i), i, x);
+    } else if (p.by_reference)
+      argument_by_reference(n, child(n, i), i, x);
     else {
       into(child(n, i), x);
     }
@@ -821,9 +848,7 @@ void Compiler::argument_by_reference(const Node& n, NodeId argument, std::size_t
   switch (v.access) {
     case Access::reference: emit(a.at, Op::move, x, v.slot); return;
     case Access::slot: emit(a.at, Op::refer, x, v.slot); break;
-    case Access::global:
-      emit(a.at, Op::refer_dynamic, x, kNoOperand, v.global, a.name);
-      break;
+    case Access::global: emit(a.at, Op::refer_dynamic, x, kNoOperand, v.global, a.name); break;
     case Access::dynamic: emit(a.at, Op::refer_dynamic, x, v.slot, v.global, a.name); break;
   }
   emit(a.at, Op::need_target, 0, x);
@@ -835,8 +860,11 @@ std::int32_t Compiler::reference_to(const Node& name) {
   const Variable v = find(name.name);
   if (v.access == Access::reference) return v.slot;
   const std::int32_t x = temporary();
-  if (v.access == Access::slot) emit(name.at, Op::refer, x, v.slot);
-  else emit(name.at, Op::refer_dynamic, x, v.access == Access::dynamic ? v.slot : kNoOperand, v.global, name.name);
+  if (v.access == Access::slot)
+    emit(name.at, Op::refer, x, v.slot);
+  else
+    emit(name.at, Op::refer_dynamic, x, v.access == Access::dynamic ? v.slot : kNoOperand, v.global,
+         name.name);
   return x;
 }
 
@@ -903,8 +931,8 @@ std::int32_t Compiler::assign_element(const Node& n) {
 
 std::int32_t Compiler::step(const Node& n, bool used) {
   const Node& target = node(n.a);
-  const auto flags = static_cast<std::uint8_t>((n.op == Token::minus_minus ? +kMinus : 0) | (n.prefix ? +kPrefix : 0) |
-                                               (used ? +kValueUsed : 0));
+  const auto flags = static_cast<std::uint8_t>((n.op == Token::minus_minus ? +kMinus : 0) |
+                                               (n.prefix ? +kPrefix : 0) | (used ? +kValueUsed : 0));
   const std::int32_t x = temporary();
   if (target.kind == NodeKind::name) {
     const Variable v = find(target.name);
@@ -929,7 +957,8 @@ std::int32_t Compiler::step(const Node& n, bool used) {
 
 }  // namespace
 
-Program compile(const Tree& tree, const std::vector<NameId>& constants, BuiltinIndex builtin_index, Meter& meter) {
+Program compile(const Tree& tree, const std::vector<NameId>& constants, BuiltinIndex builtin_index,
+                Meter& meter) {
   return Compiler(tree, builtin_index, meter).run(constants);
 }
 

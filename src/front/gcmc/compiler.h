@@ -18,6 +18,7 @@ using BuiltinIndex = int (*)(std::string_view name);
 struct TooManySlots {};
 
 /// `constants` are names that exist, and are constant, before the program begins.
-Program compile(const Tree& tree, const std::vector<NameId>& constants, BuiltinIndex builtin_index, Meter& meter);
+Program compile(const Tree& tree, const std::vector<NameId>& constants, BuiltinIndex builtin_index,
+                Meter& meter);
 
 }  // namespace kerf::gcmc

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
-#include <iterator>
-
 #include <fmt/format.h>
+#include <iterator>
 
 #include "kerf/number.h"
 
@@ -18,33 +17,78 @@ struct Keyword {
   Token token;
 };
 constexpr Keyword kKeywords[] = {
-    {"break", Token::kw_break},   {"const", Token::kw_const},     {"continue", Token::kw_continue},
-    {"deg", Token::kw_deg},       {"do", Token::kw_do},           {"elif", Token::kw_elif},
-    {"else", Token::kw_else},     {"for", Token::kw_for},         {"foreach", Token::kw_foreach},
-    {"function", Token::kw_function}, {"if", Token::kw_if},       {"in", Token::kw_in},
-    {"include", Token::kw_include}, {"local", Token::kw_local},   {"mil", Token::kw_mil},
-    {"mm", Token::kw_mm},         {"rad", Token::kw_rad},         {"repeat", Token::kw_repeat},
-    {"return", Token::kw_return}, {"while", Token::kw_while},
+    {"break", Token::kw_break},
+    {"const", Token::kw_const},
+    {"continue", Token::kw_continue},
+    {"deg", Token::kw_deg},
+    {"do", Token::kw_do},
+    {"elif", Token::kw_elif},
+    {"else", Token::kw_else},
+    {"for", Token::kw_for},
+    {"foreach", Token::kw_foreach},
+    {"function", Token::kw_function},
+    {"if", Token::kw_if},
+    {"in", Token::kw_in},
+    {"include", Token::kw_include},
+    {"local", Token::kw_local},
+    {"mil", Token::kw_mil},
+    {"mm", Token::kw_mm},
+    {"rad", Token::kw_rad},
+    {"repeat", Token::kw_repeat},
+    {"return", Token::kw_return},
+    {"while", Token::kw_while},
 };
 
 /// Longest first among those that begin alike.
 constexpr Keyword kPunctuation[] = {
-    {"<<=", Token::shift_left_assign}, {">>=", Token::shift_right_assign}, {"+|=", Token::add_or_assign},
-    {"-|=", Token::sub_or_assign},     {"++", Token::plus_plus},           {"--", Token::minus_minus},
-    {"+|", Token::add_or},             {"-|", Token::sub_or},              {"&&", Token::and_and},
-    {"||", Token::or_or},              {"<<", Token::shift_left},          {">>", Token::shift_right},
-    {"==", Token::equal},              {"!=", Token::not_equal},           {"<=", Token::less_equal},
-    {">=", Token::greater_equal},      {"+=", Token::plus_assign},         {"-=", Token::minus_assign},
-    {"*=", Token::star_assign},        {"/=", Token::slash_assign},        {"%=", Token::percent_assign},
-    {"&=", Token::amp_assign},         {"|=", Token::pipe_assign},         {"^=", Token::caret_assign},
-    {"+", Token::plus},                {"-", Token::minus},                {"*", Token::star},
-    {"/", Token::slash},               {"%", Token::percent},              {"!", Token::bang},
-    {"~", Token::tilde},               {"&", Token::amp},                  {"|", Token::pipe},
-    {"^", Token::caret},               {"<", Token::less},                 {">", Token::greater},
-    {"=", Token::assign},              {"?", Token::question},             {":", Token::colon},
-    {",", Token::comma},               {";", Token::semicolon},            {".", Token::dot},
-    {"(", Token::left_paren},          {")", Token::right_paren},          {"[", Token::left_bracket},
-    {"]", Token::right_bracket},       {"{", Token::left_brace},           {"}", Token::right_brace},
+    {"<<=", Token::shift_left_assign},
+    {">>=", Token::shift_right_assign},
+    {"+|=", Token::add_or_assign},
+    {"-|=", Token::sub_or_assign},
+    {"++", Token::plus_plus},
+    {"--", Token::minus_minus},
+    {"+|", Token::add_or},
+    {"-|", Token::sub_or},
+    {"&&", Token::and_and},
+    {"||", Token::or_or},
+    {"<<", Token::shift_left},
+    {">>", Token::shift_right},
+    {"==", Token::equal},
+    {"!=", Token::not_equal},
+    {"<=", Token::less_equal},
+    {">=", Token::greater_equal},
+    {"+=", Token::plus_assign},
+    {"-=", Token::minus_assign},
+    {"*=", Token::star_assign},
+    {"/=", Token::slash_assign},
+    {"%=", Token::percent_assign},
+    {"&=", Token::amp_assign},
+    {"|=", Token::pipe_assign},
+    {"^=", Token::caret_assign},
+    {"+", Token::plus},
+    {"-", Token::minus},
+    {"*", Token::star},
+    {"/", Token::slash},
+    {"%", Token::percent},
+    {"!", Token::bang},
+    {"~", Token::tilde},
+    {"&", Token::amp},
+    {"|", Token::pipe},
+    {"^", Token::caret},
+    {"<", Token::less},
+    {">", Token::greater},
+    {"=", Token::assign},
+    {"?", Token::question},
+    {":", Token::colon},
+    {",", Token::comma},
+    {";", Token::semicolon},
+    {".", Token::dot},
+    {"(", Token::left_paren},
+    {")", Token::right_paren},
+    {"[", Token::left_bracket},
+    {"]", Token::right_bracket},
+    {"{", Token::left_brace},
+    {"}", Token::right_brace},
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -60,12 +104,14 @@ unsigned hex_value(char c) {
 }  // namespace
 
 bool is_keyword(std::string_view word) {
-  return std::any_of(std::begin(kKeywords), std::end(kKeywords), [&](const Keyword& k) { return k.text == word; });
+  return std::any_of(std::begin(kKeywords), std::end(kKeywords),
+                     [&](const Keyword& k) { return k.text == word; });
 }
 
 Lexer::Lexer(std::string_view source, std::uint16_t file, SourceReport& report)
     : source_(source), report_(report), file_(file) {
-  if (source_.substr(0, 3) == "\xEF\xBB\xBF") at_ = line_start_ = 3;  // a byte order mark is not part of the program
+  if (source_.substr(0, 3) == "\xEF\xBB\xBF")
+    at_ = line_start_ = 3;  // a byte order mark is not part of the program
 }
 
 Place Lexer::place() const {
@@ -86,19 +132,26 @@ void Lexer::skip_block_comment() {
       at_ += 2;
       return;
     }
-    if (peek() == '\n') newline();
-    else ++at_;
+    if (peek() == '\n')
+      newline();
+    else
+      ++at_;
   }
   report_.fatal(place(), Code::gcmc_word, "Unexpected EOF");
 }
 
 void Lexer::skip_space() {
   while (!ended()) {
-    if (peek() == '\n') newline();
-    else if (is_space(peek())) ++at_;
-    else if (peek() == '/' && peek(1) == '/') at_ = std::min(source_.find('\n', at_), source_.size());
-    else if (peek() == '/' && peek(1) == '*') skip_block_comment();
-    else return;
+    if (peek() == '\n')
+      newline();
+    else if (is_space(peek()))
+      ++at_;
+    else if (peek() == '/' && peek(1) == '/')
+      at_ = std::min(source_.find('\n', at_), source_.size());
+    else if (peek() == '/' && peek(1) == '*')
+      skip_block_comment();
+    else
+      return;
   }
 }
 
@@ -109,11 +162,16 @@ Word Lexer::next() {
     word.at = place();
     const std::size_t start = at_;
     bool good = true;
-    if (ended()) word.token = Token::end;
-    else if (is_name_start(peek())) identifier(word);
-    else if (is_digit(peek()) || (peek() == '.' && is_digit(peek(1)))) good = number(word);
-    else if (peek() == '"') string(word);
-    else good = punctuation(word);
+    if (ended())
+      word.token = Token::end;
+    else if (is_name_start(peek()))
+      identifier(word);
+    else if (is_digit(peek()) || (peek() == '.' && is_digit(peek(1))))
+      good = number(word);
+    else if (peek() == '"')
+      string(word);
+    else
+      good = punctuation(word);
     word.after = place();
     if (word.token != Token::identifier) word.text = source_.substr(start, at_ - start);
     if (good) return word;
@@ -145,7 +203,8 @@ void Lexer::bad_character() {
   ++at_;
   const auto code = static_cast<unsigned char>(c);
   const std::string shown = code >= 0x20 && code < 0x7F ? std::string(1, c) : fmt::format("\\x{:02x}", code);
-  report_.error(place(), Code::gcmc_word, fmt::format("Illegal character in text '{}' (0x{:02x})", shown, code));
+  report_.error(place(), Code::gcmc_word,
+                fmt::format("Illegal character in text '{}' (0x{:02x})", shown, code));
 }
 
 // ---- numbers
@@ -167,7 +226,9 @@ bool Lexer::hexadecimal(Word& word) {
                   fmt::format("Bad hexadecimal number '{}'", source_.substr(start, at_ - start)));
     return false;
   }
-  if (wide) report_.warning(place(), Code::gcmc_number_wraps, "Hexadecimal number does not fit 32 bits, upper bits lost");
+  if (wide)
+    report_.warning(place(), Code::gcmc_number_wraps,
+                    "Hexadecimal number does not fit 32 bits, upper bits lost");
   word.token = Token::integer;
   word.number = Scalar::integer(static_cast<std::int32_t>(static_cast<std::uint32_t>(value)));
   return true;
@@ -190,7 +251,8 @@ bool Lexer::real(Word& word, std::size_t start) {
   const std::optional<double> value = parse_number(source_.substr(start, at_ - start));
   if (!value) {
     report_.error(place(), Code::gcmc_word,
-                  fmt::format("Number '{}' is too large", source_.substr(start, std::min<std::size_t>(at_ - start, 40))));
+                  fmt::format("Number '{}' is too large",
+                              source_.substr(start, std::min<std::size_t>(at_ - start, 40))));
     return false;
   }
   word.token = Token::real;
@@ -226,7 +288,8 @@ bool Lexer::number(Word& word) {
 void Lexer::octal(std::string& bytes, std::size_t& zeros_from) {
   unsigned value = 0;
   int digits = 0;
-  for (; digits < 3 && is_octal(peek()); ++digits, ++at_) value = value * 8 + static_cast<unsigned>(peek() - '0');
+  for (; digits < 3 && is_octal(peek()); ++digits, ++at_)
+    value = value * 8 + static_cast<unsigned>(peek() - '0');
   if (is_digit(peek())) {
     while (is_digit(peek())) ++at_;
     report_.error(place(), Code::gcmc_word, "Bad escape sequence");

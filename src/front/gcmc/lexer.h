@@ -5,9 +5,9 @@
 #include <string>
 #include <string_view>
 
-#include "kerf/diagnostics.h"
-
 #include "front/gcmc/value.h"
+
+#include "kerf/diagnostics.h"
 
 namespace kerf::gcmc {
 
@@ -19,16 +19,81 @@ struct Place {
 };
 
 enum class Token : std::uint8_t {
-  end, identifier, integer, real, string,
+  end,
+  identifier,
+  integer,
+  real,
+  string,
   // keywords
-  kw_break, kw_const, kw_continue, kw_deg, kw_do, kw_elif, kw_else, kw_for, kw_foreach, kw_function, kw_if, kw_in,
-  kw_include, kw_local, kw_mil, kw_mm, kw_rad, kw_repeat, kw_return, kw_while,
+  kw_break,
+  kw_const,
+  kw_continue,
+  kw_deg,
+  kw_do,
+  kw_elif,
+  kw_else,
+  kw_for,
+  kw_foreach,
+  kw_function,
+  kw_if,
+  kw_in,
+  kw_include,
+  kw_local,
+  kw_mil,
+  kw_mm,
+  kw_rad,
+  kw_repeat,
+  kw_return,
+  kw_while,
   // punctuation
-  plus, minus, star, slash, percent, plus_plus, minus_minus, add_or, sub_or, bang, tilde, amp, pipe, caret,
-  shift_left, shift_right, and_and, or_or, equal, not_equal, less, greater, less_equal, greater_equal, assign,
-  plus_assign, minus_assign, star_assign, slash_assign, percent_assign, shift_left_assign, shift_right_assign,
-  amp_assign, pipe_assign, caret_assign, add_or_assign, sub_or_assign, question, colon, comma, semicolon, dot,
-  left_paren, right_paren, left_bracket, right_bracket, left_brace, right_brace,
+  plus,
+  minus,
+  star,
+  slash,
+  percent,
+  plus_plus,
+  minus_minus,
+  add_or,
+  sub_or,
+  bang,
+  tilde,
+  amp,
+  pipe,
+  caret,
+  shift_left,
+  shift_right,
+  and_and,
+  or_or,
+  equal,
+  not_equal,
+  less,
+  greater,
+  less_equal,
+  greater_equal,
+  assign,
+  plus_assign,
+  minus_assign,
+  star_assign,
+  slash_assign,
+  percent_assign,
+  shift_left_assign,
+  shift_right_assign,
+  amp_assign,
+  pipe_assign,
+  caret_assign,
+  add_or_assign,
+  sub_or_assign,
+  question,
+  colon,
+  comma,
+  semicolon,
+  dot,
+  left_paren,
+  right_paren,
+  left_bracket,
+  right_bracket,
+  left_brace,
+  right_brace,
 };
 
 /// A token with its place; `after` is the column behind it, where syntax errors are reported.
@@ -36,8 +101,8 @@ struct Word {
   Token token = Token::end;
   Place at;
   Place after;
-  std::string_view text;   // identifiers, and what messages quote
-  Scalar number;           // integer and real
+  std::string_view text;  // identifiers, and what messages quote
+  Scalar number;          // integer and real
   std::u32string string;
 };
 
@@ -57,7 +122,9 @@ class Lexer {
   Place place() const;
 
  private:
-  char peek(std::size_t ahead = 0) const { return at_ + ahead < source_.size() ? source_[at_ + ahead] : '\0'; }
+  char peek(std::size_t ahead = 0) const {
+    return at_ + ahead < source_.size() ? source_[at_ + ahead] : '\0';
+  }
   bool ended() const { return at_ >= source_.size(); }
   void skip_space();
   void skip_block_comment();

@@ -36,7 +36,9 @@ std::string types(const Value& a, const Value& b) {
   std::string_view rule;
   switch (op) {
     case Op::add:
-    case Op::add_or: rule = "Scalars and vectors can only be added to scalars vectors and vector lists"; break;
+    case Op::add_or:
+      rule = "Scalars and vectors can only be added to scalars vectors and vector lists";
+      break;
     case Op::sub:
     case Op::sub_or: rule = "Only scalars/vectors can be subtracted from scalars/vectors"; break;
     case Op::mul: rule = "Scalars and vectors can only be multiplied by scalars and vectors"; break;
@@ -73,7 +75,8 @@ double real_operation(Runtime& rt, Op op, double a, double b) {
     case Op::sub_or: return a - b;
     case Op::mul: return a * b;
     case Op::div:
-      if (std::fabs(b) < kEpsilon) rt.fail(Code::gcmc_range, fmt::format("Divide by zero (|val| < {:e})", kEpsilon));
+      if (std::fabs(b) < kEpsilon)
+        rt.fail(Code::gcmc_range, fmt::format("Divide by zero (|val| < {:e})", kEpsilon));
       return a / b;
     default:
       if (std::fabs(b) < kEpsilon) rt.fail(Code::gcmc_range, "Modulo by zero");
@@ -90,8 +93,9 @@ Unit common_unit(Runtime& rt, Op op, Unit ua, Scalar& b) {
     b = Scalar::real(convert(b.number(), ub, ua), ua);
   } else {
     const auto kind = [](Unit u) { return is_distance(u) ? "distance" : "angular"; };
-    rt.warn(Code::gcmc_unit, fmt::format("Operation '{}': LHS has {} units and RHS has {} units, RHS units ignored",
-                                         symbol(op), kind(ua), kind(ub)));
+    rt.warn(Code::gcmc_unit,
+            fmt::format("Operation '{}': LHS has {} units and RHS has {} units, RHS units ignored",
+                        symbol(op), kind(ua), kind(ub)));
   }
   return op == Op::div ? Unit::none : ua;
 }
@@ -122,7 +126,8 @@ double convert(double value, Unit from, Unit to) {
 
 Scalar convert(Scalar s, Unit to) {
   const Unit from = s.unit();
-  const bool factor = from != to && ((is_distance(from) && is_distance(to)) || (is_angle(from) && is_angle(to)));
+  const bool factor =
+      from != to && ((is_distance(from) && is_distance(to)) || (is_angle(from) && is_angle(to)));
   return factor ? Scalar::real(convert(s.number(), from, to), to) : s.with_unit(to);
 }
 
@@ -184,7 +189,8 @@ bool plain_coordinates(Op op, std::size_t count, First first, Second second, Val
 void vector_with_vector(Runtime& rt, Op op, Value& a, const Value& b) {
   const std::size_t count = std::max(a.vector_size(), b.vector_size());
   for (std::size_t i = 0; i < count; ++i)
-    a.set_coordinate(i, coordinate_operation(rt, op, a.coordinate_or_undef(i), b.coordinate_or_undef(i)), rt.meter);
+    a.set_coordinate(i, coordinate_operation(rt, op, a.coordinate_or_undef(i), b.coordinate_or_undef(i)),
+                     rt.meter);
 }
 
 void vector_with_scalar(Runtime& rt, Op op, Value& a, Scalar b) {
@@ -205,7 +211,8 @@ void each_vector(Runtime& rt, Value& list, Change change) {
 void append_list(Runtime& rt, Value& a, const Value& b) {
   auto& into = a.own_vectors(rt.meter);
   const auto& from = b.vectors();
-  if (into.size() + from.size() > into.capacity()) into.reserve(std::max(into.size() + from.size(), into.capacity() * 2));
+  if (into.size() + from.size() > into.capacity())
+    into.reserve(std::max(into.size() + from.size(), into.capacity() * 2));
   into.insert(into.end(), from.begin(), from.end());
   a.settle();
 }
@@ -230,7 +237,8 @@ void add(Runtime& rt, Op op, Value& a, const Value& b) {
     return;
   }
   if (a.is_vector() && b.is_vector()) return vector_with_vector(rt, op, a, b);
-  if (a.is_list() && b.is_vector()) return each_vector(rt, a, [&](Value& v) { vector_with_vector(rt, op, v, b); });
+  if (a.is_list() && b.is_vector())
+    return each_vector(rt, a, [&](Value& v) { vector_with_vector(rt, op, v, b); });
   if (a.is_list() && b.is_list()) return append_list(rt, a, b);
   wrong_types(rt, op, a, b);
 }
@@ -247,7 +255,8 @@ void subtract(Runtime& rt, Op op, Value& a, const Value& b) {
     wrong_types(rt, op, a, b);
   }
   if (a.is_vector() && b.is_vector()) return vector_with_vector(rt, op, a, b);
-  if (a.is_list() && b.is_vector()) return each_vector(rt, a, [&](Value& v) { vector_with_vector(rt, op, v, b); });
+  if (a.is_list() && b.is_vector())
+    return each_vector(rt, a, [&](Value& v) { vector_with_vector(rt, op, v, b); });
   wrong_types(rt, op, a, b);
 }
 
@@ -281,7 +290,8 @@ void multiply(Runtime& rt, Value& a, const Value& b) {
   }
   if (b.is_scalar() && !undefined) {
     if (a.is_vector()) return vector_with_scalar(rt, Op::mul, a, b.scalar());
-    if (a.is_list()) return each_vector(rt, a, [&](Value& v) { vector_with_scalar(rt, Op::mul, v, b.scalar()); });
+    if (a.is_list())
+      return each_vector(rt, a, [&](Value& v) { vector_with_scalar(rt, Op::mul, v, b.scalar()); });
   }
   if (a.is_vector() && b.is_vector()) {
     a = dot_product(rt, a, b);
@@ -305,7 +315,8 @@ std::int32_t bits_of(Runtime& rt, Op op, std::string_view side, Scalar s) {
     rt.warn(Code::gcmc_type,
             fmt::format("Binary '{}' operator, {}, should be integer, converted", symbol(op), side));
   if (s.unit() != Unit::none)
-    rt.warn(Code::gcmc_unit, fmt::format("Binary '{}' operator, {}, has units associated, ignored", symbol(op), side));
+    rt.warn(Code::gcmc_unit,
+            fmt::format("Binary '{}' operator, {}, has units associated, ignored", symbol(op), side));
   return to_integer(s);
 }
 
@@ -342,17 +353,21 @@ void shift_scalar(Runtime& rt, Op op, Value& a, std::int32_t count) {
 
 template <class Item>
 void shift_items(std::vector<Item>& items, bool left, std::size_t count, const Item& filler) {
-  if (left) items.erase(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(std::min(count, items.size())));
-  else items.insert(items.begin(), count, filler);
+  if (left)
+    items.erase(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(std::min(count, items.size())));
+  else
+    items.insert(items.begin(), count, filler);
 }
 
 void shift(Runtime& rt, Op op, Value& a, const Value& b) {
   if (!b.is_scalar()) wrong_types(rt, op, a, b);
   if (b.is_undef() || a.is_undef()) return;
   if (b.scalar().unit() != Unit::none)
-    rt.warn(Code::gcmc_unit, fmt::format("Operation '{}': Shift count has units associated, ignored", symbol(op)));
+    rt.warn(Code::gcmc_unit,
+            fmt::format("Operation '{}': Shift count has units associated, ignored", symbol(op)));
   const std::int32_t count = to_integer(b.scalar());
-  if (count < 0) rt.fail(Code::gcmc_range, fmt::format("Operation '{}': Shift count is negative", symbol(op)));
+  if (count < 0)
+    rt.fail(Code::gcmc_range, fmt::format("Operation '{}': Shift count is negative", symbol(op)));
   if (static_cast<std::size_t>(count) > kMostGrowth)
     rt.fail(Code::gcmc_limit, fmt::format("Operation '{}': Shift count too large", symbol(op)));
   const bool left = op == Op::shift_left;
@@ -379,14 +394,17 @@ bool vectors_plain(Op op, const Value& a, const Value& b, Value& out) {
   if (a.is_short_vector()) {
     if (b.is_scalar() && (op == Op::mul || op == Op::div)) {
       const Scalar s = b.scalar();
-      return plain_coordinates(op, a.short_size(), of_a, [&](std::size_t) { return s; }, out);
+      return plain_coordinates(
+          op, a.short_size(), of_a, [&](std::size_t) { return s; }, out);
     }
-    if (!b.is_short_vector() || (op != Op::add && op != Op::sub) || a.short_size() != b.short_size()) return false;
+    if (!b.is_short_vector() || (op != Op::add && op != Op::sub) || a.short_size() != b.short_size())
+      return false;
     return plain_coordinates(op, a.short_size(), of_a, of_b, out);
   }
   if (!a.is_scalar() || !b.is_short_vector() || op != Op::mul) return false;
   const Scalar s = a.scalar();
-  return plain_coordinates(op, b.short_size(), [&](std::size_t) { return s; }, of_b, out);
+  return plain_coordinates(
+      op, b.short_size(), [&](std::size_t) { return s; }, of_b, out);
 }
 
 void operate(Runtime& rt, Op op, Value& a, const Value& b) {
@@ -464,8 +482,10 @@ bool compare_vectors(Runtime& rt, Op op, const Value& a, const Value& b) {
   bool same = true;
   for (std::size_t i = 0; same && i < a.vector_size(); ++i) {
     const Scalar x = a.coordinate(i), y = b.coordinate(i);
-    if (x.defined() && y.defined()) same = compare_scalars(rt, Op::equal, x, y);
-    else same = x.defined() == y.defined();
+    if (x.defined() && y.defined())
+      same = compare_scalars(rt, Op::equal, x, y);
+    else
+      same = x.defined() == y.defined();
   }
   return same == (op == Op::equal);
 }
@@ -477,7 +497,8 @@ bool compare(Runtime& rt, Op op, const Value& a, const Value& b) {
     return compare_scalars(rt, op, a.scalar(), b.scalar());
   if (a.is_string() && b.is_string()) return holds(op, a.text().compare(b.text()));
   if (a.is_vector() && b.is_vector()) return compare_vectors(rt, op, a, b);
-  rt.warn(Code::gcmc_type, fmt::format("Comparison of {} with {}, result is always false", type_name(a), type_name(b)));
+  rt.warn(Code::gcmc_type,
+          fmt::format("Comparison of {} with {}, result is always false", type_name(a), type_name(b)));
   return false;
 }
 
@@ -485,7 +506,8 @@ bool truth(const Value& v) {
   switch (v.type()) {
     case Type::scalar: {
       const Scalar s = v.scalar();
-      return s.kind() == Kind::integer ? s.p.i != 0 : s.kind() == Kind::real && !(std::fabs(s.p.d) < kEpsilon);
+      return s.kind() == Kind::integer ? s.p.i != 0
+                                       : s.kind() == Kind::real && !(std::fabs(s.p.d) < kEpsilon);
     }
     case Type::vector:
     case Type::long_vector: return v.vector_size() != 0;
@@ -496,7 +518,8 @@ bool truth(const Value& v) {
 }
 
 Value bit_not(Runtime& rt, const Value& v) {
-  if (!v.is_scalar()) rt.fail(Code::gcmc_type, fmt::format("Binary not target must be scalar ({})", type_name(v)));
+  if (!v.is_scalar())
+    rt.fail(Code::gcmc_type, fmt::format("Binary not target must be scalar ({})", type_name(v)));
   const Scalar s = v.scalar();
   if (s.kind() != Kind::integer) rt.warn(Code::gcmc_type, "Binary not target should be integer, converted");
   if (s.unit() != Unit::none) rt.warn(Code::gcmc_unit, "Binary not target has units associated, ignored");
@@ -511,7 +534,8 @@ std::size_t count_of(Runtime& rt, const Value& v) {
   if (v.is_vector()) return v.vector_size();
   if (v.is_list()) return v.vectors().size();
   if (v.is_string()) return v.text().size();
-  rt.fail(Code::gcmc_type, fmt::format("Only vectors, vectorlists and strings can be indexed ({})", type_name(v)));
+  rt.fail(Code::gcmc_type,
+          fmt::format("Only vectors, vectorlists and strings can be indexed ({})", type_name(v)));
 }
 
 std::int64_t index_number(Runtime& rt, const Value& index) {
@@ -522,8 +546,11 @@ std::int64_t index_number(Runtime& rt, const Value& index) {
 }
 
 void out_of_range(Runtime& rt, std::int64_t i, std::size_t count) {
-  if (count == 0) rt.warn(Code::gcmc_range, "Vector index out of range (vector has no entries)");
-  else rt.warn(Code::gcmc_range, fmt::format("Vector index out of range ({} outside [-{}..{}])", i, count, count - 1));
+  if (count == 0)
+    rt.warn(Code::gcmc_range, "Vector index out of range (vector has no entries)");
+  else
+    rt.warn(Code::gcmc_range,
+            fmt::format("Vector index out of range ({} outside [-{}..{}])", i, count, count - 1));
 }
 
 Value item_at(Runtime& rt, const Value& v, std::size_t i) {
@@ -550,7 +577,8 @@ std::size_t size_after(const Value& index, std::size_t count) {
 
 void set_coordinate(Runtime& rt, Value& v, const Value& index, const Value& item) {
   const std::size_t i = writable_place(rt, v, index);
-  if (!item.is_scalar()) rt.fail(Code::gcmc_type, fmt::format("Vector entries must be scalar ({})", type_name(item)));
+  if (!item.is_scalar())
+    rt.fail(Code::gcmc_type, fmt::format("Vector entries must be scalar ({})", type_name(item)));
   const std::size_t size = size_after(index, v.vector_size());
   if (size * sizeof(Scalar) > rt.meter.limit - rt.meter.used) throw OutOfMemory{};
   if (size > v.vector_size()) v.set_coordinate(size - 1, Scalar{}, rt.meter);
@@ -594,8 +622,10 @@ void set_element(Runtime& rt, Value& target, const Value& first, const Value* se
     vectors.resize(size, Value::empty_vector());
     target.settle();
   }
-  if (second == nullptr) vectors[i] = item;
-  else set_coordinate(rt, vectors[i], *second, item);
+  if (second == nullptr)
+    vectors[i] = item;
+  else
+    set_coordinate(rt, vectors[i], *second, item);
 }
 
 void step_value(Runtime& rt, Value& v, bool down) {

@@ -1,5 +1,5 @@
-// The operators on values. The inline part decides the plain cases, scalars whose units need no conversion; the rest
-// says what the language says, warnings and errors included.
+// The operators on values. The inline part decides the plain cases, scalars whose units need no conversion;
+// the rest says what the language says, warnings and errors included.
 #pragma once
 
 #include <cstdint>
@@ -76,9 +76,12 @@ inline bool modulo_plain(Scalar a, Scalar b, Scalar& out) {
 }
 /// One more or one less; false for what is no number.
 inline bool step_plain(Scalar s, bool down, Scalar& out) {
-  if (s.kind() == Kind::integer) out = Scalar::integer(wrap_add(s.p.i, down ? -1 : 1), s.unit());
-  else if (s.kind() == Kind::real) out = Scalar::real(s.p.d + (down ? -1 : 1), s.unit());
-  else return false;
+  if (s.kind() == Kind::integer)
+    out = Scalar::integer(wrap_add(s.p.i, down ? -1 : 1), s.unit());
+  else if (s.kind() == Kind::real)
+    out = Scalar::real(s.p.d + (down ? -1 : 1), s.unit());
+  else
+    return false;
   return true;
 }
 
@@ -86,8 +89,8 @@ inline bool step_plain(Scalar s, bool down, Scalar& out) {
 Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b);
 /// a = a op b of any values; `b` is not part of `a`. What only `a` owns is changed in place.
 void operate(Runtime& rt, Op op, Value& a, const Value& b);
-/// a op b into `out`, which may be one of them, where both are short vectors, or a vector and a scalar, of plain
-/// numbers; false, with nothing changed, for everything else.
+/// a op b into `out`, which may be one of them, where both are short vectors, or a vector and a scalar, of
+/// plain numbers; false, with nothing changed, for everything else.
 bool vectors_plain(Op op, const Value& a, const Value& b, Value& out);
 /// Whether a op b holds, op being a comparison.
 bool compare(Runtime& rt, Op op, const Value& a, const Value& b);

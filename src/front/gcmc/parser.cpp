@@ -3,19 +3,19 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
-
 #include <fmt/format.h>
+#include <utility>
 
 #include "kerf/number.h"
 
 namespace kerf::gcmc {
 namespace {
 
-constexpr int kDeepestNesting = 400;   // of parentheses, blocks and operators in one statement
-constexpr int kDeepestInclude = 64;    // files that include files; a ring of them is cut here
+constexpr int kDeepestNesting = 400;  // of parentheses, blocks and operators in one statement
+constexpr int kDeepestInclude = 64;   // files that include files; a ring of them is cut here
 constexpr std::size_t kMostSources = 10'000;
-constexpr std::size_t kMostNodes = 20'000'000;
+constexpr std::size_t kMostNodes = 5'000'000;
+constexpr std::uint32_t kTallestTree = 3000;  // operators in a row count, as each stands on the one before
 
 /// Binary operators by level, loosest first.
 struct Level {
@@ -46,9 +46,9 @@ bool is_assignment(Token t) {
 }
 
 const std::vector<std::string>& statement_words() {
-  static const std::vector<std::string> words = {"break", "const", "continue", "do", "elif", "else", "for",
-                                                 "foreach", "function", "if", "include", "local", "repeat",
-                                                 "return", "while"};
+  static const std::vector<std::string> words = {"break",   "const", "continue", "do",       "elif",
+                                                 "else",    "for",   "foreach",  "function", "if",
+                                                 "include", "local", "repeat",   "return",   "while"};
   return words;
 }
 
@@ -78,7 +78,8 @@ NodeId Tree::add_with_children(Node node, const std::vector<NodeId>& list) {
   return add(std::move(node));
 }
 
-Parser::Parser(Tree& tree, std::deque<Source>& sources, SourceReport& report, Includer includer, IsBuiltin is_builtin)
+Parser::Parser(Tree& tree, std::deque<Source>& sources, SourceReport& report, Includer includer,
+               IsBuiltin is_builtin)
     : tree_(tree),
       sources_(sources),
       report_(report),
@@ -94,6 +95,16 @@ void Parser::parse(std::uint16_t file) {
 }
 
 // ---- words
+
+/// Adds the node of an expression, if its tree is not taller than the compiler can climb.
+NodeId Parser::add(Node n, const std::vector<NodeId>& children) {
+  for (NodeId id : {n.a, n.b, n.c})
+    if (id != kNoNode) n.height = std::max(n.height, node(id).height + 1);
+  for (NodeId id : children)
+    if (id != kNoNode) n.height = std::max(n.height, node(id).height + 1);
+  if (n.height > kTallestTree) fail("Expression is nested too deeply");
+  return children.empty() ? tree_.add(n) : tree_.add_with_children(n, children);
+}
 
 void Parser::advance() {
   last_ = std::move(word_);
@@ -173,7 +184,8 @@ void Parser::line(std::vector<NodeId>& into) {
   const int depth = depth_;
   const bool in_function = in_function_;
   try {
-    if (depth_ > kDeepestNesting || tree_.nodes.size() > kMostNodes) fail("The program is nested too deeply or too long");
+    if (depth_ > kDeepestNesting || tree_.nodes.size() > kMostNodes)
+      fail("The program is nested too deeply or too long");
     if (accept(Token::semicolon)) return;
     if (is(Token::left_brace)) {
       complain("Syntax error", "a block follows if, for, while, repeat, foreach or function");
@@ -252,8 +264,10 @@ NodeId Parser::parse_if(Place at) {
   advance();
   out.a = condition();
   out.b = body();
-  if (is(Token::kw_elif)) out.c = parse_if(word_.at);
-  else if (accept(Token::kw_else)) out.c = body();
+  if (is(Token::kw_elif))
+    out.c = parse_if(word_.at);
+  else if (accept(Token::kw_else))
+    out.c = body();
   return tree_.add(out);
 }
 
@@ -352,7 +366,8 @@ void Parser::check_function(NameId id) {
     report_.error(last_.after, Code::gcmc_defined_twice,
                   fmt::format("Function name '{}' is reserved as built-in function", name));
   } else if (tree_.function_index.count(id) != 0) {
-    report_.error(last_.after, Code::gcmc_defined_twice, fmt::format("Function name '{}' is already defined", name));
+    report_.error(last_.after, Code::gcmc_defined_twice,
+                  fmt::format("Function name '{}' is already defined", name));
   }
 }
 
@@ -370,7 +385,8 @@ void Parser::parse_function(std::vector<NodeId>& into) {
       const bool twice = std::any_of(function.parameters.begin(), function.parameters.end(),
                                      [&](const Parameter& other) { return other.name == p.name; });
       if (twice) {
-        complain(fmt::format("Argument name '{}' is used twice", tree_.names[static_cast<std::size_t>(p.name)]));
+        complain(
+            fmt::format("Argument name '{}' is used twice", tree_.names[static_cast<std::size_t>(p.name)]));
       } else {
         function.parameters.push_back(p);
       }
@@ -491,8 +507,10 @@ bool Parser::is_lvalue(NodeId id) const {
 }
 
 void Parser::check_lvalue(NodeId id) {
-  if (!is_lvalue(id)) complain("Lvalue not a variable, cannot be dereferenced");
-  else check_writable(id);
+  if (!is_lvalue(id))
+    complain("Lvalue not a variable, cannot be dereferenced");
+  else
+    check_writable(id);
 }
 
 void Parser::check_writable(NodeId id) {
@@ -522,7 +540,7 @@ NodeId Parser::assignment() {
   out.b = assignment();
   out.at = word_.at;
   check_lvalue(left);
-  return tree_.add(out);
+  return add(out);
 }
 
 NodeId Parser::ternary() {
@@ -537,7 +555,7 @@ NodeId Parser::ternary() {
   expect(Token::colon, ":");
   out.c = assignment();
   out.at = word_.at;
-  return tree_.add(out);
+  return add(out);
 }
 
 NodeId Parser::binary(int level) {
@@ -551,7 +569,7 @@ NodeId Parser::binary(int level) {
     out.a = left;
     out.b = binary(level + 1);
     out.at = word_.at;
-    left = tree_.add(out);
+    left = add(out);
   }
   return left;
 }
@@ -577,7 +595,7 @@ NodeId Parser::unary() {
   const Node& operand = node(out.a);
   out.at = operand.kind == NodeKind::number && operand.number.unit() != Unit::none ? operand.at : word_.at;
   if (out.kind == NodeKind::step) check_step(out.a, out);
-  return tree_.add(out);
+  return add(out);
 }
 
 NodeId Parser::axis_index(NodeId base) {
@@ -594,7 +612,7 @@ NodeId Parser::axis_index(NodeId base) {
   out.a = base;
   out.b = tree_.add(axis);
   advance();
-  return tree_.add(out);
+  return add(out);
 }
 
 NodeId Parser::postfix() {
@@ -609,7 +627,7 @@ NodeId Parser::postfix() {
       out.b = expression();
       out.at = word_.at;
       expect(Token::right_bracket, "]");
-      base = tree_.add(out);
+      base = add(out);
     } else if (is(Token::plus_plus) || is(Token::minus_minus)) {
       Node out;
       out.kind = NodeKind::step;
@@ -618,7 +636,7 @@ NodeId Parser::postfix() {
       out.a = base;
       advance();
       check_step(base, out);
-      base = tree_.add(out);
+      base = add(out);
     } else {
       return base;
     }
@@ -637,11 +655,11 @@ NodeId Parser::number() {
     case Token::kw_deg: out.number = out.number.with_unit(Unit::deg); break;
     case Token::kw_rad: out.number = out.number.with_unit(Unit::rad); break;
     case Token::kw_mil: out.number = Scalar::real(out.number.number() / 1000.0, Unit::inch); break;
-    default: return tree_.add(out);
+    default: return add(out);
   }
   out.at = word_.at;
   advance();
-  return tree_.add(out);
+  return add(out);
 }
 
 NodeId Parser::vector_literal() {
@@ -662,7 +680,7 @@ NodeId Parser::vector_literal() {
   }
   out.at = word_.at;
   expect(Token::right_bracket, "]");
-  return tree_.add_with_children(out, entries);
+  return add(out, entries);
 }
 
 NodeId Parser::list_literal() {
@@ -676,7 +694,7 @@ NodeId Parser::list_literal() {
   }
   out.at = word_.at;
   expect(Token::right_brace, "}");
-  return tree_.add_with_children(out, entries);
+  return add(out, entries);
 }
 
 NodeId Parser::call(NameId name) {
@@ -691,7 +709,7 @@ NodeId Parser::call(NameId name) {
   }
   out.at = word_.at;
   expect(Token::right_paren, ")");
-  return tree_.add_with_children(out, arguments);
+  return add(out, arguments);
 }
 
 NodeId Parser::name_or_call() {
@@ -707,7 +725,7 @@ NodeId Parser::name_or_call() {
   out.kind = NodeKind::name;
   out.name = name;
   out.at = word_.at;
-  return tree_.add(out);
+  return add(out);
 }
 
 NodeId Parser::primary() {
@@ -731,11 +749,12 @@ NodeId Parser::primary() {
       out.name = static_cast<NameId>(tree_.strings.size());
       tree_.strings.push_back(std::move(word_.string));
       advance();
-      return tree_.add(out);
+      return add(out);
     }
     default: break;
   }
-  if (last_.token == Token::end || last_.token == Token::semicolon || last_.text.empty()) fail("Syntax error");
+  if (last_.token == Token::end || last_.token == Token::semicolon || last_.text.empty())
+    fail("Syntax error");
   fail(fmt::format("Expression expected after '{}'", last_.text));
 }
 

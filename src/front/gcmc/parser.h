@@ -26,7 +26,8 @@ using IsBuiltin = std::function<bool(std::string_view name)>;
 
 class Parser {
  public:
-  Parser(Tree& tree, std::deque<Source>& sources, SourceReport& report, Includer includer, IsBuiltin is_builtin);
+  Parser(Tree& tree, std::deque<Source>& sources, SourceReport& report, Includer includer,
+         IsBuiltin is_builtin);
   /// Reads all statements of sources[file] and appends them to the program.
   void parse(std::uint16_t file);
 
@@ -34,6 +35,7 @@ class Parser {
   struct Failure {};  // thrown at a syntax error, caught where the statement began
 
   // words
+  NodeId add(Node n, const std::vector<NodeId>& children = {});
   void advance();
   const Word& peek();
   bool is(Token token) const { return word_.token == token; }
@@ -95,10 +97,10 @@ class Parser {
   Includer includer_;
   IsBuiltin is_builtin_;
   Lexer* lexer_ = nullptr;
-  Word word_;           // the next word, not yet used
-  Word last_;           // the word used last
+  Word word_;                  // the next word, not yet used
+  Word last_;                  // the word used last
   std::optional<Word> ahead_;  // the one after word_, where it was looked at
-  int depth_ = 0;       // of expressions and blocks, against the machine's own stack
+  int depth_ = 0;              // of expressions and blocks, against the machine's own stack
   int include_depth_ = 0;
   bool in_function_ = false;
 };

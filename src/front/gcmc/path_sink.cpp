@@ -2,7 +2,6 @@
 #include "front/gcmc/path_sink.h"
 
 #include <algorithm>
-
 #include <fmt/format.h>
 
 #include "front/gcmc/operators.h"
@@ -28,10 +27,14 @@ OriginId PathSink::origin_at(std::size_t instruction, OriginId caller) {
   return last_origin_ = it->second;
 }
 
-/// The place of the running instruction, with the calls that led there. One place in one chain of calls is one origin.
+/// The place of the running instruction, with the calls that led there. One place in one chain of calls is
+/// one origin.
 OriginId PathSink::origin() {
-  constexpr std::size_t kMostCalls = 64;  // of a chain; the outermost are left out beyond
+  constexpr std::size_t kMostCalls = 64;           // of a chain; the outermost are left out beyond
+  constexpr std::size_t kMostOrigins = 5'000'000;  // beyond, steps know their own line only
+  check_size();
   OriginId caller = OriginId::none;
+  if (origins_.size() > kMostOrigins) return origin_at(vm_.current_instruction(), caller);
   const std::size_t depth = vm_.frames().size();
   for (std::size_t i = depth > kMostCalls ? depth - kMostCalls : 0; i < depth; ++i)
     caller = origin_at(vm_.call_site(i), caller);
@@ -40,12 +43,20 @@ OriginId PathSink::origin() {
 
 // ---- motions
 
-void PathSink::check_size() {
-  if (path_.size() < vm_.options().max_path_steps) return;
-  vm_.fail(Code::gcmc_limit, fmt::format("The toolpath has more than {} steps", vm_.options().max_path_steps));
+/// Texts are kept once each, but a program can make ever new ones.
+void PathSink::count_text(std::size_t bytes) {
+  text_bytes_ += bytes;
+  if (text_bytes_ > vm_.options().max_memory) throw OutOfMemory{};
 }
 
-/// Inverse time and per-revolution feeds are not feeds per minute: such motions have none, and the check says so.
+void PathSink::check_size() {
+  if (path_.size() < vm_.options().max_path_steps) return;
+  vm_.fail(Code::gcmc_limit,
+           fmt::format("The toolpath has more than {} steps", vm_.options().max_path_steps));
+}
+
+/// Inverse time and per-revolution feeds are not feeds per minute: such motions have none, and the check says
+/// so.
 Feed PathSink::feed(double per_minute) const {
   if (feed_mode_ == 2 && speed_ != 0.0) return mm_per_min(per_minute * scale_ * speed_);
   return feed_mode_ == 1 && per_minute > 0.0 ? mm_per_min(per_minute * scale_) : Feed{};
@@ -152,12 +163,12 @@ void PathSink::path_mode(bool exact, std::optional<double> p, std::optional<doub
 void PathSink::pause(bool optional) { path_.add(step::Verbatim{optional ? "M1" : "M0"}, origin()); }
 
 void PathSink::comment(std::string_view text) {
-  check_size();
+  count_text(text.size());
   path_.add(step::Note{std::string(text)}, origin());
 }
 
 void PathSink::literal(std::string_view text) {
-  check_size();
+  count_text(text.size());
   pending_ += text;
   for (std::size_t end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
     if (end > 0) path_.add(step::Verbatim{pending_.substr(0, end)}, origin());
@@ -170,7 +181,9 @@ void PathSink::finish() {
   pending_.clear();
 }
 
-void PathSink::store_position(bool second) { path_.add(step::Verbatim{second ? "G30.1" : "G28.1"}, origin()); }
+void PathSink::store_position(bool second) {
+  path_.add(step::Verbatim{second ? "G30.1" : "G28.1"}, origin());
+}
 
 void PathSink::restore_position(bool, const Axes& via, unsigned named, const Axes& end) {
   const OriginId where = origin();

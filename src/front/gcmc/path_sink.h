@@ -1,4 +1,5 @@
-// The toolpath of a running program: every motion complete, in mm, with the line and the calls that caused it.
+// The toolpath of a running program: every motion complete, in mm, with the line and the calls that caused
+// it.
 #pragma once
 
 #include <cstdint>
@@ -6,10 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
-#include "kerf/toolpath.h"
-
 #include "front/gcmc/sink.h"
 #include "front/gcmc/vm.h"
+
+#include "kerf/toolpath.h"
 
 namespace kerf::gcmc {
 
@@ -46,17 +47,19 @@ class PathSink final : public Sink {
   void after_motion(std::size_t step, const Axes& to, unsigned named);
   Feed feed(double per_minute) const;
   void check_size();
+  void count_text(std::size_t bytes);
 
   Toolpath& path_;
   Vm& vm_;
-  double scale_;             // native length to mm
-  double feed_ = 0.0;        // native per minute
+  double scale_;       // native length to mm
+  double feed_ = 0.0;  // native per minute
   int feed_mode_ = 1;
   double speed_ = 0.0;
   SpindleTurn turn_ = SpindleTurn::off;
-  Axes last_{};              // native, with offsets
-  unsigned unknown_ = 7;     // axes never commanded
-  std::string pending_;      // literal text before its end of line
+  Axes last_{};           // native, with offsets
+  unsigned unknown_ = 7;  // axes never commanded
+  std::size_t text_bytes_ = 0;
+  std::string pending_;  // literal text before its end of line
   struct Key {
     std::uint64_t site;
     OriginId caller;
@@ -64,7 +67,8 @@ class PathSink final : public Sink {
   };
   struct KeyHash {
     std::size_t operator()(const Key& k) const {
-      return static_cast<std::size_t>((k.site * 0x9E3779B97F4A7C15u) ^ (static_cast<std::uint64_t>(k.caller) << 20));
+      return static_cast<std::size_t>((k.site * 0x9E3779B97F4A7C15u) ^
+                                      (static_cast<std::uint64_t>(k.caller) << 20));
     }
   };
   OriginId origin_at(std::size_t instruction, OriginId caller);

@@ -1,13 +1,9 @@
 // A whole run: sources, parsing, compiling, running, sinks.
 #include <algorithm>
 #include <deque>
+#include <fmt/format.h>
 #include <optional>
 #include <utility>
-
-#include <fmt/format.h>
-
-#include "kerf/files.h"
-#include "kerf/gcmc.h"
 
 #include "embedded_gcmc_library.h"
 #include "front/gcmc/builtins.h"
@@ -16,6 +12,9 @@
 #include "front/gcmc/path_sink.h"
 #include "front/gcmc/text_sink.h"
 #include "front/gcmc/vm.h"
+
+#include "kerf/files.h"
+#include "kerf/gcmc.h"
 
 namespace kerf {
 namespace gcmc {
@@ -101,7 +100,9 @@ bool parse_all(std::string_view text, const GcmcOptions& options, Tree& tree, st
   for (const std::string& d : options.defines) defines += d + ";\n";
   sources.push_back({"<cmd-line defines>", std::move(defines)});
   sources.push_back({options.file_name, std::string(text)});
-  const Includer includer = [&](const std::string& name, Source& found) { return find_include(options, name, found); };
+  const Includer includer = [&](const std::string& name, Source& found) {
+    return find_include(options, name, found);
+  };
   const IsBuiltin is_builtin = [](std::string_view name) { return builtin_index(name) >= 0; };
   Parser parser(tree, sources, report, includer, is_builtin);
   parser.parse(0);
@@ -117,9 +118,9 @@ std::vector<NameId> declare_constants(Tree& tree, const std::vector<LanguageCons
 
 int exit_status(const Vm& vm, int returned) { return vm.script_failed() ? 1 : returned & 255; }
 
-void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code, const std::vector<NameId>& names,
-              const GcmcOptions& options, GcmcOutput& output, Diagnostics& diagnostics, Progress* progress,
-              GcmcRun& run) {
+void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code,
+              const std::vector<NameId>& names, const GcmcOptions& options, GcmcOutput& output,
+              Diagnostics& diagnostics, Progress* progress, GcmcRun& run) {
   Vm vm(tree, sources, code, options, output, diagnostics, progress);
   std::vector<LanguageConstant> constants = language_constants(vm.meter);
   for (std::size_t i = 0; i < names.size(); ++i) vm.define_constant(names[i], std::move(constants[i].value));
@@ -146,14 +147,14 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
 }  // namespace gcmc
 
 std::string to_line(const GcmcMessage& m) {
-  static constexpr std::string_view kWords[] = {"Runtime message(): ", "Runtime warning(): ", "Runtime error(): ",
-                                                "warning: ", "error: ", "fatal: "};
+  static constexpr std::string_view kWords[] = {
+      "Runtime message(): ", "Runtime warning(): ", "Runtime error(): ", "warning: ", "error: ", "fatal: "};
   return fmt::format("{}:{}:{}: {}{}", m.where.file, m.where.line, m.where.column,
                      kWords[static_cast<std::size_t>(m.said)], m.text);
 }
 
-GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output, Diagnostics& diagnostics,
-                 Progress* progress) {
+GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
+                 Diagnostics& diagnostics, Progress* progress) {
   using namespace gcmc;
   GcmcRun run;
   Tree tree;
@@ -169,7 +170,8 @@ GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& 
       Program code = compile(tree, names, builtin_index, meter);
       run_code(tree, sources, code, names, options, output, diagnostics, progress, run);
     } catch (const TooManySlots&) {
-      report.error({1, 1, 1}, Code::gcmc_limit, "The program is too large: too many variables or instructions", {});
+      report.error({1, 1, 1}, Code::gcmc_limit,
+                   "The program is too large: too many variables or instructions", {});
       run.status = 1;
     } catch (const OutOfMemory&) {
       report.error({1, 1, 1}, Code::gcmc_limit, "The program's constants do not fit into memory", {});
@@ -181,7 +183,8 @@ GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& 
   return run;
 }
 
-bool check_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output, Diagnostics& diagnostics) {
+bool check_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
+                Diagnostics& diagnostics) {
   gcmc::Tree tree;
   std::deque<gcmc::Source> sources;
   gcmc::Reporter report(sources, output, diagnostics);

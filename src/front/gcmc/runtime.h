@@ -2,14 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <fmt/format.h>
 #include <string>
 #include <utility>
 
-#include <fmt/format.h>
+#include "front/gcmc/value.h"
 
 #include "kerf/diagnostics.h"
-
-#include "front/gcmc/value.h"
 
 namespace kerf::gcmc {
 
@@ -30,7 +29,7 @@ class Runtime {
   }
 
   Meter meter;
-  Unit native = Unit::mm;   // of lengths
+  Unit native = Unit::mm;  // of lengths
   int decimals = 8;
 
  protected:

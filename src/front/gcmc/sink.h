@@ -18,9 +18,9 @@ using Axes = std::array<double, 9>;
 
 struct Move {
   bool rapid = false;
-  Axes to{};
-  unsigned named = 0;   // bits of the axes that the program named
-  double feed = 0.0;    // given with this move; 0 = none
+  const Axes& to;
+  unsigned named = 0;  // bits of the axes that the program named
+  double feed = 0.0;   // given with this move; 0 = none
 };
 
 struct ArcMove {
@@ -28,8 +28,8 @@ struct ArcMove {
   Plane plane = Plane::xy;
   Axes to{};
   unsigned named = 0;
-  Point2 offset;        // of the centre from the begin, in the order of the plane's name
-  int turns = 0;        // as the program told; 0 = not told
+  Point2 offset;  // of the centre from the begin, in the order of the plane's name
+  int turns = 0;  // as the program told; 0 = not told
 };
 
 struct DrillCycle {
@@ -37,7 +37,7 @@ struct DrillCycle {
   unsigned named = 0;
   double retract = 0.0;
   double delta = 0.0;
-  int repeat = 0;       // 0 = not told
+  int repeat = 0;  // 0 = not told
 };
 
 class Sink {
@@ -49,10 +49,10 @@ class Sink {
   /// The goto or move that was begun and then refused: its first word is out already.
   virtual void broken_move(bool rapid) = 0;
   virtual void feed_rate(double feed) = 0;
-  virtual void feed_mode(int mode) = 0;              // 0 inverse time, 1 per minute, 2 per revolution
-  virtual void spindle(double speed) = 0;            // clockwise, counter-clockwise below 0, off at 0
+  virtual void feed_mode(int mode) = 0;    // 0 inverse time, 1 per minute, 2 per revolution
+  virtual void spindle(double speed) = 0;  // clockwise, counter-clockwise below 0, off at 0
   virtual void spindle_speed(double speed) = 0;
-  virtual void coolant(int bits) = 0;                // 1 mist, 2 flood
+  virtual void coolant(int bits) = 0;  // 1 mist, 2 flood
   virtual void tool_change(int tool, bool length_offset) = 0;
   virtual void dwell(double seconds) = 0;
   virtual void path_mode(bool exact, std::optional<double> p, std::optional<double> q) = 0;
@@ -60,7 +60,7 @@ class Sink {
   virtual void plane(Plane plane) = 0;
   virtual void comment(std::string_view text) = 0;
   virtual void literal(std::string_view text) = 0;
-  virtual void store_position(bool second) = 0;      // G28.1, G30.1
+  virtual void store_position(bool second) = 0;  // G28.1, G30.1
   /// G28 or G30 by way of `via` to `end`.
   virtual void restore_position(bool second, const Axes& via, unsigned named, const Axes& end) = 0;
   virtual void layer(const std::string& name) = 0;

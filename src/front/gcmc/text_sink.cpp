@@ -2,7 +2,6 @@
 #include "front/gcmc/text_sink.h"
 
 #include <algorithm>
-
 #include <fmt/format.h>
 
 #include "kerf/number.h"
@@ -10,10 +9,10 @@
 namespace kerf::gcmc {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 16;  // bytes handed on at once
+constexpr std::size_t kPiece = 1 << 16;        // bytes handed on at once
 constexpr std::size_t kLongestLine = 1 << 13;  // nine axes, offsets, feed: numbers of 330 digits at most
-constexpr std::string_view kLetters[] = {" X", " Y", " Z", " A", " B", " C", " U", " V", " W"};
-constexpr std::string_view kOffsets[] = {" I", " J", " K"};
+constexpr char kLetters[] = "XYZABCUVW";
+constexpr char kOffsets[] = "IJK";
 
 }  // namespace
 
@@ -47,8 +46,10 @@ void TextSink::line(std::string_view text) {
   end_line();
 }
 
-void TextSink::word(std::string_view letters, double value) {
-  for (char c : letters) *at_++ = c;
+/// A letter with its number; a blank stands before it unless it begins the line.
+void TextSink::word(char letter, double value, Begins begins) {
+  if (begins == Begins::no) *at_++ = ' ';
+  *at_++ = letter;
   if (char* end = write_fixed(at_, value, options_.precision)) {
     at_ = end;
     return;
@@ -107,7 +108,11 @@ void TextSink::end() {
 /// The words of a motion; brief text leaves out a word that is in force.
 void TextSink::begin_motion(std::string_view motion, bool modal) {
   make_room();
-  if (!options_.brief || mode_ != motion) at_ = std::copy(motion.begin(), motion.end(), at_);
+  if (!options_.brief || mode_ != motion) {
+    *at_++ = motion[0];
+    *at_++ = motion[1];
+    if (motion.size() > 2) *at_++ = motion[2];  // G73
+  }
   mode_ = modal ? motion : std::string_view();
 }
 
@@ -116,7 +121,8 @@ void TextSink::axes(const Axes& to, unsigned named) {
   for (std::size_t i = 0; i < count; ++i) {
     const unsigned bit = 1u << i;
     if (!(named & bit)) continue;
-    const bool repeats = options_.brief && (options_.relative ? to[i] == last_[i] : (known_ & bit) && to[i] == last_[i]);
+    const bool repeats =
+        options_.brief && (options_.relative ? to[i] == last_[i] : (known_ & bit) && to[i] == last_[i]);
     if (!repeats) word(kLetters[i], options_.relative ? to[i] - last_[i] : to[i]);
     known_ |= bit;
   }
@@ -127,7 +133,7 @@ void TextSink::move(const Move& m) {
   char* const start = at_;
   begin_motion(m.rapid ? "G0" : "G1", true);
   axes(m.to, m.named);
-  if (m.feed > 0.0 && !(options_.brief && m.feed == feed_)) word(" F", m.feed);
+  if (m.feed > 0.0 && !(options_.brief && m.feed == feed_)) word('F', m.feed);
   if (m.feed > 0.0) feed_ = m.feed;
   last_ = m.to;
   if (at_ == start) return;  // brief, and nothing changes: no line
@@ -153,8 +159,8 @@ void TextSink::drill(const DrillCycle& m) {
   if (options_.brief) known_ = 0;
   const Axes before = last_;
   axes(m.to, m.named & 7u);
-  word(" R", options_.relative ? m.retract - before[2] : m.retract);
-  word(" Q", m.delta);
+  word('R', options_.relative ? m.retract - before[2] : m.retract);
+  word('Q', m.delta);
   if (m.repeat > 0) at_ = fmt::format_to(at_, " L{}", m.repeat);
   last_ = m.to;
   last_[2] = m.retract;
@@ -175,7 +181,7 @@ void TextSink::feed_rate(double feed) {
   if (options_.brief && feed == feed_) return;
   feed_ = feed;
   make_room();
-  word("F", feed);
+  word('F', feed, Begins::yes);
   end_line();
 }
 
@@ -188,14 +194,14 @@ void TextSink::feed_mode(int mode) {
 void TextSink::spindle(double speed) {
   if (speed == 0.0) return line("M5");
   make_room();
-  word("S", speed < 0.0 ? -speed : speed);
+  word('S', speed < 0.0 ? -speed : speed, Begins::yes);
   end_line();
   line(speed > 0.0 ? "M3" : "M4");
 }
 
 void TextSink::spindle_speed(double speed) {
   make_room();
-  word("S", speed);
+  word('S', speed, Begins::yes);
   end_line();
 }
 
@@ -214,14 +220,15 @@ void TextSink::tool_change(int tool, bool length_offset) {
 
 void TextSink::dwell(double seconds) {
   make_room();
-  word("G4 P", seconds);
+  put("G4");
+  word('P', seconds);
   end_line();
 }
 
 void TextSink::path_mode(bool exact, std::optional<double> p, std::optional<double> q) {
   put(exact ? "G61" : "G64");
-  if (p) word(" P", *p);
-  if (q) word(" Q", *q);
+  if (p) word('P', *p);
+  if (q) word('Q', *q);
   end_line();
 }
 

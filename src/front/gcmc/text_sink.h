@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
-#include "kerf/gcmc.h"
-
 #include "front/gcmc/sink.h"
+
+#include "kerf/gcmc.h"
 
 namespace kerf::gcmc {
 
@@ -42,7 +42,8 @@ class TextSink final : public Sink {
   void make_room();
   void put(std::string_view text);
   void line(std::string_view text);
-  void word(std::string_view letters, double value);
+  enum class Begins : std::uint8_t { no, yes };
+  void word(char letter, double value, Begins begins = Begins::no);
   void axes(const Axes& to, unsigned named);
   void begin_motion(std::string_view word, bool modal);
   void end_line() { *at_++ = '\n'; }
@@ -52,8 +53,8 @@ class TextSink final : public Sink {
   GcmcOutput& output_;
   std::unique_ptr<char[]> buffer_;
   char* at_;               // where the next character goes
-  Axes last_{};          // of the machine, offsets included
-  unsigned known_ = 0;   // axes whose place the reader of the text knows (brief only)
+  Axes last_{};            // of the machine, offsets included
+  unsigned known_ = 0;     // axes whose place the reader of the text knows (brief only)
   std::string_view mode_;  // the motion word in force (brief only)
   double feed_ = -1.0;
 };

@@ -8,7 +8,8 @@
 
 namespace kerf::gcmc {
 
-/// The vector list of typeset(): pen marks and points, capital letters 1.0 high. Undef where there is no such font.
+/// The vector list of typeset(): pen marks and points, capital letters 1.0 high. Undef where there is no such
+/// font.
 Value typeset_text(Runtime& rt, const std::u32string& text, std::int32_t font);
 
 }  // namespace kerf::gcmc

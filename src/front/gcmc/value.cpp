@@ -194,8 +194,10 @@ void append_vector(std::string& out, const Value& v, int decimals) {
   for (std::size_t i = 0; i < v.vector_size(); ++i) {
     if (i > 0) out += ',';
     const Scalar s = v.coordinate(i);
-    if (s.defined()) append_text(out, s, decimals);
-    else out += '-';
+    if (s.defined())
+      append_text(out, s, decimals);
+    else
+      out += '-';
   }
   out += ']';
 }
@@ -235,7 +237,8 @@ void append_utf8(std::string& out, char32_t c) {
   } else if (c < 0x10000) {
     put(0xE0 | c >> 12), put(0x80 | (c >> 6 & 0x3F)), put(0x80 | (c & 0x3F));
   } else {
-    put(0xF0 | (c >> 18 & 7)), put(0x80 | (c >> 12 & 0x3F)), put(0x80 | (c >> 6 & 0x3F)), put(0x80 | (c & 0x3F));
+    put(0xF0 | (c >> 18 & 7)), put(0x80 | (c >> 12 & 0x3F)), put(0x80 | (c >> 6 & 0x3F)),
+        put(0x80 | (c & 0x3F));
   }
 }
 
@@ -251,7 +254,11 @@ std::u32string from_utf8(std::string_view bytes) {
   out.reserve(bytes.size());
   for (std::size_t i = 0; i < bytes.size();) {
     const auto first = static_cast<unsigned char>(bytes[i]);
-    const std::size_t length = first < 0x80 ? 1 : first >> 5 == 6 ? 2 : first >> 4 == 14 ? 3 : first >> 3 == 30 ? 4 : 0;
+    const std::size_t length = first < 0x80       ? 1
+                               : first >> 5 == 6  ? 2
+                               : first >> 4 == 14 ? 3
+                               : first >> 3 == 30 ? 4
+                                                  : 0;
     char32_t c = length <= 1 ? first : first & (0xFFu >> (length + 1));
     bool good = length != 0 && i + length <= bytes.size();
     for (std::size_t k = 1; good && k < length; ++k) {

@@ -1,6 +1,6 @@
-// Values of a gcmc program: 32 bytes each. A scalar carries its unit inline; a vector of up to three coordinates is
-// held inline as well, so that points need no memory of their own. Longer vectors, lists and strings are counted
-// blocks that are copied only when one of several owners writes (copy on write).
+// Values of a gcmc program: 32 bytes each. A scalar carries its unit inline; a vector of up to three
+// coordinates is held inline as well, so that points need no memory of their own. Longer vectors, lists and
+// strings are counted blocks that are copied only when one of several owners writes (copy on write).
 #pragma once
 
 #include <cstddef>
@@ -214,8 +214,9 @@ class Value {
   }
 
  private:
-  // The last 8 bytes: type, the tags of three coordinates, the number of coordinates. They are always written as a
-  // whole, because a processor that reads more bytes than the last write had waits for that write to be done.
+  // The last 8 bytes: type, the tags of three coordinates, the number of coordinates. They are always written
+  // as a whole, because a processor that reads more bytes than the last write had waits for that write to be
+  // done.
   static constexpr std::uint64_t head_of(Type type) { return static_cast<std::uint64_t>(type); }
   void set_scalar(Payload p, Tag tag) {
     c_[0] = p;

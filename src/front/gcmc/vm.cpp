@@ -3,21 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <new>
 #include <utility>
-
-#include <fmt/format.h>
-
-#include "kerf/number.h"
 
 #include "front/gcmc/builtins.h"
 #include "front/gcmc/operators.h"
 
+#include "kerf/number.h"
+
 namespace kerf::gcmc {
 namespace {
 
-constexpr std::size_t kStackSlots = 1'000'000;  // of variables and temporaries, 32 MB, touched as they are used
-constexpr std::int32_t kStepsPerLook = 20'000;  // loop steps between looks at the clock, the limits and the user
+constexpr std::size_t kStackSlots =
+    1'000'000;  // of variables and temporaries, 32 MB, touched as they are used
+constexpr std::int32_t kStepsPerLook =
+    20'000;  // loop steps between looks at the clock, the limits and the user
 constexpr std::size_t kMostCallNotes = 16;
 
 }  // namespace
@@ -43,6 +44,7 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
   meter.limit = options.max_memory;
   machine_.plane = options.plane;
   machine_.fixed_offset = options.offsets;
+  machine_.set_position({});
   if (static_cast<std::size_t>(code_.program.frame) < kStackSlots) reach(stack_ + code_.program.frame);
 }
 
@@ -69,8 +71,8 @@ int Vm::run() {
   try {
     loop();
   } catch (const OutOfMemory&) {
-    fail(Code::gcmc_limit, fmt::format("The program uses more than {} MB for vectors, lists and strings",
-                                       meter.limit >> 20));
+    fail(Code::gcmc_limit,
+         fmt::format("The program uses more than {} MB for vectors, lists and strings", meter.limit >> 20));
   } catch (const std::bad_alloc&) {
     fail(Code::gcmc_limit, "There is no memory left");
   }
@@ -99,7 +101,8 @@ void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
   show_life();
   if (said == GcmcSaid::message) return;
   Diagnostic d;
-  d.severity = said == GcmcSaid::warning || said == GcmcSaid::script_warning ? Severity::warning : Severity::error;
+  d.severity =
+      said == GcmcSaid::warning || said == GcmcSaid::script_warning ? Severity::warning : Severity::error;
   d.code = code;
   d.where = message.where;
   d.message = message.text;
@@ -165,7 +168,8 @@ void Vm::refuel() {
     fail(Code::stopped, "Interrupted");
   }
   if (quiet_steps_ > options_.max_quiet_steps)
-    fail(Code::gcmc_limit, fmt::format("No output or message in {} loop steps: an endless loop?", quiet_steps_));
+    fail(Code::gcmc_limit,
+         fmt::format("No output or message in {} loop steps: an endless loop?", quiet_steps_));
 }
 
 // ---- moving values
@@ -179,8 +183,10 @@ const Value& Vm::present(std::int32_t o) {
 
 void Vm::do_move(const Instruction& in) {
   const Value& v = present(in.a);
-  if (in.flags & kTakeA) frame_[in.x] = std::move(frame_[in.a]);
-  else frame_[in.x] = v;
+  if (in.flags & kTakeA)
+    frame_[in.x] = std::move(frame_[in.a]);
+  else
+    frame_[in.x] = v;
 }
 
 void Vm::do_get_global(const Instruction& in) {
@@ -203,7 +209,8 @@ void Vm::do_dereference(const Instruction& in) {
 }
 
 void Vm::do_refer(const Instruction& in) {
-  const NameId name = in.a < running().variables ? running().slot_names[static_cast<std::size_t>(in.a)] : kNoName;
+  const NameId name =
+      in.a < running().variables ? running().slot_names[static_cast<std::size_t>(in.a)] : kNoName;
   frame_[in.x] = Value::reference(&frame_[in.a], name);
 }
 
@@ -234,8 +241,10 @@ Value& Vm::writable_target(std::int32_t reference) {
 void Vm::do_store(const Instruction& in) {
   const Value& v = present(in.a);
   Value& target = writable_target(in.x);
-  if (in.flags & kTakeA) target = std::move(frame_[in.a]);
-  else target = v;
+  if (in.flags & kTakeA)
+    target = std::move(frame_[in.a]);
+  else
+    target = v;
 }
 
 // ---- operators
@@ -245,9 +254,12 @@ void Vm::do_operate(const Instruction& in) {
   const Value& b = present(in.b);
   if (vectors_plain(in.op, a, b, frame_[in.x])) return;
   Value left;
-  if (&a == &b || in.a < 0) left = a;
-  else if ((in.flags & kTakeA) || in.a == in.x) left = std::move(frame_[in.a]);
-  else left = a;
+  if (&a == &b || in.a < 0)
+    left = a;
+  else if ((in.flags & kTakeA) || in.a == in.x)
+    left = std::move(frame_[in.a]);
+  else
+    left = a;
   operate(*this, in.op, left, b);
   if ((in.flags & kTakeB) && b.is_block()) frame_[in.b].clear();
   frame_[in.x] = std::move(left);
@@ -397,13 +409,15 @@ void Vm::do_list(const Instruction& in) {
 
 void Vm::do_call_builtin(const Instruction& in) {
   const Builtin& f = all_builtins()[static_cast<std::size_t>(in.a)];
-  static constexpr std::string_view kCounts[] = {"no arguments", "one argument", "two arguments", "three arguments"};
+  static constexpr std::string_view kCounts[] = {"no arguments", "one argument", "two arguments",
+                                                 "three arguments"};
   if (in.c < f.least || (f.most != kAnyCount && in.c > f.most && f.most != 0)) {
     const int wanted = in.c < f.least ? f.least : f.most;
     fail(Code::gcmc_arguments, wanted <= 3 ? fmt::format("{}() requires {}", f.name, kCounts[wanted])
                                            : fmt::format("{}() requires {} arguments", f.name, wanted));
   }
-  if (f.most == 0 && in.c > 0) warn(Code::gcmc_arguments, fmt::format("{}() takes no arguments, ignored", f.name));
+  if (f.most == 0 && in.c > 0)
+    warn(Code::gcmc_arguments, fmt::format("{}() takes no arguments, ignored", f.name));
   const Call call{*this, f.name, frame_ + in.b, in.c, (in.flags & kValueUsed) != 0};
   Value result = f.function(call);
   for (std::int32_t i = 0; i < in.c; ++i)
@@ -414,7 +428,8 @@ void Vm::do_call_builtin(const Instruction& in) {
 void Vm::do_define(const Instruction& in) {
   const auto i = static_cast<std::size_t>(in.a);
   if (defined_[i])
-    fail(Code::gcmc_defined_twice, fmt::format("Function '{}' already defined", name_text(code_.functions[i].name)));
+    fail(Code::gcmc_defined_twice,
+         fmt::format("Function '{}' already defined", name_text(code_.functions[i].name)));
   defined_[i] = true;
 }
 
@@ -430,7 +445,8 @@ Vm::Pc Vm::enter(const Instruction& in, Pc pc) {
   Value* base = frame_ + in.b;
   Value* end = base + f.frame;
   if (frames_.size() >= options_.max_calls || end > stack_end_)
-    fail(Code::gcmc_limit, fmt::format("Calls are nested too deeply ({}): an endless recursion?", frames_.size()));
+    fail(Code::gcmc_limit,
+         fmt::format("Calls are nested too deeply ({}): an endless recursion?", frames_.size()));
   if (end > reached_) reach(end);
   for (Value* v = base + f.parameters; v < base + f.variables; ++v) v->clear();
   frames_.push_back({pc, frame_, in.a, in.x, (in.flags & kValueUsed) != 0});
@@ -443,8 +459,10 @@ Vm::Pc Vm::leave(const Instruction* in) {
   Value result;
   if (in != nullptr) {
     present(in->a);
-    if (in->flags & kTakeA) result = std::move(frame_[in->a]);
-    else result = operand(in->a, frame_, code_.constants.data());
+    if (in->flags & kTakeA)
+      result = std::move(frame_[in->a]);
+    else
+      result = operand(in->a, frame_, code_.constants.data());
     if (result.type() == Type::reference) result = Value(*result.target());
   }
   if (frames_.empty()) {
@@ -454,17 +472,19 @@ Vm::Pc Vm::leave(const Instruction* in) {
   const Frame& f = frames_.back();
   const FunctionCode& code = code_.functions[static_cast<std::size_t>(f.function)];
   const Pc after = f.after;
+  const std::uint16_t x = f.x;
+  const bool value_used = f.value_used;
   if (!constants_.empty() && code.constants) forget_constants(code);
   for (Value* v = frame_; v < frame_ + code.frame; ++v) v->clear();
   frame_ = f.base;
-  frames_.pop_back();  // f stays readable: nothing is pushed before the end
-  if (in == nullptr && f.value_used) {
+  frames_.pop_back();
+  if (in == nullptr && value_used) {
     at_ = after - 1;
     fail(Code::gcmc_control,
          fmt::format("Function call '{}()' did not return a value, but is used in assignment or calculation",
                      name_text(code.name)));
   }
-  if (in != nullptr) frame_[f.x] = std::move(result);
+  if (in != nullptr) frame_[x] = std::move(result);
   return after;
 }
 
@@ -480,7 +500,8 @@ void Vm::do_unknown_function(const Instruction& in) {
 }
 
 void Vm::do_by_reference(const Instruction& in) {
-  fail(Code::gcmc_arguments, fmt::format("{} argument {}: Cannot pass expression by reference", name_text(in.a), in.b));
+  fail(Code::gcmc_arguments,
+       fmt::format("{} argument {}: Cannot pass expression by reference", name_text(in.a), in.b));
 }
 
 void Vm::do_wrong_count(const Instruction& in) {
@@ -495,13 +516,14 @@ void Vm::do_declare_local(const Instruction& in) {
   const Value& value = present(in.a);
   Value& v = frame_[in.x];
   if (!v.is_absent()) {
-    warn(Code::gcmc_suspicious,
-         fmt::format("Local scope variable '{}' already available in local scope",
-                     name_text(running().slot_names[in.x])));
+    warn(Code::gcmc_suspicious, fmt::format("Local scope variable '{}' already available in local scope",
+                                            name_text(running().slot_names[in.x])));
     return;
   }
-  if (in.flags & kTakeA) v = std::move(frame_[in.a]);
-  else v = value;
+  if (in.flags & kTakeA)
+    v = std::move(frame_[in.a]);
+  else
+    v = value;
 }
 
 void Vm::do_declare_constant(const Instruction& in) {
@@ -509,9 +531,9 @@ void Vm::do_declare_constant(const Instruction& in) {
   Value& v = frame_[in.x];
   const Value* known = !v.is_absent() ? &v : in.b >= 0 && !stack_[in.b].is_absent() ? &stack_[in.b] : nullptr;
   if (known != nullptr) {
-    fail(Code::gcmc_defined_twice, fmt::format("Constant '{}' already defined{}",
-                                               name_text(running().slot_names[in.x]),
-                                               is_constant(*known) ? "" : " as variable"));
+    fail(Code::gcmc_defined_twice,
+         fmt::format("Constant '{}' already defined{}", name_text(running().slot_names[in.x]),
+                     is_constant(*known) ? "" : " as variable"));
   }
   v = value;
   constants_.insert(&v);
@@ -519,7 +541,8 @@ void Vm::do_declare_constant(const Instruction& in) {
 
 void Vm::do_warn_global(const Instruction& in) {
   warn(Code::gcmc_suspicious,
-       fmt::format("Locally scoped variable '{}' setting without local scope, adding to global scope", name_text(in.a)));
+       fmt::format("Locally scoped variable '{}' setting without local scope, adding to global scope",
+                   name_text(in.a)));
 }
 
 // ---- loops
@@ -551,8 +574,10 @@ void Vm::do_foreach_begin(const Instruction& in) {
   const Value& source = present(in.a);
   if (!source.is_vector() && !source.is_list())
     fail(Code::gcmc_type, "Foreach's source must be vector or vectorlist");
-  if (in.flags & kTakeA) frame_[in.x] = std::move(frame_[in.a]);
-  else frame_[in.x] = source;
+  if (in.flags & kTakeA)
+    frame_[in.x] = std::move(frame_[in.a]);
+  else
+    frame_[in.x] = source;
   frame_[in.x + 1] = Value::integer(0);
 }
 
@@ -576,7 +601,8 @@ void Vm::do_clear(const Instruction& in) {
 
 void Vm::do_stray_break(const Instruction& in) {
   if (in.a == 0) fail(Code::gcmc_control, "Unexpected break or continue");
-  fail(Code::gcmc_type, "Lvalue expected", "a vector list has entries, and these coordinates: nothing lies deeper");
+  fail(Code::gcmc_type, "Lvalue expected",
+       "a vector list has entries, and these coordinates: nothing lies deeper");
 }
 
 // ---- the loop
@@ -605,6 +631,15 @@ inline bool holds_plain(Op op, std::int32_t a, std::int32_t b) {
   }
 }
 
+/// ++ or -- on a number where nobody asks for the value.
+inline bool quick_step(const Instruction& in, Value& v) {
+  Scalar stepped;
+  if ((in.flags & kValueUsed) || !v.is_scalar() || !step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped))
+    return false;
+  v.store(stepped);
+  return true;
+}
+
 constexpr Op comparison_of(Op jump) {
   switch (jump) {
     case Op::jump_equal: return Op::equal;
@@ -619,37 +654,47 @@ constexpr Op comparison_of(Op jump) {
 }  // namespace
 
 // Additions and comparisons of plain scalars are decided here, everything else by the members above.
-#define KERF_ARITHMETIC(op, operation)                                            \
-  case Op::op: {                                                                  \
-    const Value& a = operand(in.a, frame, constants);                             \
-    const Value& b = operand(in.b, frame, constants);                             \
-    Scalar result;                                                                \
+#define KERF_ARITHMETIC(op, operation)                                               \
+  case Op::op: {                                                                     \
+    const Value& a = operand(in.a, frame, constants);                                \
+    const Value& b = operand(in.b, frame, constants);                                \
+    Scalar result;                                                                   \
     if (a.is_scalar() && b.is_scalar() && operation(a.scalar(), b.scalar(), result)) \
-      frame[in.x].store(result);                                    \
-    else do_operate(in);                                                          \
-    break;                                                                        \
+      frame[in.x].store(result);                                                     \
+    else                                                                             \
+      do_operate(in);                                                                \
+    break;                                                                           \
   }
-#define KERF_COMPARING_JUMP(op)                                                                \
-  case Op::op: {                                                                               \
-    const Value& a = operand(in.a, frame, constants);                                          \
-    const Value& b = operand(in.b, frame, constants);                                          \
-    bool yes;                                                                                  \
-    if (a.is_scalar() && b.is_scalar() && ((a.tag() ^ b.tag()) >> 2) == 0 && (a.tag() & 3) != 0 && \
-        (b.tag() & 3) != 0) {                                                                  \
-      yes = both_integers(a.tag(), b.tag())                                                    \
-                ? holds_plain(Op::op, a.payload().i, b.payload().i)                            \
+#define KERF_COMPARING_JUMP(op)                                                                           \
+  case Op::op: {                                                                                          \
+    const Value& a = operand(in.a, frame, constants);                                                     \
+    const Value& b = operand(in.b, frame, constants);                                                     \
+    bool yes;                                                                                             \
+    if (a.is_scalar() && b.is_scalar() && ((a.tag() ^ b.tag()) >> 2) == 0 && (a.tag() & 3) != 0 &&        \
+        (b.tag() & 3) != 0) {                                                                             \
+      yes = both_integers(a.tag(), b.tag())                                                               \
+                ? holds_plain(Op::op, a.payload().i, b.payload().i)                                       \
                 : holds_plain(Op::op, number_of(a.payload(), a.tag()) - number_of(b.payload(), b.tag())); \
-    } else {                                                                                   \
-      yes = slow_holds(in, comparison_of(Op::op));                                             \
-    }                                                                                          \
-    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                      \
-    break;                                                                                     \
+    } else {                                                                                              \
+      yes = slow_holds(in, comparison_of(Op::op));                                                        \
+    }                                                                                                     \
+    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                                 \
+    break;                                                                                                \
   }
-#define KERF_JUMP()                                                    \
-  do {                                                                 \
-    if ((in.flags & kBackward) && --fuel_ <= 0) refuel();              \
-    pc += in.c;                                                        \
+#define KERF_JUMP()                                       \
+  do {                                                    \
+    if ((in.flags & kBackward) && --fuel_ <= 0) refuel(); \
+    pc += in.c;                                           \
   } while (false)
+// The instructions that only call the member of their name.
+#define KERF_MEMBERS(X)                                                                                      \
+  X(move)                                                                                                    \
+  X(get_global)                                                                                              \
+  X(get_dynamic)                                                                                             \
+  X(dereference) X(refer) X(refer_dynamic) X(need_target) X(store) X(apply) X(step_target) X(step_element)   \
+      X(logic_not) X(bit_not) X(index) X(element) X(set_element) X(vector) X(list) X(call_builtin) X(define) \
+          X(declare_local) X(declare_constant) X(warn_global) X(repeat_begin) X(foreach_begin) X(clear)      \
+              X(stray_break) X(unknown_function) X(by_reference) X(wrong_count)
 #define KERF_CALL_MEMBER(op) \
   case Op::op: do_##op(in); break;
 
@@ -672,42 +717,50 @@ void Vm::loop() {
       KERF_COMPARING_JUMP(jump_greater_equal)
       KERF_COMPARING_JUMP(jump_equal)
       KERF_COMPARING_JUMP(jump_not_equal)
-      case Op::step: {
-        Value& v = frame[in.a];
-        Scalar stepped;
-        if (!(in.flags & kValueUsed) && v.is_scalar() && step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped))
-          v.store(stepped);
-        else do_step(in);
+      case Op::step:
+        if (!quick_step(in, frame[in.a])) do_step(in);
         break;
-      }
-      case Op::add_or: case Op::sub_or: case Op::bit_and: case Op::bit_or:
-      case Op::bit_xor: case Op::shift_left: case Op::shift_right: do_operate(in); break;
-      case Op::equal: case Op::not_equal: case Op::less: case Op::greater: case Op::less_equal:
+      case Op::add_or:
+      case Op::sub_or:
+      case Op::bit_and:
+      case Op::bit_or:
+      case Op::bit_xor:
+      case Op::shift_left:
+      case Op::shift_right: do_operate(in); break;
+      case Op::equal:
+      case Op::not_equal:
+      case Op::less:
+      case Op::greater:
+      case Op::less_equal:
       case Op::greater_equal: do_compare(in); break;
       case Op::vector2: do_small_vector(in, 2); break;
       case Op::vector3: do_small_vector(in, 3); break;
       case Op::jump: KERF_JUMP(); break;
-      case Op::jump_if: if (slow_truth(in)) KERF_JUMP(); break;
-      case Op::jump_unless: if (!slow_truth(in)) KERF_JUMP(); break;
-      case Op::repeat_next: if (do_repeat_next(in)) KERF_JUMP(); break;
-      case Op::foreach_next: if (do_foreach_next(in)) KERF_JUMP(); break;
-      case Op::call: pc = enter(in, pc); frame = frame_; break;
+      case Op::jump_if:
+        if (slow_truth(in)) KERF_JUMP();
+        break;
+      case Op::jump_unless:
+        if (!slow_truth(in)) KERF_JUMP();
+        break;
+      case Op::repeat_next:
+        if (do_repeat_next(in)) KERF_JUMP();
+        break;
+      case Op::foreach_next:
+        if (do_foreach_next(in)) KERF_JUMP();
+        break;
+      case Op::call:
+        pc = enter(in, pc);
+        frame = frame_;
+        break;
       case Op::give_back:
         if ((pc = leave(&in)) == nullptr) return;
         frame = frame_;
         break;
-      case Op::give_nothing: pc = leave(nullptr); frame = frame_; break;
-      case Op::stop: return;
-      KERF_CALL_MEMBER(move) KERF_CALL_MEMBER(get_global) KERF_CALL_MEMBER(get_dynamic)
-      KERF_CALL_MEMBER(dereference) KERF_CALL_MEMBER(refer) KERF_CALL_MEMBER(refer_dynamic)
-      KERF_CALL_MEMBER(need_target) KERF_CALL_MEMBER(store) KERF_CALL_MEMBER(apply)
-      KERF_CALL_MEMBER(step_target) KERF_CALL_MEMBER(step_element) KERF_CALL_MEMBER(logic_not)
-      KERF_CALL_MEMBER(bit_not) KERF_CALL_MEMBER(index) KERF_CALL_MEMBER(element) KERF_CALL_MEMBER(set_element)
-      KERF_CALL_MEMBER(vector) KERF_CALL_MEMBER(list) KERF_CALL_MEMBER(call_builtin) KERF_CALL_MEMBER(define)
-      KERF_CALL_MEMBER(declare_local) KERF_CALL_MEMBER(declare_constant) KERF_CALL_MEMBER(warn_global)
-      KERF_CALL_MEMBER(repeat_begin) KERF_CALL_MEMBER(foreach_begin) KERF_CALL_MEMBER(clear)
-      KERF_CALL_MEMBER(stray_break) KERF_CALL_MEMBER(unknown_function) KERF_CALL_MEMBER(by_reference)
-      KERF_CALL_MEMBER(wrong_count)
+      case Op::give_nothing:
+        pc = leave(nullptr);
+        frame = frame_;
+        break;
+      case Op::stop: return; KERF_MEMBERS(KERF_CALL_MEMBER)
     }
   }
 }

@@ -10,12 +10,12 @@
 #include <unordered_set>
 #include <vector>
 
-#include "kerf/gcmc.h"
-
 #include "front/gcmc/code.h"
 #include "front/gcmc/machine.h"
 #include "front/gcmc/parser.h"
 #include "front/gcmc/runtime.h"
+
+#include "kerf/gcmc.h"
 
 namespace kerf::gcmc {
 
@@ -31,7 +31,7 @@ struct Frame {
 /// Where the program is: for messages and origins.
 struct Spot {
   std::size_t instruction = 0;
-  std::size_t calls = 0;   // depth
+  std::size_t calls = 0;  // depth
 };
 
 class Vm final : public Runtime {
@@ -64,7 +64,9 @@ class Vm final : public Runtime {
   /// Something came out: the program is not lost in a loop.
   void show_life() { quiet_steps_ = 0; }
 
-  std::size_t current_instruction() const { return static_cast<std::size_t>(at_ - code_.instructions.data()); }
+  std::size_t current_instruction() const {
+    return static_cast<std::size_t>(at_ - code_.instructions.data());
+  }
   const std::vector<Frame>& frames() const { return frames_; }
   std::size_t call_site(std::size_t frame) const {
     return static_cast<std::size_t>(frames_[frame].after - code_.instructions.data()) - 1;
@@ -146,12 +148,12 @@ class Vm final : public Runtime {
   std::unique_ptr<std::byte[]> storage_;
   Value* stack_ = nullptr;
   Value* stack_end_ = nullptr;
-  Value* reached_ = nullptr;   // slots before this are constructed
-  Value* frame_ = nullptr;     // of the running function
-  Pc at_ = nullptr;            // the running instruction
+  Value* reached_ = nullptr;  // slots before this are constructed
+  Value* frame_ = nullptr;    // of the running function
+  Pc at_ = nullptr;           // the running instruction
   std::vector<Frame> frames_;
   std::vector<bool> defined_;
-  std::unordered_set<const Value*> constants_;   // variables that may not be assigned to
+  std::unordered_set<const Value*> constants_;  // variables that may not be assigned to
   std::int32_t fuel_ = 0;
   std::uint64_t quiet_steps_ = 0;
   std::size_t script_errors_ = 0;

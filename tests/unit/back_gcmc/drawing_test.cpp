@@ -21,10 +21,11 @@ bool has(const std::string& text, const std::string& part) { return text.find(pa
 
 TEST(GcmcSvg, PathsRunFromRapidToRapid) {
   const std::string svg = gcmc_svg(small_path(), {});
-  EXPECT_TRUE(has(svg, "d=\"M 10.000000,0.000000 L 10.000000,0.000000 L 20.000000,0.000000 "
-                       "A 5.000000,5.000000 0 0,1 20.000000,10.000000\"/>"));
+  EXPECT_TRUE(has(svg,
+                  "d=\"M 10.000000,0.000000 L 10.000000,0.000000 L 20.000000,0.000000 "
+                  "A 5.000000,5.000000 0 0,1 20.000000,10.000000\"/>"));
   EXPECT_TRUE(has(svg, "#ff0000"));
-  EXPECT_TRUE(has(svg, "width=\"28.000000mm\""));   // 25 to the arc's side, and the tool
+  EXPECT_TRUE(has(svg, "width=\"28.000000mm\""));  // 25 to the arc's side, and the tool
   EXPECT_TRUE(has(svg, "height=\"13.000000mm\""));
   EXPECT_TRUE(has(svg, "translate(1.500000 11.500000) scale(1 -1)"));
 }
@@ -48,15 +49,18 @@ TEST(GcmcSvg, OptionsChangeWhatIsDrawn) {
 
 TEST(GcmcSvg, CirclesAreTwoHalves) {
   Toolpath path;
-  path.add(step::Arc{.to = {0, 0, 0}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(1)}, OriginId::none);
-  EXPECT_TRUE(has(gcmc_svg(path, {}), "M 0.000000,0.000000 A 5.000000,5.000000 0 0,0 10.000000,0.000000 "
-                                      "A 5.000000,5.000000 0 0,0 0.000000,0.000000"));
+  path.add(step::Arc{.to = {0, 0, 0}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(1)},
+           OriginId::none);
+  EXPECT_TRUE(has(gcmc_svg(path, {}),
+                  "M 0.000000,0.000000 A 5.000000,5.000000 0 0,0 10.000000,0.000000 "
+                  "A 5.000000,5.000000 0 0,0 0.000000,0.000000"));
 }
 
 TEST(GcmcDxf, EntitiesOfEachKind) {
   Toolpath path = small_path();
   path.add(step::Layer{"holes", 256}, OriginId::none);
-  path.add(step::Arc{.to = {0, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(1)}, OriginId::none);
+  path.add(step::Arc{.to = {0, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(1)},
+           OriginId::none);
   const std::string dxf = gcmc_dxf(path, {});
   EXPECT_TRUE(has(dxf, "  0\nLINE\n  5\npath1\n"));
   EXPECT_TRUE(has(dxf, "  0\nARC\n"));

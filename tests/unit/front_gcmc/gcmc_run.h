@@ -9,8 +9,8 @@
 namespace kerf::test {
 
 struct Ran {
-  std::string text;                  // what was written
-  std::vector<std::string> said;     // message lines without "file:line:col: "
+  std::string text;               // what was written
+  std::vector<std::string> said;  // message lines without "file:line:col: "
   std::vector<GcmcMessage> messages;
   GcmcRun run;
   Diagnostics diagnostics;
@@ -21,8 +21,8 @@ class Collector final : public GcmcOutput {
   explicit Collector(Ran& ran) : ran_(ran) {}
   void message(const GcmcMessage& m) override {
     const std::string line = to_line(m);
-    const std::string place = m.where.file + ":" + std::to_string(m.where.line) + ":" +
-                              std::to_string(m.where.column) + ": ";
+    const std::string place =
+        m.where.file + ":" + std::to_string(m.where.line) + ":" + std::to_string(m.where.column) + ": ";
     ran_.said.push_back(line.substr(place.size()));
     ran_.messages.push_back(m);
   }
@@ -41,7 +41,8 @@ inline GcmcOptions bare() {
   return options;
 }
 
-inline Ran run(const std::string& program, const GcmcOptions& options = bare(), Progress* progress = nullptr) {
+inline Ran run(const std::string& program, const GcmcOptions& options = bare(),
+               Progress* progress = nullptr) {
   Ran ran;
   Collector collector(ran);
   ran.run = run_gcmc(program, options, collector, ran.diagnostics, progress);

@@ -18,79 +18,155 @@ struct Case {
 class Expression : public testing::TestWithParam<Case> {};
 TEST_P(Expression, HasTheValue) { EXPECT_EQ(value_of(GetParam().expression), GetParam().value); }
 
-INSTANTIATE_TEST_SUITE_P(Literals, Expression, testing::Values(
-    Case{"010", "10"}, Case{"0x1F", "31"}, Case{"1., .5, 1e3, 1.5e-3", "1.0000.5001000.0000.002"},
-    Case{"5mm, 5 in, 5\n/* far */ deg, 1rad", "5mm5in5deg1rad"}, Case{"200mil", "0.200in"},
-    Case{"\"a\\x417\\101\\n\\\"\\q\\\\\"", "aA7A\n\"q\\"}, Case{"\"con\" \"cat\"", "concat"},
-    Case{"\"two\\\n   lines\"", "twolines"}, Case{"count(\"\\xc3\\xa9\")", "1"}, Case{"[1, -, 2.5in]", "[1,-,2.500in]"},
-    Case{"{[1], [2],}", "{[1],[2]}"}, Case{"{}, []", "{}[]"}, Case{"-0.0", "-0.000"}));
+const std::vector<Case> kLiterals{
+    {"010", "10"},
+    {"0x1F", "31"},
+    {"1., .5, 1e3, 1.5e-3", "1.0000.5001000.0000.002"},
+    {"5mm, 5 in, 5\n/* far */ deg, 1rad", "5mm5in5deg1rad"},
+    {"200mil", "0.200in"},
+    {"\"a\\x417\\101\\n\\\"\\q\\\\\"", "aA7A\n\"q\\"},
+    {"\"con\" \"cat\"", "concat"},
+    {"\"two\\\n   lines\"", "twolines"},
+    {"count(\"\\xc3\\xa9\")", "1"},
+    {"[1, -, 2.5in]", "[1,-,2.500in]"},
+    {"{[1], [2],}", "{[1],[2]}"},
+    {"{}, []", "{}[]"},
+    {"-0.0", "-0.000"},
+};
+INSTANTIATE_TEST_SUITE_P(Literals, Expression, testing::ValuesIn(kLiterals));
 
-INSTANTIATE_TEST_SUITE_P(Precedence, Expression, testing::Values(
-    Case{"5&3|8", "9"}, Case{"1|2^3", "1"}, Case{"1<<2+1", "8"}, Case{"!0==1", "1"}, Case{"- - 3", "3"},
-    Case{"2+3*4-1", "13"}, Case{"7-2-1", "4"}, Case{"1 ? 2 : 0 ? 3 : 4", "2"}, Case{"1 < 2 == 1", "1"},
-    Case{"1 || 0 && 0", "1"}, Case{"-2*-3", "6"}, Case{"[1, 2][1] + 1", "3"}, Case{"!!5", "1"}));
+const std::vector<Case> kPrecedence{
+    {"5&3|8", "9"},      {"1|2^3", "1"},       {"1<<2+1", "8"}, {"!0==1", "1"},
+    {"- - 3", "3"},      {"2+3*4-1", "13"},    {"7-2-1", "4"},  {"1 ? 2 : 0 ? 3 : 4", "2"},
+    {"1 < 2 == 1", "1"}, {"1 || 0 && 0", "1"}, {"-2*-3", "6"},  {"[1, 2][1] + 1", "3"},
+    {"!!5", "1"},
+};
+INSTANTIATE_TEST_SUITE_P(Precedence, Expression, testing::ValuesIn(kPrecedence));
 
-INSTANTIATE_TEST_SUITE_P(Units, Expression, testing::Values(
-    Case{"1mm+1in", "26.400mm"}, Case{"1in+1mm", "1.039in"}, Case{"1+1mm", "2mm"}, Case{"2mm*3mm", "6mm"},
-    Case{"10mm/2mm", "5"}, Case{"10/2mm", "5mm"}, Case{"10mm/4", "2mm"}, Case{"25.4mm/1in", "1.000"},
-    Case{"-7/2", "-3"}, Case{"-7%3", "-1"}, Case{"10.5%3mm", "1.500mm"}, Case{"1deg+1rad", "58.296deg"},
-    Case{"180deg/1rad", "3.142"},
-    Case{"1mm + 1deg",
-         "warning: Operation '+': LHS has distance units and RHS has angular units, RHS units ignored|2mm"},
-    Case{"4deg / 2mm",
-         "warning: Operation '/': LHS has angular units and RHS has distance units, RHS units ignored|2"}));
+const std::vector<Case> kUnits{
+    {"1mm+1in", "26.400mm"},
+    {"1in+1mm", "1.039in"},
+    {"1+1mm", "2mm"},
+    {"2mm*3mm", "6mm"},
+    {"10mm/2mm", "5"},
+    {"10/2mm", "5mm"},
+    {"10mm/4", "2mm"},
+    {"25.4mm/1in", "1.000"},
+    {"-7/2", "-3"},
+    {"-7%3", "-1"},
+    {"10.5%3mm", "1.500mm"},
+    {"1deg+1rad", "58.296deg"},
+    {"180deg/1rad", "3.142"},
+    {"1mm + 1deg",
+     "warning: Operation '+': LHS has distance units and RHS has "
+     "angular units, RHS units ignored|2mm"},
+    {"4deg / 2mm",
+     "warning: Operation '/': LHS has angular units and RHS has "
+     "distance units, RHS units ignored|2"},
+};
+INSTANTIATE_TEST_SUITE_P(Units, Expression, testing::ValuesIn(kUnits));
 
-INSTANTIATE_TEST_SUITE_P(Vectors, Expression, testing::Values(
-    Case{"[1]+[10,20,30]", "[11,-,-]"}, Case{"[1]+|[2,3]", "[3,3]"}, Case{"[-,1]+[5,5]", "[-,6]"},
-    Case{"[5]-|[1,2]", "[4,-2]"}, Case{"[5]-[1,2]", "[4,-]"}, Case{"{[1],[2]}+[10,20]", "{[11,-],[12,-]}"},
-    Case{"{[1,2]}-[1]", "{[0,2]}"}, Case{"{[1]}+{[2]}", "{[1],[2]}"}, Case{"2*[1,-]", "[2,-]"}, Case{"{[3,6]}/3", "{[1,2]}"},
-    Case{"[7,8]%3", "[1,2]"}, Case{"[1,2]*[3,4]", "11.000"}, Case{"[1,2]*[3mm]", "3.000mm"},
-    Case{"[1mm,2in]*[3mm,4in]", "5164.280mm"}, Case{"-{[1,-2]}", "{[-1,2]}"}, Case{"[1,-,3]|[9,8]", "[1,8,3]"},
-    Case{"[1]|[9,8,-,7]", "[1,8,-,7]"}, Case{"[1,-,3]&[9,8,-,4]", "[9,-,3,-]"}, Case{"[1,2,3]<<1", "[2,3]"},
-    Case{"[1,2]>>2", "[-,-,1,2]"}, Case{"{[1]}>>2", "{[],[],[1]}"}, Case{"{[1],[2]}<<1", "{[2]}"}, Case{"[1]<<5", "[]"},
-    Case{"[1,2,3,4,5]*2", "[2,4,6,8,10]"}, Case{"[1,2,3,4]+[1]", "[2,2,3,4]"}));
+const std::vector<Case> kVectors{
+    {"[1]+[10,20,30]", "[11,-,-]"},
+    {"[1]+|[2,3]", "[3,3]"},
+    {"[-,1]+[5,5]", "[-,6]"},
+    {"[5]-|[1,2]", "[4,-2]"},
+    {"[5]-[1,2]", "[4,-]"},
+    {"{[1],[2]}+[10,20]", "{[11,-],[12,-]}"},
+    {"{[1,2]}-[1]", "{[0,2]}"},
+    {"{[1]}+{[2]}", "{[1],[2]}"},
+    {"2*[1,-]", "[2,-]"},
+    {"{[3,6]}/3", "{[1,2]}"},
+    {"[7,8]%3", "[1,2]"},
+    {"[1,2]*[3,4]", "11.000"},
+    {"[1,2]*[3mm]", "3.000mm"},
+    {"[1mm,2in]*[3mm,4in]", "5164.280mm"},
+    {"-{[1,-2]}", "{[-1,2]}"},
+    {"[1,-,3]|[9,8]", "[1,8,3]"},
+    {"[1]|[9,8,-,7]", "[1,8,-,7]"},
+    {"[1,-,3]&[9,8,-,4]", "[9,-,3,-]"},
+    {"[1,2,3]<<1", "[2,3]"},
+    {"[1,2]>>2", "[-,-,1,2]"},
+    {"{[1]}>>2", "{[],[],[1]}"},
+    {"{[1],[2]}<<1", "{[2]}"},
+    {"[1]<<5", "[]"},
+    {"[1,2,3,4,5]*2", "[2,4,6,8,10]"},
+    {"[1,2,3,4]+[1]", "[2,2,3,4]"},
+};
+INSTANTIATE_TEST_SUITE_P(Vectors, Expression, testing::ValuesIn(kVectors));
 
-INSTANTIATE_TEST_SUITE_P(Undefined, Expression, testing::Values(
-    Case{"undef()+1", "<undef>"}, Case{"1+undef()", "1"}, Case{"undef()-1", "<undef>"}, Case{"1-undef()", "1"},
-    Case{"undef()*2", "<undef>"}, Case{"undef()+|1", "1"}, Case{"undef()-|1", "-1"}, Case{"1+|undef()", "1"},
-    Case{"undef()<<1", "<undef>"}, Case{"[1]+undef()", "[1]"}, Case{"undef()+|[1]", "[1]"},
-    Case{"undef()-|[1]", "[-1]"}, Case{"undef()-|{[1]}", "{[-1]}"}, Case{"undef() ? 1 : 2", "2"},
-    Case{"\"x\" + undef() + 1", "x1"}, Case{"\"x\" +| undef()", "x<undef>"}));
+const std::vector<Case> kUndefined{
+    {"undef()+1", "<undef>"},      {"1+undef()", "1"},
+    {"undef()-1", "<undef>"},      {"1-undef()", "1"},
+    {"undef()*2", "<undef>"},      {"undef()+|1", "1"},
+    {"undef()-|1", "-1"},          {"1+|undef()", "1"},
+    {"undef()<<1", "<undef>"},     {"[1]+undef()", "[1]"},
+    {"undef()+|[1]", "[1]"},       {"undef()-|[1]", "[-1]"},
+    {"undef()-|{[1]}", "{[-1]}"},  {"undef() ? 1 : 2", "2"},
+    {"\"x\" + undef() + 1", "x1"}, {"\"x\" +| undef()", "x<undef>"},
+};
+INSTANTIATE_TEST_SUITE_P(Undefined, Expression, testing::ValuesIn(kUndefined));
 
-INSTANTIATE_TEST_SUITE_P(Bits, Expression, testing::Values(
-    Case{"~5", "-6"}, Case{"6^3", "5"}, Case{"1.5<<1", "3.000"}, Case{"6.0>>1", "3.000"}, Case{"-8>>1", "-4"},
-    Case{"~5mm", "warning: Binary not target has units associated, ignored|-6"},
-    Case{"~5.0", "warning: Binary not target should be integer, converted|-6"},
-    Case{"5.0 & 3", "warning: Binary '&' operator, left-hand-side, should be integer, converted|1"},
-    Case{"1 | 2mm", "warning: Binary '|' operator, right-hand-side, has units associated, ignored|3"},
-    Case{"[1] << 2in", "warning: Operation '<<': Shift count has units associated, ignored|[]"}));
+const std::vector<Case> kBits{
+    {"~5", "-6"},
+    {"6^3", "5"},
+    {"1.5<<1", "3.000"},
+    {"6.0>>1", "3.000"},
+    {"-8>>1", "-4"},
+    {"~5mm", "warning: Binary not target has units associated, ignored|-6"},
+    {"~5.0", "warning: Binary not target should be integer, converted|-6"},
+    {"5.0 & 3", "warning: Binary '&' operator, left-hand-side, should be integer, converted|1"},
+    {"1 | 2mm", "warning: Binary '|' operator, right-hand-side, has units associated, ignored|3"},
+    {"[1] << 2in", "warning: Operation '<<': Shift count has units associated, ignored|[]"},
+};
+INSTANTIATE_TEST_SUITE_P(Bits, Expression, testing::ValuesIn(kBits));
 
-INSTANTIATE_TEST_SUITE_P(Comparisons, Expression, testing::Values(
-    Case{"1mm < 1in", "1"}, Case{"1in == 25.4mm", "1"}, Case{"1 == 1.0", "1"}, Case{"0.1+0.2 == 0.3", "1"},
-    Case{"\"abc\" < \"abd\"", "1"}, Case{"[1,-] == [1,-]", "1"}, Case{"[1] != [2]", "1"}, Case{"2 >= 2", "1"},
-    Case{"1 != 1", "0"}, Case{"2147483647 + 1 < 0", "1"},
-    Case{"1in == 25.4", "warning: Possible unit mismatch; comparing units UNIT_IN with none|1"},
-    Case{"1mm == 1deg",
-         "warning: Unit mismatch in comparison, converted to <none> (LHS=UNIT_MM, RHS=UNIT_DEG)|1"},
-    Case{"[1] != [1,2]", "warning: Comparison of vectors with unequal nr. of entries is always false|0"},
-    Case{"[1] < [2]", "warning: Vectors can only be compared for equality, result is always false|0"},
-    Case{"undef() == undef()", "warning: Comparison of VAL_UNDEF with VAL_UNDEF, result is always false|0"}));
+const std::vector<Case> kComparisons{
+    {"1mm < 1in", "1"},
+    {"1in == 25.4mm", "1"},
+    {"1 == 1.0", "1"},
+    {"0.1+0.2 == 0.3", "1"},
+    {"\"abc\" < \"abd\"", "1"},
+    {"[1,-] == [1,-]", "1"},
+    {"[1] != [2]", "1"},
+    {"2 >= 2", "1"},
+    {"1 != 1", "0"},
+    {"2147483647 + 1 < 0", "1"},
+    {"1in == 25.4", "warning: Possible unit mismatch; comparing units UNIT_IN with none|1"},
+    {"1mm == 1deg",
+     "warning: Unit mismatch in comparison, converted to <none> (LHS=UNIT_MM, RHS=UNIT_DEG)|1"},
+    {"[1] != [1,2]", "warning: Comparison of vectors with unequal nr. of entries is always false|0"},
+    {"[1] < [2]", "warning: Vectors can only be compared for equality, result is always false|0"},
+    {"undef() == undef()", "warning: Comparison of VAL_UNDEF with VAL_UNDEF, result is always false|0"},
+};
+INSTANTIATE_TEST_SUITE_P(Comparisons, Expression, testing::ValuesIn(kComparisons));
 
-INSTANTIATE_TEST_SUITE_P(Truth, Expression, testing::Values(
-    Case{"1e-13 || 0", "0"}, Case{"\"\" || 0", "0"}, Case{"\"a\" && 1", "1"}, Case{"[] || 0", "0"},
-    Case{"[0] && 1", "1"}, Case{"{} || 0", "0"}, Case{"!undef()", "1"}, Case{"0.0 || 0.5", "1"}));
+const std::vector<Case> kTruth{
+    {"1e-13 || 0", "0"}, {"\"\" || 0", "0"}, {"\"a\" && 1", "1"}, {"[] || 0", "0"},
+    {"[0] && 1", "1"},   {"{} || 0", "0"},   {"!undef()", "1"},   {"0.0 || 0.5", "1"},
+};
+INSTANTIATE_TEST_SUITE_P(Truth, Expression, testing::ValuesIn(kTruth));
 
-INSTANTIATE_TEST_SUITE_P(Elements, Expression, testing::Values(
-    Case{"[1,2,3][-1]", "3"}, Case{"{[1],[2]}[-1]", "[2]"}, Case{"\"hello\"[1]", "e"}, Case{"[1,2,3].z", "3"},
-    Case{"[1,2,3][5]", "warning: Vector index out of range (5 outside [-3..2])|<undef>"},
-    Case{"[][0]", "warning: Vector index out of range (vector has no entries)|<undef>"},
-    Case{"{[1]}[1]", "warning: Vector index out of range (1 outside [-1..0])|[]"},
-    Case{"[1][0mm]", "warning: Index of [] operator has units associated, ignored|1"}));
+const std::vector<Case> kElements{
+    {"[1,2,3][-1]", "3"},
+    {"{[1],[2]}[-1]", "[2]"},
+    {"\"hello\"[1]", "e"},
+    {"[1,2,3].z", "3"},
+    {"[1,2,3][5]", "warning: Vector index out of range (5 outside [-3..2])|<undef>"},
+    {"[][0]", "warning: Vector index out of range (vector has no entries)|<undef>"},
+    {"{[1]}[1]", "warning: Vector index out of range (1 outside [-1..0])|[]"},
+    {"[1][0mm]", "warning: Index of [] operator has units associated, ignored|1"},
+};
+INSTANTIATE_TEST_SUITE_P(Elements, Expression, testing::ValuesIn(kElements));
 
 TEST(GcmcLanguage, ConstantsOfTheLanguage) {
-  EXPECT_EQ(value_of("PLANE_XY, PLANE_XZ, PLANE_YZ, COOLANT_ALL, FEEDMODE_UPR, FONT_HTIMES_ITALIC_BOLD, PLANE_QUERY"),
-            "01232773<undef>");
-  EXPECT_EQ(value_of("GCMC_VERSION == (GCMC_VERSION_MAJOR*1000 + GCMC_VERSION_MINOR)*1000 + GCMC_VERSION_POINT"), "1");
+  EXPECT_EQ(
+      value_of(
+          "PLANE_XY, PLANE_XZ, PLANE_YZ, COOLANT_ALL, FEEDMODE_UPR, FONT_HTIMES_ITALIC_BOLD, PLANE_QUERY"),
+      "01232773<undef>");
+  EXPECT_EQ(
+      value_of("GCMC_VERSION == (GCMC_VERSION_MAJOR*1000 + GCMC_VERSION_MINOR)*1000 + GCMC_VERSION_POINT"),
+      "1");
   EXPECT_EQ(value_of("__global_position"),
             "warning: Using internal variable '__global_position' strongly discouraged|"
             "[0.000mm,0.000mm,0.000mm,0.000rad,0.000rad,0.000rad]");
@@ -105,180 +181,228 @@ TEST_P(Runs, AndSays) {
   std::string all;
   for (const std::string& line : run(GetParam().text).said) {
     const std::string head = "Runtime message(): ";
-    all += (all.empty() ? "" : "|") + (line.compare(0, head.size(), head) == 0 ? line.substr(head.size()) : line);
+    all += (all.empty() ? "" : "|") +
+           (line.compare(0, head.size(), head) == 0 ? line.substr(head.size()) : line);
   }
   EXPECT_EQ(all, GetParam().said);
 }
 
-INSTANTIATE_TEST_SUITE_P(Statements, Runs, testing::Values(
-    Program{"if(0) {} elif(0) {} else { message(\"E\"); }", "E"},
-    Program{"for(i = 0; i < 3; i++) { if(i == 1) { continue; } message(i); }", "0|2"},
-    Program{"for(;1;) { break; } i = 0; while(i < 2) { i++; } message(i);", "2"},
-    Program{"i = 0; do { i++; if(i < 5) { continue; } } while(i < 3); message(i);", "3"},
-    Program{"repeat(3; i) { message(i); } message(i);", "1|2|3|3"},
-    Program{"repeat(-2; i) { message(i); }", "-1|-2"}, Program{"repeat(0) { message(1); }", ""},
-    Program{"foreach([5, -]; v) { message(v); }", "5|<undef>"},
-    Program{"l = {[1], [2]}; foreach(l; v) { v.x = 9; l += {[3]}; } message(l, v);", "{[1],[2],[3],[3]}[9]"},
-    Program{";;; x = y = 3; message(x, y);", "33"}, Program{"a =+ 2; message(a); a =- 2; message(a);", "2|-2"},
-    Program{"a = 2; message(-a++, a); message(++a, --a);", "-23|43"},
-    Program{"return 3; message(1);", ""}, Program{"foreach({[1]}; v) { return 5; }", ""}));
+const std::vector<Program> kStatements{
+    {"if(0) {} elif(0) {} else { message(\"E\"); }", "E"},
+    {"for(i = 0; i < 3; i++) { if(i == 1) { continue; } message(i); }", "0|2"},
+    {"for(;1;) { break; } i = 0; while(i < 2) { i++; } message(i);", "2"},
+    {"i = 0; do { i++; if(i < 5) { continue; } } while(i < 3); message(i);", "3"},
+    {"repeat(3; i) { message(i); } message(i);", "1|2|3|3"},
+    {"repeat(-2; i) { message(i); }", "-1|-2"},
+    {"repeat(0) { message(1); }", ""},
+    {"foreach([5, -]; v) { message(v); }", "5|<undef>"},
+    {"l = {[1], [2]}; foreach(l; v) { v.x = 9; l += {[3]}; } message(l, v);", "{[1],[2],[3],[3]}[9]"},
+    {";;; x = y = 3; message(x, y);", "33"},
+    {"a =+ 2; message(a); a =- 2; message(a);", "2|-2"},
+    {"a = 2; message(-a++, a); message(++a, --a);", "-23|43"},
+    {"return 3; message(1);", ""},
+    {"foreach({[1]}; v) { return 5; }", ""},
+};
+INSTANTIATE_TEST_SUITE_P(Statements, Runs, testing::ValuesIn(kStatements));
 
-INSTANTIATE_TEST_SUITE_P(Functions, Runs, testing::Values(
-    Program{"function f(n) { if(n <= 1) { return 1; } return n*f(n-1); } message(f(10));", "3628800"},
-    Program{"f = 3; function f() { return 4; } message(f, f());", "34"},
-    Program{"function f(&a) { a[0] = [7]; a += {[8]}; } l = {[1,2]}; f(l); message(l);", "{[7],[8]}"},
-    Program{"function f(&a) { g(a); } function g(&b) { b++; } x = 1; f(x); message(x);", "2"},
-    Program{"function f(a, b = 2, c = a0) { return a + b + c; } a0 = 10; message(f(1), \" \", f(1, 1, 1));", "13 3"},
-    Program{"function f() { return; } message(f());", "<undef>"}, Program{"function f() {} f();", ""},
-    Program{"function f(v) { v = 3; w = 4; return w; } v = 1; message(f(v), v, isdefined(\"w\"));", "410"}));
+const std::vector<Program> kFunctions{
+    {"function f(n) { if(n <= 1) { return 1; } return n*f(n-1); } message(f(10));", "3628800"},
+    {"f = 3; function f() { return 4; } message(f, f());", "34"},
+    {"function f(&a) { a[0] = [7]; a += {[8]}; } l = {[1,2]}; f(l); message(l);", "{[7],[8]}"},
+    {"function f(&a) { g(a); } function g(&b) { b++; } x = 1; f(x); message(x);", "2"},
+    {"function f(a, b = 2, c = a0) { return a + b + c; } a0 = 10; message(f(1), \" \", f(1, 1, 1));", "13 3"},
+    {"function f() { return; } message(f());", "<undef>"},
+    {"function f() {} f();", ""},
+    {"function f(v) { v = 3; w = 4; return w; } v = 1; message(f(v), v, isdefined(\"w\"));", "410"},
+};
+INSTANTIATE_TEST_SUITE_P(Functions, Runs, testing::ValuesIn(kFunctions));
 
-INSTANTIATE_TEST_SUITE_P(Scopes, Runs, testing::Values(
-    Program{"x = 5; function f() { x = 6; local x = 7; message(x); } f(); message(x);", "7|6"},
-    Program{"function o() { local q = 5; i(); } function i() { message(isdefined(\"q\")); } o();", "0"},
-    Program{"g = 1; function f() { g += 2; g.x; } message(g);", "error: Statement has no effect"},
-    Program{"g = [1]; function f() { g.y = 2; g[0]++; g *= 10; } f(); message(g);", "[20,20]"},
-    Program{"function f() { i = 5; return i; } message(f(), isdefined(\"i\")); i = 1; message(f(), i);", "50|55"},
-    Program{"function f() { repeat(2) { local a = 1; a += 1; message(a); } } f();",
-            "2|warning: Local scope variable 'a' already available in local scope|3"},
-    Program{"local a = 2; message(a);", "warning: Locally scoped variable 'a' setting without local scope, adding to "
-                                        "global scope|2"},
-    Program{"function f() { const C = 3; return C; } message(f(), f());", "33"},
-    Program{"function f() { foreach({[1]}; v) {} return isdefined(\"v\"); } message(f(), isdefined(\"v\"));", "10"}));
+const std::vector<Program> kScopes{
+    {"x = 5; function f() { x = 6; local x = 7; message(x); } f(); message(x);", "7|6"},
+    {"function o() { local q = 5; i(); } function i() { message(isdefined(\"q\")); } o();", "0"},
+    {"g = 1; function f() { g += 2; g.x; } message(g);", "error: Statement has no effect"},
+    {"g = [1]; function f() { g.y = 2; g[0]++; g *= 10; } f(); message(g);", "[20,20]"},
+    {"function f() { i = 5; return i; } message(f(), isdefined(\"i\")); i = 1; message(f(), i);", "50|55"},
+    {"function f() { repeat(2) { local a = 1; a += 1; message(a); } } f();",
+     "2|warning: Local scope variable 'a' already available in local scope|3"},
+    {"local a = 2; message(a);",
+     "warning: Locally scoped variable 'a' setting without local scope, adding to "
+     "global scope|2"},
+    {"function f() { const C = 3; return C; } message(f(), f());", "33"},
+    {"function f() { foreach({[1]}; v) {} return isdefined(\"v\"); } message(f(), isdefined(\"v\"));", "10"},
+};
+INSTANTIATE_TEST_SUITE_P(Scopes, Runs, testing::ValuesIn(kScopes));
 
-INSTANTIATE_TEST_SUITE_P(Assignments, Runs, testing::Values(
-    Program{"v = []; v[3] = 7; message(v); v.w = 9; message(v);", "[-,-,-,7]|[-,-,-,7,-,-,-,-,9]"},
-    Program{"l = {[1], [2], [3]}; l[-5] = [9]; message(l);", "{[9],[2],[3],[],[]}"},
-    Program{"l = {[1, 2]}; l[0].y = 9; l[0][0] += 1; l[1].x = 3; message(l);", "{[2,9],[3]}"},
-    Program{"a = [1, 2]; b = a; b[0] = 9; message(a, b);", "[1,2][9,2]"},
-    Program{"a = {[1], [2]}; a += a; message(a); s = \"ab\"; s += s; message(s);", "{[1],[2],[1],[2]}|abab"},
-    Program{"a = {}; a += [1, 2]; message(a); a += {[1, 2]}; message(a); a += [1]; message(a);", "{}|{[1,2]}|{[2,2]}"},
-    Program{"x = undef(); x += 1; message(x); x +|= 3mm; message(x);", "<undef>|3mm"},
-    Program{"s = \"a\"; s += 5mm; message(s);", "a5mm"}, Program{"x = 1.5; x <<= 1; message(x);", "3.000"},
-    Program{"x = 7; x %= 4; x |= 8; x &= 10; x ^= 1; x -= 1; x *= 3; x /= 2; message(x);", "15"},
-    Program{"v = [1, 2]; v.x++; --v.y; message(v, v.x++, v);", "[2,1]2[3,1]"},
-    Program{"i = 1; message(i + (i = 5), i);", "65"}, Program{"v = [1, 2, 3]; v = [v.z, v.y, v.x]; message(v);", "[3,2,1]"},
-    Program{"x = 1; x = x ? x + 1 : x; message(x); x = x && x; message(x);", "2|1"},
-    Program{"\"a\"; x = 1;", "error: Statement has no effect"}));
+const std::vector<Program> kAssignments{
+    {"v = []; v[3] = 7; message(v); v.w = 9; message(v);", "[-,-,-,7]|[-,-,-,7,-,-,-,-,9]"},
+    {"l = {[1], [2], [3]}; l[-5] = [9]; message(l);", "{[9],[2],[3],[],[]}"},
+    {"l = {[1, 2]}; l[0].y = 9; l[0][0] += 1; l[1].x = 3; message(l);", "{[2,9],[3]}"},
+    {"a = [1, 2]; b = a; b[0] = 9; message(a, b);", "[1,2][9,2]"},
+    {"a = {[1], [2]}; a += a; message(a); s = \"ab\"; s += s; message(s);", "{[1],[2],[1],[2]}|abab"},
+    {"a = {}; a += [1, 2]; message(a); a += {[1, 2]}; message(a); a += [1]; message(a);",
+     "{}|{[1,2]}|{[2,2]}"},
+    {"x = undef(); x += 1; message(x); x +|= 3mm; message(x);", "<undef>|3mm"},
+    {"s = \"a\"; s += 5mm; message(s);", "a5mm"},
+    {"x = 1.5; x <<= 1; message(x);", "3.000"},
+    {"x = 7; x %= 4; x |= 8; x &= 10; x ^= 1; x -= 1; x *= 3; x /= 2; message(x);", "15"},
+    {"v = [1, 2]; v.x++; --v.y; message(v, v.x++, v);", "[2,1]2[3,1]"},
+    {"i = 1; message(i + (i = 5), i);", "65"},
+    {"v = [1, 2, 3]; v = [v.z, v.y, v.x]; message(v);", "[3,2,1]"},
+    {"x = 1; x = x ? x + 1 : x; message(x); x = x && x; message(x);", "2|1"},
+    {"\"a\"; x = 1;", "error: Statement has no effect"},
+};
+INSTANTIATE_TEST_SUITE_P(Assignments, Runs, testing::ValuesIn(kAssignments));
 
-INSTANTIATE_TEST_SUITE_P(RuntimeErrors, Runs, testing::Values(
-    Program{"message(y);", "error: Variable 'y' undefined"}, Program{"y += 1;", "error: Variable 'y' undefined"},
-    Program{"v[0] = 1;", "error: Variable 'v' undefined"}, Program{"f();", "error: Function 'f' not found"},
-    Program{"f(); function f() {}", "error: Function 'f' not found"},
-    Program{"f(1); function f() {}", "error: Function 'f' not found"},
-    Program{"function f() {} x = f();",
-            "error: Function call 'f()' did not return a value, but is used in assignment or calculation"},
-    Program{"function f(a, b) {} f(1);", "error: Incorrect number of arguments in call to 'f'"},
-    Program{"function f(&a) {} f(1);", "error: f argument 1: Cannot pass expression by reference"},
-    Program{"function f(&a) {} f(zz);", "error: Variable 'zz' undefined"},
-    Program{"repeat(2) { function g() {} }", "error: Function 'g' already defined"},
-    Program{"const A = 1; const A = 2;", "error: Constant 'A' already defined"},
-    Program{"A = 1; const A = 2;", "error: Constant 'A' already defined as variable"},
-    Program{"const C = 1; C = 2;", "error: Attempt to assign to const variable 'C'"},
-    Program{"const C = 1; C++;", "error: Attempt to assign to const variable 'C'"},
-    Program{"const C = 1; C += 1;", "error: Attempt to assign to const variable 'C'"},
-    Program{"const C = [1]; C.x = 5;", "error: Attempt to assign to const variable 'C'"},
-    Program{"const C = 1; foreach({[1]}; C) {}", "error: Attempt to assign to const variable 'C'"},
-    Program{"const C = 1; function f(&a) { a = 2; } f(C);", "error: Attempt to assign to const variable 'a' (from 'C')"},
-    Program{"PLANE_XY = 3;", "error: Attempt to assign to const variable 'PLANE_XY'"},
-    Program{"if(1) { continue; }", "error: Unexpected break or continue"},
-    Program{"x = 1%0;", "error: Modulo by zero"}, Program{"x = 1/0;", "error: Divide by zero"},
-    Program{"x = 1.0%0;", "error: Modulo by zero"},
-    Program{"x = 1/0.0;", "error: Divide by zero (|val| < 1.000000e-12)"},
-    Program{"x = [1, [2]];", "error: Vector entries must be scalar"},
-    Program{"x = [undef(), 1];", "error: Vector entries must be scalar"},
-    Program{"x = [1, 2, 3, undef()];", "error: Vector entries must be scalar"},
-    Program{"x = {1};", "error: Vectorlist entries must be vectors"},
-    Program{"repeat([1]) {}", "error: Repeat's source must be scalar"},
-    Program{"repeat(1.5) {}",
-            "warning: Repeat's source is floating point and has a non-integer fraction, truncated to integer"},
-    Program{"repeat(1mm) {}", "warning: Repeat's source has units associated, ignored"},
-    Program{"foreach(1; v) {}", "error: Foreach's source must be vector or vectorlist"}));
+const std::vector<Program> kRuntimeErrors{
+    {"message(y);", "error: Variable 'y' undefined"},
+    {"y += 1;", "error: Variable 'y' undefined"},
+    {"v[0] = 1;", "error: Variable 'v' undefined"},
+    {"f();", "error: Function 'f' not found"},
+    {"f(); function f() {}", "error: Function 'f' not found"},
+    {"f(1); function f() {}", "error: Function 'f' not found"},
+    {"function f() {} x = f();",
+     "error: Function call 'f()' did not return a value, but is used in assignment or calculation"},
+    {"function f(a, b) {} f(1);", "error: Incorrect number of arguments in call to 'f'"},
+    {"function f(&a) {} f(1);", "error: f argument 1: Cannot pass expression by reference"},
+    {"function f(&a) {} f(zz);", "error: Variable 'zz' undefined"},
+    {"repeat(2) { function g() {} }", "error: Function 'g' already defined"},
+    {"const A = 1; const A = 2;", "error: Constant 'A' already defined"},
+    {"A = 1; const A = 2;", "error: Constant 'A' already defined as variable"},
+    {"const C = 1; C = 2;", "error: Attempt to assign to const variable 'C'"},
+    {"const C = 1; C++;", "error: Attempt to assign to const variable 'C'"},
+    {"const C = 1; C += 1;", "error: Attempt to assign to const variable 'C'"},
+    {"const C = [1]; C.x = 5;", "error: Attempt to assign to const variable 'C'"},
+    {"const C = 1; foreach({[1]}; C) {}", "error: Attempt to assign to const variable 'C'"},
+    {"const C = 1; function f(&a) { a = 2; } f(C);",
+     "error: Attempt to assign to const variable 'a' (from 'C')"},
+    {"PLANE_XY = 3;", "error: Attempt to assign to const variable 'PLANE_XY'"},
+    {"if(1) { continue; }", "error: Unexpected break or continue"},
+    {"x = 1%0;", "error: Modulo by zero"},
+    {"x = 1/0;", "error: Divide by zero"},
+    {"x = 1.0%0;", "error: Modulo by zero"},
+    {"x = 1/0.0;", "error: Divide by zero (|val| < 1.000000e-12)"},
+    {"x = [1, [2]];", "error: Vector entries must be scalar"},
+    {"x = [undef(), 1];", "error: Vector entries must be scalar"},
+    {"x = [1, 2, 3, undef()];", "error: Vector entries must be scalar"},
+    {"x = {1};", "error: Vectorlist entries must be vectors"},
+    {"repeat([1]) {}", "error: Repeat's source must be scalar"},
+    {"repeat(1.5) {}",
+     "warning: Repeat's source is floating point and has a non-integer fraction, truncated to "
+     "integer"},
+    {"repeat(1mm) {}", "warning: Repeat's source has units associated, ignored"},
+    {"foreach(1; v) {}", "error: Foreach's source must be vector or vectorlist"},
+};
+INSTANTIATE_TEST_SUITE_P(RuntimeErrors, Runs, testing::ValuesIn(kRuntimeErrors));
 
-INSTANTIATE_TEST_SUITE_P(TypeErrors, Runs, testing::Values(
-    Program{"x = -\"a\";", "error: Scalars and vectors can only be multiplied by scalars and vectors (lv=VAL_STRING, "
-                           "rv=VAL_INT)"},
-    Program{"x = \"a\" - \"b\";",
-            "error: Only scalars/vectors can be subtracted from scalars/vectors (lv=VAL_STRING, rv=VAL_STRING)"},
-    Program{"x = 1 + [1];", "error: Scalars and vectors can only be added to scalars vectors and vector lists "
-                            "(lv=VAL_INT, rv=VAL_VECTOR)"},
-    Program{"x = {[1]} - {[1]};", "error: Only scalars/vectors can be subtracted from scalars/vectors "
-                                  "(lv=VAL_VECTORLIST, rv=VAL_VECTORLIST)"},
-    Program{"x = [1]/[2];", "error: Scalars, vectors and vectorlists can only be divided by scalars (lv=VAL_VECTOR, "
-                            "rv=VAL_VECTOR)"},
-    Program{"x = [1]%[2];", "error: Scalars, vectors and vectorlists can only be taken modulo by scalars (lv=VAL_VECTOR, "
-                            "rv=VAL_VECTOR)"},
-    Program{"x = [1]^[2];", "error: Operator '^' cannot be applied to these types (lv=VAL_VECTOR, rv=VAL_VECTOR)"},
-    Program{"x = ~[1];", "error: Binary not target must be scalar (VAL_VECTOR)"},
-    Program{"x = 1 << -1;", "error: Operation '<<': Shift count is negative"},
-    Program{"x = 1 << 32;", "error: Operation '<<': Shift count too large"},
-    Program{"x = [1] >> 2000000000;", "error: Operation '>>': Shift count too large"},
-    Program{"x = [1,2][[0]];", "error: Index of [] operator is not scalar"},
-    Program{"x = 5; y = x[0];", "error: Only vectors, vectorlists and strings can be indexed (VAL_INT)"},
-    Program{"s = \"abc\"; s[0] = \"d\";", "error: Strings cannot be indexed as lvalues"},
-    Program{"x = 1; x[0] = 1;", "error: Only vectors and vectorlists can be indexed as lvalues (VAL_INT)"},
-    Program{"v = [1]; v[0] = [1];", "error: Vector entries must be scalar (VAL_VECTOR)"},
-    Program{"l = {[1]}; l[0] = 1;", "error: Vectorlist entries must be vectors (VAL_INT)"},
-    Program{"v = [1]; v[2000000000] = 1;", "error: Index 2000000000 is too large"},
-    Program{"l = {[1]}; l[0].x.y = 1;", "error: Lvalue expected"},
-    Program{"v = [1]; v[3] += 1;",
-            "warning: Vector index out of range (3 outside [-1..0])|error: Lvalue expected"},
-    Program{"v = [1]; v[3]++; message(v);", "warning: Vector index out of range (3 outside [-1..0])|"
-                                            "warning: Increment on non-scalar (VAL_UNDEF) has no effect|[1]"},
-    Program{"s = \"a\"; s--;", "warning: Decrement on non-scalar (VAL_STRING) has no effect"}));
+const std::vector<Program> kTypeErrors{
+    {"x = -\"a\";",
+     "error: Scalars and vectors can only be multiplied by scalars and vectors (lv=VAL_STRING, "
+     "rv=VAL_INT)"},
+    {"x = \"a\" - \"b\";",
+     "error: Only scalars/vectors can be subtracted from scalars/vectors (lv=VAL_STRING, "
+     "rv=VAL_STRING)"},
+    {"x = 1 + [1];",
+     "error: Scalars and vectors can only be added to scalars vectors and vector lists "
+     "(lv=VAL_INT, rv=VAL_VECTOR)"},
+    {"x = {[1]} - {[1]};",
+     "error: Only scalars/vectors can be subtracted from scalars/vectors "
+     "(lv=VAL_VECTORLIST, rv=VAL_VECTORLIST)"},
+    {"x = [1]/[2];",
+     "error: Scalars, vectors and vectorlists can only be divided by scalars (lv=VAL_VECTOR, "
+     "rv=VAL_VECTOR)"},
+    {"x = [1]%[2];",
+     "error: Scalars, vectors and vectorlists can only be taken modulo by scalars (lv=VAL_VECTOR, "
+     "rv=VAL_VECTOR)"},
+    {"x = [1]^[2];", "error: Operator '^' cannot be applied to these types (lv=VAL_VECTOR, rv=VAL_VECTOR)"},
+    {"x = ~[1];", "error: Binary not target must be scalar (VAL_VECTOR)"},
+    {"x = 1 << -1;", "error: Operation '<<': Shift count is negative"},
+    {"x = 1 << 32;", "error: Operation '<<': Shift count too large"},
+    {"x = [1] >> 2000000000;", "error: Operation '>>': Shift count too large"},
+    {"x = [1,2][[0]];", "error: Index of [] operator is not scalar"},
+    {"x = 5; y = x[0];", "error: Only vectors, vectorlists and strings can be indexed (VAL_INT)"},
+    {"s = \"abc\"; s[0] = \"d\";", "error: Strings cannot be indexed as lvalues"},
+    {"x = 1; x[0] = 1;", "error: Only vectors and vectorlists can be indexed as lvalues (VAL_INT)"},
+    {"v = [1]; v[0] = [1];", "error: Vector entries must be scalar (VAL_VECTOR)"},
+    {"l = {[1]}; l[0] = 1;", "error: Vectorlist entries must be vectors (VAL_INT)"},
+    {"v = [1]; v[2000000000] = 1;", "error: Index 2000000000 is too large"},
+    {"l = {[1]}; l[0].x.y = 1;", "error: Lvalue expected"},
+    {"v = [1]; v[3] += 1;", "warning: Vector index out of range (3 outside [-1..0])|error: Lvalue expected"},
+    {"v = [1]; v[3]++; message(v);",
+     "warning: Vector index out of range (3 outside [-1..0])|"
+     "warning: Increment on non-scalar (VAL_UNDEF) has no effect|[1]"},
+    {"s = \"a\"; s--;", "warning: Decrement on non-scalar (VAL_STRING) has no effect"},
+};
+INSTANTIATE_TEST_SUITE_P(TypeErrors, Runs, testing::ValuesIn(kTypeErrors));
 
-INSTANTIATE_TEST_SUITE_P(SyntaxErrors, Runs, testing::Values(
-    Program{"1+2;", "error: Statement has no effect"}, Program{"x;", "error: Statement has no effect"},
-    Program{"x = 1\n", "error: ';' expected"}, Program{"while(1) x=1;", "error: '{' expected"},
-    Program{"if (1) message(\"x\");", "error: '{' expected"}, Program{"do { i=0; } while(0)\n", "error: ';' expected"},
-    Program{"x = 1; x.q = 2;", "error: Index can only be an axis name"},
-    Program{"\"abc\"[0]=\"d\";", "error: Lvalue not a variable, cannot be dereferenced"},
-    Program{"5 = 3;", "error: Lvalue not a variable, cannot be dereferenced"},
-    Program{"(x) = 3;", "error: Lvalue not a variable, cannot be dereferenced"},
-    Program{"x = 3 3;", "error: ';' expected|error: Statement has no effect"},
-    Program{"[1]++;", "error: Statement post-increment on a constant has no effect|error: Statement has no effect"},
-    Program{"--3;", "error: Statement pre-decrement on a constant has no effect|error: Statement has no effect"},
-    Program{"function ff(){} function ff(){}", "error: Function name 'ff' is already defined"},
-    Program{"function sin(){}", "error: Function name 'sin' is reserved as built-in function"},
-    Program{"function f() { function g() {} }", "error: Function in functions not supported"},
-    Program{"function f(a = 1, b) {}",
-            "error: Argument 'b' must have a default value because a previous argument has one"},
-    Program{"function f(&a = 1) {}", "error: Reference argument 'a' cannot have a default"},
-    Program{"function f(a, a) {}", "error: Argument name 'a' is used twice"},
-    Program{"const A;", "error: '=' expected"}, Program{"include(1);", "error: Name of the file expected"},
-    Program{"include(\"nofile.gcmc\");", "error: Include file 'nofile.gcmc' cannot be found"},
-    Program{"for(local i = 0; i < 2; i++) {}",
-            "error: ';' expected|error: Statement has no effect|error: ';' expected|error: Syntax error|error: Syntax error"},
-    Program{"{ x = 1; }", "error: Syntax error"}, Program{"mm = 3;", "error: Syntax error"},
-    Program{"foreach({}; in) {}", "error: Variable name expected"},
-    Program{"if(x=1) {}", "warning: Assignment in boolean expression may be an inadvertent error, use () to force"},
-    Program{"if((x=1)) {}", ""}, Program{"x = ; y = ;", "error: Expression expected after '='|error: Expression expected "
-                                                         "after '='"},
-    Program{"__global_offset = [1];", "warning: Using internal variable '__global_offset' strongly discouraged|"
-                                      "error: Assigning to read-only variable '__global_offset' not allowed"}));
+const std::vector<Program> kSyntaxErrors{
+    {"1+2;", "error: Statement has no effect"},
+    {"x;", "error: Statement has no effect"},
+    {"x = 1\n", "error: ';' expected"},
+    {"while(1) x=1;", "error: '{' expected"},
+    {"if (1) message(\"x\");", "error: '{' expected"},
+    {"do { i=0; } while(0)\n", "error: ';' expected"},
+    {"x = 1; x.q = 2;", "error: Index can only be an axis name"},
+    {"\"abc\"[0]=\"d\";", "error: Lvalue not a variable, cannot be dereferenced"},
+    {"5 = 3;", "error: Lvalue not a variable, cannot be dereferenced"},
+    {"(x) = 3;", "error: Lvalue not a variable, cannot be dereferenced"},
+    {"x = 3 3;", "error: ';' expected|error: Statement has no effect"},
+    {"[1]++;", "error: Statement post-increment on a constant has no effect|error: Statement has no effect"},
+    {"--3;", "error: Statement pre-decrement on a constant has no effect|error: Statement has no effect"},
+    {"function ff(){} function ff(){}", "error: Function name 'ff' is already defined"},
+    {"function sin(){}", "error: Function name 'sin' is reserved as built-in function"},
+    {"function f() { function g() {} }", "error: Function in functions not supported"},
+    {"function f(a = 1, b) {}",
+     "error: Argument 'b' must have a default value because a previous argument has one"},
+    {"function f(&a = 1) {}", "error: Reference argument 'a' cannot have a default"},
+    {"function f(a, a) {}", "error: Argument name 'a' is used twice"},
+    {"const A;", "error: '=' expected"},
+    {"include(1);", "error: Name of the file expected"},
+    {"include(\"nofile.gcmc\");", "error: Include file 'nofile.gcmc' cannot be found"},
+    {"for(local i = 0; i < 2; i++) {}",
+     "error: ';' expected|error: Statement has no effect|error: ';' expected|error: Syntax "
+     "error|error: Syntax error"},
+    {"{ x = 1; }", "error: Syntax error"},
+    {"mm = 3;", "error: Syntax error"},
+    {"foreach({}; in) {}", "error: Variable name expected"},
+    {"if(x=1) {}", "warning: Assignment in boolean expression may be an inadvertent error, use () to force"},
+    {"if((x=1)) {}", ""},
+    {"x = ; y = ;",
+     "error: Expression expected after '='|error: Expression expected "
+     "after '='"},
+    {"__global_offset = [1];",
+     "warning: Using internal variable '__global_offset' strongly discouraged|"
+     "error: Assigning to read-only variable '__global_offset' not allowed"},
+};
+INSTANTIATE_TEST_SUITE_P(SyntaxErrors, Runs, testing::ValuesIn(kSyntaxErrors));
 
-INSTANTIATE_TEST_SUITE_P(Words, Runs, testing::Values(
-    Program{"x = 0xZZ;\nx = 2;", "error: Bad hexadecimal number '0xZZ;'"},
-    Program{"x = 0X10;", "error: ';' expected|error: Statement has no effect"},
-    Program{"y = 1e;", "error: Bad floating point number '1e', missing exponent magnitude|"
-                       "error: Expression expected after '='"},
-    Program{"y = 1e999;", "error: Number '1e999' is too large|error: Expression expected after '='"},
-    Program{"z = \"a\\400\";", "error: Character constant out of range|"
-                              "warning: Skipping embedded UTF-8 NUL embedding 2/1"},
-    Program{"w = \"\\x4\";", "error: Invalid hex escape sequence '\\x4'"},
-    Program{"q = \"\\0\";", "error: Embedded '\\0' character not allowed|"
-                           "warning: Skipping embedded UTF-8 NUL embedding 1/0"},
-    Program{"q = \"\\1017\";", "error: Bad escape sequence"},
-    Program{"q = \"\\xff\";", "error: String is not valid UTF-8"},
-    Program{"q = \"\\xc1\\x81\";", "warning: String has over-long UTF-8 sequences"},
-    Program{"$", "error: Illegal character in text '$' (0x24)"},
-    Program{"x = \"unterminated\n", "error: Unterminated string|fatal: Unexpected EOF"},
-    Program{"/* no end", "fatal: Unexpected EOF"},
-    Program{"x = \"a\" \n \"b\";", "error: ';' expected|error: Statement has no effect"},
-    Program{"x = 3000000000; message(x);", "warning: Integer '3000000000' does not fit 32 bits and becomes -1294967296|"
-                                           "-1294967296"},
-    Program{"x = 0x1ffffffff; message(x);",
-            "warning: Hexadecimal number does not fit 32 bits, upper bits lost|-1"},
-    Program{"\xEF\xBB\xBFmessage(1);", "1"}));
+const std::vector<Program> kWords{
+    {"x = 0xZZ;\nx = 2;", "error: Bad hexadecimal number '0xZZ;'"},
+    {"x = 0X10;", "error: ';' expected|error: Statement has no effect"},
+    {"y = 1e;",
+     "error: Bad floating point number '1e', missing exponent magnitude|"
+     "error: Expression expected after '='"},
+    {"y = 1e999;", "error: Number '1e999' is too large|error: Expression expected after '='"},
+    {"z = \"a\\400\";",
+     "error: Character constant out of range|"
+     "warning: Skipping embedded UTF-8 NUL embedding 2/1"},
+    {"w = \"\\x4\";", "error: Invalid hex escape sequence '\\x4'"},
+    {"q = \"\\0\";",
+     "error: Embedded '\\0' character not allowed|"
+     "warning: Skipping embedded UTF-8 NUL embedding 1/0"},
+    {"q = \"\\1017\";", "error: Bad escape sequence"},
+    {"q = \"\\xff\";", "error: String is not valid UTF-8"},
+    {"q = \"\\xc1\\x81\";", "warning: String has over-long UTF-8 sequences"},
+    {"$", "error: Illegal character in text '$' (0x24)"},
+    {"x = \"unterminated\n", "error: Unterminated string|fatal: Unexpected EOF"},
+    {"/* no end", "fatal: Unexpected EOF"},
+    {"x = \"a\" \n \"b\";", "error: ';' expected|error: Statement has no effect"},
+    {"x = 3000000000; message(x);",
+     "warning: Integer '3000000000' does not fit 32 bits and becomes -1294967296|"
+     "-1294967296"},
+    {"x = 0x1ffffffff; message(x);", "warning: Hexadecimal number does not fit 32 bits, upper bits lost|-1"},
+    {"\xEF\xBB\xBFmessage(1);", "1"},
+};
+INSTANTIATE_TEST_SUITE_P(Words, Runs, testing::ValuesIn(kWords));
 
 TEST(GcmcLanguage, ReturnAtTheTopIsTheExitStatus) {
   EXPECT_EQ(run("return 3;").run.status, 3);
@@ -314,6 +438,39 @@ TEST(GcmcLanguage, PlacesAreThoseOfTheRealProgram) {
   EXPECT_EQ(at("message(~5mm);"), "1:11");
   EXPECT_EQ(at("1+2;"), "1:5");
 }
+
+struct Coded {
+  const char* program;
+  Code code;
+};
+class Codes : public testing::TestWithParam<Coded> {};
+TEST_P(Codes, AreStable) {
+  const auto ran = run(GetParam().program);
+  ASSERT_FALSE(ran.messages.empty());
+  EXPECT_EQ(ran.messages.front().code, GetParam().code);
+  EXPECT_EQ(ran.diagnostics.list().front().code, GetParam().code);
+}
+const std::vector<Coded> kEach{
+    {"$", Code::gcmc_word},
+    {"x;", Code::gcmc_syntax},
+    {"include(\"no\");", Code::gcmc_include_missing},
+    {"const A = 1; const A = 1;", Code::gcmc_defined_twice},
+    {"if(x = 1) {}", Code::gcmc_suspicious},
+    {"x = 3000000000;", Code::gcmc_number_wraps},
+    {"x = \"\\xff\";", Code::gcmc_text_encoding},
+    {"x = y;", Code::gcmc_unknown_name},
+    {"x = 1 + [1];", Code::gcmc_type},
+    {"x = 1mm + 1deg;", Code::gcmc_unit},
+    {"x = 1/0;", Code::gcmc_range},
+    {"x = sin();", Code::gcmc_arguments},
+    {"PLANE_XY = 1;", Code::gcmc_constant},
+    {"break;", Code::gcmc_control},
+    {"goto([]);", Code::gcmc_geometry},
+    {"typeset(\"a\", 99);", Code::gcmc_glyph},
+    {"function f() { f(); } f();", Code::gcmc_limit},
+    {"error(1);", Code::gcmc_script},
+};
+INSTANTIATE_TEST_SUITE_P(Each, Codes, testing::ValuesIn(kEach));
 
 TEST(GcmcLanguage, HintsNameWhatWasMeant) {
   EXPECT_EQ(run("radius = 1; x = raduis;").messages.at(0).hint, "did you mean 'radius'?");
@@ -362,12 +519,28 @@ TEST(GcmcLimits, MemoryIsBounded) {
                               "l = {[1]}; while(1) { l += l; }", "v = []; i = 0; while(1) { v[i++] = 1; }",
                               "v = []; v[40000000] = 1;", "x = {[1]} >> 40000000;",
                               "s = \"abcdefgh\"; repeat(12) { s += s; } x = typeset(s, 1);"})
-    EXPECT_EQ(said_by(program, options), "error: The program uses more than 1 MB for vectors, lists and strings") << program;
+    EXPECT_EQ(said_by(program, options),
+              "error: The program uses more than 1 MB for vectors, lists and strings")
+        << program;
+}
+
+TEST(GcmcLimits, TextsOfTheToolpathAreBounded) {
+  GcmcOptions options = bare();
+  options.max_memory = 1 << 20;
+  for (const char* program :
+       {"i = 0; while(1) { comment(\"number \", i++); }", "while(1) { literal(\"a\"); }"})
+    EXPECT_NE(said_by(program, options).find("more than 1 MB"), std::string::npos) << program;
+  options.max_path_steps = 100;
+  EXPECT_NE(said_by("while(1) { coolant(1); }", options).find("more than 100 steps"), std::string::npos);
 }
 
 TEST(GcmcLimits, NestingIsBounded) {
-  EXPECT_NE(said_by("x = " + std::string(5000, '(') + "1" + std::string(5000, ')') + ";").find("nested too deeply"),
-            std::string::npos);
+  EXPECT_NE(
+      said_by("x = " + std::string(5000, '(') + "1" + std::string(5000, ')') + ";").find("nested too deeply"),
+      std::string::npos);
+  std::string sum = "x = 1";
+  for (int i = 0; i < 100'000; ++i) sum += "+y";
+  EXPECT_NE(said_by(sum + ";").find("nested too deeply"), std::string::npos);
   std::string blocks;
   for (int i = 0; i < 2000; ++i) blocks += "if(1) {";
   EXPECT_NE(said_by(blocks).find("nested too deeply"), std::string::npos);

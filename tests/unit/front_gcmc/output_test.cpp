@@ -1,8 +1,7 @@
 // The two forms of output: the text, and the toolpath with its origins; and the library.
-#include <gtest/gtest.h>
-
 #include <cstdio>
 #include <fstream>
+#include <gtest/gtest.h>
 
 #include "gcmc_run.h"
 
@@ -28,12 +27,14 @@ TEST(GcmcText, HeadAndEnd) {
   options.date = "2026-01-31 12:00:00";
   options.imperial = options.relative = true;
   options.plane = Plane::xz;
-  EXPECT_EQ(run("", options).text,
-            "(gcmc compiled code, do not change)\n(2026-01-31 12:00:00)\n(-- prologue begin --)\nG18 ( Use XZ plane )\n"
-            "G20 ( Use inch )\nG40 ( Cancel cutter radius compensation )\nG49 ( Cancel tool length compensation )\n"
-            "G54 ( Default coordinate system )\nG80 ( Cancel canned cycle )\nG91 ( Use relative distance mode )\n"
-            "G94 ( Units Per Minute feed rate mode )\nG64 ( Enable path blending for best speed )\n"
-            "(-- prologue end --)\n(-- epilogue begin --)\nM30 (-- epilogue end --)\n");
+  EXPECT_EQ(
+      run("", options).text,
+      "(gcmc compiled code, do not change)\n(2026-01-31 12:00:00)\n(-- prologue begin --)\nG18 ( Use XZ "
+      "plane )\n"
+      "G20 ( Use inch )\nG40 ( Cancel cutter radius compensation )\nG49 ( Cancel tool length compensation )\n"
+      "G54 ( Default coordinate system )\nG80 ( Cancel canned cycle )\nG91 ( Use relative distance mode )\n"
+      "G94 ( Units Per Minute feed rate mode )\nG64 ( Enable path blending for best speed )\n"
+      "(-- prologue end --)\n(-- epilogue begin --)\nM30 (-- epilogue end --)\n");
 }
 
 TEST(GcmcText, SubroutineAndOwnFrames) {
@@ -68,11 +69,12 @@ TEST(GcmcText, OffsetsAndUvw) {
 
 TEST(GcmcText, BriefLeavesOutWhatIsInForce) {
   const GcmcOptions options = with([](GcmcOptions& o) { o.brief = true; });
-  EXPECT_EQ(run("feedrate(10); feedrate(10); goto([1, 2, 3]); goto([1, 2, 4]); move([1, 2, 4]); move([2, 2], 10);"
-                "arc_cw([4, 2], 1); move([4, 3]);",
-                options)
-                .text,
-            "F10.000\nG0 X1.000 Y2.000 Z3.000\nZ4.000\nG1\nX2.000\nG2 X4.000 Y2.000 I1.000 J0.000\nG1 Y3.000\n");
+  EXPECT_EQ(
+      run("feedrate(10); feedrate(10); goto([1, 2, 3]); goto([1, 2, 4]); move([1, 2, 4]); move([2, 2], 10);"
+          "arc_cw([4, 2], 1); move([4, 3]);",
+          options)
+          .text,
+      "F10.000\nG0 X1.000 Y2.000 Z3.000\nZ4.000\nG1\nX2.000\nG2 X4.000 Y2.000 I1.000 J0.000\nG1 Y3.000\n");
 }
 
 TEST(GcmcText, NumbersKeepTheirSignAndRounding) {
@@ -120,9 +122,11 @@ TEST(GcmcPath, ArcsHaveAbsoluteCentres) {
 }
 
 TEST(GcmcPath, EverythingElseHasItsStep) {
-  const auto ran = run("spindle(-100); spindlespeed(50); coolant(3); pathmode(1); pathmode(0.5, 1); pause(1);"
-                       "comment(\"c\"); literal(\"G4\", \" P1\\nM9\"); layerstack(\"a\"); layer(\"a\"); feedmode(2); move([1], 2);"
-                       "svg_closepath(); fixpos_store(1); goto([1,2,3,0,0,90]); fixpos_restore(1);");
+  const auto ran =
+      run("spindle(-100); spindlespeed(50); coolant(3); pathmode(1); pathmode(0.5, 1); pause(1);"
+          "comment(\"c\"); literal(\"G4\", \" P1\\nM9\"); layerstack(\"a\"); layer(\"a\"); feedmode(2); "
+          "move([1], 2);"
+          "svg_closepath(); fixpos_store(1); goto([1,2,3,0,0,90]); fixpos_restore(1);");
   const Toolpath& p = ran.run.path;
   ASSERT_EQ(p.size(), 16u);
   EXPECT_EQ(p[0].spindle().turn, SpindleTurn::ccw);
@@ -175,7 +179,8 @@ TEST(GcmcPath, OriginsReachThroughTheLibrary) {
 TEST(GcmcPath, TheNumberOfStepsIsLimited) {
   GcmcOptions options = bare();
   options.max_path_steps = 100;
-  EXPECT_EQ(said_by("repeat(1000; i) { move([i]); }", options), "error: The toolpath has more than 100 steps");
+  EXPECT_EQ(said_by("repeat(1000; i) { move([i]); }", options),
+            "error: The toolpath has more than 100 steps");
 }
 
 // ---- include
@@ -189,7 +194,8 @@ TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
   const auto ran = run("include(\"kerf_gcmc_included.gcmc\");", options);
   EXPECT_EQ(to_string(ran.messages.at(0).where), folder + "/kerf_gcmc_included.gcmc:2:13");
   std::ofstream(file) << "include(\"kerf_gcmc_included.gcmc\");\n";
-  EXPECT_NE(said_by("include(\"kerf_gcmc_included.gcmc\");", options).find("nested too deeply"), std::string::npos);
+  EXPECT_NE(said_by("include(\"kerf_gcmc_included.gcmc\");", options).find("nested too deeply"),
+            std::string::npos);
   std::remove(file.c_str());
 }
 
@@ -198,36 +204,41 @@ TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
 const std::string kDrill = "include(\"canned_drill.inc.gcmc\"); ";
 
 TEST(GcmcLibrary, DrillCycle) {
-  EXPECT_EQ(run(kDrill + "goto([0,0,10]); canned_drill({[1,1,-2],[2],[-,3,-3]}, 5, 0.5, 1);").text,
-            "G0 X0.000 Y0.000 Z10.000\n(-- canned_drill R-plane=5.000mm dewlling=0.500 return-to-old-Z=1 --)\nG61\n"
-            "G0 X1.000 Y1.000\nG0 Z5.000\nG1 Z-2.000\nG4 P0.500\nG0 Z10.000\n"
-            "G0 X2.000\nG0 Z5.000\nG1 Z-2.000\nG4 P0.500\nG0 Z10.000\n"
-            "G0 Y3.000\nG0 Z5.000\nG1 Z-3.000\nG4 P0.500\nG0 Z10.000\nG0 Z10.000\n(-- end canned_drill --)\n");
+  EXPECT_EQ(
+      run(kDrill + "goto([0,0,10]); canned_drill({[1,1,-2],[2],[-,3,-3]}, 5, 0.5, 1);").text,
+      "G0 X0.000 Y0.000 Z10.000\n(-- canned_drill R-plane=5.000mm dewlling=0.500 return-to-old-Z=1 --)\nG61\n"
+      "G0 X1.000 Y1.000\nG0 Z5.000\nG1 Z-2.000\nG4 P0.500\nG0 Z10.000\n"
+      "G0 X2.000\nG0 Z5.000\nG1 Z-2.000\nG4 P0.500\nG0 Z10.000\n"
+      "G0 Y3.000\nG0 Z5.000\nG1 Z-3.000\nG4 P0.500\nG0 Z10.000\nG0 Z10.000\n(-- end canned_drill --)\n");
 }
 
 TEST(GcmcLibrary, PeckCycle) {
-  EXPECT_EQ(run(kDrill + "goto([0,0,10]); canned_drill_peck({[1,1,-4]}, 5mm, 3mm, 0);").text,
-            "G0 X0.000 Y0.000 Z10.000\n(-- canned_drill_peck R-plane=5.000mm peck-increment=3.000mm "
-            "return-to-old-Z=0 --)\nG61\nG0 X1.000 Y1.000\nG0 Z5.000\nG1 Z2.000\nG0 Z5.000\nG0 Z2.200\nG1 Z-1.000\n"
-            "G0 Z5.000\nG0 Z-0.800\nG1 Z-4.000\nG0 Z5.000\n(-- end canned_drill_peck --)\n");
+  EXPECT_EQ(
+      run(kDrill + "goto([0,0,10]); canned_drill_peck({[1,1,-4]}, 5mm, 3mm, 0);").text,
+      "G0 X0.000 Y0.000 Z10.000\n(-- canned_drill_peck R-plane=5.000mm peck-increment=3.000mm "
+      "return-to-old-Z=0 --)\nG61\nG0 X1.000 Y1.000\nG0 Z5.000\nG1 Z2.000\nG0 Z5.000\nG0 Z2.200\nG1 Z-1.000\n"
+      "G0 Z5.000\nG0 Z-0.800\nG1 Z-4.000\nG0 Z5.000\n(-- end canned_drill_peck --)\n");
 }
 
 TEST(GcmcLibrary, DrillRefusals) {
   EXPECT_EQ(said_by(kDrill + "canned_drill({[1,1]}, 5mm, -1, 0);"),
             "Runtime error(): canned_drill(): Argument 1 'holelist[0]' has no Z-coordinate");
-  EXPECT_EQ(said_by(kDrill + "canned_drill({}, 5mm, -1, 0);"),
-            "Runtime warning(): canned_drill(): Argument 1 'holelist' has no entries, canned cycle not performed");
+  EXPECT_EQ(
+      said_by(kDrill + "canned_drill({}, 5mm, -1, 0);"),
+      "Runtime warning(): canned_drill(): Argument 1 'holelist' has no entries, canned cycle not performed");
   EXPECT_EQ(said_by(kDrill + "canned_drill_peck({[1,1,-6]}, 5mm, 0mm, 0);"),
             "Runtime error(): canned_drill_peck(): Argument 3 'delta' must > 0.0");
   EXPECT_EQ(said_by(kDrill + "canned_drill({[1,1,6]}, 5mm, -1, 0);"),
-            "Runtime warning(): canned_drill(): drilling at [1,1] to depth 6mm is higher than retract-plane (5.000mm), "
+            "Runtime warning(): canned_drill(): drilling at [1,1] to depth 6mm is higher than retract-plane "
+            "(5.000mm), "
             "skipping");
 }
 
 TEST(GcmcLibrary, Tracepath) {
-  EXPECT_EQ(run("include(\"tracepath.inc.gcmc\"); goto([0,0,5]); tracepath({[1,1,7],[2,2]}, -1mm, 0.25);").text,
-            "G0 X0.000 Y0.000 Z5.000\n(-- tracepath at Z=-1mm --)\nG0 X1.000 Y1.000 Z7.000\nG1 Z-1.000\nG4 P0.250\n"
-            "G1 X2.000 Y2.000\nG4 P0.250\nG1 X1.000 Y1.000 Z7.000\nG4 P0.250\nG1 Z5.000\n(-- tracepath end --)\n");
+  EXPECT_EQ(
+      run("include(\"tracepath.inc.gcmc\"); goto([0,0,5]); tracepath({[1,1,7],[2,2]}, -1mm, 0.25);").text,
+      "G0 X0.000 Y0.000 Z5.000\n(-- tracepath at Z=-1mm --)\nG0 X1.000 Y1.000 Z7.000\nG1 Z-1.000\nG4 P0.250\n"
+      "G1 X2.000 Y2.000\nG4 P0.250\nG1 X1.000 Y1.000 Z7.000\nG4 P0.250\nG1 Z5.000\n(-- tracepath end --)\n");
   EXPECT_EQ(run("include(\"tracepath.inc.gcmc\"); tracepath({[1,1]});").text,
             "(-- tracepath at Z=<undef> --)\nG0 X1.000 Y1.000\nG1 X1.000 Y1.000\n(-- tracepath end --)\n");
 }
@@ -241,7 +252,9 @@ TEST(GcmcLibrary, Engrave) {
 
 TEST(GcmcLibrary, ArcsAsPoints) {
   const std::string varcs = "include(\"varcs.inc.gcmc\"); ";
-  const auto points = [&](const std::string& expression) { return said_by(varcs + "message(" + expression + ");"); };
+  const auto points = [&](const std::string& expression) {
+    return said_by(varcs + "message(" + expression + ");");
+  };
   EXPECT_EQ(points("varc_cw([10mm,0mm],5mm,0,5mm,45deg)"),
             "Runtime message(): {[1.464mm,3.536mm],[5.000mm,5.000mm],[8.536mm,3.536mm],[10mm,0mm]}");
   EXPECT_EQ(points("varc_ccw([10mm,0mm],5mm,0,5mm,90deg)"),
@@ -249,11 +262,13 @@ TEST(GcmcLibrary, ArcsAsPoints) {
   EXPECT_EQ(points("count(varc_cw([10mm,0mm],5mm)), \" \", count(vcircle_cw([0mm,50mm])), \" \", "
                    "count(vcircle_cw([0mm,1mm]))"),
             "Runtime message(): 180 3142 360");
-  EXPECT_EQ(points("vcircle_cw([-,5mm,0mm],0,10mm,90deg,PLANE_YZ)[0]"), "Runtime message(): [-,5.000mm,5.000mm]");
+  EXPECT_EQ(points("vcircle_cw([-,5mm,0mm],0,10mm,90deg,PLANE_YZ)[0]"),
+            "Runtime message(): [-,5.000mm,5.000mm]");
   EXPECT_EQ(points("varc_cw([10mm,3mm,0mm],8mm,0,10mm,45deg,PLANE_XZ)"),
             "Runtime message(): {[5.000mm,1.500mm,1.755mm],[10mm,3mm,0mm]}");
-  EXPECT_EQ(points("varc_cw([10mm,0mm],4mm)"), "Runtime error(): varc_cw() radius (4mm) is less than two times distance "
-                                               "from start to end (D=-36.000mm)|Runtime message(): {}");
+  EXPECT_EQ(points("varc_cw([10mm,0mm],4mm)"),
+            "Runtime error(): varc_cw() radius (4mm) is less than two times distance "
+            "from start to end (D=-36.000mm)|Runtime message(): {}");
 }
 
 TEST(GcmcLibrary, BezierCurves) {
@@ -263,18 +278,22 @@ TEST(GcmcLibrary, BezierCurves) {
   EXPECT_EQ(said_by(bezier + "message(count(vbezier3([0mm,0mm],[0mm,10mm],[10mm,10mm],[10mm,0mm])), \" \", "
                              "count(vbezier2([0mm,0mm],[5mm,10mm],[10mm,0mm])));"),
             "Runtime message(): 326 168");
-  EXPECT_EQ(said_by(bezier + "message(vbezier3([0,0],[1,0],[2,0],[3,0],-1));"),
-            "Runtime error(): vbezier3(): Argument 'flatness' must be larger than zero|Runtime message(): {}");
+  EXPECT_EQ(
+      said_by(bezier + "message(vbezier3([0,0],[1,0],[2,0],[3,0],-1));"),
+      "Runtime error(): vbezier3(): Argument 'flatness' must be larger than zero|Runtime message(): {}");
 }
 
 TEST(GcmcLibrary, CompensatedTrace) {
-  const std::string square = "include(\"tracepath_comp.inc.gcmc\"); goto([0,0,5]); "
-                             "sq = {[0,0,-1],[0,10],[10,10],[10,0]} * 1mm; ";
-  EXPECT_EQ(run(square + "tracepath_comp(sq, 1mm, TPC_LEFT|TPC_ARCIN|TPC_ARCOUT|TPC_KEEPZ|TPC_OLDZ);").text,
-            "G0 X0.000 Y0.000 Z5.000\n(-- tracepath_comp at left side at width=1.000mm --)\nG0 X-2.000 Y-1.000\n"
-            "G1 X-2.000 Y-1.000\nG3 X-1.000 Y0.000 I0.000 J1.000\nG1 X-1.000 Y10.000\nG2 X0.000 Y11.000 I1.000 J0.000\n"
-            "G1 X10.000 Y11.000\nG2 X11.000 Y10.000 I0.000 J-1.000\nG1 X11.000 Y0.000\n"
-            "G3 X12.000 Y-1.000 I1.000 J0.000\nG0 Z5.000\n(-- tracepath_comp end --)\n");
+  const std::string square =
+      "include(\"tracepath_comp.inc.gcmc\"); goto([0,0,5]); "
+      "sq = {[0,0,-1],[0,10],[10,10],[10,0]} * 1mm; ";
+  EXPECT_EQ(
+      run(square + "tracepath_comp(sq, 1mm, TPC_LEFT|TPC_ARCIN|TPC_ARCOUT|TPC_KEEPZ|TPC_OLDZ);").text,
+      "G0 X0.000 Y0.000 Z5.000\n(-- tracepath_comp at left side at width=1.000mm --)\nG0 X-2.000 Y-1.000\n"
+      "G1 X-2.000 Y-1.000\nG3 X-1.000 Y0.000 I0.000 J1.000\nG1 X-1.000 Y10.000\nG2 X0.000 Y11.000 I1.000 "
+      "J0.000\n"
+      "G1 X10.000 Y11.000\nG2 X11.000 Y10.000 I0.000 J-1.000\nG1 X11.000 Y0.000\n"
+      "G3 X12.000 Y-1.000 I1.000 J0.000\nG0 Z5.000\n(-- tracepath_comp end --)\n");
   EXPECT_EQ(said_by("include(\"tracepath_comp.inc.gcmc\"); "
                     "tracepath_comp({[0,0,-1],[0,10],[0.5,10],[0.5,0],[10,0]}*1mm, 1mm, TPC_RIGHT);"),
             "Runtime warning(): Removed 1 unreachable internal corner(s)");

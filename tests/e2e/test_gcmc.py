@@ -1,0 +1,182 @@
+"""kerf gcmc: options, messages and exit statuses of the drop-in, and gcmc programs as a way in."""
+import json
+import os
+import re
+import signal
+import subprocess
+import time
+
+import pytest
+
+KERF = os.environ["KERF"]
+MOVE = "feedrate(100); goto([1, 2, 3]); move([4]);\n"
+WORDS = "F100.00000000\nG0 X1.00000000 Y2.00000000 Z3.00000000\nG1 X4.00000000\n"
+
+
+def test_the_usual_text(kerf, program):
+    run = kerf("gcmc", program(MOVE, "p.gcmc"))
+    assert run.status == 0 and run.err == ""
+    assert WORDS in run.out
+    assert re.match(r"\(gcmc compiled code, do not change\)\n\(\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\)\n", run.out)
+    assert run.out.endswith("(-- epilogue begin --)\nM30 (-- epilogue end --)\n")
+
+
+def test_standard_input_and_clusters(kerf):
+    assert kerf("gcmc", "-qP2", stdin=b"move([1in]);").out == "G1 X25.40\n"
+    run = kerf("gcmc", "-qi", "--prec=3", stdin=b"move([1in]); message(1);")
+    assert run.out == "G1 X1.000\n" and run.err == "--stdin--:1:23: Runtime message(): 1\n"
+
+
+def test_as_ngcgui_calls_it(kerf, program, tmp_path):
+    program("move([size, -, 1]); message(\"hello\");\n", "part.gcmc")
+    run = kerf("gcmc", "--include", ".", "--output", "part.ngc", "--gcode-function", "part",
+               "--define=size=2.0", "part.gcmc")
+    assert run.status == 0
+    assert re.search(r"^part\.gcmc:1:36: Runtime message\(\): hello$", run.err, re.M)
+    assert (tmp_path / "part.ngc").read_text() == (
+        "(gcmc compiled function: part, do not change)\no<part> sub\nG1 X2.00000000 Z1.00000000\n"
+        "o<part> endsub\nM2\n")
+
+
+def test_includes(kerf, program, tmp_path):
+    (tmp_path / "inc").mkdir()
+    (tmp_path / "inc" / "a.inc.gcmc").write_text("message(\"in a\");\n")
+    run = kerf("gcmc", "-q", "-I", "inc", stdin=b'include("a.inc.gcmc");')
+    assert run.err == "inc/a.inc.gcmc:1:16: Runtime message(): in a\n"
+    run = kerf("gcmc", "-q", stdin=b'include("no.gcmc");')
+    assert run.err.endswith("Include file 'no.gcmc' cannot be found\n")
+
+
+@pytest.mark.parametrize("library", ["canned_drill", "tracepath", "tracepath_comp", "engrave", "varcs",
+                                     "vbezier"])
+def test_the_library_is_in_the_program(kerf, library):
+    run = kerf("gcmc", "-q", stdin=f'include("{library}.inc.gcmc");'.encode())
+    assert (run.status, run.out, run.err) == (0, "", "")
+
+
+@pytest.mark.parametrize("arguments, words", [
+    (["-P", "16"], "Number of decimals out of range (1..15)"),
+    (["-P", "x"], "Invalid number of decimals"),
+    (["-r", "-x", "1"], "Offsets must be zero when using relative addressing"),
+    (["--svg", "--dxf"], "Only one output format specifier allowed"),
+    (["-x", "1deg"], "Invalid units for global X-offset"),
+    (["-a", "1mm"], "Invalid units for global A-offset"),
+    (["-y", "2e6"], "Global Y-offset out of range"),
+    (["-z", "abc"], "Invalid global Z-offset 'abc'"),
+    (["--svg", "-q"], "Prologue and epilogue options are only allowed with G-code output"),
+    (["--nonsense"], "unrecognized option '--nonsense'"),
+    (["--svg-no"], "ambiguous option '--svg-no'"),
+    (["-k"], "invalid option -- 'k'"),
+    (["-o"], "option requires an argument -- 'o'"),
+    (["--output"], "option '--output' requires an argument"),
+    (["--bare=1"], "option '--bare' doesn't allow an argument"),
+    (["-p", "ZX"], "Active plane must be one of 0, 1, 2, XY, XZ or YZ"),
+    (["--gcode-function", "A b"], "G-code function name may only contain [a-z0-9_-]"),
+    (["--svg-opacity", "2"], "SVG opacity out of range (0.0..1.0)"),
+    (["--svg-toolwidth", "-1"], "Invalid SVG toolwidth"),
+])
+def test_wrong_options(kerf, arguments, words):
+    run = kerf("gcmc", *arguments, stdin=b"")
+    assert run.status == 1 and words in run.err and run.out == ""
+
+
+def test_offsets(kerf):
+    run = kerf("gcmc", "-q", "-P1", "-x1in", "--offset-z=2", "-c", "3.14159265358979rad", "-U",
+               "--offset-v", "5", stdin=b"goto([1, 1, 1, 0, 0, 0, 1, 1, 1]);")
+    assert run.out == "G0 X26.4 Y1.0 Z3.0 A0.0 B0.0 C180.0 U1.0 V6.0 W1.0\n"
+
+
+def test_help_and_version(kerf):
+    run = kerf("gcmc", "-h")
+    assert run.status == 1 and run.out == "" and "--gcode-function fn" in run.err
+    run = kerf("gcmc", "--version")
+    assert run.status == 0 and len(run.out.splitlines()) == 2
+
+
+def test_own_head_and_end(kerf, program):
+    program("(head)\n", "h")
+    program("(end)\n", "e")
+    assert kerf("gcmc", "-q", "-G", "h", "-g", "e", stdin=MOVE.encode()).out == "(head)\n" + WORDS + "(end)\n"
+    assert kerf("gcmc", "-G", "missing", stdin=b"").status == 1
+
+
+@pytest.mark.parametrize("text, status", [
+    ("return 3;", 3), ("error(1); return 3;", 1), ("x = ;", 1), ("x = y;", 1), ("warning(1);", 0),
+    ("x = 1mm+1deg;", 0)])
+def test_exit_status(kerf, text, status):
+    assert kerf("gcmc", "-q", stdin=text.encode()).status == status
+
+
+def test_warnings_as_errors(kerf):
+    run = kerf("gcmc", "-qW", "-P1", stdin=b"x = 1mm + 1deg; move([x]);")
+    assert run.status == 1 and run.out == "G1 X2.0\n"
+    assert run.err.endswith("error: Runtime warnings considered to be errors\n")
+    assert kerf("gcmc", "-qW", stdin=b"warning(1);").status == 0  # the program's own do not count
+
+
+def test_a_file_appears_whole_or_not_at_all(kerf, program, files, tmp_path):
+    program("old\n", "out.ngc")
+    assert kerf("gcmc", "-o", "out.ngc", stdin=b"move([1]); x = 1/0;").status == 1
+    assert (tmp_path / "out.ngc").read_text() == "old\n" and files() == ["out.ngc"]
+    assert kerf("gcmc", "-qo", "out.ngc", stdin=b"error(\"told\"); move([1]);").status == 1
+    assert (tmp_path / "out.ngc").read_text() == "G1 X1.00000000\n" and files() == ["out.ngc"]
+    run = kerf("gcmc", "-o", "no/such/folder.ngc", stdin=b"")
+    assert run.status == 1 and "cannot write" in run.err
+
+
+def test_an_endless_program_can_be_stopped(tmp_path):
+    run = subprocess.Popen([KERF, "gcmc", "-o", "out.ngc"], stdin=subprocess.PIPE, stderr=subprocess.PIPE,
+                           cwd=tmp_path)
+    run.stdin.write(b"i = 0; while(1) { move([i++ % 100]); }")
+    run.stdin.close()
+    time.sleep(1.0)
+    run.send_signal(signal.SIGINT)
+    assert run.wait(timeout=20) == 1
+    assert b"Interrupted" in run.stderr.read()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_drawings(kerf):
+    program = b'layerstack("holes"); goto([1, 1]); layer("holes"); circle_cw([5, 5]); move([9, 1]);'
+    svg = kerf("gcmc", "--svg", "--svg-toolwidth=1", "--svg-opacity", "1", "--svg-no-grid", stdin=program)
+    assert svg.status == 0 and 'inkscape:label="holes"' in svg.out and "A 5.656854,5.656854" in svg.out
+    dxf = kerf("gcmc", "--dxf", stdin=program)
+    assert dxf.status == 0 and "\nCIRCLE\n" in dxf.out and "\nholes\n" in dxf.out
+    assert "path1" not in kerf("gcmc", "--dxf", "--hex-handles", stdin=program).out
+
+
+def test_check_for_editors(kerf, program):
+    program("x = 3\nfoo bar;\n", "bad.gcmc")
+    run = kerf("gcmc", "--check", "--json", "bad.gcmc")
+    found = json.loads(run.out)["diagnostics"]
+    assert run.status == 1 and run.err == ""
+    assert found[0] == {"severity": "error", "code": 8002, "name": "gcmc_syntax", "file": "bad.gcmc",
+                        "line": 2, "column": 4, "message": "';' expected", "hint": ""}
+    run = kerf("gcmc", "--check", "bad.gcmc")
+    assert run.status == 1 and "bad.gcmc:2:4: error: ';' expected" in run.err
+    assert json.loads(kerf("gcmc", "--check", "--json", stdin=MOVE.encode()).out) == {"diagnostics": []}
+
+
+def test_explanations(kerf, program):
+    program("function f() {\n\tx = raduis;\n}\nradius = 1;\nf();\n", "p.gcmc")
+    run = kerf("gcmc", "-q", "--explain", "p.gcmc")
+    assert run.err == ("p.gcmc:2:12: error: Variable 'raduis' undefined\n"
+                       "    \tx = raduis;\n    \t          ^\n  p.gcmc:5:3: note: in the call of f()\n")
+    assert kerf("gcmc", "-q", "p.gcmc").err == "p.gcmc:2:12: error: Variable 'raduis' undefined\n"
+    assert "hint: did you mean 'feedrate'?" in kerf("gcmc", "--explain", stdin=b"feedrat(1);").err
+
+
+def test_programs_that_ask_too_much_end(kerf):
+    assert "nested too deeply" in kerf("gcmc", stdin=b"function f() { f(); } f();").err
+    assert "more than 2048 MB" in kerf("gcmc", stdin=b"s = \"a\"; while(1) { s += s; }").err
+
+
+def test_gcmc_is_a_way_in(kerf, program):
+    program("toolchange(102); spindle(10000); feedrate(400); goto([0, 0, 5]); move([0, 0, -1]); move([10]);"
+            "goto([-, -, 5]);\n", "p.gcmc")
+    steps = [json.loads(line) for line in kerf("steps", "p.gcmc").out.splitlines()]
+    kinds = [s["step"] for s in steps[1:]]
+    assert kinds == ["tool", "spindle", "rapid", "cut", "cut", "rapid"]
+    assert steps[5]["to"] == [10, 0, -1] and steps[5]["feed"] == 400
+    assert steps[5]["origin"]["line"] == 1
+    assert kerf("info", "--json", "p.gcmc").json["motion"]["lines"] == 2
