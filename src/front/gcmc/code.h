@@ -16,6 +16,7 @@
 namespace kerf::gcmc {
 
 /// X(name) for every instruction: `x` is the slot written, a, b, c are operands unless said otherwise.
+// clang-format off
 #define KERF_GCMC_OPS(X)                                                                                    \
   X(move)          /* x <- a */                                                                             \
   X(get_global)    /* x <- global slot a */                                                                 \
@@ -27,7 +28,8 @@ namespace kerf::gcmc {
   X(store)         /* what slot x refers to <- a, refused where that is a constant */                       \
   X(add)                                                                                                    \
   X(sub)                                                                                                    \
-  X(mul) X(div) X(mod) X(add_or) X(sub_or) /* x <- a op b */                                                \
+  X(mul)                                                                                                    \
+  X(div) X(mod) X(add_or) X(sub_or) /* x <- a op b */                                                       \
       X(bit_and) X(bit_or) X(bit_xor) X(shift_left) X(shift_right) X(equal) X(not_equal) X(less) X(greater) \
           X(less_equal) X(greater_equal) X(logic_not) X(bit_not) /* x <- op a */                            \
       X(apply)                  /* what slot x refers to op= a; b is the op; nothing else written */        \
@@ -60,6 +62,7 @@ namespace kerf::gcmc {
       X(by_reference)                    /* error: argument b of function a is no variable */               \
       X(wrong_count)                     /* error: arguments of function a */                               \
       X(stop)                            /* the end of the program */
+// clang-format on
 
 enum class Op : std::uint8_t {
 #define X(name) name,

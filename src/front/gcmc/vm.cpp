@@ -687,14 +687,14 @@ constexpr Op comparison_of(Op jump) {
     pc += in.c;                                           \
   } while (false)
 // The instructions that only call the member of their name.
-#define KERF_MEMBERS(X)                                                                                      \
-  X(move)                                                                                                    \
-  X(get_global)                                                                                              \
-  X(get_dynamic)                                                                                             \
-  X(dereference) X(refer) X(refer_dynamic) X(need_target) X(store) X(apply) X(step_target) X(step_element)   \
-      X(logic_not) X(bit_not) X(index) X(element) X(set_element) X(vector) X(list) X(call_builtin) X(define) \
-          X(declare_local) X(declare_constant) X(warn_global) X(repeat_begin) X(foreach_begin) X(clear)      \
-              X(stray_break) X(unknown_function) X(by_reference) X(wrong_count)
+// clang-format off
+#define KERF_MEMBERS(X) \
+  X(move) X(get_global) X(get_dynamic) X(dereference) X(refer) X(refer_dynamic) \
+  X(need_target) X(store) X(apply) X(step_target) X(step_element) X(logic_not) X(bit_not) \
+  X(index) X(element) X(set_element) X(vector) X(list) X(call_builtin) X(define) \
+  X(declare_local) X(declare_constant) X(warn_global) X(repeat_begin) X(foreach_begin) \
+  X(clear) X(stray_break) X(unknown_function) X(by_reference) X(wrong_count)
+// clang-format on
 #define KERF_CALL_MEMBER(op) \
   case Op::op: do_##op(in); break;
 

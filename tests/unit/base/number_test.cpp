@@ -1,7 +1,10 @@
 // Numbers as text: rounding, no "-0", and reading back.
 #include "kerf/number.h"
 
+#include <cmath>
+#include <cstdio>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace kerf {
 namespace {
@@ -13,6 +16,27 @@ TEST(Number, DropsTrailingZerosAndNegativeZero) {
   EXPECT_EQ(number_text(-0.0001, 3), "0");
   EXPECT_EQ(fixed_text(-0.0001, 3), "0.000");
   EXPECT_EQ(fixed_text(-0.25, 2), "-0.25");
+}
+
+TEST(Number, FixedIsRoundedAsPrintfDoes) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> exponent(-12, 9);
+  for (int i = 0; i < 200'000; ++i) {
+    const int decimals = static_cast<int>(random() % 16);
+    double v = std::pow(10.0, exponent(random)) * (random() % 2 == 0 ? 1 : -1);
+    if (i % 3 == 0) v = std::round(v * 2000.0) / 2000.0;  // halves of the last place
+    char expected[400];
+    std::snprintf(expected, sizeof expected, "%.*f", decimals, v);
+    std::string text;
+    append_fixed(text, v, decimals, MinusZero::keep);
+    ASSERT_EQ(text, expected) << decimals;
+  }
+  std::string text;
+  append_fixed(text, 1e300, 2, MinusZero::keep);
+  EXPECT_EQ(text.size(), 304u);
+  EXPECT_EQ(fixed_text(0.0, 0), "0");
+  EXPECT_EQ(fixed_text(10.0, 0), "10");
+  EXPECT_EQ(fixed_text(100.5, 1), "100.5");
 }
 
 TEST(Number, ReadsOnlyWholeFiniteNumbers) {
