@@ -59,7 +59,9 @@ std::string line_of(const Finding& f) {
   line +=
       fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
   if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
-  return line + fmt::format(") [{}]\n", f.kind);
+  line += fmt::format(") [{}]\n", f.kind);
+  for (const Origin& caller : f.callers) line += fmt::format("  called from {}\n", to_string(caller));
+  return line;
 }
 
 }  // namespace
@@ -67,8 +69,8 @@ std::string line_of(const Finding& f) {
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
   for (const PathHazard& h : hazards)
-    out.push_back(
-        {std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step), h.message});
+    out.push_back({std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step),
+                   h.message, path.origins().callers(path[h.step].origin())});
   return out;
 }
 
@@ -76,7 +78,7 @@ std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolp
   std::vector<Finding> out;
   for (const Hazard& h : hazards)
     out.push_back({std::string(to_string(h.kind)), h.step, 1, h.at, h.depth.mm(), h.removed.mm3(),
-                   path.origin_of(h.step), message_of(h)});
+                   path.origin_of(h.step), message_of(h), path.origins().callers(path[h.step].origin())});
   return out;
 }
 
@@ -89,14 +91,16 @@ std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> o
 }
 
 Json json_of(const Finding& f) {
-  return {{"kind", f.kind},
-          {"at", json_of(f.at)},
-          {"depth_mm", json_of(f.depth_mm)},
-          {"removed_mm3", json_of(f.removed_mm3)},
-          {"step", f.step},
-          {"steps", f.steps},
-          {"message", f.message},
-          {"origin", json_of(f.origin)}};
+  Json out{{"kind", f.kind},
+           {"at", json_of(f.at)},
+           {"depth_mm", json_of(f.depth_mm)},
+           {"removed_mm3", json_of(f.removed_mm3)},
+           {"step", f.step},
+           {"steps", f.steps},
+           {"message", f.message},
+           {"origin", json_of(f.origin)}};
+  for (const Origin& caller : f.callers) out["callers"].push_back(json_of(caller));
+  return out;
 }
 
 Json json_of(const std::vector<Finding>& findings) {

@@ -42,7 +42,7 @@ def test_includes(kerf, program, tmp_path):
     (tmp_path / "inc").mkdir()
     (tmp_path / "inc" / "a.inc.gcmc").write_text("message(\"in a\");\n")
     run = kerf("gcmc", "-q", "-I", "inc", stdin=b'include("a.inc.gcmc");')
-    assert run.err == "inc/a.inc.gcmc:1:16: Runtime message(): in a\n"
+    assert run.err == "inc/a.inc.gcmc:1:15: Runtime message(): in a\n"
     run = kerf("gcmc", "-q", stdin=b'include("no.gcmc");')
     assert run.err.endswith("Include file 'no.gcmc' cannot be found\n")
 
@@ -180,3 +180,20 @@ def test_gcmc_is_a_way_in(kerf, program):
     assert steps[5]["to"] == [10, 0, -1] and steps[5]["feed"] == 400
     assert steps[5]["origin"]["line"] == 1
     assert kerf("info", "--json", "p.gcmc").json["motion"]["lines"] == 2
+
+
+def test_a_hazard_names_the_line_and_the_calls(kerf, program):
+    program("(stockMin: 0mm, 0mm, -6mm)\n", "unused.nc")
+    program("""include("tracepath.inc.gcmc");
+comment("stockMin:0.00mm, 0.00mm, -6.00mm");
+comment("stockMax:40.00mm, 30.00mm, 0.00mm");
+toolchange(102); spindle(10000); feedrate(400);
+function sink() {
+  goto([10, 10, -3]);
+}
+goto([10, 10, 5]);
+sink();
+""", "p.gcmc")
+    run = kerf("check", "p.gcmc", "--stock", "40 x 30 x 6")
+    assert run.status == 3
+    assert re.search(r"p\.gcmc:6:\d+: .*\n  called from p\.gcmc:9:\d+\n", run.out)

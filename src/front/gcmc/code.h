@@ -17,51 +17,73 @@ namespace kerf::gcmc {
 
 /// X(name) for every instruction: `x` is the slot written, a, b, c are operands unless said otherwise.
 // clang-format off
-#define KERF_GCMC_OPS(X)                                                                                    \
-  X(move)          /* x <- a */                                                                             \
-  X(get_global)    /* x <- global slot a */                                                                 \
-  X(get_dynamic)   /* x <- slot a if that exists, else global slot b */                                     \
-  X(dereference)   /* x <- what slot a refers to */                                                         \
-  X(refer)         /* x <- reference to slot a */                                                           \
-  X(refer_dynamic) /* x <- reference to slot a if that exists, else global b if that does, else slot a */   \
-  X(need_target)   /* error unless what slot a refers to exists */                                          \
-  X(store)         /* what slot x refers to <- a, refused where that is a constant */                       \
-  X(add)                                                                                                    \
-  X(sub)                                                                                                    \
-  X(mul)                                                                                                    \
-  X(div) X(mod) X(add_or) X(sub_or) /* x <- a op b */                                                       \
-      X(bit_and) X(bit_or) X(bit_xor) X(shift_left) X(shift_right) X(equal) X(not_equal) X(less) X(greater) \
-          X(less_equal) X(greater_equal) X(logic_not) X(bit_not) /* x <- op a */                            \
-      X(apply)                  /* what slot x refers to op= a; b is the op; nothing else written */        \
-      X(step)                   /* ++ or -- on slot a; x <- value before or after; flags say which */       \
-      X(step_target)            /* the same on what slot a refers to */                                     \
-      X(step_element)           /* the same on element b (and c of that) of what slot a refers to */        \
-      X(index)                  /* x <- a[b] */                                                             \
-      X(element)                /* x <- element b (and c of that) of what slot a refers to; must exist */   \
-      X(set_element)            /* element a (and b of that) of what slot x refers to <- c; grows */        \
-      X(jump)                   /* by c */                                                                  \
-      X(jump_if) X(jump_unless) /* by c, on the truth of a */                                               \
-      X(jump_less) X(jump_greater) X(jump_less_equal) X(jump_greater_equal) X(jump_equal) X(jump_not_equal) \
-          X(vector)                      /* x <- vector of b slots from a */                                \
-      X(vector2) X(vector3)              /* x <- [a, b] or [a, b, c] */                                     \
-      X(list)                            /* x <- list of b slots from a */                                  \
-      X(call)                            /* x <- function a with c arguments from slot b */                 \
-      X(call_builtin)                    /* x <- built-in a with c arguments from slot b */                 \
-      X(define)                          /* function a exists from now on */                                \
-      X(give_back)                       /* return a */                                                     \
-      X(give_nothing)                    /* return without a value */                                       \
-      X(declare_local)                   /* slot x <- a, if it does not exist yet; warns otherwise */       \
-      X(declare_constant)                /* slot x <- a, once; b is the global slot of that name or -1 */   \
-      X(warn_global)                     /* local outside of a function: name x */                          \
-      X(repeat_begin)                    /* x, x+1 <- limit and counter from a */                           \
-      X(repeat_next)                     /* next count into slot a; jumps by c while there is one */        \
-      X(foreach_begin)                   /* x, x+1 <- source a and position */                              \
-      X(foreach_next)                    /* next item into slot a; jumps by c while there is one */         \
-      X(clear)                           /* slots a up to b hold nothing */                                 \
-      X(stray_break) X(unknown_function) /* runtime errors; name a */                                       \
-      X(by_reference)                    /* error: argument b of function a is no variable */               \
-      X(wrong_count)                     /* error: arguments of function a */                               \
-      X(stop)                            /* the end of the program */
+#define KERF_GCMC_OPS(X)                                                                              \
+  X(move)  /* x <- a */                                                                               \
+  X(get_global)  /* x <- global slot a */                                                             \
+  X(get_dynamic)  /* x <- slot a if that exists, else global slot b */                                \
+  X(dereference)  /* x <- what slot a refers to */                                                    \
+  X(refer)  /* x <- reference to slot a */                                                            \
+  X(refer_dynamic)  /* x <- reference to slot a if that exists, else global b if that does, else a */ \
+  X(need_target)  /* error unless what slot a refers to exists */                                     \
+  X(store)  /* what slot x refers to <- a, refused where that is a constant */                        \
+  X(add)  /* x <- a op b; so the next eleven */                                                       \
+  X(sub)                                                                                              \
+  X(mul)                                                                                              \
+  X(div)                                                                                              \
+  X(mod)                                                                                              \
+  X(add_or)                                                                                           \
+  X(sub_or)                                                                                           \
+  X(bit_and)                                                                                          \
+  X(bit_or)                                                                                           \
+  X(bit_xor)                                                                                          \
+  X(shift_left)                                                                                       \
+  X(shift_right)                                                                                      \
+  X(equal)  /* x <- a op b; so the next five */                                                       \
+  X(not_equal)                                                                                        \
+  X(less)                                                                                             \
+  X(greater)                                                                                          \
+  X(less_equal)                                                                                       \
+  X(greater_equal)                                                                                    \
+  X(logic_not)  /* x <- op a */                                                                       \
+  X(bit_not)  /* x <- op a */                                                                         \
+  X(apply)  /* what slot x refers to op= a; b is the op */                                            \
+  X(step)  /* ++ or -- on slot a; x <- value before or after, as the flags say */                     \
+  X(step_target)  /* the same on what slot a refers to */                                             \
+  X(step_element)  /* the same on element b (and c of that) of what slot a refers to */               \
+  X(index)  /* x <- a[b] */                                                                           \
+  X(element)  /* x <- element b (and c of that) of what slot a refers to; must exist */               \
+  X(set_element)  /* element a (and b of that) of what slot x refers to <- c; grows */                \
+  X(jump)  /* by c */                                                                                 \
+  X(jump_if)  /* by c, on the truth of a */                                                           \
+  X(jump_unless)                                                                                      \
+  X(jump_less)  /* by c, on a op b; so the next five */                                               \
+  X(jump_greater)                                                                                     \
+  X(jump_less_equal)                                                                                  \
+  X(jump_greater_equal)                                                                               \
+  X(jump_equal)                                                                                       \
+  X(jump_not_equal)                                                                                   \
+  X(vector)  /* x <- vector of b slots from a */                                                      \
+  X(vector2)  /* x <- [a, b] */                                                                       \
+  X(vector3)  /* x <- [a, b, c] */                                                                    \
+  X(list)  /* x <- list of b slots from a */                                                          \
+  X(call)  /* x <- function a with c arguments from slot b */                                         \
+  X(call_builtin)  /* x <- built-in a with c arguments from slot b */                                 \
+  X(define)  /* function a exists from now on */                                                      \
+  X(give_back)  /* return a */                                                                        \
+  X(give_nothing)  /* return without a value */                                                       \
+  X(declare_local)  /* slot x <- a, if it does not exist yet; warns otherwise */                      \
+  X(declare_constant)  /* slot x <- a, once; b is the global slot of that name or -1 */               \
+  X(warn_global)  /* local outside of a function: name a */                                           \
+  X(repeat_begin)  /* x, x+1 <- limit and counter from a */                                           \
+  X(repeat_next)  /* next count into slot a; jumps by c while there is one */                         \
+  X(foreach_begin)  /* x, x+1 <- source a and position */                                             \
+  X(foreach_next)  /* next item into slot a; jumps by c while there is one */                         \
+  X(clear)  /* slots a up to b hold nothing */                                                        \
+  X(stray_break)  /* error: break outside of a loop (a = 0), or no lvalue (1) */                      \
+  X(unknown_function)  /* error: name a */                                                            \
+  X(by_reference)  /* error: argument b of function a is no variable */                               \
+  X(wrong_count)  /* error: arguments of function a */                                                \
+  X(stop)  /* the end of the program */
 // clang-format on
 
 enum class Op : std::uint8_t {
