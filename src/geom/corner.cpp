@@ -114,10 +114,12 @@ Replacement sharp(SharpReason reason) {
 /// The middle of a smoothing arc. That of a short one is set up on its chord, so that its radius stays
 /// accurate where the corner is nearly straight.
 Point2 middle_of_smooth(Point2 first, Point2 last, Point2 centre, double r, double side) {
-  if (dot(first - centre, last - centre) <= 0.0) return arc_middle(first, last, centre, r, side);
   const Point2 half = 0.5 * (last - first);
-  const double depth = std::sqrt(std::max(0.0, r * r - dot(half, half)));  // of the centre behind the chord
-  return first + half - (side / (r + depth)) * norm(half) * left_of(half);
+  const double square = dot(half, half);
+  const bool goes_far = side * cross(first - centre, last - centre) <= 0.0 || 2.0 * square >= r * r;
+  if (goes_far) return arc_middle(first, last, centre, r, side);
+  const double depth = std::sqrt(r * r - square);  // of the centre behind the chord
+  return first + half - (side * std::sqrt(square) / (r + depth)) * left_of(half);
 }
 
 Replacement smooth(const Side& in, const Side& out, double r, double weld) {
@@ -212,36 +214,6 @@ bool has_length(const Side& side, double weld) {
 }
 
 }  // namespace
-
-Side arriving(const Carrier& carrier, Point2 start) {
-  Side side;
-  side.end = start - carrier.to;
-  if (!carrier.is_arc()) {
-    side.away = -carrier.direction;
-    side.length = dot(side.end, side.away);
-    return side;
-  }
-  side.centre = carrier.centre - (carrier.to - carrier.from);
-  side.radius = carrier.radius;
-  side.turn = -carrier.turn;
-  side.away = (side.turn / side.radius) * left_of(-side.centre);
-  return side;
-}
-
-Side leaving(const Carrier& carrier, Point2 end) {
-  Side side;
-  side.end = end - carrier.from;
-  if (!carrier.is_arc()) {
-    side.away = carrier.direction;
-    side.length = dot(side.end, side.away);
-    return side;
-  }
-  side.centre = carrier.centre;
-  side.radius = carrier.radius;
-  side.turn = carrier.turn;
-  side.away = (side.turn / side.radius) * left_of(-side.centre);
-  return side;
-}
 
 Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits& limits) {
   const double r = std::abs(request);

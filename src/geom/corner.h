@@ -21,9 +21,35 @@ struct Side {
 };
 
 /// The side of the segment that arrives at the corner; `start` is where what is left of it begins.
-Side arriving(const Carrier& carrier, Point2 start);
+inline Side arriving(const Carrier& carrier, Point2 start) {
+  Side side;
+  side.end = start - carrier.to;
+  if (!carrier.is_arc()) {
+    side.away = -carrier.direction;
+    side.length = dot(side.end, side.away);
+    return side;
+  }
+  side.centre = carrier.centre - (carrier.to - carrier.from);
+  side.radius = carrier.radius;
+  side.turn = -carrier.turn;
+  side.away = (side.turn / side.radius) * left_of(-side.centre);
+  return side;
+}
 /// The side of the segment that leaves the corner; `end` is where what is left of it ends.
-Side leaving(const Carrier& carrier, Point2 end);
+inline Side leaving(const Carrier& carrier, Point2 end) {
+  Side side;
+  side.end = end - carrier.from;
+  if (!carrier.is_arc()) {
+    side.away = carrier.direction;
+    side.length = dot(side.end, side.away);
+    return side;
+  }
+  side.centre = carrier.centre;
+  side.radius = carrier.radius;
+  side.turn = carrier.turn;
+  side.away = (side.turn / side.radius) * left_of(-side.centre);
+  return side;
+}
 
 struct CornerLimits {
   double weld = 0.0;      // mm

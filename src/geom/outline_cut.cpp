@@ -52,6 +52,7 @@ class CornerPass {
   void share_evenly();
   void begin(const Carrier& first);
   void cut(std::size_t corner, const Carrier& before, const Carrier& after);
+  std::size_t copy_lines(std::size_t corner);
   std::size_t smooth_lines(std::size_t corner);
   void finish(const Carrier& last);
   void note_straight_arc(std::size_t segment);
@@ -173,6 +174,20 @@ void CornerPass::cut(std::size_t corner, const Carrier& before, const Carrier& a
   report_cut(corner, made.count);
 }
 
+/// Copies lines up to the next corner with a request or the next arc; returns the corner that ends them.
+std::size_t CornerPass::copy_lines(std::size_t corner) {
+  const std::vector<Segment>& from = outline_.segments;
+  for (; corner < from.size(); ++corner) {
+    const Segment& line = from[corner - 1];
+    if (line.via || line.corner != Length()) break;
+    const Point2 rest = line.to - here_;
+    if (dot(rest, rest) <= weld_ * weld_) continue;
+    result_.outline.segments.push_back(line);
+    here_ = line.to;
+  }
+  return corner;
+}
+
 /// The commonest corners by a shorter way: smooths corners of two lines from `corner` on, until one is of
 /// another kind, does not fit or fits closely. Returns that one.
 std::size_t CornerPass::smooth_lines(std::size_t corner) {
@@ -180,7 +195,8 @@ std::size_t CornerPass::smooth_lines(std::size_t corner) {
   std::vector<Segment>& made = result_.outline.segments;
   const std::size_t end =
       from.size() - (closed_ ? 1 : 0);  // the last corner of a closed outline meets the first
-  if (!crowded_.empty() || corner >= end || from[corner - 1].via) return corner;
+  if (!crowded_.empty() || corner >= end || from[corner - 1].via || from[corner].via) return corner;
+  if (from[corner - 1].corner <= Length()) return corner;
   Point2 at = from[corner - 1].to, u = at - outline_.point(corner - 1);
   double length = norm(u);
   if (!(length > weld_)) return corner;
@@ -250,7 +266,7 @@ CutOutline CornerPass::run() {
   begin(before);
   for (std::size_t corner = 1; corner < n; ++corner) {
     const std::size_t first = corner;
-    corner = smooth_lines(corner);
+    corner = smooth_lines(copy_lines(corner));
     if (corner != first) before = carrier(corner - 1);
     if (outline_.segments[corner - 1].via && !before.is_arc()) note_straight_arc(corner - 1);
     if (corner == n) break;

@@ -34,7 +34,17 @@ struct Carrier {
 Carrier make_carrier(Point2 from, const Segment& segment, double weld);
 
 /// The middle of the arc from `from` to `to` about `centre`.
-Point2 arc_middle(Point2 from, Point2 to, Point2 centre, double radius, double turn);
+inline Point2 arc_middle(Point2 from, Point2 to, Point2 centre, double radius, double turn) {
+  const Point2 a = from - centre, b = to - centre;
+  const Point2 chord = b - a, sum = a + b;
+  const double chord2 = dot(chord, chord), sum2 = dot(sum, sum);
+  // The middle lies to the right of the chord of a counter-clockwise arc. Where the chord is short (a small
+  // arc or nearly a whole circle) the sum of the radii points there more accurately.
+  const Point2 aside = -turn * left_of(chord);
+  if (chord2 >= sum2) return centre + (radius / std::sqrt(chord2)) * aside;
+  const double sign = turn * cross(a, b) >= 0.0 ? 1.0 : -1.0;
+  return centre + (sign * radius / std::sqrt(sum2)) * sum;
+}
 
 /// Finite and within the largest coordinate.
 inline bool usable(Point2 p) {
