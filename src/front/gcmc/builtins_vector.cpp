@@ -53,6 +53,11 @@ Value count(const Call& call) {
 
 double squares(const Call& call, Unit& unit) {
   const Value& v = call[0];
+  if (v.is_real_vector() && v.short_size() == 2 && v.short_coordinate(0).tag == v.short_coordinate(1).tag) {
+    unit = v.short_coordinate(0).unit();
+    if (unit == Unit::none || unit == call.vm.native)
+      return v.real_coordinate(0) * v.real_coordinate(0) + v.real_coordinate(1) * v.real_coordinate(1);
+  }
   bool distance = false, angle = false;
   double sum = 0.0;
   for (std::size_t i = 0; i < v.vector_size(); ++i) {
@@ -83,10 +88,12 @@ Value normalize(const Call& call) {
   const double size = std::sqrt(squares(call, unit));
   if (size < kEpsilon)
     call.warn(Code::gcmc_range, "normalize() argument 1 has no length, the result is not a number");
-  std::vector<Scalar> all = call[0].coordinates();
-  for (Scalar& s : all)
-    if (s.defined()) s = Scalar::real(native_number(call.vm, s) / size);
-  return make_vector(call, all);
+  Value v = std::move(call[0]);
+  for (std::size_t i = 0; i < v.vector_size(); ++i) {
+    const Scalar s = v.coordinate(i);
+    if (s.defined()) v.set_coordinate(i, Scalar::real(native_number(call.vm, s) / size), call.vm.meter);
+  }
+  return v;
 }
 
 // ---- parts

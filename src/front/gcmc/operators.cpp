@@ -238,7 +238,9 @@ void add(Runtime& rt, Op op, Value& a, const Value& b) {
   }
   if (a.is_vector() && b.is_vector()) return vector_with_vector(rt, op, a, b);
   if (a.is_list() && b.is_vector())
-    return each_vector(rt, a, [&](Value& v) { vector_with_vector(rt, op, v, b); });
+    return each_vector(rt, a, [&](Value& v) {
+      if (!vectors_plain(op, v, b, v)) vector_with_vector(rt, op, v, b);
+    });
   if (a.is_list() && b.is_list()) return append_list(rt, a, b);
   wrong_types(rt, op, a, b);
 }
@@ -256,7 +258,9 @@ void subtract(Runtime& rt, Op op, Value& a, const Value& b) {
   }
   if (a.is_vector() && b.is_vector()) return vector_with_vector(rt, op, a, b);
   if (a.is_list() && b.is_vector())
-    return each_vector(rt, a, [&](Value& v) { vector_with_vector(rt, op, v, b); });
+    return each_vector(rt, a, [&](Value& v) {
+      if (!vectors_plain(op, v, b, v)) vector_with_vector(rt, op, v, b);
+    });
   wrong_types(rt, op, a, b);
 }
 
@@ -291,7 +295,9 @@ void multiply(Runtime& rt, Value& a, const Value& b) {
   if (b.is_scalar() && !undefined) {
     if (a.is_vector()) return vector_with_scalar(rt, Op::mul, a, b.scalar());
     if (a.is_list())
-      return each_vector(rt, a, [&](Value& v) { vector_with_scalar(rt, Op::mul, v, b.scalar()); });
+      return each_vector(rt, a, [&](Value& v) {
+        if (!vectors_plain(Op::mul, v, b, v)) vector_with_scalar(rt, Op::mul, v, b.scalar());
+      });
   }
   if (a.is_vector() && b.is_vector()) {
     a = dot_product(rt, a, b);
@@ -303,7 +309,9 @@ void multiply(Runtime& rt, Value& a, const Value& b) {
 void divide(Runtime& rt, Op op, Value& a, const Value& b) {
   if (b.is_scalar() && !b.is_undef()) {
     if (a.is_vector()) return vector_with_scalar(rt, op, a, b.scalar());
-    if (a.is_list()) return each_vector(rt, a, [&](Value& v) { vector_with_scalar(rt, op, v, b.scalar()); });
+    if (a.is_list()) return each_vector(rt, a, [&](Value& v) {
+        if (!vectors_plain(op, v, b, v)) vector_with_scalar(rt, op, v, b.scalar());
+      });
   }
   wrong_types(rt, op, a, b);
 }
@@ -388,7 +396,39 @@ void shift(Runtime& rt, Op op, Value& a, const Value& b) {
 
 }  // namespace
 
+namespace {
+
+/// Real vectors of one shape, or such a vector and a real number without unit: the most frequent case by far.
+bool reals_plain(Op op, const Value& a, const Value& b, Value& out) {
+  double r[3] = {};
+  const std::size_t count = a.short_size();
+  if (b.is_scalar()) {
+    if (b.tag() != make_tag(Kind::real, Unit::none)) return false;
+    const double s = b.payload().d;
+    if (op == Op::mul) {
+      for (std::size_t i = 0; i < count; ++i) r[i] = a.real_coordinate(i) * s;
+    } else if (op == Op::div && std::fabs(s) >= kEpsilon) {
+      for (std::size_t i = 0; i < count; ++i) r[i] = a.real_coordinate(i) / s;
+    } else {
+      return false;
+    }
+  } else if (!a.same_shape(b)) {
+    return false;
+  } else if (op == Op::add) {
+    for (std::size_t i = 0; i < count; ++i) r[i] = a.real_coordinate(i) + b.real_coordinate(i);
+  } else if (op == Op::sub) {
+    for (std::size_t i = 0; i < count; ++i) r[i] = a.real_coordinate(i) - b.real_coordinate(i);
+  } else {
+    return false;
+  }
+  out.store_reals(a, r);
+  return true;
+}
+
+}  // namespace
+
 bool vectors_plain(Op op, const Value& a, const Value& b, Value& out) {
+  if (a.is_real_vector() && reals_plain(op, a, b, out)) return true;
   const auto of_a = [&](std::size_t i) { return a.short_coordinate(i); };
   const auto of_b = [&](std::size_t i) { return b.short_coordinate(i); };
   if (a.is_short_vector()) {

@@ -195,6 +195,23 @@ class Value {
     head_ = (head_ & ~(std::uint64_t{0xFF} << shift)) | std::uint64_t{s.tag} << shift;
   }
 
+  /// True for a short vector all of whose coordinates are real numbers; kinds and units then are the head's.
+  bool is_real_vector() const {
+    constexpr std::uint64_t kKinds[] = {0, 0x0300, 0x030300, 0x03030300};
+    constexpr std::uint64_t kReals[] = {0, 0x0200, 0x020200, 0x02020200};
+    return type() == Type::vector && (head_ & kKinds[short_size()]) == kReals[short_size()];
+  }
+  /// True if both have the same type, size, kinds and units.
+  bool same_shape(const Value& o) const { return head_ == o.head_; }
+  double real_coordinate(std::size_t i) const { return c_[i].d; }
+  /// Becomes a vector of real numbers with the size and units of `shape`, which may be this.
+  void store_reals(const Value& shape, const double (&numbers)[3]) {
+    const std::uint64_t head = shape.head_;
+    drop();
+    for (std::size_t i = 0; i < head >> 32; ++i) c_[i].d = numbers[i];
+    head_ = head;
+  }
+
   // Lists and strings
   const std::vector<Value>& vectors() const;
   std::vector<Value>& own_vectors(Meter& meter);  // for writing; call settle() after a change of size
