@@ -9,7 +9,9 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "front/gcode/flow.h"
@@ -95,6 +97,7 @@ class Interpreter : public SystemValues {
   void follow(Flow& flow) { flow_ = &flow; }
   std::optional<double> system_number(int number) const override;
   std::optional<double> system_name(std::string_view name) const override;
+  double unit_of(int number) const override;
 
   /// Carries out one line.
   void run(const Block& block);
@@ -114,6 +117,9 @@ class Interpreter : public SystemValues {
 
   // comments.cpp
   void read_comment(const Comment& comment);
+  bool read_tool_remark(std::string_view text, const TextSpot& where);
+  void use_waiting_remarks();
+  void use_tool_remark(std::string_view text, const TextSpot& where);
   void describe_tool(int number, const ToolShape& shape, const TextSpot& where);
 
   // settings.cpp
@@ -266,6 +272,8 @@ class Interpreter : public SystemValues {
   std::optional<ToolShape> pending_shape_;  // described, and no tool change since
   TextSpot pending_spot_;
   std::optional<int> undescribed_tool_;  // changed to, not described, no motion since
+  std::vector<std::pair<std::string, TextSpot>> waiting_remarks_;
+  bool units_told_ = false;
   bool moved_ = false;
   bool no_feed_said_ = false;
   bool after_end_said_ = false;

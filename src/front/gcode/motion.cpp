@@ -260,6 +260,7 @@ void Interpreter::arrive(const Place& to) {
   undescribed_tool_.reset();
   if (moved_) return;
   moved_ = true;
+  use_waiting_remarks();
   program_.inch = modes_.scale != 1.0;
 }
 

@@ -84,15 +84,13 @@ void Interpreter::set_data() {
   line_.use(kAllLetters);
 }
 
-/// G10 L2: the offset itself.
+/// G10 L2: the offset itself, whatever the distance mode.
 void Interpreter::set_system(int system) {
   const int first = first_parameter(system);
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
-    const double value = *word * modes_.scale;
-    double& offset = parameters_.slot(first + axis);
-    offset = modes_.absolute ? value : offset + value;
+    parameters_.slot(first + axis) = *word * modes_.scale;
   }
   if (const std::optional<double> turn = line_.take('R'))
     parameters_.slot(first + kTurnOfSystem) = std::fmod(*turn, 360.0);

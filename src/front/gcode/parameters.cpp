@@ -17,12 +17,12 @@ std::string normal_name(std::string_view text) {
 std::optional<double> Parameters::number(int number) const {
   if (number < 1 || number > kLast) return std::nullopt;
   if (const auto told = system_.system_number(number)) return told;
-  return slot(number);
+  return slot(number) / system_.unit_of(number);
 }
 
 bool Parameters::set_number(int number, double value) {
   if (number < 1 || number > kLast) return false;
-  slot(number) = value;
+  slot(number) = value * system_.unit_of(number);
   return true;
 }
 

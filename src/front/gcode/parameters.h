@@ -22,6 +22,8 @@ class SystemValues {
   virtual std::optional<double> system_number(int number) const = 0;
   /// `name` in small letters without its brackets, such as "_x".
   virtual std::optional<double> system_name(std::string_view name) const = 0;
+  /// What a number that the controller keeps in mm is divided by when the program reads it.
+  virtual double unit_of(int number) const = 0;
 };
 
 class Parameters {

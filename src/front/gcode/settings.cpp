@@ -30,6 +30,8 @@ void Interpreter::set_units() {
         Code::feed_with_units, line_.column('F'),
         "the feed is taken in the units that its own line sets, as GRBL does; LinuxCNC takes the old ones");
   modes_.scale = scale;
+  units_told_ = true;
+  use_waiting_remarks();
 }
 
 void Interpreter::set_feed() {

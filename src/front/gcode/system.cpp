@@ -17,7 +17,7 @@ Point3 Interpreter::program_position() const {
 
 std::optional<double> Interpreter::system_number(int number) const {
   if (number < 5070) return std::nullopt;
-  if (number >= 5211 && number <= 5213) return local_shift_[number - 5211];
+  if (number >= 5211 && number <= 5213) return local_shift_[number - 5211] / modes_.scale;
   if (number >= 5420 && number <= 5422) return program_position()[number - 5420];
   if (number >= 5423 && number <= 5425) return rotary_[static_cast<std::size_t>(number - 5423)];
   switch (number) {
@@ -28,6 +28,14 @@ std::optional<double> Interpreter::system_number(int number) const {
     case 5410: return diameter_of(modes_.tool.value_or(0)).value_or(0.0) / modes_.scale;
     default: return std::nullopt;
   }
+}
+
+/// Homes and offsets are kept in mm.
+double Interpreter::unit_of(int number) const {
+  const bool home = (number >= 5161 && number <= 5163) || (number >= 5181 && number <= 5183);
+  const int axis = (number - 5221) % 20;
+  const bool offset = number >= 5221 && number <= 5390 && axis < 3;
+  return home || offset ? modes_.scale : 1.0;
 }
 
 std::optional<double> Interpreter::system_name(std::string_view name) const {

@@ -57,13 +57,15 @@ void Interpreter::thread_cycle() {
   const double side = peak > 0.0 ? 1.0 : -1.0;
   const auto pass = [&](double depth) {
     Place at = start;
-    at.at.z -= (depth * slant);
+    at.at.x = start.at.x - side * (std::abs(peak) - depth);
+    const double back = at.at.x;
+    at.at.z -= depth * slant;
     rapid(at);
     at.at.x = start.at.x + side * (std::abs(peak) + depth);
     rapid(at);
-    at.at.z = end->at.z;
+    at.at.z = end->at.z + (full - depth) * slant;
     cut(at, pitch * modes_.speed);
-    at.at.x = start.at.x;
+    at.at.x = back;
     rapid(at);
   };
   double depth = first;
