@@ -25,13 +25,13 @@ enum class BlockDelete : unsigned char { run, skip };
 
 /// Which controller a program is written for, where that changes what its words mean.
 enum class GcodeDialect : unsigned char {
-  rs274,     // LinuxCNC, and what all millers share
-  grbl,      // GRBL and grblHAL: as rs274, streamed line by line
-  mach3,     // G4 in the seconds or milliseconds that P tells; scaling (G51) and rotation (G68)
-  fanuc,     // O-numbered programs, M98, M99
-  laser,     // GRBL with a laser: M3 and M4 are the beam, S its power on each line
-  marlin,    // printers: E, heaters, fans; G4 P in milliseconds
-  klipper,   // as marlin, with commands in words
+  rs274,    // LinuxCNC, and what all millers share
+  grbl,     // GRBL and grblHAL: as rs274, streamed line by line
+  mach3,    // G4 in the seconds or milliseconds that P tells; scaling (G51) and rotation (G68)
+  fanuc,    // O-numbered programs, M98, M99
+  laser,    // GRBL with a laser: M3 and M4 are the beam, S its power on each line
+  marlin,   // printers: E, heaters, fans; G4 P in milliseconds
+  klipper,  // as marlin, with commands in words
 };
 std::string_view to_string(GcodeDialect dialect);
 /// The dialect of a name such as "linuxcnc", "GRBL", "grblhal", "Mach3"; nothing for an unknown one.

@@ -45,7 +45,8 @@ void Interpreter::arc(Turn turn) {
   if (modes_.feed_mode == FeedMode::inverse_time)
     length = walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra).length();
   const Feed feed = mm_per_min(feed_for(length));
-  if (line_.unused('E')) return extrude_arc(walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra), *to, feed);
+  if (line_.unused('E'))
+    return extrude_arc(walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra), *to, feed);
   if (add(step::Arc{to->at, *centre, modes_.plane, turn, extra, feed})) arrive(*to);
 }
 

@@ -173,7 +173,8 @@ void Interpreter::nurbs() {
   const double wanted = std::ceil(std::sqrt(hull / kChord) / spans) * spans;
   const int count = static_cast<int>(std::clamp(wanted, double(spans), double{kMostChords}));
   std::vector<Point2> chain;
-  for (int i = 1; i <= count; ++i) chain.push_back(spline_at(points, curve_order_, spans * (i / double(count))));
+  for (int i = 1; i <= count; ++i)
+    chain.push_back(spline_at(points, curve_order_, spans * (i / double(count))));
   chain.back() = points.back().p;
   polyline(chain);
 }

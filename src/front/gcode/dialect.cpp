@@ -18,20 +18,25 @@ struct Name {
   std::string_view name;
   GcodeDialect dialect;
 };
-constexpr Name kNames[] = {
-    {"rs274", GcodeDialect::rs274},   {"linuxcnc", GcodeDialect::rs274},   {"grbl", GcodeDialect::grbl},
-    {"grblhal", GcodeDialect::grbl},  {"carbide", GcodeDialect::grbl},     {"mach3", GcodeDialect::mach3},
-    {"fanuc", GcodeDialect::fanuc},   {"laser", GcodeDialect::laser},      {"marlin", GcodeDialect::marlin},
-    {"klipper", GcodeDialect::klipper}};
+constexpr Name kNames[] = {{"rs274", GcodeDialect::rs274},   {"linuxcnc", GcodeDialect::rs274},
+                           {"grbl", GcodeDialect::grbl},     {"grblhal", GcodeDialect::grbl},
+                           {"carbide", GcodeDialect::grbl},  {"mach3", GcodeDialect::mach3},
+                           {"fanuc", GcodeDialect::fanuc},   {"laser", GcodeDialect::laser},
+                           {"marlin", GcodeDialect::marlin}, {"klipper", GcodeDialect::klipper}};
 
 /// Remarks that name the controller or a program that writes for one kind only.
-constexpr Name kRemarks[] = {
-    {"LIGHTBURN", GcodeDialect::laser},       {"LASERGRBL", GcodeDialect::laser},
-    {"LASERWEB", GcodeDialect::laser},        {"LASER TOOL", GcodeDialect::laser},
-    {"KLIPPER", GcodeDialect::klipper},       {"FLAVOR:MARLIN", GcodeDialect::marlin},
-    {"GCODE_FLAVOR = MARLIN", GcodeDialect::marlin}, {"MACH3", GcodeDialect::mach3},
-    {"MACH 3", GcodeDialect::mach3},          {"MACH2", GcodeDialect::mach3},
-    {"GRBL", GcodeDialect::grbl},             {"CARBIDE CREATE", GcodeDialect::grbl}};
+constexpr Name kRemarks[] = {{"LIGHTBURN", GcodeDialect::laser},
+                             {"LASERGRBL", GcodeDialect::laser},
+                             {"LASERWEB", GcodeDialect::laser},
+                             {"LASER TOOL", GcodeDialect::laser},
+                             {"KLIPPER", GcodeDialect::klipper},
+                             {"FLAVOR:MARLIN", GcodeDialect::marlin},
+                             {"GCODE_FLAVOR = MARLIN", GcodeDialect::marlin},
+                             {"MACH3", GcodeDialect::mach3},
+                             {"MACH 3", GcodeDialect::mach3},
+                             {"MACH2", GcodeDialect::mach3},
+                             {"GRBL", GcodeDialect::grbl},
+                             {"CARBIDE CREATE", GcodeDialect::grbl}};
 
 /// What is counted over the lines.
 struct Signs {

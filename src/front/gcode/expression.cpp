@@ -10,14 +10,14 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr int kDeepest = 200;          // brackets within brackets
-constexpr double kEqual = 1e-4;        // EQ and NE: LinuxCNC's slack
-constexpr double kLargest = 1e30;      // of any result
-constexpr double kIndexSlack = 1e-4;   // a parameter's number may be off a whole one by this much
+constexpr int kDeepest = 200;         // brackets within brackets
+constexpr double kEqual = 1e-4;       // EQ and NE: LinuxCNC's slack
+constexpr double kLargest = 1e30;     // of any result
+constexpr double kIndexSlack = 1e-4;  // a parameter's number may be off a whole one by this much
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN",  "ATAN", "COS",  "EXISTS", "EXP",
-                                           "FIX", "FUP",  "LN", "ROUND", "SIN", "SQRT", "TAN"};
+constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP",
+                                           "FIX", "FUP",  "LN",   "ROUND", "SIN", "SQRT",   "TAN"};
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
@@ -151,11 +151,11 @@ std::optional<ExpressionReader::Operator> ExpressionReader::peek_operator(std::s
   constexpr struct {
     std::string_view word;
     Operator op;
-  } kOperators[] = {{"**", Operator::power},    {"*", Operator::times},     {"/", Operator::divided},
-                    {"+", Operator::plus},      {"-", Operator::minus},     {"MOD", Operator::modulo},
-                    {"EQ", Operator::equal},    {"NE", Operator::unequal},  {"GT", Operator::greater},
-                    {"GE", Operator::at_least}, {"LT", Operator::less},     {"LE", Operator::at_most},
-                    {"AND", Operator::both},    {"OR", Operator::either},   {"XOR", Operator::one_of}};
+  } kOperators[] = {{"**", Operator::power},    {"*", Operator::times},    {"/", Operator::divided},
+                    {"+", Operator::plus},      {"-", Operator::minus},    {"MOD", Operator::modulo},
+                    {"EQ", Operator::equal},    {"NE", Operator::unequal}, {"GT", Operator::greater},
+                    {"GE", Operator::at_least}, {"LT", Operator::less},    {"LE", Operator::at_most},
+                    {"AND", Operator::both},    {"OR", Operator::either},  {"XOR", Operator::one_of}};
   for (const auto& entry : kOperators) {
     end = word_end(text_, at_, entry.word);
     if (end != 0) return entry.op;

@@ -18,7 +18,11 @@ constexpr double kMostRepeats = 1e9;
 
 Flow::Flow(std::string_view text, const GcodeReadOptions& options, Talker& talker, Parameters& parameters,
            GcodeDialect dialect, Diagnostics& diagnostics)
-    : options_(options), dialect_(dialect), talker_(talker), parameters_(parameters), diagnostics_(diagnostics) {
+    : options_(options),
+      dialect_(dialect),
+      talker_(talker),
+      parameters_(parameters),
+      diagnostics_(diagnostics) {
   auto source = std::make_unique<Source>();
   source->name = options.file_name;
   source->reader = std::make_unique<BlockReader>(text, reader_options(options.file_name), diagnostics);
@@ -30,8 +34,7 @@ Flow::~Flow() = default;
 
 BlockReaderOptions Flow::reader_options(const std::string& name) const {
   const bool printer = dialect_ == GcodeDialect::marlin || dialect_ == GcodeDialect::klipper;
-  const auto commands =
-      printer ? BlockReaderOptions::Commands::words : BlockReaderOptions::Commands::letters;
+  const auto commands = printer ? BlockReaderOptions::Commands::words : BlockReaderOptions::Commands::letters;
   return {name, options_.max_line_bytes, options_.strict, commands};
 }
 
@@ -146,8 +149,9 @@ void Flow::carry_out(std::size_t at, const Block& block) {
 }
 
 bool Flow::unmatched(const OLine& line, std::uint32_t column) {
-  talker_.error(Code::o_word_unmatched, column,
-                fmt::format("the O-word with the label {} lacks its counterpart; it is left out", line.label));
+  talker_.error(
+      Code::o_word_unmatched, column,
+      fmt::format("the O-word with the label {} lacks its counterpart; it is left out", line.label));
   return false;
 }
 

@@ -19,7 +19,8 @@ std::string_view o_word_in(std::string_view line) {
     while (at < line.size() && wanted(line[at])) ++at;
   };
   skip(is_blank);
-  if (at < line.size() && line[at] == '/') skip([](char c) { return c == '/' || is_digit(c) || is_blank(c); });
+  if (at < line.size() && line[at] == '/')
+    skip([](char c) { return c == '/' || is_digit(c) || is_blank(c); });
   if (at < line.size() && (line[at] == 'N' || line[at] == 'n')) {
     ++at;
     skip([](char c) { return is_digit(c) || is_blank(c); });

@@ -52,8 +52,8 @@ struct Modes {
   double speed = 0.0;  // rpm
   SpindleTurn spindle = SpindleTurn::off;
   bool mist = false, flood = false;
-  double surface_speed = 0.0;  // m/min of G96; 0: the speed is in rpm
-  bool speed_told = false;     // an S word was read
+  double surface_speed = 0.0;     // m/min of G96; 0: the speed is in rpm
+  bool speed_told = false;        // an S word was read
   bool retract_to_start = false;  // G98
   bool diameters = false;         // G7: X words are diameters
   int system = 1;                 // 1 to 9: G54 to G59.3
@@ -251,10 +251,10 @@ class Interpreter : public SystemValues {
   std::array<double, 3> rotary_{};  // degrees
   bool rotary_used_ = false;
   Placement placement_;
-  Point3 local_shift_;       // by G92 and G52, mm
-  Point3 kept_local_shift_;  // what G92.2 put aside
-  double program_turn_ = 0.0;     // G68, degrees
-  Point3 program_turn_about_;     // program coordinates, mm
+  Point3 local_shift_;         // by G92 and G52, mm
+  Point3 kept_local_shift_;    // what G92.2 put aside
+  double program_turn_ = 0.0;  // G68, degrees
+  Point3 program_turn_about_;  // program coordinates, mm
   Place home_28_, home_30_;
   std::vector<std::optional<KeptModes>> kept_modes_{1};  // one a subroutine's level
   std::map<int, double> tool_diameters_;                 // mm, by G10 L1
@@ -264,7 +264,7 @@ class Interpreter : public SystemValues {
   std::optional<Point2> last_curve_handle_;  // of G5: second control point, from the end
   LaserMode beam_mode_ = LaserMode::off;
   double beam_power_ = 0.0;
-  double filament_ = 0.0;                    // E position, mm
+  double filament_ = 0.0;  // E position, mm
   bool filament_relative_ = false;
   CycleMemory cycle_;
 

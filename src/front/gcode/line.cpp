@@ -12,7 +12,7 @@ namespace kerf::gcode {
 namespace {
 
 constexpr Tenths kFirstLargeCode = 1000;  // M100
-constexpr double kTenthsSlack = 1e-4;  // G38.2 may arrive as 38.19999 from other programs
+constexpr double kTenthsSlack = 1e-4;     // G38.2 may arrive as 38.19999 from other programs
 
 /// A code's number in tenths, or -1 if it has more than one place.
 Tenths tenths_of(double value) {

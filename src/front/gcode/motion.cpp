@@ -33,7 +33,8 @@ void Interpreter::move() {
   if (stated && modes_.motion == 53) return curve(53);
   const bool axes = line_.has_unused(kAxisLetters | kRotaryLetters);
   const bool filament = line_.unused('E') && (modes_.motion == 0 || modes_.motion == 10);
-  if (axes || filament || (is_arc(modes_.motion) && line_.has_unused(kArcLetters))) return move_in(modes_.motion);
+  if (axes || filament || (is_arc(modes_.motion) && line_.has_unused(kArcLetters)))
+    return move_in(modes_.motion);
   if (!stated || line_.has(Group::reference)) return;
   if (modes_.motion == 0 || modes_.motion == 10) {
     // A move of length 0, as LinuxCNC makes it; in a program's header, where nothing has moved yet, only the
@@ -141,8 +142,7 @@ void Interpreter::polar() {
     return line_.use(kAllLetters);
   }
   double angle = at_zero ? 0.0 : std::atan2(from.y, from.x) / kDegree;
-  if (line_.polar_radius())
-    radius = *line_.polar_radius() * modes_.scale + (modes_.absolute ? 0.0 : radius);
+  if (line_.polar_radius()) radius = *line_.polar_radius() * modes_.scale + (modes_.absolute ? 0.0 : radius);
   if (line_.polar_angle()) angle = *line_.polar_angle() + (modes_.absolute ? 0.0 : angle);
   const Point3 base = modes_.absolute ? Point3{} : from;
   line_.put('X', (radius * std::cos(angle * kDegree) - base.x) / modes_.scale);

@@ -14,11 +14,21 @@ OKind kind_of(const std::string& word) {
     std::string_view word;
     OKind kind;
   } kWords[] = {
-      {"", OKind::number},           {"sub", OKind::sub},          {"endsub", OKind::end_sub},
-      {"return", OKind::give_back},  {"call", OKind::call},        {"if", OKind::condition},
-      {"elseif", OKind::else_if},    {"else", OKind::otherwise},   {"endif", OKind::end_if},
-      {"while", OKind::loop_while},  {"endwhile", OKind::end_while}, {"do", OKind::loop_do},
-      {"repeat", OKind::repeat},     {"endrepeat", OKind::end_repeat}, {"break", OKind::leave},
+      {"", OKind::number},
+      {"sub", OKind::sub},
+      {"endsub", OKind::end_sub},
+      {"return", OKind::give_back},
+      {"call", OKind::call},
+      {"if", OKind::condition},
+      {"elseif", OKind::else_if},
+      {"else", OKind::otherwise},
+      {"endif", OKind::end_if},
+      {"while", OKind::loop_while},
+      {"endwhile", OKind::end_while},
+      {"do", OKind::loop_do},
+      {"repeat", OKind::repeat},
+      {"endrepeat", OKind::end_repeat},
+      {"break", OKind::leave},
       {"continue", OKind::go_on},
   };
   for (const auto& entry : kWords)

@@ -121,7 +121,8 @@ void Interpreter::touch_off(int system) {
 
 /// Only a tool's diameter counts here; its length is the machine's matter.
 void Interpreter::set_tool_data(int tool) {
-  if (const std::optional<double> radius = line_.take('R')) tool_diameters_[tool] = 2.0 * *radius * modes_.scale;
+  if (const std::optional<double> radius = line_.take('R'))
+    tool_diameters_[tool] = 2.0 * *radius * modes_.scale;
   line_.use(kAxisLetters | kRotaryLetters | Line::bit('I') | Line::bit('J') | Line::bit('Q'));
 }
 
@@ -136,7 +137,8 @@ std::optional<double> Interpreter::diameter_of(int tool) const {
 /// G52: the shift itself.
 void Interpreter::shift_locally() {
   for (int axis = 0; axis < 3; ++axis)
-    if (const auto word = line_.take(static_cast<char>('X' + axis))) local_shift_[axis] = *word * modes_.scale;
+    if (const auto word = line_.take(static_cast<char>('X' + axis)))
+      local_shift_[axis] = *word * modes_.scale;
   line_.use(kRotaryLetters);
   refresh_placement();
 }
@@ -199,8 +201,8 @@ void Interpreter::turn_program() {
       const std::optional<double> first = line_.take(a);
       return first ? first : line_.take(b);
     };
-    program_turn_about_ = {word('A', 'X').value_or(0.0) * modes_.scale, word('B', 'Y').value_or(0.0) * modes_.scale,
-                           0.0};
+    program_turn_about_ = {word('A', 'X').value_or(0.0) * modes_.scale,
+                           word('B', 'Y').value_or(0.0) * modes_.scale, 0.0};
     program_turn_ = std::fmod(line_.take('R').value_or(0.0), 360.0);
     if (!reachable(program_turn_about_)) program_turn_ = 0.0;
   }

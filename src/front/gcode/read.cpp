@@ -41,7 +41,8 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
   while (!interpreter.done() && flow.next(block)) {
     interpreter.run(block);
     if (++lines % kLinesPerReport != 0) continue;
-    report(progress, std::min(1.0, static_cast<double>(flow.position()) / static_cast<double>(text.size() + 1)));
+    report(progress,
+           std::min(1.0, static_cast<double>(flow.position()) / static_cast<double>(text.size() + 1)));
     if (stop_requested(progress)) return {};
   }
   interpreter.finish();

@@ -10,7 +10,7 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kLargest = 500.0;  // mm of diameter
+constexpr double kLargest = 500.0;     // mm of diameter
 constexpr double kUsualPoint = 118.0;  // degrees, of a drill
 constexpr std::size_t kMostDigits = 8;
 
@@ -83,8 +83,8 @@ std::optional<ToolRemark> from_coppercam(std::string_view text, double) {
 /// "HSS, 2-FLUTE ENDMILL, 2MM".
 std::optional<ToolRemark> from_estlcam(std::string_view text, double) {
   const std::size_t comma = text.rfind(',');
-  const bool mill = text.find("ENDMILL") != std::string_view::npos ||
-                    text.find("END MILL") != std::string_view::npos;
+  const bool mill =
+      text.find("ENDMILL") != std::string_view::npos || text.find("END MILL") != std::string_view::npos;
   if (!mill || comma == std::string_view::npos || text.size() < 3) return std::nullopt;
   const std::string_view size = trim(text.substr(comma + 1));
   if (size.size() < 3 || size.substr(size.size() - 2) != "MM") return std::nullopt;

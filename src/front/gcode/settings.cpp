@@ -104,8 +104,8 @@ void Interpreter::turn_spindle() {
 void Interpreter::spin(SpindleTurn turn) {
   modes_.spindle = turn;
   if (program_.dialect == GcodeDialect::laser) return beam();
-  const bool stands = turn == SpindleTurn::off || (modes_.speed_told && !(modes_.speed > 0.0) &&
-                                                   !(modes_.surface_speed > 0.0));
+  const bool stands = turn == SpindleTurn::off ||
+                      (modes_.speed_told && !(modes_.speed > 0.0) && !(modes_.surface_speed > 0.0));
   add(step::Spindle{stands ? rpm(0) : rpm(modes_.speed), stands ? SpindleTurn::off : turn});
 }
 
@@ -153,8 +153,7 @@ void Interpreter::subroutine() {
     return;
   }
   if (repeats >= 1.0)
-    flow_->call_number(static_cast<int>(label), static_cast<int>(repeats),
-                       line_.column(Group::subroutine));
+    flow_->call_number(static_cast<int>(label), static_cast<int>(repeats), line_.column(Group::subroutine));
 }
 
 void Interpreter::keep_modes() {

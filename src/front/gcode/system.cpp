@@ -59,7 +59,9 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
       {"_units_per_minute", [](const I& i) { return truth(i.modes_.feed_mode == FeedMode::per_minute); }},
       {"_units_per_rev", [](const I& i) { return truth(i.modes_.feed_mode == FeedMode::per_turn); }},
       {"_coord_system",
-       [](const I& i) { return i.modes_.system <= 6 ? 530.0 + 10.0 * i.modes_.system : 584.0 + i.modes_.system; }},
+       [](const I& i) {
+         return i.modes_.system <= 6 ? 530.0 + 10.0 * i.modes_.system : 584.0 + i.modes_.system;
+       }},
       {"_tool_offset", [](const I&) { return 0.0; }},
       {"_retract_r_plane", [](const I& i) { return truth(!i.modes_.retract_to_start); }},
       {"_retract_old_z", [](const I& i) { return truth(i.modes_.retract_to_start); }},
@@ -99,7 +101,8 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
       {"_current_tool", [](const I& i) { return static_cast<double>(i.modes_.tool.value_or(0)); }},
       {"_current_pocket", [](const I& i) { return static_cast<double>(i.modes_.tool.value_or(0)); }},
       {"_selected_tool", [](const I& i) { return static_cast<double>(i.modes_.selected_tool.value_or(-1)); }},
-      {"_selected_pocket", [](const I& i) { return static_cast<double>(i.modes_.selected_tool.value_or(-1)); }},
+      {"_selected_pocket",
+       [](const I& i) { return static_cast<double>(i.modes_.selected_tool.value_or(-1)); }},
       {"_value", [](const I&) { return 0.0; }},
       {"_value_returned", [](const I&) { return 0.0; }},
       {"_call_level", [](const I& i) { return static_cast<double>(i.current_depth_); }},

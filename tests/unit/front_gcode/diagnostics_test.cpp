@@ -100,7 +100,8 @@ std::size_t motions_of(const Toolpath& path) {
 TEST(GcodeDiagnostics, EachIsSaidAtItsPlace) {
   for (const Case& c : kCases) {
     Diagnostics diagnostics;
-    const GcodeProgram program = read_gcode(std::string(c.text) + "\nM2\n", {.max_rerun_bytes = 100'000}, diagnostics);
+    const GcodeProgram program =
+        read_gcode(std::string(c.text) + "\nM2\n", {.max_rerun_bytes = 100'000}, diagnostics);
     const Diagnostic* found = nullptr;
     for (const Diagnostic& d : diagnostics.list())
       if (found == nullptr && d.code == c.code) found = &d;

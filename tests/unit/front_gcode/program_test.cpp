@@ -29,7 +29,8 @@ const Case kCases[] = {
      {{3, 4, 0}, {4, 1, 0}}},
     {"o<x> sub\n#<d>=3\nG0 Z#<d>\no<x> return\nG0 X9\no<x> endsub\n#<d>=2\no<x> call\nG0 Z#<d>",
      {{0, 0, 3}, {0, 0, 2}}},
-    {"#1=0\no1 while [#1 LT 5]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [#1 GT 3]\no1 break\n"
+    {"#1=0\no1 while [#1 LT 5]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [#1 GT 3]\no1 "
+     "break\n"
      "o3 endif\nG0 X#1\no1 endwhile",
      {{1, 0, 0}, {3, 0, 0}}},
     {"#1=0\no1 do\nG0 X#1\n#1=[#1+1]\no1 while [#1 LT 3]", {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},
@@ -111,7 +112,8 @@ TEST(GcodeProgram, APrinterPushesFilament) {
   options.dialect = GcodeDialect::marlin;
   options.filament_diameter = 2.0;
   const auto program = read_gcode(
-      "M104 S200\nM117 hello there\nG28\nG92 E0\nG1 X0 Y0 F600\nG1 X10 E1\nM83\nG1 X20 E2\nM106 S255\nG4 P500\n",
+      "M104 S200\nM117 hello there\nG28\nG92 E0\nG1 X0 Y0 F600\nG1 X10 E1\nM83\nG1 X20 E2\nM106 S255\nG4 "
+      "P500\n",
       options, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << to_string(diagnostics.list().front());
   std::vector<double> volumes;
@@ -143,7 +145,8 @@ TEST(GcodeProgram, SplinesStayNearTheirCurve) {
 TEST(GcodeProgram, RemarksTellTools) {
   Diagnostics diagnostics;
   const auto program = read_gcode(
-      "(T1  D=6. CR=1. - ZMIN=-2. - bullnose end mill)\n( T3 : 0.25 )\n( Tool #5 \"x\" / Diameter 3.175 mm )\n"
+      "(T1  D=6. CR=1. - ZMIN=-2. - bullnose end mill)\n( T3 : 0.25 )\n( Tool #5 \"x\" / Diameter 3.175 mm "
+      ")\n"
       "(HSS, 2-Flute Endmill, 2mm)\nG20\nG0 X1\nM2\n",
       {}, diagnostics);
   ASSERT_EQ(program.tools.size(), 4u);
