@@ -160,6 +160,7 @@ class Interpreter : public SystemValues {
 
   // system.cpp
   Point3 program_position() const;
+  std::optional<double> system_place(std::string_view name) const;
   std::optional<double> diameter_of(int tool) const;
 
   // printer.cpp

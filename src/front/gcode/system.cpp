@@ -78,6 +78,16 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
       {"_feed_override", [](const I&) { return 1.0; }},
       {"_adaptive_feed", [](const I&) { return 0.0; }},
       {"_feed_hold", [](const I&) { return 1.0; }},
+  };
+  const auto found = kNames.find(name);
+  return found == kNames.end() ? system_place(name) : found->second(*this);
+}
+
+/// Where the tool is, how fast, and which.
+std::optional<double> Interpreter::system_place(std::string_view name) const {
+  using Read = double (*)(const Interpreter&);
+  using I = Interpreter;
+  static const std::map<std::string_view, Read> kNames{
       {"_feed",
        [](const I& i) {
          return i.modes_.feed_mode == FeedMode::inverse_time ? i.modes_.feed : i.modes_.feed / i.modes_.scale;
