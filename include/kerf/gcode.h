@@ -48,12 +48,12 @@ struct GcodeReadOptions {
   bool strict = false;                     // warnings of unusual words become errors
   AfterEnd after_end = AfterEnd::stop;     // either way it is said that there is more text
   BlockDelete block_delete = BlockDelete::run;
-  std::optional<GcodeDialect> dialect;  // nothing: guessed from the text, and said
-  double filament_diameter = 1.75;      // mm; turns a printer's E into volume
+  std::optional<GcodeDialect> dialect = {};  // nothing: guessed from the text, and said
+  double filament_diameter = 1.75;           // mm; turns a printer's E into volume
   /// Text of the file "name.ngc" that `o<name> call` asks for (letters, digits, '_', '-' only); null: none.
-  std::function<std::optional<std::string>(const std::string& file_name)> read_file;
+  std::function<std::optional<std::string>(const std::string& file_name)> read_file = {};
   /// Diameter in mm of a tool of the user's table, for G41 and G42; the program's own remarks come first.
-  std::function<std::optional<double>(int tool)> tool_diameter;
+  std::function<std::optional<double>(int tool)> tool_diameter = {};
   std::size_t max_rerun_bytes = 500'000'000;  // of lines read after a jump; more is an error
 };
 

@@ -74,7 +74,9 @@ void Interpreter::thread_cycle() {
     depth = first * std::pow(n, 1.0 / fall);
   }
   for (int i = 0; i <= static_cast<int>(spring) && !full_; ++i) pass(full);
-  rapid(start);
+  Place last = start;
+  last.at.z = end->at.z;
+  rapid(last);
 }
 
 }  // namespace kerf::gcode
