@@ -120,9 +120,15 @@ TEST(GcodeProgram, APrinterPushesFilament) {
   for (std::size_t i = 0; i < program.path.size(); ++i) {
     const Step& s = program.path[i];
     if (s.kind() == StepKind::extrude) volumes.push_back(program.path.extrude(i).volume.raw());
-    if (s.kind() == StepKind::dwell) EXPECT_NEAR(s.dwell().time.seconds(), 0.5, 1e-12);
-    if (s.kind() == StepKind::temperature) EXPECT_EQ(s.temperature().celsius, 200.0);
-    if (s.kind() == StepKind::fan) EXPECT_EQ(s.fan().share, 1.0);
+    if (s.kind() == StepKind::dwell) {
+      EXPECT_NEAR(s.dwell().time.seconds(), 0.5, 1e-12);
+    }
+    if (s.kind() == StepKind::temperature) {
+      EXPECT_EQ(s.temperature().celsius, 200.0);
+    }
+    if (s.kind() == StepKind::fan) {
+      EXPECT_EQ(s.fan().share, 1.0);
+    }
   }
   ASSERT_EQ(volumes.size(), 2u);
   EXPECT_NEAR(volumes[0], 3.14159265, 1e-6);
