@@ -45,7 +45,7 @@ constexpr CodeEntry kGCodes[] = {
     {430, Group::tool_length, Support::ignored},
     {431, Group::tool_length, Support::ignored},
     {432, Group::tool_length, Support::ignored},
-    {490, Group::tool_length, Support::ignored},
+    {490, Group::tool_length, Support::idle},
     {500, Group::scaling, Support::read},
     {510, Group::scaling, Support::read},
     {520, Group::reference, Support::read},

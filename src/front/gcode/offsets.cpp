@@ -173,7 +173,6 @@ void Interpreter::shift_zero() {
 void Interpreter::set_home(int first, Place& home) {
   home = here_;
   for (int axis = 0; axis < 3; ++axis) parameters_.slot(first + axis) = here_.at[axis];
-  line_.use(kAxisLetters | kRotaryLetters);
 }
 
 /// G51 X2 Y2: factors of the axes (Mach3); G50 ends it.
