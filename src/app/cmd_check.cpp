@@ -49,6 +49,17 @@ std::optional<std::vector<Finding>> findings_in_material(const Job& job, double 
   return findings_of(simulation->hazards, job.program.path);
 }
 
+/// What the reader said, without what is a hazard of its own: a missing feed or end is told once.
+Diagnostics without_hazards(const Diagnostics& all) {
+  Diagnostics rest(all.list().size() + 1);
+  for (const Diagnostic& d : all.list()) {
+    const bool hazard =
+        d.severity != Severity::error && (d.code == Code::no_feed || d.code == Code::no_program_end);
+    if (!hazard) rest.add(d);
+  }
+  return rest;
+}
+
 void show_result(Console& console, const LoadedProgram& program, const std::vector<Finding>& findings,
                  const Diagnostics& diagnostics) {
   console.show(diagnostics);
@@ -86,7 +97,7 @@ Status run(Console& console, const Options& options) {
   }
   progress.clear();
   if (interrupted()) return tell_stopped(console);
-  show_result(console, job.program, findings, diagnostics);
+  show_result(console, job.program, findings, without_hazards(diagnostics));
   if (diagnostics.has_errors()) return Status::input_errors;
   return findings.empty() ? Status::done : Status::hazards;
 }

@@ -50,15 +50,14 @@ Message negative_feed(const Step& s, const MotionContext&, const Setting&) {
 }
 
 Message no_tool(const Step& s, const MotionContext& context, const Setting& setting) {
-  if (!s.is_cutting() || context.tool || setting.printing) return std::nullopt;
+  if (!s.is_cutting() || context.tool || setting.laser || setting.printing) return std::nullopt;
   return "a cutting move before any tool change: nobody knows what cuts here";
 }
 
 Message spindle_off(const Step& s, const MotionContext& context, const Setting& setting) {
   if (!s.is_cutting() || setting.laser || setting.printing) return std::nullopt;
-  if (context.spindle.turn != SpindleTurn::off && context.spindle.speed.rpm() > 0.0) return std::nullopt;
+  if (context.spindle.turn != SpindleTurn::off) return std::nullopt;  // 0 rpm: its speed is set by hand
   if (!context.spindle_stated) return "a cutting move, and the program has not started the spindle";
-  if (context.spindle.turn != SpindleTurn::off) return "a cutting move with the spindle set to 0 rpm";
   return "a cutting move while the spindle is switched off";
 }
 

@@ -107,16 +107,37 @@ const char* after_computed_value(const char* p, const char* end) {
 BlockReader::BlockReader(std::string_view text, BlockReaderOptions options, Diagnostics& diagnostics)
     : text_(text), options_(std::move(options)), diagnostics_(diagnostics) {
   if (text_.substr(0, 3) == "\xEF\xBB\xBF") text_.remove_prefix(3);
-  next_line_feed_ = std::min(text_.find('\n'), text_.size());
-  next_return_ = std::min(text_.find('\r'), text_.size());
+  has_returns_ = text_.find('\r') != std::string_view::npos;
+  find_line_end();
 }
 
-/// The end of the line at position_. Each kind of line end is searched for only once past the last one found,
-/// so that a text with lone returns costs no more than one with line feeds.
+/// Each kind of line end is searched for only once past the last one found, and returns no farther than to
+/// the next line feed, so that neither a text with lone returns nor a jump back costs a look at the whole
+/// text.
+void BlockReader::find_line_end() {
+  const char* const begin = text_.data();
+  const auto find = [&](char c, std::size_t from, std::size_t to) {
+    const char* const at = std::find(begin + from, begin + to, c);
+    return static_cast<std::size_t>(at - begin);
+  };
+  if (next_line_feed_ < position_ || next_line_feed_ == 0)
+    next_line_feed_ = std::min(text_.find('\n', position_), text_.size());
+  if (!has_returns_)
+    next_return_ = next_line_feed_;
+  else if (next_return_ < position_ || next_return_ == 0)
+    next_return_ = find('\r', position_, next_line_feed_);
+}
+
+/// The end of the line at position_.
 std::size_t BlockReader::line_end() {
-  if (next_line_feed_ < position_) next_line_feed_ = std::min(text_.find('\n', position_), text_.size());
-  if (next_return_ < position_) next_return_ = std::min(text_.find('\r', position_), text_.size());
+  find_line_end();
   return std::min(next_line_feed_, next_return_);
+}
+
+void BlockReader::seek(std::size_t position, std::uint32_t lines) {
+  position_ = std::min(position, text_.size());
+  line_ = lines;
+  next_line_feed_ = next_return_ = 0;
 }
 
 bool BlockReader::next(Block& block) {
@@ -124,7 +145,8 @@ bool BlockReader::next(Block& block) {
   const std::size_t end = line_end();
   block.text = text_.substr(position_, end - position_);
   block.line = ++line_;
-  block.faulty = block.optional = block.percent = false;
+  block.faulty = block.optional = block.percent = block.computed = false;
+  block.command = {};
   block.number.reset();
   block.o_word.reset();
   block.words.clear();
@@ -171,7 +193,22 @@ bool BlockReader::read_prefix(Block& block) {
     ++p_;
     while (p_ != end_ && is_digit(*p_)) ++p_;  // "/2": switch number of the block delete
   }
+  if (options_.commands == BlockReaderOptions::Commands::words && is_command()) {
+    const char* stop = std::find(p_, end_, ';');
+    block.command = {p_, static_cast<std::size_t>(stop - p_)};
+    return false;
+  }
   return true;
+}
+
+/// "SET_FAN 1": three letters in a row; "M117 text".
+bool BlockReader::is_command() const {
+  const auto letter = [this](std::ptrdiff_t i) {
+    return end_ - p_ > i && (class_of(p_[i]) == CharClass::letter || p_[i] == '_');
+  };
+  if (letter(0) && letter(1) && letter(2)) return true;
+  const std::string_view start(p_, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end_ - p_, 5)));
+  return start == "M117 " || start == "M118 " || start == "M486 ";
 }
 
 bool BlockReader::read_item(Block& block) {
@@ -222,6 +259,7 @@ bool BlockReader::read_computed_value(Block& block, Word& word) {
   if (value_end == letter + 1)
     return fault(block, Code::number_missing, letter, fmt::format("no number after {}", shown(*letter)));
   word.kind = ValueKind::expression;
+  block.computed = true;
   word.value_length = static_cast<std::uint32_t>(value_end - letter) - 1;
   p_ = value_end;
   block.words.push_back(word);
@@ -243,6 +281,7 @@ bool BlockReader::read_assignment(Block& block) {
       return fault(block, Code::number_missing, equals, "no value after '='");
     value_end = number.end;
   }
+  block.computed = true;
   block.assignments.push_back({{begin, static_cast<std::size_t>(value_end - begin)}, column_of(begin)});
   p_ = value_end;
   return true;

@@ -49,6 +49,8 @@ struct Block {
   bool faulty = false;
   bool optional = false;          // begins with the block delete character '/'
   bool percent = false;           // a line that begins with '%'
+  bool computed = false;          // has words or assignments whose value is an expression
+  std::string_view command;       // of BlockReaderOptions::Commands::words
   std::optional<double> number;   // N word
   std::vector<Word> words;        // in order, N left out
   std::vector<Comment> comments;  // in order
@@ -64,6 +66,8 @@ struct BlockReaderOptions {
   std::string file_name = "<text>";
   std::size_t max_line_bytes = 1'000'000;
   bool strict = false;  // unusual comments are errors
+  /// Printers have commands in words ("EXCLUDE_OBJECT NAME=a", "M117 ready"); they are kept as text.
+  enum class Commands : std::uint8_t { letters, words } commands = Commands::letters;
 };
 
 class BlockReader {
@@ -72,13 +76,19 @@ class BlockReader {
 
   /// Reads the next line into `block`; false at the end of the text.
   bool next(Block& block);
-  /// Bytes of the text already read.
+  /// Bytes of the text already read: where the next line begins.
   std::size_t position() const { return position_; }
+  /// Reads on from a place where a line begins, which was position() when `lines` lines had been read.
+  void seek(std::size_t position, std::uint32_t lines);
+  std::uint32_t lines() const { return line_; }
+  std::string_view text() const { return text_; }
 
  private:
   std::size_t line_end();
+  void find_line_end();
   void read_line(Block& block);
   bool read_prefix(Block& block);
+  bool is_command() const;
   bool read_item(Block& block);
   bool read_word(Block& block);
   bool read_computed_value(Block& block, Word& word);
@@ -96,7 +106,8 @@ class BlockReader {
   Diagnostics& diagnostics_;
   std::size_t position_ = 0;
   std::size_t next_line_feed_ = 0;  // first '\n' at or after position_, found once
-  std::size_t next_return_ = 0;     // first '\r' likewise
+  std::size_t next_return_ = 0;     // first '\r' before that, else the same place
+  bool has_returns_ = false;
   std::uint32_t line_ = 0;
   bool unbalanced_ = false;  // a comment of this line opens more brackets than it closes
   const char* line_start_ = nullptr;

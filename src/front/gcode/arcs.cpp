@@ -25,8 +25,15 @@ Point2 in_name_order(Plane plane, double u, double v) {
 }  // namespace
 
 void Interpreter::arc(Turn turn) {
+  if (!placement_.plain && modes_.plane != Plane::xy) {
+    talker_.error(Code::code_unsupported, line_.column(),
+                  "turned or scaled coordinates go with arcs in the XY plane only; the line is left out");
+    return line_.use(kAllLetters);
+  }
   const std::optional<Place> to = target();
   if (!to) return;
+  const bool mirrored = placement_.scale.x * placement_.scale.y < 0.0;
+  if (mirrored) turn = turn == Turn::cw ? Turn::ccw : Turn::cw;
   const int extra = extra_turns();
   const std::optional<Point2> centre = centre_of(*to, turn);
   if (!centre ||
@@ -38,6 +45,8 @@ void Interpreter::arc(Turn turn) {
   if (modes_.feed_mode == FeedMode::inverse_time)
     length = walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra).length();
   const Feed feed = mm_per_min(feed_for(length));
+  if (line_.unused('E'))
+    return extrude_arc(walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra), *to, feed);
   if (add(step::Arc{to->at, *centre, modes_.plane, turn, extra, feed})) arrive(*to);
 }
 
@@ -54,16 +63,23 @@ std::optional<Point2> Interpreter::centre_from_offsets() {
   const PlaneAxes axes = axes_of(modes_.plane);
   const std::optional<double> u = line_.take(static_cast<char>('I' + axes.u));
   const std::optional<double> v = line_.take(static_cast<char>('I' + axes.v));
-  if (!modes_.absolute_centres)
-    return in_name_order(modes_.plane, here_.at[axes.u] + u.value_or(0.0) * modes_.scale,
-                         here_.at[axes.v] + v.value_or(0.0) * modes_.scale);
+  const double first = u.value_or(0.0) * modes_.scale, second = v.value_or(0.0) * modes_.scale;
+  if (!modes_.absolute_centres) {
+    const Point2 offset = placement_.plain ? Point2{first, second} : turned_offset({first, second});
+    return in_name_order(modes_.plane, here_.at[axes.u] + offset.x, here_.at[axes.v] + offset.y);
+  }
   if (!u || !v) {
     talker_.error(
         Code::arc_no_centre, line_.column(),
         "with absolute centres (G90.1) an arc needs both of its centre's words; read as a straight cut");
     return std::nullopt;
   }
-  return in_name_order(modes_.plane, *u * modes_.scale + shift_[axes.u], *v * modes_.scale + shift_[axes.v]);
+  if (!placement_.plain) return placement_.to_path({first, second, 0.0}).xy();
+  return in_name_order(modes_.plane, first + placement_.shift[axes.u], second + placement_.shift[axes.v]);
+}
+
+Point2 Interpreter::turned_offset(Point2 offset) const {
+  return (placement_.to_path({offset.x, offset.y, 0.0}) - placement_.to_path({})).xy();
 }
 
 /// R above 0 is the arc of less than a half turn, below 0 the other one.
@@ -75,7 +91,7 @@ std::optional<Point2> Interpreter::centre_from_radius(const Place& to, Turn turn
     return std::nullopt;
   }
   const PlaneAxes axes = axes_of(modes_.plane);
-  const double radius = *word * modes_.scale;
+  const double radius = *word * modes_.scale * std::abs(placement_.scale.x);
   const Point2 from{here_.at[axes.u], here_.at[axes.v]}, end{to.at[axes.u], to.at[axes.v]};
   const Point2 middle = 0.5 * (from + end);
   const double chord = distance(from, end);

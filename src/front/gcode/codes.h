@@ -36,6 +36,8 @@ enum class Group : std::uint8_t {
   flood,
   no_coolant,
   override_switch,
+  subroutine,
+  saved_modes,
   other,
 };
 inline constexpr int kGroups = static_cast<int>(Group::other) + 1;

@@ -1,7 +1,9 @@
 // Comments that mean something: tools, the stock, messages for the operator.
+#include <fmt/format.h>
 #include <string>
 
 #include "front/gcode/interpreter.h"
+#include "front/gcode/remarks.h"
 
 namespace kerf::gcode {
 namespace {
@@ -24,6 +26,8 @@ bool begins_with(std::string_view text, std::string_view word) {
 
 constexpr std::size_t kLongestComment = 1000;  // bytes of a comment that can describe something
 
+constexpr std::size_t kMostWaiting = 1000;  // remarks before the units are known
+
 }  // namespace
 
 void Interpreter::read_comment(const Comment& comment) {
@@ -41,6 +45,7 @@ void Interpreter::read_comment(const Comment& comment) {
     stock_.read(text, modes_.scale, talker_.spot(comment.column), talker_.diagnostics());
     return;
   }
+  if (read_tool_remark(text, talker_.spot(comment.column))) return;
   if (!begins_with(text, "TOOL")) return;
   const TextSpot where = talker_.spot(comment.column);
   const auto shape = read_tool_comment(text, modes_.scale, where, talker_.diagnostics());
@@ -52,6 +57,37 @@ void Interpreter::read_comment(const Comment& comment) {
   }
   pending_shape_ = shape;
   pending_spot_ = where;
+}
+
+/// True for a remark that tells a tool. Those of a program's head wait until its units are known.
+bool Interpreter::read_tool_remark(std::string_view text, const TextSpot& where) {
+  if (text.size() < 5 || !read_remark(text, modes_.scale)) return false;
+  if (units_told_ || moved_) {
+    use_tool_remark(text, where);
+  } else if (waiting_remarks_.size() < kMostWaiting) {
+    waiting_remarks_.emplace_back(std::string(text), where);
+  }
+  return true;
+}
+
+void Interpreter::use_waiting_remarks() {
+  for (const auto& [text, where] : waiting_remarks_) use_tool_remark(text, where);
+  waiting_remarks_.clear();
+}
+
+/// A remark counts where no comment that is meant for programs describes the tool. Without a number it is
+/// the tool of a program that changes none: number 0.
+void Interpreter::use_tool_remark(std::string_view text, const TextSpot& where) {
+  const std::optional<ToolRemark> remark = read_remark(text, modes_.scale);
+  const int number = remark ? remark->number.value_or(0) : 0;
+  if (!remark || program_.tools.count(number) != 0) return;
+  describe_tool(number, remark->shape, where);
+  const auto tool = program_.tools.find(number);
+  if (tool == program_.tools.end()) return;
+  tool->second.description = std::string(text);
+  talker_.diagnostics().note(Code::tool_from_remark, where,
+                             fmt::format("tool {} was taken from this remark: {}, diameter {:g} mm", number,
+                                         name_of(tool->second.shape), tool->second.diameter.mm()));
 }
 
 void Interpreter::describe_tool(int number, const ToolShape& shape, const TextSpot& where) {

@@ -113,8 +113,8 @@ std::optional<Interpreter::Hole> Interpreter::plan_hole() {
   const std::optional<Place> to = target();  // the third axis' word is taken already
   if (!to) return std::nullopt;
   hole.place = *to;
-  hole.r = modes_.absolute ? *cycle_.r + shift_[axes.w] : level + *cycle_.r;
-  hole.bottom = modes_.absolute ? *cycle_.bottom + shift_[axes.w] : hole.r + *cycle_.bottom;
+  hole.r = modes_.absolute ? *cycle_.r + placement_.shift[axes.w] : level + *cycle_.r;
+  hole.bottom = modes_.absolute ? *cycle_.bottom + placement_.shift[axes.w] : hole.r + *cycle_.bottom;
   if (hole.r < hole.bottom) {
     talker_.error(
         Code::cycle_upside_down, line_.column(),
@@ -207,7 +207,7 @@ void Interpreter::tap(const Hole& hole, SpindleTurn forward) {
 void Interpreter::back_bore(const Hole& hole) {
   const PlaneAxes axes = axes_of(modes_.plane);
   const double back_level =
-      modes_.absolute ? *cycle_.back_level + shift_[axes.w] : hole.bottom + *cycle_.back_level;
+      modes_.absolute ? *cycle_.back_level + placement_.shift[axes.w] : hole.bottom + *cycle_.back_level;
   Hole aside = hole;
   aside.place.at[axes.u] += cycle_.aside_u.value_or(0.0);
   aside.place.at[axes.v] += cycle_.aside_v.value_or(0.0);

@@ -2,32 +2,72 @@
 #include "front/gcode/interpreter.h"
 
 namespace kerf::gcode {
+namespace {
+
+constexpr std::size_t kLongestCommand = 1000;  // bytes kept of a printer's command in words
+
+}  // namespace
 
 Interpreter::Interpreter(GcodeProgram& program, const GcodeReadOptions& options, Talker& talker)
     : program_(program),
       path_(program.path),
       talker_(talker),
+      options_(options),
+      parameters_(*this),
       max_steps_(options.max_steps),
       after_end_(options.after_end),
-      file_(program.path.origins().file(options.file_name)) {}
+      file_(program.path.origins().file(options.file_name)) {
+  const bool printer = program.dialect == GcodeDialect::marlin || program.dialect == GcodeDialect::klipper;
+  line_.refuse((printer ? 0u : Line::bit('E')) | Line::bit('U') | Line::bit('V') | Line::bit('W'));
+}
 
 void Interpreter::run(const Block& block) {
+  look_where_we_are();
   talker_.at_line(block.line);
   for (const Comment& comment : block.comments) read_comment(comment);
   if (block.percent) return read_percent();
-  if (block.faulty) return;
+  if (block.faulty || (block.optional && options_.block_delete == BlockDelete::skip)) return;
+  if (!block.command.empty()) {
+    add(step::Verbatim{std::string(block.command.substr(0, kLongestCommand))});
+    return;
+  }
   const bool empty = block.words.empty() && block.assignments.empty() && !block.o_word;
   if (empty) return;
   words_since_percent_ = true;
   if (program_.ended && !goes_on(block)) return;
-  if (!line_.sort(block, talker_)) return;
+  if (block.o_word) return flow_->control(block);
+  if (!line_.sort(block, parameters_, talker_)) return;
+  if (printer_line()) return printer_code();
   execute();
   line_.report_unused(talker_);
 }
 
-/// Whether a line after the program's end is read.
+/// Follows calls and returns: another text's name in messages, modes that M73 kept.
+void Interpreter::look_where_we_are() {
+  if (flow_->depth() == current_depth_ && &flow_->file_name() == current_file_) return;
+  if (&flow_->file_name() != current_file_) {
+    current_file_ = &flow_->file_name();
+    talker_.in_file(*current_file_);
+    file_ = path_.origins().file(*current_file_);
+    origin_line_ = 0;
+  }
+  current_depth_ = flow_->depth();
+  while (kept_modes_.size() > current_depth_ + 1) {
+    const std::optional<KeptModes> kept = kept_modes_.back();
+    kept_modes_.pop_back();
+    if (kept && kept->automatic) restore_modes(kept->modes);
+  }
+  kept_modes_.resize(current_depth_ + 1);
+}
+
+/// Whether a line after the program's end is read. Subroutines that stand there were called before.
 bool Interpreter::goes_on(const Block& block) {
   if (after_end_said_) return true;
+  const bool subroutine = block.o_word || (!block.words.empty() && block.words.front().letter == 'O');
+  if (subroutine && after_end_ == AfterEnd::stop) {
+    stopped_ = true;
+    return false;
+  }
   after_end_said_ = true;
   stopped_ = after_end_ == AfterEnd::stop;
   const std::uint32_t column = block.words.empty() ? 1 : block.words.front().column;
@@ -42,6 +82,7 @@ bool Interpreter::goes_on(const Block& block) {
 
 /// A program stands between two percent lines, or has none.
 void Interpreter::read_percent() {
+  if (flow_->depth() > 0) return;  // of a subroutine's own file
   const bool closes = percent_open_ || words_since_percent_;
   if (closes && !percent_open_)
     talker_.unusual(Code::lone_percent, 1, "this percent line closes a program that no percent line opens");
@@ -59,6 +100,7 @@ void Interpreter::execute() {
     if (line_.has(Group::units)) set_units();
   }
   if (line_.has('F')) set_feed();
+  if (line_.has(Group::spindle_mode)) set_spindle_mode();
   if (line_.has('S')) set_speed();
   if (line_.has('T')) select_tool();
   if (line_.has_codes()) {
@@ -67,12 +109,20 @@ void Interpreter::execute() {
     switch_coolant();
     if (line_.has(Group::dwell)) dwell();
     if (line_.has(Group::plane)) set_plane();
+    if (line_.has(Group::saved_modes)) keep_modes();
+    if (line_.has(Group::coordinates)) use_coordinates();
     if (line_.has(Group::path_control)) set_path_mode();
     set_distance();
+    if (line_.has(Group::lathe)) modes_.diameters = line_.code(Group::lathe) == 70;
+    if (line_.has(Group::scaling)) scale_program();
+    if (line_.has(Group::rotation)) turn_program();
     use_words_of_other_codes();
     if (line_.has(Group::reference)) use_reference();
   }
+  if (line_.large_m_code() >= 0) read_large_m_code();
+  if (line_.polar_radius() || line_.polar_angle()) polar();
   move();
+  if (line_.has(Group::subroutine)) subroutine();
   if (line_.has(Group::stop)) end_or_pause();
 }
 

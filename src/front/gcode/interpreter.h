@@ -7,9 +7,16 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
+#include "front/gcode/flow.h"
 #include "front/gcode/line.h"
+#include "front/gcode/parameters.h"
 
 #include "kerf/gcode.h"
 #include "kerf/geometry.h"
@@ -20,6 +27,9 @@ namespace kerf::gcode {
 enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_turn };
 
 inline constexpr unsigned kAllAxes = 7;
+inline constexpr int kHome28 = 5161, kHome30 = 5181;  // first of the parameters that keep the homes
+inline constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
+inline constexpr double kMillimetresPerInch = 25.4;
 inline constexpr Tenths kNoMotion = 800;      // G80
 inline constexpr Tenths kMotionNotSaid = -1;  // before the first motion code
 inline constexpr Tenths kMotionNotRead = -2;  // after one that is not supported
@@ -42,8 +52,31 @@ struct Modes {
   double speed = 0.0;  // rpm
   SpindleTurn spindle = SpindleTurn::off;
   bool mist = false, flood = false;
+  double surface_speed = 0.0;     // m/min of G96; 0: the speed is in rpm
+  bool speed_told = false;        // an S word was read
   bool retract_to_start = false;  // G98
-  std::optional<int> selected_tool;
+  bool diameters = false;         // G7: X words are diameters
+  int system = 1;                 // 1 to 9: G54 to G59.3
+  std::optional<int> selected_tool, tool;
+};
+
+/// How the program's coordinates lie in the toolpath's: turned about zero, then shifted.
+struct Placement {
+  Point3 shift;       // mm
+  double turn = 0.0;  // degrees, in XY
+  double cosine = 1.0, sine = 0.0;
+  Point3 scale{1.0, 1.0, 1.0};  // G51, about `scale_zero` in program coordinates
+  Point3 scale_zero;
+  bool plain = true;  // only shifted
+
+  Point3 to_path(Point3 program) const;
+  Point3 to_program(Point3 path) const;
+};
+
+/// What M70 and M73 keep.
+struct KeptModes {
+  Modes modes;
+  bool automatic = false;  // M73: put back when the subroutine ends
 };
 
 /// What canned cycles keep from hole to hole. R and Z as the program gave them, in mm; the rest in mm and
@@ -55,9 +88,16 @@ struct CycleMemory {
   std::optional<double> start_level;                   // where the series of cycles began
 };
 
-class Interpreter {
+class Interpreter : public SystemValues {
  public:
   Interpreter(GcodeProgram& program, const GcodeReadOptions& options, Talker& talker);
+
+  Parameters& parameters() { return parameters_; }
+  /// Which texts and lines follow each other; needed before the first run().
+  void follow(Flow& flow) { flow_ = &flow; }
+  std::optional<double> system_number(int number) const override;
+  std::optional<double> system_name(std::string_view name) const override;
+  double unit_of(int number) const override;
 
   /// Carries out one line.
   void run(const Block& block);
@@ -72,8 +112,14 @@ class Interpreter {
   void read_percent();
   void execute();
 
+  void look_where_we_are();
+  bool printer_line();
+
   // comments.cpp
   void read_comment(const Comment& comment);
+  bool read_tool_remark(std::string_view text, const TextSpot& where);
+  void use_waiting_remarks();
+  void use_tool_remark(std::string_view text, const TextSpot& where);
   void describe_tool(int number, const ToolShape& shape, const TextSpot& where);
 
   // settings.cpp
@@ -92,6 +138,48 @@ class Interpreter {
   void use_words_of_other_codes();
   void end_or_pause();
   void end_program();
+  void set_spindle_mode();
+  void subroutine();
+  void keep_modes();
+  void restore_modes(const Modes& modes);
+  void beam();
+  void read_large_m_code();
+
+  // offsets.cpp
+  void use_coordinates();
+  void set_data();
+  void set_system(int system);
+  void touch_off(int system);
+  void set_tool_data(int tool);
+  void shift_locally();
+  void scale_program();
+  void turn_program();
+  void refresh_placement();
+  double system_offset(int axis) const;
+  void set_home(int first, Place& home);
+
+  // system.cpp
+  Point3 program_position() const;
+  std::optional<double> system_place(std::string_view name) const;
+  std::optional<double> diameter_of(int tool) const;
+
+  // printer.cpp
+  void printer_code();
+  void printer_reference();
+  void extrude(const Place& to, double feed);
+  void extrude_arc(const ArcWalk& walk, const Place& to, Feed feed);
+
+  // curves.cpp
+  void curve(Tenths motion);
+  void quadratic();
+  void cubic();
+  void nurbs();
+  std::optional<Point2> point_words(char u, char v);
+  void polyline(const std::vector<Point2>& points);
+
+  // threads.cpp
+  void spindle_move(Tenths motion);
+  void thread_cycle();
 
   // motion.cpp
   void move();
@@ -102,6 +190,8 @@ class Interpreter {
   void go_home(const Place& home);
   void shift_zero();
   std::optional<Place> target();
+  Place placed_target();
+  void polar();
   std::optional<Place> machine_target();
   bool reachable(Point3 p);
   double feed_for(double length);
@@ -111,6 +201,7 @@ class Interpreter {
   void arc(Turn turn);
   std::optional<Point2> centre_of(const Place& to, Turn turn);
   std::optional<Point2> centre_from_offsets();
+  Point2 turned_offset(Point2 offset) const;
   std::optional<Point2> centre_from_radius(const Place& to, Turn turn);
   bool radii_agree(const Place& to, Point2 centre);
   int extra_turns();
@@ -142,6 +233,11 @@ class Interpreter {
   GcodeProgram& program_;
   Toolpath& path_;
   Talker& talker_;
+  const GcodeReadOptions& options_;
+  Parameters parameters_;
+  Flow* flow_ = nullptr;
+  const std::string* current_file_ = nullptr;
+  std::size_t current_depth_ = 0;
   std::size_t max_steps_;
   AfterEnd after_end_;
   std::uint32_t file_;
@@ -155,15 +251,30 @@ class Interpreter {
   Place here_;
   std::array<double, 3> rotary_{};  // degrees
   bool rotary_used_ = false;
-  Point3 shift_;       // of the program's zero by G92, mm
-  Point3 kept_shift_;  // what G92.2 put aside
+  Placement placement_;
+  Point3 local_shift_;         // by G92 and G52, mm
+  Point3 kept_local_shift_;    // what G92.2 put aside
+  double program_turn_ = 0.0;  // G68, degrees
+  Point3 program_turn_about_;  // program coordinates, mm
   Place home_28_, home_30_;
+  std::vector<std::optional<KeptModes>> kept_modes_{1};  // one a subroutine's level
+  std::map<int, double> tool_diameters_;                 // mm, by G10 L1
+  std::vector<Point2> control_points_;                   // of G5.2
+  std::vector<double> control_weights_;
+  int curve_order_ = 3;
+  std::optional<Point2> last_curve_handle_;  // of G5: second control point, from the end
+  LaserMode beam_mode_ = LaserMode::off;
+  double beam_power_ = 0.0;
+  double filament_ = 0.0;  // E position, mm
+  bool filament_relative_ = false;
   CycleMemory cycle_;
 
   StockComments stock_;
   std::optional<ToolShape> pending_shape_;  // described, and no tool change since
   TextSpot pending_spot_;
   std::optional<int> undescribed_tool_;  // changed to, not described, no motion since
+  std::vector<std::pair<std::string, TextSpot>> waiting_remarks_;
+  bool units_told_ = false;
   bool moved_ = false;
   bool no_feed_said_ = false;
   bool after_end_said_ = false;

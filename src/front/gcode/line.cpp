@@ -4,11 +4,15 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <utility>
+#include <vector>
+
+#include "front/gcode/expression.h"
 
 namespace kerf::gcode {
 namespace {
 
-constexpr double kTenthsSlack = 1e-4;  // G38.2 may arrive as 38.19999 from other programs
+constexpr Tenths kFirstLargeCode = 1000;  // M100
+constexpr double kTenthsSlack = 1e-4;     // G38.2 may arrive as 38.19999 from other programs
 
 /// A code's number in tenths, or -1 if it has more than one place.
 Tenths tenths_of(double value) {
@@ -36,66 +40,106 @@ void Talker::say(Severity severity, Code code, std::uint32_t column, std::string
   diagnostics_.add({severity, code, spot(column), std::move(message), {}, std::string(hint)});
 }
 
-bool Line::sort(const Block& block, Talker& talker) {
+bool Line::sort(const Block& block, Parameters& parameters, Talker& talker) {
   letters_ = used_ = groups_ = 0;
+  large_m_code_ = -1;
+  polar_radius_.reset();
+  polar_angle_.reset();
   column_of_block_ = block.words.empty() ? 1 : block.words.front().column;
-  if (!block.assignments.empty()) {
-    talker.error(Code::expression_unsupported, block.assignments.front().column,
-                 "parameters are not evaluated yet; the line is left out");
-    return false;
-  }
-  if (block.o_word) {
-    talker.error(Code::o_word_unsupported, block.o_word->column,
-                 "O-words are not read yet; the line is left out");
-    return false;
-  }
-  for (const Word& word : block.words)
-    if (!add_word(word, talker)) return false;
+  if (block.computed) return compute(block, parameters, talker);
+  for (const Word& word : block.words) add_word(word, word.value, talker);
   return true;
 }
 
-bool Line::add_word(const Word& word, Talker& talker) {
-  const bool plain = word.kind == ValueKind::number && word.letter >= 'A' && word.letter <= 'Z';
-  if (!plain) return add_unusual_word(word, talker);
-  if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, talker);
-  if (((bit('E') | bit('U') | bit('V') | bit('W')) & bit(word.letter)) != 0)
-    return add_unusual_word(word, talker);
+/// A parameter and the value that it gets.
+struct Line::Setting {
+  ExpressionReader::Target what;
+  double value = 0.0;
+};
+
+/// A line with values that are worked out.
+bool Line::compute(const Block& block, Parameters& parameters, Talker& talker) {
+  for (const Word& word : block.words) {
+    double value = word.value;
+    if (word.kind == ValueKind::expression) {
+      ExpressionReader reader(block.value_text(word), parameters);
+      const std::optional<double> computed = reader.value();
+      if (!computed) {
+        const auto offset = static_cast<std::uint32_t>(reader.fault().offset);
+        talker.error(reader.fault().code, word.column + 1 + offset,
+                     reader.fault().message + "; the line is left out");
+        return false;
+      }
+      value = *computed;
+    }
+    add_word(word, value, talker);
+  }
+  std::vector<Setting> settings;
+  for (const Computation& text : block.assignments) {
+    const std::optional<Setting> setting = assignment(text, parameters, talker);
+    if (!setting) return false;
+    settings.push_back(*setting);
+  }
+  for (const Setting& s : settings)
+    if (s.what.name.empty())
+      parameters.set_number(s.what.number, s.value);
+    else
+      parameters.set_name(s.what.name, s.value);
+  return true;
+}
+
+std::optional<Line::Setting> Line::assignment(const Computation& text, const Parameters& parameters,
+                                              Talker& talker) {
+  ExpressionReader reader(text.text, parameters);
+  const auto what = reader.target();
+  if (what && reader.take('='))
+    if (const std::optional<double> value = reader.value()) return Setting{*what, *value};
+  const bool told = !reader.fault().message.empty();
+  const auto offset = static_cast<std::uint32_t>(told ? reader.fault().offset : reader.position());
+  talker.error(told ? reader.fault().code : Code::expression_malformed, text.column + offset,
+               (told ? reader.fault().message : std::string("'=' is missing")) + "; the line is left out");
+  return std::nullopt;
+}
+
+void Line::add_word(const Word& word, double value, Talker& talker) {
+  const bool letter = word.letter >= 'A' && word.letter <= 'Z';
+  if (!letter || (refused_ & bit(word.letter)) != 0) {
+    add_unusual_word(word, value, talker);
+    return;
+  }
+  if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, value, talker);
   if (has(word.letter))
     talker.unusual(Code::word_repeated, word.column,
                    fmt::format("{} stands twice on the line; the last one counts", word.letter));
   letters_ |= bit(word.letter);
-  values_[index(word.letter)] = word.value;
+  values_[index(word.letter)] = value;
   columns_[index(word.letter)] = word.column;
-  return true;
 }
 
-bool Line::add_unusual_word(const Word& word, Talker& talker) {
-  if (word.kind == ValueKind::expression) {
-    talker.error(
-        Code::expression_unsupported, word.column,
-        fmt::format("the value of {} is computed, which is not done yet; the line is left out", word.letter));
-    return false;
-  }
+bool Line::add_unusual_word(const Word& word, double value, Talker& talker) {
   if (word.letter == '*') return true;  // a sender's checksum
-  if (word.letter < 'A' || word.letter > 'Z') {
-    talker.error(Code::code_unsupported, word.column,
-                 "polar coordinates are not read yet; the line is left out");
-    return false;
-  }
-  talker.unusual(Code::unknown_letter, word.column,
-                 fmt::format("the letter {} has no meaning here and is left out", word.letter));
+  if (word.letter == '@') polar_radius_ = value;
+  if (word.letter == '^') polar_angle_ = value;
+  if (word.letter >= 'A' && word.letter <= 'Z')
+    talker.unusual(Code::unknown_letter, word.column,
+                   fmt::format("the letter {} has no meaning here and is left out", word.letter));
   return true;
 }
 
-bool Line::add_code(const Word& word, Talker& talker) {
+void Line::add_code(const Word& word, double value, Talker& talker) {
   const bool is_g = word.letter == 'G';
-  const Tenths number = tenths_of(word.value);
+  const Tenths number = tenths_of(value);
+  if (!is_g && number >= kFirstLargeCode && number % 10 == 0) {
+    large_m_code_ = number / 10;
+    code_columns_[static_cast<std::size_t>(Group::other)] = word.column;
+    return;
+  }
   const CodeEntry* entry = is_g ? find_g_code(number) : find_m_code(number);
   const std::string_view hint = "is this a program for another kind of machine?";
   if (entry == nullptr) {
     talker.unusual(is_g ? Code::unknown_g_code : Code::unknown_m_code, word.column,
-                   fmt::format("unknown code {}{:g}; it is left out", word.letter, word.value), hint);
-    return true;
+                   fmt::format("unknown code {}{:g}; it is left out", word.letter, value), hint);
+    return;
   }
   if (entry->support == Support::ignored)
     talker.note(Code::code_ignored, word.column,
@@ -111,7 +155,6 @@ bool Line::add_code(const Word& word, Talker& talker) {
   groups_ |= bit(entry->group);
   codes_[group] = number;
   code_columns_[group] = word.column;
-  return true;
 }
 
 void Line::list_unused(Talker& talker) const {

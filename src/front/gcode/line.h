@@ -10,6 +10,7 @@
 
 #include "codec/gcode/block.h"
 #include "front/gcode/codes.h"
+#include "front/gcode/parameters.h"
 
 #include "kerf/diagnostics.h"
 
@@ -23,6 +24,8 @@ class Talker {
       : file_(std::move(file)), strict_(strict), diagnostics_(diagnostics) {}
 
   void at_line(std::uint32_t line) { line_ = line; }
+  /// What is said from now on is about another text.
+  void in_file(std::string file) { file_ = std::move(file); }
   std::uint32_t line() const { return line_; }
   TextSpot spot(std::uint32_t column) const { return {file_, line_, column}; }
   Diagnostics& diagnostics() { return diagnostics_; }
@@ -43,8 +46,22 @@ class Talker {
 class Line {
  public:
   /// Sorts a block's words. Two words of a letter or two codes of a group: the last one counts, and it is
-  /// said. False if the line cannot be meant (an expression, a word of no meaning), which is then said.
-  bool sort(const Block& block, Talker& talker);
+  /// said. Computed values are worked out, and parameters are set after all of the line's values are known.
+  /// False if the line cannot be meant (a value that cannot be computed), which is then said.
+  bool sort(const Block& block, Parameters& parameters, Talker& talker);
+  /// Letters (a mask of bit()) that mean nothing to the controller.
+  void refuse(std::uint32_t letters) { refused_ = letters; }
+  /// "@" and "^": distance and angle of polar coordinates.
+  std::optional<double> polar_radius() const { return polar_radius_; }
+  std::optional<double> polar_angle() const { return polar_angle_; }
+  /// Gives a letter a value that other words of the line work out to.
+  void put(char letter, double value) {
+    letters_ |= bit(letter);
+    used_ &= ~bit(letter);
+    values_[index(letter)] = value;
+  }
+  /// M codes from M100 on, which printers and users' own programs have; -1: none.
+  int large_m_code() const { return large_m_code_; }
 
   std::uint32_t column() const { return column_of_block_; }
 
@@ -78,12 +95,17 @@ class Line {
 
  private:
   static constexpr std::size_t index(char letter) { return static_cast<std::size_t>(letter - 'A'); }
-  bool add_word(const Word& word, Talker& talker);
-  bool add_unusual_word(const Word& word, Talker& talker);
+  struct Setting;
+  bool compute(const Block& block, Parameters& parameters, Talker& talker);
+  std::optional<Setting> assignment(const Computation& text, const Parameters& parameters, Talker& talker);
+  void add_word(const Word& word, double value, Talker& talker);
+  bool add_unusual_word(const Word& word, double value, Talker& talker);
   void list_unused(Talker& talker) const;
-  bool add_code(const Word& word, Talker& talker);
+  void add_code(const Word& word, double value, Talker& talker);
 
-  std::uint32_t letters_ = 0, used_ = 0, groups_ = 0;
+  std::uint32_t letters_ = 0, used_ = 0, groups_ = 0, refused_ = 0;
+  int large_m_code_ = -1;
+  std::optional<double> polar_radius_, polar_angle_;
   std::uint32_t column_of_block_ = 0;
   std::array<double, 26> values_{};
   std::array<std::uint32_t, 26> columns_{};

@@ -1,6 +1,7 @@
 // Straight moves, machine coordinates, homes and shifts of zero; and which motion a line's words mean.
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
 
 #include "front/gcode/interpreter.h"
 
@@ -10,8 +11,9 @@ namespace {
 constexpr double kFarthest = 1e7;  // mm; 10 km
 constexpr double kSlowestInverse =
     0.1;  // mm/min; what LinuxCNC takes for a move of no length in inverse time
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kPolarZero = 1e-9;  // mm
 constexpr std::uint32_t kArcLetters = Line::bit('I') | Line::bit('J') | Line::bit('K') | Line::bit('R');
-constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
 
 bool is_arc(Tenths motion) { return motion == 20 || motion == 30; }
 bool is_probe(Tenths motion) { return motion >= 382 && motion <= 385; }
@@ -28,8 +30,11 @@ void Interpreter::move() {
     if (!is_cycle(modes_.motion)) cycle_ = {};
     if (modes_.motion == kMotionNotRead) return line_.use(kAllLetters);
   }
+  if (stated && modes_.motion == 53) return curve(53);
   const bool axes = line_.has_unused(kAxisLetters | kRotaryLetters);
-  if (axes || (is_arc(modes_.motion) && line_.has_unused(kArcLetters))) return move_in(modes_.motion);
+  const bool filament = line_.unused('E') && (modes_.motion == 0 || modes_.motion == 10);
+  if (axes || filament || (is_arc(modes_.motion) && line_.has_unused(kArcLetters)))
+    return move_in(modes_.motion);
   if (!stated || line_.has(Group::reference)) return;
   if (modes_.motion == 0 || modes_.motion == 10) {
     // A move of length 0, as LinuxCNC makes it; in a program's header, where nothing has moved yet, only the
@@ -60,12 +65,16 @@ void Interpreter::move_in(Tenths motion) {
   if (straight_motion) return straight(motion);
   if (is_arc(motion)) return arc(motion == 20 ? Turn::cw : Turn::ccw);
   if (is_probe(motion)) return probe(motion);
+  if (motion >= 50 && motion <= 53) return curve(motion);
+  if (motion == 330 || motion == 331) return spindle_move(motion);
+  if (motion == 760) return thread_cycle();
   cycle(motion);
 }
 
 void Interpreter::straight(Tenths motion) {
   const std::optional<Place> to = line_.has(Group::machine_coordinates) ? machine_target() : target();
   if (!to) return;
+  if (line_.unused('E')) return extrude(*to, motion == 0 ? modes_.feed : feed_for(straight_length(*to)));
   if (motion == 0) return rapid(*to);
   cut(*to, feed_for(straight_length(*to)));
 }
@@ -83,12 +92,16 @@ void Interpreter::probe(Tenths motion) {
 /// reach.
 std::optional<Place> Interpreter::target() {
   Place to = here_;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
-    if (!word) continue;
-    const double value = *word * modes_.scale;
-    to.at[axis] = modes_.absolute ? value + shift_[axis] : here_.at[axis] + value;
-    if (modes_.absolute) to.unknown &= ~(1u << axis);
+  if (placement_.plain && !modes_.diameters) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
+      if (!word) continue;
+      const double value = *word * modes_.scale;
+      to.at[axis] = modes_.absolute ? value + placement_.shift[axis] : here_.at[axis] + value;
+      if (modes_.absolute) to.unknown &= ~(1u << axis);
+    }
+  } else {
+    to = placed_target();
   }
   if (line_.has_unused(kRotaryLetters)) {
     rotary_used_ = true;
@@ -99,6 +112,41 @@ std::optional<Place> Interpreter::target() {
   }
   if (!reachable(to.at)) return std::nullopt;
   return to;
+}
+
+/// The same where coordinates are turned or scaled, or X words are diameters.
+Place Interpreter::placed_target() {
+  Place to = here_;
+  Point3 program = placement_.to_program(here_.at);
+  bool any = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
+    if (!word) continue;
+    const double value = *word * modes_.scale * (axis == 0 && modes_.diameters ? 0.5 : 1.0);
+    program[axis] = modes_.absolute ? value : program[axis] + value;
+    if (modes_.absolute) to.unknown &= ~(1u << axis);
+    any = true;
+  }
+  if (any) to.at = placement_.to_path(program);
+  return to;
+}
+
+/// "@10 ^45": distance from the zero point and angle in place of X and Y.
+void Interpreter::polar() {
+  const Point3 from = placement_.to_program(here_.at);
+  double radius = std::hypot(from.x, from.y);
+  const bool at_zero = radius < kPolarZero;
+  if (at_zero && (!line_.polar_radius() || !modes_.absolute)) {
+    talker_.error(Code::polar_from_zero, line_.column(),
+                  "polar coordinates from the zero point have no direction; the line is left out");
+    return line_.use(kAllLetters);
+  }
+  double angle = at_zero ? 0.0 : std::atan2(from.y, from.x) / kDegree;
+  if (line_.polar_radius()) radius = *line_.polar_radius() * modes_.scale + (modes_.absolute ? 0.0 : radius);
+  if (line_.polar_angle()) angle = *line_.polar_angle() + (modes_.absolute ? 0.0 : angle);
+  const Point3 base = modes_.absolute ? Point3{} : from;
+  line_.put('X', (radius * std::cos(angle * kDegree) - base.x) / modes_.scale);
+  line_.put('Y', (radius * std::sin(angle * kDegree) - base.y) / modes_.scale);
 }
 
 /// As target(), in machine coordinates: where that is in work coordinates is not known.
@@ -156,20 +204,25 @@ double Interpreter::feed_for(double length) {
 // ---- codes that use the axis words themselves
 
 void Interpreter::use_reference() {
+  const bool printer = program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
+  if (printer) return printer_reference();
   switch (line_.code(Group::reference)) {
+    case 100: return set_data();
     case 280: return go_home(home_28_);
     case 300: return go_home(home_30_);
-    case 281: home_28_ = here_; return;
-    case 301: home_30_ = here_; return;
+    case 281: return set_home(kHome28, home_28_);
+    case 301: return set_home(kHome30, home_30_);
+    case 520: return shift_locally();
     case 920: return shift_zero();
-    case 921: shift_ = kept_shift_ = {}; return;
+    case 921: local_shift_ = kept_local_shift_ = {}; break;
     case 922:
-      kept_shift_ = shift_;
-      shift_ = {};
-      return;
-    case 923: shift_ = kept_shift_; return;
-    default: line_.use(kAllLetters); return;  // G10, G52: said when the words were sorted
+      kept_local_shift_ = local_shift_;
+      local_shift_ = {};
+      break;
+    case 923: local_shift_ = kept_local_shift_; break;
+    default: line_.use(kAllLetters); return;
   }
+  refresh_placement();
 }
 
 /// Through the intermediate point to the home; only the axes that are named, all where none is.
@@ -190,30 +243,6 @@ void Interpreter::go_home(const Place& home) {
   rapid(*to);
 }
 
-/// G92: the place where the tool stands gets new coordinates. Where the place was not known, they are simply
-/// its coordinates from now on.
-void Interpreter::shift_zero() {
-  if (!line_.has_unused(kAxisLetters | kRotaryLetters)) {
-    talker_.error(Code::word_missing, line_.column(Group::reference), "G92 needs the coordinates to set");
-    return;
-  }
-  Place now = here_;
-  Point3 shift = shift_;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
-    if (!word) continue;
-    const double value = *word * modes_.scale;
-    const bool known = (here_.unknown & (1u << axis)) == 0;
-    shift[axis] = known ? here_.at[axis] - value : 0.0;
-    if (!known) now.at[axis] = value;
-    now.unknown &= ~(1u << axis);
-  }
-  line_.use(kRotaryLetters);
-  if (!reachable(now.at) || !reachable(shift)) return;
-  here_ = now;
-  shift_ = shift;
-}
-
 // ---- steps
 
 void Interpreter::rapid(const Place& to) {
@@ -231,6 +260,7 @@ void Interpreter::arrive(const Place& to) {
   undescribed_tool_.reset();
   if (moved_) return;
   moved_ = true;
+  use_waiting_remarks();
   program_.inch = modes_.scale != 1.0;
 }
 

@@ -1,7 +1,9 @@
 // read_gcode: text to blocks to steps.
 #include <algorithm>
+#include <fmt/format.h>
 
 #include "codec/gcode/block.h"
+#include "front/gcode/flow.h"
 #include "front/gcode/interpreter.h"
 
 #include "kerf/gcode.h"
@@ -13,6 +15,15 @@ constexpr std::size_t kLinesPerReport = 16'384;   // a stop is noticed within so
 constexpr std::size_t kBytesPerStep = 16;         // of usual programs, for the first reservation
 constexpr std::size_t kMostReserved = 2'000'000;  // steps; a longer program grows as it goes
 
+GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
+  if (options.dialect) return *options.dialect;
+  const GcodeDialect guessed = guess_dialect(text);
+  if (guessed != GcodeDialect::rs274)
+    diagnostics.note(Code::dialect_guessed, TextSpot{options.file_name, 0, 0},
+                     fmt::format("this looks like a program for {}, and is read as one", to_string(guessed)));
+  return guessed;
+}
+
 }  // namespace
 
 GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics,
@@ -20,15 +31,18 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
   GcodeProgram program;
   if (progress != nullptr) progress->phase("reading G-code");
   program.path.reserve(std::min({text.size() / kBytesPerStep + 1, options.max_steps, kMostReserved}));
+  program.dialect = dialect_of(text, options, diagnostics);
   gcode::Talker talker(options.file_name, options.strict, diagnostics);
   gcode::Interpreter interpreter(program, options, talker);
-  gcode::BlockReader reader(text, {options.file_name, options.max_line_bytes, options.strict}, diagnostics);
+  gcode::Flow flow(text, options, talker, interpreter.parameters(), program.dialect, diagnostics);
+  interpreter.follow(flow);
   gcode::Block block;
   std::size_t lines = 0;
-  while (!interpreter.done() && reader.next(block)) {
+  while (!interpreter.done() && flow.next(block)) {
     interpreter.run(block);
     if (++lines % kLinesPerReport != 0) continue;
-    report(progress, static_cast<double>(reader.position()) / static_cast<double>(text.size()));
+    report(progress,
+           std::min(1.0, static_cast<double>(flow.position()) / static_cast<double>(text.size() + 1)));
     if (stop_requested(progress)) return {};
   }
   interpreter.finish();

@@ -8,7 +8,7 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
+constexpr double kMostRepeats = 9999;
 
 }  // namespace
 
@@ -30,6 +30,8 @@ void Interpreter::set_units() {
         Code::feed_with_units, line_.column('F'),
         "the feed is taken in the units that its own line sets, as GRBL does; LinuxCNC takes the old ones");
   modes_.scale = scale;
+  units_told_ = true;
+  use_waiting_remarks();
 }
 
 void Interpreter::set_feed() {
@@ -49,7 +51,9 @@ void Interpreter::set_speed() {
     return;
   }
   const bool is_news = speed != modes_.speed && modes_.spindle != SpindleTurn::off;
-  modes_.speed = speed;
+  modes_.speed = modes_.surface_speed > 0.0 ? 0.0 : speed;
+  modes_.speed_told = true;
+  if (program_.dialect == GcodeDialect::laser) return beam();
   if (is_news && !line_.has(Group::spindle) && !line_.has(Group::tool_change)) spin(modes_.spindle);
 }
 
@@ -63,13 +67,23 @@ void Interpreter::select_tool() {
 }
 
 void Interpreter::change_tool() {
-  if (line_.code(Group::tool_change) != 60) return;
+  if (line_.code(Group::tool_change) == 610) {  // M61: the tool that is in the spindle gets a number
+    const std::optional<double> told = line_.take('Q');
+    if (!told || *told < 0.0 || *told > std::numeric_limits<int>::max() || *told != std::floor(*told)) {
+      talker_.error(Code::word_missing, line_.column(Group::tool_change), "M61 needs Q and a tool's number");
+      return;
+    }
+    modes_.tool = static_cast<int>(*told);
+    add(step::ToolChange{*modes_.tool});
+    return;
+  }
   if (!modes_.selected_tool)
     talker_.unusual(Code::word_missing, line_.column(Group::tool_change),
                     "M6 without a T word before; read as tool 0");
   if (modes_.spindle != SpindleTurn::off) spin(SpindleTurn::off);
   const int number = modes_.selected_tool.value_or(0);
   add(step::ToolChange{number});
+  modes_.tool = number;
   undescribed_tool_ = number;
   if (!pending_shape_) return;
   describe_tool(number, *pending_shape_, pending_spot_);
@@ -85,9 +99,93 @@ void Interpreter::turn_spindle() {
   }
 }
 
+/// A spindle that turns at a speed of 0 stands still, where the program says so; 0 of no S word at all is
+/// a speed that is set by hand.
 void Interpreter::spin(SpindleTurn turn) {
   modes_.spindle = turn;
-  add(step::Spindle{turn == SpindleTurn::off ? rpm(0) : rpm(modes_.speed), turn});
+  if (program_.dialect == GcodeDialect::laser) return beam();
+  const bool stands = turn == SpindleTurn::off ||
+                      (modes_.speed_told && !(modes_.speed > 0.0) && !(modes_.surface_speed > 0.0));
+  add(step::Spindle{stands ? rpm(0) : rpm(modes_.speed), stands ? SpindleTurn::off : turn});
+}
+
+/// What a laser's beam does: M3 holds its power, M4 lets it follow the feed.
+void Interpreter::beam() {
+  const LaserMode mode = modes_.spindle == SpindleTurn::off  ? LaserMode::off
+                         : modes_.spindle == SpindleTurn::cw ? LaserMode::constant
+                                                             : LaserMode::dynamic;
+  const double power = mode == LaserMode::off ? 0.0 : modes_.speed;
+  if (mode == beam_mode_ && power == beam_power_) return;
+  beam_mode_ = mode;
+  beam_power_ = power;
+  add(step::LaserPower{mode, power});
+}
+
+/// G96 keeps the cutting speed of a lathe; which speed of the spindle that makes is not followed.
+void Interpreter::set_spindle_mode() {
+  const double limit = line_.take('D').value_or(0.0);
+  const bool surface = line_.code(Group::spindle_mode) == 960;
+  modes_.surface_speed = surface ? line_.value('S') : 0.0;
+  if (surface && !line_.has('S'))
+    talker_.error(Code::word_missing, line_.column(Group::spindle_mode), "G96 needs S, the cutting speed");
+  if (surface && limit > 0.0) modes_.speed = limit;
+}
+
+/// M98 P100 L2 calls subroutine 100 twice; Fanuc's M98 P20100 does the same.
+void Interpreter::subroutine() {
+  if (line_.code(Group::subroutine) == 990) {
+    if (flow_->return_from_call() || program_.ended) return;
+    talker_.unusual(Code::o_word_unmatched, line_.column(Group::subroutine),
+                    "M99 in the main program begins it anew without end; read as its end");
+    return end_program();
+  }
+  const double number = line_.take('P').value_or(-1.0);
+  double repeats = line_.take('L').value_or(1.0);
+  double label = number;
+  if (!line_.has('L') && number > kMostRepeats) {
+    repeats = std::floor(number / (kMostRepeats + 1.0));
+    label = number - repeats * (kMostRepeats + 1.0);
+  }
+  const bool whole = number == std::floor(number) && repeats == std::floor(repeats);
+  if (!whole || number < 0.0 || number > 1e8 || repeats < 0.0 || repeats > kMostRepeats) {
+    talker_.error(Code::word_out_of_range, line_.column(Group::subroutine),
+                  "M98 needs P, a subroutine's number, and a whole L up to 9999");
+    return;
+  }
+  if (repeats >= 1.0)
+    flow_->call_number(static_cast<int>(label), static_cast<int>(repeats), line_.column(Group::subroutine));
+}
+
+void Interpreter::keep_modes() {
+  std::optional<KeptModes>& kept = kept_modes_.back();
+  switch (line_.code(Group::saved_modes)) {
+    case 700: kept = KeptModes{modes_, false}; return;
+    case 710: kept.reset(); return;
+    case 730: kept = KeptModes{modes_, true}; return;
+    default: break;
+  }
+  if (kept) return restore_modes(kept->modes);
+  talker_.error(Code::word_missing, line_.column(Group::saved_modes),
+                "M72 puts back what M70 has kept, and nothing is kept here");
+}
+
+/// Motion, tool and position stay as they are.
+void Interpreter::restore_modes(const Modes& kept) {
+  const Modes now = modes_;
+  modes_ = kept;
+  modes_.motion = now.motion;
+  modes_.tool = now.tool;
+  modes_.selected_tool = now.selected_tool;
+  if (kept.spindle != now.spindle || kept.speed != now.speed) spin(kept.spindle);
+  if (kept.mist != now.mist || kept.flood != now.flood) add(step::Coolant{kept.mist, kept.flood});
+  if (kept.system != now.system) refresh_placement();
+}
+
+void Interpreter::read_large_m_code() {
+  talker_.unusual(Code::unknown_m_code, line_.column(Group::other),
+                  fmt::format("unknown code M{}; it is left out", line_.large_m_code()),
+                  "is this a program for another kind of machine?");
+  line_.use(kAllLetters & ~(kAxisLetters | kRotaryLetters));
 }
 
 void Interpreter::switch_coolant() {
@@ -109,7 +207,9 @@ void Interpreter::dwell() {
     talker_.error(Code::word_out_of_range, line_.column('P'), "a time cannot be negative");
     return;
   }
-  add(step::Dwell{seconds(*time)});
+  const bool milliseconds =
+      program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
+  add(step::Dwell{seconds(milliseconds ? *time / 1000.0 : *time)});
 }
 
 void Interpreter::set_plane() {
@@ -150,10 +250,8 @@ void Interpreter::use_words_of_other_codes() {
     line_.use(kAxisLetters | kRotaryLetters);
   if (line_.has(Group::compensation)) line_.use(L::bit('D'));
   if (line_.has(Group::other) || line_.has(Group::tool_change))
-    line_.use(L::bit('P') | L::bit('Q') | L::bit('R') | L::bit('L'));
+    line_.use(L::bit('P') | L::bit('Q') | L::bit('R') | L::bit('L') | L::bit('E'));
   if (line_.has(Group::spindle_mode)) line_.use(L::bit('D'));
-  const bool turned = line_.has(Group::scaling) || line_.has(Group::rotation) || line_.has(Group::polar);
-  if (turned) line_.use(kAxisLetters | L::bit('R') | L::bit('P') | L::bit('I') | L::bit('J') | L::bit('K'));
 }
 
 void Interpreter::end_or_pause() {
@@ -173,6 +271,8 @@ void Interpreter::end_program() {
     add(step::Coolant{});
   }
   modes_.motion = 10;
+  modes_.system = 1;
+  refresh_placement();
   modes_.plane = Plane::xy;
   modes_.absolute = true;
   if (modes_.feed_mode != FeedMode::per_minute) modes_.feed = 0.0;
