@@ -119,8 +119,8 @@ Command add_check(CLI::App& root) {
       new_command(root, "check", "Look for hazards in a program, without writing files; exit status 3",
                   kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
-  add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
-             "Distance of the material columns in mm (default: coarse, by the stock's size)");
+  add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+             "Distance of the material columns, mm or 0.01in (default: coarse, by the stock's size)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

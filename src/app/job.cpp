@@ -2,8 +2,10 @@
 #include "app/job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
 #include "kerf/tool_files.h"
@@ -28,16 +30,49 @@ namespace {
 const Length kStockMargin = mm(2);  // of an assumed block, beyond the largest tool's radius
 const Length kStockFloor = mm(1);   // of an assumed block, below the deepest cut
 
-/// Splits "102=square d=3" or "102 = square d=3" into 102 and the rest; no number where none stands before
-/// the first '='.
-std::pair<std::optional<int>, std::string_view> split_number(std::string_view text) {
-  constexpr std::size_t kMostDigits = 9;  // fits an int
-  const std::size_t digits = text.find_first_not_of("0123456789");
-  const std::size_t equals = text.find_first_not_of(' ', digits);
-  if (digits == 0 || digits > kMostDigits || equals == std::string_view::npos || text[equals] != '=')
-    return {std::nullopt, text};
-  const std::size_t rest = std::min(text.find_first_not_of(' ', equals + 1), text.size());
-  return {std::stoi(std::string(text.substr(0, digits))), text.substr(rest)};
+constexpr int kHighestToolNumber = 999'999'999;
+
+/// "[N=]SPEC" taken apart.
+struct ToolOption {
+  std::optional<int> number;
+  std::string_view spec;
+};
+
+/// Splits "102=square d=3" or "102 = square d=3" into 102 and the rest; no number where words stand before
+/// the first '='. Nothing, with an error, where the number or the tool is missing or cannot be.
+std::optional<ToolOption> split_tool_option(std::string_view text, const Origin& where, Diagnostics& usage) {
+  const auto wrong = [&](std::string message) {
+    usage.error(Code::tool_value_type, where, std::move(message)).hint =
+        "expected [N=]SPEC, e.g. \"square d=3.175 flute=12.7\", 2=\"V d=12.7 angle=90\" or 2=301";
+    return std::nullopt;
+  };
+  const std::size_t equals = text.find('=');
+  const std::string_view before = trim(text.substr(0, equals));
+  if (equals == std::string_view::npos)
+    return before.empty() ? wrong("the tool is missing") : std::optional(ToolOption{{}, before});
+  if (before.empty()) return wrong("there is no tool number before \"=\"");
+  if (before.find_first_not_of("0123456789+-.") != std::string_view::npos) return ToolOption{{}, text};
+  const auto number = parse_number(before);
+  if (!number || *number < 0.0 || *number > kHighestToolNumber || *number != std::floor(*number))
+    return wrong(fmt::format("{} is no tool number: expected a whole number from 0 to {}",
+                             before.substr(0, 40), kHighestToolNumber));
+  const std::string_view spec = trim(text.substr(equals + 1));
+  if (spec.empty()) return wrong(fmt::format("what tool {} is does not stand behind \"=\"", before));
+  return ToolOption{static_cast<int>(*number), spec};
+}
+
+void read_tool_option_of(const std::string& text, JobSettings& settings, Diagnostics& usage) {
+  const Origin where = CallSpot{"", 0, fmt::format("--tool \"{}\"", text.substr(0, 80))};
+  const auto option = split_tool_option(text, where, usage);
+  if (!option) return;
+  std::optional<Tool> tool = read_tool_option(option->spec, where, usage);
+  if (!tool) return;
+  if (option->number) {
+    tool->number = *option->number;
+    settings.numbered.insert_or_assign(*option->number, std::move(*tool));
+  } else {
+    settings.any_number = std::move(tool);
+  }
 }
 
 void read_tool_files(const std::vector<std::string>& names, JobSettings& settings, Diagnostics& diagnostics) {
@@ -136,6 +171,21 @@ Choice choose(int number, const LoadedProgram& program, const JobSettings& setti
   return {chosen, settings.from_file.count(number) > 0 ? ToolSource::file : ToolSource::built_in};
 }
 
+/// A --tool N=... for a tool that the program does not use is most often a slip in the number.
+void tell_unused_options(const Job& job, const JobSettings& settings, const Uses& uses,
+                         Diagnostics& diagnostics) {
+  const bool for_start = uses.numbers.empty() && settings.numbered.size() == 1 && !settings.any_number;
+  for (const auto& [number, tool] : settings.numbered) {
+    if (job.tool_sources.count(number) > 0 || for_start) continue;
+    std::vector<std::string> used;
+    for (const int n : uses.numbers) used.push_back(std::to_string(n));
+    diagnostics
+        .warning(Code::option_unused, CallSpot{"", 0, fmt::format("--tool {}=...", number)},
+                 fmt::format("the program never uses tool {}", number))
+        .hint = used.empty() ? "it has no tool change at all" : "it uses tool " + list_text(used);
+  }
+}
+
 /// An unknown shape: an error where it is needed, else a warning.
 Diagnostic& tell(UnknownTool unknown, Origin where, std::string message, Diagnostics& diagnostics) {
   if (unknown != UnknownTool::warning)
@@ -169,6 +219,7 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
     tool.number = number;
     job.tools.set(number, std::move(tool));
   }
+  tell_unused_options(job, settings, uses, diagnostics);
   if (settings.any_number && uses.numbers.size() > 1 + settings.numbered.size())
     diagnostics.note(Code::tool_option_wide, {},
                      fmt::format("--tool without a number stands for {} tool numbers of the program",
@@ -215,19 +266,8 @@ void add_job_options(CLI::App& app, JobOptions& options) {
 JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
   JobSettings settings;
   settings.table = built_in_tools();
-  for (const std::string& text : options.tools) {
-    const auto [number, spec] = split_number(text);
-    std::optional<Tool> tool = read_tool_option(spec, usage);
-    if (!tool) continue;
-    if (number) {
-      tool->number = *number;
-      settings.numbered.insert_or_assign(*number, std::move(*tool));
-    } else {
-      settings.any_number = std::move(tool);
-    }
-  }
-  if (!options.stock.empty())
-    settings.stock = read_stock_option(options.stock, CallSpot{"", 0, "--stock"}, usage);
+  for (const std::string& text : options.tools) read_tool_option_of(text, settings, usage);
+  if (options.stock) settings.stock = read_stock_option(*options.stock, CallSpot{"", 0, "--stock"}, usage);
   read_tool_files(options.tool_files, settings, diagnostics);
   return settings;
 }

@@ -21,7 +21,7 @@ struct JobOptions {
   std::string file;
   std::vector<std::string> tools;       // --tool [N=]SPEC
   std::vector<std::string> tool_files;  // --tools FILE
-  std::string stock;                    // --stock SPEC
+  std::optional<std::string> stock;     // --stock SPEC
 };
 void add_job_options(CLI::App& app, JobOptions& options);
 /// Text for the help of the commands that take --tool and --stock.

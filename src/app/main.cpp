@@ -36,14 +36,27 @@ std::vector<Command> add_commands(CLI::App& root) {
   return commands;
 }
 
-/// `kerf help simulate` is `kerf simulate --help`; `kerf help` and no argument at all are `kerf --help`.
-std::vector<std::string> arguments_of(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty()) words = {"--help"};
-  if (words.front() == "help") {
-    words.erase(words.begin());
-    words.push_back("--help");
+/// What `kerf help simulate` stands for: `kerf simulate --help`. A word that is no command ends it without
+/// --help, so that the parser says what is wrong; words behind a whole command are passed over.
+std::vector<std::string> help_words(const CLI::App& root, const std::vector<std::string>& asked) {
+  std::vector<std::string> words;
+  const CLI::App* app = &root;
+  for (const std::string& word : asked) {
+    if (app->get_subcommands([](const CLI::App*) { return true; }).empty()) break;
+    const auto named = app->get_subcommands([&](const CLI::App* c) { return c->get_name() == word; });
+    words.push_back(word);
+    if (named.empty()) return words;
+    app = named.front();
   }
+  words.push_back("--help");
+  return words;
+}
+
+/// The words of the command line; `kerf help` and no argument at all are `kerf --help`.
+std::vector<std::string> arguments_of(int argc, char** argv, const CLI::App& root) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) words = {"help"};
+  if (words.front() == "help") words = help_words(root, {words.begin() + 1, words.end()});
   return {words.rbegin(), words.rend()};  // the order in which CLI11 takes them
 }
 
@@ -79,7 +92,7 @@ int run(int argc, char** argv) {
   root.require_subcommand(1);
   const std::vector<Command> commands = add_commands(root);
   try {
-    root.parse(arguments_of(argc, argv));
+    root.parse(arguments_of(argc, argv, root));
   } catch (const CLI::Success& asked) {  // --help, --version
     return root.exit(asked);
   } catch (const CLI::ParseError& error) {
