@@ -84,10 +84,10 @@ struct PostProfile {
 
   ToolChangePolicy tool_change = ToolChangePolicy::command;
   DwellUnit dwell_unit = DwellUnit::seconds;
-  Duration spindle_dwell;          // waited after the spindle starts, unless the program waits itself
-  Length filament = mm(1.75);      // diameter, for E words
+  Duration spindle_dwell;      // waited after the spindle starts, unless the program waits itself
+  Length filament = mm(1.75);  // diameter, for E words
   ExtruderMode extruder = ExtruderMode::relative;
-  double fan_full = 255.0;         // S of a fan at full speed
+  double fan_full = 255.0;  // S of a fan at full speed
 
   std::vector<std::string> header, section, footer;
   std::vector<std::string> change_lines{"T{tool} M6"};  // for ToolChangePolicy::command
@@ -108,11 +108,11 @@ std::optional<PostProfile> read_post_profile(std::string_view text, std::string_
                                              Diagnostics& diagnostics);
 
 struct PostOptions {
-  std::string program_name;               // for the header's comment
-  std::optional<LengthUnit> unit;         // instead of the profile's
+  std::string program_name;        // for the header's comment
+  std::optional<LengthUnit> unit;  // instead of the profile's
   std::optional<ToolChangePolicy> tool_change;
   Feed missing_feed;                      // for cutting moves to which the program gives no feed; 0: an error
-  std::map<int, std::string> tool_names;     // for comments
+  std::map<int, std::string> tool_names;  // for comments
   std::map<int, std::string> tool_comments;  // "TOOL/MILL, 6, 0, 20, 0"
 };
 
