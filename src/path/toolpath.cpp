@@ -176,7 +176,7 @@ std::size_t Toolpath::add(const step::Verbatim& s, OriginId origin) {
   return steps_.size() - 1;
 }
 
-std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
+OriginId Toolpath::copy_origin(const Toolpath& other, std::size_t i) {
   const OriginId old = other.steps_[i].origin_;
   const OriginId origin = origins_.add(other.origins_.resolve(old));
   OriginId inner = origin;
@@ -185,6 +185,11 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
     origins_.set_caller(inner, outer);
     inner = outer;
   }
+  return origin;
+}
+
+std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
+  const OriginId origin = copy_origin(other, i);
   switch (other.steps_[i].kind_) {
     case StepKind::layer: return add(other.layer(i), origin);
     case StepKind::note: return add(step::Note{std::string(other.text(i))}, origin);
