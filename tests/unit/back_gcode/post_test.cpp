@@ -93,9 +93,9 @@ TEST(Post, full_circles_are_split) {
 
 TEST(Post, a_tiny_arc_never_becomes_a_full_circle) {
   Toolpath path = at_origin();
-  path.add(step::Arc{.to = {0.0002, 0.0002, 5}, .centre = {0, 5}, .turn = Turn::cw, .feed = kFeed},
+  path.add(step::Arc{.to = {0.0002, 0.0002, 5}, .centre = {0, 5}, .turn = Turn::ccw, .feed = kFeed},
            OriginId::none);
-  EXPECT_EQ(posted(path, bare("grbl")).text().find("G2"), std::string::npos);
+  EXPECT_EQ(posted(path, bare("grbl")).text().find("G3"), std::string::npos);
 }
 
 TEST(Post, arcs_in_other_planes) {
@@ -130,9 +130,9 @@ TEST(Post, spindle_stops_before_a_tool_change_and_starts_again) {
   path.add(step::ToolChange{2}, OriginId::none);
   path.add(step::Rapid{{1, 0, 5}}, OriginId::none);
   EXPECT_EQ(posted(path, bare("grblhal")).text(),
-            "T1 M6\nM3 S12000\nG0 X0 Y0 Z5\nM5\nT2 M6\nM3 S12000\nG0 X1 Y0 Z5\n");
+            "T1 M6\nM3 S12000\nG0 X0 Y0 Z5\nM5\nT2 M6\nM3 S12000\nG0 X1 Y0 Z5\nM5\n");
   EXPECT_EQ(posted(path, bare("grbl")).text(),
-            "M3 S12000\nG0 X0 Y0 Z5\nM5\n(change to tool 2)\nM0\nM3 S12000\nG0 X1 Y0 Z5\n");
+            "M3 S12000\nG0 X0 Y0 Z5\nM5\n(change to tool 2)\nM0\nM3 S12000\nG0 X1 Y0 Z5\nM5\n");
 }
 
 TEST(Post, a_file_a_tool_begins_above_the_last_place) {
