@@ -232,7 +232,8 @@ class Toolpath {
   std::size_t add(const step::Verbatim& s, OriginId origin);
   /// Copies step `i` of another toolpath (made from the same sources), texts, extras and origin included.
   std::size_t add_copy(const Toolpath& other, std::size_t i);
-  /// Copies the origin of step `i` of another toolpath, callers included, for a step that stands for that one.
+  /// Copies the origin of step `i` of another toolpath, callers included, for a step that stands for that
+  /// one.
   OriginId copy_origin(const Toolpath& other, std::size_t i);
 
   /// Marks axes (bits 1, 2, 4 for X, Y, Z) as unknown at the end of motion `i`; see Step::unknown_axes.

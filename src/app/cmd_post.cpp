@@ -11,6 +11,7 @@
 #include "app/terminal_progress.h"
 
 #include "kerf/files.h"
+#include "kerf/number.h"
 #include "kerf/passes.h"
 #include "kerf/post.h"
 #include "kerf/tool_files.h"

@@ -1,5 +1,5 @@
-"""Given programs written again by the posts: LinuxCNC's interpreter takes them where it took the original, and
-finds the same lengths, bounds and counts in them."""
+"""Given programs written again by the posts: LinuxCNC's interpreter takes them where it took the original,
+and finds the same lengths, bounds and counts in them."""
 import importlib.util
 import json
 import math
@@ -45,10 +45,9 @@ def alike(a, b, slack):
 @pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
 def test_post(path, post, tmp_path):
     out = tmp_path / "out.nc"
-    done = subprocess.run([os.environ["KERF"], "post", "--to", post, *FEED, str(path), "-o", str(out), "--json"],
-                          capture_output=True, timeout=300)
-    expected = json.loads((CASES / "expected.json").read_text())
-    given = next((v for k, v in expected.items() if k == path.name), None) if isinstance(expected, dict) else None
+    command = [os.environ["KERF"], "post", "--to", post, *FEED, str(path), "-o", str(out), "--json"]
+    done = subprocess.run(command, capture_output=True, timeout=300)
+    given = json.loads((CASES / "expected.json").read_text()).get(path.name)
     original = given if given and "accepted" in given else figures(path, tmp_path)
     if done.returncode != 0:
         assert not original["accepted"], done.stdout.decode() + done.stderr.decode()
