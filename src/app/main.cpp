@@ -27,8 +27,8 @@ Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage, 3 
 )";
 
 std::vector<Command> add_commands(CLI::App& root) {
-  std::vector<Command> commands{add_simulate(root), add_check(root), add_info(root), add_steps(root),
-                                add_outline(root), add_post(root)};
+  std::vector<Command> commands{add_simulate(root), add_check(root),   add_info(root),
+                                add_steps(root),    add_outline(root), add_post(root)};
   CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show");
   tools->require_subcommand(1);
   commands.push_back(add_tools_list(*tools));
@@ -61,7 +61,8 @@ Status run_asked(const std::vector<Command>& commands) {
   return Status::wrong_usage;
 }
 
-/// Commands that take the arguments of the program that they stand in for, which no common parser understands.
+/// Commands that take the arguments of the program that they stand in for, which no common parser
+/// understands.
 std::optional<int> run_drop_in(int argc, char** argv) {
   if (argc < 2 || std::string_view(argv[1]) != "gcmc") return std::nullopt;
   catch_interrupts();

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <functional>
 
-#include "embedded_post_files.h"
 #include "base/toml.h"
+#include "embedded_post_files.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "base/toml.h"
 #include "embedded_tool_files.h"
 #include "front/tools/settings.h"
-#include "base/toml.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"
