@@ -25,6 +25,7 @@ Command add_info(CLI::App& root);
 Command add_check(CLI::App& root);
 Command add_steps(CLI::App& root);
 Command add_outline(CLI::App& root);
+Command add_post(CLI::App& root);
 Command add_tools_list(CLI::App& tools);
 Command add_tools_show(CLI::App& tools);
 

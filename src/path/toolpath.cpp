@@ -177,7 +177,7 @@ std::size_t Toolpath::add(const step::Verbatim& s, OriginId origin) {
   return steps_.size() - 1;
 }
 
-std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
+OriginId Toolpath::copy_origin(const Toolpath& other, std::size_t i) {
   const OriginId old = other.steps_[i].origin_;
   const OriginId origin = origins_.add(other.origins_.resolve(old));
   OriginId inner = origin;
@@ -186,6 +186,11 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
     origins_.set_caller(inner, outer);
     inner = outer;
   }
+  return origin;
+}
+
+std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
+  const OriginId origin = copy_origin(other, i);
   switch (other.steps_[i].kind_) {
     case StepKind::layer: return add(other.layer(i), origin);
     case StepKind::note: return add(step::Note{std::string(other.text(i))}, origin);
@@ -198,14 +203,20 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
     }
   }
   if (const MotionExtra* extra = other.extra(i)) set_extra(steps_.size() - 1, *extra);
-  steps_.back().unknown_axes_ = other.steps_[i].unknown_axes_;
+  steps_.back().frame_ = other.steps_[i].frame_;
   steps_.back().named_axes_ = other.steps_[i].named_axes_;
   return steps_.size() - 1;
 }
 
 void Toolpath::set_unknown_axes(std::size_t i, unsigned bits) {
   assert(steps_[i].is_motion() && bits < 8);
-  steps_[i].unknown_axes_ = static_cast<std::uint8_t>(bits);
+  steps_[i].frame_ = static_cast<std::uint8_t>((steps_[i].frame_ & ~7u) | bits);
+}
+
+void Toolpath::set_reference(std::size_t i, Reference reference, unsigned axes) {
+  assert((axes & ~steps_[i].unknown_axes()) == 0);
+  const unsigned packed = (static_cast<unsigned>(reference) << 6) | (axes << 3) | steps_[i].unknown_axes();
+  steps_[i].frame_ = static_cast<std::uint8_t>(packed);
 }
 
 void Toolpath::set_named_axes(std::size_t i, unsigned bits) {

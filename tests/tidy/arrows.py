@@ -11,7 +11,7 @@ GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
-BACK = {"back_drawing", "back_gcmc"}
+BACK = {"back_drawing", "back_gcmc", "back_gcode"}
 # What each module may include besides itself. There is no ring, as each line uses only lines above it.
 ALLOWED = {
     "base": set(),
@@ -33,11 +33,12 @@ PUBLIC = {
     "geom": ["geometry.h", "outline.h", "extrude.h"],
     "tool": ["tool.h"],
     "stock": ["stock.h"],
-    "path": ["toolpath.h", "report.h", "check.h"],
+    "path": ["toolpath.h", "report.h", "check.h", "passes.h"],
     "sim": ["simulate.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "back_gcmc": ["gcmc_drawing.h"],
+    "back_gcode": ["post.h"],
     "front_tools": ["tool_files.h"],
     "front_stock": ["stock_files.h"],
     "front_outline": ["outline_files.h"],

@@ -38,6 +38,8 @@ inline constexpr Tenths kMotionNotRead = -2;  // after one that is not supported
 struct Place {
   Point3 at;  // mm
   unsigned unknown = kAllAxes;
+  Reference reference = Reference::work;  // what the axes of reference_axes were told in on this line
+  unsigned reference_axes = 0;
 };
 
 /// What a controller remembers from line to line.
@@ -187,7 +189,7 @@ class Interpreter : public SystemValues {
   void straight(Tenths motion);
   void probe(Tenths motion);
   void use_reference();
-  void go_home(const Place& home);
+  void go_home(const Place& home, Reference reference);
   void shift_zero();
   std::optional<Place> target();
   Place placed_target();
