@@ -157,11 +157,13 @@ class Step {
   Feed feed() const { return Feed::raw(values_[3]); }
   /// Bits 1, 2, 4: at this motion's end X, Y, Z is not known in work coordinates (never commanded yet, or
   /// commanded in machine coordinates). `to()` then holds what an interpreter with zero offsets takes.
-  unsigned unknown_axes() const { return unknown_axes_; }
+  unsigned unknown_axes() const { return marks_ & 7u; }
   /// Bits 1, 2, 4, 8, 16, 32: the program named X, Y, Z, A, B, C for this motion; 0 = that is not told.
   /// `to()` is complete either way. A post that prints words as the user gave them may use it; nothing else
   /// may depend on it.
   unsigned named_axes() const { return named_axes_; }
+  /// The controller comes to rest before this motion although no step says why (the work's zero is shifted).
+  bool rests_before() const { return (marks_ & 8u) != 0; }
 
   step::Rapid rapid() const;
   step::Cut cut() const;
@@ -186,7 +188,7 @@ class Step {
   std::uint8_t plane_ = 0;     // Plane, or the kind's own small enumeration
   std::uint8_t turn_ : 2 = 0;  // Turn or SpindleTurn, or two flags
   std::uint8_t named_axes_ : 6 = 0;
-  std::uint8_t unknown_axes_ = 0;
+  std::uint8_t marks_ = 0;  // bits 1, 2, 4: unknown axes; 8: rests before
 };
 static_assert(sizeof(Step) == 64, "a million steps are to fit in 64 MB");
 
@@ -231,6 +233,8 @@ class Toolpath {
   void set_unknown_axes(std::size_t i, unsigned bits);
   /// Tells which axes the program named for motion `i`; see Step::named_axes.
   void set_named_axes(std::size_t i, unsigned bits);
+  /// Marks motion `i`; see Step::rests_before.
+  void set_rests_before(std::size_t i);
   void set_extra(std::size_t i, MotionExtra extra);
   /// The motion's extra, or nullptr.
   const MotionExtra* extra(std::size_t i) const;

@@ -29,8 +29,10 @@ bool looks_like_gcode(std::string_view text) {
   return false;
 }
 
-LoadedProgram read(const InputFile& file, Diagnostics& diagnostics, Progress* progress) {
+LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics& diagnostics,
+                   Progress* progress) {
   GcodeReadOptions options;
+  if (input.machine && input.machine->controller == Controller::grbl) options.after_end = AfterEnd::read_on;
   options.file_name = file.path();
   GcodeProgram program = read_gcode(file.bytes(), options, diagnostics, progress);
   LoadedProgram loaded;

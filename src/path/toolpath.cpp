@@ -197,14 +197,19 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
     }
   }
   if (const MotionExtra* extra = other.extra(i)) set_extra(steps_.size() - 1, *extra);
-  steps_.back().unknown_axes_ = other.steps_[i].unknown_axes_;
+  steps_.back().marks_ = other.steps_[i].marks_;
   steps_.back().named_axes_ = other.steps_[i].named_axes_;
   return steps_.size() - 1;
 }
 
 void Toolpath::set_unknown_axes(std::size_t i, unsigned bits) {
   assert(steps_[i].is_motion() && bits < 8);
-  steps_[i].unknown_axes_ = static_cast<std::uint8_t>(bits);
+  steps_[i].marks_ = static_cast<std::uint8_t>((steps_[i].marks_ & 8u) | bits);
+}
+
+void Toolpath::set_rests_before(std::size_t i) {
+  assert(steps_[i].is_motion());
+  steps_[i].marks_ |= 8u;
 }
 
 void Toolpath::set_named_axes(std::size_t i, unsigned bits) {

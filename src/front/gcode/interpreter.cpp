@@ -70,6 +70,7 @@ void Interpreter::execute() {
     if (line_.has(Group::path_control)) set_path_mode();
     set_distance();
     use_words_of_other_codes();
+    note_rest();
     if (line_.has(Group::reference)) use_reference();
   }
   move();

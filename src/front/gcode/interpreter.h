@@ -99,6 +99,7 @@ class Interpreter {
   void straight(Tenths motion);
   void probe(Tenths motion);
   void use_reference();
+  void note_rest();
   void go_home(const Place& home);
   void shift_zero();
   std::optional<Place> target();
@@ -155,8 +156,11 @@ class Interpreter {
   Place here_;
   std::array<double, 3> rotary_{};  // degrees
   bool rotary_used_ = false;
-  Point3 shift_;       // of the program's zero by G92, mm
-  Point3 kept_shift_;  // what G92.2 put aside
+  Point3 shift_;          // of the program's zero by G92, mm
+  Point3 kept_shift_;     // what G92.2 put aside
+  Point3 machine_shift_;  // of a zero that G92 set before the place was known, mm
+  Tenths work_offset_ = 540;
+  bool rests_ = false;  // the next motion begins at rest: a zero was shifted
   Place home_28_, home_30_;
   CycleMemory cycle_;
 

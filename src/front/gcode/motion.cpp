@@ -110,7 +110,7 @@ std::optional<Place> Interpreter::machine_target() {
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
-    to.at[axis] = *word * modes_.scale;
+    to.at[axis] = *word * modes_.scale + machine_shift_[axis];
     to.unknown |= 1u << axis;
   }
   if (!reachable(to.at)) return std::nullopt;
@@ -172,6 +172,18 @@ void Interpreter::use_reference() {
   }
 }
 
+/// Controllers come to rest where a zero is shifted: whenever G10 or G92 stand there, and where G54 to G59.3
+/// name another one.
+void Interpreter::note_rest() {
+  if (line_.has(Group::coordinates) && line_.code(Group::coordinates) != work_offset_) {
+    work_offset_ = line_.code(Group::coordinates);
+    rests_ = true;
+  }
+  if (!line_.has(Group::reference)) return;
+  const Tenths code = line_.code(Group::reference);
+  rests_ = rests_ || code == 100 || code == 520 || (code >= 920 && code <= 923);
+}
+
 /// Through the intermediate point to the home; only the axes that are named, all where none is.
 void Interpreter::go_home(const Place& home) {
   unsigned axes = 0;
@@ -205,7 +217,10 @@ void Interpreter::shift_zero() {
     const double value = *word * modes_.scale;
     const bool known = (here_.unknown & (1u << axis)) == 0;
     shift[axis] = known ? here_.at[axis] - value : 0.0;
-    if (!known) now.at[axis] = value;
+    if (!known) {
+      machine_shift_[axis] += value - here_.at[axis];
+      now.at[axis] = value;
+    }
     now.unknown &= ~(1u << axis);
   }
   line_.use(kRotaryLetters);
@@ -227,6 +242,8 @@ void Interpreter::cut(const Place& to, double feed) {
 void Interpreter::arrive(const Place& to) {
   if (to.unknown != 0) path_.set_unknown_axes(path_.size() - 1, to.unknown);
   if (rotary_used_) path_.set_extra(path_.size() - 1, {rotary_, {}});
+  if (rests_) path_.set_rests_before(path_.size() - 1);
+  rests_ = false;
   here_ = to;
   undescribed_tool_.reset();
   if (moved_) return;
