@@ -59,7 +59,8 @@ std::string line_of(const Finding& f) {
   line +=
       fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
   if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
-  return line + fmt::format(") [{}]\n", f.kind);
+  line += fmt::format(") [{}]\n", f.kind);
+  return f.hint.empty() ? line : line + "    hint: " + f.hint + "\n";
 }
 
 }  // namespace
@@ -67,16 +68,23 @@ std::string line_of(const Finding& f) {
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
   for (const PathHazard& h : hazards)
-    out.push_back(
-        {std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step), h.message});
+    out.push_back({std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step),
+                   h.message, h.hint});
   return out;
 }
 
 std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
   for (const Hazard& h : hazards)
-    out.push_back({std::string(to_string(h.kind)), h.step, 1, h.at, h.depth.mm(), h.removed.mm3(),
-                   path.origin_of(h.step), message_of(h)});
+    out.push_back({std::string(to_string(h.kind)),
+                   h.step,
+                   1,
+                   h.at,
+                   h.depth.mm(),
+                   h.removed.mm3(),
+                   path.origin_of(h.step),
+                   message_of(h),
+                   {}});
   return out;
 }
 
@@ -96,6 +104,7 @@ Json json_of(const Finding& f) {
           {"step", f.step},
           {"steps", f.steps},
           {"message", f.message},
+          {"hint", f.hint},
           {"origin", json_of(f.origin)}};
 }
 

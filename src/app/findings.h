@@ -21,6 +21,7 @@ struct Finding {
   double removed_mm3 = 0.0;  // 0 for the toolpath's own
   Origin origin;
   std::string message;
+  std::string hint;  // may be empty
 };
 
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path);

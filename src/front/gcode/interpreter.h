@@ -156,9 +156,8 @@ class Interpreter {
   Place here_;
   std::array<double, 3> rotary_{};  // degrees
   bool rotary_used_ = false;
-  Point3 shift_;          // of the program's zero by G92, mm
-  Point3 kept_shift_;     // what G92.2 put aside
-  Point3 machine_shift_;  // of a zero that G92 set before the place was known, mm
+  Point3 shift_;       // of the program's zero by G92, mm
+  Point3 kept_shift_;  // what G92.2 put aside
   Tenths work_offset_ = 540;
   bool rests_ = false;  // the next motion begins at rest: a zero was shifted
   Place home_28_, home_30_;

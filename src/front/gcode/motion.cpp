@@ -110,7 +110,7 @@ std::optional<Place> Interpreter::machine_target() {
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
-    to.at[axis] = *word * modes_.scale + machine_shift_[axis];
+    to.at[axis] = *word * modes_.scale;
     to.unknown |= 1u << axis;
   }
   if (!reachable(to.at)) return std::nullopt;
@@ -217,10 +217,7 @@ void Interpreter::shift_zero() {
     const double value = *word * modes_.scale;
     const bool known = (here_.unknown & (1u << axis)) == 0;
     shift[axis] = known ? here_.at[axis] - value : 0.0;
-    if (!known) {
-      machine_shift_[axis] += value - here_.at[axis];
-      now.at[axis] = value;
-    }
+    if (!known) now.at[axis] = value;
     now.unknown &= ~(1u << axis);
   }
   line_.use(kRotaryLetters);

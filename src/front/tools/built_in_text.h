@@ -1,4 +1,4 @@
-// The text of data/tools.toml, compiled in.
+// The texts of data/tools.toml and data/materials.toml, compiled in.
 #pragma once
 
 #include <string_view>
@@ -6,5 +6,6 @@
 namespace kerf::detail {
 
 std::string_view built_in_tool_text();
+std::string_view built_in_material_text();
 
 }  // namespace kerf::detail

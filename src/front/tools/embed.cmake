@@ -1,11 +1,12 @@
-# Writes the text of INPUT as a C++ source OUTPUT that defines kerf::detail::built_in_tool_text().
+# Writes the text of INPUT as a C++ source OUTPUT that defines kerf::detail::FUNCTION().
 file(READ "${INPUT}" text)
-file(WRITE "${OUTPUT}" "// Made from data/tools.toml by embed.cmake.
+get_filename_component(name "${INPUT}" NAME)
+file(WRITE "${OUTPUT}" "// Made from data/${name} by embed.cmake.
 #include \"front/tools/built_in_text.h\"
 
 namespace kerf::detail {
 
-std::string_view built_in_tool_text() {
+std::string_view ${FUNCTION}() {
   return R\"KERF(${text})KERF\";
 }
 

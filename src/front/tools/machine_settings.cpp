@@ -19,7 +19,8 @@ constexpr double kFinestTolerance = 1e-5;  // mm
 constexpr double kMostSteps = 1e6;         // a mm
 constexpr double kMostPlanned = 10'000;    // moves
 constexpr double kMostRpm = 1e6;
-constexpr double kLetGoAlways = 255;  // GRBL's $1: the drivers are never let go
+constexpr double kRpmAsDelivered = 1000;  // GRBL's $30 where nobody told the spindle
+constexpr double kLetGoAlways = 255;      // GRBL's $1: the drivers are never let go
 
 template <int Axis>
 void set_rate(Machine& m, double v) {
@@ -95,7 +96,10 @@ const std::vector<GrblSetting>& grbl_settings() {
       {11, 0, kLongest, "a length in mm", [](Machine& m, double v) { m.junction_deviation = mm(v); }},
       {12, kFinestTolerance, kLongest, "a length in mm",
        [](Machine& m, double v) { m.arc_tolerance = mm(v); }},
-      {30, 0, kMostRpm, "a speed in rpm", [](Machine& m, double v) { m.fastest_spindle = rpm(v); }},
+      {30, 0, kMostRpm, "a speed in rpm",
+       [](Machine& m, double v) {
+         m.fastest_spindle = v == kRpmAsDelivered ? std::nullopt : std::optional(rpm(v));
+       }},
       {31, 0, kMostRpm, "a speed in rpm", [](Machine& m, double v) { m.slowest_spindle = rpm(v); }},
       {32, 0, 1, "0 or 1",
        [](Machine& m, double v) { m.laser = v == 0.0 ? LaserDrive::stops : LaserDrive::follows; }},
