@@ -91,8 +91,8 @@ Status run(Console& console, const Options& options) {
   if (job.stock) checks.stock = job.stock->block;
   findings = findings_of(check_path(job.program.path, checks), job.program.path);
   if (!diagnostics.has_errors()) {
-    auto material = findings_in_material(job, options.resolution, diagnostics, progress);
-    if (material) findings = merged(std::move(findings), std::move(*material));
+    auto in_material = findings_in_material(job, options.resolution, diagnostics, progress);
+    if (in_material) findings = merged(std::move(findings), std::move(*in_material));
   }
   progress.clear();
   if (interrupted()) return tell_stopped(console);

@@ -18,11 +18,12 @@ KNOWN = {
         "estlcam_Enclosure.nc": "O-words are reported, not understood yet",
         "camotics_vcarve.ngc": "recorded with points rounded to 0.0001 inch; its exact length is 56.081 mm",
     },
+    "time": {},
     "volume": {},
 }
 
 
-@pytest.mark.parametrize("what", ["gcode", "volume"])
+@pytest.mark.parametrize("what", ["gcode", "time", "volume"])
 def test_the_judge_finds_no_difference(what):
     run = subprocess.run([sys.executable, Path(CASES, "judge.py"), what, "--kerf", KERF], capture_output=True,
                          text=True, timeout=550)

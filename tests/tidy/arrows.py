@@ -31,7 +31,6 @@ PUBLIC = {
     "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
              "codes.def"],
     "geom": ["geometry.h", "outline.h", "extrude.h"],
-    "geom": ["geometry.h"],
     "tool": ["tool.h", "material.h"],
     "stock": ["stock.h"],
     "path": ["toolpath.h", "report.h", "check.h", "machine.h", "estimate.h"],
