@@ -62,11 +62,14 @@ TEST(ToolLibrary, CarbideCreate) {
 
 TEST(ToolLibrary, Fusion) {
   const Read read(R"({"data": [
-    {"type": "flat end mill", "unit": "inches", "geometry": {"DC": 0.5, "LCF": 1, "NOF": 4}, "post-process": {"number": 3}},
-    {"type": "ball end mill", "unit": "millimeters", "geometry": {"DC": 6, "LCF": 12}, "post-process": {"number": 4}},
-    {"type": "chamfer mill", "unit": "millimeters", "geometry": {"DC": 10, "TA": 45, "tip-diameter": 0, "LCF": 5},
-     "post-process": {"number": 5}},
-    {"type": "drill", "unit": "millimeters", "geometry": {"DC": 3, "SIG": 118, "LCF": 20}, "post-process": {"number": 6}},
+    {"type": "flat end mill", "unit": "inches", "geometry": {"DC": 0.5, "LCF": 1, "NOF": 4},
+     "post-process": {"number": 3}},
+    {"type": "ball end mill", "unit": "millimeters", "geometry": {"DC": 6, "LCF": 12},
+     "post-process": {"number": 4}},
+    {"type": "chamfer mill", "unit": "millimeters",
+     "geometry": {"DC": 10, "TA": 45, "tip-diameter": 0, "LCF": 5}, "post-process": {"number": 5}},
+    {"type": "drill", "unit": "millimeters", "geometry": {"DC": 3, "SIG": 118, "LCF": 20},
+     "post-process": {"number": 6}},
     {"type": "bull nose end mill", "unit": "millimeters", "geometry": {"DC": 6, "RE": 1, "LCF": 12},
      "post-process": {"number": 7}},
     {"type": "holder", "description": "a holder"}, 5, {"type": "flat end mill", "geometry": {"DC": -1}}]})");
@@ -97,7 +100,8 @@ TEST(ToolLibrary, FreeCad) {
 TEST(ToolLibrary, Camotics) {
   const Read read(R"({"units": "metric", "tools": {
     "1": {"units": "imperial", "shape": "cylindrical", "length": 1, "diameter": 0.25, "description": "q"},
-    "2": {"shape": "conical", "length": 10, "diameter": 20}, "3": {"shape": "ballnose", "length": 10, "diameter": 4},
+    "2": {"shape": "conical", "length": 10, "diameter": 20},
+    "3": {"shape": "ballnose", "length": 10, "diameter": 4},
     "x": {"shape": "spheroid", "length": 10, "diameter": 4}}})");
   EXPECT_DOUBLE_EQ(read.table.find(1)->diameter.mm(), 6.35);
   EXPECT_EQ(read.shape(2), "V");
