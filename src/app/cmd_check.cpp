@@ -104,12 +104,12 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples =
     R"(  kerf check part.nc && echo "good to cut"
   kerf check part.nc --json --stock "100x60x12 at lower-left top"
-  kerf check part.nc --machine machines/grbl_router.toml --material plywood
+  kerf check part.nc --machine data/machines/grbl_router.toml --material plywood
 
 Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor,
-cuts without feed, tool or turning spindle, arcs that controllers refuse, plunges with tools that cannot, tool
-changes below the stock's top, a missing program end; with --machine also moves out of its travel and speeds that
-its spindle has not; with --material feeds that the teeth cannot take.
+cuts without feed, tool or turning spindle, arcs that controllers refuse, plunges with tools that cannot,
+tool changes below the stock's top, a missing program end; with --machine also moves out of its travel and
+speeds that its spindle has not; with --material feeds that the teeth cannot take.
 Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 )";
 

@@ -254,7 +254,7 @@ const char* const kExamples =
     R"(  kerf info part.nc
   kerf info --json part.nc
   kerf info part.nc --machine grbl_settings.txt      times as a GRBL with these $$ settings takes
-  kerf info part.nc --machine machines/router.toml
+  kerf info part.nc --machine data/machines/grbl_router.toml
 )";
 
 }  // namespace

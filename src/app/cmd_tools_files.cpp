@@ -108,8 +108,8 @@ const char* const kImportExamples = R"(  kerf tools import library.json -o tools
   kerf tools import tool.tbl --unit inch -o tools.toml
   kerf simulate part.nc --tools tools.toml -o part.png
 
-Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb, CAMotics' JSON; which
-it is tells the text. Tools that cannot be made are left out with a warning that says why.
+Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb, CAMotics' JSON;
+which it is tells the text. Tools that cannot be made are left out with a warning that says why.
 )";
 const char* const kExportExamples = R"(  kerf tools export -o tool.tbl --unit inch
   kerf tools export --tools tools.toml -o tool.tbl

@@ -78,7 +78,8 @@ def test_a_grbl_reads_on_after_m2(kerf, program):
 
 @pytest.mark.parametrize("text, code", [
     ("", "machine_file"), ("hello\n", "machine_file"), ("$110=0\n$111=1\n$112=1\n", "machine_value"),
-    ("$110=nan\n", "machine_value"), ("$110=1e999\n", "machine_value"), ("rates = 5\n", "machine_key_unknown"),
+    ("$110=nan\n", "machine_value"), ("$110=1e999\n", "machine_value"),
+    ("rates = 5\n", "machine_key_unknown"),
 ])
 def test_a_machine_file_that_is_none_is_an_error(kerf, program, text, code):
     run = kerf("info", "--json", "--machine", program(text, "grbl.txt"), program())
