@@ -37,10 +37,10 @@ struct CheckOptions {
   Length arc_radii_limit = mm(0.5);
   ProgramEnd end = ProgramEnd::not_asked;
   // What is not told (nullptr, nothing) is not looked at. They must outlive the check.
-  const Machine* machine = nullptr;    // travel and spindle
-  const ToolTable* tools = nullptr;    // plunges and chip loads
-  const Material* material = nullptr;  // chip loads
-  std::optional<Box3> stock;           // tool changes; plunges only below its top
+  const Machine* machine = nullptr;          // travel and spindle
+  const ToolTable* tools = nullptr;          // plunges and chip loads
+  const Material* material = nullptr;        // chip loads
+  std::optional<Box3> stock = std::nullopt;  // tool changes; plunges only below its top
 };
 
 /// Something wrong from step `step` on. Neighbouring motions with the same trouble are one entry.

@@ -43,11 +43,10 @@ void tell_profile(std::string& out, const Profile& profile) {
 
 void tell_tool(std::string& out, int number, const Tool& tool) {
   out += fmt::format("\n[[tool]]\nnumber = {}\n", number);
-  if (!tool.names.empty()) {
-    out += "names = [";
-    for (const std::string& name : tool.names)
-      out += quoted(name) + (&name == &tool.names.back() ? "]\n" : ", ");
-  }
+  std::string names;  // the reader adds the number itself
+  for (const std::string& name : tool.names)
+    if (name != std::to_string(number)) names += (names.empty() ? "" : ", ") + quoted(name);
+  if (!names.empty()) out += fmt::format("names = [{}]\n", names);
   if (!tool.description.empty()) out += fmt::format("description = {}\n", quoted(tool.description));
   out += fmt::format("shape = {}\n", quoted(name_of(tool.shape)));
   for (const ShapeParameter& parameter : parameters_of(tool.shape))

@@ -1,5 +1,6 @@
 // Tool libraries of other programs: each kind's measures, what is left out, damaged files, and the round
 // trip.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -140,6 +141,20 @@ TEST(ToolLibrary, AZippedFusionLibrary) {
   EXPECT_TRUE(Read(cut).says(Code::tool_library_unreadable));
 }
 
+std::vector<std::string> sorted(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void expect_same(const Profile& a, const Profile& b, int number) {
+  ASSERT_EQ(a.knots.size(), b.knots.size()) << number;
+  for (std::size_t i = 0; i < a.knots.size(); ++i) {
+    EXPECT_NEAR(a.knots[i].r, b.knots[i].r, 1e-9) << number;
+    EXPECT_NEAR(a.knots[i].z, b.knots[i].z, 1e-9) << number;
+    EXPECT_NEAR(a.knots[i].bulge, b.knots[i].bulge, 1e-9) << number;
+  }
+}
+
 TEST(ToolLibrary, TheToolFileGivesTheSameTools) {
   const std::string text = write_tool_file(built_in_tools());
   ToolTable again;
@@ -150,14 +165,11 @@ TEST(ToolLibrary, TheToolFileGivesTheSameTools) {
   for (const auto& [number, tool] : built_in_tools().tools()) {
     const Tool* read = again.find(number);
     ASSERT_NE(read, nullptr) << number;
-    EXPECT_EQ(read->names, tool.names);
+    EXPECT_EQ(sorted(read->names), sorted(tool.names));
     EXPECT_EQ(read->plunges, tool.plunges);
-    for (const double share : {0.0, 0.1, 0.5, 0.9, 1.0}) {
-      const double z = share * tool.silhouette.top();
-      for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder})
-        EXPECT_NEAR(read->silhouette.part(part).radius_at(z), tool.silhouette.part(part).radius_at(z), 1e-6)
-            << number << " at " << z;
-    }
+    EXPECT_EQ(read->teeth, tool.teeth);
+    for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder})
+      expect_same(read->silhouette.part(part), tool.silhouette.part(part), number);
   }
 }
 
