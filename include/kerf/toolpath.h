@@ -168,6 +168,8 @@ class Step {
   /// `to()` is complete either way. A post that prints words as the user gave them may use it; nothing else
   /// may depend on it.
   unsigned named_axes() const { return named_axes_; }
+  /// The controller comes to rest before this motion although no step says why (the work's zero is shifted).
+  bool rests_before() const { return rests_before_; }
 
   step::Rapid rapid() const;
   step::Cut cut() const;
@@ -189,7 +191,8 @@ class Step {
   OriginId origin_ = OriginId::none;
   std::uint32_t extra_ = 0;  // index into the toolpath's extras, 0 = none
   StepKind kind_ = StepKind::rapid;
-  std::uint8_t plane_ = 0;     // Plane, or the kind's own small enumeration
+  std::uint8_t plane_ : 7 = 0;  // Plane, or the kind's own small enumeration
+  bool rests_before_ : 1 = false;
   std::uint8_t turn_ : 2 = 0;  // Turn or SpindleTurn, or two flags
   std::uint8_t named_axes_ : 6 = 0;
   std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference axes, 2 bits Reference
@@ -242,6 +245,8 @@ class Toolpath {
   void set_named_axes(std::size_t i, unsigned bits);
   /// Says that motion `i` leads its `axes` (bits; they must be unknown ones) to a place of the machine.
   void set_reference(std::size_t i, Reference reference, unsigned axes);
+  /// Marks motion `i`; see Step::rests_before.
+  void set_rests_before(std::size_t i);
   void set_extra(std::size_t i, MotionExtra extra);
   /// The motion's extra, or nullptr.
   const MotionExtra* extra(std::size_t i) const;

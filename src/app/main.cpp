@@ -33,6 +33,8 @@ std::vector<Command> add_commands(CLI::App& root) {
   tools->require_subcommand(1);
   commands.push_back(add_tools_list(*tools));
   commands.push_back(add_tools_show(*tools));
+  commands.push_back(add_tools_import(*tools));
+  commands.push_back(add_tools_export(*tools));
   root.add_subcommand("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");
   return commands;
 }

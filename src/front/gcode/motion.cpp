@@ -227,6 +227,18 @@ void Interpreter::use_reference() {
   refresh_placement();
 }
 
+/// Controllers come to rest where a zero is shifted: whenever G10 or G92 stand there, and where G54 to G59.3
+/// name another one.
+void Interpreter::note_rest() {
+  if (line_.has(Group::coordinates) && line_.code(Group::coordinates) != work_offset_) {
+    work_offset_ = line_.code(Group::coordinates);
+    rests_ = true;
+  }
+  if (!line_.has(Group::reference)) return;
+  const Tenths code = line_.code(Group::reference);
+  rests_ = rests_ || code == 100 || code == 520 || (code >= 920 && code <= 923);
+}
+
 /// Through the intermediate point to the home; only the axes that are named, all where none is.
 void Interpreter::go_home(const Place& home, Reference reference) {
   unsigned axes = 0;
@@ -261,6 +273,8 @@ void Interpreter::arrive(const Place& to) {
   if (to.unknown != 0) path_.set_unknown_axes(path_.size() - 1, to.unknown);
   if (to.reference_axes != 0) path_.set_reference(path_.size() - 1, to.reference, to.reference_axes);
   if (rotary_used_) path_.set_extra(path_.size() - 1, {rotary_, {}});
+  if (rests_) path_.set_rests_before(path_.size() - 1);
+  rests_ = false;
   here_ = to;
   here_.reference_axes = 0;
   undescribed_tool_.reset();
