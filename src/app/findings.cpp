@@ -78,8 +78,16 @@ std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const T
 std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
   for (const Hazard& h : hazards)
-    out.push_back({std::string(to_string(h.kind)), h.step, 1, h.at, h.depth.mm(), h.removed.mm3(),
-                   path.origin_of(h.step), message_of(h), path.origins().callers(path[h.step].origin()), {}});
+    out.push_back({std::string(to_string(h.kind)),
+                   h.step,
+                   1,
+                   h.at,
+                   h.depth.mm(),
+                   h.removed.mm3(),
+                   path.origin_of(h.step),
+                   message_of(h),
+                   path.origins().callers(path[h.step].origin()),
+                   {}});
   return out;
 }
 

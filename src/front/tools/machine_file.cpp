@@ -2,8 +2,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
-#include "front/tools/machine_settings.h"
 #include "base/toml.h"
+#include "front/tools/machine_settings.h"
 
 #include "kerf/machine_files.h"
 #include "kerf/names.h"
