@@ -23,7 +23,7 @@ bool looks_like_gcmc(std::string_view text) {
   return false;
 }
 
-LoadedProgram read(const InputFile& file, Diagnostics& diagnostics, Progress* progress) {
+LoadedProgram read(const InputFile& file, const InputOptions&, Diagnostics& diagnostics, Progress* progress) {
   GcmcOptions options;
   options.file_name = file.path();
   Unheard output;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/assumed_stock.h"
+#include "kerf/machine_files.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
@@ -188,8 +190,7 @@ void tell_unused_options(const Job& job, const JobSettings& settings, const Uses
 
 /// An unknown shape: an error where it is needed, else a warning.
 Diagnostic& tell(UnknownTool unknown, Origin where, std::string message, Diagnostics& diagnostics) {
-  if (unknown != UnknownTool::warning)
-    return diagnostics.error(Code::no_tool_shape, std::move(where), message);
+  if (unknown == UnknownTool::error) return diagnostics.error(Code::no_tool_shape, std::move(where), message);
   return diagnostics.warning(Code::no_tool_shape, std::move(where), message);
 }
 
@@ -204,15 +205,16 @@ void tell_no_tool(const Toolpath& path, UnknownTool unknown, Diagnostics& diagno
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
   const Uses uses = uses_of(job.program.path);
   give_start_tool(job, settings, uses);
-  if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::error_if_numbered)
+  if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::told_elsewhere)
     tell_no_tool(job.program.path, unknown, diagnostics);
   for (const int number : uses.numbers) {
     const Choice choice = choose(number, job.program, settings, diagnostics);
     job.tool_sources[number] = choice.source;
+    if (choice.tool == nullptr && unknown == UnknownTool::told_elsewhere) continue;
     if (choice.tool == nullptr) {
       tell(unknown, first_use_of(number, job.program.path),
            fmt::format("nobody knows the shape of tool {}", number), diagnostics)
-          .hint = fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", number);
+          .hint = hint_for_unknown(number);
       continue;
     }
     Tool tool = *choice.tool;
@@ -226,6 +228,49 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
                                  uses.numbers.size()));
 }
 
+std::string_view reason_of(AssumedTop top) {
+  switch (top) {
+    case AssumedTop::passes: return "a pass above the highest one";
+    case AssumedTop::plunge: return "where the plunges begin";
+    case AssumedTop::cuts: return "at the highest cut";
+    case AssumedTop::zero: break;
+  }
+  return "at Z0";
+}
+
+/// Says which block is taken, and why its top is where it is. That is all but sure with Z0 on top; else the
+/// user should look at it.
+void tell_assumed(const AssumedStock& assumed, const Job& job, Diagnostics& diagnostics) {
+  const Box3& b = assumed.stock.block;
+  const Point3 size = b.size();
+  const auto text = [](Point3 p, std::string_view form) {
+    return fmt::format(fmt::runtime(form), number_text(p.x, 3), number_text(p.y, 3), number_text(p.z, 3));
+  };
+  const std::string block =
+      fmt::format("assumed {} around the cuts, from {} to {}", text(size, "{} x {} x {} mm"),
+                  text(b.low, "X{} Y{} Z{}"), text(b.high, "X{} Y{} Z{}"));
+  const Origin where = TextSpot{job.program.source, 0, 0};
+  const Box3& cuts = job.report.all.cut_bounds;
+  Diagnostic* said = nullptr;
+  if (assumed.top != AssumedTop::zero)
+    said = &diagnostics.warning(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock, and Z0 seems not to be its top; {}, its top {}",
+                    block, reason_of(assumed.top)));
+  else if (cuts.low.z >= b.high.z)
+    said = &diagnostics.warning(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock, and cuts nothing below Z0; {}, of which it removes "
+                    "nothing",
+                    block));
+  else
+    said = &diagnostics.note(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock; {}, its top {}", block, reason_of(assumed.top)));
+  said->hint =
+      fmt::format("tell it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
+}
+
 void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
   job.stock = settings.stock;
   job.stock_source = StockSource::option;
@@ -234,22 +279,13 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   job.stock_source = StockSource::program;
   if (job.stock) return;
   job.stock_source = StockSource::unknown;
-  const Box3& cuts = job.report.all.cut_bounds;
-  if (cuts.empty()) return;
   double radius = 0.0;
   for (const auto& [number, tool] : job.tools.tools()) radius = std::max(radius, tool.diameter.mm() / 2.0);
-  job.stock = stock_around(cuts, mm(radius) + kStockMargin, kStockFloor);
+  const auto assumed = assume_stock(job.program.path, mm(radius) + kStockMargin, kStockFloor);
+  if (!assumed) return;
+  job.stock = assumed->stock;
   job.stock_source = StockSource::assumed;
-  const Box3& b = job.stock->block;
-  const Point3 size = b.size();
-  diagnostics
-      .note(Code::stock_assumed, TextSpot{job.program.source, 0, 0},
-            fmt::format("the program does not tell its stock; assumed {} x {} x {} mm around the cuts, from "
-                        "X{} Y{} Z{} to X{} Y{} Z{}",
-                        number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
-                        number_text(b.low.x, 3), number_text(b.low.y, 3), number_text(b.low.z, 3),
-                        number_text(b.high.x, 3), number_text(b.high.y, 3), number_text(b.high.z, 3)))
-      .hint = "tell it with --stock";
+  tell_assumed(*assumed, job, diagnostics);
 }
 
 }  // namespace
@@ -263,13 +299,25 @@ void add_job_options(CLI::App& app, JobOptions& options) {
       ->type_name("SPEC");
 }
 
+void add_machine_option(CLI::App& app, JobOptions& options) {
+  app.add_option("--machine", options.machine, "The machine: a profile (TOML) or what GRBL answers to $$")
+      ->type_name("PATH");
+}
+
 JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
   JobSettings settings;
   settings.table = built_in_tools();
   for (const std::string& text : options.tools) read_tool_option_of(text, settings, usage);
   if (options.stock) settings.stock = read_stock_option(*options.stock, CallSpot{"", 0, "--stock"}, usage);
   read_tool_files(options.tool_files, settings, diagnostics);
+  if (!options.machine.empty())
+    if (const auto file = InputFile::open(options.machine, diagnostics))
+      settings.input.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
   return settings;
+}
+
+std::string hint_for_unknown(int tool) {
+  return fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", tool);
 }
 
 std::string_view to_string(ToolSource source) {

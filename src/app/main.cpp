@@ -19,19 +19,30 @@ Examples:
   kerf simulate part.nc -o part.png    what a program cuts, as a picture
   kerf check part.nc                   what would go wrong; exit status 3 if anything
   kerf info part.nc                    size, time, tools, feeds, stock
+  kerf post --to grbl part.ngc         the program for another controller
   kerf tools show 102                  a tool that Kerf knows
   kerf help simulate                   all about one command
 
 Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage, 3 check found hazards.
 )";
 
+const char* const kToolsExamples = R"(
+Examples:
+  kerf tools list                      number, shape, size and names of every tool
+  kerf tools show 102                  one tool: its measures, its profile, a sketch
+  kerf tools show "V d=12.7 angle=90"  a tool told in words, as --tool takes it
+)";
+
 std::vector<Command> add_commands(CLI::App& root) {
-  std::vector<Command> commands{add_simulate(root), add_check(root), add_info(root), add_steps(root),
-                                add_outline(root)};
-  CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show");
+  std::vector<Command> commands{add_simulate(root), add_check(root),   add_info(root),
+                                add_steps(root),    add_outline(root), add_post(root)};
+  CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show, import, export");
   tools->require_subcommand(1);
+  tools->footer(kToolsExamples);
   commands.push_back(add_tools_list(*tools));
   commands.push_back(add_tools_show(*tools));
+  commands.push_back(add_tools_import(*tools));
+  commands.push_back(add_tools_export(*tools));
   root.add_subcommand("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");
   return commands;
 }

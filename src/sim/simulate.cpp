@@ -41,6 +41,7 @@ constexpr double kFarthestMotion = 1e7;                          // mm from the 
 constexpr double kFinestPitch = 1e-4;                            // mm
 constexpr double kDefaultColumns = 4e6;                          // of the automatic resolution
 constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
+constexpr double kMostDefaultColumns = 5e7;                      // a coarser one rather than more
 /// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.
 constexpr double kLeastClearance = 1e-4;
 
@@ -68,8 +69,11 @@ bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
 /// The column pitch to use, or nothing with an error.
 std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size, Diagnostics& diagnostics) {
   double pitch = options.resolution.mm();
-  if (pitch == 0.0)
-    pitch = std::clamp(std::sqrt(size.x * size.y / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
+  if (pitch == 0.0) {
+    const double area = size.x * size.y;
+    pitch = std::clamp(std::sqrt(area / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
+    pitch = std::max(pitch, std::sqrt(area / kMostDefaultColumns));
+  }
   if (!std::isfinite(pitch) || pitch < kFinestPitch) {
     diagnostics.error(
         Code::bad_resolution, {},

@@ -120,7 +120,11 @@ std::optional<double> SettingReader::number(const Setting& setting, ShapeParamet
 bool SettingReader::read_shape(const Setting& setting) {
   for (const ShapeParameter& parameter : parameters_of(shape_)) {
     if (parameter.name != setting.key) continue;
-    if (const auto value = number(setting, parameter.kind)) parameter.set(shape_, *value);
+    const auto value = number(setting, parameter.kind);
+    if (value && *value == 0.0 && setting.key == "flute")
+      wrong(setting, "above 0; left out, it is that of a usual tool of this diameter");
+    else if (value)
+      parameter.set(shape_, *value);
     return true;
   }
   auto* drawn = std::get_if<shape::Drawn>(&shape_);
@@ -183,7 +187,8 @@ void SettingReader::unknown(const Setting& setting) {
   std::vector<std::string> known;
   for (const ShapeParameter& parameter : parameters_of(shape_)) known.emplace_back(parameter.name);
   if (std::holds_alternative<shape::Drawn>(shape_)) known.emplace_back("profile");
-  const std::string measures = list_text(known);
+  std::string measures;
+  for (const std::string& name : known) measures += (measures.empty() ? "" : ", ") + name;
   for (const BodyKey& key : kBodyKeys) known.emplace_back(key.name);
   for (const std::string_view key : kTextKeys) known.emplace_back(key);
   known.insert(known.end(), {"teeth", "plunges", "shape", "number", "numbers", "names", "unit"});
@@ -191,7 +196,7 @@ void SettingReader::unknown(const Setting& setting) {
       diagnostics_.error(Code::tool_key_unknown, setting.where,
                          fmt::format("a {} tool has no \"{}\"", name_of(shape_), setting.key.substr(0, 40)));
   const auto meant = did_you_mean(setting.key, known);
-  error.hint = meant ? fmt::format("did you mean {}?", *meant) : fmt::format("its measures are {}", measures);
+  error.hint = meant ? fmt::format("did you mean {}?", *meant) : fmt::format("its measures: {}", measures);
 }
 
 void SettingReader::read(const Setting& told) {

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <map>
 
-#include "front/tools/built_in_text.h"
+#include "base/toml.h"
+#include "embedded_tool_files.h"
 #include "front/tools/settings.h"
-#include "front/tools/toml.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -242,7 +242,7 @@ const ToolTable& built_in_tools() {
   static const ToolTable table = [] {
     ToolTable tools;
     Diagnostics diagnostics;
-    read_tool_file(detail::built_in_tool_text(), "data/tools.toml", tools, diagnostics);
+    read_tool_file(embedded::tool_files[0].bytes, "data/tools.toml", tools, diagnostics);
     assert(diagnostics.list().empty());  // a test tells what is wrong
     return tools;
   }();
