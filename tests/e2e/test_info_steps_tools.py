@@ -96,7 +96,7 @@ def test_tools_are_imported_and_exported(kerf, program, tmp_path):
     assert run.status == 0, run.err
     shown = kerf("tools", "show", "7", "--tools", "mine.toml", "--json").json
     got = [shown[key] for key in ("shape", "diameter_mm", "flute_mm", "teeth")]
-    assert got == ["square", 6.35, 19.05, 3]
+    assert got == ["square", 6.35, pytest.approx(19.05), 3]
     run = kerf("tools", "export", "--tools", "mine.toml", "-o", "tool.tbl", "--unit", "inch")
     assert run.status == 0, run.err
     assert (tmp_path / "tool.tbl").read_text() == "T7 P1 Z0 D0.25 ;square 6.35 mm, quarter inch\n"

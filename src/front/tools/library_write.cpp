@@ -41,6 +41,11 @@ void tell_profile(std::string& out, const Profile& profile) {
   out += "]\n";
 }
 
+/// A shank that widens over a height, not at once.
+bool begins_with_cone(const Profile& shank) {
+  return shank.knots.size() > 2 && shank.knots[1].r > shank.knots[0].r && shank.knots[1].z > shank.knots[0].z;
+}
+
 void tell_tool(std::string& out, int number, const Tool& tool) {
   out += fmt::format("\n[[tool]]\nnumber = {}\n", number);
   std::string names;  // the reader adds the number itself
@@ -56,7 +61,7 @@ void tell_tool(std::string& out, int number, const Tool& tool) {
   if (!own_neck) tell_part(out, "neck", tool.silhouette.neck);
   tell_part(out, "shank", tool.silhouette.shank);
   tell_part(out, "holder", tool.silhouette.holder);
-  if (tool.silhouette.shank.knots.size() > 2) out += "transition = \"cone\"\n";
+  if (begins_with_cone(tool.silhouette.shank)) out += "transition = \"cone\"\n";
   out += fmt::format("teeth = {}\nplunges = {}\n", tool.teeth, tool.plunges);
 }
 

@@ -1,4 +1,5 @@
 // Kerf's tool files: TOML into tools, every fault with its line and column.
+#include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
 #include <map>
@@ -182,7 +183,10 @@ void FileReader::read_tool(const toml::table& table) {
 /// Under each of its numbers; the other numbers are names of it as well.
 void FileReader::keep(const Tool& made, const std::vector<int>& numbers, const Origin& where) {
   Tool tool = made;
-  for (const int number : numbers) tool.names.push_back(std::to_string(number));
+  for (const int number : numbers) {
+    const std::string name = std::to_string(number);
+    if (std::find(tool.names.begin(), tool.names.end(), name) == tool.names.end()) tool.names.push_back(name);
+  }
   for (const int number : numbers) {
     const auto [first, is_new] = given_.emplace(number, where);
     if (is_new) {
