@@ -6,6 +6,8 @@ tool or a part.
 Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
+import os
+
 from ._kerf import (
     Diagnostic,
     Error,
@@ -54,5 +56,6 @@ def load(path):
     kerf.Error
         Where its text has errors.
     """
-    with open(path, encoding="latin-1") as file:
-        return read_gcode(file.read(), str(path))
+    name = os.fspath(path)
+    with open(name, encoding="latin-1") as file:
+        return read_gcode(file.read(), os.fsdecode(name))
