@@ -348,7 +348,12 @@ KERF_LANES MicroView look_at(const View& w, const TileJob& job, int micro) {
   const int super = micro / kSupers, inner = micro % kSupers;
   const int column = (super & 3) * 16 + (inner & 3) * 4, row = (super >> 2) * 16 + (inner >> 2) * 4;
   MicroView m;
-  if (const PointPlaces* p = job.points) {
+  if (job.place_x != nullptr && job.points == nullptr) {
+    for (int i = 0; i < kLanes; ++i) {
+      m.x[i] = w.x + job.place_x[column + i % 4];
+      m.y[i] = w.y + job.place_y[row + i / 4];
+    }
+  } else if (const PointPlaces* p = job.points) {
     m.x = w.x + points_along(kPointsX.v, p->shift_x[micro], p->x[micro], p->size_x[micro]);
     m.y = w.y + points_along(kPointsY.v, p->shift_y[micro], p->y[micro], p->size_y[micro]);
   } else {
@@ -415,7 +420,8 @@ KERF_LANES int take_from_slot(Slot& slot, Vector low, Vector high, std::uint32_t
   store(all_of_it ? all(kFar) : from_below ? b : l, slot.low);
   store(all_of_it ? all(-kFar) : with_new_top ? a : h, slot.high);
   store_ids(from_below ? Ids{} + step : load_ids(slot.low_step), slot.low_step);
-  store_ids(with_new_top ? Ids{} + step : load_ids(slot.high_step), slot.high_step);
+  // Of an interval that ends here too: Tile::cut_through reads it.
+  store_ids((with_new_top | all_of_it) ? Ids{} + step : load_ids(slot.high_step), slot.high_step);
   taken += all_of_it ? h - l : meets ? b - a : Vector{};
   return bits_of(meets & ~bottom & ~top);
 }
@@ -527,6 +533,10 @@ double begin_of_contact(const Sweep& s, const View& w, const MicroView& m, int l
   return begin + share * (end - begin);
 }
 
+double place_of(const Real* places, int column, const TileJob& job) {
+  return places == nullptr ? column * job.field->pitch : static_cast<double>(places[column]);
+}
+
 /// Notes what [low, high] meets in a column; returns whether that is more than is ignored.
 bool note_contact(const TileJob& job, const Sweep& s, const View& w, const MicroView& m, const Pass& pass,
                   int micro, int lane, Real low, Real high, double weight, Contact& contact) {
@@ -545,7 +555,7 @@ bool note_contact(const TileJob& job, const Sweep& s, const View& w, const Micro
     const int super = micro / kSupers, inner = micro % kSupers;
     const int column_x = (super & 3) * 16 + (inner & 3) * 4 + lane % 4;
     const int column_y = (super >> 2) * 16 + (inner >> 2) * 4 + lane / 4;
-    contact.at = {job.x + column_x * job.field->pitch, job.y + column_y * job.field->pitch,
+    contact.at = {job.x + place_of(job.place_x, column_x, job), job.y + place_of(job.place_y, column_y, job),
                   static_cast<double>(a)};
   }
   return any;
@@ -675,7 +685,6 @@ struct PassList {
     list.add({.solid = &solid,
               .is_hazard = true,
               .kind = rapid ? HazardKind::rapid_in_stock : kind,
-              .takes = bit != kPassOverFlute,
               .ignore = ignore});
   };
   // What a standing spindle cuts, however little, is cut all the same.

@@ -62,6 +62,8 @@ struct Tile {
   Slot& add_slot(int micro);
   /// Appends the intervals of a column, lowest first.
   void intervals(int index, std::vector<Interval>& out) const;
+  /// The step that took the last material of a column without any; kStockSurface if there never was any.
+  std::uint32_t cut_through(int index) const;
 };
 
 }  // namespace kerf::sim
@@ -88,6 +90,9 @@ struct Workpiece::Body {
   sim::Tile& touch(std::size_t tile);
   int columns_x_of(std::size_t tile) const;
   int columns_y_of(std::size_t tile) const;
+  /// Where column i (of row j) stands, mm from the block's low side: in the middle of its part in the block.
+  double place_x(int i) const;
+  double place_y(int j) const;
   /// Share of column i (of row j) that lies in the block, 0 to 1.
   double share_x(int i) const;
   double share_y(int j) const;
