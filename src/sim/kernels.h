@@ -18,6 +18,7 @@ struct LaneCap {
 struct LanePiece {
   Real rim = 0, rim2 = 0;
   LaneCap lower, upper;
+  bool is_cylinder() const { return lower.curve == CapCurve::flat && upper.curve == CapCurve::flat; }
 };
 struct LaneSolid {
   explicit LaneSolid(const Solid& solid);
@@ -25,6 +26,8 @@ struct LaneSolid {
   std::vector<LanePiece> pieces;
   LanePiece lid;  // of one envelope: its flat top
   bool one_envelope = false;
+  bool is_ball = false;       // of one envelope, which is half a ball and has the closed form
+  bool is_cylinders = false;  // all pieces are
   Real rim = 0, bottom = 0, top = 0;
   Real offset[kCullLines] = {}, slope[kCullLines] = {};
 };

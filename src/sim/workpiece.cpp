@@ -44,6 +44,20 @@ Slot& Tile::add_slot(int micro) {
   return slot;
 }
 
+void Tile::store_remnant(int micro, const Remnant& rest) {
+  Slot* free = nullptr;
+  for (std::int32_t k = chain[micro]; k >= 0 && free == nullptr;
+       k = slots[static_cast<std::size_t>(k)].next) {
+    Slot& slot = slots[static_cast<std::size_t>(k)];
+    if (slot.low[rest.lane] > slot.high[rest.lane]) free = &slot;
+  }
+  if (free == nullptr) free = &add_slot(micro);
+  free->low[rest.lane] = rest.low;
+  free->high[rest.lane] = rest.high;
+  free->low_step[rest.lane] = rest.low_step;
+  free->high_step[rest.lane] = rest.high_step;
+}
+
 void Tile::make_chain(int micro) {
   if (chain[micro] >= 0) return;
   Slot& slot = add_slot(micro);
