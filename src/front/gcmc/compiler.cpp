@@ -307,7 +307,7 @@ std::int32_t Compiler::number_constant(Scalar s) {
   if (s.kind() == Kind::real)
     std::memcpy(&bits, &s.p.d, sizeof bits);
   else
-    bits = static_cast<std::uint32_t>(s.kind() == Kind::integer ? s.p.i : 0);
+    bits = static_cast<std::uint32_t>(s.kind() == Kind::integer ? s.whole() : 0);
   bits = bits * 31 + s.tag;  // a table for each low tag keeps equal bits of other tags apart
   auto& index = number_index_[s.tag & 15];
   const auto found = index.find(bits);

@@ -107,7 +107,7 @@ Scalar with_undefined(Op op, Scalar a, Scalar b) {
     case Op::add_or: return a.defined() ? a : b;
     case Op::sub_or:
       if (a.defined() || !b.defined()) return a;
-      return b.kind() == Kind::integer ? Scalar::integer(wrap_sub(0, b.p.i), b.unit())
+      return b.kind() == Kind::integer ? Scalar::integer(wrap_sub(0, b.whole()), b.unit())
                                        : Scalar::real(0.0 - b.p.d, b.unit());
     default: return {};
   }
@@ -138,7 +138,7 @@ double native_number(const Runtime& rt, Scalar s) {
 }
 
 std::int32_t to_integer(Scalar s) {
-  if (s.kind() != Kind::real) return s.kind() == Kind::integer ? s.p.i : 0;
+  if (s.kind() != Kind::real) return s.kind() == Kind::integer ? s.whole() : 0;
   const double nearest = std::nearbyint(s.p.d);
   const double whole = std::fabs(nearest - s.p.d) < kEpsilon ? nearest : std::trunc(s.p.d);
   if (!(whole >= -2147483648.0)) return INT32_MIN;
@@ -149,7 +149,7 @@ Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b) {
   if (!a.defined() || !b.defined()) return with_undefined(op, a, b);
   const Unit unit = common_unit(rt, op, a.unit(), b);
   if (a.kind() == Kind::integer && b.kind() == Kind::integer)
-    return Scalar::integer(integer_operation(rt, op, a.p.i, b.p.i), unit);
+    return Scalar::integer(integer_operation(rt, op, a.whole(), b.whole()), unit);
   return Scalar::real(real_operation(rt, op, a.number(), b.number()), unit);
 }
 
@@ -309,7 +309,8 @@ void multiply(Runtime& rt, Value& a, const Value& b) {
 void divide(Runtime& rt, Op op, Value& a, const Value& b) {
   if (b.is_scalar() && !b.is_undef()) {
     if (a.is_vector()) return vector_with_scalar(rt, op, a, b.scalar());
-    if (a.is_list()) return each_vector(rt, a, [&](Value& v) {
+    if (a.is_list())
+      return each_vector(rt, a, [&](Value& v) {
         if (!vectors_plain(op, v, b, v)) vector_with_scalar(rt, op, v, b.scalar());
       });
   }
@@ -354,8 +355,8 @@ void shift_scalar(Runtime& rt, Op op, Value& a, std::int32_t count) {
   if (s.kind() == Kind::real) {
     a = Value::real(std::ldexp(s.p.d, left ? count : -count), s.unit());
   } else if (s.kind() == Kind::integer) {
-    const auto shifted = static_cast<std::int32_t>(static_cast<std::uint32_t>(s.p.i) << count);
-    a = Value::integer(left ? shifted : s.p.i >> count, s.unit());
+    const auto shifted = static_cast<std::int32_t>(static_cast<std::uint32_t>(s.whole()) << count);
+    a = Value::integer(left ? shifted : s.whole() >> count, s.unit());
   }
 }
 
@@ -497,7 +498,7 @@ bool holds(Op op, int order) {
 bool compare_scalars(Runtime& rt, Op op, Scalar a, Scalar b) {
   const Unit ua = a.unit(), ub = b.unit();
   if (a.kind() == Kind::integer && b.kind() == Kind::integer && ua == ub)
-    return holds(op, a.p.i < b.p.i ? -1 : a.p.i > b.p.i ? 1 : 0);
+    return holds(op, a.whole() < b.whole() ? -1 : a.whole() > b.whole() ? 1 : 0);
   if (ua == ub) return holds(op, a.number() - b.number());
   if (ua == Unit::none || ub == Unit::none) {
     rt.warn(Code::gcmc_unit, fmt::format("Possible unit mismatch; comparing units {} with none",
@@ -546,7 +547,7 @@ bool truth(const Value& v) {
   switch (v.type()) {
     case Type::scalar: {
       const Scalar s = v.scalar();
-      return s.kind() == Kind::integer ? s.p.i != 0
+      return s.kind() == Kind::integer ? s.whole() != 0
                                        : s.kind() == Kind::real && !(std::fabs(s.p.d) < kEpsilon);
     }
     case Type::vector:

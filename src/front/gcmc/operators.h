@@ -23,33 +23,48 @@ constexpr std::int32_t wrap_mul(std::int32_t a, std::int32_t b) {
 
 /// True where two numbers are defined and their units are equal or one has none: `unit` is then the result's.
 inline bool plain(Tag a, Tag b, Unit& unit) {
-  const unsigned ua = a >> 2, ub = b >> 2;
+  const Tag ua = a >> 2, ub = b >> 2;
   unit = static_cast<Unit>(ua | ub);
   return (a & 3) != 0 && (b & 3) != 0 && (ua == ub || ua == 0 || ub == 0);
 }
 inline bool both_integers(Tag a, Tag b) { return ((a | b) & 2) == 0; }
 static_assert(static_cast<int>(Kind::integer) == 1 && static_cast<int>(Kind::real) == 2);
-inline double number_of(Payload p, Tag tag) { return (tag & 3) == 1 ? p.i : p.d; }
+inline double number_of(Payload p, Tag tag) { return (tag & 3) == 1 ? static_cast<double>(p.i) : p.d; }
 
 inline bool add_plain(Scalar a, Scalar b, Scalar& out) {
   Unit unit;
   if (!plain(a.tag, b.tag, unit)) return false;
-  out = both_integers(a.tag, b.tag) ? Scalar::integer(wrap_add(a.p.i, b.p.i), unit)
-                                    : Scalar::real(a.number() + b.number(), unit);
+  if (both_integers(a.tag, b.tag)) {
+    out.p.i = wrap_add(a.whole(), b.whole());
+    out.tag = make_tag(Kind::integer, unit);
+  } else {
+    out.p.d = a.number() + b.number();
+    out.tag = make_tag(Kind::real, unit);
+  }
   return true;
 }
 inline bool subtract_plain(Scalar a, Scalar b, Scalar& out) {
   Unit unit;
   if (!plain(a.tag, b.tag, unit)) return false;
-  out = both_integers(a.tag, b.tag) ? Scalar::integer(wrap_sub(a.p.i, b.p.i), unit)
-                                    : Scalar::real(a.number() - b.number(), unit);
+  if (both_integers(a.tag, b.tag)) {
+    out.p.i = wrap_sub(a.whole(), b.whole());
+    out.tag = make_tag(Kind::integer, unit);
+  } else {
+    out.p.d = a.number() - b.number();
+    out.tag = make_tag(Kind::real, unit);
+  }
   return true;
 }
 inline bool multiply_plain(Scalar a, Scalar b, Scalar& out) {
   Unit unit;
   if (!plain(a.tag, b.tag, unit)) return false;
-  out = both_integers(a.tag, b.tag) ? Scalar::integer(wrap_mul(a.p.i, b.p.i), unit)
-                                    : Scalar::real(a.number() * b.number(), unit);
+  if (both_integers(a.tag, b.tag)) {
+    out.p.i = wrap_mul(a.whole(), b.whole());
+    out.tag = make_tag(Kind::integer, unit);
+  } else {
+    out.p.d = a.number() * b.number();
+    out.tag = make_tag(Kind::real, unit);
+  }
   return true;
 }
 
@@ -59,8 +74,8 @@ inline bool divide_plain(Scalar a, Scalar b, Scalar& out) {
   if (!plain(a.tag, b.tag, unit)) return false;
   if (a.unit() == b.unit()) unit = Unit::none;
   if (both_integers(a.tag, b.tag)) {
-    if (b.p.i == 0 || b.p.i == -1) return false;
-    out = Scalar::integer(a.p.i / b.p.i, unit);
+    if (b.whole() == 0 || b.whole() == -1) return false;
+    out = Scalar::integer(a.whole() / b.whole(), unit);
     return true;
   }
   const double divisor = b.number();
@@ -70,14 +85,15 @@ inline bool divide_plain(Scalar a, Scalar b, Scalar& out) {
 }
 inline bool modulo_plain(Scalar a, Scalar b, Scalar& out) {
   Unit unit;
-  if (!plain(a.tag, b.tag, unit) || !both_integers(a.tag, b.tag) || b.p.i == 0 || b.p.i == -1) return false;
-  out = Scalar::integer(a.p.i % b.p.i, unit);
+  if (!plain(a.tag, b.tag, unit) || !both_integers(a.tag, b.tag) || b.whole() == 0 || b.whole() == -1)
+    return false;
+  out = Scalar::integer(a.whole() % b.whole(), unit);
   return true;
 }
 /// One more or one less; false for what is no number.
 inline bool step_plain(Scalar s, bool down, Scalar& out) {
   if (s.kind() == Kind::integer)
-    out = Scalar::integer(wrap_add(s.p.i, down ? -1 : 1), s.unit());
+    out = Scalar::integer(wrap_add(s.whole(), down ? -1 : 1), s.unit());
   else if (s.kind() == Kind::real)
     out = Scalar::real(s.p.d + (down ? -1 : 1), s.unit());
   else

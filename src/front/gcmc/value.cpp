@@ -181,7 +181,7 @@ std::string_view type_name(const Value& v) {
 void append_text(std::string& out, Scalar s, int decimals) {
   switch (s.kind()) {
     case Kind::undef: out += "<undef>"; return;
-    case Kind::integer: out += std::to_string(s.p.i); break;
+    case Kind::integer: out += std::to_string(s.whole()); break;
     case Kind::real: append_fixed(out, s.p.d, decimals, MinusZero::keep); break;
   }
   out += unit_suffix(s.unit());

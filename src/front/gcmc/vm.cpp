@@ -561,8 +561,8 @@ void Vm::do_repeat_begin(const Instruction& in) {
 }
 
 bool Vm::do_repeat_next(const Instruction& in) {
-  const std::int32_t limit = frame_[in.x].payload().i;
-  const std::int32_t last = frame_[in.x + 1].payload().i;
+  const std::int32_t limit = frame_[in.x].scalar().whole();
+  const std::int32_t last = frame_[in.x + 1].scalar().whole();
   if (last == limit) return false;
   const std::int32_t next = limit > 0 ? last + 1 : last - 1;
   frame_[in.x + 1].store(Scalar::integer(next));
@@ -583,7 +583,7 @@ void Vm::do_foreach_begin(const Instruction& in) {
 
 bool Vm::do_foreach_next(const Instruction& in) {
   const Value& source = frame_[in.x];
-  const auto i = static_cast<std::size_t>(frame_[in.x + 1].payload().i);
+  const auto i = static_cast<std::size_t>(frame_[in.x + 1].scalar().whole());
   if (source.is_list()) {
     if (i >= source.vectors().size()) return false;
     frame_[in.a] = source.vectors()[i];
@@ -673,7 +673,7 @@ constexpr Op comparison_of(Op jump) {
     if (a.is_scalar() && b.is_scalar() && ((a.tag() ^ b.tag()) >> 2) == 0 && (a.tag() & 3) != 0 &&        \
         (b.tag() & 3) != 0) {                                                                             \
       yes = both_integers(a.tag(), b.tag())                                                               \
-                ? holds_plain(Op::op, a.payload().i, b.payload().i)                                       \
+                ? holds_plain(Op::op, a.scalar().whole(), b.scalar().whole())                             \
                 : holds_plain(Op::op, number_of(a.payload(), a.tag()) - number_of(b.payload(), b.tag())); \
     } else {                                                                                              \
       yes = slow_holds(in, comparison_of(Op::op));                                                        \
