@@ -103,6 +103,7 @@ class Compiler {
   // instructions
   std::size_t emit(Place at, Op op, std::int32_t x, std::int32_t a = 0, std::int32_t b = 0,
                    std::int32_t c = 0);
+  std::size_t emit_operation(Place at, Op op, std::int32_t x, std::int32_t a, std::int32_t b);
   Instruction& at(std::size_t i) { return code_.instructions[i]; }
   std::uint8_t take(std::int32_t operand, std::uint8_t bit) const {
     return is_temporary(operand) ? bit : std::uint8_t{0};
@@ -290,6 +291,17 @@ std::size_t Compiler::emit(Place place, Op op, std::int32_t x, std::int32_t a, s
   code_.instructions.push_back({op, 0, static_cast<std::uint16_t>(x), a, b, c});
   code_.places.push_back(place);
   return here() - 1;
+}
+
+/// An operation or a comparing jump. A small right side, as in i + 1 or i < 100, becomes part of it.
+std::size_t Compiler::emit_operation(Place place, Op op, std::int32_t x, std::int32_t a, std::int32_t b) {
+  const Value* right = b < 0 ? &code_.constants[static_cast<std::size_t>(~b)] : nullptr;
+  const bool divides = op == Op::div || op == Op::mod;
+  const bool known = (op >= Op::add && op <= Op::mod) || (op >= Op::jump_less && op <= Op::jump_not_equal);
+  if (known && a >= 0 && right != nullptr && right->is_whole() &&
+      !(divides && (right->whole() == 0 || right->whole() == -1)))
+    return emit(place, with_integer(op), x, a, right->whole());
+  return emit(place, op, x, a, b);
 }
 
 void Compiler::jump_back(std::size_t jump, std::size_t target) {
@@ -492,6 +504,7 @@ void Compiler::do_loop(const Node& n) {
 void Compiler::counted_loop(const Node& n, Op begin_op, Op next_op) {
   const std::int32_t hidden = temporary(2);
   const std::int32_t source = operand(n.a);
+  if (begin_op == Op::foreach_begin) frame_->walks = true;
   at(emit(n.at, begin_op, hidden, source)).flags = take(source, kTakeA);
   next_ = hidden + 2;
   const Variable v = n.name == kNoName ? Variable{} : find(n.name);
@@ -526,7 +539,8 @@ void Compiler::leave_loop(const Node& n) {
 
 void Compiler::give_back(const Node& n) {
   const std::int32_t value = n.a == kNoNode ? number_constant(Scalar{}) : operand(n.a);
-  at(emit(n.at, Op::give_back, 0, value)).flags = take(value, kTakeA);
+  const Op op = function_ == nullptr ? Op::end_program : Op::give_back;
+  at(emit(n.at, op, 0, value)).flags = take(value, kTakeA);
 }
 
 // ---- expressions
@@ -678,13 +692,15 @@ void Compiler::read_variable(const Node& n, std::int32_t x) {
 void Compiler::binary(const Node& n, std::int32_t x) {
   const std::int32_t a = stable_operand(n.a, n.b);
   const std::int32_t b = operand(n.b);
-  at(emit(n.at, op_of(n.op), x, a, b)).flags = static_cast<std::uint8_t>(take(a, kTakeA) | take(b, kTakeB));
+  at(emit_operation(n.at, op_of(n.op), x, a, b)).flags =
+      static_cast<std::uint8_t>(take(a, kTakeA) | take(b, kTakeB));
 }
 
 void Compiler::unary(const Node& n, std::int32_t x) {
   const std::int32_t a = operand(n.a);
   if (n.op == Token::minus) {
-    at(emit(n.at, Op::mul, x, a, number_constant(Scalar::integer(-1)))).flags = take(a, kTakeA);
+    const std::int32_t minus_one = number_constant(Scalar::integer(-1));
+    at(emit_operation(n.at, Op::mul, x, a, minus_one)).flags = take(a, kTakeA);
     return;
   }
   at(emit(n.at, n.op == Token::bang ? Op::logic_not : Op::bit_not, x, a)).flags = take(a, kTakeA);
@@ -732,7 +748,7 @@ void Compiler::jump_on(NodeId id, bool sense, std::vector<std::size_t>& jumps) {
   if (const auto op = n.kind == NodeKind::binary ? jump_of(n.op) : std::nullopt) {
     const std::int32_t a = stable_operand(n.a, n.b);
     const std::int32_t b = operand(n.b);
-    jumps.push_back(emit(n.at, *op, 0, a, b));
+    jumps.push_back(emit_operation(n.at, *op, 0, a, b));
     at(jumps.back()).flags =
         static_cast<std::uint8_t>(take(a, kTakeA) | take(b, kTakeB) | (sense ? 0 : +kNegated));
   } else {
@@ -882,7 +898,7 @@ std::int32_t Compiler::assign_name(const Node& n, const Node& target) {
   }
   const std::int32_t value = operand(n.b);
   if (direct) {
-    at(emit(n.at, op_of(n.op), v.slot, v.slot, value)).flags = take(value, kTakeB);
+    at(emit_operation(n.at, op_of(n.op), v.slot, v.slot, value)).flags = take(value, kTakeB);
     return v.slot;
   }
   const std::int32_t reference = reference_to(target);
@@ -924,7 +940,7 @@ std::int32_t Compiler::assign_element(const Node& n) {
   }
   const std::int32_t result = temporary();
   emit(n.at, Op::element, result, reference, i, j);
-  at(emit(n.at, op_of(n.op), result, result, value)).flags = take(value, kTakeB);
+  at(emit_operation(n.at, op_of(n.op), result, result, value)).flags = take(value, kTakeB);
   emit(n.at, Op::set_element, reference, i, j, result);
   return result;
 }

@@ -35,7 +35,7 @@ OriginId PathSink::origin() {
   check_size();
   OriginId caller = OriginId::none;
   if (origins_.size() > kMostOrigins) return origin_at(vm_.current_instruction(), caller);
-  const std::size_t depth = vm_.frames().size();
+  const std::size_t depth = vm_.depth();
   for (std::size_t i = depth > kMostCalls ? depth - kMostCalls : 0; i < depth; ++i)
     caller = origin_at(vm_.call_site(i), caller);
   return origin_at(vm_.current_instruction(), caller);

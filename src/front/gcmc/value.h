@@ -75,11 +75,11 @@ struct Scalar {
 enum class Type : std::uint8_t {
   scalar,       // undef, integer or real
   vector,       // up to three coordinates, inline
-  long_vector,  // more, in a block
-  list,         // of vectors
-  string,       // code points
   absent,       // a variable that does not exist, or a call that returned nothing
   reference,    // to a variable: never seen by a program
+  long_vector,  // more coordinates; from here on in a block
+  list,         // of vectors
+  string,       // code points
 };
 
 /// Counts what blocks hold, and refuses what goes beyond the limit (see Meter::grow).
@@ -130,15 +130,17 @@ class Value {
 
   Type type() const { return static_cast<Type>(head_ & 0xFF); }
   bool is_scalar() const { return type() == Type::scalar; }
+  static bool are_scalars(const Value& a, const Value& b) {
+    static_assert(static_cast<int>(Type::scalar) == 0);
+    return ((a.head_ | b.head_) & 0xFF) == 0;
+  }
   bool is_vector() const { return type() == Type::vector || type() == Type::long_vector; }
   bool is_short_vector() const { return type() == Type::vector; }
   bool is_list() const { return type() == Type::list; }
   bool is_string() const { return type() == Type::string; }
   bool is_undef() const { return is_scalar() && kind_of(tag()) == Kind::undef; }
   bool is_absent() const { return type() == Type::absent; }
-  bool is_block() const {
-    return type() == Type::long_vector || type() == Type::list || type() == Type::string;
-  }
+  bool is_block() const { return type() >= Type::long_vector; }
 
   static Value undef() { return Value(Scalar{}); }
   static Value integer(std::int32_t v, Unit unit = Unit::none) { return Value(Scalar::integer(v, unit)); }
@@ -158,6 +160,14 @@ class Value {
     s.p = c_[0];
     s.tag = tag();
     return s;
+  }
+  /// True for an integer without unit.
+  bool is_whole() const { return head_ == kWholeHead; }
+  std::int32_t whole() const { return static_cast<std::int32_t>(c_[0].i); }
+  void store_whole(std::int32_t v) {
+    drop();
+    c_[0].i = v;
+    head_ = kWholeHead;
   }
   /// Overwrites with a scalar; what was held is let go.
   void store(Scalar s) {
@@ -240,6 +250,7 @@ class Value {
   // as a whole, because a processor that reads more bytes than the last write had waits for that write to be
   // done.
   static constexpr std::uint64_t head_of(Type type) { return static_cast<std::uint64_t>(type); }
+  static constexpr std::uint64_t kWholeHead = std::uint64_t{make_tag(Kind::integer, Unit::none)} << 8;
   void set_scalar(Payload p, Tag tag) {
     c_[0] = p;
     head_ = head_of(Type::scalar) | tag << 8;
