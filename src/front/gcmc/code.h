@@ -43,6 +43,7 @@ namespace kerf::gcmc {
   X(mul_integer)                                                                                      \
   X(div_integer)  /* b is neither 0 nor -1; so the next */                                            \
   X(mod_integer)                                                                                      \
+  X(append)  /* x <- a + {b} */                                                                       \
   X(equal)  /* x <- a op b; so the next five */                                                       \
   X(not_equal)                                                                                        \
   X(less)                                                                                             \

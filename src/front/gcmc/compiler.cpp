@@ -145,8 +145,11 @@ class Compiler {
   void call(const Node& n, std::int32_t x, bool used);
   void arguments(const Node& n, const FunctionTree& f, std::int32_t base);
   void argument_by_reference(const Node& n, NodeId argument, std::size_t index, std::int32_t x);
-  std::int32_t assign(const Node& n);
-  std::int32_t assign_name(const Node& n, const Node& target);
+  enum class Used : std::uint8_t { no, yes };
+  std::int32_t assign(const Node& n, Used used);
+  std::int32_t assign_name(const Node& n, const Node& target, Used used);
+  NodeId appended(Op op, NodeId right) const;
+  const Node& compound_of(const Node& n, Node& space) const;
   std::int32_t assign_element(const Node& n);
   std::int32_t step(const Node& n, bool used);
   std::int32_t reference_to(const Node& name);
@@ -401,6 +404,8 @@ void Compiler::effect(NodeId id) {
     call(n, temporary(), false);
   else if (n.kind == NodeKind::step)
     step(n, false);
+  else if (n.kind == NodeKind::assign)
+    assign(n, Used::no);
   else
     operand(id);
   next_ = temporaries;
@@ -617,7 +622,7 @@ std::int32_t Compiler::operand(NodeId id) {
       if (v.access == Access::slot && !is_internal(n.name)) return v.slot;
       break;
     }
-    case NodeKind::assign: return assign(n);
+    case NodeKind::assign: return assign(n, Used::yes);
     case NodeKind::step: return step(n, true);
     default: break;
   }
@@ -690,9 +695,11 @@ void Compiler::read_variable(const Node& n, std::int32_t x) {
 }
 
 void Compiler::binary(const Node& n, std::int32_t x) {
+  const Op op = op_of(n.op);
+  const NodeId item = appended(op, n.b);
   const std::int32_t a = stable_operand(n.a, n.b);
-  const std::int32_t b = operand(n.b);
-  at(emit_operation(n.at, op_of(n.op), x, a, b)).flags =
+  const std::int32_t b = operand(item == kNoNode ? n.b : item);
+  at(emit_operation(n.at, item == kNoNode ? op : Op::append, x, a, b)).flags =
       static_cast<std::uint8_t>(take(a, kTakeA) | take(b, kTakeB));
 }
 
@@ -884,28 +891,54 @@ std::int32_t Compiler::reference_to(const Node& name) {
   return x;
 }
 
-std::int32_t Compiler::assign(const Node& n) {
-  const Node& target = node(n.a);
-  return target.kind == NodeKind::name ? assign_name(n, target) : assign_element(n);
+/// The vector of a right side {vector}, which can be appended without making a list of it; none otherwise.
+NodeId Compiler::appended(Op op, NodeId right) const {
+  const Node& n = node(right);
+  const bool one = n.kind == NodeKind::list && n.count == 1 && (op == Op::add || op == Op::add_or);
+  return one && !constant_list(n) ? child(n, 0) : kNoNode;
 }
 
-std::int32_t Compiler::assign_name(const Node& n, const Node& target) {
+/// v = v + e as v += e, which changes v where it lies.
+const Node& Compiler::compound_of(const Node& n, Node& space) const {
+  const Node& right = node(n.b);
+  const bool adds = right.kind == NodeKind::binary && (right.op == Token::plus || right.op == Token::add_or);
+  if (n.op != Token::assign || !adds || has_effects(right.b)) return n;
+  const Node& left = node(right.a);
+  if (left.kind != NodeKind::name || left.name != node(n.a).name) return n;
+  space = n;
+  space.op = right.op;
+  space.b = right.b;
+  return space;
+}
+
+std::int32_t Compiler::assign(const Node& n, Used used) {
+  const Node& target = node(n.a);
+  if (target.kind != NodeKind::name) return assign_element(n);
+  Node space;
+  return assign_name(compound_of(n, space), target, used);
+}
+
+std::int32_t Compiler::assign_name(const Node& n, const Node& target, Used used) {
   const Variable v = find(target.name);
   const bool direct = v.access == Access::slot && !may_be_constant(target.name);
-  if (direct && n.op == Token::assign) {
+  const bool plain = n.op == Token::assign;
+  if (direct && plain) {
     into(n.b, v.slot);
     return v.slot;
   }
-  const std::int32_t value = operand(n.b);
+  Op op = plain ? Op::store : op_of(n.op);
+  const NodeId item = plain ? kNoNode : appended(op, n.b);
+  if (item != kNoNode) op = Op::append;
+  const std::int32_t value = operand(item == kNoNode ? n.b : item);
   if (direct) {
-    at(emit_operation(n.at, op_of(n.op), v.slot, v.slot, value)).flags = take(value, kTakeB);
+    at(emit_operation(n.at, op, v.slot, v.slot, value)).flags = take(value, kTakeB);
     return v.slot;
   }
   const std::int32_t reference = reference_to(target);
-  const std::size_t i = n.op == Token::assign
-                            ? emit(n.at, Op::store, reference, value)
-                            : emit(n.at, Op::apply, reference, value, static_cast<std::int32_t>(op_of(n.op)));
+  const std::size_t i = plain ? emit(n.at, Op::store, reference, value)
+                              : emit(n.at, Op::apply, reference, value, static_cast<std::int32_t>(op));
   at(i).flags = take(value, kTakeA);
+  if (used == Used::no) return reference;
   const std::int32_t x = temporary();
   emit(n.at, Op::dereference, x, reference);
   return x;

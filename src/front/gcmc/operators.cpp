@@ -448,6 +448,16 @@ bool vectors_plain(Op op, const Value& a, const Value& b, Value& out) {
       op, b.short_size(), [&](std::size_t) { return s; }, of_b, out);
 }
 
+void append_vector(Runtime& rt, Value& list, Value item) {
+  if (!list.is_list()) {
+    std::vector<Value> one;
+    one.push_back(std::move(item));
+    return operate(rt, Op::add, list, Value::list(std::move(one), rt.meter));
+  }
+  list.own_vectors(rt.meter).push_back(std::move(item));
+  list.settle();
+}
+
 void operate(Runtime& rt, Op op, Value& a, const Value& b) {
   const bool shifts = op == Op::shift_left || op == Op::shift_right;
   const bool bitwise = op == Op::bit_and || op == Op::bit_or || op == Op::bit_xor;

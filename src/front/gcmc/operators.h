@@ -119,6 +119,8 @@ inline bool step_plain(Scalar s, bool down, Scalar& out) {
 Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b);
 /// a = a op b of any values; `b` is not part of `a`. What only `a` owns is changed in place.
 void operate(Runtime& rt, Op op, Value& a, const Value& b);
+/// list = list + {item}, the types of both being checked.
+void append_vector(Runtime& rt, Value& list, Value item);
 /// a op b into `out`, which may be one of them, where both are short vectors, or a vector and a scalar, of
 /// plain numbers; false, with nothing changed, for everything else.
 bool vectors_plain(Op op, const Value& a, const Value& b, Value& out);

@@ -274,10 +274,32 @@ void Vm::do_operate(const Instruction& in) {
   if ((in.flags & kTakeB) && in.b != in.x && b.is_block()) frame_[in.b].clear();
 }
 
+/// The vector that is to become the last of a list.
+Value Vm::appended(std::int32_t o, bool take) {
+  const Value& v = present(o);
+  if (!v.is_vector()) fail(Code::gcmc_type, "Vectorlist entries must be vectors");
+  return take ? std::move(frame_[o]) : Value(v);
+}
+
+/// x <- a + {b}, without making the list of one vector.
+void Vm::do_append(const Instruction& in) {
+  Value item = appended(in.b, (in.flags & kTakeB) != 0);
+  const Value& a = present(in.a);
+  Value list;
+  if (in.a >= 0 && ((in.flags & kTakeA) || in.a == in.x))
+    list = std::move(frame_[in.a]);
+  else
+    list = a;
+  append_vector(*this, list, std::move(item));
+  frame_[in.x] = std::move(list);
+}
+
 void Vm::do_apply(const Instruction& in) {
-  const Value& b = present(in.a);
   Value& target = writable_target(in.x);
   if (target.is_absent()) fail_unknown("Variable", frame_[in.x].reference_name(), {});
+  if (static_cast<Op>(in.b) == Op::append)
+    return append_vector(*this, target, appended(in.a, (in.flags & kTakeA) != 0));
+  const Value& b = present(in.a);
   if (&target == &b) {
     const Value copy = b;
     operate(*this, static_cast<Op>(in.b), target, copy);
@@ -786,6 +808,7 @@ void Vm::loop() {
       case Op::step:
         if (!quick_step(in, frame[in.a])) do_step(in);
         break;
+      case Op::append: do_append(in); break;
       case Op::add_or:
       case Op::sub_or:
       case Op::bit_and:

@@ -106,6 +106,8 @@ class Vm final : public Runtime {
   void do_move(const Instruction& in);
   void do_operate(const Instruction& in);
   void operate_with(const Instruction& in, Op op, const Value& b);
+  void do_append(const Instruction& in);
+  Value appended(std::int32_t o, bool take);
   void do_compare(const Instruction& in);
   bool slow_holds(const Instruction& in, Op op);
   bool slow_holds_integer(const Instruction& in, Op op);
