@@ -36,6 +36,7 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
       frames_(new Frame[options.max_calls]),
       top_(frames_.get()),
       most_calls_(top_ + options.max_calls),
+      builtins_(all_builtins().data()),
       fuel_(kStepsPerLook) {
   for (const FunctionCode& f : code_.functions)
     callees_.push_back(
@@ -178,13 +179,6 @@ void Vm::refuel() {
 }
 
 // ---- moving values
-
-/// The operand's value; a variable that does not exist is an error.
-const Value& Vm::present(std::int32_t o) {
-  const Value& v = operand(o, frame_, code_.constants.data());
-  if (v.is_absent()) fail_absent(o);
-  return v;
-}
 
 void Vm::do_move(const Instruction& in) {
   const Value& v = present(in.a);
@@ -446,7 +440,7 @@ void Vm::do_list(const Instruction& in) {
 // ---- calls
 
 void Vm::do_call_builtin(const Instruction& in) {
-  const Builtin& f = all_builtins()[static_cast<std::size_t>(in.a)];
+  const Builtin& f = builtins_[in.a];
   static constexpr std::string_view kCounts[] = {"no arguments", "one argument", "two arguments",
                                                  "three arguments"};
   if (in.c < f.least || (f.most != kAnyCount && in.c > f.most && f.most != 0)) {

@@ -91,7 +91,12 @@ class Vm final : public Runtime {
     return o < 0 ? constants[~o] : frame[o];
   }
   Value& slot(std::int32_t o);
-  const Value& present(std::int32_t o);
+  /// The operand's value; a variable that does not exist is an error.
+  const Value& present(std::int32_t o) {
+    const Value& v = operand(o, frame_, code_.constants.data());
+    if (v.is_absent()) fail_absent(o);
+    return v;
+  }
   [[noreturn]] void fail_absent(std::int32_t slot);
   [[noreturn]] void fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known);
   std::string name_text(NameId name) const { return tree_.names[static_cast<std::size_t>(name)]; }
@@ -177,6 +182,7 @@ class Vm final : public Runtime {
   Frame* top_ = nullptr;  // behind the innermost call
   Frame* most_calls_ = nullptr;
   std::vector<Callee> callees_;
+  const struct Builtin* builtins_;
   std::unordered_set<const Value*> constants_;  // variables that may not be assigned to
   std::int32_t fuel_ = 0;
   std::uint64_t quiet_steps_ = 0;
