@@ -424,18 +424,9 @@ void Compiler::declaration(const Node& n) {
     if (references_.count(n.name) == 0) own_.insert(n.name);
     return;
   }
-  if (function_ == nullptr) {
-    emit(n.at, Op::warn_global, 0, n.name);
-    if (may_be_constant(n.name)) {
-      const std::int32_t reference = temporary();
-      emit(n.at, Op::refer, reference, global_slot);
-      at(emit(n.at, Op::store, reference, value)).flags = take(value, kTakeA);
-    } else {
-      at(emit(n.at, Op::move, global_slot, value)).flags = take(value, kTakeA);
-    }
-    return;
-  }
-  at(emit(n.at, Op::declare_local, slots_[n.name], value)).flags = take(value, kTakeA);
+  if (function_ == nullptr) emit(n.at, Op::warn_global, 0, n.name);
+  const std::int32_t slot = function_ == nullptr ? global_slot : slots_[n.name];
+  at(emit(n.at, Op::declare_local, slot, value)).flags = take(value, kTakeA);
   if (references_.count(n.name) == 0) own_.insert(n.name);
 }
 
