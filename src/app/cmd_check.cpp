@@ -9,6 +9,7 @@
 #include "app/job.h"
 #include "app/terminal_progress.h"
 
+#include "kerf/material_files.h"
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -23,6 +24,7 @@ struct Options {
   OutputOptions output;
   JobOptions job;
   double resolution = 0.0;
+  std::string material;
 };
 
 Length resolution_for(const Stock& stock, double told) {
@@ -77,23 +79,31 @@ void show_result(Console& console, const LoadedProgram& program, const std::vect
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
+  std::optional<Material> material;
+  if (!options.material.empty()) material = material_named(options.material, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   TerminalProgress progress(console);
   std::optional<LoadedProgram> program;
-  if (!diagnostics.has_errors()) program = load_program(options.job.file, diagnostics, &progress);
+  if (!diagnostics.has_errors())
+    program = load_program(options.job.file, diagnostics, &progress, settings.input);
   progress.clear();
   if (!program) {
     show_result(console, LoadedProgram{}, {}, diagnostics);
     return Status::input_errors;
   }
   std::vector<Finding> findings;
-  CheckOptions checks;
-  checks.end = program->end;
+  const ProgramEnd end = program->end;
   const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error_if_numbered, diagnostics);
+  CheckOptions checks;
+  checks.end = end;
+  checks.machine = settings.input.machine ? &*settings.input.machine : nullptr;
+  checks.material = material ? &*material : nullptr;
+  checks.tools = &job.tools;
+  if (job.stock) checks.stock = job.stock->block;
   findings = findings_of(check_path(job.program.path, checks), job.program.path);
   if (!diagnostics.has_errors()) {
-    auto material = findings_in_material(job, options.resolution, diagnostics, progress);
-    if (material) findings = merged(std::move(findings), std::move(*material));
+    auto in_material = findings_in_material(job, options.resolution, diagnostics, progress);
+    if (in_material) findings = merged(std::move(findings), std::move(*in_material));
   }
   progress.clear();
   if (interrupted()) return tell_stopped(console);
@@ -105,9 +115,12 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples =
     R"(  kerf check part.nc && echo "good to cut"
   kerf check part.nc --json --stock "100x60x12 at lower-left top"
+  kerf check part.nc --machine data/machines/grbl_router.toml --material plywood
 
 Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor,
-cuts without feed, tool or turning spindle, arcs that controllers refuse, a missing program end.
+cuts without feed, tool or turning spindle, arcs that controllers refuse, plunges with tools that cannot,
+tool changes below the stock's top, a missing program end; with --machine also moves out of its travel and
+speeds that its spindle has not; with --material feeds that the teeth cannot take.
 Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 )";
 
@@ -119,6 +132,10 @@ Command add_check(CLI::App& root) {
       new_command(root, "check", "Look for hazards in a program, without writing files; exit status 3",
                   kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
+  add_machine_option(*app, options->job);
+  app->add_option("--material", options->material,
+                  "The stock's material, for the chip load: plywood, aluminium ...")
+      ->type_name("NAME");
   add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
              "Distance of the material columns in mm (default: coarse, by the stock's size)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};

@@ -25,8 +25,11 @@ Command add_info(CLI::App& root);
 Command add_check(CLI::App& root);
 Command add_steps(CLI::App& root);
 Command add_outline(CLI::App& root);
+Command add_post(CLI::App& root);
 Command add_tools_list(CLI::App& tools);
 Command add_tools_show(CLI::App& tools);
+Command add_tools_import(CLI::App& tools);
+Command add_tools_export(CLI::App& tools);
 
 /// Makes a subcommand with its examples below the options in the help, and the options all have (--json,
 /// --quiet).

@@ -60,6 +60,7 @@ std::string line_of(const Finding& f) {
       fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
   if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
   line += fmt::format(") [{}]\n", f.kind);
+  if (!f.hint.empty()) line += "    hint: " + f.hint + "\n";
   for (const Origin& caller : f.callers) line += fmt::format("  called from {}\n", to_string(caller));
   return line;
 }
@@ -70,15 +71,23 @@ std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const T
   std::vector<Finding> out;
   for (const PathHazard& h : hazards)
     out.push_back({std::string(kind_of(h)), h.step, h.steps, h.at, 0.0, 0.0, path.origin_of(h.step),
-                   h.message, path.origins().callers(path[h.step].origin())});
+                   h.message, path.origins().callers(path[h.step].origin()), h.hint});
   return out;
 }
 
 std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
   for (const Hazard& h : hazards)
-    out.push_back({std::string(to_string(h.kind)), h.step, 1, h.at, h.depth.mm(), h.removed.mm3(),
-                   path.origin_of(h.step), message_of(h), path.origins().callers(path[h.step].origin())});
+    out.push_back({std::string(to_string(h.kind)),
+                   h.step,
+                   1,
+                   h.at,
+                   h.depth.mm(),
+                   h.removed.mm3(),
+                   path.origin_of(h.step),
+                   message_of(h),
+                   path.origins().callers(path[h.step].origin()),
+                   {}});
   return out;
 }
 
@@ -98,6 +107,7 @@ Json json_of(const Finding& f) {
            {"step", f.step},
            {"steps", f.steps},
            {"message", f.message},
+           {"hint", f.hint},
            {"origin", json_of(f.origin)}};
   for (const Origin& caller : f.callers) out["callers"].push_back(json_of(caller));
   return out;

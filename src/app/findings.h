@@ -22,6 +22,7 @@ struct Finding {
   Origin origin;
   std::string message;
   std::vector<Origin> callers;  // the calls that led to the origin, innermost first
+  std::string hint;             // may be empty
 };
 
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path);

@@ -64,14 +64,14 @@ std::string known_endings() {
 }
 
 std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
-                                          Progress* progress) {
+                                          Progress* progress, const InputOptions& options) {
   if (progress != nullptr) progress->phase("reading");
   const std::optional<InputFile> file = InputFile::open(path, diagnostics);
   if (!file) return std::nullopt;
   const FrontEnd* front_end = path == "-" ? &front_ends().front() : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);
   if (front_end == nullptr) return std::nullopt;
-  LoadedProgram program = front_end->read(*file, diagnostics, progress);
+  LoadedProgram program = front_end->read(*file, options, diagnostics, progress);
   program.source = file->path();
   program.front_end = front_end->name;
   return program;

@@ -33,7 +33,7 @@ std::optional<Stock> stock_of(const Toolpath& path, Diagnostics& diagnostics) {
   return comments.stock();
 }
 
-LoadedProgram read(const InputFile& file, Diagnostics& diagnostics, Progress* progress) {
+LoadedProgram read(const InputFile& file, const InputOptions&, Diagnostics& diagnostics, Progress* progress) {
   GcmcOptions options;
   options.file_name = file.path();
   if (std::string folder = folder_of(file.path()); !folder.empty()) options.include_paths.push_back(folder);

@@ -40,8 +40,10 @@ std::optional<std::string> read_beside(const std::string& program, const std::st
   return std::string(file->bytes());
 }
 
-LoadedProgram read(const InputFile& file, Diagnostics& diagnostics, Progress* progress) {
+LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics& diagnostics,
+                   Progress* progress) {
   GcodeReadOptions options;
+  if (input.machine && input.machine->controller == Controller::grbl) options.after_end = AfterEnd::read_on;
   options.file_name = file.path();
   options.read_file = [&file](const std::string& name) { return read_beside(file.path(), name); };
   GcodeProgram program = read_gcode(file.bytes(), options, diagnostics, progress);

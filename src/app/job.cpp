@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
+#include "kerf/machine_files.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
 #include "kerf/tool_files.h"
@@ -212,6 +213,11 @@ void add_job_options(CLI::App& app, JobOptions& options) {
       ->type_name("SPEC");
 }
 
+void add_machine_option(CLI::App& app, JobOptions& options) {
+  app.add_option("--machine", options.machine, "The machine: a profile (TOML) or what GRBL answers to $$")
+      ->type_name("PATH");
+}
+
 JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
   JobSettings settings;
   settings.table = built_in_tools();
@@ -229,6 +235,9 @@ JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diag
   if (!options.stock.empty())
     settings.stock = read_stock_option(options.stock, CallSpot{"", 0, "--stock"}, usage);
   read_tool_files(options.tool_files, settings, diagnostics);
+  if (!options.machine.empty())
+    if (const auto file = InputFile::open(options.machine, diagnostics))
+      settings.input.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
   return settings;
 }
 

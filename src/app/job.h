@@ -22,8 +22,11 @@ struct JobOptions {
   std::vector<std::string> tools;       // --tool [N=]SPEC
   std::vector<std::string> tool_files;  // --tools FILE
   std::string stock;                    // --stock SPEC
+  std::string machine;                  // --machine FILE
 };
 void add_job_options(CLI::App& app, JobOptions& options);
+/// --machine, for the commands that make use of one.
+void add_machine_option(CLI::App& app, JobOptions& options);
 /// Text for the help of the commands that take --tool and --stock.
 extern const char* const kJobHelp;
 
@@ -34,6 +37,7 @@ struct JobSettings {
   ToolTable table;                       // built in and from files
   std::map<int, std::string> from_file;  // which numbers of the table came from which --tools file
   std::optional<Stock> stock;
+  InputOptions input;  // with the machine
 };
 /// Reads the tool and stock options. What the command line got wrong goes to `usage`, what files got wrong to
 /// `diagnostics`.

@@ -21,6 +21,7 @@ Examples:
   kerf simulate part.nc -o part.png    what a program cuts, as a picture
   kerf check part.nc                   what would go wrong; exit status 3 if anything
   kerf info part.nc                    size, time, tools, feeds, stock
+  kerf post --to grbl part.ngc         the program for another controller
   kerf tools show 102                  a tool that Kerf knows
   kerf help simulate                   all about one command
 
@@ -28,12 +29,14 @@ Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage, 3 
 )";
 
 std::vector<Command> add_commands(CLI::App& root) {
-  std::vector<Command> commands{add_simulate(root), add_check(root), add_info(root), add_steps(root),
-                                add_outline(root)};
+  std::vector<Command> commands{add_simulate(root), add_check(root),   add_info(root),
+                                add_steps(root),    add_outline(root), add_post(root)};
   CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show");
   tools->require_subcommand(1);
   commands.push_back(add_tools_list(*tools));
   commands.push_back(add_tools_show(*tools));
+  commands.push_back(add_tools_import(*tools));
+  commands.push_back(add_tools_export(*tools));
   root.add_subcommand("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");
   return commands;
 }

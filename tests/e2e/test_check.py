@@ -36,6 +36,28 @@ def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
         assert len(hazard["at"]) == 3 and hazard["origin"]["line"] > 0
 
 
+@pytest.mark.parametrize("machine, kind", [
+    ("travel_x = [0, 5]\n", "outside_machine"),
+    ("spindle = [100, 8000]\n", "spindle_range"),
+])
+def test_hazards_of_the_machine(kerf, program, machine, kind):
+    run = kerf("check", "--json", "--machine", program(machine, "m.toml"), program())
+    assert run.status == 3, run.out
+    assert kinds(run) == [kind]
+    assert all(h["hint"] for h in run.json["hazards"])
+
+
+def test_hazards_of_the_material(kerf, program):
+    fast = program(SOUND.replace("F400", "F8000"))
+    assert kinds(kerf("check", "--json", "--material", "steel", fast)) == ["chip_load"]
+    assert kerf("check", "--material", "cheese", fast).status == 2
+
+
+def test_a_tool_change_in_the_stock(kerf, program):
+    run = kerf("check", "--json", program(SOUND.replace("G0 Z5\nM5\n", "M5\nM6 T201\nG0 Z5\n")))
+    assert "tool_change_low" in kinds(run)
+
+
 def test_a_cut_deeper_than_the_flute(kerf, program):
     text = SOUND.replace("-6.00mm", "-30.00mm").replace("G1 Z-1", "G1 Z-20")
     run = kerf("check", "--json", program(text))
