@@ -128,6 +128,7 @@ class Compiler {
   void leave_loop(const Node& n);
   void give_back(const Node& n);
   void close_loop();
+  void close_loop(NodeId condition, std::size_t begin);
   void function(std::size_t index);
 
   // expressions
@@ -446,13 +447,20 @@ void Compiler::if_else(const Node& n) {
   patch(end);
 }
 
+/// The end of a loop that goes on from `begin` while the condition holds.
+void Compiler::close_loop(NodeId condition, std::size_t begin) {
+  std::vector<std::size_t> again;
+  jump_on(condition, true, again);
+  for (std::size_t j : again) jump_back(j, begin);
+  close_loop();
+}
+
 void Compiler::close_loop() {
   for (std::size_t j : loops_.back().breaks) patch(j);
   loops_.pop_back();
 }
 
 void Compiler::for_loop(const Node& n) {
-  const std::int32_t temporaries = next_;
   if (n.a != kNoNode) effect(n.a);
   loops_.emplace_back();
   const std::size_t to_test = emit(n.at, Op::jump, 0);
@@ -461,39 +469,25 @@ void Compiler::for_loop(const Node& n) {
   for (std::size_t j : loops_.back().continues) patch(j);
   if (n.c != kNoNode) effect(n.c);
   patch(to_test);
-  std::vector<std::size_t> again;
-  jump_on(n.b, true, again);
-  for (std::size_t j : again) jump_back(j, begin);
-  next_ = temporaries;
-  close_loop();
+  close_loop(n.b, begin);
 }
 
 void Compiler::while_loop(const Node& n) {
-  const std::int32_t temporaries = next_;
   loops_.emplace_back();
   const std::size_t to_test = emit(n.at, Op::jump, 0);
   const std::size_t begin = here();
   inner_block(n.b);
   for (std::size_t j : loops_.back().continues) patch(j);
   patch(to_test);
-  std::vector<std::size_t> again;
-  jump_on(n.a, true, again);
-  for (std::size_t j : again) jump_back(j, begin);
-  next_ = temporaries;
-  close_loop();
+  close_loop(n.a, begin);
 }
 
 void Compiler::do_loop(const Node& n) {
-  const std::int32_t temporaries = next_;
   loops_.emplace_back();
   const std::size_t begin = here();
   inner_block(n.b);
   for (std::size_t j : loops_.back().continues) patch(j);
-  std::vector<std::size_t> again;
-  jump_on(n.a, true, again);
-  for (std::size_t j : again) jump_back(j, begin);
-  next_ = temporaries;
-  close_loop();
+  close_loop(n.a, begin);
 }
 
 /// foreach and repeat: two hidden slots hold what is walked and how far.
@@ -885,7 +879,7 @@ std::int32_t Compiler::reference_to(const Node& name) {
 /// The vector of a right side {vector}, which can be appended without making a list of it; none otherwise.
 NodeId Compiler::appended(Op op, NodeId right) const {
   const Node& n = node(right);
-  const bool one = n.kind == NodeKind::list && n.count == 1 && (op == Op::add || op == Op::add_or);
+  const bool one = n.kind == NodeKind::list && n.count == 1 && op == Op::add;
   return one && !constant_list(n) ? child(n, 0) : kNoNode;
 }
 

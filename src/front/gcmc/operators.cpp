@@ -483,32 +483,10 @@ void operate(Runtime& rt, Op op, Value& a, const Value& b) {
 
 namespace {
 
-bool holds(Op op, double difference) {
-  switch (op) {
-    case Op::equal: return std::fabs(difference) < kEpsilon;
-    case Op::not_equal: return !(std::fabs(difference) < kEpsilon);
-    case Op::less: return difference < -kEpsilon;
-    case Op::greater: return difference > kEpsilon;
-    case Op::less_equal: return difference < kEpsilon;
-    default: return difference > -kEpsilon;
-  }
-}
-
-bool holds(Op op, int order) {
-  switch (op) {
-    case Op::equal: return order == 0;
-    case Op::not_equal: return order != 0;
-    case Op::less: return order < 0;
-    case Op::greater: return order > 0;
-    case Op::less_equal: return order <= 0;
-    default: return order >= 0;
-  }
-}
-
 bool compare_scalars(Runtime& rt, Op op, Scalar a, Scalar b) {
   const Unit ua = a.unit(), ub = b.unit();
   if (a.kind() == Kind::integer && b.kind() == Kind::integer && ua == ub)
-    return holds(op, a.whole() < b.whole() ? -1 : a.whole() > b.whole() ? 1 : 0);
+    return holds(op, a.whole(), b.whole());
   if (ua == ub) return holds(op, a.number() - b.number());
   if (ua == Unit::none || ub == Unit::none) {
     rt.warn(Code::gcmc_unit, fmt::format("Possible unit mismatch; comparing units {} with none",
@@ -546,7 +524,7 @@ bool compare_vectors(Runtime& rt, Op op, const Value& a, const Value& b) {
 bool compare(Runtime& rt, Op op, const Value& a, const Value& b) {
   if (a.is_scalar() && b.is_scalar() && !a.is_undef() && !b.is_undef())
     return compare_scalars(rt, op, a.scalar(), b.scalar());
-  if (a.is_string() && b.is_string()) return holds(op, a.text().compare(b.text()));
+  if (a.is_string() && b.is_string()) return holds(op, a.text().compare(b.text()), 0);
   if (a.is_vector() && b.is_vector()) return compare_vectors(rt, op, a, b);
   rt.warn(Code::gcmc_type,
           fmt::format("Comparison of {} with {}, result is always false", type_name(a), type_name(b)));

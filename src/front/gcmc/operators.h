@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -104,6 +105,28 @@ inline bool modulo_plain(Scalar a, Scalar b, Scalar& out) {
   out.p.i = a.whole() % b.whole();
   return true;
 }
+/// Whether a comparison holds of numbers that differ by that.
+inline bool holds(Op op, double difference) {
+  switch (op) {
+    case Op::equal: return std::fabs(difference) < kEpsilon;
+    case Op::not_equal: return !(std::fabs(difference) < kEpsilon);
+    case Op::less: return difference < -kEpsilon;
+    case Op::greater: return difference > kEpsilon;
+    case Op::less_equal: return difference < kEpsilon;
+    default: return difference > -kEpsilon;
+  }
+}
+inline bool holds(Op op, std::int32_t a, std::int32_t b) {
+  switch (op) {
+    case Op::equal: return a == b;
+    case Op::not_equal: return a != b;
+    case Op::less: return a < b;
+    case Op::greater: return a > b;
+    case Op::less_equal: return a <= b;
+    default: return a >= b;
+  }
+}
+
 /// One more or one less; false for what is no number.
 inline bool step_plain(Scalar s, bool down, Scalar& out) {
   if (s.kind() == Kind::integer)

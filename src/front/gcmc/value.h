@@ -265,6 +265,7 @@ class Value {
   void drop() {
     if (is_block()) release(c_[0].block);
   }
+  static Value owner_of(Block* block);
   void make_own(Meter& meter);
   std::size_t long_size() const;
   Scalar long_coordinate(std::size_t i) const;

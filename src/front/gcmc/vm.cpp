@@ -653,28 +653,6 @@ void Vm::do_stray_break(const Instruction& in) {
 
 namespace {
 
-inline bool holds_plain(Op op, double d) {
-  switch (op) {
-    case Op::jump_equal: return std::fabs(d) < kEpsilon;
-    case Op::jump_not_equal: return !(std::fabs(d) < kEpsilon);
-    case Op::jump_less: return d < -kEpsilon;
-    case Op::jump_greater: return d > kEpsilon;
-    case Op::jump_less_equal: return d < kEpsilon;
-    default: return d > -kEpsilon;
-  }
-}
-
-inline bool holds_plain(Op op, std::int32_t a, std::int32_t b) {
-  switch (op) {
-    case Op::jump_equal: return a == b;
-    case Op::jump_not_equal: return a != b;
-    case Op::jump_less: return a < b;
-    case Op::jump_greater: return a > b;
-    case Op::jump_less_equal: return a <= b;
-    default: return a >= b;
-  }
-}
-
 constexpr std::int32_t whole_quotient(std::int32_t a, std::int32_t b) { return a / b; }
 constexpr std::int32_t whole_remainder(std::int32_t a, std::int32_t b) { return a % b; }
 
@@ -682,8 +660,8 @@ constexpr std::int32_t whole_remainder(std::int32_t a, std::int32_t b) { return 
 inline bool compare_plain(Op op, Scalar a, Scalar b, bool& yes) {
   const Meeting m = meeting(a, b);
   if (!(m & kComparable)) return false;
-  yes = (m & kBothIntegers) == kBothIntegers ? holds_plain(op, a.whole(), b.whole())
-                                             : holds_plain(op, left_number(a, m) - right_number(b, m));
+  yes = (m & kBothIntegers) == kBothIntegers ? holds(op, a.whole(), b.whole())
+                                             : holds(op, left_number(a, m) - right_number(b, m));
   return true;
 }
 
@@ -698,17 +676,6 @@ inline bool quick_step(const Instruction& in, Value& v) {
   if (!v.is_scalar() || !step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped)) return false;
   v.store(stepped);
   return true;
-}
-
-constexpr Op comparison_of(Op jump) {
-  switch (jump) {
-    case Op::jump_equal: return Op::equal;
-    case Op::jump_not_equal: return Op::not_equal;
-    case Op::jump_less: return Op::less;
-    case Op::jump_greater: return Op::greater;
-    case Op::jump_less_equal: return Op::less_equal;
-    default: return Op::greater_equal;
-  }
 }
 
 }  // namespace
@@ -734,23 +701,23 @@ constexpr Op comparison_of(Op jump) {
       operate_with(in, Op::op, Value::integer(in.b));      \
     break;                                                 \
   }
-#define KERF_COMPARING_JUMP_INTEGER(op)                                                                      \
-  case Op::op##_integer: {                                                                                   \
-    const Value& a = frame[in.a];                                                                            \
-    const bool yes =                                                                                         \
-        a.is_whole() ? holds_plain(Op::op, a.whole(), in.b) : slow_holds_integer(in, comparison_of(Op::op)); \
-    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                                    \
-    break;                                                                                                   \
+#define KERF_COMPARING_JUMP_INTEGER(comparison)                                                         \
+  case Op::jump_##comparison##_integer: {                                                               \
+    const Value& a = frame[in.a];                                                                       \
+    const bool yes =                                                                                    \
+        a.is_whole() ? holds(Op::comparison, a.whole(), in.b) : slow_holds_integer(in, Op::comparison); \
+    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                               \
+    break;                                                                                              \
   }
-#define KERF_COMPARING_JUMP(op)                                                           \
-  case Op::op: {                                                                          \
-    const Value& a = operand(in.a, frame, constants);                                     \
-    const Value& b = operand(in.b, frame, constants);                                     \
-    bool yes;                                                                             \
-    if (!Value::are_scalars(a, b) || !compare_plain(Op::op, a.scalar(), b.scalar(), yes)) \
-      yes = slow_holds(in, comparison_of(Op::op));                                        \
-    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                 \
-    break;                                                                                \
+#define KERF_COMPARING_JUMP(comparison)                                                           \
+  case Op::jump_##comparison: {                                                                   \
+    const Value& a = operand(in.a, frame, constants);                                             \
+    const Value& b = operand(in.b, frame, constants);                                             \
+    bool yes;                                                                                     \
+    if (!Value::are_scalars(a, b) || !compare_plain(Op::comparison, a.scalar(), b.scalar(), yes)) \
+      yes = slow_holds(in, Op::comparison);                                                       \
+    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                         \
+    break;                                                                                        \
   }
 #define KERF_JUMP()                                       \
   do {                                                    \
@@ -787,18 +754,18 @@ void Vm::loop() {
       KERF_WITH_INTEGER(div, whole_quotient)
       KERF_ARITHMETIC(mod, modulo_plain)
       KERF_WITH_INTEGER(mod, whole_remainder)
-      KERF_COMPARING_JUMP(jump_less)
-      KERF_COMPARING_JUMP_INTEGER(jump_less)
-      KERF_COMPARING_JUMP(jump_greater)
-      KERF_COMPARING_JUMP_INTEGER(jump_greater)
-      KERF_COMPARING_JUMP(jump_less_equal)
-      KERF_COMPARING_JUMP_INTEGER(jump_less_equal)
-      KERF_COMPARING_JUMP(jump_greater_equal)
-      KERF_COMPARING_JUMP_INTEGER(jump_greater_equal)
-      KERF_COMPARING_JUMP(jump_equal)
-      KERF_COMPARING_JUMP_INTEGER(jump_equal)
-      KERF_COMPARING_JUMP(jump_not_equal)
-      KERF_COMPARING_JUMP_INTEGER(jump_not_equal)
+      KERF_COMPARING_JUMP(less)
+      KERF_COMPARING_JUMP_INTEGER(less)
+      KERF_COMPARING_JUMP(greater)
+      KERF_COMPARING_JUMP_INTEGER(greater)
+      KERF_COMPARING_JUMP(less_equal)
+      KERF_COMPARING_JUMP_INTEGER(less_equal)
+      KERF_COMPARING_JUMP(greater_equal)
+      KERF_COMPARING_JUMP_INTEGER(greater_equal)
+      KERF_COMPARING_JUMP(equal)
+      KERF_COMPARING_JUMP_INTEGER(equal)
+      KERF_COMPARING_JUMP(not_equal)
+      KERF_COMPARING_JUMP_INTEGER(not_equal)
       case Op::step:
         if (!quick_step(in, frame[in.a])) do_step(in);
         break;
