@@ -169,11 +169,13 @@ void PathSink::comment(std::string_view text) {
 
 void PathSink::literal(std::string_view text) {
   count_text(text.size());
-  pending_ += text;
-  for (std::size_t end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
-    if (end > 0) path_.add(step::Verbatim{pending_.substr(0, end)}, origin());
-    pending_.erase(0, end + 1);
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    pending_ += text.substr(0, end);
+    text.remove_prefix(end + 1);
+    if (!pending_.empty()) path_.add(step::Verbatim{pending_}, origin());
+    pending_.clear();
   }
+  pending_ += text;
 }
 
 void PathSink::finish() {

@@ -680,44 +680,43 @@ inline bool quick_step(const Instruction& in, Value& v) {
 
 }  // namespace
 
-// Additions and comparisons of plain scalars are decided here, everything else by the members above.
-#define KERF_ARITHMETIC(op, operation)                                         \
-  case Op::op: {                                                               \
-    const Value& a = operand(in.a, frame, constants);                          \
-    const Value& b = operand(in.b, frame, constants);                          \
-    Scalar result;                                                             \
-    if (Value::are_scalars(a, b) && operation(a.scalar(), b.scalar(), result)) \
-      frame[in.x].store(result);                                               \
-    else                                                                       \
-      do_operate(in);                                                          \
-    break;                                                                     \
+// Operations and comparisons of plain scalars are decided here, everything else by the members above. Each
+// has a second form whose right side is an integer in the instruction.
+#define KERF_ARITHMETIC(op, plain, of_integers)                            \
+  case Op::op: {                                                           \
+    const Value& a = operand(in.a, frame, constants);                      \
+    const Value& b = operand(in.b, frame, constants);                      \
+    Scalar result;                                                         \
+    if (Value::are_scalars(a, b) && plain(a.scalar(), b.scalar(), result)) \
+      frame[in.x].store(result);                                           \
+    else                                                                   \
+      do_operate(in);                                                      \
+    break;                                                                 \
+  }                                                                        \
+  case Op::op##_integer: {                                                 \
+    const Value& a = frame[in.a];                                          \
+    if (a.is_whole())                                                      \
+      frame[in.x].store_whole(of_integers(a.whole(), in.b));               \
+    else                                                                   \
+      operate_with(in, Op::op, Value::integer(in.b));                      \
+    break;                                                                 \
   }
-#define KERF_WITH_INTEGER(op, operation)                   \
-  case Op::op##_integer: {                                 \
-    const Value& a = frame[in.a];                          \
-    if (a.is_whole())                                      \
-      frame[in.x].store_whole(operation(a.whole(), in.b)); \
-    else                                                   \
-      operate_with(in, Op::op, Value::integer(in.b));      \
-    break;                                                 \
-  }
-#define KERF_COMPARING_JUMP_INTEGER(comparison)                                                         \
+#define KERF_COMPARING_JUMP(comparison)                                                                 \
+  case Op::jump_##comparison: {                                                                         \
+    const Value& a = operand(in.a, frame, constants);                                                   \
+    const Value& b = operand(in.b, frame, constants);                                                   \
+    bool yes;                                                                                           \
+    if (!Value::are_scalars(a, b) || !compare_plain(Op::comparison, a.scalar(), b.scalar(), yes))       \
+      yes = slow_holds(in, Op::comparison);                                                             \
+    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                               \
+    break;                                                                                              \
+  }                                                                                                     \
   case Op::jump_##comparison##_integer: {                                                               \
     const Value& a = frame[in.a];                                                                       \
     const bool yes =                                                                                    \
         a.is_whole() ? holds(Op::comparison, a.whole(), in.b) : slow_holds_integer(in, Op::comparison); \
     if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                               \
     break;                                                                                              \
-  }
-#define KERF_COMPARING_JUMP(comparison)                                                           \
-  case Op::jump_##comparison: {                                                                   \
-    const Value& a = operand(in.a, frame, constants);                                             \
-    const Value& b = operand(in.b, frame, constants);                                             \
-    bool yes;                                                                                     \
-    if (!Value::are_scalars(a, b) || !compare_plain(Op::comparison, a.scalar(), b.scalar(), yes)) \
-      yes = slow_holds(in, Op::comparison);                                                       \
-    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                         \
-    break;                                                                                        \
   }
 #define KERF_JUMP()                                       \
   do {                                                    \
@@ -728,7 +727,7 @@ inline bool quick_step(const Instruction& in, Value& v) {
 // clang-format off
 #define KERF_MEMBERS(X) \
   X(move) X(get_global) X(get_dynamic) X(dereference) X(refer) X(refer_dynamic) \
-  X(need_target) X(store) X(apply) X(step_target) X(step_element) X(logic_not) X(bit_not) \
+  X(need_target) X(store) X(apply) X(append) X(step_target) X(step_element) X(logic_not) X(bit_not) \
   X(index) X(element) X(set_element) X(vector) X(list) X(call_builtin) X(define) \
   X(declare_local) X(declare_constant) X(warn_global) X(repeat_begin) X(foreach_begin) \
   X(clear) X(stray_break) X(unknown_function) X(by_reference) X(wrong_count)
@@ -744,32 +743,20 @@ void Vm::loop() {
     const Instruction& in = *pc++;
     at_ = &in;
     switch (in.op) {
-      KERF_ARITHMETIC(add, add_plain)
-      KERF_WITH_INTEGER(add, wrap_add)
-      KERF_ARITHMETIC(sub, subtract_plain)
-      KERF_WITH_INTEGER(sub, wrap_sub)
-      KERF_ARITHMETIC(mul, multiply_plain)
-      KERF_WITH_INTEGER(mul, wrap_mul)
-      KERF_ARITHMETIC(div, divide_plain)
-      KERF_WITH_INTEGER(div, whole_quotient)
-      KERF_ARITHMETIC(mod, modulo_plain)
-      KERF_WITH_INTEGER(mod, whole_remainder)
+      KERF_ARITHMETIC(add, add_plain, wrap_add)
+      KERF_ARITHMETIC(sub, subtract_plain, wrap_sub)
+      KERF_ARITHMETIC(mul, multiply_plain, wrap_mul)
+      KERF_ARITHMETIC(div, divide_plain, whole_quotient)
+      KERF_ARITHMETIC(mod, modulo_plain, whole_remainder)
       KERF_COMPARING_JUMP(less)
-      KERF_COMPARING_JUMP_INTEGER(less)
       KERF_COMPARING_JUMP(greater)
-      KERF_COMPARING_JUMP_INTEGER(greater)
       KERF_COMPARING_JUMP(less_equal)
-      KERF_COMPARING_JUMP_INTEGER(less_equal)
       KERF_COMPARING_JUMP(greater_equal)
-      KERF_COMPARING_JUMP_INTEGER(greater_equal)
       KERF_COMPARING_JUMP(equal)
-      KERF_COMPARING_JUMP_INTEGER(equal)
       KERF_COMPARING_JUMP(not_equal)
-      KERF_COMPARING_JUMP_INTEGER(not_equal)
       case Op::step:
         if (!quick_step(in, frame[in.a])) do_step(in);
         break;
-      case Op::append: do_append(in); break;
       case Op::add_or:
       case Op::sub_or:
       case Op::bit_and:
