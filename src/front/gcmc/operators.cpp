@@ -309,7 +309,8 @@ void multiply(Runtime& rt, Value& a, const Value& b) {
 void divide(Runtime& rt, Op op, Value& a, const Value& b) {
   if (b.is_scalar() && !b.is_undef()) {
     if (a.is_vector()) return vector_with_scalar(rt, op, a, b.scalar());
-    if (a.is_list()) return each_vector(rt, a, [&](Value& v) {
+    if (a.is_list())
+      return each_vector(rt, a, [&](Value& v) {
         if (!vectors_plain(op, v, b, v)) vector_with_scalar(rt, op, v, b.scalar());
       });
   }

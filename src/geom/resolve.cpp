@@ -1,0 +1,147 @@
+// Arrangements from chains, and outlines from arrangements.
+#include "resolve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "outline_check.h"
+
+namespace kerf::region_detail {
+namespace {
+
+/// Points computed from coordinates of size 1 are off by some 2^-50; crossings at small angles by more.
+constexpr double kRounding = 0x1p-40;
+constexpr std::size_t kMostEdges = 20'000'000;
+/// How often a contradiction is met with a tolerance four times as large before giving up.
+constexpr int kAttempts = 4;
+
+const char* named(const RegionOptions& options) {
+  return options.name.empty() ? "region" : options.name.c_str();
+}
+
+/// Where the loop goes over from one source to another, or back on the same.
+bool starts_run(const Arrangement& a, Arrangement::Way before, Arrangement::Way way) {
+  const Edge &e = a.edges()[a.parts()[before.part].edge], &f = a.edges()[a.parts()[way.part].edge];
+  return e.source != f.source || e.turn != f.turn || before.forward != way.forward;
+}
+
+/// A run of ways along one source, as a segment.
+void append_run(Outline& outline, const Arrangement& arrangement, const Arrangement::Way* begin,
+                const Arrangement::Way* end) {
+  constexpr double kFlat = 4.0 * outline_detail::kFlatArc;  // chord by radius of what readers take for a line
+  const auto& parts = arrangement.parts();
+  const Arrangement::Way last = *(end - 1);
+  const Point2 from = outline.point(outline.segments.size());
+  Segment segment;
+  segment.to = arrangement.point(last.forward ? parts[last.part].to : parts[last.part].from);
+  if (segment.to == from && end - begin > 1) {  // a whole circle
+    const std::ptrdiff_t half = (end - begin) / 2;
+    append_run(outline, arrangement, begin, begin + half);
+    return append_run(outline, arrangement, begin + half, end);
+  }
+  const Edge& e = arrangement.edges()[parts[begin->part].edge];
+  if (e.is_arc() && (end - begin > 1 || distance(from, segment.to) > kFlat * e.radius))
+    segment.via = outline_detail::arc_middle(from, segment.to, e.a + e.centre, e.radius,
+                                             begin->forward ? e.turn : -e.turn);
+  outline.segments.push_back(segment);
+}
+
+Outline outline_of(const Arrangement& arrangement, Arrangement::Loop loop) {
+  const std::size_t n = loop.size();
+  std::size_t first = 0;
+  while (first < n && !starts_run(arrangement, loop[(first + n - 1) % n], loop[first])) ++first;
+  std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(first % n), loop.end());
+  return chain_of(arrangement, loop.data(), loop.data() + n);
+}
+
+}  // namespace
+
+double weld_for(const RegionOptions& options, double largest) {
+  return std::max(options.tolerance.weld.mm(), kRounding * largest);
+}
+
+double largest_coordinate(const Outline& outline) {
+  double largest = 0.0;
+  const auto add = [&](Point2 p) { largest = std::max({largest, std::abs(p.x), std::abs(p.y)}); };
+  add(outline.start);
+  for (const Segment& s : outline.segments) {
+    add(s.to);
+    if (s.via) add(*s.via);
+  }
+  return largest;
+}
+
+bool usable_options(const RegionOptions& options, Diagnostics& diagnostics) {
+  const double weld = options.tolerance.weld.mm();
+  if (weld >= 0.0 && weld <= outline_detail::kLargestCoordinate) return true;
+  diagnostics.error(
+      Code::region_bad_argument, options.where,
+      fmt::format("{}: the tolerance must be a number from 0 on, not {:g}", named(options), weld));
+  return false;
+}
+
+bool usable_loops(const std::vector<Outline>& outlines, const RegionOptions& options,
+                  Diagnostics& diagnostics) {
+  if (!usable_options(options, diagnostics)) return false;
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    const std::string name = fmt::format("{}.{}", named(options), i);
+    if (!outline_detail::check_outline(outlines[i], name, options.where, diagnostics)) return false;
+    if (outlines[i].closed()) continue;
+    diagnostics
+        .error(Code::region_open_outline, options.where,
+               fmt::format("outline \"{}\" is not closed, so that it has no inside", name))
+        .hint = "its last point has to be exactly its first";
+    return false;
+  }
+  return true;
+}
+
+std::optional<Arrangement> arrange(const EdgeSet& set, const RegionOptions& options,
+                                   Diagnostics& diagnostics) {
+  std::optional<Arrangement> made(std::in_place);
+  auto outcome = Arrangement::Outcome::too_many;
+  double weld = set.weld();
+  for (int i = 0; i < kAttempts && set.edges.size() <= kMostEdges; ++i, weld *= 4.0) {
+    outcome = made->build(set, weld);
+    if (outcome != Arrangement::Outcome::contradiction) break;
+  }
+  if (outcome == Arrangement::Outcome::done) return made;
+  if (outcome == Arrangement::Outcome::too_many)
+    diagnostics.error(Code::region_too_complex, options.where,
+                      fmt::format("{}: the outlines meet in too many places", named(options)));
+  else
+    diagnostics
+        .error(
+            Code::region_unresolved, options.where,
+            fmt::format("{}: what is inside could not be worked out without contradiction", named(options)))
+        .hint = "another tolerance may help";
+  return std::nullopt;
+}
+
+Outline chain_of(const Arrangement& arrangement, const Arrangement::Way* begin, const Arrangement::Way* end) {
+  Outline outline;
+  const Part& first = arrangement.parts()[begin->part];
+  outline.start = arrangement.point(begin->forward ? first.from : first.to);
+  while (begin != end) {
+    const Arrangement::Way* next = begin + 1;
+    while (next != end && !starts_run(arrangement, *(next - 1), *next)) ++next;
+    append_run(outline, arrangement, begin, next);
+    begin = next;
+  }
+  return outline;
+}
+
+Region region_of(const Arrangement& arrangement, const std::vector<Arrangement::Loop>& loops, double weld) {
+  Region region;
+  for (const Arrangement::Loop& loop : loops) {
+    if (loop.size() < 2) continue;
+    Outline outline = outline_of(arrangement, loop);
+    // Narrower than the tolerance everywhere.
+    if (std::abs(area(outline)) > 0.5 * weld * length(outline).mm())
+      region.loops.push_back(std::move(outline));
+  }
+  return region;
+}
+
+}  // namespace kerf::region_detail
