@@ -32,7 +32,7 @@ int ray_crosses(const Edge& e, Point2 at) {
   return inside == centre_right ? step : 0;
 }
 
-Arrangement::Outcome Arrangement::build(const EdgeSet& set, double weld) {
+Arrangement::Outcome Arrangement::build(const EdgeSet& set, double weld, Care care) {
   set_ = &set;
   weld_ = weld;
   points_ = set.points;
@@ -42,6 +42,7 @@ Arrangement::Outcome Arrangement::build(const EdgeSet& set, double weld) {
   for (const Edge& e : set.edges) boxes.push_back(e.box(0.5 * weld));
   const BoxTree tree(boxes);
   if (!find_meetings(tree)) return Outcome::too_many;
+  if (care == Care::thorough && !find_near_crossings(tree)) return Outcome::too_many;
   cut_edges();
   gather_ends();
   merge_twins();
@@ -70,6 +71,19 @@ void Arrangement::meet_edges(std::uint32_t i, std::uint32_t j) {
     note(i, number);
     note(j, number);
   }
+}
+
+/// Crossings lie on all edges that pass them within the tolerance: where curves touch, a third one that runs
+/// along one of them meets the other elsewhere.
+bool Arrangement::find_near_crossings(const BoxTree& tree) {
+  for (auto number = static_cast<std::uint32_t>(set_->points.size()); number < points_.size(); ++number) {
+    const Point2 p = points_[number];
+    tree.query({p.x - weld_, p.y - weld_, p.x + weld_, p.y + weld_}, [&](std::uint32_t i) {
+      if (touches(set_->edges[i], p, weld_)) note(i, number);
+    });
+    if (hits_.size() >= kMostHits) return false;
+  }
+  return true;
 }
 
 // --------------------------------------------------------------------------------------------- cutting,
@@ -216,8 +230,8 @@ Arrangement::Leaving Arrangement::leaving(std::uint32_t end) const {
   return {(1.0 / chord) * v, chord, curvature};
 }
 
-/// Counter-clockwise from -x. The directions at the point itself decide, and where they are nearly one, the
-/// directions of the two curves as far off as both reach.
+/// Counter-clockwise from -x. The directions at the point itself decide, and where they are nearly one, where
+/// the curves are half way along the shorter: at its end they may meet again.
 void Arrangement::sort_ends_at(std::uint32_t* begin, std::uint32_t* end) const {
   struct Ray {
     double angle;  // grows with the angle from -pi to pi: -2 to 2
@@ -238,7 +252,7 @@ void Arrangement::sort_ends_at(std::uint32_t* begin, std::uint32_t* end) const {
   }
   std::sort(rays, rays + count, [](const Ray& a, const Ray& b) { return a.angle < b.angle; });
   const auto wrong = [](const Ray& a, const Ray& b) {
-    const double ahead = std::min(a.out.chord, b.out.chord);
+    const double ahead = 0.5 * std::min(a.out.chord, b.out.chord);
     const auto at = [&](const Leaving& l) { return direction_at(l.unit, l.chord, l.curvature, ahead); };
     return cross(at(a.out), at(b.out)) < 0.0;
   };

@@ -63,8 +63,13 @@ class Arrangement {
  public:
   enum class Outcome : std::uint8_t { done, contradiction, too_many };
 
+  enum class Care : std::uint8_t {
+    ordinary,
+    thorough  ///< also asks which edges pass near a crossing of two others
+  };
+
   /// The chains of `set` must be closed. Points closer than `weld` become one.
-  Outcome build(const EdgeSet& set, double weld);
+  Outcome build(const EdgeSet& set, double weld, Care care);
 
   const std::vector<Part>& parts() const { return parts_; }
   const std::vector<Edge>& edges() const { return set_->edges; }
@@ -94,6 +99,7 @@ class Arrangement {
     std::uint32_t edge, point;
   };
   bool find_meetings(const BoxTree& tree);
+  bool find_near_crossings(const BoxTree& tree);
   void note(std::uint32_t edge, std::uint32_t point) { hits_.push_back({edge, point}); }
   void meet_edges(std::uint32_t i, std::uint32_t j);
   void cut_edges();

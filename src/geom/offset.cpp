@@ -25,7 +25,7 @@ struct Run {
   Point2 centre;        // of an arc
   double radius = 0.0;  // of an arc
   double turn = 0.0;    // 0: a line
-  double chord = 0.0;
+  double reach = 0.0;   // so far from both ends it runs on without turning round
   Point2 right_of_begin() const { return {begin.y, -begin.x}; }
   Point2 right_of_end() const { return {end.y, -end.x}; }
   double curvature() const { return turn == 0.0 ? 0.0 : turn / radius; }
@@ -37,7 +37,7 @@ Run run_of(Point2 from, const Segment& segment) {
   run.from = from;
   run.to = segment.to;
   const Point2 chord = segment.to - from;
-  run.chord = norm(chord);
+  run.reach = norm(chord);
   run.turn = c.turn;
   if (!c.is_arc()) {
     run.begin = run.end = c.direction;
@@ -48,6 +48,8 @@ Run run_of(Point2 from, const Segment& segment) {
   run.begin = (c.turn / c.radius) * left_of(Point2{} - c.centre);
   const Point2 last = chord - c.centre;
   run.end = (c.turn / norm(last)) * left_of(last);
+  const bool beyond_half = c.turn * cross(chord, c.centre) < 0.0;
+  run.reach = beyond_half ? c.radius : std::min(c.radius, run.reach);
   return run;
 }
 
@@ -67,7 +69,7 @@ double turn_between(const Run& run, const Run& next) {
   constexpr double kTurnsBack = 1e-6;  // sine: then curvature tells on which side the way back is
   const double sine = cross(run.end, next.begin);
   if (dot(run.end, next.begin) > 0.0 || std::abs(sine) > kTurnsBack) return sine >= 0.0 ? 1.0 : -1.0;
-  const double ahead = std::min(run.chord, next.chord);
+  const double ahead = std::min(run.reach, next.reach);
   // Directions from the corner to points that far off on both.
   const auto turned = [&](Point2 tangent, double curvature) {
     return direction_at(tangent, 0.0, curvature, ahead);

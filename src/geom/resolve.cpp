@@ -13,8 +13,8 @@ namespace {
 /// Points computed from coordinates of size 1 are off by some 2^-50; crossings at small angles by more.
 constexpr double kRounding = 0x1p-40;
 constexpr std::size_t kMostEdges = 20'000'000;
-/// How often a contradiction is met with a tolerance four times as large before giving up.
-constexpr int kAttempts = 4;
+/// A contradiction is met with more care, then with tolerances four times as large each, before giving up.
+constexpr int kAttempts = 5;
 
 const char* named(const RegionOptions& options) {
   return options.name.empty() ? "region" : options.name.c_str();
@@ -102,9 +102,10 @@ std::optional<Arrangement> arrange(const EdgeSet& set, const RegionOptions& opti
   std::optional<Arrangement> made(std::in_place);
   auto outcome = Arrangement::Outcome::too_many;
   double weld = set.weld();
-  for (int i = 0; i < kAttempts && set.edges.size() <= kMostEdges; ++i, weld *= 4.0) {
-    outcome = made->build(set, weld);
+  for (int i = 0; i < kAttempts && set.edges.size() <= kMostEdges; ++i) {
+    outcome = made->build(set, weld, i == 0 ? Arrangement::Care::ordinary : Arrangement::Care::thorough);
     if (outcome != Arrangement::Outcome::contradiction) break;
+    if (i > 0) weld *= 4.0;
   }
   if (outcome == Arrangement::Outcome::done) return made;
   if (outcome == Arrangement::Outcome::too_many)
