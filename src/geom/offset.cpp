@@ -103,6 +103,20 @@ void add_parallel(EdgeSet& set, const std::vector<Run>& runs, double by, std::ui
   set.close();
 }
 
+/// Whether a loop is certain to leave nothing: it shrinks, and is narrower than twice the distance.
+bool shrinks_away(const Outline& loop, double by) {
+  const auto narrow = [&](const Box2& box) {
+    return std::min(box.high.x - box.low.x, box.high.y - box.low.y) < 2.0 * std::abs(by);
+  };
+  Box2 corners{loop.start, loop.start};
+  for (const Segment& s : loop.segments) {
+    corners.low = {std::min(corners.low.x, s.to.x), std::min(corners.low.y, s.to.y)};
+    corners.high = {std::max(corners.high.x, s.to.x), std::max(corners.high.y, s.to.y)};
+  }
+  // Its corners alone may tell already that it is not narrow.
+  return narrow(corners) && narrow(bounds(loop)) && (area(loop) > 0.0) == (by < 0.0);
+}
+
 bool usable_distance(double value, const char* what, const RegionOptions& options, Diagnostics& diagnostics) {
   if (std::abs(value) <= outline_detail::kLargestCoordinate) return true;
   diagnostics.error(Code::region_bad_argument, options.where,
@@ -264,10 +278,7 @@ std::optional<Offset> offset(const Region& region, Length by, const RegionOption
   std::uint32_t source = 0;
   for (const Outline& loop : region.loops) {
     first_source.push_back(source);
-    const bool shrinks = (area(loop) > 0.0) == (distance < 0.0);
-    const Box2 box = bounds(loop);
-    const double narrow = std::min(box.high.x - box.low.x, box.high.y - box.low.y);
-    if (!shrinks || narrow >= 2.0 * std::abs(distance)) add_parallel(set, runs_of(loop), distance, source);
+    if (!shrinks_away(loop, distance)) add_parallel(set, runs_of(loop), distance, source);
   }
   const auto arrangement = arrange(set, options, diagnostics);
   if (!arrangement) return std::nullopt;

@@ -47,6 +47,30 @@ void append_run(Outline& outline, const Arrangement& arrangement, const Arrangem
   outline.segments.push_back(segment);
 }
 
+/// Whether a loop is narrower than the tolerance everywhere. Its area and length are taken from the chords and
+/// heights of its arcs (at most quarter turns), to a hundredth.
+bool is_sliver(const Arrangement& arrangement, const Arrangement::Loop& loop, double weld) {
+  const Part& first = arrangement.parts()[loop[0].part];
+  const Point2 origin = arrangement.point(first.from);
+  double twice_area = 0.0, length = 0.0;
+  for (const Arrangement::Way way : loop) {
+    const Part& part = arrangement.parts()[way.part];
+    const Edge& e = arrangement.edges()[part.edge];
+    const Point2 a = arrangement.point(part.from) - origin, b = arrangement.point(part.to) - origin;
+    const double chord = norm(b - a);
+    double beside = cross(a, b);
+    length += chord;
+    if (e.is_arc()) {
+      const double half = std::min(0.5 * chord, e.radius);
+      const double height = half * half / (e.radius + std::sqrt(e.radius * e.radius - half * half));
+      beside += e.turn * height * (4.0 / 3.0 * chord + height * height / chord);
+      length += 8.0 / 3.0 * height * height / chord;
+    }
+    twice_area += way.forward ? beside : -beside;
+  }
+  return std::abs(twice_area) <= weld * length;
+}
+
 Outline outline_of(const Arrangement& arrangement, Arrangement::Loop loop) {
   const std::size_t n = loop.size();
   std::size_t first = 0;
@@ -135,13 +159,9 @@ Outline chain_of(const Arrangement& arrangement, const Arrangement::Way* begin, 
 
 Region region_of(const Arrangement& arrangement, const std::vector<Arrangement::Loop>& loops, double weld) {
   Region region;
-  for (const Arrangement::Loop& loop : loops) {
-    if (loop.size() < 2) continue;
-    Outline outline = outline_of(arrangement, loop);
-    // Narrower than the tolerance everywhere.
-    if (std::abs(area(outline)) > 0.5 * weld * length(outline).mm())
-      region.loops.push_back(std::move(outline));
-  }
+  for (const Arrangement::Loop& loop : loops)
+    if (loop.size() > 1 && !is_sliver(arrangement, loop, weld))
+      region.loops.push_back(outline_of(arrangement, loop));
   return region;
 }
 
