@@ -11,7 +11,7 @@
 namespace kerf::region_detail {
 namespace {
 
-constexpr std::size_t kMostHits = 60'000'000;  // about two gigabytes of work; beyond, the input is refused
+constexpr std::size_t kMostHits = 20'000'000;  // about a gigabyte of work; beyond, the input is refused
 
 }  // namespace
 

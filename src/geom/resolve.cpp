@@ -47,8 +47,8 @@ void append_run(Outline& outline, const Arrangement& arrangement, const Arrangem
   outline.segments.push_back(segment);
 }
 
-/// Whether a loop is narrower than the tolerance everywhere. Its area and length are taken from the chords and
-/// heights of its arcs (at most quarter turns), to a hundredth.
+/// Whether a loop is narrower than the tolerance everywhere. Its area and length are taken from the chords
+/// and heights of its arcs (at most quarter turns), to a hundredth.
 bool is_sliver(const Arrangement& arrangement, const Arrangement::Loop& loop, double weld) {
   const Part& first = arrangement.parts()[loop[0].part];
   const Point2 origin = arrangement.point(first.from);
