@@ -26,10 +26,9 @@ struct FitOptions {
 std::optional<Outline> fit_arcs(const std::vector<Point2>& points, Length within, const FitOptions& options,
                                 Diagnostics& diagnostics);
 
-/// A Bézier curve of any degree up to 25 as arcs in pairs that keep its direction where they meet. Each piece
-/// is compared with the curve at 15 places; tolerances below 2^-40 of the largest coordinate count as that. A
-/// piece that would be shorter than a millionth of the curve's parameter becomes a line, with a warning
-/// (7044) where that strays too far: cusps of no use to a mill.
+/// A Bézier curve of a degree up to 25 as arcs in pairs that keep its direction where they meet. Each piece
+/// is compared with the curve at 15 places; tolerances below 2^-40 of the largest coordinate count as that.
+/// Pieces of a millionth of the curve's parameter become lines: the tip of a cusp.
 std::optional<Outline> fit_bezier(const std::vector<Point2>& control, Length within,
                                   const FitOptions& options, Diagnostics& diagnostics);
 
@@ -38,7 +37,7 @@ struct Spline {
   int degree = 3;
   std::vector<Point2> control;  ///< mm
   std::vector<double> knots;    ///< as many as control points and degree and 1; never falling
-  std::vector<double> weights;  ///< none, or one from 1e-9 to 1e9 for each control point
+  std::vector<double> weights;  ///< none, or one from 0.001 to 1000 for each control point
 };
 /// As `fit_bezier`, piece by piece between the knots.
 std::optional<Outline> fit_spline(const Spline& spline, Length within, const FitOptions& options,

@@ -40,7 +40,7 @@ constexpr int kSamples = 16;        // parts of a piece at whose ends it is comp
 constexpr double kSampled = 0.9;    // share of the tolerance for the samples; the rest is for what is between
 constexpr double kShortest = 1e-6;  // of the whole range of the parameter
 constexpr double kRounding = 0x1p-40;  // of the largest coordinate: no tolerance is finer
-constexpr double kWeights = 1e9;       // the largest weight
+constexpr double kWeights = 1e3;       // the largest weight
 
 /// A point of a curve and its derivative.
 struct Sample {
@@ -77,15 +77,16 @@ class CurveFitter {
  public:
   CurveFitter(const Polynomial& curve, double within, Outline& made)
       : curve_(curve), within_(within), made_(made) {}
-  /// Appends the whole curve; false where a piece could not be fitted.
-  bool run() {
+  /// Appends the whole curve.
+  void run() {
     // Halves, so that a closed curve has a chord.
-    return piece(0.0, 0.5) & piece(0.5, 1.0);
+    piece(0.0, 0.5);
+    piece(0.5, 1.0);
   }
 
  private:
   Point2 direction(double t, double towards) const;
-  bool piece(double from, double to);
+  void piece(double from, double to);
   bool near(double from, double to, const Carrier* carriers, int count) const;
   bool arcs(double from, double to, Point2 end);
   const Polynomial& curve_;
@@ -138,16 +139,16 @@ bool CurveFitter::arcs(double from, double to, Point2 end) {
   return true;
 }
 
-bool CurveFitter::piece(double from, double to) {
+void CurveFitter::piece(double from, double to) {
   const Point2 end = curve_.at(to).at, start = made_.point(made_.segments.size());
-  if (!(start == end) && arcs(from, to, end)) return true;
+  if (!(start == end) && arcs(from, to, end)) return;
   if (to - from > kShortest) {
     const double middle = 0.5 * (from + to);
-    return piece(from, middle) & piece(middle, to);
+    piece(from, middle);
+    piece(middle, to);
+  } else if (!(start == end)) {
+    made_.segments.push_back({end, {}, {}});
   }
-  if (!(start == end)) made_.segments.push_back({end, {}, {}});
-  const Carrier line = make_carrier(start, {end, {}, {}}, 0.0);
-  return near(from, to, &line, 1);
 }
 
 /// The polynomial pieces of a spline, each as a Bézier curve: its control point j is the spline's polar form
@@ -202,12 +203,11 @@ bool check_spline(const Spline& spline, const FitOptions& options, Diagnostics& 
   if (!spline.weights.empty() && spline.weights.size() != spline.control.size())
     return refuse("there must be a weight for each control point");
   for (const double w : spline.weights)
-    if (!(w >= 1.0 / kWeights && w <= kWeights)) return refuse("weights must be numbers from 1e-9 to 1e9");
+    if (!(w >= 1.0 / kWeights && w <= kWeights)) return refuse("weights must be numbers from 0.001 to 1000");
   return true;
 }
 
-std::optional<Outline> fit_pieces(const std::vector<Polynomial>& pieces, Length within,
-                                  const FitOptions& options, Diagnostics& diagnostics) {
+Outline fit_pieces(const std::vector<Polynomial>& pieces, Length within) {
   double largest = 0.0;
   for (const Polynomial& piece : pieces)
     for (const auto& c : piece.control)
@@ -215,11 +215,7 @@ std::optional<Outline> fit_pieces(const std::vector<Polynomial>& pieces, Length 
   const double slack = std::max(within.mm(), kRounding * largest);
   Outline made;
   made.start = pieces.front().at(0.0).at;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (!CurveFitter(pieces[i], slack, made).run())
-      diagnostics.warning(Code::curve_fit_coarse, options.where,
-                          fmt::format("curve \"{}\", piece {}: no arcs fit within {:g}; lines stray further",
-                                      options.name, i, within.mm()));
+  for (const Polynomial& piece : pieces) CurveFitter(piece, slack, made).run();
   return made;
 }
 
@@ -234,7 +230,7 @@ std::optional<Outline> fit_bezier(const std::vector<Point2>& control, Length wit
            std::nullopt;
   Polynomial curve;
   for (const Point2 p : control) curve.control.push_back({p.x, p.y, 1.0});
-  return fit_pieces({curve}, within, options, diagnostics);
+  return fit_pieces({curve}, within);
 }
 
 std::optional<Outline> fit_spline(const Spline& spline, Length within, const FitOptions& options,
@@ -242,7 +238,7 @@ std::optional<Outline> fit_spline(const Spline& spline, Length within, const Fit
   if (!check_fit(spline.control, 2, within, options, diagnostics) ||
       !check_spline(spline, options, diagnostics))
     return std::nullopt;
-  return fit_pieces(pieces_of(spline), within, options, diagnostics);
+  return fit_pieces(pieces_of(spline), within);
 }
 
 }  // namespace kerf

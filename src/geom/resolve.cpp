@@ -13,8 +13,24 @@ namespace {
 /// Points computed from coordinates of size 1 are off by some 2^-50; crossings at small angles by more.
 constexpr double kRounding = 0x1p-40;
 constexpr std::size_t kMostEdges = 20'000'000;
-/// A contradiction is met with more care, then with tolerances four times as large each, before giving up.
-constexpr int kAttempts = 5;
+/// Finer than this (of the largest coordinate) no attempt is made.
+constexpr double kFinest = 0x1p-45;
+
+/// A contradiction is met with more care, then with finer tolerances, then with coarser ones.
+struct Attempt {
+  double share;  // of the tolerance
+  Arrangement::Care care;
+};
+constexpr Attempt kAttempts[] = {
+    {1.0, Arrangement::Care::ordinary},    {1.0, Arrangement::Care::thorough},
+    {0x1p-6, Arrangement::Care::thorough}, {0x1p-12, Arrangement::Care::thorough},
+    {4.0, Arrangement::Care::thorough},    {16.0, Arrangement::Care::thorough}};
+
+double largest_coordinate(const std::vector<Point2>& points) {
+  double largest = 0.0;
+  for (const Point2 p : points) largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+  return largest;
+}
 
 const char* named(const RegionOptions& options) {
   return options.name.empty() ? "region" : options.name.c_str();
@@ -125,11 +141,13 @@ std::optional<Arrangement> arrange(const EdgeSet& set, const RegionOptions& opti
                                    Diagnostics& diagnostics) {
   std::optional<Arrangement> made(std::in_place);
   auto outcome = Arrangement::Outcome::too_many;
-  double weld = set.weld();
-  for (int i = 0; i < kAttempts && set.edges.size() <= kMostEdges; ++i) {
-    outcome = made->build(set, weld, i == 0 ? Arrangement::Care::ordinary : Arrangement::Care::thorough);
+  double finest = 0.0;  // worked out where it is needed
+  for (const Attempt attempt : kAttempts) {
+    const double weld = attempt.share * set.weld();
+    if (set.edges.size() > kMostEdges || weld < finest) continue;
+    outcome = made->build(set, weld, attempt.care);
     if (outcome != Arrangement::Outcome::contradiction) break;
-    if (i > 0) weld *= 4.0;
+    finest = kFinest * largest_coordinate(set.points);
   }
   if (outcome == Arrangement::Outcome::done) return made;
   if (outcome == Arrangement::Outcome::too_many)

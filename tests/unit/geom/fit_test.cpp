@@ -147,6 +147,10 @@ TEST(FitErrors, NameWhatIsWrong) {
   spline.control = {{0, 0}, {1, 1}, {2, 0}, {3, 1}};
   spline.knots = {0, 0, 0, 0, 1, 1, 1};
   EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }), Code::curve_malformed);
+  spline.knots = {0, 0, 0, 0, 1, 1, 1, 1};
+  spline.weights = {1, 0, 1, 1};
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }), Code::curve_malformed);
+  spline.weights.clear();
   spline.knots = {0, 0, 0, 2, 1, 1, 1, 1};
   EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }), Code::curve_malformed);
 }

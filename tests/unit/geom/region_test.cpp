@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "geom/resolve.h"
+
 namespace kerf {
 namespace {
 
@@ -238,6 +240,18 @@ TEST(RegionErrors, NameWhatIsWrong) {
   options.tolerance.weld = mm(-1.0);
   EXPECT_EQ(code_of([&](Diagnostics& d) { return unite({Region{{open}}}, options, d); }),
             Code::region_bad_argument);
+}
+
+/// Chains that are not closed have no winding numbers; only code inside the kernel can make them.
+TEST(RegionErrors, ContradictionsAreFoundAndRefused) {
+  region_detail::EdgeSet set(1e-6);
+  region_detail::add_outline(set, rectangle(0, 0, 10, 10), 0, 0);
+  set.close();
+  region_detail::add_outline(set, {{5, 5}, {}, {{{5, 15}, {}, {}}}}, 4, 0);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(region_detail::arrange(set, {}, diagnostics).has_value());
+  ASSERT_TRUE(diagnostics.has_errors());
+  EXPECT_EQ(diagnostics.list()[0].code, Code::region_unresolved);
 }
 
 /// Saw teeth along x and along y: every tooth crosses all of the others.
