@@ -50,6 +50,11 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
 
 }  // namespace
 
+std::string folder_of(const std::string& file) {
+  const std::size_t slash = file.find_last_of("/\\");
+  return slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
+}
+
 std::string known_endings() {
   std::string text;
   for (const FrontEnd& f : front_ends()) {

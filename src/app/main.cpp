@@ -3,11 +3,13 @@
 #include <exception>
 #include <fmt/format.h>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/command.h"
 #include "app/gcmc_command.h"
+#include "app/input.h"
 #include "app/terminal_progress.h"
 #include "app/usage.h"
 
@@ -85,12 +87,14 @@ Status run_asked(const std::vector<Command>& commands) {
 }
 
 /// Commands that take the arguments of the program that they stand in for, which no common parser
-/// understands.
+/// understands. A link to kerf with that program's name is that program.
 std::optional<int> run_drop_in(int argc, char** argv) {
-  if (argc < 2 || std::string_view(argv[1]) != "gcmc") return std::nullopt;
+  const std::string called = argc > 0 ? argv[0] : "";
+  const bool is_link = called.substr(folder_of(called).size()) == "gcmc";
+  if (!is_link && (argc < 2 || std::string_view(argv[1]) != "gcmc")) return std::nullopt;
   catch_interrupts();
   InterruptOnly progress;
-  return gcmc_command({argv + 2, argv + argc}, &progress);
+  return gcmc_command({argv + (is_link ? 1 : 2), argv + argc}, &progress);
 }
 
 int run(int argc, char** argv) {
