@@ -23,6 +23,8 @@
 namespace kerf::app {
 namespace {
 
+constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
+
 bool stderr_is_for_people() {
 #if defined(__unix__) || defined(__APPLE__)
   return isatty(STDERR_FILENO) != 0;
@@ -49,12 +51,20 @@ class TextOut {
  public:
   explicit TextOut(std::string path) : path_(std::move(path)) {
     if (path_.empty()) return;
-    part_ = fmt::format("{}.{}.part", path_, std::time(nullptr));
+    std::error_code failed;
+    if (std::filesystem::is_symlink(path_, failed)) {  // the link stays, what it leads to is written
+      const auto target = std::filesystem::weakly_canonical(path_, failed);
+      if (!failed) path_ = target.string();
+    }
+    in_place_ = std::filesystem::is_other(std::filesystem::status(path_, failed));
+    part_ = in_place_ ? path_ : fmt::format("{}.{}.part", path_, std::time(nullptr));
     file_ = std::fopen(part_.c_str(), "wb");
     good_ = file_ != nullptr;
   }
   ~TextOut() {
-    if (file_ != nullptr) std::fclose(file_), std::remove(part_.c_str());
+    if (file_ == nullptr) return;
+    std::fclose(file_);
+    if (!in_place_) std::remove(part_.c_str());
   }
   TextOut(const TextOut&) = delete;
   TextOut& operator=(const TextOut&) = delete;
@@ -70,6 +80,7 @@ class TextOut {
     if (file_ == nullptr) return false;
     good_ = std::fclose(file_) == 0 && good_;
     file_ = nullptr;
+    if (in_place_) return good_;
     std::error_code error;
     if (good_) std::filesystem::rename(part_, path_, error);
     if (!good_ || error) std::remove(part_.c_str());
@@ -79,6 +90,7 @@ class TextOut {
  private:
   std::string path_, part_;
   std::FILE* file_ = nullptr;
+  bool in_place_ = false;  // a pipe or device, such as /dev/null: a file must not take its place
   bool good_ = true;
 };
 
@@ -225,7 +237,8 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
     return 1;
 
   Diagnostics diagnostics;
-  const auto file = InputFile::open(line.input.empty() ? "-" : line.input, diagnostics);
+  const auto file =
+      InputFile::open(line.input.empty() ? "-" : line.input, diagnostics, kLargestProgram, progress);
   if (!file) {
     complain(to_string(diagnostics.list().front()));
     return 1;

@@ -217,3 +217,15 @@ def test_a_link_named_gcmc_is_gcmc(tmp_path):
     link.symlink_to(Path(KERF).resolve())
     run = subprocess.run([link, "-q", "-P1"], input=b"move([1]);", capture_output=True, timeout=60)
     assert run.returncode == 0 and run.stdout == b"G1 X1.0\n"
+
+
+def test_a_pipe_as_output_stays_one(program, tmp_path):
+    pipe, taken = tmp_path / "pipe", tmp_path / "taken"
+    os.mkfifo(pipe)
+    (tmp_path / "link.ngc").symlink_to(pipe)
+    with open(taken, "wb") as file, subprocess.Popen(["cat", pipe], stdout=file) as reader:
+        path = program("goto([1mm, 2mm]);\n", "part.gcmc")
+        done = subprocess.run([KERF, "gcmc", path, "-o", tmp_path / "link.ngc"], timeout=60)
+        assert done.returncode == 0 and reader.wait(timeout=60) == 0
+    assert pipe.is_fifo() and (tmp_path / "link.ngc").is_symlink()
+    assert b"G0 X1" in taken.read_bytes()
