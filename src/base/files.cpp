@@ -1,6 +1,7 @@
 // Files: mapping of inputs, and outputs that appear together by rename.
 #include "kerf/files.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -117,46 +118,117 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
   return InputFile(path, std::move(body));
 }
 
-OutputSet::~OutputSet() {
-  for (const Pending& file : pending_) std::remove(file.temporary.c_str());
+// ---- outputs
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file that a path means in the end: symbolic links are followed, also to what does not exist yet.
+std::string followed(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  fs::path at = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(at, error); ++i)
+    at = at.parent_path() / fs::read_symlink(at, error);
+  return at.string();
 }
 
-bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
-  static unsigned counter = 0;
+/// True for what cannot be replaced by another file: devices, pipes, folders.
+bool is_special(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+std::string part_name(const std::string& target) {
+  static std::atomic<unsigned> counter{0};
 #if defined(__unix__) || defined(__APPLE__)
   const auto process = static_cast<unsigned long>(getpid());
 #else
   const unsigned long process = 0;
 #endif
-  std::string temporary = fmt::format("{}.{}-{}.part", path, process, ++counter);
-  std::FILE* stream = std::fopen(temporary.c_str(), "wbx");
-  bool good = stream != nullptr;
-  if (good) {
-    good = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-    good = std::fclose(stream) == 0 && good;
+  return fmt::format("{}.{}-{}.part", target, process, ++counter);
+}
+
+}  // namespace
+
+struct OutputFile::Body {
+  std::string path;       // as the user told it
+  std::string target;     // links followed
+  std::string temporary;  // empty where the target is written at once
+  std::FILE* stream = nullptr;
+  bool good = true;
+
+  Body() = default;
+  Body(const Body&) = delete;
+  Body& operator=(const Body&) = delete;
+  ~Body() {
+    if (stream != nullptr) std::fclose(stream);
+    if (!temporary.empty()) std::remove(temporary.c_str());
   }
-  if (!good) {
-    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
-                      fmt::format("cannot write the file: {}", std::strerror(errno)));
-    if (stream != nullptr) std::remove(temporary.c_str());
-    return false;
+  /// Tells of the first failure.
+  bool fail(std::string_view what, std::string_view why, Diagnostics& diagnostics) {
+    if (good)
+      diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0}, fmt::format("{}: {}", what, why));
+    return good = false;
   }
-  pending_.push_back({path, std::move(temporary)});
+};
+
+OutputFile::OutputFile(std::unique_ptr<Body> body) : body_(std::move(body)) {}
+OutputFile::OutputFile(OutputFile&&) noexcept = default;
+OutputFile& OutputFile::operator=(OutputFile&&) noexcept = default;
+OutputFile::~OutputFile() = default;
+
+std::optional<OutputFile> OutputFile::create(const std::string& path, Diagnostics& diagnostics) {
+  auto body = std::make_unique<Body>();
+  body->path = path;
+  body->target = followed(path);
+  const bool special = is_special(body->target);
+  const std::string name = special ? body->target : part_name(body->target);
+  body->stream = std::fopen(name.c_str(), special ? "wb" : "wbx");
+  if (body->stream == nullptr) {
+    body->fail("cannot write the file", std::strerror(errno), diagnostics);
+    return std::nullopt;
+  }
+  if (!special) body->temporary = name;
+  return OutputFile(std::move(body));
+}
+
+bool OutputFile::write(std::string_view bytes, Diagnostics& diagnostics) {
+  if (!body_->good || body_->stream == nullptr) return false;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), body_->stream) == bytes.size()) return true;
+  return body_->fail("cannot write the file", std::strerror(errno), diagnostics);
+}
+
+bool OutputFile::close(Diagnostics& diagnostics) {
+  if (body_->stream == nullptr) return body_->good;
+  const bool closed = std::fclose(std::exchange(body_->stream, nullptr)) == 0;
+  return closed ? body_->good : body_->fail("cannot write the file", std::strerror(errno), diagnostics);
+}
+
+bool OutputFile::commit(Diagnostics& diagnostics) {
+  if (!close(diagnostics)) return false;
+  if (body_->temporary.empty()) return true;
+  std::error_code error;
+  fs::rename(body_->temporary, body_->target, error);
+  if (error) return body_->fail("cannot put the file into place", error.message(), diagnostics);
+  body_->temporary.clear();
+  return true;
+}
+
+bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
+  auto file = OutputFile::create(path, diagnostics);
+  if (!file || !file->write(bytes, diagnostics) || !file->close(diagnostics)) return false;
+  files_.push_back(std::move(*file));
   return true;
 }
 
 bool OutputSet::commit(Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < pending_.size(); ++i) {
-    std::error_code error;
-    std::filesystem::rename(pending_[i].temporary, pending_[i].target, error);
-    if (!error) continue;
-    diagnostics.error(Code::file_unwritable, TextSpot{pending_[i].target, 0, 0},
-                      fmt::format("cannot put the file into place: {}", error.message()));
-    pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(i));
-    return false;
-  }
-  pending_.clear();
-  return true;
+  bool good = true;
+  for (OutputFile& file : files_) good = good && file.commit(diagnostics);
+  files_.clear();
+  return good;
 }
 
 }  // namespace kerf
