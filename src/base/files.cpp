@@ -183,8 +183,8 @@ OutputFile::~OutputFile() = default;
 std::optional<OutputFile> OutputFile::create(const std::string& path, Diagnostics& diagnostics) {
   auto body = std::make_unique<Body>();
   body->path = path;
-  body->target = followed(path);
-  const bool special = is_special(body->target);
+  const bool special = is_special(path);
+  body->target = special ? path : followed(path);
   const std::string name = special ? body->target : part_name(body->target);
   body->stream = std::fopen(name.c_str(), special ? "wb" : "wbx");
   if (body->stream == nullptr) {
