@@ -172,6 +172,7 @@ class Vm final : public Runtime {
   Progress* progress_;
   Machine machine_;
 
+  std::size_t slots_;  // of the stack
   std::unique_ptr<std::byte[]> storage_;
   Value* stack_ = nullptr;
   Value* stack_end_ = nullptr;
