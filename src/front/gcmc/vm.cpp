@@ -127,9 +127,9 @@ void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
   diagnostics_.add(std::move(d));
 }
 
-void Vm::warn(Code code, std::string text) {
+void Vm::say_warning(Code code, std::string text, std::string hint) {
   ++warnings_;
-  report(GcmcSaid::warning, code, std::move(text), {});
+  report(GcmcSaid::warning, code, std::move(text), std::move(hint));
 }
 
 void Vm::say_error(Code code, std::string text, std::string hint) {
