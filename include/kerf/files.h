@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/progress.h"
 
 namespace kerf {
 
@@ -17,9 +18,12 @@ namespace kerf {
 class InputFile {
  public:
   /// Opens `path`; "-" is standard input. Appends an error (no such file, a folder, not readable, larger than
-  /// `limit_bytes`) and returns nothing where it cannot be had.
+  /// `limit_bytes`, stopped by `progress`) and returns nothing where it cannot be had. What cannot be mapped
+  /// (pipes, devices, standard input) is held in memory, so that of it at most kLargestStream bytes are read.
   static std::optional<InputFile> open(const std::string& path, Diagnostics& diagnostics,
-                                       std::size_t limit_bytes = std::size_t{4} << 30);
+                                       std::size_t limit_bytes = std::size_t{4} << 30,
+                                       Progress* progress = nullptr);
+  static constexpr std::size_t kLargestStream = std::size_t{256} << 20;
   std::string_view bytes() const;
   const std::string& path() const { return path_; }
 
@@ -58,17 +62,24 @@ class OutputFile {
   std::unique_ptr<Body> body_;
 };
 
-/// A set of output files that appear together, when `commit()` is called. Without it nothing is left behind.
+/// A set of output files that appear together: each is written beside its target under a temporary name, and
+/// `commit()` renames all of them. Without a commit nothing is left behind. Links are followed as by
+/// OutputFile; what is no ordinary file is written to by `commit()`.
 class OutputSet {
  public:
   /// Writes `bytes` to a temporary file beside `path`. False, with an error appended, where that fails.
   bool write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics);
-  /// Puts all files into place. False, with an error appended, where that fails; those that are not in place
-  /// yet are removed.
+  /// Renames all files into place. False, with an error appended, where a rename fails; those not renamed yet
+  /// are removed.
   bool commit(Diagnostics& diagnostics);
 
  private:
-  std::vector<OutputFile> files_;
+  struct Pending {
+    std::optional<OutputFile> file;  // nothing where the target is no ordinary file
+    std::string path, bytes;
+  };
+  static bool put_in_place(Pending& pending, Diagnostics& diagnostics);
+  std::vector<Pending> pending_;
 };
 
 }  // namespace kerf

@@ -1,6 +1,7 @@
 // Files: mapping of inputs, and outputs that appear together by rename.
 #include "kerf/files.h"
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -38,26 +39,38 @@ namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes a read
 
-/// Reads a stream to its end into `bytes`; false once more than `limit` bytes came.
-bool read_all(std::FILE* stream, std::size_t limit, std::string& bytes) {
-  for (;;) {
-    const std::size_t had = bytes.size();
-    bytes.resize(had + kChunk);
-    const std::size_t got = std::fread(bytes.data() + had, 1, kChunk, stream);
-    bytes.resize(had + got);
-    if (bytes.size() > limit) return false;
-    if (got == 0) return true;
-  }
-}
-
-void too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_too_large, TextSpot{path, 0, 0},
-                    fmt::format("the file is larger than {} bytes, the most that is read at once", limit));
+Diagnostic& too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
+  return diagnostics.error(
+      Code::file_too_large, TextSpot{path, 0, 0},
+      fmt::format("the file is larger than {} bytes, the most that is read at once", limit));
 }
 
 void unreadable(const std::string& path, std::string_view why, Diagnostics& diagnostics) {
   diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0},
                     fmt::format("cannot read the file: {}", why));
+}
+
+/// Reads a stream to its end, of which nobody knows how far off it is. Nothing, with an error, where that
+/// fails, takes more than `limit` bytes, or is stopped.
+std::optional<std::string> read_stream(std::FILE* stream, const std::string& path, std::size_t limit,
+                                       Diagnostics& diagnostics, Progress* progress) {
+  limit = std::min(limit, InputFile::kLargestStream);
+  std::string bytes, chunk(kChunk, '\0');
+  for (;;) {
+    const std::size_t got = std::fread(chunk.data(), 1, kChunk, stream);
+    if (stop_requested(progress)) {
+      diagnostics.error(Code::stopped, TextSpot{path, 0, 0}, "interrupted while reading");
+      return std::nullopt;
+    }
+    if (got == 0) break;
+    bytes.append(chunk, 0, got);
+    if (bytes.size() <= limit) continue;
+    too_large(path, limit, diagnostics).hint = "more than that is read from ordinary files only";
+    return std::nullopt;
+  }
+  if (std::ferror(stream) == 0) return bytes;
+  unreadable(path, std::strerror(errno), diagnostics);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -74,13 +87,15 @@ std::string_view InputFile::bytes() const {
 }
 
 std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& diagnostics,
-                                         std::size_t limit_bytes) {
+                                         std::size_t limit_bytes, Progress* progress) {
   auto body = std::make_unique<Body>();
-  if (path == "-") {
-    if (!read_all(stdin, limit_bytes, body->own))
-      return too_large(path, limit_bytes, diagnostics), std::nullopt;
-    return InputFile("<stdin>", std::move(body));
-  }
+  const auto take_stream = [&](std::FILE* stream, const std::string& name) -> std::optional<InputFile> {
+    auto bytes = read_stream(stream, name, limit_bytes, diagnostics, progress);
+    if (!bytes) return std::nullopt;
+    body->own = std::move(*bytes);
+    return InputFile(name, std::move(body));
+  };
+  if (path == "-") return take_stream(stdin, "<stdin>");
 #if defined(__unix__) || defined(__APPLE__)
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status {};
@@ -110,35 +125,27 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
 #endif
   std::FILE* stream = std::fopen(path.c_str(), "rb");
   if (stream == nullptr) return unreadable(path, std::strerror(errno), diagnostics), std::nullopt;
-  const bool whole = read_all(stream, limit_bytes, body->own);
-  const bool failed = std::ferror(stream) != 0;
+  std::optional<InputFile> file = take_stream(stream, path);
   std::fclose(stream);
-  if (failed) return unreadable(path, "reading stopped with an error", diagnostics), std::nullopt;
-  if (!whole) return too_large(path, limit_bytes, diagnostics), std::nullopt;
-  return InputFile(path, std::move(body));
+  return file;
 }
 
 // ---- outputs
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// The file that a path means in the end: symbolic links are followed, also to what does not exist yet.
+/// Where a link leads to, so that the link stays and its target is replaced; any other path as it is.
 std::string followed(const std::string& path) {
-  constexpr int kMostLinks = 40;
-  fs::path at = path;
-  std::error_code error;
-  for (int i = 0; i < kMostLinks && fs::is_symlink(at, error); ++i)
-    at = at.parent_path() / fs::read_symlink(at, error);
-  return at.string();
+  std::error_code failed;
+  if (!std::filesystem::is_symlink(path, failed)) return path;
+  const auto target = std::filesystem::weakly_canonical(path, failed);
+  return failed ? path : target.string();
 }
 
-/// True for what cannot be replaced by another file: devices, pipes, folders.
-bool is_special(const std::string& path) {
-  std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  return fs::exists(status) && !fs::is_regular_file(status);
+/// Pipes and devices are written to where they are: a file must not take their place.
+bool can_be_replaced(const std::string& path) {
+  std::error_code failed;
+  return !std::filesystem::is_other(std::filesystem::status(path, failed));
 }
 
 std::string part_name(const std::string& target) {
@@ -183,19 +190,20 @@ OutputFile::~OutputFile() = default;
 std::optional<OutputFile> OutputFile::create(const std::string& path, Diagnostics& diagnostics) {
   auto body = std::make_unique<Body>();
   body->path = path;
-  const bool special = is_special(path);
-  body->target = special ? path : followed(path);
-  const std::string name = special ? body->target : part_name(body->target);
-  body->stream = std::fopen(name.c_str(), special ? "wb" : "wbx");
+  const bool replaces = can_be_replaced(path);
+  body->target = replaces ? followed(path) : path;
+  const std::string name = replaces ? part_name(body->target) : path;
+  body->stream = std::fopen(name.c_str(), replaces ? "wbx" : "wb");
   if (body->stream == nullptr) {
     body->fail("cannot write the file", std::strerror(errno), diagnostics);
     return std::nullopt;
   }
-  if (!special) body->temporary = name;
+  if (replaces) body->temporary = name;
   return OutputFile(std::move(body));
 }
 
 bool OutputFile::write(std::string_view bytes, Diagnostics& diagnostics) {
+  if (bytes.empty()) return body_->good;
   if (!body_->good || body_->stream == nullptr) return false;
   if (std::fwrite(bytes.data(), 1, bytes.size(), body_->stream) == bytes.size()) return true;
   return body_->fail("cannot write the file", std::strerror(errno), diagnostics);
@@ -211,23 +219,32 @@ bool OutputFile::commit(Diagnostics& diagnostics) {
   if (!close(diagnostics)) return false;
   if (body_->temporary.empty()) return true;
   std::error_code error;
-  fs::rename(body_->temporary, body_->target, error);
+  std::filesystem::rename(body_->temporary, body_->target, error);
   if (error) return body_->fail("cannot put the file into place", error.message(), diagnostics);
   body_->temporary.clear();
   return true;
 }
 
 bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
+  if (!can_be_replaced(path)) {
+    pending_.push_back({std::nullopt, path, std::string(bytes)});
+    return true;
+  }
   auto file = OutputFile::create(path, diagnostics);
   if (!file || !file->write(bytes, diagnostics) || !file->close(diagnostics)) return false;
-  files_.push_back(std::move(*file));
+  pending_.push_back({std::move(file), path, {}});
   return true;
+}
+
+bool OutputSet::put_in_place(Pending& pending, Diagnostics& diagnostics) {
+  if (!pending.file) pending.file = OutputFile::create(pending.path, diagnostics);
+  return pending.file && pending.file->write(pending.bytes, diagnostics) && pending.file->commit(diagnostics);
 }
 
 bool OutputSet::commit(Diagnostics& diagnostics) {
   bool good = true;
-  for (OutputFile& file : files_) good = good && file.commit(diagnostics);
-  files_.clear();
+  for (Pending& pending : pending_) good = good && put_in_place(pending, diagnostics);
+  pending_.clear();
   return good;
 }
 

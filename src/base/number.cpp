@@ -9,6 +9,8 @@
 #include <iterator>
 #include <numeric>
 
+#include "kerf/names.h"
+
 namespace kerf {
 namespace {
 
@@ -148,6 +150,33 @@ std::optional<double> parse_number(std::string_view text) {
   const double value = std::strtod(copy.c_str(), &end);
   if (end != copy.c_str() + copy.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::optional<double> mm_per_unit(std::string_view name) {
+  const std::string folded = fold_name(name);
+  if (folded == "mm") return 1.0;
+  if (folded == "in" || folded == "inch" || folded == "inches" || folded == "\"") return 25.4;
+  return std::nullopt;
+}
+
+std::optional<double> parse_length(std::string_view text, double scale) {
+  text = trim(text);
+  if (text.size() > 64) return std::nullopt;
+  const std::size_t end = text.find_last_of("0123456789.");
+  if (end == std::string_view::npos) return std::nullopt;
+  if (end + 1 < text.size()) {
+    const auto unit = mm_per_unit(trim(text.substr(end + 1)));
+    if (!unit) return std::nullopt;
+    scale = *unit;
+    text = text.substr(0, end + 1);
+  }
+  const std::size_t slash = text.find('/');
+  const auto over = parse_number(trim(text.substr(0, slash)));
+  const auto under =
+      slash == std::string_view::npos ? std::optional(1.0) : parse_number(trim(text.substr(slash + 1)));
+  if (!over || !under || *under == 0.0) return std::nullopt;
+  const double value = *over / *under * scale;
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::optional<std::string> did_you_mean(std::string_view word, const std::vector<std::string>& known) {

@@ -525,6 +525,18 @@ TEST(GcmcLanguage, HintsNameWhatWasMeant) {
   EXPECT_EQ(run("radius = 1; x = raduis;").messages.at(0).hint, "did you mean 'radius'?");
   EXPECT_EQ(run("feedrat(1);").messages.at(0).hint, "did you mean 'feedrate'?");
   EXPECT_EQ(run("forach(x; v) {}").messages.at(0).said, GcmcSaid::error);
+  EXPECT_EQ(run("whiel(1) {}").messages.at(0).hint, "did you mean 'while'?");
+  EXPECT_EQ(run("x = 5 mmm;").messages.at(0).hint, "did you mean 'mm'?");
+}
+
+TEST(GcmcLanguage, UnitsThatDoNotFitAreExplained) {
+  const auto hint = [](const char* program) { return run(program).messages.at(0).hint; };
+  EXPECT_EQ(hint("x = 1mm + 90deg;"), "90deg counts as 90mm; to_none() says that this is meant");
+  EXPECT_EQ(hint("x = 1mm < 5;"), "5 counts as 5mm: write it so");
+  EXPECT_EQ(hint("x = 2.5 == 90deg;"), "2.5 counts as 2.5deg: write it so");
+  EXPECT_EQ(hint("x = 1mm == 1rad;"), "a length and an angle are compared by their numbers alone");
+  EXPECT_EQ(hint("x = sin(2mm);"), "an angle is expected; 2mm counts as 2rad");
+  EXPECT_EQ(hint("feedrate(5deg);"), "a length is expected; 5deg counts as 5mm");
 }
 
 TEST(GcmcLanguage, CallsAreNamedWithAnError) {
