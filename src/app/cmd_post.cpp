@@ -109,36 +109,40 @@ Toolpath improved(Toolpath path, const Options& options, Json& savings, Console&
   return path;
 }
 
-/// "part.nc" for tool 201 is "part-T201.nc".
-std::string name_for(const std::string& out, const PostedFile& file, std::size_t files) {
-  if (files < 2 || !file.tool) return out;
+/// "part.nc" for tool 201 is "part-T201.nc"; where that tool comes again, "part-T201-2.nc".
+std::vector<std::string> names_for(const std::string& out, const std::vector<PostedFile>& files) {
   const std::filesystem::path path(out);
-  return (path.parent_path() /
-          fmt::format("{}-T{}{}", path.stem().string(), *file.tool, path.extension().string()))
-      .string();
+  std::vector<std::string> names;
+  std::map<int, int> used;
+  for (const PostedFile& file : files) {
+    const int tool = file.tool.value_or(0), time = ++used[tool];
+    std::string name = fmt::format("{}-T{}", path.stem().string(), tool);
+    if (time > 1) name += fmt::format("-{}", time);
+    names.push_back((path.parent_path() / (name + path.extension().string())).string());
+  }
+  if (files.size() == 1) names = {out};
+  return names;
 }
 
 Status write(Console& console, const Options& options, const std::vector<PostedFile>& files, Json result,
              Diagnostics& diagnostics) {
-  Json& outputs = result["outputs"] = Json::array();
   if (options.out.empty()) {
     console.show(diagnostics, Console::Channel::always_text);
     for (const PostedFile& file : files) console.print_json(file.text);
     return Status::done;
   }
+  const std::vector<std::string> names = names_for(options.out, files);
   OutputSet set;
-  for (const PostedFile& file : files) {
-    const std::string name = name_for(options.out, file, files.size());
-    outputs.push_back(name);
-    if (!set.write(name, file.text, diagnostics)) return fail(console, diagnostics, Status::input_errors);
-  }
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (!set.write(names[i], files[i].text, diagnostics))
+      return fail(console, diagnostics, Status::input_errors);
   if (!set.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
+  result["outputs"] = names;
   result["diagnostics"] = json_of(diagnostics);
   if (console.json()) console.print_json(text_of(result, Layout::indented));
-  if (!console.json())
-    for (std::size_t i = 0; i < files.size(); ++i)
-      console.summary(fmt::format("wrote    {} ({} lines)", outputs[i].get<std::string>(), files[i].lines));
+  for (std::size_t i = 0; i < files.size() && !console.json(); ++i)
+    console.summary(fmt::format("wrote    {} ({} lines)", names[i], files[i].lines));
   return Status::done;
 }
 

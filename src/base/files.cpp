@@ -146,6 +146,13 @@ bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnosti
 }
 
 bool OutputSet::commit(Diagnostics& diagnostics) {
+  // What no renaming can replace is found before the first one, so that all files appear or none.
+  for (const Pending& file : pending_) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(file.target, error)) continue;
+    diagnostics.error(Code::file_unwritable, TextSpot{file.target, 0, 0}, "a folder of this name is there");
+    return false;
+  }
   for (std::size_t i = 0; i < pending_.size(); ++i) {
     std::error_code error;
     std::filesystem::rename(pending_[i].temporary, pending_[i].target, error);
