@@ -41,9 +41,9 @@ M2
 def test_lists_the_posts(kerf):
     run = kerf("post", "--list")
     assert run.status == 0
-    assert [line.split()[0] for line in run.out.splitlines()] == POSTS
+    assert [line.split()[0] for line in run.out.splitlines()] == [*POSTS, "dxf", "svg"]
     listed = kerf("post", "--list", "--json").json
-    assert [p["name"] for p in listed] == POSTS
+    assert [p["name"] for p in listed] == [*POSTS, "dxf", "svg"]
     assert all(p["title"] and p["file_ending"].startswith(".") for p in listed)
 
 
