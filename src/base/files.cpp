@@ -242,6 +242,13 @@ bool OutputSet::put_in_place(Pending& pending, Diagnostics& diagnostics) {
 }
 
 bool OutputSet::commit(Diagnostics& diagnostics) {
+  // What no renaming can replace is found before the first one, so that all files appear or none.
+  for (const Pending& file : pending_) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(file.path, error)) continue;
+    diagnostics.error(Code::file_unwritable, TextSpot{file.path, 0, 0}, "a folder of this name is there");
+    return false;
+  }
   bool good = true;
   for (Pending& pending : pending_) good = good && put_in_place(pending, diagnostics);
   pending_.clear();

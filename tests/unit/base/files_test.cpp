@@ -137,6 +137,7 @@ TEST_F(Files, AnUnwritablePlaceIsAnError) {
     OutputSet outputs;
     EXPECT_FALSE(outputs.write(path("no/such/folder/a.txt"), "x", diagnostics_));
     fs::create_directories(path("taken/inside"));
+    ASSERT_TRUE(outputs.write(path("first"), "x", diagnostics_));
     ASSERT_TRUE(outputs.write(path("taken"), "x", diagnostics_));
     EXPECT_FALSE(outputs.commit(diagnostics_));
   }
