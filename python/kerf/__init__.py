@@ -2,13 +2,14 @@
 
 A toolpath is built call by call (`Toolpath`) or read from G-code (`read_gcode`, `load`), and cut out of a
 `Stock` by `simulate`, which says what is left, which step made which surface, and which lines would break a
-tool or a part.
+tool or a part. A `Region` is a part of the plane bounded by lines and arcs: unions, offsets, questions.
 Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
 from ._kerf import (
     Diagnostic,
     Error,
+    Region,
     Simulation,
     Stock,
     Tool,
@@ -16,13 +17,21 @@ from ._kerf import (
     Toolpath,
     __version__,
     built_in_tools,
+    fit_arcs,
+    fit_bezier,
+    fit_spline,
+    flattened,
+    parallel,
     read_gcode,
+    self_meetings,
     simulate,
+    widen,
 )
 
 __all__ = [
     "Diagnostic",
     "Error",
+    "Region",
     "Simulation",
     "Stock",
     "Tool",
@@ -30,9 +39,16 @@ __all__ = [
     "Toolpath",
     "__version__",
     "built_in_tools",
+    "fit_arcs",
+    "fit_bezier",
+    "fit_spline",
+    "flattened",
     "load",
+    "parallel",
     "read_gcode",
+    "self_meetings",
     "simulate",
+    "widen",
 ]
 
 
