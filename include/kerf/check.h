@@ -1,5 +1,7 @@
 // What is dangerous or wrong in a toolpath by itself, before any material is thought of: cuts without a feed,
 // a tool or a turning spindle, arcs whose ends do not lie on one circle, programs cut off before their end.
+// With the machine, the tools, the stock or the material told also: moves outside the travel, speeds that the
+// spindle does not have, plunges with tools that cannot, tool changes too low, feeds that break teeth.
 //
 // What a toolpath does to material (rapids through the stock, shank and holder contact) is simulate.h's
 // matter; `kerf check` shows both.
@@ -9,12 +11,16 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
+#include "kerf/machine.h"
+#include "kerf/material.h"
+#include "kerf/tool.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
 
@@ -30,6 +36,11 @@ struct CheckOptions {
   double arc_radii_share = 0.001;
   Length arc_radii_limit = mm(0.5);
   ProgramEnd end = ProgramEnd::not_asked;
+  // What is not told (nullptr, nothing) is not looked at. They must outlive the check.
+  const Machine* machine = nullptr;          // travel and spindle
+  const ToolTable* tools = nullptr;          // plunges and chip loads
+  const Material* material = nullptr;        // chip loads
+  std::optional<Box3> stock = std::nullopt;  // tool changes; plunges only below its top
 };
 
 /// Something wrong from step `step` on. Neighbouring motions with the same trouble are one entry.
@@ -39,6 +50,7 @@ struct PathHazard {
   std::uint32_t steps = 1;  // motions concerned, this one and those after it
   Point3 at;                // mm, where the first motion concerned ends
   std::string message;
+  std::string hint = {};  // what to do about it; may be empty
 };
 
 /// "no_feed", "negative_feed", "no_tool", "arc_radii", "spindle_off", "no_program_end".

@@ -1,4 +1,4 @@
-// Triangle meshes as files: STL, 3MF, GLB and OBJ bytes from plain arrays. No policy, no geometry.
+// Triangle meshes as files: STL, 3MF, GLB and OBJ bytes from plain arrays, and back. No policy, no geometry.
 #pragma once
 
 #include <array>
@@ -7,12 +7,16 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "kerf/diagnostics.h"
 
 namespace kerf {
 
 /// What the writers need, borrowed from the caller. Positions x y z in mm (Z up), three indices a triangle,
 /// counter-clockwise seen from outside. `colour_index` is empty or holds one index into `palette` a triangle.
-/// `step` is empty or holds the toolpath step that made each triangle (kept in GLB as the attribute _STEP).
+/// The palette's names become those of materials. `step` is empty or holds the toolpath step that made each
+/// triangle (kept in GLB as the attribute _STEP).
 struct MeshView {
   std::span<const float> positions;
   std::span<const std::uint32_t> triangles;
@@ -20,6 +24,7 @@ struct MeshView {
   std::span<const std::array<std::uint8_t, 3>> palette;  // sRGB
   std::span<const std::uint32_t> step;
   std::string name = "part";
+  std::span<const std::string> palette_names = {};  // of the palette's first colours; "colour 2" else
 };
 
 enum class MeshFormat : std::uint8_t { stl, three_mf, glb, obj };
@@ -30,5 +35,25 @@ std::optional<MeshFormat> mesh_format_of(std::string_view path);
 /// format cannot hold the mesh (GLB over 4 GiB: about 85 million triangles) and for 3MF in a WebAssembly
 /// build.
 std::string write_mesh(const MeshView& mesh, MeshFormat format);
+
+/// A mesh as a file holds it: x y z in mm, Z up; three indices a triangle. Vertices may stand several times
+/// (in STL each triangle has its own), and nothing says that the triangles enclose something.
+struct MeshData {
+  std::vector<double> positions;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// What is read at most; more is an error.
+struct MeshLimits {
+  std::size_t triangles = 50'000'000;
+  std::size_t text_bytes = std::size_t{4} << 30;  // of an unpacked 3MF
+};
+
+/// Reads a mesh. STL (text and binary) and OBJ have no unit: a number is a mm. 3MF tells its unit, GLB is in
+/// metres with Y up; both are turned and scaled, and their parts (3MF's build, GLB's scene) are put together.
+/// Appends errors under the file's name, and returns nothing, for what is damaged, too large, not finite, or
+/// kept outside of the file (glTF's buffers, compressed meshes).
+std::optional<MeshData> read_mesh(std::string_view bytes, MeshFormat format, const std::string& name,
+                                  Diagnostics& diagnostics, const MeshLimits& limits = {});
 
 }  // namespace kerf

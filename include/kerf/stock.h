@@ -1,6 +1,7 @@
 // The stock: the material before the first cut. Lengths in mm, work coordinates (program zero is 0, 0, 0).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,10 +12,12 @@
 
 namespace kerf {
 
-/// A block of material. Cylinders, imported meshes and left-over stock come with the simulator's further
-/// work.
+class StockBody;
+
+/// A block of material, or what a body (stock_body.h) has of it: an imported mesh, the left-over of a job.
 struct Stock {
-  Box3 block;  // mm, work coordinates
+  Box3 block;                                       // mm, work coordinates
+  std::shared_ptr<const StockBody> body = nullptr;  // nothing: the block is full
 };
 
 /// Where program zero lies on the block, in plan and in height.
@@ -42,10 +45,6 @@ const std::vector<std::string>& zero_corner_names();
 const std::vector<std::string>& zero_height_names();
 /// Whether the block has a volume: finite and low below high in every axis.
 bool is_solid(const Stock& stock);
-
-/// A block around the cuts: `margin` added sideways, top at Z0 or at the highest cut if that is above, and
-/// `floor` of material below the deepest cut. For programs that say nothing of their stock.
-Stock stock_around(const Box3& cuts, Length margin, Length floor);
 
 /// Gathers what a program's comments say of the stock: "STOCK/BLOCK, L, W, H, OX, OY, OZ" (CutViewer: program
 /// zero from the lowest corner) and "stockMin: x, y, z" with "stockMax: ...", in all the spacings seen in

@@ -37,6 +37,9 @@ enum class LaserMode : std::uint8_t { off, constant, dynamic };
 /// Probing: what ends the motion (contact made or contact lost) and whether missing it is an error
 /// (G38.2-G38.5).
 enum class ProbeKind : std::uint8_t { contact_or_error, contact, release_or_error, release };
+/// What a motion's position is told in: work coordinates, machine coordinates (G53), or as the place that the
+/// controller keeps as its home (G28, G30).
+enum class Reference : std::uint8_t { work, machine, home, second_home };
 
 namespace step {
 
@@ -157,11 +160,16 @@ class Step {
   Feed feed() const { return Feed::raw(values_[3]); }
   /// Bits 1, 2, 4: at this motion's end X, Y, Z is not known in work coordinates (never commanded yet, or
   /// commanded in machine coordinates). `to()` then holds what an interpreter with zero offsets takes.
-  unsigned unknown_axes() const { return unknown_axes_; }
+  unsigned unknown_axes() const { return frame_ & 7u; }
+  /// What the axes of `reference_axes()` (bits as above) are told in. Those axes are unknown ones.
+  Reference reference() const { return static_cast<Reference>(frame_ >> 6); }
+  unsigned reference_axes() const { return (frame_ >> 3) & 7u; }
   /// Bits 1, 2, 4, 8, 16, 32: the program named X, Y, Z, A, B, C for this motion; 0 = that is not told.
   /// `to()` is complete either way. A post that prints words as the user gave them may use it; nothing else
   /// may depend on it.
   unsigned named_axes() const { return named_axes_; }
+  /// The controller comes to rest before this motion although no step says why (the work's zero is shifted).
+  bool rests_before() const { return rests_before_; }
 
   step::Rapid rapid() const;
   step::Cut cut() const;
@@ -183,10 +191,11 @@ class Step {
   OriginId origin_ = OriginId::none;
   std::uint32_t extra_ = 0;  // index into the toolpath's extras, 0 = none
   StepKind kind_ = StepKind::rapid;
-  std::uint8_t plane_ = 0;     // Plane, or the kind's own small enumeration
+  std::uint8_t plane_ : 7 = 0;  // Plane, or the kind's own small enumeration
+  bool rests_before_ : 1 = false;
   std::uint8_t turn_ : 2 = 0;  // Turn or SpindleTurn, or two flags
   std::uint8_t named_axes_ : 6 = 0;
-  std::uint8_t unknown_axes_ = 0;
+  std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference axes, 2 bits Reference
 };
 static_assert(sizeof(Step) == 64, "a million steps are to fit in 64 MB");
 
@@ -226,11 +235,18 @@ class Toolpath {
   std::size_t add(const step::Verbatim& s, OriginId origin);
   /// Copies step `i` of another toolpath (made from the same sources), texts, extras and origin included.
   std::size_t add_copy(const Toolpath& other, std::size_t i);
+  /// Copies the origin of step `i` of another toolpath, callers included, for a step that stands for that
+  /// one.
+  OriginId copy_origin(const Toolpath& other, std::size_t i);
 
   /// Marks axes (bits 1, 2, 4 for X, Y, Z) as unknown at the end of motion `i`; see Step::unknown_axes.
   void set_unknown_axes(std::size_t i, unsigned bits);
   /// Tells which axes the program named for motion `i`; see Step::named_axes.
   void set_named_axes(std::size_t i, unsigned bits);
+  /// Says that motion `i` leads its `axes` (bits; they must be unknown ones) to a place of the machine.
+  void set_reference(std::size_t i, Reference reference, unsigned axes);
+  /// Marks motion `i`; see Step::rests_before.
+  void set_rests_before(std::size_t i);
   void set_extra(std::size_t i, MotionExtra extra);
   /// The motion's extra, or nullptr.
   const MotionExtra* extra(std::size_t i) const;

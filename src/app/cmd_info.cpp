@@ -6,24 +6,53 @@
 #include "app/command.h"
 #include "app/job.h"
 #include "app/json.h"
-#include "app/machine.h"
 #include "app/terminal_progress.h"
 
+#include "kerf/estimate.h"
 #include "kerf/number.h"
 
 namespace kerf::app {
 namespace {
 
-constexpr const char* kTimeMethod = "programmed feeds and rapid rates, without acceleration";
+constexpr const char* kPlainMethod = "programmed feeds and rapid rates, without acceleration";
+constexpr const char* kPlannedMethod = "planned as the machine's controller does";
+constexpr std::size_t kMostOperations = 30;  // shown as text; JSON has them all
 
 struct Options {
   OutputOptions output;
   JobOptions job;
-  std::string machine;
 };
 
-double motion_seconds(const MotionFigures& f) { return (f.cutting + f.rapid).seconds(); }
-double total_seconds(const MotionFigures& f) { return (f.cutting + f.rapid + f.dwell).seconds(); }
+/// Times as planned by the machine's controller, or plain ones where no machine is told.
+struct Times {
+  TimeEstimate estimate;
+  std::string machine;  // its name; empty: plain
+  bool planned() const { return !machine.empty(); }
+};
+
+TimeFigures plain_times(const MotionFigures& f) {
+  TimeFigures out;
+  out.motion = f.cutting + f.rapid;
+  out.rapid = f.rapid;
+  out.dwell = f.dwell;
+  return out;
+}
+
+Times times_of(const Job& job, const std::optional<Machine>& machine) {
+  if (machine) return {estimate_time(job.program.path, *machine), machine->name};
+  Times out;
+  out.estimate.all = plain_times(job.report.all);
+  for (const ToolFigures& t : job.report.tools)
+    out.estimate.tools.push_back({t.tool, plain_times(t.figures)});
+  return out;
+}
+
+const TimeFigures& time_of(const Times& times, std::optional<int> tool) {
+  for (const ToolTime& t : times.estimate.tools)
+    if (t.tool == tool) return t.time;
+  static const TimeFigures none;
+  return none;
+}
 
 /// Flute shorter than the deepest cut below the stock's top: something to look at.
 bool deeper_than_flute(const Job& job, const ToolFigures& t, const Tool* tool) {
@@ -42,17 +71,37 @@ Json motion_json(const MotionFigures& f) {
           {"cut_bounds_mm", json_of(f.cut_bounds)}};
 }
 
-Json time_json(const PathReport& report) {
-  Json out{
-      {"total", json_of(total_seconds(report.all))},      {"motion", json_of(motion_seconds(report.all))},
-      {"cutting", json_of(report.all.cutting.seconds())}, {"rapid", json_of(report.all.rapid.seconds())},
-      {"dwell", json_of(report.all.dwell.seconds())},     {"method", kTimeMethod}};
+Json number_or_null(std::optional<int> tool) { return tool ? Json(*tool) : Json(nullptr); }
+
+Json figures_json(const TimeFigures& time) {
+  return {{"total", json_of(time.total().seconds())},
+          {"motion", json_of(time.motion.seconds())},
+          {"cutting", json_of(time.cutting().seconds())},
+          {"rapid", json_of(time.rapid.seconds())},
+          {"dwell", json_of(time.dwell.seconds())},
+          {"halts", json_of(time.halts.seconds())},
+          {"stops", time.stops}};
+}
+
+Json time_json(const Times& times) {
+  const TimeEstimate& estimate = times.estimate;
+  Json out = figures_json(estimate.all);
+  out["method"] = times.planned() ? kPlannedMethod : kPlainMethod;
+  out["machine"] = times.planned() ? Json(times.machine) : Json(nullptr);
   Json& tools = out["tools"] = Json::array();
-  for (const ToolFigures& t : report.tools)
-    tools.push_back(Json{{"number", t.tool ? Json(*t.tool) : Json(nullptr)},
-                         {"total", json_of(total_seconds(t.figures))},
-                         {"motion", json_of(motion_seconds(t.figures))},
-                         {"dwell", json_of(t.figures.dwell.seconds())}});
+  for (const ToolTime& t : estimate.tools) {
+    Json entry{{"number", number_or_null(t.tool)}};
+    entry.update(figures_json(t.time));
+    tools.push_back(std::move(entry));
+  }
+  if (!times.planned()) return out;
+  out["not_timed"] = estimate.not_timed;
+  Json& operations = out["operations"] = Json::array();
+  for (const OperationTime& o : estimate.operations) {
+    Json entry{{"name", o.name}, {"tool", number_or_null(o.tool)}, {"step", o.first_step}};
+    entry.update(figures_json(o.time));
+    operations.push_back(std::move(entry));
+  }
   return out;
 }
 
@@ -76,7 +125,7 @@ Json tool_json(const Job& job, const ToolFigures& t) {
   return out;
 }
 
-Json info_json(const Job& job, const Diagnostics& diagnostics) {
+Json info_json(const Job& job, const Times& times, const Diagnostics& diagnostics) {
   const PathReport& report = job.report;
   Json out;
   out["source"] = job.program.source;
@@ -85,7 +134,7 @@ Json info_json(const Job& job, const Diagnostics& diagnostics) {
   out["steps"] = job.program.path.size();
   if (job.program.end != ProgramEnd::not_asked) out["ended"] = job.program.end == ProgramEnd::seen;
   out["motion"] = motion_json(report.all);
-  out["time_s"] = time_json(report);
+  out["time_s"] = time_json(times);
   Json& tools = out["tools"] = Json::array();
   for (const ToolFigures& t : report.tools) tools.push_back(tool_json(job, t));
   out["feeds"] = json_of(report.all.feed);
@@ -115,7 +164,7 @@ std::string box_text(const Box3& box) {
                      number_text(size.y, 3), number_text(size.z, 3));
 }
 
-void print_tools(Console& console, const Job& job) {
+void print_tools(Console& console, const Job& job, const Times& times) {
   if (job.report.tools.empty()) return;
   console.print("\nTools\n");
   for (const ToolFigures& t : job.report.tools) {
@@ -125,7 +174,7 @@ void print_tools(Console& console, const Job& job) {
                                   : t.tool        ? "unknown shape"
                                                   : "before any change");
     line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1),
-                        clock_text(total_seconds(t.figures)));
+                        clock_text(time_of(times, t.tool).total().seconds()));
     if (t.deepest) line += fmt::format(", deepest Z {}", number_text(*t.deepest, 3));
     if (tool != nullptr) line += fmt::format(", flute {} mm", number_text(tool->flute.mm(), 3));
     if (deeper_than_flute(job, t, tool)) line += "  <- deeper than its flute";
@@ -134,7 +183,34 @@ void print_tools(Console& console, const Job& job) {
   }
 }
 
-void print_info(Console& console, const Job& job) {
+void print_time(Console& console, const Times& times) {
+  const TimeFigures& all = times.estimate.all;
+  std::string parts = fmt::format("{} cutting, {} rapid, {} waiting", clock_text(all.cutting().seconds()),
+                                  clock_text(all.rapid.seconds()), clock_text(all.dwell.seconds()));
+  if (all.stops > 0 && all.halts.seconds() > 0.0)
+    parts += fmt::format(", {} in {} stops", clock_text(all.halts.seconds()), all.stops);
+  console.print(fmt::format("Time      about {}: {}\n", clock_text(all.total().seconds()), parts));
+  console.print(times.planned()
+                    ? fmt::format("          on {}, {} ({} moves, {} full stops)\n", times.machine,
+                                  kPlannedMethod, times.estimate.moves, all.stops)
+                    : fmt::format("          {}; --machine tells how yours takes it\n", kPlainMethod));
+}
+
+void print_operations(Console& console, const Times& times) {
+  const auto& operations = times.estimate.operations;
+  if (operations.size() < 2) return;
+  console.print("\nOperations\n");
+  for (std::size_t i = 0; i < std::min(operations.size(), kMostOperations); ++i) {
+    const OperationTime& o = operations[i];
+    console.print(fmt::format("  {:<9}{:>9}  {}\n", o.tool ? fmt::format("T{}", *o.tool) : "no tool",
+                              clock_text(o.time.total().seconds()), o.name));
+  }
+  if (operations.size() > kMostOperations)
+    console.print(
+        fmt::format("  ... and {} more (--json lists them)\n", operations.size() - kMostOperations));
+}
+
+void print_info(Console& console, const Job& job, const Times& times) {
   const MotionFigures& all = job.report.all;
   console.print(fmt::format("{}: {}, {}, {} steps\n\n", job.program.source, job.program.front_end,
                             job.program.units == InputUnits::inch ? "inches" : "mm",
@@ -147,10 +223,9 @@ void print_info(Console& console, const Job& job) {
     console.print(fmt::format("Stock     {}, {}\n", box_text(job.stock->block), to_string(job.stock_source)));
   console.print(fmt::format("Feeds     {}\n", range_text(all.feed, "mm/min")));
   console.print(fmt::format("Spindle   {}\n", range_text(all.speed, "rpm")));
-  console.print(fmt::format("Time      about {}: {} cutting, {} rapid, {} waiting ({})\n",
-                            clock_text(total_seconds(all)), clock_text(all.cutting.seconds()),
-                            clock_text(all.rapid.seconds()), clock_text(all.dwell.seconds()), kTimeMethod));
-  print_tools(console, job);
+  print_time(console, times);
+  print_tools(console, job, times);
+  print_operations(console, times);
   if (job.program.end == ProgramEnd::missing) console.print("\nThe program has no M2, M30 or closing %.\n");
 }
 
@@ -158,23 +233,19 @@ Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  ReportOptions report;
-  if (!options.machine.empty()) {
-    const auto machine = read_machine(options.machine, diagnostics);
-    if (machine) report.axis_rates = machine->rapid;
-  }
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
-  auto program = load_program(options.job.file, diagnostics, &progress);
+  auto program = load_program(options.job.file, diagnostics, &progress, settings.input);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   if (!program) return fail(console, diagnostics, Status::input_errors);
-  const Job job = make_job(std::move(*program), settings, report, UnknownTool::warning, diagnostics);
+  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::warning, diagnostics);
+  const Times times = times_of(job, settings.input.machine);
   console.show(diagnostics);
   if (console.json()) {
-    console.print_json(text_of(info_json(job, diagnostics), Layout::indented));
+    console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));
   } else {
-    print_info(console, job);
+    print_info(console, job, times);
   }
   return diagnostics.has_errors() ? Status::input_errors : Status::done;
 }
@@ -182,7 +253,8 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples =
     R"(  kerf info part.nc
   kerf info --json part.nc
-  kerf info part.nc --machine grbl_settings.txt      rapid rates from what GRBL answers to $$
+  kerf info part.nc --machine grbl_settings.txt      times as a GRBL with these $$ settings takes
+  kerf info part.nc --machine data/machines/grbl_router.toml
 )";
 
 }  // namespace
@@ -192,8 +264,7 @@ Command add_info(CLI::App& root) {
   CLI::App* app = new_command(root, "info", "Tell a program's size, time, tools, feeds and stock",
                               kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
-  app->add_option("--machine", options->machine, "GRBL's $$ settings; its rapid rates are used for the time")
-      ->type_name("PATH");
+  add_machine_option(*app, options->job);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

@@ -11,6 +11,7 @@
 #include "kerf/check.h"
 #include "kerf/diagnostics.h"
 #include "kerf/files.h"
+#include "kerf/machine.h"
 #include "kerf/progress.h"
 #include "kerf/stock.h"
 #include "kerf/tool.h"
@@ -30,12 +31,18 @@ struct LoadedProgram {
   ProgramEnd end = ProgramEnd::not_asked;
 };
 
+/// What the reader of a program is told besides the file.
+struct InputOptions {
+  std::optional<Machine> machine;  // the one that is to run the program, where it is known
+};
+
 /// A way to read files. `endings` are in lower case with their dot.
 struct FrontEnd {
   std::string_view name;
   std::vector<std::string_view> endings;
   bool (*looks_like)(std::string_view beginning);
-  LoadedProgram (*read)(const InputFile& file, Diagnostics& diagnostics, Progress* progress);
+  LoadedProgram (*read)(const InputFile& file, const InputOptions& options, Diagnostics& diagnostics,
+                        Progress* progress);
 };
 FrontEnd gcode_front_end();
 FrontEnd gcmc_front_end();
@@ -43,7 +50,10 @@ FrontEnd gcmc_front_end();
 /// Reads the program of a file ("-": standard input, as G-code). What was understood is returned with the
 /// errors in `diagnostics`; nothing is returned where there is nothing to read or no front end for it.
 std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
-                                          Progress* progress);
+                                          Progress* progress, const InputOptions& options = {});
+
+/// The folder of a file with its last slash; nothing for the current one.
+std::string folder_of(const std::string& file);
 
 /// ".nc .ngc ..." of every front end, for the help.
 std::string known_endings();

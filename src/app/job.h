@@ -21,9 +21,12 @@ struct JobOptions {
   std::string file;
   std::vector<std::string> tools;       // --tool [N=]SPEC
   std::vector<std::string> tool_files;  // --tools FILE
-  std::string stock;                    // --stock SPEC
+  std::optional<std::string> stock;     // --stock SPEC
+  std::string machine;                  // --machine FILE
 };
 void add_job_options(CLI::App& app, JobOptions& options);
+/// --machine, for the commands that make use of one.
+void add_machine_option(CLI::App& app, JobOptions& options);
 /// Text for the help of the commands that take --tool and --stock.
 extern const char* const kJobHelp;
 
@@ -34,6 +37,7 @@ struct JobSettings {
   ToolTable table;                       // built in and from files
   std::map<int, std::string> from_file;  // which numbers of the table came from which --tools file
   std::optional<Stock> stock;
+  InputOptions input;  // with the machine
 };
 /// Reads the tool and stock options. What the command line got wrong goes to `usage`, what files got wrong to
 /// `diagnostics`.
@@ -53,14 +57,15 @@ struct Job {
   StockSource stock_source = StockSource::unknown;
 };
 
-/// How bad an unknown tool is: info goes on, simulate cannot; check has a hazard of its own for cuts without
-/// any tool.
-enum class UnknownTool { warning, error, error_if_numbered };
+/// How bad an unknown tool is: info goes on, simulate cannot, check has a hazard of its own for it.
+enum class UnknownTool { warning, error, told_elsewhere };
 /// Puts a job together. Unknown tools and an assumed stock are told in `diagnostics`; where there is no stock
 /// and no cut to put one around, `stock` stays empty without a message.
 Job make_job(LoadedProgram program, const JobSettings& settings, const ReportOptions& report,
              UnknownTool unknown, Diagnostics& diagnostics);
 
+/// What helps where nobody knows the shape of a tool.
+std::string hint_for_unknown(int tool);
 /// A tool in a few words: "square 3.175 mm".
 std::string short_name(const Tool& tool);
 

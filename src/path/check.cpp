@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <optional>
 
 #include "kerf/number.h"
@@ -13,16 +14,18 @@ namespace kerf {
 namespace {
 
 constexpr int kShownDecimals = 4;
+constexpr double kRounding = 1e-6;  // mm that a place may lie beyond a limit by its decimals alone
 
-/// What the whole toolpath tells before its motions are looked at.
+/// What the whole toolpath tells before its motions are looked at, and what they have told so far.
 struct Setting {
   const CheckOptions& options;
+  Box3 reached;           // in work coordinates, where the machine's travel allows it
   bool laser = false;     // the beam is the tool: no spindle is asked for
   bool printing = false;  // beads are laid: neither spindle nor tool is asked for
 };
 
 Setting setting_of(const Toolpath& path, const CheckOptions& options) {
-  Setting setting{options};
+  Setting setting{options, {}};
   for (const Step& s : path.steps()) {
     setting.laser = setting.laser || s.kind() == StepKind::laser_power;
     setting.printing = setting.printing || s.kind() == StepKind::extrude;
@@ -38,30 +41,30 @@ bool needs_feed(const Step& s) {
 
 using Message = std::optional<std::string>;
 
-Message no_feed(const Step& s, const MotionContext&, const Setting&) {
+Message no_feed(const Step& s, const MotionContext&, Setting&) {
   if (!needs_feed(s) || s.feed().mm_per_min() != 0.0) return std::nullopt;
   return "a feed move without a feed: no F word came before it, or the last one was F0";
 }
 
-Message negative_feed(const Step& s, const MotionContext&, const Setting&) {
+Message negative_feed(const Step& s, const MotionContext&, Setting&) {
   if (!needs_feed(s) || s.feed().mm_per_min() >= 0.0) return std::nullopt;
   return fmt::format("a feed of {} mm/min; a feed must be above 0",
                      number_text(s.feed().mm_per_min(), kShownDecimals));
 }
 
-Message no_tool(const Step& s, const MotionContext& context, const Setting& setting) {
+Message no_tool(const Step& s, const MotionContext& context, Setting& setting) {
   if (!s.is_cutting() || context.tool || setting.laser || setting.printing) return std::nullopt;
   return "a cutting move before any tool change: nobody knows what cuts here";
 }
 
-Message spindle_off(const Step& s, const MotionContext& context, const Setting& setting) {
+Message spindle_off(const Step& s, const MotionContext& context, Setting& setting) {
   if (!s.is_cutting() || setting.laser || setting.printing) return std::nullopt;
   if (context.spindle.turn != SpindleTurn::off) return std::nullopt;  // 0 rpm: its speed is set by hand
   if (!context.spindle_stated) return "a cutting move, and the program has not started the spindle";
   return "a cutting move while the spindle is switched off";
 }
 
-Message arc_radii(const Step& s, const MotionContext& context, const Setting& setting) {
+Message arc_radii(const Step& s, const MotionContext& context, Setting& setting) {
   if (s.kind() != StepKind::arc) return std::nullopt;
   const ArcWalk walk = walk_of(s, context.from);
   const double apart = std::abs(walk.end_radius - walk.start_radius);
@@ -74,16 +77,144 @@ Message arc_radii(const Step& s, const MotionContext& context, const Setting& se
                      number_text(walk.end_radius, kShownDecimals));
 }
 
+Box3 box_of(const Step& s, const MotionContext& context) {
+  Box3 box;
+  box.add(s.to());
+  if (s.kind() == StepKind::arc && context.unknown_from == 0) box.add(walk_of(s, context.from).bounds());
+  return box;
+}
+
+/// The travel's ends of an axis in work coordinates. Where the work's zero is not known, those that the moves
+/// so far leave open.
+AxisTravel open_travel(const AxisTravel& travel, const Setting& setting, int axis) {
+  if (const auto& zero = setting.options.machine->work_zero)
+    return {travel.low - (*zero)[axis], travel.high - (*zero)[axis]};
+  if (setting.reached.low[axis] > setting.reached.high[axis])
+    return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  return {setting.reached.high[axis] - travel.length(), setting.reached.low[axis] + travel.length()};
+}
+
+Message outside_machine(const Step& s, const MotionContext& context, Setting& setting) {
+  if (setting.options.machine == nullptr) return std::nullopt;
+  const Box3 box = box_of(s, context);
+  Message message;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto& travel = setting.options.machine->travel[static_cast<std::size_t>(axis)];
+    if (!travel || (s.unknown_axes() & (1u << axis)) != 0) continue;
+    const AxisTravel open = open_travel(*travel, setting, axis);
+    const bool longer = box.high[axis] - box.low[axis] > travel->length() + kRounding;
+    if (longer || box.low[axis] < open.low - kRounding || box.high[axis] > open.high + kRounding) {
+      message = fmt::format("a move out of the machine: its {} axis is {} mm long", "XYZ"[axis],
+                            number_text(travel->length(), kShownDecimals));
+      continue;
+    }
+    setting.reached.low[axis] = std::min(setting.reached.low[axis], box.low[axis]);
+    setting.reached.high[axis] = std::max(setting.reached.high[axis], box.high[axis]);
+  }
+  return message;
+}
+
+const Tool* tool_in_use(const MotionContext& context, const Setting& setting) {
+  if (setting.options.tools == nullptr || !context.tool) return nullptr;
+  return setting.options.tools->find(*context.tool);
+}
+
+Message plunge(const Step& s, const MotionContext& context, Setting& setting) {
+  if (s.kind() != StepKind::cut || context.unknown_from != 0) return std::nullopt;
+  const Point3 way = s.to() - context.from;
+  if (way.x != 0.0 || way.y != 0.0 || !(way.z < 0.0)) return std::nullopt;
+  if (setting.options.stock && s.to().z >= setting.options.stock->high.z) return std::nullopt;
+  const Tool* tool = tool_in_use(context, setting);
+  if (tool == nullptr || tool->plunges) return std::nullopt;
+  return fmt::format("tool {} does not cut at its centre, and goes straight down here", *context.tool);
+}
+
+Message chip_load(const Step& s, const MotionContext& context, Setting& setting) {
+  const Material* material = setting.options.material;
+  const Tool* tool = tool_in_use(context, setting);
+  const double speed = context.spindle.speed.rpm();
+  const bool turns = context.spindle.turn != SpindleTurn::off && speed > 0.0;
+  if (!s.is_cutting() || material == nullptr || tool == nullptr || !turns || tool->teeth < 1)
+    return std::nullopt;
+  const Length load = s.feed() / context.spindle.speed / static_cast<double>(tool->teeth);
+  const Length highest = highest_chip_load(*material, tool->diameter);
+  if (load <= highest) return std::nullopt;
+  return fmt::format("{} mm a tooth ({} mm/min, {} rpm, {} teeth): a tool of {} mm takes {} mm in {}",
+                     number_text(load.mm(), kShownDecimals), number_text(s.feed().mm_per_min(), 1),
+                     number_text(speed, 0), tool->teeth, number_text(tool->diameter.mm(), 3),
+                     number_text(highest.mm(), kShownDecimals), material->name);
+}
+
 struct Rule {
   Code code;
-  Message (*test)(const Step&, const MotionContext&, const Setting&);
+  Message (*test)(const Step&, const MotionContext&, Setting&);
+  std::string_view hint;
 };
-/// Further rules (limits of the machine, chip load) are further lines.
 constexpr Rule kRules[] = {
-    {Code::path_no_feed, no_feed},     {Code::path_negative_feed, negative_feed},
-    {Code::path_no_tool, no_tool},     {Code::path_spindle_off, spindle_off},
-    {Code::path_arc_radii, arc_radii},
+    {Code::path_no_feed, no_feed, "put an F word before the first cut"},
+    {Code::path_negative_feed, negative_feed, "give the feed without its sign"},
+    {Code::path_no_tool, no_tool, "change to a tool (T1 M6), or tell it with --tool"},
+    {Code::path_spindle_off, spindle_off, "start the spindle (S10000 M3) before the cut"},
+    {Code::path_arc_radii, arc_radii, "write the arc's end and centre with more decimals"},
+    {Code::path_outside_machine, outside_machine, "move the work's zero, or turn or divide the part"},
+    {Code::path_plunge, plunge, "ramp or spiral into the cut, or drill the place before"},
+    {Code::path_chip_load, chip_load, "lower the feed or raise the spindle's speed"},
 };
+
+// ---- the rules for steps that do not move
+
+using StepMessage = std::optional<PathHazard>;
+
+StepMessage spindle_range(const Step& s, const Setting& setting) {
+  const Machine* machine = setting.options.machine;
+  if (s.kind() != StepKind::spindle || machine == nullptr || s.spindle().turn == SpindleTurn::off)
+    return std::nullopt;
+  const SpindleSpeed speed = s.spindle().speed;
+  const bool slow = machine->slowest_spindle && speed < *machine->slowest_spindle;
+  const bool fast = machine->fastest_spindle && speed > *machine->fastest_spindle;
+  if (!slow && !fast) return std::nullopt;
+  const SpindleSpeed limit = slow ? *machine->slowest_spindle : *machine->fastest_spindle;
+  PathHazard hazard;
+  hazard.code = Code::path_spindle_range;
+  hazard.message = fmt::format("{} rpm; the machine's spindle has {} {}", number_text(speed.rpm(), 1),
+                               slow ? "at least" : "at most", number_text(limit.rpm(), 1));
+  hazard.hint = "change S, and the feed in proportion";
+  return hazard;
+}
+
+StepMessage low_tool_change(const Step& s, const Setting& setting, Point3 at, unsigned unknown) {
+  const auto& stock = setting.options.stock;
+  if (s.kind() != StepKind::tool_change || !stock || (unknown & 4u) != 0) return std::nullopt;
+  if (at.z >= stock->high.z || at.z < stock->low.z) return std::nullopt;
+  PathHazard hazard;
+  hazard.code = Code::path_tool_change_low;
+  hazard.message =
+      fmt::format("the tool is changed at Z {}, {} mm below the stock's top",
+                  number_text(at.z, kShownDecimals), number_text(stock->high.z - at.z, kShownDecimals));
+  hazard.hint = "go up (G0 Z...) before the tool change";
+  return hazard;
+}
+
+void check_other_steps(const Toolpath& path, const Setting& setting, std::vector<PathHazard>& found) {
+  Point3 at;
+  unsigned unknown = 7;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Step& s = path[i];
+    if (s.is_motion()) {
+      at = s.to();
+      unknown = s.unknown_axes();
+      continue;
+    }
+    for (StepMessage message : {spindle_range(s, setting), low_tool_change(s, setting, at, unknown)}) {
+      if (!message) continue;
+      message->step = static_cast<std::uint32_t>(i);
+      message->at = at;
+      found.push_back(std::move(*message));
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const PathHazard& a, const PathHazard& b) { return a.step < b.step; });
+}
 
 /// Tells whether a motion takes part in runs of a rule: rapids between cuts do not end a run of cuts.
 bool ends_runs(const Step& s) { return needs_feed(s); }
@@ -96,7 +227,7 @@ std::string_view kind_of(const PathHazard& hazard) {
 }
 
 std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& options) {
-  const Setting setting = setting_of(path, options);
+  Setting setting = setting_of(path, options);
   std::vector<PathHazard> found;
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
   std::array<std::size_t, std::size(kRules)> open;  // each rule's entry that the next motion may join
@@ -110,17 +241,19 @@ std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& opt
         ++found[open[r]].steps;
       } else {
         open[r] = found.size();
-        found.push_back(
-            {kRules[r].code, static_cast<std::uint32_t>(context.index), 1, s.to(), std::move(*message)});
+        found.push_back({kRules[r].code, static_cast<std::uint32_t>(context.index), 1, s.to(),
+                         std::move(*message), std::string(kRules[r].hint)});
       }
     }
   });
+  check_other_steps(path, setting, found);
   if (options.end == ProgramEnd::missing && path.size() > 0) {
     const auto last = static_cast<std::uint32_t>(path.size() - 1);
     Point3 at;
     for_each_motion(path, [&](const Step& s, const MotionContext&) { at = s.to(); });
     found.push_back({Code::path_no_program_end, last, 1, at,
-                     "the program stops here without M2, M30 or a closing %: the file may be cut off"});
+                     "the program stops here without M2, M30 or a closing %: the file may be cut off",
+                     "look at the file's end, and put M2 there"});
   }
   return found;
 }

@@ -98,7 +98,7 @@ std::size_t Toolpath::add(const step::Arc& s, OriginId origin) {
   out.values_[3] = s.feed.raw();
   out.values_[4] = s.centre.x;
   out.values_[5] = s.centre.y;
-  out.plane_ = static_cast<std::uint8_t>(s.plane);
+  out.plane_ = static_cast<std::uint8_t>(s.plane) & 0x7f;
   out.turn_ = static_cast<std::uint8_t>(s.turn) & 3;
   out.count_ = s.extra_turns;
   return steps_.size() - 1;
@@ -124,14 +124,14 @@ std::size_t Toolpath::add(const step::Coolant& s, OriginId origin) {
 }
 std::size_t Toolpath::add(const step::PathMode& s, OriginId origin) {
   Step& out = append(StepKind::path_mode, origin);
-  out.plane_ = static_cast<std::uint8_t>(s.kind);
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 0x7f;
   out.values_[0] = s.tolerance.raw();
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Probe& s, OriginId origin) {
   Step& out = append_motion(StepKind::probe, s.to, origin);
   out.values_[3] = s.feed.raw();
-  out.plane_ = static_cast<std::uint8_t>(s.kind);
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 0x7f;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Extrude& s, OriginId origin) {
@@ -145,7 +145,7 @@ std::size_t Toolpath::add(const step::Extrude& s, OriginId origin) {
 }
 std::size_t Toolpath::add(const step::Temperature& s, OriginId origin) {
   Step& out = append(StepKind::temperature, origin);
-  out.plane_ = static_cast<std::uint8_t>(s.heater);
+  out.plane_ = static_cast<std::uint8_t>(s.heater) & 0x7f;
   out.values_[0] = s.celsius;
   out.turn_ = s.wait ? 1 : 0;
   return steps_.size() - 1;
@@ -158,7 +158,7 @@ std::size_t Toolpath::add(const step::Fan& s, OriginId origin) {
 }
 std::size_t Toolpath::add(const step::LaserPower& s, OriginId origin) {
   Step& out = append(StepKind::laser_power, origin);
-  out.plane_ = static_cast<std::uint8_t>(s.mode);
+  out.plane_ = static_cast<std::uint8_t>(s.mode) & 0x7f;
   out.values_[0] = s.power;
   return steps_.size() - 1;
 }
@@ -177,7 +177,7 @@ std::size_t Toolpath::add(const step::Verbatim& s, OriginId origin) {
   return steps_.size() - 1;
 }
 
-std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
+OriginId Toolpath::copy_origin(const Toolpath& other, std::size_t i) {
   const OriginId old = other.steps_[i].origin_;
   const OriginId origin = origins_.add(other.origins_.resolve(old));
   OriginId inner = origin;
@@ -186,6 +186,11 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
     origins_.set_caller(inner, outer);
     inner = outer;
   }
+  return origin;
+}
+
+std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
+  const OriginId origin = copy_origin(other, i);
   switch (other.steps_[i].kind_) {
     case StepKind::layer: return add(other.layer(i), origin);
     case StepKind::note: return add(step::Note{std::string(other.text(i))}, origin);
@@ -198,14 +203,26 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
     }
   }
   if (const MotionExtra* extra = other.extra(i)) set_extra(steps_.size() - 1, *extra);
-  steps_.back().unknown_axes_ = other.steps_[i].unknown_axes_;
+  steps_.back().frame_ = other.steps_[i].frame_;
+  steps_.back().rests_before_ = other.steps_[i].rests_before_;
   steps_.back().named_axes_ = other.steps_[i].named_axes_;
   return steps_.size() - 1;
 }
 
 void Toolpath::set_unknown_axes(std::size_t i, unsigned bits) {
   assert(steps_[i].is_motion() && bits < 8);
-  steps_[i].unknown_axes_ = static_cast<std::uint8_t>(bits);
+  steps_[i].frame_ = static_cast<std::uint8_t>((steps_[i].frame_ & ~7u) | bits);
+}
+
+void Toolpath::set_reference(std::size_t i, Reference reference, unsigned axes) {
+  assert((axes & ~steps_[i].unknown_axes()) == 0);
+  const unsigned packed = (static_cast<unsigned>(reference) << 6) | (axes << 3) | steps_[i].unknown_axes();
+  steps_[i].frame_ = static_cast<std::uint8_t>(packed);
+}
+
+void Toolpath::set_rests_before(std::size_t i) {
+  assert(steps_[i].is_motion());
+  steps_[i].rests_before_ = true;
 }
 
 void Toolpath::set_named_axes(std::size_t i, unsigned bits) {

@@ -25,11 +25,12 @@ KNOWN = {
             "arc_oneliners#114", "misc#127", "misc#128", "misc#129", "lib1#214",
             "varcs#243", "varcs#244", "varcs#245", "varcs#246",
             "varcs#248", "varcs#249", "varcs#251", "varcs#252")}},
+    "time": {},
     "volume": {},
 }
 
 
-@pytest.mark.parametrize("what", ["gcode", "gcmc", "volume"])
+@pytest.mark.parametrize("what", ["gcode", "gcmc", "time", "volume"])
 def test_the_judge_finds_no_difference(what):
     run = subprocess.run([sys.executable, Path(CASES, "judge.py"), what, "--kerf", KERF], capture_output=True,
                          text=True, timeout=550)

@@ -36,6 +36,28 @@ def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
         assert len(hazard["at"]) == 3 and hazard["origin"]["line"] > 0
 
 
+@pytest.mark.parametrize("machine, kind", [
+    ("travel_x = [0, 5]\n", "outside_machine"),
+    ("spindle = [100, 8000]\n", "spindle_range"),
+])
+def test_hazards_of_the_machine(kerf, program, machine, kind):
+    run = kerf("check", "--json", "--machine", program(machine, "m.toml"), program())
+    assert run.status == 3, run.out
+    assert kinds(run) == [kind]
+    assert all(h["hint"] for h in run.json["hazards"])
+
+
+def test_hazards_of_the_material(kerf, program):
+    fast = program(SOUND.replace("F400", "F8000"))
+    assert kinds(kerf("check", "--json", "--material", "steel", fast)) == ["chip_load"]
+    assert kerf("check", "--material", "cheese", fast).status == 2
+
+
+def test_a_tool_change_in_the_stock(kerf, program):
+    run = kerf("check", "--json", program(SOUND.replace("G0 Z5\nM5\n", "M5\nM6 T201\nG0 Z5\n")))
+    assert "tool_change_low" in kinds(run)
+
+
 def test_a_cut_deeper_than_the_flute(kerf, program):
     text = SOUND.replace("-6.00mm", "-30.00mm").replace("G1 Z-1", "G1 Z-20")
     run = kerf("check", "--json", program(text))
@@ -57,9 +79,34 @@ def test_hazards_of_path_and_material_are_in_the_order_of_steps(kerf, program):
 
 
 def test_errors_of_the_program_come_before_hazards(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("T102", "T77")))
+    run = kerf("check", "--json", program(SOUND.replace("F400", "Fnan")))
     assert run.status == 1
-    assert "no_tool_shape" in run.codes()
+    assert any(d["severity"] == "error" for d in run.json["diagnostics"])
+
+
+def test_an_unknown_tool_is_a_hazard_and_the_rest_is_checked(kerf, program):
+    two = SOUND.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM6 T77\nM3 S9000\nG1 Z-1\nG1 X35 Z-20\nG0 Z5\nM5")
+    run = kerf("check", "--json", program(two))
+    assert run.status == 3
+    assert kinds(run) == ["rapid_in_stock", "unknown_tool"]
+    unknown = run.json["hazards"][1]
+    assert unknown["origin"]["line"] == 15 and unknown["steps"] == 2
+    assert '--tool 77=' in unknown["hint"]
+    assert "not_simulated" in run.codes()
+
+
+def test_a_program_with_an_unknown_tool_only(kerf, program):
+    path = program(SOUND.replace("T102", "T77"))
+    run = kerf("check", "--json", path)
+    assert run.status == 3
+    assert kinds(run) == ["unknown_tool"]
+    assert kerf("check", path, "--tool", "77=102").status == 0
+
+
+def test_an_empty_program_is_an_error(kerf, program):
+    run = kerf("check", "--json", program("%\n%\n"))
+    assert run.status == 1
+    assert "nothing_to_cut" in run.codes()
 
 
 def test_without_any_tool_the_material_is_left_out_and_said_so(kerf, program):

@@ -49,19 +49,64 @@ def test_info_warns_of_an_unknown_tool(kerf, program):
     assert run.json["tools"][0]["known"] is False
 
 
-def test_info_takes_rapid_rates_from_grbl_settings(kerf, program):
+def test_info_plans_with_grbl_settings(kerf, program):
     path = program()
-    slow = kerf("info", "--json", "--machine", program(GRBL, "grbl.txt"), path)
-    assert slow.status == 0
-    assert slow.json["time_s"]["rapid"] > kerf("info", "--json", path).json["time_s"]["rapid"]
-    assert "without acceleration" in slow.json["time_s"]["method"]
+    planned = kerf("info", "--json", "--machine", program(GRBL, "grbl.txt"), path)
+    assert planned.status == 0
+    assert "machine_incomplete" in planned.codes()
+    plain = kerf("info", "--json", path).json["time_s"]
+    time = planned.json["time_s"]
+    assert "without acceleration" in plain["method"] and "planned" in time["method"]
+    assert time["rapid"] > plain["rapid"] and time["cutting"] > plain["cutting"]
+    assert time["total"] == pytest.approx(time["motion"] + time["dwell"] + time["halts"])
+    assert sum(t["total"] for t in time["tools"]) == pytest.approx(time["total"])
+    assert sum(o["total"] for o in time["operations"]) == pytest.approx(time["total"])
 
 
-@pytest.mark.parametrize("text", ["", "$110=0\n$111=1\n$112=1\n", "$110=nan\n", "$110=1e999\n", "hello\n"])
-def test_a_machine_file_without_rates_is_an_error(kerf, program, text):
+def test_info_plans_with_a_profile(kerf, program):
+    machine = program("name = \"my mill\"\nacceleration = [10, 10, 10]\n", "m.toml")
+    run = kerf("info", "--machine", machine, program())
+    assert run.status == 0 and "on my mill, planned" in run.out
+
+
+def test_a_grbl_reads_on_after_m2(kerf, program):
+    path = program(SOUND + "G0 X30\n")
+    machine = program(GRBL, "grbl.txt")
+    stopped = kerf("info", "--json", path).json["motion"]["rapids"]
+    assert kerf("info", "--json", "--machine", machine, path).json["motion"]["rapids"] == stopped + 1
+
+
+@pytest.mark.parametrize("text, code", [
+    ("", "machine_file"), ("hello\n", "machine_file"), ("$110=0\n$111=1\n$112=1\n", "machine_value"),
+    ("$110=nan\n", "machine_value"), ("$110=1e999\n", "machine_value"),
+    ("rates = 5\n", "machine_key_unknown"),
+])
+def test_a_machine_file_that_is_none_is_an_error(kerf, program, text, code):
     run = kerf("info", "--json", "--machine", program(text, "grbl.txt"), program())
     assert run.status == 1
-    assert run.codes() == ["machine_file"]
+    assert run.codes() == [code]
+
+
+FUSION = """{"data": [{"type": "flat end mill", "unit": "inches", "description": "quarter inch",
+ "geometry": {"DC": 0.25, "LCF": 0.75, "NOF": 3, "SFDM": 0.25}, "post-process": {"number": 7}}]}"""
+
+
+def test_tools_are_imported_and_exported(kerf, program, tmp_path):
+    run = kerf("tools", "import", program(FUSION, "f.json"), "-o", "mine.toml")
+    assert run.status == 0, run.err
+    shown = kerf("tools", "show", "7", "--tools", "mine.toml", "--json").json
+    got = [shown[key] for key in ("shape", "diameter_mm", "flute_mm", "teeth")]
+    assert got == ["square", 6.35, pytest.approx(19.05), 3]
+    run = kerf("tools", "export", "--tools", "mine.toml", "-o", "tool.tbl", "--unit", "inch")
+    assert run.status == 0, run.err
+    assert (tmp_path / "tool.tbl").read_text() == "T7 P1 Z0 D0.25 ;square 6.35 mm, quarter inch\n"
+
+
+def test_what_is_no_tool_library_is_not_imported(kerf, program, files):
+    run = kerf("tools", "import", "--json", program("hello", "x.csv"), "-o", "mine.toml")
+    assert run.status == 1 and run.codes() == ["tool_library_unknown"]
+    assert files() == ["x.csv"]
+    assert kerf("tools", "import", program(FUSION, "f.json"), "-o", "mine.xyz").status == 2
 
 
 def test_info_still_tells_of_a_program_with_errors(kerf, program):
@@ -124,3 +169,21 @@ def test_tools_show_an_unknown_one(kerf):
     run = kerf("tools", "show", "4711471", "--json")
     assert run.status == 1
     assert run.json["diagnostics"]
+
+
+def test_a_tool_told_in_words_has_its_shape_for_a_title(kerf):
+    assert kerf("tools", "show", "square d=3").out.startswith("square 3 mm\n")
+    assert kerf("tools", "show", "102").out.startswith("102 ")
+
+
+def test_measures_that_cannot_be_are_told_with_those_that_can(kerf):
+    run = kerf("tools", "show", "square d=3 flute=0")
+    assert run.status == 1
+    assert run.err.startswith('"square d=3 flute=0": error: flute must be above 0')
+    run = kerf("tools", "show", "V d=3 zzzz=1")
+    assert "hint: its measures: diameter, flute, angle" in run.err
+
+
+def test_the_help_of_tools_has_examples(kerf):
+    out = kerf("tools", "--help").out
+    assert "Examples:" in out and "kerf tools list" in out and "kerf tools show 102" in out

@@ -11,7 +11,7 @@ GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
-BACK = {"back_drawing", "back_gcmc"}
+BACK = {"back_drawing", "back_gcmc", "back_gcode"}
 # What each module may include besides itself. There is no ring, as each line uses only lines above it.
 ALLOWED = {
     "base": set(),
@@ -31,14 +31,16 @@ PUBLIC = {
     "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
              "codes.def"],
     "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h"],
-    "tool": ["tool.h"],
-    "stock": ["stock.h"],
-    "path": ["toolpath.h", "report.h", "check.h"],
+    "tool": ["tool.h", "material.h"],
+    "stock": ["stock.h", "stock_body.h"],
+    "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
     "sim": ["simulate.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "back_gcmc": ["gcmc_drawing.h"],
-    "front_tools": ["tool_files.h"],
+    "back_gcode": ["post.h"],
+    "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
+                    "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
     "front_outline": ["outline_files.h"],
     "back_drawing": ["outline_drawing.h"],

@@ -11,8 +11,8 @@ IN_ROOT = {
     "CONTRIBUTING.md", "LICENSE", "NOTICE", "README.md", "dev", "pyproject.toml",
 }
 FOLDERS_IN_ROOT = {
-    ".ci", "bench", "cmake", "data", "docs", "editors", "examples", "fuzz", "include", "python", "src",
-    "tests", "web",
+    ".ci", "bench", "cmake", "data", "docs", "editors", "examples", "fuzz", "include", "posts", "python",
+    "src", "tests", "web",
 }
 # Paths of one machine have no place in what others read. (Written so that this file does not contain them.)
 FORBIDDEN = re.compile(r"(?<![\w.])/" + "(work/|root/|home/[a-z]|Users/[a-z])")

@@ -117,6 +117,7 @@ void Interpreter::execute() {
     if (line_.has(Group::scaling)) scale_program();
     if (line_.has(Group::rotation)) turn_program();
     use_words_of_other_codes();
+    note_rest();
     if (line_.has(Group::reference)) use_reference();
   }
   if (line_.large_m_code() >= 0) read_large_m_code();

@@ -38,6 +38,8 @@ inline constexpr Tenths kMotionNotRead = -2;  // after one that is not supported
 struct Place {
   Point3 at;  // mm
   unsigned unknown = kAllAxes;
+  Reference reference = Reference::work;  // what the axes of reference_axes were told in on this line
+  unsigned reference_axes = 0;
 };
 
 /// What a controller remembers from line to line.
@@ -187,7 +189,8 @@ class Interpreter : public SystemValues {
   void straight(Tenths motion);
   void probe(Tenths motion);
   void use_reference();
-  void go_home(const Place& home);
+  void go_home(const Place& home, Reference reference);
+  void note_rest();
   void shift_zero();
   std::optional<Place> target();
   Place placed_target();
@@ -256,6 +259,8 @@ class Interpreter : public SystemValues {
   Point3 kept_local_shift_;    // what G92.2 put aside
   double program_turn_ = 0.0;  // G68, degrees
   Point3 program_turn_about_;  // program coordinates, mm
+  Tenths work_offset_ = 540;
+  bool rests_ = false;  // the next motion begins at rest: a zero was shifted
   Place home_28_, home_30_;
   std::vector<std::optional<KeptModes>> kept_modes_{1};  // one a subroutine's level
   std::map<int, double> tool_diameters_;                 // mm, by G10 L1

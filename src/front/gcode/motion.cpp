@@ -160,6 +160,8 @@ std::optional<Place> Interpreter::machine_target() {
     if (!word) continue;
     to.at[axis] = *word * modes_.scale;
     to.unknown |= 1u << axis;
+    to.reference_axes |= 1u << axis;
+    to.reference = Reference::machine;
   }
   if (!reachable(to.at)) return std::nullopt;
   return to;
@@ -208,8 +210,8 @@ void Interpreter::use_reference() {
   if (printer) return printer_reference();
   switch (line_.code(Group::reference)) {
     case 100: return set_data();
-    case 280: return go_home(home_28_);
-    case 300: return go_home(home_30_);
+    case 280: return go_home(home_28_, Reference::home);
+    case 300: return go_home(home_30_, Reference::second_home);
     case 281: return set_home(kHome28, home_28_);
     case 301: return set_home(kHome30, home_30_);
     case 520: return shift_locally();
@@ -225,8 +227,20 @@ void Interpreter::use_reference() {
   refresh_placement();
 }
 
+/// Controllers come to rest where a zero is shifted: whenever G10 or G92 stand there, and where G54 to G59.3
+/// name another one.
+void Interpreter::note_rest() {
+  if (line_.has(Group::coordinates) && line_.code(Group::coordinates) != work_offset_) {
+    work_offset_ = line_.code(Group::coordinates);
+    rests_ = true;
+  }
+  if (!line_.has(Group::reference)) return;
+  const Tenths code = line_.code(Group::reference);
+  rests_ = rests_ || code == 100 || code == 520 || (code >= 920 && code <= 923);
+}
+
 /// Through the intermediate point to the home; only the axes that are named, all where none is.
-void Interpreter::go_home(const Place& home) {
+void Interpreter::go_home(const Place& home, Reference reference) {
   unsigned axes = 0;
   for (int axis = 0; axis < 3; ++axis)
     if (line_.unused(static_cast<char>('X' + axis))) axes |= 1u << axis;
@@ -240,6 +254,8 @@ void Interpreter::go_home(const Place& home) {
     to->at[axis] = home.at[axis];
     to->unknown = (to->unknown & ~bit) | (home.unknown & bit);
   }
+  to->reference = reference;
+  to->reference_axes = axes & to->unknown;
   rapid(*to);
 }
 
@@ -255,8 +271,12 @@ void Interpreter::cut(const Place& to, double feed) {
 
 void Interpreter::arrive(const Place& to) {
   if (to.unknown != 0) path_.set_unknown_axes(path_.size() - 1, to.unknown);
+  if (to.reference_axes != 0) path_.set_reference(path_.size() - 1, to.reference, to.reference_axes);
   if (rotary_used_) path_.set_extra(path_.size() - 1, {rotary_, {}});
+  if (rests_) path_.set_rests_before(path_.size() - 1);
+  rests_ = false;
   here_ = to;
+  here_.reference_axes = 0;
   undescribed_tool_.reset();
   if (moved_) return;
   moved_ = true;

@@ -1,11 +1,12 @@
 // Kerf's tool files: TOML into tools, every fault with its line and column.
+#include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
 #include <map>
 
-#include "front/tools/built_in_text.h"
+#include "base/toml.h"
+#include "embedded_tool_files.h"
 #include "front/tools/settings.h"
-#include "front/tools/toml.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -62,7 +63,7 @@ std::optional<double> FileReader::read_unit(const toml::table& table, double oth
   const toml::node* node = table.get("unit");
   if (node == nullptr) return otherwise;
   const auto name = node->value_exact<std::string_view>();
-  const auto scale = name ? detail::unit_scale(*name) : std::nullopt;
+  const auto scale = name ? mm_per_unit(*name) : std::nullopt;
   if (!scale) error(Code::tool_value_type, spot(*node), "unit must be \"mm\" or \"inch\"");
   return scale;
 }
@@ -182,7 +183,10 @@ void FileReader::read_tool(const toml::table& table) {
 /// Under each of its numbers; the other numbers are names of it as well.
 void FileReader::keep(const Tool& made, const std::vector<int>& numbers, const Origin& where) {
   Tool tool = made;
-  for (const int number : numbers) tool.names.push_back(std::to_string(number));
+  for (const int number : numbers) {
+    const std::string name = std::to_string(number);
+    if (std::find(tool.names.begin(), tool.names.end(), name) == tool.names.end()) tool.names.push_back(name);
+  }
   for (const int number : numbers) {
     const auto [first, is_new] = given_.emplace(number, where);
     if (is_new) {
@@ -242,7 +246,7 @@ const ToolTable& built_in_tools() {
   static const ToolTable table = [] {
     ToolTable tools;
     Diagnostics diagnostics;
-    read_tool_file(detail::built_in_tool_text(), "data/tools.toml", tools, diagnostics);
+    read_tool_file(embedded::tool_files[0].bytes, "data/tools.toml", tools, diagnostics);
     assert(diagnostics.list().empty());  // a test tells what is wrong
     return tools;
   }();

@@ -143,5 +143,106 @@ TEST(CheckPath, AMissingEndIsToldAtTheLastStep) {
   EXPECT_EQ(found[0].at, (Point3{3, 0, -1}));
 }
 
+Machine table_of(double x, double y, double z) {
+  Machine machine;
+  machine.travel = {AxisTravel{0, x}, AxisTravel{0, y}, AxisTravel{-z, 0}};
+  return machine;
+}
+
+TEST(CheckPath, AMoveOutOfTheMachineWhereItsPlaceIsKnown) {
+  Machine machine = table_of(100, 100, 50);
+  machine.work_zero = Point3{10, 10, -40};
+  Job job = started();
+  job.add(step::Cut{{90, 0, -1}, mm_per_min(100)}).add(step::Cut{{90.5, 0, -1}, mm_per_min(100)});
+  const auto found = check_path(job.path, {.machine = &machine});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, Code::path_outside_machine);
+  EXPECT_EQ(found[0].step, 4u);
+  EXPECT_FALSE(found[0].hint.empty());
+}
+
+TEST(CheckPath, OnlyTheLengthCountsWhereTheMachinesPlaceIsNotKnown) {
+  const Machine machine = table_of(100, 100, 50);
+  Job far = started();
+  far.add(step::Cut{{1000, 0, -1}, mm_per_min(100)});
+  EXPECT_EQ(kinds(far, {.machine = &machine}), Kinds{"outside_machine"});
+  Job elsewhere;
+  elsewhere.add(step::ToolChange{1}).add(step::Spindle{rpm(1), SpindleTurn::cw});
+  elsewhere.add(step::Cut{{1000, 0, -1}, mm_per_min(100)}).add(step::Cut{{1100, 0, -1}, mm_per_min(100)});
+  EXPECT_EQ(kinds(elsewhere, {.machine = &machine}), Kinds{});
+}
+
+TEST(CheckPath, AnArcsBulgeLeavesTheMachine) {
+  const Machine machine = table_of(100, 8, 50);
+  Job job = started();
+  job.add(step::Cut{{0, 0, -1}, mm_per_min(100)});
+  job.add(step::Arc{.to = {20, 0, -1}, .centre = {10, 0}, .turn = Turn::cw, .feed = mm_per_min(400)});
+  EXPECT_EQ(kinds(job, {.machine = &machine}), Kinds{"outside_machine"});
+}
+
+TEST(CheckPath, SpeedsThatTheSpindleDoesNotHave) {
+  Machine machine;
+  machine.slowest_spindle = rpm(8000);
+  machine.fastest_spindle = rpm(9000);
+  const auto found = check_path(started().path, {.machine = &machine});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, Code::path_spindle_range);
+  machine.fastest_spindle = rpm(24000);
+  EXPECT_EQ(kinds(started(), {.machine = &machine}), Kinds{});
+}
+
+ToolTable table_with(int teeth, bool plunges) {
+  Tool tool;
+  tool.number = 1;
+  tool.diameter = mm(3);
+  tool.teeth = teeth;
+  tool.plunges = plunges;
+  ToolTable table;
+  table.set(1, tool);
+  return table;
+}
+
+TEST(CheckPath, APlungeWithAToolThatCannot) {
+  const ToolTable cannot = table_with(2, false), can = table_with(2, true);
+  Box3 stock;
+  stock.add(Point3{0, 0, -10});
+  stock.add(Point3{100, 100, 0});
+  Job job = started();
+  job.add(step::Cut{{0, 0, 1}, mm_per_min(100)}).add(step::Cut{{0, 0, -1}, mm_per_min(100)});
+  const auto found = check_path(job.path, {.tools = &cannot, .stock = stock});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, Code::path_plunge);
+  EXPECT_EQ(found[0].step, 4u);
+  EXPECT_EQ(kinds(job, {.tools = &can, .stock = stock}), Kinds{});
+  Job ramp = started();
+  ramp.add(step::Cut{{5, 0, -1}, mm_per_min(100)});
+  EXPECT_EQ(kinds(ramp, {.tools = &cannot, .stock = stock}), Kinds{});
+}
+
+TEST(CheckPath, AToolChangeBelowTheStocksTop) {
+  Box3 stock;
+  stock.add(Point3{0, 0, -10});
+  stock.add(Point3{100, 100, 0});
+  Job job = started();
+  job.add(step::Cut{{0, 0, -1}, mm_per_min(100)}).add(step::ToolChange{2}).add(step::Rapid{{0, 0, 5}});
+  job.add(step::ToolChange{1});
+  const auto found = check_path(job.path, {.stock = stock});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, Code::path_tool_change_low);
+  EXPECT_EQ(found[0].step, 4u);
+}
+
+TEST(CheckPath, AFeedBeyondTheChipLoad) {
+  const ToolTable tools = table_with(2, true);
+  const Material wood{"wood", {}, {{mm(3), mm(0.1)}}};
+  Job job = started();  // 10000 rpm, 2 teeth: 2000 mm/min is 0.1 mm a tooth
+  job.add(step::Cut{{5, 0, -1}, mm_per_min(1999)}).add(step::Cut{{9, 0, -1}, mm_per_min(2100)});
+  const auto found = check_path(job.path, {.tools = &tools, .material = &wood});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, Code::path_chip_load);
+  EXPECT_EQ(found[0].step, 4u);
+  EXPECT_NE(found[0].message.find("0.105 mm a tooth"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kerf

@@ -1,0 +1,42 @@
+// Fuzz target: tool libraries of other programs, machine files and material files. The first byte picks one.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "kerf/machine_files.h"
+#include "kerf/material_files.h"
+#include "kerf/tool_files.h"
+#include "kerf/tool_libraries.h"
+
+namespace {
+
+/// What was read can be written, and what is written can be read.
+void round_trip(const kerf::ToolTable& table) {
+  kerf::Diagnostics diagnostics;
+  (void)kerf::write_linuxcnc_table(table, 25.4, diagnostics);
+  for (const auto& [number, tool] : table.tools())
+    if (!(tool.diameter.mm() > 0.0)) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::string_view text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  kerf::Diagnostics diagnostics;
+  switch (data[0]) {
+    case 'm': {
+      const auto machine = kerf::read_machine_file(text, "m", diagnostics);
+      if (machine && !(machine->rates[0].mm_per_min() > 0.0)) std::abort();
+      break;
+    }
+    case 'c': (void)kerf::read_material_file(text, "c", diagnostics); break;
+    default: {
+      kerf::ToolTable table;
+      kerf::read_tool_library(text, "l", {}, table, diagnostics);
+      round_trip(table);
+    }
+  }
+  return 0;
+}

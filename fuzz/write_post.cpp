@@ -1,0 +1,33 @@
+// Any bytes as a G-code program, written by a post: no crash, no output without bound, and what is written
+// without an error has nothing that the linter refuses.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <string_view>
+
+#include "kerf/gcode.h"
+#include "kerf/post.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  const std::vector<kerf::PostProfile>& posts = kerf::built_in_posts();
+  const kerf::PostProfile& profile = posts[data[0] % posts.size()];
+  const std::string_view text(reinterpret_cast<const char*>(data + 1), size - 1);
+  kerf::GcodeReadOptions read;
+  read.max_steps = 500;
+  read.max_line_bytes = 1000;
+  kerf::Diagnostics diagnostics(5);
+  const kerf::GcodeProgram program = kerf::read_gcode(text, read, diagnostics);
+  kerf::PostOptions options;
+  options.program_name = text.substr(0, 40);
+  if (size % 2 != 0) options.unit = kerf::LengthUnit::inch;
+  kerf::Diagnostics said(5);
+  for (const kerf::PostedFile& file : kerf::post(program.path, profile, options, said)) {
+    kerf::Diagnostics found(5);
+    if (said.has_errors() || kerf::lint_gcode(file.text, profile, "written", found)) continue;
+    for (const kerf::Diagnostic& d : found.list()) std::fprintf(stderr, "%s\n", to_string(d).c_str());
+    std::abort();
+  }
+  return 0;
+}

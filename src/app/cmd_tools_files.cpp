@@ -1,0 +1,142 @@
+// kerf tools import, kerf tools export: tools from and to the files of other programs.
+#include <fmt/format.h>
+#include <memory>
+
+#include "app/command.h"
+#include "app/json.h"
+
+#include "kerf/files.h"
+#include "kerf/tool_files.h"
+#include "kerf/tool_libraries.h"
+
+namespace kerf::app {
+namespace {
+
+struct Options {
+  OutputOptions output;
+  std::vector<std::string> files;
+  std::string target;
+  std::string unit = "mm";
+  double first = 1;
+};
+
+constexpr double kMillimetresPerInch = 25.4;
+constexpr double kHighestNumber = 99'999'999;
+
+double unit_mm(const Options& options) { return options.unit == "inch" ? kMillimetresPerInch : 1.0; }
+
+bool ends_with(const std::string& text, std::string_view ending) {
+  return text.size() >= ending.size() &&
+         text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+/// The tools as text of the target's kind; nothing (with an error) for an unknown ending.
+std::optional<std::string> written(const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
+  if (ends_with(options.target, ".toml")) return write_tool_file(table);
+  if (ends_with(options.target, ".tbl")) return write_linuxcnc_table(table, unit_mm(options), diagnostics);
+  return std::nullopt;
+}
+
+Status show_result(Console& console, const ToolTable& table, const Options& options,
+                   const Diagnostics& diagnostics) {
+  console.show(diagnostics);
+  if (console.json()) {
+    Json numbers = Json::array();
+    for (const auto& [number, tool] : table.tools()) numbers.push_back(number);
+    const Json outputs =
+        diagnostics.has_errors() ? Json(Json::array()) : Json(std::vector<std::string>{options.target});
+    console.print_json(
+        text_of(Json{{"tools", numbers}, {"outputs", outputs}, {"diagnostics", json_of(diagnostics)}},
+                Layout::indented));
+  } else if (!diagnostics.has_errors()) {
+    console.summary(fmt::format("{}: {} tools", options.target, table.tools().size()));
+  }
+  return diagnostics.has_errors() ? Status::input_errors : Status::done;
+}
+
+Status write(Console& console, const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
+  if (!diagnostics.has_errors()) {
+    const auto text = written(table, options, diagnostics);
+    OutputSet outputs;
+    if (text && outputs.write(options.target, *text, diagnostics)) outputs.commit(diagnostics);
+  }
+  return show_result(console, table, options, diagnostics);
+}
+
+/// Wrong usage, if there is any, before anything is read.
+bool usable(const Options& options, Diagnostics& usage) {
+  if (!ends_with(options.target, ".toml") && !ends_with(options.target, ".tbl"))
+    usage.error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+                "tools are written as .toml (Kerf's tool file) or .tbl (LinuxCNC's tool table)");
+  for (const std::string& file : options.files)
+    if (file == options.target)
+      usage.error(Code::output_is_input, CallSpot{"", 0, "-o"}, "the output would replace the input");
+  return !usage.has_errors();
+}
+
+Status run_import(Console& console, const Options& options) {
+  Diagnostics diagnostics;
+  if (!usable(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
+  ToolTable table;
+  const ToolLibraryOptions how{unit_mm(options), static_cast<int>(options.first)};
+  for (const std::string& name : options.files)
+    if (const auto file = InputFile::open(name, diagnostics))
+      read_tool_library(file->bytes(), name, how, table, diagnostics);
+  return write(console, table, options, diagnostics);
+}
+
+Status run_export(Console& console, const Options& options) {
+  Diagnostics diagnostics;
+  if (!usable(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
+  ToolTable table;
+  for (const std::string& name : options.files)
+    if (const auto file = InputFile::open(name, diagnostics))
+      read_tool_file(file->bytes(), name, table, diagnostics);
+  return write(console, options.files.empty() ? built_in_tools() : table, options, diagnostics);
+}
+
+void add_target(CLI::App& app, Options& options) {
+  app.add_option("-o,--output", options.target, "The file to write: .toml or .tbl")
+      ->required()
+      ->type_name("PATH");
+  app.add_option("--unit", options.unit, "Unit of a tool.tbl: mm or inch")
+      ->check(CLI::IsMember({"mm", "inch"}))
+      ->type_name("UNIT");
+}
+
+const char* const kImportExamples = R"(  kerf tools import library.json -o tools.toml
+  kerf tools import tool.tbl --unit inch -o tools.toml
+  kerf simulate part.nc --tools tools.toml -o part.png
+
+Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb, CAMotics' JSON;
+which it is tells the text. Tools that cannot be made are left out with a warning that says why.
+)";
+const char* const kExportExamples = R"(  kerf tools export -o tool.tbl --unit inch
+  kerf tools export --tools tools.toml -o tool.tbl
+)";
+
+}  // namespace
+
+Command add_tools_import(CLI::App& tools) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app = new_command(tools, "import", "Make a tool file of another program's tool library",
+                              kImportExamples, options->output);
+  app->add_option("FILE", options->files, "Tool libraries")->required()->type_name("");
+  add_target(*app, *options);
+  add_number(*app, "--first", options->first, 0, kHighestNumber, "N",
+             "Number of the first tool that has none of its own (default 1)");
+  return {app, &options->output, [options](Console& console) { return run_import(console, *options); }};
+}
+
+Command add_tools_export(CLI::App& tools) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app =
+      new_command(tools, "export", "Write the built-in tools or those of files for other programs",
+                  kExportExamples, options->output);
+  add_repeated(*app, "--tools", options->files, "PATH",
+               "A file of tools (TOML) instead of the built-in ones");
+  add_target(*app, *options);
+  return {app, &options->output, [options](Console& console) { return run_export(console, *options); }};
+}
+
+}  // namespace kerf::app

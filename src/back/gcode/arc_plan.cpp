@@ -1,0 +1,130 @@
+// Planning of arcs. A controller works out the radius and the angles from rounded numbers; what it will work
+// out is worked out here first, and an arc that would come out differently is written as chords.
+#include "back/gcode/arc_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace kerf::gcode {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kWholeTurn = kTurn - 1e-6;  // radians; an arc past this is a full circle
+// GRBL refuses radii that differ by more than 0.005 mm and 0.1 %, or by 0.5 mm. A little less is used, as
+// GRBL computes with 24 bits.
+constexpr double kRadiiApart = 0.0045;  // mm
+constexpr double kRadiiShare = 0.0009;
+constexpr double kRadiiLimit = 0.45;  // mm
+constexpr double kAngleOff = 0.5;     // radians by which rounding may change a sweep
+constexpr double kArcOff = 4.0;       // counts of arc length likewise
+constexpr int kMostPieces = 1 << 20;
+
+bool radii_close(double a, double b) {
+  const double off = std::abs(a - b);
+  return off <= kRadiiLimit && (off <= kRadiiApart || off <= kRadiiShare * std::max(a, b));
+}
+
+/// What a controller makes of an arc's words, in counts and radians.
+struct AsRead {
+  double start_radius, end_radius, sweep;
+};
+
+AsRead read_back(double du, double dv, std::int64_t u, std::int64_t v, bool ccw) {
+  const double cu = static_cast<double>(u), cv = static_cast<double>(v);
+  const double eu = du - cu, ev = dv - cv;
+  double sweep = std::atan2(-cu * ev + cv * eu, -cu * eu - cv * ev);
+  if (!ccw) sweep = -sweep;
+  if (sweep <= 0.0) sweep += kTurn;
+  return {std::hypot(cu, cv), std::hypot(eu, ev), sweep};
+}
+
+/// Of the four whole centres around (cu, cv), the one whose radii differ least.
+void round_centre(double du, double dv, double cu, double cv, ArcPiece& piece) {
+  double best = -1.0;
+  for (const double u : {std::floor(cu), std::floor(cu) + 1.0}) {
+    for (const double v : {std::floor(cv), std::floor(cv) + 1.0}) {
+      const double off = std::abs(std::hypot(u, v) - std::hypot(du - u, dv - v));
+      // Among centres as good as each other, the nearest one.
+      const double far = off + 0.25 * std::hypot(u - cu, v - cv);
+      if (best >= 0.0 && far >= best) continue;
+      best = far;
+      piece.u = static_cast<std::int64_t>(u);
+      piece.v = static_cast<std::int64_t>(v);
+    }
+  }
+}
+
+/// Splits into `count` arcs; false if one of them would be read differently.
+bool split_into_arcs(const ArcWalk& walk, const Counts& from, const Counts& to, int count, const Grid& grid,
+                     std::vector<ArcPiece>& pieces) {
+  const PlaneAxes axes = axes_of(walk.plane);
+  const auto u = static_cast<std::size_t>(axes.u), v = static_cast<std::size_t>(axes.v);
+  const double sweep = std::abs(walk.sweep) / count;
+  Counts begin = from;
+  for (int i = 1; i <= count; ++i) {
+    ArcPiece piece;
+    piece.to = i == count ? to : grid.counts(walk.at(static_cast<double>(i) / count));
+    const auto du = static_cast<double>(piece.to[u] - begin[u]);
+    const auto dv = static_cast<double>(piece.to[v] - begin[v]);
+    const double cu = walk.u * grid.counts_per_mm - static_cast<double>(begin[u]);
+    const double cv = walk.v * grid.counts_per_mm - static_cast<double>(begin[v]);
+    round_centre(du, dv, cu, cv, piece);
+    const AsRead read = read_back(du, dv, piece.u, piece.v, walk.sweep > 0.0);
+    const double off = std::abs(read.sweep - sweep);
+    const double radius = std::max(read.start_radius, read.end_radius);
+    const bool same =
+        (du != 0.0 || dv != 0.0) && radius >= 1.0 && off <= kAngleOff && off * radius <= kArcOff;
+    if (!same || !radii_close(read.start_radius / grid.counts_per_mm, read.end_radius / grid.counts_per_mm))
+      return false;
+    pieces.push_back(piece);
+    begin = piece.to;
+  }
+  return true;
+}
+
+void split_into_chords(const ArcWalk& walk, const Counts& to, const Grid& grid, Length chord,
+                       std::vector<ArcPiece>& pieces) {
+  const int count = walk.chords(chord, kMostPieces);
+  for (int i = 1; i < count; ++i)
+    pieces.push_back({grid.counts(walk.at(static_cast<double>(i) / count)), 0, 0});
+  pieces.push_back({to, 0, 0});
+}
+
+bool wants_arcs(const ArcWalk& walk, const PostProfile& profile) {
+  const auto& planes = profile.arc_planes;
+  return profile.arcs == ArcPolicy::centre &&
+         std::find(planes.begin(), planes.end(), walk.plane) != planes.end() &&
+         std::max(walk.start_radius, walk.end_radius) <= profile.largest_radius.mm();
+}
+
+}  // namespace
+
+void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const Grid& grid,
+              const PostProfile& profile, ArcPlan& plan) {
+  plan.pieces.clear();
+  plan.uneven = !radii_close(walk.start_radius, walk.end_radius);
+  const double swept = std::abs(walk.sweep);
+  const double length = swept * std::max(walk.start_radius, walk.end_radius);
+  if (length < profile.shortest_arc.mm()) {
+    plan.form = ArcForm::straight;
+    plan.pieces.push_back({to, 0, 0});
+    return;
+  }
+  if (!plan.uneven && wants_arcs(walk, profile)) {
+    const PlaneAxes axes = axes_of(walk.plane);
+    const auto u = static_cast<std::size_t>(axes.u), v = static_cast<std::size_t>(axes.v);
+    const bool closes = from[u] == to[u] && from[v] == to[v] && swept > std::numbers::pi;
+    const double pieces = swept < kWholeTurn && !closes ? 1.0 : std::ceil(swept / std::numbers::pi - 1e-6);
+    plan.form = ArcForm::arcs;
+    if (pieces <= kMostPieces &&
+        split_into_arcs(walk, from, to, std::max(static_cast<int>(pieces), closes ? 2 : 1), grid,
+                        plan.pieces))
+      return;
+    plan.pieces.clear();
+  }
+  plan.form = ArcForm::chords;
+  split_into_chords(walk, to, grid, profile.chord, plan.pieces);
+}
+
+}  // namespace kerf::gcode

@@ -1,0 +1,445 @@
+// The linter: reads G-code as a controller of the profile does, a line at a time, and refuses what that
+// refuses. Which words there are is the profile's; how words go together is the same for all (RS274/NGC, and
+// GRBL's own messages, of which the numbers are named).
+#include "back/gcode/lint.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <optional>
+
+#include "codec/gcode/block.h"
+
+#include "kerf/number.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr double kMillimetresPerInch = 25.4;
+constexpr double kRadiiApart = 0.005, kRadiiShare = 0.001, kRadiiLimit = 0.5;  // GRBL's, in mm
+
+constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
+constexpr std::uint32_t kAxes = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C');
+constexpr std::uint32_t kLinear = bit('X') | bit('Y') | bit('Z');
+constexpr std::uint32_t kCentre = bit('I') | bit('J') | bit('K');
+
+/// Codes (in tenths) that exclude each other on a line.
+struct Group {
+  std::array<int, 24> codes;
+};
+constexpr int kNone = -1;
+constexpr Group group(std::initializer_list<int> list) {
+  Group g{};
+  std::size_t i = 0;
+  for (int& c : g.codes) c = kNone;
+  for (const int c : list) g.codes[i++] = c;
+  return g;
+}
+constexpr Group kGGroups[] = {
+    group(
+        {0, 10, 20, 30, 330, 382, 383, 384, 385, 730, 760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890}),
+    group({40, 100, 280, 281, 300, 301, 530, 920, 921, 922, 923}),
+    group({170, 180, 190}),
+    group({200, 210}),
+    group({400, 410, 411, 420, 421}),
+    group({430, 431, 432, 490}),
+    group({540, 550, 560, 570, 580, 590, 591, 592, 593}),
+    group({610, 611, 640}),
+    group({900, 910}),
+    group({901, 911}),
+    group({930, 940, 950}),
+    group({980, 990}),
+};
+constexpr Group kMGroups[] = {group({0, 10, 20, 300, 600}), group({30, 40, 50}), group({70, 90}),
+                              group({80, 90})};
+constexpr int kMotionGroup = 0, kSpecialGroup = 1;
+
+class Linter {
+ public:
+  Linter(const PostProfile& profile, const std::string& file, LintStart start, Diagnostics& diagnostics)
+      : profile_(profile), file_(file), diagnostics_(diagnostics) {
+    feed_known_ = start == LintStart::in_program;
+    place_known_ = start == LintStart::of_program;
+  }
+
+  void check(const Block& block);
+
+ private:
+  bool check_form(const Block& block);
+  void check_command(std::string_view command);
+  void check_comments(const Block& block);
+  void check_length(const Block& block);
+  bool take_words(const Block& block);
+  bool take_code(const Word& word);
+  bool take_value(const Word& word);
+  bool in_group(int tenths, const Group* groups, std::size_t count, std::uint32_t& seen);
+  void check_single();
+  void run();
+  void set_modes();
+  void use_special();
+  void move();
+  void use_arc();
+  void check_arc(Point3 to);
+  void check_unused();
+  Point3 target() const;
+
+  bool has(char letter) const { return (letters_ & bit(letter)) != 0; }
+  bool has_code(int tenths) const { return std::find(codes_.begin(), codes_.end(), tenths) != codes_.end(); }
+  double value(char letter) const { return values_[static_cast<std::size_t>(letter - 'A')]; }
+  void use(std::uint32_t letters) { used_ |= letters; }
+  void refuse(Code code, std::string message) {
+    refused_ = true;
+    diagnostics_.error(code, TextSpot{file_, line_, column_}, std::move(message));
+  }
+
+  const PostProfile& profile_;
+  const std::string& file_;
+  Diagnostics& diagnostics_;
+
+  // of the line
+  std::uint32_t line_ = 0, column_ = 1;
+  std::uint32_t letters_ = 0, used_ = 0;
+  std::array<double, 26> values_{};
+  std::vector<int> codes_;    // G codes in tenths
+  std::vector<int> m_codes_;  // in tenths
+  std::uint32_t g_groups_ = 0, m_groups_ = 0;
+  bool refused_ = false;
+
+  // of the program
+  int motion_ = 0;  // in tenths; GRBL begins with G0
+  Plane plane_ = Plane::xy;
+  bool absolute_ = true, absolute_centres_ = false, inverse_time_ = false;
+  double scale_ = 1.0;  // mm of a unit
+  bool feed_known_ = false, place_known_ = true;
+  Point3 at_;  // mm
+};
+
+void Linter::check(const Block& block) {
+  line_ = block.line;
+  column_ = 1;
+  refused_ = false;
+  check_comments(block);
+  if (block.faulty) return;  // said by the reader of blocks
+  if (!check_form(block)) return;
+  check_length(block);
+  if (!block.command.empty()) return check_command(block.command);
+  if (take_words(block) && !refused_) run();
+}
+
+/// A line in words: "M117 ready", or a macro such as "PAUSE".
+void Linter::check_command(std::string_view command) {
+  if (command.front() == 'M') {
+    const auto digits = std::min(command.find_first_not_of("0123456789", 1), command.size());
+    if (const auto number = parse_number(command.substr(1, digits - 1))) {
+      if (!profile_.has_m(static_cast<int>(std::lround(std::min(*number, 1e6) * 10.0))))
+        refuse(Code::lint_code, fmt::format("the controller has no M{:g}", *number));
+      return;
+    }
+  }
+  if (!profile_.macros) refuse(Code::lint_syntax, "the controller has no commands in words");
+}
+
+bool Linter::check_form(const Block& block) {
+  if (block.percent && !profile_.percent_lines) refuse(Code::lint_syntax, "the controller has no lines of %");
+  if (block.percent) return false;
+  if (block.o_word || !block.assignments.empty()) {
+    if (!profile_.parameters) refuse(Code::lint_syntax, "the controller has neither parameters nor O-words");
+    place_known_ = false;
+    return false;
+  }
+  if (block.number && *block.number > profile_.highest_line_number)
+    refuse(Code::lint_value, fmt::format("line numbers go up to {}", profile_.highest_line_number));
+  return true;
+}
+
+void Linter::check_comments(const Block& block) {
+  for (const Comment& comment : block.comments) {
+    column_ = comment.column;
+    const bool semicolon = block.text[comment.column - 1] == ';';
+    if (profile_.comments == CommentStyle::none ||
+        (profile_.comments == CommentStyle::semicolon && !semicolon))
+      refuse(Code::lint_comment, "the controller has no such comments");
+    if (!semicolon && comment.text.find('(') != std::string_view::npos)
+      refuse(Code::lint_comment, "a comment holds another one");
+    for (const char c : comment.text) {
+      const bool plain = static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) < 0x7f;
+      if ((plain || c == '\t') && profile_.comment_forbidden.find(c) == std::string::npos) continue;
+      refuse(Code::lint_comment, "a comment holds a character that a controller acts on or cannot read");
+      break;
+    }
+  }
+  column_ = 1;
+}
+
+void Linter::check_length(const Block& block) {
+  std::size_t length = block.text.size();
+  if (profile_.line_measure == LineMeasure::significant) {
+    for (const Comment& comment : block.comments) length -= std::min(length, comment.text.size() + 2);
+    const std::string_view words =
+        block.text.substr(0, block.comments.empty() ? block.text.npos : block.comments.front().column - 1);
+    const auto blanks =
+        std::count_if(words.begin(), words.end(), [](char c) { return c == ' ' || c == '\t'; });
+    length -= std::min(length, static_cast<std::size_t>(blanks));
+  }
+  if (length > profile_.longest_line)
+    refuse(Code::lint_line,
+           fmt::format("the line has {} bytes; the controller reads {}", length, profile_.longest_line));
+}
+
+bool Linter::take_words(const Block& block) {
+  letters_ = used_ = g_groups_ = m_groups_ = 0;
+  codes_.clear();
+  m_codes_.clear();
+  for (const Word& word : block.words) {
+    column_ = word.column;
+    if (word.kind == ValueKind::expression && !profile_.parameters)
+      refuse(Code::lint_syntax, "the controller computes nothing");
+    if (word.kind == ValueKind::expression) place_known_ = false;
+    const bool letter = word.letter >= 'A' && word.letter <= 'Z';
+    if (!letter || !profile_.has_letter(word.letter)) {
+      refuse(Code::lint_letter, fmt::format("the controller does not know the letter {}", word.letter));
+      continue;
+    }
+    if (word.letter == 'G' || word.letter == 'M')
+      take_code(word);
+    else
+      take_value(word);
+  }
+  column_ = 1;
+  return !refused_;
+}
+
+bool Linter::take_code(const Word& word) {
+  const bool is_g = word.letter == 'G';
+  const int tenths = word.value < 1e6 ? static_cast<int>(std::lround(word.value * 10.0)) : -1;
+  const bool exact = std::abs(word.value * 10.0 - tenths) < 1e-6;
+  if (!exact || !(is_g ? profile_.has_g(tenths) : profile_.has_m(tenths))) {
+    refuse(Code::lint_code, fmt::format("the controller has no {}{:g}", word.letter, word.value));
+    return false;
+  }
+  if (is_g) {
+    codes_.push_back(tenths);
+    return in_group(tenths, kGGroups, std::size(kGGroups), g_groups_);
+  }
+  m_codes_.push_back(tenths);
+  return in_group(tenths, kMGroups, std::size(kMGroups), m_groups_);
+}
+
+/// Notes which group the code is of; false (said) if the line has one of that group already.
+bool Linter::in_group(int tenths, const Group* groups, std::size_t count, std::uint32_t& seen) {
+  for (std::size_t g = 0; g < count; ++g) {
+    const auto& codes = groups[g].codes;
+    if (std::find(codes.begin(), codes.end(), tenths) == codes.end()) continue;
+    if ((seen >> g & 1u) != 0) {
+      refuse(Code::lint_conflict, "two codes of one group stand on the line");
+      return false;
+    }
+    seen |= 1u << g;
+  }
+  return true;
+}
+
+bool Linter::take_value(const Word& word) {
+  if (has(word.letter)) {
+    refuse(Code::lint_conflict, fmt::format("{} stands twice on the line", word.letter));
+    return false;
+  }
+  letters_ |= bit(word.letter);
+  values_[static_cast<std::size_t>(word.letter - 'A')] = word.value;
+  const bool never_negative = (bit(word.letter) & (bit('F') | bit('S') | bit('T') | bit('N'))) != 0;
+  if (never_negative && word.value < 0.0)
+    refuse(Code::lint_value, fmt::format("{} cannot be negative", word.letter));
+  if (word.letter == 'T' && word.value > profile_.highest_tool)
+    refuse(Code::lint_value, fmt::format("tools have numbers up to {}", profile_.highest_tool));
+  return !refused_;
+}
+
+/// Whether a line of LineSyntax::commands is one command.
+void Linter::check_single() {
+  const std::size_t commands = codes_.size() + m_codes_.size();
+  const bool tool_alone = letters_ == bit('T') || letters_ == (bit('T') | bit('N'));
+  if (commands > 1) refuse(Code::lint_conflict, "a line of this controller holds one command");
+  if (commands == 0 && letters_ != 0 && !tool_alone)
+    refuse(Code::lint_missing, "a line of this controller begins with its command, such as G1");
+}
+
+void Linter::run() {
+  if (profile_.syntax == LineSyntax::commands) check_single();
+  if (refused_) return;
+  set_modes();
+  use_special();
+  if ((g_groups_ >> kMotionGroup & 1u) != 0)
+    for (const int code : codes_)
+      for (const int motion : kGGroups[kMotionGroup].codes)
+        if (code == motion) motion_ = code;
+  move();
+  check_unused();
+}
+
+void Linter::set_modes() {
+  for (const int code : codes_) {
+    switch (code) {
+      case 170: plane_ = Plane::xy; break;
+      case 180: plane_ = Plane::xz; break;
+      case 190: plane_ = Plane::yz; break;
+      case 200: scale_ = kMillimetresPerInch; break;
+      case 210: scale_ = 1.0; break;
+      case 900: absolute_ = true; break;
+      case 910: absolute_ = false; break;
+      case 901: absolute_centres_ = true; break;
+      case 911: absolute_centres_ = false; break;
+      case 930: inverse_time_ = true; break;
+      case 940: inverse_time_ = false; break;
+      case 430: use(bit('H')); break;
+      case 640: use(bit('P') | bit('Q')); break;
+      default: break;
+    }
+  }
+  if (has('F') && value('F') > 0.0) feed_known_ = true;
+  if (has('F') && value('F') == 0.0) feed_known_ = false;
+  use(bit('F') | bit('S') | bit('T') | bit('N'));
+  const bool other =
+      std::any_of(m_codes_.begin(), m_codes_.end(), [](int m) { return m >= 100 && m != 300; });
+  if (other) use((1u << 26) - 1);  // printers' codes take words of their own
+}
+
+/// Codes that use the line's axis words or P themselves.
+void Linter::use_special() {
+  const bool axes = (letters_ & kAxes) != 0;
+  const bool takes_axes = has_code(280) || has_code(300) || has_code(920) || has_code(100) || has_code(431);
+  if (takes_axes && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
+    refuse(Code::lint_conflict, "two codes of the line want its axis words");
+  if (has_code(40)) {
+    if (!has('P')) return refuse(Code::lint_missing, "G4 needs its time, P");
+    if (value('P') < 0.0) refuse(Code::lint_value, "a time cannot be negative");
+    use(bit('P'));
+  }
+  if (has_code(100)) {
+    const double l = has('L') ? value('L') : 0.0, p = has('P') ? value('P') : -1.0;
+    if (!axes) return refuse(Code::lint_missing, "G10 needs axis words");
+    if ((l != 2.0 && l != 20.0) || p < 0.0 || p > 6.0)
+      return refuse(Code::lint_value, "G10 takes L2 or L20 and P0 to P6");
+    use(bit('L') | bit('P') | kAxes);
+  }
+  if (has_code(920) && !axes) return refuse(Code::lint_missing, "G92 needs axis words");
+  if (has_code(431) && (letters_ & kAxes) != bit('Z'))
+    return refuse(Code::lint_missing, "G43.1 needs Z and nothing else");
+  if (has_code(490) && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
+    refuse(Code::lint_conflict, "G49 stands with a motion");
+  if (has_code(530) && motion_ > 10 && axes && (g_groups_ >> kMotionGroup & 1u) == 0)
+    refuse(Code::lint_conflict, "G53 goes with G0 and G1 only");
+  if (!takes_axes) return;
+  use(kAxes);
+  place_known_ = false;
+}
+
+Point3 Linter::target() const {
+  Point3 to = at_;
+  for (int axis = 0; axis < 3; ++axis) {
+    const char letter = static_cast<char>('X' + axis);
+    if (!has(letter)) continue;
+    to[axis] = value(letter) * scale_ + (absolute_ ? 0.0 : at_[axis]);
+  }
+  return to;
+}
+
+void Linter::move() {
+  const bool stated = (g_groups_ >> kMotionGroup & 1u) != 0;
+  const bool axes = (letters_ & ~used_ & kAxes) != 0;
+  if (!stated && !axes) return;
+  const bool special = (g_groups_ >> kSpecialGroup & 1u) != 0 && (used_ & letters_ & kAxes) != 0;
+  if (special) return;
+  if (motion_ == 800) {
+    if (axes) refuse(Code::lint_conflict, "axis words while no motion is in force (G80)");
+    return;
+  }
+  const bool feeds = motion_ >= 10 && motion_ < 800;
+  if (feeds && (inverse_time_ ? !(has('F') && value('F') > 0.0) : !feed_known_))
+    return refuse(Code::lint_missing, "a cutting move before any feed");
+  const bool probe = motion_ >= 382 && motion_ <= 385;
+  const bool arc = motion_ == 20 || motion_ == 30;
+  if (!axes && (probe || arc)) return refuse(Code::lint_missing, "the motion needs axis words");
+  if (motion_ == 730 || motion_ >= 800) use(bit('R') | bit('Q') | bit('P') | bit('L') | kCentre);
+  use(kAxes | bit('E'));
+  const Point3 to = target();
+  if (probe && place_known_ && to == at_) return refuse(Code::lint_value, "a probing move that goes nowhere");
+  if (arc) use_arc();
+  if (refused_) return;
+  if (arc) check_arc(to);
+  at_ = to;
+  if (has_code(530) || probe) place_known_ = false;
+  // A program that names all axes in work coordinates says where it is.
+  else if (absolute_ && (letters_ & kLinear) == kLinear)
+    place_known_ = true;
+}
+
+void Linter::use_arc() {
+  const PlaneAxes axes = axes_of(plane_);
+  const std::uint32_t in_plane = bit(static_cast<char>('X' + axes.u)) | bit(static_cast<char>('X' + axes.v));
+  const std::uint32_t centre = bit(static_cast<char>('I' + axes.u)) | bit(static_cast<char>('I' + axes.v));
+  if ((letters_ & in_plane) == 0) return refuse(Code::lint_missing, "an arc needs an axis word of its plane");
+  if (has('R')) {
+    use(bit('R'));
+    return;
+  }
+  if ((letters_ & centre) == 0) return refuse(Code::lint_missing, "an arc needs its centre or its radius");
+  use(kCentre | bit('P'));
+}
+
+void Linter::check_arc(Point3 to) {
+  if (!place_known_ || absolute_centres_) return;
+  const PlaneAxes axes = axes_of(plane_);
+  const Point2 way{to[axes.u] - at_[axes.u], to[axes.v] - at_[axes.v]};
+  if (has('R')) {
+    const double chord = length(way);
+    if (chord == 0.0) return refuse(Code::lint_missing, "an arc with a radius ends where it begins");
+    if (chord > 2.0 * std::abs(value('R')) * scale_ + kRadiiApart)
+      refuse(Code::lint_arc, "the radius does not reach the arc's end");
+    return;
+  }
+  const auto word = [this](int axis) {
+    const char letter = static_cast<char>('I' + axis);
+    return has(letter) ? value(letter) * scale_ : 0.0;
+  };
+  const Point2 centre{word(axes.u), word(axes.v)};
+  const double begin = length(centre), end = distance(centre, way);
+  const double off = std::abs(begin - end);
+  if (off > kRadiiLimit || (off > kRadiiApart && off > kRadiiShare * begin))
+    refuse(Code::lint_arc,
+           fmt::format("the arc begins {:.4f} mm and ends {:.4f} mm from its centre", begin, end));
+}
+
+void Linter::check_unused() {
+  const std::uint32_t left = letters_ & ~used_;
+  for (char letter = 'A'; letter <= 'Z' && !refused_; ++letter)
+    if ((left & bit(letter)) != 0)
+      refuse(Code::lint_unused, fmt::format("nothing on the line uses the {} word", letter));
+}
+
+}  // namespace
+
+bool lint(std::string_view text, const PostProfile& profile, const std::string& file_name, LintStart start,
+          Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  BlockReaderOptions options;
+  options.file_name = file_name;
+  if (profile.syntax == LineSyntax::commands) options.commands = BlockReaderOptions::Commands::words;
+  BlockReader reader(text, options, diagnostics);
+  Linter linter(profile, file_name, start, diagnostics);
+  Block block;
+  while (reader.next(block)) linter.check(block);
+  return diagnostics.errors() == errors;
+}
+
+}  // namespace kerf::gcode
+
+namespace kerf {
+
+bool lint_gcode(std::string_view text, const PostProfile& profile, const std::string& file_name,
+                Diagnostics& diagnostics) {
+  return gcode::lint(text, profile, file_name, gcode::LintStart::of_program, diagnostics);
+}
+
+}  // namespace kerf

@@ -1,0 +1,131 @@
+// The writer of a toolpath: what the controller has been told so far, and the lines each step adds to it.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "back/gcode/arc_plan.h"
+#include "back/gcode/line.h"
+
+#include "kerf/post.h"
+
+namespace kerf::gcode {
+
+inline constexpr unsigned kAllAxes = 7;
+
+class Poster {
+ public:
+  Poster(const Toolpath& path, const PostProfile& profile, const PostOptions& options,
+         Diagnostics& diagnostics);
+
+  std::vector<PostedFile> run(Progress* progress);
+
+ private:
+  // poster.cpp
+  void write_step(std::size_t i);
+  void write_motion(std::size_t i);
+  void straight(int g, std::size_t i);
+  void straight_to(int g, std::size_t i, const Counts& to);
+  void arc(std::size_t i);
+  void chords(std::size_t i);
+  void probe(std::size_t i);
+  void extrude(std::size_t i);
+  void to_reference(int g, std::size_t i);
+  bool fits(std::size_t i);
+  unsigned axes_to_write(std::size_t i, const Counts& to);
+  bool add_rotary(std::size_t i);
+  void arrive(std::size_t i, const Counts& to);
+  void put_feed(std::size_t i);
+  void put_axes(const Counts& to, unsigned axes);
+  void put_motion(int g);
+  void put_plane(std::size_t i, Plane plane);
+  void put_power();
+
+  // states.cpp
+  void spindle(std::size_t i);
+  void laser(std::size_t i);
+  void coolant(std::size_t i, const step::Coolant& wanted);
+  void dwell(std::size_t i, Duration time);
+  void path_mode(std::size_t i);
+  void temperature(std::size_t i);
+  void fan(std::size_t i);
+  void tool_change(std::size_t i);
+  void verbatim(std::size_t i);
+  void restore(std::size_t i);
+  void stop_spindle();
+  void start_spindle(std::size_t i);
+
+  // text.cpp
+  void open_file();
+  void close_file();
+  void approach(std::size_t i);
+  void comment(std::string_view text);
+  void templates(const std::vector<std::string>& lines);
+  std::string expanded(std::string_view line);
+  std::optional<std::string> value_of(std::string_view key);
+  std::string sanitised(std::string_view text) const;
+  std::string bounds_text() const;
+  std::string time_text() const;
+  std::string tools_text() const;
+  void raw_line(std::string_view text);
+  void forget();
+
+  // lines
+  void begin();
+  void word(char letter, std::int64_t counts, int decimals);
+  void code(char letter, int tenths);
+  void end(std::size_t i);
+  void m_line(std::size_t i, int tenths);
+  bool can_m(std::size_t i, int tenths, std::string_view what);
+  void cannot(std::size_t i, std::string message);
+  void left_out(std::size_t i, std::string message);
+
+  const Toolpath& path_;
+  const PostProfile& profile_;
+  const PostOptions& options_;
+  Diagnostics& diagnostics_;
+  LengthUnit unit_;
+  ToolChangePolicy tool_policy_;
+  int decimals_ = 3;
+  Fraction fraction_;
+  Grid grid_;
+  double counts_per_feed_ = 1.0;  // of mm/min
+
+  std::vector<PostedFile> files_;
+  std::string out_;
+  std::size_t lines_ = 0;
+  std::optional<int> file_tool_;  // where each tool has a file
+  int line_number_ = 0;
+  LineBuffer line_;
+  ArcPlan plan_;
+
+  // Where the toolpath is.
+  Point3 from_;
+  unsigned unknown_from_ = kAllAxes;
+  std::optional<int> tool_;
+  step::Spindle wanted_spindle_;
+  step::Coolant wanted_coolant_;
+
+  // What the controller knows.
+  Counts at_{};
+  unsigned told_ = 0;  // axes whose at_ the controller has been told in work coordinates
+  std::array<std::int64_t, 3> rotary_{};
+  unsigned told_rotary_ = 0;
+  int motion_ = -1;
+  std::optional<Plane> plane_;
+  std::int64_t feed_ = -1;
+  step::Spindle spindle_;
+  step::Coolant coolant_;
+  LaserMode laser_ = LaserMode::off;
+  std::optional<double> pending_power_;
+  double extruded_ = 0.0;           // mm of filament
+  std::int64_t told_extruded_ = 0;  // in counts of E
+  bool restore_ = false;            // spindle or coolant may have been stopped by a tool change
+  bool moved_ = false;              // in this file
+  bool no_feed_said_ = false;
+};
+
+}  // namespace kerf::gcode

@@ -1,0 +1,360 @@
+// Post files: TOML into a profile, every fault with its line and column; and the profiles compiled in.
+//
+// One table of keys drives the reading and the messages.
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <fmt/format.h>
+#include <functional>
+
+#include "base/toml.h"
+#include "embedded_post_files.h"
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+#include "kerf/post.h"
+
+namespace kerf {
+namespace {
+
+constexpr std::size_t kLargestFile = 1u << 20;  // bytes; the built-in ones have about 2 thousand
+constexpr std::size_t kMostLines = 1000;        // of one template
+
+/// Takes a value; false if it is not of the right kind or out of range.
+using Take = std::function<bool(const toml::node&, PostProfile&)>;
+
+struct Key {
+  std::string_view section;  // empty: the root
+  std::string_view name;
+  std::string_view expected;
+  Take take;
+};
+
+std::optional<double> number_of(const toml::node& node) {
+  const auto value = node.is_number() ? node.value<double>() : std::nullopt;
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+Take text(std::string PostProfile::*member) {
+  return [member](const toml::node& node, PostProfile& profile) {
+    const auto value = node.value_exact<std::string>();
+    if (value) profile.*member = *value;
+    return value.has_value();
+  };
+}
+
+Take truth(bool PostProfile::*member) {
+  return [member](const toml::node& node, PostProfile& profile) {
+    const auto value = node.value_exact<bool>();
+    if (value) profile.*member = *value;
+    return value.has_value();
+  };
+}
+
+template <class Integer>
+Take whole(Integer PostProfile::*member, std::int64_t low, std::int64_t high) {
+  return [=](const toml::node& node, PostProfile& profile) {
+    const auto value = node.value_exact<std::int64_t>();
+    if (!value || *value < low || *value > high) return false;
+    profile.*member = static_cast<Integer>(*value);
+    return true;
+  };
+}
+
+template <class Quantity>
+Take quantity(Quantity PostProfile::*member, Quantity (*make)(double), double low, double high) {
+  return [=](const toml::node& node, PostProfile& profile) {
+    const auto value = number_of(node);
+    if (!value || *value < low || *value > high) return false;
+    profile.*member = make(*value);
+    return true;
+  };
+}
+
+template <class Enum>
+using Names = std::vector<std::pair<std::string_view, Enum>>;
+
+template <class Enum>
+Take choice(Enum PostProfile::*member, Names<Enum> names) {
+  return [member, names](const toml::node& node, PostProfile& profile) {
+    const auto value = node.value_exact<std::string_view>();
+    for (const auto& [name, meaning] : names) {
+      if (!value || *value != name) continue;
+      profile.*member = meaning;
+      return true;
+    }
+    return false;
+  };
+}
+
+Take codes(std::vector<int> PostProfile::*member) {
+  return [member](const toml::node& node, PostProfile& profile) {
+    const toml::array* list = node.as_array();
+    if (list == nullptr) return false;
+    std::vector<int> tenths;
+    for (const toml::node& element : *list) {
+      const auto value = number_of(element);
+      if (!value || *value < 0 || *value >= 1000) return false;
+      tenths.push_back(static_cast<int>(std::lround(*value * 10.0)));
+    }
+    profile.*member = std::move(tenths);
+    return true;
+  };
+}
+
+Take lines(std::vector<std::string> PostProfile::*member) {
+  return [member](const toml::node& node, PostProfile& profile) {
+    const toml::array* list = node.as_array();
+    if (list == nullptr || list->size() > kMostLines) return false;
+    std::vector<std::string> texts;
+    for (const toml::node& element : *list) {
+      auto value = element.value_exact<std::string>();
+      if (!value || value->find_first_of("\r\n") != std::string::npos) return false;
+      texts.push_back(std::move(*value));
+    }
+    profile.*member = std::move(texts);
+    return true;
+  };
+}
+
+bool take_planes(const toml::node& node, PostProfile& profile) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr) return false;
+  profile.arc_planes.clear();
+  for (const toml::node& element : *list) {
+    const auto name = element.value_exact<std::string_view>();
+    if (!name || (*name != "XY" && *name != "XZ" && *name != "YZ")) return false;
+    profile.arc_planes.push_back(*name == "XY" ? Plane::xy : *name == "XZ" ? Plane::xz : Plane::yz);
+  }
+  return true;
+}
+
+bool take_letters(const toml::node& node, PostProfile& profile) {
+  const auto value = node.value_exact<std::string>();
+  const auto is_letter = [](char c) { return c >= 'A' && c <= 'Z'; };
+  if (!value || !std::all_of(value->begin(), value->end(), is_letter)) return false;
+  profile.letters = *value;
+  return true;
+}
+
+using P = PostProfile;
+
+std::vector<Key> keys_of_words() {
+  return {
+      {"", "name", "a text", text(&P::name)},
+      {"", "title", "a text", text(&P::title)},
+      {"", "file_ending", "a text such as \".nc\"", text(&P::file_ending)},
+      {"words", "letters", "capital letters in one text", take_letters},
+      {"words", "g", "a list of numbers", codes(&P::g_codes)},
+      {"words", "m", "a list of numbers", codes(&P::m_codes)},
+      {"words", "highest_tool", "a whole number", whole(&P::highest_tool, 0, 99'999'999)},
+      {"words", "highest_line_number", "a whole number", whole(&P::highest_line_number, 0, 999'999'999)},
+      {"words", "percent_lines", "true or false", truth(&P::percent_lines)},
+      {"words", "parameters", "true or false", truth(&P::parameters)},
+      {"words", "macros", "true or false", truth(&P::macros)},
+      {"line", "longest", "a whole number from 20", whole(&P::longest_line, 20, 1'000'000)},
+      {"line", "syntax", "\"words\" or \"commands\"",
+       choice(&P::syntax,
+              Names<LineSyntax>{{"words", LineSyntax::words}, {"commands", LineSyntax::commands}})},
+      {"line", "measure", "\"bytes\" or \"significant\"",
+       choice(&P::line_measure,
+              Names<LineMeasure>{{"bytes", LineMeasure::bytes}, {"significant", LineMeasure::significant}})},
+      {"line", "comments", "\"brackets\", \"semicolon\" or \"none\"",
+       choice(&P::comments, Names<CommentStyle>{{"brackets", CommentStyle::brackets},
+                                                {"semicolon", CommentStyle::semicolon},
+                                                {"none", CommentStyle::none}})},
+      {"line", "comment_forbidden", "a text", text(&P::comment_forbidden)},
+      {"line", "end", "\"lf\" or \"crlf\"",
+       choice(&P::line_end, Names<LineEnd>{{"lf", LineEnd::lf}, {"crlf", LineEnd::crlf}})},
+      {"line", "number_step", "a whole number, 0 for no line numbers", whole(&P::line_number_step, 0, 1000)},
+      {"line", "spacing", "\"blank\" or \"none\"",
+       choice(&P::spacing, Names<WordSpacing>{{"blank", WordSpacing::blank}, {"none", WordSpacing::none}})},
+  };
+}
+
+std::vector<Key> keys_of_numbers() {
+  const Names<Repeat> repeats{{"when_changed", Repeat::when_changed}, {"always", Repeat::always}};
+  return {
+      {"numbers", "unit", "\"mm\" or \"inch\"",
+       choice(&P::unit, Names<LengthUnit>{{"mm", LengthUnit::mm}, {"inch", LengthUnit::inch}})},
+      {"numbers", "mm", "decimals from 3 to 6", whole(&P::decimals_mm, 3, 6)},
+      {"numbers", "inch", "decimals from 4 to 7", whole(&P::decimals_inch, 4, 7)},
+      {"numbers", "degrees", "decimals from 2 to 6", whole(&P::decimals_degrees, 2, 6)},
+      {"numbers", "feed", "decimals from 0 to 6", whole(&P::decimals_feed, 0, 6)},
+      {"numbers", "speed", "decimals from 0 to 6", whole(&P::decimals_speed, 0, 6)},
+      {"numbers", "zeros", "\"dropped\" or \"kept\"",
+       choice(&P::zeros, Names<Zeros>{{"dropped", Zeros::dropped}, {"kept", Zeros::kept}})},
+      {"repeat", "motion", "\"when_changed\" or \"always\"", choice(&P::motion, repeats)},
+      {"repeat", "axes", "\"when_changed\" or \"always\"", choice(&P::axes, repeats)},
+      {"repeat", "feed", "\"when_changed\" or \"always\"", choice(&P::feed, repeats)},
+      {"arcs", "policy", "\"centre\" or \"chords\"",
+       choice(&P::arcs, Names<ArcPolicy>{{"centre", ArcPolicy::centre}, {"chords", ArcPolicy::chords}})},
+      {"arcs", "planes", "a list of \"XY\", \"XZ\" and \"YZ\"", take_planes},
+      {"arcs", "largest_radius", "mm from 1", quantity<Length>(&P::largest_radius, mm, 1, 1e7)},
+      {"arcs", "shortest", "mm from 0.001 to 10", quantity<Length>(&P::shortest_arc, mm, 0.001, 10)},
+      {"arcs", "chord", "mm from 0.0001 to 1", quantity<Length>(&P::chord, mm, 0.0001, 1)},
+  };
+}
+
+std::vector<Key> keys_of_policies() {
+  return {
+      {"tool_change", "policy", "\"command\", \"pause\", \"files\" or \"ignore\"",
+       choice(&P::tool_change, Names<ToolChangePolicy>{{"command", ToolChangePolicy::command},
+                                                       {"pause", ToolChangePolicy::pause},
+                                                       {"files", ToolChangePolicy::files},
+                                                       {"ignore", ToolChangePolicy::ignore}})},
+      {"tool_change", "command", "a list of lines", lines(&P::change_lines)},
+      {"tool_change", "pause", "a list of lines", lines(&P::pause_lines)},
+      {"dwell", "unit", "\"seconds\" or \"milliseconds\"",
+       choice(&P::dwell_unit,
+              Names<DwellUnit>{{"seconds", DwellUnit::seconds}, {"milliseconds", DwellUnit::milliseconds}})},
+      {"dwell", "after_spindle_start", "seconds up to 60",
+       quantity<Duration>(&P::spindle_dwell, seconds, 0, 60)},
+      {"printer", "filament", "mm from 0.1 to 10", quantity<Length>(&P::filament, mm, 0.1, 10)},
+      {"printer", "extruder", "\"relative\" or \"absolute\"",
+       choice(&P::extruder, Names<ExtruderMode>{{"relative", ExtruderMode::relative},
+                                                {"absolute", ExtruderMode::absolute}})},
+      {"printer", "fan_full", "a number from 1",
+       [](const toml::node& node, PostProfile& profile) {
+         const auto value = number_of(node);
+         if (value && *value >= 1.0 && *value <= 1e5) profile.fan_full = *value;
+         return value && *value >= 1.0 && *value <= 1e5;
+       }},
+      {"templates", "header", "a list of lines", lines(&P::header)},
+      {"templates", "section", "a list of lines", lines(&P::section)},
+      {"templates", "footer", "a list of lines", lines(&P::footer)},
+  };
+}
+
+const std::vector<Key>& all_keys() {
+  static const std::vector<Key> keys = [] {
+    std::vector<Key> all = keys_of_words();
+    for (auto&& more : {keys_of_numbers(), keys_of_policies()})
+      all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }();
+  return keys;
+}
+
+class ProfileReader {
+ public:
+  ProfileReader(std::string_view file_name, Diagnostics& diagnostics)
+      : file_(file_name), diagnostics_(diagnostics) {}
+
+  std::optional<PostProfile> read(std::string_view text, const PostProfile* (*find)(std::string_view));
+
+ private:
+  Origin spot(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
+  Origin spot(const toml::node& node) const { return spot(node.source().begin); }
+  void read_table(std::string_view section, const toml::table& table);
+  void read_key(std::string_view section, const toml::key& key, const toml::node& node);
+  bool begin_from(const toml::node& base, const PostProfile* (*find)(std::string_view));
+
+  std::string file_;
+  Diagnostics& diagnostics_;
+  PostProfile profile_;
+};
+
+void ProfileReader::read_key(std::string_view section, const toml::key& key, const toml::node& node) {
+  std::vector<std::string> known;
+  for (const Key& k : all_keys()) {
+    if (k.section != section) continue;
+    known.emplace_back(k.name);
+    if (k.name != key.str()) continue;
+    if (!k.take(node, profile_))
+      diagnostics_.error(Code::post_value_bad, spot(node),
+                         fmt::format("{} must be {}", std::string(k.name), std::string(k.expected)));
+    return;
+  }
+  Diagnostic& d =
+      diagnostics_.error(Code::post_key_unknown, spot(key.source().begin),
+                         fmt::format("a post has no key \"{}\" here", std::string(key.str().substr(0, 60))));
+  if (const auto meant = did_you_mean(key.str(), known)) d.hint = fmt::format("did you mean \"{}\"?", *meant);
+}
+
+void ProfileReader::read_table(std::string_view section, const toml::table& table) {
+  for (const auto& [key, node] : table) {
+    const toml::table* inner = node.as_table();
+    const auto belongs = [&k = key](const Key& known) { return known.section == k.str(); };
+    if (section.empty() && inner != nullptr && std::any_of(all_keys().begin(), all_keys().end(), belongs))
+      read_table(key.str(), *inner);
+    else if (!section.empty() || key.str() != "base")
+      read_key(section, key, node);
+  }
+}
+
+bool ProfileReader::begin_from(const toml::node& base, const PostProfile* (*find)(std::string_view)) {
+  const auto name = base.value_exact<std::string_view>();
+  const PostProfile* profile = name && find != nullptr ? find(*name) : nullptr;
+  if (profile == nullptr) {
+    diagnostics_.error(Code::post_unknown, spot(base), "base must be the name of a post that Kerf knows");
+    return false;
+  }
+  profile_ = *profile;
+  return true;
+}
+
+std::optional<PostProfile> ProfileReader::read(std::string_view text,
+                                               const PostProfile* (*find)(std::string_view)) {
+  const std::size_t errors_before = diagnostics_.errors();
+  if (text.size() > kLargestFile) {
+    diagnostics_.error(Code::post_file_syntax, TextSpot{file_, 0, 0},
+                       fmt::format("a post file of more than {} bytes is not read", kLargestFile));
+    return std::nullopt;
+  }
+  const toml::parse_result parsed = toml::parse(text, file_);
+  if (!parsed) {
+    diagnostics_.error(Code::post_file_syntax, spot(parsed.error().source().begin),
+                       std::string(parsed.error().description()));
+    return std::nullopt;
+  }
+  const toml::table& root = parsed.table();
+  if (const toml::node* base = root.get("base"))
+    if (!begin_from(*base, find)) return std::nullopt;
+  read_table("", root);
+  if (profile_.name.empty() && diagnostics_.errors() == errors_before)
+    diagnostics_.error(Code::post_value_bad, TextSpot{file_, 0, 0},
+                       "a post needs a name, such as name = \"mill\"");
+  if (diagnostics_.errors() != errors_before) return std::nullopt;
+  return std::move(profile_);
+}
+
+}  // namespace
+
+bool PostProfile::has_g(int tenths) const {
+  return std::find(g_codes.begin(), g_codes.end(), tenths) != g_codes.end();
+}
+
+bool PostProfile::has_m(int tenths) const {
+  return std::find(m_codes.begin(), m_codes.end(), tenths) != m_codes.end();
+}
+
+const std::vector<PostProfile>& built_in_posts() {
+  static const std::vector<PostProfile> posts = [] {
+    std::vector<PostProfile> all;
+    for (std::size_t i = 0; i < embedded::post_files_count; ++i) {
+      const embedded::File& file = embedded::post_files[i];
+      Diagnostics diagnostics;
+      auto profile = ProfileReader(file.name, diagnostics).read(file.bytes, nullptr);
+      assert(profile && "a built-in post is faulty");
+      all.push_back(std::move(*profile));
+    }
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+    return all;
+  }();
+  return posts;
+}
+
+const PostProfile* find_post(std::string_view name) {
+  const std::string folded = fold_name(name);
+  for (const PostProfile& profile : built_in_posts())
+    if (fold_name(profile.name) == folded) return &profile;
+  return nullptr;
+}
+
+std::optional<PostProfile> read_post_profile(std::string_view text, std::string_view file_name,
+                                             Diagnostics& diagnostics) {
+  return ProfileReader(file_name, diagnostics).read(text, find_post);
+}
+
+}  // namespace kerf

@@ -1,0 +1,214 @@
+// Steps that do not move: spindle, laser, coolant, dwell, heaters, fans, tool changes, and what a front end
+// hands through as it is.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "back/gcode/lint.h"
+#include "back/gcode/poster.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr int kM0 = 0, kM1 = 10, kM60 = 600, kM2 = 20, kM30 = 300;
+
+std::int64_t counts_of(double value, int decimals) { return std::llround(value * std::pow(10.0, decimals)); }
+
+/// The M code of a text such as "M30" that has nothing else, or -1.
+int lone_m_code(std::string_view text) {
+  for (const int tenths : {kM0, kM1, kM2, kM30, kM60})
+    if (text == fmt::format("M{}", tenths / 10)) return tenths;
+  return -1;
+}
+
+}  // namespace
+
+void Poster::m_line(std::size_t i, int tenths) {
+  begin();
+  code('M', tenths);
+  end(i);
+}
+
+/// True if the controller has the M code; else an error about `what`.
+bool Poster::can_m(std::size_t i, int tenths, std::string_view what) {
+  if (profile_.has_m(tenths)) return true;
+  cannot(i, fmt::format("the controller has no M{}, which {} needs", tenths / 10, what));
+  return false;
+}
+
+void Poster::spindle(std::size_t i) {
+  wanted_spindle_ = path_[i].spindle();
+  if (wanted_spindle_.turn == SpindleTurn::off) return stop_spindle();
+  start_spindle(i);
+}
+
+void Poster::stop_spindle() {
+  if (spindle_.turn == SpindleTurn::off && laser_ == LaserMode::off && moved_) return;
+  spindle_ = {};
+  laser_ = LaserMode::off;
+  pending_power_.reset();
+  if (profile_.has_m(50)) m_line(path_.size(), 50);
+}
+
+void Poster::start_spindle(std::size_t i) {
+  const int tenths = wanted_spindle_.turn == SpindleTurn::cw ? 30 : 40;
+  if (!can_m(i, tenths, "a turning spindle")) return;
+  const bool starts = spindle_.turn == SpindleTurn::off;
+  begin();
+  code('M', tenths);
+  word('S', counts_of(wanted_spindle_.speed.rpm(), profile_.decimals_speed), profile_.decimals_speed);
+  end(i);
+  spindle_ = wanted_spindle_;
+  const bool waits = i + 1 < path_.size() && path_[i + 1].kind() == StepKind::dwell;
+  if (starts && !waits && profile_.spindle_dwell > Duration{}) dwell(i, profile_.spindle_dwell);
+}
+
+void Poster::laser(std::size_t i) {
+  const step::LaserPower wanted = path_[i].laser_power();
+  if (wanted.mode == LaserMode::off) return stop_spindle();
+  if (wanted.mode == laser_) {  // a power alone does not stop the motion
+    pending_power_ = wanted.power;
+    return;
+  }
+  const int tenths = wanted.mode == LaserMode::constant ? 30 : 40;
+  if (!can_m(i, tenths, "a laser")) return;
+  laser_ = wanted.mode;
+  pending_power_.reset();  // told with the mode
+  begin();
+  code('M', tenths);
+  word('S', counts_of(wanted.power, profile_.decimals_speed), profile_.decimals_speed);
+  end(i);
+}
+
+void Poster::coolant(std::size_t i, const step::Coolant& wanted) {
+  const bool less = (coolant_.mist && !wanted.mist) || (coolant_.flood && !wanted.flood);
+  if ((less || (!wanted.mist && !wanted.flood && !moved_)) && profile_.has_m(90)) {
+    m_line(i, 90);
+    coolant_ = {};
+  }
+  if (wanted.mist && !coolant_.mist) {
+    coolant_.mist = true;
+    if (profile_.has_m(70))
+      m_line(i, 70);
+    else
+      left_out(i, "the controller has no M7; mist");
+  }
+  if (wanted.flood && !coolant_.flood) {
+    coolant_.flood = true;
+    if (profile_.has_m(80))
+      m_line(i, 80);
+    else
+      left_out(i, "the controller has no M8; flood");
+  }
+}
+
+void Poster::dwell(std::size_t i, Duration time) {
+  constexpr int kDecimals = 3;
+  const bool seconds = profile_.dwell_unit == DwellUnit::seconds;
+  begin();
+  code('G', 40);
+  word('P', counts_of(seconds ? time.seconds() : 1000.0 * time.seconds(), seconds ? kDecimals : 0),
+       seconds ? kDecimals : 0);
+  end(i);
+}
+
+void Poster::path_mode(std::size_t i) {
+  const step::PathMode mode = path_[i].path_mode();
+  const int tenths = mode.kind == PathModeKind::blend        ? 640
+                     : mode.kind == PathModeKind::exact_stop ? 611
+                                                             : 610;
+  if (!profile_.has_g(tenths)) {
+    if (mode.kind != PathModeKind::exact_path)
+      left_out(i, "the controller drives corners its own way; the mode");
+    return;
+  }
+  begin();
+  code('G', tenths);
+  if (mode.kind == PathModeKind::blend && mode.tolerance > Length{} && profile_.has_letter('P'))
+    word('P', grid_.count(mode.tolerance.mm()), decimals_);
+  end(i);
+}
+
+void Poster::temperature(std::size_t i) {
+  const step::Temperature t = path_[i].temperature();
+  constexpr int kSet[] = {1040, 1400, 1410}, kWait[] = {1090, 1900, 1910};
+  const int tenths = (t.wait ? kWait : kSet)[static_cast<std::size_t>(t.heater)];
+  if (!can_m(i, tenths, "a heater")) return;
+  begin();
+  code('M', tenths);
+  word('S', counts_of(t.celsius, 1), 1);
+  end(i);
+}
+
+void Poster::fan(std::size_t i) {
+  const step::Fan f = path_[i].fan();
+  if (!can_m(i, f.share > 0.0 ? 1060 : 1070, "a fan")) return;
+  begin();
+  code('M', f.share > 0.0 ? 1060 : 1070);
+  if (f.fan != 0) word('P', f.fan, 0);
+  if (f.share > 0.0) word('S', counts_of(std::min(f.share, 1.0) * profile_.fan_full, 0), 0);
+  end(i);
+}
+
+/// What a tool change stopped is started again before the tool moves.
+void Poster::restore(std::size_t i) {
+  restore_ = false;
+  if (wanted_spindle_.turn != spindle_.turn || wanted_spindle_.speed != spindle_.speed) {
+    if (wanted_spindle_.turn == SpindleTurn::off)
+      stop_spindle();
+    else
+      start_spindle(i);
+  }
+  if (wanted_coolant_.mist != coolant_.mist || wanted_coolant_.flood != coolant_.flood)
+    coolant(i, wanted_coolant_);
+}
+
+void Poster::tool_change(std::size_t i) {
+  const int number = path_[i].tool_change().tool;
+  const bool first = !tool_.has_value();
+  const bool same = tool_ == number;
+  tool_ = number;
+  if (tool_policy_ == ToolChangePolicy::ignore) return;
+  if (same && tool_policy_ != ToolChangePolicy::command) return;
+  if (tool_policy_ == ToolChangePolicy::files) {
+    if (!first || moved_) close_file();
+    if (!first || moved_) open_file();
+    file_tool_ = number;
+    restore_ = true;
+    return templates(profile_.section);
+  }
+  if (spindle_.turn != SpindleTurn::off) stop_spindle();
+  restore_ = true;
+  if (tool_policy_ == ToolChangePolicy::command) {
+    if (number > profile_.highest_tool)
+      cannot(i, fmt::format("the controller's tools have numbers up to {}; this one is {}",
+                            profile_.highest_tool, number));
+    templates(profile_.change_lines);
+  } else if (!first || moved_) {
+    templates(profile_.pause_lines);
+  }
+  templates(profile_.section);
+}
+
+void Poster::verbatim(std::size_t i) {
+  const std::string_view text = path_.text(i);
+  const int m = lone_m_code(text);
+  if (m == kM2 || m == kM30) return;  // the footer ends the program
+  if (m >= 0) {
+    if (profile_.has_m(m)) return m_line(i, m);
+    return left_out(i, fmt::format("the controller has no {}; the pause", text));
+  }
+  if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > profile_.longest_line)
+    return cannot(i, "a text handed through to the controller is longer than one of its lines");
+  const std::string line(text);
+  Diagnostics found;
+  if (!lint(line, profile_, "", LintStart::in_program, found)) {
+    Diagnostic& d = diagnostics_.error(Code::post_cannot, path_.origin_of(i),
+                                       fmt::format("the controller does not take \"{}\"", line));
+    for (const Diagnostic& f : found.list()) d.notes.push_back({{}, f.message});
+    return;
+  }
+  raw_line(line);
+}
+
+}  // namespace kerf::gcode

@@ -1,0 +1,212 @@
+// Files' begins and ends, templates, comments.
+#include <cmath>
+#include <fmt/format.h>
+
+#include "back/gcode/poster.h"
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+#include "kerf/report.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr std::size_t kLongestValue = 400;  // bytes of a text that a template names
+
+#ifndef KERF_VERSION
+#define KERF_VERSION "0"
+#endif
+
+bool is_comment(std::string_view line) {
+  return !line.empty() && (line.front() == '(' || line.front() == ';');
+}
+
+bool is_empty_comment(std::string_view line) {
+  return is_comment(line) && line.find_first_not_of("(); ") == std::string_view::npos;
+}
+
+}  // namespace
+
+void Poster::open_file() {
+  out_.clear();
+  lines_ = 0;
+  line_number_ = 0;
+  spindle_ = {};
+  coolant_ = {};
+  laser_ = LaserMode::off;
+  moved_ = false;
+  forget();
+  templates(profile_.header);
+  if (!profile_.header.empty()) plane_ = Plane::xy;
+}
+
+void Poster::close_file() {
+  if (spindle_.turn != SpindleTurn::off || laser_ != LaserMode::off) stop_spindle();
+  if ((coolant_.mist || coolant_.flood) && profile_.has_m(90)) m_line(path_.size(), 90);
+  templates(profile_.footer);
+  PostedFile file;
+  if (tool_policy_ == ToolChangePolicy::files) file.tool = file_tool_;
+  file.text = std::move(out_);
+  file.lines = lines_;
+  files_.push_back(std::move(file));
+  out_ = {};
+}
+
+/// A further file begins where the tool before it stopped: up first, then across.
+void Poster::approach(std::size_t i) {
+  const Counts to = grid_.counts(from_);
+  moved_ = true;
+  if ((unknown_from_ & 4u) != 0) return;
+  begin();
+  put_motion(0);
+  put_axes(to, 4u);
+  end(i);
+  told_ |= 4u;
+  if ((unknown_from_ & 3u) == 0) {
+    begin();
+    put_motion(0);
+    put_axes(to, 3u);
+    end(i);
+    told_ |= 3u;
+  }
+  at_ = to;
+}
+
+/// Text that is safe inside a comment: plain characters, no brackets, nothing that acts.
+std::string Poster::sanitised(std::string_view text) const {
+  std::string out;
+  for (const char c : text.substr(0, kLongestValue)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xC0u) == 0x80u) continue;  // within a character of several bytes
+    const bool plain = byte >= 0x20 && byte < 0x7f;
+    if (!plain)
+      out += '_';
+    else if (profile_.comment_forbidden.find(c) != std::string::npos)
+      out += '.';
+    else
+      out += profile_.comments != CommentStyle::brackets ? c : c == '(' ? '[' : c == ')' ? ']' : c;
+  }
+  return out;
+}
+
+void Poster::comment(std::string_view text) {
+  if (profile_.comments == CommentStyle::none) return;
+  std::string clean = sanitised(trim(text));
+  if (clean.empty()) return;
+  clean = clean.substr(0, profile_.longest_line - 3);
+  begin();
+  line_.clear();
+  const bool brackets = profile_.comments == CommentStyle::brackets;
+  line_.put(brackets ? "(" : "; ");
+  line_.put(clean);
+  if (brackets) line_.put(')');
+  end(path_.size());
+}
+
+void Poster::templates(const std::vector<std::string>& lines) {
+  for (const std::string& line : lines) {
+    std::string text = expanded(line);
+    if (is_empty_comment(text)) continue;
+    if (is_comment(text)) {
+      if (profile_.comments == CommentStyle::none) continue;
+      if (text.size() > profile_.longest_line) {
+        text.resize(profile_.longest_line - 1);
+        if (text.front() == '(') text += ')';
+      }
+    }
+    if (!text.empty()) raw_line(text);
+  }
+}
+
+std::string Poster::expanded(std::string_view line) {
+  std::string out;
+  while (!line.empty()) {
+    const std::size_t open = line.find('{');
+    out += line.substr(0, open);
+    if (open == std::string_view::npos) break;
+    const std::size_t close = line.find('}', open);
+    const std::string_view key =
+        line.substr(open + 1, close == std::string_view::npos ? close : close - open - 1);
+    if (const auto value = value_of(key))
+      out += sanitised(*value);
+    else
+      diagnostics_
+          .error(Code::post_placeholder, {}, fmt::format("post {}: no such name {{{}}}", profile_.name, key))
+          .hint = "names: name, units, tool, tool_name, tool_comment, tools, bounds, time, version, profile";
+    if (close == std::string_view::npos) break;
+    line.remove_prefix(close + 1);
+  }
+  return out;
+}
+
+std::optional<std::string> Poster::value_of(std::string_view key) {
+  const auto of_tool = [this](const std::map<int, std::string>& texts) {
+    const auto it = texts.find(tool_.value_or(0));
+    return it == texts.end() ? std::string() : it->second;
+  };
+  if (key == "name") return options_.program_name;
+  if (key == "units") return unit_ == LengthUnit::mm ? "G21" : "G20";
+  if (key == "tool") return fmt::format("{}", tool_.value_or(0));
+  if (key == "tool_name") return of_tool(options_.tool_names);
+  if (key == "tool_comment") return of_tool(options_.tool_comments);
+  if (key == "tools") return tools_text();
+  if (key == "bounds") return bounds_text();
+  if (key == "time") return time_text();
+  if (key == "version") return KERF_VERSION;
+  if (key == "profile") return profile_.name;
+  return std::nullopt;
+}
+
+std::string Poster::bounds_text() const {
+  const Box3 box = report_on(path_, {}).all.cut_bounds;
+  if (box.empty()) return {};
+  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : 25.4;
+  std::string text = "cuts within";
+  for (int axis = 0; axis < 3; ++axis)
+    text += fmt::format(" {} {} to {}", "XYZ"[axis], number_text(box.low[axis] / unit_mm, 3),
+                        number_text(box.high[axis] / unit_mm, 3));
+  return text + (unit_ == LengthUnit::mm ? " mm" : " inch");
+}
+
+std::string Poster::time_text() const {
+  const MotionFigures all = report_on(path_, {}).all;
+  const double seconds = (all.cutting + all.rapid + all.dwell).seconds();
+  if (!(seconds > 0.0 && seconds < 1e9)) return {};
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  return fmt::format("about {}:{:02}:{:02}, acceleration not counted", whole / 3600, whole / 60 % 60,
+                     whole % 60);
+}
+
+std::string Poster::tools_text() const {
+  std::string text;
+  std::optional<int> last;
+  for (const Step& s : path_.steps()) {
+    if (s.kind() != StepKind::tool_change || last == s.tool_change().tool) continue;
+    last = s.tool_change().tool;
+    text += fmt::format("{}{}", text.empty() ? "tools " : ", ", *last);
+    if (text.size() > 60) return text + " ...";
+  }
+  return text;
+}
+
+/// A line that is written as it is. What it did is not known, so that everything is told again after it.
+void Poster::raw_line(std::string_view text) {
+  out_ += text;
+  if (text.size() > profile_.longest_line)
+    diagnostics_.error(
+        Code::post_line_long, {},
+        fmt::format("a line of {} bytes; the controller reads {}", text.size(), profile_.longest_line));
+  out_ += profile_.line_end == LineEnd::crlf ? "\r\n" : "\n";
+  ++lines_;
+  if (!is_comment(text)) forget();
+}
+
+void Poster::forget() {
+  told_ = 0;
+  told_rotary_ = 0;
+  motion_ = -1;
+  plane_.reset();
+  feed_ = -1;
+}
+
+}  // namespace kerf::gcode

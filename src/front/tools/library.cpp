@@ -1,0 +1,170 @@
+// Tool libraries: which kind a file is, and its tools into the table.
+#include "front/tools/library.h"
+
+#include <fmt/format.h>
+#include <vector>
+
+#include "front/tools/settings.h"
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+#include "kerf/tool_files.h"
+
+namespace kerf {
+namespace detail {
+namespace {
+
+constexpr int kHighestNumber = 99'999'999;
+
+void tell(std::vector<Setting>& settings, const ToolShape& blank, std::string_view key, double value,
+          const Origin& where) {
+  if (value == 0.0) return;
+  for (const ShapeParameter& parameter : parameters_of(blank))
+    if (parameter.name == key) settings.push_back({std::string(key), where, value});
+}
+
+std::vector<Setting> settings_of(const LibraryTool& tool, const ToolShape& blank) {
+  std::vector<Setting> settings;
+  tell(settings, blank, "diameter", tool.diameter, tool.where);
+  tell(settings, blank, "flute", tool.flute, tool.where);
+  tell(settings, blank, "corner_radius", tool.corner_radius, tool.where);
+  tell(settings, blank, "tip_diameter", tool.tip_diameter, tool.where);
+  tell(settings, blank, "neck_diameter", tool.neck_diameter, tool.where);
+  tell(settings, blank, "angle", tool.angle, tool.where);
+  if (tool.shank_diameter != 0.0) settings.push_back({"shank_diameter", tool.where, tool.shank_diameter});
+  if (tool.teeth > 0) settings.push_back({"teeth", tool.where, static_cast<double>(tool.teeth)});
+  if (!tool.name.empty()) settings.push_back({"name", tool.where, tool.name});
+  if (!tool.description.empty()) settings.push_back({"description", tool.where, tool.description});
+  return settings;
+}
+
+}  // namespace
+
+LibraryWriter::LibraryWriter(std::string_view file_name, const ToolLibraryOptions& options, ToolTable& table,
+                             Diagnostics& diagnostics)
+    : file_(file_name),
+      options_(options),
+      table_(table),
+      diagnostics_(diagnostics),
+      next_(std::max(options.first_number, 0)) {}
+
+Origin LibraryWriter::spot(std::size_t line) const {
+  return TextSpot{file_, static_cast<std::uint32_t>(line), 0};
+}
+
+void LibraryWriter::leave_out(const Origin& where, std::string_view name, std::string_view why) {
+  diagnostics_.warning(Code::tool_library_shape, where,
+                       fmt::format("the tool \"{}\" is left out: {}", name.substr(0, 60), why));
+}
+
+int LibraryWriter::number_for(const LibraryTool& tool) {
+  const bool usable = tool.number && *tool.number >= 0 && *tool.number <= kHighestNumber;
+  if (usable && given_.count(*tool.number) == 0) return *tool.number;
+  while (given_.count(next_) > 0 || table_.find(next_) != nullptr) ++next_;
+  diagnostics_.note(Code::tool_library_number, tool.where,
+                    usable
+                        ? fmt::format("number {} is given twice; this tool becomes {}", *tool.number, next_)
+                        : fmt::format("the tool has no number; it becomes {}", next_));
+  return next_;
+}
+
+void LibraryWriter::add(const LibraryTool& told) {
+  const auto blank = shape_named(told.shape);
+  if (!blank) return leave_out(told.where, told.name, fmt::format("no shape \"{}\"", told.shape));
+  Diagnostics faults;
+  std::optional<Tool> tool = tool_of(*blank, settings_of(told, *blank), 1.0, told.where, faults);
+  if (!tool) {
+    const std::string why = faults.list().empty() ? "its measures fit no shape" : faults.list()[0].message;
+    return leave_out(told.where, told.name.empty() ? told.description : told.name, why);
+  }
+  tool->number = number_for(told);
+  given_.emplace(tool->number, told.where);
+  table_.set(tool->number, *tool);
+}
+
+}  // namespace detail
+
+namespace {
+
+constexpr std::size_t kLargestLibrary = 64u << 20;  // bytes
+constexpr std::string_view kZipMark = "PK\x03\x04";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+std::string_view without_mark(std::string_view text) {
+  return text.substr(0, 3) == kByteOrderMark ? text.substr(3) : text;
+}
+
+bool is_kerf_file(std::string_view text) { return text.find("[[tool]]") != std::string_view::npos; }
+
+bool is_linuxcnc_table(std::string_view text) {
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    const std::string_view line = trim(text.substr(start, end - start));
+    start = end + 1;
+    if (line.empty() || line.front() == ';') continue;
+    return line.size() > 1 && (line[0] == 'T' || line[0] == 't') && line[1] >= '0' && line[1] <= '9';
+  }
+  return false;
+}
+
+bool is_carbide_csv(std::string_view text) {
+  const std::string_view first = text.substr(0, text.find('\n'));
+  return first.find("diameter") != std::string_view::npos && first.find("number") != std::string_view::npos &&
+         first.find(',') != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string_view to_string(ToolLibraryKind kind) {
+  switch (kind) {
+    case ToolLibraryKind::kerf: return "Kerf tool file";
+    case ToolLibraryKind::linuxcnc: return "LinuxCNC tool table";
+    case ToolLibraryKind::carbide_create: return "Carbide Create library";
+    case ToolLibraryKind::fusion: return "Fusion library";
+    case ToolLibraryKind::freecad: return "FreeCAD tool bit";
+    case ToolLibraryKind::camotics: break;
+  }
+  return "CAMotics project";
+}
+
+std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes) {
+  if (bytes.substr(0, 4) == kZipMark) return ToolLibraryKind::fusion;
+  const std::string_view text = without_mark(bytes);
+  const std::string_view begin = trim(text.substr(0, 4096));
+  if (!begin.empty() && begin.front() == '{') return detail::json_library_kind(text);
+  if (is_linuxcnc_table(text)) return ToolLibraryKind::linuxcnc;
+  if (is_kerf_file(text)) return ToolLibraryKind::kerf;
+  if (is_carbide_csv(text)) return ToolLibraryKind::carbide_create;
+  return std::nullopt;
+}
+
+void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
+                       ToolTable& table, Diagnostics& diagnostics) {
+  const Origin where = TextSpot{std::string(file_name), 0, 0};
+  std::string unpacked;
+  if (bytes.substr(0, 4) == kZipMark) {
+    auto inner = detail::unzip_first(bytes, kLargestLibrary);
+    if (!inner) {
+      diagnostics.error(Code::tool_library_unreadable, where, "the zip archive is damaged, or too large");
+      return;
+    }
+    unpacked = std::move(*inner);
+    bytes = unpacked;
+  }
+  const auto kind = bytes.size() > kLargestLibrary ? std::nullopt : library_kind_of(bytes);
+  if (!kind) {
+    diagnostics.error(Code::tool_library_unknown, where, "this is no tool library that Kerf knows").hint =
+        "known: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb, CAMotics JSON";
+    return;
+  }
+  const std::string_view text = without_mark(bytes);
+  detail::LibraryWriter out(file_name, options, table, diagnostics);
+  switch (*kind) {
+    case ToolLibraryKind::kerf: return read_tool_file(text, file_name, table, diagnostics);
+    case ToolLibraryKind::linuxcnc: return detail::read_linuxcnc_table(text, out);
+    case ToolLibraryKind::carbide_create: return detail::read_carbide_csv(text, out);
+    default: return detail::read_json_library(text, *kind, out);
+  }
+}
+
+}  // namespace kerf

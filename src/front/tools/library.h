@@ -1,0 +1,55 @@
+// Inside of the library readers: a tool as other programs tell it, and what puts it into the table.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kerf/tool_libraries.h"
+
+namespace kerf::detail {
+
+/// Lengths in mm, angles in degrees; 0: not told.
+struct LibraryTool {
+  std::optional<int> number;
+  std::string shape;  // a name of shape_named
+  double diameter = 0, flute = 0, corner_radius = 0, tip_diameter = 0, neck_diameter = 0, shank_diameter = 0;
+  double angle = 0;  // as Kerf's shape of that name understands it
+  int teeth = 0;
+  std::string name, description;
+  Origin where;
+};
+
+class LibraryWriter {
+ public:
+  LibraryWriter(std::string_view file_name, const ToolLibraryOptions& options, ToolTable& table,
+                Diagnostics& diagnostics);
+  void add(const LibraryTool& tool);
+  /// A tool that is left out, with the reason.
+  void leave_out(const Origin& where, std::string_view name, std::string_view why);
+  Origin spot(std::size_t line) const;
+  const std::string& file() const { return file_; }
+  const ToolLibraryOptions& options() const { return options_; }
+  Diagnostics& diagnostics() { return diagnostics_; }
+
+ private:
+  int number_for(const LibraryTool& tool);
+  std::string file_;
+  const ToolLibraryOptions& options_;
+  ToolTable& table_;
+  Diagnostics& diagnostics_;
+  std::map<int, Origin> given_;
+  int next_ = 1;
+};
+
+void read_linuxcnc_table(std::string_view text, LibraryWriter& out);
+void read_carbide_csv(std::string_view text, LibraryWriter& out);
+void read_json_library(std::string_view text, ToolLibraryKind kind, LibraryWriter& out);
+/// The kind of a library in JSON; nothing if the text is none.
+std::optional<ToolLibraryKind> json_library_kind(std::string_view text);
+
+/// The first file of a zip archive; nothing where it is damaged or larger than `limit` bytes.
+std::optional<std::string> unzip_first(std::string_view bytes, std::size_t limit);
+
+}  // namespace kerf::detail

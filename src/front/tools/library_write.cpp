@@ -1,0 +1,94 @@
+// Tools out: Kerf's tool file, and LinuxCNC's tool table.
+#include <fmt/format.h>
+
+#include "kerf/number.h"
+#include "kerf/tool_libraries.h"
+
+namespace kerf {
+namespace {
+
+constexpr int kDecimals = 6;  // of mm
+
+/// A text as TOML's basic string.
+std::string quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      out += std::string("\\") + c;
+    else if (code < 0x20 || code == 0x7f)
+      out += fmt::format("\\u{:04x}", code);
+    else
+      out += c;
+  }
+  return out + "\"";
+}
+
+void tell(std::string& out, std::string_view key, double value) {
+  if (value > 0.0) out += fmt::format("{} = {}\n", key, exact_text(value));
+}
+
+void tell_part(std::string& out, std::string_view name, const Profile& part) {
+  if (part.empty()) return;
+  tell(out, fmt::format("{}_diameter", name), 2.0 * part.max_radius());
+  tell(out, fmt::format("{}_length", name), part.top() - part.bottom());
+}
+
+void tell_profile(std::string& out, const Profile& profile) {
+  out += "profile = [";
+  for (const Knot& knot : profile.knots)
+    out += fmt::format("[{}, {}, {}], ", exact_text(knot.r), exact_text(knot.z), exact_text(knot.bulge));
+  out += "]\n";
+}
+
+/// A shank that widens over a height, not at once.
+bool begins_with_cone(const Profile& shank) {
+  return shank.knots.size() > 2 && shank.knots[1].r > shank.knots[0].r && shank.knots[1].z > shank.knots[0].z;
+}
+
+void tell_tool(std::string& out, int number, const Tool& tool) {
+  out += fmt::format("\n[[tool]]\nnumber = {}\n", number);
+  std::string names;  // the reader adds the number itself
+  for (const std::string& name : tool.names)
+    if (name != std::to_string(number)) names += (names.empty() ? "" : ", ") + quoted(name);
+  if (!names.empty()) out += fmt::format("names = [{}]\n", names);
+  if (!tool.description.empty()) out += fmt::format("description = {}\n", quoted(tool.description));
+  out += fmt::format("shape = {}\n", quoted(name_of(tool.shape)));
+  for (const ShapeParameter& parameter : parameters_of(tool.shape))
+    tell(out, parameter.name, parameter.get(tool.shape));
+  if (const auto* drawn = std::get_if<shape::Drawn>(&tool.shape)) tell_profile(out, drawn->cutting);
+  const bool own_neck = std::holds_alternative<shape::ThreadMill>(tool.shape);
+  if (!own_neck) tell_part(out, "neck", tool.silhouette.neck);
+  tell_part(out, "shank", tool.silhouette.shank);
+  tell_part(out, "holder", tool.silhouette.holder);
+  if (begins_with_cone(tool.silhouette.shank)) out += "transition = \"cone\"\n";
+  out += fmt::format("teeth = {}\nplunges = {}\n", tool.teeth, tool.plunges);
+}
+
+}  // namespace
+
+std::string write_tool_file(const ToolTable& table) {
+  std::string out = "unit = \"mm\"\n";
+  for (const auto& [number, tool] : table.tools()) tell_tool(out, number, tool);
+  return out;
+}
+
+std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnostics& diagnostics) {
+  std::string out;
+  std::size_t pocket = 0;
+  for (const auto& [number, tool] : table.tools()) {
+    std::string remark = fmt::format("{} {} mm", name_of(tool.shape), number_text(tool.diameter.mm(), 4));
+    if (!tool.description.empty()) remark += ", " + tool.description;
+    for (char& c : remark)
+      if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+    out += fmt::format("T{} P{} Z0 D{} ;{}\n", number, ++pocket,
+                       number_text(tool.diameter.mm() / unit_mm, kDecimals), remark);
+    if (!std::holds_alternative<shape::Square>(tool.shape))
+      diagnostics.note(
+          Code::tool_not_written, {},
+          fmt::format("a tool.tbl cannot tell that tool {} is a {}", number, name_of(tool.shape)));
+  }
+  return out;
+}
+
+}  // namespace kerf

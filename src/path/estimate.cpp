@@ -1,0 +1,243 @@
+// Steps into planned moves and stops; their times by tool and operation.
+#include "kerf/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "path/planner.h"
+
+namespace kerf {
+namespace {
+
+constexpr std::size_t kMostOperations = 1000;
+constexpr std::size_t kMostChords = 65'535;        // of an arc, as a controller counts them
+constexpr std::size_t kChordBudget = 100'000'000;  // of all arcs; then each gets few
+constexpr std::size_t kFewChords = 64;
+
+/// Chords of an arc that leave it by `tolerance` at most, as GRBL counts them: the fraction is dropped.
+std::size_t chords_of(const ArcWalk& walk, double tolerance) {
+  const double r = walk.start_radius;
+  const double half_chord2 = tolerance * (2.0 * r - tolerance);
+  if (!(half_chord2 > 0.0)) return 1;
+  const double n = std::floor(0.5 * std::abs(walk.sweep) * r / std::sqrt(half_chord2));
+  return static_cast<std::size_t>(std::clamp(n, 1.0, static_cast<double>(kMostChords)));
+}
+
+bool is_pause(std::string_view text) {
+  return text == "M0" || text == "M2" || text == "M30" || text == "M60";
+}
+
+class Walker {
+ public:
+  Walker(const Toolpath& path, const Machine& machine)
+      : path_(path), machine_(machine), seconds_(path.size()), planner_(machine, seconds_) {}
+
+  void run() {
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      if (path_[i].is_motion())
+        move(i);
+      else if (stops_at(i))
+        stop(i);
+      if (path_[i].kind() == StepKind::dwell)
+        seconds_[i] += static_cast<float>(path_[i].dwell().time.seconds());
+    }
+    planner_.stop();
+  }
+
+  std::vector<float>& seconds() { return seconds_; }
+  const std::vector<std::size_t>& stops() const { return stops_; }
+  std::size_t moves() const { return planner_.moves(); }
+  std::size_t not_timed() const { return not_timed_; }
+
+ private:
+  void stop(std::size_t step) {
+    planner_.stop();
+    stops_.push_back(step);
+  }
+
+  void move(std::size_t i) {
+    const Step& s = path_[i];
+    const bool probes = s.kind() == StepKind::probe;
+    if (s.rests_before() || probes) stop(i);
+    const double feed =
+        s.kind() == StepKind::rapid ? std::numeric_limits<double>::infinity() : s.feed().mm_per_min() / 60.0;
+    const bool turns_only = s.to() == here_ && s.kind() != StepKind::arc && path_.extra(i) != nullptr;
+    if (!(feed > 0.0) || turns_only) {
+      ++not_timed_;
+      planner_.place(s.to());
+    } else if (s.kind() == StepKind::arc) {
+      arc(i, feed);
+    } else {
+      planner_.move(s.to(), feed, i);
+    }
+    here_ = s.to();
+    if (probes || exact_stop_) planner_.stop();
+  }
+
+  void arc(std::size_t i, double feed) {
+    const ArcWalk walk = walk_of(path_[i], here_);
+    std::size_t chords = chords_of(walk, machine_.arc_tolerance.mm());
+    if (chords_ > kChordBudget) chords = std::min(chords, kFewChords);
+    chords_ += chords;
+    for (std::size_t k = 1; k < chords; ++k)
+      planner_.move(walk.at(static_cast<double>(k) / static_cast<double>(chords)), feed, i);
+    planner_.move(path_[i].to(), feed, i);
+  }
+
+  /// Whether a step without motion brings the machine to rest: where it changes what the machine does.
+  bool stops_at(std::size_t i) {
+    const Step& s = path_[i];
+    switch (s.kind()) {
+      case StepKind::dwell:
+      case StepKind::tool_change: return true;
+      case StepKind::verbatim: return is_pause(path_.text(i));
+      case StepKind::temperature: return s.temperature().wait;
+      case StepKind::path_mode: exact_stop_ = s.path_mode().kind == PathModeKind::exact_stop; return false;
+      case StepKind::coolant: return coolant_changes(s.coolant());
+      case StepKind::spindle: return spindle_changes(i);
+      case StepKind::laser_power: return laser_changes(s.laser_power());
+      default: return false;
+    }
+  }
+
+  bool coolant_changes(const step::Coolant& now) {
+    const bool same = now.mist == coolant_.mist && now.flood == coolant_.flood;
+    coolant_ = now;
+    return !same;
+  }
+
+  bool spindle_changes(std::size_t i) {
+    const step::Spindle now = path_[i].spindle();
+    const step::Spindle was = spindle_;
+    spindle_ = now;
+    if (now.turn != was.turn) return true;
+    if (now.turn == SpindleTurn::off || now.speed == was.speed) return false;
+    return machine_.laser == LaserDrive::stops || !on_line_of_cut(i);
+  }
+
+  bool laser_changes(const step::LaserPower& now) {
+    const step::LaserPower was = laser_;
+    laser_ = now;
+    if (now.mode != was.mode) return true;
+    return now.power != was.power && machine_.laser == LaserDrive::stops;
+  }
+
+  /// The beam takes its power on with the move that stands on the same line.
+  bool on_line_of_cut(std::size_t i) const {
+    return i + 1 < path_.size() && path_[i + 1].is_motion() && path_[i + 1].origin() == path_[i].origin();
+  }
+
+  const Toolpath& path_;
+  const Machine& machine_;
+  std::vector<float> seconds_;
+  detail::Planner planner_;
+  std::vector<std::size_t> stops_;
+  Point3 here_;
+  step::Coolant coolant_;
+  step::Spindle spindle_;
+  step::LaserPower laser_;
+  bool exact_stop_ = false;
+  std::size_t chords_ = 0, not_timed_ = 0;
+};
+
+/// Puts the times of steps together.
+class Sums {
+ public:
+  Sums(const Toolpath& path, TimeEstimate& out) : path_(path), out_(out) {}
+
+  void add(std::size_t i, double seconds_of_step, std::size_t stops, Duration stop_time) {
+    const Step& s = path_[i];
+    begin_parts(i);
+    TimeFigures figures;
+    const Duration time = seconds(seconds_of_step);
+    if (s.is_motion()) figures.motion = time;
+    if (s.kind() == StepKind::rapid) figures.rapid = time;
+    if (s.kind() == StepKind::dwell) figures.dwell = time;
+    figures.stops = stops;
+    figures.halts = static_cast<double>(stops) * stop_time;
+    add(out_.all, figures);
+    add(tool_entry(), figures);
+    if (s.is_motion()) open_operation(i);
+    if (operation_open_)
+      add(out_.operations.back().time, figures);
+    else
+      add(before_, figures);
+  }
+
+ private:
+  static void add(TimeFigures& sum, const TimeFigures& part) {
+    sum.motion = sum.motion + part.motion;
+    sum.rapid = sum.rapid + part.rapid;
+    sum.dwell = sum.dwell + part.dwell;
+    sum.halts = sum.halts + part.halts;
+    sum.stops += part.stops;
+  }
+
+  /// A tool change, a layer or a note begins an operation, which counts once it moves.
+  void begin_parts(std::size_t i) {
+    switch (path_[i].kind()) {
+      case StepKind::tool_change:
+        tool_ = path_[i].tool_change().tool;
+        tool_index_ = kNone;
+        break;
+      case StepKind::layer: name_ = path_.layer(i).name; break;
+      case StepKind::note: name_ = path_.text(i); break;
+      default: return;
+    }
+    if (out_.operations.size() < kMostOperations) operation_open_ = false;
+  }
+
+  void open_operation(std::size_t i) {
+    if (operation_open_) return;
+    out_.operations.push_back({std::move(name_), tool_, i, before_});
+    name_.clear();
+    before_ = {};
+    operation_open_ = true;
+  }
+
+  TimeFigures& tool_entry() {
+    if (tool_index_ == kNone) {
+      const auto found = std::find_if(out_.tools.begin(), out_.tools.end(),
+                                      [&](const ToolTime& entry) { return entry.tool == tool_; });
+      tool_index_ = static_cast<std::size_t>(found - out_.tools.begin());
+      if (found == out_.tools.end()) out_.tools.push_back({tool_, {}});
+    }
+    return out_.tools[tool_index_].time;
+  }
+
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+  const Toolpath& path_;
+  TimeEstimate& out_;
+  std::optional<int> tool_;
+  std::size_t tool_index_ = kNone;
+  std::string name_;
+  TimeFigures before_;  // of steps between operations
+  bool operation_open_ = false;
+};
+
+}  // namespace
+
+TimeEstimate estimate_time(const Toolpath& path, const Machine& machine) {
+  Walker walker(path, machine);
+  walker.run();
+  TimeEstimate out;
+  out.moves = walker.moves();
+  out.not_timed = walker.not_timed();
+  Sums sums(path, out);
+  auto stop = walker.stops().begin();
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    std::size_t stops = 0;
+    for (; stop != walker.stops().end() && *stop == i; ++stop) ++stops;
+    sums.add(i, static_cast<double>(walker.seconds()[i]), stops, machine.stop_time);
+  }
+  return out;
+}
+
+std::vector<float> step_seconds(const Toolpath& path, const Machine& machine) {
+  Walker walker(path, machine);
+  walker.run();
+  return std::move(walker.seconds());
+}
+
+}  // namespace kerf

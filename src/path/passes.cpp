@@ -1,0 +1,148 @@
+// What the passes share, and those that look at one or two steps at a time.
+#include "kerf/passes.h"
+
+#include <cmath>
+#include <optional>
+
+#include "path/chain.h"
+
+#include "kerf/report.h"
+
+namespace kerf {
+
+namespace detail {
+
+PassFigures figures_of(const Toolpath& path) {
+  const MotionFigures all = report_on(path, {}).all;
+  return {path.size(), all.cut_mm, all.rapid_mm};
+}
+
+PassResult finished(const Toolpath& before, Toolpath after) {
+  PassResult result;
+  result.before = figures_of(before);
+  result.after = figures_of(after);
+  result.path = std::move(after);
+  return result;
+}
+
+bool is_plain(const Toolpath& path, std::size_t i) {
+  return path[i].unknown_axes() == 0 && path.extra(i) == nullptr;
+}
+
+bool chains(const Toolpath& path, std::size_t i, std::size_t first) {
+  return i < path.size() && path[i].kind() == path[first].kind() && path[i].feed() == path[first].feed() &&
+         is_plain(path, i);
+}
+
+double distance_to_segment(Point3 p, Point3 a, Point3 b) {
+  const Point3 way = b - a;
+  const double square = dot(way, way);
+  const double t = square > 0.0 ? std::clamp(dot(p - a, way) / square, 0.0, 1.0) : 0.0;
+  return distance(p, a + t * way);
+}
+
+}  // namespace detail
+
+PassResult arcs_to_chords(const Toolpath& path, Length chord) {
+  Toolpath out;
+  detail::Begin begin;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Step& s = path[i];
+    if (s.kind() != StepKind::arc) {
+      out.add_copy(path, i);
+    } else {
+      const ArcWalk walk = walk_of(s, begin.at);
+      const int count = walk.chords(chord);
+      const OriginId origin = out.copy_origin(path, i);
+      const MotionExtra* extra = path.extra(i);
+      for (int k = 1; k <= count; ++k) {
+        const Point3 to = k == count ? s.to() : walk.at(static_cast<double>(k) / count);
+        const std::size_t added = out.add(step::Cut{to, s.feed()}, origin);
+        if (s.unknown_axes() != 0) out.set_unknown_axes(added, s.unknown_axes());
+        if (extra != nullptr) out.set_extra(added, *extra);
+      }
+    }
+    begin.pass(s);
+  }
+  return detail::finished(path, std::move(out));
+}
+
+namespace {
+
+/// True if the chain from `first` to `last` (both included) can be one straight step: every point on the way
+/// lies near it, and each is farther along than the one before.
+bool is_straight(const Toolpath& path, Point3 from, std::size_t first, std::size_t last, double tolerance) {
+  const Point3 to = path[last].to();
+  const Point3 way = to - from;
+  double along = 0.0;
+  for (std::size_t i = first; i < last; ++i) {
+    const Point3 p = path[i].to();
+    const double here = dot(p - from, way);
+    if (here < along || detail::distance_to_segment(p, from, to) > tolerance) return false;
+    along = here;
+  }
+  return dot(way, way) >= along;
+}
+
+/// Chains are looked at this far back, so that a long straight line costs no more than its length times this.
+constexpr std::size_t kLongestChain = 256;
+
+}  // namespace
+
+PassResult join_straight(const Toolpath& path, Length tolerance) {
+  Toolpath out;
+  detail::Begin begin;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const bool straight = path[i].kind() == StepKind::cut || path[i].kind() == StepKind::rapid;
+    std::size_t last = i;
+    if (straight && detail::is_plain(path, i) && begin.known())
+      while (last - i < kLongestChain && detail::chains(path, last + 1, i) &&
+             is_straight(path, begin.at, i, last + 1, tolerance.mm()))
+        ++last;
+    if (last == i) {
+      out.add_copy(path, i);
+    } else {
+      const OriginId origin = out.copy_origin(path, i);
+      if (path[i].kind() == StepKind::cut)
+        out.add(step::Cut{path[last].to(), path[last].feed()}, origin);
+      else
+        out.add(step::Rapid{path[last].to()}, origin);
+    }
+    i = last;
+    begin.pass(path[i]);
+  }
+  return detail::finished(path, std::move(out));
+}
+
+namespace {
+
+/// True if rapid `i` goes straight up from `from` and rapid `i + 1` straight down again.
+bool goes_up_and_down(const Toolpath& path, std::size_t i, Point3 from) {
+  if (i + 1 >= path.size() || path[i + 1].kind() != StepKind::rapid) return false;
+  if (!detail::is_plain(path, i) || !detail::is_plain(path, i + 1)) return false;
+  const Point3 up = path[i].to(), down = path[i + 1].to();
+  return up.xy() == from.xy() && down.xy() == from.xy() && up.z >= from.z && down.z <= up.z;
+}
+
+}  // namespace
+
+PassResult shorten_rapids(const Toolpath& path) {
+  Toolpath out;
+  detail::Begin begin;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Step& s = path[i];
+    const bool rapid = s.kind() == StepKind::rapid && begin.known() && detail::is_plain(path, i);
+    if (rapid && s.to() == begin.at) continue;
+    if (rapid && goes_up_and_down(path, i, begin.at)) {
+      // The second one alone ends at the same place, on a way that the two went already.
+      if (path[i + 1].to() != begin.at) out.add_copy(path, i + 1);
+      ++i;
+    } else {
+      out.add_copy(path, i);
+    }
+    begin.pass(path[i]);
+  }
+  return detail::finished(path, std::move(out));
+}
+
+}  // namespace kerf

@@ -1,0 +1,87 @@
+// The linter against the lines that GRBL takes and refuses, and each of its codes.
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <string>
+#include <string_view>
+
+#include "kerf/post.h"
+
+namespace kerf {
+namespace {
+
+enum class Before { feed, no_feed };
+struct Line {
+  Before before;
+  std::string_view text;
+  int error;  // GRBL's number, 0: taken
+};
+constexpr Line kLines[] = {
+#include "grbl_lines.inc"
+};
+
+bool taken(const Line& line) {
+  Diagnostics diagnostics;
+  std::string text = line.before == Before::feed ? "G21G90G94F100\n" : "";
+  text += line.text;
+  return lint_gcode(text, *find_post("grbl"), "line", diagnostics);
+}
+
+TEST(Lint, refuses_every_line_that_grbl_refuses) {
+  for (const Line& line : kLines)
+    EXPECT_TRUE(line.error == 0 || !taken(line)) << line.text << ", GRBL says error " << line.error;
+}
+
+TEST(Lint, takes_the_lines_that_grbl_takes) {
+  // Said by the linter although GRBL lets them pass: they act on no machine as their writer meant.
+  const std::string_view stricter[] = {"M1", "T1.5", "M30\x1a"};
+  for (const Line& line : kLines) {
+    const bool known = std::find(std::begin(stricter), std::end(stricter), line.text) != std::end(stricter);
+    EXPECT_TRUE(line.error != 0 || known || taken(line)) << line.text;
+  }
+}
+
+struct Case {
+  std::string_view post, text;
+  Code code;
+};
+
+TEST(Lint, says_what_is_wrong) {
+  const Case cases[] = {
+      {"grbl", "G0 A1", Code::lint_letter},
+      {"grbl", "M6", Code::lint_code},
+      {"grbl", "G0 G1", Code::lint_conflict},
+      {"grbl", "G0 X1 P1", Code::lint_unused},
+      {"grbl", "G1 X1", Code::lint_missing},
+      {"grbl", "T256", Code::lint_value},
+      {"grbl", "F100\nG2 X5 I1 J0", Code::lint_arc},
+      {"grbl", "G0 X1.00000000000000000000000000000000000000000000000000000000000000000000000000000000000",
+       Code::lint_line},
+      {"grbl", "(what?)", Code::lint_comment},
+      {"marlin", "(brackets)", Code::lint_comment},
+      {"grbl", "%", Code::lint_syntax},
+      {"grbl", "O100 call", Code::lint_syntax},
+      {"marlin", "PAUSE", Code::lint_syntax},
+      {"klipper", "G17 G1 X1", Code::lint_conflict},
+      {"klipper", "G1 F100\nX1", Code::lint_missing},
+      {"klipper", "G20", Code::lint_code},
+  };
+  for (const Case& c : cases) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(lint_gcode(c.text, *find_post(c.post), "text", diagnostics)) << c.text;
+    ASSERT_FALSE(diagnostics.list().empty()) << c.text;
+    EXPECT_EQ(diagnostics.list().front().code, c.code)
+        << c.text << ": " << diagnostics.list().front().message;
+  }
+}
+
+TEST(Lint, takes_commands_in_words_where_there_are_some) {
+  for (const auto& [post, text] :
+       {std::pair("klipper", "PAUSE\nSET_FAN_SPEED FAN=box SPEED=0.5"),
+        std::pair("klipper", "T1\nM117 half done"), std::pair("marlin", "M117 x=1")}) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(lint_gcode(text, *find_post(post), "text", diagnostics)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace kerf

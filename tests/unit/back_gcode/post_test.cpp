@@ -1,0 +1,273 @@
+// What the posts write, line by line; and everything they refuse.
+#include "kerf/post.h"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <string>
+
+#include "back/gcode/line.h"
+
+namespace kerf {
+namespace {
+
+/// A profile without templates, so that a test sees the steps' own lines only.
+PostProfile bare(std::string_view name) {
+  PostProfile profile = *find_post(name);
+  profile.header.clear();
+  profile.section.clear();
+  profile.footer.clear();
+  profile.spindle_dwell = Duration{};
+  return profile;
+}
+
+struct Posted {
+  std::vector<PostedFile> files;
+  Diagnostics diagnostics;
+  std::string text() const { return files.empty() ? "" : files.front().text; }
+  bool said(Code code) const {
+    const auto& list = diagnostics.list();
+    return std::any_of(list.begin(), list.end(), [code](const Diagnostic& d) { return d.code == code; });
+  }
+};
+
+Posted posted(const Toolpath& path, const PostProfile& profile, const PostOptions& options = {}) {
+  Posted out;
+  out.files = post(path, profile, options, out.diagnostics);
+  return out;
+}
+
+Toolpath at_origin() {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  return path;
+}
+
+const Feed kFeed = mm_per_min(600);
+
+TEST(Numbers, are_exact_counts) {
+  const auto text = [](std::int64_t v, int decimals, gcode::Fraction f) {
+    char buffer[32];
+    return std::string(buffer, gcode::write_units(buffer, v, decimals, f));
+  };
+  using gcode::Fraction;
+  EXPECT_EQ(text(12500, 3, Fraction::shortest), "12.5");
+  EXPECT_EQ(text(12500, 3, Fraction::full), "12.500");
+  EXPECT_EQ(text(-250, 3, Fraction::shortest), "-0.25");
+  EXPECT_EQ(text(-1, 3, Fraction::shortest), "-0.001");
+  EXPECT_EQ(text(0, 3, Fraction::shortest), "0");
+  EXPECT_EQ(text(0, 3, Fraction::full), "0.000");
+  EXPECT_EQ(text(1000, 3, Fraction::shortest), "1");
+  EXPECT_EQ(text(7, 0, Fraction::shortest), "7");
+}
+
+TEST(Post, writes_only_what_changes) {
+  Toolpath path = at_origin();
+  path.add(step::Cut{{0, 0, -1}, kFeed}, OriginId::none);
+  path.add(step::Cut{{10, 0, -1}, kFeed}, OriginId::none);
+  path.add(step::Cut{{10, 2.5, -1}, mm_per_min(300)}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG1 Z-1 F600\nX10\nY2.5 F300\n");
+}
+
+TEST(Post, moves_that_lead_nowhere_stay_moves) {
+  Toolpath path = at_origin();
+  path.add(step::Cut{{0, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::Rapid{{0, 0.0001, 5}}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG1 X0 F600\nG0 X0\n");
+}
+
+TEST(Post, writes_inches) {
+  Toolpath path = at_origin();
+  path.add(step::Cut{{25.4, 0, -2.54}, mm_per_min(254)}, OriginId::none);
+  PostOptions options;
+  options.unit = LengthUnit::inch;
+  EXPECT_EQ(posted(path, bare("grbl"), options).text(), "G0 X0 Y0 Z0.1969\nG1 X1 Z-0.1 F10\n");
+}
+
+TEST(Post, arcs_have_both_axes_and_both_centre_words) {
+  Toolpath path = at_origin();
+  path.add(step::Arc{.to = {10, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG17 G2 X10 Y0 I5 J0 F600\n");
+}
+
+TEST(Post, full_circles_are_split) {
+  Toolpath path = at_origin();
+  path.add(step::Arc{.to = {0, 0, 3}, .centre = {5, 0}, .turn = Turn::ccw, .feed = kFeed}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(),
+            "G0 X0 Y0 Z5\nG17 G3 X10 Y0 Z4 I5 J0 F600\nG3 X0 Y0 Z3 I-5 J0\n");
+}
+
+TEST(Post, a_tiny_arc_never_becomes_a_full_circle) {
+  Toolpath path = at_origin();
+  path.add(step::Arc{.to = {0.0002, 0.0002, 5}, .centre = {0, 5}, .turn = Turn::ccw, .feed = kFeed},
+           OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text().find("G3"), std::string::npos);
+}
+
+TEST(Post, arcs_in_other_planes) {
+  Toolpath path = at_origin();
+  path.add(
+      step::Arc{.to = {10, 0, 5}, .centre = {5, 5}, .plane = Plane::xz, .turn = Turn::ccw, .feed = kFeed},
+      OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG18 G3 X10 Z5 I5 K0 F600\n");
+}
+
+TEST(Post, arcs_become_chords_where_the_controller_has_none) {
+  Toolpath path = at_origin();
+  path.add(step::Arc{.to = {10, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
+  const Posted out = posted(path, bare("klipper"));
+  EXPECT_EQ(out.text().find("G2"), std::string::npos);
+  EXPECT_GT(out.files.front().lines, 20u);
+}
+
+TEST(Post, an_uneven_arc_becomes_chords_and_is_said) {
+  Toolpath path = at_origin();
+  path.add(step::Arc{.to = {11, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
+  const Posted out = posted(path, bare("grbl"));
+  EXPECT_TRUE(out.said(Code::post_arc_uneven));
+  EXPECT_EQ(out.text().find("G2"), std::string::npos);
+}
+
+TEST(Post, spindle_stops_before_a_tool_change_and_starts_again) {
+  Toolpath path;
+  path.add(step::ToolChange{1}, OriginId::none);
+  path.add(step::Spindle{rpm(12000), SpindleTurn::cw}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  path.add(step::ToolChange{2}, OriginId::none);
+  path.add(step::Rapid{{1, 0, 5}}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grblhal")).text(),
+            "T1 M6\nM3 S12000\nG0 X0 Y0 Z5\nM5\nT2 M6\nM3 S12000\nG0 X1 Y0 Z5\nM5\n");
+  EXPECT_EQ(posted(path, bare("grbl")).text(),
+            "M3 S12000\nG0 X0 Y0 Z5\nM5\n(change to tool 2)\nM0\nM3 S12000\nG0 X1 Y0 Z5\nM5\n");
+}
+
+TEST(Post, a_file_a_tool_begins_above_the_last_place) {
+  Toolpath path;
+  path.add(step::ToolChange{1}, OriginId::none);
+  path.add(step::Rapid{{3, 4, 5}}, OriginId::none);
+  path.add(step::ToolChange{2}, OriginId::none);
+  path.add(step::Cut{{3, 4, -1}, kFeed}, OriginId::none);
+  PostOptions options;
+  options.tool_change = ToolChangePolicy::files;
+  const Posted out = posted(path, bare("grbl"), options);
+  ASSERT_EQ(out.files.size(), 2u);
+  EXPECT_EQ(out.files[0].tool, 1);
+  EXPECT_EQ(out.files[0].text, "G0 X3 Y4 Z5\n");
+  EXPECT_EQ(out.files[1].tool, 2);
+  EXPECT_EQ(out.files[1].text, "G0 Z5\nX3 Y4\nG1 Z-1 F600\n");
+}
+
+TEST(Post, spindle_waits_unless_the_program_does) {
+  PostProfile profile = bare("grbl");
+  profile.spindle_dwell = seconds(2);
+  Toolpath path;
+  path.add(step::Spindle{rpm(100), SpindleTurn::cw}, OriginId::none);
+  EXPECT_EQ(posted(path, profile).text().substr(0, 15), "M3 S100\nG4 P2\nM");
+  path.add(step::Dwell{seconds(0.5)}, OriginId::none);
+  EXPECT_EQ(posted(path, profile).text(), "M3 S100\nG4 P0.5\nM5\n");
+  EXPECT_EQ(posted(path, bare("marlin")).text(), "M3 S100\nG4 P500\nM5\n");
+}
+
+TEST(Post, laser_power_rides_on_the_moves) {
+  Toolpath path = at_origin();
+  path.add(step::LaserPower{LaserMode::dynamic, 100}, OriginId::none);
+  path.add(step::Cut{{1, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::LaserPower{LaserMode::dynamic, 200}, OriginId::none);
+  path.add(step::Cut{{2, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::LaserPower{}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("laser")).text(), "G0 X0 Y0 Z5\nM4 S100\nG1 X1 F600\nX2 S200\nM5\n");
+}
+
+TEST(Post, a_power_told_with_its_mode_drops_an_older_one) {
+  Toolpath path = at_origin();
+  path.add(step::LaserPower{LaserMode::dynamic, 100}, OriginId::none);
+  path.add(step::LaserPower{LaserMode::dynamic, 200}, OriginId::none);
+  path.add(step::LaserPower{LaserMode::constant, 300}, OriginId::none);
+  path.add(step::Cut{{1, 0, 5}, kFeed}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("laser")).text(), "G0 X0 Y0 Z5\nM4 S100\nM3 S300\nG1 X1 F600\nM5\n");
+}
+
+TEST(Post, printers_get_one_command_a_line) {
+  Toolpath path = at_origin();
+  path.add(step::Cut{{1, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::Cut{{2, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::Arc{.to = {4, 0, 5}, .centre = {3, 0}, .feed = kFeed}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("marlin")).text(), "G0 X0 Y0 Z5\nG1 X1 F600\nG1 X2\nG17\nG3 X4 Y0 I1 J0\n");
+  const std::size_t home = path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  path.set_unknown_axes(home, 7);
+  path.set_reference(home, Reference::home, 7);
+  EXPECT_TRUE(posted(path, bare("marlin")).said(Code::post_left_out));  // G28 would run to the switches
+}
+
+TEST(Post, beads_for_printers_only) {
+  Toolpath path = at_origin();
+  const double area = std::acos(-1.0) * 0.875 * 0.875;
+  path.add(step::Extrude{{10, 0, 5}, mm3(area), mm(0.4), mm(0.2), kFeed}, OriginId::none);
+  path.add(step::Temperature{Heater::nozzle, 210, true}, OriginId::none);
+  path.add(step::Fan{0, 0.5}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("marlin")).text(), "G0 X0 Y0 Z5\nG1 X10 E1 F600\nM109 S210\nM106 S128\n");
+  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_cannot));
+}
+
+TEST(Post, machine_places_stay_machine_places) {
+  Toolpath path = at_origin();
+  const std::size_t up = path.add(step::Rapid{{0, 0, -3}}, OriginId::none);
+  path.set_unknown_axes(up, 4);
+  path.set_reference(up, Reference::machine, 4);
+  const std::size_t home = path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  path.set_unknown_axes(home, 7);
+  path.set_reference(home, Reference::home, 7);
+  path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(),
+            "G0 X0 Y0 Z5\nG53 G0 Z-3\nG91 G28 X0 Y0 Z0\nG90\nG0 X0 Y0 Z0\n");
+}
+
+TEST(Post, after_a_probe_every_axis_is_told) {
+  Toolpath path = at_origin();
+  path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
+  path.add(step::Rapid{{0, 0, -5}}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG38.3 Z-5 F600\nG0 X0 Y0 Z-5\n");
+}
+
+TEST(Post, comments_hold_nothing_that_acts) {
+  Toolpath path;
+  path.add(step::Note{"slot (2x)! ready? caf\xC3\xA9"}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "(slot [2x]. ready. caf_)\n");
+  EXPECT_EQ(posted(path, bare("marlin")).text(), "; slot (2x)! ready? caf_\n");
+}
+
+TEST(Post, says_what_a_controller_lacks) {
+  Toolpath path;
+  path.add(step::Coolant{true, false}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_left_out));
+  path.add(step::Cut{{1, 0, 0}, {}}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_no_feed));
+  PostOptions options;
+  options.missing_feed = kFeed;
+  EXPECT_FALSE(posted(path, bare("grbl"), options).said(Code::post_no_feed));
+  path.add(step::Rapid{{1e300, 0, 0}}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_number_large));
+  path.add(step::Verbatim{"G81 X1 Z-1 R1"}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_cannot));
+  Toolpath lost;
+  lost.set_unknown_axes(lost.add(step::Rapid{{1, 0, 0}}, OriginId::none), 7);
+  EXPECT_TRUE(posted(lost, bare("grbl")).said(Code::post_place_unknown));
+  PostProfile narrow = bare("grbl");
+  narrow.longest_line = 20;
+  Toolpath far;
+  far.add(step::Rapid{{12345.678, 12345.678, 12345.678}}, OriginId::none);
+  EXPECT_TRUE(posted(far, narrow).said(Code::post_line_long));
+  narrow = bare("grbl");
+  narrow.header = {"({nmae})"};
+  EXPECT_TRUE(posted(far, narrow).said(Code::post_placeholder));
+}
+
+TEST(Post, a_long_program_is_not_pushed_into_memory_by_one_arc) {
+  Toolpath path = at_origin();
+  path.add(step::Arc{.to = {0, 0, 5}, .centre = {1e6, 0}, .extra_turns = 9999, .feed = kFeed},
+           OriginId::none);
+  EXPECT_LT(posted(path, bare("grbl")).text().size(), std::size_t{200} << 20);
+}
+
+}  // namespace
+}  // namespace kerf

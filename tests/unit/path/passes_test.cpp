@@ -1,0 +1,135 @@
+// Passes: what is put together, what must stay, and that nothing strays.
+#include "kerf/passes.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace kerf {
+namespace {
+
+const Feed kFeed = mm_per_min(500);
+
+Toolpath begun() {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  return path;
+}
+
+/// A circle of chords about (-radius, 0) that begins at zero, `share` of it, rising to `rise`.
+Toolpath chords(double radius, double share, int count, double rise = 0.0) {
+  Toolpath path = begun();
+  for (int i = 1; i <= count; ++i) {
+    const double t = static_cast<double>(i) / count, angle = 2.0 * std::numbers::pi * share * t;
+    path.add(step::Cut{{radius * std::cos(angle) - radius, radius * std::sin(angle), rise * t}, kFeed},
+             OriginId::none);
+  }
+  return path;
+}
+
+std::size_t count_of(const Toolpath& path, StepKind kind) {
+  std::size_t count = 0;
+  for (const Step& s : path.steps()) count += s.kind() == kind ? 1 : 0;
+  return count;
+}
+
+TEST(FitArcs, finds_the_arc_of_a_chain) {
+  const PassResult result = fit_arcs(chords(10, 0.5, 90), {.tolerance = mm(0.01)});
+  ASSERT_EQ(result.path.size(), 2u);
+  const step::Arc arc = result.path[1].arc();
+  EXPECT_NEAR(arc.centre.x, -10, 1e-6);
+  EXPECT_NEAR(arc.centre.y, 0, 1e-6);
+  EXPECT_EQ(arc.turn, Turn::ccw);
+  EXPECT_NEAR(distance(arc.to, {-20, 0, 0}), 0, 1e-9);
+  EXPECT_EQ(result.before.steps, 91u);
+  EXPECT_EQ(result.after.steps, 2u);
+  EXPECT_NEAR(result.after.cut_mm, 10 * std::numbers::pi, 1e-6);
+}
+
+TEST(FitArcs, finds_helices_and_leaves_uneven_rises) {
+  EXPECT_EQ(count_of(fit_arcs(chords(10, 0.5, 90, 3.0), {}).path, StepKind::arc), 1u);
+  Toolpath uneven = begun();
+  for (int i = 1; i <= 40; ++i) {
+    const double a = 0.05 * i;
+    uneven.add(step::Cut{{10 * std::cos(a) - 10, 10 * std::sin(a), i % 2 == 0 ? 0.0 : 1.0}, kFeed},
+               OriginId::none);
+  }
+  EXPECT_EQ(count_of(fit_arcs(uneven, {}).path, StepKind::arc), 0u);
+}
+
+TEST(FitArcs, keeps_polygons_lines_and_changes_of_feed) {
+  EXPECT_EQ(count_of(fit_arcs(chords(10, 1.0, 6), {}).path, StepKind::arc), 0u);
+  Toolpath line = begun();
+  for (int i = 1; i < 20; ++i) line.add(step::Cut{{1.0 * i, 0, 0}, kFeed}, OriginId::none);
+  EXPECT_EQ(count_of(fit_arcs(line, {}).path, StepKind::arc), 0u);
+  Toolpath feeds = begun();
+  for (int i = 1; i <= 60; ++i) {
+    const double a = 0.05 * i;
+    feeds.add(step::Cut{{10 * std::cos(a) - 10, 10 * std::sin(a), 0}, i <= 30 ? kFeed : mm_per_min(100)},
+              OriginId::none);
+  }
+  const PassResult result = fit_arcs(feeds, {});
+  EXPECT_EQ(count_of(result.path, StepKind::arc), 2u);
+}
+
+TEST(FitArcs, a_whole_circle_keeps_its_length) {
+  const PassResult result = fit_arcs(chords(10, 1.0, 360), {.tolerance = mm(0.01)});
+  EXPECT_NEAR(result.after.cut_mm, result.before.cut_mm, 0.01);
+  EXPECT_LE(result.path.size(), 20u);
+}
+
+TEST(ArcsToChords, stay_on_the_arc_and_fit_again) {
+  Toolpath path = begun();
+  path.add(step::Arc{.to = {-20, 0, 1}, .centre = {-10, 0}, .turn = Turn::ccw, .feed = kFeed},
+           OriginId::none);
+  const PassResult lines = arcs_to_chords(path, mm(0.01));
+  EXPECT_EQ(count_of(lines.path, StepKind::arc), 0u);
+  EXPECT_GT(lines.path.size(), 20u);
+  EXPECT_EQ(count_of(fit_arcs(lines.path, {.tolerance = mm(0.011)}).path, StepKind::arc), 1u);
+}
+
+TEST(JoinStraight, joins_what_goes_on_and_keeps_corners) {
+  Toolpath path = begun();
+  for (int i = 1; i <= 10; ++i) path.add(step::Cut{{1.0 * i, 0, 0}, kFeed}, OriginId::none);
+  path.add(step::Cut{{10, 5, 0}, kFeed}, OriginId::none);
+  path.add(step::Cut{{10, 2, 0}, kFeed}, OriginId::none);  // back
+  const PassResult result = join_straight(path, mm(0.001));
+  ASSERT_EQ(result.path.size(), 4u);
+  EXPECT_EQ(result.path[1].to(), (Point3{10, 0, 0}));
+  EXPECT_NEAR(result.before.cut_mm, result.after.cut_mm, 1e-9);
+}
+
+TEST(JoinStraight, a_slow_bend_does_not_add_up) {
+  Toolpath path = begun();
+  for (int i = 1; i <= 100; ++i) {
+    const double a = 0.01 * i;
+    path.add(step::Cut{{100 * std::sin(a), 100 - 100 * std::cos(a), 0}, kFeed}, OriginId::none);
+  }
+  const PassResult result = join_straight(path, mm(0.02));
+  EXPECT_LT(result.path.size(), 60u);
+  EXPECT_NEAR(result.after.cut_mm, 100.0, 0.05);
+}
+
+TEST(ShortenRapids, leaves_out_ways_to_nowhere) {
+  Toolpath path = begun();
+  path.add(step::Cut{{0, 0, -1}, kFeed}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 0.5}}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 0.5}}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  path.add(step::Rapid{{9, 0, 5}}, OriginId::none);
+  const PassResult result = shorten_rapids(path);
+  ASSERT_EQ(result.path.size(), 5u);
+  EXPECT_EQ(result.path[2].to().z, 0.5);
+  EXPECT_LT(result.after.rapid_mm, result.before.rapid_mm);
+}
+
+TEST(ShortenRapids, leaves_unknown_places_alone) {
+  Toolpath path;
+  path.set_unknown_axes(path.add(step::Rapid{{0, 0, 5}}, OriginId::none), 3);
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  EXPECT_EQ(shorten_rapids(path).path.size(), 2u);
+}
+
+}  // namespace
+}  // namespace kerf
