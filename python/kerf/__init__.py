@@ -2,7 +2,7 @@
 
 A toolpath is built call by call (`Toolpath`) or read from G-code (`read_gcode`, `load`), and cut out of a
 `Stock` by `simulate`, which says what is left, which step made which surface, and which lines would break a
-tool or a part.
+tool or a part. A `Region` is a part of the plane bounded by lines and arcs: unions, offsets, questions.
 Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
@@ -11,6 +11,7 @@ import os
 from ._kerf import (
     Diagnostic,
     Error,
+    Region,
     Simulation,
     Stock,
     Tool,
@@ -18,13 +19,21 @@ from ._kerf import (
     Toolpath,
     __version__,
     built_in_tools,
+    fit_arcs,
+    fit_bezier,
+    fit_spline,
+    flattened,
+    parallel,
     read_gcode,
+    self_meetings,
     simulate,
+    widen,
 )
 
 __all__ = [
     "Diagnostic",
     "Error",
+    "Region",
     "Simulation",
     "Stock",
     "Tool",
@@ -32,9 +41,16 @@ __all__ = [
     "Toolpath",
     "__version__",
     "built_in_tools",
+    "fit_arcs",
+    "fit_bezier",
+    "fit_spline",
+    "flattened",
     "load",
+    "parallel",
     "read_gcode",
+    "self_meetings",
     "simulate",
+    "widen",
 ]
 
 

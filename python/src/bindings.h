@@ -65,5 +65,6 @@ class SignalProgress final : public Progress {
 void bind_toolpath(pybind11::module_& m);
 void bind_tools(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
+void bind_region(pybind11::module_& m);
 
 }  // namespace kerf::python
