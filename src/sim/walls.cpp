@@ -125,8 +125,8 @@ inline Real Window::excess(Real before, Real a, Real b, Real after) const {
   const Real middle = b - a, left = a - before, right = after - b;
   const Real step = std::abs(middle), l = std::abs(left), r = std::abs(right);
   const Real lower = l < r ? l : r, higher = l < r ? r : l;
-  const Real same_way = (left * middle > 0) & (right * middle > 0) ? kExplainedByLower : 0.0f;
-  const Real by_lower = same_way * lower;
+  const bool same_way = (left * middle > 0) & (right * middle > 0);
+  const Real by_lower = (same_way ? kExplainedByLower : 0.0f) * lower;
   const Real by_higher =
       kExplainedByHigher * higher < most_explained_ ? kExplainedByHigher * higher : most_explained_;
   const Real rest = (step - (by_lower > by_higher ? by_lower : by_higher)) * per_least_;
