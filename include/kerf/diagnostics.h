@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "kerf/origin.h"
@@ -60,6 +61,10 @@ class Diagnostics {
   Diagnostic& note(Code code, Origin where, std::string message);
   Diagnostic& add(Diagnostic diagnostic);
 
+  /// Takes out those for which `test` is true, and with them what was only counted of their codes.
+  template <class Test>
+  void remove_if(Test test);
+
   bool has_errors() const { return errors_ > 0; }
   std::size_t errors() const { return errors_; }      ///< all of them, kept or only counted
   std::size_t warnings() const { return warnings_; }  ///< all of them, kept or only counted
@@ -76,5 +81,20 @@ class Diagnostics {
   std::unordered_map<std::uint16_t, std::size_t> seen_;
   Diagnostic overflow_;  // takes notes of diagnostics that are not kept
 };
+
+template <class Test>
+void Diagnostics::remove_if(Test test) {
+  std::vector<Diagnostic> rest;
+  for (Diagnostic& d : list_) {
+    if (!test(static_cast<const Diagnostic&>(d))) {
+      rest.push_back(std::move(d));
+      continue;
+    }
+    if (d.severity == Severity::error) --errors_;
+    if (d.severity == Severity::warning) --warnings_;
+    seen_[static_cast<std::uint16_t>(d.code)] = 0;
+  }
+  list_ = std::move(rest);
+}
 
 }  // namespace kerf
