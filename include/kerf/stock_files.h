@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "kerf/diagnostics.h"
+#include "kerf/round_bar.h"
 #include "kerf/stock.h"
 #include "kerf/stock_body.h"
 
@@ -37,6 +38,10 @@ std::string write_left_file(const LeftColumns& left);
 /// the told y and z) or to Y (through x and z); what is not told goes through the middle of the block.
 std::optional<StockMove> read_flip_option(std::string_view text, const Origin& where,
                                           Diagnostics& diagnostics);
+/// Reads "d=40 length=100 x=0 y=0 z=0": a round bar from X0 to X100 that turns about an axis along X at Y0
+/// Z0; x, y and z may be left out and are 0 then.
+std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& where,
+                                           Diagnostics& diagnostics);
 /// Reads "10,0,-3": a shift in mm.
 std::optional<Point3> read_shift_option(std::string_view text, const Origin& where, Diagnostics& diagnostics);
 

@@ -176,7 +176,7 @@ class Surveyor {
     if (extra == nullptr) return;
     if (extra->abc)
       once(Code::rotary_not_simulated, context,
-           "rotary axes are not simulated; the tool is taken as upright throughout");
+           "rotary axes are not simulated here; the tool is taken as upright throughout, see --rotary");
     if (!extra->z_correction.empty())
       once(Code::z_correction_not_simulated, context,
            "corrections of Z by measured points are not simulated");

@@ -32,7 +32,7 @@ PUBLIC = {
              "codes.def"],
     "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h"],
     "tool": ["tool.h", "material.h"],
-    "stock": ["stock.h", "stock_body.h"],
+    "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
     "sim": ["simulate.h", "fixtures.h", "compare.h", "rotary.h"],
     "front_gcode": ["gcode.h"],

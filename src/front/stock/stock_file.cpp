@@ -127,6 +127,34 @@ std::optional<StockMove> read_flip_option(std::string_view text, const Origin& w
   return std::nullopt;
 }
 
+std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& where,
+                                           Diagnostics& diagnostics) {
+  RoundBar bar;
+  double size = 0.0;
+  bool good = text.size() <= kLongest;
+  for (const std::string& word : words_of(text.substr(0, kLongest))) {
+    const std::size_t equals = std::min(word.find('='), word.size());
+    const std::string key = word.substr(0, equals);
+    const auto value = length_of(std::string_view(word).substr(std::min(equals + 1, word.size())));
+    double* const place = key == "d"        ? &bar.diameter
+                          : key == "length" ? &size
+                          : key == "x"      ? &bar.x_low
+                          : key == "y"      ? &bar.axis_y
+                          : key == "z"      ? &bar.axis_z
+                                            : nullptr;
+    good = good && place != nullptr && value.has_value();
+    if (place != nullptr) *place = value.value_or(0.0);
+  }
+  bar.x_high = bar.x_low + size;
+  if (good && bar.diameter > 0.0 && size > 0.0) return bar;
+  diagnostics.error(
+      Code::rotary_option, where,
+      fmt::format("\"{}\" is no bar; expected \"d=40 length=100\", and where it begins and its axis "
+                  "stands where that is not 0: \"x=-5 y=0 z=12\", all in mm",
+                  text.substr(0, 40)));
+  return std::nullopt;
+}
+
 std::optional<Point3> read_shift_option(std::string_view text, const Origin& where,
                                         Diagnostics& diagnostics) {
   const std::vector<std::string> words = words_of(text.substr(0, kLongest));

@@ -77,6 +77,22 @@ TEST(StockFile, Flips) {
   }
 }
 
+TEST(StockFile, Bars) {
+  Diagnostics diagnostics;
+  const auto bar = read_rotary_option("D=40 length=100mm x=-5 z=1.5", {}, diagnostics);
+  ASSERT_TRUE(bar);
+  EXPECT_EQ(bar->diameter, 40.0);
+  EXPECT_EQ(bar->x_low, -5.0);
+  EXPECT_EQ(bar->x_high, 95.0);
+  EXPECT_EQ(bar->axis_y, 0.0);
+  EXPECT_EQ(bar->axis_z, 1.5);
+  for (const char* bad :
+       {"", "d=40", "length=3", "d=-1 length=3", "d=40 length=100 q=1", "d=4 length=x", "40 100"}) {
+    EXPECT_FALSE(read_rotary_option(bad, {}, diagnostics)) << bad;
+    EXPECT_EQ(diagnostics.list().back().code, Code::rotary_option);
+  }
+}
+
 TEST(StockFile, Shifts) {
   Diagnostics diagnostics;
   EXPECT_EQ(read_shift_option("10, 0,-3.5mm", {}, diagnostics), (Point3{10, 0, -3.5}));
