@@ -120,6 +120,9 @@ struct Workpiece::Body {
   sim::Real same_height = 0.0f;
   /// What the columns at walls hold more (or less) than their centres say, mm3; see walls.h.
   double wall_volume = 0.0;
+  /// What the columns begin with; nothing where the block begins full. Tiles that begin otherwise exist from
+  /// the start.
+  std::shared_ptr<const ColumnRuns> start;
   /// Tiles that nothing has touched yet do not exist.
   sim::BlockStore<sim::Tile> store;
   std::vector<sim::BlockStore<sim::Tile>::Pointer> tiles;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/parallel.h"
+#include "sim/start.h"
 
 namespace kerf::sim {
 namespace {
@@ -273,6 +274,7 @@ std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned thread
 WallTile::WallTile(const Workpiece::Body& body, const WallColumns& walls, Parts& store)
     : centres_(body.height, body.columns_x_of(walls.tile), body.columns_y_of(walls.tile)),
       centre_weights_(kMicros * kLanes, 0.0f) {
+  fill_start_tile(body, walls.tile, centres_);
   const auto tiles_x = static_cast<std::uint32_t>(body.tiles_x);
   const int column = static_cast<int>(walls.tile % tiles_x) * kTileColumns;
   const int row = static_cast<int>(walls.tile / tiles_x) * kTileColumns;
@@ -291,6 +293,7 @@ WallTile::WallTile(const Workpiece::Body& body, const WallColumns& walls, Parts&
     for (int n = 0; n < count; ++n)
       add_point_column(part, body, walls.tile, n, walls.columns[first + static_cast<std::size_t>(n)]);
     enclose(part.points, count, pitch);
+    if (body.start) refresh_bounds(part.tile);
     keep_micros(part.tile, [&](int micro) { return micro < count; });
   }
 }
@@ -310,6 +313,7 @@ void WallTile::add_point_column(Part& part, const Workpiece::Body& body, std::ui
   const std::uint32_t bits = scrambled(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
   points.shift_x[number] = unit_share(bits);
   points.shift_y[number] = unit_share(bits >> 16);
+  if (body.start) put_start_column(body, i, j, part.tile, number);
   std::fill_n(part.weights.begin() + number * kLanes, kLanes, static_cast<Real>(share_x * share_y / kLanes));
 }
 
