@@ -64,16 +64,24 @@ class Diagnostics {
   std::size_t errors() const { return errors_; }      ///< all of them, kept or only counted
   std::size_t warnings() const { return warnings_; }  ///< all of them, kept or only counted
   const std::vector<Diagnostic>& list() const { return list_; }
+  /// Forgets the warnings and notes of a code, kept or only counted: for what the caller tells in its own way.
+  void forget_mild(Code code);
+
   /// How many of a code were counted but not kept.
   std::size_t dropped(Code code) const;
   std::vector<Code> dropped_codes() const;
 
  private:
+  struct Seen {
+    std::size_t errors = 0, warnings = 0, notes = 0;
+    std::size_t kept = 0;
+    std::size_t all() const { return errors + warnings + notes; }
+  };
   std::size_t limit_per_code_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
   std::vector<Diagnostic> list_;
-  std::unordered_map<std::uint16_t, std::size_t> seen_;
+  std::unordered_map<std::uint16_t, Seen> seen_;
   Diagnostic overflow_;  // takes notes of diagnostics that are not kept
 };
 

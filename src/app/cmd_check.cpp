@@ -51,17 +51,6 @@ std::optional<std::vector<Finding>> findings_in_material(const Job& job, double 
   return findings_of(simulation->hazards, job.program.path);
 }
 
-/// What the reader said, without what is a hazard of its own: a missing feed or end is told once.
-Diagnostics without_hazards(const Diagnostics& all) {
-  Diagnostics rest(all.list().size() + 1);
-  for (const Diagnostic& d : all.list()) {
-    const bool hazard =
-        d.severity != Severity::error && (d.code == Code::no_feed || d.code == Code::no_program_end);
-    if (!hazard) rest.add(d);
-  }
-  return rest;
-}
-
 void show_result(Console& console, const LoadedProgram& program, const std::vector<Finding>& findings,
                  const Diagnostics& diagnostics) {
   console.show(diagnostics);
@@ -107,7 +96,9 @@ Status run(Console& console, const Options& options) {
   }
   progress.clear();
   if (interrupted()) return tell_stopped(console);
-  show_result(console, job.program, findings, without_hazards(diagnostics));
+  // A missing feed or end is a hazard of its own, and told once.
+  for (const Code told : {Code::no_feed, Code::no_program_end}) diagnostics.forget_mild(told);
+  show_result(console, job.program, findings, diagnostics);
   if (diagnostics.has_errors()) return Status::input_errors;
   return findings.empty() ? Status::done : Status::hazards;
 }

@@ -126,12 +126,14 @@ void Interpreter::set_tool_data(int tool) {
   line_.use(kAxisLetters | kRotaryLetters | Line::bit('I') | Line::bit('J') | Line::bit('Q'));
 }
 
-/// What the program's remarks and G10 say, then the user's table.
+/// What G10 says, then the user, then the program's remarks.
 std::optional<double> Interpreter::diameter_of(int tool) const {
   if (const auto told = tool_diameters_.find(tool); told != tool_diameters_.end()) return told->second;
-  if (const auto told = program_.tools.find(tool); told != program_.tools.end())
-    return told->second.diameter.mm();
-  return options_.tool_diameter ? options_.tool_diameter(tool) : std::nullopt;
+  const auto found = program_.tools.find(tool);
+  const Tool* described = found == program_.tools.end() ? nullptr : &found->second;
+  if (options_.tool_diameter) return options_.tool_diameter(tool, described);
+  if (described == nullptr) return std::nullopt;
+  return described->diameter.mm();
 }
 
 /// G52: the shift itself.

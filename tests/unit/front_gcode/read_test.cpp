@@ -168,7 +168,20 @@ TEST(ReadGcode, LimitsAreErrors) {
   ASSERT_EQ(r.diagnostics.errors(), 1u);
   EXPECT_EQ(r.diagnostics.list()[0].code, Code::too_many_steps);
   const Reading many = read("F1 G91 G83 X1 Z-1000 R0 Q0.02 L10000\nM2", {.max_steps = 1000});
-  EXPECT_EQ(many.size(), 1000u);
+  EXPECT_EQ(many.size(), 0u);  // counted before any of them is made
+  EXPECT_EQ(many.diagnostics.list()[0].code, Code::too_many_steps);
+}
+
+TEST(ReadGcode, AShortProgramDoesNotFillTheMemory) {
+  const GcodeReadOptions few{.max_made_steps = 1000};
+  const Reading loop = read("O1 repeat [100000]\nG91 G0 X1\nO1 endrepeat\nM2", few);
+  EXPECT_EQ(loop.diagnostics.list()[0].code, Code::too_many_steps);
+  EXPECT_LT(loop.size(), 1100u);
+  std::string plain;
+  for (int i = 0; i < 50'000; ++i) plain += i % 2 == 0 ? "G0X1\n" : "X2\n";
+  const Reading told = read(plain + "M2", few);
+  EXPECT_EQ(told.size(), 50'001u);
+  EXPECT_EQ(told.diagnostics.errors(), 0u);
 }
 
 class Stopper : public Progress {
