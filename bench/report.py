@@ -12,6 +12,7 @@ from pathlib import Path
 
 # Google Benchmark's own counters aside, what a row may hold besides its time.
 RATES = {"items_per_second": "items/s", "bytes_per_second": "B/s"}
+TIMES_REAL = "times_real"  # how many times faster than the program that Kerf stands in for
 SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
@@ -26,6 +27,8 @@ def run(program, pattern):
         if row.get("error_occurred"):
             sys.exit(f"{row['name']}: {row.get('error_message')}")
         rates = {label: row[key] for key, label in RATES.items() if key in row}
+        if TIMES_REAL in row:
+            rates[TIMES_REAL] = row[TIMES_REAL]
         rows[row["name"]] = {"seconds": row["real_time"] * SECONDS[row["time_unit"]], **rates}
     return rows
 
@@ -38,10 +41,10 @@ def time_text(seconds):
 
 
 def rate_text(row):
-    for label in RATES.values():
-        if label in row:
-            return f"{row[label] / 1e6:10.3f} M{label}"
-    return ""
+    texts = [f"{row[label] / 1e6:10.3f} M{label}" for label in RATES.values() if label in row][:1]
+    if TIMES_REAL in row:
+        texts.append(f"{row[TIMES_REAL]:.1f} times the real program's speed")
+    return "  ".join(texts)
 
 
 def line(name, row, before):

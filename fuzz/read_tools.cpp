@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   kerf::Diagnostics diagnostics;
   switch (data[0]) {
     case 'o':
-      if (const auto tool = kerf::read_tool_option(text, diagnostics)) use(*tool);
+      if (const auto tool = kerf::read_tool_option(text, {}, diagnostics)) use(*tool);
       break;
     case 'c': read_comment(text); break;
     case 's': read_stock(text); break;

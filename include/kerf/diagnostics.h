@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "kerf/origin.h"
@@ -60,29 +61,40 @@ class Diagnostics {
   Diagnostic& note(Code code, Origin where, std::string message);
   Diagnostic& add(Diagnostic diagnostic);
 
+  /// Takes out those for which `test` is true, and with them what was only counted of their codes.
+  template <class Test>
+  void remove_if(Test test);
+
   bool has_errors() const { return errors_ > 0; }
   std::size_t errors() const { return errors_; }      ///< all of them, kept or only counted
   std::size_t warnings() const { return warnings_; }  ///< all of them, kept or only counted
   const std::vector<Diagnostic>& list() const { return list_; }
-  /// Forgets the warnings and notes of a code, kept or only counted: for what the caller tells in its own way.
-  void forget_mild(Code code);
-
   /// How many of a code were counted but not kept.
   std::size_t dropped(Code code) const;
   std::vector<Code> dropped_codes() const;
 
  private:
-  struct Seen {
-    std::size_t errors = 0, warnings = 0, notes = 0;
-    std::size_t kept = 0;
-    std::size_t all() const { return errors + warnings + notes; }
-  };
   std::size_t limit_per_code_;
   std::size_t errors_ = 0;
   std::size_t warnings_ = 0;
   std::vector<Diagnostic> list_;
-  std::unordered_map<std::uint16_t, Seen> seen_;
+  std::unordered_map<std::uint16_t, std::size_t> seen_;
   Diagnostic overflow_;  // takes notes of diagnostics that are not kept
 };
+
+template <class Test>
+void Diagnostics::remove_if(Test test) {
+  std::vector<Diagnostic> rest;
+  for (Diagnostic& d : list_) {
+    if (!test(static_cast<const Diagnostic&>(d))) {
+      rest.push_back(std::move(d));
+      continue;
+    }
+    if (d.severity == Severity::error) --errors_;
+    if (d.severity == Severity::warning) --warnings_;
+    seen_[static_cast<std::uint16_t>(d.code)] = 0;
+  }
+  list_ = std::move(rest);
+}
 
 }  // namespace kerf

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/progress.h"
 
 namespace kerf {
 
@@ -17,9 +18,12 @@ namespace kerf {
 class InputFile {
  public:
   /// Opens `path`; "-" is standard input. Appends an error (no such file, a folder, not readable, larger than
-  /// `limit_bytes`) and returns nothing where it cannot be had.
+  /// `limit_bytes`, stopped by `progress`) and returns nothing where it cannot be had. What cannot be mapped
+  /// (pipes, devices, standard input) is held in memory, so that of it at most kLargestStream bytes are read.
   static std::optional<InputFile> open(const std::string& path, Diagnostics& diagnostics,
-                                       std::size_t limit_bytes = std::size_t{4} << 30);
+                                       std::size_t limit_bytes = std::size_t{4} << 30,
+                                       Progress* progress = nullptr);
+  static constexpr std::size_t kLargestStream = std::size_t{256} << 20;
   std::string_view bytes() const;
   const std::string& path() const { return path_; }
 
@@ -35,7 +39,8 @@ class InputFile {
 };
 
 /// A set of output files that appear together: each is written beside its target under a temporary name, and
-/// `commit()` renames all of them. Without a commit nothing is left behind.
+/// `commit()` renames all of them. Without a commit nothing is left behind. A target that is a link is
+/// followed, and one that is no ordinary file (a pipe, /dev/null) is written to by `commit()` as it is.
 class OutputSet {
  public:
   OutputSet() = default;
@@ -52,8 +57,10 @@ class OutputSet {
  private:
   struct Pending {
     std::string target;
-    std::string temporary;
+    std::string temporary;  // empty: `bytes` go straight to the target
+    std::string bytes;
   };
+  bool put_in_place(const Pending& file, Diagnostics& diagnostics) const;
   std::vector<Pending> pending_;
 };
 

@@ -12,7 +12,8 @@ namespace kerf {
 
 /// What the writers need, borrowed from the caller. Positions x y z in mm (Z up), three indices a triangle,
 /// counter-clockwise seen from outside. `colour_index` is empty or holds one index into `palette` a triangle.
-/// `step` is empty or holds the toolpath step that made each triangle (kept in GLB as the attribute _STEP).
+/// The palette's names become those of materials. `step` is empty or holds the toolpath step that made each
+/// triangle (kept in GLB as the attribute _STEP).
 struct MeshView {
   std::span<const float> positions;
   std::span<const std::uint32_t> triangles;
@@ -20,6 +21,7 @@ struct MeshView {
   std::span<const std::array<std::uint8_t, 3>> palette;  // sRGB
   std::span<const std::uint32_t> step;
   std::string name = "part";
+  std::span<const std::string> palette_names = {};  // of the palette's first colours; "colour 2" else
 };
 
 enum class MeshFormat : std::uint8_t { stl, three_mf, glb, obj };

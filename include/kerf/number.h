@@ -30,6 +30,12 @@ std::string exact_text(double value);
 /// not finite. Works without floating from_chars, so that it also builds for WebAssembly.
 std::optional<double> parse_number(std::string_view text);
 
+/// mm in a unit of length: "mm", or "in", "inch", "inches" or a double quote, in any case; nothing for other
+/// words.
+std::optional<double> mm_per_unit(std::string_view unit);
+/// Reads "6.35", "0.25in", "1/4 inch" as mm; `scale` is the mm of a unit where none is told.
+std::optional<double> parse_length(std::string_view text, double scale);
+
 /// The closest of `known` to `word` if it is close enough to be a slip of the fingers ("did you mean ...").
 std::optional<std::string> did_you_mean(std::string_view word, const std::vector<std::string>& known);
 

@@ -42,6 +42,10 @@ enum class Repeat : std::uint8_t { when_changed, always };
 enum class Zeros : std::uint8_t { dropped, kept };
 enum class WordSpacing : std::uint8_t { blank, none };
 enum class LineEnd : std::uint8_t { lf, crlf };
+/// What a line is. `words`: codes and words together, in any number, the motion in force until another comes
+/// (RS274, all millers). `commands`: one command, named on every line (printers); G28 and G53 mean other
+/// things there, so that moves to places of the machine are left out.
+enum class LineSyntax : std::uint8_t { words, commands };
 /// What the limit of a line's length counts: every byte, or (GRBL) neither blanks nor comments.
 enum class LineMeasure : std::uint8_t { bytes, significant };
 enum class ExtruderMode : std::uint8_t { relative, absolute };
@@ -64,6 +68,8 @@ struct PostProfile {
   LineMeasure line_measure = LineMeasure::bytes;
   bool percent_lines = false;  // a program may stand between two lines of %
   bool parameters = false;     // #1, [1 + 2] and O-words
+  bool macros = false;         // lines such as PAUSE or SET_FAN_SPEED FAN=box (Klipper)
+  LineSyntax syntax = LineSyntax::words;
   CommentStyle comments = CommentStyle::brackets;
   std::string comment_forbidden;  // characters that act even inside a comment (GRBL's ! ? ~)
 

@@ -28,7 +28,8 @@ namespace kerf {
 inline constexpr std::uint32_t kStockSurface = 0xffffffffu;
 
 struct SimulationOptions {
-  Length resolution;     // column pitch; 0 chooses one: about 4 million columns, between 0.02 and 1 mm
+  Length resolution;  // column pitch; 0 chooses one: about 4 million columns, from 0.02 to 1 mm; for a huge
+                      // stock more
   unsigned threads = 0;  // 0: as many as the machine has. The result is the same for any number.
   std::size_t max_columns = 400'000'000;  // more is an error that says which resolution would do
   Length hazard_depth = mm(0.001);        // contacts shallower than this are no hazard
@@ -64,9 +65,9 @@ struct Interval {
 };
 
 /// A copy of the columns as plain arrays: column (i, j) is number j * nx + i and owns the intervals
-/// first[number] to first[number + 1] - 1, lowest first. It stands at x = bounds.low.x + (i + 0.5) * pitch, y
-/// likewise; heights count from bounds.low.z. The last column of a row may reach beyond the block when the
-/// pitch does not divide it.
+/// first[number] to first[number + 1] - 1, lowest first. It stands at bounds.low.x + column_x(i), y likewise;
+/// heights count from bounds.low.z. Where the pitch does not divide the block, the last column of a row is
+/// narrower and stands in the middle of what is left, so that no column stands outside the block.
 struct ColumnGrid {
   Box3 bounds;         // mm, the stock's block
   double pitch = 0.0;  // mm
@@ -76,6 +77,10 @@ struct ColumnGrid {
   /// Empty, or one a column: for a column without material the step that took the last of it (so that the
   /// walls around a through cut know who made them), else anything.
   std::vector<std::uint32_t> cut_through = {};
+
+  /// Place of column i or j, mm from the block's low side.
+  double column_x(int i) const;
+  double column_y(int j) const;
 };
 
 /// The material left, as columns.

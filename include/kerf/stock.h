@@ -43,10 +43,6 @@ const std::vector<std::string>& zero_height_names();
 /// Whether the block has a volume: finite and low below high in every axis.
 bool is_solid(const Stock& stock);
 
-/// A block around the cuts: `margin` added sideways, top at Z0 or at the highest cut if that is above, and
-/// `floor` of material below the deepest cut. For programs that say nothing of their stock.
-Stock stock_around(const Box3& cuts, Length margin, Length floor);
-
 /// Gathers what a program's comments say of the stock: "STOCK/BLOCK, L, W, H, OX, OY, OZ" (CutViewer: program
 /// zero from the lowest corner) and "stockMin: x, y, z" with "stockMax: ...", in all the spacings seen in
 /// real files (spec/gcodepreview.md sections 2 and 13).

@@ -18,8 +18,8 @@ const ToolTable& built_in_tools();
 void read_tool_file(std::string_view text, std::string_view file_name, ToolTable& table,
                     Diagnostics& diagnostics);
 
-/// Reads a tool told on the command line: "square d=3.175 flute=12.7", "V d=12.7 angle=90", or the number of
-/// a built-in tool. Errors name the option.
-std::optional<Tool> read_tool_option(std::string_view text, Diagnostics& diagnostics);
+/// Reads a tool told in words: "square d=3.175 flute=12.7", "V d=12.7 angle=90", the name of a built-in tool,
+/// or its number. `where` is the errors' place.
+std::optional<Tool> read_tool_option(std::string_view text, const Origin& where, Diagnostics& diagnostics);
 
 }  // namespace kerf

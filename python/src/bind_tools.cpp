@@ -23,7 +23,7 @@ std::string option_text(const std::string& shape_name, const py::kwargs& sizes) 
 
 Tool tool_from_text(const std::string& text, int number) {
   Diagnostics diagnostics;
-  std::optional<Tool> tool = read_tool_option(text, diagnostics);
+  std::optional<Tool> tool = read_tool_option(text, script_spot("Tool"), diagnostics);
   raise_or_warn(diagnostics);
   if (number != 0) tool->number = number;
   return *tool;

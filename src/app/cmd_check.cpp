@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
 
 #include "app/command.h"
@@ -18,6 +19,7 @@ namespace {
 constexpr double kColumns = 500'000;                // of the coarse simulation that finds hazards
 constexpr double kFinestDefault = 0.05;             // mm
 constexpr double kCoarsestDefault = 1.0;            // mm
+constexpr double kMostColumns = 50'000'000;         // more only if the user asks for a resolution
 constexpr double kFinest = 0.0005, kCoarsest = 50;  // mm, --resolution
 
 struct Options {
@@ -30,25 +32,86 @@ struct Options {
 Length resolution_for(const Stock& stock, double told) {
   if (told > 0.0) return mm(told);
   const Point3 size = stock.block.size();
-  return mm(std::clamp(std::sqrt(size.x * size.y / kColumns), kFinestDefault, kCoarsestDefault));
+  const double area = size.x * size.y;
+  const double usual = std::clamp(std::sqrt(area / kColumns), kFinestDefault, kCoarsestDefault);
+  return mm(std::max(usual, std::sqrt(area / kMostColumns)));
 }
 
-/// The hazards met in the material; nothing where it could not be simulated (`diagnostics` says why).
-std::optional<std::vector<Finding>> findings_in_material(const Job& job, double resolution,
-                                                         Diagnostics& diagnostics, Progress& progress) {
-  const bool toolless = job.tool_sources.empty();
-  if (!job.stock || toolless) {
+/// Calls visit(step, context) for every cut with a tool whose shape nobody knows.
+template <class Visit>
+void for_each_unknown_cut(const Job& job, Visit&& visit) {
+  const bool one_tool = job.tools.tools().size() == 1;  // stands in until the program chooses one
+  for_each_motion(job.program.path, [&](const Step& s, const MotionContext& context) {
+    if (s.is_cutting() && (context.tool ? job.tools.find(*context.tool) == nullptr : !one_tool))
+      visit(s, context);
+  });
+}
+
+/// A hazard for each tool whose shape nobody knows: what it cuts, nobody can look at. Cuts before any tool
+/// change are a hazard of the toolpath.
+std::vector<Finding> unknown_tools(const Job& job) {
+  std::map<int, Finding> found;
+  for_each_unknown_cut(job, [&](const Step& s, const MotionContext& context) {
+    if (!context.tool) return;
+    const auto [it, is_new] = found.try_emplace(*context.tool);
+    if (!is_new) return void(++it->second.steps);
+    it->second = {.kind = "unknown_tool",
+                  .step = context.index,
+                  .at = s.to(),
+                  .origin = job.program.path.origin_of(context.index),
+                  .message = fmt::format("nobody knows the shape of tool {}, which cuts here", *context.tool),
+                  .callers = job.program.path.origins().callers(s.origin()),
+                  .hint = hint_for_unknown(*context.tool)};
+  });
+  std::vector<Finding> list;
+  for (auto& [tool, finding] : found) list.push_back(std::move(finding));
+  return list;
+}
+
+/// What can be cut: the toolpath up to the first cut with an unknown tool, after which nobody knows what is
+/// left of the stock. Says so where that is not all.
+Toolpath known_part(const Job& job, Diagnostics& diagnostics) {
+  const Toolpath& path = job.program.path;
+  std::size_t end = path.size();
+  for_each_unknown_cut(job, [&](const Step&, const MotionContext& c) { end = std::min(end, c.index); });
+  if (end == path.size()) return path;
+  const auto& steps = path.steps();
+  const bool any = std::any_of(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(end),
+                               [](const Step& s) { return s.is_cutting(); });
+  diagnostics.warning(Code::not_simulated, path.origin_of(end),
+                      any ? "from here on the material was not looked at, because the tool is not known"
+                          : "the material was not looked at, because the tool is not known");
+  Toolpath part;
+  part.origins() = path.origins();
+  for (std::size_t i = 0; any && i < end; ++i) part.add_copy(path, i);
+  return part;
+}
+
+/// The hazards met in the material, as far as it can be simulated (`diagnostics` says how far).
+std::vector<Finding> findings_in_material(const Job& job, double resolution, Diagnostics& diagnostics,
+                                          Progress& progress) {
+  if (!job.stock) {
     diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
-                        toolless ? "no tool is known, so the material was not looked at"
-                                 : "nothing is cut and no stock is told, so the material was not looked at");
-    return std::nullopt;
+                        "nothing is cut and no stock is told, so the material was not looked at");
+    return {};
   }
+  const Toolpath path = known_part(job, diagnostics);
+  if (path.size() == 0) return {};
   SimulationOptions how;
   how.resolution = resolution_for(*job.stock, resolution);
   progress.phase("checking");
-  const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
-  if (!simulation) return std::nullopt;
-  return findings_of(simulation->hazards, job.program.path);
+  const auto simulation = simulate(path, job.tools, *job.stock, how, diagnostics, &progress);
+  if (!simulation) return {};
+  return findings_of(simulation->hazards, path);
+}
+
+/// What the reader said, without what is a hazard of its own: a missing feed or end is told once.
+Diagnostics without_hazards(const Diagnostics& all) {
+  Diagnostics rest = all;
+  rest.remove_if([](const Diagnostic& d) {
+    return d.severity != Severity::error && (d.code == Code::no_feed || d.code == Code::no_program_end);
+  });
+  return rest;
 }
 
 void show_result(Console& console, const LoadedProgram& program, const std::vector<Finding>& findings,
@@ -82,7 +145,10 @@ Status run(Console& console, const Options& options) {
   }
   std::vector<Finding> findings;
   const ProgramEnd end = program->end;
-  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error_if_numbered, diagnostics);
+  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::told_elsewhere, diagnostics);
+  if (job.program.path.size() == 0 && !diagnostics.has_errors())
+    diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
+                      "the program is empty, so there is nothing to check");
   CheckOptions checks;
   checks.end = end;
   checks.machine = settings.input.machine ? &*settings.input.machine : nullptr;
@@ -90,15 +156,13 @@ Status run(Console& console, const Options& options) {
   checks.tools = &job.tools;
   if (job.stock) checks.stock = job.stock->block;
   findings = findings_of(check_path(job.program.path, checks), job.program.path);
-  if (!diagnostics.has_errors()) {
-    auto in_material = findings_in_material(job, options.resolution, diagnostics, progress);
-    if (in_material) findings = merged(std::move(findings), std::move(*in_material));
-  }
+  findings = merged(std::move(findings), unknown_tools(job));
+  if (!diagnostics.has_errors())
+    findings =
+        merged(std::move(findings), findings_in_material(job, options.resolution, diagnostics, progress));
   progress.clear();
   if (interrupted()) return tell_stopped(console);
-  // A missing feed or end is a hazard of its own, and told once.
-  for (const Code told : {Code::no_feed, Code::no_program_end}) diagnostics.forget_mild(told);
-  show_result(console, job.program, findings, diagnostics);
+  show_result(console, job.program, findings, without_hazards(diagnostics));
   if (diagnostics.has_errors()) return Status::input_errors;
   return findings.empty() ? Status::done : Status::hazards;
 }
@@ -120,15 +184,15 @@ Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 Command add_check(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
-      new_command(root, "check", "Look for hazards in a program, without writing files; exit status 3",
+      new_command(root, "check", "Look for hazards in a program, without writing files; status 3 if any",
                   kExamples + std::string(kJobHelp), options->output);
   add_job_options(*app, options->job);
   add_machine_option(*app, options->job);
   app->add_option("--material", options->material,
                   "The stock's material, for the chip load: plywood, aluminium ...")
       ->type_name("NAME");
-  add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
-             "Distance of the material columns in mm (default: coarse, by the stock's size)");
+  add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+             "Distance of the material columns, mm or 0.01in (default: coarse, by the stock's size)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

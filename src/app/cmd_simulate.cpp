@@ -1,5 +1,6 @@
 // kerf simulate: cuts a program out of its stock, tells what was removed and what went wrong, writes meshes
 // and pictures.
+#include <algorithm>
 #include <fmt/format.h>
 #include <memory>
 
@@ -24,6 +25,7 @@ struct Options {
   double threads = 0.0;
   std::string view = "-35,50";
   std::string size = "1600x1000";
+  std::vector<const CLI::Option*> picture_options;  // those that only pictures use
 };
 
 /// All that a finished simulation has to tell.
@@ -84,10 +86,6 @@ Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
   return out;
 }
 
-std::string hazard_count(std::size_t count) {
-  return count == 0 ? "none" : count == 1 ? "1" : fmt::format("{}", count);
-}
-
 void show_summary(Console& console, const Result& result) {
   const Simulation& s = result.simulation;
   const Point3 size = result.job.stock->block.size();
@@ -100,7 +98,7 @@ void show_summary(Console& console, const Result& result) {
                               number_text(share, 1), number_text(s.stock.mm3() - s.removed.mm3(), 1)));
   const auto removed = removed_by_tool(result.job, s);
   for (const ToolFigures& t : result.job.report.tools) {
-    if (!t.tool) continue;
+    if (!t.tool || t.figures.cut_bounds.empty()) continue;
     const Tool* tool = result.job.tools.find(*t.tool);
     const auto it = removed.find(t.tool);
     console.summary(fmt::format(
@@ -110,7 +108,7 @@ void show_summary(Console& console, const Result& result) {
   console.summary(fmt::format("columns  {} mm apart, simulated in {} s",
                               number_text(s.workpiece.pitch().mm(), 4), number_text(s.seconds, 3)));
   for (const OutputFile& f : result.outputs) console.summary(fmt::format("wrote    {}", f.path));
-  console.summary(fmt::format("hazards  {}", hazard_count(result.findings.size())));
+  console.summary(fmt::format("hazards  {}", count_text(result.findings)));
 }
 
 Status simulate_job(Console& console, const Options& options, const JobSettings& settings,
@@ -149,6 +147,15 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   return Status::done;
 }
 
+void tell_unused_options(const Options& options, const std::vector<OutputFile>& outputs,
+                         Diagnostics& diagnostics) {
+  if (std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return !f.mesh; })) return;
+  for (const CLI::Option* option : options.picture_options)
+    if (option->count() > 0)
+      diagnostics.warning(Code::option_unused, CallSpot{"", 0, option->get_name()}, "no picture is written")
+          .hint = "ask for one with -o FILE.png";
+}
+
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
@@ -158,6 +165,7 @@ Status run(Console& console, const Options& options) {
   if (!view) console.complain(problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!view) return Status::wrong_usage;
+  tell_unused_options(options, outputs, diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   return simulate_job(console, options, settings, outputs, *view, diagnostics);
 }
@@ -180,15 +188,16 @@ Command add_simulate(CLI::App& root) {
   add_job_options(*app, options->job);
   add_repeated(*app, "-o,--output", options->outputs, "PATH",
                "Write the part: .stl .3mf .glb .obj, or a picture: .png");
-  add_number(*app, "--resolution", options->resolution, kFinest, kCoarsest, "MM",
-             "Distance of the material columns in mm (default: by the stock's size)");
-  app->add_option("--view", options->view,
-                  "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
-      ->type_name("VIEW")
-      ->capture_default_str();
-  app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")
-      ->type_name("WxH")
-      ->capture_default_str();
+  add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+             "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
+  options->picture_options = {
+      app->add_option("--view", options->view,
+                      "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
+          ->type_name("VIEW")
+          ->capture_default_str(),
+      app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")
+          ->type_name("WxH")
+          ->capture_default_str()};
   add_number(*app, "--threads", options->threads, 0, kMostThreads, "N",
              "Threads to use (default: all; same result)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};

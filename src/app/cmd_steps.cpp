@@ -56,6 +56,8 @@ Command add_steps(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "steps", "Print a program's toolpath as JSON lines", kExamples, options->output);
+  app->get_option("--json")->description("Changes nothing here: each step is a JSON object in any case");
+  app->get_option("--quiet")->description("No progress bar or notes; warnings and errors stay");
   add_program(*app, options->file);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "app/command.h"
+#include "app/job.h"
 #include "app/json.h"
 #include "app/sketch.h"
 #include "app/text.h"
@@ -98,7 +99,7 @@ std::optional<Tool> find(const std::string& asked, const ToolTable& table, Diagn
   if (number && *number >= 0 && *number <= 999'999'999)
     if (const Tool* tool = table.find(static_cast<int>(*number))) return *tool;
   if (const Tool* tool = table.find_name(asked)) return *tool;
-  return read_tool_option(asked, diagnostics);
+  return read_tool_option(asked, CallSpot{"", 0, fmt::format("\"{}\"", asked.substr(0, 80))}, diagnostics);
 }
 
 void print_parts(Console& console, const Silhouette& silhouette) {
@@ -116,7 +117,8 @@ void print_parts(Console& console, const Silhouette& silhouette) {
 }
 
 void print_tool(Console& console, const Tool& tool) {
-  console.print(fmt::format("{} {}\n\n", tool.number, tool.description));
+  const std::string title = tool.description.empty() ? short_name(tool) : tool.description;
+  console.print(tool.number == 0 ? title + "\n\n" : fmt::format("{} {}\n\n", tool.number, title));
   console.print(fmt::format("shape         {}\n", name_of(tool.shape)));
   console.print(fmt::format("diameter      {} mm\n", number_text(tool.diameter.mm(), 4)));
   console.print(fmt::format("flute         {} mm, {} teeth{}\n", number_text(tool.flute.mm(), 4), tool.teeth,

@@ -34,16 +34,34 @@ Status tell_stopped(Console& console) {
   return Status::interrupted;
 }
 
-CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
-                        const std::string& unit, const std::string& summary) {
-  const auto read = [&value, name, low, high](const std::string& text) {
-    const std::optional<double> number = parse_number(text);
+namespace {
+
+/// An option whose text `parse` makes a number; what is expected is told as "a `kind` from .. to ..".
+template <class Parse>
+CLI::Option* add_parsed(CLI::App& app, const std::string& name, double& value, double low, double high,
+                        const std::string& kind, const std::string& summary, Parse parse) {
+  const auto read = [&value, name, low, high, kind, parse](const std::string& text) {
+    const std::optional<double> number = parse(text);
     if (!number || *number < low || *number > high)
-      throw CLI::ValidationError(name, fmt::format("\"{}\" is not a number from {} to {}", text.substr(0, 40),
+      throw CLI::ValidationError(name, fmt::format("\"{}\" is not {} from {} to {}", text.substr(0, 40), kind,
                                                    exact_text(low), exact_text(high)));
     value = *number;
   };
-  return app.add_option_function<std::string>(name, read, summary)->type_name(unit);
+  return app.add_option_function<std::string>(name, read, summary);
+}
+
+}  // namespace
+
+CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
+                        const std::string& unit, const std::string& summary) {
+  return add_parsed(app, name, value, low, high, "a number", summary, parse_number)->type_name(unit);
+}
+
+CLI::Option* add_length(CLI::App& app, const std::string& name, double& mm, double low, double high,
+                        const std::string& summary) {
+  const auto parse = [](const std::string& text) { return parse_length(text, 1.0); };
+  return add_parsed(app, name, mm, low, high, "a length in mm, or with \"in\",", summary, parse)
+      ->type_name("MM");
 }
 
 CLI::Option* add_program(CLI::App& app, std::string& file) {

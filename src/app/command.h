@@ -44,6 +44,9 @@ Status tell_stopped(Console& console);
 /// An option whose value is a finite number from `low` to `high`; anything else is wrong usage.
 CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
                         const std::string& unit, const std::string& summary);
+/// An option whose value is a length from `low` to `high` mm, told in mm or with its unit ("0.01in").
+CLI::Option* add_length(CLI::App& app, const std::string& name, double& mm, double low, double high,
+                        const std::string& summary);
 /// The positional FILE of the commands that read a program.
 CLI::Option* add_program(CLI::App& app, std::string& file);
 /// An option that may be given several times, one value each time.

@@ -4,7 +4,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <map>
 #include <unistd.h>
+#include <utility>
+#include <vector>
 
 namespace kerf::app {
 namespace {
@@ -37,6 +40,55 @@ std::string printable(std::string text) {
   return text;
 }
 
+/// Diagnostics that say the same of different lines.
+struct Kind {
+  std::vector<const Diagnostic*> same;
+  std::size_t not_kept = 0;  // those that were only counted
+};
+
+/// The line of a text; 0 for places of other kinds.
+std::uint32_t line_of(const Diagnostic& diagnostic) {
+  const auto* spot = std::get_if<TextSpot>(&diagnostic.where);
+  return spot == nullptr ? 0 : spot->line;
+}
+
+/// In the order of each kind's first one. What has no line, or notes of its own, stands alone.
+std::vector<Kind> kinds_of(const Diagnostics& diagnostics) {
+  std::vector<Kind> kinds;
+  std::map<std::pair<Code, std::string_view>, std::size_t> place;
+  std::map<Code, std::size_t> last_of_code;
+  for (const Diagnostic& d : diagnostics.list()) {
+    const auto [it, is_new] = place.try_emplace({d.code, d.message}, kinds.size());
+    if (is_new || !d.notes.empty() || line_of(d) == 0) {
+      last_of_code[d.code] = kinds.size();
+      kinds.push_back({{&d}});
+    } else {
+      kinds[it->second].same.push_back(&d);
+    }
+  }
+  for (const Code code : diagnostics.dropped_codes())
+    if (const auto it = last_of_code.find(code); it != last_of_code.end())
+      kinds[it->second].not_kept = diagnostics.dropped(code);
+  return kinds;
+}
+
+/// "\n  and 48 more in line 13, 15, 17 ..." for those of a kind beyond its first one.
+std::string more_of(const Kind& kind) {
+  constexpr std::size_t kLinesNamed = 5;
+  const std::size_t more = kind.same.size() - 1 + kind.not_kept;
+  if (more == 0) return {};
+  std::string lines;
+  std::size_t named = 0;
+  std::uint32_t last = line_of(*kind.same.front());
+  for (std::size_t i = 1; i < kind.same.size() && named < kLinesNamed; ++i) {
+    const std::uint32_t line = line_of(*kind.same[i]);
+    if (line == last) continue;
+    last = line;
+    lines += fmt::format("{}{}", named++ == 0 ? " in line " : ", ", line);
+  }
+  return fmt::format("\n  and {} more{}{}", more, lines, named == kLinesNamed ? " ..." : "");
+}
+
 }  // namespace
 
 bool stderr_is_terminal() { return isatty(STDERR_FILENO) != 0 && !dumb_terminal(); }
@@ -56,20 +108,18 @@ void Console::summary(std::string_view line) {
 void Console::show(const Diagnostics& diagnostics, Channel channel) {
   if (options_.json && channel == Channel::text_or_object) return;
   std::fflush(stdout);
-  for (const Diagnostic& d : diagnostics.list()) {
-    if (options_.quiet && d.severity == Severity::note) continue;
-    std::string text = printable(to_string(d));
+  for (const Kind& kind : kinds_of(diagnostics)) {
+    const Diagnostic& first = *kind.same.front();
+    if (options_.quiet && first.severity == Severity::note) continue;
+    std::string text = printable(to_string(first) + more_of(kind));
     if (colour_) {
-      const std::string place = to_string(d.where);
+      const std::string place = to_string(first.where);
       const std::size_t at = place.empty() ? 0 : place.size() + 2;
-      text.insert(at + to_string(d.severity).size(), kPlain);
-      text.insert(at, colour_of(d.severity));
+      text.insert(at + to_string(first.severity).size(), kPlain);
+      text.insert(at, colour_of(first.severity));
     }
     fmt::print(stderr, "{}\n", text);
   }
-  for (const Code code : diagnostics.dropped_codes())
-    fmt::print(stderr, "... and {} more of {} [{}]\n", diagnostics.dropped(code), name_of(code),
-               static_cast<unsigned>(code));
 }
 
 void Console::complain(std::string_view message) {

@@ -34,7 +34,8 @@ class Console {
   void summary(std::string_view line);
   /// Where diagnostics go: with --json they stand in the object, unless there is none.
   enum class Channel { text_or_object, always_text };
-  /// Diagnostics to stderr as text, in colour on a terminal, notes left out with --quiet.
+  /// Diagnostics to stderr as text, in colour on a terminal, notes left out with --quiet. What is said of
+  /// many lines stands there once, with the first of them.
   void show(const Diagnostics& diagnostics, Channel channel = Channel::text_or_object);
   /// A message of the command itself to stderr.
   void complain(std::string_view message);

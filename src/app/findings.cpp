@@ -29,15 +29,22 @@ std::string message_of(const Hazard& hazard) {
   return "the spindle stands still while the tool is in the stock";
 }
 
+/// Whether a finding goes on with a line's: its step is the next one, or it says that the spindle stands
+/// still, which is one slip however many cuts follow.
+bool goes_on(const Finding& line, const Finding& f) {
+  return line.step + line.steps >= f.step ||
+         (f.kind == to_string(HazardKind::spindle_off) && f.message == line.message);
+}
+
 /// Neighbouring steps with the same kind become one line; the deepest contact tells.
 std::vector<Finding> grouped(const std::vector<Finding>& findings) {
   std::vector<Finding> lines;
   std::map<std::string, std::size_t> open;
   for (const Finding& f : findings) {
     const auto it = open.find(f.kind);
-    if (it != open.end() && lines[it->second].step + lines[it->second].steps >= f.step) {
+    if (it != open.end() && goes_on(lines[it->second], f)) {
       Finding& line = lines[it->second];
-      line.steps = f.step + f.steps - line.step;
+      line.steps += f.steps;
       line.removed_mm3 += f.removed_mm3;
       if (f.depth_mm > line.depth_mm) {
         line.depth_mm = f.depth_mm;
@@ -117,6 +124,15 @@ Json json_of(const std::vector<Finding>& findings) {
   Json list = Json::array();
   for (const Finding& f : findings) list.push_back(json_of(f));
   return list;
+}
+
+std::string count_text(const std::vector<Finding>& findings) {
+  const std::vector<Finding> lines = grouped(findings);
+  if (lines.empty()) return "none";
+  std::size_t moves = 0;
+  for (const Finding& line : lines) moves += line.steps;
+  if (moves == lines.size()) return std::to_string(moves);
+  return fmt::format("{} in {} moves", lines.size(), moves);
 }
 
 void show(Console& console, const std::vector<Finding>& findings) {

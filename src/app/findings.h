@@ -33,6 +33,8 @@ std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> o
 Json json_of(const Finding& finding);
 Json json_of(const std::vector<Finding>& findings);
 
+/// How many there are, as text: "none", "3", "2 in 57 moves". Counts the lines that show() makes.
+std::string count_text(const std::vector<Finding>& findings);
 /// One line a hazard, neighbouring moves with the same hazard as one, to stdout.
 void show(Console& console, const std::vector<Finding>& findings);
 

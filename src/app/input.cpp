@@ -10,6 +10,7 @@
 namespace kerf::app {
 namespace {
 
+constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
 constexpr std::size_t kBeginning = 4096;  // bytes looked at where the ending says nothing
 
 const std::vector<FrontEnd>& front_ends() {
@@ -49,6 +50,11 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
 
 }  // namespace
 
+std::string folder_of(const std::string& file) {
+  const std::size_t slash = file.find_last_of("/\\");
+  return slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
+}
+
 std::string known_endings() {
   std::string text;
   for (const FrontEnd& f : front_ends()) {
@@ -61,7 +67,7 @@ std::string known_endings() {
 std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
                                           Progress* progress, const InputOptions& options) {
   if (progress != nullptr) progress->phase("reading");
-  const std::optional<InputFile> file = InputFile::open(path, diagnostics);
+  const std::optional<InputFile> file = InputFile::open(path, diagnostics, kLargestProgram, progress);
   if (!file) return std::nullopt;
   const FrontEnd* front_end = path == "-" ? &front_ends().front() : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);

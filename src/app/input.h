@@ -52,6 +52,9 @@ FrontEnd gcmc_front_end();
 std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
                                           Progress* progress, const InputOptions& options = {});
 
+/// The folder of a file with its last slash; nothing for the current one.
+std::string folder_of(const std::string& file);
+
 /// ".nc .ngc ..." of every front end, for the help.
 std::string known_endings();
 

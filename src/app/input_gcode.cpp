@@ -34,10 +34,8 @@ bool looks_like_gcode(std::string_view text) {
 /// Text of a subroutine's file beside the program; nothing where there is none.
 std::optional<std::string> read_beside(const std::string& program, const std::string& name) {
   constexpr std::size_t kLargestSub = std::size_t{64} << 20;
-  const std::size_t slash = program.find_last_of("/\\");
-  const std::string folder = slash == std::string::npos ? std::string() : program.substr(0, slash + 1);
   Diagnostics unheard;  // the call itself is reported
-  const auto file = InputFile::open(folder + name, unheard, kLargestSub);
+  const auto file = InputFile::open(folder_of(program) + name, unheard, kLargestSub);
   if (!file) return std::nullopt;
   return std::string(file->bytes());
 }

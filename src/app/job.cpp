@@ -2,9 +2,12 @@
 #include "app/job.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/assumed_stock.h"
 #include "kerf/machine_files.h"
+#include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
 #include "kerf/tool_files.h"
@@ -29,16 +32,49 @@ namespace {
 const Length kStockMargin = mm(2);  // of an assumed block, beyond the largest tool's radius
 const Length kStockFloor = mm(1);   // of an assumed block, below the deepest cut
 
-/// Splits "102=square d=3" or "102 = square d=3" into 102 and the rest; no number where none stands before
-/// the first '='.
-std::pair<std::optional<int>, std::string_view> split_number(std::string_view text) {
-  constexpr std::size_t kMostDigits = 9;  // fits an int
-  const std::size_t digits = text.find_first_not_of("0123456789");
-  const std::size_t equals = text.find_first_not_of(' ', digits);
-  if (digits == 0 || digits > kMostDigits || equals == std::string_view::npos || text[equals] != '=')
-    return {std::nullopt, text};
-  const std::size_t rest = std::min(text.find_first_not_of(' ', equals + 1), text.size());
-  return {std::stoi(std::string(text.substr(0, digits))), text.substr(rest)};
+constexpr int kHighestToolNumber = 999'999'999;
+
+/// "[N=]SPEC" taken apart.
+struct ToolOption {
+  std::optional<int> number;
+  std::string_view spec;
+};
+
+/// Splits "102=square d=3" or "102 = square d=3" into 102 and the rest; no number where words stand before
+/// the first '='. Nothing, with an error, where the number or the tool is missing or cannot be.
+std::optional<ToolOption> split_tool_option(std::string_view text, const Origin& where, Diagnostics& usage) {
+  const auto wrong = [&](std::string message) {
+    usage.error(Code::tool_value_type, where, std::move(message)).hint =
+        "expected [N=]SPEC, e.g. \"square d=3.175 flute=12.7\", 2=\"V d=12.7 angle=90\" or 2=301";
+    return std::nullopt;
+  };
+  const std::size_t equals = text.find('=');
+  const std::string_view before = trim(text.substr(0, equals));
+  if (equals == std::string_view::npos)
+    return before.empty() ? wrong("the tool is missing") : std::optional(ToolOption{{}, before});
+  if (before.empty()) return wrong("there is no tool number before \"=\"");
+  if (before.find_first_not_of("0123456789+-.") != std::string_view::npos) return ToolOption{{}, text};
+  const auto number = parse_number(before);
+  if (!number || *number < 0.0 || *number > kHighestToolNumber || *number != std::floor(*number))
+    return wrong(fmt::format("{} is no tool number: expected a whole number from 0 to {}",
+                             before.substr(0, 40), kHighestToolNumber));
+  const std::string_view spec = trim(text.substr(equals + 1));
+  if (spec.empty()) return wrong(fmt::format("what tool {} is does not stand behind \"=\"", before));
+  return ToolOption{static_cast<int>(*number), spec};
+}
+
+void read_tool_option_of(const std::string& text, JobSettings& settings, Diagnostics& usage) {
+  const Origin where = CallSpot{"", 0, fmt::format("--tool \"{}\"", text.substr(0, 80))};
+  const auto option = split_tool_option(text, where, usage);
+  if (!option) return;
+  std::optional<Tool> tool = read_tool_option(option->spec, where, usage);
+  if (!tool) return;
+  if (option->number) {
+    tool->number = *option->number;
+    settings.numbered.insert_or_assign(*option->number, std::move(*tool));
+  } else {
+    settings.any_number = std::move(tool);
+  }
 }
 
 void read_tool_files(const std::vector<std::string>& names, JobSettings& settings, Diagnostics& diagnostics) {
@@ -137,10 +173,24 @@ Choice choose(int number, const LoadedProgram& program, const JobSettings& setti
   return {chosen, settings.from_file.count(number) > 0 ? ToolSource::file : ToolSource::built_in};
 }
 
+/// A --tool N=... for a tool that the program does not use is most often a slip in the number.
+void tell_unused_options(const Job& job, const JobSettings& settings, const Uses& uses,
+                         Diagnostics& diagnostics) {
+  const bool for_start = uses.numbers.empty() && settings.numbered.size() == 1 && !settings.any_number;
+  for (const auto& [number, tool] : settings.numbered) {
+    if (job.tool_sources.count(number) > 0 || for_start) continue;
+    std::vector<std::string> used;
+    for (const int n : uses.numbers) used.push_back(std::to_string(n));
+    diagnostics
+        .warning(Code::option_unused, CallSpot{"", 0, fmt::format("--tool {}=...", number)},
+                 fmt::format("the program never uses tool {}", number))
+        .hint = used.empty() ? "it has no tool change at all" : "it uses tool " + list_text(used);
+  }
+}
+
 /// An unknown shape: an error where it is needed, else a warning.
 Diagnostic& tell(UnknownTool unknown, Origin where, std::string message, Diagnostics& diagnostics) {
-  if (unknown != UnknownTool::warning)
-    return diagnostics.error(Code::no_tool_shape, std::move(where), message);
+  if (unknown == UnknownTool::error) return diagnostics.error(Code::no_tool_shape, std::move(where), message);
   return diagnostics.warning(Code::no_tool_shape, std::move(where), message);
 }
 
@@ -155,25 +205,70 @@ void tell_no_tool(const Toolpath& path, UnknownTool unknown, Diagnostics& diagno
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
   const Uses uses = uses_of(job.program.path);
   give_start_tool(job, settings, uses);
-  if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::error_if_numbered)
+  if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::told_elsewhere)
     tell_no_tool(job.program.path, unknown, diagnostics);
   for (const int number : uses.numbers) {
     const Choice choice = choose(number, job.program, settings, diagnostics);
     job.tool_sources[number] = choice.source;
+    if (choice.tool == nullptr && unknown == UnknownTool::told_elsewhere) continue;
     if (choice.tool == nullptr) {
       tell(unknown, first_use_of(number, job.program.path),
            fmt::format("nobody knows the shape of tool {}", number), diagnostics)
-          .hint = fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", number);
+          .hint = hint_for_unknown(number);
       continue;
     }
     Tool tool = *choice.tool;
     tool.number = number;
     job.tools.set(number, std::move(tool));
   }
+  tell_unused_options(job, settings, uses, diagnostics);
   if (settings.any_number && uses.numbers.size() > 1 + settings.numbered.size())
     diagnostics.note(Code::tool_option_wide, {},
                      fmt::format("--tool without a number stands for {} tool numbers of the program",
                                  uses.numbers.size()));
+}
+
+std::string_view reason_of(AssumedTop top) {
+  switch (top) {
+    case AssumedTop::passes: return "a pass above the highest one";
+    case AssumedTop::plunge: return "where the plunges begin";
+    case AssumedTop::cuts: return "at the highest cut";
+    case AssumedTop::zero: break;
+  }
+  return "at Z0";
+}
+
+/// Says which block is taken, and why its top is where it is. That is all but sure with Z0 on top; else the
+/// user should look at it.
+void tell_assumed(const AssumedStock& assumed, const Job& job, Diagnostics& diagnostics) {
+  const Box3& b = assumed.stock.block;
+  const Point3 size = b.size();
+  const auto text = [](Point3 p, std::string_view form) {
+    return fmt::format(fmt::runtime(form), number_text(p.x, 3), number_text(p.y, 3), number_text(p.z, 3));
+  };
+  const std::string block =
+      fmt::format("assumed {} around the cuts, from {} to {}", text(size, "{} x {} x {} mm"),
+                  text(b.low, "X{} Y{} Z{}"), text(b.high, "X{} Y{} Z{}"));
+  const Origin where = TextSpot{job.program.source, 0, 0};
+  const Box3& cuts = job.report.all.cut_bounds;
+  Diagnostic* said = nullptr;
+  if (assumed.top != AssumedTop::zero)
+    said = &diagnostics.warning(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock, and Z0 seems not to be its top; {}, its top {}",
+                    block, reason_of(assumed.top)));
+  else if (cuts.low.z >= b.high.z)
+    said = &diagnostics.warning(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock, and cuts nothing below Z0; {}, of which it removes "
+                    "nothing",
+                    block));
+  else
+    said = &diagnostics.note(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock; {}, its top {}", block, reason_of(assumed.top)));
+  said->hint =
+      fmt::format("tell it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
 }
 
 void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
@@ -184,22 +279,13 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   job.stock_source = StockSource::program;
   if (job.stock) return;
   job.stock_source = StockSource::unknown;
-  const Box3& cuts = job.report.all.cut_bounds;
-  if (cuts.empty()) return;
   double radius = 0.0;
   for (const auto& [number, tool] : job.tools.tools()) radius = std::max(radius, tool.diameter.mm() / 2.0);
-  job.stock = stock_around(cuts, mm(radius) + kStockMargin, kStockFloor);
+  const auto assumed = assume_stock(job.program.path, mm(radius) + kStockMargin, kStockFloor);
+  if (!assumed) return;
+  job.stock = assumed->stock;
   job.stock_source = StockSource::assumed;
-  const Box3& b = job.stock->block;
-  const Point3 size = b.size();
-  diagnostics
-      .note(Code::stock_assumed, TextSpot{job.program.source, 0, 0},
-            fmt::format("the program does not tell its stock; assumed {} x {} x {} mm around the cuts, from "
-                        "X{} Y{} Z{} to X{} Y{} Z{}",
-                        number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
-                        number_text(b.low.x, 3), number_text(b.low.y, 3), number_text(b.low.z, 3),
-                        number_text(b.high.x, 3), number_text(b.high.y, 3), number_text(b.high.z, 3)))
-      .hint = "tell it with --stock";
+  tell_assumed(*assumed, job, diagnostics);
 }
 
 }  // namespace
@@ -221,24 +307,17 @@ void add_machine_option(CLI::App& app, JobOptions& options) {
 JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
   JobSettings settings;
   settings.table = built_in_tools();
-  for (const std::string& text : options.tools) {
-    const auto [number, spec] = split_number(text);
-    std::optional<Tool> tool = read_tool_option(spec, usage);
-    if (!tool) continue;
-    if (number) {
-      tool->number = *number;
-      settings.numbered.insert_or_assign(*number, std::move(*tool));
-    } else {
-      settings.any_number = std::move(tool);
-    }
-  }
-  if (!options.stock.empty())
-    settings.stock = read_stock_option(options.stock, CallSpot{"", 0, "--stock"}, usage);
+  for (const std::string& text : options.tools) read_tool_option_of(text, settings, usage);
+  if (options.stock) settings.stock = read_stock_option(*options.stock, CallSpot{"", 0, "--stock"}, usage);
   read_tool_files(options.tool_files, settings, diagnostics);
   if (!options.machine.empty())
     if (const auto file = InputFile::open(options.machine, diagnostics))
       settings.input.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
   return settings;
+}
+
+std::string hint_for_unknown(int tool) {
+  return fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", tool);
 }
 
 std::string_view to_string(ToolSource source) {

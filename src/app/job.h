@@ -21,7 +21,7 @@ struct JobOptions {
   std::string file;
   std::vector<std::string> tools;       // --tool [N=]SPEC
   std::vector<std::string> tool_files;  // --tools FILE
-  std::string stock;                    // --stock SPEC
+  std::optional<std::string> stock;     // --stock SPEC
   std::string machine;                  // --machine FILE
 };
 void add_job_options(CLI::App& app, JobOptions& options);
@@ -57,14 +57,15 @@ struct Job {
   StockSource stock_source = StockSource::unknown;
 };
 
-/// How bad an unknown tool is: info goes on, simulate cannot; check has a hazard of its own for cuts without
-/// any tool.
-enum class UnknownTool { warning, error, error_if_numbered };
+/// How bad an unknown tool is: info goes on, simulate cannot, check has a hazard of its own for it.
+enum class UnknownTool { warning, error, told_elsewhere };
 /// Puts a job together. Unknown tools and an assumed stock are told in `diagnostics`; where there is no stock
 /// and no cut to put one around, `stock` stays empty without a message.
 Job make_job(LoadedProgram program, const JobSettings& settings, const ReportOptions& report,
              UnknownTool unknown, Diagnostics& diagnostics);
 
+/// What helps where nobody knows the shape of a tool.
+std::string hint_for_unknown(int tool);
 /// A tool in a few words: "square 3.175 mm".
 std::string short_name(const Tool& tool);
 

@@ -3,11 +3,13 @@
 #include <exception>
 #include <fmt/format.h>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/command.h"
 #include "app/gcmc_command.h"
+#include "app/input.h"
 #include "app/terminal_progress.h"
 #include "app/usage.h"
 
@@ -26,11 +28,19 @@ Examples:
 Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage, 3 check found hazards.
 )";
 
+const char* const kToolsExamples = R"(
+Examples:
+  kerf tools list                      number, shape, size and names of every tool
+  kerf tools show 102                  one tool: its measures, its profile, a sketch
+  kerf tools show "V d=12.7 angle=90"  a tool told in words, as --tool takes it
+)";
+
 std::vector<Command> add_commands(CLI::App& root) {
   std::vector<Command> commands{add_simulate(root), add_check(root),   add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root)};
-  CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show");
+  CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show, import, export");
   tools->require_subcommand(1);
+  tools->footer(kToolsExamples);
   commands.push_back(add_tools_list(*tools));
   commands.push_back(add_tools_show(*tools));
   commands.push_back(add_tools_import(*tools));
@@ -39,14 +49,27 @@ std::vector<Command> add_commands(CLI::App& root) {
   return commands;
 }
 
-/// `kerf help simulate` is `kerf simulate --help`; `kerf help` and no argument at all are `kerf --help`.
-std::vector<std::string> arguments_of(int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty()) words = {"--help"};
-  if (words.front() == "help") {
-    words.erase(words.begin());
-    words.push_back("--help");
+/// What `kerf help simulate` stands for: `kerf simulate --help`. A word that is no command ends it without
+/// --help, so that the parser says what is wrong; words behind a whole command are passed over.
+std::vector<std::string> help_words(const CLI::App& root, const std::vector<std::string>& asked) {
+  std::vector<std::string> words;
+  const CLI::App* app = &root;
+  for (const std::string& word : asked) {
+    if (app->get_subcommands([](const CLI::App*) { return true; }).empty()) break;
+    const auto named = app->get_subcommands([&](const CLI::App* c) { return c->get_name() == word; });
+    words.push_back(word);
+    if (named.empty()) return words;
+    app = named.front();
   }
+  words.push_back("--help");
+  return words;
+}
+
+/// The words of the command line; `kerf help` and no argument at all are `kerf --help`.
+std::vector<std::string> arguments_of(int argc, char** argv, const CLI::App& root) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (words.empty()) words = {"help"};
+  if (words.front() == "help") words = help_words(root, {words.begin() + 1, words.end()});
   return {words.rbegin(), words.rend()};  // the order in which CLI11 takes them
 }
 
@@ -64,12 +87,14 @@ Status run_asked(const std::vector<Command>& commands) {
 }
 
 /// Commands that take the arguments of the program that they stand in for, which no common parser
-/// understands.
+/// understands. A link to kerf with that program's name is that program.
 std::optional<int> run_drop_in(int argc, char** argv) {
-  if (argc < 2 || std::string_view(argv[1]) != "gcmc") return std::nullopt;
+  const std::string called = argc > 0 ? argv[0] : "";
+  const bool is_link = called.substr(folder_of(called).size()) == "gcmc";
+  if (!is_link && (argc < 2 || std::string_view(argv[1]) != "gcmc")) return std::nullopt;
   catch_interrupts();
   InterruptOnly progress;
-  return gcmc_command({argv + 2, argv + argc}, &progress);
+  return gcmc_command({argv + (is_link ? 1 : 2), argv + argc}, &progress);
 }
 
 int run(int argc, char** argv) {
@@ -82,7 +107,7 @@ int run(int argc, char** argv) {
   root.require_subcommand(1);
   const std::vector<Command> commands = add_commands(root);
   try {
-    root.parse(arguments_of(argc, argv));
+    root.parse(arguments_of(argc, argv, root));
   } catch (const CLI::Success& asked) {  // --help, --version
     return root.exit(asked);
   } catch (const CLI::ParseError& error) {

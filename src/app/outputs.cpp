@@ -66,8 +66,16 @@ void test_folder(const std::string& path, Diagnostics& diagnostics) {
   }
 }
 
-/// The palette's index of every step: of the tool in force, or of a hazard.
-std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vector<Hazard>& hazards) {
+/// The colours of a part's surface: of each triangle, and what they stand for.
+struct Colouring {
+  std::vector<std::uint8_t> of_triangle;
+  std::vector<std::string> names;  // of the palette, as far as it is used
+};
+
+/// The palette's index of every step: of the tool in force, or of a hazard. Names the colours used.
+std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vector<Hazard>& hazards,
+                                           std::vector<std::string>& names) {
+  names = {"stock", "hazard"};
   std::vector<std::uint8_t> colours(path.size(), kFirstToolColour);
   std::vector<int> seen;
   std::uint8_t now = kFirstToolColour;
@@ -76,8 +84,12 @@ std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vect
       const int tool = path[i].tool_change().tool;
       const auto it = std::find(seen.begin(), seen.end(), tool);
       const auto place = static_cast<std::size_t>(it - seen.begin());
-      if (it == seen.end()) seen.push_back(tool);
       now = static_cast<std::uint8_t>(kFirstToolColour + place % (kPalette.size() - kFirstToolColour));
+      if (it == seen.end()) {
+        seen.push_back(tool);
+        if (now == names.size()) names.emplace_back();
+        names[now] += fmt::format("{}tool {}", names[now].empty() ? "" : ", ", tool);
+      }
     }
     colours[i] = now;
   }
@@ -85,12 +97,13 @@ std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vect
   return colours;
 }
 
-std::vector<std::uint8_t> colours_of_triangles(const Mesh& mesh, const std::vector<std::uint8_t>& of_step) {
-  std::vector<std::uint8_t> colours;
-  colours.reserve(mesh.step.size());
+Colouring colours_of(const Mesh& mesh, const Toolpath& path, const std::vector<Hazard>& hazards) {
+  Colouring colouring;
+  const auto of_step = colours_of_steps(path, hazards, colouring.names);
+  colouring.of_triangle.reserve(mesh.step.size());
   for (const std::uint32_t step : mesh.step)
-    colours.push_back(step < of_step.size() ? of_step[step] : kStockColour);
-  return colours;
+    colouring.of_triangle.push_back(step < of_step.size() ? of_step[step] : kStockColour);
+  return colouring;
 }
 
 std::string picture_of(const Mesh& mesh, const std::vector<std::uint8_t>& colours, const View& view) {
@@ -101,13 +114,14 @@ std::string picture_of(const Mesh& mesh, const std::vector<std::uint8_t>& colour
   return write_png({image.width, image.height, image.rgba});
 }
 
-std::string mesh_file_of(const Mesh& mesh, const std::vector<std::uint8_t>& colours, MeshFormat format,
+std::string mesh_file_of(const Mesh& mesh, const Colouring& colours, MeshFormat format,
                          const std::string& source) {
   MeshView view;
   view.positions = mesh.positions;
   view.triangles = mesh.triangles;
-  view.colour_index = colours;
+  view.colour_index = colours.of_triangle;
   view.palette = kPalette;
+  view.palette_names = colours.names;
   view.step = mesh.step;
   view.name = std::filesystem::path(source).stem().string();
   return write_mesh(view, format);
@@ -187,13 +201,13 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   progress.phase("making the surface");
   const Mesh mesh = extract_mesh(simulation.workpiece.grid(), &progress);
   if (progress.stop_requested()) return false;
-  const auto colours = colours_of_triangles(mesh, colours_of_steps(job.program.path, simulation.hazards));
+  const Colouring colours = colours_of(mesh, job.program.path, simulation.hazards);
   progress.phase("writing");
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.report(static_cast<double>(i) / static_cast<double>(files.size()));
     const OutputFile& file = files[i];
     const std::string bytes = file.mesh ? mesh_file_of(mesh, colours, *file.mesh, job.program.source)
-                                        : picture_of(mesh, colours, view);
+                                        : picture_of(mesh, colours.of_triangle, view);
     if (!set.write(file.path, bytes, diagnostics) || progress.stop_requested()) return false;
   }
   return true;

@@ -27,6 +27,7 @@ void catch_interrupts() {
     action.sa_flags = static_cast<int>(SA_RESETHAND);  // and no SA_RESTART: a waiting read returns
     sigaction(which, &action, nullptr);
   }
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return stop_flag != 0; }

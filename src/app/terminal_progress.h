@@ -10,7 +10,8 @@
 
 namespace kerf::app {
 
-/// From now on SIGINT and SIGTERM only set a flag (a second one ends the program at once).
+/// From now on SIGINT and SIGTERM only set a flag (a second one ends the program at once), and a
+/// file that grows beyond the limit (ulimit -f) is a write that fails, not the end of the program.
 void catch_interrupts();
 bool interrupted();
 

@@ -77,33 +77,18 @@ Diagnostic& Diagnostics::note(Code code, Origin where, std::string message) {
 }
 
 Diagnostic& Diagnostics::add(Diagnostic diagnostic) {
-  Seen& seen = seen_[static_cast<std::uint16_t>(diagnostic.code)];
-  switch (diagnostic.severity) {
-    case Severity::error: ++errors_, ++seen.errors; break;
-    case Severity::warning: ++warnings_, ++seen.warnings; break;
-    case Severity::note: ++seen.notes; break;
-  }
-  if (seen.kept >= limit_per_code_) {
+  if (diagnostic.severity == Severity::error) ++errors_;
+  if (diagnostic.severity == Severity::warning) ++warnings_;
+  if (++seen_[static_cast<std::uint16_t>(diagnostic.code)] > limit_per_code_) {
     overflow_ = std::move(diagnostic);
     return overflow_;
   }
-  ++seen.kept;
   return list_.emplace_back(std::move(diagnostic));
-}
-
-void Diagnostics::forget_mild(Code code) {
-  const auto it = seen_.find(static_cast<std::uint16_t>(code));
-  if (it == seen_.end()) return;
-  const auto mild = [code](const Diagnostic& d) { return d.code == code && d.severity != Severity::error; };
-  Seen& seen = it->second;
-  seen.kept -= std::erase_if(list_, mild);
-  warnings_ -= seen.warnings;
-  seen.warnings = seen.notes = 0;
 }
 
 std::size_t Diagnostics::dropped(Code code) const {
   const auto it = seen_.find(static_cast<std::uint16_t>(code));
-  return it == seen_.end() ? 0 : it->second.all() - it->second.kept;
+  return it == seen_.end() || it->second <= limit_per_code_ ? 0 : it->second - limit_per_code_;
 }
 
 std::vector<Code> Diagnostics::dropped_codes() const {

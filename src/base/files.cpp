@@ -1,6 +1,7 @@
 // Files: mapping of inputs, and outputs that appear together by rename.
 #include "kerf/files.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -37,26 +38,38 @@ namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes a read
 
-/// Reads a stream to its end into `bytes`; false once more than `limit` bytes came.
-bool read_all(std::FILE* stream, std::size_t limit, std::string& bytes) {
-  for (;;) {
-    const std::size_t had = bytes.size();
-    bytes.resize(had + kChunk);
-    const std::size_t got = std::fread(bytes.data() + had, 1, kChunk, stream);
-    bytes.resize(had + got);
-    if (bytes.size() > limit) return false;
-    if (got == 0) return true;
-  }
-}
-
-void too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_too_large, TextSpot{path, 0, 0},
-                    fmt::format("the file is larger than {} bytes, the most that is read at once", limit));
+Diagnostic& too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
+  return diagnostics.error(
+      Code::file_too_large, TextSpot{path, 0, 0},
+      fmt::format("the file is larger than {} bytes, the most that is read at once", limit));
 }
 
 void unreadable(const std::string& path, std::string_view why, Diagnostics& diagnostics) {
   diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0},
                     fmt::format("cannot read the file: {}", why));
+}
+
+/// Reads a stream to its end, of which nobody knows how far off it is. Nothing, with an error, where that
+/// fails, takes more than `limit` bytes, or is stopped.
+std::optional<std::string> read_stream(std::FILE* stream, const std::string& path, std::size_t limit,
+                                       Diagnostics& diagnostics, Progress* progress) {
+  limit = std::min(limit, InputFile::kLargestStream);
+  std::string bytes, chunk(kChunk, '\0');
+  for (;;) {
+    const std::size_t got = std::fread(chunk.data(), 1, kChunk, stream);
+    if (stop_requested(progress)) {
+      diagnostics.error(Code::stopped, TextSpot{path, 0, 0}, "interrupted while reading");
+      return std::nullopt;
+    }
+    if (got == 0) break;
+    bytes.append(chunk, 0, got);
+    if (bytes.size() <= limit) continue;
+    too_large(path, limit, diagnostics).hint = "more than that is read from ordinary files only";
+    return std::nullopt;
+  }
+  if (std::ferror(stream) == 0) return bytes;
+  unreadable(path, std::strerror(errno), diagnostics);
+  return std::nullopt;
 }
 
 }  // namespace
@@ -73,13 +86,15 @@ std::string_view InputFile::bytes() const {
 }
 
 std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& diagnostics,
-                                         std::size_t limit_bytes) {
+                                         std::size_t limit_bytes, Progress* progress) {
   auto body = std::make_unique<Body>();
-  if (path == "-") {
-    if (!read_all(stdin, limit_bytes, body->own))
-      return too_large(path, limit_bytes, diagnostics), std::nullopt;
-    return InputFile("<stdin>", std::move(body));
-  }
+  const auto take_stream = [&](std::FILE* stream, const std::string& name) -> std::optional<InputFile> {
+    auto bytes = read_stream(stream, name, limit_bytes, diagnostics, progress);
+    if (!bytes) return std::nullopt;
+    body->own = std::move(*bytes);
+    return InputFile(name, std::move(body));
+  };
+  if (path == "-") return take_stream(stdin, "<stdin>");
 #if defined(__unix__) || defined(__APPLE__)
   const int handle = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat status {};
@@ -109,49 +124,87 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
 #endif
   std::FILE* stream = std::fopen(path.c_str(), "rb");
   if (stream == nullptr) return unreadable(path, std::strerror(errno), diagnostics), std::nullopt;
-  const bool whole = read_all(stream, limit_bytes, body->own);
-  const bool failed = std::ferror(stream) != 0;
+  std::optional<InputFile> file = take_stream(stream, path);
   std::fclose(stream);
-  if (failed) return unreadable(path, "reading stopped with an error", diagnostics), std::nullopt;
-  if (!whole) return too_large(path, limit_bytes, diagnostics), std::nullopt;
-  return InputFile(path, std::move(body));
+  return file;
 }
 
+namespace {
+
+/// Where a link leads to, so that the link stays and its target is replaced; any other path as it is.
+std::string followed(const std::string& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_symlink(path, failed)) return path;
+  const auto target = std::filesystem::weakly_canonical(path, failed);
+  return failed ? path : target.string();
+}
+
+/// Pipes and devices are written to where they are: a file must not take their place.
+bool can_be_replaced(const std::string& path) {
+  std::error_code failed;
+  const auto status = std::filesystem::status(path, failed);
+  return !std::filesystem::is_other(status);
+}
+
+/// Writes and closes; false where the stream could not be opened or could not take all.
+bool write_all(std::FILE* stream, std::string_view bytes) {
+  if (stream == nullptr) return false;
+  const bool taken = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
+  return std::fclose(stream) == 0 && taken;
+}
+
+void unwritable(const std::string& path, Diagnostics& diagnostics) {
+  diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
+                    fmt::format("cannot write the file: {}", std::strerror(errno)));
+}
+
+}  // namespace
+
 OutputSet::~OutputSet() {
-  for (const Pending& file : pending_) std::remove(file.temporary.c_str());
+  for (const Pending& file : pending_)
+    if (!file.temporary.empty()) std::remove(file.temporary.c_str());
 }
 
 bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
   static unsigned counter = 0;
+  const std::string target = followed(path);
+  if (!can_be_replaced(target)) {
+    pending_.push_back({target, {}, std::string(bytes)});
+    return true;
+  }
 #if defined(__unix__) || defined(__APPLE__)
   const auto process = static_cast<unsigned long>(getpid());
 #else
   const unsigned long process = 0;
 #endif
-  std::string temporary = fmt::format("{}.{}-{}.part", path, process, ++counter);
+  std::string temporary = fmt::format("{}.{}-{}.part", target, process, ++counter);
   std::FILE* stream = std::fopen(temporary.c_str(), "wbx");
-  bool good = stream != nullptr;
-  if (good) {
-    good = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-    good = std::fclose(stream) == 0 && good;
-  }
-  if (!good) {
-    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
-                      fmt::format("cannot write the file: {}", std::strerror(errno)));
+  if (!write_all(stream, bytes)) {
+    unwritable(path, diagnostics);
     if (stream != nullptr) std::remove(temporary.c_str());
     return false;
   }
-  pending_.push_back({path, std::move(temporary)});
+  pending_.push_back({target, std::move(temporary), {}});
   return true;
+}
+
+bool OutputSet::put_in_place(const Pending& file, Diagnostics& diagnostics) const {
+  if (file.temporary.empty()) {
+    if (write_all(std::fopen(file.target.c_str(), "wb"), file.bytes)) return true;
+    unwritable(file.target, diagnostics);
+    return false;
+  }
+  std::error_code error;
+  std::filesystem::rename(file.temporary, file.target, error);
+  if (!error) return true;
+  diagnostics.error(Code::file_unwritable, TextSpot{file.target, 0, 0},
+                    fmt::format("cannot put the file into place: {}", error.message()));
+  return false;
 }
 
 bool OutputSet::commit(Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < pending_.size(); ++i) {
-    std::error_code error;
-    std::filesystem::rename(pending_[i].temporary, pending_[i].target, error);
-    if (!error) continue;
-    diagnostics.error(Code::file_unwritable, TextSpot{pending_[i].target, 0, 0},
-                      fmt::format("cannot put the file into place: {}", error.message()));
+    if (put_in_place(pending_[i], diagnostics)) continue;
     pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(i));
     return false;
   }

@@ -2,12 +2,14 @@
 #include "kerf/number.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <fmt/format.h>
 #include <iterator>
 #include <numeric>
+
+#include "kerf/names.h"
 
 namespace kerf {
 namespace {
@@ -15,13 +17,42 @@ namespace {
 /// True if all digits are zeros, so that a minus sign before them would be "-0".
 bool is_zero_text(std::string_view text) { return text.find_first_of("123456789") == std::string_view::npos; }
 
-/// Writes two digits.
-inline void put_pair(char* at, std::uint64_t value) {
-  static constexpr char kPairs[] =
-      "0001020304050607080910111213141516171819202122232425262728293031323334353637383940414243444546474849"
-      "5051525354555657585960616263646566676869707172737475767778798081828384858687888990919293949596979899";
-  at[0] = kPairs[value * 2];
-  at[1] = kPairs[value * 2 + 1];
+constexpr std::uint64_t kTens[] = {1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
+constexpr int kBlock = 8;  // digits that are written at once
+
+/// The eight digits of a number below 10^8, one a byte, the first in the lowest byte. The parts of the number
+/// are divided side by side in one word.
+inline std::uint64_t eight_digits(std::uint64_t value) {
+  std::uint64_t parts = value / 10'000 | value % 10'000 << 32;  // four digits in each half
+  std::uint64_t upper = (parts * 10'486 >> 20) & 0x0000'007F'0000'007F;
+  parts = upper | (parts - upper * 100) << 16;  // two digits in each quarter
+  upper = (parts * 103 >> 10) & 0x000F'000F'000F'000F;
+  return upper | (parts - upper * 10) << 8;
+}
+
+/// Writes eight bytes of digits.
+inline void put_digits(char* at, std::uint64_t digits) {
+  digits += 0x3030'3030'3030'3030;
+  for (int i = 0; i < kBlock; ++i) at[i] = static_cast<char>(digits >> 8 * i);
+}
+inline void put_eight(char* at, std::uint64_t value) { put_digits(at, eight_digits(value)); }
+
+/// Writes a whole number and returns the end. Up to seven bytes behind it are overwritten.
+inline char* put_whole(char* out, std::uint64_t value) {
+  if (value < 10) {
+    *out = static_cast<char>('0' + value);
+    return out + 1;
+  }
+  if (value >= kTens[kBlock]) {
+    out = put_whole(out, value / kTens[kBlock]);
+    put_eight(out, value % kTens[kBlock]);
+    return out + kBlock;
+  }
+  const std::uint64_t digits = eight_digits(value);
+  const int zeros =
+      std::countr_zero(digits | std::uint64_t{1} << 56) / 8;  // before the first digit that counts
+  put_digits(out, digits >> 8 * zeros);
+  return out + (kBlock - zeros);
 }
 
 /// Distance of two words in insertions, deletions, replacements and swaps of neighbours, case left out.
@@ -61,22 +92,20 @@ char* write_fixed(char* out, double value, int decimals) {
   if (std::fabs(fraction - 0.5) <= scaled * kDoubt) return nullptr;
   if (fraction > 0.5) ++digits;
   if (std::signbit(value)) *out++ = '-';
+  if (decimals == 0) return put_whole(out, digits);
 
-  constexpr std::size_t kMostDigits = 24;  // of any number below kLargest, with its point
-  char reversed[2 * kMostDigits] = {};     // twice: copying a fixed number of bytes is quicker
-  char* const end = reversed + kMostDigits;
-  char* at = end;
-  int left = decimals;
-  for (; left >= 2; left -= 2, digits /= 100) put_pair(at -= 2, digits % 100);
-  if (left == 1) {
-    *--at = static_cast<char>('0' + digits % 10);
-    digits /= 10;
+  // Digits behind the point in blocks of eight. The usual eight are split off by a division by a constant.
+  const int last = decimals > kBlock ? decimals - kBlock : decimals;  // of the last block
+  const std::uint64_t rest = last == kBlock ? digits / kTens[kBlock] : digits / kTens[last];
+  const std::uint64_t tail = digits - rest * kTens[last];
+  out = put_whole(out, decimals > kBlock ? rest / kTens[kBlock] : rest);
+  *out++ = '.';
+  if (decimals > kBlock) {
+    put_eight(out, rest % kTens[kBlock]);
+    out += kBlock;
   }
-  if (decimals > 0) *--at = '.';
-  for (; digits >= 10; digits /= 100) put_pair(at -= 2, digits % 100);
-  if (digits != 0 || at == end || *at == '.') *--at = static_cast<char>('0' + digits);
-  std::memcpy(out, at, kMostDigits);
-  return out + (end - at);
+  put_eight(out, tail * kTens[kBlock - last]);  // zeros beyond the last place are written over
+  return out + last;
 }
 
 void append_fixed(std::string& out, double value, int decimals, MinusZero zero) {
@@ -121,6 +150,33 @@ std::optional<double> parse_number(std::string_view text) {
   const double value = std::strtod(copy.c_str(), &end);
   if (end != copy.c_str() + copy.size() || !std::isfinite(value)) return std::nullopt;
   return value;
+}
+
+std::optional<double> mm_per_unit(std::string_view name) {
+  const std::string folded = fold_name(name);
+  if (folded == "mm") return 1.0;
+  if (folded == "in" || folded == "inch" || folded == "inches" || folded == "\"") return 25.4;
+  return std::nullopt;
+}
+
+std::optional<double> parse_length(std::string_view text, double scale) {
+  text = trim(text);
+  if (text.size() > 64) return std::nullopt;
+  const std::size_t end = text.find_last_of("0123456789.");
+  if (end == std::string_view::npos) return std::nullopt;
+  if (end + 1 < text.size()) {
+    const auto unit = mm_per_unit(trim(text.substr(end + 1)));
+    if (!unit) return std::nullopt;
+    scale = *unit;
+    text = text.substr(0, end + 1);
+  }
+  const std::size_t slash = text.find('/');
+  const auto over = parse_number(trim(text.substr(0, slash)));
+  const auto under =
+      slash == std::string_view::npos ? std::optional(1.0) : parse_number(trim(text.substr(slash + 1)));
+  if (!over || !under || *under == 0.0) return std::nullopt;
+  const double value = *over / *under * scale;
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 
 std::optional<std::string> did_you_mean(std::string_view word, const std::vector<std::string>& known) {

@@ -8,47 +8,22 @@
 #include "outline_check.h"
 #include "triangulate.h"
 
+#include "kerf/fit.h"
+
 namespace kerf {
 namespace {
 
 using namespace outline_detail;
 
-constexpr int kMostChords = 1 << 12;  // of one arc
-constexpr int kFewestChords = 16;     // of a full circle, so that a coarse tolerance still leaves it round
-
-/// Appends the points of an arc after its begin, without its end.
-void add_arc(Ring& ring, Point2 from, const ArcCircle& circle, double chord) {
-  const double step = 2.0 * std::acos(1.0 - std::min(chord / circle.radius, 1.0));
-  const double least = circle.sweep.deg() / 360.0 * kFewestChords;
-  const double wanted = std::ceil(std::max(step > 0.0 ? circle.sweep.rad() / step : kMostChords, least));
-  const int count = static_cast<int>(std::min<double>(wanted, kMostChords));
-  const Point2 d = from - circle.centre;
-  const double begin = std::atan2(d.y, d.x), sense = circle.turn == Turn::ccw ? 1.0 : -1.0;
-  for (int i = 1; i < count; ++i) {
-    const double angle = begin + sense * circle.sweep.rad() * i / count;
-    ring.push_back(circle.centre + circle.radius * Point2{std::cos(angle), std::sin(angle)});
-  }
-}
-
 Ring ring_of(const Outline& outline, const Tolerance& tolerance) {
-  Ring ring{outline.start};
-  Point2 from = outline.start;
-  for (const Segment& segment : outline.segments) {
-    if (const auto circle = arc_circle(from, segment)) add_arc(ring, from, *circle, tolerance.chord.mm());
-    from = segment.to;
-    if (distance(ring.back(), from) > tolerance.weld.mm()) ring.push_back(from);
-  }
+  Ring ring;
+  for (const Point2 p : flattened(outline, tolerance.chord))
+    if (ring.empty() || distance(ring.back(), p) > tolerance.weld.mm()) ring.push_back(p);
   while (ring.size() > 1 && distance(ring.back(), ring.front()) <= tolerance.weld.mm()) ring.pop_back();
   return ring;
 }
 
-Ring ring_of(const Circle& circle, const Tolerance& tolerance) {
-  const Point2 right = circle.centre + Point2{circle.radius.mm(), 0.0};
-  Ring ring{right};
-  const ArcCircle whole{circle.centre, circle.radius.mm(), Turn::ccw, degrees(360.0)};
-  add_arc(ring, right, whole, tolerance.chord.mm());
-  return ring;
-}
+Ring ring_of(const Circle& circle, const Tolerance& tolerance) { return flattened(circle, tolerance.chord); }
 
 /// The rings of a figure, the outside counter-clockwise and the holes clockwise; empty where one is no ring.
 std::vector<Ring> rings_of(const Figure& figure, const Tolerance& tolerance, Diagnostics& diagnostics) {

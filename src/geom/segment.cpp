@@ -1,6 +1,7 @@
 // Circles and directions of segments.
 #include "segment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,20 @@ Carrier make_carrier(Point2 from, const Segment& segment, double weld) {
     c.direction = (1.0 / length) * chord;
   }
   return c;
+}
+
+double distance_to(const Carrier& c, Point2 p) {
+  const Point2 q = p - c.from, chord = c.to - c.from;
+  if (!c.is_arc()) {
+    const double t = std::clamp(dot(q, c.direction), 0.0, c.length);
+    return norm(q - t * c.direction);
+  }
+  const Point2 a = -c.centre, b = chord - c.centre, out = q - c.centre;
+  const auto between = [&](Point2 begin, Point2 end) {  // for less than half a turn
+    return c.turn * cross(begin, out) >= 0.0 && c.turn * cross(out, end) >= 0.0;
+  };
+  const bool beside = c.turn * cross(a, b) >= 0.0 ? between(a, b) : !between(b, a);
+  return beside ? std::abs(norm(out) - c.radius) : std::min(norm(q), norm(p - c.to));
 }
 
 }  // namespace kerf::outline_detail

@@ -33,6 +33,9 @@ struct Carrier {
 /// Makes a carrier; a straight arc becomes a line. A line shorter than `weld` gets length 0.
 Carrier make_carrier(Point2 from, const Segment& segment, double weld);
 
+/// How far a point is from a segment.
+double distance_to(const Carrier& carrier, Point2 p);
+
 /// The middle of the arc from `from` to `to` about `centre`.
 inline Point2 arc_middle(Point2 from, Point2 to, Point2 centre, double radius, double turn) {
   const Point2 a = from - centre, b = to - centre;

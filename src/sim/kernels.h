@@ -18,6 +18,7 @@ struct LaneCap {
 struct LanePiece {
   Real rim = 0, rim2 = 0;
   LaneCap lower, upper;
+  bool is_cylinder() const { return lower.curve == CapCurve::flat && upper.curve == CapCurve::flat; }
 };
 struct LaneSolid {
   explicit LaneSolid(const Solid& solid);
@@ -25,6 +26,8 @@ struct LaneSolid {
   std::vector<LanePiece> pieces;
   LanePiece lid;  // of one envelope: its flat top
   bool one_envelope = false;
+  bool is_ball = false;       // of one envelope, which is half a ball and has the closed form
+  bool is_cylinders = false;  // all pieces are
   Real rim = 0, bottom = 0, top = 0;
   Real offset[kCullLines] = {}, slope[kCullLines] = {};
 };
@@ -66,9 +69,11 @@ inline constexpr Lanes kPointsY = {{0 / 16.0f, 5 / 16.0f, 10 / 16.0f, 15 / 16.0f
 struct TileJob {
   const Field* field = nullptr;
   Tile* tile = nullptr;
-  double x = 0.0, y = 0.0;        // of the tile's first column, block frame
-  const Real* share_x = nullptr;  // share of each column of the tile in the block, 64 each; null: all 1
-  const Real* share_y = nullptr;
+  double x = 0.0, y = 0.0;  // of the tile's first column, block frame
+  // Of a tile with columns that are narrower, 64 each: places of the columns and their shares in the block.
+  // Null in other tiles, whose columns are a pitch apart.
+  const Real *place_x = nullptr, *place_y = nullptr;
+  const Real *share_x = nullptr, *share_y = nullptr;
   const PointPlaces* points = nullptr;  // not null: the micros are columns seen at 16 points
   const Real* weights = nullptr;        // instead of the shares: one a column (or point) in the tile's order
   const std::vector<LaneTool>* tools = nullptr;

@@ -41,7 +41,8 @@ void CapSheet::take(CornerRow& row, int j) {
     }
     if (empty == 4) continue;
     if (std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r == ranks[0]; })) {
-      known(i, j) = row.sheet(corner, ranks[0]).vertex;
+      Sheet& sheet = row.sheet(corner, ranks[0]);
+      known(i, j) = columns.uneven(i, j) && !level(i, j) ? builder_.vertex(sheet) : sheet.vertex;
       needed_[index(i, j)] = known(i, j) != kNone || !level(i, j) ? 1 : 0;
       continue;
     }

@@ -17,6 +17,9 @@ constexpr double kSlopeShare = 0.5;
 /// walls.
 constexpr double kRiseRatio = 2.5;
 
+/// A last column that lacks less than this share of a pitch is a whole one, but for rounding.
+constexpr double kNarrower = 1e-6;
+
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 }  // namespace
@@ -25,7 +28,9 @@ Columns::Columns(const ColumnGrid& grid)
     : grid_(grid),
       size_x_(grid.bounds.high.x - grid.bounds.low.x),
       size_y_(grid.bounds.high.y - grid.bounds.low.y),
-      height_(grid.bounds.high.z - grid.bounds.low.z) {}
+      height_(grid.bounds.high.z - grid.bounds.low.z),
+      narrow_x_(grid.nx * grid.pitch > size_x_ + kNarrower * grid.pitch),
+      narrow_y_(grid.ny * grid.pitch > size_y_ + kNarrower * grid.pitch) {}
 
 int Columns::facing_end(int i, int j, int end, int other_i, int other_j) const {
   const int other_ends = ends(other_i, other_j);
@@ -63,16 +68,16 @@ bool Columns::continues(int i, int j, int end, int other_i, int other_j, int oth
 }
 
 double Columns::slope(int i, int j, int end, int dx, int dy) const {
-  double sum = 0.0;
-  int found = 0;
+  double rise = 0.0, run = 0.0;
   for (const int side : {-1, 1}) {
     const int other_i = i + side * dx, other_j = j + side * dy;
     const int other = facing_end(i, j, end, other_i, other_j);
     if (other < 0 || !continues(i, j, end, other_i, other_j, other)) continue;
-    sum += side * (z(other_i, other_j, other) - z(i, j, end));
-    ++found;
+    rise += side * (z(other_i, other_j, other) - z(i, j, end));
+    run += side * (dx != 0 ? grid_.column_x(other_i) - grid_.column_x(i)
+                           : grid_.column_y(other_j) - grid_.column_y(j));
   }
-  return found == 0 ? 0.0 : sum / (found * pitch());
+  return run > 0.0 ? rise / run : 0.0;
 }
 
 void CornerRow::build(const Columns& columns, int j) {
@@ -85,7 +90,7 @@ void CornerRow::build(const Columns& columns, int j) {
 
 /// The common case: four columns of one interval each, with one surface above and one below.
 bool CornerRow::build_simple(const Columns& columns, int i, int j) {
-  if (i == 0 || j == 0 || i == columns.nx() || j == columns.ny()) return false;
+  if (i == 0 || j == 0 || i == columns.nx() || j == columns.ny() || columns.uneven(i, j)) return false;
   double low_sum = 0.0, high_sum = 0.0;
   float low_min = std::numeric_limits<float>::max(), low_max = -low_min, high_min = low_min,
         high_max = -low_min;
@@ -263,15 +268,15 @@ void CornerRow::place(const Columns& columns, int i, int j, const Corner& corner
     sheet.x = x;
     sheet.y = y;
     const bool whole = std::find(group.end.begin(), group.end.end(), -1) == group.end.end();
-    if (whole && shift.x == 0.0 && shift.y == 0.0) continue;
+    if (whole && shift.x == 0.0 && shift.y == 0.0 && !columns.uneven(i, j)) continue;
     double change = 0.0;
     int members = 0;
     for (int q = 0; q < 4; ++q) {
       const int e = group.end[static_cast<std::size_t>(q)];
       if (e < 0) continue;
       const int ci = column_x(i, q), cj = column_y(j, q);
-      change += columns.slope(ci, cj, e, 1, 0) * (x - (ci + 0.5) * columns.pitch());
-      change += columns.slope(ci, cj, e, 0, 1) * (y - (cj + 0.5) * columns.pitch());
+      change += columns.slope(ci, cj, e, 1, 0) * (x - columns.grid().column_x(ci));
+      change += columns.slope(ci, cj, e, 0, 1) * (y - columns.grid().column_y(cj));
       ++members;
     }
     if (change == 0.0) continue;

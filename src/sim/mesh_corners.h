@@ -28,6 +28,8 @@ class Columns {
   /// side.
   double corner_x(int i) const { return i >= nx() ? size_x_ : std::min(i * pitch(), size_x_); }
   double corner_y(int j) const { return j >= ny() ? size_y_ : std::min(j * pitch(), size_y_); }
+  /// Whether the four columns around a corner inside the grid stand unevenly around it: one is narrower.
+  bool uneven(int i, int j) const { return (i == nx() - 1 && narrow_x_) || (j == ny() - 1 && narrow_y_); }
 
   bool inside(int i, int j) const { return i >= 0 && j >= 0 && i < nx() && j < ny(); }
   std::size_t number(int i, int j) const {
@@ -63,6 +65,7 @@ class Columns {
  private:
   const ColumnGrid& grid_;
   double size_x_, size_y_, height_;
+  bool narrow_x_, narrow_y_;  // the last column of a row, the last row
 };
 
 /// One surface (or several ends of one column each) at a corner: one vertex.

@@ -66,12 +66,22 @@ void Batch::clear() {
   contacts.clear();
 }
 
+/// Half the width of what follows the flutes; no more than theirs at their end, so that a thicker shank is
+/// told of as a shank. Nothing drawn above the flutes: their own width goes on.
+double radius_above_flutes(const Silhouette& tool) {
+  if (tool.cutting.empty()) return 0.0;
+  const double flutes = tool.cutting.knots.back().r;
+  for (const Profile* part : {&tool.neck, &tool.shank, &tool.holder})
+    if (!part->empty()) return std::min(flutes, part->knots.front().r);
+  return flutes;
+}
+
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
   ToolSolids solids;
   solids.cutting = make_solid(tool.cutting, mm(kProfileChord), Length());
   const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
   for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kProfileChord), side_clearance);
-  const double rim = solids.cutting.rim - side_clearance.mm();
+  const double rim = radius_above_flutes(tool) - side_clearance.mm();
   if (rim > 0.0) solids.over_flute = make_cylinder(rim, solids.cutting.top, solids.cutting.top + kAboveAll);
   return solids;
 }

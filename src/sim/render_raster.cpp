@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <thread>
+
+#include "sim/parallel.h"
 
 namespace kerf::rendering {
 namespace {
@@ -93,20 +94,12 @@ void draw(const Mesh& mesh, const std::vector<Spot>& spots, Target& target) {
 }
 
 void in_bands(int count, const std::function<void(int, int)>& work) {
-#if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
-  const int threads = 1;
-#else
-  const int threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 16);
-#endif
-  if (threads == 1 || count < threads) {
-    work(0, count);
-    return;
-  }
-  std::vector<std::thread> others;
-  const auto bound = [&](int n) { return static_cast<int>(std::int64_t{count} * n / threads); };
-  for (int n = 1; n < threads; ++n) others.emplace_back(work, bound(n), bound(n + 1));
-  work(0, bound(1));
-  for (std::thread& other : others) other.join();
+  const unsigned bands = sim::thread_count(0);
+  const auto bound = [&](std::size_t n) {
+    return static_cast<int>(std::int64_t{count} * static_cast<std::int64_t>(n) / bands);
+  };
+  sim::parallel_for(
+      bands, bands, [&](std::size_t n) { work(bound(n), bound(n + 1)); }, [] { return false; });
 }
 
 }  // namespace kerf::rendering

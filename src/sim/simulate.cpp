@@ -41,6 +41,7 @@ constexpr double kFarthestMotion = 1e7;                          // mm from the 
 constexpr double kFinestPitch = 1e-4;                            // mm
 constexpr double kDefaultColumns = 4e6;                          // of the automatic resolution
 constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
+constexpr double kMostDefaultColumns = 5e7;                      // a coarser one rather than more
 /// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.
 constexpr double kLeastClearance = 1e-4;
 
@@ -68,8 +69,11 @@ bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
 /// The column pitch to use, or nothing with an error.
 std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size, Diagnostics& diagnostics) {
   double pitch = options.resolution.mm();
-  if (pitch == 0.0)
-    pitch = std::clamp(std::sqrt(size.x * size.y / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
+  if (pitch == 0.0) {
+    const double area = size.x * size.y;
+    pitch = std::clamp(std::sqrt(area / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
+    pitch = std::max(pitch, std::sqrt(area / kMostDefaultColumns));
+  }
   if (!std::isfinite(pitch) || pitch < kFinestPitch) {
     diagnostics.error(
         Code::bad_resolution, {},
@@ -180,14 +184,14 @@ class Surveyor {
     Diagnostic& error =
         diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
                            fmt::format("tool {} cuts here, but its shape is not known", number));
-    error.hint = fmt::format("give it with --tool, e.g. --tool {}=square:6.35", number);
+    error.hint = fmt::format("give a tool {}, for example \"square d=3.175 flute=12.7\"", number);
   }
 
   void no_tool(const MotionContext& context) {
     if (std::exchange(said_no_tool_, true)) return;
     Diagnostic& error = diagnostics_.error(Code::no_tool_chosen, path_.origin_of(context.index),
                                            "the program cuts here before it has chosen a tool");
-    error.hint = "give exactly one tool with --tool, which is then used until the program chooses another";
+    error.hint = "give exactly one tool, which is then used until the program chooses another";
   }
 
   void warn_unknown_place(const MotionContext& context) {
@@ -215,6 +219,16 @@ class Surveyor {
 
 // ---- the run
 
+/// Along one axis: each column's share in the block, and its place from the first column of its tile.
+struct ColumnPlaces {
+  std::vector<Real> share, place;
+  void add(double column_share, double column_place, int number, double pitch) {
+    const int first = number / kTileColumns * kTileColumns;
+    share.push_back(static_cast<Real>(column_share));
+    place.push_back(static_cast<Real>(column_place - (first + 0.5) * pitch));
+  }
+};
+
 class Run {
  public:
   Run(Workpiece& workpiece, const Toolpath& path, Survey survey, const SimulationOptions& options,
@@ -233,9 +247,9 @@ class Run {
     field_.hazard_depth = static_cast<Real>(options.hazard_depth.mm());
     for (int i = 0; i < kTileColumns; ++i) field_.step[i] = static_cast<Real>(i * body_.pitch);
     for (int i = 0; i < body_.tiles_x * kTileColumns; ++i)
-      share_x_.push_back(static_cast<Real>(body_.share_x(i)));
+      along_x_.add(body_.share_x(i), body_.place_x(std::min(i, body_.nx - 1)), i, body_.pitch);
     for (int j = 0; j < body_.tiles_y * kTileColumns; ++j)
-      share_y_.push_back(static_cast<Real>(body_.share_y(j)));
+      along_y_.add(body_.share_y(j), body_.place_y(std::min(j, body_.ny - 1)), j, body_.pitch);
   }
 
   void cut_all() {
@@ -306,7 +320,7 @@ class Run {
   Progress* progress_;
   std::vector<LaneTool> tools_;
   Field field_{};
-  std::vector<Real> share_x_, share_y_;
+  ColumnPlaces along_x_, along_y_;
   std::vector<double> removed_;  // length of column, one a step
   WallGroup* walls_ = nullptr;   // what is cut instead of the workpiece, if any
   std::vector<Steps> wanted_;    // to be planned, in order and apart
@@ -364,8 +378,10 @@ void Run::cut_tile_number(std::size_t k) {
   job.y = (row + 0.5) * body_.pitch;
   const bool at_border = column + kTileColumns >= body_.nx || row + kTileColumns >= body_.ny;
   if (at_border) {
-    job.share_x = share_x_.data() + column;
-    job.share_y = share_y_.data() + row;
+    job.place_x = along_x_.place.data() + column;
+    job.place_y = along_y_.place.data() + row;
+    job.share_x = along_x_.share.data() + column;
+    job.share_y = along_y_.share.data() + row;
   }
   job.tools = &tools_;
   job.sweeps = batch_.sweeps.data();

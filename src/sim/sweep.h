@@ -15,7 +15,7 @@ namespace kerf::sim {
 /// What is tested or taken away along a sweep, in this order.
 enum PassBits : std::uint8_t {
   kPassCut = 1,        // the cutting part at feed
-  kPassOverFlute = 2,  // is there material above the flutes? Takes nothing away
+  kPassOverFlute = 2,  // what the cutting part's end meets above the flutes
   kPassNeck = 4,
   kPassShank = 8,
   kPassHolder = 16,
@@ -27,7 +27,7 @@ enum PassBits : std::uint8_t {
 struct ToolSolids {
   Solid cutting;
   Solid touching[4];  // cutting, neck, shank, holder, as ToolPart numbers them
-  Solid over_flute;   // the cutting part's full width, from the flutes' end upwards
+  Solid over_flute;   // as wide as the tool is just above the flutes, from there upwards
 };
 
 /// `side_clearance`: contacts that are less deep than this sideways are none.

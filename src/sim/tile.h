@@ -42,6 +42,17 @@ constexpr int lane_index(int x, int y) {
   return (super * kSupers + micro) * kLanes + (y & 3) * 4 + (x & 3);
 }
 
+/// What is left above the gap in an interval that a sweep has split.
+struct Remnant {
+  int lane = 0;
+  Real low = 0, high = 0;
+  std::uint32_t low_step = 0, high_step = 0;
+};
+
+/// Column and row in its tile of a micro's first column.
+constexpr int column_of(int micro) { return (micro >> 4 & 3) * 16 + (micro & 3) * 4; }
+constexpr int row_of(int micro) { return (micro >> 6) * 16 + (micro >> 2 & 3) * 4; }
+
 struct Tile {
   /// All columns full up to `height`, but for those beyond `columns_x` and `columns_y`, which do not exist.
   Tile(Real height, int columns_x, int columns_y);
@@ -60,8 +71,12 @@ struct Tile {
   void make_chain(int micro);
   /// Adds an empty slot to the end of a micro's chain.
   Slot& add_slot(int micro);
+  /// Puts an interval into a free place of its column.
+  void store_remnant(int micro, const Remnant& rest);
   /// Appends the intervals of a column, lowest first.
   void intervals(int index, std::vector<Interval>& out) const;
+  /// The step that took the last material of a column without any; kStockSurface if there never was any.
+  std::uint32_t cut_through(int index) const;
 };
 
 }  // namespace kerf::sim
@@ -88,6 +103,9 @@ struct Workpiece::Body {
   sim::Tile& touch(std::size_t tile);
   int columns_x_of(std::size_t tile) const;
   int columns_y_of(std::size_t tile) const;
+  /// Where column i (of row j) stands, mm from the block's low side: in the middle of its part in the block.
+  double place_x(int i) const;
+  double place_y(int j) const;
   /// Share of column i (of row j) that lies in the block, 0 to 1.
   double share_x(int i) const;
   double share_y(int j) const;

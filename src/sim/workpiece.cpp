@@ -44,6 +44,20 @@ Slot& Tile::add_slot(int micro) {
   return slot;
 }
 
+void Tile::store_remnant(int micro, const Remnant& rest) {
+  Slot* free = nullptr;
+  for (std::int32_t k = chain[micro]; k >= 0 && free == nullptr;
+       k = slots[static_cast<std::size_t>(k)].next) {
+    Slot& slot = slots[static_cast<std::size_t>(k)];
+    if (slot.low[rest.lane] > slot.high[rest.lane]) free = &slot;
+  }
+  if (free == nullptr) free = &add_slot(micro);
+  free->low[rest.lane] = rest.low;
+  free->high[rest.lane] = rest.high;
+  free->low_step[rest.lane] = rest.low_step;
+  free->high_step[rest.lane] = rest.high_step;
+}
+
 void Tile::make_chain(int micro) {
   if (chain[micro] >= 0) return;
   Slot& slot = add_slot(micro);
@@ -51,8 +65,8 @@ void Tile::make_chain(int micro) {
     if (!(top[micro][i] > 0.0f)) continue;
     slot.low[i] = 0.0f;
     slot.high[i] = top[micro][i];
-    slot.high_step[i] = top_step[micro][i];
   }
+  std::copy_n(top_step[micro], kLanes, slot.high_step);  // of columns cut through as well, see cut_through
 }
 
 void Tile::intervals(int index, std::vector<Interval>& out) const {
@@ -72,6 +86,18 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
             [](const Interval& a, const Interval& b) { return a.low < b.low; });
 }
 
+std::uint32_t Tile::cut_through(int index) const {
+  const int micro = index / kLanes, lane = index % kLanes;
+  if (chain[micro] < 0) return top_step[micro][lane];
+  // An interval that ends keeps the step of its end as that of its high end. Steps are in order of time.
+  std::uint32_t last = kStockSurface;
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
+    const std::uint32_t step = slots[static_cast<std::size_t>(k)].high_step[lane];
+    if (step != kStockSurface && (last == kStockSurface || step > last)) last = step;
+  }
+  return last;
+}
+
 namespace {
 
 /// A last column that holds less than this share of a pitch is rounding of the division, not material.
@@ -87,6 +113,10 @@ int column_count(double size, double pitch) {
 }
 
 double share_inside(int i, double pitch, double size) { return std::clamp(size / pitch - i, 0.0, 1.0); }
+
+double place_inside(int i, double pitch, double size) {
+  return 0.5 * (i * pitch + std::min((i + 1) * pitch, size));
+}
 
 }  // namespace
 }  // namespace sim
@@ -118,6 +148,8 @@ sim::Tile& Workpiece::Body::touch(std::size_t tile) {
   return *tiles[tile];
 }
 
+double Workpiece::Body::place_x(int i) const { return sim::place_inside(i, pitch, bounds.size().x); }
+double Workpiece::Body::place_y(int j) const { return sim::place_inside(j, pitch, bounds.size().y); }
 double Workpiece::Body::share_x(int i) const { return sim::share_inside(i, pitch, bounds.size().x); }
 double Workpiece::Body::share_y(int j) const { return sim::share_inside(j, pitch, bounds.size().y); }
 
@@ -146,6 +178,9 @@ std::vector<Interval> Workpiece::column(int i, int j) const {
   return out;
 }
 
+double ColumnGrid::column_x(int i) const { return sim::place_inside(i, pitch, bounds.size().x); }
+double ColumnGrid::column_y(int j) const { return sim::place_inside(j, pitch, bounds.size().y); }
+
 ColumnGrid Workpiece::grid() const {
   const Body& body = *body_;
   ColumnGrid grid{
@@ -162,7 +197,11 @@ ColumnGrid Workpiece::grid() const {
       if (tile == nullptr) {
         grid.intervals.push_back({0.0f, body.height, kStockSurface, kStockSurface});
       } else {
-        tile->intervals(sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns), grid.intervals);
+        const int index = sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns);
+        tile->intervals(index, grid.intervals);
+        if (grid.first.back() != grid.intervals.size()) continue;
+        if (grid.cut_through.empty()) grid.cut_through.assign(count, kStockSurface);
+        grid.cut_through[grid.first.size() - 1] = tile->cut_through(index);
       }
     }
   }

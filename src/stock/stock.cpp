@@ -72,15 +72,6 @@ const std::vector<std::string>& zero_height_names() {
   return names;
 }
 
-Stock stock_around(const Box3& cuts, Length margin, Length floor) {
-  Box3 box = cuts;
-  if (box.empty()) box = Box3{{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}};
-  box.low = box.low - Point3{margin.mm(), margin.mm(), floor.mm()};
-  box.high = box.high + Point3{margin.mm(), margin.mm(), 0.0};
-  box.high.z = std::max(box.high.z, 0.0);
-  return {box};
-}
-
 bool is_solid(const Stock& stock) { return solid(stock.block); }
 
 std::vector<std::string> write_stock_comments(const Stock& stock) {

@@ -37,8 +37,19 @@ def figures(path, folder):
         os.chdir(before)
 
 
-def alike(a, b, slack):
-    return math.isclose(a, b, rel_tol=1e-3, abs_tol=slack)
+def original_figures(path, folder):
+    given = json.loads((CASES / "expected.json").read_text()).get(path.name)
+    return given if given and "accepted" in given else figures(path, folder)
+
+
+# LinuxCNC prints four decimals, and programs have three or four. In chains of cuts that are hardly longer than the
+# last decimal, each such rounding adds to the length (camotics_vcarve: 4000 cuts of 0.014 mm, printed in inches); a
+# tenth of the coarsest rounding is allowed for each move.
+ROUNDING = 0.1 * 0.00254
+
+
+def alike(a, b, moves):
+    return math.isclose(a, b, rel_tol=1e-3, abs_tol=0.05 + ROUNDING * moves)
 
 
 @pytest.mark.parametrize("post", ["grbl", "linuxcnc"])
@@ -47,8 +58,7 @@ def test_post(path, post, tmp_path):
     out = tmp_path / "out.nc"
     command = [os.environ["KERF"], "post", "--to", post, *FEED, str(path), "-o", str(out), "--json"]
     done = subprocess.run(command, capture_output=True, timeout=300)
-    given = json.loads((CASES / "expected.json").read_text()).get(path.name)
-    original = given if given and "accepted" in given else figures(path, tmp_path)
+    original = original_figures(path, tmp_path)
     if done.returncode != 0:
         assert not original["accepted"], done.stdout.decode() + done.stderr.decode()
         pytest.skip("neither LinuxCNC nor Kerf takes the original")
@@ -56,7 +66,7 @@ def test_post(path, post, tmp_path):
     if not original["accepted"]:
         return
     assert written["accepted"], written["error"]
-    assert alike(written["cut_mm"], original["cut_mm"], 0.05)
-    assert alike(written["rapid_mm"], original["rapid_mm"], 0.05)
+    assert alike(written["cut_mm"], original["cut_mm"], original["line"] + original["arc"])
+    assert alike(written["rapid_mm"], original["rapid_mm"], original["rapid"])
     for mine, theirs in zip(written["cut_bounds_mm"], original["cut_bounds_mm"]):
         assert all(abs(a - b) < 0.01 for a, b in zip(mine, theirs)), (mine, theirs)

@@ -79,9 +79,34 @@ def test_hazards_of_path_and_material_are_in_the_order_of_steps(kerf, program):
 
 
 def test_errors_of_the_program_come_before_hazards(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("T102", "T77")))
+    run = kerf("check", "--json", program(SOUND.replace("F400", "Fnan")))
     assert run.status == 1
-    assert "no_tool_shape" in run.codes()
+    assert any(d["severity"] == "error" for d in run.json["diagnostics"])
+
+
+def test_an_unknown_tool_is_a_hazard_and_the_rest_is_checked(kerf, program):
+    two = SOUND.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM6 T77\nM3 S9000\nG1 Z-1\nG1 X35 Z-20\nG0 Z5\nM5")
+    run = kerf("check", "--json", program(two))
+    assert run.status == 3
+    assert kinds(run) == ["rapid_in_stock", "unknown_tool"]
+    unknown = run.json["hazards"][1]
+    assert unknown["origin"]["line"] == 15 and unknown["steps"] == 2
+    assert '--tool 77=' in unknown["hint"]
+    assert "not_simulated" in run.codes()
+
+
+def test_a_program_with_an_unknown_tool_only(kerf, program):
+    path = program(SOUND.replace("T102", "T77"))
+    run = kerf("check", "--json", path)
+    assert run.status == 3
+    assert kinds(run) == ["unknown_tool"]
+    assert kerf("check", path, "--tool", "77=102").status == 0
+
+
+def test_an_empty_program_is_an_error(kerf, program):
+    run = kerf("check", "--json", program("%\n%\n"))
+    assert run.status == 1
+    assert "nothing_to_cut" in run.codes()
 
 
 def test_without_any_tool_the_material_is_left_out_and_said_so(kerf, program):

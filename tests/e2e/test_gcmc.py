@@ -5,6 +5,7 @@ import re
 import signal
 import subprocess
 import time
+from pathlib import Path
 
 import pytest
 
@@ -183,7 +184,6 @@ def test_gcmc_is_a_way_in(kerf, program):
 
 
 def test_a_hazard_names_the_line_and_the_calls(kerf, program):
-    program("(stockMin: 0mm, 0mm, -6mm)\n", "unused.nc")
     program("""include("tracepath.inc.gcmc");
 comment("stockMin:0.00mm, 0.00mm, -6.00mm");
 comment("stockMax:40.00mm, 30.00mm, 0.00mm");
@@ -194,6 +194,26 @@ function sink() {
 goto([10, 10, 5]);
 sink();
 """, "p.gcmc")
-    run = kerf("check", "p.gcmc", "--stock", "40 x 30 x 6")
+    run = kerf("check", "p.gcmc")
     assert run.status == 3
     assert re.search(r"p\.gcmc:6:\d+: .*\n  called from p\.gcmc:9:\d+\n", run.out)
+    hazard = kerf("check", "--json", "p.gcmc").json["hazards"][0]
+    assert hazard["origin"]["line"] == 6 and [c["line"] for c in hazard["callers"]] == [9]
+    simulated = kerf("simulate", "--json", "p.gcmc").json
+    assert simulated["stock"]["source"] == "program" and simulated["hazards"][0]["origin"]["line"] == 6
+
+
+def test_a_program_finds_what_lies_beside_it(kerf, tmp_path):
+    folder = tmp_path / "parts"
+    folder.mkdir()
+    (folder / "lib.inc.gcmc").write_text("function f() { move([1, 2, -1]); }\n")
+    (folder / "p.gcmc").write_text('include("lib.inc.gcmc"); f();\n')
+    assert kerf("steps", "parts/p.gcmc").out.count('"cut"') == 1
+    assert "cannot be found" in kerf("gcmc", "parts/p.gcmc").err  # as the real program: beside the user
+
+
+def test_a_link_named_gcmc_is_gcmc(tmp_path):
+    link = tmp_path / "gcmc"
+    link.symlink_to(Path(KERF).resolve())
+    run = subprocess.run([link, "-q", "-P1"], input=b"move([1]);", capture_output=True, timeout=60)
+    assert run.returncode == 0 and run.stdout == b"G1 X1.0\n"

@@ -169,3 +169,21 @@ def test_tools_show_an_unknown_one(kerf):
     run = kerf("tools", "show", "4711471", "--json")
     assert run.status == 1
     assert run.json["diagnostics"]
+
+
+def test_a_tool_told_in_words_has_its_shape_for_a_title(kerf):
+    assert kerf("tools", "show", "square d=3").out.startswith("square 3 mm\n")
+    assert kerf("tools", "show", "102").out.startswith("102 ")
+
+
+def test_measures_that_cannot_be_are_told_with_those_that_can(kerf):
+    run = kerf("tools", "show", "square d=3 flute=0")
+    assert run.status == 1
+    assert run.err.startswith('"square d=3 flute=0": error: flute must be above 0')
+    run = kerf("tools", "show", "V d=3 zzzz=1")
+    assert "hint: its measures: diameter, flute, angle" in run.err
+
+
+def test_the_help_of_tools_has_examples(kerf):
+    out = kerf("tools", "--help").out
+    assert "Examples:" in out and "kerf tools list" in out and "kerf tools show 102" in out

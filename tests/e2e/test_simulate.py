@@ -1,4 +1,5 @@
 """kerf simulate: figures, tools, stock, files, and the ways in which it must refuse."""
+import json
 import math
 import struct
 
@@ -161,3 +162,71 @@ def test_a_resolution_too_fine_says_which_would_do(kerf, program):
     run = kerf("simulate", program(), "--stock", "5000x5000x10", "--resolution", "0.001")
     assert run.status == 1
     assert "[6004]" in run.err  # too_many_columns
+
+
+def test_a_resolution_in_inches(kerf, program):
+    run = kerf("simulate", "--json", program(), "--resolution", "0.01in")
+    assert run.json["resolution_mm"] == pytest.approx(0.254)
+
+
+def test_the_count_of_hazards_is_that_of_the_lines(kerf, program):
+    text = SOUND.replace("M3 S10000\n", "M5\n").replace("G1 X20 F400\n", "G1 X20 F400\nG0 Z5\nG0 X20\nG1 Z-1\n")
+    run = kerf("simulate", program(text))
+    lines = [line for line in run.out.split("\n") if line.endswith("]")]
+    assert len(lines) == 1 and "[spindle_off]" in lines[0] and "in 3 moves" in lines[0]
+    assert "hazards  1 in 3 moves\n" in run.out
+
+
+def test_a_tool_that_cuts_nothing_has_no_line(kerf, program):
+    run = kerf("simulate", program(SOUND.replace("M6 T102\n", "M6 T101\nG0 X0\nM6 T102\n")))
+    assert "tool 102" in run.out and "tool 101" not in run.out
+
+
+def test_the_materials_of_a_glb_name_the_tools(kerf, program, tmp_path):
+    kerf("simulate", program(SOUND.replace("M5\n", "G0 X30 Y5\nM6 T101\nM3 S9000\nG1 Z-1\nG0 Z5\nM5\n")), "-o", "part.glb")
+    data = (tmp_path / "part.glb").read_bytes()
+    scene = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
+    assert {"stock", "tool 102", "tool 101"} <= {m["name"] for m in scene["materials"]}
+
+
+WITHOUT_STOCK = "\n".join(line for line in SOUND.split("\n") if "stock" not in line)
+
+
+def test_feeds_that_lift_do_not_raise_the_assumed_stock(kerf, program):
+    run = kerf("simulate", "--json", program(WITHOUT_STOCK.replace("G0 Z5\nM5", "G1 Z15 F900\nG1 X-50\nM5")))
+    low, high = run.json["stock"]["block_mm"]
+    assert high[2] == 0 and low[0] == pytest.approx(10 - 3.175 / 2 - 2)
+    assert run.json["hazards"] == []
+
+
+def test_a_program_with_zero_on_the_bed_is_simulated_with_a_warning(kerf, program):
+    slots = "".join(f"G0 X10 Z12\nG1 Z{z} F100\nG1 X20 F400\n" for z in (6, 4, 2, 0))
+    run = kerf("simulate", "--json", program(f"M6 T102\nM3 S9000\nG0 Y10 Z12\n{slots}G0 Z12\nM5\nM2\n"))
+    (low, high) = run.json["stock"]["block_mm"]
+    assert (low[2], high[2]) == (0, 8)
+    exact = 8 * (10 * 3.175 + math.pi * 3.175**2 / 4)
+    assert run.json["removed_mm3"] == pytest.approx(exact, rel=0.01)
+    told = next(d for d in run.json["diagnostics"] if d["name"] == "stock_assumed")
+    assert told["severity"] == "warning" and "--stock" in told["hint"]
+
+
+def test_the_hint_of_an_assumed_stock_gives_the_same_one(kerf, program):
+    path = program(WITHOUT_STOCK)
+    run = kerf("simulate", "--json", path)
+    hint = next(d for d in run.json["diagnostics"] if d["name"] == "stock_assumed")["hint"]
+    again = kerf("simulate", "--json", path, "--stock", hint.split('"')[1])
+    assert again.json["removed_mm3"] == pytest.approx(run.json["removed_mm3"], rel=1e-3)
+
+
+def test_a_program_that_cuts_nothing_below_zero_says_so(kerf, program):
+    run = kerf("simulate", program(WITHOUT_STOCK.replace("Z-1", "Z0")))
+    assert run.status == 0
+    assert "cuts nothing below Z0" in run.err and "[1011]" in run.err  # stock_assumed
+
+
+def test_a_huge_stock_gets_a_coarser_resolution(kerf, program):
+    run = kerf("check", "--json", program(), "--stock", "100000x100000x100 at centre top")
+    assert run.status == 0, run.out
+    run = kerf("simulate", "--json", program(), "--stock", "100000x100000x100 at centre top")
+    assert run.status == 0, run.out
+    assert 1 < run.json["resolution_mm"] < 20

@@ -2,6 +2,7 @@
 import re
 
 import pytest
+from conftest import SOUND
 
 COMMANDS = ["simulate", "check", "info", "steps", "tools list", "tools show"]
 
@@ -67,6 +68,11 @@ def test_slips_of_the_fingers(kerf, program, arguments, meant):
     ["simulate", "part.nc", "-o", "part.xyz"],
     ["simulate", "part.nc", "-o", "part"],
     ["simulate", "part.nc", "-o", "a.stl", "-o", "./a.stl"],
+    ["simulate", "part.nc", "--resolution", "0.01ft"],
+    ["simulate", "part.nc", "--stock", ""],
+    ["simulate", "part.nc", "--stock", "40inx30x10"],
+    ["help", "foo"],
+    ["help", "tools", "foo"],
     ["--nothing"],
 ])
 def test_wrong_usage_is_status_2_with_a_message(kerf, program, files, arguments):
@@ -101,3 +107,43 @@ def test_wrong_option_values_stand_in_the_json_too(kerf, program):
     run = kerf("simulate", "--json", program(), "--stock", "much")
     assert run.status == 2
     assert run.codes() == ["stock_option"]
+
+
+@pytest.mark.parametrize("spec, words", [
+    ("-1=301", "-1 is no tool number: expected a whole number from 0"),
+    ("1.5=301", "1.5 is no tool number"),
+    ("9999999999=301", "9999999999 is no tool number"),
+    ("=301", 'no tool number before "="'),
+    ("=", 'no tool number before "="'),
+    ("1=", 'what tool 1 is does not stand behind "="'),
+    ("", "the tool is missing"),
+    ("2=spoon d=3", 'no tool shape is called "spoon"'),
+])
+def test_a_bad_tool_option_is_shown_with_what_is_wrong(kerf, program, spec, words):
+    run = kerf("simulate", program(), "--tool", spec)
+    assert run.status == 2
+    assert run.err.startswith(f'--tool "{spec}": error: ') and words in run.err and "hint: " in run.err
+
+
+def test_an_unknown_place_of_zero_lists_the_places(kerf, program):
+    run = kerf("simulate", program(), "--stock", "100x60x12 at middle")
+    assert run.status == 2
+    for word in ("lower-left", "centre", "top-right", "top or bottom"):
+        assert word in run.err
+
+
+def test_help_of_a_command_passes_over_what_stands_behind_it(kerf, program):
+    assert kerf("help", "simulate", program()).out == kerf("simulate", "--help").out
+
+
+def test_options_without_effect_are_told(kerf, program):
+    run = kerf("simulate", "--json", program(), "--tool", "2=301", "--view", "top", "--size", "100x100")
+    assert run.status == 0
+    told = [d for d in run.json["diagnostics"] if d["name"] == "option_unused"]
+    assert [d["origin"]["call"] for d in told] == ["--view", "--size", "--tool 2=..."]
+    assert "102" in told[-1]["hint"]
+
+
+def test_a_tool_option_for_a_program_without_tool_changes_is_used(kerf, program):
+    run = kerf("simulate", "--json", program(SOUND.replace("M6 T102\n", "")), "--tool", "5=square d=3 flute=9")
+    assert "option_unused" not in run.codes() and run.json["removed_mm3"] > 0

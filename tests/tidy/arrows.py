@@ -30,10 +30,10 @@ OUTSIDE = PATH | CODEC | FRONT | BACK | {"sim"}  # benchmarks, fuzz targets and 
 PUBLIC = {
     "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
              "codes.def"],
-    "geom": ["geometry.h", "outline.h", "extrude.h"],
+    "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h"],
     "tool": ["tool.h", "material.h"],
     "stock": ["stock.h"],
-    "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h"],
+    "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
     "sim": ["simulate.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],

@@ -12,6 +12,8 @@
 
 #include "codec/gcode/block.h"
 
+#include "kerf/number.h"
+
 namespace kerf::gcode {
 namespace {
 
@@ -66,12 +68,14 @@ class Linter {
 
  private:
   bool check_form(const Block& block);
+  void check_command(std::string_view command);
   void check_comments(const Block& block);
   void check_length(const Block& block);
   bool take_words(const Block& block);
   bool take_code(const Word& word);
   bool take_value(const Word& word);
   bool in_group(int tenths, const Group* groups, std::size_t count, std::uint32_t& seen);
+  void check_single();
   void run();
   void set_modes();
   void use_special();
@@ -120,7 +124,21 @@ void Linter::check(const Block& block) {
   if (block.faulty) return;  // said by the reader of blocks
   if (!check_form(block)) return;
   check_length(block);
+  if (!block.command.empty()) return check_command(block.command);
   if (take_words(block) && !refused_) run();
+}
+
+/// A line in words: "M117 ready", or a macro such as "PAUSE".
+void Linter::check_command(std::string_view command) {
+  if (command.front() == 'M') {
+    const auto digits = std::min(command.find_first_not_of("0123456789", 1), command.size());
+    if (const auto number = parse_number(command.substr(1, digits - 1))) {
+      if (!profile_.has_m(static_cast<int>(std::lround(std::min(*number, 1e6) * 10.0))))
+        refuse(Code::lint_code, fmt::format("the controller has no M{:g}", *number));
+      return;
+    }
+  }
+  if (!profile_.macros) refuse(Code::lint_syntax, "the controller has no commands in words");
 }
 
 bool Linter::check_form(const Block& block) {
@@ -238,7 +256,18 @@ bool Linter::take_value(const Word& word) {
   return !refused_;
 }
 
+/// Whether a line of LineSyntax::commands is one command.
+void Linter::check_single() {
+  const std::size_t commands = codes_.size() + m_codes_.size();
+  const bool tool_alone = letters_ == bit('T') || letters_ == (bit('T') | bit('N'));
+  if (commands > 1) refuse(Code::lint_conflict, "a line of this controller holds one command");
+  if (commands == 0 && letters_ != 0 && !tool_alone)
+    refuse(Code::lint_missing, "a line of this controller begins with its command, such as G1");
+}
+
 void Linter::run() {
+  if (profile_.syntax == LineSyntax::commands) check_single();
+  if (refused_) return;
   set_modes();
   use_special();
   if ((g_groups_ >> kMotionGroup & 1u) != 0)
@@ -396,6 +425,7 @@ bool lint(std::string_view text, const PostProfile& profile, const std::string& 
   const std::size_t errors = diagnostics.errors();
   BlockReaderOptions options;
   options.file_name = file_name;
+  if (profile.syntax == LineSyntax::commands) options.commands = BlockReaderOptions::Commands::words;
   BlockReader reader(text, options, diagnostics);
   Linter linter(profile, file_name, start, diagnostics);
   Block block;

@@ -148,9 +148,20 @@ bool Poster::add_rotary(std::size_t i) {
 }
 
 void Poster::put_motion(int g) {
-  if (g == motion_ && profile_.motion == Repeat::when_changed) return;
+  const bool in_force = g == motion_ && profile_.syntax == LineSyntax::words;
+  if (in_force && profile_.motion == Repeat::when_changed) return;
   code('G', g * 10);
   motion_ = g;
+}
+
+/// Puts the arc's plane, on a line of its own where a line holds one command.
+void Poster::put_plane(std::size_t i, Plane plane) {
+  if (plane_ == plane) return;
+  plane_ = plane;
+  code('G', plane == Plane::xy ? 170 : plane == Plane::xz ? 180 : 190);
+  if (profile_.syntax == LineSyntax::words) return;
+  end(i);
+  begin();
 }
 
 void Poster::put_axes(const Counts& to, unsigned axes) {
@@ -186,17 +197,24 @@ void Poster::arrive(std::size_t i, const Counts& to) {
 }
 
 void Poster::straight(int g, std::size_t i) {
-  const Counts to = grid_.counts(path_[i].to());
+  straight_to(g, i, grid_.counts(path_[i].to()));
+}
+
+void Poster::straight_to(int g, std::size_t i, const Counts& to) {
   const unsigned axes = axes_to_write(i, to);
   begin();
   put_motion(g);
   put_axes(to, axes);
   const bool rotary = add_rotary(i);
   arrive(i, to);
-  if (axes == 0 && !rotary) {  // shorter than the last decimal
-    line_.clear();
-    motion_ = -1;
-    return;
+  if (axes == 0 && !rotary) {  // it leads nowhere, but is a move; leaving such moves out is a pass's matter
+    const unsigned known = kAllAxes & ~path_[i].unknown_axes();
+    if (known == 0) {
+      line_.clear();
+      motion_ = -1;
+      return;
+    }
+    put_axes(to, known & (0u - known));
   }
   if (g == 1) {
     put_feed(i);
@@ -222,10 +240,7 @@ void Poster::arc(std::size_t i) {
   if (plan_.form != ArcForm::arcs) return chords(i);
   for (const ArcPiece& piece : plan_.pieces) {
     begin();
-    if (plane_ != arc.plane) {
-      code('G', arc.plane == Plane::xy ? 170 : arc.plane == Plane::xz ? 180 : 190);
-      plane_ = arc.plane;
-    }
+    put_plane(i, arc.plane);
     code('G', arc.turn == Turn::cw ? 20 : 30);
     motion_ = arc.turn == Turn::cw ? 2 : 3;
     const auto w = static_cast<std::size_t>(axes.w);
@@ -245,17 +260,10 @@ void Poster::arc(std::size_t i) {
 
 /// The plan's pieces as straight cuts.
 void Poster::chords(std::size_t i) {
+  const bool several = plan_.pieces.size() > 1;
   for (const ArcPiece& piece : plan_.pieces) {
-    const unsigned axes = axes_to_write(i, piece.to);
-    begin();
-    if (axes == 0) continue;
-    put_motion(1);
-    put_axes(piece.to, axes);
-    add_rotary(i);
-    put_feed(i);
-    put_power();
-    arrive(i, piece.to);
-    end(i);
+    const bool nowhere = piece.to == at_ && told_ == kAllAxes;
+    if (!(several && nowhere)) straight_to(1, i, piece.to);
   }
 }
 
@@ -282,7 +290,8 @@ void Poster::extrude(std::size_t i) {
   const double radius = 0.5 * profile_.filament.mm();
   const double area = std::acos(-1.0) * radius * radius;
   extruded_ += path_.extrude(i).volume.mm3() / area;
-  const std::int64_t whole = std::llround(extruded_ * power_of_ten(kDecimalsExtruded));
+  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMillimetresPerInch;
+  const std::int64_t whole = std::llround(extruded_ / unit_mm * power_of_ten(kDecimalsExtruded));
   const std::int64_t e = profile_.extruder == ExtruderMode::absolute ? whole : whole - told_extruded_;
   const Counts to = grid_.counts(path_[i].to());
   const unsigned axes = axes_to_write(i, to);
@@ -303,7 +312,7 @@ void Poster::to_reference(int g, std::size_t i) {
   const Counts to = grid_.counts(s.to());
   const bool machine = s.reference() == Reference::machine;
   const int tenths = machine ? 530 : s.reference() == Reference::home ? 280 : 300;
-  if (!profile_.has_g(tenths)) {
+  if (!profile_.has_g(tenths) || profile_.syntax == LineSyntax::commands) {
     left_out(i, fmt::format("the controller has no G{}; this move to a place of the machine", tenths / 10));
   } else if (machine) {
     begin();

@@ -28,6 +28,7 @@ class Poster {
   void write_step(std::size_t i);
   void write_motion(std::size_t i);
   void straight(int g, std::size_t i);
+  void straight_to(int g, std::size_t i, const Counts& to);
   void arc(std::size_t i);
   void chords(std::size_t i);
   void probe(std::size_t i);
@@ -40,6 +41,7 @@ class Poster {
   void put_feed(std::size_t i);
   void put_axes(const Counts& to, unsigned axes);
   void put_motion(int g);
+  void put_plane(std::size_t i, Plane plane);
   void put_power();
 
   // states.cpp

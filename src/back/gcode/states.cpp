@@ -73,6 +73,7 @@ void Poster::laser(std::size_t i) {
   const int tenths = wanted.mode == LaserMode::constant ? 30 : 40;
   if (!can_m(i, tenths, "a laser")) return;
   laser_ = wanted.mode;
+  pending_power_.reset();  // told with the mode
   begin();
   code('M', tenths);
   word('S', counts_of(wanted.power, profile_.decimals_speed), profile_.decimals_speed);

@@ -57,7 +57,7 @@ std::size_t Asset::add_material(std::size_t colour) {
   Json factor = {0.8, 0.8, 0.8, 1.0};
   if (colour < mesh_.palette.size())
     for (std::size_t k = 0; k < 3; ++k) factor[k] = linear(mesh_.palette[colour][k]);
-  materials_.push_back({{"name", "colour " + std::to_string(colour)},
+  materials_.push_back({{"name", colour_name(mesh_, colour)},
                         {"pbrMetallicRoughness",
                          {{"baseColorFactor", factor}, {"metallicFactor", 0.0}, {"roughnessFactor", 0.7}}}});
   return materials_.size() - 1;

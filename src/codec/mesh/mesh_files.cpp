@@ -32,6 +32,11 @@ std::string plain_name(const MeshView& mesh) {
   return name;
 }
 
+std::string colour_name(const MeshView& mesh, std::size_t colour) {
+  if (colour < mesh.palette_names.size()) return mesh.palette_names[colour];
+  return "colour " + std::to_string(colour);
+}
+
 }  // namespace mesh_format
 
 std::optional<MeshFormat> mesh_format_of(std::string_view path) {

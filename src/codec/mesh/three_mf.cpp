@@ -121,7 +121,8 @@ void write_model(ModelWriter&& out, const MeshView& mesh) {
     out.add("<basematerials id=\"2\">\n");
     for (std::size_t k = 0; k < mesh.palette.size(); ++k) {
       const auto& c = mesh.palette[k];
-      out.add("<base name=\"colour {}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n", k, c[0], c[1], c[2]);
+      out.add("<base name=\"{}\" displaycolor=\"#{:02X}{:02X}{:02X}\"/>\n", escaped(colour_name(mesh, k)),
+              c[0], c[1], c[2]);
     }
     out.add("</basematerials>\n");
   }

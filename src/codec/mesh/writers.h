@@ -45,5 +45,7 @@ inline std::size_t colour_of(const MeshView& mesh, std::size_t triangle) {
 std::array<float, 3> unit_normal(const MeshView& mesh, std::size_t triangle);
 /// The name with everything dropped that is not printable ASCII, so that it fits every header.
 std::string plain_name(const MeshView& mesh);
+/// The name of a colour of the palette, for materials.
+std::string colour_name(const MeshView& mesh, std::size_t colour);
 
 }  // namespace kerf::mesh_format

@@ -19,7 +19,8 @@ void check_range(const Call& call, double v, double low, double high) {
 
 Value absolute(const Call& call) {
   const Scalar s = call.scalar(0);
-  if (s.kind() == Kind::integer) return Value::integer(s.p.i < 0 ? wrap_sub(0, s.p.i) : s.p.i, s.unit());
+  if (s.kind() == Kind::integer)
+    return Value::integer(s.whole() < 0 ? wrap_sub(0, s.whole()) : s.whole(), s.unit());
   return Value::real(std::fabs(s.p.d), s.unit());
 }
 

@@ -284,7 +284,7 @@ Value typeset(const Call& call) {
   if (!call[0].is_string()) call.fail(Code::gcmc_type, "typeset() argument 1 must be string");
   const Scalar font = call.scalar(1);
   if (font.kind() != Kind::integer) call.fail(Code::gcmc_type, "typeset() argument 2 must be integer");
-  return typeset_text(call.vm, call[0].text(), font.p.i);
+  return typeset_text(call.vm, call[0].text(), font.whole());
 }
 
 }  // namespace

@@ -38,6 +38,12 @@ namespace kerf::gcmc {
   X(bit_xor)                                                                                          \
   X(shift_left)                                                                                       \
   X(shift_right)                                                                                      \
+  X(add_integer)  /* x <- slot a op b, b being an integer itself; so the next four */                 \
+  X(sub_integer)                                                                                      \
+  X(mul_integer)                                                                                      \
+  X(div_integer)  /* b is neither 0 nor -1; so the next */                                            \
+  X(mod_integer)                                                                                      \
+  X(append)  /* x <- a + {b} */                                                                       \
   X(equal)  /* x <- a op b; so the next five */                                                       \
   X(not_equal)                                                                                        \
   X(less)                                                                                             \
@@ -62,6 +68,12 @@ namespace kerf::gcmc {
   X(jump_greater_equal)                                                                               \
   X(jump_equal)                                                                                       \
   X(jump_not_equal)                                                                                   \
+  X(jump_less_integer)  /* by c, on slot a op b, b being an integer itself; so the next five */       \
+  X(jump_greater_integer)                                                                             \
+  X(jump_less_equal_integer)                                                                          \
+  X(jump_greater_equal_integer)                                                                       \
+  X(jump_equal_integer)                                                                               \
+  X(jump_not_equal_integer)                                                                           \
   X(vector)  /* x <- vector of b slots from a */                                                      \
   X(vector2)  /* x <- [a, b] */                                                                       \
   X(vector3)  /* x <- [a, b, c] */                                                                    \
@@ -69,7 +81,8 @@ namespace kerf::gcmc {
   X(call)  /* x <- function a with c arguments from slot b */                                         \
   X(call_builtin)  /* x <- built-in a with c arguments from slot b */                                 \
   X(define)  /* function a exists from now on */                                                      \
-  X(give_back)  /* return a */                                                                        \
+  X(give_back)  /* return a, from a function */                                                       \
+  X(end_program)  /* return a, from the program itself */                                             \
   X(give_nothing)  /* return without a value */                                                       \
   X(declare_local)  /* slot x <- a, if it does not exist yet; warns otherwise */                      \
   X(declare_constant)  /* slot x <- a, once; b is the global slot of that name or -1 */               \
@@ -91,6 +104,15 @@ enum class Op : std::uint8_t {
   KERF_GCMC_OPS(X)
 #undef X
 };
+
+/// The form of an operation or comparing jump whose right side is an integer in the instruction.
+constexpr Op with_integer(Op op) {
+  constexpr int kToOperation = static_cast<int>(Op::add_integer) - static_cast<int>(Op::add);
+  constexpr int kToJump = static_cast<int>(Op::jump_less_integer) - static_cast<int>(Op::jump_less);
+  return static_cast<Op>(static_cast<int>(op) + (op <= Op::mod ? kToOperation : kToJump));
+}
+static_assert(with_integer(Op::mod) == Op::mod_integer);
+static_assert(with_integer(Op::jump_not_equal) == Op::jump_not_equal_integer);
 
 /// Bits of Instruction::flags.
 enum : std::uint8_t {
@@ -121,6 +143,7 @@ struct FunctionCode {
   std::int32_t variables = 0;  // slots with names, parameters among them
   std::int32_t frame = 0;      // all slots
   bool constants = false;      // it declares some
+  bool walks = false;          // it has a foreach, whose hidden slot holds what is walked
   std::vector<NameId> slot_names;
   std::vector<bool> by_reference;
 };

@@ -103,6 +103,7 @@ class Compiler {
   // instructions
   std::size_t emit(Place at, Op op, std::int32_t x, std::int32_t a = 0, std::int32_t b = 0,
                    std::int32_t c = 0);
+  std::size_t emit_operation(Place at, Op op, std::int32_t x, std::int32_t a, std::int32_t b);
   Instruction& at(std::size_t i) { return code_.instructions[i]; }
   std::uint8_t take(std::int32_t operand, std::uint8_t bit) const {
     return is_temporary(operand) ? bit : std::uint8_t{0};
@@ -127,6 +128,7 @@ class Compiler {
   void leave_loop(const Node& n);
   void give_back(const Node& n);
   void close_loop();
+  void close_loop(NodeId condition, std::size_t begin);
   void function(std::size_t index);
 
   // expressions
@@ -144,8 +146,11 @@ class Compiler {
   void call(const Node& n, std::int32_t x, bool used);
   void arguments(const Node& n, const FunctionTree& f, std::int32_t base);
   void argument_by_reference(const Node& n, NodeId argument, std::size_t index, std::int32_t x);
-  std::int32_t assign(const Node& n);
-  std::int32_t assign_name(const Node& n, const Node& target);
+  enum class Used : std::uint8_t { no, yes };
+  std::int32_t assign(const Node& n, Used used);
+  std::int32_t assign_name(const Node& n, const Node& target, Used used);
+  NodeId appended(Op op, NodeId right) const;
+  const Node& compound_of(const Node& n, Node& space) const;
   std::int32_t assign_element(const Node& n);
   std::int32_t step(const Node& n, bool used);
   std::int32_t reference_to(const Node& name);
@@ -292,6 +297,17 @@ std::size_t Compiler::emit(Place place, Op op, std::int32_t x, std::int32_t a, s
   return here() - 1;
 }
 
+/// An operation or a comparing jump. A small right side, as in i + 1 or i < 100, becomes part of it.
+std::size_t Compiler::emit_operation(Place place, Op op, std::int32_t x, std::int32_t a, std::int32_t b) {
+  const Value* right = b < 0 ? &code_.constants[static_cast<std::size_t>(~b)] : nullptr;
+  const bool divides = op == Op::div || op == Op::mod;
+  const bool known = (op >= Op::add && op <= Op::mod) || (op >= Op::jump_less && op <= Op::jump_not_equal);
+  if (known && a >= 0 && right != nullptr && right->is_whole() &&
+      !(divides && (right->whole() == 0 || right->whole() == -1)))
+    return emit(place, with_integer(op), x, a, right->whole());
+  return emit(place, op, x, a, b);
+}
+
 void Compiler::jump_back(std::size_t jump, std::size_t target) {
   at(jump).c = static_cast<std::int32_t>(target) - static_cast<std::int32_t>(jump) - 1;
   at(jump).flags = static_cast<std::uint8_t>(at(jump).flags | kBackward);
@@ -307,7 +323,7 @@ std::int32_t Compiler::number_constant(Scalar s) {
   if (s.kind() == Kind::real)
     std::memcpy(&bits, &s.p.d, sizeof bits);
   else
-    bits = static_cast<std::uint32_t>(s.kind() == Kind::integer ? s.p.i : 0);
+    bits = static_cast<std::uint32_t>(s.kind() == Kind::integer ? s.whole() : 0);
   bits = bits * 31 + s.tag;  // a table for each low tag keeps equal bits of other tags apart
   auto& index = number_index_[s.tag & 15];
   const auto found = index.find(bits);
@@ -389,6 +405,8 @@ void Compiler::effect(NodeId id) {
     call(n, temporary(), false);
   else if (n.kind == NodeKind::step)
     step(n, false);
+  else if (n.kind == NodeKind::assign)
+    assign(n, Used::no);
   else
     operand(id);
   next_ = temporaries;
@@ -407,18 +425,9 @@ void Compiler::declaration(const Node& n) {
     if (references_.count(n.name) == 0) own_.insert(n.name);
     return;
   }
-  if (function_ == nullptr) {
-    emit(n.at, Op::warn_global, 0, n.name);
-    if (may_be_constant(n.name)) {
-      const std::int32_t reference = temporary();
-      emit(n.at, Op::refer, reference, global_slot);
-      at(emit(n.at, Op::store, reference, value)).flags = take(value, kTakeA);
-    } else {
-      at(emit(n.at, Op::move, global_slot, value)).flags = take(value, kTakeA);
-    }
-    return;
-  }
-  at(emit(n.at, Op::declare_local, slots_[n.name], value)).flags = take(value, kTakeA);
+  if (function_ == nullptr) emit(n.at, Op::warn_global, 0, n.name);
+  const std::int32_t slot = function_ == nullptr ? global_slot : slots_[n.name];
+  at(emit(n.at, Op::declare_local, slot, value)).flags = take(value, kTakeA);
   if (references_.count(n.name) == 0) own_.insert(n.name);
 }
 
@@ -438,13 +447,20 @@ void Compiler::if_else(const Node& n) {
   patch(end);
 }
 
+/// The end of a loop that goes on from `begin` while the condition holds.
+void Compiler::close_loop(NodeId condition, std::size_t begin) {
+  std::vector<std::size_t> again;
+  jump_on(condition, true, again);
+  for (std::size_t j : again) jump_back(j, begin);
+  close_loop();
+}
+
 void Compiler::close_loop() {
   for (std::size_t j : loops_.back().breaks) patch(j);
   loops_.pop_back();
 }
 
 void Compiler::for_loop(const Node& n) {
-  const std::int32_t temporaries = next_;
   if (n.a != kNoNode) effect(n.a);
   loops_.emplace_back();
   const std::size_t to_test = emit(n.at, Op::jump, 0);
@@ -453,45 +469,32 @@ void Compiler::for_loop(const Node& n) {
   for (std::size_t j : loops_.back().continues) patch(j);
   if (n.c != kNoNode) effect(n.c);
   patch(to_test);
-  std::vector<std::size_t> again;
-  jump_on(n.b, true, again);
-  for (std::size_t j : again) jump_back(j, begin);
-  next_ = temporaries;
-  close_loop();
+  close_loop(n.b, begin);
 }
 
 void Compiler::while_loop(const Node& n) {
-  const std::int32_t temporaries = next_;
   loops_.emplace_back();
   const std::size_t to_test = emit(n.at, Op::jump, 0);
   const std::size_t begin = here();
   inner_block(n.b);
   for (std::size_t j : loops_.back().continues) patch(j);
   patch(to_test);
-  std::vector<std::size_t> again;
-  jump_on(n.a, true, again);
-  for (std::size_t j : again) jump_back(j, begin);
-  next_ = temporaries;
-  close_loop();
+  close_loop(n.a, begin);
 }
 
 void Compiler::do_loop(const Node& n) {
-  const std::int32_t temporaries = next_;
   loops_.emplace_back();
   const std::size_t begin = here();
   inner_block(n.b);
   for (std::size_t j : loops_.back().continues) patch(j);
-  std::vector<std::size_t> again;
-  jump_on(n.a, true, again);
-  for (std::size_t j : again) jump_back(j, begin);
-  next_ = temporaries;
-  close_loop();
+  close_loop(n.a, begin);
 }
 
 /// foreach and repeat: two hidden slots hold what is walked and how far.
 void Compiler::counted_loop(const Node& n, Op begin_op, Op next_op) {
   const std::int32_t hidden = temporary(2);
   const std::int32_t source = operand(n.a);
+  if (begin_op == Op::foreach_begin) frame_->walks = true;
   at(emit(n.at, begin_op, hidden, source)).flags = take(source, kTakeA);
   next_ = hidden + 2;
   const Variable v = n.name == kNoName ? Variable{} : find(n.name);
@@ -526,7 +529,8 @@ void Compiler::leave_loop(const Node& n) {
 
 void Compiler::give_back(const Node& n) {
   const std::int32_t value = n.a == kNoNode ? number_constant(Scalar{}) : operand(n.a);
-  at(emit(n.at, Op::give_back, 0, value)).flags = take(value, kTakeA);
+  const Op op = function_ == nullptr ? Op::end_program : Op::give_back;
+  at(emit(n.at, op, 0, value)).flags = take(value, kTakeA);
 }
 
 // ---- expressions
@@ -603,7 +607,7 @@ std::int32_t Compiler::operand(NodeId id) {
       if (v.access == Access::slot && !is_internal(n.name)) return v.slot;
       break;
     }
-    case NodeKind::assign: return assign(n);
+    case NodeKind::assign: return assign(n, Used::yes);
     case NodeKind::step: return step(n, true);
     default: break;
   }
@@ -676,15 +680,19 @@ void Compiler::read_variable(const Node& n, std::int32_t x) {
 }
 
 void Compiler::binary(const Node& n, std::int32_t x) {
+  const Op op = op_of(n.op);
+  const NodeId item = appended(op, n.b);
   const std::int32_t a = stable_operand(n.a, n.b);
-  const std::int32_t b = operand(n.b);
-  at(emit(n.at, op_of(n.op), x, a, b)).flags = static_cast<std::uint8_t>(take(a, kTakeA) | take(b, kTakeB));
+  const std::int32_t b = operand(item == kNoNode ? n.b : item);
+  at(emit_operation(n.at, item == kNoNode ? op : Op::append, x, a, b)).flags =
+      static_cast<std::uint8_t>(take(a, kTakeA) | take(b, kTakeB));
 }
 
 void Compiler::unary(const Node& n, std::int32_t x) {
   const std::int32_t a = operand(n.a);
   if (n.op == Token::minus) {
-    at(emit(n.at, Op::mul, x, a, number_constant(Scalar::integer(-1)))).flags = take(a, kTakeA);
+    const std::int32_t minus_one = number_constant(Scalar::integer(-1));
+    at(emit_operation(n.at, Op::mul, x, a, minus_one)).flags = take(a, kTakeA);
     return;
   }
   at(emit(n.at, n.op == Token::bang ? Op::logic_not : Op::bit_not, x, a)).flags = take(a, kTakeA);
@@ -732,7 +740,7 @@ void Compiler::jump_on(NodeId id, bool sense, std::vector<std::size_t>& jumps) {
   if (const auto op = n.kind == NodeKind::binary ? jump_of(n.op) : std::nullopt) {
     const std::int32_t a = stable_operand(n.a, n.b);
     const std::int32_t b = operand(n.b);
-    jumps.push_back(emit(n.at, *op, 0, a, b));
+    jumps.push_back(emit_operation(n.at, *op, 0, a, b));
     at(jumps.back()).flags =
         static_cast<std::uint8_t>(take(a, kTakeA) | take(b, kTakeB) | (sense ? 0 : +kNegated));
   } else {
@@ -868,28 +876,54 @@ std::int32_t Compiler::reference_to(const Node& name) {
   return x;
 }
 
-std::int32_t Compiler::assign(const Node& n) {
-  const Node& target = node(n.a);
-  return target.kind == NodeKind::name ? assign_name(n, target) : assign_element(n);
+/// The vector of a right side {vector}, which can be appended without making a list of it; none otherwise.
+NodeId Compiler::appended(Op op, NodeId right) const {
+  const Node& n = node(right);
+  const bool one = n.kind == NodeKind::list && n.count == 1 && op == Op::add;
+  return one && !constant_list(n) ? child(n, 0) : kNoNode;
 }
 
-std::int32_t Compiler::assign_name(const Node& n, const Node& target) {
+/// v = v + e as v += e, which changes v where it lies.
+const Node& Compiler::compound_of(const Node& n, Node& space) const {
+  const Node& right = node(n.b);
+  const bool adds = right.kind == NodeKind::binary && (right.op == Token::plus || right.op == Token::add_or);
+  if (n.op != Token::assign || !adds || has_effects(right.b)) return n;
+  const Node& left = node(right.a);
+  if (left.kind != NodeKind::name || left.name != node(n.a).name) return n;
+  space = n;
+  space.op = right.op;
+  space.b = right.b;
+  return space;
+}
+
+std::int32_t Compiler::assign(const Node& n, Used used) {
+  const Node& target = node(n.a);
+  if (target.kind != NodeKind::name) return assign_element(n);
+  Node space;
+  return assign_name(compound_of(n, space), target, used);
+}
+
+std::int32_t Compiler::assign_name(const Node& n, const Node& target, Used used) {
   const Variable v = find(target.name);
   const bool direct = v.access == Access::slot && !may_be_constant(target.name);
-  if (direct && n.op == Token::assign) {
+  const bool plain = n.op == Token::assign;
+  if (direct && plain) {
     into(n.b, v.slot);
     return v.slot;
   }
-  const std::int32_t value = operand(n.b);
+  Op op = plain ? Op::store : op_of(n.op);
+  const NodeId item = plain ? kNoNode : appended(op, n.b);
+  if (item != kNoNode) op = Op::append;
+  const std::int32_t value = operand(item == kNoNode ? n.b : item);
   if (direct) {
-    at(emit(n.at, op_of(n.op), v.slot, v.slot, value)).flags = take(value, kTakeB);
+    at(emit_operation(n.at, op, v.slot, v.slot, value)).flags = take(value, kTakeB);
     return v.slot;
   }
   const std::int32_t reference = reference_to(target);
-  const std::size_t i = n.op == Token::assign
-                            ? emit(n.at, Op::store, reference, value)
-                            : emit(n.at, Op::apply, reference, value, static_cast<std::int32_t>(op_of(n.op)));
+  const std::size_t i = plain ? emit(n.at, Op::store, reference, value)
+                              : emit(n.at, Op::apply, reference, value, static_cast<std::int32_t>(op));
   at(i).flags = take(value, kTakeA);
+  if (used == Used::no) return reference;
   const std::int32_t x = temporary();
   emit(n.at, Op::dereference, x, reference);
   return x;
@@ -924,7 +958,7 @@ std::int32_t Compiler::assign_element(const Node& n) {
   }
   const std::int32_t result = temporary();
   emit(n.at, Op::element, result, reference, i, j);
-  at(emit(n.at, op_of(n.op), result, result, value)).flags = take(value, kTakeB);
+  at(emit_operation(n.at, op_of(n.op), result, result, value)).flags = take(value, kTakeB);
   emit(n.at, Op::set_element, reference, i, j, result);
   return result;
 }

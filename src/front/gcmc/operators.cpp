@@ -107,7 +107,7 @@ Scalar with_undefined(Op op, Scalar a, Scalar b) {
     case Op::add_or: return a.defined() ? a : b;
     case Op::sub_or:
       if (a.defined() || !b.defined()) return a;
-      return b.kind() == Kind::integer ? Scalar::integer(wrap_sub(0, b.p.i), b.unit())
+      return b.kind() == Kind::integer ? Scalar::integer(wrap_sub(0, b.whole()), b.unit())
                                        : Scalar::real(0.0 - b.p.d, b.unit());
     default: return {};
   }
@@ -138,7 +138,7 @@ double native_number(const Runtime& rt, Scalar s) {
 }
 
 std::int32_t to_integer(Scalar s) {
-  if (s.kind() != Kind::real) return s.kind() == Kind::integer ? s.p.i : 0;
+  if (s.kind() != Kind::real) return s.kind() == Kind::integer ? s.whole() : 0;
   const double nearest = std::nearbyint(s.p.d);
   const double whole = std::fabs(nearest - s.p.d) < kEpsilon ? nearest : std::trunc(s.p.d);
   if (!(whole >= -2147483648.0)) return INT32_MIN;
@@ -149,7 +149,7 @@ Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b) {
   if (!a.defined() || !b.defined()) return with_undefined(op, a, b);
   const Unit unit = common_unit(rt, op, a.unit(), b);
   if (a.kind() == Kind::integer && b.kind() == Kind::integer)
-    return Scalar::integer(integer_operation(rt, op, a.p.i, b.p.i), unit);
+    return Scalar::integer(integer_operation(rt, op, a.whole(), b.whole()), unit);
   return Scalar::real(real_operation(rt, op, a.number(), b.number()), unit);
 }
 
@@ -355,8 +355,8 @@ void shift_scalar(Runtime& rt, Op op, Value& a, std::int32_t count) {
   if (s.kind() == Kind::real) {
     a = Value::real(std::ldexp(s.p.d, left ? count : -count), s.unit());
   } else if (s.kind() == Kind::integer) {
-    const auto shifted = static_cast<std::int32_t>(static_cast<std::uint32_t>(s.p.i) << count);
-    a = Value::integer(left ? shifted : s.p.i >> count, s.unit());
+    const auto shifted = static_cast<std::int32_t>(static_cast<std::uint32_t>(s.whole()) << count);
+    a = Value::integer(left ? shifted : s.whole() >> count, s.unit());
   }
 }
 
@@ -448,6 +448,16 @@ bool vectors_plain(Op op, const Value& a, const Value& b, Value& out) {
       op, b.short_size(), [&](std::size_t) { return s; }, of_b, out);
 }
 
+void append_vector(Runtime& rt, Value& list, Value item) {
+  if (!list.is_list()) {
+    std::vector<Value> one;
+    one.push_back(std::move(item));
+    return operate(rt, Op::add, list, Value::list(std::move(one), rt.meter));
+  }
+  list.own_vectors(rt.meter).push_back(std::move(item));
+  list.settle();
+}
+
 void operate(Runtime& rt, Op op, Value& a, const Value& b) {
   const bool shifts = op == Op::shift_left || op == Op::shift_right;
   const bool bitwise = op == Op::bit_and || op == Op::bit_or || op == Op::bit_xor;
@@ -473,32 +483,10 @@ void operate(Runtime& rt, Op op, Value& a, const Value& b) {
 
 namespace {
 
-bool holds(Op op, double difference) {
-  switch (op) {
-    case Op::equal: return std::fabs(difference) < kEpsilon;
-    case Op::not_equal: return !(std::fabs(difference) < kEpsilon);
-    case Op::less: return difference < -kEpsilon;
-    case Op::greater: return difference > kEpsilon;
-    case Op::less_equal: return difference < kEpsilon;
-    default: return difference > -kEpsilon;
-  }
-}
-
-bool holds(Op op, int order) {
-  switch (op) {
-    case Op::equal: return order == 0;
-    case Op::not_equal: return order != 0;
-    case Op::less: return order < 0;
-    case Op::greater: return order > 0;
-    case Op::less_equal: return order <= 0;
-    default: return order >= 0;
-  }
-}
-
 bool compare_scalars(Runtime& rt, Op op, Scalar a, Scalar b) {
   const Unit ua = a.unit(), ub = b.unit();
   if (a.kind() == Kind::integer && b.kind() == Kind::integer && ua == ub)
-    return holds(op, a.p.i < b.p.i ? -1 : a.p.i > b.p.i ? 1 : 0);
+    return holds(op, a.whole(), b.whole());
   if (ua == ub) return holds(op, a.number() - b.number());
   if (ua == Unit::none || ub == Unit::none) {
     rt.warn(Code::gcmc_unit, fmt::format("Possible unit mismatch; comparing units {} with none",
@@ -536,7 +524,7 @@ bool compare_vectors(Runtime& rt, Op op, const Value& a, const Value& b) {
 bool compare(Runtime& rt, Op op, const Value& a, const Value& b) {
   if (a.is_scalar() && b.is_scalar() && !a.is_undef() && !b.is_undef())
     return compare_scalars(rt, op, a.scalar(), b.scalar());
-  if (a.is_string() && b.is_string()) return holds(op, a.text().compare(b.text()));
+  if (a.is_string() && b.is_string()) return holds(op, a.text().compare(b.text()), 0);
   if (a.is_vector() && b.is_vector()) return compare_vectors(rt, op, a, b);
   rt.warn(Code::gcmc_type,
           fmt::format("Comparison of {} with {}, result is always false", type_name(a), type_name(b)));
@@ -547,7 +535,7 @@ bool truth(const Value& v) {
   switch (v.type()) {
     case Type::scalar: {
       const Scalar s = v.scalar();
-      return s.kind() == Kind::integer ? s.p.i != 0
+      return s.kind() == Kind::integer ? s.whole() != 0
                                        : s.kind() == Kind::real && !(std::fabs(s.p.d) < kEpsilon);
     }
     case Type::vector:

@@ -2,6 +2,9 @@
 // the rest says what the language says, warnings and errors included.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -21,63 +24,113 @@ constexpr std::int32_t wrap_mul(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
 }
 
-/// True where two numbers are defined and their units are equal or one has none: `unit` is then the result's.
-inline bool plain(Tag a, Tag b, Unit& unit) {
-  const unsigned ua = a >> 2, ub = b >> 2;
-  unit = static_cast<Unit>(ua | ub);
-  return (a & 3) != 0 && (b & 3) != 0 && (ua == ub || ua == 0 || ub == 0);
+/// How two numbers meet: the tag that their sum has, and flags. Looked up by both tags, because deciding it
+/// takes longer than the operation itself.
+using Meeting = std::uint16_t;
+enum : Meeting {
+  kResultTag = 0x1F,
+  kLeftInteger = 0x20,
+  kRightInteger = 0x40,
+  kBothIntegers = kLeftInteger | kRightInteger,
+  kPlain = 0x80,        // both are defined, and their units are equal or one has none
+  kComparable = 0x100,  // both are defined, and their units are equal
+};
+constexpr std::size_t kTags = 32;
+constexpr Meeting meeting_of(Tag a, Tag b) {
+  const Unit ua = unit_of(a), ub = unit_of(b);
+  if (a >= kTags || b >= kTags || kind_of(a) == Kind::undef || kind_of(b) == Kind::undef) return 0;
+  if (ua != ub && ua != Unit::none && ub != Unit::none) return 0;
+  const bool whole_a = kind_of(a) == Kind::integer, whole_b = kind_of(b) == Kind::integer;
+  const Tag result = make_tag(whole_a && whole_b ? Kind::integer : Kind::real, ua == Unit::none ? ub : ua);
+  return static_cast<Meeting>(result | (whole_a ? +kLeftInteger : 0) | (whole_b ? +kRightInteger : 0) |
+                              kPlain | (ua == ub ? +kComparable : 0));
 }
-inline bool both_integers(Tag a, Tag b) { return ((a | b) & 2) == 0; }
-static_assert(static_cast<int>(Kind::integer) == 1 && static_cast<int>(Kind::real) == 2);
-inline double number_of(Payload p, Tag tag) { return (tag & 3) == 1 ? p.i : p.d; }
+constexpr std::array<Meeting, kTags * kTags> all_meetings() {
+  std::array<Meeting, kTags * kTags> all{};
+  for (Tag a = 0; a < kTags; ++a)
+    for (Tag b = 0; b < kTags; ++b) all[a * kTags + b] = meeting_of(a, b);
+  return all;
+}
+inline constexpr auto kMeetings = all_meetings();
+inline Meeting meeting(Scalar a, Scalar b) { return kMeetings[a.tag * kTags + b.tag]; }
+inline double left_number(Scalar a, Meeting m) {
+  return m & kLeftInteger ? static_cast<double>(a.p.i) : a.p.d;
+}
+inline double right_number(Scalar b, Meeting m) {
+  return m & kRightInteger ? static_cast<double>(b.p.i) : b.p.d;
+}
 
-inline bool add_plain(Scalar a, Scalar b, Scalar& out) {
-  Unit unit;
-  if (!plain(a.tag, b.tag, unit)) return false;
-  out = both_integers(a.tag, b.tag) ? Scalar::integer(wrap_add(a.p.i, b.p.i), unit)
-                                    : Scalar::real(a.number() + b.number(), unit);
+/// An operation on plain numbers; false for all others. `whole` and `real` do the work.
+template <class Whole, class Real>
+inline bool operate_plain(Scalar a, Scalar b, Scalar& out, Whole whole, Real real) {
+  const Meeting m = meeting(a, b);
+  if (!(m & kPlain)) return false;
+  out.tag = m & kResultTag;
+  if ((m & kBothIntegers) == kBothIntegers)
+    out.p.i = whole(a.whole(), b.whole());
+  else
+    out.p.d = real(left_number(a, m), right_number(b, m));
   return true;
+}
+inline bool add_plain(Scalar a, Scalar b, Scalar& out) {
+  return operate_plain(a, b, out, wrap_add, [](double x, double y) { return x + y; });
 }
 inline bool subtract_plain(Scalar a, Scalar b, Scalar& out) {
-  Unit unit;
-  if (!plain(a.tag, b.tag, unit)) return false;
-  out = both_integers(a.tag, b.tag) ? Scalar::integer(wrap_sub(a.p.i, b.p.i), unit)
-                                    : Scalar::real(a.number() - b.number(), unit);
-  return true;
+  return operate_plain(a, b, out, wrap_sub, [](double x, double y) { return x - y; });
 }
 inline bool multiply_plain(Scalar a, Scalar b, Scalar& out) {
-  Unit unit;
-  if (!plain(a.tag, b.tag, unit)) return false;
-  out = both_integers(a.tag, b.tag) ? Scalar::integer(wrap_mul(a.p.i, b.p.i), unit)
-                                    : Scalar::real(a.number() * b.number(), unit);
-  return true;
+  return operate_plain(a, b, out, wrap_mul, [](double x, double y) { return x * y; });
 }
 
 /// Division of plain numbers; false as well where the divisor is, or may be, zero.
 inline bool divide_plain(Scalar a, Scalar b, Scalar& out) {
-  Unit unit;
-  if (!plain(a.tag, b.tag, unit)) return false;
-  if (a.unit() == b.unit()) unit = Unit::none;
-  if (both_integers(a.tag, b.tag)) {
-    if (b.p.i == 0 || b.p.i == -1) return false;
-    out = Scalar::integer(a.p.i / b.p.i, unit);
+  const Meeting m = meeting(a, b);
+  if (!(m & kPlain)) return false;
+  const Unit unit = m & kComparable ? Unit::none : unit_of(m & kResultTag);
+  if ((m & kBothIntegers) == kBothIntegers) {
+    if (b.whole() == 0 || b.whole() == -1) return false;
+    out = Scalar::integer(a.whole() / b.whole(), unit);
     return true;
   }
-  const double divisor = b.number();
+  const double divisor = right_number(b, m);
   if (!(divisor >= kEpsilon || divisor <= -kEpsilon)) return false;
-  out = Scalar::real(a.number() / divisor, unit);
+  out = Scalar::real(left_number(a, m) / divisor, unit);
   return true;
 }
 inline bool modulo_plain(Scalar a, Scalar b, Scalar& out) {
-  Unit unit;
-  if (!plain(a.tag, b.tag, unit) || !both_integers(a.tag, b.tag) || b.p.i == 0 || b.p.i == -1) return false;
-  out = Scalar::integer(a.p.i % b.p.i, unit);
+  constexpr Meeting kNeeded = kPlain | kBothIntegers;
+  const Meeting m = meeting(a, b);
+  if ((m & kNeeded) != kNeeded || b.whole() == 0 || b.whole() == -1) return false;
+  out.tag = m & kResultTag;
+  out.p.i = a.whole() % b.whole();
   return true;
 }
+/// Whether a comparison holds of numbers that differ by that.
+inline bool holds(Op op, double difference) {
+  switch (op) {
+    case Op::equal: return std::fabs(difference) < kEpsilon;
+    case Op::not_equal: return !(std::fabs(difference) < kEpsilon);
+    case Op::less: return difference < -kEpsilon;
+    case Op::greater: return difference > kEpsilon;
+    case Op::less_equal: return difference < kEpsilon;
+    default: return difference > -kEpsilon;
+  }
+}
+inline bool holds(Op op, std::int32_t a, std::int32_t b) {
+  switch (op) {
+    case Op::equal: return a == b;
+    case Op::not_equal: return a != b;
+    case Op::less: return a < b;
+    case Op::greater: return a > b;
+    case Op::less_equal: return a <= b;
+    default: return a >= b;
+  }
+}
+
 /// One more or one less; false for what is no number.
 inline bool step_plain(Scalar s, bool down, Scalar& out) {
   if (s.kind() == Kind::integer)
-    out = Scalar::integer(wrap_add(s.p.i, down ? -1 : 1), s.unit());
+    out = Scalar::integer(wrap_add(s.whole(), down ? -1 : 1), s.unit());
   else if (s.kind() == Kind::real)
     out = Scalar::real(s.p.d + (down ? -1 : 1), s.unit());
   else
@@ -89,6 +142,8 @@ inline bool step_plain(Scalar s, bool down, Scalar& out) {
 Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b);
 /// a = a op b of any values; `b` is not part of `a`. What only `a` owns is changed in place.
 void operate(Runtime& rt, Op op, Value& a, const Value& b);
+/// list = list + {item}, the types of both being checked.
+void append_vector(Runtime& rt, Value& list, Value item);
 /// a op b into `out`, which may be one of them, where both are short vectors, or a vector and a scalar, of
 /// plain numbers; false, with nothing changed, for everything else.
 bool vectors_plain(Op op, const Value& a, const Value& b, Value& out);

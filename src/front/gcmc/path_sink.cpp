@@ -35,7 +35,7 @@ OriginId PathSink::origin() {
   check_size();
   OriginId caller = OriginId::none;
   if (origins_.size() > kMostOrigins) return origin_at(vm_.current_instruction(), caller);
-  const std::size_t depth = vm_.frames().size();
+  const std::size_t depth = vm_.depth();
   for (std::size_t i = depth > kMostCalls ? depth - kMostCalls : 0; i < depth; ++i)
     caller = origin_at(vm_.call_site(i), caller);
   return origin_at(vm_.current_instruction(), caller);
@@ -169,11 +169,13 @@ void PathSink::comment(std::string_view text) {
 
 void PathSink::literal(std::string_view text) {
   count_text(text.size());
-  pending_ += text;
-  for (std::size_t end = pending_.find('\n'); end != std::string::npos; end = pending_.find('\n')) {
-    if (end > 0) path_.add(step::Verbatim{pending_.substr(0, end)}, origin());
-    pending_.erase(0, end + 1);
+  for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
+    pending_ += text.substr(0, end);
+    text.remove_prefix(end + 1);
+    if (!pending_.empty()) path_.add(step::Verbatim{pending_}, origin());
+    pending_.clear();
   }
+  pending_ += text;
 }
 
 void PathSink::finish() {

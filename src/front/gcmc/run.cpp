@@ -78,7 +78,8 @@ bool find_include(const GcmcOptions& options, const std::string& name, Source& f
   if (name.empty() || name == "-" || name.find('\0') != std::string::npos) return false;
   std::vector<std::string> places{name};
   if (name[0] != '/')
-    for (const std::string& folder : options.include_paths) places.push_back(folder + "/" + name);
+    for (const std::string& folder : options.include_paths)
+      places.push_back(folder + (!folder.empty() && folder.back() == '/' ? "" : "/") + name);
   for (const std::string& path : places) {
     if (auto text = file_text(path)) {
       found = {path, std::move(*text)};

@@ -40,12 +40,17 @@ void charge_items(Body& block) {
 
 }  // namespace
 
-Value Value::string(std::u32string text, Meter& meter) {
+Value Value::owner_of(Block* block) {
   Value v;
+  v.c_[0].block = block;
+  v.head_ = head_of(block->type);
+  return v;
+}
+
+Value Value::string(std::u32string text, Meter& meter) {
   auto* block = new Text(&meter);
   block->items = std::move(text);
-  v.c_[0].block = block;
-  v.head_ = head_of(Type::string);
+  Value v = owner_of(block);
   charge_items(*block);
   return v;
 }
@@ -57,26 +62,23 @@ Value Value::empty_vector() {
 }
 
 Value Value::vector(const Scalar* coordinates, std::size_t count, Meter& meter) {
-  Value v;
   if (count <= 3) {
+    Value v;
     v.make_vector(count);
     for (std::size_t i = 0; i < count; ++i) v.put(i, coordinates[i]);
     return v;
   }
   auto* block = new LongVector(&meter);
   block->items.assign(coordinates, coordinates + count);
-  v.c_[0].block = block;
-  v.head_ = head_of(Type::long_vector);
+  Value v = owner_of(block);
   charge_items(*block);
   return v;
 }
 
 Value Value::list(std::vector<Value> vectors, Meter& meter) {
-  Value v;
   auto* block = new List(&meter);
   block->items = std::move(vectors);
-  v.c_[0].block = block;
-  v.head_ = head_of(Type::list);
+  Value v = owner_of(block);
   charge_items(*block);
   return v;
 }
@@ -181,7 +183,7 @@ std::string_view type_name(const Value& v) {
 void append_text(std::string& out, Scalar s, int decimals) {
   switch (s.kind()) {
     case Kind::undef: out += "<undef>"; return;
-    case Kind::integer: out += std::to_string(s.p.i); break;
+    case Kind::integer: out += std::to_string(s.whole()); break;
     case Kind::real: append_fixed(out, s.p.d, decimals, MinusZero::keep); break;
   }
   out += unit_suffix(s.unit());

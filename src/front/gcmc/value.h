@@ -24,14 +24,17 @@ enum class Kind : std::uint8_t { undef, integer, real };
 
 union Payload {
   double d;
-  std::int32_t i;
+  std::int64_t
+      i;  // integers have 32 bits; all of a payload is always written, so that it can be read at once
   struct Block* block;
   class Value* target;
 };
 static_assert(sizeof(Payload) == 8);
 
-/// Kind and unit of a scalar in one byte, so that equal tags are one comparison.
-using Tag = std::uint8_t;
+/// Kind and unit of a scalar, in the lowest byte, so that equal tags are one comparison. A whole word,
+/// because a byte beside unused ones makes compilers write and read it in different widths, which processors
+/// are slow at.
+using Tag = std::uint64_t;
 constexpr Tag make_tag(Kind kind, Unit unit) {
   return static_cast<Tag>(static_cast<unsigned>(kind) | static_cast<unsigned>(unit) << 2);
 }
@@ -44,6 +47,8 @@ struct Scalar {
   Payload p{};
   Tag tag = kUndefTag;
 
+  /// The number of an integer.
+  std::int32_t whole() const { return static_cast<std::int32_t>(p.i); }
   static Scalar integer(std::int32_t v, Unit unit = Unit::none) {
     Scalar s;
     s.p.i = v;
@@ -59,7 +64,7 @@ struct Scalar {
   Kind kind() const { return kind_of(tag); }
   Unit unit() const { return unit_of(tag); }
   bool defined() const { return kind() != Kind::undef; }
-  double number() const { return kind() == Kind::integer ? p.i : kind() == Kind::real ? p.d : 0.0; }
+  double number() const { return kind() == Kind::integer ? whole() : kind() == Kind::real ? p.d : 0.0; }
   Scalar with_unit(Unit unit) const {
     Scalar s = *this;
     if (defined()) s.tag = make_tag(kind(), unit);
@@ -70,11 +75,11 @@ struct Scalar {
 enum class Type : std::uint8_t {
   scalar,       // undef, integer or real
   vector,       // up to three coordinates, inline
-  long_vector,  // more, in a block
-  list,         // of vectors
-  string,       // code points
   absent,       // a variable that does not exist, or a call that returned nothing
   reference,    // to a variable: never seen by a program
+  long_vector,  // more coordinates; from here on in a block
+  list,         // of vectors
+  string,       // code points
 };
 
 /// Counts what blocks hold, and refuses what goes beyond the limit (see Meter::grow).
@@ -125,15 +130,17 @@ class Value {
 
   Type type() const { return static_cast<Type>(head_ & 0xFF); }
   bool is_scalar() const { return type() == Type::scalar; }
+  static bool are_scalars(const Value& a, const Value& b) {
+    static_assert(static_cast<int>(Type::scalar) == 0);
+    return ((a.head_ | b.head_) & 0xFF) == 0;
+  }
   bool is_vector() const { return type() == Type::vector || type() == Type::long_vector; }
   bool is_short_vector() const { return type() == Type::vector; }
   bool is_list() const { return type() == Type::list; }
   bool is_string() const { return type() == Type::string; }
   bool is_undef() const { return is_scalar() && kind_of(tag()) == Kind::undef; }
   bool is_absent() const { return type() == Type::absent; }
-  bool is_block() const {
-    return type() == Type::long_vector || type() == Type::list || type() == Type::string;
-  }
+  bool is_block() const { return type() >= Type::long_vector; }
 
   static Value undef() { return Value(Scalar{}); }
   static Value integer(std::int32_t v, Unit unit = Unit::none) { return Value(Scalar::integer(v, unit)); }
@@ -146,13 +153,21 @@ class Value {
   static Value reference(Value* target, std::int32_t name);
 
   // Scalars
-  Tag tag() const { return static_cast<Tag>(head_ >> 8); }
+  Tag tag() const { return head_ >> 8 & 0xFF; }
   Payload payload() const { return c_[0]; }
   Scalar scalar() const {
     Scalar s;
     s.p = c_[0];
     s.tag = tag();
     return s;
+  }
+  /// True for an integer without unit.
+  bool is_whole() const { return head_ == kWholeHead; }
+  std::int32_t whole() const { return static_cast<std::int32_t>(c_[0].i); }
+  void store_whole(std::int32_t v) {
+    drop();
+    c_[0].i = v;
+    head_ = kWholeHead;
   }
   /// Overwrites with a scalar; what was held is let go.
   void store(Scalar s) {
@@ -166,7 +181,7 @@ class Value {
   Scalar short_coordinate(std::size_t i) const {
     Scalar s;
     s.p = c_[i];
-    s.tag = static_cast<Tag>(head_ >> (8 + 8 * i));
+    s.tag = head_ >> (8 + 8 * i) & 0xFF;
     return s;
   }
   Scalar coordinate(std::size_t i) const {
@@ -192,7 +207,7 @@ class Value {
   void put(std::size_t i, Scalar s) {
     const std::size_t shift = 8 + 8 * i;
     c_[i] = s.p;
-    head_ = (head_ & ~(std::uint64_t{0xFF} << shift)) | std::uint64_t{s.tag} << shift;
+    head_ = (head_ & ~(std::uint64_t{0xFF} << shift)) | s.tag << shift;
   }
 
   /// True for a short vector all of whose coordinates are real numbers; kinds and units then are the head's.
@@ -222,7 +237,7 @@ class Value {
 
   // References
   Value* target() const { return c_[0].target; }
-  std::int32_t reference_name() const { return c_[1].i; }
+  std::int32_t reference_name() const { return static_cast<std::int32_t>(c_[1].i); }
 
   /// Back to a variable that does not exist.
   void clear() {
@@ -235,9 +250,10 @@ class Value {
   // as a whole, because a processor that reads more bytes than the last write had waits for that write to be
   // done.
   static constexpr std::uint64_t head_of(Type type) { return static_cast<std::uint64_t>(type); }
+  static constexpr std::uint64_t kWholeHead = std::uint64_t{make_tag(Kind::integer, Unit::none)} << 8;
   void set_scalar(Payload p, Tag tag) {
     c_[0] = p;
-    head_ = head_of(Type::scalar) | std::uint64_t{tag} << 8;
+    head_ = head_of(Type::scalar) | tag << 8;
   }
   void copy_bytes(const Value& o) {
     c_[0] = o.c_[0];
@@ -249,6 +265,7 @@ class Value {
   void drop() {
     if (is_block()) release(c_[0].block);
   }
+  static Value owner_of(Block* block);
   void make_own(Meter& meter);
   std::size_t long_size() const;
   Scalar long_coordinate(std::size_t i) const;

@@ -33,8 +33,14 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
       diagnostics_(diagnostics),
       progress_(progress),
       storage_(new std::byte[kStackSlots * sizeof(Value)]),
-      defined_(code.functions.size(), false),
+      frames_(new Frame[options.max_calls]),
+      top_(frames_.get()),
+      most_calls_(top_ + options.max_calls),
+      builtins_(all_builtins().data()),
       fuel_(kStepsPerLook) {
+  for (const FunctionCode& f : code_.functions)
+    callees_.push_back(
+        {&code_.instructions[f.entry], f.parameters, f.variables, f.frame, f.constants, false});
   stack_ = reinterpret_cast<Value*>(storage_.get());
   stack_end_ = stack_ + kStackSlots;
   reached_ = frame_ = stack_;
@@ -45,16 +51,18 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
   machine_.plane = options.plane;
   machine_.fixed_offset = options.offsets;
   machine_.set_position({});
-  if (static_cast<std::size_t>(code_.program.frame) < kStackSlots) reach(stack_ + code_.program.frame);
+  reach(stack_ + std::min(static_cast<std::size_t>(code_.program.frame), kStackSlots));
 }
 
 Vm::~Vm() {
   for (Value* v = stack_; v != reached_; ++v) v->~Value();
 }
 
-/// Constructs the slots before `end`.
-void Vm::reach(Value* end) {
+/// Constructs the slots before `end`; false where there are not so many.
+bool Vm::reach(Value* end) {
+  if (end > stack_end_) return false;
   for (; reached_ < end; ++reached_) new (reached_) Value();
+  return true;
 }
 
 void Vm::define_constant(NameId name, Value value) {
@@ -93,8 +101,8 @@ void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
   message.where = spot(current_instruction());
   message.text = std::move(text);
   message.hint = std::move(hint);
-  for (std::size_t i = frames_.size(); i-- > 0 && message.calls.size() < kMostCallNotes;) {
-    const std::string name = name_text(code_.functions[static_cast<std::size_t>(frames_[i].function)].name);
+  for (std::size_t i = depth(); i-- > 0 && message.calls.size() < kMostCallNotes;) {
+    const std::string name = name_text(code_of(*frames_[i].callee).name);
     message.calls.push_back({spot(call_site(i)), fmt::format("in the call of {}()", name)});
   }
   output_.message(message);
@@ -132,9 +140,7 @@ void Vm::fail_unknown(std::string_view kind, NameId name, const std::vector<std:
   fail(Code::gcmc_unknown_name, fmt::format("{} '{}' {}", kind, name_text(name), what), hint);
 }
 
-const FunctionCode& Vm::running() const {
-  return frames_.empty() ? code_.program : code_.functions[static_cast<std::size_t>(frames_.back().function)];
-}
+const FunctionCode& Vm::running() const { return depth() == 0 ? code_.program : code_of(*top_[-1].callee); }
 
 void Vm::fail_absent(std::int32_t slot) {
   const FunctionCode& f = running();
@@ -149,7 +155,7 @@ const Value* Vm::variable(std::string_view name) const {
   const auto known = tree_.name_index.find(std::string(name));
   if (known == tree_.name_index.end()) return nullptr;
   const FunctionCode& f = running();
-  if (!frames_.empty()) {
+  if (depth() > 0) {
     for (std::size_t i = 0; i < f.slot_names.size(); ++i) {
       if (f.slot_names[i] != known->second || frame_[i].is_absent()) continue;
       return frame_[i].type() == Type::reference ? frame_[i].target() : &frame_[i];
@@ -173,13 +179,6 @@ void Vm::refuel() {
 }
 
 // ---- moving values
-
-/// The operand's value; a variable that does not exist is an error.
-const Value& Vm::present(std::int32_t o) {
-  const Value& v = operand(o, frame_, code_.constants.data());
-  if (v.is_absent()) fail_absent(o);
-  return v;
-}
 
 void Vm::do_move(const Instruction& in) {
   const Value& v = present(in.a);
@@ -249,26 +248,52 @@ void Vm::do_store(const Instruction& in) {
 
 // ---- operators
 
-void Vm::do_operate(const Instruction& in) {
+/// x <- a op `b`, which is not the temporary that a's value is taken from.
+void Vm::operate_with(const Instruction& in, Op op, const Value& b) {
   const Value& a = present(in.a);
-  const Value& b = present(in.b);
-  if (vectors_plain(in.op, a, b, frame_[in.x])) return;
+  if (vectors_plain(op, a, b, frame_[in.x])) return;
   Value left;
-  if (&a == &b || in.a < 0)
-    left = a;
-  else if ((in.flags & kTakeA) || in.a == in.x)
+  if (&a != &b && in.a >= 0 && ((in.flags & kTakeA) || in.a == in.x))
     left = std::move(frame_[in.a]);
   else
     left = a;
-  operate(*this, in.op, left, b);
-  if ((in.flags & kTakeB) && b.is_block()) frame_[in.b].clear();
+  operate(*this, op, left, b);
   frame_[in.x] = std::move(left);
 }
 
+void Vm::do_operate(const Instruction& in) {
+  present(in.a);
+  const Value& b = present(in.b);
+  operate_with(in, in.op, b);
+  if ((in.flags & kTakeB) && in.b != in.x && b.is_block()) frame_[in.b].clear();
+}
+
+/// The vector that is to become the last of a list.
+Value Vm::appended(std::int32_t o, bool take) {
+  const Value& v = present(o);
+  if (!v.is_vector()) fail(Code::gcmc_type, "Vectorlist entries must be vectors");
+  return take ? std::move(frame_[o]) : Value(v);
+}
+
+/// x <- a + {b}, without making the list of one vector.
+void Vm::do_append(const Instruction& in) {
+  Value item = appended(in.b, (in.flags & kTakeB) != 0);
+  const Value& a = present(in.a);
+  Value list;
+  if (in.a >= 0 && ((in.flags & kTakeA) || in.a == in.x))
+    list = std::move(frame_[in.a]);
+  else
+    list = a;
+  append_vector(*this, list, std::move(item));
+  frame_[in.x] = std::move(list);
+}
+
 void Vm::do_apply(const Instruction& in) {
-  const Value& b = present(in.a);
   Value& target = writable_target(in.x);
   if (target.is_absent()) fail_unknown("Variable", frame_[in.x].reference_name(), {});
+  if (static_cast<Op>(in.b) == Op::append)
+    return append_vector(*this, target, appended(in.a, (in.flags & kTakeA) != 0));
+  const Value& b = present(in.a);
   if (&target == &b) {
     const Value copy = b;
     operate(*this, static_cast<Op>(in.b), target, copy);
@@ -284,6 +309,13 @@ bool Vm::slow_holds(const Instruction& in, Op op) {
   const bool result = compare(*this, op, a, b);
   if ((in.flags & kTakeA) && a.is_block()) frame_[in.a].clear();
   if ((in.flags & kTakeB) && b.is_block()) frame_[in.b].clear();
+  return result;
+}
+
+bool Vm::slow_holds_integer(const Instruction& in, Op op) {
+  const Value& a = present(in.a);
+  const bool result = compare(*this, op, a, Value::integer(in.b));
+  if ((in.flags & kTakeA) && a.is_block()) frame_[in.a].clear();
   return result;
 }
 
@@ -408,7 +440,7 @@ void Vm::do_list(const Instruction& in) {
 // ---- calls
 
 void Vm::do_call_builtin(const Instruction& in) {
-  const Builtin& f = all_builtins()[static_cast<std::size_t>(in.a)];
+  const Builtin& f = builtins_[in.a];
   static constexpr std::string_view kCounts[] = {"no arguments", "one argument", "two arguments",
                                                  "three arguments"};
   if (in.c < f.least || (f.most != kAnyCount && in.c > f.most && f.most != 0)) {
@@ -427,70 +459,83 @@ void Vm::do_call_builtin(const Instruction& in) {
 
 void Vm::do_define(const Instruction& in) {
   const auto i = static_cast<std::size_t>(in.a);
-  if (defined_[i])
+  if (callees_[i].defined)
     fail(Code::gcmc_defined_twice,
          fmt::format("Function '{}' already defined", name_text(code_.functions[i].name)));
-  defined_[i] = true;
+  callees_[i].defined = true;
+}
+
+void Vm::fail_undefined_function(std::int32_t index, std::string hint) {
+  const NameId name = code_.functions[static_cast<std::size_t>(index)].name;
+  fail(Code::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(name)), std::move(hint));
 }
 
 /// Begins a user's function: its arguments stand where its frame begins.
-Vm::Pc Vm::enter(const Instruction& in, Pc pc) {
-  const auto index = static_cast<std::size_t>(in.a);
-  const FunctionCode& f = code_.functions[index];
-  if (!defined_[index]) {
-    fail(Code::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(f.name)),
-         "it is defined further down, and exists only after that");
-  }
+inline Vm::Pc Vm::enter(const Instruction& in, Pc pc) {
+  const Callee& f = callees_[static_cast<std::size_t>(in.a)];
+  if (!f.defined) fail_undefined_function(in.a, "it is defined further down, and exists only after that");
   if (--fuel_ <= 0) refuel();
   Value* base = frame_ + in.b;
-  Value* end = base + f.frame;
-  if (frames_.size() >= options_.max_calls || end > stack_end_)
-    fail(Code::gcmc_limit,
-         fmt::format("Calls are nested too deeply ({}): an endless recursion?", frames_.size()));
-  if (end > reached_) reach(end);
+  Value* end = base + f.slots;
+  if (top_ == most_calls_ || (end > reached_ && !reach(end)))
+    fail(Code::gcmc_limit, fmt::format("Calls are nested too deeply ({}): an endless recursion?", depth()));
   for (Value* v = base + f.parameters; v < base + f.variables; ++v) v->clear();
-  frames_.push_back({pc, frame_, in.a, in.x, (in.flags & kValueUsed) != 0});
+  *top_++ = {pc, frame_, &f, in.x, (in.flags & kValueUsed) != 0};
   frame_ = base;
-  return code_.instructions.data() + f.entry;
+  return f.entry;
 }
 
-/// Ends the running function, or the program; `in` is the instruction that gives the value, null for none.
-Vm::Pc Vm::leave(const Instruction* in) {
-  Value result;
-  if (in != nullptr) {
-    present(in->a);
-    if (in->flags & kTakeA)
-      result = std::move(frame_[in->a]);
-    else
-      result = operand(in->a, frame_, code_.constants.data());
-    if (result.type() == Type::reference) result = Value(*result.target());
-  }
-  if (frames_.empty()) {
-    status_ = result.is_scalar() ? to_integer(result.scalar()) : 0;
-    return nullptr;
-  }
-  const Frame& f = frames_.back();
-  const FunctionCode& code = code_.functions[static_cast<std::size_t>(f.function)];
-  const Pc after = f.after;
-  const std::uint16_t x = f.x;
-  const bool value_used = f.value_used;
-  if (!constants_.empty() && code.constants) forget_constants(code);
-  for (Value* v = frame_; v < frame_ + code.frame; ++v) v->clear();
+/// Ends the running function. Its variables let go what they hold; numbers may stay, as nobody reads them.
+/// Temporaries were let go where they were used up.
+inline Vm::Pc Vm::leave() {
+  const Frame& f = *--top_;
+  const Callee& callee = *f.callee;
+  if (callee.constants) forget_constants(callee);
+  for (Value *v = frame_, *end = frame_ + callee.cleared; v != end; ++v)
+    if (v->is_block()) v->clear();
   frame_ = f.base;
-  frames_.pop_back();
-  if (in == nullptr && value_used) {
+  return f.after;
+}
+
+/// The value that a return instruction gives.
+Value Vm::result_of(const Instruction& in) {
+  const Value& v = present(in.a);
+  if (v.type() == Type::reference) return Value(*v.target());
+  return in.flags & kTakeA ? std::move(frame_[in.a]) : Value(v);
+}
+
+void Vm::do_end_program(const Instruction& in) {
+  const Value result = result_of(in);
+  status_ = result.is_scalar() ? to_integer(result.scalar()) : 0;
+}
+
+/// Ends the running function with a value.
+inline Vm::Pc Vm::give_back(const Instruction& in) {
+  const Value& v = operand(in.a, frame_, code_.constants.data());
+  Value& to = top_[-1].base[top_[-1].x];
+  if (v.is_scalar())
+    to.store(v.scalar());
+  else
+    to = result_of(in);
+  return leave();
+}
+
+Vm::Pc Vm::give_nothing() {
+  const Frame f = top_[-1];
+  const Pc after = leave();
+  if (f.value_used) {
     at_ = after - 1;
+    const NameId name = code_of(*f.callee).name;
     fail(Code::gcmc_control,
          fmt::format("Function call '{}()' did not return a value, but is used in assignment or calculation",
-                     name_text(code.name)));
+                     name_text(name)));
   }
-  if (in != nullptr) frame_[x] = std::move(result);
   return after;
 }
 
 /// The constants of a function that ends are variables that do not exist any more.
-void Vm::forget_constants(const FunctionCode& code) {
-  for (Value* v = frame_; v < frame_ + code.variables; ++v) constants_.erase(v);
+void Vm::forget_constants(const Callee& callee) {
+  for (Value* v = frame_; v < frame_ + callee.variables; ++v) constants_.erase(v);
 }
 
 void Vm::do_unknown_function(const Instruction& in) {
@@ -505,8 +550,7 @@ void Vm::do_by_reference(const Instruction& in) {
 }
 
 void Vm::do_wrong_count(const Instruction& in) {
-  if (!defined_[static_cast<std::size_t>(in.b)])
-    fail(Code::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(in.a)));
+  if (!callees_[static_cast<std::size_t>(in.b)].defined) fail_undefined_function(in.b, {});
   fail(Code::gcmc_arguments, fmt::format("Incorrect number of arguments in call to '{}'", name_text(in.a)));
 }
 
@@ -561,8 +605,8 @@ void Vm::do_repeat_begin(const Instruction& in) {
 }
 
 bool Vm::do_repeat_next(const Instruction& in) {
-  const std::int32_t limit = frame_[in.x].payload().i;
-  const std::int32_t last = frame_[in.x + 1].payload().i;
+  const std::int32_t limit = frame_[in.x].scalar().whole();
+  const std::int32_t last = frame_[in.x + 1].scalar().whole();
   if (last == limit) return false;
   const std::int32_t next = limit > 0 ? last + 1 : last - 1;
   frame_[in.x + 1].store(Scalar::integer(next));
@@ -583,7 +627,7 @@ void Vm::do_foreach_begin(const Instruction& in) {
 
 bool Vm::do_foreach_next(const Instruction& in) {
   const Value& source = frame_[in.x];
-  const auto i = static_cast<std::size_t>(frame_[in.x + 1].payload().i);
+  const auto i = static_cast<std::size_t>(frame_[in.x + 1].scalar().whole());
   if (source.is_list()) {
     if (i >= source.vectors().size()) return false;
     frame_[in.a] = source.vectors()[i];
@@ -609,77 +653,70 @@ void Vm::do_stray_break(const Instruction& in) {
 
 namespace {
 
-inline bool holds_plain(Op op, double d) {
-  switch (op) {
-    case Op::jump_equal: return std::fabs(d) < kEpsilon;
-    case Op::jump_not_equal: return !(std::fabs(d) < kEpsilon);
-    case Op::jump_less: return d < -kEpsilon;
-    case Op::jump_greater: return d > kEpsilon;
-    case Op::jump_less_equal: return d < kEpsilon;
-    default: return d > -kEpsilon;
-  }
-}
+constexpr std::int32_t whole_quotient(std::int32_t a, std::int32_t b) { return a / b; }
+constexpr std::int32_t whole_remainder(std::int32_t a, std::int32_t b) { return a % b; }
 
-inline bool holds_plain(Op op, std::int32_t a, std::int32_t b) {
-  switch (op) {
-    case Op::jump_equal: return a == b;
-    case Op::jump_not_equal: return a != b;
-    case Op::jump_less: return a < b;
-    case Op::jump_greater: return a > b;
-    case Op::jump_less_equal: return a <= b;
-    default: return a >= b;
-  }
+/// Compares numbers of one unit; false for all others.
+inline bool compare_plain(Op op, Scalar a, Scalar b, bool& yes) {
+  const Meeting m = meeting(a, b);
+  if (!(m & kComparable)) return false;
+  yes = (m & kBothIntegers) == kBothIntegers ? holds(op, a.whole(), b.whole())
+                                             : holds(op, left_number(a, m) - right_number(b, m));
+  return true;
 }
 
 /// ++ or -- on a number where nobody asks for the value.
 inline bool quick_step(const Instruction& in, Value& v) {
+  if (in.flags & kValueUsed) return false;
+  if (v.is_whole()) {
+    v.store_whole(wrap_add(v.whole(), in.flags & kMinus ? -1 : 1));
+    return true;
+  }
   Scalar stepped;
-  if ((in.flags & kValueUsed) || !v.is_scalar() || !step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped))
-    return false;
+  if (!v.is_scalar() || !step_plain(v.scalar(), (in.flags & kMinus) != 0, stepped)) return false;
   v.store(stepped);
   return true;
 }
 
-constexpr Op comparison_of(Op jump) {
-  switch (jump) {
-    case Op::jump_equal: return Op::equal;
-    case Op::jump_not_equal: return Op::not_equal;
-    case Op::jump_less: return Op::less;
-    case Op::jump_greater: return Op::greater;
-    case Op::jump_less_equal: return Op::less_equal;
-    default: return Op::greater_equal;
-  }
-}
-
 }  // namespace
 
-// Additions and comparisons of plain scalars are decided here, everything else by the members above.
-#define KERF_ARITHMETIC(op, operation)                                               \
-  case Op::op: {                                                                     \
-    const Value& a = operand(in.a, frame, constants);                                \
-    const Value& b = operand(in.b, frame, constants);                                \
-    Scalar result;                                                                   \
-    if (a.is_scalar() && b.is_scalar() && operation(a.scalar(), b.scalar(), result)) \
-      frame[in.x].store(result);                                                     \
-    else                                                                             \
-      do_operate(in);                                                                \
-    break;                                                                           \
+// Operations and comparisons of plain scalars are decided here, everything else by the members above. Each
+// has a second form whose right side is an integer in the instruction.
+#define KERF_ARITHMETIC(op, plain, of_integers)                            \
+  case Op::op: {                                                           \
+    const Value& a = operand(in.a, frame, constants);                      \
+    const Value& b = operand(in.b, frame, constants);                      \
+    Scalar result;                                                         \
+    if (Value::are_scalars(a, b) && plain(a.scalar(), b.scalar(), result)) \
+      frame[in.x].store(result);                                           \
+    else                                                                   \
+      do_operate(in);                                                      \
+    break;                                                                 \
+  }                                                                        \
+  case Op::op##_integer: {                                                 \
+    const Value& a = frame[in.a];                                          \
+    if (a.is_whole())                                                      \
+      frame[in.x].store_whole(of_integers(a.whole(), in.b));               \
+    else                                                                   \
+      operate_with(in, Op::op, Value::integer(in.b));                      \
+    break;                                                                 \
   }
-#define KERF_COMPARING_JUMP(op)                                                                           \
-  case Op::op: {                                                                                          \
-    const Value& a = operand(in.a, frame, constants);                                                     \
-    const Value& b = operand(in.b, frame, constants);                                                     \
-    bool yes;                                                                                             \
-    if (a.is_scalar() && b.is_scalar() && ((a.tag() ^ b.tag()) >> 2) == 0 && (a.tag() & 3) != 0 &&        \
-        (b.tag() & 3) != 0) {                                                                             \
-      yes = both_integers(a.tag(), b.tag())                                                               \
-                ? holds_plain(Op::op, a.payload().i, b.payload().i)                                       \
-                : holds_plain(Op::op, number_of(a.payload(), a.tag()) - number_of(b.payload(), b.tag())); \
-    } else {                                                                                              \
-      yes = slow_holds(in, comparison_of(Op::op));                                                        \
-    }                                                                                                     \
-    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                                 \
-    break;                                                                                                \
+#define KERF_COMPARING_JUMP(comparison)                                                                 \
+  case Op::jump_##comparison: {                                                                         \
+    const Value& a = operand(in.a, frame, constants);                                                   \
+    const Value& b = operand(in.b, frame, constants);                                                   \
+    bool yes;                                                                                           \
+    if (!Value::are_scalars(a, b) || !compare_plain(Op::comparison, a.scalar(), b.scalar(), yes))       \
+      yes = slow_holds(in, Op::comparison);                                                             \
+    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                               \
+    break;                                                                                              \
+  }                                                                                                     \
+  case Op::jump_##comparison##_integer: {                                                               \
+    const Value& a = frame[in.a];                                                                       \
+    const bool yes =                                                                                    \
+        a.is_whole() ? holds(Op::comparison, a.whole(), in.b) : slow_holds_integer(in, Op::comparison); \
+    if (yes != ((in.flags & kNegated) != 0)) KERF_JUMP();                                               \
+    break;                                                                                              \
   }
 #define KERF_JUMP()                                       \
   do {                                                    \
@@ -690,7 +727,7 @@ constexpr Op comparison_of(Op jump) {
 // clang-format off
 #define KERF_MEMBERS(X) \
   X(move) X(get_global) X(get_dynamic) X(dereference) X(refer) X(refer_dynamic) \
-  X(need_target) X(store) X(apply) X(step_target) X(step_element) X(logic_not) X(bit_not) \
+  X(need_target) X(store) X(apply) X(append) X(step_target) X(step_element) X(logic_not) X(bit_not) \
   X(index) X(element) X(set_element) X(vector) X(list) X(call_builtin) X(define) \
   X(declare_local) X(declare_constant) X(warn_global) X(repeat_begin) X(foreach_begin) \
   X(clear) X(stray_break) X(unknown_function) X(by_reference) X(wrong_count)
@@ -706,17 +743,17 @@ void Vm::loop() {
     const Instruction& in = *pc++;
     at_ = &in;
     switch (in.op) {
-      KERF_ARITHMETIC(add, add_plain)
-      KERF_ARITHMETIC(sub, subtract_plain)
-      KERF_ARITHMETIC(mul, multiply_plain)
-      KERF_ARITHMETIC(div, divide_plain)
-      KERF_ARITHMETIC(mod, modulo_plain)
-      KERF_COMPARING_JUMP(jump_less)
-      KERF_COMPARING_JUMP(jump_greater)
-      KERF_COMPARING_JUMP(jump_less_equal)
-      KERF_COMPARING_JUMP(jump_greater_equal)
-      KERF_COMPARING_JUMP(jump_equal)
-      KERF_COMPARING_JUMP(jump_not_equal)
+      KERF_ARITHMETIC(add, add_plain, wrap_add)
+      KERF_ARITHMETIC(sub, subtract_plain, wrap_sub)
+      KERF_ARITHMETIC(mul, multiply_plain, wrap_mul)
+      KERF_ARITHMETIC(div, divide_plain, whole_quotient)
+      KERF_ARITHMETIC(mod, modulo_plain, whole_remainder)
+      KERF_COMPARING_JUMP(less)
+      KERF_COMPARING_JUMP(greater)
+      KERF_COMPARING_JUMP(less_equal)
+      KERF_COMPARING_JUMP(greater_equal)
+      KERF_COMPARING_JUMP(equal)
+      KERF_COMPARING_JUMP(not_equal)
       case Op::step:
         if (!quick_step(in, frame[in.a])) do_step(in);
         break;
@@ -753,14 +790,16 @@ void Vm::loop() {
         frame = frame_;
         break;
       case Op::give_back:
-        if ((pc = leave(&in)) == nullptr) return;
+        pc = give_back(in);
         frame = frame_;
         break;
       case Op::give_nothing:
-        pc = leave(nullptr);
+        pc = give_nothing();
         frame = frame_;
         break;
+      case Op::end_program: do_end_program(in); return;
       case Op::stop: return; KERF_MEMBERS(KERF_CALL_MEMBER)
+      default: __builtin_unreachable();
     }
   }
 }

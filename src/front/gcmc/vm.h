@@ -19,13 +19,22 @@
 
 namespace kerf::gcmc {
 
-/// A call in progress.
+/// A call in progress. Without initial values, so that a stack of them costs nothing before it is used.
 struct Frame {
-  const Instruction* after = nullptr;  // where the caller goes on
-  Value* base = nullptr;               // of the caller
-  std::int32_t function = -1;          // running
-  std::uint16_t x = 0;                 // the caller's slot for the value
-  bool value_used = false;
+  const Instruction* after;     // where the caller goes on
+  Value* base;                  // of the caller
+  const struct Callee* callee;  // running
+  std::uint16_t x;              // the caller's slot for the value
+  bool value_used;
+};
+
+/// What a call needs to know of a function, in one place.
+struct Callee {
+  const Instruction* entry = nullptr;
+  std::int32_t parameters = 0, variables = 0, slots = 0;
+  std::int32_t cleared = 0;  // slots that let go what they hold when it ends
+  bool constants = false;    // it declares some
+  bool defined = false;      // its definition was executed
 };
 
 /// Where the program is: for messages and origins.
@@ -67,7 +76,8 @@ class Vm final : public Runtime {
   std::size_t current_instruction() const {
     return static_cast<std::size_t>(at_ - code_.instructions.data());
   }
-  const std::vector<Frame>& frames() const { return frames_; }
+  /// Calls in progress, outermost first.
+  std::size_t depth() const { return static_cast<std::size_t>(top_ - frames_.get()); }
   std::size_t call_site(std::size_t frame) const {
     return static_cast<std::size_t>(frames_[frame].after - code_.instructions.data()) - 1;
   }
@@ -81,19 +91,31 @@ class Vm final : public Runtime {
     return o < 0 ? constants[~o] : frame[o];
   }
   Value& slot(std::int32_t o);
-  const Value& present(std::int32_t o);
+  /// The operand's value; a variable that does not exist is an error.
+  const Value& present(std::int32_t o) {
+    const Value& v = operand(o, frame_, code_.constants.data());
+    if (v.is_absent()) fail_absent(o);
+    return v;
+  }
   [[noreturn]] void fail_absent(std::int32_t slot);
   [[noreturn]] void fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known);
   std::string name_text(NameId name) const { return tree_.names[static_cast<std::size_t>(name)]; }
   const FunctionCode& running() const;
-  void reach(Value* end);
+  const FunctionCode& code_of(const Callee& callee) const {
+    return code_.functions[static_cast<std::size_t>(&callee - callees_.data())];
+  }
+  bool reach(Value* end);
   void refuel();
 
   // instructions that are more than a few lines
   void do_move(const Instruction& in);
   void do_operate(const Instruction& in);
+  void operate_with(const Instruction& in, Op op, const Value& b);
+  void do_append(const Instruction& in);
+  Value appended(std::int32_t o, bool take);
   void do_compare(const Instruction& in);
   bool slow_holds(const Instruction& in, Op op);
+  bool slow_holds_integer(const Instruction& in, Op op);
   bool slow_truth(const Instruction& in);
   void do_get_global(const Instruction& in);
   void do_get_dynamic(const Instruction& in);
@@ -115,7 +137,7 @@ class Vm final : public Runtime {
   void do_vector(const Instruction& in);
   void do_small_vector(const Instruction& in, std::size_t count);
   Scalar entry(std::int32_t o);
-  void forget_constants(const FunctionCode& code);
+  void forget_constants(const Callee& callee);
   void do_list(const Instruction& in);
   void do_call_builtin(const Instruction& in);
   void do_define(const Instruction& in);
@@ -132,7 +154,12 @@ class Vm final : public Runtime {
   void do_by_reference(const Instruction& in);
   void do_wrong_count(const Instruction& in);
   Pc enter(const Instruction& in, Pc pc);
-  Pc leave(const Instruction* in);
+  void do_end_program(const Instruction& in);
+  Pc give_back(const Instruction& in);
+  Pc give_nothing();
+  Pc leave();
+  Value result_of(const Instruction& in);
+  [[noreturn]] void fail_undefined_function(std::int32_t index, std::string hint);
   Value& writable_target(std::int32_t reference);
   void report(GcmcSaid said, Code code, std::string text, std::string hint);
 
@@ -151,8 +178,11 @@ class Vm final : public Runtime {
   Value* reached_ = nullptr;  // slots before this are constructed
   Value* frame_ = nullptr;    // of the running function
   Pc at_ = nullptr;           // the running instruction
-  std::vector<Frame> frames_;
-  std::vector<bool> defined_;
+  std::unique_ptr<Frame[]> frames_;
+  Frame* top_ = nullptr;  // behind the innermost call
+  Frame* most_calls_ = nullptr;
+  std::vector<Callee> callees_;
+  const struct Builtin* builtins_;
   std::unordered_set<const Value*> constants_;  // variables that may not be assigned to
   std::int32_t fuel_ = 0;
   std::uint64_t quiet_steps_ = 0;

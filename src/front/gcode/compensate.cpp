@@ -138,7 +138,8 @@ void Interpreter::along_third_axis(const Place& to, MoveKind kind, double feed) 
 /// Leads the tool from the end of one piece to the begin of the next. False where no more steps are taken.
 bool Interpreter::turn_corner(Point2 corner, const Piece& next, MoveKind kind, double feed) {
   Compensation& c = compensation_;
-  const Corner which = corner_between(c.direction, next.direction_at_begin(), c.side);
+  Corner which = corner_between(c.direction, next.direction_at_begin(), c.side);
+  if (which == Corner::cusp) which = corner_of_cusp(c.last, next, c.side);
   if (which == Corner::smooth) return true;
   if (which == Corner::inside) {
     retreat(corner, next);
@@ -162,14 +163,11 @@ bool Interpreter::turn_corner(Point2 corner, const Piece& next, MoveKind kind, d
 /// Ends the last piece where the next one begins at an inside corner.
 void Interpreter::retreat(Point2 corner, const Piece& next) {
   Compensation& c = compensation_;
-  Piece before = c.last;
-  if (!before.centre) before = {c.tool - c.direction, c.tool, std::nullopt, Turn::ccw};
-  const std::optional<Point2> meeting = crossing(before, next, corner);
-  if (!meeting || !runs_forward(c.last, c.direction, *meeting) || !reachable({meeting->x, meeting->y, 0.0}))
-    return tell_gouge();
+  const std::optional<Point2> end = meeting(c.last, c.direction, next, corner);
+  if (!end || !reachable({end->x, end->y, 0.0})) return tell_gouge();
   for (std::size_t i = c.last_step; i < path_.size(); ++i)
-    if (path_[i].is_motion()) path_.set_end(i, moved_in_plane(path_[i].to(), *meeting));
-  c.last.to = c.tool = *meeting;
+    if (path_[i].is_motion()) path_.set_end(i, moved_in_plane(path_[i].to(), *end));
+  c.last.to = c.tool = *end;
 }
 
 void Interpreter::tell_gouge() {

@@ -1,9 +1,10 @@
 // Offsets, corners and crossings of lines and arcs.
 #include "front/gcode/compensation.h"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace kerf::gcode {
 namespace {
@@ -31,34 +32,41 @@ double sweep(const Piece& arc, Point2 end) {
   return angle > 0.0 ? angle : angle + 2.0 * kPi;
 }
 
-std::optional<Point2> cross_lines(const Piece& a, Point2 da, const Piece& b, Point2 db) {
+/// How much a piece of the axis bends towards the tool's side: 1/mm, below 0 away from it.
+double bend_to_tool(const Piece& piece, Side side) {
+  if (!piece.centre) return 0.0;
+  return (is_inside(piece, side) ? 1.0 : -1.0) / piece.radius();
+}
+
+/// Where two pieces cross, endlessly prolonged.
+using Crossings = std::vector<Point2>;
+
+Crossings cross_lines(Point2 a, Point2 da, Point2 b, Point2 db) {
   const double turn = cross(da, db);
-  if (std::abs(turn) < kNoLength) return std::nullopt;
-  return a.to + (cross(b.from - a.to, db) / turn) * da;
+  if (std::abs(turn) < kNoLength) return {};
+  return {a + (cross(b - a, db) / turn) * da};
 }
 
-/// Of two points that lie at `foot` +- `reach` along `d`, the one nearer to the corner. Nothing where the
-/// square of `reach` is below 0: the pieces do not meet.
-std::optional<Point2> nearer(Point2 foot, Point2 d, double reach_squared, double size, Point2 corner) {
-  if (reach_squared < -kTangent * size) return std::nullopt;
+/// Both points at `foot` +- `reach` along `d`; none where the square of `reach` is below 0.
+Crossings both(Point2 foot, Point2 d, double reach_squared, double size) {
+  if (reach_squared < -kTangent * size) return {};
   const double reach = std::sqrt(std::max(0.0, reach_squared));
-  const Point2 one = foot - reach * d, two = foot + reach * d;
-  return distance(one, corner) <= distance(two, corner) ? one : two;
+  return {foot - reach * d, foot + reach * d};
 }
 
-std::optional<Point2> cross_line_arc(Point2 on_line, Point2 d, const Piece& arc, Point2 corner) {
+Crossings cross_line_arc(Point2 on_line, Point2 d, const Piece& arc) {
   const double r = arc.radius();
   const Point2 foot = on_line + dot(*arc.centre - on_line, d) * d;
   const double away = distance(foot, *arc.centre);
-  return nearer(foot, d, r * r - away * away, r, corner);
+  return both(foot, d, r * r - away * away, r);
 }
 
-std::optional<Point2> cross_arcs(const Piece& a, const Piece& b, Point2 corner) {
+Crossings cross_arcs(const Piece& a, const Piece& b) {
   const double ra = a.radius(), rb = b.radius(), apart = distance(*a.centre, *b.centre);
-  if (!(apart > kNoLength)) return std::nullopt;
+  if (!(apart > kNoLength)) return {};
   const Point2 d = unit(*b.centre - *a.centre);
   const double share = (apart * apart + ra * ra - rb * rb) / (2.0 * apart);
-  return nearer(*a.centre + share * d, left_of(d), ra * ra - share * share, ra, corner);
+  return both(*a.centre + share * d, left_of(d), ra * ra - share * share, ra);
 }
 
 }  // namespace
@@ -85,17 +93,26 @@ std::optional<Piece> offset(const Piece& piece, Side side, double radius) {
 Corner corner_between(Point2 before, Point2 after, Side side) {
   const double turn = std::atan2(cross(before, after), dot(before, after));
   const double towards_tool = turn * static_cast<double>(static_cast<signed char>(side));
-  if (std::abs(turn) > kPi - kSmallCorner) return Corner::outside;  // back the way it came
+  if (std::abs(turn) > kPi - kSmallCorner) return Corner::cusp;
   if (towards_tool > kSmallCorner) return Corner::inside;
   return towards_tool < -kSmallCorner ? Corner::outside : Corner::smooth;
 }
 
-std::optional<Point2> crossing(const Piece& before, const Piece& after, Point2 corner) {
-  const Point2 da = before.direction_at_end(), db = after.direction_at_begin();
-  if (before.centre && after.centre) return cross_arcs(before, after, corner);
-  if (before.centre) return cross_line_arc(after.from, db, before, corner);
-  if (after.centre) return cross_line_arc(before.to, da, after, corner);
-  return cross_lines(before, da, after, db);
+Corner corner_of_cusp(const Piece& before, const Piece& after, Side side) {
+  return bend_to_tool(before, side) + bend_to_tool(after, side) < 0.0 ? Corner::inside : Corner::outside;
+}
+
+std::optional<Point2> meeting(const Piece& before, Point2 direction, const Piece& after, Point2 corner) {
+  const Point2 next = after.direction_at_begin();
+  const Crossings crossings = before.centre && after.centre ? cross_arcs(before, after)
+                              : before.centre               ? cross_line_arc(after.from, next, before)
+                              : after.centre                ? cross_line_arc(before.to, direction, after)
+                                                            : cross_lines(before.to, direction, after.from, next);
+  std::optional<Point2> nearest;
+  for (const Point2 p : crossings)
+    if (runs_forward(before, direction, p) && (!nearest || distance(p, corner) < distance(*nearest, corner)))
+      nearest = p;
+  return nearest;
 }
 
 bool runs_forward(const Piece& piece, Point2 direction, Point2 end) {

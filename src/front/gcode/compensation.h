@@ -37,12 +37,16 @@ bool is_inside(const Piece& arc, Side side);
 /// The piece that the tool's axis follows, corners left aside. Nothing if the tool is too thick for the arc.
 std::optional<Piece> offset(const Piece& piece, Side side, double radius);
 
-enum class Corner : unsigned char { smooth, outside, inside };
+enum class Corner : unsigned char { smooth, outside, inside, cusp };
 Corner corner_between(Point2 before, Point2 after, Side side);
-/// Where two offset pieces meet at an inside corner: the place nearest to the corner itself.
-std::optional<Point2> crossing(const Piece& before, const Piece& after, Point2 corner);
-/// Whether a piece of the tool's axis still runs forward when it ends at `end` instead: a line as the program's
-/// `direction`, an arc no farther than before.
+/// A path that goes back the way it came has an inside corner where it comes to lie on the tool's side of
+/// itself.
+Corner corner_of_cusp(const Piece& before, const Piece& after, Side side);
+/// Where the tool goes from one piece of its axis to the next at an inside corner: the place nearest to the
+/// corner where they cross and to which `before` runs forward (a line as the program's `direction`, an arc no
+/// farther than it did). Nothing if the tool does not fit.
+std::optional<Point2> meeting(const Piece& before, Point2 direction, const Piece& after, Point2 corner);
+/// Whether a piece of the axis runs forward when it ends at `end`.
 bool runs_forward(const Piece& piece, Point2 direction, Point2 end);
 
 /// The arc by which the tool comes from `from` onto the offset of the arc `entry`, tangent at its end.

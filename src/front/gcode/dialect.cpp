@@ -38,6 +38,24 @@ constexpr Name kRemarks[] = {{"LIGHTBURN", GcodeDialect::laser},
                              {"GRBL", GcodeDialect::grbl},
                              {"CARBIDE CREATE", GcodeDialect::grbl}};
 
+/// The profile that a file says it was written with: Kerf's own posts begin with "(Kerf 0.1.0, laser)".
+std::optional<GcodeDialect> written_by_kerf(std::string_view remark) {
+  constexpr std::string_view kOwn = "KERF ";
+  const std::size_t own = remark.find(kOwn);
+  const std::size_t comma = own == std::string_view::npos ? own : remark.find(", ", own);
+  if (comma == std::string_view::npos) return std::nullopt;
+  const std::string_view name = remark.substr(comma + 2);
+  return dialect_named(name.substr(0, name.find_first_of(") \t")));
+}
+
+/// The controller that a remark (in capitals) names, if any.
+std::optional<GcodeDialect> remarked_in(std::string_view remark) {
+  if (const auto own = written_by_kerf(remark)) return own;
+  for (const Name& entry : kRemarks)
+    if (remark.find(entry.name) != std::string_view::npos) return entry.dialect;
+  return std::nullopt;
+}
+
 /// What is counted over the lines.
 struct Signs {
   int heated = 0, words_of_klipper = 0;
@@ -141,10 +159,8 @@ GcodeDialect guess_dialect(std::string_view text) {
     if (remark == std::string_view::npos) continue;
     std::string capitals(line.substr(remark));
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    for (const Name& entry : kRemarks) {
-      const bool better = !remarked || *remarked == GcodeDialect::grbl;
-      if (better && capitals.find(entry.name) != std::string::npos) remarked = entry.dialect;
-    }
+    const bool better = !remarked || *remarked == GcodeDialect::grbl;
+    if (const auto named = remarked_in(capitals); named && better) remarked = named;
   }
   const GcodeDialect told = told_by(signs);
   const bool plain_remark = !remarked || *remarked == GcodeDialect::grbl;

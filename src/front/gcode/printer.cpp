@@ -90,7 +90,7 @@ void Interpreter::printer_reference() {
 /// A straight move with an E word: a bead where it moves, filament pushed or drawn back where it stands.
 void Interpreter::extrude(const Place& to, double feed) {
   const double e = line_.take('E').value_or(0.0);
-  const double pushed = filament_relative_ ? e : e - filament_;
+  const double pushed = (filament_relative_ ? e : e - filament_) * modes_.scale;
   filament_ = filament_relative_ ? filament_ + e : e;
   const double area = std::numbers::pi / 4.0 * options_.filament_diameter * options_.filament_diameter;
   const bool moves = !(to.at == here_.at);

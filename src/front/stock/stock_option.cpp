@@ -1,11 +1,15 @@
 // Reads a stock told in words: first into words and lengths, then by the two forms that stock_files.h lists.
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
 
@@ -15,30 +19,35 @@ namespace {
 constexpr std::size_t kLongest = 200;   // bytes; a stock takes far less
 constexpr double kLargest = 100'000.0;  // mm; beyond any machine, and safe to compute with
 constexpr std::string_view kExpected =
-    "expected \"100x60x12 [at lower-left top]\" or \"0,0,-12 to 100,60,0\", lengths in mm or with \"in\"";
+    "expected \"100x60x12 [at lower-left top]\" or \"0,0,-12 to 100,60,0\", in mm or with \"in\" behind each "
+    "length or the last one";
 
-using Token = std::variant<double, std::string>;
+/// A length as told; which unit it is in may stand behind a later one.
+struct Number {
+  double value = 0.0;
+  double scale = 0.0;  // mm a unit; 0: none told
+  bool has_unit() const { return scale != 0.0; }
+  bool is_bare() const { return !has_unit() && value != 0.0; }  // 0 needs no unit
+};
+using Token = std::variant<Number, std::string>;
 
 bool begins_number(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '+' || c == '.';
 }
 
-/// "12", "12mm", "0.5in", "0.5\"" in mm.
-std::optional<double> length_of(std::string_view text) {
-  double scale = 1.0;
-  const auto drop = [&text](std::string_view unit) {
-    if (text.size() <= unit.size() || text.substr(text.size() - unit.size()) != unit) return false;
-    text.remove_suffix(unit.size());
-    return true;
-  };
-  if (drop("in") || drop("\"")) {
-    scale = 25.4;
-  } else {
-    drop("mm");
+/// "12", "12mm", "0.5in", "0.5\"".
+std::optional<Number> number_of(std::string_view text) {
+  Number number;
+  const std::size_t end = text.find_last_of("0123456789.") + 1;
+  if (end < text.size()) {
+    const auto unit = mm_per_unit(text.substr(end));
+    if (!unit) return std::nullopt;
+    number.scale = *unit;
   }
-  const std::optional<double> value = parse_number(text);
-  if (!value || std::abs(*value * scale) > kLargest) return std::nullopt;
-  return *value * scale;
+  const std::optional<double> value = parse_number(text.substr(0, end));
+  if (!value) return std::nullopt;
+  number.value = *value;
+  return number;
 }
 
 /// The x of "100 x 60 x 12": alone, or before a number.
@@ -65,16 +74,50 @@ std::optional<std::vector<Token>> tokens_of(std::string_view text) {
     const std::string_view word = text.substr(i, end - i);
     i = end;
     if (!number) {
-      tokens.emplace_back(std::string(word));
+      auto* before = tokens.empty() ? nullptr : std::get_if<Number>(&tokens.back());
+      const auto unit = mm_per_unit(word);
+      if (unit && before != nullptr && !before->has_unit()) {
+        before->scale = *unit;
+      } else {
+        tokens.emplace_back(std::string(word));
+      }
       continue;
     }
     if (i < text.size() && text[i] == 'x') ++i;
-    const std::optional<double> length = length_of(word);
+    const std::optional<Number> length = number_of(word);
     if (!length) return std::nullopt;
     tokens.emplace_back(*length);
   }
   return tokens;
 }
+
+using Triple = std::array<Number, 3>;
+
+bool has_unit(std::span<const Number> numbers) {
+  return std::any_of(numbers.begin(), numbers.end(), [](const Number& n) { return n.has_unit(); });
+}
+bool has_bare(std::span<const Number> numbers) {
+  return std::any_of(numbers.begin(), numbers.end(), [](const Number& n) { return n.is_bare(); });
+}
+
+/// Gives lengths without a unit theirs: that of the last length where it alone has one ("40x30x10in"), mm
+/// where none has. False where some have one and some not, so that nobody knows what is meant.
+bool settle(std::span<Number> numbers) {
+  const bool told_early = has_unit(numbers.first(numbers.size() - 1));
+  const double last = numbers.back().scale;
+  if (has_bare(numbers) && told_early) return false;
+  for (Number& number : numbers)
+    if (!number.has_unit()) number.scale = last != 0.0 ? last : 1.0;
+  return true;
+}
+
+Point3 point_of(const Triple& triple) {
+  return {triple[0].value * triple[0].scale, triple[1].value * triple[1].scale,
+          triple[2].value * triple[2].scale};
+}
+
+constexpr std::string_view kMixedUnits =
+    "some of its lengths have a unit and some not; a unit behind the last one alone is for all";
 
 /// Walks the tokens; each `take` moves on only if it fits.
 class Reader {
@@ -88,16 +131,16 @@ class Reader {
     ++next_;
     return true;
   }
-  std::optional<Point3> take_point() {
-    Point3 point;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::size_t i = next_ + static_cast<std::size_t>(axis);
-      const auto* value = i < tokens_.size() ? std::get_if<double>(&tokens_[i]) : nullptr;
-      if (value == nullptr) return std::nullopt;
-      point[axis] = *value;
+  std::optional<Triple> take_triple() {
+    Triple triple;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto* number =
+          next_ + axis < tokens_.size() ? std::get_if<Number>(&tokens_[next_ + axis]) : nullptr;
+      if (number == nullptr) return std::nullopt;
+      triple[axis] = *number;
     }
     next_ += 3;
-    return point;
+    return triple;
   }
   /// A corner's name of one word or two ("centre left").
   std::optional<ZeroCorner> take_corner() {
@@ -128,25 +171,47 @@ class Reader {
 /// A stock, or why there is none.
 using Answer = std::variant<Stock, std::string>;
 
-Answer read_corners(Reader& reader, Point3 low) {
-  const std::optional<Point3> high = reader.take_point();
-  if (!high || !reader.at_end())
+std::string too_far() { return fmt::format("a length is beyond {} mm", number_text(kLargest, 0)); }
+
+bool within_reach(Point3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargest; }
+
+Answer read_corners(Reader& reader, const Triple& first) {
+  const std::optional<Triple> second = reader.take_triple();
+  if (!second || !reader.at_end())
     return std::string("the highest corner x,y,z is missing or followed by more");
+  std::array<Number, 6> all;
+  std::copy(second->begin(), second->end(), std::copy(first.begin(), first.end(), all.begin()));
+  const std::span<Number> low(all.data(), 3), high(all.data() + 3, 3);
+  // A unit in each corner, or one behind the second for both.
+  const bool fine =
+      has_unit(low) ? (has_unit(high) || !has_bare(high)) && settle(low) && settle(high) : settle(all);
+  if (!fine) return std::string(kMixedUnits);
   Stock stock;
-  stock.block.low = low;
-  stock.block.high = *high;
+  stock.block.low = point_of({all[0], all[1], all[2]});
+  stock.block.high = point_of({all[3], all[4], all[5]});
+  if (!within_reach(stock.block.low) || !within_reach(stock.block.high)) return too_far();
   const Point3 size = stock.block.size();
   if (size.x > 0.0 && size.y > 0.0 && size.z > 0.0) return stock;
   return std::string("its highest corner must lie above its lowest in X, Y and Z");
 }
 
-Answer read_size(Reader& reader, Point3 size) {
+std::string known_places() {
+  return fmt::format("known: {}, each with {} or {}", list_text(zero_corner_names()), zero_height_names()[0],
+                     zero_height_names()[1]);
+}
+
+Answer read_size(Reader& reader, Triple lengths) {
+  if (!settle(lengths)) return std::string(kMixedUnits);
+  const Point3 size = point_of(lengths);
+  if (!within_reach(size)) return too_far();
   if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0)) return std::string("each edge must be longer than 0");
   const bool told = reader.take_word("at") || reader.take_word("zero");
   const std::optional<ZeroCorner> corner = reader.take_corner();
   const std::optional<ZeroHeight> height = reader.take_height();
-  if (told && !corner && !height) return std::string("the place of program zero is missing or not known");
-  if (!reader.at_end()) return std::string("there is something behind it that is no place of program zero");
+  if (told && !corner && !height)
+    return "the place of program zero is missing or not known; " + known_places();
+  if (!reader.at_end())
+    return "there is something behind it that is no place of program zero; " + known_places();
   return make_block(size, corner.value_or(ZeroCorner::lower_left), height.value_or(ZeroHeight::top));
 }
 
@@ -155,11 +220,11 @@ Answer read(std::string_view text) {
   std::string lower(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::optional<std::vector<Token>> tokens = tokens_of(lower);
-  if (!tokens) return fmt::format("a length is not a number, or beyond {} mm", number_text(kLargest, 0));
+  if (!tokens) return std::string("a length is not a number, or its unit is neither mm nor in");
   Reader reader(std::move(*tokens));
   const bool corners = reader.take_word("min");
   if (!corners) reader.take_word("block");
-  const std::optional<Point3> first = reader.take_point();
+  const std::optional<Triple> first = reader.take_triple();
   if (!first) return std::string("it does not begin with three lengths");
   if (reader.take_word("to") || reader.take_word("max")) return read_corners(reader, *first);
   if (corners) return std::string("\"max\" and the highest corner are missing");

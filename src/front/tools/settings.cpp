@@ -120,7 +120,11 @@ std::optional<double> SettingReader::number(const Setting& setting, ShapeParamet
 bool SettingReader::read_shape(const Setting& setting) {
   for (const ShapeParameter& parameter : parameters_of(shape_)) {
     if (parameter.name != setting.key) continue;
-    if (const auto value = number(setting, parameter.kind)) parameter.set(shape_, *value);
+    const auto value = number(setting, parameter.kind);
+    if (value && *value == 0.0 && setting.key == "flute")
+      wrong(setting, "above 0; left out, it is that of a usual tool of this diameter");
+    else if (value)
+      parameter.set(shape_, *value);
     return true;
   }
   auto* drawn = std::get_if<shape::Drawn>(&shape_);
@@ -183,7 +187,8 @@ void SettingReader::unknown(const Setting& setting) {
   std::vector<std::string> known;
   for (const ShapeParameter& parameter : parameters_of(shape_)) known.emplace_back(parameter.name);
   if (std::holds_alternative<shape::Drawn>(shape_)) known.emplace_back("profile");
-  const std::string measures = list_text(known);
+  std::string measures;
+  for (const std::string& name : known) measures += (measures.empty() ? "" : ", ") + name;
   for (const BodyKey& key : kBodyKeys) known.emplace_back(key.name);
   for (const std::string_view key : kTextKeys) known.emplace_back(key);
   known.insert(known.end(), {"teeth", "plunges", "shape", "number", "numbers", "names", "unit"});
@@ -191,7 +196,7 @@ void SettingReader::unknown(const Setting& setting) {
       diagnostics_.error(Code::tool_key_unknown, setting.where,
                          fmt::format("a {} tool has no \"{}\"", name_of(shape_), setting.key.substr(0, 40)));
   const auto meant = did_you_mean(setting.key, known);
-  error.hint = meant ? fmt::format("did you mean {}?", *meant) : fmt::format("its measures are {}", measures);
+  error.hint = meant ? fmt::format("did you mean {}?", *meant) : fmt::format("its measures: {}", measures);
 }
 
 void SettingReader::read(const Setting& told) {
@@ -218,33 +223,6 @@ std::optional<Tool> SettingReader::make() {
 }
 
 }  // namespace
-
-std::optional<double> unit_scale(std::string_view name) {
-  const std::string folded = fold_name(name);
-  if (folded == "mm") return 1.0;
-  if (folded == "in" || folded == "inch" || folded == "inches" || folded == "\"") return 25.4;
-  return std::nullopt;
-}
-
-std::optional<double> parse_length(std::string_view text, double scale) {
-  text = trim(text);
-  if (text.size() > 64) return std::nullopt;
-  const std::size_t end = text.find_last_of("0123456789.");
-  if (end == std::string_view::npos) return std::nullopt;
-  if (end + 1 < text.size()) {
-    const auto unit = unit_scale(trim(text.substr(end + 1)));
-    if (!unit) return std::nullopt;
-    scale = *unit;
-    text = text.substr(0, end + 1);
-  }
-  const std::size_t slash = text.find('/');
-  const auto over = parse_number(trim(text.substr(0, slash)));
-  const auto under =
-      slash == std::string_view::npos ? std::optional(1.0) : parse_number(trim(text.substr(slash + 1)));
-  if (!over || !under || *under == 0.0) return std::nullopt;
-  const double value = *over / *under * scale;
-  return std::isfinite(value) ? std::optional(value) : std::nullopt;
-}
 
 std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where, Diagnostics& diagnostics) {
   if (auto shape = shape_named(name)) return shape;

@@ -63,7 +63,7 @@ std::optional<double> FileReader::read_unit(const toml::table& table, double oth
   const toml::node* node = table.get("unit");
   if (node == nullptr) return otherwise;
   const auto name = node->value_exact<std::string_view>();
-  const auto scale = name ? detail::unit_scale(*name) : std::nullopt;
+  const auto scale = name ? mm_per_unit(*name) : std::nullopt;
   if (!scale) error(Code::tool_value_type, spot(*node), "unit must be \"mm\" or \"inch\"");
   return scale;
 }

@@ -13,17 +13,9 @@ namespace {
 constexpr std::size_t kLongestOption = 4096;
 constexpr int kHighestNumber = 99'999'999;
 
-/// A word of the option and where it starts.
-struct Word {
-  std::string_view text;
-  std::uint32_t column = 1;
-};
-
-Origin spot(std::uint32_t column) { return TextSpot{"tool option", 1, column}; }
-
 /// Words between blanks or commas; "=" binds to both sides even where blanks stand around it.
-std::vector<Word> words_of(std::string_view text) {
-  std::vector<Word> words;
+std::vector<std::string_view> words_of(std::string_view text) {
+  std::vector<std::string_view> words;
   std::size_t at = 0;
   const auto blank = [&](std::size_t i) {
     return static_cast<unsigned char>(text[i]) <= ' ' || text[i] == ',';
@@ -39,7 +31,7 @@ std::vector<Word> words_of(std::string_view text) {
       while (ahead < text.size() && blank(ahead)) ++ahead;
       if (ahead < text.size() && text[ahead] == '=') at = ahead;
     }
-    words.push_back({text.substr(start, at - start), static_cast<std::uint32_t>(start + 1)});
+    words.push_back(text.substr(start, at - start));
   }
   return words;
 }
@@ -53,43 +45,43 @@ std::optional<int> whole_number(std::string_view text) {
 }
 
 /// A tool of the table, or the one that a six-digit number describes.
-std::optional<Tool> tool_of_number(int number, Diagnostics& diagnostics) {
+std::optional<Tool> tool_of_number(int number, const Origin& where, Diagnostics& diagnostics) {
   if (const Tool* known = built_in_tools().find(number)) return *known;
   if (number >= 100000 && number <= 999999) {
-    const auto shape = decode_tool_number(number, spot(1), diagnostics);
-    return shape ? make_tool(number, *shape, {}, spot(1), diagnostics) : std::nullopt;
+    const auto shape = decode_tool_number(number, where, diagnostics);
+    return shape ? make_tool(number, *shape, {}, where, diagnostics) : std::nullopt;
   }
   std::vector<std::string> numbers;
   for (const auto& [known, tool] : built_in_tools().tools()) numbers.push_back(std::to_string(known));
   Diagnostic& error =
-      diagnostics.error(Code::tool_unknown, spot(1), fmt::format("no tool {} is known", number));
+      diagnostics.error(Code::tool_unknown, where, fmt::format("no tool {} is known", number));
   if (const auto meant = did_you_mean(std::to_string(number), numbers))
     error.hint = fmt::format("did you mean {}?", *meant);
   return std::nullopt;
 }
 
 /// "square d=3.175": the words before the first "=" are the shape's name.
-std::optional<Tool> tool_of_words(const std::vector<Word>& words, Diagnostics& diagnostics) {
+std::optional<Tool> tool_of_words(const std::vector<std::string_view>& words, const Origin& where,
+                                  Diagnostics& diagnostics) {
   std::string name;
   std::vector<detail::Setting> settings;
   std::optional<int> number;
   bool fine = true;
-  for (const Word& word : words) {
-    const std::size_t equals = word.text.find('=');
-    const Origin where = spot(word.column);
+  for (const std::string_view word : words) {
+    const std::size_t equals = word.find('=');
     if (equals == std::string_view::npos) {
       fine = fine && settings.empty();
       if (!settings.empty()) {
         diagnostics.error(Code::tool_value_type, where,
-                          fmt::format("expected KEY=VALUE, found \"{}\"", word.text.substr(0, 40)));
+                          fmt::format("expected KEY=VALUE, found \"{}\"", word.substr(0, 40)));
       } else {
         if (!name.empty()) name += ' ';
-        name += word.text;
+        name += word;
       }
       continue;
     }
-    const std::string key = std::string(trim(word.text.substr(0, equals)));
-    const std::string value = std::string(trim(word.text.substr(equals + 1)));
+    const std::string key = std::string(trim(word.substr(0, equals)));
+    const std::string value = std::string(trim(word.substr(equals + 1)));
     if (key == "number") {
       number = whole_number(value);
       if (!number) diagnostics.error(Code::tool_value_type, where, "number must be a whole number");
@@ -101,9 +93,9 @@ std::optional<Tool> tool_of_words(const std::vector<Word>& words, Diagnostics& d
   if (settings.empty()) {
     if (const Tool* known = built_in_tools().find_name(name)) return *known;
   }
-  const auto blank = detail::blank_shape(name, spot(1), diagnostics);
+  const auto blank = detail::blank_shape(name, where, diagnostics);
   if (!blank) return std::nullopt;
-  std::optional<Tool> tool = detail::tool_of(*blank, settings, 1.0, spot(1), diagnostics);
+  std::optional<Tool> tool = detail::tool_of(*blank, settings, 1.0, where, diagnostics);
   if (!tool || !fine) return std::nullopt;
   tool->number = number.value_or(0);
   return tool;
@@ -111,13 +103,13 @@ std::optional<Tool> tool_of_words(const std::vector<Word>& words, Diagnostics& d
 
 }  // namespace
 
-std::optional<Tool> read_tool_option(std::string_view text, Diagnostics& diagnostics) {
+std::optional<Tool> read_tool_option(std::string_view text, const Origin& where, Diagnostics& diagnostics) {
   if (text.size() > kLongestOption) {
-    diagnostics.error(Code::tool_value_type, spot(1), "a tool option is at most 4096 characters long");
+    diagnostics.error(Code::tool_value_type, where, "a tool option is at most 4096 characters long");
     return std::nullopt;
   }
-  if (const auto number = whole_number(trim(text))) return tool_of_number(*number, diagnostics);
-  return tool_of_words(words_of(text), diagnostics);
+  if (const auto number = whole_number(trim(text))) return tool_of_number(*number, where, diagnostics);
+  return tool_of_words(words_of(text), where, diagnostics);
 }
 
 }  // namespace kerf

@@ -60,6 +60,10 @@ TEST(Lint, says_what_is_wrong) {
       {"marlin", "(brackets)", Code::lint_comment},
       {"grbl", "%", Code::lint_syntax},
       {"grbl", "O100 call", Code::lint_syntax},
+      {"marlin", "PAUSE", Code::lint_syntax},
+      {"klipper", "G17 G1 X1", Code::lint_conflict},
+      {"klipper", "G1 F100\nX1", Code::lint_missing},
+      {"klipper", "G20", Code::lint_code},
   };
   for (const Case& c : cases) {
     Diagnostics diagnostics;
@@ -67,6 +71,15 @@ TEST(Lint, says_what_is_wrong) {
     ASSERT_FALSE(diagnostics.list().empty()) << c.text;
     EXPECT_EQ(diagnostics.list().front().code, c.code)
         << c.text << ": " << diagnostics.list().front().message;
+  }
+}
+
+TEST(Lint, takes_commands_in_words_where_there_are_some) {
+  for (const auto& [post, text] :
+       {std::pair("klipper", "PAUSE\nSET_FAN_SPEED FAN=box SPEED=0.5"),
+        std::pair("klipper", "T1\nM117 half done"), std::pair("marlin", "M117 x=1")}) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(lint_gcode(text, *find_post(post), "text", diagnostics)) << text;
   }
 }
 

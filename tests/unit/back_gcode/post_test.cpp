@@ -65,9 +65,15 @@ TEST(Post, writes_only_what_changes) {
   Toolpath path = at_origin();
   path.add(step::Cut{{0, 0, -1}, kFeed}, OriginId::none);
   path.add(step::Cut{{10, 0, -1}, kFeed}, OriginId::none);
-  path.add(step::Cut{{10, 0, -1}, kFeed}, OriginId::none);  // goes nowhere
   path.add(step::Cut{{10, 2.5, -1}, mm_per_min(300)}, OriginId::none);
-  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG1 Z-1 F600\nX10\nG1 Y2.5 F300\n");
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG1 Z-1 F600\nX10\nY2.5 F300\n");
+}
+
+TEST(Post, moves_that_lead_nowhere_stay_moves) {
+  Toolpath path = at_origin();
+  path.add(step::Cut{{0, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::Rapid{{0, 0.0001, 5}}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG1 X0 F600\nG0 X0\n");
 }
 
 TEST(Post, writes_inches) {
@@ -170,6 +176,27 @@ TEST(Post, laser_power_rides_on_the_moves) {
   path.add(step::Cut{{2, 0, 5}, kFeed}, OriginId::none);
   path.add(step::LaserPower{}, OriginId::none);
   EXPECT_EQ(posted(path, bare("laser")).text(), "G0 X0 Y0 Z5\nM4 S100\nG1 X1 F600\nX2 S200\nM5\n");
+}
+
+TEST(Post, a_power_told_with_its_mode_drops_an_older_one) {
+  Toolpath path = at_origin();
+  path.add(step::LaserPower{LaserMode::dynamic, 100}, OriginId::none);
+  path.add(step::LaserPower{LaserMode::dynamic, 200}, OriginId::none);
+  path.add(step::LaserPower{LaserMode::constant, 300}, OriginId::none);
+  path.add(step::Cut{{1, 0, 5}, kFeed}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("laser")).text(), "G0 X0 Y0 Z5\nM4 S100\nM3 S300\nG1 X1 F600\nM5\n");
+}
+
+TEST(Post, printers_get_one_command_a_line) {
+  Toolpath path = at_origin();
+  path.add(step::Cut{{1, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::Cut{{2, 0, 5}, kFeed}, OriginId::none);
+  path.add(step::Arc{.to = {4, 0, 5}, .centre = {3, 0}, .feed = kFeed}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("marlin")).text(), "G0 X0 Y0 Z5\nG1 X1 F600\nG1 X2\nG17\nG3 X4 Y0 I1 J0\n");
+  const std::size_t home = path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  path.set_unknown_axes(home, 7);
+  path.set_reference(home, Reference::home, 7);
+  EXPECT_TRUE(posted(path, bare("marlin")).said(Code::post_left_out));  // G28 would run to the switches
 }
 
 TEST(Post, beads_for_printers_only) {

@@ -33,22 +33,6 @@ TEST(Diagnostics, KeepsABoundedNumberOfEachCodeAndCountsTheRest) {
   EXPECT_EQ(diagnostics.dropped_codes(), std::vector<Code>{Code::file_unreadable});
 }
 
-TEST(Diagnostics, ForgetsWhatIsToldInAnotherWay) {
-  Diagnostics diagnostics(2);
-  for (int i = 0; i < 5; ++i) diagnostics.warning(Code::no_feed, {}, "mild");
-  diagnostics.error(Code::no_motion_mode, {}, "stays");
-  for (int i = 0; i < 3; ++i) diagnostics.error(Code::no_program_end, {}, "stays too");
-  diagnostics.warning(Code::no_program_end, {}, "mild");
-  diagnostics.forget_mild(Code::no_feed);
-  diagnostics.forget_mild(Code::no_program_end);
-  diagnostics.forget_mild(Code::bad_character);
-  EXPECT_EQ(diagnostics.warnings(), 0u);
-  EXPECT_EQ(diagnostics.errors(), 4u);
-  EXPECT_EQ(diagnostics.list().size(), 3u);
-  EXPECT_EQ(diagnostics.dropped(Code::no_feed), 0u);
-  EXPECT_EQ(diagnostics.dropped(Code::no_program_end), 1u);
-}
-
 TEST(Codes, HaveNamesAndMeaningsOfTheirOwn) {
   std::set<std::string_view> names;
   for (const Code code : all_codes()) {

@@ -71,6 +71,42 @@ TEST_F(Files, AnEndlessDeviceIsRefusedAtTheLimit) {
   EXPECT_EQ(diagnostics_.list()[0].code, Code::file_too_large);
 }
 
+class StoppedAtOnce : public Progress {
+  void phase(std::string_view) override {}
+  void report(double) override {}
+  bool stop_requested() override { return true; }
+};
+
+TEST_F(Files, ReadingAStreamCanBeStopped) {
+  if (!fs::exists("/dev/zero")) GTEST_SKIP() << "no /dev/zero here";
+  StoppedAtOnce progress;
+  EXPECT_FALSE(InputFile::open("/dev/zero", diagnostics_, std::size_t{4} << 30, &progress));
+  ASSERT_EQ(diagnostics_.errors(), 1u);
+  EXPECT_EQ(diagnostics_.list()[0].code, Code::stopped);
+}
+
+TEST_F(Files, ALinkStaysAndItsTargetIsReplaced) {
+  std::ofstream(path("a.txt")) << "old";
+  fs::create_symlink("a.txt", path("link.txt"));
+  OutputSet outputs;
+  ASSERT_TRUE(outputs.write(path("link.txt"), "new", diagnostics_));
+  ASSERT_TRUE(outputs.commit(diagnostics_));
+  EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+  EXPECT_EQ(content("a.txt"), "new");
+  EXPECT_EQ(count(), 2u);
+}
+
+TEST_F(Files, ADeviceIsWrittenToAndStaysOne) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  fs::create_symlink("/dev/full", path("full.txt"));
+  OutputSet outputs;
+  ASSERT_TRUE(outputs.write(path("full.txt"), "x", diagnostics_));
+  EXPECT_FALSE(outputs.commit(diagnostics_));
+  ASSERT_EQ(diagnostics_.errors(), 1u);
+  EXPECT_EQ(diagnostics_.list()[0].code, Code::file_unwritable);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
 TEST_F(Files, OutputsAppearTogetherOnCommit) {
   std::ofstream(path("a.txt")) << "old";
   OutputSet outputs;

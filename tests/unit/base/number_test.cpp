@@ -50,6 +50,15 @@ TEST(Number, ReadsOnlyWholeFiniteNumbers) {
   EXPECT_FALSE(parse_number("1 "));
 }
 
+TEST(Number, LengthsWithTheirUnit) {
+  EXPECT_EQ(parse_length("6.35", 1.0), 6.35);
+  EXPECT_EQ(parse_length("0.25in", 1.0), 6.35);
+  EXPECT_EQ(parse_length("1/4 Inch", 1.0), 6.35);
+  EXPECT_EQ(parse_length("6mm", 25.4), 6.0);
+  EXPECT_EQ(parse_length("2", 25.4), 50.8);
+  for (const char* text : {"", "in", "1/0", "6 ft", "x6mm", "1e999in"}) EXPECT_FALSE(parse_length(text, 1.0));
+}
+
 TEST(Number, ExactTextReadsBackAsTheSame) {
   for (const double v : {0.1, -1.0 / 3.0, 1e-300, 123456789.125}) EXPECT_EQ(parse_number(exact_text(v)), v);
 }

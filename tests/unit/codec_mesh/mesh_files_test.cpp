@@ -32,7 +32,7 @@ struct Box {
     colours[2] = colours[3] = 1;
     steps[2] = steps[3] = 42;
   }
-  MeshView view() const { return {positions, triangles, colours, palette, steps, "box <1> & \"two\""}; }
+  MeshView view() const { return {positions, triangles, colours, palette, steps, "box <1> & \"two\"", {}}; }
 };
 
 double volume(const std::vector<Triangle>& triangles) {
@@ -187,6 +187,17 @@ TEST(MeshFiles, ThreeMfReadsBack) {
   EXPECT_EQ(points.size(), 8u);
   EXPECT_EQ(red, 2);
   expect_box(triangles);
+}
+
+TEST(MeshFiles, MaterialsHaveTheNamesOfTheColours) {
+  const Box box;
+  MeshView view = box.view();
+  EXPECT_NE(write_mesh(view, MeshFormat::glb).find("\"colour 1\""), std::string::npos);
+  const std::vector<std::string> names{"stock", "tool 102"};
+  view.palette_names = names;
+  const std::string named = write_mesh(view, MeshFormat::glb);
+  EXPECT_NE(named.find("\"stock\""), std::string::npos);
+  EXPECT_NE(named.find("\"tool 102\""), std::string::npos);
 }
 
 TEST(MeshFiles, GlbReadsBack) {

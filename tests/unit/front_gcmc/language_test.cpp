@@ -228,6 +228,10 @@ const std::vector<Program> kScopes{
     {"local a = 2; message(a);",
      "warning: Locally scoped variable 'a' setting without local scope, adding to "
      "global scope|2"},
+    {"repeat(2) { local a = 1; a += 1; message(a); }",
+     "warning: Locally scoped variable 'a' setting without local scope, adding to global scope|2|"
+     "warning: Locally scoped variable 'a' setting without local scope, adding to global scope|"
+     "warning: Local scope variable 'a' already available in local scope|3"},
     {"function f() { const C = 3; return C; } message(f(), f());", "33"},
     {"function f() { foreach({[1]}; v) {} return isdefined(\"v\"); } message(f(), isdefined(\"v\"));", "10"},
 };
@@ -252,6 +256,49 @@ const std::vector<Program> kAssignments{
     {"\"a\"; x = 1;", "error: Statement has no effect"},
 };
 INSTANTIATE_TEST_SUITE_P(Assignments, Runs, testing::ValuesIn(kAssignments));
+
+const std::vector<Program> kAppending{
+    {"l = {}; function f(v) { l += {v}; l = l + {[v.x, 2]}; } f([1]); f([3]); message(l);",
+     "{[1],[1,2],[3],[3,2]}"},
+    {"function f(&k) { k = k + {[9, count(k)]}; } l = {[1]}; f(l); m = l; f(l); message(l, m);",
+     "{[1],[9,1],[9,2]}{[1],[9,1]}"},
+    {"v = [1]; l = {[2]}; m = l + {v}; l += {v}; v.x = 5; message(m, l, v);", "{[2],[1]}{[2],[1]}[5]"},
+    {"x = 2; l = {[1]}; l = l + (l + {[x]}); message(l);", "{[1],[1],[2]}"},
+    {"l = {[1]}; function f() { l += {[3]}; return [2]; } l = l + {f()}; message(l);", "{[1],[2]}"},
+    {"x = 1; s = \"a\"; s += {[x]}; message(s);", "a{[1]}"},
+    {"x = 1; u = undef(); u += {[x]}; message(u); u +|= {[x]}; message(u);", "<undef>|{[1]}"},
+    {"x = 1; l = {}; l += {x};", "error: Vectorlist entries must be vectors"},
+    {"x = [1]; x += {x};",
+     "error: Scalars and vectors can only be added to scalars vectors and vector lists "
+     "(lv=VAL_VECTOR, rv=VAL_VECTORLIST)"},
+    {"function f(k) { foreach(k; v) { return v; } } l = {[1]}; repeat(2) { l += {f(l)}; } message(l);",
+     "{[1],[1],[1]}"},
+};
+INSTANTIATE_TEST_SUITE_P(Appending, Runs, testing::ValuesIn(kAppending));
+
+// A small integer on the right is part of the instruction: the rules are the same.
+const std::vector<Program> kSmallIntegers{
+    {"x = 5mm; x = x + 1; message(x, x - 2, x * 3, x / 4, x % 4);", "6mm4mm18mm1mm2mm"},
+    {"x = 2147483647; x = x + 1; message(x); x = x - 1; message(x * 2);", "-2147483648|-2"},
+    {"x = -2147483647 - 1; message(x / -1, x % -1);", "-21474836480"},
+    {"x = [2, 4]; message(x * 2, x / 2, x % 3);", "[4,8][1,2][2,1]"},
+    {"x = 1.5; message(x + 1, x - 1, x * 2, x / 2);", "2.5000.5003.0000.750"},
+    {"x = \"a\"; message(x + 1);", "a1"},
+    {"x = undef(); message(x + 1, x * 2);", "<undef><undef>"},
+    {"x = {[1]}; message(x - 1);",
+     "error: Only scalars/vectors can be subtracted from scalars/vectors (lv=VAL_VECTORLIST, rv=VAL_INT)"},
+    {"x = 7; message(x / 0);", "error: Divide by zero"},
+    {"x = 7; message(x % 0);", "error: Modulo by zero"},
+    {"message(y + 1);", "error: Variable 'y' undefined"},
+    {"x = 2; message(x < 3, x > 3, x <= 2, x >= 3, x == 2, x != 2);", "101010"},
+    {"x = 2.5; message(x < 3, x > 3, x <= 2, x >= 3, x == 2, x != 2);", "100001"},
+    {"x = 2; if(x < 3) { message(1); } if(!(x < 3)) { message(2); } while(x != 4) { x++; } message(x);",
+     "1|4"},
+    {"x = 2mm; if(x < 3) { message(1); }",
+     "warning: Possible unit mismatch; comparing units UNIT_MM with none|1"},
+    {"x = \"a\"; if(x == 1) {}", "warning: Comparison of VAL_STRING with VAL_INT, result is always false"},
+};
+INSTANTIATE_TEST_SUITE_P(SmallIntegers, Runs, testing::ValuesIn(kSmallIntegers));
 
 const std::vector<Program> kRuntimeErrors{
     {"message(y);", "error: Variable 'y' undefined"},

@@ -187,12 +187,12 @@ TEST(GcmcPath, TheNumberOfStepsIsLimited) {
 
 TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
   const std::string folder = testing::TempDir();
-  const std::string file = folder + "/kerf_gcmc_included.gcmc";
+  const std::string file = folder + "kerf_gcmc_included.gcmc";
   std::ofstream(file) << "inside = 7;\nmessage(oops);\n";
   GcmcOptions options = bare();
   options.include_paths = {folder};
   const auto ran = run("include(\"kerf_gcmc_included.gcmc\");", options);
-  EXPECT_EQ(to_string(ran.messages.at(0).where), folder + "/kerf_gcmc_included.gcmc:2:13");
+  EXPECT_EQ(to_string(ran.messages.at(0).where), file + ":2:13");
   std::ofstream(file) << "include(\"kerf_gcmc_included.gcmc\");\n";
   EXPECT_NE(said_by("include(\"kerf_gcmc_included.gcmc\");", options).find("nested too deeply"),
             std::string::npos);
@@ -262,6 +262,10 @@ TEST(GcmcLibrary, ArcsAsPoints) {
   EXPECT_EQ(points("count(varc_cw([10mm,0mm],5mm)), \" \", count(vcircle_cw([0mm,50mm])), \" \", "
                    "count(vcircle_cw([0mm,1mm]))"),
             "Runtime message(): 180 3142 360");
+  EXPECT_EQ(
+      points("vcircle_ccw([5mm,0mm,8mm],0,5mm,90deg)"),
+      "Runtime message(): {[2.500mm,-4.330mm,1.333mm],[7.500mm,-4.330mm,2.667mm],[10.000mm,-0.000mm,4.000mm],"
+      "[7.500mm,4.330mm,5.333mm],[2.500mm,4.330mm,6.667mm],[0.000mm,0.000mm,8mm]}");
   EXPECT_EQ(points("vcircle_cw([-,5mm,0mm],0,10mm,90deg,PLANE_YZ)[0]"),
             "Runtime message(): [-,5.000mm,5.000mm]");
   EXPECT_EQ(points("varc_cw([10mm,3mm,0mm],8mm,0,10mm,45deg,PLANE_XZ)"),
@@ -269,6 +273,13 @@ TEST(GcmcLibrary, ArcsAsPoints) {
   EXPECT_EQ(points("varc_cw([10mm,0mm],4mm)"),
             "Runtime error(): varc_cw() radius (4mm) is less than two times distance "
             "from start to end (D=-36.000mm)|Runtime message(): {}");
+}
+
+TEST(GcmcLibrary, ListsCanBeTurned) {
+  const auto ran = run("include(\"vlistrotate.inc.gcmc\"); message(vlistrotate({[1],[2],[3]}, 1));");
+  ASSERT_EQ(ran.said.size(), 2u);
+  EXPECT_NE(ran.said[0].find("deprecated"), std::string::npos);
+  EXPECT_EQ(ran.said[1], "Runtime message(): {[3],[1],[2]}");
 }
 
 TEST(GcmcLibrary, BezierCurves) {

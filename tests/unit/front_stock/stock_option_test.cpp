@@ -41,6 +41,26 @@ TEST(StockOption, InchesAreConverted) {
   EXPECT_EQ(block("4\" 2\" 0.5\""), box({0, 0, -12.7}, {101.6, 50.8, 0}));
 }
 
+TEST(StockOption, AUnitBehindTheLastLengthIsThatOfAll) {
+  for (const char* text : {"4x2x0.5in", "4 x 2 x 0.5 in", "4x2x0.5\"", "4 2 0.5 inches",
+                           "4in x 50.8mm x 0.5 inch", "4 in x 2 in x 0.5 in at lower-left top"})
+    EXPECT_EQ(block(text), box({0, 0, -12.7}, {101.6, 50.8, 0})) << text;
+  EXPECT_EQ(block("100 x 60 x 12 mm"), box({0, 0, -12}, {100, 60, 0}));
+  for (const char* text : {"0,0,-0.5 to 4,2,0in", "0,0,-0.5in to 4,2,0in", "min 0 0 -0.5 in max 4in 2in 0",
+                           "0,0,-12.7mm to 4in,2in,0"})
+    EXPECT_EQ(block(text), box({0, 0, -12.7}, {101.6, 50.8, 0})) << text;
+}
+
+TEST(StockOption, UnitsOfSomeLengthsOnlyAreRefused) {
+  for (const char* text :
+       {"4inx2x0.5", "4inx2x0.5in", "4x2inx0.5", "0,0,-0.5in to 4,2,0", "0,0,-0.5 to 4in,2,0",
+        "0,0,-0.5 to 4in,2in,0in", "4x2x0.5ft", "4x2x0.5inin", "4x2x0.5 in mm"}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read_stock_option(text, {}, diagnostics)) << text;
+    EXPECT_EQ(diagnostics.errors(), 1u) << text;
+  }
+}
+
 TEST(StockOption, Corners) {
   const Box3 want = box({-5, -6, -12.5}, {100, 60, 1});
   for (const char* text :

@@ -105,12 +105,78 @@ TEST(Hazards, CuttingDeeperThanTheFluteInOneGo) {
   path.tool(1).rapid({-10, 20, 2}).cut({-10, 20, -12}).cut({30, 20, -12});
   const auto hazards = hazards_of(path);
   EXPECT_TRUE(has(hazards, HazardKind::over_flute));
-  EXPECT_TRUE(has(hazards, HazardKind::neck_contact));
+  EXPECT_FALSE(has(hazards, HazardKind::neck_contact));  // one fault, told once
   EXPECT_FALSE(has(hazards, HazardKind::shank_contact));
   for (const Hazard& h : hazards) {
     if (h.kind == HazardKind::over_flute) {
       EXPECT_NEAR(h.depth.mm(), 2.0, 1e-3);
     }
+  }
+}
+
+TEST(Hazards, TooDeepACutHasNoConsequences) {
+  // An end mill whose shank is as thick as its flutes; what stands above the flutes is taken with the cut.
+  Tool tool = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 10, 0}}));
+  for (const bool has_shank : {true, false}) {
+    tool.silhouette.shank = has_shank ? profile({{3, 10, 0}, {3, 50, 0}}) : Profile{};
+    ToolTable tools;
+    tools.set(1, tool);
+    Path path;
+    path.tool(1).rapid({-10, 20, 2}).cut({-10, 20, -12}).cut({30, 20, -12}).rapid({30, 20, 5});
+    path.rapid({10, 20, 5}).rapid({10, 20, -12});
+    Diagnostics diagnostics;
+    const auto result = run(path.path(), tools, block({0, 0, -30}, {60, 40, 0}), kPitch, diagnostics);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->hazards.size(), 1u);
+    EXPECT_EQ(result->hazards[0].kind, HazardKind::over_flute);
+    EXPECT_EQ(result->hazards[0].step, 3u);
+  }
+}
+
+TEST(Hazards, UndercutsWithANarrowNeckAreNone) {
+  // A disc on a thin neck that walks in a slot that an end mill has made before.
+  ToolTable tools;
+  tools.set(1, make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}})));
+  Tool disc = make_drawn(2, profile({{0, 0, 0}, {6, 0, 0}, {6, 2, 0}}));
+  disc.silhouette.neck = profile({{2.5, 2, 0}, {2.5, 30, 0}});
+  tools.set(2, disc);
+  Path path;
+  path.tool(1).rapid({-10, 20, 2}).cut({-10, 20, -8}).cut({70, 20, -8}).rapid({70, 20, 5});
+  path.tool(2).rapid({-10, 20, 5}).cut({-10, 20, -8}).cut({70, 20, -8}).rapid({70, 20, 5});
+  Diagnostics diagnostics;
+  const auto result = run(path.path(), tools, block({0, 0, -12}, {60, 40, 0}), kPitch, diagnostics);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->hazards.empty());
+  EXPECT_NEAR(result->removed_by_step[8], 60 * 6 * 2, 0.1);  // the undercut itself
+}
+
+TEST(Hazards, NothingIsMetBesideABlockThatThePitchDoesNotDivide) {
+  // The last columns of a row hold less than half a pitch.
+  const Stock odd = block({0, 0, -30}, {59.93, 39.94, 0});
+  ToolTable tools;
+  tools.set(1, whole_tool(1));
+  const double x = 62.93, y = 42.94;  // a radius beside the block
+  const auto walk_round = [&](double inwards, Path& path, bool at_feed) {
+    const auto go = [&](Point3 to) { at_feed ? path.cut(to) : path.rapid(to); };
+    path.tool(1).rapid({x + 5, -10, 5}).rapid({x + 5, -10, -5});
+    go({x - inwards, -10, -5});
+    go({x - inwards, y + 10, -5});
+    go({-10, y + 10, -5});
+    go({-10, y - inwards, -5});
+    go({x + 10, y - inwards, -5});
+  };
+  for (const bool at_feed : {false, true}) {
+    Path tangent, inside;
+    walk_round(0.0, tangent, at_feed);
+    walk_round(0.03, inside, at_feed);  // the last columns stand 0.015 and 0.02 mm from the block's sides
+    Diagnostics diagnostics;
+    const auto none = run(tangent.path(), tools, odd, kPitch, diagnostics);
+    const auto some = run(inside.path(), tools, odd, kPitch, diagnostics);
+    ASSERT_TRUE(none && some);
+    EXPECT_TRUE(none->hazards.empty());
+    EXPECT_EQ(none->removed.mm3(), 0.0);
+    EXPECT_EQ(some->hazards.size(), at_feed ? 0u : 2u);
+    EXPECT_GT(some->removed.mm3(), 0.0);
   }
 }
 

@@ -117,6 +117,27 @@ TEST(Simulate, GridAndColumnsAgree) {
   }
 }
 
+TEST(Simulate, ColumnsCutThroughKnowWhoTookTheLast) {
+  Path path;  // 2 plunge, 3 slot through, 6 keyhole beside it, 7 deeper where nothing is left
+  path.tool(1).rapid({10, 20, 2}).cut({10, 20, -2}).cut({10, 20, -11}).cut({30, 20, -11});
+  path.tool(2).rapid({40, 20, 2}).cut({40, 20, -12}).cut({40, 20, -13});
+  Diagnostics diagnostics;
+  const auto result =
+      run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics);
+  ASSERT_TRUE(result);
+  const ColumnGrid grid = result->workpiece.grid();
+  ASSERT_EQ(grid.cut_through.size(), static_cast<std::size_t>(grid.nx * grid.ny));
+  const auto at = [&](double x, double y) {
+    return grid.cut_through[static_cast<std::size_t>(static_cast<int>(y / 0.5) * grid.nx) +
+                            static_cast<std::size_t>(x / 0.5)];
+  };
+  EXPECT_EQ(at(10, 20), 3u);
+  EXPECT_EQ(at(25, 20), 4u);
+  EXPECT_EQ(at(40, 20), 7u);    // in the neck
+  EXPECT_EQ(at(43.2, 20), 7u);  // the head has passed all of it from above
+  EXPECT_EQ(at(2, 2), kStockSurface);
+}
+
 TEST(Simulate, EveryEndKnowsTheStepThatMadeIt) {
   Path path;  // 0 tool, 1 rapid, 2 plunge, 3 slot, 4 tool, 5 rapid, 6 beside, 7 undercut through the slot's
               // end
@@ -227,7 +248,7 @@ TEST(Refusals, UnknownTool) {
   const Refusal refusal = attempt(plain_cut(77), square_and_keyhole());
   EXPECT_FALSE(refusal.ran);
   ASSERT_TRUE(refusal.says(Code::no_such_tool));
-  EXPECT_NE(refusal.diagnostics.list()[0].hint.find("--tool"), std::string::npos);
+  EXPECT_NE(refusal.diagnostics.list()[0].hint.find("\"square d="), std::string::npos);
   EXPECT_NE(to_string(refusal.diagnostics.list()[0].where), "");
 }
 

@@ -38,16 +38,7 @@ TEST(ParseZero, CaseSpacesAndHyphensDoNotCount) {
   for (const std::string& name : zero_height_names()) EXPECT_TRUE(parse_zero_height(name)) << name;
 }
 
-TEST(StockAround, AddsMarginAndFloor) {
-  Box3 cuts;
-  cuts.add(Point3{10, 20, -3});
-  cuts.add(Point3{30, 25, -1});
-  expect_box(stock_around(cuts, mm(5), mm(2)), {5, 15, -5}, {35, 30, 0});
-  cuts.add(Point3{10, 20, 4});
-  expect_box(stock_around(cuts, mm(5), mm(2)), {5, 15, -5}, {35, 30, 4});
-  EXPECT_TRUE(is_solid(stock_around(Box3{}, mm(5), mm(2))));
-  EXPECT_FALSE(is_solid(Stock{}));
-}
+TEST(Stock, NoVolumeIsNotSolid) { EXPECT_FALSE(is_solid(Stock{})); }
 
 struct Told {
   std::optional<Stock> stock;

@@ -1,0 +1,52 @@
+// From points and free curves to lines and arcs, and from arcs to points, each within a tolerance.
+//
+//   const auto outline = fit_bezier({{0, 0}, {10, 20}, {30, -5}, {40, 0}}, mm(0.01), {}, diagnostics);
+//
+// Frame as in outline.h: mm, y up. Errors go to Diagnostics: too few points, numbers that are not finite,
+// knots that fall (7012, 7002), a tolerance that is not above 0 (7043).
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kerf/outline.h"
+
+namespace kerf {
+
+/// Of the messages of the functions below.
+struct FitOptions {
+  std::string name{};
+  Origin where{};
+};
+
+/// Lines and arcs (of at most half a turn) along a polyline. They begin and end where it does, and pass
+/// through some of its points; nothing of them is further than `within` from the polyline, and no point of it
+/// further from them. A closed polyline repeats its first point at the end.
+std::optional<Outline> fit_arcs(const std::vector<Point2>& points, Length within, const FitOptions& options,
+                                Diagnostics& diagnostics);
+
+/// A Bézier curve of a degree up to 25 as arcs in pairs that keep its direction where they meet. Each piece
+/// is compared with the curve at 15 places; tolerances below 2^-40 of the largest coordinate count as that.
+/// Pieces of a millionth of the curve's parameter become lines: the tip of a cusp.
+std::optional<Outline> fit_bezier(const std::vector<Point2>& control, Length within,
+                                  const FitOptions& options, Diagnostics& diagnostics);
+
+/// A B-spline as DXF and STEP have it.
+struct Spline {
+  int degree = 3;
+  std::vector<Point2> control;  ///< mm
+  std::vector<double> knots;    ///< as many as control points and degree and 1; never falling
+  std::vector<double> weights;  ///< none, or one from 0.001 to 1000 for each control point
+};
+/// As `fit_bezier`, piece by piece between the knots.
+std::optional<Outline> fit_spline(const Spline& spline, Length within, const FitOptions& options,
+                                  Diagnostics& diagnostics);
+
+/// The points of an outline whose chords stay within `chord` of its arcs: its ends and points between, at
+/// least 16 to a full circle and at most 4096 an arc. A closed outline ends with its first point.
+std::vector<Point2> flattened(const Outline& outline, Length chord);
+/// Counter-clockwise from the right, without the first point repeated.
+std::vector<Point2> flattened(const Circle& circle, Length chord);
+
+}  // namespace kerf

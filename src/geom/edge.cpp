@@ -1,0 +1,128 @@
+// Chains of edges from lines and arcs.
+#include "edge.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kerf::region_detail {
+namespace {
+
+/// Quadrants in the order of turning, each with its begin and without its end: 0 begins at +x.
+int quadrant(Point2 v) {
+  if (v.x > 0.0 && v.y >= 0.0) return 0;
+  if (v.x <= 0.0 && v.y > 0.0) return 1;
+  return v.x < 0.0 ? 2 : 3;
+}
+
+constexpr Point2 kEnds[4] = {{0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}};  // of the quadrants
+
+}  // namespace
+
+Point2 centre_of(Point2 chord, double radius, double turn) {
+  const double c2 = dot(chord, chord);
+  const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * c2));
+  return 0.5 * chord + (turn * height / std::sqrt(c2)) * left_of(chord);
+}
+
+Point2 direction_at(Point2 unit, double chord, double curvature, double ahead) {
+  if (curvature == 0.0) return unit;
+  // Seen from a point of the circle, another at distance d lies asin(curvature d / 2) off the tangent.
+  const double near = std::clamp(0.5 * curvature * ahead, -1.0, 1.0);
+  const double far = std::clamp(0.5 * curvature * chord, -1.0, 1.0);
+  const double near_cosine = std::sqrt(1.0 - near * near), far_cosine = std::sqrt(1.0 - far * far);
+  const double sine = near * far_cosine - near_cosine * far, cosine = near_cosine * far_cosine + near * far;
+  return cosine * unit + sine * left_of(unit);
+}
+
+void EdgeSet::begin(Point2 at) {
+  first_ = static_cast<std::uint32_t>(points.size());
+  first_edge_ = edges.size();
+  points.push_back(at);
+}
+
+void EdgeSet::push(Point2 to, std::uint32_t number, double radius, double turn) {
+  Edge e;
+  e.from = edges.size() == first_edge_ ? first_ : edges.back().to;
+  e.a = points[e.from];
+  e.b = to;
+  e.to = number;
+  e.source = source_;
+  e.group = group_;
+  if (turn != 0.0) {
+    // Flatter than rounding can tell: a line. Ends that were moved may be further apart than the circle is
+    // wide.
+    const double chord2 = dot(e.chord(), e.chord());
+    e.radius = std::max(radius, 0.5 * std::sqrt(chord2));
+    if (chord2 > 1e-3 * weld_ * e.radius) {
+      e.turn = turn;
+      e.centre = centre_of(e.chord(), e.radius, turn);
+    }
+  }
+  edges.push_back(e);
+}
+
+void EdgeSet::piece_to(Point2 to, double radius, double turn) {
+  const Point2 step = to - here();
+  if (dot(step, step) <= weld_ * weld_) return;
+  points.push_back(to);
+  push(to, static_cast<std::uint32_t>(points.size() - 1), radius, turn);
+}
+
+void EdgeSet::line_to(Point2 to) { piece_to(to, 0.0, 0.0); }
+
+void EdgeSet::arc_to(Point2 from, Point2 to, Point2 centre, double radius, double turn) {
+  // Mirrored in y, a clockwise arc is a counter-clockwise one.
+  const auto seen = [&](Point2 p) { return Point2{p.x - centre.x, turn * (p.y - centre.y)}; };
+  const Point2 begin = seen(from), end = seen(to);
+  const int first = quadrant(begin);
+  int ends = (quadrant(end) - first) & 3;
+  if (ends == 0 && cross(begin, end) < 0.0) ends = 4;
+  for (int i = 0; i < ends; ++i) {
+    const Point2 extreme = kEnds[(first + i) & 3];
+    piece_to(centre + radius * Point2{extreme.x, turn * extreme.y}, radius, turn);
+  }
+  piece_to(to, radius, turn);
+}
+
+void EdgeSet::close() {
+  if (edges.size() == first_edge_) {  // all of it in one point
+    points.resize(first_);
+    return;
+  }
+  const Point2 first = points[first_];
+  if (distance(here(), first) > weld_) {
+    push(first, first_, 0.0, 0.0);
+    return;
+  }
+  // The last point is the first one.
+  const Edge last = edges.back();
+  edges.pop_back();
+  points.pop_back();
+  belongs_to(last.source, last.group);
+  push(first, first_, last.radius, last.turn);
+}
+
+void EdgeSet::circle(Point2 centre, double radius, double turn) {
+  const Point2 right = centre + Point2{radius, 0.0}, left = centre - Point2{radius, 0.0};
+  begin(right);
+  arc_to(right, left, centre, radius, turn);
+  arc_to(left, right, centre, radius, turn);
+  close();
+}
+
+std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t source, std::uint32_t group) {
+  set.begin(outline.start);
+  Point2 from = outline.start;
+  for (const Segment& s : outline.segments) {
+    set.belongs_to(source++, group);
+    const auto c = outline_detail::make_carrier(from, s, 0.0);
+    if (c.is_arc())
+      set.arc_to(from, s.to, from + c.centre, c.radius, c.turn);
+    else
+      set.line_to(s.to);
+    from = s.to;
+  }
+  return source;
+}
+
+}  // namespace kerf::region_detail

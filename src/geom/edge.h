@@ -1,0 +1,86 @@
+// Edges: what the plane is divided by. Lines, and arcs of at most a quarter turn that run one way in x and in
+// y.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "segment.h"
+
+namespace kerf::region_detail {
+
+using outline_detail::left_of;
+using outline_detail::norm;
+
+struct Box {
+  double low_x, low_y, high_x, high_y;
+  bool overlaps(const Box& o) const {
+    return low_x <= o.high_x && o.low_x <= high_x && low_y <= o.high_y && o.low_y <= high_y;
+  }
+};
+
+/// From point `a` to point `b`. An arc is told by its ends, its radius and its turn, so that both ends lie on
+/// it; the centre follows from them and is kept relative to `a`, which keeps large circles accurate.
+struct Edge {
+  Point2 a, b;
+  Point2 centre;                   // of an arc, relative to `a`
+  double radius = 0.0;             // of an arc
+  double turn = 0.0;               // 0 a line, +1 counter-clockwise, -1 clockwise
+  std::uint32_t from = 0, to = 0;  // points `a` and `b` by number
+  std::uint32_t source = 0;        // what it is a piece of, by the caller's numbers
+  std::uint32_t group = 0;         // whose boundary it is: 0 or 1
+
+  bool is_arc() const { return turn != 0.0; }
+  Point2 chord() const { return b - a; }
+  Box box(double margin) const {
+    return {std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin, std::max(a.x, b.x) + margin,
+            std::max(a.y, b.y) + margin};
+  }
+};
+
+/// Chains of edges in the making. Points closer than `weld` to the one before are not made.
+class EdgeSet {
+ public:
+  explicit EdgeSet(double weld) : weld_(weld) {}
+
+  /// What the edges that follow belong to.
+  void belongs_to(std::uint32_t source, std::uint32_t group = 0) {
+    source_ = source;
+    group_ = group;
+  }
+  void begin(Point2 at);
+  void line_to(Point2 to);
+  /// An arc of less than a turn with `radius` > 0 about `centre`. `from` is the last point, before it was
+  /// joined to one nearby.
+  void arc_to(Point2 from, Point2 to, Point2 centre, double radius, double turn);
+  /// Joins the last point to the first; what is between them is a line.
+  void close();
+  /// A whole circle, as a chain of its own.
+  void circle(Point2 centre, double radius, double turn);
+
+  double weld() const { return weld_; }
+  Point2 here() const { return points.back(); }
+
+  std::vector<Edge> edges;
+  std::vector<Point2> points;  // ends of edges, by number
+
+ private:
+  void piece_to(Point2 to, double radius, double turn);
+  void push(Point2 to, std::uint32_t number, double radius, double turn);
+  double weld_;
+  std::uint32_t source_ = 0, group_ = 0;
+  std::uint32_t first_ = 0;     // point where the chain begins
+  std::size_t first_edge_ = 0;  // edge where the chain begins
+};
+
+/// Appends the segments of an outline, each a source of its own from `source` on; returns the next number.
+std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t source, std::uint32_t group);
+
+/// Centre of the circle of an arc of at most half a turn, relative to its begin.
+Point2 centre_of(Point2 chord, double radius, double turn);
+
+/// Which way a curve runs at the distance `ahead` from its begin: its chord's direction `unit`, turned by
+/// what a circle of this curvature (above 0: to the left) turns between there and the chord's end.
+Point2 direction_at(Point2 unit, double chord, double curvature, double ahead);
+
+}  // namespace kerf::region_detail

@@ -1,0 +1,164 @@
+// Where the top of the stock is, told from the cuts. What is looked at: plunges (feeds that go down) and
+// sideways cuts (feeds that do not, at a height that a plunge or a rapid move down has reached). Feeds at a
+// height to which the tool was lifted are travel above the stock, as programs without rapid moves have it.
+#include "kerf/assumed_stock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace kerf {
+namespace {
+
+constexpr double kSameHeight = 1e-4;  // mm; programs have three or four decimals
+/// Share of the sideways cuts above Z0 from which on Z0 is not the top. Programs with Z0 on top have a few
+/// above it at most (a first pass that levels the stock), programs with Z0 on the bed most of them.
+constexpr double kShareAboveTop = 0.2;
+constexpr double kIntoTheBed = 1.0;  // mm; how far cuts that go through reach below a bed at Z0
+constexpr unsigned kAxisZ = 4;       // in masks of unknown axes
+constexpr double kNowhere = std::numeric_limits<double>::infinity();
+
+/// A feed move, as far as it matters here.
+struct Feed {
+  Point3 from, to;
+  double sideways = 0.0;  // mm
+  bool down() const { return to.z < from.z - kSameHeight; }
+  bool up() const { return to.z > from.z + kSameHeight; }
+  double top() const { return std::max(from.z, to.z); }
+};
+
+Feed feed_of(const Step& s, Point3 from) {
+  Feed feed{from, s.to(), std::hypot(s.to().x - from.x, s.to().y - from.y)};
+  if (s.kind() == StepKind::arc && s.arc().plane == Plane::xy) feed.sideways = walk_of(s, from).length();
+  return feed;
+}
+
+/// Calls plunge(feed, first) for every feed that goes down, `first` where none came just before it, and
+/// cut(feed, after_plunge) for every sideways cut.
+template <class Plunge, class Cut>
+void for_each_feed(const Toolpath& path, Plunge&& plunge, Cut&& cut) {
+  bool lifted = true, plunging = false;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    Feed feed = feed_of(s, context.from);
+    if ((s.unknown_axes() & kAxisZ) != 0) return;
+    if ((context.unknown_from & kAxisZ) != 0) {  // the first height of the program
+      feed.from.z = feed.to.z;
+      lifted = !s.is_cutting();
+    }
+    if (!s.is_cutting()) {
+      lifted = feed.up() || (lifted && !feed.down());
+      plunging = false;
+    } else if (feed.down()) {
+      plunge(feed, !plunging);
+      plunging = true;
+      lifted = false;
+    } else {
+      if (feed.sideways <= kSameHeight)
+        lifted = lifted || feed.up();
+      else if (!lifted)
+        cut(feed, plunging);
+      plunging = false;
+    }
+  });
+}
+
+/// What the heights of all cuts say.
+struct Heights {
+  double lowest = kNowhere;
+  double highest_cut = -kNowhere;               // of the sideways ones
+  double highest_begin = -kNowhere;             // of plunges
+  double sideways = 0.0, sideways_above = 0.0;  // mm; above: above Z0
+
+  /// Whether the stock stands on Z0 instead of hanging below it.
+  bool on_bed() const {
+    if (lowest >= -kSameHeight) return sideways_above > 0.0 || (sideways == 0.0 && highest_begin > 0.0);
+    return sideways_above > kShareAboveTop * sideways;
+  }
+};
+
+Heights heights_of(const Toolpath& path) {
+  Heights h;
+  for_each_feed(
+      path,
+      [&](const Feed& feed, bool) {
+        h.lowest = std::min(h.lowest, feed.to.z);
+        h.highest_begin = std::max(h.highest_begin, feed.from.z);
+      },
+      [&](const Feed& feed, bool) {
+        h.lowest = std::min({h.lowest, feed.from.z, feed.to.z});
+        h.highest_cut = std::max(h.highest_cut, feed.top());
+        h.sideways += feed.sideways;
+        if (feed.top() > kSameHeight) h.sideways_above += feed.sideways;
+      });
+  return h;
+}
+
+/// The top of a stock that stands on the bed: above the highest cut, and at most where plunges to it begin.
+std::pair<double, AssumedTop> top_above_bed(const Toolpath& path, const Heights& heights) {
+  if (heights.sideways == 0.0) return {heights.highest_begin, AssumedTop::plunge};
+  double begin = kNowhere;                   // lowest begin of a plunge at or above the highest cut
+  double first = -kNowhere, second = first;  // the highest two heights that plunges end at
+  for_each_feed(
+      path,
+      [&](const Feed& feed, bool is_first) {
+        if (is_first && feed.from.z >= heights.highest_cut - kSameHeight)
+          begin = std::min(begin, feed.from.z);
+      },
+      [&](const Feed& feed, bool after_plunge) {
+        const double end = feed.from.z;
+        if (!after_plunge || std::abs(end - first) <= kSameHeight) return;
+        if (end > first) {
+          second = first;
+          first = end;
+        } else {
+          second = std::max(second, end);
+        }
+      });
+  const double pass_above = std::isfinite(second) ? first + (first - second) : kNowhere;
+  const double top = std::min(pass_above, begin);
+  if (top == kNowhere || top <= heights.highest_cut) return {heights.highest_cut, AssumedTop::cuts};
+  return {top, pass_above < begin ? AssumedTop::passes : AssumedTop::plunge};
+}
+
+/// Bounds of the feeds that reach below the top.
+Box3 bounds_below(const Toolpath& path, double top) {
+  Box3 box;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    if (!s.is_cutting() || (s.unknown_axes() & kAxisZ) != 0) return;
+    Box3 of_step;
+    if (s.kind() == StepKind::arc) of_step = walk_of(s, context.from).bounds();
+    of_step.add(s.to());
+    const Feed feed = feed_of(s, context.from);
+    const bool lifts = feed.sideways <= kSameHeight && feed.up();
+    if (of_step.low.z <= top + kSameHeight && !lifts) box.add(of_step);
+  });
+  return box;
+}
+
+}  // namespace
+
+std::optional<AssumedStock> assume_stock(const Toolpath& path, Length margin, Length floor) {
+  const Heights heights = heights_of(path);
+  const bool on_bed = heights.on_bed();
+  AssumedStock assumed;
+  double top = 0.0;
+  if (on_bed) std::tie(top, assumed.top) = top_above_bed(path, heights);
+  Box3 cuts = bounds_below(path, top);
+  if (cuts.empty()) {  // feeds at one height, to which the tool was lifted
+    cuts = bounds_below(path, kNowhere);
+    if (cuts.empty()) return std::nullopt;
+    top = cuts.high.z;
+    assumed.top = AssumedTop::cuts;
+  }
+  Box3& block = assumed.stock.block;
+  block.low = cuts.low - Point3{margin.mm(), margin.mm(), 0.0};
+  block.high = cuts.high + Point3{margin.mm(), margin.mm(), 0.0};
+  block.high.z = top;
+  const bool through_to_bed = on_bed && cuts.low.z >= -kIntoTheBed;
+  block.low.z = through_to_bed ? std::min(cuts.low.z, 0.0) : std::min(cuts.low.z, top) - floor.mm();
+  return assumed;
+}
+
+}  // namespace kerf

@@ -1,0 +1,100 @@
+// Taking swept intervals away from the columns of a micro.
+#if defined(KERF_SIM_TAKE_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef KERF_SIM_TAKE_INL_H
+#undef KERF_SIM_TAKE_INL_H
+#else
+#define KERF_SIM_TAKE_INL_H
+#endif
+
+#include "sim/vector-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace kerf::sim::HWY_NAMESPACE {
+
+/// Takes all above `low` from columns that stand on the floor. Returns the length taken of each.
+HWY_INLINE Vector take_open(Tile& tile, int micro, Vector low, Ids step, Real same) {
+  const Vector old = load(tile.top[micro]);
+  const Vector left = only(low >= same, low);
+  const Mask cut = left + same < old;
+  const Vector now = select(cut, left, old);
+  store(now, tile.top[micro]);
+  store_ids(select(cut, step, load_ids(tile.top_step[micro])), tile.top_step[micro]);
+  tile.micro_top[micro] = highest_of(now);
+  return old - now;
+}
+
+/// One interval of 16 columns less [low, high]; columns where that leaves two intervals are returned as bits,
+/// and the caller stores what is above the gap.
+HWY_INLINE unsigned take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Real same, Vector& taken) {
+  const Vector l = load(slot.low), h = load(slot.high);
+  const Vector a = higher_of(low, l), b = lower_of(high, h);
+  const Mask bottom = a <= l + same, top = b + same >= h;
+  const Mask meets = (b > a) & ((b - a > same) | (bottom & top));
+  const Mask all_of_it = meets & bottom & top;
+  const Mask from_below = meets & bottom & ~top, with_new_top = meets & ~bottom;
+  store(select(all_of_it, kFar, select(from_below, b, l)), slot.low);
+  store(select(all_of_it, -kFar, select(with_new_top, a, h)), slot.high);
+  store_ids(select(from_below, step, load_ids(slot.low_step)), slot.low_step);
+  // Of an interval that ends here too: Tile::cut_through reads it.
+  store_ids(select(with_new_top | all_of_it, step, load_ids(slot.high_step)), slot.high_step);
+  taken = taken + select(all_of_it, h - l, only(meets, b - a));
+  return bits_of(meets & ~bottom & ~top);
+}
+
+/// Finds the highest and lowest material of a micro with a chain again.
+HWY_INLINE void update_bounds(Tile& tile, int micro) {
+  Vector high = -kFar, low = kFar;
+  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
+    high = higher_of(high, load(tile.slots[static_cast<std::size_t>(k)].high));
+    low = lower_of(low, load(tile.slots[static_cast<std::size_t>(k)].low));
+  }
+  tile.micro_top[micro] = highest_of(high);
+  tile.micro_bottom[micro] = lowest_of(low);
+}
+
+/// Takes [low, high] from a micro with a chain.
+HWY_INLINE Vector take_from_chain(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same) {
+  Vector taken;
+  Remnant rests[kLanes];
+  int count = 0;
+  alignas(64) std::uint32_t steps[kLanes];
+  store_ids(step, steps);
+  Lanes gap_top;
+  store(high, gap_top);
+  for (std::int32_t k = tile.chain[micro]; k >= 0;) {
+    Slot& slot = tile.slots[static_cast<std::size_t>(k)];
+    const Lanes old_high = slot.high;
+    alignas(64) std::uint32_t old_step[kLanes];
+    std::memcpy(old_step, slot.high_step, sizeof old_step);
+    // The intervals of a column do not overlap, so at most one of them is split.
+    for (unsigned split = take_from_slot(slot, low, high, step, same, taken); split != 0;
+         split &= split - 1) {
+      const int i = __builtin_ctz(split);
+      rests[count++] = {i, gap_top[i], old_high[i], steps[i], old_step[i]};
+    }
+    k = slot.next;
+  }
+  if (!any(taken > 0)) return taken;
+  for (int n = 0; n < count; ++n) tile.store_remnant(micro, rests[n]);
+  update_bounds(tile, micro);
+  return taken;
+}
+
+/// Takes [low, high]; returns the length taken of each column.
+HWY_NOINLINE Vector take(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same) {
+  const Mask meets = (low < high) & (low < tile.micro_top[micro]) & (high > tile.micro_bottom[micro]);
+  if (!any(meets)) return 0;
+  if (tile.chain[micro] < 0) {
+    const Vector top = load(tile.top[micro]);
+    const Mask cuts = (low < top) & (high > same);
+    if (!any(cuts)) return 0;
+    if (!any(cuts & (high + same < top)))
+      return take_open(tile, micro, select(high > same, low, kFar), step, same);
+    tile.make_chain(micro);
+  }
+  return take_from_chain(tile, micro, low, high, step, same);
+}
+
+}  // namespace kerf::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

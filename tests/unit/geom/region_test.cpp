@@ -1,0 +1,283 @@
+// Regions whose areas and shapes are known: boolean operations, offsets, and questions.
+#include "kerf/region.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
+
+#include "geom/resolve.h"
+
+namespace kerf {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+Outline rectangle(double x, double y, double width, double height) {
+  return {{x, y},
+          {},
+          {{{x + width, y}, {}, {}},
+           {{x + width, y + height}, {}, {}},
+           {{x, y + height}, {}, {}},
+           {{x, y}, {}, {}}}};
+}
+
+Outline circle(double x, double y, double r) {
+  return {{x + r, y}, {}, {{{x - r, y}, Point2{x, y + r}, {}}, {{x + r, y}, Point2{x, y - r}, {}}}};
+}
+
+class Regions : public testing::Test {
+ protected:
+  ~Regions() override { EXPECT_FALSE(diagnostics.has_errors()) << to_string(diagnostics.list()[0]); }
+  Region made(std::vector<Outline> outlines, FillRule rule = FillRule::nonzero) {
+    return make_region(outlines, rule, {}, diagnostics).value_or(Region{});
+  }
+  Region combined(const Region& a, const Region& b, Boolean what) {
+    const auto found = combine(a, b, what, {}, diagnostics);
+    relation = found->relation;
+    return found->region;
+  }
+  Region offset_by(const Region& region, double by) {
+    const auto found = offset(region, mm(by), {}, diagnostics);
+    vanished = found->vanished;
+    return found->region;
+  }
+  Diagnostics diagnostics;
+  Relation relation{};
+  std::size_t vanished = 0;
+};
+
+TEST_F(Regions, HaveTheirInsideOnTheLeft) {
+  const Region region = made({reversed(rectangle(0, 0, 10, 10)), rectangle(2, 2, 3, 3)}, FillRule::even_odd);
+  ASSERT_EQ(region.loops.size(), 2u);
+  EXPECT_DOUBLE_EQ(area(region), 91.0);
+  EXPECT_DOUBLE_EQ(length(region).mm(), 52.0);
+  EXPECT_EQ(bounds(region).high, (Point2{10, 10}));
+}
+
+TEST_F(Regions, OfAnOutlineThatCrossesItselfFollowTheRule) {
+  // Two turns around a square in the middle of a pentagram-like double square.
+  const Outline twice{{0, 0},
+                      {},
+                      {{{4, 0}, {}, {}},
+                       {{4, 4}, {}, {}},
+                       {{1, 4}, {}, {}},
+                       {{1, 1}, {}, {}},
+                       {{3, 1}, {}, {}},
+                       {{3, 3}, {}, {}},
+                       {{0, 3}, {}, {}},
+                       {{0, 0}, {}, {}}}};
+  const double even = area(made({twice}, FillRule::even_odd)), any = area(made({twice}));
+  EXPECT_DOUBLE_EQ(any, 15.0);   // all but a corner
+  EXPECT_DOUBLE_EQ(even, 11.0);  // and without the part that is gone around twice
+  EXPECT_DOUBLE_EQ(area(made({reversed(twice)}, FillRule::positive)), 0.0);
+}
+
+TEST_F(Regions, OfCirclesAreExact) {
+  const Region two = made({circle(0, 0, 5), circle(6, 0, 5)});
+  ASSERT_EQ(two.loops.size(), 1u);
+  EXPECT_EQ(two.loops[0].segments.size(), 4u);  // of each circle what is left of its two halves
+  const double lens = 50.0 * std::acos(0.6) - 24.0;
+  EXPECT_NEAR(area(two), 50.0 * kPi - lens, 1e-11);
+}
+
+TEST_F(Regions, CombineAsSetsDo) {
+  const Region a = made({rectangle(0, 0, 4, 4)}), b = made({rectangle(2, 1, 4, 2)});
+  EXPECT_DOUBLE_EQ(area(combined(a, b, Boolean::unite)), 20.0);
+  EXPECT_EQ(relation, Relation::overlapping);
+  EXPECT_DOUBLE_EQ(area(combined(a, b, Boolean::intersect)), 4.0);
+  EXPECT_DOUBLE_EQ(area(combined(a, b, Boolean::subtract)), 12.0);
+  EXPECT_DOUBLE_EQ(area(combined(a, b, Boolean::exclude)), 16.0);
+  EXPECT_DOUBLE_EQ(area(*unite({a, b, made({rectangle(-1, -1, 1, 1)})}, {}, diagnostics)), 21.0);
+}
+
+TEST_F(Regions, TellHowTheyLieToEachOther) {
+  const Region large = made({rectangle(0, 0, 10, 10)}), small = made({circle(5, 5, 2)});
+  combined(large, small, Boolean::subtract);
+  EXPECT_EQ(relation, Relation::second_inside_first);
+  combined(small, large, Boolean::subtract);
+  EXPECT_EQ(relation, Relation::first_inside_second);
+  EXPECT_TRUE(combined(large, large, Boolean::exclude).empty());
+  EXPECT_EQ(relation, Relation::equal);
+  const Region beside = made({rectangle(10, 0, 3, 10)});
+  EXPECT_EQ(combined(large, beside, Boolean::unite).loops.size(), 1u);  // the common side is gone
+  EXPECT_EQ(relation, Relation::disjoint);
+}
+
+TEST_F(Regions, ThatTouchInAPointStayApart) {
+  const Region two = made({rectangle(0, 0, 1, 1), rectangle(1, 1, 1, 1)});
+  EXPECT_EQ(two.loops.size(), 2u);
+  const Region tangent = combined(made({circle(0, 0, 2)}), made({circle(4, 0, 2)}), Boolean::unite);
+  EXPECT_NEAR(area(tangent), 8.0 * kPi, 1e-11);
+}
+
+TEST_F(Regions, GrowWithRoundCornersAndShrinkWithSharpOnes) {
+  const Region square = made({rectangle(0, 0, 10, 10)});
+  EXPECT_NEAR(area(offset_by(square, 2.0)), 100.0 + 80.0 + 4.0 * kPi, 1e-11);
+  EXPECT_NEAR(area(offset_by(square, -2.0)), 36.0, 1e-11);
+  EXPECT_EQ(vanished, 0u);
+  EXPECT_TRUE(offset_by(square, -5.0).empty());
+  EXPECT_EQ(vanished, 1u);
+  EXPECT_TRUE(offset_by(square, -50.0).empty());
+}
+
+TEST_F(Regions, OfCirclesGrowByTheRadius) {
+  const Region ring = made({circle(0, 0, 10), circle(0, 0, 4)}, FillRule::even_odd);
+  EXPECT_NEAR(area(offset_by(ring, 1.0)), kPi * (121.0 - 9.0), 1e-10);
+  EXPECT_NEAR(area(offset_by(ring, -2.5)), kPi * (7.5 * 7.5 - 6.5 * 6.5), 1e-10);
+  EXPECT_NEAR(area(offset_by(ring, 5.0)), kPi * 225.0, 1e-10);  // the hole is gone
+  EXPECT_EQ(vanished, 1u);
+  EXPECT_TRUE(offset_by(ring, -3.5).empty());
+}
+
+TEST_F(Regions, ThatShrinkFallApart) {
+  // Two squares of 10 with a bridge of 2 between.
+  const Region barbell = combined(made({rectangle(0, 0, 10, 10), rectangle(20, 0, 10, 10)}),
+                                  made({rectangle(9, 4, 12, 2)}), Boolean::unite);
+  const Region two = offset_by(barbell, -1.5);
+  EXPECT_EQ(two.loops.size(), 2u);
+  const Region grown = offset_by(two, 1.5);  // without the bridge, and nowhere beyond what was there
+  EXPECT_EQ(grown.loops.size(), 2u);
+  EXPECT_TRUE(combined(grown, barbell, Boolean::subtract).empty());
+  EXPECT_LT(area(grown), 200.0);
+}
+
+TEST_F(Regions, ThatGrowAndShrinkAgainKeepTheirRoundShape) {
+  const Region round = offset_by(made({rectangle(0, 0, 30, 20)}), 5.0);
+  const Region back = offset_by(offset_by(round, 3.0), -3.0);
+  EXPECT_NEAR(area(back), area(round), 1e-9);
+  EXPECT_EQ(back.loops[0].segments.size(), 8u);
+}
+
+TEST_F(Regions, ScaleWithTheirTolerance) {
+  RegionOptions options;
+  options.tolerance.weld = mm(1e-3);
+  const auto small = offset(made({rectangle(0, 0, 10, 10), circle(10, 10, 4)}), mm(-1.0), {}, diagnostics);
+  const auto large = offset(*make_region({rectangle(0, 0, 1e4, 1e4), circle(1e4, 1e4, 4e3)},
+                                         FillRule::nonzero, options, diagnostics),
+                            mm(-1000.0), options, diagnostics);
+  EXPECT_NEAR(area(large->region), 1e6 * area(small->region), 1e-3);
+}
+
+TEST_F(Regions, OfPathsHaveRoundOrButtEnds) {
+  const Outline path{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}}};
+  const double bend =
+      40.0 + 0.25 * kPi - 1.0 + 0.0;  // two strips of 20, less the inner overlap, and the corner
+  EXPECT_NEAR(area(*widen(path, mm(1.0), PathEnds::butt, {}, diagnostics)), bend, 1e-11);
+  EXPECT_NEAR(area(*widen(path, mm(1.0), PathEnds::round, {}, diagnostics)), bend + kPi, 1e-11);
+  const auto ring = widen(circle(0, 0, 5), mm(1.0), PathEnds::round, {}, diagnostics);
+  EXPECT_NEAR(area(*ring), kPi * 20.0, 1e-10);
+  EXPECT_NEAR(area(*widen(circle(0, 0, 5), mm(6.0), PathEnds::round, {}, diagnostics)), kPi * 121.0, 1e-9);
+}
+
+TEST_F(Regions, ParallelCurvesRunInThePathsSense) {
+  const Outline path{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}}};
+  const auto left = parallel(path, mm(1.0), {}, diagnostics);
+  ASSERT_EQ(left->size(), 1u);
+  EXPECT_EQ((*left)[0].start, (Point2{0, 1}));
+  EXPECT_EQ((*left)[0].segments.size(), 2u);  // the inner corner is sharp
+  EXPECT_NEAR(length((*left)[0]).mm(), 18.0, 1e-12);
+  const auto right = parallel(path, mm(-1.0), {}, diagnostics);
+  EXPECT_EQ((*right)[0].start, (Point2{0, -1}));
+  EXPECT_NEAR(length((*right)[0]).mm(), 20.0 + 0.5 * kPi, 1e-12);
+}
+
+TEST_F(Regions, BecomeFiguresWithTheirHoles) {
+  const Region region = made({rectangle(0, 0, 20, 20), rectangle(2, 2, 16, 16), rectangle(4, 4, 2, 2),
+                              rectangle(10, 4, 5, 5), circle(12, 6, 1)},
+                             FillRule::even_odd);
+  const auto parts = figures(region);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[0].size(), 1u);
+  EXPECT_EQ(parts[1].size(), 2u);
+  EXPECT_EQ(parts[2].size(), 2u);
+  EXPECT_NEAR(area(*make_region(parts[1], {}, diagnostics)), 25.0 - kPi, 1e-12);
+}
+
+TEST_F(Regions, KnowWhereAPointLies) {
+  const RegionSearch search(made({circle(0, 0, 10), rectangle(-2, -2, 4, 4)}, FillRule::even_odd));
+  EXPECT_EQ(search.locate({5, 0}, {}), Place::inside);
+  EXPECT_EQ(search.locate({0, 0}, {}), Place::outside);
+  EXPECT_EQ(search.locate({-11, 0}, {}), Place::outside);
+  EXPECT_EQ(search.locate({2, 1}, {}), Place::boundary);
+  EXPECT_EQ(search.locate({8, 6.0005}, mm(1e-3)), Place::boundary);
+  const auto nearest = search.nearest({30, 40});
+  EXPECT_NEAR(nearest->distance.mm(), 40.0, 1e-12);
+  EXPECT_NEAR(nearest->at.x, 6.0, 1e-12);
+  EXPECT_FALSE(RegionSearch(Region{}).nearest({0, 0}).has_value());
+}
+
+TEST_F(Regions, ReportWhereAnOutlineMeetsItself) {
+  const Outline bow{{0, 0}, {}, {{{4, 4}, {}, {}}, {{4, 0}, {}, {}}, {{0, 4}, {}, {}}, {{0, 0}, {}, {}}}};
+  const auto found = self_meetings(bow, {}, diagnostics);
+  ASSERT_EQ(found->size(), 1u);
+  EXPECT_EQ((*found)[0].at, (Point2{2, 2}));
+  EXPECT_EQ((*found)[0].first, 0u);
+  EXPECT_EQ((*found)[0].second, 2u);
+  EXPECT_TRUE(self_meetings(rectangle(0, 0, 3, 3), {}, diagnostics)->empty());
+}
+
+TEST(RegionErrors, NameWhatIsWrong) {
+  const auto code_of = [](auto call) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(call(diagnostics).has_value());
+    return diagnostics.list().empty() ? Code{} : diagnostics.list()[0].code;
+  };
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Outline open = rectangle(0, 0, 1, 1);
+  open.segments.pop_back();
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return make_region({open}, FillRule::nonzero, {}, d); }),
+            Code::region_open_outline);
+  EXPECT_EQ(code_of([&](Diagnostics& d) {
+              return make_region({rectangle(0, nan, 1, 1)}, FillRule::nonzero, {}, d);
+            }),
+            Code::outline_not_finite);
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return offset(Region{{rectangle(0, 0, 1, 1)}}, mm(nan), {}, d); }),
+            Code::region_bad_argument);
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return widen(open, mm(0.0), PathEnds::round, {}, d); }),
+            Code::region_bad_argument);
+  RegionOptions options;
+  options.tolerance.weld = mm(-1.0);
+  EXPECT_EQ(code_of([&](Diagnostics& d) { return unite({Region{{open}}}, options, d); }),
+            Code::region_bad_argument);
+}
+
+/// Chains that are not closed have no winding numbers; only code inside the kernel can make them.
+TEST(RegionErrors, ContradictionsAreFoundAndRefused) {
+  region_detail::EdgeSet set(1e-6);
+  region_detail::add_outline(set, rectangle(0, 0, 10, 10), 0, 0);
+  set.close();
+  region_detail::add_outline(set, {{5, 5}, {}, {{{5, 15}, {}, {}}}}, 4, 0);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(region_detail::arrange(set, {}, diagnostics).has_value());
+  ASSERT_TRUE(diagnostics.has_errors());
+  EXPECT_EQ(diagnostics.list()[0].code, Code::region_unresolved);
+}
+
+/// Saw teeth along x and along y: every tooth crosses all of the others.
+TEST(RegionErrors, TooManyCrossingsAreRefused) {
+  constexpr int kTeeth = 4000;
+  const auto saw = [](auto point) {
+    Outline outline;
+    outline.start = point(0.0, 0.0);
+    for (int i = 1; i <= kTeeth; ++i)
+      outline.segments.push_back({point(i, i % 2 == 0 ? 0.0 : kTeeth), {}, {}});
+    outline.segments.push_back({point(kTeeth, -1.0), {}, {}});
+    outline.segments.push_back({outline.start, {}, {}});
+    return outline;
+  };
+  Diagnostics diagnostics;
+  const auto made = make_region({saw([](double a, double b) {
+                                   return Point2{a, b};
+                                 }),
+                                 saw([](double a, double b) {
+                                   return Point2{b, a};
+                                 })},
+                                FillRule::even_odd, {}, diagnostics);
+  EXPECT_FALSE(made.has_value());
+  ASSERT_TRUE(diagnostics.has_errors());
+  EXPECT_EQ(diagnostics.list()[0].code, Code::region_too_complex);
+}
+
+}  // namespace
+}  // namespace kerf
