@@ -42,14 +42,14 @@ const std::vector<std::string>& dialect_names();
 GcodeDialect guess_dialect(std::string_view text);
 
 struct GcodeReadOptions {
-  std::string file_name = "<text>";        // for origins
-  std::size_t max_steps = 50'000'000;      // more is an error
+  std::string file_name = "<text>";    // for origins
+  std::size_t max_steps = 50'000'000;  // more is an error
   /// Of these, how many a program may make beyond what its own length explains (a step for two bytes), by
   /// cycles, loops and curves; a small file must not fill the memory.
   std::size_t max_made_steps = 4'000'000;
   std::size_t max_line_bytes = 1'000'000;  // a longer line is an error
   bool strict = false;                     // warnings of unusual words become errors
-  AfterEnd after_end = AfterEnd::stop;     // either way it is said that there is more text
+  AfterEnd after_end = AfterEnd::read_on;  // either way it is said that there is more text
   BlockDelete block_delete = BlockDelete::run;
   std::optional<GcodeDialect> dialect = {};  // nothing: guessed from the text, and said
   double filament_diameter = 1.75;           // mm; turns a printer's E into volume

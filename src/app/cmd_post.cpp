@@ -8,6 +8,7 @@
 #include "app/input.h"
 #include "app/job.h"
 #include "app/json.h"
+#include "app/reading.h"
 #include "app/terminal_progress.h"
 
 #include "kerf/files.h"
@@ -26,6 +27,7 @@ struct Options {
   double feed = 0.0;
   double fit_arcs = 0.0, join = 0.0;
   bool shorten = false;
+  ReadingOptions reading;
 };
 
 Status show_list(Console& console) {
@@ -157,7 +159,9 @@ Status run(Console& console, const Options& options) {
   if (!profile) return fail(console, diagnostics, Status::input_errors);
 
   TerminalProgress progress(console);
-  auto program = load_program(options.file, diagnostics, &progress);
+  InputOptions input;
+  apply(options.reading, input);
+  auto program = load_program(options.file, diagnostics, &progress, input);
   if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const LengthUnit unit = options.inch ? LengthUnit::inch : options.mm ? LengthUnit::mm : profile->unit;
@@ -214,6 +218,7 @@ Command add_post(CLI::App& root) {
       ->type_name("HOW");
   add_number(*app, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "For cutting moves that have no feed");
   add_pass_options(*app, *options);
+  add_reading_options(*app, options->reading);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/command.h"
 #include "app/input.h"
+#include "app/reading.h"
 
 #include "kerf/report.h"
 #include "kerf/stock.h"
@@ -23,6 +24,7 @@ struct JobOptions {
   std::vector<std::string> tool_files;  // --tools FILE
   std::optional<std::string> stock;     // --stock SPEC
   std::string machine;                  // --machine FILE
+  ReadingOptions reading;               // --dialect, --strict
 };
 void add_job_options(CLI::App& app, JobOptions& options);
 /// --machine, for the commands that make use of one.
@@ -37,7 +39,7 @@ struct JobSettings {
   ToolTable table;                       // built in and from files
   std::map<int, std::string> from_file;  // which numbers of the table came from which --tools file
   std::optional<Stock> stock;
-  InputOptions input;  // with the machine
+  InputOptions input;  // for load_program
 };
 /// Reads the tool and stock options. What the command line got wrong goes to `usage`, what files got wrong to
 /// `diagnostics`.

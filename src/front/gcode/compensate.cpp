@@ -50,8 +50,9 @@ void Interpreter::set_compensation() {
 /// G41.1 and G42.1: D is the diameter itself.
 std::optional<double> Interpreter::told_diameter(std::optional<double> number) {
   if (number) return *number * modes_.scale;
-  talker_.error(Code::word_missing, line_.column(Group::compensation),
-                fmt::format("{} needs D, the tool's diameter", code_text('G', line_.code(Group::compensation))));
+  talker_.error(
+      Code::word_missing, line_.column(Group::compensation),
+      fmt::format("{} needs D, the tool's diameter", code_text('G', line_.code(Group::compensation))));
   return std::nullopt;
 }
 
@@ -66,17 +67,20 @@ std::optional<double> Interpreter::diameter_for_compensation(std::optional<doubl
   const std::optional<int> tool = number ? static_cast<int>(*number) : modes_.tool;
   const std::optional<double> diameter = tool ? diameter_of(*tool) : std::nullopt;
   if (diameter) return diameter;
-  const std::string which = tool ? fmt::format("tool {}", *tool) : "the tool, no tool change stands before it";
-  talker_.error(Code::compensation_no_tool, line_.column(Group::compensation),
-                fmt::format("cutter compensation needs the diameter of {}; the path is left as it is told", which),
-                tool ? fmt::format("tell it, e.g. --tool {}=\"square d=6\", or use G41.1 D6", *tool)
-                     : std::string("write M6 T... before it, or use G41.1 D6"));
+  const std::string which =
+      tool ? fmt::format("tool {}", *tool) : "the tool, no tool change stands before it";
+  talker_.error(
+      Code::compensation_no_tool, line_.column(Group::compensation),
+      fmt::format("cutter compensation needs the diameter of {}; the path is left as it is told", which),
+      tool ? fmt::format("tell it, e.g. --tool {}=\"square d=6\", or use G41.1 D6", *tool)
+           : std::string("write M6 T... before it, or use G41.1 D6"));
   return std::nullopt;
 }
 
 void Interpreter::end_compensation() {
   const bool leaves = compensation_.side != Side::none && compensation_.entered;
-  if (leaves && !runs_forward(compensation_.last, compensation_.direction, compensation_.last.to)) tell_gouge();
+  if (leaves && !runs_forward(compensation_.last, compensation_.direction, compensation_.last.to))
+    tell_gouge();
   compensation_ = {};
   compensation_.leaving = leaves;
 }
@@ -85,8 +89,8 @@ void Interpreter::end_compensation() {
 void Interpreter::guard_compensation() {
   if (compensation_.side == Side::none) return;
   constexpr Group kRefused[] = {Group::coordinates, Group::reference, Group::machine_coordinates,
-                               Group::scaling,     Group::rotation,  Group::tool_change,
-                               Group::lathe};
+                                Group::scaling,     Group::rotation,  Group::tool_change,
+                                Group::lathe};
   for (const Group group : kRefused) {
     const bool tool_data = group == Group::reference && line_.code(group) == 100 && line_.value('L') == 1.0;
     if (line_.has(group) && !tool_data)
@@ -110,11 +114,12 @@ void Interpreter::compensated_line(const Place& to, MoveKind kind, double feed) 
   if (!(distance(piece.from, piece.to) > kNoWay)) return along_third_axis(to, kind, feed);
   const bool entry = !compensation_.entered;
   if (entry && distance(piece.from, piece.to) <= compensation_.radius)
-    talker_.error(Code::compensation_entry, line_.column(),
-                  fmt::format("the first move of a cutter compensation must be longer than the tool's radius; "
-                              "{:.4g} mm is not more than {:.4g} mm",
-                              distance(piece.from, piece.to), compensation_.radius),
-                  "begin farther away from the part");
+    talker_.error(
+        Code::compensation_entry, line_.column(),
+        fmt::format("the first move of a cutter compensation must be longer than the tool's radius; "
+                    "{:.4g} mm is not more than {:.4g} mm",
+                    distance(piece.from, piece.to), compensation_.radius),
+        "begin farther away from the part");
   const Piece axis = *offset(piece, compensation_.side, compensation_.radius);
   if (entry)
     compensation_.tool = piece.from;
@@ -129,8 +134,9 @@ void Interpreter::compensated_line(const Place& to, MoveKind kind, double feed) 
 /// The tool stays where it is beside the program's path.
 void Interpreter::along_third_axis(const Place& to, MoveKind kind, double feed) {
   if (!compensation_.entered)
-    talker_.unusual(Code::compensation_entry, line_.column(),
-                    "LinuxCNC wants a move in the plane to begin a cutter compensation; this one is left as it is");
+    talker_.unusual(
+        Code::compensation_entry, line_.column(),
+        "LinuxCNC wants a move in the plane to begin a cutter compensation; this one is left as it is");
   const Point3 at = compensation_.entered ? moved_in_plane(to.at, compensation_.tool) : to.at;
   add_compensated(at, to, kind, feed);
 }
@@ -184,16 +190,16 @@ void Interpreter::compensated_arc(const Place& to, Point2 centre, Turn turn, int
   const Piece piece{in_plane(here_.at), in_plane(to.at), middle, turn};
   Compensation& c = compensation_;
   const bool entry = !c.entered;
-  std::optional<Piece> axis =
-      entry ? entry_arc(piece, c.side, c.radius) : offset(piece, c.side, c.radius);
+  std::optional<Piece> axis = entry ? entry_arc(piece, c.side, c.radius) : offset(piece, c.side, c.radius);
   const bool too_short = entry && distance(piece.from, piece.to) <= c.radius;
   if (too_short) axis.reset();
   if (!axis) {
-    talker_.error(entry ? Code::compensation_entry : Code::compensation_gouge, line_.column(),
-                  fmt::format("{} {:.4g} mm is too small for a tool of radius {:.4g} mm; read as a straight cut",
-                              entry ? "an arc that begins a cutter compensation with a radius of"
-                                    : "an arc that is cut from inside with a radius of",
-                              piece.radius(), c.radius));
+    talker_.error(
+        entry ? Code::compensation_entry : Code::compensation_gouge, line_.column(),
+        fmt::format("{} {:.4g} mm is too small for a tool of radius {:.4g} mm; read as a straight cut",
+                    entry ? "an arc that begins a cutter compensation with a radius of"
+                          : "an arc that is cut from inside with a radius of",
+                    piece.radius(), c.radius));
     return compensated_line(to, MoveKind::cut, feed.mm_per_min());
   }
   if (entry)
@@ -212,8 +218,7 @@ void Interpreter::compensated_arc(const Place& to, Point2 centre, Turn turn, int
 
 void Interpreter::add_compensated(Point3 at, const Place& to, MoveKind kind, double feed) {
   if (!reachable(at)) return;
-  const bool added =
-      kind == MoveKind::rapid ? add(step::Rapid{at}) : add(step::Cut{at, mm_per_min(feed)});
+  const bool added = kind == MoveKind::rapid ? add(step::Rapid{at}) : add(step::Cut{at, mm_per_min(feed)});
   if (added) arrive(to);
 }
 

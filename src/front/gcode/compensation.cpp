@@ -107,7 +107,7 @@ std::optional<Point2> meeting(const Piece& before, Point2 direction, const Piece
   const Crossings crossings = before.centre && after.centre ? cross_arcs(before, after)
                               : before.centre               ? cross_line_arc(after.from, next, before)
                               : after.centre                ? cross_line_arc(before.to, direction, after)
-                                                            : cross_lines(before.to, direction, after.from, next);
+                                             : cross_lines(before.to, direction, after.from, next);
   std::optional<Point2> nearest;
   for (const Point2 p : crossings)
     if (runs_forward(before, direction, p) && (!nearest || distance(p, corner) < distance(*nearest, corner)))

@@ -65,14 +65,16 @@ void Interpreter::look_where_we_are() {
   kept_modes_.resize(current_depth_ + 1);
 }
 
-/// Whether a line after the program's end is read. Subroutines that stand there were called before.
+/// Whether a line after the program's end is read. Subroutines that stand there run only where they are
+/// called.
 bool Interpreter::goes_on(const Block& block) {
-  if (after_end_said_) return true;
-  const bool subroutine = block.o_word || (!block.words.empty() && block.words.front().letter == 'O');
-  if (subroutine && after_end_ == AfterEnd::stop) {
+  const bool number = !block.words.empty() && block.words.front().letter == 'O';
+  if (after_end_ == AfterEnd::stop && (number || block.o_word)) {
     stopped_ = true;
     return false;
   }
+  if (number && flow_->skip_subprogram()) return false;
+  if (after_end_said_ || block.o_word) return true;
   after_end_said_ = true;
   stopped_ = after_end_ == AfterEnd::stop;
   const std::uint32_t column = block.words.empty() ? 1 : block.words.front().column;

@@ -28,7 +28,7 @@ namespace kerf::gcode {
 enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_turn };
 
 inline constexpr unsigned kAllAxes = 7;
-inline constexpr double kNoWay = 1e-9;  // mm; a move of less is none in its plane
+inline constexpr double kNoWay = 1e-9;                // mm; a move of less is none in its plane
 inline constexpr int kHome28 = 5161, kHome30 = 5181;  // first of the parameters that keep the homes
 inline constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
 inline constexpr double kMillimetresPerInch = 25.4;
@@ -95,12 +95,12 @@ struct CycleMemory {
 /// What G41 and G42 keep. Points lie in the plane's right-handed frame.
 struct Compensation {
   Side side = Side::none;
-  double radius = 0.0;    // mm
+  double radius = 0.0;        // mm
   bool entered = false;       // the first move is made: the tool is beside the path
-  bool leaving = false;   // G40 was read, and the tool has not come back to the path
-  Point2 tool;            // where its axis stands
-  Point2 direction;       // of the program's path, where its last piece ends
-  Piece last;             // of the axis
+  bool leaving = false;       // G40 was read, and the tool has not come back to the path
+  Point2 tool;                // where its axis stands
+  Point2 direction;           // of the program's path, where its last piece ends
+  Piece last;                 // of the axis
   std::size_t last_step = 0;  // that makes it
 };
 
