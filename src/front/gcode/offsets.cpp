@@ -20,6 +20,13 @@ constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
 /// G54 is 1, G59.3 is 9.
 int system_of(Tenths code) { return code <= 590 ? (code - 530) / 10 : code - 590 + 6; }
 
+/// Turned about zero in XY.
+Point3 turned(Point3 p, double angle) {
+  if (angle == 0.0) return p;
+  const double c = std::cos(angle * kDegree), s = std::sin(angle * kDegree);
+  return {p.x * c - p.y * s, p.x * s + p.y * c, p.z};
+}
+
 int first_parameter(int system) { return kFirstSystem + kPerSystem * (system - 1); }
 
 }  // namespace
@@ -102,18 +109,25 @@ void Interpreter::set_system(int system) {
 /// place was not known, it has them from now on.
 void Interpreter::touch_off(int system) {
   const int first = first_parameter(system);
+  Point3 offset;
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = parameters_.slot(first + axis);
+  const double turn = parameters_.slot(first + kTurnOfSystem);
+  Point3 wanted = turned(here_.at - offset, -turn) - local_shift_;  // what it has now
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
     const double value = *word * modes_.scale;
     const unsigned bit = 1u << axis;
     if ((here_.unknown & bit) == 0) {
-      parameters_.slot(first + axis) = here_.at[axis] - local_shift_[axis] - value;
+      wanted[axis] = value;
     } else if (system == modes_.system) {
       here_.at[axis] = value + placement_.shift[axis];
       here_.unknown &= ~bit;
     }
   }
+  offset = here_.at - turned(wanted + local_shift_, turn);
+  for (int axis = 0; axis < 3; ++axis)
+    if ((here_.unknown & (1u << axis)) == 0) parameters_.slot(first + axis) = offset[axis];
   line_.use(kRotaryLetters | Line::bit('R'));
   reachable(here_.at);
   refresh_placement();
@@ -141,6 +155,7 @@ void Interpreter::shift_locally() {
   for (int axis = 0; axis < 3; ++axis)
     if (const auto word = line_.take(static_cast<char>('X' + axis)))
       local_shift_[axis] = *word * modes_.scale;
+  kept_local_shift_ = local_shift_;
   line_.use(kRotaryLetters);
   refresh_placement();
 }
