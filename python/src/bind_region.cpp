@@ -1,12 +1,11 @@
 // Regions, paths and fitted curves in Python. Outlines are lists as in cnc25d_api: points (x, y), and arcs
 // (via x, via y, x, y) from the point before; three numbers alone are a circle.
-#include "kerf/region.h"
-
 #include <memory>
 
 #include "bindings.h"
 
 #include "kerf/fit.h"
+#include "kerf/region.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -235,8 +234,8 @@ Raises
 kerf.Error
     Where an outline is open or its numbers are not finite. ``diagnostics`` has the element.
 )")
-      .def(py::init(&region_of), py::arg("outlines") = py::tuple(), py::kw_only(), py::arg("fill") = "nonzero",
-           py::arg("tolerance") = kDefaultTolerance)
+      .def(py::init(&region_of), py::arg("outlines") = py::tuple(), py::kw_only(),
+           py::arg("fill") = "nonzero", py::arg("tolerance") = kDefaultTolerance)
       .def_property_readonly(
           "outlines", [](const PyRegion& r) { return list_of(r.region.loops); },
           "list: closed outlines that do not cross, outer ones counter-clockwise, holes clockwise.")

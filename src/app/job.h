@@ -26,7 +26,7 @@ struct JobOptions {
   std::optional<std::string> stock;     // --stock SPEC
   std::string machine;                  // --machine FILE
   BodyOptions bodies;
-  ReadingOptions reading;               // --dialect, --strict
+  ReadingOptions reading;  // --dialect, --strict
 };
 void add_job_options(CLI::App& app, JobOptions& options);
 /// The program and the files of stock and fixtures, which no output may replace.
