@@ -1,5 +1,5 @@
-// Any bytes as outlines and what is done with them: points on a grid (so that exact coincidences are frequent) with
-// now and then a raw double, arcs of any bulge, and every operation of region.h and fit.h.
+// Any bytes as outlines and what is done with them: points on a grid (so that exact coincidences are
+// frequent) with now and then a raw double, arcs of any bulge, and every operation of region.h and fit.h.
 #include "kerf/region.h"
 
 #include <algorithm>
