@@ -34,6 +34,8 @@ Poster::Poster(const Toolpath& path, const PostProfile& profile, const PostOptio
 }
 
 std::vector<PostedFile> Poster::run(Progress* progress) {
+  if (unit_ == LengthUnit::inch && !profile_.has_g(200))
+    diagnostics_.error(Code::post_cannot, {}, "the controller has no inches (G20)");
   open_file(0);
   out_.reserve(out_.size() + kBytesPerStep * path_.size());
   for (std::size_t i = 0; i < path_.size(); ++i) {
