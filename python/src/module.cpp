@@ -147,4 +147,5 @@ PYBIND11_MODULE(_kerf, m) {
   bind_tools(m);
   bind_toolpath(m);
   bind_simulation(m);
+  bind_bodies(m);
 }
