@@ -1,5 +1,6 @@
 // Fuzz target: mesh files and left-over stock, and what becomes of them as columns. The first byte picks the
 // format.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
