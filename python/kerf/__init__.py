@@ -2,7 +2,7 @@
 
 A toolpath is built call by call (`Toolpath`) or read from G-code (`read_gcode`, `load`), and cut out of a
 `Stock` by `simulate`, which says what is left, which step made which surface, and which lines would break a
-tool or a part.
+tool or a part. A `Region` is a part of the plane bounded by lines and arcs: unions, offsets, questions.
 Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
@@ -12,6 +12,7 @@ from . import _kerf
 from ._kerf import (
     Diagnostic,
     Error,
+    Region,
     RotarySimulation,
     Simulation,
     Stock,
@@ -22,14 +23,22 @@ from ._kerf import (
     built_in_tools,
     compare,
     fixture_contacts,
+    fit_arcs,
+    fit_bezier,
+    fit_spline,
+    flattened,
+    parallel,
     read_gcode,
+    self_meetings,
     simulate,
     simulate_rotary,
+    widen,
 )
 
 __all__ = [
     "Diagnostic",
     "Error",
+    "Region",
     "RotarySimulation",
     "Simulation",
     "Stock",
@@ -39,15 +48,22 @@ __all__ = [
     "__version__",
     "built_in_tools",
     "compare",
+    "fit_arcs",
+    "fit_bezier",
+    "fit_spline",
     "fixture_contacts",
+    "flattened",
     "left_stock",
     "load",
     "load_stock",
     "move_stock",
+    "parallel",
     "read_gcode",
     "save_left_stock",
+    "self_meetings",
     "simulate",
     "simulate_rotary",
+    "widen",
 ]
 
 
@@ -69,8 +85,9 @@ def load(path):
     kerf.Error
         Where its text has errors.
     """
-    with open(path, encoding="latin-1") as file:
-        return read_gcode(file.read(), str(path))
+    name = os.fspath(path)
+    with open(name, encoding="latin-1") as file:
+        return read_gcode(file.read(), os.fsdecode(name))
 
 
 def load_stock(path):
@@ -93,7 +110,7 @@ def load_stock(path):
         Where it is damaged, or the mesh encloses nothing.
     """
     with open(path, "rb") as file:
-        return _kerf._read_stock(file.read(), os.fspath(path))
+        return _kerf._read_stock(file.read(), os.fsdecode(path))
 
 
 def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):

@@ -18,12 +18,12 @@ namespace py = pybind11;
 namespace {
 
 Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTable>& tools, double resolution,
-           unsigned threads) {
+           long long threads) {
   if (finite_number(resolution, "resolution") < 0.0)
     throw py::value_error("resolution must be 0 (automatic) or above, mm");
   SimulationOptions options;
   options.resolution = mm(resolution);
-  options.threads = threads;
+  options.threads = static_cast<unsigned>(whole_within(threads, 0, kMostThreads, "threads"));
   Diagnostics diagnostics;
   SignalProgress progress;
   auto kept = std::make_shared<const Toolpath>(path);
@@ -77,6 +77,12 @@ py::tuple mesh_tuple(const Mesh& mesh) {
 
 void bind_simulation(py::module_& m) {
   py::class_<Result>(m, "Simulation", "What a toolpath left of the stock. Made by `simulate`.")
+      .def("__repr__",
+           [](const Result& r) {
+             return "<kerf.Simulation: " + number_text(r.simulation.removed.mm3(), 3) + " of " +
+                    number_text(r.simulation.stock.mm3(), 3) + " mm3 removed, " +
+                    std::to_string(r.simulation.hazards.size()) + " hazards>";
+           })
       .def_property_readonly(
           "stock_mm3", [](const Result& r) { return r.simulation.stock.mm3(); }, "float: volume before, mm3.")
       .def_property_readonly(
@@ -114,7 +120,7 @@ void bind_simulation(py::module_& m) {
            "Surface as (points (n, 3) float32 mm, triangles (m, 3) uint32, step of each triangle (m,) "
            "uint32).");
   m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(),
-        py::arg("resolution") = 0.0, py::arg("threads") = 0u,
+        py::arg("resolution") = 0.0, py::arg("threads") = 0,
         R"(Cut a toolpath out of a stock.
 
 Parameters

@@ -115,7 +115,7 @@ void show_summary(Console& console, const Result& result) {
 Status simulate_job(Console& console, const Options& options, const JobSettings& settings,
                     const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
   TerminalProgress progress(console);
-  auto program = load_program(options.job.file, diagnostics, &progress);
+  auto program = load_program(options.job.file, diagnostics, &progress, settings.input);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);

@@ -159,6 +159,20 @@ Origin first_use_of(int number, const Toolpath& path) {
   return {};
 }
 
+/// Which tool cutter compensation reckons with: as choose() below, before the program is read.
+decltype(InputOptions::tool_diameter) diameters_of(const JobSettings& settings) {
+  return [numbered = settings.numbered, any = settings.any_number, table = settings.table](
+             int number, const Tool* described) -> std::optional<double> {
+    Diagnostics unheard;  // choose() tells
+    const auto told = numbered.find(number);
+    const Tool* tool = told != numbered.end() ? &told->second
+                       : any                  ? &*any
+                                              : choose_tool(table.find(number), described, {}, unheard);
+    if (tool == nullptr) return std::nullopt;
+    return tool->diameter.mm();
+  };
+}
+
 Choice choose(int number, const LoadedProgram& program, const JobSettings& settings,
               Diagnostics& diagnostics) {
   if (const auto it = settings.numbered.find(number); it != settings.numbered.end())
@@ -308,6 +322,7 @@ void add_job_options(CLI::App& app, JobOptions& options) {
   add_repeated(app, "--tools", options.tool_files, "PATH", "A file of tools (TOML)");
   app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
       ->type_name("SPEC");
+  add_reading_options(app, options.reading);
 }
 
 std::vector<std::string> input_files(const JobOptions& options) {
@@ -331,6 +346,8 @@ JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diag
   if (!options.machine.empty())
     if (const auto file = InputFile::open(options.machine, diagnostics))
       settings.input.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
+  apply(options.reading, settings.input);
+  settings.input.tool_diameter = diameters_of(settings);
   return settings;
 }
 

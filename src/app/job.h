@@ -10,6 +10,7 @@
 #include "app/bodies.h"
 #include "app/command.h"
 #include "app/input.h"
+#include "app/reading.h"
 
 #include "kerf/report.h"
 #include "kerf/stock.h"
@@ -25,6 +26,7 @@ struct JobOptions {
   std::optional<std::string> stock;     // --stock SPEC
   std::string machine;                  // --machine FILE
   BodyOptions bodies;
+  ReadingOptions reading;  // --dialect, --strict
 };
 void add_job_options(CLI::App& app, JobOptions& options);
 /// The program and the files of stock and fixtures, which no output may replace.
@@ -42,7 +44,7 @@ struct JobSettings {
   std::map<int, std::string> from_file;  // which numbers of the table came from which --tools file
   std::optional<Stock> stock;
   BodySettings bodies;
-  InputOptions input;  // with the machine
+  InputOptions input;  // for load_program, with the machine
 };
 /// Reads the tool and stock options. What the command line got wrong goes to `usage`, what files got wrong to
 /// `diagnostics`.

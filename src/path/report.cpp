@@ -63,18 +63,27 @@ void add(MotionFigures& figures, const Motion& motion, const ReportOptions& opti
   figures.cutting = figures.cutting + mm(motion.length) / motion.feed;
 }
 
+/// Where the tool stands before a step.
+Point3 place_before(const Toolpath& path, std::size_t step) {
+  while (step > 0)
+    if (path[--step].is_motion()) return path[step].to();
+  return {};
+}
+
 }  // namespace
 
 PathReport report_on(const Toolpath& path, const ReportOptions& options) {
   PathReport report;
   std::optional<int> tool;
-  Point3 at;
+  const std::size_t end = std::min(options.end, path.size());
+  Point3 at = place_before(path, std::min(options.first, end));
   // Indices, not references: the list of tools grows.
   const auto for_both = [&](auto&& change) {
     change(report.all);
     change(figures_of(report, tool).figures);
   };
-  for (const Step& s : path.steps()) {
+  for (std::size_t i = options.first; i < end; ++i) {
+    const Step& s = path[i];
     if (s.kind() == StepKind::tool_change) tool = s.tool_change().tool;
     if (s.kind() == StepKind::dwell) for_both([&](MotionFigures& f) { f.dwell = f.dwell + s.dwell().time; });
     if (s.kind() == StepKind::spindle && s.spindle().turn != SpindleTurn::off)

@@ -88,6 +88,7 @@ Mesh extract_mesh(const ColumnGrid& grid, Progress* progress) {
   report(progress, 0.85);
   if (!bottom.emit(progress)) return {};
   meshing::split_shared_edges(builder.mesh, builder.suspects);
+  meshing::mend_flat_triangles(builder.mesh);
   report(progress, 1.0);
   return std::move(builder.mesh);
 }

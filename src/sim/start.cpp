@@ -85,10 +85,9 @@ void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int
   for (int lane = 0; lane < kLanes; ++lane) put_column(body.start->column(i, j), body, tile, micro, lane);
 }
 
-Tile make_start_tile(const Workpiece::Body& body, std::size_t number) {
+void fill_start_tile(const Workpiece::Body& body, std::size_t number, Tile& tile) {
+  if (!body.start) return;
   const int columns = body.columns_x_of(number), rows = body.columns_y_of(number);
-  Tile tile(body.height, columns, rows);
-  if (!body.start) return tile;
   const auto tiles_x = static_cast<std::size_t>(body.tiles_x);
   const int column = static_cast<int>(number % tiles_x) * kTileColumns;
   const int row = static_cast<int>(number / tiles_x) * kTileColumns;
@@ -99,7 +98,6 @@ Tile make_start_tile(const Workpiece::Body& body, std::size_t number) {
     }
   }
   refresh_bounds(tile);
-  return tile;
 }
 
 bool fill_from_body(Workpiece::Body& body, const StockBody& from, Diagnostics& diagnostics,
@@ -116,7 +114,7 @@ bool fill_from_body(Workpiece::Body& body, const StockBody& from, Diagnostics& d
     const int column = static_cast<int>(tile % tiles_x) * kTileColumns;
     const int row = static_cast<int>(tile / tiles_x) * kTileColumns;
     if (!is_full(body, column, row, body.columns_x_of(tile), body.columns_y_of(tile)))
-      body.tiles[tile] = std::make_unique<Tile>(make_start_tile(body, tile));
+      fill_start_tile(body, tile, body.touch(tile));
   }
   return true;
 }

@@ -12,8 +12,8 @@ namespace kerf::sim {
 bool fill_from_body(Workpiece::Body& body, const StockBody& from, Diagnostics& diagnostics,
                     Progress* progress);
 
-/// The begin of a tile: full, or as the body tells.
-Tile make_start_tile(const Workpiece::Body& body, std::size_t tile);
+/// Puts what the body tells of a tile into one that is full; nothing to do where the block begins full.
+void fill_start_tile(const Workpiece::Body& body, std::size_t number, Tile& tile);
 /// Puts the material that column (i, j) begins with into all lanes of a micro.
 void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int micro);
 /// Sets the bounds that culling needs from what the columns hold.

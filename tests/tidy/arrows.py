@@ -43,7 +43,7 @@ PUBLIC = {
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
     "front_outline": ["outline_files.h"],
-    "back_drawing": ["outline_drawing.h"],
+    "back_drawing": ["outline_drawing.h", "toolpath_drawing.h"],
     "codec_drawing": ["drawing_files.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_png": ["image_files.h"],

@@ -18,6 +18,9 @@ constexpr double kRadiiShare = 0.0009;
 constexpr double kRadiiLimit = 0.45;  // mm
 constexpr double kAngleOff = 0.5;     // radians by which rounding may change a sweep
 constexpr double kArcOff = 4.0;       // counts of arc length likewise
+// An arc that turns less, computed with 24 bits, may come out as none and then as a full circle. It leaves
+// its chord by no more than 2e-9 of its radius.
+constexpr double kLeastSweep = 1e-4;  // radians
 constexpr int kMostPieces = 1 << 20;
 
 bool radii_close(double a, double b) {
@@ -106,7 +109,7 @@ void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const G
   plan.uneven = !radii_close(walk.start_radius, walk.end_radius);
   const double swept = std::abs(walk.sweep);
   const double length = swept * std::max(walk.start_radius, walk.end_radius);
-  if (length < profile.shortest_arc.mm()) {
+  if (length < profile.shortest_arc.mm() || swept < kLeastSweep) {
     plan.form = ArcForm::straight;
     plan.pieces.push_back({to, 0, 0});
     return;

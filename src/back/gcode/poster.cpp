@@ -34,7 +34,7 @@ Poster::Poster(const Toolpath& path, const PostProfile& profile, const PostOptio
 }
 
 std::vector<PostedFile> Poster::run(Progress* progress) {
-  open_file();
+  open_file(0);
   out_.reserve(out_.size() + kBytesPerStep * path_.size());
   for (std::size_t i = 0; i < path_.size(); ++i) {
     if (i % kStepsBetweenReports == 0) {
@@ -196,9 +196,7 @@ void Poster::arrive(std::size_t i, const Counts& to) {
   told_ = kAllAxes & ~path_[i].unknown_axes();
 }
 
-void Poster::straight(int g, std::size_t i) {
-  straight_to(g, i, grid_.counts(path_[i].to()));
-}
+void Poster::straight(int g, std::size_t i) { straight_to(g, i, grid_.counts(path_[i].to())); }
 
 void Poster::straight_to(int g, std::size_t i, const Counts& to) {
   const unsigned axes = axes_to_write(i, to);

@@ -16,6 +16,9 @@ namespace kerf::gcode {
 
 inline constexpr unsigned kAllAxes = 7;
 
+/// True for a line of a template that only says something.
+bool is_comment(std::string_view line);
+
 class Poster {
  public:
   Poster(const Toolpath& path, const PostProfile& profile, const PostOptions& options,
@@ -53,13 +56,16 @@ class Poster {
   void temperature(std::size_t i);
   void fan(std::size_t i);
   void tool_change(std::size_t i);
+  void change_file(std::size_t i);
+  void pause(std::size_t i);
   void verbatim(std::size_t i);
   void restore(std::size_t i);
   void stop_spindle();
   void start_spindle(std::size_t i);
 
   // text.cpp
-  void open_file();
+  void open_file(std::size_t begin);
+  void find_file_end();
   void close_file();
   void approach(std::size_t i);
   void comment(std::string_view text);
@@ -97,7 +103,8 @@ class Poster {
   std::vector<PostedFile> files_;
   std::string out_;
   std::size_t lines_ = 0;
-  std::optional<int> file_tool_;  // where each tool has a file
+  std::size_t file_begin_ = 0, file_end_ = 0;  // the steps of the file being written
+  std::optional<int> file_tool_;               // in the spindle at the file's first motion
   int line_number_ = 0;
   LineBuffer line_;
   ArcPlan plan_;

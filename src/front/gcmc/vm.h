@@ -56,7 +56,6 @@ class Vm final : public Runtime {
   /// Runs to the end; throws Stop after an error. Returns the exit status that the program gave.
   int run();
 
-  void warn(Code code, std::string text) override;
   /// message(), warning() and error() of the program itself.
   void say(GcmcSaid said, std::string text);
 
@@ -85,6 +84,7 @@ class Vm final : public Runtime {
 
  private:
   using Pc = const Instruction*;
+  void say_warning(Code code, std::string text, std::string hint) override;
   void say_error(Code code, std::string text, std::string hint) override;
   void loop();
   const Value& operand(std::int32_t o, const Value* frame, const Value* constants) const {
@@ -172,6 +172,7 @@ class Vm final : public Runtime {
   Progress* progress_;
   Machine machine_;
 
+  std::size_t slots_;  // of the stack
   std::unique_ptr<std::byte[]> storage_;
   Value* stack_ = nullptr;
   Value* stack_end_ = nullptr;

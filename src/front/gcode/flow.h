@@ -72,6 +72,9 @@ class Flow {
   /// M99. False in the main program, where there is nothing to return to.
   bool return_from_call();
 
+  /// Behind an O number: if what follows returns by M99 before it ends a program, goes on after it.
+  bool skip_subprogram();
+
   /// Subroutines within each other, 0 in the main program.
   std::size_t depth() const { return frames_.size() - 1; }
   /// The name of the text that the last line came from; the same object while the text is the same.

@@ -33,7 +33,7 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
   program.path.reserve(std::min({text.size() / kBytesPerStep + 1, options.max_steps, kMostReserved}));
   program.dialect = dialect_of(text, options, diagnostics);
   gcode::Talker talker(options.file_name, options.strict, diagnostics);
-  gcode::Interpreter interpreter(program, options, talker);
+  gcode::Interpreter interpreter(program, text, options, talker);
   gcode::Flow flow(text, options, talker, interpreter.parameters(), program.dialect, diagnostics);
   interpreter.follow(flow);
   gcode::Block block;

@@ -236,6 +236,16 @@ TEST(Post, comments_hold_nothing_that_acts) {
   EXPECT_EQ(posted(path, bare("marlin")).text(), "; slot (2x)! ready? caf_\n");
 }
 
+TEST(Post, pauses_in_the_controllers_own_way) {
+  Toolpath path;
+  path.add(step::Verbatim{"M0"}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "M0\n");
+  EXPECT_EQ(posted(path, bare("klipper")).text(), "PAUSE\n");
+  PostProfile endless = bare("klipper");
+  endless.pause_lines = {"; wait"};
+  EXPECT_TRUE(posted(path, endless).said(Code::post_cannot));
+}
+
 TEST(Post, says_what_a_controller_lacks) {
   Toolpath path;
   path.add(step::Coolant{true, false}, OriginId::none);
