@@ -228,8 +228,8 @@ tolerance : float
 Returns
 -------
 dict
-    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions` (`kind`, `depth_mm`, `at`, `volume_mm3`, deepest
-    first); `map`, an array (columns in Y, columns in X) of mm, below 0 where material lacks.)");
+    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions` (`kind`, `depth_mm`, `at`, `volume_mm3`,
+    deepest first); `map`, an array (columns in Y, columns in X) of mm, below 0 where material lacks.)");
   bind_rotary(m);
 }
 

@@ -5,7 +5,8 @@ import struct
 import pytest
 from conftest import SOUND
 
-BOX = [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7]
+BOX = [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+       1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7]
 REMOVED = 2 * 3.175 / 2 * 10 + math.pi * 5 * 3.175 + math.pi * 3.175**2 / 4  # by SOUND, 1 mm deep
 BLOCK = ((0, 0, -6), (40, 30, 0))
 
@@ -37,7 +38,8 @@ def test_a_mesh_is_stock(kerf, program, box):
 def test_a_damaged_or_unknown_file_is_an_error(kerf, program, tmp_path):
     (tmp_path / "bad.stl").write_bytes(b"\0" * 90)
     (tmp_path / "part.step").write_bytes(b"ISO")
-    for name, code in (("bad.stl", "mesh_no_volume"), ("part.step", "mesh_file"), ("none.stl", "file_unreadable")):
+    for name, code in (("bad.stl", "mesh_no_volume"), ("part.step", "mesh_file"),
+                       ("none.stl", "file_unreadable")):
         run = kerf("simulate", "--json", "--stock-mesh", name, program())
         assert run.status == 1
         assert run.codes() == [code]
@@ -52,7 +54,8 @@ def test_left_over_stock_and_the_second_side(kerf, program, files):
     assert again.json["removed_mm3"] == pytest.approx(0, abs=0.03 * REMOVED)
     second = kerf("simulate", "--json", "--stock-left", "left.kstock", "--flip", "x", path)
     assert second.json["removed_mm3"] == pytest.approx(REMOVED, rel=2e-2)
-    moved = kerf("simulate", "--json", "--stock-left", "left.kstock", "--flip", "y x=0 z=0", "--shift", "40,0,-6", path)
+    moved = kerf("simulate", "--json", "--stock-left", "left.kstock", "--flip", "y x=0 z=0",
+                 "--shift", "40,0,-6", path)
     assert moved.json["stock"]["block_mm"] == [[0, 0, -6], [40, 30, 0]]
     kept = kerf("simulate", "--stock-left", "left.kstock", "-o", "left.kstock", path)
     assert kept.status == 2 and "input" in kept.err
@@ -97,12 +100,14 @@ def test_compare(kerf, program, box, files):
     assert kerf("compare", path, target, "-o", "part.stl").status == 2
 
 
-WRAP = "G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\nG0 Z20\nG0 X5\nG0 Z9\nM2\n"
+WRAP = ("G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\n"
+        "G0 Z20\nG0 X5\nG0 Z9\nM2\n")
 
 
 def test_a_fourth_axis(kerf, program, files):
     path = program(WRAP)
-    run = kerf("simulate", "--json", "--rotary", "d=20 length=30", "--resolution", "0.2", "-o", "bar.stl", path)
+    run = kerf("simulate", "--json", "--rotary", "d=20 length=30", "--resolution", "0.2",
+               "-o", "bar.stl", path)
     assert run.status == 0, run.err
     assert run.json["stock_mm3"] == pytest.approx(math.pi * 100 * 30, rel=1e-4)
     assert run.json["removed_mm3"] == pytest.approx(math.pi * 36 * 3.175 + 5, rel=0.06)

@@ -10,7 +10,8 @@ def box_stl(low, high):
     """Binary STL of a box."""
     corners = [(x, y, z) for z in (low[2], high[2])
                for x, y in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1]))]
-    faces = [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7]
+    faces = [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+             1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7]
     data = bytes(80) + struct.pack("<I", 12)
     for t in range(0, 36, 3):
         data += bytes(12) + b"".join(struct.pack("<3f", *corners[v]) for v in faces[t:t + 3]) + bytes(2)
@@ -82,13 +83,15 @@ def test_compare(block):
     result = kerf.simulate(slot(), kerf.Stock.block((40, 20, 6)), resolution=0.1)
     found = kerf.compare(result, kerf.load_stock(block))
     assert found["map"].shape == (200, 400)
-    assert found["gouge_mm3"] == pytest.approx(SLOT, rel=2e-2) and found["rest_mm3"] == pytest.approx(0, abs=1e-3)
+    assert found["gouge_mm3"] == pytest.approx(SLOT, rel=2e-2)
+    assert found["rest_mm3"] == pytest.approx(0, abs=1e-3)
     region, = found["regions"]
     assert region["kind"] == "gouge" and 1.5 < region["depth_mm"] <= 2.001
 
 
 def test_a_fourth_axis():
-    path = kerf.read_gcode("G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\nG0 Z20\nM2\n", "wrap.nc")
+    text = "G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\nG0 Z20\nM2\n"
+    path = kerf.read_gcode(text, "wrap.nc")
     result = kerf.simulate_rotary(path, 20, (0, 30), resolution=0.2)
     exact = math.pi * (100 - 64) * 3.175
     assert result.removed_mm3 == pytest.approx(exact, rel=0.05)
