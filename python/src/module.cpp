@@ -170,5 +170,6 @@ PYBIND11_MODULE(_kerf, m) {
   bind_tools(m);
   bind_toolpath(m);
   bind_simulation(m);
+  bind_bodies(m);
   bind_region(m);
 }

@@ -156,7 +156,9 @@ std::optional<Stock> load_target(const Options& options, Diagnostics& usage, Dia
   if (!options.target_shift) return target;
   const auto shift = read_shift_option(*options.target_shift, CallSpot{"", 0, "--target-shift"}, usage);
   if (!target || !shift) return std::nullopt;
-  return moved(*target, {.shift = *shift});
+  StockMove move;
+  move.shift = *shift;
+  return moved(*target, move);
 }
 
 Status compare_job(Console& console, const Options& options, const JobSettings& settings, const Stock& target,

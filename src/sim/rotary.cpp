@@ -68,9 +68,9 @@ struct RotaryMotion {
 /// Reads the toolpath into motions and tools, and tells what cannot be done.
 class Reader {
  public:
-  Reader(const Toolpath& path, const ToolTable& tools, const RoundBar& bar, double spacing,
+  Reader(const Toolpath& path, const ToolTable& table, const RoundBar& bar, double spacing,
          Diagnostics& diagnostics)
-      : path_(path), table_(tools), bar_(bar), spacing_(spacing), diagnostics_(diagnostics) {}
+      : path_(path), table_(table), bar_(bar), spacing_(spacing), diagnostics_(diagnostics) {}
 
   bool run();
   std::vector<RotaryMotion> motions;

@@ -48,6 +48,9 @@ Mesh extract_mesh(const RotaryWorkpiece& work, Progress* progress) {
     p[1] = static_cast<float>(work.bar.axis_y - r * std::sin(angle));
     p[2] = static_cast<float>(work.bar.axis_z + r * std::cos(angle));
   }
+  // Along, around, outwards is a left-handed order, so that triangles are turned round.
+  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
+    std::swap(mesh.triangles[t + 1], mesh.triangles[t + 2]);
   for (std::uint32_t& step : mesh.step)
     if (step < steps.size()) step = steps[step];
   return mesh;
