@@ -24,7 +24,8 @@ Parameters
 ----------
 outlines : sequence of outlines
     An outline is a list of points ``(x, y)`` in mm, where ``(via_x, via_y, x, y)`` makes an arc from the
-    point before through the via point; its last point is its first. Three numbers ``(x, y, radius)`` are a circle.
+    point before through the via point; its last point is its first. Three numbers ``(x, y, radius)`` are a
+    circle.
     Outlines may cross themselves and each other.
 fill : {'nonzero', 'even_odd', 'positive'}
     What is inside: what an outline goes around at all, what outlines go around an odd number of times, or
