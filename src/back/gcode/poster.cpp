@@ -229,6 +229,9 @@ void Poster::arc(std::size_t i) {
   const Counts to = grid_.counts(arc.to);
   const PlaneAxes axes = axes_of(arc.plane);
   const unsigned in_plane = (1u << axes.u) | (1u << axes.v);
+  if ((unknown_from_ & in_plane) != 0)
+    diagnostics_.error(Code::post_place_unknown, path_.origin_of(i),
+                       "an arc begins where nobody has told in work coordinates that the tool stands");
   const ArcWalk walk = walk_arc(from_, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
   unsigned first_axes = axes_to_write(i, to);
   plan_arc(walk, at_, to, grid_, profile_, plan_);
@@ -273,8 +276,8 @@ void Poster::probe(std::size_t i) {
   if (!profile_.has_g(tenths))
     return cannot(i, fmt::format("the controller has no probing move G{}.{}", tenths / 10, tenths % 10));
   const Counts to = grid_.counts(probe.to);
-  unsigned axes = axes_to_write(i, to);
-  if (axes == 0) axes = 1u << 2;  // a probe without a way is the controller's to refuse
+  const unsigned axes = axes_to_write(i, to);
+  if (axes == 0) return cannot(i, "a probing move that goes nowhere is refused by controllers");
   begin();
   code('G', tenths);
   put_axes(to, axes);
