@@ -196,6 +196,7 @@ void Poster::put_power() {
 void Poster::arrive(std::size_t i, const Counts& to) {
   at_ = to;
   told_ = kAllAxes & ~path_[i].unknown_axes();
+  touched_ = false;
 }
 
 void Poster::straight(int g, std::size_t i) { straight_to(g, i, grid_.counts(path_[i].to())); }
@@ -276,15 +277,16 @@ void Poster::probe(std::size_t i) {
   if (!profile_.has_g(tenths))
     return cannot(i, fmt::format("the controller has no probing move G{}.{}", tenths / 10, tenths % 10));
   const Counts to = grid_.counts(probe.to);
+  if (to == at_ && !touched_) return cannot(i, "a probing move that goes nowhere is refused by controllers");
   const unsigned axes = axes_to_write(i, to);
-  if (axes == 0) return cannot(i, "a probing move that goes nowhere is refused by controllers");
   begin();
   code('G', tenths);
-  put_axes(to, axes);
+  put_axes(to, axes == 0 ? 1u << 2 : axes);
   put_feed(i);
   end(i);
   at_ = to;
   told_ = 0;  // contact ends the move wherever it happens
+  touched_ = true;
   motion_ = -1;
 }
 

@@ -239,6 +239,7 @@ TEST(Post, after_a_probe_every_axis_is_told) {
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
   path.add(step::Rapid{{0, 0, -5}}, OriginId::none);
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG38.3 Z-5 F600\nG0 X0 Y0 Z-5\n");
+  path.add(step::Note{"after which all axes are told again"}, OriginId::none);
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
   EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_cannot));  // goes nowhere
 }
