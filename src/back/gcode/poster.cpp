@@ -318,8 +318,10 @@ void Poster::to_reference(int g, std::size_t i) {
   const bool machine = s.reference() == Reference::machine;
   const int tenths = machine ? 530 : s.reference() == Reference::home ? 280 : 300;
   if (!profile_.has_g(tenths) || profile_.syntax == LineSyntax::commands) {
-    left_out(i, fmt::format("the controller has no G{}; this move to a place of the machine", tenths / 10));
-  } else if (machine) {
+    return left_out(
+        i, fmt::format("the controller has no G{}; this move to a place of the machine", tenths / 10));
+  }
+  if (machine) {
     begin();
     code('G', tenths);
     code('G', g * 10);
