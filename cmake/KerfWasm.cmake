@@ -18,8 +18,8 @@ function(kerf_header_library NAME)
 endfunction()
 kerf_header_library(fmt::fmt FMT_HEADER_ONLY=1)
 kerf_header_library(nlohmann_json::nlohmann_json)
-kerf_header_library(hwy::hwy)
 kerf_header_library(tomlplusplus::tomlplusplus TOML_HEADER_ONLY=1 TOML_SHARED_LIB=0)
+kerf_header_library(hwy::hwy)  # one level of processor, so that nothing is chosen at run time
 # Empty stand-ins, so that a module's list of libraries is the same everywhere.
 foreach(name Threads::Threads ZLIB::ZLIB PNG::PNG EXPAT::EXPAT PkgConfig::MINIZIP)
   add_library(${name} INTERFACE IMPORTED GLOBAL)

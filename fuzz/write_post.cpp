@@ -1,5 +1,5 @@
-// Any bytes as a G-code program, written by a post and drawn: no crash, no output without bound, and what is written
-// without an error has nothing that the linter refuses.
+// Any bytes as a G-code program, written by a post and drawn: no crash, no output without bound, and what is
+// written without an error has nothing that the linter refuses.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>

@@ -9,6 +9,7 @@
 #include "app/job.h"
 #include "app/json.h"
 #include "app/post_drawing.h"
+#include "app/reading.h"
 #include "app/terminal_progress.h"
 
 #include "kerf/files.h"
@@ -29,6 +30,7 @@ struct Options {
   bool shorten = false;
   std::string dxf_version = "r2000";
   bool rapids = false;
+  ReadingOptions reading;
 };
 
 Status show_list(Console& console) {
@@ -201,7 +203,9 @@ Status run(Console& console, const Options& options) {
   if (target.drawing == nullptr && !target.profile) return fail(console, diagnostics, Status::input_errors);
 
   TerminalProgress progress(console);
-  auto program = load_program(options.file, diagnostics, &progress);
+  InputOptions input;
+  apply(options.reading, input);
+  auto program = load_program(options.file, diagnostics, &progress, input);
   if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const std::string name(target.profile ? target.profile->name : target.drawing->name);
@@ -263,6 +267,7 @@ Command add_post(CLI::App& root) {
   add_number(*app, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "For cutting moves that have no feed");
   add_pass_options(*app, *options);
   add_drawing_options(*app, *options);
+  add_reading_options(*app, options->reading);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
