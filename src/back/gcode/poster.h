@@ -121,7 +121,8 @@ class Poster {
 
   // What the controller knows.
   Counts at_{};
-  unsigned told_ = 0;  // axes whose at_ the controller has been told in work coordinates
+  bool touched_ = false;  // a probe may have ended before at_
+  unsigned told_ = 0;     // axes whose at_ the controller has been told in work coordinates
   std::array<std::int64_t, 3> rotary_{};
   unsigned told_rotary_ = 0;
   int motion_ = -1;
