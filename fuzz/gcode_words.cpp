@@ -74,7 +74,14 @@ constexpr std::string_view kPieces[] = {"\n",
                                         "G51 X2",
                                         "G68 R45\n",
                                         "G54",
-                                        "G55"};
+                                        "G55",
+                                        "G41.1 D2 ",
+                                        "G42.1 D.5 ",
+                                        "G40\n",
+                                        "G3 I1 J2 X",
+                                        "G83 R1 Z0 Q.1 X",
+                                        "G28\n",
+                                        "M30\n"};
 
 }  // namespace
 

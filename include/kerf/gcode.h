@@ -17,7 +17,8 @@
 namespace kerf {
 
 /// What is done with text that follows M2, M30 or a closing %: LinuxCNC and most controllers stop there; a
-/// sender streaming to GRBL goes on, so that a file of several programs runs through.
+/// sender streaming to GRBL goes on, so that a file of several programs runs through. Subprograms that stand
+/// there run only where they are called.
 enum class AfterEnd : unsigned char { stop, read_on };
 
 /// What is done with lines that begin with '/': run, or left out as with the controller's switch on.
@@ -49,7 +50,9 @@ struct GcodeReadOptions {
   std::size_t max_made_steps = 4'000'000;
   std::size_t max_line_bytes = 1'000'000;  // a longer line is an error
   bool strict = false;                     // warnings of unusual words become errors
-  AfterEnd after_end = AfterEnd::read_on;  // either way it is said that there is more text
+  /// Either way it is said that there is more text. Nothing: read on for lasers, printers, Fanuc's numbered
+  /// programs, and for GRBL where `dialect` names it.
+  std::optional<AfterEnd> after_end = {};
   BlockDelete block_delete = BlockDelete::run;
   std::optional<GcodeDialect> dialect = {};  // nothing: guessed from the text, and said
   double filament_diameter = 1.75;           // mm; turns a printer's E into volume

@@ -36,6 +36,7 @@ struct LoadedProgram {
 struct InputOptions {
   std::optional<Machine> machine;       // the one that is to run the program, where it is known
   std::optional<GcodeDialect> dialect;  // of G-code; nothing: told by the text
+  bool read_on = false;                 // behind the end of a G-code program
   bool strict = false;                  // what is unusual in G-code is an error
   decltype(GcodeReadOptions::tool_diameter) tool_diameter;  // for cutter compensation
 };

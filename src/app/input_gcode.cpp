@@ -43,8 +43,8 @@ std::optional<std::string> read_beside(const std::string& program, const std::st
 LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics& diagnostics,
                    Progress* progress) {
   GcodeReadOptions options;
-  // LinuxCNC itself stops at M2; that is asked for where the user names it.
-  if (input.dialect == GcodeDialect::rs274) options.after_end = AfterEnd::stop;
+  const bool streamed = input.machine && input.machine->controller == Controller::grbl;
+  if (input.read_on || streamed) options.after_end = AfterEnd::read_on;
   options.dialect = input.dialect;
   options.strict = input.strict;
   options.tool_diameter = input.tool_diameter;

@@ -18,11 +18,14 @@ void add_reading_options(CLI::App& app, ReadingOptions& options) {
                      joined(dialect_names(), ", "))
       ->type_name("NAME")
       ->check(CLI::Validator(known, ""));
+  app.add_flag("--read-on", options.read_on,
+               "Read a G-code file to its end, the programs behind M2 and M30 too, as senders do");
   app.add_flag("--strict", options.strict, "Take what is unusual in a G-code program as an error");
 }
 
 void apply(const ReadingOptions& options, InputOptions& input) {
   input.dialect = dialect_named(options.dialect);
+  input.read_on = options.read_on;
   input.strict = options.strict;
 }
 

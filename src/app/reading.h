@@ -1,5 +1,5 @@
-// How a program is to be read, as the command line tells it: --dialect and --strict of every command that
-// reads one.
+// How a program is to be read, as the command line tells it: --dialect, --read-on and --strict of every
+// command that reads one.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace kerf::app {
 
 struct ReadingOptions {
   std::string dialect;  // empty: told by the text
-  bool strict = false;
+  bool read_on = false, strict = false;
 };
 void add_reading_options(CLI::App& app, ReadingOptions& options);
 void apply(const ReadingOptions& options, InputOptions& input);

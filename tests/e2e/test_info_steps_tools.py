@@ -187,3 +187,44 @@ def test_measures_that_cannot_be_are_told_with_those_that_can(kerf):
 def test_the_help_of_tools_has_examples(kerf):
     out = kerf("tools", "--help").out
     assert "Examples:" in out and "kerf tools list" in out and "kerf tools show 102" in out
+
+
+SIDE = "G21 G90 F100\nT7 M6\nG41\nG1 X20\nX40\nG40\nG1 Y20\nM2\n"
+
+
+def ends_of(run):
+    steps = [json.loads(line) for line in run.out.splitlines()]
+    return [s["to"][:2] for s in steps if s.get("step") in ("rapid", "cut")]
+
+
+def test_compensation_takes_the_tool_of_the_command(kerf, program):
+    run = kerf("info", "--json", "--tool", "7=square d=6", program(SIDE))
+    assert run.status == 0, run.err
+    assert run.json["motion"]["cut_bounds_mm"][1][:2] == pytest.approx([40, 20])
+    assert run.json["motion"]["cut_mm"] == pytest.approx(math.hypot(20, 3) + 20 + 17)
+    run = kerf("info", "--json", program(SIDE))
+    assert run.status == 1 and "compensation_no_tool" in run.codes()
+    assert "--tool 7=" in run.json["diagnostics"][0]["hint"]
+
+
+def test_a_dialect_can_be_forced(kerf, program):
+    path = program("G21 G90\nG4 P500\nM2\nG0 X1\nM2\n")
+    seconds = {name: kerf("info", "--json", "--dialect", name, path).json["time_s"]["dwell"]
+               for name in ("linuxcnc", "Marlin")}
+    assert seconds == pytest.approx({"linuxcnc": 500, "Marlin": 0.5})
+    wrong = kerf("steps", "--dialect", "siemens", path)
+    assert wrong.status == 2 and "siemens" in wrong.err and "fanuc" in wrong.err
+
+
+def test_several_programs_of_a_file(kerf, program):
+    path = program("G21 G90\nG0 X1\nM2\nG0 X2\nM2\n")
+    stopped = kerf("steps", path)
+    assert len(ends_of(stopped)) == 1 and "--read-on" in stopped.err
+    for option in (["--read-on"], ["--dialect", "grbl"]):
+        assert [x for x, y in ends_of(kerf("steps", *option, path))] == [1, 2]
+
+
+def test_strict_makes_errors_of_warnings(kerf, program):
+    path = program("G21 G90\nG0 X1 P5\nM2\n")
+    assert kerf("info", path).status == 0
+    assert kerf("info", "--strict", path).status == 1

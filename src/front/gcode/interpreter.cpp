@@ -10,6 +10,13 @@ namespace {
 constexpr std::size_t kBytesOfStep = 2;        // a text of n bytes has no more than n / 2 words
 constexpr std::size_t kLongestCommand = 1000;  // bytes kept of a printer's command in words
 
+/// A program that merely looks like one for GRBL may as well be run by a controller that stops.
+AfterEnd usual_after_end(GcodeDialect dialect, const GcodeReadOptions& options) {
+  const bool stops = dialect == GcodeDialect::rs274 || dialect == GcodeDialect::mach3;
+  const bool perhaps = dialect == GcodeDialect::grbl && !options.dialect;
+  return stops || perhaps ? AfterEnd::stop : AfterEnd::read_on;
+}
+
 }  // namespace
 
 Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const GcodeReadOptions& options,
@@ -20,7 +27,7 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       options_(options),
       parameters_(*this),
       max_steps_(std::min(options.max_steps, text.size() / kBytesOfStep + options.max_made_steps)),
-      after_end_(options.after_end),
+      after_end_(options.after_end.value_or(usual_after_end(program.dialect, options))),
       file_(program.path.origins().file(options.file_name)) {
   const bool printer = program.dialect == GcodeDialect::marlin || program.dialect == GcodeDialect::klipper;
   line_.refuse((printer ? 0u : Line::bit('E')) | Line::bit('U') | Line::bit('V') | Line::bit('W'));
@@ -79,8 +86,9 @@ bool Interpreter::goes_on(const Block& block) {
   stopped_ = after_end_ == AfterEnd::stop;
   const std::uint32_t column = block.words.empty() ? 1 : block.words.front().column;
   if (stopped_)
-    talker_.unusual(Code::text_after_end, column, "the program has ended above; from here on nothing is read",
-                    "a file of several programs runs through only where a sender streams it line by line");
+    talker_.unusual(
+        Code::text_after_end, column, "the program has ended above; from here on nothing is read",
+        "a file of several programs runs through where a sender streams it line by line: --read-on");
   else
     talker_.note(Code::text_after_end, column,
                  "the program has ended above; what follows is read as its continuation");

@@ -103,7 +103,7 @@ const Case kCases[] = {
     {"F9 G2 X1 I99999999", Code::position_too_far, kError, 1, 1, 1},
     {"(TOOL/MILL, 3, 0, 10, 0)\nG0 X1", Code::tool_comment_unused, kWarning, 1, 1, 1},
     {"G20 F9", Code::feed_with_units, kNote, 1, 5, 0},
-    {"M2\nG0 X1", Code::text_after_end, kNote, 2, 1, 1},
+    {"M2\nG0 X1", Code::text_after_end, kWarning, 2, 1, 0},
 };
 
 std::size_t motions_of(const Toolpath& path) {

@@ -153,10 +153,10 @@ TEST(ReadGcode, MessagesForTheOperatorAreKept) {
 
 TEST(ReadGcode, TheEndStopsOrNot) {
   const std::string text = "G18 G91 M3 S100\nG0 X1\nM30\n%\nX5 Z5\nM2";
-  const Reading stop = read(text, {.after_end = AfterEnd::stop});
+  const Reading stop = read(text);
   EXPECT_EQ(kinds(stop.program.path), "spindle rapid spindle verbatim");
   EXPECT_TRUE(stop.program.ended);
-  const Reading on = read(text);
+  const Reading on = read(text, {.after_end = AfterEnd::read_on});
   ASSERT_EQ(kinds(on.program.path), "spindle rapid spindle verbatim cut verbatim");
   EXPECT_EQ(on[4].to(), (Point3{5, 0, 5}));  // the end set G90 and G1
   EXPECT_EQ(on.diagnostics.list()[0].code, Code::lone_percent);
@@ -230,8 +230,8 @@ TEST(ReadGcode, PlainLinesAreReadAsAllOthers) {
 }
 
 TEST(ReadGcode, SeveralProgramsOfAFileAreRead) {
-  const Reading r =
-      read("%\nO1\nG0 X1\nM98 P3\nM30\nO2 (again)\nG0 X2\nM2\nO3\nG0 X3 (M30)\nM99\nG0 X4\nM30\n%");
+  const Reading r = read(
+      "%\nO1000\nG0 X1\nM98 P3000\nM30\nO2000 (again)\nG0 X2\nM2\nO3000\nG0 X3 (M30)\nM99\nG0 X4\nM30\n%");
   std::string places;
   for (const Step& s : r.program.path.steps())
     if (s.is_motion()) places += std::to_string(static_cast<int>(s.to().x));
