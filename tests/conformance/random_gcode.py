@@ -34,7 +34,7 @@ class Maker:
 
 
 def moves(seed):
-    """Straight moves, distance modes, systems, shifts. Systems are turned only where nothing is shifted by G92
+    """Straight moves, distance modes, systems, shifts. Systems are turned where nothing is shifted by G92
     or G52: LinuxCNC forgets the shift when it works out anew where it stands."""
     make = Maker(seed)
     make.header()
