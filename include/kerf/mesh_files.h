@@ -1,4 +1,4 @@
-// Triangle meshes as files: STL, 3MF, GLB and OBJ bytes from plain arrays. No policy, no geometry.
+// Triangle meshes as files: STL, 3MF, GLB and OBJ bytes from plain arrays, and back. No policy, no geometry.
 #pragma once
 
 #include <array>
@@ -7,6 +7,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "kerf/diagnostics.h"
 
 namespace kerf {
 
@@ -32,5 +35,25 @@ std::optional<MeshFormat> mesh_format_of(std::string_view path);
 /// format cannot hold the mesh (GLB over 4 GiB: about 85 million triangles) and for 3MF in a WebAssembly
 /// build.
 std::string write_mesh(const MeshView& mesh, MeshFormat format);
+
+/// A mesh as a file holds it: x y z in mm, Z up; three indices a triangle. Vertices may stand several times
+/// (in STL each triangle has its own), and nothing says that the triangles enclose something.
+struct MeshData {
+  std::vector<double> positions;
+  std::vector<std::uint32_t> triangles;
+};
+
+/// What is read at most; more is an error.
+struct MeshLimits {
+  std::size_t triangles = 50'000'000;
+  std::size_t text_bytes = std::size_t{4} << 30;  // of an unpacked 3MF
+};
+
+/// Reads a mesh. STL (text and binary) and OBJ have no unit: a number is a mm. 3MF tells its unit, GLB is in
+/// metres with Y up; both are turned and scaled, and their parts (3MF's build, GLB's scene) are put together.
+/// Appends errors under the file's name, and returns nothing, for what is damaged, too large, not finite, or
+/// kept outside of the file (glTF's buffers, compressed meshes).
+std::optional<MeshData> read_mesh(std::string_view bytes, MeshFormat format, const std::string& name,
+                                  Diagnostics& diagnostics, const MeshLimits& limits = {});
 
 }  // namespace kerf

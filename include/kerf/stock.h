@@ -1,6 +1,7 @@
 // The stock: the material before the first cut. Lengths in mm, work coordinates (program zero is 0, 0, 0).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,10 +12,12 @@
 
 namespace kerf {
 
-/// A block of material. Cylinders, imported meshes and left-over stock come with the simulator's further
-/// work.
+class StockBody;
+
+/// A block of material, or what a body (stock_body.h) has of it: an imported mesh, the left-over of a job.
 struct Stock {
-  Box3 block;  // mm, work coordinates
+  Box3 block;                                       // mm, work coordinates
+  std::shared_ptr<const StockBody> body = nullptr;  // nothing: the block is full
 };
 
 /// Where program zero lies on the block, in plan and in height.

@@ -285,7 +285,10 @@ void tell_assumed(const AssumedStock& assumed, const Job& job, Diagnostics& diag
       fmt::format("tell it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
 }
 
-void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+  job.stock = settings.bodies.stock;
+  job.stock_source = StockSource::file;
+  if (job.stock) return;
   job.stock = settings.stock;
   job.stock_source = StockSource::option;
   if (job.stock) return;
@@ -302,6 +305,14 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   tell_assumed(*assumed, job, diagnostics);
 }
 
+void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+  job.bar = settings.bodies.bar;
+  if (job.bar) return;
+  find_stock(job, settings, diagnostics);
+  if (job.stock && settings.bodies.move) job.stock = moved(*job.stock, *settings.bodies.move);
+  job.fixtures = settings.bodies.fixtures;
+}
+
 }  // namespace
 
 void add_job_options(CLI::App& app, JobOptions& options) {
@@ -312,6 +323,12 @@ void add_job_options(CLI::App& app, JobOptions& options) {
   app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
       ->type_name("SPEC");
   add_reading_options(app, options.reading);
+}
+
+std::vector<std::string> input_files(const JobOptions& options) {
+  std::vector<std::string> files{options.file, options.bodies.mesh, options.bodies.left};
+  files.insert(files.end(), options.bodies.fixtures.begin(), options.bodies.fixtures.end());
+  return files;
 }
 
 void add_machine_option(CLI::App& app, JobOptions& options) {
@@ -325,6 +342,7 @@ JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diag
   for (const std::string& text : options.tools) read_tool_option_of(text, settings, usage);
   if (options.stock) settings.stock = read_stock_option(*options.stock, CallSpot{"", 0, "--stock"}, usage);
   read_tool_files(options.tool_files, settings, diagnostics);
+  settings.bodies = read_body_options(options.bodies, usage, diagnostics);
   if (!options.machine.empty())
     if (const auto file = InputFile::open(options.machine, diagnostics))
       settings.input.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
@@ -351,6 +369,7 @@ std::string_view to_string(ToolSource source) {
 std::string_view to_string(StockSource source) {
   switch (source) {
     case StockSource::option: return "option";
+    case StockSource::file: return "file";
     case StockSource::program: return "program";
     case StockSource::assumed: return "assumed";
     case StockSource::unknown: break;

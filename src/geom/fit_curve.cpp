@@ -142,7 +142,9 @@ bool CurveFitter::arcs(double from, double to, Point2 end) {
 void CurveFitter::piece(double from, double to) {
   const Point2 end = curve_.at(to).at, start = made_.point(made_.segments.size());
   if (!(start == end) && arcs(from, to, end)) return;
-  if (to - from > kShortest) {
+  const Carrier line = make_carrier(start, {end, {}, {}}, 0.0);
+  const bool all_in_one_place = distance(start, end) <= within_ && near(from, to, &line, 1);
+  if (to - from > kShortest && !all_in_one_place) {
     const double middle = 0.5 * (from + to);
     piece(from, middle);
     piece(middle, to);

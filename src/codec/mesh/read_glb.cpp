@@ -1,0 +1,203 @@
+// GLB (glTF 2.0, binary): the triangles of the scene, each node's place applied, metres with Y up turned into
+// mm with Z up. Positions of other kinds than floats, buffers in other files and compressed meshes are
+// refused.
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "codec/mesh/readers.h"
+
+namespace kerf::mesh_format {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int kTriangles = 4, kStrip = 5;                               // modes of a primitive
+constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // component types
+constexpr int kDeepest = 64;                                            // nodes within nodes
+constexpr std::size_t kMostVisits = 100'000;                            // nodes in all
+constexpr double kMillimetres = 1000.0;                                 // of a metre
+
+/// A range of the binary part that holds `count` values `stride` bytes apart.
+struct Accessor {
+  std::size_t at = 0, count = 0, stride = 0;
+  int component = 0;
+};
+
+/// Reads the description. Anything of an unexpected kind throws, and is caught at the door.
+class Scene {
+ public:
+  Scene(const Json& json, std::string_view binary, MeshMaker& out)
+      : json_(json), binary_(binary), out_(out) {}
+
+  bool read() {
+    if (json_.contains("extensionsRequired") && !json_["extensionsRequired"].empty())
+      return out_.fail(fmt::format("the file needs the extension {}, which is not read",
+                                   json_["extensionsRequired"].at(0).get<std::string>()));
+    Affine upright;  // glTF's x, y, z in metres to x, -z, y in mm
+    const double turned[3][4] = {{kMillimetres, 0, 0, 0}, {0, 0, -kMillimetres, 0}, {0, kMillimetres, 0, 0}};
+    std::memcpy(upright.m, turned, sizeof turned);
+    if (!json_.contains("scenes")) return true;
+    const Json& scene = json_["scenes"].at(json_.value("scene", std::size_t{0}));
+    if (!scene.contains("nodes")) return true;
+    for (const Json& node : scene["nodes"])
+      if (!visit(node.get<std::size_t>(), upright, 0)) return false;
+    return true;
+  }
+
+ private:
+  bool visit(std::size_t number, const Affine& parent, int depth);
+  bool add_primitive(const Json& primitive, const Affine& place);
+  std::optional<Accessor> accessor(std::size_t number, const char* type);
+  std::uint64_t index_at(const Accessor& a, std::size_t k) const;
+  bool add_triangles(const std::optional<Accessor>& indices, std::size_t first, std::size_t count, bool turn);
+
+  const Json& json_;
+  std::string_view binary_;
+  MeshMaker& out_;
+  std::size_t visits_ = 0;
+};
+
+/// The map of a node: its matrix, or its scale, rotation and translation.
+Affine place_of(const Json& node) {
+  Affine place;
+  if (node.contains("matrix")) {
+    for (std::size_t k = 0; k < 12; ++k)
+      place.m[k % 3][k / 3] = node["matrix"].at(k / 3 * 4 + k % 3).get<double>();
+    return place;
+  }
+  const auto numbers = [&node](const char* key, std::vector<double> usual) {
+    if (!node.contains(key)) return usual;
+    for (std::size_t k = 0; k < usual.size(); ++k) usual[k] = node[key].at(k).get<double>();
+    return usual;
+  };
+  const auto q = numbers("rotation", {0, 0, 0, 1});
+  const auto s = numbers("scale", {1, 1, 1});
+  const auto t = numbers("translation", {0, 0, 0});
+  const double x = q[0], y = q[1], z = q[2], w = q[3];
+  const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)},
+                               {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
+                               {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) place.m[row][column] = turned[row][column] * s[column];
+    place.m[row][3] = t[row];
+  }
+  return place;
+}
+
+bool Scene::visit(std::size_t number, const Affine& parent, int depth) {
+  if (depth > kDeepest || ++visits_ > kMostVisits)
+    return out_.fail("the scene's nodes are nested too deeply, or hold each other");
+  const Json& node = json_.at("nodes").at(number);
+  const Affine place = parent.after(place_of(node));
+  if (node.contains("mesh"))
+    for (const Json& primitive : json_.at("meshes").at(node["mesh"].get<std::size_t>()).at("primitives"))
+      if (!add_primitive(primitive, place)) return false;
+  if (node.contains("children"))
+    for (const Json& child : node["children"])
+      if (!visit(child.get<std::size_t>(), place, depth + 1)) return false;
+  return true;
+}
+
+std::optional<Accessor> Scene::accessor(std::size_t number, const char* type) {
+  const Json& a = json_.at("accessors").at(number);
+  const auto refuse = [this](const char* why) {
+    out_.fail(why);
+    return std::nullopt;
+  };
+  if (a.contains("sparse") || !a.contains("bufferView")) return refuse("sparse accessors are not read");
+  if (a.at("type").get<std::string>() != type)
+    return refuse("an accessor is not of the type that it is used as");
+  const Json& view = json_.at("bufferViews").at(a["bufferView"].get<std::size_t>());
+  const Json& buffer = json_.at("buffers").at(view.at("buffer").get<std::size_t>());
+  if (buffer.contains("uri") || view["buffer"].get<std::size_t>() != 0)
+    return refuse("a buffer lies in another file, which is not read");
+  Accessor out;
+  out.component = a.at("componentType").get<int>();
+  const std::size_t width = out.component == kByte ? 1 : out.component == kShort ? 2 : 4;
+  const std::size_t size = width * (type[0] == 'V' ? 3u : 1u);
+  out.count = a.at("count").get<std::size_t>();
+  out.stride = view.value("byteStride", size);
+  const std::size_t in_view = a.value("byteOffset", std::size_t{0});
+  const std::size_t begin = view.value("byteOffset", std::size_t{0});
+  const std::size_t length = view.at("byteLength").get<std::size_t>();
+  // Each test leaves numbers small enough for the next one.
+  const std::size_t most = binary_.size();
+  const bool fits = begin <= most && length <= most - begin && in_view <= length && out.stride <= most &&
+                    out.stride >= size && out.count <= most / size &&
+                    (out.count == 0 || (out.count - 1) * out.stride + size <= length - in_view);
+  if (!fits) return refuse("an accessor reaches beyond the end of the data");
+  out.at = begin + in_view;
+  return out;
+}
+
+std::uint64_t Scene::index_at(const Accessor& a, std::size_t k) const {
+  const std::size_t at = a.at + k * a.stride;
+  if (a.component == kByte) return little_at<std::uint8_t>(binary_, at);
+  if (a.component == kShort) return little_at<std::uint16_t>(binary_, at);
+  return little_at<std::uint32_t>(binary_, at);
+}
+
+bool Scene::add_primitive(const Json& primitive, const Affine& place) {
+  const int mode = primitive.value("mode", kTriangles);
+  if (mode < kTriangles) return true;  // points and lines enclose nothing
+  if (mode >= kStrip) return out_.fail("strips and fans of triangles are not read");
+  const auto positions = accessor(primitive.at("attributes").at("POSITION").get<std::size_t>(), "VEC3");
+  if (!positions) return false;
+  if (positions->component != kFloat) return out_.fail("positions that are no floats are not read");
+  const std::size_t first = out_.vertices();
+  for (std::size_t k = 0; k < positions->count; ++k) {
+    const std::size_t at = positions->at + k * positions->stride;
+    double p[3] = {};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      p[axis] = static_cast<double>(little_at<float>(binary_, at + 4 * axis));
+    place.apply(p[0], p[1], p[2]);
+    if (!out_.add_vertex(p[0], p[1], p[2])) return false;
+  }
+  std::optional<Accessor> indices;
+  if (primitive.contains("indices")) {
+    indices = accessor(primitive["indices"].get<std::size_t>(), "SCALAR");
+    if (!indices) return false;
+    if (indices->component != kByte && indices->component != kShort && indices->component != kInt)
+      return out_.fail("indices are of a type that they cannot have");
+  }
+  return add_triangles(indices, first, indices ? indices->count : positions->count, place.mirrors());
+}
+
+bool Scene::add_triangles(const std::optional<Accessor>& indices, std::size_t first, std::size_t count,
+                          bool turn) {
+  for (std::size_t k = 0; k + 2 < count; k += 3) {
+    std::uint64_t v[3] = {};
+    for (std::size_t n = 0; n < 3; ++n) v[n] = first + (indices ? index_at(*indices, k + n) : k + n);
+    if (!out_.add_triangle(v[0], v[turn ? 2 : 1], v[turn ? 1 : 2])) return false;
+  }
+  return true;
+}
+
+constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+}  // namespace
+
+bool read_glb(std::string_view bytes, MeshMaker& out) {
+  if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF") return out.fail("the file does not begin as a GLB");
+  if (little_at<std::uint32_t>(bytes, 4) != 2) return out.fail("the file is not of glTF's version 2");
+  std::string_view chunks[2];
+  for (std::size_t at = 12, n = 0; n < 2 && at + 8 <= bytes.size(); ++n) {
+    const std::size_t length = little_at<std::uint32_t>(bytes, at);
+    const auto kind = little_at<std::uint32_t>(bytes, at + 4);
+    if (kind != (n == 0 ? kJsonChunk : kBinaryChunk)) break;
+    if (length > bytes.size() - at - 8) return out.fail("the file ends within a chunk");
+    chunks[n] = bytes.substr(at + 8, length);
+    at += 8 + (length + 3) / 4 * 4;
+  }
+  const Json json = Json::parse(chunks[0], nullptr, false);
+  if (json.is_discarded() || !json.is_object())
+    return out.fail("the description in the file is no JSON object");
+  try {
+    return Scene(json, chunks[1], out).read();
+  } catch (const Json::exception& problem) {
+    return out.fail(fmt::format("the description in the file is not as glTF asks ({})", problem.what()));
+  }
+}
+
+}  // namespace kerf::mesh_format

@@ -1,0 +1,320 @@
+// Bodies: made from triangles or columns, looked over, moved.
+#include "stock/body.h"
+
+#include <algorithm>
+#include <cassert>
+#include <fmt/format.h>
+#include <unordered_map>
+
+namespace kerf {
+namespace solid {
+namespace {
+
+/// Less is no volume, mm3; far below a crumb, far above rounding.
+constexpr double kNoVolume = 1e-6;
+
+struct LatticeHash {
+  std::size_t operator()(const Lattice& p) const {
+    std::uint64_t h = 0;
+    for (const std::int64_t v : {p.x, p.y, p.z}) {
+      h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    }
+    return h;
+  }
+};
+
+/// One point for each place, and no triangle without an area's worth of corners.
+MeshSolid weld(std::span<const double> positions, std::span<const std::uint32_t> triangles) {
+  MeshSolid mesh;
+  std::unordered_map<Lattice, std::uint32_t, LatticeHash> known;
+  std::vector<std::uint32_t> number(positions.size() / 3);
+  known.reserve(number.size() / 2);
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    const double* p = positions.data() + 3 * v;
+    const Lattice at{to_lattice(p[0]), to_lattice(p[1]), to_lattice(p[2])};
+    const auto [it, is_new] = known.try_emplace(at, static_cast<std::uint32_t>(mesh.points.size()));
+    if (is_new) mesh.points.push_back(at);
+    number[v] = it->second;
+  }
+  mesh.triangles.reserve(triangles.size() / 3);
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    const std::array<std::uint32_t, 3> v{number[triangles[t]], number[triangles[t + 1]],
+                                         number[triangles[t + 2]]};
+    if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) mesh.triangles.push_back(v);
+  }
+  return mesh;
+}
+
+double signed_volume(const MeshSolid& mesh) {
+  if (mesh.points.empty()) return 0.0;
+  const Point3 origin = mesh.at(0);
+  double six = 0.0;
+  for (const auto& t : mesh.triangles)
+    six += dot(mesh.at(t[0]) - origin, cross(mesh.at(t[1]) - origin, mesh.at(t[2]) - origin));
+  return six / 6.0;
+}
+
+/// What is wrong with the edges: those with a triangle too few, and those whose triangles do not face one
+/// way.
+struct EdgeFaults {
+  std::size_t open = 0, turned = 0;
+  Point3 first_open;  // the middle of one
+};
+
+EdgeFaults find_edge_faults(const MeshSolid& mesh) {
+  struct Edge {
+    std::uint32_t low, high;
+    bool upwards;
+  };
+  std::vector<Edge> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = t[k], b = t[(k + 1) % 3];
+      edges.push_back({std::min(a, b), std::max(a, b), a < b});
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+            [](const Edge& a, const Edge& b) { return a.low != b.low ? a.low < b.low : a.high < b.high; });
+  EdgeFaults faults;
+  for (std::size_t k = 0; k < edges.size();) {
+    const Edge& edge = edges[k];
+    std::size_t uses = 0;
+    std::ptrdiff_t balance = 0;
+    for (; k < edges.size() && edges[k].low == edge.low && edges[k].high == edge.high; ++k, ++uses)
+      balance += edges[k].upwards ? 1 : -1;
+    if (uses % 2 != 0) {
+      if (faults.open++ == 0) faults.first_open = 0.5 * (mesh.at(edge.low) + mesh.at(edge.high));
+    } else if (balance != 0) {
+      ++faults.turned;
+    }
+  }
+  return faults;
+}
+
+void turn_round(MeshSolid& mesh) {
+  for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+}
+
+/// Tells what is wrong and rights what can be. False where there is nothing to be made of it.
+bool look_over(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
+  const TextSpot file{mesh.name, 0, 0};
+  const EdgeFaults faults = find_edge_faults(mesh);
+  if (faults.open > 0) {
+    const Point3& at = faults.first_open;
+    diagnostics
+        .warning(
+            Code::mesh_open, file,
+            fmt::format("the mesh does not close: {} edges have a triangle on one side only, one of them at "
+                        "X{:.3f} Y{:.3f} Z{:.3f}",
+                        faults.open, at.x, at.y, at.z))
+        .hint = "it is used as far as vertical lines find a way in for each way out";
+  }
+  mesh.is_oriented = faults.turned == 0;
+  if (!mesh.is_oriented) {
+    diagnostics.warning(
+        Code::mesh_turned, file,
+        fmt::format("the triangles at {} edges do not face the same way; in and out are told by "
+                    "counting surfaces",
+                    faults.turned));
+    volume = std::abs(volume);
+  } else if (volume < 0.0) {
+    diagnostics.note(Code::mesh_turned, file, "the triangles face inwards; they were turned round");
+    turn_round(mesh);
+    volume = -volume;
+  }
+  if (volume > kNoVolume || !mesh.is_oriented) return true;
+  diagnostics.error(Code::mesh_no_volume, file, "the mesh encloses nothing");
+  return false;
+}
+
+Box3 bounds_of(const MeshSolid& mesh) {
+  Box3 box;
+  for (const auto& t : mesh.triangles)
+    for (const std::uint32_t v : t) box.add(mesh.at(v));
+  return box;
+}
+
+double volume_of(const LeftColumns& left) {
+  const Point3 size = left.bounds.size();
+  const ColumnPlaces& p = left.places;
+  const auto share = [&p](double low, double size_in_axis, double first, int k) {
+    const double begin = std::max(first + (k - 0.5) * p.pitch, low);
+    return std::max(std::min(first + (k + 0.5) * p.pitch, low + size_in_axis) - begin, 0.0);
+  };
+  double sum = 0.0;
+  for (int j = 0; j < p.ny; ++j) {
+    double row = 0.0;
+    for (int i = 0; i < p.nx; ++i) {
+      double length = 0.0;
+      for (const Run& run : left.columns.column(i, j)) length += static_cast<double>(run.high - run.low);
+      row += length * share(left.bounds.low.x, size.x, p.x, i);
+    }
+    sum += row * share(left.bounds.low.y, size.y, p.y, j);
+  }
+  return sum;
+}
+
+// ---- moves
+
+/// A move of one axis: v to sign * v + shift.
+struct AxisMove {
+  double sign = 1.0, shift = 0.0;
+  double operator()(double v) const { return sign * v + shift; }
+};
+struct Moves {
+  AxisMove axis[3];
+  Point3 operator()(Point3 p) const { return {axis[0](p.x), axis[1](p.y), axis[2](p.z)}; }
+  Box3 operator()(const Box3& box) const {
+    Box3 out;
+    out.add((*this)(box.low));
+    out.add((*this)(box.high));
+    return out;
+  }
+};
+
+Moves moves_of(const StockMove& move) {
+  Moves out;
+  if (move.flip != StockMove::Flip::none) {
+    const int across = move.flip == StockMove::Flip::about_x ? 1 : 0;
+    out.axis[across] = {-1.0, 2.0 * move.across.value_or(0.0)};
+    out.axis[2] = {-1.0, 2.0 * move.z.value_or(0.0)};
+  }
+  for (int k = 0; k < 3; ++k) out.axis[k].shift += move.shift[k];
+  return out;
+}
+
+MeshSolid moved_mesh(MeshSolid mesh, const Moves& moves) {
+  for (Lattice& p : mesh.points) {
+    std::int64_t* const v[3] = {&p.x, &p.y, &p.z};
+    for (int k = 0; k < 3; ++k)
+      *v[k] = (moves.axis[k].sign < 0.0 ? -*v[k] : *v[k]) + to_lattice(moves.axis[k].shift);
+  }
+  return mesh;  // half a turn changes two signs, so that triangles face outwards as before
+}
+
+LeftColumns moved_columns(const LeftColumns& left, const Moves& moves) {
+  LeftColumns out;
+  out.bounds = moves(left.bounds);
+  ColumnPlaces& p = out.places = left.places;
+  const bool turn_x = moves.axis[0].sign < 0.0, turn_y = moves.axis[1].sign < 0.0,
+             turn_z = moves.axis[2].sign < 0.0;
+  p.x = moves.axis[0](left.places.x + (turn_x ? (p.nx - 1) * p.pitch : 0.0));
+  p.y = moves.axis[1](left.places.y + (turn_y ? (p.ny - 1) * p.pitch : 0.0));
+  p.z = out.bounds.low.z;
+  const auto height = static_cast<float>(left.bounds.size().z);
+  out.columns.nx = p.nx;
+  out.columns.ny = p.ny;
+  out.columns.first.reserve(left.columns.first.size());
+  RunSink sink(out.columns);
+  for (int j = 0; j < p.ny; ++j) {
+    for (int i = 0; i < p.nx; ++i) {
+      sink.begin_column();
+      const auto runs = left.columns.column(turn_x ? p.nx - 1 - i : i, turn_y ? p.ny - 1 - j : j);
+      for (std::size_t k = 0; k < runs.size(); ++k) {
+        const Run& run = runs[turn_z ? runs.size() - 1 - k : k];
+        turn_z ? sink.add(height - run.high, height - run.low) : sink.add(run.low, run.high);
+      }
+    }
+  }
+  sink.end_columns();
+  return out;
+}
+
+}  // namespace
+
+ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places) {
+  ColumnRuns out{.nx = places.nx, .ny = places.ny, .first = {}, .runs = {}};
+  const ColumnPlaces& from = left.places;
+  const auto lift = static_cast<float>(from.z - places.z);
+  /// The column whose square a place lies in; -1 outside of all.
+  const auto nearest = [&from](double v, double first, int count) {
+    const double k = std::floor((v - first) / from.pitch + 0.5);
+    return k >= 0.0 && k < count ? static_cast<int>(k) : -1;
+  };
+  RunSink sink(out);
+  for (int j = 0; j < places.ny; ++j) {
+    const int from_j = nearest(places.y_of(j), from.y, from.ny);
+    for (int i = 0; i < places.nx; ++i) {
+      sink.begin_column();
+      const int from_i = nearest(places.x_of(i), from.x, from.nx);
+      if (from_i < 0 || from_j < 0) continue;
+      for (const Run& run : left.columns.column(from_i, from_j)) sink.add(run.low + lift, run.high + lift);
+    }
+  }
+  sink.end_columns();
+  return out;
+}
+
+}  // namespace solid
+
+StockBody::StockBody(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+StockBody::~StockBody() = default;
+
+const Box3& StockBody::bounds() const { return inside_->bounds; }
+Volume StockBody::volume() const { return mm3(inside_->volume); }
+
+std::optional<Length> StockBody::pitch() const {
+  const auto* left = std::get_if<LeftColumns>(&inside_->what);
+  return left == nullptr ? std::nullopt : std::optional(mm(left->places.pitch));
+}
+
+std::optional<ColumnRuns> StockBody::columns(const ColumnPlaces& places, Diagnostics& diagnostics,
+                                             Progress* progress) const {
+  if (const auto* mesh = std::get_if<solid::MeshSolid>(&inside_->what))
+    return solid::mesh_columns(*mesh, places, diagnostics, progress);
+  return solid::resampled(std::get<LeftColumns>(inside_->what), places);
+}
+
+std::shared_ptr<const StockBody> StockBody::moved(const StockMove& move) const {
+  const solid::Moves moves = solid::moves_of(move);
+  auto inside = std::make_unique<Inside>();
+  inside->volume = inside_->volume;
+  inside->bounds = moves(inside_->bounds);
+  if (const auto* mesh = std::get_if<solid::MeshSolid>(&inside_->what)) {
+    inside->what = solid::moved_mesh(*mesh, moves);
+  } else {
+    inside->what = solid::moved_columns(std::get<LeftColumns>(inside_->what), moves);
+  }
+  return std::make_shared<StockBody>(std::move(inside));
+}
+
+std::shared_ptr<const StockBody> make_mesh_body(std::span<const double> positions,
+                                                std::span<const std::uint32_t> triangles,
+                                                const std::string& name, Diagnostics& diagnostics) {
+  solid::MeshSolid mesh = solid::weld(positions, triangles);
+  mesh.name = name;
+  double volume = solid::signed_volume(mesh);
+  if (!solid::look_over(mesh, volume, diagnostics)) return nullptr;
+  auto inside = std::make_unique<StockBody::Inside>();
+  inside->bounds = solid::bounds_of(mesh);
+  inside->volume = volume;
+  inside->what = std::move(mesh);
+  return std::make_shared<StockBody>(std::move(inside));
+}
+
+std::shared_ptr<const StockBody> make_columns_body(LeftColumns columns) {
+  auto inside = std::make_unique<StockBody::Inside>();
+  inside->bounds = columns.bounds;
+  inside->volume = solid::volume_of(columns);
+  inside->what = std::move(columns);
+  return std::make_shared<StockBody>(std::move(inside));
+}
+
+Stock stock_of(std::shared_ptr<const StockBody> body) {
+  Stock stock{body->bounds()};
+  stock.body = std::move(body);
+  return stock;
+}
+
+Stock moved(const Stock& stock, StockMove move) {
+  const Point3 middle = 0.5 * (stock.block.low + stock.block.high);
+  if (!move.across) move.across = move.flip == StockMove::Flip::about_x ? middle.y : middle.x;
+  if (!move.z) move.z = middle.z;
+  Stock out{solid::moves_of(move)(stock.block)};
+  if (stock.body) out.body = stock.body->moved(move);
+  return out;
+}
+
+}  // namespace kerf

@@ -1,0 +1,81 @@
+// What is behind StockBody: triangles on a lattice of whole numbers, or columns.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "kerf/stock_body.h"
+
+namespace kerf::solid {
+
+/// Corners lie on a lattice of 2^-20 mm (about a nanometre). Whole numbers make it certain on which side of
+/// an edge a line passes, and that both triangles of the edge agree.
+inline constexpr double kPerMm = 1 << 20;
+struct Lattice {
+  std::int64_t x = 0, y = 0, z = 0;
+  bool operator==(const Lattice&) const = default;
+};
+inline std::int64_t to_lattice(double v) { return std::llround(v * kPerMm); }
+
+struct MeshSolid {
+  std::string name;
+  std::vector<Lattice> points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  bool is_oriented = true;  // all triangles face outwards; else in and out are told by counting
+
+  Point3 at(std::uint32_t v) const {
+    const Lattice& p = points[v];
+    return {static_cast<double>(p.x) / kPerMm, static_cast<double>(p.y) / kPerMm,
+            static_cast<double>(p.z) / kPerMm};
+  }
+};
+
+std::optional<ColumnRuns> mesh_columns(const MeshSolid& mesh, const ColumnPlaces& places,
+                                       Diagnostics& diagnostics, Progress* progress);
+ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places);
+
+/// Runs nearer than this to the next one become one, and shorter ones none, mm: what single precision and the
+/// lattice make of faces that touch.
+inline constexpr float kNoGap = 1e-5f;
+/// Appends a column's runs, given in order, with such gaps and crumbs left out.
+class RunSink {
+ public:
+  explicit RunSink(ColumnRuns& out) : out_(out) {}
+  void begin_column() {
+    finish();
+    out_.first.push_back(static_cast<std::uint32_t>(out_.runs.size()));
+  }
+  void add(float low, float high) {
+    if (open_ && low <= run_.high + kNoGap) {
+      run_.high = high > run_.high ? high : run_.high;
+      return;
+    }
+    finish();
+    run_ = {low, high};
+    open_ = true;
+  }
+  void end_columns() { begin_column(); }
+
+ private:
+  void finish() {
+    if (open_ && run_.high > run_.low + kNoGap) out_.runs.push_back(run_);
+    open_ = false;
+  }
+  ColumnRuns& out_;
+  Run run_;
+  bool open_ = false;
+};
+
+}  // namespace kerf::solid
+
+namespace kerf {
+struct StockBody::Inside {
+  std::variant<solid::MeshSolid, LeftColumns> what;
+  Box3 bounds;
+  double volume = 0.0;  // mm3
+};
+}  // namespace kerf

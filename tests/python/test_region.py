@@ -1,0 +1,126 @@
+"""kerf.Region and its companions: shapely's answers, known shapes, and bad input."""
+import math
+import random
+
+import pytest
+
+import kerf
+
+SQUARE = [(0, 0), (10, 0), (10, 10), (0, 10), (0, 0)]
+NAN = math.nan
+
+
+def test_shapely_agrees_on_random_regions():
+    pytest.importorskip("shapely", reason="shapely is not installed; left out")
+    from region_shapely import differences
+    seed = random.randrange(10**9)
+    for i in range(200):
+        found = differences(random.Random(seed + i))
+        assert not found, f"seed {seed + i}: {found}"
+
+
+def test_operators_are_those_of_sets():
+    square, disc = kerf.Region([SQUARE]), kerf.Region([(10, 10, 4)])
+    quarter = math.pi * 4
+    assert (square | disc).area == pytest.approx(100 + 3 * quarter, abs=1e-10)
+    assert (square & disc).area == pytest.approx(quarter, abs=1e-10)
+    assert (square - disc).area == pytest.approx(100 - quarter, abs=1e-10)
+    assert (square ^ disc).area == pytest.approx(100 + 2 * quarter, abs=1e-10)
+    assert not (square & kerf.Region([(50, 50, 1)]))
+    assert kerf.Region().bounds is None
+
+
+def test_a_region_answers_questions():
+    ring = kerf.Region([(0, 0, 10), (0, 0, 4)], fill="even_odd")
+    assert len(ring.outlines) == 2 and len(ring.figures()) == 1
+    assert ring.locate((7, 0)) == "inside"
+    assert ring.locate((0, 0)) == "outside"
+    assert ring.locate((0, 10.01), margin=0.1) == "boundary"
+    assert ring.nearest((6, 0)) == pytest.approx((4, 0, 2))
+    assert ring.bounds == pytest.approx((-10, -10, 10, 10))
+    assert ring.length == pytest.approx(28 * math.pi)
+    assert ring.offset(-2).area == pytest.approx(math.pi * (64 - 36))
+
+
+def test_paths():
+    assert kerf.widen([(0, 0), (10, 0)], 1).area == pytest.approx(20 + math.pi)
+    assert kerf.widen([(0, 0), (10, 0)], 1, ends="butt").area == pytest.approx(20)
+    assert kerf.parallel([(0, 0), (10, 0)], 2) == [[(0, 2), (10, 2)]]
+    assert kerf.self_meetings([(0, 0), (4, 4), (4, 0), (0, 4)]) == [(2, 2, 0, 2)]
+
+
+def test_curves_become_arcs():
+    circle = [(math.cos(a / 50 * math.pi), math.sin(a / 50 * math.pi)) for a in range(101)]
+    assert len(kerf.fit_arcs(circle, 0.01)) <= 5
+    assert kerf.fit_bezier([(0, 0), (10, 10), (20, 0)], 0.01)[-1][-2:] == pytest.approx((20, 0))
+    spline = kerf.fit_spline([(0, 0), (1, 2), (3, 2), (4, 0)], [0, 0, 0, 0, 1, 1, 1, 1], within=0.001)
+    assert spline[0] == (0, 0)
+    assert all(math.hypot(*p) == pytest.approx(1) for p in kerf.flattened([(1, 0), (0, 1, -1, 0)], 0.1))
+
+
+class Endless:
+    """A sequence that says it has more than it gives."""
+
+    def __len__(self):
+        return 5
+
+    def __getitem__(self, index):
+        raise IndexError(index)
+
+
+@pytest.mark.parametrize("outlines", [
+    None, 5, "square", [5], [[]], [["ab"]], [[(0, 0), "to"]], [[(0, 0), (1,)]], [[(0, 0), (1, 2, 3)]],
+    [[(0, 0), None]], [[(0, 0), ((1, 2), (3, 4))]], [[[[[]]]]], [{}], [[(0, 0), {1: 2, 3: 4}]], [(1, 2)],
+    [(1, 2, 3, 4)], [(0, 0, -1)],
+    [(0, 0, NAN)], [[(0, 0), (1, 0), (NAN, 1), (0, 0)]], [[(0, 0), (1, 0), (math.inf, 1), (0, 0)]],
+    [[(0, 0), (1e300, 0), (0, 1), (0, 0)]], [[(0, 0), (1, 0), (1, 1)]], [SQUARE, [(0, 0), (0, 0)]], Endless(),
+    [Endless()], [[(0, 0), Endless()]], [[(0, 0), (10 ** 400, 0), (0, 0)]],
+], ids=repr)
+def test_bad_outlines_are_refused(outlines):
+    with pytest.raises((kerf.Error, TypeError, ValueError, IndexError, OverflowError)):
+        kerf.Region(outlines)
+
+
+@pytest.mark.parametrize("call", [
+    lambda r: r.offset(NAN),
+    lambda r: r.offset(math.inf),
+    lambda r: r.offset("1"),
+    lambda r: r.offset(1, tolerance=-1),
+    lambda r: r.offset(1, tolerance=NAN),
+    lambda r: r.locate((1,)),
+    lambda r: r.locate((NAN, 1)),
+    lambda r: r | 5,
+    lambda r: r.nearest("ab"),
+    lambda r: kerf.Region([SQUARE], fill="odd"),
+    lambda r: kerf.widen(SQUARE, 0),
+    lambda r: kerf.widen(SQUARE, -1),
+    lambda r: kerf.widen([(0, 0)], 1),
+    lambda r: kerf.widen(SQUARE, 1, ends="flat"),
+    lambda r: kerf.parallel(SQUARE, 0),
+    lambda r: kerf.fit_arcs([(0, 0)], 1),
+    lambda r: kerf.fit_arcs(SQUARE, 0),
+    lambda r: kerf.fit_arcs([(0, 0), (0, 1, 2, 3)], 1),
+    lambda r: kerf.fit_bezier(SQUARE * 20, 1),
+    lambda r: kerf.fit_bezier([(0, 0), (NAN, 0)], 1),
+    lambda r: kerf.fit_spline(SQUARE, [0, 1, 2]),
+    lambda r: kerf.fit_spline(SQUARE, [0] * 9),
+    lambda r: kerf.fit_spline(SQUARE, [NAN] * 9),
+    lambda r: kerf.fit_spline(SQUARE, list(range(9)), degree=100),
+    lambda r: kerf.flattened(SQUARE, NAN),
+], ids=range(25))
+def test_bad_arguments_are_refused(call):
+    with pytest.raises((kerf.Error, TypeError, ValueError)):
+        call(kerf.Region([SQUARE]))
+
+
+def test_an_error_names_outline_and_element():
+    with pytest.raises(kerf.Error, match="element 2"):
+        kerf.Region([SQUARE, [(0, 0), (1, 0), (NAN, 1), (0, 0)]])
+
+
+def test_a_million_points_are_no_trouble():
+    count = 10**6
+    circle = [(math.cos(a) * (1 + 0.1 * math.sin(50 * a)), math.sin(a))
+              for a in (2 * math.pi * i / count for i in range(count))]
+    region = kerf.Region([circle + circle[:1]])
+    assert region.area == pytest.approx(math.pi, rel=0.1)
