@@ -34,8 +34,8 @@ class Maker:
 
 
 def moves(seed):
-    """Straight moves, distance modes, systems, shifts. Systems are turned only where nothing is shifted by G92 or
-    G52: LinuxCNC forgets the shift when it works out anew where it stands."""
+    """Straight moves, distance modes, systems, shifts. Systems are turned where nothing is shifted by G92
+    or G52: LinuxCNC forgets the shift when it works out anew where it stands."""
     make = Maker(seed)
     make.header()
     make.say("G28.1")
@@ -50,7 +50,8 @@ def moves(seed):
         elif kind == 6:
             make.say(make.either("G54", "G55", "G56", "G59.1", "G59.3"))
         elif kind == 7:
-            make.say("G10 L2", make.either("P0", "P1", "P2", "P9"), make.axes(), make.either("", "R0", "R30") if turns else "")
+            turn = make.either("", "R0", "R30") if turns else ""
+            make.say("G10 L2", make.either("P0", "P1", "P2", "P9"), make.axes(), turn)
             make.say("G17")
         elif kind == 8:
             make.say("G10 L20", make.either("P1", "P2"), make.axes())
@@ -79,11 +80,12 @@ def arcs(seed):
         make.say(plane, "G91.1")
         way = make.random.randrange(4)
         if way == 0:  # a full circle, or several
-            make.say(turn, make.word(i), make.word(j), make.word(third, share=0.5), make.either("", "P2", "P3"))
+            make.say(turn, make.word(i), make.word(j), make.word(third, share=0.5),
+                     make.either("", "P2", "P3"))
         elif way == 1:  # half circles with both words
             u, v = make.number(), make.number()
-            make.say("G91", turn, f"{first}{2 * u:.3f} {second}{2 * v:.3f} {i}{u} {j}{v}", make.word(third, share=0.5),
-                     make.either("", "", "P2"))
+            make.say("G91", turn, f"{first}{2 * u:.3f} {second}{2 * v:.3f} {i}{u} {j}{v}",
+                     make.word(third, share=0.5), make.either("", "", "P2"))
             make.say("G90")
         elif way == 2:
             u, v = make.number(0.1, 1), make.number(0.1, 1)
@@ -107,7 +109,11 @@ def cycles(seed):
         incremental = make.lines[-1] == "G91"
         r = make.number(-0.3, 0.4)
         bottom = make.number(-0.9, -0.1) if incremental else round(r - abs(make.number()) - 1, 3)
-        extra = "P0.5" if code in ("G82", "G86", "G89") else f"Q{abs(make.number(0.1, 0.5))}" if code in ("G83", "G73") else ""
+        extra = ""
+        if code in ("G82", "G86", "G89"):
+            extra = "P0.5"
+        elif code in ("G83", "G73"):
+            extra = f"Q{abs(make.number(0.1, 0.5))}"
         make.say(code, make.word("X"), make.word("Y", share=0.7), f"Z{bottom} R{r}", extra,
                  make.either("", "", "L2", "L3"))
         for _ in range(make.random.randrange(3)):
@@ -132,7 +138,8 @@ def computed(seed):
             return f"#{make.random.randrange(1, 6)}"
         if kind == 2:
             return f"{make.either(*functions)}[{value(depth + 1)}]"
-        return "[" + f" {make.either(*binary)} ".join(value(depth + 1) for _ in range(make.random.randrange(2, 4))) + "]"
+        terms = [value(depth + 1) for _ in range(make.random.randrange(2, 4))]
+        return "[" + f" {make.either(*binary)} ".join(terms) + "]"
 
     for number in range(1, 6):
         make.say(f"#{number} = {make.number()}")
@@ -183,7 +190,8 @@ def compensated(seed):
             make.say(make.either("G1", "G1", "G0"), make.word("X"), make.word("Y"), make.word("Z", share=0.3))
         elif kind < 8:
             u, v = make.number(), make.number()
-            make.say("G91", make.either("G2", "G3"), f"X{2 * u:.3f} Y{2 * v:.3f} I{u} J{v}", make.word("Z", share=0.2))
+            make.say("G91", make.either("G2", "G3"), f"X{2 * u:.3f} Y{2 * v:.3f} I{u} J{v}",
+                     make.word("Z", share=0.2))
             make.say("G90")
         elif kind == 8:
             make.say("G1", make.word("Z"))

@@ -1,5 +1,5 @@
-"""What LinuxCNC's interpreter makes of a program: its moves in mm, in coordinates of G54 as they were when the
-program began.  python3 rs274.py FILE... prints them, in the notation of tests/data/gcode/moves.txt."""
+"""What LinuxCNC's interpreter makes of a program: its moves in mm, in coordinates of G54 as they were when
+the program began.  python3 rs274.py FILE... prints them, in the notation of tests/data/gcode/moves.txt."""
 import math
 import re
 import shutil

@@ -1,4 +1,4 @@
-"""Random programs: Kerf's moves are those of LinuxCNC's interpreter, and what that refuses is an error here."""
+"""Random programs: Kerf's moves are those of LinuxCNC's interpreter, what that refuses is an error here."""
 import json
 import os
 import subprocess
@@ -18,8 +18,8 @@ OTHER_VERDICTS = {"compensated": 4}
 
 
 def kerf_moves(path):
-    done = subprocess.run([os.environ["KERF"], "steps", "--dialect", "linuxcnc", str(path)], capture_output=True,
-                          text=True, timeout=60)
+    command = [os.environ["KERF"], "steps", "--dialect", "linuxcnc", str(path)]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
     kinds = {"rapid": "R", "cut": "C", "arc": "A", "dwell": "D"}
     moves = []
     for line in done.stdout.splitlines():
