@@ -155,12 +155,23 @@ void Roughing(benchmark::State& state) {
 }
 
 // Resolution in microns, threads.
-BENCHMARK(Relief1M)->Args({100, 1})->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
-    benchmark::kMillisecond);
+BENCHMARK(Relief1M)
+    ->Args({100, 1})
+    ->Args({100, 2})
+    ->Args({50, 2})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(Relief10k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(Keyhole100k)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(Keyhole100k)
+    ->Args({100, 2})
+    ->Args({50, 2})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(Random100k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
+    benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kerf

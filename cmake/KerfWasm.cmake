@@ -4,7 +4,7 @@
 # minizip, threads) is left out by the modules that would use it.
 set(KERF_WASM_INCLUDE "${CMAKE_BINARY_DIR}/host-include")
 file(MAKE_DIRECTORY "${KERF_WASM_INCLUDE}")
-foreach(library fmt nlohmann toml++)
+foreach(library fmt nlohmann toml++ hwy)
   if(NOT EXISTS "/usr/include/${library}")
     message(FATAL_ERROR "the headers of ${library} are not in /usr/include; `./dev wasm` installs them")
   endif()
@@ -19,6 +19,7 @@ endfunction()
 kerf_header_library(fmt::fmt FMT_HEADER_ONLY=1)
 kerf_header_library(nlohmann_json::nlohmann_json)
 kerf_header_library(tomlplusplus::tomlplusplus TOML_HEADER_ONLY=1 TOML_SHARED_LIB=0)
+kerf_header_library(hwy::hwy)  # one level of processor, so that nothing is chosen at run time
 # Empty stand-ins, so that a module's list of libraries is the same everywhere.
 foreach(name Threads::Threads ZLIB::ZLIB PNG::PNG EXPAT::EXPAT PkgConfig::MINIZIP)
   add_library(${name} INTERFACE IMPORTED GLOBAL)

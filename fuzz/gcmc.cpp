@@ -43,6 +43,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.want_text = true;
   options.max_memory = std::size_t{16} << 20;
   options.max_path_steps = 20'000;
+  options.max_calls = 300;
   if (size > 0) {  // the first byte chooses
     options.imperial = (data[0] & 1) != 0;
     options.relative = (data[0] & 2) != 0;

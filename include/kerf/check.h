@@ -56,6 +56,9 @@ struct PathHazard {
 /// "no_feed", "negative_feed", "no_tool", "arc_radii", "spindle_off", "no_program_end".
 std::string_view kind_of(const PathHazard& hazard);
 
+/// Whether controllers take an arc that begins and ends so far from its centre, mm.
+bool radii_agree(double start, double end, const CheckOptions& options);
+
 /// Looks through a whole toolpath; what it finds is in the order of steps. Neither spindle nor tool is
 /// asked for in programs that switch a laser or lay down beads. A spindle that turns at 0 rpm is one whose
 /// speed is set by hand: the reader of G-code makes an S0 a spindle that is off.

@@ -27,25 +27,31 @@ struct DrawingLayer {
 namespace drawing {
 struct Line {
   double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
+  bool operator==(const Line&) const = default;
 };
 struct Arc {  // counter-clockwise from start to end
   double x = 0.0, y = 0.0, radius = 0.0, start = 0.0, end = 0.0;
+  bool operator==(const Arc&) const = default;
 };
 struct Circle {
   double x = 0.0, y = 0.0, radius = 0.0;
+  bool operator==(const Circle&) const = default;
 };
 struct Vertex {
   double x = 0.0, y = 0.0;
-  double bulge =
-      0.0;  // tangent of a quarter of the sweep to the next vertex, above 0 counter-clockwise; 0: a line
+  /// Tangent of a quarter of the sweep to the next vertex, above 0 counter-clockwise; 0: a line.
+  double bulge = 0.0;
+  bool operator==(const Vertex&) const = default;
 };
 struct Polyline {
   std::vector<Vertex> vertices;  // at least two
   bool closed = false;           // then not with the first vertex repeated at the end
+  bool operator==(const Polyline&) const = default;
 };
 struct Text {
   double x = 0.0, y = 0.0, height = 2.5;
   std::string text;  // UTF-8
+  bool operator==(const Text&) const = default;
 };
 }  // namespace drawing
 
@@ -64,9 +70,15 @@ struct Drawing {
 /// Low x, low y, high x, high y of all entities, arcs and bulges included; zeros for an empty drawing.
 std::array<double, 4> drawing_bounds(const Drawing& drawing);
 
-/// A complete AutoCAD 2000 file: header with unit and extents, tables of layers and line types, entities with
-/// their subclass markers, so that strict readers take it.
-std::string write_dxf(const Drawing& drawing);
+/// R12 for old programs: polylines as vertices, names in capitals.
+enum class DxfVersion : std::uint8_t { r2000, r12 };
+
+/// A complete AutoCAD file: header with unit and extents, tables of layers and line types, and (but in R12)
+/// owners and subclass markers, so that strict readers take it.
+std::string write_dxf(const Drawing& drawing, DxfVersion version = DxfVersion::r2000);
+
+/// Red, green and blue of an AutoCAD colour index on white paper; index 7 is black there.
+std::array<std::uint8_t, 3> colour_of_index(int index);
 
 /// SVG 1.1 with its true size: width and height in mm or inch, one unit of the view box is one of the
 /// drawing. Each layer is a group; arcs stay arcs. Without a unit the size is in pixels.

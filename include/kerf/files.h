@@ -38,16 +38,35 @@ class InputFile {
   std::unique_ptr<Body> body_;
 };
 
+/// An output file that is written piece by piece beside its target and appears whole, by rename, or not at
+/// all. A symbolic link is followed. What is no ordinary file (a device, a pipe) is written at once instead.
+class OutputFile {
+ public:
+  /// Begins the file. Nothing, with an error appended, where that fails.
+  static std::optional<OutputFile> create(const std::string& path, Diagnostics& diagnostics);
+  /// Writes behind what was written before. False, with an error appended, where that fails.
+  bool write(std::string_view bytes, Diagnostics& diagnostics);
+  /// Ends the writing; commit() does it too. False, with an error appended, where that fails.
+  bool close(Diagnostics& diagnostics);
+  /// Puts the file into place. False, with an error appended, where that or the writing failed; nothing is
+  /// left behind then.
+  bool commit(Diagnostics& diagnostics);
+
+  OutputFile(OutputFile&&) noexcept;
+  OutputFile& operator=(OutputFile&&) noexcept;
+  ~OutputFile();
+
+ private:
+  struct Body;
+  explicit OutputFile(std::unique_ptr<Body> body);
+  std::unique_ptr<Body> body_;
+};
+
 /// A set of output files that appear together: each is written beside its target under a temporary name, and
-/// `commit()` renames all of them. Without a commit nothing is left behind. A target that is a link is
-/// followed, and one that is no ordinary file (a pipe, /dev/null) is written to by `commit()` as it is.
+/// `commit()` renames all of them. Without a commit nothing is left behind. Links are followed as by
+/// OutputFile; what is no ordinary file is written to by `commit()`.
 class OutputSet {
  public:
-  OutputSet() = default;
-  OutputSet(const OutputSet&) = delete;
-  OutputSet& operator=(const OutputSet&) = delete;
-  ~OutputSet();
-
   /// Writes `bytes` to a temporary file beside `path`. False, with an error appended, where that fails.
   bool write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics);
   /// Renames all files into place. False, with an error appended, where a rename fails; those not renamed yet
@@ -56,11 +75,10 @@ class OutputSet {
 
  private:
   struct Pending {
-    std::string target;
-    std::string temporary;  // empty: `bytes` go straight to the target
-    std::string bytes;
+    std::optional<OutputFile> file;  // nothing where the target is no ordinary file
+    std::string path, bytes;
   };
-  bool put_in_place(const Pending& file, Diagnostics& diagnostics) const;
+  static bool put_in_place(Pending& pending, Diagnostics& diagnostics);
   std::vector<Pending> pending_;
 };
 

@@ -42,18 +42,22 @@ const std::vector<std::string>& dialect_names();
 GcodeDialect guess_dialect(std::string_view text);
 
 struct GcodeReadOptions {
-  std::string file_name = "<text>";        // for origins
-  std::size_t max_steps = 50'000'000;      // more is an error
+  std::string file_name = "<text>";    // for origins
+  std::size_t max_steps = 50'000'000;  // more is an error
+  /// Of these, how many a program may make beyond what its own length explains (a step for two bytes), by
+  /// cycles, loops and curves; a small file must not fill the memory.
+  std::size_t max_made_steps = 4'000'000;
   std::size_t max_line_bytes = 1'000'000;  // a longer line is an error
   bool strict = false;                     // warnings of unusual words become errors
-  AfterEnd after_end = AfterEnd::stop;     // either way it is said that there is more text
+  AfterEnd after_end = AfterEnd::read_on;  // either way it is said that there is more text
   BlockDelete block_delete = BlockDelete::run;
   std::optional<GcodeDialect> dialect = {};  // nothing: guessed from the text, and said
   double filament_diameter = 1.75;           // mm; turns a printer's E into volume
   /// Text of the file "name.ngc" that `o<name> call` asks for (letters, digits, '_', '-' only); null: none.
   std::function<std::optional<std::string>(const std::string& file_name)> read_file = {};
-  /// Diameter in mm of a tool of the user's table, for G41 and G42; the program's own remarks come first.
-  std::function<std::optional<double>(int tool)> tool_diameter = {};
+  /// Diameter in mm of a tool, for G41 and G42; `described` is what the program's remarks say of it, or null.
+  /// No function: the remarks count.
+  std::function<std::optional<double>(int tool, const Tool* described)> tool_diameter = {};
   std::size_t max_rerun_bytes = 500'000'000;  // of lines read after a jump; more is an error
 };
 

@@ -85,7 +85,7 @@ struct PostProfile {
   ArcPolicy arcs = ArcPolicy::centre;
   std::vector<Plane> arc_planes{Plane::xy, Plane::xz, Plane::yz};
   Length largest_radius = mm(10'000);  // above it, chords
-  Length shortest_arc = mm(0.01);      // below it, a straight cut
+  Length shortest_arc = mm(0.002);     // below it, a straight cut
   Length chord = mm(0.002);            // how far chords may stray from an arc
 
   ToolChangePolicy tool_change = ToolChangePolicy::command;

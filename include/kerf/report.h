@@ -54,6 +54,8 @@ struct ReportOptions {
   /// Highest rates of X, Y and Z. Where all are above 0, a rapid takes what its slowest axis takes, whatever
   /// `rapid_feed` says.
   std::array<Feed, 3> axis_rates{};
+  /// Only the steps of [first, end) count.
+  std::size_t first = 0, end = std::numeric_limits<std::size_t>::max();
 };
 
 PathReport report_on(const Toolpath& path, const ReportOptions& options);

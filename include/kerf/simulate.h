@@ -19,6 +19,7 @@
 #include "kerf/geometry.h"
 #include "kerf/progress.h"
 #include "kerf/stock.h"
+#include "kerf/stock_body.h"
 #include "kerf/tool.h"
 #include "kerf/toolpath.h"
 
@@ -27,12 +28,17 @@ namespace kerf {
 /// The step id of a surface that no step made: the stock's own faces.
 inline constexpr std::uint32_t kStockSurface = 0xffffffffu;
 
+/// What the solid is for: to be cut, or (fixtures.h) not to be touched at all. A no-go solid tells every cut
+/// into it as HazardKind::spindle_off, as if the spindle stood.
+enum class SolidRole : std::uint8_t { stock, no_go };
+
 struct SimulationOptions {
-  Length resolution;  // column pitch; 0 chooses one: about 4 million columns, from 0.02 to 1 mm; for a huge
-                      // stock more
+  Length resolution;     // column pitch; 0 chooses one: of left-over stock its own, else about 4 million
+                         // columns, from 0.02 to 1 mm; for a huge stock more
   unsigned threads = 0;  // 0: as many as the machine has. The result is the same for any number.
   std::size_t max_columns = 400'000'000;  // more is an error that says which resolution would do
   Length hazard_depth = mm(0.001);        // contacts shallower than this are no hazard
+  SolidRole role = SolidRole::stock;
 };
 
 enum class HazardKind : std::uint8_t {
@@ -107,6 +113,9 @@ class Workpiece {
  private:
   std::unique_ptr<Body> body_;
 };
+
+/// The material left as the stock of a following job (make_columns_body); which steps made it is forgotten.
+LeftColumns left_columns(const Workpiece& workpiece);
 
 struct Simulation {
   Workpiece workpiece;

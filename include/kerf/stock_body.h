@@ -29,6 +29,18 @@ struct ColumnPlaces {
   double x = 0.0, y = 0.0, z = 0.0;  // mm
   double pitch = 1.0;                // mm
   int nx = 0, ny = 0;
+  /// Where the last column and row end that are narrower than a pitch, mm: their lines stand in the middle of
+  /// what is left of them. Nothing: they are as wide as all.
+  std::optional<double> end_x = std::nullopt, end_y = std::nullopt;
+
+  double x_of(int i) const { return place(x, i, nx, end_x); }
+  double y_of(int j) const { return place(y, j, ny, end_y); }
+
+ private:
+  double place(double first, int k, int count, const std::optional<double>& end) const {
+    const bool is_narrow = end && k + 1 == count;
+    return is_narrow ? 0.5 * (first + (k - 0.5) * pitch + *end) : first + k * pitch;
+  }
 };
 
 /// A stretch of material on a vertical line, mm above the z of its ColumnPlaces.

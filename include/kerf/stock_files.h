@@ -10,15 +10,39 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "kerf/diagnostics.h"
+#include "kerf/round_bar.h"
 #include "kerf/stock.h"
+#include "kerf/stock_body.h"
 
 namespace kerf {
 
 /// Reads such a text. Appends an error that says what was expected, and returns nothing, for anything else,
 /// for edges that are not above 0, and for numbers that are not finite. `where` is the error's place.
 std::optional<Stock> read_stock_option(std::string_view text, const Origin& where, Diagnostics& diagnostics);
+
+/// Reads a body of stock from a file's bytes: a mesh (.stl .3mf .glb .obj) or what an earlier job has left
+/// (.kstock), told by the name's ending. Appends an error and returns nothing where it is neither or damaged.
+std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& name,
+                                     Diagnostics& diagnostics);
+/// ".stl .3mf .glb .obj .kstock": whether a name ends so.
+bool is_stock_file(std::string_view name);
+bool is_left_file(std::string_view name);
+/// The bytes of a .kstock file.
+std::string write_left_file(const LeftColumns& left);
+
+/// Reads "x", "x y=30 z=-6" or "about y x=50": half a turn about an axis parallel to X (which goes through
+/// the told y and z) or to Y (through x and z); what is not told goes through the middle of the block.
+std::optional<StockMove> read_flip_option(std::string_view text, const Origin& where,
+                                          Diagnostics& diagnostics);
+/// Reads "d=40 length=100 x=0 y=0 z=0": a round bar from X0 to X100 that turns about an axis along X at Y0
+/// Z0; x, y and z may be left out and are 0 then.
+std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& where,
+                                           Diagnostics& diagnostics);
+/// Reads "10,0,-3": a shift in mm.
+std::optional<Point3> read_shift_option(std::string_view text, const Origin& where, Diagnostics& diagnostics);
 
 }  // namespace kerf

@@ -239,6 +239,9 @@ class Toolpath {
   /// one.
   OriginId copy_origin(const Toolpath& other, std::size_t i);
 
+  /// Moves the end of motion `i`; an arc's new end must lie on its circle. For front ends that learn where a
+  /// move ends only from the next one.
+  void set_end(std::size_t i, Point3 to);
   /// Marks axes (bits 1, 2, 4 for X, Y, Z) as unknown at the end of motion `i`; see Step::unknown_axes.
   void set_unknown_axes(std::size_t i, unsigned bits);
   /// Tells which axes the program named for motion `i`; see Step::named_axes.

@@ -6,10 +6,14 @@ tool or a part. A `Region` is a part of the plane bounded by lines and arcs: uni
 Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
+import os
+
+from . import _kerf
 from ._kerf import (
     Diagnostic,
     Error,
     Region,
+    RotarySimulation,
     Simulation,
     Stock,
     Tool,
@@ -17,6 +21,8 @@ from ._kerf import (
     Toolpath,
     __version__,
     built_in_tools,
+    compare,
+    fixture_contacts,
     fit_arcs,
     fit_bezier,
     fit_spline,
@@ -25,6 +31,7 @@ from ._kerf import (
     read_gcode,
     self_meetings,
     simulate,
+    simulate_rotary,
     widen,
 )
 
@@ -32,6 +39,7 @@ __all__ = [
     "Diagnostic",
     "Error",
     "Region",
+    "RotarySimulation",
     "Simulation",
     "Stock",
     "Tool",
@@ -39,15 +47,22 @@ __all__ = [
     "Toolpath",
     "__version__",
     "built_in_tools",
+    "compare",
     "fit_arcs",
     "fit_bezier",
     "fit_spline",
+    "fixture_contacts",
     "flattened",
+    "left_stock",
     "load",
+    "load_stock",
+    "move_stock",
     "parallel",
     "read_gcode",
+    "save_left_stock",
     "self_meetings",
     "simulate",
+    "simulate_rotary",
     "widen",
 ]
 
@@ -70,5 +85,82 @@ def load(path):
     kerf.Error
         Where its text has errors.
     """
-    with open(path, encoding="latin-1") as file:
-        return read_gcode(file.read(), str(path))
+    name = os.fspath(path)
+    with open(name, encoding="latin-1") as file:
+        return read_gcode(file.read(), os.fsdecode(name))
+
+
+def load_stock(path):
+    """Read stock, a fixture or a target from a file.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+        A closed mesh (.stl .3mf .glb .obj) or the left-over of an earlier job (.kstock).
+
+    Returns
+    -------
+    Stock
+
+    Raises
+    ------
+    OSError
+        Where the file cannot be read.
+    kerf.Error
+        Where it is damaged, or the mesh encloses nothing.
+    """
+    with open(path, "rb") as file:
+        return _kerf._read_stock(file.read(), os.fsdecode(path))
+
+
+def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):
+    """Turn stock over and move it.
+
+    Parameters
+    ----------
+    stock : Stock
+    flip : {'', 'x', 'y'}
+        Half a turn about an axis parallel to X or Y; '' for none.
+    across : float, optional
+        Y of an axis along X, X of one along Y, mm; the block's middle where left out.
+    z : float, optional
+        Z of the axis, mm; the block's middle where left out.
+    shift : sequence of 3 float
+        Movement after that, mm.
+
+    Returns
+    -------
+    Stock
+    """
+    return _kerf._moved_stock(stock, flip, across, z, shift)
+
+
+def left_stock(simulation):
+    """What a simulation has left, as the stock of a following job.
+
+    Parameters
+    ----------
+    simulation : Simulation
+
+    Returns
+    -------
+    Stock
+    """
+    return _kerf._left_stock(simulation)
+
+
+def save_left_stock(simulation, path):
+    """Write what a simulation has left to a .kstock file, which `load_stock` reads.
+
+    Parameters
+    ----------
+    simulation : Simulation
+    path : str or os.PathLike
+
+    Raises
+    ------
+    OSError
+        Where the file cannot be written.
+    """
+    with open(path, "wb") as file:
+        file.write(_kerf._write_left(simulation))

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bindings.h"
+#include "simulation_result.h"
 
 #include "kerf/files.h"
 #include "kerf/image_files.h"
@@ -16,31 +17,13 @@ namespace py = pybind11;
 
 namespace {
 
-/// A finished simulation with the toolpath it came from (for origins and colours).
-struct Result {
-  Simulation simulation;
-  std::shared_ptr<const Toolpath> path;
-};
-
-py::dict describe(const Result& result, const Hazard& hazard) {
-  const Origin origin = result.path->origin_of(hazard.step);
-  py::dict d;
-  d["kind"] = std::string(to_string(hazard.kind));
-  d["step"] = hazard.step;
-  d["at"] = to_tuple(hazard.at);
-  d["depth_mm"] = hazard.depth.mm();
-  d["removed_mm3"] = hazard.removed.mm3();
-  d["origin"] = to_string(origin);
-  return d;
-}
-
 Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTable>& tools, double resolution,
-           unsigned threads) {
+           long long threads) {
   if (finite_number(resolution, "resolution") < 0.0)
     throw py::value_error("resolution must be 0 (automatic) or above, mm");
   SimulationOptions options;
   options.resolution = mm(resolution);
-  options.threads = threads;
+  options.threads = static_cast<unsigned>(whole_within(threads, 0, kMostThreads, "threads"));
   Diagnostics diagnostics;
   SignalProgress progress;
   auto kept = std::make_shared<const Toolpath>(path);
@@ -54,25 +37,13 @@ Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTab
   return {std::move(*simulation), std::move(kept)};
 }
 
-/// A numpy array of its own memory. Made through numpy's Python interface, which does not depend on the
-/// binding library and numpy agreeing on the layout of numpy's structures.
-template <class T>
-py::object to_array(const std::vector<T>& values, const char* type, py::ssize_t columns) {
-  const py::object bytes = py::reinterpret_steal<py::object>(PyByteArray_FromStringAndSize(
-      reinterpret_cast<const char*>(values.data()), static_cast<py::ssize_t>(values.size() * sizeof(T))));
-  if (!bytes) throw py::error_already_set();
-  const py::object array = py::module_::import("numpy").attr("frombuffer")(bytes, type);
-  return columns == 1 ? array : array.attr("reshape")(-1, columns);
-}
-
 py::tuple mesh_arrays(const Result& result) {
   Mesh mesh;
   {
     const py::gil_scoped_release release;
     mesh = extract_mesh(result.simulation.workpiece.grid());
   }
-  return py::make_tuple(to_array(mesh.positions, "float32", 3), to_array(mesh.triangles, "uint32", 3),
-                        to_array(mesh.step, "uint32", 1));
+  return mesh_tuple(mesh);
 }
 
 py::list column_of(const Result& result, int i, int j) {
@@ -87,8 +58,31 @@ py::list column_of(const Result& result, int i, int j) {
 
 }  // namespace
 
+py::dict describe(const Toolpath& path, const Hazard& hazard) {
+  const Origin origin = path.origin_of(hazard.step);
+  py::dict d;
+  d["kind"] = std::string(to_string(hazard.kind));
+  d["step"] = hazard.step;
+  d["at"] = to_tuple(hazard.at);
+  d["depth_mm"] = hazard.depth.mm();
+  d["removed_mm3"] = hazard.removed.mm3();
+  d["origin"] = to_string(origin);
+  return d;
+}
+
+py::tuple mesh_tuple(const Mesh& mesh) {
+  return py::make_tuple(to_array(mesh.positions, "float32", 3), to_array(mesh.triangles, "uint32", 3),
+                        to_array(mesh.step, "uint32", 1));
+}
+
 void bind_simulation(py::module_& m) {
   py::class_<Result>(m, "Simulation", "What a toolpath left of the stock. Made by `simulate`.")
+      .def("__repr__",
+           [](const Result& r) {
+             return "<kerf.Simulation: " + number_text(r.simulation.removed.mm3(), 3) + " of " +
+                    number_text(r.simulation.stock.mm3(), 3) + " mm3 removed, " +
+                    std::to_string(r.simulation.hazards.size()) + " hazards>";
+           })
       .def_property_readonly(
           "stock_mm3", [](const Result& r) { return r.simulation.stock.mm3(); }, "float: volume before, mm3.")
       .def_property_readonly(
@@ -112,7 +106,7 @@ void bind_simulation(py::module_& m) {
           "hazards",
           [](const Result& r) {
             py::list list;
-            for (const Hazard& hazard : r.simulation.hazards) list.append(describe(r, hazard));
+            for (const Hazard& hazard : r.simulation.hazards) list.append(describe(*r.path, hazard));
             return list;
           },
           "list of dict: moves that would break a tool or a part, in order; see `kerf simulate --json`.")
@@ -126,7 +120,7 @@ void bind_simulation(py::module_& m) {
            "Surface as (points (n, 3) float32 mm, triangles (m, 3) uint32, step of each triangle (m,) "
            "uint32).");
   m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(),
-        py::arg("resolution") = 0.0, py::arg("threads") = 0u,
+        py::arg("resolution") = 0.0, py::arg("threads") = 0,
         R"(Cut a toolpath out of a stock.
 
 Parameters

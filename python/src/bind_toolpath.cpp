@@ -4,8 +4,10 @@
 
 #include "bindings.h"
 
+#include "kerf/check.h"
 #include "kerf/files.h"
 #include "kerf/gcode.h"
+#include "kerf/number.h"
 #include "kerf/report.h"
 #include "kerf/toolpath.h"
 
@@ -73,7 +75,26 @@ std::size_t checked_index(const Toolpath& path, py::ssize_t i) {
 
 Feed positive_feed(double value) {
   if (finite_number(value, "feed") <= 0.0) throw py::value_error("feed must be above 0 mm/min");
-  return mm_per_min(value);
+  return mm_per_min(number_within(value, 0.0, kFastest, "feed", "mm/min"));
+}
+
+SpindleTurn to_spindle_turn(const std::string& name) {
+  if (name == "off") return SpindleTurn::off;
+  if (name != "cw" && name != "ccw")
+    throw py::value_error("turn must be 'cw', 'ccw' or 'off', not '" + name + "'");
+  return to_turn(name) == Turn::cw ? SpindleTurn::cw : SpindleTurn::ccw;
+}
+
+/// Raises ValueError for an arc whose ends are not equally far from its centre. Where the arc begins is not
+/// known before the first move.
+void check_radii(const Toolpath& path, const step::Arc& arc) {
+  std::size_t i = path.size();
+  while (i > 0 && !path[i - 1].is_motion()) --i;
+  if (i == 0) return;
+  const ArcWalk walk = walk_arc(path[i - 1].to(), arc.to, arc.centre, arc.plane, arc.turn, 0);
+  if (radii_agree(walk.start_radius, walk.end_radius, {})) return;
+  throw py::value_error("the arc begins " + number_text(walk.start_radius, 4) +
+                        " mm from its centre and ends " + number_text(walk.end_radius, 4) + " mm from it");
 }
 
 void bind_motions(py::class_<Toolpath>& c) {
@@ -108,15 +129,15 @@ feed : float
   c.def(
       "arc",
       [](Toolpath& path, const py::object& to, const py::object& centre, const std::string& turn, double feed,
-         const std::string& plane, int extra_turns) {
+         const std::string& plane, long long extra_turns) {
         step::Arc arc;
         arc.to = to_point3(to, "to");
         arc.centre = to_point2(centre, "centre");
         arc.turn = to_turn(turn);
         arc.plane = to_plane(plane);
         arc.feed = positive_feed(feed);
-        if (extra_turns < 0) throw py::value_error("extra_turns must be 0 or more");
-        arc.extra_turns = extra_turns;
+        arc.extra_turns = whole_within(extra_turns, 0, kMostTurns, "extra_turns");
+        check_radii(path, arc);
         path.add(arc, path.origins().add(script_spot("arc")));
       },
       py::arg("to"), py::arg("centre"), py::arg("turn"), py::arg("feed"), py::arg("plane") = "XY",
@@ -141,24 +162,23 @@ extra_turns : int
 void bind_other_steps(py::class_<Toolpath>& c) {
   c.def(
       "tool",
-      [](Toolpath& path, int number) {
-        path.add(step::ToolChange{number}, path.origins().add(script_spot("tool")));
+      [](Toolpath& path, long long number) {
+        path.add(step::ToolChange{whole_within(number, 0, kHighestTool, "number")},
+                 path.origins().add(script_spot("tool")));
       },
       py::arg("number"), "Append a tool change to the tool of this number.");
   c.def(
       "spindle",
       [](Toolpath& path, double rpm_value, const std::string& turn) {
-        if (finite_number(rpm_value, "rpm") < 0.0) throw py::value_error("rpm must be 0 or more");
-        const SpindleTurn sense = turn == "off"               ? SpindleTurn::off
-                                  : to_turn(turn) == Turn::cw ? SpindleTurn::cw
-                                                              : SpindleTurn::ccw;
+        number_within(rpm_value, 0.0, kFastest, "rpm", "rpm");
+        const SpindleTurn sense = to_spindle_turn(turn);
         path.add(step::Spindle{rpm(rpm_value), sense}, path.origins().add(script_spot("spindle")));
       },
       py::arg("rpm"), py::arg("turn") = "cw", "Start the spindle ('cw', 'ccw') or stop it ('off').");
   c.def(
       "dwell",
       [](Toolpath& path, double value) {
-        if (finite_number(value, "seconds") < 0.0) throw py::value_error("seconds must be 0 or more");
+        number_within(value, 0.0, kLongestDwell, "seconds", "s");
         path.add(step::Dwell{seconds(value)}, path.origins().add(script_spot("dwell")));
       },
       py::arg("seconds"), "Append a pause of the given length in seconds.");
@@ -215,7 +235,10 @@ Examples
   c.def(py::init<>());
   bind_motions(c);
   bind_other_steps(c);
-  c.def("__len__", &Toolpath::size);
+  bind_copy(c);
+  c.def("__repr__",
+        [](const Toolpath& path) { return "<kerf.Toolpath of " + std::to_string(path.size()) + " steps>"; });
+  c.def("__len__", &Toolpath::size, "Number of steps.");
   c.def(
       "__getitem__",
       [](const Toolpath& path, py::ssize_t i) { return describe(path, checked_index(path, i)); },

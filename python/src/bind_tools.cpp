@@ -1,4 +1,6 @@
 // Tools and stock in Python.
+#include <algorithm>
+
 #include "bindings.h"
 
 #include "kerf/number.h"
@@ -15,13 +17,20 @@ namespace {
 /// checks both.
 std::string option_text(const std::string& shape_name, const py::kwargs& sizes) {
   std::string text = shape_name;
-  for (const auto& [key, value] : sizes)
-    text +=
-        " " + py::cast<std::string>(key) + "=" + exact_text(finite_number(py::cast<double>(value), "a size"));
+  for (const auto& [key, value] : sizes) {
+    const auto name = py::cast<std::string>(key);
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() != nullptr) {
+      PyErr_Clear();
+      throw py::type_error(name + " must be a number in mm or degrees");
+    }
+    text += " " + name + "=" + exact_text(finite_number(number, name.c_str()));
+  }
   return text;
 }
 
-Tool tool_from_text(const std::string& text, int number) {
+Tool tool_from_text(const std::string& text, long long told_number) {
+  const int number = whole_within(told_number, 0, kHighestTool, "number");
   Diagnostics diagnostics;
   std::optional<Tool> tool = read_tool_option(text, script_spot("Tool"), diagnostics);
   raise_or_warn(diagnostics);
@@ -35,7 +44,8 @@ py::list knots_of(const Profile& profile) {
   return list;
 }
 
-Tool drawn_tool(const py::sequence& knots, int number) {
+Tool drawn_tool(const py::sequence& knots, long long told_number) {
+  const int number = whole_within(told_number, 0, kHighestTool, "number");
   shape::Drawn drawn;
   for (const py::handle knot : knots) {
     const Point3 k = to_point3(knot, "a knot (r, z, bulge)");
@@ -51,6 +61,7 @@ Stock block_of(const py::object& size, const std::string& zero, const std::strin
   const Point3 edges = to_point3(size, "size");
   if (edges.x <= 0.0 || edges.y <= 0.0 || edges.z <= 0.0)
     throw py::value_error("size must be above 0 mm in every axis");
+  number_within(std::max({edges.x, edges.y, edges.z}), 0.0, kLargestStock, "size", "mm");
   const std::optional<ZeroCorner> corner = parse_zero_corner(zero);
   if (!corner)
     throw py::value_error("unknown place of zero '" + zero +
@@ -62,18 +73,23 @@ Stock block_of(const py::object& size, const std::string& zero, const std::strin
 }
 
 void bind_tool(py::module_& m) {
-  py::class_<Tool>(m, "Tool", R"(A cutting tool: its silhouette of lines and arcs, turned about the axis.
+  py::class_<Tool> c(m, "Tool", R"(A cutting tool: its silhouette of lines and arcs, turned about the axis.
 
 Parameters
 ----------
-spec : str
+spec : str or int
     As on the command line: ``"square d=3.175 flute=12.7"``, ``"V d=12.7 angle=90"``, or a tool's number.
 number : int
-    Its number in programs; 0 keeps the number of a built-in tool.)")
-      .def(py::init(&tool_from_text), py::arg("spec"), py::arg("number") = 0)
+    Its number in programs; 0 keeps the number of a built-in tool.)");
+  bind_copy(c);
+  c.def(py::init(&tool_from_text), py::arg("spec"), py::arg("number") = 0)
+      .def(py::init([](long long spec, long long number) {
+             return tool_from_text(std::to_string(whole_within(spec, 0, kHighestTool, "spec")), number);
+           }),
+           py::arg("spec"), py::arg("number") = 0)
       .def_static(
           "make",
-          [](const std::string& shape_name, int number, const py::kwargs& sizes) {
+          [](const std::string& shape_name, long long number, const py::kwargs& sizes) {
             return tool_from_text(option_text(shape_name, sizes), number);
           },
           py::arg("shape"), py::arg("number") = 0,
@@ -81,10 +97,11 @@ number : int
       .def_static("drawn", &drawn_tool, py::arg("knots"), py::arg("number") = 0,
                   "Make a tool from its half profile: (r, z, bulge) knots in mm from the tip upwards; bulge "
                   "as in DXF.")
-      .def_readonly("number", &Tool::number)
-      .def_readonly("names", &Tool::names)
-      .def_readonly("description", &Tool::description)
-      .def_property_readonly("shape", [](const Tool& t) { return std::string(name_of(t.shape)); })
+      .def_readonly("number", &Tool::number, "int: as in programs (T word); 0 where none was told.")
+      .def_readonly("names", &Tool::names, "list of str: vendors' names.")
+      .def_readonly("description", &Tool::description, "str: may be empty.")
+      .def_property_readonly(
+          "shape", [](const Tool& t) { return std::string(name_of(t.shape)); }, "str: 'square', 'V' ...")
       .def_property_readonly(
           "diameter", [](const Tool& t) { return t.diameter.mm(); }, "float: mm.")
       .def_property_readonly(
@@ -99,14 +116,23 @@ number : int
           },
           py::arg("depth"), "Diameter (mm) at a height above the tip (mm).")
       .def("__repr__", [](const Tool& t) {
-        return "<kerf.Tool " + std::to_string(t.number) + " " + std::string(name_of(t.shape)) + ">";
+        return "<kerf.Tool " + std::to_string(t.number) + " " + std::string(name_of(t.shape)) + " " +
+               number_text(t.diameter.mm(), 4) + " mm>";
       });
 }
 
 void bind_tool_table(py::module_& m) {
-  py::class_<ToolTable>(m, "ToolTable", "Tools by their number in programs.")
-      .def(py::init<>())
-      .def("__setitem__", [](ToolTable& table, int number, const Tool& tool) { table.set(number, tool); })
+  py::class_<ToolTable> c(m, "ToolTable", "Tools by their number in programs: table[3] = Tool(...).");
+  bind_copy(c);
+  c.def(py::init<>())
+      .def("__repr__",
+           [](const ToolTable& table) {
+             return "<kerf.ToolTable of " + std::to_string(table.tools().size()) + " tools>";
+           })
+      .def("__setitem__",
+           [](ToolTable& table, long long number, const Tool& tool) {
+             table.set(whole_within(number, 0, kHighestTool, "number"), tool);
+           })
       .def("__getitem__",
            [](const ToolTable& table, int number) {
              const Tool* tool = table.find(number);
@@ -115,18 +141,28 @@ void bind_tool_table(py::module_& m) {
            })
       .def("__contains__", [](const ToolTable& table, int number) { return table.find(number) != nullptr; })
       .def("__len__", [](const ToolTable& table) { return table.tools().size(); })
-      .def("numbers", [](const ToolTable& table) {
-        py::list list;
-        for (const auto& [number, tool] : table.tools()) list.append(number);
-        return list;
-      });
+      .def(
+          "numbers",
+          [](const ToolTable& table) {
+            py::list list;
+            for (const auto& [number, tool] : table.tools()) list.append(number);
+            return list;
+          },
+          "The numbers that have a tool, in order.");
   m.def(
       "built_in_tools", [] { return built_in_tools(); },
       "A copy of the table of tools that every Kerf knows.");
 }
 
 void bind_stock(py::module_& m) {
-  py::class_<Stock>(m, "Stock", "The material before the first cut: a block, mm, work coordinates.")
+  py::class_<Stock> c(m, "Stock", "The material before the first cut: a block, mm, work coordinates.");
+  bind_copy(c);
+  c.def("__repr__",
+        [](const Stock& s) {
+          const Point3 size = s.block.size();
+          return "<kerf.Stock " + number_text(size.x, 4) + " x " + number_text(size.y, 4) + " x " +
+                 number_text(size.z, 4) + " mm>";
+        })
       .def_static("block", &block_of, py::arg("size"), py::arg("zero") = "lower-left",
                   py::arg("zero_height") = "top",
                   R"(A block with program zero at a named place.

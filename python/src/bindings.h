@@ -24,6 +24,28 @@ pybind11::tuple to_tuple(Point3 p);
 /// A finite number; raises ValueError naming the argument.
 double finite_number(double value, const char* argument);
 
+// What is accepted; beyond it a number is a slip, and computing with it is not safe.
+inline constexpr double kFarthest = 1e7;      // mm, a coordinate, as in the G-code reader
+inline constexpr double kLargestStock = 1e5;  // mm, an edge, as the simulator has it
+inline constexpr double kFastest = 1e6;       // mm/min and rpm
+inline constexpr double kLongestDwell = 1e6;  // seconds
+inline constexpr int kMostTurns = 10'000;     // of an arc, as in the G-code reader
+inline constexpr long long kHighestTool = 999'999'999;
+inline constexpr int kMostThreads = 1024;
+
+/// A number from `low` to `high`; raises ValueError that names the argument and its unit.
+double number_within(double value, double low, double high, const char* argument, const char* unit);
+int whole_within(long long value, long long low, long long high, const char* argument);
+
+/// Lets copy.copy and copy.deepcopy make a copy of a value.
+template <class Value>
+void bind_copy(pybind11::class_<Value>& c) {
+  c.def("__copy__", [](const Value& value) { return Value(value); });
+  c.def(
+      "__deepcopy__", [](const Value& value, const pybind11::dict&) { return Value(value); },
+      pybind11::arg("memo"));
+}
+
 /// Where in the user's script the call that is running stands.
 CallSpot script_spot(const char* call);
 
@@ -43,6 +65,7 @@ class SignalProgress final : public Progress {
 void bind_toolpath(pybind11::module_& m);
 void bind_tools(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
+void bind_bodies(pybind11::module_& m);
 void bind_region(pybind11::module_& m);
 
 }  // namespace kerf::python

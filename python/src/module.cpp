@@ -3,6 +3,8 @@
 
 #include "bindings.h"
 
+#include "kerf/number.h"
+
 namespace kerf::python {
 namespace py = pybind11;
 
@@ -76,6 +78,26 @@ double finite_number(double value, const char* argument) {
 
 namespace {
 
+std::string outside(const char* argument, double low, double high, const char* unit) {
+  return std::string(argument) + " must be from " + number_text(low, 3) + " to " + number_text(high, 3) +
+         (*unit == 0 ? "" : " ") + unit;
+}
+
+}  // namespace
+
+double number_within(double value, double low, double high, const char* argument, const char* unit) {
+  if (value >= low && value <= high) return value;
+  throw py::value_error(outside(argument, low, high, unit));
+}
+
+int whole_within(long long value, long long low, long long high, const char* argument) {
+  if (value < low || value > high)
+    throw py::value_error(outside(argument, static_cast<double>(low), static_cast<double>(high), ""));
+  return static_cast<int>(value);
+}
+
+namespace {
+
 void read_numbers(const py::handle& value, const char* argument, double* out, std::size_t count) {
   const std::string expected =
       std::string(argument) + " must be " + std::to_string(count) + " finite numbers";
@@ -90,6 +112,7 @@ void read_numbers(const py::handle& value, const char* argument, double* out, st
       throw py::type_error(expected);
     }
     if (!std::isfinite(out[i])) throw py::value_error(expected);
+    number_within(out[i], -kFarthest, kFarthest, argument, "mm");
   }
 }
 
@@ -147,5 +170,6 @@ PYBIND11_MODULE(_kerf, m) {
   bind_tools(m);
   bind_toolpath(m);
   bind_simulation(m);
+  bind_bodies(m);
   bind_region(m);
 }

@@ -12,6 +12,7 @@
 
 #include "kerf/material_files.h"
 #include "kerf/number.h"
+#include "kerf/rotary.h"
 
 namespace kerf::app {
 namespace {
@@ -90,7 +91,7 @@ Toolpath known_part(const Job& job, Diagnostics& diagnostics) {
 /// The hazards met in the material, as far as it can be simulated (`diagnostics` says how far).
 std::vector<Finding> findings_in_material(const Job& job, double resolution, Diagnostics& diagnostics,
                                           Progress& progress) {
-  if (!job.stock) {
+  if (!job.stock && !job.bar) {
     diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
                         "nothing is cut and no stock is told, so the material was not looked at");
     return {};
@@ -98,11 +99,17 @@ std::vector<Finding> findings_in_material(const Job& job, double resolution, Dia
   const Toolpath path = known_part(job, diagnostics);
   if (path.size() == 0) return {};
   SimulationOptions how;
+  if (job.bar) {
+    how.resolution = mm(resolution);
+    const auto simulation = simulate_rotary(path, job.tools, *job.bar, how, diagnostics, &progress);
+    return simulation ? findings_of(simulation->hazards, path) : std::vector<Finding>{};
+  }
   how.resolution = resolution_for(*job.stock, resolution);
   progress.phase("checking");
   const auto simulation = simulate(path, job.tools, *job.stock, how, diagnostics, &progress);
   if (!simulation) return {};
-  return findings_of(simulation->hazards, path);
+  return merged(findings_at_fixtures(path, job.tools, job.fixtures, how, diagnostics, progress),
+                findings_of(simulation->hazards, path));
 }
 
 /// What the reader said, without what is a hazard of its own: a missing feed or end is told once.
@@ -185,8 +192,10 @@ Command add_check(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "check", "Look for hazards in a program, without writing files; status 3 if any",
-                  kExamples + std::string(kJobHelp), options->output);
+                  kExamples + std::string(kJobHelp) + kBodyHelp, options->output);
   add_job_options(*app, options->job);
+  add_body_options(*app, options->job.bodies);
+  add_rotary_option(*app, options->job.bodies);
   add_machine_option(*app, options->job);
   app->add_option("--material", options->material,
                   "The stock's material, for the chip load: plywood, aluminium ...")

@@ -1,4 +1,4 @@
-// kerf post: a program written for a controller.
+// kerf post: a program written for a controller, or drawn.
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
@@ -8,6 +8,8 @@
 #include "app/input.h"
 #include "app/job.h"
 #include "app/json.h"
+#include "app/post_drawing.h"
+#include "app/reading.h"
 #include "app/terminal_progress.h"
 
 #include "kerf/files.h"
@@ -26,14 +28,19 @@ struct Options {
   double feed = 0.0;
   double fit_arcs = 0.0, join = 0.0;
   bool shorten = false;
+  std::string dxf_version = "r2000";
+  bool rapids = false;
+  ReadingOptions reading;
 };
 
 Status show_list(Console& console) {
   Json list = Json::array();
-  for (const PostProfile& p : built_in_posts()) {
-    list.push_back(Json{{"name", p.name}, {"title", p.title}, {"file_ending", p.file_ending}});
-    if (!console.json()) console.print(fmt::format("{:<10} {:<20} {}\n", p.name, p.title, p.file_ending));
-  }
+  const auto show = [&](std::string_view name, std::string_view title, std::string_view ending) {
+    list.push_back(Json{{"name", name}, {"title", title}, {"file_ending", ending}});
+    if (!console.json()) console.print(fmt::format("{:<10} {:<22} {}\n", name, title, ending));
+  };
+  for (const PostProfile& p : built_in_posts()) show(p.name, p.title, p.file_ending);
+  for (const DrawingFormat& d : drawing_formats()) show(d.name, d.title, d.file_ending);
   if (console.json()) console.print_json(text_of(list, Layout::indented));
   return Status::done;
 }
@@ -41,6 +48,7 @@ Status show_list(Console& console) {
 std::vector<std::string> post_names() {
   std::vector<std::string> names;
   for (const PostProfile& p : built_in_posts()) names.push_back(p.name);
+  for (const DrawingFormat& d : drawing_formats()) names.emplace_back(d.name);
   return names;
 }
 
@@ -68,24 +76,22 @@ std::optional<ToolChangePolicy> read_policy(const std::string& text) {
   return std::nullopt;
 }
 
+std::string title_of(const LoadedProgram& program) {
+  return program.source == "-" ? "" : std::filesystem::path(program.source).stem().string();
+}
+
 PostOptions post_options(const Options& options, const LoadedProgram& program, LengthUnit unit) {
   PostOptions out;
-  const std::string stem = std::filesystem::path(program.source).stem().string();
-  out.program_name = program.source == "-" ? "" : stem;
+  out.program_name = title_of(program);
   out.unit = unit;
   out.tool_change = read_policy(options.tool_change);
   out.missing_feed = mm_per_min(options.feed);
-  const auto name_tool = [&](int number, const Tool& tool) {
+  for (const auto& [number, tool] : used_tools(program)) {
     out.tool_names[number] = short_name(tool);
     // Such comments are in the program's units; their rounding is for mm.
     if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
       out.tool_comments[number] = *text;
-  };
-  for (const Step& s : program.path.steps())
-    if (s.kind() == StepKind::tool_change)
-      if (const Tool* tool = built_in_tools().find(s.tool_change().tool))
-        name_tool(s.tool_change().tool, *tool);
-  for (const auto& [number, tool] : program.tools) name_tool(number, tool);
+  }
   return out;
 }
 
@@ -109,43 +115,44 @@ Toolpath improved(Toolpath path, const Options& options, Json& savings, Console&
   return path;
 }
 
-/// "part.nc" for tool 201 is "part-T201.nc".
-std::string name_for(const std::string& out, const PostedFile& file, std::size_t files) {
-  if (files < 2 || !file.tool) return out;
+/// "part.nc" for tool 201 is "part-T201.nc"; where that tool comes again, "part-T201-2.nc".
+std::vector<std::string> names_for(const std::string& out, const std::vector<PostedFile>& files) {
   const std::filesystem::path path(out);
-  return (path.parent_path() /
-          fmt::format("{}-T{}{}", path.stem().string(), *file.tool, path.extension().string()))
-      .string();
+  std::vector<std::string> names;
+  std::map<int, int> used;
+  for (const PostedFile& file : files) {
+    const int tool = file.tool.value_or(0), time = ++used[tool];
+    std::string name = fmt::format("{}-T{}", path.stem().string(), tool);
+    if (time > 1) name += fmt::format("-{}", time);
+    names.push_back((path.parent_path() / (name + path.extension().string())).string());
+  }
+  if (files.size() == 1) names = {out};
+  return names;
 }
 
 Status write(Console& console, const Options& options, const std::vector<PostedFile>& files, Json result,
              Diagnostics& diagnostics) {
-  Json& outputs = result["outputs"] = Json::array();
   if (options.out.empty()) {
     console.show(diagnostics, Console::Channel::always_text);
     for (const PostedFile& file : files) console.print_json(file.text);
     return Status::done;
   }
+  const std::vector<std::string> names = names_for(options.out, files);
   OutputSet set;
-  for (const PostedFile& file : files) {
-    const std::string name = name_for(options.out, file, files.size());
-    outputs.push_back(name);
-    if (!set.write(name, file.text, diagnostics)) return fail(console, diagnostics, Status::input_errors);
-  }
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (!set.write(names[i], files[i].text, diagnostics))
+      return fail(console, diagnostics, Status::input_errors);
   if (!set.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
   console.show(diagnostics);
+  result["outputs"] = names;
   result["diagnostics"] = json_of(diagnostics);
   if (console.json()) console.print_json(text_of(result, Layout::indented));
-  if (!console.json())
-    for (std::size_t i = 0; i < files.size(); ++i)
-      console.summary(fmt::format("wrote    {} ({} lines)", outputs[i].get<std::string>(), files[i].lines));
+  for (std::size_t i = 0; i < files.size() && !console.json(); ++i)
+    console.summary(fmt::format("wrote    {} ({} lines)", names[i], files[i].lines));
   return Status::done;
 }
 
-Status run(Console& console, const Options& options) {
-  if (options.list) return show_list(console);
-  Diagnostics usage, diagnostics;
-  const auto profile = choose_profile(options, usage, diagnostics);
+void check_usage(const Options& options, Diagnostics& usage) {
   if (options.file.empty())
     usage.error(Code::file_unreadable, CallSpot{"", 0, "FILE"}, "say which program to write");
   if (!options.out.empty() && options.out == options.file)
@@ -153,22 +160,61 @@ Status run(Console& console, const Options& options) {
   if (!options.tool_change.empty() && !read_policy(options.tool_change))
     usage.error(Code::post_value_bad, CallSpot{"", 0, "--tool-change"},
                 "say command, pause, files or ignore");
+  if (!read_dxf_version(options.dxf_version))
+    usage.error(Code::post_value_bad, CallSpot{"", 0, "--dxf-version"}, "say r2000 or r12");
+}
+
+/// What is to be written: one of the two.
+struct Target {
+  std::optional<PostProfile> profile;
+  const DrawingFormat* drawing = nullptr;
+};
+
+std::vector<PostedFile> written(const Target& target, const Options& options, const LoadedProgram& program,
+                                Diagnostics& diagnostics, Progress& progress) {
+  if (target.drawing == nullptr) {
+    const LengthUnit unit = options.inch ? LengthUnit::inch
+                            : options.mm ? LengthUnit::mm
+                                         : target.profile->unit;
+    auto files =
+        post(program.path, *target.profile, post_options(options, program, unit), diagnostics, &progress);
+    for (const PostedFile& file : files) lint_gcode(file.text, *target.profile, "output", diagnostics);
+    return files;
+  }
+  DrawingRequest request;
+  request.unit = options.inch ? DrawingUnit::inch : DrawingUnit::mm;
+  request.rapids = options.rapids ? RapidLines::drawn : RapidLines::left_out;
+  request.version = *read_dxf_version(options.dxf_version);
+  request.title = title_of(program);
+  PostedFile file;
+  file.text = draw_program(program, *target.drawing, request);
+  file.lines = static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
+  return {std::move(file)};
+}
+
+Status run(Console& console, const Options& options) {
+  if (options.list) return show_list(console);
+  Diagnostics usage, diagnostics;
+  Target target;
+  if (options.post_file.empty()) target.drawing = find_drawing_format(options.to);
+  if (target.drawing == nullptr) target.profile = choose_profile(options, usage, diagnostics);
+  check_usage(options, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (!profile) return fail(console, diagnostics, Status::input_errors);
+  if (target.drawing == nullptr && !target.profile) return fail(console, diagnostics, Status::input_errors);
 
   TerminalProgress progress(console);
-  auto program = load_program(options.file, diagnostics, &progress);
+  InputOptions input;
+  apply(options.reading, input);
+  auto program = load_program(options.file, diagnostics, &progress, input);
   if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  const LengthUnit unit = options.inch ? LengthUnit::inch : options.mm ? LengthUnit::mm : profile->unit;
-  Json result{{"source", program->source}, {"post", profile->name}};
+  const std::string name(target.profile ? target.profile->name : target.drawing->name);
+  Json result{{"source", program->source}, {"post", name}};
   program->path = improved(std::move(program->path), options, result["passes"] = Json::array(), console);
   progress.phase("writing");
-  const auto files =
-      post(program->path, *profile, post_options(options, *program, unit), diagnostics, &progress);
+  const auto files = written(target, options, *program, diagnostics, progress);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
-  for (const PostedFile& file : files) lint_gcode(file.text, *profile, "output", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   if (options.out.empty() && files.size() > 1) {
     usage.error(Code::file_unwritable, CallSpot{"", 0, "-o"},
@@ -183,6 +229,7 @@ const char* const kExamples =
   kerf post --to linuxcnc --inch part.nc -o part.ngc
   kerf post --to grbl --tool-change files part.nc -o part.nc    part-T1.nc, part-T2.nc ...
   kerf post --post mymill.toml part.nc -o out.nc    for a machine of one's own
+  kerf post --to dxf part.nc -o part.dxf            the cuts as seen from above
   kerf post --list
 
 The controller's rules are checked on what is written; nothing is written where one is broken.
@@ -194,6 +241,11 @@ void add_pass_options(CLI::App& app, Options& options) {
   add_number(app, "--join", options.join, 1e-6, 1, "MM",
              "Join straight cuts whose corners stray no more than MM");
   app.add_flag("--shorten-rapids", options.shorten, "Leave out rapids that come back to where they began");
+}
+
+void add_drawing_options(CLI::App& app, Options& options) {
+  app.add_option("--dxf-version", options.dxf_version, "r2000 or r12, for --to dxf")->type_name("VERSION");
+  app.add_flag("--rapids", options.rapids, "Draw rapids too, for --to dxf and svg");
 }
 
 }  // namespace
@@ -214,6 +266,8 @@ Command add_post(CLI::App& root) {
       ->type_name("HOW");
   add_number(*app, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "For cutting moves that have no feed");
   add_pass_options(*app, *options);
+  add_drawing_options(*app, *options);
+  add_reading_options(*app, options->reading);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

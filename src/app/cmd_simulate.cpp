@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "app/findings.h"
 #include "app/outputs.h"
+#include "app/rotary_job.h"
 #include "app/terminal_progress.h"
 
 #include "kerf/number.h"
@@ -114,12 +115,12 @@ void show_summary(Console& console, const Result& result) {
 Status simulate_job(Console& console, const Options& options, const JobSettings& settings,
                     const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
   TerminalProgress progress(console);
-  auto program = load_program(options.job.file, diagnostics, &progress);
+  auto program = load_program(options.job.file, diagnostics, &progress, settings.input);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
-  if (!job.stock && !diagnostics.has_errors())
+  if (!job.stock && !job.bar && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
                       "the program cuts nothing and tells no stock, so there is nothing to simulate");
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -127,8 +128,14 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   SimulationOptions how;
   how.resolution = mm(options.resolution);
   how.threads = static_cast<unsigned>(options.threads);
+  if (job.bar) return simulate_bar(console, job, how, outputs, view, diagnostics);
   progress.phase("cutting");
   const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
+  std::vector<Finding> findings;
+  if (simulation && !simulation->stopped)
+    findings =
+        merged(findings_of(simulation->hazards, job.program.path),
+               findings_at_fixtures(job.program.path, job.tools, job.fixtures, how, diagnostics, progress));
   OutputSet files;
   const bool written = simulation && !simulation->stopped && !diagnostics.has_errors() &&
                        write_outputs(outputs, job, *simulation, view, files, diagnostics, progress);
@@ -136,7 +143,7 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   if (interrupted()) return tell_stopped(console);
   if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
 
-  const Result result{job, *simulation, findings_of(simulation->hazards, job.program.path), outputs};
+  const Result result{job, *simulation, std::move(findings), outputs};
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(json_of_result(result, diagnostics), Layout::indented));
@@ -149,7 +156,7 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
 
 void tell_unused_options(const Options& options, const std::vector<OutputFile>& outputs,
                          Diagnostics& diagnostics) {
-  if (std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return !f.mesh; })) return;
+  if (std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.is_picture(); })) return;
   for (const CLI::Option* option : options.picture_options)
     if (option->count() > 0)
       diagnostics.warning(Code::option_unused, CallSpot{"", 0, option->get_name()}, "no picture is written")
@@ -159,7 +166,7 @@ void tell_unused_options(const Options& options, const std::vector<OutputFile>& 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
-  const auto outputs = read_outputs(options.outputs, options.job.file, usage, diagnostics);
+  const auto outputs = read_outputs(options.outputs, input_files(options.job), usage, diagnostics);
   std::string problem;
   const auto view = read_view(options.view, options.size, problem);
   if (!view) console.complain(problem);
@@ -175,6 +182,8 @@ const char* const kExamples =
   kerf simulate part.nc -o part.stl -o part.png      the part as a mesh and as a picture
   kerf simulate part.nc -o top.png --view top --size 1200x800
   kerf simulate part.nc --tool "ball d=3.175 flute=12.7" --stock "100x60x12 at lower-left top"
+  kerf simulate side1.nc -o left.kstock              what is left, as the stock of the next job:
+  kerf simulate side2.nc --stock-left left.kstock --flip x
   cat part.nc | kerf simulate - --json --resolution 0.05
 )";
 
@@ -184,10 +193,12 @@ Command add_simulate(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
-                  kExamples + std::string(kJobHelp), options->output);
+                  kExamples + std::string(kJobHelp) + kBodyHelp, options->output);
   add_job_options(*app, options->job);
+  add_body_options(*app, options->job.bodies);
+  add_rotary_option(*app, options->job.bodies);
   add_repeated(*app, "-o,--output", options->outputs, "PATH",
-               "Write the part: .stl .3mf .glb .obj, or a picture: .png");
+               "Write the part: .stl .3mf .glb .obj, a picture: .png, the stock of the next job: .kstock");
   add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
   options->picture_options = {

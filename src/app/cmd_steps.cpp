@@ -4,6 +4,7 @@
 #include "app/command.h"
 #include "app/input.h"
 #include "app/json.h"
+#include "app/reading.h"
 #include "app/terminal_progress.h"
 
 namespace kerf::app {
@@ -15,12 +16,15 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 struct Options {
   OutputOptions output;
   std::string file;
+  ReadingOptions reading;
 };
 
 Status run(Console& console, const Options& options) {
   Diagnostics diagnostics;
   TerminalProgress progress(console);
-  const auto program = load_program(options.file, diagnostics, &progress);
+  InputOptions input;
+  apply(options.reading, input);
+  const auto program = load_program(options.file, diagnostics, &progress, input);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   console.show(diagnostics, Console::Channel::always_text);  // the lines are for another program
@@ -59,6 +63,7 @@ Command add_steps(CLI::App& root) {
   app->get_option("--json")->description("Changes nothing here: each step is a JSON object in any case");
   app->get_option("--quiet")->description("No progress bar or notes; warnings and errors stay");
   add_program(*app, options->file);
+  add_reading_options(*app, options->reading);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

@@ -23,6 +23,7 @@ struct Command {
 Command add_simulate(CLI::App& root);
 Command add_info(CLI::App& root);
 Command add_check(CLI::App& root);
+Command add_compare(CLI::App& root);
 Command add_steps(CLI::App& root);
 Command add_outline(CLI::App& root);
 Command add_post(CLI::App& root);

@@ -23,6 +23,8 @@
 namespace kerf::app {
 namespace {
 
+constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
+
 bool stderr_is_for_people() {
 #if defined(__unix__) || defined(__APPLE__)
   return isatty(STDERR_FILENO) != 0;
@@ -47,39 +49,28 @@ std::string date_now() {
 /// Text that flows to standard output, or into a file that appears whole at the end or not at all.
 class TextOut {
  public:
-  explicit TextOut(std::string path) : path_(std::move(path)) {
-    if (path_.empty()) return;
-    part_ = fmt::format("{}.{}.part", path_, std::time(nullptr));
-    file_ = std::fopen(part_.c_str(), "wb");
-    good_ = file_ != nullptr;
+  explicit TextOut(const std::string& path) : to_file_(!path.empty()) {
+    if (to_file_) file_ = OutputFile::create(path, diagnostics_);
+    good_ = !to_file_ || file_.has_value();
   }
-  ~TextOut() {
-    if (file_ != nullptr) std::fclose(file_), std::remove(part_.c_str());
-  }
-  TextOut(const TextOut&) = delete;
-  TextOut& operator=(const TextOut&) = delete;
 
   void write(std::string_view text) {
-    std::FILE* to = path_.empty() ? stdout : file_;
-    good_ = good_ && std::fwrite(text.data(), 1, text.size(), to) == text.size();
+    good_ = good_ && (to_file_ ? file_->write(text, diagnostics_)
+                               : std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
   }
   bool good() const { return good_; }
   /// Puts the file into place; false where something could not be written.
-  bool finish() {
-    if (path_.empty()) return std::fflush(stdout) == 0 && good_;
-    if (file_ == nullptr) return false;
-    good_ = std::fclose(file_) == 0 && good_;
-    file_ = nullptr;
-    std::error_code error;
-    if (good_) std::filesystem::rename(part_, path_, error);
-    if (!good_ || error) std::remove(part_.c_str());
-    return good_ && !error;
+  bool finish() { return good_ && (to_file_ ? file_->commit(diagnostics_) : std::fflush(stdout) == 0); }
+  /// What went wrong.
+  std::string complaint() const {
+    return to_file_ ? to_string(diagnostics_.list().front()) : "cannot write to standard output";
   }
 
  private:
-  std::string path_, part_;
-  std::FILE* file_ = nullptr;
+  bool to_file_;
   bool good_ = true;
+  Diagnostics diagnostics_;
+  std::optional<OutputFile> file_;
 };
 
 /// Messages to stderr, in the form that other programs read; for people with the line and what helps.
@@ -143,6 +134,11 @@ class Listener final : public GcmcOutput {
 
 void complain(std::string_view text) { fmt::print(stderr, "kerf gcmc: {}\n", text); }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return !a.empty() && !b.empty() && std::filesystem::equivalent(a, b, error);
+}
+
 bool read_text(const std::string& path, std::string& text) {
   if (path.empty()) return true;
   Diagnostics diagnostics;
@@ -197,7 +193,7 @@ int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, List
   }
   if (!complete && !line.output.empty()) return run.status;  // nothing is written
   if (!out.finish()) {
-    complain(fmt::format("cannot write {}", line.output.empty() ? "to standard output" : line.output));
+    complain(out.complaint());
     return 1;
   }
   if (complete && line.warnings_are_errors && run.warnings > 0) {
@@ -225,15 +221,20 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
     return 1;
 
   Diagnostics diagnostics;
-  const auto file = InputFile::open(line.input.empty() ? "-" : line.input, diagnostics);
+  const auto file =
+      InputFile::open(line.input.empty() ? "-" : line.input, diagnostics, kLargestProgram, progress);
   if (!file) {
     complain(to_string(diagnostics.list().front()));
     return 1;
   }
   if (!line.input.empty()) line.run.file_name = line.input;
+  if (is_same_file(line.input, line.output)) {
+    complain(fmt::format("{} is the program itself and would be overwritten", line.output));
+    return 1;
+  }
   TextOut out(line.check ? std::string() : line.output);
   if (!out.good()) {
-    complain(fmt::format("cannot write {}", line.output));
+    complain(out.complaint());
     return 1;
   }
   Listener listener(out, line.explain || stderr_is_for_people());

@@ -11,6 +11,7 @@
 #include "kerf/check.h"
 #include "kerf/diagnostics.h"
 #include "kerf/files.h"
+#include "kerf/gcode.h"
 #include "kerf/machine.h"
 #include "kerf/progress.h"
 #include "kerf/stock.h"
@@ -33,7 +34,10 @@ struct LoadedProgram {
 
 /// What the reader of a program is told besides the file.
 struct InputOptions {
-  std::optional<Machine> machine;  // the one that is to run the program, where it is known
+  std::optional<Machine> machine;       // the one that is to run the program, where it is known
+  std::optional<GcodeDialect> dialect;  // of G-code; nothing: told by the text
+  bool strict = false;                  // what is unusual in G-code is an error
+  decltype(GcodeReadOptions::tool_diameter) tool_diameter;  // for cutter compensation
 };
 
 /// A way to read files. `endings` are in lower case with their dot.

@@ -43,7 +43,11 @@ std::optional<std::string> read_beside(const std::string& program, const std::st
 LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics& diagnostics,
                    Progress* progress) {
   GcodeReadOptions options;
-  if (input.machine && input.machine->controller == Controller::grbl) options.after_end = AfterEnd::read_on;
+  // LinuxCNC itself stops at M2; that is asked for where the user names it.
+  if (input.dialect == GcodeDialect::rs274) options.after_end = AfterEnd::stop;
+  options.dialect = input.dialect;
+  options.strict = input.strict;
+  options.tool_diameter = input.tool_diameter;
   options.file_name = file.path();
   options.read_file = [&file](const std::string& name) { return read_beside(file.path(), name); };
   GcodeProgram program = read_gcode(file.bytes(), options, diagnostics, progress);

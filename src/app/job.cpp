@@ -159,6 +159,20 @@ Origin first_use_of(int number, const Toolpath& path) {
   return {};
 }
 
+/// Which tool cutter compensation reckons with: as choose() below, before the program is read.
+decltype(InputOptions::tool_diameter) diameters_of(const JobSettings& settings) {
+  return [numbered = settings.numbered, any = settings.any_number, table = settings.table](
+             int number, const Tool* described) -> std::optional<double> {
+    Diagnostics unheard;  // choose() tells
+    const auto told = numbered.find(number);
+    const Tool* tool = told != numbered.end() ? &told->second
+                       : any                  ? &*any
+                                              : choose_tool(table.find(number), described, {}, unheard);
+    if (tool == nullptr) return std::nullopt;
+    return tool->diameter.mm();
+  };
+}
+
 Choice choose(int number, const LoadedProgram& program, const JobSettings& settings,
               Diagnostics& diagnostics) {
   if (const auto it = settings.numbered.find(number); it != settings.numbered.end())
@@ -271,7 +285,10 @@ void tell_assumed(const AssumedStock& assumed, const Job& job, Diagnostics& diag
       fmt::format("tell it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
 }
 
-void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+  job.stock = settings.bodies.stock;
+  job.stock_source = StockSource::file;
+  if (job.stock) return;
   job.stock = settings.stock;
   job.stock_source = StockSource::option;
   if (job.stock) return;
@@ -288,6 +305,14 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   tell_assumed(*assumed, job, diagnostics);
 }
 
+void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+  job.bar = settings.bodies.bar;
+  if (job.bar) return;
+  find_stock(job, settings, diagnostics);
+  if (job.stock && settings.bodies.move) job.stock = moved(*job.stock, *settings.bodies.move);
+  job.fixtures = settings.bodies.fixtures;
+}
+
 }  // namespace
 
 void add_job_options(CLI::App& app, JobOptions& options) {
@@ -297,6 +322,13 @@ void add_job_options(CLI::App& app, JobOptions& options) {
   add_repeated(app, "--tools", options.tool_files, "PATH", "A file of tools (TOML)");
   app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
       ->type_name("SPEC");
+  add_reading_options(app, options.reading);
+}
+
+std::vector<std::string> input_files(const JobOptions& options) {
+  std::vector<std::string> files{options.file, options.bodies.mesh, options.bodies.left};
+  files.insert(files.end(), options.bodies.fixtures.begin(), options.bodies.fixtures.end());
+  return files;
 }
 
 void add_machine_option(CLI::App& app, JobOptions& options) {
@@ -310,9 +342,12 @@ JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diag
   for (const std::string& text : options.tools) read_tool_option_of(text, settings, usage);
   if (options.stock) settings.stock = read_stock_option(*options.stock, CallSpot{"", 0, "--stock"}, usage);
   read_tool_files(options.tool_files, settings, diagnostics);
+  settings.bodies = read_body_options(options.bodies, usage, diagnostics);
   if (!options.machine.empty())
     if (const auto file = InputFile::open(options.machine, diagnostics))
       settings.input.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
+  apply(options.reading, settings.input);
+  settings.input.tool_diameter = diameters_of(settings);
   return settings;
 }
 
@@ -334,6 +369,7 @@ std::string_view to_string(ToolSource source) {
 std::string_view to_string(StockSource source) {
   switch (source) {
     case StockSource::option: return "option";
+    case StockSource::file: return "file";
     case StockSource::program: return "program";
     case StockSource::assumed: return "assumed";
     case StockSource::unknown: break;

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "app/bodies.h"
 #include "app/command.h"
 #include "app/input.h"
+#include "app/reading.h"
 
 #include "kerf/report.h"
 #include "kerf/stock.h"
@@ -23,8 +25,12 @@ struct JobOptions {
   std::vector<std::string> tool_files;  // --tools FILE
   std::optional<std::string> stock;     // --stock SPEC
   std::string machine;                  // --machine FILE
+  BodyOptions bodies;
+  ReadingOptions reading;  // --dialect, --strict
 };
 void add_job_options(CLI::App& app, JobOptions& options);
+/// The program and the files of stock and fixtures, which no output may replace.
+std::vector<std::string> input_files(const JobOptions& options);
 /// --machine, for the commands that make use of one.
 void add_machine_option(CLI::App& app, JobOptions& options);
 /// Text for the help of the commands that take --tool and --stock.
@@ -37,7 +43,8 @@ struct JobSettings {
   ToolTable table;                       // built in and from files
   std::map<int, std::string> from_file;  // which numbers of the table came from which --tools file
   std::optional<Stock> stock;
-  InputOptions input;  // with the machine
+  BodySettings bodies;
+  InputOptions input;  // for load_program, with the machine
 };
 /// Reads the tool and stock options. What the command line got wrong goes to `usage`, what files got wrong to
 /// `diagnostics`.
@@ -45,7 +52,7 @@ JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diag
 
 enum class ToolSource { unknown, option, comment, file, built_in };
 std::string_view to_string(ToolSource source);
-enum class StockSource { unknown, option, program, assumed };
+enum class StockSource { unknown, option, file, program, assumed };
 std::string_view to_string(StockSource source);
 
 struct Job {
@@ -55,6 +62,8 @@ struct Job {
   std::map<int, ToolSource> tool_sources;  // of every number used
   std::optional<Stock> stock;
   StockSource stock_source = StockSource::unknown;
+  std::vector<Fixture> fixtures;
+  std::optional<RoundBar> bar;  // instead of the stock: a fourth axis turns it
 };
 
 /// How bad an unknown tool is: info goes on, simulate cannot, check has a hazard of its own for it.

@@ -36,7 +36,7 @@ Examples:
 )";
 
 std::vector<Command> add_commands(CLI::App& root) {
-  std::vector<Command> commands{add_simulate(root), add_check(root),   add_info(root),
+  std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root)};
   CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show, import, export");
   tools->require_subcommand(1);

@@ -11,6 +11,7 @@
 
 #include "kerf/image_files.h"
 #include "kerf/number.h"
+#include "kerf/stock_files.h"
 
 namespace kerf::app {
 namespace {
@@ -138,26 +139,33 @@ std::optional<std::pair<double, double>> split_pair(const std::string& text, cha
 
 }  // namespace
 
-std::vector<OutputFile> read_outputs(const std::vector<std::string>& names, const std::string& input,
-                                     Diagnostics& usage, Diagnostics& diagnostics) {
+std::vector<OutputFile> read_outputs(const std::vector<std::string>& names,
+                                     const std::vector<std::string>& inputs, Diagnostics& usage,
+                                     Diagnostics& diagnostics) {
   std::vector<OutputFile> files;
   for (const std::string& name : names) {
     const auto mesh = mesh_format_of(name);
-    if (!mesh && !is_png(name)) {
+    if (!mesh && !is_png(name) && !is_left_file(name)) {
       usage
           .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
                  fmt::format("\"{}\" ends in no format that can be written", name))
-          .hint = "known endings: .stl .3mf .glb .obj for the part's surface, .png for a picture";
+          .hint =
+          "known endings: .stl .3mf .glb .obj for the part's surface, .png for a picture, .kstock for the "
+          "next job";
       continue;
     }
+    const auto is_name = [&name](const std::string& input) {
+      return !input.empty() && same_file(input, name);
+    };
     const auto again = [&name](const OutputFile& other) { return same_file(other.path, name); };
-    if (same_file(name, input) || std::any_of(files.begin(), files.end(), again)) {
+    if (std::any_of(inputs.begin(), inputs.end(), is_name) ||
+        std::any_of(files.begin(), files.end(), again)) {
       usage.error(Code::output_is_input, CallSpot{"", 0, "-o"},
-                  fmt::format("\"{}\" is the input, or stands twice among the outputs", name));
+                  fmt::format("\"{}\" is an input, or stands twice among the outputs", name));
       continue;
     }
     test_folder(name, diagnostics);
-    files.push_back({name, mesh});
+    files.push_back({name, mesh, is_left_file(name)});
   }
   return files;
 }
@@ -195,13 +203,10 @@ std::optional<View> read_view(const std::string& view, const std::string& size, 
   return out;
 }
 
-bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
-                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
-  if (files.empty()) return true;
-  progress.phase("making the surface");
-  const Mesh mesh = extract_mesh(simulation.workpiece.grid(), &progress);
-  if (progress.stop_requested()) return false;
-  const Colouring colours = colours_of(mesh, job.program.path, simulation.hazards);
+bool write_surface(const std::vector<OutputFile>& files, const Job& job, const Mesh& mesh,
+                   const std::vector<Hazard>& hazards, const View& view, OutputSet& set,
+                   Diagnostics& diagnostics, Progress& progress) {
+  const Colouring colours = colours_of(mesh, job.program.path, hazards);
   progress.phase("writing");
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.report(static_cast<double>(i) / static_cast<double>(files.size()));
@@ -211,6 +216,23 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
     if (!set.write(file.path, bytes, diagnostics) || progress.stop_requested()) return false;
   }
   return true;
+}
+
+bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
+                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
+  std::vector<OutputFile> surfaces;
+  for (const OutputFile& file : files) {
+    if (!file.is_left) {
+      surfaces.push_back(file);
+    } else if (!set.write(file.path, write_left_file(left_columns(simulation.workpiece)), diagnostics)) {
+      return false;
+    }
+  }
+  if (surfaces.empty()) return true;
+  progress.phase("making the surface");
+  const Mesh mesh = extract_mesh(simulation.workpiece.grid(), &progress);
+  if (progress.stop_requested()) return false;
+  return write_surface(surfaces, job, mesh, simulation.hazards, view, set, diagnostics, progress);
 }
 
 }  // namespace kerf::app

@@ -14,20 +14,27 @@
 
 namespace kerf::app {
 
-/// One file asked for with -o; no mesh format means a picture.
+/// One file asked for with -o.
 struct OutputFile {
   std::string path;
   std::optional<MeshFormat> mesh;
+  bool is_left = false;  // the left-over stock, for the next job
+  bool is_picture() const { return !mesh && !is_left; }
 };
-/// Understands the names of -o. Errors (an unknown ending, a name twice, the input's name) go to `usage`; a
-/// folder that is missing or cannot be written to goes to `diagnostics`, before any work is done.
-std::vector<OutputFile> read_outputs(const std::vector<std::string>& names, const std::string& input,
-                                     Diagnostics& usage, Diagnostics& diagnostics);
+/// Understands the names of -o. Errors (an unknown ending, a name twice, the name of an input) go to `usage`;
+/// a folder that is missing or cannot be written to goes to `diagnostics`, before any work is done.
+std::vector<OutputFile> read_outputs(const std::vector<std::string>& names,
+                                     const std::vector<std::string>& inputs, Diagnostics& usage,
+                                     Diagnostics& diagnostics);
 
 /// Reads "top", "iso" ... or "AZIMUTH,ELEVATION" in degrees, and "WIDTHxHEIGHT" in pixels. The text of what
 /// is wrong is put in `problem`.
 std::optional<View> read_view(const std::string& view, const std::string& size, std::string& problem);
 
+/// Writes a surface into `set`, as meshes and pictures.
+bool write_surface(const std::vector<OutputFile>& files, const Job& job, const Mesh& mesh,
+                   const std::vector<Hazard>& hazards, const View& view, OutputSet& set,
+                   Diagnostics& diagnostics, Progress& progress);
 /// Writes all files into `set` (not committed). False where one fails or the user stops it.
 bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
                    const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress);

@@ -2,6 +2,7 @@
 #include "kerf/files.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -129,87 +130,134 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
   return file;
 }
 
+// ---- outputs
+
 namespace {
 
-/// Where a link leads to, so that the link stays and its target is replaced; any other path as it is.
+/// Where links lead to, also to what does not exist yet, so that a link stays and its target is replaced.
 std::string followed(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  std::filesystem::path at = path;
   std::error_code failed;
-  if (!std::filesystem::is_symlink(path, failed)) return path;
-  const auto target = std::filesystem::weakly_canonical(path, failed);
-  return failed ? path : target.string();
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(at, failed); ++i)
+    at = at.parent_path() / std::filesystem::read_symlink(at, failed);
+  return at.string();
 }
 
-/// Pipes and devices are written to where they are: a file must not take their place.
+/// Pipes and devices are written to where they are: a file must not take their place. So is what the system
+/// shows as files, like /dev/stdout, even where an ordinary file stands behind it.
 bool can_be_replaced(const std::string& path) {
+  for (const std::string_view folder : {"/dev/std", "/dev/fd/", "/proc/"})
+    if (path.compare(0, folder.size(), folder) == 0) return false;
   std::error_code failed;
-  const auto status = std::filesystem::status(path, failed);
-  return !std::filesystem::is_other(status);
+  return !std::filesystem::is_other(std::filesystem::status(path, failed));
 }
 
-/// Writes and closes; false where the stream could not be opened or could not take all.
-bool write_all(std::FILE* stream, std::string_view bytes) {
-  if (stream == nullptr) return false;
-  const bool taken = std::fwrite(bytes.data(), 1, bytes.size(), stream) == bytes.size();
-  return std::fclose(stream) == 0 && taken;
-}
-
-void unwritable(const std::string& path, Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
-                    fmt::format("cannot write the file: {}", std::strerror(errno)));
-}
-
-}  // namespace
-
-OutputSet::~OutputSet() {
-  for (const Pending& file : pending_)
-    if (!file.temporary.empty()) std::remove(file.temporary.c_str());
-}
-
-bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
-  static unsigned counter = 0;
-  const std::string target = followed(path);
-  if (!can_be_replaced(target)) {
-    pending_.push_back({target, {}, std::string(bytes)});
-    return true;
-  }
+std::string part_name(const std::string& target) {
+  static std::atomic<unsigned> counter{0};
 #if defined(__unix__) || defined(__APPLE__)
   const auto process = static_cast<unsigned long>(getpid());
 #else
   const unsigned long process = 0;
 #endif
-  std::string temporary = fmt::format("{}.{}-{}.part", target, process, ++counter);
-  std::FILE* stream = std::fopen(temporary.c_str(), "wbx");
-  if (!write_all(stream, bytes)) {
-    unwritable(path, diagnostics);
-    if (stream != nullptr) std::remove(temporary.c_str());
-    return false;
+  return fmt::format("{}.{}-{}.part", target, process, ++counter);
+}
+
+}  // namespace
+
+struct OutputFile::Body {
+  std::string path;       // as the user told it
+  std::string target;     // links followed
+  std::string temporary;  // empty where the target is written at once
+  std::FILE* stream = nullptr;
+  bool good = true;
+
+  Body() = default;
+  Body(const Body&) = delete;
+  Body& operator=(const Body&) = delete;
+  ~Body() {
+    if (stream != nullptr) std::fclose(stream);
+    if (!temporary.empty()) std::remove(temporary.c_str());
   }
-  pending_.push_back({target, std::move(temporary), {}});
+  /// Tells of the first failure.
+  bool fail(std::string_view what, std::string_view why, Diagnostics& diagnostics) {
+    if (good)
+      diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0}, fmt::format("{}: {}", what, why));
+    return good = false;
+  }
+};
+
+OutputFile::OutputFile(std::unique_ptr<Body> body) : body_(std::move(body)) {}
+OutputFile::OutputFile(OutputFile&&) noexcept = default;
+OutputFile& OutputFile::operator=(OutputFile&&) noexcept = default;
+OutputFile::~OutputFile() = default;
+
+std::optional<OutputFile> OutputFile::create(const std::string& path, Diagnostics& diagnostics) {
+  auto body = std::make_unique<Body>();
+  body->path = path;
+  const bool replaces = can_be_replaced(path);
+  body->target = replaces ? followed(path) : path;
+  const std::string name = replaces ? part_name(body->target) : path;
+  body->stream = std::fopen(name.c_str(), replaces ? "wbx" : "wb");
+  if (body->stream == nullptr) {
+    body->fail("cannot write the file", std::strerror(errno), diagnostics);
+    return std::nullopt;
+  }
+  if (replaces) body->temporary = name;
+  return OutputFile(std::move(body));
+}
+
+bool OutputFile::write(std::string_view bytes, Diagnostics& diagnostics) {
+  if (bytes.empty()) return body_->good;
+  if (!body_->good || body_->stream == nullptr) return false;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), body_->stream) == bytes.size()) return true;
+  return body_->fail("cannot write the file", std::strerror(errno), diagnostics);
+}
+
+bool OutputFile::close(Diagnostics& diagnostics) {
+  if (body_->stream == nullptr) return body_->good;
+  const bool closed = std::fclose(std::exchange(body_->stream, nullptr)) == 0;
+  return closed ? body_->good : body_->fail("cannot write the file", std::strerror(errno), diagnostics);
+}
+
+bool OutputFile::commit(Diagnostics& diagnostics) {
+  if (!close(diagnostics)) return false;
+  if (body_->temporary.empty()) return true;
+  std::error_code error;
+  std::filesystem::rename(body_->temporary, body_->target, error);
+  if (error) return body_->fail("cannot put the file into place", error.message(), diagnostics);
+  body_->temporary.clear();
   return true;
 }
 
-bool OutputSet::put_in_place(const Pending& file, Diagnostics& diagnostics) const {
-  if (file.temporary.empty()) {
-    if (write_all(std::fopen(file.target.c_str(), "wb"), file.bytes)) return true;
-    unwritable(file.target, diagnostics);
-    return false;
+bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
+  if (!can_be_replaced(path)) {
+    pending_.push_back({std::nullopt, path, std::string(bytes)});
+    return true;
   }
-  std::error_code error;
-  std::filesystem::rename(file.temporary, file.target, error);
-  if (!error) return true;
-  diagnostics.error(Code::file_unwritable, TextSpot{file.target, 0, 0},
-                    fmt::format("cannot put the file into place: {}", error.message()));
-  return false;
+  auto file = OutputFile::create(path, diagnostics);
+  if (!file || !file->write(bytes, diagnostics) || !file->close(diagnostics)) return false;
+  pending_.push_back({std::move(file), path, {}});
+  return true;
+}
+
+bool OutputSet::put_in_place(Pending& pending, Diagnostics& diagnostics) {
+  if (!pending.file) pending.file = OutputFile::create(pending.path, diagnostics);
+  return pending.file && pending.file->write(pending.bytes, diagnostics) && pending.file->commit(diagnostics);
 }
 
 bool OutputSet::commit(Diagnostics& diagnostics) {
-  for (std::size_t i = 0; i < pending_.size(); ++i) {
-    if (put_in_place(pending_[i], diagnostics)) continue;
-    pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(i));
+  // What no renaming can replace is found before the first one, so that all files appear or none.
+  for (const Pending& file : pending_) {
+    std::error_code error;
+    if (!std::filesystem::is_directory(file.path, error)) continue;
+    diagnostics.error(Code::file_unwritable, TextSpot{file.path, 0, 0}, "a folder of this name is there");
     return false;
   }
+  bool good = true;
+  for (Pending& pending : pending_) good = good && put_in_place(pending, diagnostics);
   pending_.clear();
-  return true;
+  return good;
 }
 
 }  // namespace kerf

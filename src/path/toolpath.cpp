@@ -209,6 +209,11 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
   return steps_.size() - 1;
 }
 
+void Toolpath::set_end(std::size_t i, Point3 to) {
+  assert(steps_[i].is_motion() && finite(to));
+  for (int axis = 0; axis < 3; ++axis) steps_[i].values_[static_cast<std::size_t>(axis)] = to[axis];
+}
+
 void Toolpath::set_unknown_axes(std::size_t i, unsigned bits) {
   assert(steps_[i].is_motion() && bits < 8);
   steps_[i].frame_ = static_cast<std::uint8_t>((steps_[i].frame_ & ~7u) | bits);

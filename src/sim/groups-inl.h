@@ -8,6 +8,8 @@
 #define KERF_SIM_GROUPS_INL_H
 #endif
 
+#include <algorithm>
+
 #include "sim/passes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,10 +18,10 @@ namespace kerf::sim::HWY_NAMESPACE {
 inline constexpr int kGroup = kLanes;  // sweeps: one bit of a mask each
 
 struct GroupWork {
-  GroupWork(const TileJob& tile_job, const LaneSolid& cutting) : job(tile_job), solid(cutting) {}
+  explicit GroupWork(const TileJob& tile_job) : job(tile_job) {}
 
   const TileJob& job;
-  const LaneSolid& solid;
+  const LaneSolid* solid = nullptr;
   int count = 0;
   bool all_open = true;   // the solid reaches above the block in all sweeps
   bool one_level = true;  // all are level at one height
@@ -38,7 +40,7 @@ HWY_INLINE void add_taken(GroupWork& work, int k, Vector weighted) {
 HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
   const TileJob& job = work.job;
   Tile& tile = *job.tile;
-  const LaneCap& ball = work.solid.pieces[0].lower;
+  const LaneCap& ball = work.solid->pieces[0].lower;
   const Real same = job.field->same_height;
   const MicroPlaces places = places_of(job, micro);
   const Vector weight = weights_of(job, micro);
@@ -55,8 +57,6 @@ HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
     t = clamped(t, w.t_low, w.t_high);
     const Vector rest = across - square(u - t);
     const Vector centre = w.slope * t + (w.z + ball.centre_z);
-    const Vector over = higher_of(centre - top, 0);
-    if (!any(rest > over * over)) continue;
     const Vector low = centre - root(rest);
     const Vector left = only(low >= same, low);
     const Mask cut = (rest > 0) & (left + same < top);
@@ -70,6 +70,13 @@ HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
   tile.micro_top[micro] = highest_of(top);
 }
 
+/// Columns that a cylinder of the first of the sweeps covers at its begin, where the sweep before has been.
+HWY_INLINE Mask covered_before(const View& w, const MicroPlaces& places, Real rim2) {
+  if (!w.level_follow) return no_lane();
+  const Vector x = w.x + places.x - w.t_low * w.cx, y = w.y + places.y - w.t_low * w.cy;
+  return x * x + y * y < rim2;
+}
+
 /// Cylinders that move at one height: whichever sweep is the first over a column takes all that any of them
 /// takes.
 HWY_NOINLINE void cover_micro(GroupWork& work, int micro, unsigned sweeps) {
@@ -78,8 +85,10 @@ HWY_NOINLINE void cover_micro(GroupWork& work, int micro, unsigned sweeps) {
   const MicroPlaces places = places_of(job, micro);
   const Vector weight = weights_of(job, micro);
   const Real z = work.view[0].z_low;
-  for (const LanePiece& piece : work.solid.pieces) {
-    Mask covered = no_lane(), first[kGroup];
+  for (const LanePiece& piece : work.solid->pieces) {
+    const View& earliest = work.view[__builtin_ctz(sweeps)];
+    Mask covered = covered_before(earliest, places, piece.rim2), first[kGroup];
+    const Mask before = covered;
     Ids step = all_ids(0);
     int by[kGroup], count = 0;
     for (unsigned rest = sweeps; rest != 0; rest &= rest - 1) {
@@ -93,10 +102,10 @@ HWY_NOINLINE void cover_micro(GroupWork& work, int micro, unsigned sweeps) {
       by[count++] = k;
     }
     if (count == 0) continue;
-    const Real high = !work.solid.one_envelope ? z - piece.upper.height
-                      : work.all_open          ? field.height + 1
-                                               : z + work.solid.top;
-    const Vector low = select(covered, z + piece.lower.height, kFar);
+    const Real high = !work.solid->one_envelope ? z - piece.upper.height
+                      : work.all_open           ? field.height + 1
+                                                : z + work.solid->top;
+    const Vector low = select(covered & ~before, z + piece.lower.height, kFar);
     const Vector taken = take(*job.tile, micro, low, high, step, field.same_height) * weight;
     for (int n = 0; n < count; ++n) add_taken(work, by[n], only(first[n], taken));
   }
@@ -108,14 +117,14 @@ HWY_NOINLINE void any_micro(GroupWork& work, int micro, unsigned sweeps) {
   const Field& field = *job.field;
   const MicroPlaces places = places_of(job, micro);
   const Vector weight = weights_of(job, micro);
-  const std::size_t groups = work.solid.one_envelope ? 1 : work.solid.pieces.size();
+  const std::size_t groups = work.solid->one_envelope ? 1 : work.solid->pieces.size();
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
     const View& w = work.view[k];
     const MicroView m = look_at(w, places);
     for (std::size_t g = 0; g < groups; ++g) {
       Swept swept;
-      sweep_over(work.solid, g, work.open[k], field.height + 1, w, m, swept);
+      sweep_over(*work.solid, g, work.open[k], field.height + 1, w, m, swept);
       const Vector taken =
           take(*job.tile, micro, load(swept.low), load(swept.high), all_ids(work.step[k]), field.same_height);
       add_taken(work, k, taken * weight);
@@ -133,16 +142,16 @@ HWY_NOINLINE void group_super(GroupWork& work, int super, unsigned sweeps) {
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
     work.micros[k] =
-        cull(work.view[k], work.solid, blocks, tile.micro_top + first, tile.micro_bottom + first);
+        cull(work.view[k], *work.solid, blocks, tile.micro_top + first, tile.micro_bottom + first);
     met |= work.micros[k];
   }
   if (met == 0) return;
   for (; met != 0; met &= met - 1) {
     const int inner = __builtin_ctz(met), micro = first + inner;
     const unsigned which = lanes_with(work.micros, 1u << inner);
-    if (work.solid.is_ball && work.all_open && tile.chain[micro] < 0) {
+    if (work.solid->is_ball && work.all_open && tile.chain[micro] < 0) {
       ball_micro(work, micro, which);
-    } else if (work.solid.is_cylinders && work.one_level) {
+    } else if (work.solid->is_cylinders && work.one_level) {
       cover_micro(work, micro, which);
     } else {
       any_micro(work, micro, which);
@@ -154,25 +163,39 @@ HWY_NOINLINE void group_super(GroupWork& work, int super, unsigned sweeps) {
 HWY_INLINE void add_sweep(GroupWork& work, const Sweep& sweep) {
   const int k = work.count++;
   View& view = work.view[k];
-  view = view_of(sweep, work.job);
-  work.open[k] = view.z_low + work.solid.top >= work.job.field->height;
-  prepare_for(view, sweep, work.solid, Follow::yes, work.open[k]);
+  set_view(sweep, work.job, view);
+  work.open[k] = view.z_low + work.solid->top >= work.job.field->height;
+  prepare_for(view, sweep, *work.solid, Follow::yes, work.open[k]);
   work.step[k] = sweep.step;
   work.all_open = work.all_open && work.open[k];
   work.one_level = work.one_level && view.z_low == work.view[0].z_low && view.z_high == view.z_low;
   store(0, work.taken[k]);
 }
 
+/// What comes after a group is fetched while the group is cut: the sweeps of one tile lie far apart.
+HWY_INLINE void fetch_ahead(const TileJob& job, std::size_t next) {
+  const std::size_t end = std::min(job.count, next + kGroup);
+  for (; next < end; ++next) {
+    const auto* sweep = reinterpret_cast<const char*>(job.sweeps + job.list[next]);
+    __builtin_prefetch(sweep);
+    __builtin_prefetch(sweep + sizeof(Sweep) - 1);
+  }
+}
+
 /// Cuts with sweeps number `first` to `first + count - 1` of the job's list.
-HWY_NOINLINE void cut_group(const TileJob& job, std::size_t first, int count) {
-  GroupWork work(job, (*job.tools)[job.sweeps[job.list[first]].tool].cutting);
+HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
+  const TileJob& job = work.job;
+  fetch_ahead(job, first + static_cast<std::size_t>(count));
+  work.solid = &(*job.tools)[job.sweeps[job.list[first]].tool].cutting;
+  work.count = 0;
+  work.all_open = work.one_level = true;
   for (int k = 0; k < count; ++k) add_sweep(work, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
   Tile& tile = *job.tile;
   alignas(64) std::uint32_t supers[kGroup] = {};
   unsigned met = 0;
   const Blocks blocks = supers_of(job);
   for (int k = 0; k < count; ++k) {
-    supers[k] = cull(work.view[k], work.solid, blocks, tile.super_top, tile.super_bottom);
+    supers[k] = cull(work.view[k], *work.solid, blocks, tile.super_top, tile.super_bottom);
     met |= supers[k];
   }
   for (; met != 0; met &= met - 1) {

@@ -21,6 +21,7 @@ HWY_INLINE bool only_cuts(const Sweep& sweep) { return sweep.passes == kPassCut 
 }  // namespace
 
 void cut_tile(const TileJob& job) {
+  GroupWork work(job);
   for (std::size_t q = 0; q < job.count;) {
     const Sweep& sweep = job.sweeps[job.list[q]];
     if (!only_cuts(sweep)) {
@@ -33,7 +34,7 @@ void cut_tile(const TileJob& job) {
       if (!only_cuts(next) || next.tool != sweep.tool) break;
       ++count;
     }
-    cut_group(job, q, count);
+    cut_group(work, q, count);
     q += static_cast<std::size_t>(count);
   }
 }

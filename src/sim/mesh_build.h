@@ -101,4 +101,8 @@ class CapSheet {
 /// triangles on one side as on the other.
 void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects);
 
+/// Takes out triangles without area, after which the mesh is as closed as before. A few may stay where taking
+/// them out would leave an edge to more than two triangles.
+void mend_flat_triangles(Mesh& mesh);
+
 }  // namespace kerf::meshing

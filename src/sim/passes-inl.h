@@ -126,7 +126,8 @@ HWY_NOINLINE void run_pass(PassWork& work) {
 
 /// All passes of a sweep. Returns the length of column taken.
 HWY_NOINLINE double cut_sweep(const TileJob& job, const Sweep& sweep) {
-  const View view = view_of(sweep, job);
+  View view;
+  set_view(sweep, job, view);
   const PassList list = list_passes(sweep, (*job.tools)[sweep.tool], job.field->hazard_depth);
   double taken = 0.0;
   for (int k = 0; k < list.count; ++k) {

@@ -8,7 +8,7 @@ namespace kerf::sim {
 namespace {
 
 /// A batch is cut when it holds this many; enough to keep all threads busy, and bounded memory.
-constexpr std::size_t kBatchSweeps = 1 << 16;
+constexpr std::size_t kBatchSweeps = 1 << 15;
 constexpr std::size_t kBatchPairs = 1 << 22;
 /// Most chords for one arc. More means a circle of kilometres or thousands of turns.
 constexpr int kMostChords = 1 << 20;
@@ -19,6 +19,9 @@ constexpr double kSameRadius = 1e-4;
 /// Larger level arcs become chords: single precision about the centre would not do, mm.
 constexpr double kLargestRadius = 1000.0;
 constexpr double kSameLevel = 1e-9;  // mm
+/// A line no longer than this many times the tool's reach is paired with all tiles of its box: hardly more
+/// than those it meets.
+constexpr double kShort = 2.0;
 /// Heights of the virtual cylinder above the flutes; higher than any block that is accepted, mm.
 constexpr double kAboveAll = 1e6;
 
@@ -97,6 +100,7 @@ Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& too
       tools_(tools),
       hazard_depth_(hazard_depth.mm()),
       scope_(scope),
+      per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {}
 
 Planner::Motion Planner::motion_of(const Step& step, const MotionContext& context) const {
@@ -125,11 +129,14 @@ Sweep Planner::line(Point3 from, Point3 to) const {
   sweep.z = from.z;
   sweep.z_end = to.z;
   const double dx = to.x - from.x, dy = to.y - from.y;
-  const double length = std::hypot(dx, dy);
+  const double length = std::sqrt(dx * dx + dy * dy);
   if (length < kNoLength) return sweep;
+  const double per_length = 1.0 / length;
   sweep.length = length;
-  sweep.ux = dx / length;
-  sweep.uy = dy / length;
+  sweep.ux = dx * per_length;
+  sweep.uy = dy * per_length;
+  sweep.slope = (to.z - from.z) * per_length;
+  sweep.ball_lead = static_cast<float>(sweep.slope / std::sqrt(1.0 + sweep.slope * sweep.slope));
   return sweep;
 }
 
@@ -204,8 +211,19 @@ void Planner::pair(int column, int row, std::uint32_t number, Batch& batch) cons
   if (scope_.tiles == nullptr || (*scope_.tiles)[tile]) batch.pairs.push_back({tile, number});
 }
 
+/// All tiles that the box around a line and its reach meets.
+void Planner::pair_box(const Sweep& s, double x1, double y1, double reach, std::uint32_t number,
+                       Batch& batch) const {
+  const int left = tile_at(std::min(s.x, x1) - reach), right = tile_at(std::max(s.x, x1) + reach);
+  const int low = tile_at(std::min(s.y, y1) - reach), high = tile_at(std::max(s.y, y1) + reach);
+  for (int row = std::max(low, 0); row <= std::min(high, body_.tiles_y - 1); ++row)
+    for (int column = std::max(left, 0); column <= std::min(right, body_.tiles_x - 1); ++column)
+      pair(column, row, number, batch);
+}
+
 void Planner::pair_line(const Sweep& s, double reach, std::uint32_t number, Batch& batch) const {
   const double x1 = s.x + s.length * s.ux, y1 = s.y + s.length * s.uy;
+  if (s.length <= kShort * reach) return pair_box(s, x1, y1, reach, number, batch);
   const TileRange rows = tiles_between(std::min(s.y, y1) - reach, std::max(s.y, y1) + reach, body_.pitch,
                                        body_.ny, body_.tiles_y);
   for (int row = rows.first; row <= rows.last; ++row) {

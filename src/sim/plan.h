@@ -13,6 +13,8 @@
 //   arc     whose begin is unknown: the tool at its end.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -70,6 +72,12 @@ class Planner {
   void emit(Sweep sweep, Batch& batch);
   std::uint8_t passes_that_meet(const Sweep& sweep, std::uint8_t wanted, double& reach) const;
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
+  /// Number of the tile a place along X or Y is in; any number below 0 or above the last outside.
+  int tile_at(double place) const {
+    return static_cast<int>(std::clamp(std::floor(place * per_tile_), -1.0, 1e6));
+  }
+  void pair_box(const Sweep& sweep, double x1, double y1, double reach, std::uint32_t number,
+                Batch& batch) const;
   void pair_line(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
   void pair_arc(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
   void pair(int column, int row, std::uint32_t number, Batch& batch) const;
@@ -78,6 +86,7 @@ class Planner {
   const std::vector<ToolSolids>& tools_;
   double hazard_depth_;
   PlanScope scope_;
+  double per_tile_;
   Point3 size_;
   std::optional<std::uint32_t> cutting_tool_;  // of the sweep before, if that cut
   Point3 end_;                                 // where it ended, block frame

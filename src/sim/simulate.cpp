@@ -13,6 +13,7 @@
 #include "sim/kernels.h"
 #include "sim/parallel.h"
 #include "sim/plan.h"
+#include "sim/start.h"
 #include "sim/walls.h"
 
 #include "kerf/number.h"
@@ -67,8 +68,11 @@ bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
 }
 
 /// The column pitch to use, or nothing with an error.
-std::optional<double> choose_pitch(const SimulationOptions& options, Point3 size, Diagnostics& diagnostics) {
+std::optional<double> choose_pitch(const SimulationOptions& options, const Stock& stock,
+                                   Diagnostics& diagnostics) {
+  const Point3 size = stock.block.size();
   double pitch = options.resolution.mm();
+  if (pitch == 0.0 && stock.body) pitch = stock.body->pitch().value_or(Length()).mm();
   if (pitch == 0.0) {
     const double area = size.x * size.y;
     pitch = std::clamp(std::sqrt(area / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
@@ -172,7 +176,7 @@ class Surveyor {
     if (extra == nullptr) return;
     if (extra->abc)
       once(Code::rotary_not_simulated, context,
-           "rotary axes are not simulated; the tool is taken as upright throughout");
+           "rotary axes are not simulated here; the tool is taken as upright throughout, see --rotary");
     if (!extra->z_correction.empty())
       once(Code::z_correction_not_simulated, context,
            "corrections of Z by measured points are not simulated");
@@ -237,6 +241,7 @@ class Run {
         path_(path),
         survey_(std::move(survey)),
         hazard_depth_(options.hazard_depth),
+        is_no_go_(options.role == SolidRole::no_go),
         threads_(thread_count(options.threads)),
         progress_(progress),
         removed_(path.size(), 0.0) {
@@ -289,7 +294,8 @@ class Run {
     const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
     if (tool == survey_.index.end()) return planner_->interrupt();  // a rapid before the first tool
     const bool spindle_off =
-        survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off);
+        is_no_go_ ||
+        (survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off));
     planner_->add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
     if (batch_.full()) flush(context.index);
   }
@@ -315,6 +321,7 @@ class Run {
   const Toolpath& path_;
   Survey survey_;
   Length hazard_depth_;
+  bool is_no_go_;
   std::optional<Planner> planner_;
   unsigned threads_;
   Progress* progress_;
@@ -483,7 +490,7 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
                                    Progress* progress) {
   const auto begin = std::chrono::steady_clock::now();
   if (!sim::stock_is_sound(stock, diagnostics)) return std::nullopt;
-  const std::optional<double> pitch = sim::choose_pitch(options, stock.block.size(), diagnostics);
+  const std::optional<double> pitch = sim::choose_pitch(options, stock, diagnostics);
   if (!pitch) return std::nullopt;
   const std::size_t errors_before = diagnostics.errors();
   const double clearance = std::max(options.hazard_depth.mm(), sim::kLeastClearance);
@@ -497,9 +504,14 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
                     .removed_by_step = {}};
   const Point3 size = stock.block.size();
   result.stock = mm3(size.x * size.y * size.z);
+  if (stock.body) {
+    if (!sim::fill_from_body(result.workpiece.body(), *stock.body, diagnostics, progress))
+      return std::nullopt;
+    result.stock = result.workpiece.volume();
+  }
   sim::Run run(result.workpiece, path, std::move(survey), options, progress);
   run.cut_all();
-  run.refine_walls();
+  if (options.role == SolidRole::stock) run.refine_walls();
   const double area = *pitch * *pitch;
   double removed = 0.0;
   result.removed_by_step.reserve(path.size());

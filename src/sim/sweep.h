@@ -44,6 +44,9 @@ struct Sweep {
   double ux = 1.0, uy = 0.0;  // direction in plan; of an arc the direction from the centre to the begin
   double length = 0.0;        // in plan; 0: straight up or down
   double z_end = 0.0;
+  double slope = 0.0;  // of a line: rise a mm in plan; 0 for plunges
+  float ball_lead =
+      0.0f;  // slope / sqrt(1 + slope^2): how far behind its centre a ball cuts deepest, in radii
   double radius = 0.0, turn = 0.0;             // of an arc; radians, positive counter-clockwise
   float share_begin = 0.0f, share_end = 1.0f;  // of the step's way
   std::uint32_t step = 0;
@@ -51,8 +54,6 @@ struct Sweep {
   std::uint8_t passes = 0;
   bool is_arc = false;
   bool follows = false;  // the sweep before it cut with the same tool and ended where this one begins
-
-  double slope() const { return length > 0.0 ? (z_end - z) / length : 0.0; }
 };
 
 /// The first contact of one kind that a sweep makes in a tile, or of all tiles after merging.

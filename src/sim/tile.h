@@ -6,9 +6,12 @@
 // Heights are mm above the block's floor, single precision.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
+
+#include "sim/blocks.h"
 
 #include "kerf/simulate.h"
 
@@ -33,6 +36,24 @@ struct Slot {
   alignas(64) std::uint32_t low_step[kLanes];
   alignas(64) std::uint32_t high_step[kLanes];
   std::int32_t next = -1;  // slot of the same chain
+};
+
+/// Slots by number. They never move, and no slot is copied as their number grows.
+class Slots {
+ public:
+  Slot& operator[](std::size_t k) { return (*pages_[k / kPage])[k % kPage]; }
+  const Slot& operator[](std::size_t k) const { return (*pages_[k / kPage])[k % kPage]; }
+  std::size_t size() const { return size_; }
+  Slot& add() {
+    if (size_ % kPage == 0) pages_.push_back(std::make_unique<Page>());
+    return (*this)[size_++];
+  }
+
+ private:
+  static constexpr std::size_t kPage = 64;
+  using Page = std::array<Slot, kPage>;
+  std::vector<std::unique_ptr<Page>> pages_;
+  std::size_t size_ = 0;
 };
 
 /// Number of a column in its tile's arrays, from its place in the tile.
@@ -65,7 +86,7 @@ struct Tile {
   alignas(64) Real super_top[kSupers];
   alignas(64) Real super_bottom[kSupers];
   std::int32_t chain[kMicros];  // first slot, or -1
-  std::vector<Slot> slots;
+  Slots slots;
 
   /// Gives a micro a chain, if it has none yet.
   void make_chain(int micro);
@@ -73,6 +94,8 @@ struct Tile {
   Slot& add_slot(int micro);
   /// Puts an interval into a free place of its column.
   void store_remnant(int micro, const Remnant& rest);
+  /// Length of material of each column of a micro.
+  void lengths(int micro, Lanes& out) const;
   /// Appends the intervals of a column, lowest first.
   void intervals(int index, std::vector<Interval>& out) const;
   /// The step that took the last material of a column without any; kStockSurface if there never was any.
@@ -97,8 +120,12 @@ struct Workpiece::Body {
   sim::Real same_height = 0.0f;
   /// What the columns at walls hold more (or less) than their centres say, mm3; see walls.h.
   double wall_volume = 0.0;
+  /// What the columns begin with; nothing where the block begins full. Tiles that begin otherwise exist from
+  /// the start.
+  std::shared_ptr<const ColumnRuns> start;
   /// Tiles that nothing has touched yet do not exist.
-  std::vector<std::unique_ptr<sim::Tile>> tiles;
+  sim::BlockStore<sim::Tile> store;
+  std::vector<sim::BlockStore<sim::Tile>::Pointer> tiles;
 
   sim::Tile& touch(std::size_t tile);
   int columns_x_of(std::size_t tile) const;

@@ -7,31 +7,22 @@
 namespace kerf::sim {
 namespace {
 
-View view_of_line(const Sweep& s, const TileJob& job, double half_tile) {
-  View w;
+void view_line(const Sweep& s, const TileJob& job, double half_tile, View& w) {
   const double to_x = job.x + half_tile - s.x, to_y = job.y + half_tile - s.y;
   const double t = std::clamp(to_x * s.ux + to_y * s.uy, 0.0, s.length);
-  const double ox = s.x + t * s.ux, oy = s.y + t * s.uy;
-  const double slope = s.slope();
-  w.x = static_cast<Real>(job.x - ox);
-  w.y = static_cast<Real>(job.y - oy);
+  w.is_arc = false;
+  w.x = static_cast<Real>(job.x - (s.x + t * s.ux));
+  w.y = static_cast<Real>(job.y - (s.y + t * s.uy));
   w.cx = static_cast<Real>(s.ux);
   w.cy = static_cast<Real>(s.uy);
   w.t_low = static_cast<Real>(-t);
   w.t_high = static_cast<Real>(s.length - t);
-  w.slope = static_cast<Real>(slope);
-  w.z = static_cast<Real>(s.z + slope * t);
-  w.ball_lead = static_cast<Real>(slope / std::sqrt(1.0 + slope * slope));
-  const Real ax = w.t_low * w.cx, bx = w.t_high * w.cx, ay = w.t_low * w.cy, by = w.t_high * w.cy;
-  w.box_low_x = lower_real(ax, bx);
-  w.box_high_x = higher_real(ax, bx);
-  w.box_low_y = lower_real(ay, by);
-  w.box_high_y = higher_real(ay, by);
-  return w;
+  w.slope = static_cast<Real>(s.slope);
+  w.z = static_cast<Real>(s.z + s.slope * t);
+  w.ball_lead = s.ball_lead;
 }
 
-View view_of_arc(const Sweep& s, const TileJob& job) {
-  View w;
+void view_arc(const Sweep& s, const TileJob& job, View& w) {
   w.is_arc = true;
   w.x = static_cast<Real>(job.x - s.x);
   w.y = static_cast<Real>(job.y - s.y);
@@ -55,7 +46,7 @@ View view_of_arc(const Sweep& s, const TileJob& job) {
   w.box_high_x = static_cast<Real>(box.high.x);
   w.box_low_y = static_cast<Real>(box.low.y);
   w.box_high_y = static_cast<Real>(box.high.y);
-  return w;
+  w.slope = w.t_low = w.t_high = 0;
 }
 
 /// What a cut that follows another need not cut again: all that lies so far back that the lowest point above
@@ -71,12 +62,15 @@ Real behind_of(const View& w, const Sweep& s, const LaneSolid& solid, bool open)
 
 }  // namespace
 
-View view_of(const Sweep& s, const TileJob& job) {
-  View w = s.is_arc ? view_of_arc(s, job) : view_of_line(s, job, 31.5 * job.field->pitch);
+void set_view(const Sweep& s, const TileJob& job, View& w) {
+  if (s.is_arc) {
+    view_arc(s, job, w);
+  } else {
+    view_line(s, job, 31.5 * job.field->pitch, w);
+  }
   w.z_low = static_cast<Real>(std::min(s.z, s.z_end));
   w.z_high = static_cast<Real>(std::max(s.z, s.z_end));
   if (w.slope == 0) w.z = w.z_low;
-  return w;
 }
 
 void prepare_for(View& w, const Sweep& sweep, const LaneSolid& solid, Follow follow, bool open) {

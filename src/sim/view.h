@@ -18,13 +18,16 @@ struct View {
   Real z_low = 0, z_high = 0;  // of the whole sweep
   bool level_follow = false;   // a level line that begins where the sweep before has ended
   Real behind = -kFar;         // what lies before this along a line was cut by the sweep before
-  Real box_low_x = 0, box_high_x = 0, box_low_y = 0, box_high_y = 0;  // of the path in plan
-  Real radius = 0;                                                    // of an arc, whose centre is the origin
-  Real begin_x = 0, begin_y = 0, end_x = 0, end_y = 0;                // its ends
-  bool wide = false, full = false;                                    // it turns more than half, all the way
+
+  // Of an arc, whose centre is the origin.
+  Real radius = 0;
+  Real box_low_x = 0, box_high_x = 0, box_low_y = 0, box_high_y = 0;
+  Real begin_x = 0, begin_y = 0, end_x = 0, end_y = 0;  // its ends
+  bool wide = false, full = false;                      // it turns more than half, all the way
 };
 
-View view_of(const Sweep& sweep, const TileJob& job);
+/// Fills in all but `behind` and `level_follow`, which depend on the solid.
+void set_view(const Sweep& sweep, const TileJob& job, View& view);
 
 /// Whether what the sweep before has cut may be left out.
 enum class Follow : std::uint8_t { no, yes };

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "sim/parallel.h"
+#include "sim/start.h"
 
 namespace kerf::sim {
 namespace {
@@ -111,12 +112,11 @@ void Window::read(const Workpiece::Body& body, int column, int row, const Tile* 
   for (int micro = 0; micro < kMicros; ++micro) {
     const Place place = place_of(micro * kLanes);
     if (place.x >= columns_ || place.y >= rows_) continue;
-    for (int lane = 0; lane < kLanes; ++lane) {
-      const int x = place.x + lane % 4, y = place.y + lane / 4;
-      if (x < columns_ && y < rows_)
-        length_[y + kRing][x + kRing] =
-            tile->chain[micro] < 0 ? tile->top[micro][lane] : length_in(*tile, micro * kLanes + lane);
-    }
+    Lanes lengths;
+    tile->lengths(micro, lengths);
+    const auto across = static_cast<std::size_t>(std::min(columns_ - place.x, 4));
+    for (int y = 0; y < std::min(rows_ - place.y, 4); ++y)
+      std::copy_n(lengths.v + 4 * y, across, &length_[place.y + y + kRing][place.x + kRing]);
   }
 }
 
@@ -126,8 +126,8 @@ inline Real Window::excess(Real before, Real a, Real b, Real after) const {
   const Real middle = b - a, left = a - before, right = after - b;
   const Real step = std::abs(middle), l = std::abs(left), r = std::abs(right);
   const Real lower = l < r ? l : r, higher = l < r ? r : l;
-  const Real same_way = (left * middle > 0) & (right * middle > 0) ? kExplainedByLower : 0.0f;
-  const Real by_lower = same_way * lower;
+  const bool same_way = (left * middle > 0) & (right * middle > 0);
+  const Real by_lower = (same_way ? kExplainedByLower : 0.0f) * lower;
   const Real by_higher =
       kExplainedByHigher * higher < most_explained_ ? kExplainedByHigher * higher : most_explained_;
   const Real rest = (step - (by_lower > by_higher ? by_lower : by_higher)) * per_least_;
@@ -225,54 +225,56 @@ void enclose(PointPlaces& points, int count, Real pitch) {
 
 double weighted_length(const Tile& tile, const std::vector<Real>& weights) {
   double sum = 0.0;
-  for (int index = 0; index < kMicros * kLanes; ++index) {
-    const Real weight = weights[static_cast<std::size_t>(index)];
-    if (weight != 0) sum += static_cast<double>(length_in(tile, index)) * static_cast<double>(weight);
+  for (int micro = 0; micro < kMicros; ++micro) {
+    const Real* weight = weights.data() + micro * kLanes;
+    if (std::all_of(weight, weight + kLanes, [](Real v) { return v == 0; })) continue;
+    Lanes lengths;
+    tile.lengths(micro, lengths);
+    for (int i = 0; i < kLanes; ++i) sum += static_cast<double>(lengths[i]) * static_cast<double>(weight[i]);
   }
   return sum;
 }
 
+/// The columns of a tile that walls may go through, by lane_index, and how high the steps there are.
+struct Candidates {
+  std::vector<std::uint16_t> columns;
+  std::vector<std::int8_t> grades;
+};
+
 }  // namespace
 
 std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned threads) {
-  const auto never = [] { return false; };
   std::array<std::atomic<std::size_t>, kGrades> count{};
-  std::vector<char> has_walls(body.tiles.size(), 0);
-  parallel_for(
-      threads, body.tiles.size(),
-      [&](std::size_t tile) {
-        Window window;
-        if (!window.look(body, tile)) return;
-        has_walls[tile] = 1;
-        for (int index = 0; index < kTileColumns * kTileColumns; ++index) {
-          const int grade = window.grade(index % kTileColumns, index / kTileColumns);
-          if (grade >= 0) ++count[static_cast<std::size_t>(grade)];
-        }
-      },
-      never);
+  std::vector<Candidates> candidates(body.tiles.size());
+  const auto look = [&](std::size_t tile) {
+    Window window;
+    if (!window.look(body, tile)) return;
+    for (int index = 0; index < kTileColumns * kTileColumns; ++index) {
+      const Place place = place_of(index);
+      const int grade = window.grade(place.x, place.y);
+      if (grade < 0) continue;
+      ++count[static_cast<std::size_t>(grade)];
+      candidates[tile].columns.push_back(static_cast<std::uint16_t>(index));
+      candidates[tile].grades.push_back(static_cast<std::int8_t>(grade));
+    }
+  };
+  parallel_for(threads, body.tiles.size(), look, [] { return false; });
   const int lowest = lowest_grade(count, body);
   std::vector<WallColumns> found;
-  for (std::size_t tile = 0; tile < has_walls.size(); ++tile)
-    if (has_walls[tile] != 0) found.push_back({static_cast<std::uint32_t>(tile), {}});
-  parallel_for(
-      threads, found.size(),
-      [&](std::size_t n) {
-        Window window;
-        window.look(body, found[n].tile);
-        for (int index = 0; index < kTileColumns * kTileColumns; ++index) {
-          const Place place = place_of(index);
-          if (window.grade(place.x, place.y) >= lowest)
-            found[n].columns.push_back(static_cast<std::uint16_t>(index));
-        }
-      },
-      never);
-  std::erase_if(found, [](const WallColumns& walls) { return walls.columns.empty(); });
+  for (std::size_t tile = 0; tile < candidates.size(); ++tile) {
+    const Candidates& here = candidates[tile];
+    WallColumns walls{static_cast<std::uint32_t>(tile), {}};
+    for (std::size_t n = 0; n < here.columns.size(); ++n)
+      if (here.grades[n] >= lowest) walls.columns.push_back(here.columns[n]);
+    if (!walls.columns.empty()) found.push_back(std::move(walls));
+  }
   return found;
 }
 
-WallTile::WallTile(const Workpiece::Body& body, const WallColumns& walls)
+WallTile::WallTile(const Workpiece::Body& body, const WallColumns& walls, Parts& store)
     : centres_(body.height, body.columns_x_of(walls.tile), body.columns_y_of(walls.tile)),
       centre_weights_(kMicros * kLanes, 0.0f) {
+  fill_start_tile(body, walls.tile, centres_);
   const auto tiles_x = static_cast<std::uint32_t>(body.tiles_x);
   const int column = static_cast<int>(walls.tile % tiles_x) * kTileColumns;
   const int row = static_cast<int>(walls.tile / tiles_x) * kTileColumns;
@@ -286,11 +288,12 @@ WallTile::WallTile(const Workpiece::Body& body, const WallColumns& walls)
   const auto pitch = static_cast<Real>(body.pitch);
   for (std::size_t first = 0; first < walls.columns.size(); first += kMicros) {
     const int count = static_cast<int>(std::min<std::size_t>(kMicros, walls.columns.size() - first));
-    Part& part = *parts_.emplace_back(std::make_unique<Part>(body.height));
+    Part& part = *parts_.emplace_back(store.make(body.height));
     part.weights.assign(kMicros * kLanes, 0.0f);
     for (int n = 0; n < count; ++n)
       add_point_column(part, body, walls.tile, n, walls.columns[first + static_cast<std::size_t>(n)]);
     enclose(part.points, count, pitch);
+    if (body.start) refresh_bounds(part.tile);
     keep_micros(part.tile, [&](int micro) { return micro < count; });
   }
 }
@@ -310,6 +313,7 @@ void WallTile::add_point_column(Part& part, const Workpiece::Body& body, std::ui
   const std::uint32_t bits = scrambled(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
   points.shift_x[number] = unit_share(bits);
   points.shift_y[number] = unit_share(bits >> 16);
+  if (body.start) put_start_column(body, i, j, part.tile, number);
   std::fill_n(part.weights.begin() + number * kLanes, kLanes, static_cast<Real>(share_x * share_y / kLanes));
 }
 
@@ -326,12 +330,12 @@ void WallTile::cut(TileJob job) {
     job.contacts->clear();  // the columns' centres have told them
   };
   cut_one(centres_, centre_weights_, nullptr);
-  for (const std::unique_ptr<Part>& part : parts_) cut_one(part->tile, part->weights, &part->points);
+  for (const Parts::Pointer& part : parts_) cut_one(part->tile, part->weights, &part->points);
 }
 
 double WallTile::excess() const {
   double sum = weighted_length(centres_, centre_weights_);
-  for (const std::unique_ptr<Part>& part : parts_) sum += weighted_length(part->tile, part->weights);
+  for (const Parts::Pointer& part : parts_) sum += weighted_length(part->tile, part->weights);
   return sum;
 }
 
@@ -342,13 +346,13 @@ WallGroup::WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>
     columns += walls.columns.size();
     wanted_[walls.tile] = true;
     place_[walls.tile] = static_cast<std::uint32_t>(walls_.size());
-    walls_.push_back(std::make_unique<WallTile>(body, walls));
+    walls_.push_back(store_.make(body, walls, parts_));
   }
 }
 
 double WallGroup::excess() const {
   double sum = 0.0;
-  for (const std::unique_ptr<WallTile>& walls : walls_) sum += walls->excess();
+  for (const auto& walls : walls_) sum += walls->excess();
   return sum;
 }
 

@@ -32,7 +32,14 @@ std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned thread
 /// The columns at the walls of one tile.
 class WallTile {
  public:
-  WallTile(const Workpiece::Body& body, const WallColumns& walls);
+  struct Part {
+    explicit Part(Real height) : tile(height, kTileColumns, kTileColumns) {}
+    Tile tile;
+    PointPlaces points{};
+    std::vector<Real> weights;
+  };
+  using Parts = BlockStore<Part>;
+  WallTile(const Workpiece::Body& body, const WallColumns& walls, Parts& store);
 
   /// Cuts with the sweeps of the job, whose tile, shares and weights are replaced.
   void cut(TileJob job);
@@ -41,18 +48,12 @@ class WallTile {
   double excess() const;
 
  private:
-  struct Part {
-    explicit Part(Real height) : tile(height, kTileColumns, kTileColumns) {}
-    Tile tile;
-    PointPlaces points{};
-    std::vector<Real> weights;
-  };
   void add_point_column(Part& part, const Workpiece::Body& body, std::uint32_t tile, int number,
                         int lane) const;
 
   Tile centres_;
   std::vector<Real> centre_weights_;
-  std::vector<std::unique_ptr<Part>> parts_;
+  std::vector<Parts::Pointer> parts_;
 };
 
 /// As many tiles' walls as are kept in memory at a time.
@@ -68,7 +69,9 @@ class WallGroup {
  private:
   std::vector<bool> wanted_;
   std::vector<std::uint32_t> place_;  // of a tile in walls_
-  std::vector<std::unique_ptr<WallTile>> walls_;
+  WallTile::Parts parts_;
+  BlockStore<WallTile> store_;
+  std::vector<BlockStore<WallTile>::Pointer> walls_;
 };
 
 }  // namespace kerf::sim

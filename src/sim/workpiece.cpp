@@ -34,8 +34,8 @@ Slot& Tile::add_slot(int micro) {
   const auto number = static_cast<std::int32_t>(slots.size());
   std::int32_t* link = &chain[micro];
   while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
-  *link = number;  // before the vector grows, which moves the links
-  Slot& slot = slots.emplace_back();
+  *link = number;
+  Slot& slot = slots.add();
   for (int i = 0; i < kLanes; ++i) {
     slot.low[i] = kFar;
     slot.high[i] = -kFar;
@@ -67,6 +67,21 @@ void Tile::make_chain(int micro) {
     slot.high[i] = top[micro][i];
   }
   std::copy_n(top_step[micro], kLanes, slot.high_step);  // of columns cut through as well, see cut_through
+}
+
+void Tile::lengths(int micro, Lanes& out) const {
+  if (chain[micro] < 0) {
+    out = top[micro];
+    return;
+  }
+  std::fill_n(out.v, kLanes, 0.0f);
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
+    const Slot& slot = slots[static_cast<std::size_t>(k)];
+    for (int i = 0; i < kLanes; ++i) {
+      const Real length = slot.high[i] - slot.low[i];
+      out[i] += length > 0 ? length : 0;
+    }
+  }
 }
 
 void Tile::intervals(int index, std::vector<Interval>& out) const {
@@ -144,7 +159,7 @@ int Workpiece::Body::columns_y_of(std::size_t tile) const {
 }
 
 sim::Tile& Workpiece::Body::touch(std::size_t tile) {
-  if (!tiles[tile]) tiles[tile] = std::make_unique<sim::Tile>(height, columns_x_of(tile), columns_y_of(tile));
+  if (!tiles[tile]) tiles[tile] = store.make(height, columns_x_of(tile), columns_y_of(tile));
   return *tiles[tile];
 }
 

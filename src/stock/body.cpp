@@ -235,10 +235,10 @@ ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places) {
   };
   RunSink sink(out);
   for (int j = 0; j < places.ny; ++j) {
-    const int from_j = nearest(places.y + j * places.pitch, from.y, from.ny);
+    const int from_j = nearest(places.y_of(j), from.y, from.ny);
     for (int i = 0; i < places.nx; ++i) {
       sink.begin_column();
-      const int from_i = nearest(places.x + i * places.pitch, from.x, from.nx);
+      const int from_i = nearest(places.x_of(i), from.x, from.nx);
       if (from_i < 0 || from_j < 0) continue;
       for (const Run& run : left.columns.column(from_i, from_j)) sink.add(run.low + lift, run.high + lift);
     }

@@ -50,8 +50,8 @@ struct Crossing {
 class Caster {
  public:
   Caster(const MeshSolid& mesh, const ColumnPlaces& places) : mesh_(mesh), places_(places) {
-    for (int i = 0; i < places.nx; ++i) x_.push_back(to_lattice(places.x + i * places.pitch));
-    for (int j = 0; j < places.ny; ++j) y_.push_back(to_lattice(places.y + j * places.pitch));
+    for (int i = 0; i < places.nx; ++i) x_.push_back(to_lattice(places.x_of(i)));
+    for (int j = 0; j < places.ny; ++j) y_.push_back(to_lattice(places.y_of(j)));
     result_.nx = places.nx;
     result_.ny = places.ny;
     result_.first.reserve(x_.size() * y_.size() + 1);
@@ -193,7 +193,7 @@ void Caster::add_column(std::size_t begin, std::size_t end, int i, int j, RunSin
   std::sort(first, last, [](const Crossing& a, const Crossing& b) {
     return a.z != b.z ? a.z < b.z : a.enters > b.enters;
   });
-  const Point2 at{places_.x + i * places_.pitch, places_.y + j * places_.pitch};
+  const Point2 at{places_.x_of(i), places_.y_of(j)};
   const bool counts = !mesh_.is_oriented;
   int depth = 0;
   bool overlaps = false;

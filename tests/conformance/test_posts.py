@@ -42,9 +42,9 @@ def original_figures(path, folder):
     return given if given and "accepted" in given else figures(path, folder)
 
 
-# LinuxCNC prints four decimals, and programs have three or four. In chains of cuts that are hardly longer than the
-# last decimal, each such rounding adds to the length (camotics_vcarve: 4000 cuts of 0.014 mm, printed in inches); a
-# tenth of the coarsest rounding is allowed for each move.
+# LinuxCNC prints four decimals, and programs have three or four. In chains of cuts that are hardly longer
+# than the last decimal, each rounding adds to the length (camotics_vcarve: 4000 cuts of 0.014 mm, printed in
+# inches); a tenth of the coarsest rounding is allowed for each move.
 ROUNDING = 0.1 * 0.00254
 
 

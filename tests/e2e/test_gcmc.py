@@ -125,6 +125,21 @@ def test_a_file_appears_whole_or_not_at_all(kerf, program, files, tmp_path):
     assert run.status == 1 and "cannot write" in run.err
 
 
+def test_devices_and_links_stay_what_they_are(kerf, program, tmp_path):
+    assert kerf("gcmc", "-qo", "/dev/stdout", stdin=b"move([1]);").out == "G1 X1.00000000\n"
+    assert Path("/dev/stdout").is_symlink()
+    (tmp_path / "link.ngc").symlink_to("real.ngc")
+    assert kerf("gcmc", "-qo", "link.ngc", stdin=b"move([1]);").status == 0
+    assert (tmp_path / "link.ngc").is_symlink() and (tmp_path / "real.ngc").exists()
+
+
+def test_the_program_itself_is_not_overwritten(kerf, program, tmp_path):
+    program(MOVE, "p.gcmc")
+    run = kerf("gcmc", "-o", "./p.gcmc", "p.gcmc")
+    assert run.status == 1 and "would be overwritten" in run.err
+    assert (tmp_path / "p.gcmc").read_text() == MOVE
+
+
 def test_an_endless_program_can_be_stopped(tmp_path):
     run = subprocess.Popen([KERF, "gcmc", "-o", "out.ngc"], stdin=subprocess.PIPE, stderr=subprocess.PIPE,
                            cwd=tmp_path)
@@ -217,3 +232,15 @@ def test_a_link_named_gcmc_is_gcmc(tmp_path):
     link.symlink_to(Path(KERF).resolve())
     run = subprocess.run([link, "-q", "-P1"], input=b"move([1]);", capture_output=True, timeout=60)
     assert run.returncode == 0 and run.stdout == b"G1 X1.0\n"
+
+
+def test_a_pipe_as_output_stays_one(program, tmp_path):
+    pipe, taken = tmp_path / "pipe", tmp_path / "taken"
+    os.mkfifo(pipe)
+    (tmp_path / "link.ngc").symlink_to(pipe)
+    with open(taken, "wb") as file, subprocess.Popen(["cat", pipe], stdout=file) as reader:
+        path = program("goto([1mm, 2mm]);\n", "part.gcmc")
+        done = subprocess.run([KERF, "gcmc", path, "-o", tmp_path / "link.ngc"], timeout=60)
+        assert done.returncode == 0 and reader.wait(timeout=60) == 0
+    assert pipe.is_fifo() and (tmp_path / "link.ngc").is_symlink()
+    assert b"G0 X1" in taken.read_bytes()

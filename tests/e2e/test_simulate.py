@@ -170,7 +170,8 @@ def test_a_resolution_in_inches(kerf, program):
 
 
 def test_the_count_of_hazards_is_that_of_the_lines(kerf, program):
-    text = SOUND.replace("M3 S10000\n", "M5\n").replace("G1 X20 F400\n", "G1 X20 F400\nG0 Z5\nG0 X20\nG1 Z-1\n")
+    text = SOUND.replace("M3 S10000\n", "M5\n")
+    text = text.replace("G1 X20 F400\n", "G1 X20 F400\nG0 Z5\nG0 X20\nG1 Z-1\n")
     run = kerf("simulate", program(text))
     lines = [line for line in run.out.split("\n") if line.endswith("]")]
     assert len(lines) == 1 and "[spindle_off]" in lines[0] and "in 3 moves" in lines[0]
@@ -183,7 +184,8 @@ def test_a_tool_that_cuts_nothing_has_no_line(kerf, program):
 
 
 def test_the_materials_of_a_glb_name_the_tools(kerf, program, tmp_path):
-    kerf("simulate", program(SOUND.replace("M5\n", "G0 X30 Y5\nM6 T101\nM3 S9000\nG1 Z-1\nG0 Z5\nM5\n")), "-o", "part.glb")
+    two = SOUND.replace("M5\n", "G0 X30 Y5\nM6 T101\nM3 S9000\nG1 Z-1\nG0 Z5\nM5\n")
+    kerf("simulate", program(two), "-o", "part.glb")
     data = (tmp_path / "part.glb").read_bytes()
     scene = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
     assert {"stock", "tool 102", "tool 101"} <= {m["name"] for m in scene["materials"]}

@@ -145,5 +145,6 @@ def test_options_without_effect_are_told(kerf, program):
 
 
 def test_a_tool_option_for_a_program_without_tool_changes_is_used(kerf, program):
-    run = kerf("simulate", "--json", program(SOUND.replace("M6 T102\n", "")), "--tool", "5=square d=3 flute=9")
+    path = program(SOUND.replace("M6 T102\n", ""))
+    run = kerf("simulate", "--json", path, "--tool", "5=square d=3 flute=9")
     assert "option_unused" not in run.codes() and run.json["removed_mm3"] > 0

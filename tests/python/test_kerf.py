@@ -1,4 +1,5 @@
 """The Python module: building a toolpath, cutting it, and being told what is wrong."""
+import copy
 import math
 
 import pytest
@@ -102,3 +103,71 @@ def test_tools():
     assert drawn.diameter == pytest.approx(6)
     with pytest.raises(kerf.Error):
         kerf.Tool("squale d=3")
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda p: p.rapid((1e308, 0, 0)), "to must be from -10000000 to 10000000 mm"),
+    (lambda p: p.cut((0, 0, 0), feed=1e308), "feed must be from 0 to"),
+    (lambda p: p.tool(-3), "number must be from 0 to 999999999"),
+    (lambda p: p.tool(10**12), "number must be from 0 to 999999999"),
+    (lambda p: p.spindle(1e308), "rpm must be from 0 to"),
+    (lambda p: p.spindle(1000, "left"), "turn must be 'cw', 'ccw' or 'off', not 'left'"),
+    (lambda p: p.dwell(1e308), "seconds must be from 0 to"),
+    (lambda p: p.arc((1, 0, 0), (0, 0), "cw", 100, extra_turns=10**9), "extra_turns must be from 0 to"),
+    (lambda p: (p.rapid((1, 0, 0)), p.arc((5, 0, 0), (0, 0), "cw", 100)),
+     "the arc begins 1 mm from its centre and ends 5 mm from it"),
+    (lambda p: kerf.Stock.block((1e308, 1, 1)), "size must be from"),
+    (lambda p: kerf.Stock.block((1e6, 1, 1)), "size must be from 0 to 100000 mm"),
+    (lambda p: kerf.Tool("square d=3", number=-5), "number must be from 0"),
+    (lambda p: kerf.ToolTable().__setitem__(-5, kerf.Tool(102)), "number must be from 0"),
+    (lambda p: kerf.simulate(p, kerf.Stock.block((1, 1, 1)), threads=-1), "threads must be from 0 to 1024"),
+])
+def test_values_out_of_range_are_value_errors_that_say_the_range(call, words):
+    with pytest.raises(ValueError) as caught:
+        call(kerf.Toolpath())
+    assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda: kerf.load(3), "path"),
+    (lambda: kerf.Tool.make("square", diameter="x"), "diameter must be a number"),
+])
+def test_values_of_a_wrong_type_say_what_is_expected(call, words):
+    with pytest.raises(TypeError) as caught:
+        call()
+    assert words in str(caught.value).lower()
+
+
+def test_a_tool_by_its_number():
+    assert kerf.Tool(301).number == kerf.Tool("301").number == 301
+    assert kerf.Tool(102, number=4).number == 4
+
+
+def test_copies_are_of_their_own():
+    path = slot()
+    for twin in (copy.copy(path), copy.deepcopy(path)):
+        twin.dwell(1)
+        assert len(twin) == len(path) + 1
+    table = kerf.ToolTable()
+    twin = copy.deepcopy(table)
+    twin[3] = copy.copy(kerf.Tool(102))
+    assert len(table) == 0 and twin[3].diameter == pytest.approx(3.175)
+    assert copy.copy(kerf.Stock.block((1, 2, 3))).high == (1, 2, 0)
+
+
+def test_everything_says_what_it_is():
+    stock = kerf.Stock.block((40, 20, 6))
+    assert repr(slot()) == "<kerf.Toolpath of 6 steps>"
+    assert repr(stock) == "<kerf.Stock 40 x 20 x 6 mm>"
+    assert repr(kerf.Tool(102)) == "<kerf.Tool 102 square 3.175 mm>"
+    assert repr(kerf.ToolTable()) == "<kerf.ToolTable of 0 tools>"
+    assert "mm3 removed, 0 hazards" in repr(kerf.simulate(slot(), stock, resolution=0.5))
+    for kind in (kerf.Toolpath, kerf.Tool, kerf.ToolTable, kerf.Stock, kerf.Simulation, kerf.Diagnostic):
+        for name in dir(kind):
+            assert name.startswith("_") or getattr(kind, name).__doc__, f"{kind.__name__}.{name}"
+
+
+def test_errors_of_a_tool_name_the_line_of_the_script():
+    with pytest.raises(kerf.Error) as caught:
+        kerf.Tool("spoon d=3")
+    assert "test_kerf.py" in caught.value.diagnostics[0].where

@@ -32,9 +32,9 @@ PUBLIC = {
              "codes.def"],
     "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h"],
     "tool": ["tool.h", "material.h"],
-    "stock": ["stock.h", "stock_body.h"],
+    "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
-    "sim": ["simulate.h"],
+    "sim": ["simulate.h", "fixtures.h", "compare.h", "rotary.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "back_gcmc": ["gcmc_drawing.h"],
@@ -43,9 +43,9 @@ PUBLIC = {
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
     "front_outline": ["outline_files.h"],
-    "back_drawing": ["outline_drawing.h"],
+    "back_drawing": ["outline_drawing.h", "toolpath_drawing.h"],
     "codec_drawing": ["drawing_files.h"],
-    "codec_mesh": ["mesh_files.h"],
+    "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_png": ["image_files.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}

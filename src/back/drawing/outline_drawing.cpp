@@ -6,17 +6,13 @@
 #include <numbers>
 #include <utility>
 
+#include "back/drawing/shapes.h"
+
 namespace kerf {
 namespace {
 
-constexpr double kLineShare = 0.002;  // of a picture's larger side: the width of its lines
-
-template <class Shape>
-void add(Drawing& drawing, std::size_t layer, Shape shape) {
-  DrawingEntity& entity = drawing.entities.emplace_back();
-  entity.layer = layer;
-  entity.shape.emplace<Shape>(std::move(shape));
-}
+using drawings::add;
+using drawings::set_widths;
 
 void draw_pieces(Drawing& drawing, std::size_t layer, const Outline& outline) {
   Point2 from = outline.start;
@@ -58,12 +54,6 @@ void draw_bit(Drawing& drawing, std::size_t layer, const Outline& cut, const Cor
     if (const auto circle = arc_circle(cut.point(i), piece))
       add(drawing, layer, drawing::Circle{circle->centre.x, circle->centre.y, circle->radius});
   }
-}
-
-void set_widths(Drawing& drawing) {
-  const auto bounds = drawing_bounds(drawing);
-  const double side = std::max(bounds[2] - bounds[0], bounds[3] - bounds[1]);
-  for (DrawingLayer& layer : drawing.layers) layer.line_width *= side > 0.0 ? kLineShare * side : 1.0;
 }
 
 DrawingLayer ideal_layer() { return {"ideal", 30, {0xe0, 0x80, 0x10}, 1.0, LineKind::dashed}; }

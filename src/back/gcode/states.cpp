@@ -10,6 +10,7 @@
 namespace kerf::gcode {
 namespace {
 
+constexpr std::size_t kMostFiles = 1000;
 constexpr int kM0 = 0, kM1 = 10, kM60 = 600, kM2 = 20, kM30 = 300;
 
 std::int64_t counts_of(double value, int decimals) { return std::llround(value * std::pow(10.0, decimals)); }
@@ -164,19 +165,13 @@ void Poster::restore(std::size_t i) {
 }
 
 void Poster::tool_change(std::size_t i) {
+  if (tool_policy_ == ToolChangePolicy::files) return change_file(i);
   const int number = path_[i].tool_change().tool;
   const bool first = !tool_.has_value();
   const bool same = tool_ == number;
   tool_ = number;
   if (tool_policy_ == ToolChangePolicy::ignore) return;
   if (same && tool_policy_ != ToolChangePolicy::command) return;
-  if (tool_policy_ == ToolChangePolicy::files) {
-    if (!first || moved_) close_file();
-    if (!first || moved_) open_file();
-    file_tool_ = number;
-    restore_ = true;
-    return templates(profile_.section);
-  }
   if (spindle_.turn != SpindleTurn::off) stop_spindle();
   restore_ = true;
   if (tool_policy_ == ToolChangePolicy::command) {
@@ -190,13 +185,34 @@ void Poster::tool_change(std::size_t i) {
   templates(profile_.section);
 }
 
+/// A stop until a person goes on, in the controller's own way where that has no M0.
+void Poster::pause(std::size_t i) {
+  std::vector<std::string> lines = profile_.pause_lines;
+  lines.erase(std::remove_if(lines.begin(), lines.end(), is_comment), lines.end());
+  if (lines.empty()) return cannot(i, "the controller has no way to pause");
+  templates(lines);
+}
+
+/// A file ends where another tool comes. Changes before its first motion only choose its tool, which
+/// open_file() has looked for.
+void Poster::change_file(std::size_t i) {
+  if (!moved_ || file_tool_ == path_[i].tool_change().tool) return;
+  if (files_.size() + 1 == kMostFiles)
+    cannot(i, fmt::format("there are more than {} tool changes, each of which begins a file", kMostFiles));
+  if (files_.size() + 1 >= kMostFiles) return;
+  close_file();
+  open_file(i);
+  restore_ = true;
+}
+
 void Poster::verbatim(std::size_t i) {
   const std::string_view text = path_.text(i);
   const int m = lone_m_code(text);
   if (m == kM2 || m == kM30) return;  // the footer ends the program
   if (m >= 0) {
     if (profile_.has_m(m)) return m_line(i, m);
-    return left_out(i, fmt::format("the controller has no {}; the pause", text));
+    if (m == kM1) return left_out(i, "the controller has no M1; the optional pause");
+    return pause(i);
   }
   if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > profile_.longest_line)
     return cannot(i, "a text handed through to the controller is longer than one of its lines");

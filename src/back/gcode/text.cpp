@@ -17,17 +17,36 @@ constexpr std::size_t kLongestValue = 400;  // bytes of a text that a template n
 #define KERF_VERSION "0"
 #endif
 
-bool is_comment(std::string_view line) {
-  return !line.empty() && (line.front() == '(' || line.front() == ';');
-}
-
 bool is_empty_comment(std::string_view line) {
   return is_comment(line) && line.find_first_not_of("(); ") == std::string_view::npos;
 }
 
 }  // namespace
 
-void Poster::open_file() {
+bool is_comment(std::string_view line) {
+  return !line.empty() && (line.front() == '(' || line.front() == ';');
+}
+
+/// Finds which tool the file that begins at file_begin_ is for, and where it ends.
+void Poster::find_file_end() {
+  bool moved = false;
+  file_tool_.reset();
+  for (file_end_ = file_begin_; file_end_ < path_.size(); ++file_end_) {
+    const Step& s = path_[file_end_];
+    moved = moved || s.is_motion();
+    if (s.kind() != StepKind::tool_change) continue;
+    const int tool = s.tool_change().tool;
+    if (!moved)
+      file_tool_ = tool;
+    else if (tool_policy_ == ToolChangePolicy::files && tool != file_tool_)
+      return;
+  }
+}
+
+void Poster::open_file(std::size_t begin) {
+  file_begin_ = begin;
+  find_file_end();
+  figures_.reset();
   out_.clear();
   lines_ = 0;
   line_number_ = 0;
@@ -38,6 +57,9 @@ void Poster::open_file() {
   forget();
   templates(profile_.header);
   if (!profile_.header.empty()) plane_ = Plane::xy;
+  if (tool_policy_ != ToolChangePolicy::files || !file_tool_) return;
+  tool_ = file_tool_;
+  templates(profile_.section);
 }
 
 void Poster::close_file() {
@@ -140,13 +162,14 @@ std::string Poster::expanded(std::string_view line) {
 }
 
 std::optional<std::string> Poster::value_of(std::string_view key) {
-  const auto of_tool = [this](const std::map<int, std::string>& texts) {
-    const auto it = texts.find(tool_.value_or(0));
+  const int tool = tool_ ? *tool_ : file_tool_.value_or(0);
+  const auto of_tool = [tool](const std::map<int, std::string>& texts) {
+    const auto it = texts.find(tool);
     return it == texts.end() ? std::string() : it->second;
   };
   if (key == "name") return options_.program_name;
   if (key == "units") return unit_ == LengthUnit::mm ? "G21" : "G20";
-  if (key == "tool") return fmt::format("{}", tool_.value_or(0));
+  if (key == "tool") return fmt::format("{}", tool);
   if (key == "tool_name") return of_tool(options_.tool_names);
   if (key == "tool_comment") return of_tool(options_.tool_comments);
   if (key == "tools") return tools_text();
@@ -157,8 +180,14 @@ std::optional<std::string> Poster::value_of(std::string_view key) {
   return std::nullopt;
 }
 
-std::string Poster::bounds_text() const {
-  const Box3 box = report_on(path_, {}).all.cut_bounds;
+/// What the file does, worked out when a template first asks for it.
+const MotionFigures& Poster::figures() {
+  if (!figures_) figures_ = report_on(path_, {.first = file_begin_, .end = file_end_}).all;
+  return *figures_;
+}
+
+std::string Poster::bounds_text() {
+  const Box3& box = figures().cut_bounds;
   if (box.empty()) return {};
   const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : 25.4;
   std::string text = "cuts within";
@@ -168,8 +197,8 @@ std::string Poster::bounds_text() const {
   return text + (unit_ == LengthUnit::mm ? " mm" : " inch");
 }
 
-std::string Poster::time_text() const {
-  const MotionFigures all = report_on(path_, {}).all;
+std::string Poster::time_text() {
+  const MotionFigures& all = figures();
   const double seconds = (all.cutting + all.rapid + all.dwell).seconds();
   if (!(seconds > 0.0 && seconds < 1e9)) return {};
   const auto whole = static_cast<long long>(std::llround(seconds));
@@ -180,7 +209,8 @@ std::string Poster::time_text() const {
 std::string Poster::tools_text() const {
   std::string text;
   std::optional<int> last;
-  for (const Step& s : path_.steps()) {
+  for (std::size_t i = file_begin_; i < file_end_; ++i) {
+    const Step& s = path_[i];
     if (s.kind() != StepKind::tool_change || last == s.tool_change().tool) continue;
     last = s.tool_change().tool;
     text += fmt::format("{}{}", text.empty() ? "tools " : ", ", *last);

@@ -1,8 +1,11 @@
 // AutoCAD 2000 (AC1015) files, complete: strict readers refuse files without tables, owners and subclass
-// markers.
+// markers. And R12 (AC1009), which has none of these, no light polylines, and plain names only.
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "kerf/drawing_files.h"
 #include "kerf/number.h"
@@ -12,6 +15,28 @@ namespace {
 
 constexpr int kDecimals = 10;
 
+/// Text in ASCII: both versions read files in the code page that they name, so that other letters are told by
+/// their number ("\\U+00E9"). What is no UTF-8 becomes '?'.
+std::string ascii(std::string_view text) {
+  std::string made;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const std::size_t more = byte < 0x80 ? 0 : byte < 0xc0 ? 9 : byte < 0xe0 ? 1 : byte < 0xf0 ? 2 : 9;
+    if (more == 0) made += text[i];
+    const std::size_t length = more == 9 ? 1 : 1 + more;
+    unsigned number = more == 1 ? byte & 0x1fu : byte & 0x0fu;
+    bool whole = more != 9 && i + length <= text.size();
+    for (std::size_t k = 1; whole && k < length; ++k) {
+      const auto next = static_cast<unsigned char>(text[i + k]);
+      whole = (next & 0xc0u) == 0x80u;
+      number = (number << 6) | (next & 0x3fu);
+    }
+    if (more != 0) made += whole ? fmt::format("\\U+{:04X}", number) : "?";
+    i += whole ? length : 1;
+  }
+  return made;
+}
+
 /// Letters that a reader may choke on in a symbol name become underscores.
 std::string symbol(std::string_view name) {
   std::string made;
@@ -20,12 +45,28 @@ std::string symbol(std::string_view name) {
         static_cast<unsigned char>(c) < ' ' || std::string_view("<>/\\\":;?*|=`,").find(c) < 14;
     made += unfit ? '_' : c;
   }
+  return made.empty() ? "_" : ascii(made);
+}
+
+/// R12 has capitals, digits, '$', '-' and '_' in names of up to 31 letters.
+std::string symbol_r12(std::string_view name) {
+  constexpr std::size_t kLongest = 31;
+  std::string made;
+  for (const char c : name.substr(0, kLongest)) {
+    const bool small = c >= 'a' && c <= 'z';
+    const bool fit = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '$' || c == '-';
+    made += small ? static_cast<char>(c - 'a' + 'A') : fit ? c : '_';
+  }
   return made.empty() ? "_" : made;
 }
 
 class DxfWriter {
  public:
-  explicit DxfWriter(const Drawing& drawing) : drawing_(drawing) {}
+  DxfWriter(const Drawing& drawing, DxfVersion version)
+      : drawing_(drawing), r12_(version == DxfVersion::r12) {
+    for (const DrawingLayer& layer : drawing.layers)
+      layers_.push_back(r12_ ? symbol_r12(layer.name) : symbol(layer.name));
+  }
   std::string write();
 
  private:
@@ -48,8 +89,16 @@ class DxfWriter {
   void tag(int group, const char* value) { tag(group, std::string_view(value)); }
   void tag(int group, int value) { tag(group, std::to_string(value)); }
   void tag(int group, double value) { tag(group, number_text(value, kDecimals)); }
-  void handle(unsigned value) { tag(5, fmt::format("{:X}", value)); }
-  void owner(unsigned value) { tag(330, fmt::format("{:X}", value)); }
+  // R12 has neither of these three.
+  void handle(unsigned value) {
+    if (!r12_) tag(5, fmt::format("{:X}", value));
+  }
+  void owner(unsigned value) {
+    if (!r12_) tag(330, fmt::format("{:X}", value));
+  }
+  void subclass(std::string_view marker) {
+    if (!r12_) tag(100, marker);
+  }
   void point(double x, double y) {
     tag(10, x);
     tag(20, y);
@@ -66,6 +115,7 @@ class DxfWriter {
   void tables();
   void linetypes();
   void layers();
+  void text_styles();
   void other_tables();
   void block(unsigned own, std::string_view name);
   void entity(std::string_view type, std::string_view marker, std::size_t layer);
@@ -74,9 +124,12 @@ class DxfWriter {
   void shape(const drawing::Circle& circle, std::size_t layer);
   void shape(const drawing::Polyline& line, std::size_t layer);
   void shape(const drawing::Text& text, std::size_t layer);
+  void old_polyline(const drawing::Polyline& line, std::size_t layer);
   void objects();
 
   const Drawing& drawing_;
+  const bool r12_;
+  std::vector<std::string> layers_;  // their names as symbols
   std::string out_;
   unsigned next_ = kFirstFree;
 };
@@ -86,10 +139,14 @@ void DxfWriter::header() {
   const bool inch = drawing_.unit == DrawingUnit::inch;
   section("HEADER");
   tag(9, "$ACADVER");
-  tag(1, "AC1015");
-  tag(9, "$HANDSEED");
-  // Every handle is below this: the records, and one for each entity.
-  tag(5, fmt::format("{:X}", kFirstFree + 64 + drawing_.layers.size() + drawing_.entities.size()));
+  tag(1, r12_ ? "AC1009" : "AC1015");
+  tag(9, "$DWGCODEPAGE");
+  tag(3, "ANSI_1252");
+  if (!r12_) {
+    tag(9, "$HANDSEED");
+    // Every handle is below this: the records, and one for each entity.
+    tag(5, fmt::format("{:X}", kFirstFree + 64 + drawing_.layers.size() + drawing_.entities.size()));
+  }
   tag(9, "$INSUNITS");
   tag(70, drawing_.unit == DrawingUnit::none ? 0 : inch ? 1 : 4);
   tag(9, "$MEASUREMENT");
@@ -99,6 +156,7 @@ void DxfWriter::header() {
   tag(9, "$EXTMAX");
   point(bounds[2], bounds[3]);
   tag(0, "ENDSEC");
+  if (r12_) return;
   section("CLASSES");
   tag(0, "ENDSEC");
 }
@@ -108,7 +166,7 @@ void DxfWriter::begin_table(std::string_view name, unsigned own, int count) {
   tag(2, name);
   handle(own);
   owner(0);
-  tag(100, "AcDbSymbolTable");
+  subclass("AcDbSymbolTable");
   tag(70, count);
 }
 
@@ -119,8 +177,8 @@ void DxfWriter::record(std::string_view type, std::string_view marker, unsigned 
   else
     handle(own);
   owner(table);
-  tag(100, "AcDbSymbolTableRecord");
-  tag(100, marker);
+  subclass("AcDbSymbolTableRecord");
+  subclass(marker);
 }
 
 void DxfWriter::linetypes() {
@@ -145,28 +203,30 @@ void DxfWriter::linetypes() {
     tag(40, type.count == 0 ? 0.0 : type.dashes[0] - type.dashes[1]);
     for (int i = 0; i < type.count; ++i) {
       tag(49, type.dashes[i]);
-      tag(74, 0);
+      if (!r12_) tag(74, 0);
     }
   }
   end_table();
 }
 
 void DxfWriter::layers() {
-  const bool has_zero = drawing_.layers.front().name == "0";
-  begin_table("LAYER", kLayers, static_cast<int>(drawing_.layers.size()) + (has_zero ? 0 : 1));
-  const auto one = [&](const std::string& name, int colour, LineKind line) {
+  // Names may have become alike; each is told once.
+  std::map<std::string, std::pair<int, LineKind>> table;
+  for (std::size_t i = 0; i < layers_.size(); ++i)
+    table.try_emplace(layers_[i], drawing_.layers[i].colour, drawing_.layers[i].line);
+  table.try_emplace("0", 7, LineKind::solid);
+  begin_table("LAYER", kLayers, static_cast<int>(table.size()));
+  for (const auto& [name, look] : table) {
     record("LAYER", "AcDbLayerTableRecord", next_++, kLayers);
     tag(2, name);
     tag(70, 0);
-    tag(62, colour);
-    tag(6, line == LineKind::dashed ? "DASHED" : "Continuous");
-  };
-  if (!has_zero) one("0", 7, LineKind::solid);
-  for (const DrawingLayer& layer : drawing_.layers) one(symbol(layer.name), layer.colour, layer.line);
+    tag(62, look.first);
+    tag(6, look.second == LineKind::dashed ? "DASHED" : "Continuous");
+  }
   end_table();
 }
 
-void DxfWriter::other_tables() {
+void DxfWriter::text_styles() {
   begin_table("STYLE", kStyles, 1);
   record("STYLE", "AcDbTextStyleTableRecord", next_++, kStyles);
   tag(2, "Standard");
@@ -179,6 +239,9 @@ void DxfWriter::other_tables() {
   tag(3, "txt");
   tag(4, "");
   end_table();
+}
+
+void DxfWriter::other_tables() {
   for (const char* empty : {"VIEW", "UCS", "VPORT"}) {
     begin_table(empty, next_++, 0);
     end_table();
@@ -191,7 +254,7 @@ void DxfWriter::other_tables() {
   end_table();
   const unsigned styles = next_++;
   begin_table("DIMSTYLE", styles, 1);
-  tag(100, "AcDbDimStyleTable");
+  subclass("AcDbDimStyleTable");
   record("DIMSTYLE", "AcDbDimStyleTableRecord", next_++, styles);
   tag(2, "Standard");
   tag(70, 0);
@@ -208,7 +271,8 @@ void DxfWriter::tables() {
   section("TABLES");
   linetypes();
   layers();
-  other_tables();
+  text_styles();
+  if (!r12_) other_tables();
   tag(0, "ENDSEC");
 }
 
@@ -217,9 +281,9 @@ void DxfWriter::block(unsigned own, std::string_view name) {
     tag(0, type);
     handle(next_++);
     owner(own);
-    tag(100, "AcDbEntity");
+    subclass("AcDbEntity");
     tag(8, "0");
-    tag(100, marker);
+    subclass(marker);
   };
   begin("BLOCK", "AcDbBlockBegin");
   tag(2, name);
@@ -234,9 +298,9 @@ void DxfWriter::entity(std::string_view type, std::string_view marker, std::size
   tag(0, type);
   handle(next_++);
   owner(kModel);
-  tag(100, "AcDbEntity");
-  tag(8, symbol(drawing_.layers[layer].name));
-  tag(100, marker);
+  subclass("AcDbEntity");
+  tag(8, layers_[layer]);
+  subclass(marker);
 }
 
 void DxfWriter::shape(const drawing::Line& line, std::size_t layer) {
@@ -255,7 +319,7 @@ void DxfWriter::shape(const drawing::Arc& arc, std::size_t layer) {
   entity("ARC", "AcDbCircle", layer);
   point(arc.x, arc.y);
   tag(40, arc.radius);
-  tag(100, "AcDbArc");
+  subclass("AcDbArc");
   tag(50, turned(arc.start));
   tag(51, turned(arc.end));
 }
@@ -266,7 +330,22 @@ void DxfWriter::shape(const drawing::Circle& circle, std::size_t layer) {
   tag(40, circle.radius);
 }
 
+/// Before light polylines, each vertex was an entity of its own.
+void DxfWriter::old_polyline(const drawing::Polyline& line, std::size_t layer) {
+  entity("POLYLINE", "", layer);
+  tag(66, 1);
+  point(0.0, 0.0);
+  tag(70, line.closed ? 1 : 0);
+  for (const drawing::Vertex& vertex : line.vertices) {
+    entity("VERTEX", "", layer);
+    point(vertex.x, vertex.y);
+    if (vertex.bulge != 0.0) tag(42, vertex.bulge);
+  }
+  entity("SEQEND", "", layer);
+}
+
 void DxfWriter::shape(const drawing::Polyline& line, std::size_t layer) {
+  if (r12_) return old_polyline(line, layer);
   entity("LWPOLYLINE", "AcDbPolyline", layer);
   tag(90, static_cast<int>(line.vertices.size()));
   tag(70, line.closed ? 1 : 0);
@@ -278,14 +357,14 @@ void DxfWriter::shape(const drawing::Polyline& line, std::size_t layer) {
 }
 
 void DxfWriter::shape(const drawing::Text& text, std::size_t layer) {
-  std::string line = text.text;
+  std::string line = ascii(text.text);
   for (char& c : line)
     if (static_cast<unsigned char>(c) < ' ') c = ' ';
   entity("TEXT", "AcDbText", layer);
   point(text.x, text.y);
   tag(40, text.height);
   tag(1, line);
-  tag(100, "AcDbText");
+  subclass("AcDbText");
 }
 
 void DxfWriter::objects() {
@@ -293,7 +372,7 @@ void DxfWriter::objects() {
     tag(0, "DICTIONARY");
     handle(own);
     owner(parent);
-    tag(100, "AcDbDictionary");
+    subclass("AcDbDictionary");
     tag(281, 1);
   };
   section("OBJECTS");
@@ -308,20 +387,24 @@ std::string DxfWriter::write() {
   header();
   tables();
   section("BLOCKS");
-  block(kModel, "*Model_Space");
-  block(kPaper, "*Paper_Space");
+  if (!r12_) {
+    block(kModel, "*Model_Space");
+    block(kPaper, "*Paper_Space");
+  }
   tag(0, "ENDSEC");
   section("ENTITIES");
   for (const DrawingEntity& e : drawing_.entities)
     std::visit([&](const auto& s) { shape(s, e.layer); }, e.shape);
   tag(0, "ENDSEC");
-  objects();
+  if (!r12_) objects();
   tag(0, "EOF");
   return std::move(out_);
 }
 
 }  // namespace
 
-std::string write_dxf(const Drawing& drawing) { return DxfWriter(drawing).write(); }
+std::string write_dxf(const Drawing& drawing, DxfVersion version) {
+  return DxfWriter(drawing, version).write();
+}
 
 }  // namespace kerf

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <numbers>
 #include <string_view>
+#include <vector>
 
 #include "kerf/drawing_files.h"
 #include "kerf/number.h"
@@ -59,7 +60,7 @@ class SvgWriter {
         text(label.x), text(-label.y), text(label.height), escaped(label.text));
   }
   void open();
-  void layer(std::size_t index);
+  void layer(std::size_t index, const std::vector<std::size_t>& entities);
 
   const Drawing& drawing_;
   std::string out_;
@@ -114,7 +115,7 @@ void SvgWriter::open() {
   if (!drawing_.title.empty()) out_ += "<title>" + escaped(drawing_.title) + "</title>\n";
 }
 
-void SvgWriter::layer(std::size_t index) {
+void SvgWriter::layer(std::size_t index, const std::vector<std::size_t>& entities) {
   const DrawingLayer& layer = drawing_.layers[index];
   const std::string colour = fmt::format("#{:02x}{:02x}{:02x}", layer.rgb[0], layer.rgb[1], layer.rgb[2]);
   const std::string dashes = layer.line == LineKind::dashed
@@ -124,14 +125,17 @@ void SvgWriter::layer(std::size_t index) {
                  "<g id=\"layer-{}\" fill=\"none\" stroke=\"{}\" color=\"{}\" stroke-width=\"{}\"{}>\n",
                  index, colour, colour, text(layer.line_width), dashes);
   out_ += "<title>" + escaped(layer.name) + "</title>\n";
-  for (const DrawingEntity& entity : drawing_.entities)
-    if (entity.layer == index) std::visit([&](const auto& s) { shape(s); }, entity.shape);
+  for (const std::size_t i : entities)
+    std::visit([&](const auto& s) { shape(s); }, drawing_.entities[i].shape);
   out_ += "</g>\n";
 }
 
 std::string SvgWriter::write() {
   open();
-  for (std::size_t i = 0; i < drawing_.layers.size(); ++i) layer(i);
+  std::vector<std::vector<std::size_t>> of_layer(drawing_.layers.size());
+  for (std::size_t i = 0; i < drawing_.entities.size(); ++i)
+    of_layer[drawing_.entities[i].layer].push_back(i);
+  for (std::size_t i = 0; i < of_layer.size(); ++i) layer(i, of_layer[i]);
   out_ += "</svg>\n";
   return std::move(out_);
 }

@@ -76,7 +76,9 @@ std::vector<LanguageConstant> language_constants(Meter& meter) {
 // ---- arguments
 
 void Call::fail(Code code, std::string text) const { vm.fail(code, std::move(text)); }
-void Call::warn(Code code, std::string text) const { vm.warn(code, std::move(text)); }
+void Call::warn(Code code, std::string text, std::string hint) const {
+  vm.warn(code, std::move(text), std::move(hint));
+}
 
 Scalar Call::scalar(int i) const {
   if (!arguments[i].is_scalar() || arguments[i].is_undef())
@@ -88,7 +90,8 @@ double Call::length(int i) const {
   const Scalar s = scalar(i);
   if (is_angle(s.unit())) {
     warn(Code::gcmc_unit,
-         fmt::format("{}() argument {} has incompatible angular units attached", name, i + 1));
+         fmt::format("{}() argument {} has incompatible angular units attached", name, i + 1),
+         fmt::format("a length is expected; {} counts as {}", text_of(s), text_of(s.with_unit(vm.native))));
     return s.number();
   }
   return native_number(vm, s);
@@ -105,7 +108,8 @@ double Call::angle(int i) const {
   const Scalar s = scalar(i);
   if (is_distance(s.unit())) {
     warn(Code::gcmc_unit,
-         fmt::format("{}() argument {} has incompatible distance units attached", name, i + 1));
+         fmt::format("{}() argument {} has incompatible distance units attached", name, i + 1),
+         fmt::format("an angle is expected; {} counts as {}", text_of(s), text_of(s.with_unit(Unit::rad))));
     return s.number();
   }
   return s.unit() == Unit::deg ? convert(s.number(), Unit::deg, Unit::rad) : s.number();

@@ -28,7 +28,7 @@ struct Call {
   std::int32_t integer(int i) const;
   bool truth(int i) const;
   [[noreturn]] void fail(Code code, std::string text) const;
-  void warn(Code code, std::string text) const;
+  void warn(Code code, std::string text, std::string hint = {}) const;
 };
 
 using BuiltinFunction = Value (*)(const Call& call);

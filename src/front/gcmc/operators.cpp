@@ -95,7 +95,9 @@ Unit common_unit(Runtime& rt, Op op, Unit ua, Scalar& b) {
     const auto kind = [](Unit u) { return is_distance(u) ? "distance" : "angular"; };
     rt.warn(Code::gcmc_unit,
             fmt::format("Operation '{}': LHS has {} units and RHS has {} units, RHS units ignored",
-                        symbol(op), kind(ua), kind(ub)));
+                        symbol(op), kind(ua), kind(ub)),
+            fmt::format("{} counts as {}; to_none() says that this is meant", text_of(b),
+                        text_of(b.with_unit(ua))));
   }
   return op == Op::div ? Unit::none : ua;
 }
@@ -489,11 +491,17 @@ bool compare_scalars(Runtime& rt, Op op, Scalar a, Scalar b) {
     return holds(op, a.whole(), b.whole());
   if (ua == ub) return holds(op, a.number() - b.number());
   if (ua == Unit::none || ub == Unit::none) {
-    rt.warn(Code::gcmc_unit, fmt::format("Possible unit mismatch; comparing units {} with none",
-                                         unit_name(ua == Unit::none ? ub : ua)));
+    const Scalar plain = ua == Unit::none ? a : b;
+    const Unit other = ua == Unit::none ? ub : ua;
+    rt.warn(Code::gcmc_unit,
+            fmt::format("Possible unit mismatch; comparing units {} with none", unit_name(other)),
+            fmt::format("{} counts as {}: write it so", text_of(plain),
+                        text_of(plain.with_unit(is_angle(other) ? Unit::deg : rt.native))));
   } else if (is_distance(ua) != is_distance(ub)) {
-    rt.warn(Code::gcmc_unit, fmt::format("Unit mismatch in comparison, converted to <none> (LHS={}, RHS={})",
-                                         unit_name(ua), unit_name(ub)));
+    rt.warn(Code::gcmc_unit,
+            fmt::format("Unit mismatch in comparison, converted to <none> (LHS={}, RHS={})", unit_name(ua),
+                        unit_name(ub)),
+            "a length and an angle are compared by their numbers alone");
     return holds(op, a.number() - b.number());
   }
   return holds(op, native_number(rt, a) - native_number(rt, b));

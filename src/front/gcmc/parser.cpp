@@ -52,6 +52,17 @@ const std::vector<std::string>& statement_words() {
   return words;
 }
 
+const std::vector<std::string>& unit_words() {
+  static const std::vector<std::string> words = {"mm", "in", "mil", "deg", "rad"};
+  return words;
+}
+
+/// A hint at the word that may have been meant; nothing if none is near.
+std::string meant(std::string_view word, const std::vector<std::string>& words) {
+  const auto near = did_you_mean(word, words);
+  return near && *near != word ? fmt::format("did you mean '{}'?", *near) : std::string();
+}
+
 struct Deeper {
   explicit Deeper(int& depth) : depth_(depth) { ++depth_; }
   ~Deeper() { --depth_; }
@@ -133,13 +144,11 @@ void Parser::fail(std::string message, std::string hint) {
 }
 
 /// A missing word is complained about and taken as if it were there.
-bool Parser::expect(Token token, std::string_view shown) {
+bool Parser::expect(Token token, std::string_view shown, std::string hint) {
   if (accept(token)) return true;
-  std::string hint;
-  if (last_.token == Token::identifier) {
-    if (const auto word = did_you_mean(last_.text, statement_words()); word && *word != last_.text)
-      hint = fmt::format("did you mean '{}'?", *word);
-  }
+  const bool after_number = last_.token == Token::integer || last_.token == Token::real;
+  if (hint.empty() && last_.token == Token::identifier) hint = meant(last_.text, statement_words());
+  if (hint.empty() && after_number && is(Token::identifier)) hint = meant(word_.text, unit_words());
   complain(fmt::format("'{}' expected", shown), std::move(hint));
   return false;
 }
@@ -490,7 +499,10 @@ void Parser::expression_statement(std::vector<NodeId>& into) {
   out.at = word_.at;
   const NodeKind kind = node(out.a).kind;
   const Place after = word_.after;
-  const bool ended = expect(Token::semicolon, ";");
+  std::string hint;
+  if (kind == NodeKind::call && is(Token::left_brace))  // whiel(1) {
+    hint = meant(tree_.names[static_cast<std::size_t>(node(out.a).name)], statement_words());
+  const bool ended = expect(Token::semicolon, ";", std::move(hint));
   const bool does = kind == NodeKind::call || kind == NodeKind::assign ||
                     (kind == NodeKind::step && is_lvalue(node(out.a).a));
   if (!does && ended) report_.error(after, Code::gcmc_syntax, "Statement has no effect");

@@ -40,7 +40,7 @@ class Parser {
   const Word& peek();
   bool is(Token token) const { return word_.token == token; }
   bool accept(Token token);
-  bool expect(Token token, std::string_view shown);
+  bool expect(Token token, std::string_view shown, std::string hint = {});
   [[noreturn]] void fail(std::string message, std::string hint = {});
   void complain(std::string message, std::string hint = {});
   void synchronise();

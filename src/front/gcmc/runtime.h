@@ -21,7 +21,9 @@ constexpr double kEpsilon = 1e-12;
 class Runtime {
  public:
   virtual ~Runtime() = default;
-  virtual void warn(Code code, std::string text) = 0;
+  void warn(Code code, std::string text, std::string hint = {}) {
+    say_warning(code, std::move(text), std::move(hint));
+  }
   /// Says what is wrong and ends the program.
   [[noreturn]] void fail(Code code, std::string text, std::string hint = {}) {
     say_error(code, std::move(text), std::move(hint));
@@ -33,6 +35,7 @@ class Runtime {
   int decimals = 8;
 
  protected:
+  virtual void say_warning(Code code, std::string text, std::string hint) = 0;
   virtual void say_error(Code code, std::string text, std::string hint) = 0;
 };
 

@@ -180,6 +180,11 @@ std::string_view type_name(const Value& v) {
   return "VAL_UNDEF";
 }
 
+std::string text_of(Scalar s) {
+  constexpr int kDecimals = 6;
+  return number_text(s.number(), kDecimals) + std::string(unit_suffix(s.unit()));
+}
+
 void append_text(std::string& out, Scalar s, int decimals) {
   switch (s.kind()) {
     case Kind::undef: out += "<undef>"; return;

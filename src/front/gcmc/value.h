@@ -295,6 +295,8 @@ std::string_view type_name(const Value& v);
 /// Appends the textual form that message() and string addition use; reals with `decimals` places.
 void append_text(std::string& out, const Value& v, int decimals);
 void append_text(std::string& out, Scalar s, int decimals);
+/// A number for people: "2.5mm".
+std::string text_of(Scalar s);
 std::string to_utf8(const std::u32string& text);
 void append_utf8(std::string& out, char32_t c);
 /// Code points of UTF-8; bytes that are not UTF-8 stand for themselves.

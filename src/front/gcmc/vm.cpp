@@ -15,11 +15,22 @@
 namespace kerf::gcmc {
 namespace {
 
-constexpr std::size_t kStackSlots =
-    1'000'000;  // of variables and temporaries, 32 MB, touched as they are used
+constexpr std::size_t kSlotsPerCall =
+    50;  // on average, of variables and temporaries; touched as they are used
 constexpr std::int32_t kStepsPerLook =
     20'000;  // loop steps between looks at the clock, the limits and the user
 constexpr std::size_t kMostCallNotes = 16;
+
+Callee callee_of(const FunctionCode& f, const Program& code) {
+  Callee callee;
+  callee.entry = &code.instructions[f.entry];
+  callee.parameters = f.parameters;
+  callee.variables = f.variables;
+  callee.slots = f.frame;
+  callee.cleared = f.walks ? f.frame : f.variables;
+  callee.constants = f.constants;
+  return callee;
+}
 
 }  // namespace
 
@@ -32,17 +43,16 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
       output_(output),
       diagnostics_(diagnostics),
       progress_(progress),
-      storage_(new std::byte[kStackSlots * sizeof(Value)]),
+      slots_(static_cast<std::size_t>(code.program.frame) + options.max_calls * kSlotsPerCall),
+      storage_(new std::byte[slots_ * sizeof(Value)]),
       frames_(new Frame[options.max_calls]),
       top_(frames_.get()),
       most_calls_(top_ + options.max_calls),
       builtins_(all_builtins().data()),
       fuel_(kStepsPerLook) {
-  for (const FunctionCode& f : code_.functions)
-    callees_.push_back(
-        {&code_.instructions[f.entry], f.parameters, f.variables, f.frame, f.constants, false});
+  for (const FunctionCode& f : code_.functions) callees_.push_back(callee_of(f, code_));
   stack_ = reinterpret_cast<Value*>(storage_.get());
-  stack_end_ = stack_ + kStackSlots;
+  stack_end_ = stack_ + slots_;
   reached_ = frame_ = stack_;
   at_ = code_.instructions.data();
   native = options.imperial ? Unit::inch : Unit::mm;
@@ -51,7 +61,7 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
   machine_.plane = options.plane;
   machine_.fixed_offset = options.offsets;
   machine_.set_position({});
-  reach(stack_ + std::min(static_cast<std::size_t>(code_.program.frame), kStackSlots));
+  reach(stack_ + code_.program.frame);
 }
 
 Vm::~Vm() {
@@ -74,8 +84,6 @@ void Vm::define_constant(NameId name, Value value) {
 }
 
 int Vm::run() {
-  if (static_cast<std::size_t>(code_.program.frame) >= kStackSlots)
-    fail(Code::gcmc_limit, "The program has too many variables");
   try {
     loop();
   } catch (const OutOfMemory&) {
@@ -119,9 +127,9 @@ void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
   diagnostics_.add(std::move(d));
 }
 
-void Vm::warn(Code code, std::string text) {
+void Vm::say_warning(Code code, std::string text, std::string hint) {
   ++warnings_;
-  report(GcmcSaid::warning, code, std::move(text), {});
+  report(GcmcSaid::warning, code, std::move(text), std::move(hint));
 }
 
 void Vm::say_error(Code code, std::string text, std::string hint) {

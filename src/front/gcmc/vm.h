@@ -19,15 +19,6 @@
 
 namespace kerf::gcmc {
 
-/// A call in progress. Without initial values, so that a stack of them costs nothing before it is used.
-struct Frame {
-  const Instruction* after;     // where the caller goes on
-  Value* base;                  // of the caller
-  const struct Callee* callee;  // running
-  std::uint16_t x;              // the caller's slot for the value
-  bool value_used;
-};
-
 /// What a call needs to know of a function, in one place.
 struct Callee {
   const Instruction* entry = nullptr;
@@ -37,10 +28,13 @@ struct Callee {
   bool defined = false;      // its definition was executed
 };
 
-/// Where the program is: for messages and origins.
-struct Spot {
-  std::size_t instruction = 0;
-  std::size_t calls = 0;  // depth
+/// A call in progress. Without initial values, so that a stack of them costs nothing before it is used.
+struct Frame {
+  const Instruction* after;  // where the caller goes on
+  Value* base;               // of the caller
+  const Callee* callee;      // running
+  std::uint16_t x;           // the caller's slot for the value
+  bool value_used;
 };
 
 class Vm final : public Runtime {
@@ -56,7 +50,6 @@ class Vm final : public Runtime {
   /// Runs to the end; throws Stop after an error. Returns the exit status that the program gave.
   int run();
 
-  void warn(Code code, std::string text) override;
   /// message(), warning() and error() of the program itself.
   void say(GcmcSaid said, std::string text);
 
@@ -85,6 +78,7 @@ class Vm final : public Runtime {
 
  private:
   using Pc = const Instruction*;
+  void say_warning(Code code, std::string text, std::string hint) override;
   void say_error(Code code, std::string text, std::string hint) override;
   void loop();
   const Value& operand(std::int32_t o, const Value* frame, const Value* constants) const {
@@ -172,6 +166,7 @@ class Vm final : public Runtime {
   Progress* progress_;
   Machine machine_;
 
+  std::size_t slots_;  // of the stack
   std::unique_ptr<std::byte[]> storage_;
   Value* stack_ = nullptr;
   Value* stack_end_ = nullptr;

@@ -36,8 +36,7 @@ void Interpreter::arc(Turn turn) {
   if (mirrored) turn = turn == Turn::cw ? Turn::ccw : Turn::cw;
   const int extra = extra_turns();
   const std::optional<Point2> centre = centre_of(*to, turn);
-  if (!centre ||
-      !radii_agree(*to, *centre)) {  // said; the tool goes on from where the program believes it to be
+  if (!centre || !radii_agree(*to, *centre) || leaves_compensation()) {  // said
     line_.use(Line::bit('I') | Line::bit('J') | Line::bit('K') | Line::bit('R'));
     return cut(*to, feed_for(straight_length(*to)));
   }
@@ -47,6 +46,7 @@ void Interpreter::arc(Turn turn) {
   const Feed feed = mm_per_min(feed_for(length));
   if (line_.unused('E'))
     return extrude_arc(walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra), *to, feed);
+  if (compensation_.side != Side::none) return compensated_arc(*to, *centre, turn, extra, feed);
   if (add(step::Arc{to->at, *centre, modes_.plane, turn, extra, feed})) arrive(*to);
 }
 
@@ -134,6 +134,15 @@ bool Interpreter::radii_agree(const Place& to, Point2 centre) {
                 modes_.absolute_centres ? "are I J K offsets from the begin (G91.1)?"
                                         : "are I J K absolute coordinates (G90.1)?");
   return false;
+}
+
+/// After G40 the tool stands beside the arc's begin.
+bool Interpreter::leaves_compensation() {
+  if (!compensation_.leaving) return false;
+  compensation_.leaving = false;
+  talker_.error(Code::compensation_refused, line_.column(),
+                "the move after G40 must be straight; read as a straight cut");
+  return true;
 }
 
 int Interpreter::extra_turns() {

@@ -43,7 +43,7 @@ void Interpreter::cycle(Tenths motion) {
   }
   const int count = repeats();
   std::optional<Hole> hole = plan_hole();
-  if (!hole || !approach(*hole)) return;
+  if (!hole || !room_for(count * steps_of(motion, *hole)) || !approach(*hole)) return;
   for (int i = 0; i < count && !full_; ++i) {
     hole->place.at = hole->place.at + hole->increment;
     if (!reachable(hole->place.at)) return;
@@ -52,6 +52,13 @@ void Interpreter::cycle(Tenths motion) {
     drill(motion, *hole);
     hole->travel = hole->clear;
   }
+}
+
+/// How many steps a hole takes, at least: known before any of them is made.
+double Interpreter::steps_of(Tenths motion, const Hole& hole) const {
+  if (!needs_peck(motion)) return 1.0;
+  const double pecks = (hole.r - hole.bottom) / *cycle_.peck;
+  return pecks > kMostPecks ? 1.0 : pecks * (motion == 830 ? 3.0 : 2.0);
 }
 
 /// Takes R, the bottom, P and Q, which hold until they are given anew.

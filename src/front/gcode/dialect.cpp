@@ -18,11 +18,12 @@ struct Name {
   std::string_view name;
   GcodeDialect dialect;
 };
-constexpr Name kNames[] = {{"rs274", GcodeDialect::rs274},   {"linuxcnc", GcodeDialect::rs274},
-                           {"grbl", GcodeDialect::grbl},     {"grblhal", GcodeDialect::grbl},
-                           {"carbide", GcodeDialect::grbl},  {"mach3", GcodeDialect::mach3},
-                           {"fanuc", GcodeDialect::fanuc},   {"laser", GcodeDialect::laser},
-                           {"marlin", GcodeDialect::marlin}, {"klipper", GcodeDialect::klipper}};
+constexpr Name kNames[] = {
+    {"linuxcnc", GcodeDialect::rs274},    {"rs274", GcodeDialect::rs274},    {"grbl", GcodeDialect::grbl},
+    {"grblhal", GcodeDialect::grbl},      {"fluidnc", GcodeDialect::grbl},   {"carbide", GcodeDialect::grbl},
+    {"smoothieware", GcodeDialect::grbl}, {"mach3", GcodeDialect::mach3},    {"mach4", GcodeDialect::mach3},
+    {"fanuc", GcodeDialect::fanuc},       {"haas", GcodeDialect::fanuc},     {"laser", GcodeDialect::laser},
+    {"marlin", GcodeDialect::marlin},     {"klipper", GcodeDialect::klipper}};
 
 /// Remarks that name the controller or a program that writes for one kind only.
 constexpr Name kRemarks[] = {{"LIGHTBURN", GcodeDialect::laser},

@@ -14,6 +14,26 @@ constexpr std::size_t kDeepestCall = 100;
 constexpr std::size_t kCostOfLine = 16;  // bytes that even an empty line counts for
 constexpr double kMostRepeats = 1e9;
 
+/// What a line does to the flow of a Fanuc program.
+enum class Turning : std::uint8_t { none, gives_back, ends };
+
+Turning turning_of(std::string_view line) {
+  int depth = 0;
+  for (std::size_t i = 0; i < line.size() && line[i] != ';'; ++i) {
+    if (line[i] == '(') ++depth;
+    if (line[i] == ')') --depth;
+    const char c = static_cast<char>(line[i] & ~0x20);  // in capitals
+    if (depth > 0 || (c != 'M' && c != 'O')) continue;
+    if (c == 'O') return Turning::ends;  // another program begins
+    std::size_t end = i + 1;
+    while (end < line.size() && line[end] >= '0' && line[end] <= '9') ++end;
+    const std::string_view number = line.substr(i + 1, end - i - 1);
+    if (number == "99") return Turning::gives_back;
+    if (number == "2" || number == "02" || number == "30") return Turning::ends;
+  }
+  return Turning::none;
+}
+
 }  // namespace
 
 Flow::Flow(std::string_view text, const GcodeReadOptions& options, Talker& talker, Parameters& parameters,
@@ -321,6 +341,22 @@ void Flow::give_back(const Block& block) {
   return_from_call();
   parameters_.set_name("_value", value.value_or(0.0));
   parameters_.set_name("_value_returned", value ? 1.0 : 0.0);
+}
+
+bool Flow::skip_subprogram() {
+  BlockReader& reader = *frames_.back().source->reader;
+  const std::string_view text = reader.text();
+  std::size_t at = reader.position();
+  for (std::uint32_t lines = reader.lines() + 1; at < text.size(); ++lines) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const Turning turning = turning_of(text.substr(at, end - at));
+    at = std::min(end + 1, text.size());
+    if (turning == Turning::ends) return false;
+    if (turning == Turning::none) continue;
+    reader.seek(at, lines);
+    return true;
+  }
+  return false;
 }
 
 bool Flow::return_from_call() {

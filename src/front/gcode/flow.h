@@ -65,12 +65,17 @@ class Flow {
 
   /// The next line to carry out; false at the end, after an endless loop (said) too.
   bool next(Block& block);
+  /// The text's reader while lines simply follow each other: no loop or call was met yet. Else null.
+  BlockReader* straight_reader() { return jumped_ ? nullptr : sources_.front()->reader.get(); }
   /// Carries out the O-word of the line that next() gave last.
   void control(const Block& block);
   /// M98: calls a program by its number, `repeats` times.
   void call_number(int number, int repeats, std::uint32_t column);
   /// M99. False in the main program, where there is nothing to return to.
   bool return_from_call();
+
+  /// Behind an O number: if what follows returns by M99 before it ends a program, goes on after it.
+  bool skip_subprogram();
 
   /// Subroutines within each other, 0 in the main program.
   std::size_t depth() const { return frames_.size() - 1; }

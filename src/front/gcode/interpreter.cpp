@@ -1,20 +1,25 @@
 // One line carried out: comments, then the words in the order of their effect.
 #include "front/gcode/interpreter.h"
 
+#include <algorithm>
+#include <fmt/format.h>
+
 namespace kerf::gcode {
 namespace {
 
+constexpr std::size_t kBytesOfStep = 2;        // a text of n bytes has no more than n / 2 words
 constexpr std::size_t kLongestCommand = 1000;  // bytes kept of a printer's command in words
 
 }  // namespace
 
-Interpreter::Interpreter(GcodeProgram& program, const GcodeReadOptions& options, Talker& talker)
+Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const GcodeReadOptions& options,
+                         Talker& talker)
     : program_(program),
       path_(program.path),
       talker_(talker),
       options_(options),
       parameters_(*this),
-      max_steps_(options.max_steps),
+      max_steps_(std::min(options.max_steps, text.size() / kBytesOfStep + options.max_made_steps)),
       after_end_(options.after_end),
       file_(program.path.origins().file(options.file_name)) {
   const bool printer = program.dialect == GcodeDialect::marlin || program.dialect == GcodeDialect::klipper;
@@ -60,14 +65,16 @@ void Interpreter::look_where_we_are() {
   kept_modes_.resize(current_depth_ + 1);
 }
 
-/// Whether a line after the program's end is read. Subroutines that stand there were called before.
+/// Whether a line after the program's end is read. Subroutines that stand there run only where they are
+/// called.
 bool Interpreter::goes_on(const Block& block) {
-  if (after_end_said_) return true;
-  const bool subroutine = block.o_word || (!block.words.empty() && block.words.front().letter == 'O');
-  if (subroutine && after_end_ == AfterEnd::stop) {
+  const bool number = !block.words.empty() && block.words.front().letter == 'O';
+  if (after_end_ == AfterEnd::stop && (number || block.o_word)) {
     stopped_ = true;
     return false;
   }
+  if (number && flow_->skip_subprogram()) return false;
+  if (after_end_said_ || block.o_word) return true;
   after_end_said_ = true;
   stopped_ = after_end_ == AfterEnd::stop;
   const std::uint32_t column = block.words.empty() ? 1 : block.words.front().column;
@@ -108,7 +115,9 @@ void Interpreter::execute() {
     if (line_.has(Group::spindle)) turn_spindle();
     switch_coolant();
     if (line_.has(Group::dwell)) dwell();
+    guard_compensation();
     if (line_.has(Group::plane)) set_plane();
+    if (line_.has(Group::compensation)) set_compensation();
     if (line_.has(Group::saved_modes)) keep_modes();
     if (line_.has(Group::coordinates)) use_coordinates();
     if (line_.has(Group::path_control)) set_path_mode();
@@ -135,6 +144,18 @@ void Interpreter::finish() {
   if (!program_.ended)
     talker_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",
                     "was it cut off?");
+}
+
+/// Whether so many more steps are within the limit; else the program ends here, and it is said.
+bool Interpreter::room_for(double steps) {
+  if (static_cast<double>(path_.size()) + steps <= static_cast<double>(max_steps_)) return true;
+  if (!full_)
+    talker_.error(Code::too_many_steps, line_.column(),
+                  fmt::format("the program makes more than {} steps, which is more than is read; the rest is "
+                              "left out",
+                              max_steps_));
+  full_ = true;
+  return false;
 }
 
 OriginId Interpreter::origin() {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -14,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "front/gcode/compensation.h"
 #include "front/gcode/flow.h"
 #include "front/gcode/line.h"
 #include "front/gcode/parameters.h"
@@ -27,6 +29,7 @@ namespace kerf::gcode {
 enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_turn };
 
 inline constexpr unsigned kAllAxes = 7;
+inline constexpr double kNoWay = 1e-9;                // mm; a move of less is none in its plane
 inline constexpr int kHome28 = 5161, kHome30 = 5181;  // first of the parameters that keep the homes
 inline constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
 inline constexpr double kMillimetresPerInch = 25.4;
@@ -41,6 +44,12 @@ struct Place {
   Reference reference = Reference::work;  // what the axes of reference_axes were told in on this line
   unsigned reference_axes = 0;
 };
+
+inline constexpr double kFarthest = 1e7;  // mm; 10 km
+/// Whether a place is one that a program may mean.
+inline bool is_near(Point3 p) {
+  return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
+}
 
 /// What a controller remembers from line to line.
 struct Modes {
@@ -90,9 +99,23 @@ struct CycleMemory {
   std::optional<double> start_level;                   // where the series of cycles began
 };
 
+/// What G41 and G42 keep. Points lie in the plane's right-handed frame.
+struct Compensation {
+  Side side = Side::none;
+  double radius = 0.0;        // mm
+  bool entered = false;       // the first move is made: the tool is beside the path
+  bool leaving = false;       // G40 was read, and the tool has not come back to the path
+  Point2 tool;                // where its axis stands
+  Point2 direction;           // of the program's path, where its last piece ends
+  Piece last;                 // of the axis
+  std::size_t last_step = 0;  // that makes it
+};
+
+enum class MoveKind : std::uint8_t { rapid, cut };
+
 class Interpreter : public SystemValues {
  public:
-  Interpreter(GcodeProgram& program, const GcodeReadOptions& options, Talker& talker);
+  Interpreter(GcodeProgram& program, std::string_view text, const GcodeReadOptions& options, Talker& talker);
 
   Parameters& parameters() { return parameters_; }
   /// Which texts and lines follow each other; needed before the first run().
@@ -103,6 +126,10 @@ class Interpreter : public SystemValues {
 
   /// Carries out one line.
   void run(const Block& block);
+  /// The short way for the lines that long programs are made of: reads on while the lines hold nothing but G0
+  /// or G1, axis words and F, at most `limit` of them, and gives their number. What is not surely such a line
+  /// is left to run(), which does the same with it.
+  std::size_t run_plain_lines(BlockReader& reader, std::size_t limit);
   /// To be called after the last line.
   void finish();
   /// True once nothing more is to be read: the program has ended, or the limit of steps is reached.
@@ -116,6 +143,10 @@ class Interpreter : public SystemValues {
 
   void look_where_we_are();
   bool printer_line();
+
+  // plain.cpp
+  bool takes_plain_lines() const;
+  bool run_plain_line(std::string_view text, std::uint32_t number);
 
   // comments.cpp
   void read_comment(const Comment& comment);
@@ -179,6 +210,24 @@ class Interpreter : public SystemValues {
   std::optional<Point2> point_words(char u, char v);
   void polyline(const std::vector<Point2>& points);
 
+  // compensate.cpp
+  Point2 in_plane(Point3 p) const;
+  Point3 moved_in_plane(Point3 p, Point2 to) const;
+  void set_compensation();
+  std::optional<double> told_diameter(std::optional<double> number);
+  std::optional<double> diameter_for_compensation(std::optional<double> number);
+  void end_compensation();
+  void guard_compensation();
+  void refuse_compensated(std::string_view what, std::uint32_t column);
+  void compensated_line(const Place& to, MoveKind kind, double feed);
+  void along_third_axis(const Place& to, MoveKind kind, double feed);
+  bool turn_corner(Point2 corner, const Piece& next, MoveKind kind, double feed);
+  void retreat(Point2 corner, const Piece& next);
+  void tell_gouge();
+  void compensated_arc(const Place& to, Point2 centre, Turn turn, int extra, Feed feed);
+  void add_compensated(Point3 at, const Place& to, MoveKind kind, double feed);
+  void remember_piece(const Piece& piece);
+
   // threads.cpp
   void spindle_move(Tenths motion);
   void thread_cycle();
@@ -207,10 +256,12 @@ class Interpreter : public SystemValues {
   Point2 turned_offset(Point2 offset) const;
   std::optional<Point2> centre_from_radius(const Place& to, Turn turn);
   bool radii_agree(const Place& to, Point2 centre);
+  bool leaves_compensation();
   int extra_turns();
 
   // cycles.cpp
   struct Hole;
+  double steps_of(Tenths motion, const Hole& hole) const;
   void cycle(Tenths motion);
   bool take_cycle_words(Tenths motion);
   std::optional<Hole> plan_hole();
@@ -225,6 +276,7 @@ class Interpreter : public SystemValues {
   void cycle_dwell();
 
   // steps
+  bool room_for(double steps);
   OriginId origin();
   template <class S>
   bool add(const S& step);
@@ -273,6 +325,7 @@ class Interpreter : public SystemValues {
   double filament_ = 0.0;  // E position, mm
   bool filament_relative_ = false;
   CycleMemory cycle_;
+  Compensation compensation_;
 
   StockComments stock_;
   std::optional<ToolShape> pending_shape_;  // described, and no tool change since
@@ -289,13 +342,7 @@ class Interpreter : public SystemValues {
 
 template <class S>
 bool Interpreter::add(const S& step) {
-  if (path_.size() >= max_steps_) {
-    if (!full_)
-      talker_.error(Code::too_many_steps, line_.column(),
-                    "the program makes more steps than are read; the rest is left out");
-    full_ = true;
-    return false;
-  }
+  if (path_.size() >= max_steps_ && !room_for(1.0)) return false;
   path_.add(step, origin());
   return true;
 }

@@ -8,7 +8,6 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kFarthest = 1e7;  // mm; 10 km
 constexpr double kSlowestInverse =
     0.1;  // mm/min; what LinuxCNC takes for a move of no length in inverse time
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -75,8 +74,12 @@ void Interpreter::straight(Tenths motion) {
   const std::optional<Place> to = line_.has(Group::machine_coordinates) ? machine_target() : target();
   if (!to) return;
   if (line_.unused('E')) return extrude(*to, motion == 0 ? modes_.feed : feed_for(straight_length(*to)));
+  compensation_.leaving = false;
+  const double feed = motion == 0 ? 0.0 : feed_for(straight_length(*to));
+  if (compensation_.side != Side::none)
+    return compensated_line(*to, motion == 0 ? MoveKind::rapid : MoveKind::cut, feed);
   if (motion == 0) return rapid(*to);
-  cut(*to, feed_for(straight_length(*to)));
+  cut(*to, feed);
 }
 
 void Interpreter::probe(Tenths motion) {
@@ -168,7 +171,7 @@ std::optional<Place> Interpreter::machine_target() {
 }
 
 bool Interpreter::reachable(Point3 p) {
-  if (std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest) return true;
+  if (is_near(p)) return true;
   talker_.error(
       Code::position_too_far, line_.column(),
       fmt::format("a position lies farther than {:g} mm from zero; the move is left out", kFarthest));
@@ -248,12 +251,16 @@ void Interpreter::go_home(const Place& home, Reference reference) {
   std::optional<Place> to = target();
   if (!to) return;
   rapid(*to);
+  Point3 end = placement_.to_program(to->at);  // where coordinates are turned, axes are the program's
+  const Point3 home_in_program = placement_.to_program(home.at);
   for (int axis = 0; axis < 3; ++axis) {
     const unsigned bit = 1u << axis;
     if ((axes & bit) == 0) continue;
-    to->at[axis] = home.at[axis];
+    end[axis] = home_in_program[axis];
+    if (placement_.plain) to->at[axis] = home.at[axis];
     to->unknown = (to->unknown & ~bit) | (home.unknown & bit);
   }
+  if (!placement_.plain) to->at = placement_.to_path(end);
   to->reference = reference;
   to->reference_axes = axes & to->unknown;
   rapid(*to);

@@ -20,6 +20,13 @@ constexpr double kLeastScale = 1e-6, kMostScale = 1e6;
 /// G54 is 1, G59.3 is 9.
 int system_of(Tenths code) { return code <= 590 ? (code - 530) / 10 : code - 590 + 6; }
 
+/// Turned about zero in XY.
+Point3 turned(Point3 p, double angle) {
+  if (angle == 0.0) return p;
+  const double c = std::cos(angle * kDegree), s = std::sin(angle * kDegree);
+  return {p.x * c - p.y * s, p.x * s + p.y * c, p.z};
+}
+
 int first_parameter(int system) { return kFirstSystem + kPerSystem * (system - 1); }
 
 }  // namespace
@@ -102,18 +109,25 @@ void Interpreter::set_system(int system) {
 /// place was not known, it has them from now on.
 void Interpreter::touch_off(int system) {
   const int first = first_parameter(system);
+  Point3 offset;
+  for (int axis = 0; axis < 3; ++axis) offset[axis] = parameters_.slot(first + axis);
+  const double turn = parameters_.slot(first + kTurnOfSystem);
+  Point3 wanted = turned(here_.at - offset, -turn) - local_shift_;  // what it has now
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
     const double value = *word * modes_.scale;
     const unsigned bit = 1u << axis;
     if ((here_.unknown & bit) == 0) {
-      parameters_.slot(first + axis) = here_.at[axis] - local_shift_[axis] - value;
+      wanted[axis] = value;
     } else if (system == modes_.system) {
       here_.at[axis] = value + placement_.shift[axis];
       here_.unknown &= ~bit;
     }
   }
+  offset = here_.at - turned(wanted + local_shift_, turn);
+  for (int axis = 0; axis < 3; ++axis)
+    if ((here_.unknown & (1u << axis)) == 0) parameters_.slot(first + axis) = offset[axis];
   line_.use(kRotaryLetters | Line::bit('R'));
   reachable(here_.at);
   refresh_placement();
@@ -126,12 +140,14 @@ void Interpreter::set_tool_data(int tool) {
   line_.use(kAxisLetters | kRotaryLetters | Line::bit('I') | Line::bit('J') | Line::bit('Q'));
 }
 
-/// What the program's remarks and G10 say, then the user's table.
+/// What G10 says, then the user, then the program's remarks.
 std::optional<double> Interpreter::diameter_of(int tool) const {
   if (const auto told = tool_diameters_.find(tool); told != tool_diameters_.end()) return told->second;
-  if (const auto told = program_.tools.find(tool); told != program_.tools.end())
-    return told->second.diameter.mm();
-  return options_.tool_diameter ? options_.tool_diameter(tool) : std::nullopt;
+  const auto found = program_.tools.find(tool);
+  const Tool* described = found == program_.tools.end() ? nullptr : &found->second;
+  if (options_.tool_diameter) return options_.tool_diameter(tool, described);
+  if (described == nullptr) return std::nullopt;
+  return described->diameter.mm();
 }
 
 /// G52: the shift itself.
@@ -139,6 +155,7 @@ void Interpreter::shift_locally() {
   for (int axis = 0; axis < 3; ++axis)
     if (const auto word = line_.take(static_cast<char>('X' + axis)))
       local_shift_[axis] = *word * modes_.scale;
+  kept_local_shift_ = local_shift_;
   line_.use(kRotaryLetters);
   refresh_placement();
 }

@@ -213,11 +213,11 @@ void Interpreter::dwell() {
 }
 
 void Interpreter::set_plane() {
-  switch (line_.code(Group::plane)) {
-    case 180: modes_.plane = Plane::xz; break;
-    case 190: modes_.plane = Plane::yz; break;
-    default: modes_.plane = Plane::xy; break;
-  }
+  const Tenths code = line_.code(Group::plane);
+  const Plane plane = code == 180 ? Plane::xz : code == 190 ? Plane::yz : Plane::xy;
+  if (plane != modes_.plane && compensation_.side != Side::none)
+    refuse_compensated(code_text('G', code), line_.column(Group::plane));
+  modes_.plane = plane;
 }
 
 void Interpreter::set_path_mode() {
@@ -248,7 +248,6 @@ void Interpreter::use_words_of_other_codes() {
   if (line_.has(Group::tool_length)) line_.use(L::bit('H'));
   if (line_.has(Group::tool_length) && line_.code(Group::tool_length) == 431)
     line_.use(kAxisLetters | kRotaryLetters);
-  if (line_.has(Group::compensation)) line_.use(L::bit('D'));
   if (line_.has(Group::other) || line_.has(Group::tool_change))
     line_.use(L::bit('P') | L::bit('Q') | L::bit('R') | L::bit('L') | L::bit('E'));
   if (line_.has(Group::spindle_mode)) line_.use(L::bit('D'));
@@ -270,6 +269,8 @@ void Interpreter::end_program() {
     modes_.mist = modes_.flood = false;
     add(step::Coolant{});
   }
+  end_compensation();
+  compensation_.leaving = false;
   modes_.motion = 10;
   modes_.system = 1;
   refresh_placement();

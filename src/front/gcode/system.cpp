@@ -50,7 +50,11 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
        [](const I& i) {
          return i.modes_.plane == Plane::xy ? 170.0 : i.modes_.plane == Plane::xz ? 180.0 : 190.0;
        }},
-      {"_ccomp", [](const I&) { return 400.0; }},
+      {"_ccomp",
+       [](const I& i) {
+         const Side side = i.compensation_.side;
+         return side == Side::none ? 400.0 : side == Side::left ? 410.0 : 420.0;
+       }},
       {"_metric", [](const I& i) { return truth(i.modes_.scale == 1.0); }},
       {"_imperial", [](const I& i) { return truth(i.modes_.scale != 1.0); }},
       {"_absolute", [](const I& i) { return truth(i.modes_.absolute); }},

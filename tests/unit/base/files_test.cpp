@@ -1,11 +1,14 @@
 // Files: what cannot be read is an error with its path, and outputs appear whole and together or not at all.
 #include "kerf/files.h"
 
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 #include <string>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace kerf {
 namespace {
@@ -134,12 +137,41 @@ TEST_F(Files, AnUnwritablePlaceIsAnError) {
     OutputSet outputs;
     EXPECT_FALSE(outputs.write(path("no/such/folder/a.txt"), "x", diagnostics_));
     fs::create_directories(path("taken/inside"));
+    ASSERT_TRUE(outputs.write(path("first"), "x", diagnostics_));
     ASSERT_TRUE(outputs.write(path("taken"), "x", diagnostics_));
     EXPECT_FALSE(outputs.commit(diagnostics_));
   }
   ASSERT_EQ(diagnostics_.errors(), 2u);
   for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, Code::file_unwritable);
   EXPECT_EQ(count(), 1u) << "only the folder that was in the way";
+}
+
+TEST_F(Files, ALinkIsFollowed) {
+  fs::create_directories(path("folder"));
+  fs::create_symlink("folder/real.txt", path("link.txt"));
+  for (const char* text : {"first", "second"}) {  // the second time the file is there already
+    auto file = OutputFile::create(path("link.txt"), diagnostics_);
+    ASSERT_TRUE(file.has_value());
+    ASSERT_TRUE(file->write(text, diagnostics_));
+    ASSERT_TRUE(file->commit(diagnostics_));
+    EXPECT_TRUE(fs::is_symlink(path("link.txt")));
+    EXPECT_EQ(content("folder/real.txt"), text);
+  }
+}
+
+TEST_F(Files, DevicesAndPipesAreWrittenAtOnce) {
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  OutputSet outputs;
+  EXPECT_TRUE(outputs.write(path("pipe"), "text", diagnostics_));
+  EXPECT_TRUE(outputs.commit(diagnostics_));
+  char got[8] = {};
+  EXPECT_EQ(::read(reader, got, sizeof got), 4);
+  ::close(reader);
+  EXPECT_STREQ(got, "text");
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  EXPECT_EQ(count(), 1u);
 }
 
 }  // namespace

@@ -46,6 +46,45 @@ TEST(Drawing, DxfIsCompleteAndKeepsArcs) {
   EXPECT_NE(dxf.find(" 42\n1\n"), std::string::npos);  // the bulge
 }
 
+TEST(Drawing, R12HasNeitherSubclassesNorLightPolylines) {
+  const std::string dxf = write_dxf(sample(), DxfVersion::r12);
+  for (const char* part : {"AC1009", "\nPOLYLINE\n", "\nSEQEND\n", "CUT__1_", "$INSUNITS"})
+    EXPECT_NE(dxf.find(part), std::string::npos) << part;
+  for (const char* part : {"AcDb", "LWPOLYLINE", "OBJECTS", "CLASSES", "BLOCK_RECORD"})
+    EXPECT_EQ(dxf.find(part), std::string::npos) << part;
+  EXPECT_EQ(count(dxf, "\nVERTEX\n"), 3u);
+}
+
+TEST(Drawing, DxfTellsOtherLettersByTheirNumber) {
+  Drawing drawing;
+  drawing.layers = {{"N\xC3\xA4he \xE2\x82\xAC", 1, {}, 0.5, LineKind::solid}};
+  drawing.entities = {{0, drawing::Text{0, 0, 2, "\xC3\xA9 \xFF \xC3"}}};
+  const std::string dxf = write_dxf(drawing);
+  EXPECT_NE(dxf.find("N\\U+00E4he \\U+20AC\n"), std::string::npos);
+  EXPECT_NE(dxf.find("\\U+00E9 ? ?\n"), std::string::npos);
+  for (const char c : dxf) ASSERT_LT(static_cast<unsigned char>(c), 0x80);
+}
+
+TEST(Drawing, LayersWhoseNamesBecomeAlikeAreOne) {
+  Drawing drawing;
+  drawing.layers = {{"a<b", 1, {}, 0.5, LineKind::solid}, {"a>b", 2, {}, 0.5, LineKind::solid}};
+  drawing.entities = {{1, drawing::Line{0, 0, 1, 1}}};
+  EXPECT_EQ(count(write_dxf(drawing), "AcDbLayerTableRecord"), 2u);  // that and "0"
+}
+
+TEST(Drawing, ColoursOfIndices) {
+  using Rgb = std::array<std::uint8_t, 3>;
+  EXPECT_EQ(colour_of_index(1), (Rgb{255, 0, 0}));
+  EXPECT_EQ(colour_of_index(7), (Rgb{0, 0, 0}));
+  EXPECT_EQ(colour_of_index(10), (Rgb{255, 0, 0}));
+  EXPECT_EQ(colour_of_index(11), (Rgb{255, 128, 128}));
+  EXPECT_EQ(colour_of_index(30), (Rgb{255, 128, 0}));
+  EXPECT_EQ(colour_of_index(170), (Rgb{0, 0, 255}));
+  EXPECT_EQ(colour_of_index(94), (Rgb{0, 128, 0}));
+  EXPECT_EQ(colour_of_index(255), (Rgb{255, 255, 255}));
+  EXPECT_EQ(colour_of_index(-1), colour_of_index(256));
+}
+
 TEST(Drawing, SvgHasItsSizeInMillimetresAndYUp) {
   const std::string svg = write_svg(sample());
   EXPECT_NE(svg.find("mm\""), std::string::npos);

@@ -233,6 +233,8 @@ const std::vector<Program> kScopes{
      "warning: Locally scoped variable 'a' setting without local scope, adding to global scope|"
      "warning: Local scope variable 'a' already available in local scope|3"},
     {"function f() { const C = 3; return C; } message(f(), f());", "33"},
+    {"function f() { const C = 3; } function g() { v = [1]; v.y = 2; return v; } f(); message(g());",
+     "[1,2]"},
     {"function f() { foreach({[1]}; v) {} return isdefined(\"v\"); } message(f(), isdefined(\"v\"));", "10"},
 };
 INSTANTIATE_TEST_SUITE_P(Scopes, Runs, testing::ValuesIn(kScopes));
@@ -523,6 +525,18 @@ TEST(GcmcLanguage, HintsNameWhatWasMeant) {
   EXPECT_EQ(run("radius = 1; x = raduis;").messages.at(0).hint, "did you mean 'radius'?");
   EXPECT_EQ(run("feedrat(1);").messages.at(0).hint, "did you mean 'feedrate'?");
   EXPECT_EQ(run("forach(x; v) {}").messages.at(0).said, GcmcSaid::error);
+  EXPECT_EQ(run("whiel(1) {}").messages.at(0).hint, "did you mean 'while'?");
+  EXPECT_EQ(run("x = 5 mmm;").messages.at(0).hint, "did you mean 'mm'?");
+}
+
+TEST(GcmcLanguage, UnitsThatDoNotFitAreExplained) {
+  const auto hint = [](const char* program) { return run(program).messages.at(0).hint; };
+  EXPECT_EQ(hint("x = 1mm + 90deg;"), "90deg counts as 90mm; to_none() says that this is meant");
+  EXPECT_EQ(hint("x = 1mm < 5;"), "5 counts as 5mm: write it so");
+  EXPECT_EQ(hint("x = 2.5 == 90deg;"), "2.5 counts as 2.5deg: write it so");
+  EXPECT_EQ(hint("x = 1mm == 1rad;"), "a length and an angle are compared by their numbers alone");
+  EXPECT_EQ(hint("x = sin(2mm);"), "an angle is expected; 2mm counts as 2rad");
+  EXPECT_EQ(hint("feedrate(5deg);"), "a length is expected; 5deg counts as 5mm");
 }
 
 TEST(GcmcLanguage, CallsAreNamedWithAnError) {
@@ -569,6 +583,17 @@ TEST(GcmcLimits, MemoryIsBounded) {
     EXPECT_EQ(said_by(program, options),
               "error: The program uses more than 1 MB for vectors, lists and strings")
         << program;
+}
+
+// What a function held is let go when it ends: a copy of the list would otherwise be kept, and made again.
+TEST(GcmcLimits, FunctionsLetGoWhatTheyHeld) {
+  GcmcOptions options = bare();
+  options.max_memory = 3 << 20;
+  const std::string list = "l = {}; repeat(20000; i) { l += {[i, 2, 3]}; } ";
+  for (const char* use : {"function f() { local k = l; } f(); l += {[1]}; repeat(3) { f(); l += {[1]}; }",
+                          "function f(k) { foreach(k; v) { return v; } } repeat(3) { l += {f(l)}; }",
+                          "function f() { l += {[1]}; } repeat(3) { f(); k = l; }"})
+    EXPECT_EQ(said_by(list + use + " message(count(l) > 20000);", options), "Runtime message(): 1") << use;
 }
 
 TEST(GcmcLimits, TextsOfTheToolpathAreBounded) {

@@ -70,7 +70,11 @@ TEST(Moves, AreThoseOfLinuxCnc) {
     for (char& c : text)
       if (c == '|') c = '\n';
     Diagnostics diagnostics;
-    const GcodeProgram read = read_gcode(text, {}, diagnostics);
+    GcodeReadOptions options;  // the tools of the recording
+    options.tool_diameter = [](int tool, const Tool*) -> std::optional<double> {
+      return tool == 1 ? 6.0 : 10.0;
+    };
+    const GcodeProgram read = read_gcode(text, options, diagnostics);
     const auto got = moves_of(read.path);
     const auto want = split(wanted.substr(2), "; ");
     const double slack =

@@ -79,6 +79,21 @@ bool one_fan_a_vertex(const Mesh& mesh) {
   return true;
 }
 
+/// Triangles without area, as programs see them that read single precision.
+std::size_t flat_triangles(const Mesh& mesh) {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    const auto at = [&](std::size_t k) {
+      const float* p = mesh.positions.data() + std::size_t{3} * mesh.triangles[t + k];
+      return Point3{p[0], p[1], p[2]};
+    };
+    const Point3 u = at(1) - at(0), v = at(2) - at(0);
+    const Point3 cross{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
+    if (length(cross) == 0.0) ++count;
+  }
+  return count;
+}
+
 void expect_sound(const ColumnGrid& grid, const Mesh& mesh) {
   EXPECT_EQ(mesh.triangles.size(), 3 * mesh.step.size());
   EXPECT_EQ(check_mesh(mesh).bad_edges, 0u);
@@ -323,6 +338,20 @@ TEST(CheckMesh, CountsOpenAndDoubledEdges) {
   EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
   mesh.triangles[0] = 99;
   EXPECT_GT(check_mesh(mesh).bad_edges, 0u);
+}
+
+TEST(Mesh, NoTriangleIsWithoutArea) {
+  // Walls at 45 degrees put three corners of a level face on one line; a disc has walls of every direction.
+  for (const double pitch : {0.1, 0.13}) {
+    const ColumnGrid grid = make_grid(80, 60, pitch, 5, [&](double x, double y) {
+      if (x + y > 8 && x + y < 9.5) return Column{{0, 2}};
+      if (std::hypot(x - 2, y - 2) < 1.2) return Column{{0, 1.5f}, {2.5f, 5}};
+      return Column{{0, 5}};
+    });
+    const Mesh mesh = extract_mesh(grid);
+    expect_sound(grid, mesh);
+    EXPECT_EQ(flat_triangles(mesh), 0u);
+  }
 }
 
 }  // namespace

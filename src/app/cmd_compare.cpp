@@ -1,0 +1,261 @@
+// kerf compare: how a cut part differs from the mesh that it was to become.
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <memory>
+
+#include "app/command.h"
+#include "app/outputs.h"
+#include "app/terminal_progress.h"
+
+#include "kerf/compare.h"
+#include "kerf/image_files.h"
+#include "kerf/number.h"
+#include "kerf/stock_files.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr double kColumns = 1e6;                                  // of the usual resolution
+constexpr double kFinest = 0.0005, kCoarsest = 50.0;              // mm, --resolution
+constexpr double kLeastTolerance = 1e-4, kMostTolerance = 100.0;  // mm
+constexpr double kFullColour = 5.0;                               // times the tolerance
+constexpr int kMapPixels = 1600;                                  // a side
+constexpr std::size_t kMostLines = 12;                            // of regions as text
+
+struct Options {
+  OutputOptions output;
+  JobOptions job;
+  std::string target;
+  std::optional<std::string> target_shift;
+  std::vector<std::string> outputs;
+  double resolution = 0.0;
+  double tolerance = 0.05;
+  std::optional<std::string> view;
+  std::string size = "1600x1000";
+};
+
+struct Result {
+  const Options& options;
+  const Job& job;
+  const Simulation& simulation;
+  const Comparison& comparison;
+  const std::vector<OutputFile>& outputs;
+};
+
+Json side_json(const Comparison& c, DifferenceKind kind) {
+  const bool gouge = kind == DifferenceKind::gouge;
+  const auto deepest = std::find_if(c.regions.begin(), c.regions.end(),
+                                    [kind](const DifferenceRegion& r) { return r.kind == kind; });
+  const bool any = deepest != c.regions.end();
+  return {{"volume_mm3", json_of((gouge ? c.gouge : c.rest).mm3())},
+          {"beyond_tolerance_mm3", json_of((gouge ? c.gouge_beyond : c.rest_beyond).mm3())},
+          {"largest_mm", json_of(any ? deepest->depth.mm() : 0.0)},
+          {"at", any ? json_of(deepest->at) : Json(nullptr)}};
+}
+
+Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
+  const Comparison& c = result.comparison;
+  Json out;
+  out["source"] = result.job.program.source;
+  out["target"] = result.options.target;
+  out["resolution_mm"] = json_of(result.simulation.workpiece.pitch().mm());
+  out["tolerance_mm"] = json_of(result.options.tolerance);
+  out["target_mm3"] = json_of(c.target.mm3());
+  out["part_mm3"] = json_of(c.part.mm3());
+  out["gouge"] = side_json(c, DifferenceKind::gouge);
+  out["rest"] = side_json(c, DifferenceKind::rest);
+  out["within_tolerance"] = c.region_count == 0;
+  out["region_count"] = c.region_count;
+  Json& regions = out["regions"] = Json::array();
+  for (const DifferenceRegion& r : c.regions)
+    regions.push_back({{"kind", to_string(r.kind)},
+                       {"depth_mm", json_of(r.depth.mm())},
+                       {"at", json_of(r.at)},
+                       {"volume_mm3", json_of(r.volume.mm3())},
+                       {"bounds_mm", json_of(r.bounds)}});
+  Json& files = out["outputs"] = Json::array();
+  for (const OutputFile& f : result.outputs) files.push_back(f.path);
+  out["diagnostics"] = json_of(diagnostics);
+  return out;
+}
+
+void show_summary(Console& console, const Result& result) {
+  const Comparison& c = result.comparison;
+  console.summary(fmt::format("{} against {}, columns {} mm apart", result.job.program.source,
+                              result.options.target,
+                              number_text(result.simulation.workpiece.pitch().mm(), 4)));
+  console.summary(fmt::format("target   {} mm3, part {} mm3", number_text(c.target.mm3(), 1),
+                              number_text(c.part.mm3(), 1)));
+  console.summary(fmt::format("gouged   {} mm3, {} mm3 of it deeper than {} mm",
+                              number_text(c.gouge.mm3(), 3), number_text(c.gouge_beyond.mm3(), 3),
+                              number_text(result.options.tolerance, 4)));
+  console.summary(fmt::format("rest     {} mm3, {} mm3 of it higher than {} mm", number_text(c.rest.mm3(), 3),
+                              number_text(c.rest_beyond.mm3(), 3), number_text(result.options.tolerance, 4)));
+  for (const OutputFile& f : result.outputs) console.summary(fmt::format("wrote    {}", f.path));
+  for (std::size_t k = 0; k < std::min(c.regions.size(), kMostLines); ++k) {
+    const DifferenceRegion& r = c.regions[k];
+    console.print(fmt::format("{} of {} mm at X{} Y{} Z{}, {} mm3\n", to_string(r.kind),
+                              number_text(r.depth.mm(), 3), number_text(r.at.x, 3), number_text(r.at.y, 3),
+                              number_text(r.at.z, 3), number_text(r.volume.mm3(), 3)));
+  }
+  if (c.region_count > kMostLines)
+    console.print(fmt::format("... and {} more places\n", c.region_count - kMostLines));
+  if (c.region_count == 0) console.summary("the part is its target, within the tolerance");
+}
+
+/// The part's surface in the colours of the map.
+std::string solid_picture(const Result& result, const View& view, Progress& progress) {
+  const Mesh mesh = extract_mesh(result.simulation.workpiece.grid(), &progress);
+  const Comparison& c = result.comparison;
+  const Box3& block = result.simulation.workpiece.bounds();
+  const double pitch = result.simulation.workpiece.pitch().mm();
+  const auto column = [pitch](double v, double low, int count) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>((v - low) / pitch), 0, count - 1));
+  };
+  std::vector<std::array<std::uint8_t, 3>> colours;
+  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    double x = 0.0, y = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x += static_cast<double>(mesh.positions[std::size_t{3} * mesh.triangles[t + k]]) / 3.0;
+      y += static_cast<double>(mesh.positions[std::size_t{3} * mesh.triangles[t + k] + 1]) / 3.0;
+    }
+    const std::size_t n =
+        column(y, block.low.y, c.ny) * static_cast<std::size_t>(c.nx) + column(x, block.low.x, c.nx);
+    const auto depth = static_cast<double>(c.map[n]);
+    colours.push_back(depth == 0.0 ? std::array<std::uint8_t, 3>{176, 206, 160}
+                                   : difference_colour(depth, mm(kFullColour * result.options.tolerance)));
+  }
+  const Image image = render(mesh, colours, view);
+  return write_png({image.width, image.height, image.rgba});
+}
+
+bool write_pictures(const Result& result, const std::optional<View>& view, OutputSet& files,
+                    Diagnostics& diagnostics, Progress& progress) {
+  for (const OutputFile& file : result.outputs) {
+    std::string bytes;
+    if (view) {
+      bytes = solid_picture(result, *view, progress);
+    } else {
+      const Image map = draw_map(result.comparison, mm(kFullColour * result.options.tolerance), kMapPixels);
+      bytes = write_png({map.width, map.height, map.rgba});
+    }
+    if (progress.stop_requested() || !files.write(file.path, bytes, diagnostics)) return false;
+  }
+  return true;
+}
+
+Length resolution_for(const Stock& stock, double told) {
+  if (told > 0.0) return mm(told);
+  const Point3 size = stock.block.size();
+  return mm(std::max(std::sqrt(size.x * size.y / kColumns), 0.02));
+}
+
+std::optional<Stock> load_target(const Options& options, Diagnostics& usage, Diagnostics& diagnostics) {
+  auto target = load_stock(options.target, diagnostics);
+  if (!options.target_shift) return target;
+  const auto shift = read_shift_option(*options.target_shift, CallSpot{"", 0, "--target-shift"}, usage);
+  if (!target || !shift) return std::nullopt;
+  StockMove move;
+  move.shift = *shift;
+  return moved(*target, move);
+}
+
+Status compare_job(Console& console, const Options& options, const JobSettings& settings, const Stock& target,
+                   const std::vector<OutputFile>& outputs, const std::optional<View>& view,
+                   Diagnostics& diagnostics) {
+  TerminalProgress progress(console);
+  auto program = load_program(options.job.file, diagnostics, &progress);
+  if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
+  if (!job.stock && !diagnostics.has_errors())
+    diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
+                      "the program cuts nothing and tells no stock, so there is nothing to compare");
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  SimulationOptions how;
+  how.resolution = resolution_for(*job.stock, options.resolution);
+  const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
+  std::optional<Comparison> comparison;
+  if (simulation && !simulation->stopped)
+    comparison = compare(simulation->workpiece, *target.body, {.tolerance = mm(options.tolerance)},
+                         diagnostics, &progress);
+  OutputSet files;
+  bool written = false;
+  if (comparison && !diagnostics.has_errors())
+    written =
+        write_pictures({options, job, *simulation, *comparison, outputs}, view, files, diagnostics, progress);
+  progress.clear();
+  if (interrupted()) return tell_stopped(console);
+  if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+  const Result result{options, job, *simulation, *comparison, outputs};
+  console.show(diagnostics);
+  if (console.json()) {
+    console.print_json(text_of(json_of_result(result, diagnostics), Layout::indented));
+  } else {
+    show_summary(console, result);
+  }
+  return Status::done;
+}
+
+/// Only pictures are written; the part itself is kerf simulate's.
+void refuse_meshes(const std::vector<OutputFile>& outputs, Diagnostics& usage) {
+  for (const OutputFile& file : outputs)
+    if (!file.is_picture())
+      usage
+          .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+                 fmt::format("\"{}\" is no picture", file.path))
+          .hint = "kerf compare writes .png; the part itself is written by kerf simulate";
+}
+
+Status run(Console& console, const Options& options) {
+  Diagnostics usage, diagnostics;
+  const JobSettings settings = read_job_options(options.job, usage, diagnostics);
+  std::vector<std::string> inputs = input_files(options.job);
+  inputs.push_back(options.target);
+  const auto outputs = read_outputs(options.outputs, inputs, usage, diagnostics);
+  refuse_meshes(outputs, usage);
+  const auto target = load_target(options, usage, diagnostics);
+  std::string problem;
+  std::optional<View> view;
+  if (options.view) view = read_view(*options.view, options.size, problem);
+  if (!problem.empty()) console.complain(problem);
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  if (!problem.empty()) return Status::wrong_usage;
+  if (!target || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  return compare_job(console, options, settings, *target, outputs, view, diagnostics);
+}
+
+const char* const kExamples =
+    R"(  kerf compare part.nc target.stl                    where material lacks or stands, by how much
+  kerf compare part.nc target.stl -o map.png         the map from above: red gouged, blue left standing
+  kerf compare part.nc target.stl -o part.png --view iso
+  kerf compare part.nc target.3mf --tolerance 0.1 --json --target-shift 0,0,-12
+
+The target is a closed mesh in the program's work coordinates. Depths are distances from its surface.
+)";
+
+}  // namespace
+
+Command add_compare(CLI::App& root) {
+  auto options = std::make_shared<Options>();
+  CLI::App* app = new_command(root, "compare", "Compare the cut part with a target mesh: gouges and rests",
+                              kExamples + std::string(kJobHelp) + kBodyHelp, options->output);
+  add_job_options(*app, options->job);
+  app->add_option("TARGET", options->target, "What the part is to be: a mesh, .stl .3mf .glb .obj")
+      ->required();
+  add_body_options(*app, options->job.bodies);
+  app->add_option("--target-shift", options->target_shift, "Move the target by X,Y,Z mm")->type_name("X,Y,Z");
+  add_repeated(*app, "-o,--output", options->outputs, "PATH", "Write a picture: .png, the map from above");
+  add_length(*app, "--tolerance", options->tolerance, kLeastTolerance, kMostTolerance,
+             "Differences no deeper than this are none, mm or 0.002in (default: 0.05)");
+  add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+             "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
+  app->add_option("--view", options->view, "Draw the part in the map's colours instead, from: top, iso ...")
+      ->type_name("VIEW");
+  app->add_option("--size", options->size, "That picture's WIDTHxHEIGHT in pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,175 @@
+// Stock from files, and the words that turn it over.
+#include <cctype>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "kerf/column_files.h"
+#include "kerf/mesh_files.h"
+#include "kerf/number.h"
+#include "kerf/stock_files.h"
+
+namespace kerf {
+namespace {
+
+constexpr std::string_view kLeftEnding = ".kstock";
+constexpr std::size_t kLongest = 200;   // bytes of an option
+constexpr double kLargest = 100'000.0;  // mm
+
+ColumnData data_of(const LeftColumns& left) {
+  ColumnData data;
+  for (int k = 0; k < 3; ++k) {
+    data.low[static_cast<std::size_t>(k)] = left.bounds.low[k];
+    data.high[static_cast<std::size_t>(k)] = left.bounds.high[k];
+  }
+  data.x = left.places.x;
+  data.y = left.places.y;
+  data.pitch = left.places.pitch;
+  data.nx = static_cast<std::uint32_t>(left.places.nx);
+  data.ny = static_cast<std::uint32_t>(left.places.ny);
+  data.first = left.columns.first;
+  data.runs.reserve(left.columns.runs.size());
+  for (const Run& run : left.columns.runs) data.runs.push_back({run.low, run.high});
+  return data;
+}
+
+LeftColumns left_of(const ColumnData& data) {
+  LeftColumns left;
+  left.bounds.add(Point3{data.low[0], data.low[1], data.low[2]});
+  left.bounds.add(Point3{data.high[0], data.high[1], data.high[2]});
+  left.places = {
+      data.x, data.y, data.low[2], data.pitch, static_cast<int>(data.nx), static_cast<int>(data.ny)};
+  left.columns.nx = left.places.nx;
+  left.columns.ny = left.places.ny;
+  left.columns.first = data.first;
+  left.columns.runs.reserve(data.runs.size());
+  for (const auto& run : data.runs) left.columns.runs.push_back({run[0], run[1]});
+  return left;
+}
+
+/// The words of an option in lower case, commas as blanks.
+std::vector<std::string> words_of(std::string_view text) {
+  std::vector<std::string> words(1);
+  for (const char c : text) {
+    if (c == ' ' || c == ',' || c == '\t') {
+      if (!words.back().empty()) words.emplace_back();
+    } else {
+      words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+  }
+  if (words.back().empty()) words.pop_back();
+  return words;
+}
+
+std::optional<double> length_of(std::string_view text) {
+  if (text.size() > 2 && text.substr(text.size() - 2) == "mm") text.remove_suffix(2);
+  const auto value = parse_number(text);
+  return value && std::abs(*value) <= kLargest ? value : std::nullopt;
+}
+
+/// One word of a flip after its axis; false if it means nothing there.
+bool read_place(const std::string& word, StockMove& move) {
+  if (word.size() < 3 || word[1] != '=') return false;
+  const auto value = length_of(std::string_view(word).substr(2));
+  const char across = move.flip == StockMove::Flip::about_x ? 'y' : 'x';
+  if (!value || (word[0] != 'z' && word[0] != across)) return false;
+  (word[0] == 'z' ? move.z : move.across) = value;
+  return true;
+}
+
+}  // namespace
+
+bool is_left_file(std::string_view name) {
+  if (name.size() < kLeftEnding.size()) return false;
+  const auto words = words_of(name.substr(name.size() - kLeftEnding.size()));
+  return words.size() == 1 && words[0] == kLeftEnding;
+}
+
+bool is_stock_file(std::string_view name) { return is_left_file(name) || mesh_format_of(name).has_value(); }
+
+std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& name,
+                                     Diagnostics& diagnostics) {
+  if (is_left_file(name)) {
+    const auto data = read_columns(bytes, name, diagnostics);
+    if (!data) return std::nullopt;
+    return stock_of(make_columns_body(left_of(*data)));
+  }
+  const auto format = mesh_format_of(name);
+  if (!format) {
+    diagnostics.error(Code::mesh_file, TextSpot{name, 0, 0}, "the file's ending names no format of stock")
+        .hint = "known endings: .stl .3mf .glb .obj for meshes, .kstock for what an earlier job has left";
+    return std::nullopt;
+  }
+  const auto mesh = read_mesh(bytes, *format, name, diagnostics);
+  if (!mesh) return std::nullopt;
+  const auto body = make_mesh_body(mesh->positions, mesh->triangles, name, diagnostics);
+  if (!body) return std::nullopt;
+  return stock_of(body);
+}
+
+std::string write_left_file(const LeftColumns& left) { return write_columns(data_of(left)); }
+
+std::optional<StockMove> read_flip_option(std::string_view text, const Origin& where,
+                                          Diagnostics& diagnostics) {
+  std::vector<std::string> words = words_of(text.substr(0, kLongest));
+  if (!words.empty() && words[0] == "about") words.erase(words.begin());
+  StockMove move;
+  if (!words.empty() && words[0] == "x") move.flip = StockMove::Flip::about_x;
+  if (!words.empty() && words[0] == "y") move.flip = StockMove::Flip::about_y;
+  bool good = move.flip != StockMove::Flip::none && text.size() <= kLongest;
+  for (std::size_t k = 1; k < words.size(); ++k) good = good && read_place(words[k], move);
+  if (good) return move;
+  diagnostics.error(
+      Code::stock_flip, where,
+      fmt::format(
+          "\"{}\" is no flip; expected \"x\", \"x y=30 z=-6\" (half a turn about an axis along X, through "
+          "these) or \"y x=50 z=-6\"",
+          text.substr(0, 40)));
+  return std::nullopt;
+}
+
+std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& where,
+                                           Diagnostics& diagnostics) {
+  RoundBar bar;
+  double size = 0.0;
+  bool good = text.size() <= kLongest;
+  for (const std::string& word : words_of(text.substr(0, kLongest))) {
+    const std::size_t equals = std::min(word.find('='), word.size());
+    const std::string key = word.substr(0, equals);
+    const auto value = length_of(std::string_view(word).substr(std::min(equals + 1, word.size())));
+    double* const place = key == "d"        ? &bar.diameter
+                          : key == "length" ? &size
+                          : key == "x"      ? &bar.x_low
+                          : key == "y"      ? &bar.axis_y
+                          : key == "z"      ? &bar.axis_z
+                                            : nullptr;
+    good = good && place != nullptr && value.has_value();
+    if (place != nullptr) *place = value.value_or(0.0);
+  }
+  bar.x_high = bar.x_low + size;
+  if (good && bar.diameter > 0.0 && size > 0.0) return bar;
+  diagnostics.error(
+      Code::rotary_option, where,
+      fmt::format("\"{}\" is no bar; expected \"d=40 length=100\", and where it begins and its axis "
+                  "stands where that is not 0: \"x=-5 y=0 z=12\", all in mm",
+                  text.substr(0, 40)));
+  return std::nullopt;
+}
+
+std::optional<Point3> read_shift_option(std::string_view text, const Origin& where,
+                                        Diagnostics& diagnostics) {
+  const std::vector<std::string> words = words_of(text.substr(0, kLongest));
+  Point3 shift;
+  bool good = words.size() == 3 && text.size() <= kLongest;
+  for (int k = 0; k < 3 && good; ++k) {
+    const auto value = length_of(words[static_cast<std::size_t>(k)]);
+    good = value.has_value();
+    shift[k] = value.value_or(0.0);
+  }
+  if (good) return shift;
+  diagnostics.error(Code::stock_flip, where,
+                    fmt::format("\"{}\" is no shift; expected three lengths in mm, such as \"10,0,-3\"",
+                                text.substr(0, 40)));
+  return std::nullopt;
+}
+
+}  // namespace kerf

@@ -1,0 +1,66 @@
+// Each fixture is a workpiece of its own through which the toolpath is sent as if nothing of it might be cut.
+#include "kerf/fixtures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kerf {
+namespace {
+
+constexpr double kColumns = 1e6;                    // of a fixture, where its size asks for it
+constexpr double kFinest = 0.02, kCoarsest = 0.25;  // mm, between them
+
+Length pitch_for(const Stock& solid, Length told) {
+  const Point3 size = solid.block.size();
+  const double own = std::clamp(std::sqrt(size.x * size.y / kColumns), kFinest, kCoarsest);
+  return mm(told.mm() > 0.0 ? std::min(own, told.mm()) : own);
+}
+
+std::optional<ToolPart> part_of(HazardKind kind) {
+  switch (kind) {
+    case HazardKind::spindle_off: return ToolPart::cutting;
+    case HazardKind::neck_contact: return ToolPart::neck;
+    case HazardKind::shank_contact: return ToolPart::shank;
+    case HazardKind::holder_contact: return ToolPart::holder;
+    case HazardKind::rapid_in_stock:
+    case HazardKind::over_flute:
+    case HazardKind::below_floor: break;
+  }
+  return std::nullopt;
+}
+
+/// Over-long cuts and cuts below its floor mean nothing for a solid that is not to be touched.
+bool is_contact(HazardKind kind) { return kind == HazardKind::rapid_in_stock || part_of(kind).has_value(); }
+
+/// What is wrong with a fixture's own mesh is told; what the toolpath lacks, the stock's simulation has told.
+bool is_news(const Diagnostic& d) {
+  return d.severity == Severity::error ||
+         (static_cast<int>(d.code) >= 4000 && static_cast<int>(d.code) < 5000);
+}
+
+}  // namespace
+
+std::optional<std::vector<FixtureContact>> find_fixture_contacts(const Toolpath& path, const ToolTable& tools,
+                                                                 std::span<const Fixture> fixtures,
+                                                                 const SimulationOptions& options,
+                                                                 Diagnostics& diagnostics,
+                                                                 Progress* progress) {
+  std::vector<FixtureContact> found;
+  for (std::size_t n = 0; n < fixtures.size(); ++n) {
+    SimulationOptions how = options;
+    how.role = SolidRole::no_go;
+    how.resolution = pitch_for(fixtures[n].solid, options.resolution);
+    Diagnostics said;
+    const auto result = simulate(path, tools, fixtures[n].solid, how, said, progress);
+    for (const Diagnostic& d : said.list())
+      if (is_news(d)) diagnostics.add(d);
+    if (!result || result->stopped) return std::nullopt;
+    for (const Hazard& h : result->hazards)
+      if (is_contact(h.kind)) found.push_back({n, h.step, part_of(h.kind), h.at, h.depth, h.removed});
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const FixtureContact& a, const FixtureContact& b) { return a.step < b.step; });
+  return found;
+}
+
+}  // namespace kerf

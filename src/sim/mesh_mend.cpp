@@ -1,0 +1,230 @@
+// Takes out triangles without area. They come where three corners of a level face lie on one line, and where
+// two corners of a line have one height: harmless to the shape, but programs that read a mesh stumble over
+// them. Nothing moves, and the mesh stays closed.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "sim/mesh_build.h"
+
+#include "kerf/geometry.h"
+
+namespace kerf::meshing {
+namespace {
+
+/// A triangle of less height than this has no area: below what single precision tells apart, mm.
+constexpr double kNoHeight = 1e-6;
+/// A flip can leave another flat triangle, which is looked at again; not for ever.
+constexpr int kMostRounds = 8;
+
+class Mender {
+ public:
+  explicit Mender(Mesh& mesh) : mesh_(mesh) {}
+  void run();
+
+ private:
+  using Corners = std::array<std::uint32_t, 3>;
+
+  Point3 point(std::uint32_t v) const {
+    const float* p = mesh_.positions.data() + std::size_t{3} * v;
+    return {p[0], p[1], p[2]};
+  }
+  Corners corners(std::size_t t) const {
+    return {mesh_.triangles[3 * t], mesh_.triangles[3 * t + 1], mesh_.triangles[3 * t + 2]};
+  }
+  void set(std::size_t t, Corners c) {
+    std::copy(c.begin(), c.end(), mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(3 * t));
+  }
+  bool is_gone(std::size_t t) const { return mesh_.triangles[3 * t] == mesh_.triangles[3 * t + 1]; }
+
+  int longest_side(const Corners& c) const;
+  bool is_flat(const Corners& c) const;
+  void find_flat();
+  void gather_around();
+  const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[place_[v]]; }
+  std::size_t across(std::uint32_t a, std::uint32_t b) const;
+  bool joined(std::uint32_t a, std::uint32_t b) const;
+  bool flip(std::size_t t);
+  bool collapse(std::uint32_t keep, std::uint32_t gone);
+  bool mend(std::size_t t);
+  void drop_gone();
+  void drop_unused();
+
+  Mesh& mesh_;
+  std::vector<std::size_t> flat_;
+  std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
+  std::vector<std::vector<std::uint32_t>> around_;  // triangles at a vertex, some of them gone or moved away
+};
+
+/// Number of the corner before the longest side.
+int Mender::longest_side(const Corners& c) const {
+  int longest = 0;
+  double most = -1.0;
+  for (int k = 0; k < 3; ++k) {
+    const double side =
+        distance(point(c[static_cast<std::size_t>(k)]), point(c[static_cast<std::size_t>((k + 1) % 3)]));
+    if (side > most) {
+      most = side;
+      longest = k;
+    }
+  }
+  return longest;
+}
+
+bool Mender::is_flat(const Corners& c) const {
+  const auto k = static_cast<std::size_t>(longest_side(c));
+  const Point3 a = point(c[k]), side = point(c[(k + 1) % 3]) - a, other = point(c[(k + 2) % 3]) - a;
+  const Point3 cross{side.y * other.z - side.z * other.y, side.z * other.x - side.x * other.z,
+                     side.x * other.y - side.y * other.x};
+  return length(cross) <= kNoHeight * length(side);
+}
+
+void Mender::find_flat() {
+  flat_.clear();
+  for (std::size_t t = 0; t < mesh_.step.size(); ++t)
+    if (!is_gone(t) && is_flat(corners(t))) flat_.push_back(t);
+}
+
+/// The triangles around all vertices that flat triangles or their neighbours have.
+void Mender::gather_around() {
+  place_.assign(mesh_.positions.size() / 3, kNone);
+  around_.clear();
+  const auto want = [&](std::uint32_t v) {
+    if (place_[v] != kNone) return;
+    place_[v] = static_cast<std::uint32_t>(around_.size());
+    around_.emplace_back();
+  };
+  std::vector<bool> near(place_.size(), false);
+  for (const std::size_t t : flat_)
+    for (const std::uint32_t v : corners(t)) near[v] = true;
+  for (std::size_t t = 0; t < mesh_.step.size(); ++t) {
+    const Corners c = corners(t);
+    if (std::any_of(c.begin(), c.end(), [&](std::uint32_t v) { return near[v]; }))
+      for (const std::uint32_t v : c) want(v);
+  }
+  for (std::size_t t = 0; t < mesh_.step.size(); ++t)
+    for (const std::uint32_t v : corners(t))
+      if (place_[v] != kNone && !is_gone(t)) around_[place_[v]].push_back(static_cast<std::uint32_t>(t));
+}
+
+/// The triangle with the edge from a to b; SIZE_MAX if there is none.
+std::size_t Mender::across(std::uint32_t a, std::uint32_t b) const {
+  for (const std::uint32_t t : around(a)) {
+    if (is_gone(t)) continue;
+    const Corners c = corners(t);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (c[k] == a && c[(k + 1) % 3] == b) return t;
+  }
+  return SIZE_MAX;
+}
+
+bool Mender::joined(std::uint32_t a, std::uint32_t b) const {
+  return across(a, b) != SIZE_MAX || across(b, a) != SIZE_MAX;
+}
+
+/// Turns the edge that a flat triangle shares with the neighbour of its longest side.
+bool Mender::flip(std::size_t t) {
+  const Corners c = corners(t);
+  const auto k = static_cast<std::size_t>(longest_side(c));
+  const std::uint32_t a = c[(k + 1) % 3], middle = c[(k + 2) % 3], b = c[k];  // a, middle, b in order
+  const std::size_t neighbour = across(a, b);
+  if (neighbour == SIZE_MAX) return false;
+  std::uint32_t far = kNone;
+  for (const std::uint32_t v : corners(neighbour))
+    if (v != a && v != b) far = v;
+  const Corners one{a, middle, far}, other{middle, b, far};
+  if (far == kNone || joined(middle, far) || is_flat(one) || is_flat(other)) return false;
+  set(t, one);
+  set(neighbour, other);
+  mesh_.step[t] = mesh_.step[neighbour];
+  around_[place_[far]].push_back(static_cast<std::uint32_t>(t));
+  around_[place_[middle]].push_back(static_cast<std::uint32_t>(neighbour));
+  return true;
+}
+
+/// Makes one of two vertices that lie at one place and have an edge, if that leaves every edge two triangles.
+bool Mender::collapse(std::uint32_t keep, std::uint32_t gone) {
+  const auto neighbours = [&](std::uint32_t v) {
+    std::vector<std::uint32_t> found;
+    for (const std::uint32_t t : around(v)) {
+      const Corners c = corners(t);
+      if (is_gone(t) || std::find(c.begin(), c.end(), v) == c.end()) continue;
+      for (const std::uint32_t other : c)
+        if (other != v) found.push_back(other);
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  };
+  const std::vector<std::uint32_t> a = neighbours(keep), b = neighbours(gone);
+  std::vector<std::uint32_t> common;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  if (common.size() != 2 || joined(common[0], common[1])) return false;
+  for (const std::uint32_t t : std::vector(around(gone))) {
+    Corners c = corners(t);
+    if (is_gone(t) || std::find(c.begin(), c.end(), gone) == c.end()) continue;
+    const bool had_both = std::find(c.begin(), c.end(), keep) != c.end();
+    std::replace(c.begin(), c.end(), gone, keep);
+    set(t, had_both ? Corners{keep, keep, keep} : c);
+    if (!had_both) around_[place_[keep]].push_back(t);
+  }
+  return true;
+}
+
+bool Mender::mend(std::size_t t) {
+  const Corners c = corners(t);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (point(c[k]) == point(c[(k + 1) % 3])) return collapse(c[k], c[(k + 1) % 3]);
+  return flip(t);
+}
+
+void Mender::drop_gone() {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < mesh_.step.size(); ++t) {
+    if (is_gone(t)) continue;
+    if (kept != t) {
+      set(kept, corners(t));
+      mesh_.step[kept] = mesh_.step[t];
+    }
+    ++kept;
+  }
+  mesh_.triangles.resize(3 * kept);
+  mesh_.step.resize(kept);
+}
+
+/// Leaves out the vertices that no triangle has any more.
+void Mender::drop_unused() {
+  std::vector<std::uint32_t> number(mesh_.positions.size() / 3, kNone);
+  for (const std::uint32_t v : mesh_.triangles) number[v] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < number.size(); ++v) {
+    if (number[v] == kNone) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      mesh_.positions[std::size_t{3} * kept + axis] = mesh_.positions[3 * v + axis];
+    number[v] = kept++;
+  }
+  mesh_.positions.resize(std::size_t{3} * kept);
+  for (std::uint32_t& v : mesh_.triangles) v = number[v];
+}
+
+void Mender::run() {
+  for (int round = 0; round < kMostRounds; ++round) {
+    find_flat();
+    if (flat_.empty()) break;
+    gather_around();
+    bool any = false;
+    for (const std::size_t t : flat_)
+      if (!is_gone(t) && is_flat(corners(t))) any = mend(t) || any;
+    if (!any) break;
+  }
+  if (place_.empty()) return;  // nothing was flat
+  drop_gone();
+  drop_unused();
+}
+
+}  // namespace
+
+void mend_flat_triangles(Mesh& mesh) { Mender(mesh).run(); }
+
+}  // namespace kerf::meshing

@@ -1,0 +1,122 @@
+"""Stock from files, fixtures, kerf compare and the fourth axis, as the command does them."""
+import math
+import struct
+
+import pytest
+from conftest import SOUND
+
+BOX = [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
+       1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7]
+REMOVED = 2 * 3.175 / 2 * 10 + math.pi * 5 * 3.175 + math.pi * 3.175**2 / 4  # by SOUND, 1 mm deep
+BLOCK = ((0, 0, -6), (40, 30, 0))
+
+
+@pytest.fixture
+def box(tmp_path):
+    """box("a.stl", low, high): writes a box as binary STL."""
+
+    def write(name, low, high):
+        corners = [(x, y, z) for z in (low[2], high[2])
+                   for x, y in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1]))]
+        data = bytes(80) + struct.pack("<I", 12)
+        for t in range(0, 36, 3):
+            data += bytes(12) + b"".join(struct.pack("<3f", *corners[v]) for v in BOX[t:t + 3]) + bytes(2)
+        (tmp_path / name).write_bytes(data)
+        return name
+
+    return write
+
+
+def test_a_mesh_is_stock(kerf, program, box):
+    run = kerf("simulate", "--json", "--resolution", "0.05", "--stock-mesh", box("s.stl", *BLOCK), program())
+    assert run.status == 0, run.err
+    assert run.json["stock"] == {"block_mm": [list(map(float, c)) for c in BLOCK], "source": "file"}
+    assert run.json["stock_mm3"] == pytest.approx(7200, rel=1e-5)
+    assert run.json["removed_mm3"] == pytest.approx(REMOVED, rel=5e-3)
+
+
+def test_a_damaged_or_unknown_file_is_an_error(kerf, program, tmp_path):
+    (tmp_path / "bad.stl").write_bytes(b"\0" * 90)
+    (tmp_path / "part.step").write_bytes(b"ISO")
+    for name, code in (("bad.stl", "mesh_no_volume"), ("part.step", "mesh_file"),
+                       ("none.stl", "file_unreadable")):
+        run = kerf("simulate", "--json", "--stock-mesh", name, program())
+        assert run.status == 1
+        assert run.codes() == [code]
+
+
+def test_left_over_stock_and_the_second_side(kerf, program, files):
+    path = program()
+    first = kerf("simulate", "--json", "--resolution", "0.1", path, "-o", "left.kstock")
+    assert first.status == 0 and "left.kstock" in files()
+    again = kerf("simulate", "--json", "--stock-left", "left.kstock", path)
+    assert again.json["resolution_mm"] == 0.1
+    assert again.json["removed_mm3"] == pytest.approx(0, abs=0.03 * REMOVED)
+    second = kerf("simulate", "--json", "--stock-left", "left.kstock", "--flip", "x", path)
+    assert second.json["removed_mm3"] == pytest.approx(REMOVED, rel=2e-2)
+    moved = kerf("simulate", "--json", "--stock-left", "left.kstock", "--flip", "y x=0 z=0",
+                 "--shift", "40,0,-6", path)
+    assert moved.json["stock"]["block_mm"] == [[0, 0, -6], [40, 30, 0]]
+    kept = kerf("simulate", "--stock-left", "left.kstock", "-o", "left.kstock", path)
+    assert kept.status == 2 and "input" in kept.err
+
+
+def test_wrong_words(kerf, program):
+    path = program()
+    for option, value, code in (("--flip", "z", 4117), ("--shift", "1,2", 4117), ("--fixture", "here", 4118),
+                                ("--rotary", "40", 4119)):
+        run = kerf("simulate", option, value, path)
+        assert run.status == 2 and f"[{code}]" in run.err
+    assert kerf("simulate", "--stock", "1x1x1", "--stock-mesh", "a.stl", path).status == 2
+
+
+def test_fixtures_are_hazards(kerf, program, box):
+    path = program()
+    clamp = box("clamp.stl", (18, 8, 0), (30, 12, 4))
+    run = kerf("check", "--json", "--fixture", clamp, "--fixture", "0,0,0 to 5,5,4", path)
+    assert run.status == 3
+    hazards = run.json["hazards"]  # the line that ends at X20 Y10, and the arc that begins there
+    assert {h["kind"] for h in hazards} == {"fixture_contact"}
+    assert [h["origin"]["line"] for h in hazards] == [9, 10]
+    for hazard in hazards:
+        assert hazard["depth_mm"] == pytest.approx(4, abs=0.01) and "clamp.stl" in hazard["message"]
+    assert kerf("check", "--fixture", "0,0,0 to 5,5,4", path).status == 0
+
+
+def test_compare(kerf, program, box, files):
+    path = program()
+    target = box("target.stl", BLOCK[0], (40, 30, 0))
+    run = kerf("compare", "--json", path, target, "-o", "map.png", "--resolution", "0.1")
+    assert run.status == 0, run.err
+    got = run.json
+    assert not got["within_tolerance"] and got["region_count"] == 1
+    assert got["gouge"]["largest_mm"] == pytest.approx(1, abs=1e-3)
+    assert got["gouge"]["volume_mm3"] == pytest.approx(REMOVED, rel=2e-2)
+    assert got["rest"]["volume_mm3"] == 0 and got["rest"]["at"] is None
+    assert "map.png" in files()
+    text = kerf("compare", path, target).out
+    assert "gouge of 1 mm at X" in text
+    assert kerf("compare", path, target, "--tolerance", "2", "--json").json["within_tolerance"]
+    outside = kerf("compare", "--json", path, target, "--target-shift", "0,0,3")
+    assert "target_outside" in outside.codes()
+    assert kerf("compare", path, target, "-o", "part.stl").status == 2
+
+
+WRAP = ("G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\n"
+        "G0 Z20\nG0 X5\nG0 Z9\nM2\n")
+
+
+def test_a_fourth_axis(kerf, program, files):
+    path = program(WRAP)
+    run = kerf("simulate", "--json", "--rotary", "d=20 length=30", "--resolution", "0.2",
+               "-o", "bar.stl", path)
+    assert run.status == 0, run.err
+    assert run.json["stock_mm3"] == pytest.approx(math.pi * 100 * 30, rel=1e-4)
+    assert run.json["removed_mm3"] == pytest.approx(math.pi * 36 * 3.175 + 5, rel=0.06)
+    hazard, = run.json["hazards"]
+    assert hazard["kind"] == "rapid_in_stock" and hazard["origin"]["line"] == 9
+    assert hazard["depth_mm"] == pytest.approx(1, abs=0.05)
+    assert "bar.stl" in files()
+    check = kerf("check", "--json", "--rotary", "d=20 length=30", path)
+    assert check.status == 3 and [h["kind"] for h in check.json["hazards"]] == ["rapid_in_stock"]
+    assert kerf("simulate", "--rotary", "d=20 length=30", path, "-o", "bar.kstock").status == 1
