@@ -1,5 +1,5 @@
 // Offset. Each loop's parallel curve is made as it comes, with all its crossings, so that its winding numbers
-// tell what is near the loop (docs/decisions/0011-region-kernel.md has the reason):
+// tell what is near the loop (docs/decisions/0016-region-kernel.md has the reason):
 //   - around the points that a growing loop reaches the curve winds at least once, and around no others;
 //   - a shrinking loop's curve winds around what is left of it at most once, and around nothing else, unless
 //     the whole loop fits into a circle of the distance, which its bounds tell beforehand;
