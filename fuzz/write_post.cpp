@@ -1,5 +1,5 @@
-// Any bytes as a G-code program, written by a post: no crash, no output without bound, and what is written
-// without an error has nothing that the linter refuses.
+// Any bytes as a G-code program, written by a post and drawn: no crash, no output without bound, and what is
+// written without an error has nothing that the linter refuses.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -8,6 +8,7 @@
 
 #include "kerf/gcode.h"
 #include "kerf/post.h"
+#include "kerf/toolpath_drawing.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
@@ -19,6 +20,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   read.max_line_bytes = 1000;
   kerf::Diagnostics diagnostics(5);
   const kerf::GcodeProgram program = kerf::read_gcode(text, read, diagnostics);
+  const kerf::Drawing drawing = kerf::toolpath_drawing(program.path, {});
+  (void)kerf::write_dxf(drawing, size % 2 == 0 ? kerf::DxfVersion::r2000 : kerf::DxfVersion::r12);
+  (void)kerf::write_svg(drawing);
   kerf::PostOptions options;
   options.program_name = text.substr(0, 40);
   if (size % 2 != 0) options.unit = kerf::LengthUnit::inch;

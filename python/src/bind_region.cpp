@@ -14,6 +14,189 @@ namespace {
 
 constexpr double kDefaultTolerance = 1e-6;  // mm, as Tolerance::weld
 
+// The texts of help().
+constexpr const char* kRegion = R"(A part of the plane bounded by lines and arcs.
+
+Regions do not change; operators and methods make new ones. ``a | b`` is the union, ``a & b`` what both have
+in common, ``a - b`` the first without the second, ``a ^ b`` what exactly one of them has. Arcs stay arcs.
+
+Parameters
+----------
+outlines : sequence of outlines
+    An outline is a list of points ``(x, y)`` in mm, where ``(via_x, via_y, x, y)`` makes an arc from the
+    point before through the via point; its last point is its first. Three numbers ``(x, y, radius)`` are a
+    circle.
+    Outlines may cross themselves and each other.
+fill : {'nonzero', 'even_odd', 'positive'}
+    What is inside: what an outline goes around at all, what outlines go around an odd number of times, or
+    what they go around counter-clockwise more often than clockwise.
+tolerance : float
+    Points closer than this are one, in mm.
+
+Raises
+------
+kerf.Error
+    Where an outline is open or its numbers are not finite. ``diagnostics`` has the element.
+)";
+
+constexpr const char* kOffset =
+    R"(All points within a distance of the region, or those at least so far inside.
+
+Parameters
+----------
+distance : float
+    mm; above 0 the region grows, with round outer corners, below 0 it shrinks.
+tolerance : float
+    Points closer than this are one, in mm.
+
+Returns
+-------
+Region
+)";
+
+constexpr const char* kLocate = R"(Where a point lies.
+
+Parameters
+----------
+point : (float, float)
+margin : float
+    What is no further than this from the boundary counts as on it, in mm.
+
+Returns
+-------
+str
+    ``'inside'``, ``'outside'`` or ``'boundary'``.
+)";
+
+constexpr const char* kNearest = R"(The point of the boundary that is nearest to a point.
+
+Parameters
+----------
+point : (float, float)
+
+Returns
+-------
+tuple (x, y, distance), or None for an empty region
+)";
+
+constexpr const char* kFigures = R"(Each connected part by itself.
+
+Returns
+-------
+list of lists of outlines
+    The first of each is the outside, the others are its holes.
+)";
+
+constexpr const char* kWiden =
+    R"(All points within a distance of a path: what a mill of that radius clears along it.
+
+Parameters
+----------
+path : list of points and arcs
+    As an outline of `Region`; open or closed, and it may cross itself.
+half_width : float
+    mm, above 0.
+ends : {'round', 'butt'}
+    Butt ends stop exactly at the path's ends.
+tolerance : float
+    Points closer than this are one, in mm.
+
+Returns
+-------
+Region
+)";
+
+constexpr const char* kParallel = R"(The curve beside a path that keeps a distance from all of it.
+
+Parameters
+----------
+path : list of points and arcs
+to_left : float
+    mm; below 0 it runs on the right.
+tolerance : float
+    Points closer than this are one, in mm.
+
+Returns
+-------
+list of outlines
+    In the sense of the path; several where it is cut up, none where nothing is left.
+)";
+
+constexpr const char* kSelfMeetings = R"(Where an outline crosses or touches itself.
+
+Parameters
+----------
+path : list of points and arcs
+tolerance : float
+    What is no further apart than this touches, in mm.
+
+Returns
+-------
+list of (x, y, first, second)
+    Place, and the numbers of both segments, from 0.
+)";
+
+constexpr const char* kFitArcs = R"(Lines and arcs along a polyline.
+
+Parameters
+----------
+points : list of (x, y)
+    mm; a closed polyline repeats its first point at the end.
+within : float
+    mm, above 0: neither strays further from the other.
+
+Returns
+-------
+list of points and arcs
+)";
+
+constexpr const char* kFitBezier = R"(A Bezier curve as arcs that keep its direction where they meet.
+
+Parameters
+----------
+control : list of (x, y)
+    2 to 26 control points in mm.
+within : float
+    mm, above 0: how far the arcs may stray.
+
+Returns
+-------
+list of points and arcs
+)";
+
+constexpr const char* kFitSpline = R"(A B-spline as arcs that keep its direction where they meet.
+
+Parameters
+----------
+control : list of (x, y)
+    mm.
+knots : list of float
+    As many as control points and degree and 1; never falling.
+degree : int
+    1 to 25.
+weights : list of float
+    None, or one from 0.001 to 1000 for each control point.
+within : float
+    mm, above 0: how far the arcs may stray.
+
+Returns
+-------
+list of points and arcs
+)";
+
+constexpr const char* kFlattened = R"(An outline with chords for its arcs.
+
+Parameters
+----------
+path : list of points and arcs
+chord : float
+    mm: how far a chord may stray from its arc. At least 16 chords are made of a full circle, at most 4096.
+
+Returns
+-------
+list of (x, y)
+)";
+
 /// A row of numbers: points and arcs of outlines, circles.
 struct Row {
   double number[4];
@@ -212,28 +395,7 @@ std::vector<Point2> points_of(const py::object& points) {
 }
 
 void bind_region_class(py::module_& m) {
-  py::class_<PyRegion>(m, "Region", R"(A part of the plane bounded by lines and arcs.
-
-Regions do not change; operators and methods make new ones. ``a | b`` is the union, ``a & b`` what both have in
-common, ``a - b`` the first without the second, ``a ^ b`` what exactly one of them has. Arcs stay arcs.
-
-Parameters
-----------
-outlines : sequence of outlines
-    An outline is a list of points ``(x, y)`` in mm, where ``(via_x, via_y, x, y)`` makes an arc from the point
-    before through the via point; its last point is its first. Three numbers ``(x, y, radius)`` are a circle.
-    Outlines may cross themselves and each other.
-fill : {'nonzero', 'even_odd', 'positive'}
-    What is inside: what an outline goes around at all, what outlines go around an odd number of times, or what
-    they go around counter-clockwise more often than clockwise.
-tolerance : float
-    Points closer than this are one, in mm.
-
-Raises
-------
-kerf.Error
-    Where an outline is open or its numbers are not finite. ``diagnostics`` has the element.
-)")
+  py::class_<PyRegion>(m, "Region", kRegion)
       .def(py::init(&region_of), py::arg("outlines") = py::tuple(), py::kw_only(),
            py::arg("fill") = "nonzero", py::arg("tolerance") = kDefaultTolerance)
       .def_property_readonly(
@@ -264,45 +426,9 @@ kerf.Error
             return PyRegion(
                 compute([&](Diagnostics& d) { return offset(r.region, mm(distance), options, d); }).region);
           },
-          py::arg("distance"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance,
-          R"(All points within a distance of the region, or those at least so far inside.
-
-Parameters
-----------
-distance : float
-    mm; above 0 the region grows, with round outer corners, below 0 it shrinks.
-tolerance : float
-    Points closer than this are one, in mm.
-
-Returns
--------
-Region
-)")
-      .def("locate", &place_of, py::arg("point"), py::kw_only(), py::arg("margin") = 0.0,
-           R"(Where a point lies.
-
-Parameters
-----------
-point : (float, float)
-margin : float
-    What is no further than this from the boundary counts as on it, in mm.
-
-Returns
--------
-str
-    ``'inside'``, ``'outside'`` or ``'boundary'``.
-)")
-      .def("nearest", &nearest_to, py::arg("point"),
-           R"(The point of the boundary that is nearest to a point.
-
-Parameters
-----------
-point : (float, float)
-
-Returns
--------
-tuple (x, y, distance), or None for an empty region
-)")
+          py::arg("distance"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance, kOffset)
+      .def("locate", &place_of, py::arg("point"), py::kw_only(), py::arg("margin") = 0.0, kLocate)
+      .def("nearest", &nearest_to, py::arg("point"), kNearest)
       .def(
           "figures",
           [](const PyRegion& r) {
@@ -314,13 +440,7 @@ tuple (x, y, distance), or None for an empty region
             }
             return list;
           },
-          R"(Each connected part by itself.
-
-Returns
--------
-list of lists of outlines
-    The first of each is the outside, the others are its holes.
-)");
+          kFigures);
 }
 
 void bind_paths(py::module_& m) {
@@ -335,24 +455,7 @@ void bind_paths(py::module_& m) {
             compute([&](Diagnostics& d) { return widen(outline, mm(half_width), how, options, d); }));
       },
       py::arg("path"), py::arg("half_width"), py::kw_only(), py::arg("ends") = "round",
-      py::arg("tolerance") = kDefaultTolerance,
-      R"(All points within a distance of a path: what a mill of that radius clears along it.
-
-Parameters
-----------
-path : list of points and arcs
-    As an outline of `Region`; open or closed, and it may cross itself.
-half_width : float
-    mm, above 0.
-ends : {'round', 'butt'}
-    Butt ends stop exactly at the path's ends.
-tolerance : float
-    Points closer than this are one, in mm.
-
-Returns
--------
-Region
-)");
+      py::arg("tolerance") = kDefaultTolerance, kWiden);
   m.def(
       "parallel",
       [](const py::object& path, double to_left, double tolerance) {
@@ -362,21 +465,7 @@ Region
         return list_of(compute([&](Diagnostics& d) { return parallel(outline, mm(to_left), options, d); }));
       },
       py::arg("path"), py::arg("to_left"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance,
-      R"(The curve beside a path that keeps a distance from all of it.
-
-Parameters
-----------
-path : list of points and arcs
-to_left : float
-    mm; below 0 it runs on the right.
-tolerance : float
-    Points closer than this are one, in mm.
-
-Returns
--------
-list of outlines
-    In the sense of the path; several where it is cut up, none where nothing is left.
-)");
+      kParallel);
   m.def(
       "self_meetings",
       [](const py::object& path, double tolerance) {
@@ -388,20 +477,7 @@ list of outlines
           list.append(py::make_tuple(s.at.x, s.at.y, s.first, s.second));
         return list;
       },
-      py::arg("path"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance,
-      R"(Where an outline crosses or touches itself.
-
-Parameters
-----------
-path : list of points and arcs
-tolerance : float
-    What is no further apart than this touches, in mm.
-
-Returns
--------
-list of (x, y, first, second)
-    Place, and the numbers of both segments, from 0.
-)");
+      py::arg("path"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance, kSelfMeetings);
 }
 
 void bind_fits(py::module_& m) {
@@ -412,20 +488,7 @@ void bind_fits(py::module_& m) {
         const FitOptions options{"fit_arcs", script_spot("fit_arcs")};
         return list_of(compute([&](Diagnostics& d) { return fit_arcs(read, mm(within), options, d); }));
       },
-      py::arg("points"), py::arg("within"),
-      R"(Lines and arcs along a polyline.
-
-Parameters
-----------
-points : list of (x, y)
-    mm; a closed polyline repeats its first point at the end.
-within : float
-    mm, above 0: neither strays further from the other.
-
-Returns
--------
-list of points and arcs
-)");
+      py::arg("points"), py::arg("within"), kFitArcs);
   m.def(
       "fit_bezier",
       [](const py::object& control, double within) {
@@ -433,20 +496,7 @@ list of points and arcs
         const FitOptions options{"fit_bezier", script_spot("fit_bezier")};
         return list_of(compute([&](Diagnostics& d) { return fit_bezier(read, mm(within), options, d); }));
       },
-      py::arg("control"), py::arg("within"),
-      R"(A Bezier curve as arcs that keep its direction where they meet.
-
-Parameters
-----------
-control : list of (x, y)
-    2 to 26 control points in mm.
-within : float
-    mm, above 0: how far the arcs may stray.
-
-Returns
--------
-list of points and arcs
-)");
+      py::arg("control"), py::arg("within"), kFitBezier);
   m.def(
       "fit_spline",
       [](const py::object& control, const std::vector<double>& knots, int degree,
@@ -456,44 +506,13 @@ list of points and arcs
         return list_of(compute([&](Diagnostics& d) { return fit_spline(spline, mm(within), options, d); }));
       },
       py::arg("control"), py::arg("knots"), py::kw_only(), py::arg("degree") = 3,
-      py::arg("weights") = std::vector<double>(), py::arg("within") = 0.01,
-      R"(A B-spline as arcs that keep its direction where they meet.
-
-Parameters
-----------
-control : list of (x, y)
-    mm.
-knots : list of float
-    As many as control points and degree and 1; never falling.
-degree : int
-    1 to 25.
-weights : list of float
-    None, or one from 0.001 to 1000 for each control point.
-within : float
-    mm, above 0: how far the arcs may stray.
-
-Returns
--------
-list of points and arcs
-)");
+      py::arg("weights") = std::vector<double>(), py::arg("within") = 0.01, kFitSpline);
   m.def(
       "flattened",
       [](const py::object& path, double chord) {
         return list_of(flattened(outline_of(path, "path"), mm(finite_number(chord, "chord"))));
       },
-      py::arg("path"), py::arg("chord"),
-      R"(An outline with chords for its arcs.
-
-Parameters
-----------
-path : list of points and arcs
-chord : float
-    mm: how far a chord may stray from its arc. At least 16 chords are made of a full circle, at most 4096.
-
-Returns
--------
-list of (x, y)
-)");
+      py::arg("path"), py::arg("chord"), kFlattened);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <vector>
 
 #include "app/command.h"
 #include "app/job.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr const char* kPlainMethod = "programmed feeds and rapid rates, without acceleration";
 constexpr const char* kPlannedMethod = "planned as the machine's controller does";
+constexpr double kNoTime = 0.5;              // seconds that "0:00" stands for
 constexpr std::size_t kMostOperations = 30;  // shown as text; JSON has them all
 
 struct Options {
@@ -168,13 +170,14 @@ void print_tools(Console& console, const Job& job, const Times& times) {
   if (job.report.tools.empty()) return;
   console.print("\nTools\n");
   for (const ToolFigures& t : job.report.tools) {
+    const double seconds = time_of(times, t.tool).total().seconds();
+    if (!t.tool && t.figures.cut_mm == 0.0 && seconds < kNoTime) continue;  // only on the way to the first
     const Tool* tool = t.tool ? job.tools.find(*t.tool) : nullptr;
     std::string line = t.tool ? fmt::format("  T{:<6}", *t.tool) : std::string("  none   ");
     line += fmt::format("{:<28}", tool != nullptr ? short_name(*tool)
                                   : t.tool        ? "unknown shape"
                                                   : "before any change");
-    line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1),
-                        clock_text(time_of(times, t.tool).total().seconds()));
+    line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1), clock_text(seconds));
     if (t.deepest) line += fmt::format(", deepest Z {}", number_text(*t.deepest, 3));
     if (tool != nullptr) line += fmt::format(", flute {} mm", number_text(tool->flute.mm(), 3));
     if (deeper_than_flute(job, t, tool)) line += "  <- deeper than its flute";
@@ -188,7 +191,7 @@ void print_time(Console& console, const Times& times) {
   std::string parts = fmt::format("{} cutting, {} rapid, {} waiting", clock_text(all.cutting().seconds()),
                                   clock_text(all.rapid.seconds()), clock_text(all.dwell.seconds()));
   if (all.stops > 0 && all.halts.seconds() > 0.0)
-    parts += fmt::format(", {} in {} stops", clock_text(all.halts.seconds()), all.stops);
+    parts += fmt::format(", {} at {} full stops", clock_text(all.halts.seconds()), all.stops);
   console.print(fmt::format("Time      about {}: {}\n", clock_text(all.total().seconds()), parts));
   console.print(times.planned()
                     ? fmt::format("          on {}, {} ({} moves, {} full stops)\n", times.machine,
@@ -197,17 +200,20 @@ void print_time(Console& console, const Times& times) {
 }
 
 void print_operations(Console& console, const Times& times) {
-  const auto& operations = times.estimate.operations;
-  if (operations.size() < 2) return;
+  std::vector<const OperationTime*> shown;
+  for (const OperationTime& o : times.estimate.operations)
+    if (o.tool || !o.name.empty() || o.time.total().seconds() >= kNoTime) shown.push_back(&o);
+  if (shown.size() < 2) return;
   console.print("\nOperations\n");
-  for (std::size_t i = 0; i < std::min(operations.size(), kMostOperations); ++i) {
-    const OperationTime& o = operations[i];
-    console.print(fmt::format("  {:<9}{:>9}  {}\n", o.tool ? fmt::format("T{}", *o.tool) : "no tool",
-                              clock_text(o.time.total().seconds()), o.name));
+  for (std::size_t i = 0; i < std::min(shown.size(), kMostOperations); ++i) {
+    const OperationTime& o = *shown[i];
+    std::string line = fmt::format("  {:<9}{:>9}", o.tool ? fmt::format("T{}", *o.tool) : "no tool",
+                                   clock_text(o.time.total().seconds()));
+    if (!o.name.empty()) line += "  " + o.name;
+    console.print(line + "\n");
   }
-  if (operations.size() > kMostOperations)
-    console.print(
-        fmt::format("  ... and {} more (--json lists them)\n", operations.size() - kMostOperations));
+  if (shown.size() > kMostOperations)
+    console.print(fmt::format("  ... and {} more (--json lists them)\n", shown.size() - kMostOperations));
 }
 
 void print_info(Console& console, const Job& job, const Times& times) {

@@ -134,16 +134,21 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
 
 namespace {
 
-/// Where a link leads to, so that the link stays and its target is replaced; any other path as it is.
+/// Where links lead to, also to what does not exist yet, so that a link stays and its target is replaced.
 std::string followed(const std::string& path) {
+  constexpr int kMostLinks = 40;
+  std::filesystem::path at = path;
   std::error_code failed;
-  if (!std::filesystem::is_symlink(path, failed)) return path;
-  const auto target = std::filesystem::weakly_canonical(path, failed);
-  return failed ? path : target.string();
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(at, failed); ++i)
+    at = at.parent_path() / std::filesystem::read_symlink(at, failed);
+  return at.string();
 }
 
-/// Pipes and devices are written to where they are: a file must not take their place.
+/// Pipes and devices are written to where they are: a file must not take their place. So is what the system
+/// shows as files, like /dev/stdout, even where an ordinary file stands behind it.
 bool can_be_replaced(const std::string& path) {
+  for (const std::string_view folder : {"/dev/std", "/dev/fd/", "/proc/"})
+    if (path.compare(0, folder.size(), folder) == 0) return false;
   std::error_code failed;
   return !std::filesystem::is_other(std::filesystem::status(path, failed));
 }

@@ -37,10 +37,7 @@ Arrangement::Outcome Arrangement::build(const EdgeSet& set, double weld, Care ca
   weld_ = weld;
   points_ = set.points;
   hits_.clear();
-  std::vector<Box> boxes;
-  boxes.reserve(set.edges.size());
-  for (const Edge& e : set.edges) boxes.push_back(e.box(0.5 * weld));
-  const BoxTree tree(boxes);
+  const BoxTree tree = tree_of(set.edges, 0.5 * weld);
   if (!find_meetings(tree)) return Outcome::too_many;
   if (care == Care::thorough && !find_near_crossings(tree)) return Outcome::too_many;
   cut_edges();

@@ -73,4 +73,11 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   while (levels_.back().size() > 1) levels_.push_back(grouped(levels_.back(), kGroup));
 }
 
+BoxTree tree_of(const std::vector<Edge>& edges, double margin) {
+  std::vector<Box> boxes;
+  boxes.reserve(edges.size());
+  for (const Edge& e : edges) boxes.push_back(e.box(margin));
+  return BoxTree(boxes);
+}
+
 }  // namespace kerf::region_detail

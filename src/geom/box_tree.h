@@ -78,6 +78,9 @@ class BoxTree {
   std::vector<std::vector<Box>> levels_;  // of groups: 0 the smallest, the last a single one
 };
 
+/// The tree of edges' boxes, each larger by `margin` all round.
+BoxTree tree_of(const std::vector<Edge>& edges, double margin);
+
 inline double distance_to_box(Point2 p, const Box& box) {
   const double x = std::max({box.low_x - p.x, 0.0, p.x - box.high_x});
   const double y = std::max({box.low_y - p.y, 0.0, p.y - box.high_y});

@@ -26,13 +26,6 @@ Point2 nearest_on(const Edge& e, Point2 p) {
   return distance(p, e.a) < distance(p, e.b) ? e.a : e.b;
 }
 
-BoxTree tree_of(const std::vector<Edge>& edges, double margin) {
-  std::vector<Box> boxes;
-  boxes.reserve(edges.size());
-  for (const Edge& e : edges) boxes.push_back(e.box(margin));
-  return BoxTree(boxes);
-}
-
 }  // namespace
 
 struct RegionSearch::Tree {

@@ -12,7 +12,7 @@ namespace {
 
 /// Points computed from coordinates of size 1 are off by some 2^-50; crossings at small angles by more.
 constexpr double kRounding = 0x1p-40;
-constexpr std::size_t kMostEdges = 20'000'000;
+constexpr std::size_t kMostEdges = 12'000'000;  // about five gigabytes of work
 /// Finer than this (of the largest coordinate) no attempt is made.
 constexpr double kFinest = 0x1p-45;
 
@@ -151,8 +151,10 @@ std::optional<Arrangement> arrange(const EdgeSet& set, const RegionOptions& opti
   }
   if (outcome == Arrangement::Outcome::done) return made;
   if (outcome == Arrangement::Outcome::too_many)
-    diagnostics.error(Code::region_too_complex, options.where,
-                      fmt::format("{}: the outlines meet in too many places", named(options)));
+    diagnostics
+        .error(Code::region_too_complex, options.where,
+               fmt::format("{}: the outlines meet in too many places", named(options)))
+        .hint = "outlines of short chords take less when arcs are fitted to them first";
   else
     diagnostics
         .error(

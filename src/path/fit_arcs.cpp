@@ -64,20 +64,20 @@ bool Fitter::holds(const Fit& fit, Point3 from, std::size_t first, std::size_t l
     const Point2 a = begin.xy() - fit.centre, b = end.xy() - fit.centre;
     const double step = sign * std::atan2(cross(a, b), dot(a, b));
     if (!(step > 0.0) || step > kLargestStep) return false;
-    if (std::abs(length(b) - fit.radius) > tolerance) return false;
     if (std::abs(length(0.5 * (a + b)) - fit.radius) > tolerance) return false;
     swept += step;
     begin = end;
   }
   if (swept > kLargestSweep) return false;
-  // A helix rises evenly.
+  // A helix rises evenly; how far a point lies aside and above count together.
   const double rise = path_[last].to().z - from.z;
   double turned = 0.0;
   begin = from;
   for (std::size_t i = first; i <= last; ++i) {
     const Point2 a = begin.xy() - fit.centre, b = path_[i].to().xy() - fit.centre;
     turned += sign * std::atan2(cross(a, b), dot(a, b));
-    if (std::abs(from.z + rise * turned / swept - path_[i].to().z) > tolerance) return false;
+    const double aside = length(b) - fit.radius, above = from.z + rise * turned / swept - path_[i].to().z;
+    if (std::hypot(aside, above) > tolerance) return false;
     begin = path_[i].to();
   }
   return true;

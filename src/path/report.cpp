@@ -16,7 +16,7 @@ ToolFigures& figures_of(PathReport& report, std::optional<int> tool) {
   return report.tools.back();
 }
 
-/// What one motion adds, worked out once for the whole path and for its tool.
+/// What one motion adds.
 struct Motion {
   StepKind kind;
   double length;  // mm
@@ -63,6 +63,25 @@ void add(MotionFigures& figures, const Motion& motion, const ReportOptions& opti
   figures.cutting = figures.cutting + mm(motion.length) / motion.feed;
 }
 
+void add(Range& range, const Range& more) {
+  range.low = std::min(range.low, more.low);
+  range.high = std::max(range.high, more.high);
+}
+
+void add(MotionFigures& all, const MotionFigures& more) {
+  all.lines += more.lines;
+  all.arcs += more.arcs;
+  all.rapids += more.rapids;
+  all.cut_mm += more.cut_mm;
+  all.rapid_mm += more.rapid_mm;
+  if (!more.cut_bounds.empty()) all.cut_bounds.add(more.cut_bounds);
+  add(all.feed, more.feed);
+  add(all.speed, more.speed);
+  all.cutting = all.cutting + more.cutting;
+  all.rapid = all.rapid + more.rapid;
+  all.dwell = all.dwell + more.dwell;
+}
+
 /// Where the tool stands before a step.
 Point3 place_before(const Toolpath& path, std::size_t step) {
   while (step > 0)
@@ -74,29 +93,31 @@ Point3 place_before(const Toolpath& path, std::size_t step) {
 
 PathReport report_on(const Toolpath& path, const ReportOptions& options) {
   PathReport report;
-  std::optional<int> tool;
   const std::size_t end = std::min(options.end, path.size());
   Point3 at = place_before(path, std::min(options.first, end));
-  // Indices, not references: the list of tools grows.
-  const auto for_both = [&](auto&& change) {
-    change(report.all);
-    change(figures_of(report, tool).figures);
-  };
+  std::optional<int> tool;
+  ToolFigures* current = nullptr;  // the tool's entry, looked up when it is first needed
   for (std::size_t i = options.first; i < end; ++i) {
     const Step& s = path[i];
-    if (s.kind() == StepKind::tool_change) tool = s.tool_change().tool;
-    if (s.kind() == StepKind::dwell) for_both([&](MotionFigures& f) { f.dwell = f.dwell + s.dwell().time; });
-    if (s.kind() == StepKind::spindle && s.spindle().turn != SpindleTurn::off)
-      for_both([&](MotionFigures& f) { f.speed.add(s.spindle().speed.rpm()); });
+    if (s.kind() == StepKind::tool_change) {
+      tool = s.tool_change().tool;
+      current = nullptr;
+      continue;
+    }
+    const bool turns = s.kind() == StepKind::spindle && s.spindle().turn != SpindleTurn::off;
+    if (!s.is_motion() && !turns && s.kind() != StepKind::dwell) continue;
+    if (current == nullptr) current = &figures_of(report, tool);
+    MotionFigures& figures = current->figures;
+    if (s.kind() == StepKind::dwell) figures.dwell = figures.dwell + s.dwell().time;
+    if (turns) figures.speed.add(s.spindle().speed.rpm());
     if (!s.is_motion()) continue;
     const Motion motion = measure(s, at);
-    for_both([&](MotionFigures& f) { add(f, motion, options); });
-    if (s.is_cutting()) {
-      std::optional<double>& deepest = figures_of(report, tool).deepest;
-      deepest = std::min(deepest.value_or(motion.box.low.z), motion.box.low.z);
-    }
+    add(figures, motion, options);
+    if (s.is_cutting())
+      current->deepest = std::min(current->deepest.value_or(motion.box.low.z), motion.box.low.z);
     at = s.to();
   }
+  for (const ToolFigures& entry : report.tools) add(report.all, entry.figures);
   return report;
 }
 

@@ -17,6 +17,7 @@ using meshing::WallFiller;
 /// Walls of the faces that stand on the corner row j: between the columns of row j - 1 and of row j.
 void add_walls_along_row(WallFiller& walls, const Columns& columns, CornerRow& row, int j) {
   for (int i = 0; i < columns.nx(); ++i) {
+    if (row.corner(i).simple && row.corner(i + 1).simple) continue;
     const FaceLine left{row, row.corner(i + 1), 0, 2}, right{row, row.corner(i), 1, 3};
     walls.fill({i, j - 1}, {i, j}, left, right);
   }
@@ -27,6 +28,7 @@ void add_walls_along_row(WallFiller& walls, const Columns& columns, CornerRow& r
 void add_walls_across_row(WallFiller& walls, const Columns& columns, CornerRow& below, CornerRow& above,
                           int j) {
   for (int i = 0; i <= columns.nx(); ++i) {
+    if (below.corner(i).simple && above.corner(i).simple) continue;
     const FaceLine left{below, below.corner(i), 2, 3}, right{above, above.corner(i), 0, 1};
     walls.fill({i - 1, j}, {i, j}, left, right);
   }
@@ -36,6 +38,7 @@ void add_walls_across_row(WallFiller& walls, const Columns& columns, CornerRow& 
 void add_inner_caps(Builder& builder, CornerRow& below, CornerRow& above, int j) {
   const Columns& columns = builder.columns;
   for (int i = 0; i < columns.nx(); ++i) {
+    if (below.corner(i).simple) continue;
     for (int e = 1; e + 1 < columns.ends(i, j); ++e) {
       const auto at = [&](CornerRow& row, int corner, int quadrant) {
         const meshing::Corner& c = row.corner(corner);

@@ -31,6 +31,12 @@ void CapSheet::take(CornerRow& row, int j) {
   const Columns& columns = builder_.columns;
   for (int i = 0; i <= columns.nx(); ++i) {
     const Corner& corner = row.corner(i);
+    if (corner.simple) {
+      const int rank = side_ == Side::bottom ? 0 : 1;
+      known(i, j) = row.sheet(corner, rank).vertex;
+      needed_[index(i, j)] = known(i, j) != kNone || !corner.level[static_cast<std::size_t>(rank)] ? 1 : 0;
+      continue;
+    }
     std::array<int, 4> ranks{};
     int empty = 0;
     for (int q = 0; q < 4; ++q) {

@@ -88,6 +88,17 @@ void CornerRow::build(const Columns& columns, int j) {
     if (!build_simple(columns, i, j)) build_any(columns, i, j);
 }
 
+namespace {
+
+/// Whether the ends `end` of the four columns around a corner are of one step.
+bool same_step(const Columns& columns, int i, int j, int end) {
+  const std::uint32_t step = columns.step(i, j, end);
+  return columns.step(i - 1, j, end) == step && columns.step(i, j - 1, end) == step &&
+         columns.step(i - 1, j - 1, end) == step;
+}
+
+}  // namespace
+
 /// The common case: four columns of one interval each, with one surface above and one below.
 bool CornerRow::build_simple(const Columns& columns, int i, int j) {
   if (i == 0 || j == 0 || i == columns.nx() || j == columns.ny() || columns.uneven(i, j)) return false;
@@ -107,6 +118,9 @@ bool CornerRow::build_simple(const Columns& columns, int i, int j) {
   const double limit = kSlopeShare * columns.pitch();
   if (high_max - high_min > limit || low_max - low_min > limit || low_max >= high_min) return false;
   Corner corner;
+  corner.simple = true;
+  corner.level = {low_min == low_max && same_step(columns, i, j, 0),
+                  high_min == high_max && same_step(columns, i, j, 1)};
   corner.first_sheet = static_cast<std::uint32_t>(sheets_.size());
   corner.sheets = 2;
   const double x = columns.corner_x(i), y = columns.corner_y(j);

@@ -82,6 +82,10 @@ struct Corner {
   std::uint32_t sheets = 0;
   std::array<std::uint32_t, 4> first_rank{};
   std::array<int, 4> ends{};
+  /// Four columns of one interval each, with one surface above (rank 1) and one below (rank 0).
+  bool simple = false;
+  /// Of a simple corner, by rank: the surface is level there and of one step.
+  std::array<bool, 2> level{};
 };
 
 /// The corners with one y. Vectors are kept from row to row, so that no memory is asked for in the long run.

@@ -12,7 +12,7 @@
 namespace kerf {
 namespace {
 
-constexpr unsigned kRuns = 12;
+constexpr unsigned kRuns = 40;
 constexpr double kTolerance = 0.01;  // mm, of the passes
 constexpr double kSampling = 5e-4;   // mm that a sampled arc leaves the true one
 

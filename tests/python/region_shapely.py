@@ -2,7 +2,8 @@
 
     PYTHONPATH=build/python build/venv/bin/python tests/python/region_shapely.py [COUNT] [SEED]
 
-Prints the seed, and each region that differs by more than flattening explains, as arguments that make it again.
+Prints the seed, and each region that differs by more than flattening explains, as arguments that make it
+again.
 Exit status 1 if any does.
 """
 import math
@@ -80,8 +81,8 @@ def differences(rng):
 def main():
     count = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
     seed = int(sys.argv[2]) if len(sys.argv) > 2 else random.randrange(10**9)
-    print(f"{count} random regions, seed {seed}, shapely {shapely.__version__}, GEOS {shapely.geos_version_string}",
-          flush=True)
+    print(f"{count} random regions, seed {seed}, shapely {shapely.__version__}, "
+          f"GEOS {shapely.geos_version_string}", flush=True)
     failed = 0
     for i in range(count):
         found = differences(random.Random(seed + i))

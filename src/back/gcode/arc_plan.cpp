@@ -28,6 +28,9 @@ bool radii_close(double a, double b) {
   return off <= kRadiiLimit && (off <= kRadiiApart || off <= kRadiiShare * std::max(a, b));
 }
 
+/// As std::hypot, for counts, whose squares neither overflow nor vanish.
+double far(double u, double v) { return std::sqrt(u * u + v * v); }
+
 /// What a controller makes of an arc's words, in counts and radians.
 struct AsRead {
   double start_radius, end_radius, sweep;
@@ -39,7 +42,7 @@ AsRead read_back(double du, double dv, std::int64_t u, std::int64_t v, bool ccw)
   double sweep = std::atan2(-cu * ev + cv * eu, -cu * eu - cv * ev);
   if (!ccw) sweep = -sweep;
   if (sweep <= 0.0) sweep += kTurn;
-  return {std::hypot(cu, cv), std::hypot(eu, ev), sweep};
+  return {far(cu, cv), far(eu, ev), sweep};
 }
 
 /// Of the four whole centres around (cu, cv), the one whose radii differ least.
@@ -47,11 +50,11 @@ void round_centre(double du, double dv, double cu, double cv, ArcPiece& piece) {
   double best = -1.0;
   for (const double u : {std::floor(cu), std::floor(cu) + 1.0}) {
     for (const double v : {std::floor(cv), std::floor(cv) + 1.0}) {
-      const double off = std::abs(std::hypot(u, v) - std::hypot(du - u, dv - v));
+      const double off = std::abs(far(u, v) - far(du - u, dv - v));
       // Among centres as good as each other, the nearest one.
-      const double far = off + 0.25 * std::hypot(u - cu, v - cv);
-      if (best >= 0.0 && far >= best) continue;
-      best = far;
+      const double badness = off + 0.25 * far(u - cu, v - cv);
+      if (best >= 0.0 && badness >= best) continue;
+      best = badness;
       piece.u = static_cast<std::int64_t>(u);
       piece.v = static_cast<std::int64_t>(v);
     }

@@ -34,6 +34,8 @@ Poster::Poster(const Toolpath& path, const PostProfile& profile, const PostOptio
 }
 
 std::vector<PostedFile> Poster::run(Progress* progress) {
+  if (unit_ == LengthUnit::inch && !profile_.has_g(200))
+    diagnostics_.error(Code::post_cannot, {}, "the controller has no inches (G20)");
   open_file(0);
   out_.reserve(out_.size() + kBytesPerStep * path_.size());
   for (std::size_t i = 0; i < path_.size(); ++i) {
@@ -194,6 +196,7 @@ void Poster::put_power() {
 void Poster::arrive(std::size_t i, const Counts& to) {
   at_ = to;
   told_ = kAllAxes & ~path_[i].unknown_axes();
+  touched_ = false;
 }
 
 void Poster::straight(int g, std::size_t i) { straight_to(g, i, grid_.counts(path_[i].to())); }
@@ -227,6 +230,9 @@ void Poster::arc(std::size_t i) {
   const Counts to = grid_.counts(arc.to);
   const PlaneAxes axes = axes_of(arc.plane);
   const unsigned in_plane = (1u << axes.u) | (1u << axes.v);
+  if ((unknown_from_ & in_plane) != 0)
+    diagnostics_.error(Code::post_place_unknown, path_.origin_of(i),
+                       "an arc begins where nobody has told in work coordinates that the tool stands");
   const ArcWalk walk = walk_arc(from_, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
   unsigned first_axes = axes_to_write(i, to);
   plan_arc(walk, at_, to, grid_, profile_, plan_);
@@ -271,15 +277,16 @@ void Poster::probe(std::size_t i) {
   if (!profile_.has_g(tenths))
     return cannot(i, fmt::format("the controller has no probing move G{}.{}", tenths / 10, tenths % 10));
   const Counts to = grid_.counts(probe.to);
-  unsigned axes = axes_to_write(i, to);
-  if (axes == 0) axes = 1u << 2;  // a probe without a way is the controller's to refuse
+  if (to == at_ && !touched_) return cannot(i, "a probing move that goes nowhere is refused by controllers");
+  const unsigned axes = axes_to_write(i, to);
   begin();
   code('G', tenths);
-  put_axes(to, axes);
+  put_axes(to, axes == 0 ? 1u << 2 : axes);
   put_feed(i);
   end(i);
   at_ = to;
   told_ = 0;  // contact ends the move wherever it happens
+  touched_ = true;
   motion_ = -1;
 }
 
@@ -311,8 +318,10 @@ void Poster::to_reference(int g, std::size_t i) {
   const bool machine = s.reference() == Reference::machine;
   const int tenths = machine ? 530 : s.reference() == Reference::home ? 280 : 300;
   if (!profile_.has_g(tenths) || profile_.syntax == LineSyntax::commands) {
-    left_out(i, fmt::format("the controller has no G{}; this move to a place of the machine", tenths / 10));
-  } else if (machine) {
+    return left_out(
+        i, fmt::format("the controller has no G{}; this move to a place of the machine", tenths / 10));
+  }
+  if (machine) {
     begin();
     code('G', tenths);
     code('G', g * 10);

@@ -11,6 +11,7 @@
 #include "back/gcode/line.h"
 
 #include "kerf/post.h"
+#include "kerf/report.h"
 
 namespace kerf::gcode {
 
@@ -73,8 +74,9 @@ class Poster {
   std::string expanded(std::string_view line);
   std::optional<std::string> value_of(std::string_view key);
   std::string sanitised(std::string_view text) const;
-  std::string bounds_text() const;
-  std::string time_text() const;
+  const MotionFigures& figures();
+  std::string bounds_text();
+  std::string time_text();
   std::string tools_text() const;
   void raw_line(std::string_view text);
   void forget();
@@ -104,6 +106,7 @@ class Poster {
   std::string out_;
   std::size_t lines_ = 0;
   std::size_t file_begin_ = 0, file_end_ = 0;  // the steps of the file being written
+  std::optional<MotionFigures> figures_;       // of those steps
   std::optional<int> file_tool_;               // in the spindle at the file's first motion
   int line_number_ = 0;
   LineBuffer line_;
@@ -118,7 +121,8 @@ class Poster {
 
   // What the controller knows.
   Counts at_{};
-  unsigned told_ = 0;  // axes whose at_ the controller has been told in work coordinates
+  bool touched_ = false;  // a probe may have ended before at_
+  unsigned told_ = 0;     // axes whose at_ the controller has been told in work coordinates
   std::array<std::int64_t, 3> rotary_{};
   unsigned told_rotary_ = 0;
   int motion_ = -1;

@@ -46,6 +46,7 @@ void Poster::find_file_end() {
 void Poster::open_file(std::size_t begin) {
   file_begin_ = begin;
   find_file_end();
+  figures_.reset();
   out_.clear();
   lines_ = 0;
   line_number_ = 0;
@@ -179,8 +180,14 @@ std::optional<std::string> Poster::value_of(std::string_view key) {
   return std::nullopt;
 }
 
-std::string Poster::bounds_text() const {
-  const Box3 box = report_on(path_, {.first = file_begin_, .end = file_end_}).all.cut_bounds;
+/// What the file does, worked out when a template first asks for it.
+const MotionFigures& Poster::figures() {
+  if (!figures_) figures_ = report_on(path_, {.first = file_begin_, .end = file_end_}).all;
+  return *figures_;
+}
+
+std::string Poster::bounds_text() {
+  const Box3& box = figures().cut_bounds;
   if (box.empty()) return {};
   const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : 25.4;
   std::string text = "cuts within";
@@ -190,8 +197,8 @@ std::string Poster::bounds_text() const {
   return text + (unit_ == LengthUnit::mm ? " mm" : " inch");
 }
 
-std::string Poster::time_text() const {
-  const MotionFigures all = report_on(path_, {.first = file_begin_, .end = file_end_}).all;
+std::string Poster::time_text() {
+  const MotionFigures& all = figures();
   const double seconds = (all.cutting + all.rapid + all.dwell).seconds();
   if (!(seconds > 0.0 && seconds < 1e9)) return {};
   const auto whole = static_cast<long long>(std::llround(seconds));

@@ -140,6 +140,22 @@ void BlockReader::seek(std::size_t position, std::uint32_t lines) {
   next_line_feed_ = next_return_ = 0;
 }
 
+/// To the begin of the line after the one that ends at `end`.
+void BlockReader::go_behind(std::size_t end) {
+  position_ = end;
+  if (position_ < text_.size()) position_ += text_.substr(position_, 2) == "\r\n" ? 2 : 1;
+}
+
+std::string_view BlockReader::peek() {
+  if (position_ >= text_.size()) return {};
+  return text_.substr(position_, line_end() - position_);
+}
+
+void BlockReader::skip() {
+  go_behind(line_end());
+  ++line_;
+}
+
 bool BlockReader::next(Block& block) {
   if (position_ >= text_.size()) return false;
   const std::size_t end = line_end();
@@ -155,8 +171,7 @@ bool BlockReader::next(Block& block) {
   unbalanced_ = false;
   line_start_ = p_ = text_.data() + position_;
   end_ = text_.data() + end;
-  position_ = end;
-  if (position_ < text_.size()) position_ += text_.substr(position_, 2) == "\r\n" ? 2 : 1;
+  go_behind(end);
   if (block.text.size() > options_.max_line_bytes) {
     fault(block, Code::line_too_long, line_start_,
           fmt::format("the line is longer than {} bytes", options_.max_line_bytes), "is this a G-code file?");

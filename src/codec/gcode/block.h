@@ -76,6 +76,10 @@ class BlockReader {
 
   /// Reads the next line into `block`; false at the end of the text.
   bool next(Block& block);
+  /// The next line's text, which next() would read; empty at the text's end and for an empty line.
+  std::string_view peek();
+  /// Leaves out the line that peek() gave.
+  void skip();
   /// Bytes of the text already read: where the next line begins.
   std::size_t position() const { return position_; }
   /// Reads on from a place where a line begins, which was position() when `lines` lines had been read.
@@ -85,6 +89,7 @@ class BlockReader {
 
  private:
   std::size_t line_end();
+  void go_behind(std::size_t end);
   void find_line_end();
   void read_line(Block& block);
   bool read_prefix(Block& block);

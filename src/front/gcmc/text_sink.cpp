@@ -2,6 +2,7 @@
 #include "front/gcmc/text_sink.h"
 
 #include <algorithm>
+#include <bit>
 #include <fmt/format.h>
 
 #include "kerf/number.h"
@@ -117,15 +118,14 @@ void TextSink::begin_motion(std::string_view motion, bool modal) {
 }
 
 void TextSink::axes(const Axes& to, unsigned named) {
-  const std::size_t count = options_.uvw ? 9 : 6;
-  for (std::size_t i = 0; i < count; ++i) {
-    const unsigned bit = 1u << i;
-    if (!(named & bit)) continue;
-    const bool repeats =
-        options_.brief && (options_.relative ? to[i] == last_[i] : (known_ & bit) && to[i] == last_[i]);
-    if (!repeats) word(kLetters[i], options_.relative ? to[i] - last_[i] : to[i]);
-    known_ |= bit;
+  const unsigned written = named & ((1u << (options_.uvw ? 9 : 6)) - 1u);
+  for (unsigned left = written; left != 0; left &= left - 1) {
+    const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    const bool known = options_.relative || (known_ & 1u << i) != 0;
+    if (options_.brief && known && to[i] == last_[i]) continue;
+    word(kLetters[i], options_.relative ? to[i] - last_[i] : to[i]);
   }
+  known_ |= written;
 }
 
 void TextSink::move(const Move& m) {

@@ -19,15 +19,6 @@
 
 namespace kerf::gcmc {
 
-/// A call in progress. Without initial values, so that a stack of them costs nothing before it is used.
-struct Frame {
-  const Instruction* after;     // where the caller goes on
-  Value* base;                  // of the caller
-  const struct Callee* callee;  // running
-  std::uint16_t x;              // the caller's slot for the value
-  bool value_used;
-};
-
 /// What a call needs to know of a function, in one place.
 struct Callee {
   const Instruction* entry = nullptr;
@@ -37,10 +28,13 @@ struct Callee {
   bool defined = false;      // its definition was executed
 };
 
-/// Where the program is: for messages and origins.
-struct Spot {
-  std::size_t instruction = 0;
-  std::size_t calls = 0;  // depth
+/// A call in progress. Without initial values, so that a stack of them costs nothing before it is used.
+struct Frame {
+  const Instruction* after;  // where the caller goes on
+  Value* base;               // of the caller
+  const Callee* callee;      // running
+  std::uint16_t x;           // the caller's slot for the value
+  bool value_used;
 };
 
 class Vm final : public Runtime {

@@ -116,7 +116,8 @@ std::optional<Point2> meeting(const Piece& before, Point2 direction, const Piece
 }
 
 bool runs_forward(const Piece& piece, Point2 direction, Point2 end) {
-  if (!piece.centre) return dot(direction, end - piece.from) >= -kTangent;
+  if (!piece.centre)
+    return dot(direction, end - piece.from) >= -kTangent && dot(direction, end - piece.to) <= kTangent;
   return sweep(piece, end) <= sweep(piece, piece.to) + kTangent / piece.radius();
 }
 

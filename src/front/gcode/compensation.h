@@ -43,10 +43,10 @@ Corner corner_between(Point2 before, Point2 after, Side side);
 /// itself.
 Corner corner_of_cusp(const Piece& before, const Piece& after, Side side);
 /// Where the tool goes from one piece of its axis to the next at an inside corner: the place nearest to the
-/// corner where they cross and to which `before` runs forward (a line as the program's `direction`, an arc no
-/// farther than it did). Nothing if the tool does not fit.
+/// corner where they cross and to which `before` runs forward. Nothing if the tool does not fit.
 std::optional<Point2> meeting(const Piece& before, Point2 direction, const Piece& after, Point2 corner);
-/// Whether a piece of the axis runs forward when it ends at `end`.
+/// Whether a piece of the axis runs forward when it ends at `end`, no farther than it did; a line as the
+/// program's `direction`.
 bool runs_forward(const Piece& piece, Point2 direction, Point2 end);
 
 /// The arc by which the tool comes from `from` onto the offset of the arc `entry`, tangent at its end.

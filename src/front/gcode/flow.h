@@ -65,6 +65,8 @@ class Flow {
 
   /// The next line to carry out; false at the end, after an endless loop (said) too.
   bool next(Block& block);
+  /// The text's reader while lines simply follow each other: no loop or call was met yet. Else null.
+  BlockReader* straight_reader() { return jumped_ ? nullptr : sources_.front()->reader.get(); }
   /// Carries out the O-word of the line that next() gave last.
   void control(const Block& block);
   /// M98: calls a program by its number, `repeats` times.

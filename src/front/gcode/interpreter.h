@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -43,6 +44,12 @@ struct Place {
   Reference reference = Reference::work;  // what the axes of reference_axes were told in on this line
   unsigned reference_axes = 0;
 };
+
+inline constexpr double kFarthest = 1e7;  // mm; 10 km
+/// Whether a place is one that a program may mean.
+inline bool is_near(Point3 p) {
+  return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
+}
 
 /// What a controller remembers from line to line.
 struct Modes {
@@ -119,6 +126,10 @@ class Interpreter : public SystemValues {
 
   /// Carries out one line.
   void run(const Block& block);
+  /// The short way for the lines that long programs are made of: reads on while the lines hold nothing but G0
+  /// or G1, axis words and F, at most `limit` of them, and gives their number. What is not surely such a line
+  /// is left to run(), which does the same with it.
+  std::size_t run_plain_lines(BlockReader& reader, std::size_t limit);
   /// To be called after the last line.
   void finish();
   /// True once nothing more is to be read: the program has ended, or the limit of steps is reached.
@@ -132,6 +143,10 @@ class Interpreter : public SystemValues {
 
   void look_where_we_are();
   bool printer_line();
+
+  // plain.cpp
+  bool takes_plain_lines() const;
+  bool run_plain_line(std::string_view text, std::uint32_t number);
 
   // comments.cpp
   void read_comment(const Comment& comment);

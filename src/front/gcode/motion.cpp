@@ -8,7 +8,6 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kFarthest = 1e7;  // mm; 10 km
 constexpr double kSlowestInverse =
     0.1;  // mm/min; what LinuxCNC takes for a move of no length in inverse time
 constexpr double kDegree = std::numbers::pi / 180.0;
@@ -172,7 +171,7 @@ std::optional<Place> Interpreter::machine_target() {
 }
 
 bool Interpreter::reachable(Point3 p) {
-  if (std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest) return true;
+  if (is_near(p)) return true;
   talker_.error(
       Code::position_too_far, line_.column(),
       fmt::format("a position lies farther than {:g} mm from zero; the move is left out", kFarthest));

@@ -37,10 +37,14 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
   gcode::Flow flow(text, options, talker, interpreter.parameters(), program.dialect, diagnostics);
   interpreter.follow(flow);
   gcode::Block block;
-  std::size_t lines = 0;
-  while (!interpreter.done() && flow.next(block)) {
+  std::size_t lines = 0, next_report = kLinesPerReport;
+  while (!interpreter.done()) {
+    if (gcode::BlockReader* reader = flow.straight_reader())
+      lines += interpreter.run_plain_lines(*reader, kLinesPerReport);
+    if (!flow.next(block)) break;
     interpreter.run(block);
-    if (++lines % kLinesPerReport != 0) continue;
+    if (++lines < next_report) continue;
+    next_report = lines + kLinesPerReport;
     report(progress,
            std::min(1.0, static_cast<double>(flow.position()) / static_cast<double>(text.size() + 1)));
     if (stop_requested(progress)) return {};

@@ -222,11 +222,26 @@ TEST(Post, machine_places_stay_machine_places) {
             "G0 X0 Y0 Z5\nG53 G0 Z-3\nG91 G28 X0 Y0 Z0\nG90\nG0 X0 Y0 Z0\n");
 }
 
+TEST(Post, an_arc_needs_a_known_begin) {
+  Toolpath path = at_origin();
+  const step::Arc arc{.to = {10, 0, 5}, .centre = {5, 0}, .feed = kFeed};
+  path.add(arc, OriginId::none);
+  EXPECT_FALSE(posted(path, bare("grbl")).diagnostics.has_errors());
+  const std::size_t home = path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  path.set_unknown_axes(home, 7);
+  path.set_reference(home, Reference::home, 7);
+  path.add(arc, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_place_unknown));
+}
+
 TEST(Post, after_a_probe_every_axis_is_told) {
   Toolpath path = at_origin();
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
   path.add(step::Rapid{{0, 0, -5}}, OriginId::none);
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG38.3 Z-5 F600\nG0 X0 Y0 Z-5\n");
+  path.add(step::Note{"after which all axes are told again"}, OriginId::none);
+  path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_cannot));  // goes nowhere
 }
 
 TEST(Post, comments_hold_nothing_that_acts) {

@@ -162,6 +162,73 @@ TEST(ReadGcode, TheEndStopsOrNot) {
   EXPECT_EQ(on.diagnostics.list()[0].code, Code::lone_percent);
 }
 
+TEST(ReadGcode, PlainLinesAreReadAsAllOthers) {
+  const std::vector<std::string> lines = {"G21 G90 F100",
+                                          "G0 X1 Y2",
+                                          "N10 G1 X3.5 Z-1",
+                                          "X4",
+                                          "Y-5 F250",
+                                          "G0 Z5",
+                                          "G1X1Y1",
+                                          "G01 X2",
+                                          "F300 X3",
+                                          "G20 X1",
+                                          "G54 X2",
+                                          "G1 X3",
+                                          "G92 X0",
+                                          "G1 X5",
+                                          "X6 X7",
+                                          "G91 X1",
+                                          "X1",
+                                          "G90 X1",
+                                          "G3 X2 I1",
+                                          "X3 I.5",
+                                          "G1 X1",
+                                          "N1 N2 X4",
+                                          "X99999999999",
+                                          "X5",
+                                          "F-1 X6",
+                                          "G1 F0 X7",
+                                          "F5 X8",
+                                          "G18 X1",
+                                          "G68 R10",
+                                          "X5",
+                                          "G69",
+                                          "X6",
+                                          "M3 S5",
+                                          "X7 S6",
+                                          "A5 X1",
+                                          "X2",
+                                          "G80",
+                                          "X3",
+                                          "G1",
+                                          "G0 Z1 F",
+                                          "X9",
+                                          "G41.1 D2",
+                                          "X20",
+                                          "X30",
+                                          "G40",
+                                          "Y9",
+                                          "M2",
+                                          "X1",
+                                          "X2"};
+  std::string plain, remarked;  // a remark sends a line the long way
+  for (const std::string& line : lines) {
+    plain += line + "\n";
+    remarked += line + " (remark)\n";
+  }
+  const Reading fast = read(plain), slow = read(remarked);
+  EXPECT_EQ(fast.diagnostics.list().size(), slow.diagnostics.list().size());
+  ASSERT_EQ(kinds(fast.program.path), kinds(slow.program.path));
+  for (std::size_t i = 0; i < fast.size(); ++i) {
+    EXPECT_EQ(fast[i].to(), slow[i].to()) << i;
+    EXPECT_EQ(fast[i].feed().mm_per_min(), slow[i].feed().mm_per_min()) << i;
+    EXPECT_EQ(fast[i].unknown_axes(), slow[i].unknown_axes()) << i;
+    EXPECT_EQ(fast[i].rests_before(), slow[i].rests_before()) << i;
+    EXPECT_EQ(fast.program.path.origin_of(i), slow.program.path.origin_of(i)) << i;
+  }
+}
+
 TEST(ReadGcode, SeveralProgramsOfAFileAreRead) {
   const Reading r =
       read("%\nO1\nG0 X1\nM98 P3\nM30\nO2 (again)\nG0 X2\nM2\nO3\nG0 X3 (M30)\nM99\nG0 X4\nM30\n%");
