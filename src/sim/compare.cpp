@@ -58,6 +58,7 @@ class Comparer {
 
  private:
   void look_at_column(int i, int j, std::span<const Run> target);
+  double distance_to(Point3 p);
   void weigh(const Difference& difference, Point2 at, double area, std::size_t number);
   void gather_regions(DifferenceKind kind);
   DifferenceRegion flood(DifferenceKind kind, std::size_t from, std::vector<bool>& seen);
@@ -70,10 +71,21 @@ class Comparer {
   int nx_, ny_;
   ColumnPlaces places_;
   double floor_ = 0.0, reach_ = 0.0;
+  Point3 last_place_;
+  double last_distance_ = std::numeric_limits<double>::infinity();
   Comparison out_;
   std::vector<Cell> gouges_, rests_;
   std::vector<Difference> found_;
 };
+
+/// The place asked for before is near, and no distance changes faster than the place: that limits the search.
+double Comparer::distance_to(Point3 p) {
+  constexpr double kSlack = 1e-6;  // mm, for rounding
+  const double limit = last_distance_ + distance(p, last_place_) + kSlack;
+  last_distance_ = distance_.at(p, std::min(limit, reach_));
+  last_place_ = p;
+  return last_distance_;
+}
 
 void Comparer::weigh(const Difference& d, Point2 at, double area, std::size_t number) {
   const double length = static_cast<double>(d.high) - static_cast<double>(d.low), volume = length * area;
@@ -83,7 +95,7 @@ void Comparer::weigh(const Difference& d, Point2 at, double area, std::size_t nu
   float deepest = 0.0f, place = 0.0f;
   for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
     const double z = static_cast<double>(d.low) + share * length;
-    const auto depth = static_cast<float>(distance_.at({at.x, at.y, floor_ + z}, reach_));
+    const auto depth = static_cast<float>(distance_to({at.x, at.y, floor_ + z}));
     if (depth <= deepest) continue;
     deepest = depth;
     place = static_cast<float>(z);
