@@ -154,6 +154,22 @@ void Roughing(benchmark::State& state) {
   run(state, path);
 }
 
+/// The closed mesh of the relief, merged within 5 microns, with its columns made before.
+void ReliefMesh(benchmark::State& state) {
+  SimulationOptions options;
+  options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+  const Toolpath path = relief(1000, 1000);
+  Diagnostics diagnostics;
+  const auto result = simulate(path, table(), block(), options, diagnostics);
+  if (!result) return state.SkipWithError("not simulated");
+  const std::vector<std::uint8_t> one_group(path.size(), 0);
+  const MeshOptions merged{.tolerance = mm(0.005), .step_groups = one_group};
+  std::size_t triangles = 0;
+  for (auto _ : state) triangles = extract_mesh(result->workpiece.grid(), merged).step.size();
+  state.counters["triangles"] = static_cast<double>(triangles);
+  state.counters["prototype_top_only_s"] = 0.1;
+}
+
 // Resolution in microns, threads.
 BENCHMARK(Relief1M)
     ->Args({100, 1})
@@ -172,6 +188,7 @@ BENCHMARK(Keyhole100k)
 BENCHMARK(Random100k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
     benchmark::kMillisecond);
+BENCHMARK(ReliefMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kerf

@@ -139,11 +139,22 @@ struct Mesh {
   std::vector<std::uint32_t> step;       // one a triangle; kStockSurface where none
 };
 
+struct MeshOptions {
+  /// How far, in height, the upper and the lower surface may lie from where they run without merging. 0: only
+  /// what is level and of one step is merged.
+  Length tolerance;
+  /// One a step of the toolpath: what steps of one group have made may become one triangle, which then has
+  /// the step of one of them. Steps that it does not reach, and with a tolerance all steps where it is empty,
+  /// are groups of their own.
+  std::span<const std::uint8_t> step_groups = {};
+};
+
 /// The surface of the columns: closed, oriented, every edge shared by exactly two triangles. Surfaces run
 /// through the columns' heights, walls stand between columns whose surfaces do not continue each other, the
 /// block's own sides and bottom are exact. See docs/decisions/0006-mesh.md. A stopped run returns an empty
 /// mesh.
 Mesh extract_mesh(const ColumnGrid& columns, Progress* progress = nullptr);
+Mesh extract_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress = nullptr);
 
 /// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
 /// opposite directions (0 for a sound mesh).

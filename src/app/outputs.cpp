@@ -67,6 +67,10 @@ void test_folder(const std::string& path, Diagnostics& diagnostics) {
   }
 }
 
+/// How far a written surface may lie from the one of all columns; no more than that one lies from the cut
+/// itself.
+const Length kMeshTolerance = mm(0.002);
+
 /// The colours of a part's surface: of each triangle, and what they stand for.
 struct Colouring {
   std::vector<std::uint8_t> of_triangle;
@@ -230,7 +234,10 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   }
   if (surfaces.empty()) return true;
   progress.phase("making the surface");
-  const Mesh mesh = extract_mesh(simulation.workpiece.grid(), &progress);
+  std::vector<std::string> names;
+  const auto step_colours = colours_of_steps(job.program.path, simulation.hazards, names);
+  const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
+  const Mesh mesh = extract_mesh(simulation.workpiece.grid(), options, &progress);
   if (progress.stop_requested()) return false;
   return write_surface(surfaces, job, mesh, simulation.hazards, view, set, diagnostics, progress);
 }

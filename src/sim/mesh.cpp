@@ -80,11 +80,13 @@ bool sweep_rows(Builder& builder, CapSheet& top, CapSheet& bottom, Progress* pro
 
 }  // namespace
 
-Mesh extract_mesh(const ColumnGrid& grid, Progress* progress) {
+Mesh extract_mesh(const ColumnGrid& grid, Progress* progress) { return extract_mesh(grid, {}, progress); }
+
+Mesh extract_mesh(const ColumnGrid& grid, const MeshOptions& options, Progress* progress) {
   if (progress != nullptr) progress->phase("meshing");
   if (grid.nx <= 0 || grid.ny <= 0 || grid.intervals.empty()) return {};
   const Columns columns(grid);
-  Builder builder{columns, {}, {}};
+  Builder builder{columns, options, {}, {}};
   CapSheet top(builder, CapSheet::Side::top), bottom(builder, CapSheet::Side::bottom);
   if (!sweep_rows(builder, top, bottom, progress)) return {};
   if (!top.emit(progress)) return {};

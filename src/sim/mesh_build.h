@@ -14,6 +14,7 @@ namespace kerf::meshing {
 /// `split_shared_edges`.
 struct Builder {
   const Columns& columns;
+  const MeshOptions& options;
   Mesh mesh;
   std::vector<std::uint32_t> suspects;
 
@@ -82,7 +83,14 @@ class CapSheet {
     return known_[static_cast<std::size_t>(y) * static_cast<std::size_t>(builder_.columns.nx() + 1) +
                   static_cast<std::size_t>(x)];
   }
+  void take_whole(Sheet& sheet, int i, int j);
   bool level(int i, int j) const;
+  bool of_one_group(int i, int j) const;
+  bool same_group(std::uint32_t a, std::uint32_t b) const;
+  bool simplifies() const { return !height_.empty(); }
+  template <class Work>
+  void for_each_middle(const Work& work);
+  void find_errors();
   void propagate();
   void cover(Node a, Node b, Node apex);
   void leaf(Node a, Node b, Node apex);
@@ -91,6 +99,7 @@ class CapSheet {
   Builder& builder_;
   Side side_;
   int stride_ = 0, rows_ = 0;
+  std::vector<float> height_;  // of the corners, for a tolerance above 0; kUnknown where it does not matter
   std::vector<std::uint8_t> needed_;  // corners that must be vertices, padded to whole squares
   std::vector<std::uint32_t> known_;  // vertex of each corner, or kNone, or kMany + number in parts_
   std::vector<std::array<std::uint32_t, 4>> parts_;  // vertices by quadrant where the cap is torn

@@ -2,9 +2,9 @@
 
     python tests/property/manifold_agreement.py KERF [COUNT] [SEED]
 
-Needs the package manifold3d. The booleans know tools as polygons; each job is computed with two numbers of corners, and
-what the error, which goes with the square of the corners' angle, leads to is taken off. Exit status 1 if a job differs by
-more than 2e-4 of its removed volume, 77 if manifold3d is not installed.
+Needs the package manifold3d. The booleans know tools as polygons; each job is computed with two numbers of
+corners, and the error, which goes with the square of the corners' angle, is taken off. Exit status 1 if a job
+differs by more than 2e-4 of its removed volume, 77 if manifold3d is not installed.
 """
 import json
 import math
@@ -25,7 +25,7 @@ RESOLUTION = 0.02  # mm
 TOLERANCE = 2e-4  # of the removed volume
 BLOCK = (14.0, 11.0, 6.0)
 
-# Convex pieces as half profiles [(r, z), ...] from the tip upwards; None stands for a quarter circle of radius r.
+# Convex pieces as half profiles [(r, z), ...] from the tip upwards, or a ball of a radius up to a height.
 TOOLS = {
     "square d=3 flute=20": [[(1.5, 0), (1.5, 20)]],
     "ball d=3 flute=20": [["ball", 1.5, 20]],

@@ -354,5 +354,96 @@ TEST(Mesh, NoTriangleIsWithoutArea) {
   }
 }
 
+/// Largest distance in height between the upper surface of `mesh` and `height(x, y)` at the corners of the
+/// columns, of which it sets `seen` to the number.
+template <class Height>
+double worst_height(const Mesh& mesh, double pitch, const Height& height, std::size_t& seen) {
+  double worst = 0.0;
+  seen = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
+    Point3 p[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* v = mesh.positions.data() + std::size_t{3} * mesh.triangles[t + k];
+      p[k] = {v[0], v[1], v[2]};
+    }
+    const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
+    if (!(area > 1e-9)) continue;  // a wall, or seen from below
+    const auto first = [&](double a, double b, double c) {
+      return std::ceil(std::min({a, b, c}) / pitch - 1e-6);
+    };
+    const auto last = [&](double a, double b, double c) {
+      return std::floor(std::max({a, b, c}) / pitch + 1e-6);
+    };
+    for (double j = first(p[0].y, p[1].y, p[2].y); j <= last(p[0].y, p[1].y, p[2].y); ++j) {
+      for (double i = first(p[0].x, p[1].x, p[2].x); i <= last(p[0].x, p[1].x, p[2].x); ++i) {
+        const double x = i * pitch, y = j * pitch;
+        const double u = ((x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (y - p[0].y)) / area;
+        const double v = ((p[1].x - p[0].x) * (y - p[0].y) - (x - p[0].x) * (p[1].y - p[0].y)) / area;
+        if (u < -1e-6 || v < -1e-6 || u + v > 1 + 1e-6) continue;
+        ++seen;
+        const double z = p[0].z + u * (p[1].z - p[0].z) + v * (p[2].z - p[0].z);
+        worst = std::max(worst, std::abs(z - height(i, j)));
+      }
+    }
+  }
+  return worst;
+}
+
+TEST(Mesh, MergesWithinATolerance) {
+  constexpr double kPitch = 0.1;
+  constexpr int kX = 150, kY = 130;
+  const auto surface = [](double x, double y) {
+    return 4 + std::sin(0.9 * x) * std::cos(0.7 * y) + 0.003 * x;
+  };
+  const ColumnGrid grid = make_grid(kX, kY, kPitch, 6, [&](double x, double y) {
+    return Column{{0, static_cast<float>(surface(x, y))}};
+  });
+  std::map<std::pair<int, int>, double> corner;  // of the mesh that merges nothing
+  const Mesh full = extract_mesh(grid);
+  for (std::size_t k = 0; k < full.positions.size(); k += 3) {
+    const auto i = static_cast<int>(std::lround(full.positions[k] / kPitch));
+    const auto j = static_cast<int>(std::lround(full.positions[k + 1] / kPitch));
+    const double z = full.positions[k + 2];
+    const auto [it, is_new] = corner.try_emplace({i, j}, z);
+    if (!is_new) it->second = std::max(it->second, z);
+  }
+  std::size_t before = full.step.size();
+  for (const double tolerance : {0.001, 0.005, 0.05}) {
+    const Mesh mesh = extract_mesh(grid, {.tolerance = mm(tolerance)});
+    expect_sound(grid, mesh);
+    std::size_t seen = 0;
+    const auto height = [&](double i, double j) {
+      return corner.at({static_cast<int>(i), static_cast<int>(j)});
+    };
+    EXPECT_LE(worst_height(mesh, kPitch, height, seen), tolerance + 1e-6);
+    EXPECT_GE(seen, static_cast<std::size_t>(kX * kY));
+    EXPECT_LT(mesh.step.size(), before);
+    before = mesh.step.size();
+  }
+  EXPECT_LT(before, full.step.size() / 5);
+}
+
+TEST(Mesh, MergesOnlyStepsOfOneGroup) {
+  // Two level halves, cut by steps 0 and 1 in turn on the left and by 2 on the right.
+  ColumnGrid grid = make_grid(64, 64, 0.1, 5, [](double, double) { return Column{{0, 3}}; });
+  for (std::size_t n = 0; n < grid.intervals.size(); ++n)
+    grid.intervals[n].high_step = n % 64 < 32 ? static_cast<std::uint32_t>(n / 64 % 2) : 2;
+  const std::vector<std::uint8_t> groups = {7, 7, 9};
+  const Mesh mesh = extract_mesh(grid, {.tolerance = mm(0.001), .step_groups = groups});
+  expect_sound(grid, mesh);
+  EXPECT_LT(mesh.step.size(), extract_mesh(grid, {.tolerance = mm(0.001)}).step.size());
+  int tops = 0;
+  for (std::size_t t = 0; t < mesh.step.size(); ++t) {
+    if (mesh.step[t] == kStockSurface) continue;
+    double x = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) x += mesh.positions[std::size_t{3} * mesh.triangles[3 * t + k]] / 3.0;
+    const float* z = mesh.positions.data() + std::size_t{3} * mesh.triangles[3 * t];
+    if (z[2] < grid.bounds.low.z + 2.9) continue;  // below
+    EXPECT_EQ(mesh.step[t] == 2, x > grid.bounds.low.x + 3.2) << x;
+    ++tops;
+  }
+  EXPECT_GT(tops, 0);
+}
+
 }  // namespace
 }  // namespace kerf
