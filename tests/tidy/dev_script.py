@@ -14,7 +14,8 @@ def main():
         run = subprocess.run(["bash", "-n", str(root / script)], capture_output=True, text=True)
         problems += [f"{script}: {line}" for line in run.stderr.splitlines()]
     demo = re.search(r"^demo\(\) \{.*?^\}", (root / "dev").read_text(), re.M | re.S)
-    if demo is None or not re.search(r"build --target kerf kerf_python kerf_outline_python$", demo.group(), re.M):
+    modules = r"build --target kerf kerf_python kerf_outline_python$"
+    if demo is None or not re.search(modules, demo.group(), re.M):
         problems.append("dev: README says that demo builds the Python modules, but it does not")
     usage = subprocess.run([str(root / "dev"), "help"], capture_output=True, text=True, check=True).stdout
     known = set(re.findall(r"^  ([a-z]+) ", usage, re.M))
