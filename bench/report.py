@@ -6,13 +6,17 @@ FILTER is a regular expression over benchmark names. The figures are kept in BUI
 those of benchmarks that did not run this time stay.
 """
 import json
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 # Google Benchmark's own counters aside, what a row may hold besides its time.
 RATES = {"items_per_second": "items/s", "bytes_per_second": "B/s"}
+PEERS = "peers"
 TIMES_REAL = "times_real"  # how many times faster than the program that Kerf stands in for
+PEER = re.compile(r"([\w.]+?)_(cpu_s|s|ms)$")  # a counter that quotes another program's time for the same work
+OWN = {"real_time", "cpu_time", "items_per_second"}  # of the library, though they end like a quoted time
 SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
 
@@ -29,6 +33,10 @@ def run(program, pattern):
         rates = {label: row[key] for key, label in RATES.items() if key in row}
         if TIMES_REAL in row:
             rates[TIMES_REAL] = row[TIMES_REAL]
+        peers = [f"{m[1]} {value:g} {m[2].replace('_', ' ')}" for key, value in row.items()
+                 if key not in OWN and (m := PEER.match(key))]
+        if peers:
+            rates[PEERS] = ", ".join(peers)
         rows[row["name"]] = {"seconds": row["real_time"] * SECONDS[row["time_unit"]], **rates}
     return rows
 
@@ -44,6 +52,8 @@ def rate_text(row):
     texts = [f"{row[label] / 1e6:10.3f} M{label}" for label in RATES.values() if label in row][:1]
     if TIMES_REAL in row:
         texts.append(f"{row[TIMES_REAL]:.1f} times the real program's speed")
+    if PEERS in row:
+        texts.append(f"({row[PEERS]})")
     return "  ".join(texts)
 
 
