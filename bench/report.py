@@ -15,7 +15,7 @@ from pathlib import Path
 RATES = {"items_per_second": "items/s", "bytes_per_second": "B/s"}
 PEERS = "peers"
 TIMES_REAL = "times_real"  # how many times faster than the program that Kerf stands in for
-PEER = re.compile(r"([\w.]+?)_(cpu_s|s|ms)$")  # a counter that quotes another program's time for the same work
+PEER = re.compile(r"([\w.]+?)_(cpu_s|s|ms)$")  # counters that quote another program's time
 OWN = {"real_time", "cpu_time", "items_per_second"}  # of the library, though they end like a quoted time
 SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
 
