@@ -480,23 +480,28 @@ void bind_paths(py::module_& m) {
       py::arg("path"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance, kSelfMeetings);
 }
 
-void bind_fits(py::module_& m) {
+/// Binds a function that takes points and a tolerance in mm.
+template <class Fit>
+void bind_point_fit(py::module_& m, const char* name, const char* points_name, const char* text, Fit fit) {
   m.def(
-      "fit_arcs",
-      [](const py::object& points, double within) {
+      name,
+      [name, fit](const py::object& points, double within) {
         const std::vector<Point2> read = points_of(points);
-        const FitOptions options{"fit_arcs", script_spot("fit_arcs")};
-        return list_of(compute([&](Diagnostics& d) { return fit_arcs(read, mm(within), options, d); }));
+        const FitOptions options{name, script_spot(name)};
+        return list_of(compute([&](Diagnostics& d) { return fit(read, mm(within), options, d); }));
       },
-      py::arg("points"), py::arg("within"), kFitArcs);
-  m.def(
-      "fit_bezier",
-      [](const py::object& control, double within) {
-        const std::vector<Point2> read = points_of(control);
-        const FitOptions options{"fit_bezier", script_spot("fit_bezier")};
-        return list_of(compute([&](Diagnostics& d) { return fit_bezier(read, mm(within), options, d); }));
-      },
-      py::arg("control"), py::arg("within"), kFitBezier);
+      py::arg(points_name), py::arg("within"), text);
+}
+
+void bind_fits(py::module_& m) {
+  bind_point_fit(m, "fit_arcs", "points", kFitArcs,
+                 [](const auto& points, Length within, const FitOptions& options, Diagnostics& d) {
+                   return fit_arcs(points, within, options, d);
+                 });
+  bind_point_fit(m, "fit_bezier", "control", kFitBezier,
+                 [](const auto& points, Length within, const FitOptions& options, Diagnostics& d) {
+                   return fit_bezier(points, within, options, d);
+                 });
   m.def(
       "fit_spline",
       [](const py::object& control, const std::vector<double>& knots, int degree,

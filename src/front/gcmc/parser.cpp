@@ -264,13 +264,18 @@ void Parser::warn_of_assignment(NodeId condition) {
                   "Assignment in boolean expression may be an inadvertent error, use () to force");
 }
 
+Node Parser::opened(NodeKind kind, Place at) {
+  Node out;
+  out.kind = kind;
+  out.at = at;
+  advance();
+  return out;
+}
+
 NodeId Parser::parse_if(Place at) {
   const Deeper deeper(depth_);
   if (depth_ > kDeepestNesting) fail("The program is nested too deeply");
-  Node out;
-  out.kind = NodeKind::if_else;
-  out.at = at;
-  advance();
+  Node out = opened(NodeKind::if_else, at);
   out.a = condition();
   out.b = body();
   if (is(Token::kw_elif))
@@ -281,10 +286,7 @@ NodeId Parser::parse_if(Place at) {
 }
 
 NodeId Parser::parse_for(Place at) {
-  Node out;
-  out.kind = NodeKind::for_loop;
-  out.at = at;
-  advance();
+  Node out = opened(NodeKind::for_loop, at);
   expect(Token::left_paren, "(");
   if (is(Token::kw_local) || is(Token::kw_const)) {
     complain("';' expected", "a variable of a for loop is declared before the loop");
@@ -303,20 +305,14 @@ NodeId Parser::parse_for(Place at) {
 }
 
 NodeId Parser::parse_while(Place at) {
-  Node out;
-  out.kind = NodeKind::while_loop;
-  out.at = at;
-  advance();
+  Node out = opened(NodeKind::while_loop, at);
   out.a = condition();
   out.b = body();
   return tree_.add(out);
 }
 
 NodeId Parser::parse_do(Place at) {
-  Node out;
-  out.kind = NodeKind::do_loop;
-  out.at = at;
-  advance();
+  Node out = opened(NodeKind::do_loop, at);
   out.b = body();
   expect(Token::kw_while, "while");
   out.a = condition();
@@ -325,10 +321,7 @@ NodeId Parser::parse_do(Place at) {
 }
 
 NodeId Parser::parse_foreach(Place at) {
-  Node out;
-  out.kind = NodeKind::foreach_loop;
-  out.at = at;
-  advance();
+  Node out = opened(NodeKind::foreach_loop, at);
   expect(Token::left_paren, "(");
   out.a = expression();
   expect(Token::semicolon, ";");
@@ -339,10 +332,7 @@ NodeId Parser::parse_foreach(Place at) {
 }
 
 NodeId Parser::parse_repeat(Place at) {
-  Node out;
-  out.kind = NodeKind::repeat_loop;
-  out.at = at;
-  advance();
+  Node out = opened(NodeKind::repeat_loop, at);
   expect(Token::left_paren, "(");
   out.a = expression();
   if (accept(Token::semicolon)) out.name = expect_name("Variable name");
@@ -419,10 +409,7 @@ NodeId Parser::parse_function_body(FunctionTree function) {
 }
 
 NodeId Parser::parse_return(Place at) {
-  Node out;
-  out.kind = NodeKind::return_value;
-  out.at = at;
-  advance();
+  Node out = opened(NodeKind::return_value, at);
   if (!is(Token::semicolon)) out.a = expression();
   expect(Token::semicolon, ";");
   return tree_.add(out);

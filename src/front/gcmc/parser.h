@@ -53,6 +53,8 @@ class Parser {
   bool compound(std::vector<NodeId>& into);
   NodeId body();
   NodeId condition();
+  /// A statement's node; its keyword is behind us.
+  Node opened(NodeKind kind, Place at);
   NodeId parse_if(Place at);
   NodeId parse_for(Place at);
   NodeId parse_while(Place at);

@@ -3,21 +3,11 @@
 
 #include "gcmc_run.h"
 
-namespace kerf {
+namespace kerf::test {
 namespace {
 
-using test::bare;
-using test::run;
-using test::said_by;
-using test::value_of;
-
-struct Case {
-  const char* expression;
-  const char* value;
-};
-
-class Value : public testing::TestWithParam<Case> {};
-TEST_P(Value, IsAsTheLanguageSays) { EXPECT_EQ(value_of(GetParam().expression), GetParam().value); }
+class Value : public ValueTest {};
+TEST_P(Value, IsAsTheLanguageSays) { expect_value(); }
 
 const std::vector<Case> kNumbers{
     {"pi()", "3.142"},
@@ -299,14 +289,10 @@ const std::vector<Written> kState{
 };
 INSTANTIATE_TEST_SUITE_P(State, Text, testing::ValuesIn(kState));
 
-struct Refused {
-  const char* program;
-  const char* said;
-};
-class Refusal : public testing::TestWithParam<Refused> {};
-TEST_P(Refusal, SaysWhy) { EXPECT_EQ(said_by(GetParam().program), GetParam().said); }
+class Refusal : public SaysTest {};
+TEST_P(Refusal, SaysWhy) { expect_said(); }
 
-const std::vector<Refused> kMachine{
+const std::vector<Case> kMachine{
     {"goto([-, -]);", "error: All coordinates in goto() undefined"},
     {"move({});", "warning: move(): Vectorlist contains no vectors"},
     {"goto(1);", "error: goto(): Argument must be a vector or a vectorlist"},
@@ -398,4 +384,4 @@ TEST(GcmcTypeset, AccentsAreComposed) {
 }
 
 }  // namespace
-}  // namespace kerf
+}  // namespace kerf::test

@@ -1,6 +1,7 @@
 // Runs gcmc programs for tests: what they said, what they wrote, what toolpath they made.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
@@ -49,16 +50,20 @@ inline Ran run(const std::string& program, const GcmcOptions& options = bare(),
   return ran;
 }
 
-/// What message(EXPRESSION) says after its head; all lines joined by '|' if there is more.
-inline std::string value_of(const std::string& expression, const GcmcOptions& options = bare()) {
-  const Ran ran = run("message(" + expression + ");", options);
+/// All that a program said, joined by '|', messages without their head.
+inline std::string spoken_by(const std::string& program, const GcmcOptions& options = bare()) {
+  const std::string head = "Runtime message(): ";
+  const Ran ran = run(program, options);
   std::string all;
   for (const std::string& line : ran.said) {
-    const std::string head = "Runtime message(): ";
     if (!all.empty()) all += "|";
     all += line.compare(0, head.size(), head) == 0 ? line.substr(head.size()) : line;
   }
   return all;
+}
+
+inline std::string value_of(const std::string& expression, const GcmcOptions& options = bare()) {
+  return spoken_by("message(" + expression + ");", options);
 }
 
 /// All that a program said, joined by '|'.
@@ -68,5 +73,19 @@ inline std::string said_by(const std::string& program, const GcmcOptions& option
   for (const std::string& line : ran.said) all += (all.empty() ? "" : "|") + line;
   return all;
 }
+
+/// An expression and its value, a program and what it says: rows of the tables that the tests are made of.
+struct Case {
+  const char* given;
+  const char* wanted;
+};
+class ValueTest : public testing::TestWithParam<Case> {
+ protected:
+  void expect_value() const { EXPECT_EQ(value_of(GetParam().given), GetParam().wanted); }
+};
+class SaysTest : public testing::TestWithParam<Case> {
+ protected:
+  void expect_said() const { EXPECT_EQ(said_by(GetParam().given), GetParam().wanted); }
+};
 
 }  // namespace kerf::test

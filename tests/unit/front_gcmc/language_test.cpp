@@ -3,20 +3,11 @@
 
 #include "gcmc_run.h"
 
-namespace kerf {
+namespace kerf::test {
 namespace {
 
-using test::bare;
-using test::run;
-using test::said_by;
-using test::value_of;
-
-struct Case {
-  const char* expression;
-  const char* value;
-};
-class Expression : public testing::TestWithParam<Case> {};
-TEST_P(Expression, HasTheValue) { EXPECT_EQ(value_of(GetParam().expression), GetParam().value); }
+class Expression : public ValueTest {};
+TEST_P(Expression, HasTheValue) { expect_value(); }
 
 const std::vector<Case> kLiterals{
     {"010", "10"},
@@ -172,22 +163,10 @@ TEST(GcmcLanguage, ConstantsOfTheLanguage) {
             "[0.000mm,0.000mm,0.000mm,0.000rad,0.000rad,0.000rad]");
 }
 
-struct Program {
-  const char* text;
-  const char* said;  // after the places; messages without their head
-};
-class Runs : public testing::TestWithParam<Program> {};
-TEST_P(Runs, AndSays) {
-  std::string all;
-  for (const std::string& line : run(GetParam().text).said) {
-    const std::string head = "Runtime message(): ";
-    all += (all.empty() ? "" : "|") +
-           (line.compare(0, head.size(), head) == 0 ? line.substr(head.size()) : line);
-  }
-  EXPECT_EQ(all, GetParam().said);
-}
+class Runs : public testing::TestWithParam<Case> {};
+TEST_P(Runs, AndSays) { EXPECT_EQ(spoken_by(GetParam().given), GetParam().wanted); }
 
-const std::vector<Program> kStatements{
+const std::vector<Case> kStatements{
     {"if(0) {} elif(0) {} else { message(\"E\"); }", "E"},
     {"for(i = 0; i < 3; i++) { if(i == 1) { continue; } message(i); }", "0|2"},
     {"for(;1;) { break; } i = 0; while(i < 2) { i++; } message(i);", "2"},
@@ -205,7 +184,7 @@ const std::vector<Program> kStatements{
 };
 INSTANTIATE_TEST_SUITE_P(Statements, Runs, testing::ValuesIn(kStatements));
 
-const std::vector<Program> kFunctions{
+const std::vector<Case> kFunctions{
     {"function f(n) { if(n <= 1) { return 1; } return n*f(n-1); } message(f(10));", "3628800"},
     {"f = 3; function f() { return 4; } message(f, f());", "34"},
     {"function f(&a) { a[0] = [7]; a += {[8]}; } l = {[1,2]}; f(l); message(l);", "{[7],[8]}"},
@@ -217,7 +196,7 @@ const std::vector<Program> kFunctions{
 };
 INSTANTIATE_TEST_SUITE_P(Functions, Runs, testing::ValuesIn(kFunctions));
 
-const std::vector<Program> kScopes{
+const std::vector<Case> kScopes{
     {"x = 5; function f() { x = 6; local x = 7; message(x); } f(); message(x);", "7|6"},
     {"function o() { local q = 5; i(); } function i() { message(isdefined(\"q\")); } o();", "0"},
     {"g = 1; function f() { g += 2; g.x; } message(g);", "error: Statement has no effect"},
@@ -239,7 +218,7 @@ const std::vector<Program> kScopes{
 };
 INSTANTIATE_TEST_SUITE_P(Scopes, Runs, testing::ValuesIn(kScopes));
 
-const std::vector<Program> kAssignments{
+const std::vector<Case> kAssignments{
     {"v = []; v[3] = 7; message(v); v.w = 9; message(v);", "[-,-,-,7]|[-,-,-,7,-,-,-,-,9]"},
     {"l = {[1], [2], [3]}; l[-5] = [9]; message(l);", "{[9],[2],[3],[],[]}"},
     {"l = {[1, 2]}; l[0].y = 9; l[0][0] += 1; l[1].x = 3; message(l);", "{[2,9],[3]}"},
@@ -259,7 +238,7 @@ const std::vector<Program> kAssignments{
 };
 INSTANTIATE_TEST_SUITE_P(Assignments, Runs, testing::ValuesIn(kAssignments));
 
-const std::vector<Program> kAppending{
+const std::vector<Case> kAppending{
     {"l = {}; function f(v) { l += {v}; l = l + {[v.x, 2]}; } f([1]); f([3]); message(l);",
      "{[1],[1,2],[3],[3,2]}"},
     {"function f(&k) { k = k + {[9, count(k)]}; } l = {[1]}; f(l); m = l; f(l); message(l, m);",
@@ -279,7 +258,7 @@ const std::vector<Program> kAppending{
 INSTANTIATE_TEST_SUITE_P(Appending, Runs, testing::ValuesIn(kAppending));
 
 // A small integer on the right is part of the instruction: the rules are the same.
-const std::vector<Program> kSmallIntegers{
+const std::vector<Case> kSmallIntegers{
     {"x = 5mm; x = x + 1; message(x, x - 2, x * 3, x / 4, x % 4);", "6mm4mm18mm1mm2mm"},
     {"x = 2147483647; x = x + 1; message(x); x = x - 1; message(x * 2);", "-2147483648|-2"},
     {"x = -2147483647 - 1; message(x / -1, x % -1);", "-21474836480"},
@@ -302,7 +281,7 @@ const std::vector<Program> kSmallIntegers{
 };
 INSTANTIATE_TEST_SUITE_P(SmallIntegers, Runs, testing::ValuesIn(kSmallIntegers));
 
-const std::vector<Program> kRuntimeErrors{
+const std::vector<Case> kRuntimeErrors{
     {"message(y);", "error: Variable 'y' undefined"},
     {"y += 1;", "error: Variable 'y' undefined"},
     {"v[0] = 1;", "error: Variable 'v' undefined"},
@@ -343,7 +322,7 @@ const std::vector<Program> kRuntimeErrors{
 };
 INSTANTIATE_TEST_SUITE_P(RuntimeErrors, Runs, testing::ValuesIn(kRuntimeErrors));
 
-const std::vector<Program> kTypeErrors{
+const std::vector<Case> kTypeErrors{
     {"x = -\"a\";",
      "error: Scalars and vectors can only be multiplied by scalars and vectors (lv=VAL_STRING, "
      "rv=VAL_INT)"},
@@ -383,7 +362,7 @@ const std::vector<Program> kTypeErrors{
 };
 INSTANTIATE_TEST_SUITE_P(TypeErrors, Runs, testing::ValuesIn(kTypeErrors));
 
-const std::vector<Program> kSyntaxErrors{
+const std::vector<Case> kSyntaxErrors{
     {"1+2;", "error: Statement has no effect"},
     {"x;", "error: Statement has no effect"},
     {"x = 1\n", "error: ';' expected"},
@@ -424,7 +403,7 @@ const std::vector<Program> kSyntaxErrors{
 };
 INSTANTIATE_TEST_SUITE_P(SyntaxErrors, Runs, testing::ValuesIn(kSyntaxErrors));
 
-const std::vector<Program> kWords{
+const std::vector<Case> kWords{
     {"x = 0xZZ;\nx = 2;", "error: Bad hexadecimal number '0xZZ;'"},
     {"x = 0X10;", "error: ';' expected|error: Statement has no effect"},
     {"y = 1e;",
@@ -638,4 +617,4 @@ TEST(GcmcLimits, AnEndlessLoopCanBeInterrupted) {
 }
 
 }  // namespace
-}  // namespace kerf
+}  // namespace kerf::test

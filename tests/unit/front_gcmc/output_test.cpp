@@ -5,13 +5,8 @@
 
 #include "gcmc_run.h"
 
-namespace kerf {
+namespace kerf::test {
 namespace {
-
-using test::bare;
-using test::run;
-using test::said_by;
-using test::value_of;
 
 GcmcOptions with(void (*change)(GcmcOptions&)) {
   GcmcOptions options = bare();
@@ -313,4 +308,4 @@ TEST(GcmcLibrary, CompensatedTrace) {
 }
 
 }  // namespace
-}  // namespace kerf
+}  // namespace kerf::test
