@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "codec/mesh/readers.h"
+#include "codec/mesh/zip_memory.h"
 
 #include "kerf/number.h"
 
@@ -26,40 +27,12 @@ constexpr int kDeepest = 32;                              // objects within obje
 
 // ---- the zip
 
-/// minizip's "file": bytes that lie in memory, and a place among them.
-struct Memory {
-  std::string_view bytes;
-  std::size_t at = 0;
-};
-voidpf open_memory(voidpf opaque, const void*, int) { return opaque; }
-uLong read_memory(voidpf, voidpf stream, void* to, uLong size) {
-  Memory& memory = *static_cast<Memory*>(stream);
-  const std::size_t left = memory.bytes.size() - std::min(memory.at, memory.bytes.size());
-  const std::size_t n = std::min<std::size_t>(size, left);
-  std::copy_n(memory.bytes.data() + memory.at, n, static_cast<char*>(to));
-  memory.at += n;
-  return static_cast<uLong>(n);
-}
 uLong write_nothing(voidpf, voidpf, const void*, uLong) { return 0; }
-ZPOS64_T tell_memory(voidpf, voidpf stream) { return static_cast<Memory*>(stream)->at; }
-long seek_memory(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
-  Memory& memory = *static_cast<Memory*>(stream);
-  const std::size_t size = memory.bytes.size();
-  const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? memory.at
-                           : origin == ZLIB_FILEFUNC_SEEK_END ? size
-                                                              : 0;
-  const std::size_t to = from + static_cast<std::size_t>(offset);  // wraps where a damaged file asks for it
-  if (to > size) return -1;
-  memory.at = to;
-  return 0;
-}
-int nothing(voidpf, voidpf) { return 0; }
 
 class Package {
  public:
   explicit Package(std::string_view bytes) : memory_{bytes, 0} {
-    zlib_filefunc64_def calls{open_memory, read_memory, write_nothing, tell_memory,
-                              seek_memory, nothing,     nothing,       &memory_};
+    auto calls = memory_.calls(write_nothing);
     zip_ = unzOpen2_64("", &calls);
   }
   ~Package() {
@@ -88,7 +61,7 @@ class Package {
   }
 
  private:
-  Memory memory_;
+  ZipMemory<std::string_view> memory_;
   unzFile zip_ = nullptr;
 };
 

@@ -8,51 +8,28 @@
 #include <minizip/zip.h>
 
 #include "codec/mesh/writers.h"
+#include "codec/mesh/zip_memory.h"
 
 namespace kerf::mesh_format {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
 
-/// minizip's "file": a string and a place in it.
-struct Memory {
-  std::string bytes;
-  std::size_t at = 0;
-};
+using Memory = ZipMemory<std::string>;
 
-voidpf open_memory(voidpf opaque, const void*, int) { return opaque; }
-uLong read_memory(voidpf, voidpf stream, void* to, uLong size) {
-  Memory& memory = *static_cast<Memory*>(stream);
-  const std::size_t n =
-      std::min<std::size_t>(size, memory.bytes.size() - std::min(memory.at, memory.bytes.size()));
-  std::copy_n(memory.bytes.data() + memory.at, n, static_cast<char*>(to));
-  memory.at += n;
-  return static_cast<uLong>(n);
-}
 uLong write_memory(voidpf, voidpf stream, const void* from, uLong size) {
-  Memory& memory = *static_cast<Memory*>(stream);
+  Memory& memory = Memory::of(stream);
   if (memory.bytes.size() < memory.at + size) memory.bytes.resize(memory.at + size);
   std::copy_n(static_cast<const char*>(from), size, memory.bytes.data() + memory.at);
   memory.at += size;
   return size;
 }
-ZPOS64_T tell_memory(voidpf, voidpf stream) { return static_cast<Memory*>(stream)->at; }
-long seek_memory(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
-  Memory& memory = *static_cast<Memory*>(stream);
-  const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? memory.at
-                           : origin == ZLIB_FILEFUNC_SEEK_END ? memory.bytes.size()
-                                                              : 0;
-  memory.at = from + static_cast<std::size_t>(offset);
-  return 0;
-}
-int nothing(voidpf, voidpf) { return 0; }
 
 /// A zip in memory. Parts are written one after the other; text is handed to the compressor in pieces.
 class Package {
  public:
   Package() {
-    zlib_filefunc64_def calls{open_memory, read_memory, write_memory, tell_memory,
-                              seek_memory, nothing,     nothing,      &memory_};
+    auto calls = memory_.calls(write_memory);
     zip_ = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &calls);
   }
   /// Begins a part; `large` where it may be longer than 4 GiB (readers of small files need not know zip64).
