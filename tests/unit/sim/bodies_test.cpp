@@ -77,6 +77,23 @@ TEST(BodyStock, RapidsThroughAHollowMeetNothing) {
   EXPECT_EQ(result->hazards[0].step, 3u);
 }
 
+TEST(BodyStock, RapidsWithTheShankThroughAMeshAreTold) {
+  // The flutes pass below a ball, what holds them goes through it.
+  ToolTable tools;
+  tools.set(1, make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 5, 0}})));
+  Path path;
+  path.tool(1).rapid({-30, 0, -40}).rapid({30, 0, -40});
+  Diagnostics diagnostics;
+  const auto result =
+      run(path.path(), tools, stock_of_mesh(sphere_mesh({0, 0, 0}, 10, 100)), 0.1, diagnostics);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->hazards.size(), 1u);
+  EXPECT_EQ(result->hazards[0].kind, HazardKind::rapid_in_stock);
+  EXPECT_NEAR(result->hazards[0].depth.mm(), 20.0, 0.05);
+  const double exact = std::numbers::pi * (100.0 * 6.0 - 2.0 * 9.0);  // the slab |y| < 3
+  EXPECT_NEAR(result->hazards[0].removed.mm3(), exact, 0.01 * exact);
+}
+
 TEST(LeftStock, BothSidesMeetInTheMiddle) {
   // A pocket from the top and, after half a turn about the block's own middle, the same one from below:
   // through.
