@@ -23,7 +23,9 @@ namespace sim {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kUsualRays = 1e6;
+/// Of the automatic distance: a move along a small bar then takes hundredths of a second. The work goes with
+/// the third power of the rays' number along a line, for the row of standing tools becomes denser too.
+constexpr double kUsualRays = 1e5;
 constexpr double kFinest = 0.02, kCoarsest = 1.0;  // mm, of the usual distance of rays
 constexpr double kLeast = 1e-3;                    // mm, of any
 constexpr double kMostPoses = 1e8;                 // hours of work
@@ -218,7 +220,12 @@ class Slab {
     const RotaryMotion* motion;
   };
   void apply(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose);
-  void apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose, int i, int j);
+  void apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose, const TiltedRay& seen,
+                    std::vector<Interval>& ray);
+  std::vector<Interval>& ray_at(int i, int j) {
+    return work_.rays[static_cast<std::size_t>(j) * static_cast<std::size_t>(work_.along) +
+                      static_cast<std::size_t>(i)];
+  }
   double take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, double& longest);
   double taken_by(std::uint32_t step, HazardKind kind, const void* ray, double more);
   void note(HazardKind kind, const Pose& pose, Point3 at, double depth, double volume);
@@ -279,22 +286,22 @@ void Slab::apply(const Frusta& part, Pass pass, HazardKind kind, const Pose& pos
   const int start = static_cast<int>(first - std::floor(first / around) * around);
   for (int n = 0; n < count; ++n) {
     const int j = (start + n) % around;
-    for (int i = i0; i <= i1; ++i) apply_to_ray(part, pass, kind, pose, i, j);
+    const double angle = (j + 0.5) * kTurn / around - pose.turn;
+    TiltedRay seen{0.0, -beside, bar_.axis_z - pose.tip.z, -std::sin(angle), std::cos(angle)};
+    for (int i = i0; i <= i1; ++i) {
+      seen.x = bar_.x_low + (i + 0.5) * work_.dx - pose.tip.x;
+      apply_to_ray(part, pass, kind, pose, seen, ray_at(i, j));
+    }
   }
 }
 
-void Slab::apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose, int i, int j) {
-  std::vector<Interval>& ray =
-      work_.rays[static_cast<std::size_t>(j) * static_cast<std::size_t>(work_.along) +
-                 static_cast<std::size_t>(i)];
+void Slab::apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose,
+                        const TiltedRay& seen, std::vector<Interval>& ray) {
   if (ray.empty()) return;
-  const double angle = (j + 0.5) * kTurn / work_.around - pose.turn, x = bar_.x_low + (i + 0.5) * work_.dx;
-  const TiltedRay tilted{x - pose.tip.x, bar_.axis_y - pose.tip.y, bar_.axis_z - pose.tip.z, -std::sin(angle),
-                         std::cos(angle)};
   const auto reach = static_cast<double>(ray.back().high);
-  if (tilted.z + std::max(reach * tilted.cosine, 0.0) <= part.bottom()) return;
+  if (seen.z + std::max(reach * seen.cosine, 0.0) <= part.bottom()) return;
   stretches_.clear();
-  part.meet(tilted, reach, stretches_);
+  part.meet(seen, reach, stretches_);
   double volume = 0.0, longest = 0.0, surface = 0.0;
   for (const Stretch& s : stretches_) {
     if (pass != Pass::cut && s.high - s.low <= hazard_depth_) continue;
@@ -308,7 +315,8 @@ void Slab::apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Po
     removed.emplace_back(pose.motion->step, 0.0);
   removed.back().second += volume;
   if (pass == Pass::cut && !pose.motion->spindle_off) return;
-  const Point3 at{x, bar_.axis_y + surface * tilted.sine, bar_.axis_z + surface * tilted.cosine};
+  const Point3 at{pose.tip.x + seen.x, bar_.axis_y + surface * seen.sine,
+                  bar_.axis_z + surface * seen.cosine};
   const double depth = taken_by(pose.motion->step, kind, &ray, longest);
   if (depth > hazard_depth_) note(kind, pose, at, depth, volume);
 }

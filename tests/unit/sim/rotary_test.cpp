@@ -220,6 +220,24 @@ TEST(Rotary, TheMeshIsClosedAndHoldsTheVolume) {
   EXPECT_NEAR(check.volume.mm3(), result->workpiece.volume().mm3(), 5e-3 * check.volume.mm3());
 }
 
+TEST(Rotary, TheDistanceThatIsChosenFollowsTheBar) {
+  struct Case {
+    RoundBar bar;
+    double distance;
+  };
+  // sqrt(length * girth / 100,000), but from 0.02 to 1 mm.
+  for (const Case& c : {Case{{10, 0, 60, 0, 0}, 0.1373}, Case{{40, 0, 100, 0, 0}, 0.3545},
+                        Case{{1, 0, 5, 0, 0}, 0.02}, Case{{300, 0, 2000, 0, 0}, 1.0}}) {
+    RotaryPath path;
+    path.tool(1).rapid({0, 0, 1000});
+    Diagnostics diagnostics;
+    const auto result = simulate_rotary(path.path(), square(3), c.bar, {}, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->workpiece.dx, c.distance, 0.01 * c.distance);
+    EXPECT_NEAR(kPi * c.bar.diameter / result->workpiece.around, c.distance, 0.01 * c.distance);
+  }
+}
+
 TEST(Rotary, WhatCannotBeDoneIsTold) {
   RotaryPath path;
   path.tool(1).rapid({5, 0, 20}).cut({5, 0, 9}, 3.6e9);
