@@ -22,8 +22,6 @@ constexpr double kSameLevel = 1e-9;  // mm
 /// A line no longer than this many times the tool's reach is paired with all tiles of its box: hardly more
 /// than those it meets.
 constexpr double kShort = 2.0;
-/// Heights of the virtual cylinder above the flutes; higher than any block that is accepted, mm.
-constexpr double kAboveAll = 1e6;
 
 double distance_to_interval(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
@@ -69,20 +67,11 @@ void Batch::clear() {
   contacts.clear();
 }
 
-/// Half the width of what follows the flutes; no more than theirs at their end, so that a thicker shank is
-/// told of as a shank. Nothing drawn above the flutes: their own width goes on.
-double radius_above_flutes(const Silhouette& tool) {
-  if (tool.cutting.empty()) return 0.0;
-  const double flutes = tool.cutting.knots.back().r;
-  for (const Profile* part : {&tool.neck, &tool.shank, &tool.holder})
-    if (!part->empty()) return std::min(flutes, part->knots.front().r);
-  return flutes;
-}
-
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
   ToolSolids solids;
   solids.cutting = make_solid(tool.cutting, mm(kProfileChord), Length());
-  const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
+  const Silhouette whole = held(tool);
+  const Profile* parts[] = {&whole.cutting, &whole.neck, &whole.shank, &whole.holder};
   for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kProfileChord), side_clearance);
   const double rim = radius_above_flutes(tool) - side_clearance.mm();
   if (rim > 0.0) solids.over_flute = make_cylinder(rim, solids.cutting.top, solids.cutting.top + kAboveAll);

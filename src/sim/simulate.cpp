@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "sim/block_contact.h"
 #include "sim/kernels.h"
 #include "sim/parallel.h"
 #include "sim/plan.h"
@@ -314,6 +315,8 @@ class Run {
   bool flush(std::size_t steps_done);
   void sort_by_tile();
   void cut_tile_number(std::size_t k);
+  void meet_tile(std::size_t tile, TileJob job);
+  void note_block_contacts();
   void merge_contacts();
   void merge(const Contact& contact);
 
@@ -398,7 +401,29 @@ void Run::cut_tile_number(std::size_t k) {
   job.contacts = &contacts_[k];
   if (walls_ != nullptr) return walls_->cut(tile, job);
   job.tile = &body_.touch(tile);
+  if (is_no_go_) return meet_tile(tile, job);
   cut_tile(job);
+}
+
+/// Of what is not to be cut each step meets all that was there: a clamp stays a clamp.
+void Run::meet_tile(std::size_t tile, TileJob job) {
+  for (std::size_t rest = job.count; rest > 0; rest -= job.count) {
+    const std::uint32_t step = job.sweeps[*job.list].step;
+    for (job.count = 1; job.count < rest && job.sweeps[job.list[job.count]].step == step;) ++job.count;
+    cut_tile(job);
+    if (std::any_of(job.removed, job.removed + job.count, [](double length) { return length > 0.0; }))
+      body_.restore(tile);
+    job.list += job.count;
+    job.removed += job.count;
+  }
+}
+
+/// Contacts that are too narrow for the columns.
+void Run::note_block_contacts() {
+  if (body_.start) return;  // not a block
+  for (const Sweep& sweep : batch_.sweeps)
+    sim::note_block_contacts(sweep, survey_.solids[sweep.tool], body_.bounds.size(), hazard_depth_.mm(),
+                             batch_.contacts);
 }
 
 std::vector<Run::Steps> Run::steps_in(const std::vector<bool>& tiles) const {
@@ -457,6 +482,7 @@ bool Run::flush(std::size_t steps_done) {
 }
 
 void Run::merge_contacts() {
+  if (is_no_go_) note_block_contacts();
   for (const Contact& contact : batch_.contacts) merge(contact);
   for (const std::vector<Contact>& of_tile : contacts_)
     for (const Contact& contact : of_tile) merge(contact);
@@ -509,6 +535,9 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
       return std::nullopt;
     result.stock = result.workpiece.volume();
   }
+  // What is above short flutes goes into a solid that is not to be touched as neck, shank or holder.
+  if (options.role == SolidRole::no_go)
+    for (sim::ToolSolids& solids : survey.solids) solids.over_flute = {};
   sim::Run run(result.workpiece, path, std::move(survey), options, progress);
   run.cut_all();
   if (options.role == SolidRole::stock) run.refine_walls();

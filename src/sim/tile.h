@@ -128,6 +128,8 @@ struct Workpiece::Body {
   std::vector<sim::BlockStore<sim::Tile>::Pointer> tiles;
 
   sim::Tile& touch(std::size_t tile);
+  /// Makes a touched tile what it was before the first cut.
+  void restore(std::size_t tile);
   int columns_x_of(std::size_t tile) const;
   int columns_y_of(std::size_t tile) const;
   /// Where column i (of row j) stands, mm from the block's low side: in the middle of its part in the block.

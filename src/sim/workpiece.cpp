@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/start.h"
 #include "sim/tile.h"
 
 namespace kerf {
@@ -161,6 +162,11 @@ int Workpiece::Body::columns_y_of(std::size_t tile) const {
 sim::Tile& Workpiece::Body::touch(std::size_t tile) {
   if (!tiles[tile]) tiles[tile] = store.make(height, columns_x_of(tile), columns_y_of(tile));
   return *tiles[tile];
+}
+
+void Workpiece::Body::restore(std::size_t tile) {
+  *tiles[tile] = sim::Tile(height, columns_x_of(tile), columns_y_of(tile));
+  sim::fill_start_tile(*this, tile, *tiles[tile]);
 }
 
 double Workpiece::Body::place_x(int i) const { return sim::place_inside(i, pitch, bounds.size().x); }
