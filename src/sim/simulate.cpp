@@ -246,6 +246,9 @@ class Run {
         progress_(progress),
         removed_(path.size(), 0.0) {
     for (const ToolSolids& solids : survey_.solids) tools_.emplace_back(solids);
+    constexpr double kNarrower = 1e-6;  // less is rounding
+    narrow_x_ = body_.share_x(body_.nx - 1) < 1.0 - kNarrower;
+    narrow_y_ = body_.share_y(body_.ny - 1) < 1.0 - kNarrower;
     field_.pitch = body_.pitch;
     field_.height = body_.height;
     field_.same_height = body_.same_height;
@@ -328,9 +331,10 @@ class Run {
   std::vector<LaneTool> tools_;
   Field field_{};
   ColumnPlaces along_x_, along_y_;
-  std::vector<double> removed_;  // length of column, one a step
-  WallGroup* walls_ = nullptr;   // what is cut instead of the workpiece, if any
-  std::vector<Steps> wanted_;    // to be planned, in order and apart
+  bool narrow_x_ = false, narrow_y_ = false;  // the last column of a row, the last row
+  std::vector<double> removed_;               // length of column, one a step
+  WallGroup* walls_ = nullptr;                // what is cut instead of the workpiece, if any
+  std::vector<Steps> wanted_;                 // to be planned, in order and apart
   std::size_t next_wanted_ = 0;
   std::vector<Steps> in_tile_;  // which steps each tile has seen
   bool stopped_ = false;
@@ -383,8 +387,7 @@ void Run::cut_tile_number(std::size_t k) {
   job.field = &field_;
   job.x = (column + 0.5) * body_.pitch;
   job.y = (row + 0.5) * body_.pitch;
-  const bool at_border = column + kTileColumns >= body_.nx || row + kTileColumns >= body_.ny;
-  if (at_border) {
+  if ((narrow_x_ && column + kTileColumns >= body_.nx) || (narrow_y_ && row + kTileColumns >= body_.ny)) {
     job.place_x = along_x_.place.data() + column;
     job.place_y = along_y_.place.data() + row;
     job.share_x = along_x_.share.data() + column;
