@@ -10,12 +10,11 @@
 
 #include <algorithm>
 
+#include "sim/balls-inl.h"
 #include "sim/passes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
-
-inline constexpr int kGroup = kLanes;  // sweeps: one bit of a mask each
 
 struct GroupWork {
   explicit GroupWork(const TileJob& tile_job) : job(tile_job) {}
@@ -25,18 +24,20 @@ struct GroupWork {
   int count = 0;
   bool all_open = true;   // the solid reaches above the block in all sweeps
   bool one_level = true;  // all are level at one height
+  bool steep = false;     // some are
   View view[kGroup];
   bool open[kGroup];
   std::uint32_t step[kGroup];
   Lanes taken[kGroup];                       // length of column, weighted
   alignas(64) std::uint32_t micros[kGroup];  // of one super, one bit each
+  BallGroup balls;
 };
 
 HWY_INLINE void add_taken(GroupWork& work, int k, Vector weighted) {
   store(load(work.taken[k]) + weighted, work.taken[k]);
 }
 
-/// A ball over columns that stand on the floor.
+/// A ball over columns that stand on the floor, where balls-inl.h will not do: steep paths, uneven columns.
 HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
   const TileJob& job = work.job;
   Tile& tile = *job.tile;
@@ -169,6 +170,7 @@ HWY_INLINE void add_sweep(GroupWork& work, const Sweep& sweep) {
   work.step[k] = sweep.step;
   work.all_open = work.all_open && work.open[k];
   work.one_level = work.one_level && view.z_low == work.view[0].z_low && view.z_high == view.z_low;
+  work.steep = work.steep || std::abs(view.slope) > kSteepest;
   store(0, work.taken[k]);
 }
 
@@ -189,7 +191,10 @@ HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   work.solid = &(*job.tools)[job.sweeps[job.list[first]].tool].cutting;
   work.count = 0;
   work.all_open = work.one_level = true;
+  work.steep = false;
   for (int k = 0; k < count; ++k) add_sweep(work, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
+  if (work.solid->is_ball && work.all_open && !work.steep && quick_for_balls(job))
+    return cut_balls(work.balls, work.view, job, work.solid->pieces[0].lower, first, count);
   Tile& tile = *job.tile;
   alignas(64) std::uint32_t supers[kGroup] = {};
   unsigned met = 0;

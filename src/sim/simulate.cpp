@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "sim/block_contact.h"
+#include "sim/feed.h"
 #include "sim/kernels.h"
 #include "sim/parallel.h"
-#include "sim/plan.h"
 #include "sim/start.h"
 #include "sim/walls.h"
 
@@ -102,14 +102,6 @@ std::optional<double> choose_pitch(const SimulationOptions& options, const Stock
   error.hint = fmt::format("a resolution of {} mm would do", number_text(std::ceil(would_do * 1e4) / 1e4, 4));
   return std::nullopt;
 }
-
-/// Which tool cuts where, found before anything is cut so that a missing tool costs no time.
-struct Survey {
-  std::map<int, std::uint32_t> index;  // tool number to place in `solids`
-  std::vector<ToolSolids> solids;
-  std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
-  bool judges_spindle = false;   // the program says something of the spindle and is not for a laser
-};
 
 class Surveyor {
  public:
@@ -247,6 +239,9 @@ class Run {
         progress_(progress),
         removed_(path.size(), 0.0) {
     for (const ToolSolids& solids : survey_.solids) tools_.emplace_back(solids);
+    constexpr double kNarrower = 1e-6;  // less is rounding
+    narrow_x_ = body_.share_x(body_.nx - 1) < 1.0 - kNarrower;
+    narrow_y_ = body_.share_y(body_.ny - 1) < 1.0 - kNarrower;
     field_.pitch = body_.pitch;
     field_.height = body_.height;
     field_.same_height = body_.same_height;
@@ -273,51 +268,12 @@ class Run {
   std::vector<Hazard> hazards() const;
 
  private:
-  /// From a first step to a last one; none while the first is after the last.
-  struct Steps {
-    std::size_t first = SIZE_MAX, last = 0;
-    void add(const Steps& more) {
-      first = std::min(first, more.first);
-      last = std::max(last, more.last);
-    }
-  };
-  std::vector<Steps> steps_in(const std::vector<bool>& tiles) const;
-
-  bool is_wanted(std::size_t step) {
-    while (next_wanted_ < wanted_.size() && wanted_[next_wanted_].last < step) ++next_wanted_;
-    return next_wanted_ < wanted_.size() && wanted_[next_wanted_].first <= step;
-  }
-
-  void add(const Step& step, const MotionContext& context) {
-    if (!is_wanted(context.index)) return planner_->interrupt();
-    if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_->interrupt();
-    const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
-    const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
-    if (tool == survey_.index.end()) return planner_->interrupt();  // a rapid before the first tool
-    const bool spindle_off =
-        is_no_go_ ||
-        (survey_.judges_spindle && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off));
-    planner_->add(step, context, tool->second, spindle_off, batch_, [&] { return flush(context.index); });
-    if (batch_.full()) flush(context.index);
-  }
-
-  /// Plans all motions and cuts them, in batches; given tiles, only what goes there.
-  void send_all(const std::vector<bool>* tiles) {
-    planner_.emplace(body_, survey_.solids, hazard_depth_, PlanScope{.margin = body_.pitch, .tiles = tiles});
-    wanted_ = tiles == nullptr ? std::vector{Steps{0, path_.size()}} : steps_in(*tiles);
-    next_wanted_ = 0;
-    for_each_motion(path_, [&](const Step& step, const MotionContext& context) {
-      if (!stopped_) add(step, context);
-    });
-    if (!stopped_) flush(path_.size());
-  }
-
-  bool flush(std::size_t steps_done);
-  void sort_by_tile();
-  void cut_tile_number(std::size_t k);
+  std::vector<StepRange> steps_in(const std::vector<bool>& tiles) const;
+  void send_all(const std::vector<bool>* tiles);
+  void cut_tile_number(const Batch& batch, std::size_t k);
   void meet_tile(std::size_t tile, TileJob job);
-  void note_block_contacts();
-  void merge_contacts();
+  void note_block_contacts(const Batch& batch);
+  void take_over(const Batch& batch);
   void merge(const Contact& contact);
 
   Workpiece::Body& body_;
@@ -325,60 +281,48 @@ class Run {
   Survey survey_;
   Length hazard_depth_;
   bool is_no_go_;
-  std::optional<Planner> planner_;
   unsigned threads_;
   Progress* progress_;
   std::vector<LaneTool> tools_;
   Field field_{};
   ColumnPlaces along_x_, along_y_;
-  std::vector<double> removed_;  // length of column, one a step
-  WallGroup* walls_ = nullptr;   // what is cut instead of the workpiece, if any
-  std::vector<Steps> wanted_;    // to be planned, in order and apart
-  std::size_t next_wanted_ = 0;
-  std::vector<Steps> in_tile_;  // which steps each tile has seen
+  bool narrow_x_ = false, narrow_y_ = false;  // the last column of a row, the last row
+  std::vector<double> removed_;               // length of column, one a step
+  WallGroup* walls_ = nullptr;                // what is cut instead of the workpiece, if any
+  std::vector<StepRange> in_tile_;            // which steps each tile has seen
   bool stopped_ = false;
 
-  Batch batch_;
-  // The batch's pairs in order of tiles: tile busy_[k] has the sweeps list_[start_[k]] to list_[start_[k + 1]
-  // - 1].
-  std::vector<std::uint32_t> busy_, list_;
-  std::vector<std::size_t> start_, order_;
-  std::vector<std::uint32_t> count_;
+  // Of the batch that is cut: one a pair in order of tiles, one a tile.
   std::vector<double> pair_removed_;
   std::vector<std::vector<Contact>> contacts_;
   std::map<std::pair<std::uint32_t, HazardKind>, Contact> merged_;
 };
 
-void Run::sort_by_tile() {
-  count_.resize(body_.tiles.size(), 0);
-  busy_.clear();
-  for (const Batch::Pair& pair : batch_.pairs)
-    if (count_[pair.tile]++ == 0) busy_.push_back(pair.tile);
-  std::sort(busy_.begin(), busy_.end());
-  start_.assign(1, 0);
-  for (const std::uint32_t tile : busy_) {
-    start_.push_back(start_.back() + count_[tile]);
-    count_[tile] =
-        static_cast<std::uint32_t>(start_[start_.size() - 2]);  // from here on where the next one goes
+/// Plans all motions and cuts them, in batches; given tiles, only what goes there. Each batch is planned
+/// while the one before is cut.
+void Run::send_all(const std::vector<bool>* tiles) {
+  const PlanScope scope{.margin = body_.pitch, .tiles = tiles};
+  Feeder feeder(body_, path_, survey_,
+                {.plan = scope,
+                 .steps = tiles == nullptr ? std::vector{StepRange{0, path_.size()}} : steps_in(*tiles),
+                 .hazard_depth = hazard_depth_,
+                 .is_no_go = is_no_go_});
+  const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
+  Batch now, next;
+  for (feeder.fill(now); !now.empty() && !stop(); std::swap(now, next)) {
+    pair_removed_.assign(now.list.size(), 0.0);
+    contacts_.assign(now.busy.size(), {});
+    const auto work = [&](std::size_t n) {
+      if (n == 0) return feeder.fill(next);
+      cut_tile_number(now, now.order[n - 1]);
+    };
+    parallel_for(threads_, now.busy.size() + 1, work, stop);
+    take_over(now);
   }
-  list_.resize(batch_.pairs.size());
-  for (const Batch::Pair& pair : batch_.pairs) list_[count_[pair.tile]++] = pair.sweep;
-  for (std::size_t k = 0; k < busy_.size(); ++k) {
-    count_[busy_[k]] = 0;
-    in_tile_[busy_[k]].add(
-        {batch_.sweeps[list_[start_[k]]].step, batch_.sweeps[list_[start_[k + 1] - 1]].step});
-  }
-  order_.resize(busy_.size());
-  for (std::size_t k = 0; k < order_.size(); ++k) order_[k] = k;
-  // The largest first, so that the threads end together.
-  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
-    const std::size_t na = start_[a + 1] - start_[a], nb = start_[b + 1] - start_[b];
-    return na != nb ? na > nb : a < b;
-  });
 }
 
-void Run::cut_tile_number(std::size_t k) {
-  const std::size_t tile = busy_[k];
+void Run::cut_tile_number(const Batch& batch, std::size_t k) {
+  const std::size_t tile = batch.busy[k];
   const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
   const auto column = static_cast<int>(tile % tiles_x) * kTileColumns;
   const auto row = static_cast<int>(tile / tiles_x) * kTileColumns;
@@ -386,18 +330,17 @@ void Run::cut_tile_number(std::size_t k) {
   job.field = &field_;
   job.x = (column + 0.5) * body_.pitch;
   job.y = (row + 0.5) * body_.pitch;
-  const bool at_border = column + kTileColumns >= body_.nx || row + kTileColumns >= body_.ny;
-  if (at_border) {
+  if ((narrow_x_ && column + kTileColumns >= body_.nx) || (narrow_y_ && row + kTileColumns >= body_.ny)) {
     job.place_x = along_x_.place.data() + column;
     job.place_y = along_y_.place.data() + row;
     job.share_x = along_x_.share.data() + column;
     job.share_y = along_y_.share.data() + row;
   }
   job.tools = &tools_;
-  job.sweeps = batch_.sweeps.data();
-  job.list = list_.data() + start_[k];
-  job.count = start_[k + 1] - start_[k];
-  job.removed = pair_removed_.data() + start_[k];
+  job.sweeps = batch.sweeps.data();
+  job.list = batch.list.data() + batch.start[k];
+  job.count = batch.start[k + 1] - batch.start[k];
+  job.removed = pair_removed_.data() + batch.start[k];
   job.contacts = &contacts_[k];
   if (walls_ != nullptr) return walls_->cut(tile, job);
   job.tile = &body_.touch(tile);
@@ -419,20 +362,22 @@ void Run::meet_tile(std::size_t tile, TileJob job) {
 }
 
 /// Contacts that are too narrow for the columns.
-void Run::note_block_contacts() {
+void Run::note_block_contacts(const Batch& batch) {
   if (body_.start) return;  // not a block
-  for (const Sweep& sweep : batch_.sweeps)
+  std::vector<Contact> contacts;
+  for (const Sweep& sweep : batch.sweeps)
     sim::note_block_contacts(sweep, survey_.solids[sweep.tool], body_.bounds.size(), hazard_depth_.mm(),
-                             batch_.contacts);
+                             contacts);
+  for (const Contact& contact : contacts) merge(contact);
 }
 
-std::vector<Run::Steps> Run::steps_in(const std::vector<bool>& tiles) const {
-  std::vector<Steps> all;
+std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
+  std::vector<StepRange> all;
   for (std::size_t tile = 0; tile < tiles.size(); ++tile)
     if (tiles[tile] && in_tile_[tile].first <= in_tile_[tile].last) all.push_back(in_tile_[tile]);
-  std::sort(all.begin(), all.end(), [](const Steps& a, const Steps& b) { return a.first < b.first; });
-  std::vector<Steps> apart;
-  for (const Steps& next : all) {
+  std::sort(all.begin(), all.end(), [](const StepRange& a, const StepRange& b) { return a.first < b.first; });
+  std::vector<StepRange> apart;
+  for (const StepRange& next : all) {
     if (apart.empty() || apart.back().last < next.first) {
       apart.push_back(next);
     } else {
@@ -464,28 +409,21 @@ void Run::refine_walls() {
   report(progress_, 1.0);
 }
 
-bool Run::flush(std::size_t steps_done) {
-  sort_by_tile();
-  pair_removed_.assign(list_.size(), 0.0);
-  contacts_.assign(busy_.size(), {});
-  parallel_for(
-      threads_, busy_.size(), [&](std::size_t n) { cut_tile_number(order_[n]); },
-      [&] { return stopped_ = stopped_ || stop_requested(progress_); });
-  // In order of tiles, whichever thread was first: sums of floating numbers depend on the order.
-  for (std::size_t k = 0; k < list_.size(); ++k) removed_[batch_.sweeps[list_[k]].step] += pair_removed_[k];
-  if (walls_ == nullptr) merge_contacts();
-  batch_.clear();
-  report(progress_,
-         path_.size() == 0 ? 1.0 : static_cast<double>(steps_done) / static_cast<double>(path_.size()));
-  stopped_ = stopped_ || stop_requested(progress_);
-  return !stopped_;
-}
-
-void Run::merge_contacts() {
-  if (is_no_go_) note_block_contacts();
-  for (const Contact& contact : batch_.contacts) merge(contact);
-  for (const std::vector<Contact>& of_tile : contacts_)
-    for (const Contact& contact : of_tile) merge(contact);
+/// Adds what a batch has cut to the steps, in order of sweeps and tiles, whichever thread was first: sums of
+/// floating numbers depend on the order.
+void Run::take_over(const Batch& batch) {
+  for (std::size_t p = 0; p < batch.pairs.size(); ++p)
+    removed_[batch.sweeps[batch.pairs[p].sweep].step] += pair_removed_[batch.place[p]];
+  if (walls_ == nullptr) {
+    if (is_no_go_) note_block_contacts(batch);
+    for (const Contact& contact : batch.contacts) merge(contact);
+    for (const std::vector<Contact>& of_tile : contacts_)
+      for (const Contact& contact : of_tile) merge(contact);
+    for (std::size_t k = 0; k < batch.busy.size(); ++k)
+      in_tile_[batch.busy[k]].add({batch.sweeps[batch.list[batch.start[k]]].step,
+                                   batch.sweeps[batch.list[batch.start[k + 1] - 1]].step});
+  }
+  report(progress_, static_cast<double>(batch.steps_done) / static_cast<double>(path_.size()));
 }
 
 void Run::merge(const Contact& contact) {
