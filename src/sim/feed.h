@@ -3,24 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "sim/plan.h"
+#include "sim/survey.h"
 
 #include "kerf/toolpath.h"
 
 namespace kerf::sim {
-
-/// Which tool cuts where, found before anything is cut so that a missing tool costs no time.
-struct Survey {
-  std::map<int, std::uint32_t> index;  // tool number to place in `solids`
-  std::vector<ToolSolids> solids;
-  std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
-  bool judges_spindle = false;   // the program says something of the spindle and is not for a laser
-};
 
 /// From a first step to a last one; none while the first is after the last.
 struct StepRange {
