@@ -5,8 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "sim/feed.h"
 #include "sim/kernels.h"
-#include "sim/plan.h"
+#include "sim/parallel.h"
 
 namespace kerf::sim {
 
@@ -41,6 +42,25 @@ class Cutter {
   std::vector<double> removed_;
   std::vector<std::vector<Contact>> contacts_;
 };
+
+/// Cuts all batches of a feeder, each planned while the one before is cut: calls cut(batch, k) for each of a
+/// batch's tiles on any thread, then done(batch). After stop() returned true no further piece is begun.
+template <class Cut, class Done, class Stop>
+void cut_batches(Feeder& feeder, Cutter& cutter, unsigned threads, const Cut& cut, const Done& done,
+                 const Stop& stop) {
+  Batch now, next;
+  feeder.fill(now);
+  for (bool more = true; more && !stop(); std::swap(now, next)) {
+    more = !now.is_last;
+    cutter.begin(now);
+    const auto work = [&](std::size_t n) {
+      if (n > 0) return cut(now, now.order[n - 1]);
+      if (more) feeder.fill(next);
+    };
+    parallel_for(threads, now.busy.size() + 1, work, stop);
+    done(now);
+  }
+}
 
 /// Contacts by step and kind, each the sum of what its step met.
 class ContactList {

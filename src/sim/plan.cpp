@@ -185,6 +185,17 @@ bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
          box.low.z < size_.z;
 }
 
+void Planner::pass_over(const Step& step, const MotionContext& context, std::uint32_t tool) {
+  const Motion motion = motion_of(step, context);
+  if (!motion.is_swept) return interrupt();
+  remember(step, tool, motion.to);
+}
+
+void Planner::remember(const Step& step, std::uint32_t tool, Point3 end) {
+  cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
+  end_ = end;
+}
+
 void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
                   Batch& batch) {
   const Motion motion = motion_of(step, context);
@@ -197,8 +208,7 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
       cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
   sweep.step = static_cast<std::uint32_t>(context.index);
   sweep.tool = tool;
-  cutting_tool_ = cuts ? std::optional(tool) : std::nullopt;
-  end_ = motion.to;
+  remember(step, tool, motion.to);
   if (step.kind() == StepKind::arc && context.unknown_from == 0)
     return add_arc(step, context, sweep, follows, batch);
   sweep.follows = follows;

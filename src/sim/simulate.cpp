@@ -82,8 +82,7 @@ class Run {
   ContactList contacts_;
 };
 
-/// Plans all motions and cuts them, in batches; given tiles, only what goes there. Each batch is planned
-/// while the one before is cut.
+/// Plans all motions and cuts them, in batches; given tiles, only what goes there.
 void Run::send_all(const std::vector<bool>* tiles) {
   const PlanScope scope{.margin = body_.pitch, .tiles = tiles};
   Feeder feeder(body_, path_, survey_,
@@ -92,16 +91,9 @@ void Run::send_all(const std::vector<bool>* tiles) {
                  .hazard_depth = hazard_depth_,
                  .is_no_go = is_no_go_});
   const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
-  Batch now, next;
-  for (feeder.fill(now); !now.empty() && !stop(); std::swap(now, next)) {
-    cutter_.begin(now);
-    const auto work = [&](std::size_t n) {
-      if (n == 0) return feeder.fill(next);
-      cut_tile_number(now, now.order[n - 1]);
-    };
-    parallel_for(threads_, now.busy.size() + 1, work, stop);
-    take_over(now);
-  }
+  cut_batches(
+      feeder, cutter_, threads_, [&](const Batch& batch, std::size_t k) { cut_tile_number(batch, k); },
+      [&](const Batch& batch) { take_over(batch); }, stop);
 }
 
 void Run::cut_tile_number(const Batch& batch, std::size_t k) {
@@ -140,16 +132,7 @@ std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
   std::vector<StepRange> all;
   for (std::size_t tile = 0; tile < tiles.size(); ++tile)
     if (tiles[tile] && in_tile_[tile].first <= in_tile_[tile].last) all.push_back(in_tile_[tile]);
-  std::sort(all.begin(), all.end(), [](const StepRange& a, const StepRange& b) { return a.first < b.first; });
-  std::vector<StepRange> apart;
-  for (const StepRange& next : all) {
-    if (apart.empty() || apart.back().last < next.first) {
-      apart.push_back(next);
-    } else {
-      apart.back().add(next);
-    }
-  }
-  return apart;
+  return apart(std::move(all));
 }
 
 void Run::refine_walls() {
@@ -188,7 +171,8 @@ void Run::take_over(const Batch& batch) {
       in_tile_[batch.busy[k]].add({batch.sweeps[batch.list[batch.start[k]]].step,
                                    batch.sweeps[batch.list[batch.start[k + 1] - 1]].step});
   }
-  report(progress_, static_cast<double>(batch.steps_done) / static_cast<double>(path_.size()));
+  report(progress_,
+         static_cast<double>(batch.steps_done) / static_cast<double>(std::max<std::size_t>(path_.size(), 1)));
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ class Surveyor {
   void look_at(const Step& step, const MotionContext& context) {
     check_place(step, context);
     check_extras(step, context);
-    const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
+    const std::optional<int> number = survey_.tool_of(context);
     if (number && survey_.index.count(*number) == 0) add_tool(*number);
     if (!step.is_cutting()) return;
     if (!number) return no_tool(context);

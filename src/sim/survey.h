@@ -19,6 +19,15 @@ struct Survey {
   std::vector<ToolSolids> solids;
   std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
   bool judges_spindle = false;   // the program says something of the spindle and is not for a laser
+
+  /// The number of the tool of a motion, if one is told or there is only one.
+  std::optional<int> tool_of(const MotionContext& motion) const {
+    return motion.tool ? motion.tool : only_tool;
+  }
+  /// Whether what the motion cuts is cut by a spindle that stands.
+  bool spindle_off(const MotionContext& motion) const {
+    return judges_spindle && (!motion.spindle_stated || motion.spindle.turn == SpindleTurn::off);
+  }
 };
 
 struct Setup {
