@@ -25,6 +25,7 @@ struct BallSweep {
   Lanes u, v;              // of a micro's columns from its middle
   Lanes micro_u, micro_v;  // of the middles of a super's micros
   Lanes taken;             // length of column
+  Real begin = 0;          // along the path from the view's origin
   Real length = 0, slope = 0;
   Real z_begin = 0, z_end = 0;
   Real slant2 = 1;  // length along the path a mm in plan, squared
@@ -55,20 +56,24 @@ HWY_INLINE bool quick_for_balls(const TileJob& job) {
 HWY_INLINE void prepare_ball(BallSweep& ball, const View& w, const LaneCap& cap, const Field& field,
                              const Sweep& sweep) {
   const Real pitch = field.step[1];
-  const Real centre_z = cap.centre_z, tip = centre_z - std::sqrt(cap.radius2);
+  const Real centre_z = cap.centre_z, radius = std::sqrt(cap.radius2);
   const Vector x = (load(kColumn) - 1.5f) * pitch, y = (load(kRow) - 1.5f) * pitch;
   store(x * w.cx + y * w.cy, ball.u);
   store(y * w.cx - x * w.cy, ball.v);
   store(0, ball.taken);
-  ball.length = w.t_high - w.t_low;
+  // Ends that no column of the tile can see are brought nearer, so that numbers stay small.
+  const Real sight = kTileColumns * pitch + 2 * radius;
+  const Real begin = std::max(w.t_low, -sight), end = std::min(w.t_high, sight);
+  ball.begin = begin;
+  ball.length = end - begin;
   ball.slope = w.slope;
-  ball.z_begin = w.z + w.slope * w.t_low + centre_z;
-  ball.z_end = w.z + w.slope * w.t_high + centre_z;
+  ball.z_begin = w.z + w.slope * begin + centre_z;
+  ball.z_end = w.z + w.slope * end + centre_z;
   ball.slant2 = 1 + w.slope * w.slope;
   ball.lead2 = w.ball_lead * std::abs(w.ball_lead);
-  ball.behind = w.behind - w.t_low;
+  ball.behind = w.behind - begin;
   ball.step = sweep.step;
-  ball.to_floor = w.z_low + tip < 2 * field.same_height;
+  ball.to_floor = w.z_low + centre_z - radius < 2 * field.same_height;
   ball.follows = sweep.follows && sweep.length > 0;  // straight down what follows is all new
 }
 
@@ -104,7 +109,7 @@ HWY_INLINE Mask cull_ball(const BallSweep& ball, const View& w, const Blocks& b,
                           Vector& u, Vector& v) {
   const Vector reach = b.half * (std::abs(w.cx) + std::abs(w.cy));
   const Vector x = w.x + b.x, y = w.y + b.y;
-  u = x * w.cx + y * w.cy - w.t_low;
+  u = x * w.cx + y * w.cy - ball.begin;
   v = y * w.cx - x * w.cy;
   const Vector du = higher_of(outside(u, 0, ball.length) - reach, 0);
   const Vector dv = higher_of(absolute(v) - reach, 0);

@@ -114,13 +114,8 @@ class Surveyor {
 
   Survey run() {
     if (tools_.tools().size() == 1) survey_.only_tool = tools_.tools().begin()->first;
-    bool has_spindle = false, has_laser = false;
-    for (const Step& step : path_.steps()) {
-      has_spindle = has_spindle || step.kind() == StepKind::spindle;
-      has_laser = has_laser || step.kind() == StepKind::laser_power;
-    }
-    survey_.judges_spindle = has_spindle && !has_laser;
     for_each_motion(path_, [&](const Step& step, const MotionContext& context) { look_at(step, context); });
+    survey_.judges_spindle = has_step(StepKind::spindle) && !has_step(StepKind::laser_power);
     return std::move(survey_);
   }
 
@@ -129,10 +124,10 @@ class Surveyor {
     check_place(step, context);
     check_extras(step, context);
     const std::optional<int> number = context.tool ? context.tool : survey_.only_tool;
-    if (number && survey_.index.count(*number) == 0) add_tool(*number);
+    const bool is_known = number && (number == known_tool_ || find_tool(*number));
     if (!step.is_cutting()) return;
     if (!number) return no_tool(context);
-    if (survey_.index.count(*number) == 0) no_such_tool(*number, context);
+    if (!is_known) no_such_tool(*number, context);
     if (step.kind() == StepKind::arc && context.unknown_from == 0 &&
         chord_count(walk_of(step, context.from)).too_coarse)
       diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
@@ -140,11 +135,21 @@ class Surveyor {
     if (step.unknown_axes() != 0) warn_unknown_place(context);
   }
 
-  void add_tool(int number) {
-    const Tool* tool = tools_.find(number);
-    if (tool == nullptr) return;
-    survey_.index[number] = static_cast<std::uint32_t>(survey_.solids.size());
-    survey_.solids.push_back(make_tool_solids(tool->silhouette, mm(clearance_)));
+  bool has_step(StepKind kind) const {
+    const std::vector<Step>& steps = path_.steps();
+    return std::any_of(steps.begin(), steps.end(), [kind](const Step& step) { return step.kind() == kind; });
+  }
+
+  /// Makes the solids of a tool that is met for the first time. False if its shape is not known.
+  bool find_tool(int number) {
+    if (survey_.index.count(number) == 0) {
+      const Tool* tool = tools_.find(number);
+      if (tool == nullptr) return false;
+      survey_.index[number] = static_cast<std::uint32_t>(survey_.solids.size());
+      survey_.solids.push_back(make_tool_solids(tool->silhouette, mm(clearance_)));
+    }
+    known_tool_ = number;
+    return true;
   }
 
   void check_place(const Step& step, const MotionContext& context) {
@@ -153,11 +158,15 @@ class Surveyor {
       const Point2 c = step.arc().centre;
       arc_centre = centre_ + Point3{c.x, c.y, 0.0};
     }
-    if (distance(step.to(), centre_) < kFarthestMotion && distance(arc_centre, centre_) < kFarthestMotion)
-      return;
+    if (is_near(step.to()) && is_near(arc_centre)) return;
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
                        fmt::format("the motion goes further than {} km from the stock",
                                    number_text(kFarthestMotion * 1e-6, 0)));
+  }
+
+  bool is_near(Point3 place) const {
+    const Point3 way = place - centre_;
+    return dot(way, way) < kFarthestMotion * kFarthestMotion;
   }
 
   void check_extras(const Step& step, const MotionContext& context) {
@@ -208,6 +217,7 @@ class Surveyor {
   double clearance_;
   Diagnostics& diagnostics_;
   Survey survey_;
+  std::optional<int> known_tool_;  // of the motion before
   std::vector<int> missing_;
   std::vector<Code> said_;
   bool said_no_tool_ = false;
@@ -223,6 +233,12 @@ struct ColumnPlaces {
     share.push_back(static_cast<Real>(column_share));
     place.push_back(static_cast<Real>(column_place - (first + 0.5) * pitch));
   }
+};
+
+/// A batch and what cutting it has found.
+struct CutBatch : Batch {
+  std::vector<double> removed;                    // length of column, one a pair in order of tiles
+  std::vector<std::vector<Contact>> contacts_of;  // one a tile
 };
 
 class Run {
@@ -269,8 +285,8 @@ class Run {
  private:
   std::vector<StepRange> steps_in(const std::vector<bool>& tiles) const;
   void send_all(const std::vector<bool>* tiles);
-  void cut_tile_number(const Batch& batch, std::size_t k);
-  void take_over(const Batch& batch);
+  void cut_tile_number(CutBatch& batch, std::size_t k);
+  void take_over(const CutBatch& batch);
   void merge(const Contact& contact);
 
   Workpiece::Body& body_;
@@ -288,15 +304,11 @@ class Run {
   WallGroup* walls_ = nullptr;                // what is cut instead of the workpiece, if any
   std::vector<StepRange> in_tile_;            // which steps each tile has seen
   bool stopped_ = false;
-
-  // Of the batch that is cut: one a pair in order of tiles, one a tile.
-  std::vector<double> pair_removed_;
-  std::vector<std::vector<Contact>> contacts_;
   std::map<std::pair<std::uint32_t, HazardKind>, Contact> merged_;
 };
 
-/// Plans all motions and cuts them, in batches; given tiles, only what goes there. Each batch is planned
-/// while the one before is cut.
+/// Plans all motions and cuts them, in batches; given tiles, only what goes there. While a batch is cut, what
+/// the one before has cut is added up, and then the next one is planned in its place.
 void Run::send_all(const std::vector<bool>* tiles) {
   const PlanScope scope{.margin = body_.pitch, .tiles = tiles};
   Feeder feeder(body_, path_, survey_,
@@ -305,20 +317,22 @@ void Run::send_all(const std::vector<bool>* tiles) {
                  .hazard_depth = hazard_depth_,
                  .is_no_go = is_no_go_});
   const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
-  Batch now, next;
-  for (feeder.fill(now); !now.empty() && !stop(); std::swap(now, next)) {
-    pair_removed_.assign(now.list.size(), 0.0);
-    contacts_.assign(now.busy.size(), {});
+  CutBatch now, other;
+  for (feeder.fill(now); !now.empty() && !stop(); std::swap(now, other)) {
+    now.removed.assign(now.list.size(), 0.0);
+    now.contacts_of.assign(now.busy.size(), {});
     const auto work = [&](std::size_t n) {
-      if (n == 0) return feeder.fill(next);
-      cut_tile_number(now, now.order[n - 1]);
+      if (n > 0) return cut_tile_number(now, now.order[n - 1]);
+      take_over(other);
+      feeder.fill(other);
     };
     parallel_for(threads_, now.busy.size() + 1, work, stop);
-    take_over(now);
+    report(progress_, static_cast<double>(now.steps_done) / static_cast<double>(path_.size()));
   }
+  take_over(other);
 }
 
-void Run::cut_tile_number(const Batch& batch, std::size_t k) {
+void Run::cut_tile_number(CutBatch& batch, std::size_t k) {
   const std::size_t tile = batch.busy[k];
   const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
   const auto column = static_cast<int>(tile % tiles_x) * kTileColumns;
@@ -337,8 +351,8 @@ void Run::cut_tile_number(const Batch& batch, std::size_t k) {
   job.sweeps = batch.sweeps.data();
   job.list = batch.list.data() + batch.start[k];
   job.count = batch.start[k + 1] - batch.start[k];
-  job.removed = pair_removed_.data() + batch.start[k];
-  job.contacts = &contacts_[k];
+  job.removed = batch.removed.data() + batch.start[k];
+  job.contacts = &batch.contacts_of[k];
   if (walls_ != nullptr) return walls_->cut(tile, job);
   job.tile = &body_.touch(tile);
   cut_tile(job);
@@ -384,18 +398,17 @@ void Run::refine_walls() {
 
 /// Adds what a batch has cut to the steps, in order of sweeps and tiles, whichever thread was first: sums of
 /// floating numbers depend on the order.
-void Run::take_over(const Batch& batch) {
+void Run::take_over(const CutBatch& batch) {
   for (std::size_t p = 0; p < batch.pairs.size(); ++p)
-    removed_[batch.sweeps[batch.pairs[p].sweep].step] += pair_removed_[batch.place[p]];
+    removed_[batch.sweeps[batch.pairs[p].sweep].step] += batch.removed[batch.place[p]];
   if (walls_ == nullptr) {
     for (const Contact& contact : batch.contacts) merge(contact);
-    for (const std::vector<Contact>& of_tile : contacts_)
+    for (const std::vector<Contact>& of_tile : batch.contacts_of)
       for (const Contact& contact : of_tile) merge(contact);
     for (std::size_t k = 0; k < batch.busy.size(); ++k)
       in_tile_[batch.busy[k]].add({batch.sweeps[batch.list[batch.start[k]]].step,
                                    batch.sweeps[batch.list[batch.start[k + 1] - 1]].step});
   }
-  report(progress_, static_cast<double>(batch.steps_done) / static_cast<double>(path_.size()));
 }
 
 void Run::merge(const Contact& contact) {
@@ -450,11 +463,11 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   if (options.role == SolidRole::stock) run.refine_walls();
   const double area = *pitch * *pitch;
   double removed = 0.0;
-  result.removed_by_step.reserve(path.size());
+  result.removed_by_step.resize(path.size());
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double volume = run.removed_length(i) * area;
     removed += volume;
-    result.removed_by_step.push_back(static_cast<float>(volume));
+    result.removed_by_step[i] = static_cast<float>(volume);
   }
   result.removed = mm3(removed);
   result.hazards = run.hazards();
