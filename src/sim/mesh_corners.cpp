@@ -97,6 +97,19 @@ bool same_step(const Columns& columns, int i, int j, int end) {
          columns.step(i - 1, j - 1, end) == step;
 }
 
+/// Quadrants that are neighbours.
+constexpr std::pair<int, int> kNeighbours[] = {{0, 1}, {0, 2}, {1, 3}, {2, 3}};
+
+/// Whether the ends `end` of the four columns around a corner are one surface. They are columns of one
+/// interval each, with material at one height.
+bool one_surface(const Columns& columns, int i, int j, int end) {
+  return std::all_of(std::begin(kNeighbours), std::end(kNeighbours), [&](const std::pair<int, int>& pair) {
+    const auto [q, other] = pair;
+    return columns.continues(column_x(i, q), column_y(j, q), end, column_x(i, other), column_y(j, other),
+                             end);
+  });
+}
+
 }  // namespace
 
 /// The common case: four columns of one interval each, with one surface above and one below.
@@ -115,8 +128,10 @@ bool CornerRow::build_simple(const Columns& columns, int i, int j) {
     high_min = std::min(high_min, run.high);
     high_max = std::max(high_max, run.high);
   }
+  if (low_max >= high_min) return false;
   const double limit = kSlopeShare * columns.pitch();
-  if (high_max - high_min > limit || low_max - low_min > limit || low_max >= high_min) return false;
+  if (high_max - high_min > limit && !one_surface(columns, i, j, 1)) return false;
+  if (low_max - low_min > limit && !one_surface(columns, i, j, 0)) return false;
   Corner corner;
   corner.simple = true;
   corner.level = {low_min == low_max && same_step(columns, i, j, 0),
@@ -140,8 +155,7 @@ void CornerRow::build_any(const Columns& columns, int i, int j) {
   gather(columns, i, j);
   bool suspect =
       false;  // surfaces above each other, or a spiral, can meet in a vertex without sharing an edge
-  for (const auto& [q, other] : {std::pair{0, 1}, {0, 2}, {1, 3}, {2, 3}})
-    suspect = !join(columns, i, j, q, other) || suspect;
+  for (const auto& [q, other] : kNeighbours) suspect = !join(columns, i, j, q, other) || suspect;
   for (const std::vector<int>& ends : group_of_) suspect = suspect || ends.size() > 2;
   sort_groups(columns, i, j);
 
