@@ -45,7 +45,7 @@ class Slots {
   const Slot& operator[](std::size_t k) const { return (*pages_[k / kPage])[k % kPage]; }
   std::size_t size() const { return size_; }
   Slot& add() {
-    if (size_ % kPage == 0) pages_.push_back(std::make_unique<Page>());
+    if (size_ % kPage == 0) pages_.emplace_back(new Page);  // not cleared: add_slot does that
     return (*this)[size_++];
   }
 
