@@ -25,13 +25,15 @@ struct BallSweep {
   Lanes u, v;              // of a micro's columns from its middle
   Lanes micro_u, micro_v;  // of the middles of a super's micros
   Lanes taken;             // length of column
+  Real begin = 0;          // along the path from the view's origin
   Real length = 0, slope = 0;
   Real z_begin = 0, z_end = 0;
-  Real slant = 1;  // length along the path a mm in plan
-  Real lead2 = 0;  // View::ball_lead squared, with its sign
+  Real slant2 = 1;  // length along the path a mm in plan, squared
+  Real lead2 = 0;   // View::ball_lead squared, with its sign
   Real behind = 0;
   std::uint32_t step = 0;
   bool follows = false;
+  bool to_floor = false;  // it may cut through
 };
 
 /// Pairs of a sweep and a micro of one super, in order of time.
@@ -51,19 +53,27 @@ HWY_INLINE bool quick_for_balls(const TileJob& job) {
   return job.weights == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
 }
 
-HWY_INLINE void prepare_ball(BallSweep& ball, const View& w, Real centre_z, Real pitch, const Sweep& sweep) {
+HWY_INLINE void prepare_ball(BallSweep& ball, const View& w, const LaneCap& cap, const Field& field,
+                             const Sweep& sweep) {
+  const Real pitch = field.step[1];
+  const Real centre_z = cap.centre_z, radius = std::sqrt(cap.radius2);
   const Vector x = (load(kColumn) - 1.5f) * pitch, y = (load(kRow) - 1.5f) * pitch;
   store(x * w.cx + y * w.cy, ball.u);
   store(y * w.cx - x * w.cy, ball.v);
   store(0, ball.taken);
-  ball.length = w.t_high - w.t_low;
+  // Ends that no column of the tile can see are brought nearer, so that numbers stay small.
+  const Real sight = kTileColumns * pitch + 2 * radius;
+  const Real begin = std::max(w.t_low, -sight), end = std::min(w.t_high, sight);
+  ball.begin = begin;
+  ball.length = end - begin;
   ball.slope = w.slope;
-  ball.z_begin = w.z + w.slope * w.t_low + centre_z;
-  ball.z_end = w.z + w.slope * w.t_high + centre_z;
-  ball.slant = std::sqrt(1 + w.slope * w.slope);
+  ball.z_begin = w.z + w.slope * begin + centre_z;
+  ball.z_end = w.z + w.slope * end + centre_z;
+  ball.slant2 = 1 + w.slope * w.slope;
   ball.lead2 = w.ball_lead * std::abs(w.ball_lead);
-  ball.behind = w.behind - w.t_low;
+  ball.behind = w.behind - begin;
   ball.step = sweep.step;
+  ball.to_floor = w.z_low + centre_z - radius < 2 * field.same_height;
   ball.follows = sweep.follows && sweep.length > 0;  // straight down what follows is all new
 }
 
@@ -77,20 +87,18 @@ HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real sam
   const Vector lead2 = ball.lead2 * across;
   const Vector u2 = u * absolute(u), beyond2 = beyond * absolute(beyond);
   const Mask at_begin = u2<lead2, at_end = beyond2> lead2;
-  Vector off2 = only(at_end, beyond2);
+  Vector down2 = select(at_end, across - absolute(beyond2), ball.slant2 * across);
   Vector centre = select(at_end, ball.z_end, ball.z_begin + ball.slope * u);
-  Vector slant = select(at_end, 1, ball.slant);
   if (!ball.follows) {
-    off2 = select(at_begin, u2, off2);
+    down2 = select(at_begin, across - absolute(u2), down2);
     centre = select(at_begin, ball.z_begin, centre);
-    slant = select(at_begin, 1, slant);
   }
-  const Vector low = centre - slant * root_or_nan(across - absolute(off2));
-  const Vector left = select(low < same, 0, low);
+  Vector low = centre - root_or_nan(down2);
+  if (ball.to_floor) low = select(low < same, 0, low);
   const Vector top = load(tops);
-  Mask cut = left + same < top;
+  Mask cut = low + same < top;
   if (ball.follows) cut = cut & ~at_begin;
-  const Vector now = select(cut, left, top);
+  const Vector now = select(cut, low, top);
   store(now, tops);
   store_ids(select(cut, all_ids(ball.step), load_ids(steps)), steps);
   store(load(ball.taken) + (top - now), ball.taken);
@@ -101,7 +109,7 @@ HWY_INLINE Mask cull_ball(const BallSweep& ball, const View& w, const Blocks& b,
                           Vector& u, Vector& v) {
   const Vector reach = b.half * (std::abs(w.cx) + std::abs(w.cy));
   const Vector x = w.x + b.x, y = w.y + b.y;
-  u = x * w.cx + y * w.cy - w.t_low;
+  u = x * w.cx + y * w.cy - ball.begin;
   v = y * w.cx - x * w.cy;
   const Vector du = higher_of(outside(u, 0, ball.length) - reach, 0);
   const Vector dv = higher_of(absolute(v) - reach, 0);
@@ -164,8 +172,7 @@ HWY_NOINLINE void cut_balls(BallGroup& group, const View* view, const TileJob& j
   const Blocks blocks = supers_of(job);
   for (int k = 0; k < count; ++k) {
     BallSweep& ball = group.ball[k];
-    prepare_ball(ball, view[k], cap.centre_z, job.field->step[1],
-                 job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
+    prepare_ball(ball, view[k], cap, *job.field, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
     Vector u, v;
     supers[k] = bits_of(cull_ball(ball, view[k], blocks, load(tile.super_top), group.radius2, u, v));
     met |= supers[k];

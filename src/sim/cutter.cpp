@@ -28,12 +28,7 @@ Cutter::Cutter(Workpiece::Body& body, const std::vector<ToolSolids>& tools, Leng
     along_y_.add(body_.share_y(j), body_.place_y(std::min(j, body_.ny - 1)), j, body_.pitch);
 }
 
-void Cutter::begin(const Batch& batch) {
-  removed_.assign(batch.list.size(), 0.0);
-  contacts_.assign(batch.busy.size(), {});
-}
-
-TileJob Cutter::job(const Batch& batch, std::size_t k) {
+TileJob Cutter::job(CutBatch& batch, std::size_t k) const {
   const std::size_t tile = batch.busy[k];
   const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
   const auto column = static_cast<int>(tile % tiles_x) * kTileColumns;
@@ -52,8 +47,8 @@ TileJob Cutter::job(const Batch& batch, std::size_t k) {
   job.sweeps = batch.sweeps.data();
   job.list = batch.list.data() + batch.start[k];
   job.count = batch.start[k + 1] - batch.start[k];
-  job.removed = removed_.data() + batch.start[k];
-  job.contacts = &contacts_[k];
+  job.removed = batch.removed.data() + batch.start[k];
+  job.contacts = &batch.contacts_of[k];
   return job;
 }
 

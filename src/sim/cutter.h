@@ -11,21 +11,20 @@
 
 namespace kerf::sim {
 
-/// What tiles and kernels share during a run, and what the batch that is cut has given so far.
+/// A batch and what cutting it has found.
+struct CutBatch : Batch {
+  std::vector<double> removed;                    // length of column, mm, one a pair in order of the list
+  std::vector<std::vector<Contact>> contacts_of;  // one a tile
+};
+
+/// What tiles and kernels share during a run.
 class Cutter {
  public:
   Cutter(Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth);
 
-  /// Makes room for what the batch will give.
-  void begin(const Batch& batch);
-  /// The work on tile number `k` of the batch, all but the tile itself. Tiles may be worked on at the same
-  /// time.
-  TileJob job(const Batch& batch, std::size_t k);
-
-  /// Length of column that each of the batch's pairs took, mm, in the order of the batch's list.
-  const std::vector<double>& removed() const { return removed_; }
-  /// What each of the batch's tiles met.
-  const std::vector<std::vector<Contact>>& contacts() const { return contacts_; }
+  /// The work on tile number `k` of the batch, all but the tile itself; what it finds goes into the batch.
+  /// Tiles may be worked on at the same time.
+  TileJob job(CutBatch& batch, std::size_t k) const;
 
  private:
   /// Along one axis: each column's share in the block, and its place from the first column of its tile.
@@ -39,27 +38,30 @@ class Cutter {
   Field field_{};
   ColumnPlaces along_x_, along_y_;
   bool narrow_x_ = false, narrow_y_ = false;  // the last column of a row, the last row
-  std::vector<double> removed_;
-  std::vector<std::vector<Contact>> contacts_;
 };
 
-/// Cuts all batches of a feeder, each planned while the one before is cut: calls cut(batch, k) for each of a
-/// batch's tiles on any thread, then done(batch). After stop() returned true no further piece is begun.
-template <class Cut, class Done, class Stop>
-void cut_batches(Feeder& feeder, Cutter& cutter, unsigned threads, const Cut& cut, const Done& done,
+/// Cuts all batches of a feeder: calls cut(batch, k) for each of a batch's tiles on any thread and
+/// at_rest(batch) after the last of them. While a batch is cut, what the one before has found is added up by
+/// add_up(batch), and then the next one is planned in its place. After stop() returned true no further piece
+/// is begun.
+template <class Cut, class AddUp, class AtRest, class Stop>
+void cut_batches(Feeder& feeder, unsigned threads, const Cut& cut, const AddUp& add_up, const AtRest& at_rest,
                  const Stop& stop) {
-  Batch now, next;
+  CutBatch now, other;
   feeder.fill(now);
-  for (bool more = true; more && !stop(); std::swap(now, next)) {
+  for (bool more = true; more && !stop(); std::swap(now, other)) {
     more = !now.is_last;
-    cutter.begin(now);
+    now.removed.assign(now.list.size(), 0.0);
+    now.contacts_of.assign(now.busy.size(), {});
     const auto work = [&](std::size_t n) {
       if (n > 0) return cut(now, now.order[n - 1]);
-      if (more) feeder.fill(next);
+      add_up(other);
+      if (more) feeder.fill(other);
     };
     parallel_for(threads, now.busy.size() + 1, work, stop);
-    done(now);
+    at_rest(now);
   }
+  add_up(other);
 }
 
 /// Contacts by step and kind, each the sum of what its step met.

@@ -55,18 +55,20 @@ std::vector<ColumnBlock> blocks_of(const Workpiece::Body& body, const std::vecto
   return blocks;
 }
 
-/// Cuts all that the feeder gives; done(batch) is called after each batch. False if stopped.
+/// Cuts all that the feeder gives; done(batch) is called after each batch, with the tiles at rest. False if
+/// stopped.
 template <class Done>
-bool cut_tiles(Workpiece::Body& body, Feeder& feeder, Cutter& cutter, unsigned threads, Progress* progress,
-               const Done& done) {
+bool cut_tiles(Workpiece::Body& body, Feeder& feeder, const Cutter& cutter, unsigned threads,
+               Progress* progress, const Done& done) {
   bool stopped = false;
-  const auto cut = [&](const Batch& batch, std::size_t k) {
+  const auto cut = [&](CutBatch& batch, std::size_t k) {
     TileJob job = cutter.job(batch, k);
     job.tile = &body.touch(batch.busy[k]);
     cut_tile(job);
   };
-  cut_batches(feeder, cutter, thread_count(threads), cut, done,
-              [&] { return stopped = stopped || stop_requested(progress); });
+  cut_batches(
+      feeder, thread_count(threads), cut, [](const CutBatch&) {}, done,
+      [&] { return stopped = stopped || stop_requested(progress); });
   return !stopped;
 }
 
@@ -262,8 +264,8 @@ class LiveRun {
   bool cut(std::vector<StepRange> steps);
 
  private:
-  void take_over(const Batch& batch);
-  void log_tile(const Batch& batch, std::size_t k);
+  void take_over(const CutBatch& batch);
+  void log_tile(const CutBatch& batch, std::size_t k);
   void keep_tiles(Keyframe& keyframe, const Keyframe& before);
 
   State& state_;
@@ -287,12 +289,12 @@ bool LiveRun::cut(std::vector<StepRange> steps) {
     scope.pauses.push_back(state_.step_at(state_.keyframes[k].motion));
   Feeder feeder(body_, state_.path, state_.survey, std::move(scope));
   const bool whole = cut_tiles(body_, feeder, cutter_, state_.options.simulation.threads, progress_,
-                               [&](const Batch& batch) { take_over(batch); });
+                               [&](const CutBatch& batch) { take_over(batch); });
   report(progress_, 1.0);
   return whole;
 }
 
-void LiveRun::take_over(const Batch& batch) {
+void LiveRun::take_over(const CutBatch& batch) {
   LiveChunk chunk{.steps_done = batch.steps_done, .changed = {}};
   for (std::size_t k = 0; k < batch.busy.size(); ++k) {
     log_tile(batch, k);
@@ -311,12 +313,12 @@ void LiveRun::take_over(const Batch& batch) {
   if (chunk_ && !chunk.changed.empty()) chunk_(chunk);
 }
 
-void LiveRun::log_tile(const Batch& batch, std::size_t k) {
+void LiveRun::log_tile(const CutBatch& batch, std::size_t k) {
   TileLog& log = state_.logs[batch.busy[k]];
   for (std::size_t at = batch.start[k]; at < batch.start[k + 1]; ++at) {
     const std::uint32_t number = batch.sweeps[batch.list[at]].step;
-    if (cutter_.removed()[at] == 0.0) continue;
-    const auto length = static_cast<float>(cutter_.removed()[at]);
+    if (batch.removed[at] == 0.0) continue;
+    const auto length = static_cast<float>(batch.removed[at]);
     if (!log.removed.empty() && log.removed.back().number == number) {
       log.removed.back().length += length;
     } else {
@@ -328,7 +330,7 @@ void LiveRun::log_tile(const Batch& batch, std::size_t k) {
   };
   log.first = std::min(log.first, place(batch.start[k]));
   log.last = std::max(log.last, place(batch.start[k + 1] - 1));
-  log.contacts.insert(log.contacts.end(), cutter_.contacts()[k].begin(), cutter_.contacts()[k].end());
+  log.contacts.insert(log.contacts.end(), batch.contacts_of[k].begin(), batch.contacts_of[k].end());
 }
 
 /// A keyframe shares with the one before what was not cut between them.
@@ -441,8 +443,8 @@ std::optional<Workpiece> LiveSimulation::at(std::size_t steps, Progress* progres
   scope.numbers = &s.step_numbers;
   sim::Feeder feeder(body, s.path, s.survey, std::move(scope));
   sim::Cutter cutter(body, s.survey.solids, s.options.simulation.hazard_depth);
-  const bool whole =
-      sim::cut_tiles(body, feeder, cutter, s.options.simulation.threads, progress, [](const sim::Batch&) {});
+  const bool whole = sim::cut_tiles(body, feeder, cutter, s.options.simulation.threads, progress,
+                                    [](const sim::CutBatch&) {});
   return whole ? std::optional(std::move(part)) : std::nullopt;
 }
 

@@ -84,14 +84,48 @@ struct Corner {
   std::array<int, 4> ends{};
   /// Four columns of one interval each, with one surface above (rank 1) and one below (rank 0).
   bool simple = false;
-  /// Of a simple corner, by rank: the surface is level there and of one step.
-  std::array<bool, 2> level{};
 };
 
-/// The corners with one y. Vectors are kept from row to row, so that no memory is asked for in the long run.
+/// Which corners are simple, one byte each: far the most, so that all others can be found quickly.
+class CornerPlane {
+ public:
+  explicit CornerPlane(const Columns& columns);
+  bool simple(int i, int j) const { return row(j)[i] != 0; }
+  /// The corners with one y, writable by several threads.
+  std::uint8_t* row(int j) { return bytes_.data() + offset(j); }
+  const std::uint8_t* row(int j) const { return bytes_.data() + offset(j); }
+  /// Replaces `out` by the corners of a row that are not simple or have such a neighbour along X or Y.
+  void wanted(int j, std::vector<int>& out) const;
+
+ private:
+  /// Bytes around the rows that count as simple corners; to the right as many as are read at a time.
+  static constexpr int kLeft = 8, kRight = 16;
+  std::size_t offset(int j) const {
+    return static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(corners_x_ + kLeft + kRight) + kLeft;
+  }
+
+  int corners_x_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Four heights around a corner.
+struct FourHeights {
+  double mean = 0.0;
+  float low = 0.0f, high = 0.0f;
+};
+FourHeights four_heights(float a, float b, float c, float d);
+
+/// Whether the ends `end` of the four columns around a corner are one surface. They are columns of one
+/// interval each, with material at one height.
+bool one_surface(const Columns& columns, int i, int j, int end, const FourHeights& heights);
+
+/// Those corners with one y that walls or inner caps may need. Vectors are kept from row to row, so that no
+/// memory is asked for in the long run.
 class CornerRow {
  public:
-  void build(const Columns& columns, int j);
+  void build(const Columns& columns, const CornerPlane& plane, int j);
+  /// The corners that are here, in order.
+  const std::vector<int>& numbers() const { return numbers_; }
   const Corner& corner(int i) const { return corners_[static_cast<std::size_t>(i)]; }
   Sheet& sheet(const Corner& corner, int rank) {
     return sheets_[corner.first_sheet + static_cast<std::uint32_t>(rank)];
@@ -109,7 +143,7 @@ class CornerRow {
     double x = 0.0, y = 0.0;
   };
 
-  bool build_simple(const Columns& columns, int i, int j);
+  void build_simple(const Columns& columns, int i, int j);
   void build_any(const Columns& columns, int i, int j);
   void gather(const Columns& columns, int i, int j);
   bool join(const Columns& columns, int i, int j, int q, int other);
@@ -117,7 +151,8 @@ class CornerRow {
   Shift shift_of(const Columns& columns, Corner& corner, bool border);
   void place(const Columns& columns, int i, int j, const Corner& corner, Shift shift);
 
-  std::vector<Corner> corners_;
+  std::vector<int> numbers_;
+  std::vector<Corner> corners_;  // by number
   std::vector<Sheet> sheets_;
   std::vector<int> ranks_;
   // Scratch of one corner.

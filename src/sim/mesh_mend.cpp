@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "sim/mesh_build.h"
+#include "sim/parallel.h"
 
 #include "kerf/geometry.h"
 
@@ -20,7 +21,7 @@ constexpr int kMostRounds = 8;
 
 class Mender {
  public:
-  explicit Mender(Mesh& mesh) : mesh_(mesh) {}
+  Mender(Mesh& mesh, unsigned threads) : mesh_(mesh), threads_(threads) {}
   void run();
 
  private:
@@ -52,6 +53,7 @@ class Mender {
   void drop_unused();
 
   Mesh& mesh_;
+  unsigned threads_;
   std::vector<std::size_t> flat_;
   std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
   std::vector<std::vector<std::uint32_t>> around_;  // triangles at a vertex, some of them gone or moved away
@@ -81,9 +83,17 @@ bool Mender::is_flat(const Corners& c) const {
 }
 
 void Mender::find_flat() {
+  constexpr std::size_t kEach = 1 << 14;
+  std::vector<std::vector<std::size_t>> found(mesh_.step.size() / kEach + 1);
+  sim::parallel_for(
+      threads_, found.size(),
+      [&](std::size_t n) {
+        for (std::size_t t = n * kEach; t < std::min((n + 1) * kEach, mesh_.step.size()); ++t)
+          if (!is_gone(t) && is_flat(corners(t))) found[n].push_back(t);
+      },
+      [] { return false; });
   flat_.clear();
-  for (std::size_t t = 0; t < mesh_.step.size(); ++t)
-    if (!is_gone(t) && is_flat(corners(t))) flat_.push_back(t);
+  for (const std::vector<std::size_t>& part : found) flat_.insert(flat_.end(), part.begin(), part.end());
 }
 
 /// The triangles around all vertices that flat triangles or their neighbours have.
@@ -225,6 +235,6 @@ void Mender::run() {
 
 }  // namespace
 
-void mend_flat_triangles(Mesh& mesh) { Mender(mesh).run(); }
+void mend_flat_triangles(Mesh& mesh, unsigned threads) { Mender(mesh, threads).run(); }
 
 }  // namespace kerf::meshing

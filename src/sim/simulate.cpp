@@ -62,10 +62,10 @@ class Run {
  private:
   std::vector<StepRange> steps_in(const std::vector<bool>& tiles) const;
   void send_all(const std::vector<bool>* tiles);
-  void cut_tile_number(const Batch& batch, std::size_t k);
+  void cut_tile_number(CutBatch& batch, std::size_t k);
   void meet_tile(std::size_t tile, TileJob job);
   void note_block_contacts(const Batch& batch);
-  void take_over(const Batch& batch);
+  void take_over(const CutBatch& batch);
 
   Workpiece::Body& body_;
   const Toolpath& path_;
@@ -91,12 +91,14 @@ void Run::send_all(const std::vector<bool>* tiles) {
                  .hazard_depth = hazard_depth_,
                  .is_no_go = is_no_go_});
   const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
+  const double steps = static_cast<double>(std::max<std::size_t>(path_.size(), 1));
   cut_batches(
-      feeder, cutter_, threads_, [&](const Batch& batch, std::size_t k) { cut_tile_number(batch, k); },
-      [&](const Batch& batch) { take_over(batch); }, stop);
+      feeder, threads_, [&](CutBatch& batch, std::size_t k) { cut_tile_number(batch, k); },
+      [&](const CutBatch& batch) { take_over(batch); },
+      [&](const CutBatch& batch) { report(progress_, static_cast<double>(batch.steps_done) / steps); }, stop);
 }
 
-void Run::cut_tile_number(const Batch& batch, std::size_t k) {
+void Run::cut_tile_number(CutBatch& batch, std::size_t k) {
   const std::size_t tile = batch.busy[k];
   TileJob job = cutter_.job(batch, k);
   if (walls_ != nullptr) return walls_->cut(tile, job);
@@ -159,20 +161,18 @@ void Run::refine_walls() {
 
 /// Adds what a batch has cut to the steps, in order of sweeps and tiles, whichever thread was first: sums of
 /// floating numbers depend on the order.
-void Run::take_over(const Batch& batch) {
+void Run::take_over(const CutBatch& batch) {
   for (std::size_t p = 0; p < batch.pairs.size(); ++p)
-    removed_[batch.sweeps[batch.pairs[p].sweep].step] += cutter_.removed()[batch.place[p]];
+    removed_[batch.sweeps[batch.pairs[p].sweep].step] += batch.removed[batch.place[p]];
   if (walls_ == nullptr) {
     if (is_no_go_) note_block_contacts(batch);
     for (const Contact& contact : batch.contacts) contacts_.add(contact);
-    for (const std::vector<Contact>& of_tile : cutter_.contacts())
+    for (const std::vector<Contact>& of_tile : batch.contacts_of)
       for (const Contact& contact : of_tile) contacts_.add(contact);
     for (std::size_t k = 0; k < batch.busy.size(); ++k)
       in_tile_[batch.busy[k]].add({batch.sweeps[batch.list[batch.start[k]]].step,
                                    batch.sweeps[batch.list[batch.start[k + 1] - 1]].step});
   }
-  report(progress_,
-         static_cast<double>(batch.steps_done) / static_cast<double>(std::max<std::size_t>(path_.size(), 1)));
 }
 
 }  // namespace
@@ -201,11 +201,11 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   if (options.role == SolidRole::stock) run.refine_walls();
   const double area = setup->pitch.mm() * setup->pitch.mm();
   double removed = 0.0;
-  result.removed_by_step.reserve(path.size());
+  result.removed_by_step.resize(path.size());
   for (std::size_t i = 0; i < path.size(); ++i) {
     const double volume = run.removed_length(i) * area;
     removed += volume;
-    result.removed_by_step.push_back(static_cast<float>(volume));
+    result.removed_by_step[i] = static_cast<float>(volume);
   }
   result.removed = mm3(removed);
   result.hazards = run.hazards();

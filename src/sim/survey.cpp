@@ -90,13 +90,8 @@ class Surveyor {
 
   Survey run() {
     if (tools_.tools().size() == 1) survey_.only_tool = tools_.tools().begin()->first;
-    bool has_spindle = false, has_laser = false;
-    for (const Step& step : path_.steps()) {
-      has_spindle = has_spindle || step.kind() == StepKind::spindle;
-      has_laser = has_laser || step.kind() == StepKind::laser_power;
-    }
-    survey_.judges_spindle = has_spindle && !has_laser;
     for_each_motion(path_, [&](const Step& step, const MotionContext& context) { look_at(step, context); });
+    survey_.judges_spindle = has_step(StepKind::spindle) && !has_step(StepKind::laser_power);
     return std::move(survey_);
   }
 
@@ -105,10 +100,10 @@ class Surveyor {
     check_place(step, context);
     check_extras(step, context);
     const std::optional<int> number = survey_.tool_of(context);
-    if (number && survey_.index.count(*number) == 0) add_tool(*number);
+    const bool is_known = number && (number == known_tool_ || find_tool(*number));
     if (!step.is_cutting()) return;
     if (!number) return no_tool(context);
-    if (survey_.index.count(*number) == 0) no_such_tool(*number, context);
+    if (!is_known) no_such_tool(*number, context);
     if (step.kind() == StepKind::arc && context.unknown_from == 0 &&
         chord_count(walk_of(step, context.from)).too_coarse)
       diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
@@ -116,11 +111,21 @@ class Surveyor {
     if (step.unknown_axes() != 0) warn_unknown_place(context);
   }
 
-  void add_tool(int number) {
-    const Tool* tool = tools_.find(number);
-    if (tool == nullptr) return;
-    survey_.index[number] = static_cast<std::uint32_t>(survey_.solids.size());
-    survey_.solids.push_back(make_tool_solids(tool->silhouette, mm(clearance_)));
+  bool has_step(StepKind kind) const {
+    const std::vector<Step>& steps = path_.steps();
+    return std::any_of(steps.begin(), steps.end(), [kind](const Step& step) { return step.kind() == kind; });
+  }
+
+  /// Makes the solids of a tool that is met for the first time. False if its shape is not known.
+  bool find_tool(int number) {
+    if (survey_.index.count(number) == 0) {
+      const Tool* tool = tools_.find(number);
+      if (tool == nullptr) return false;
+      survey_.index[number] = static_cast<std::uint32_t>(survey_.solids.size());
+      survey_.solids.push_back(make_tool_solids(tool->silhouette, mm(clearance_)));
+    }
+    known_tool_ = number;
+    return true;
   }
 
   void check_place(const Step& step, const MotionContext& context) {
@@ -129,11 +134,15 @@ class Surveyor {
       const Point2 c = step.arc().centre;
       arc_centre = centre_ + Point3{c.x, c.y, 0.0};
     }
-    if (distance(step.to(), centre_) < kFarthestMotion && distance(arc_centre, centre_) < kFarthestMotion)
-      return;
+    if (is_near(step.to()) && is_near(arc_centre)) return;
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
                        fmt::format("the motion goes further than {} km from the stock",
                                    number_text(kFarthestMotion * 1e-6, 0)));
+  }
+
+  bool is_near(Point3 place) const {
+    const Point3 way = place - centre_;
+    return dot(way, way) < kFarthestMotion * kFarthestMotion;
   }
 
   void check_extras(const Step& step, const MotionContext& context) {
@@ -184,6 +193,7 @@ class Surveyor {
   double clearance_;
   Diagnostics& diagnostics_;
   Survey survey_;
+  std::optional<int> known_tool_;  // of the motion before
   std::vector<int> missing_;
   std::vector<Code> said_;
   bool said_no_tool_ = false;

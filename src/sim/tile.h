@@ -52,7 +52,7 @@ class Slots {
   Slots& operator=(Slots&&) = default;
   std::size_t size() const { return size_; }
   Slot& add() {
-    if (size_ % kPage == 0) pages_.push_back(std::make_unique<Page>());
+    if (size_ % kPage == 0) pages_.emplace_back(new Page);  // not cleared: add_slot does that
     return (*this)[size_++];
   }
 
