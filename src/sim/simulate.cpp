@@ -382,7 +382,7 @@ void Run::refine_walls() {
   std::vector<double> counted = removed_;
   double excess = 0.0;
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
-    WallGroup group(body_, found, next);
+    WallGroup group(body_, found, next, threads_);
     walls_ = &group;
     send_all(&group.tiles());
     excess += group.excess();
