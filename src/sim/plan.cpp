@@ -9,7 +9,7 @@ namespace kerf::sim {
 namespace {
 
 /// A batch is cut when it holds this many; enough to keep all threads busy, and bounded memory.
-constexpr std::size_t kBatchSweeps = 1 << 15;
+constexpr std::size_t kBatchSweeps = 1 << 14;
 constexpr std::size_t kBatchPairs = 1 << 20;
 /// Most chords for one arc. More means a circle of kilometres or thousands of turns.
 constexpr int kMostChords = 1 << 20;

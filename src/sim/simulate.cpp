@@ -52,11 +52,12 @@ class Run {
     report(progress_, 1.0);
   }
 
-  /// Counts the columns at walls anew, see walls.h. Stopped meanwhile, all is as it was before.
-  void refine_walls();
+  /// Counts the columns at walls anew, see walls.h. False if there are none, or if stopped: then what was
+  /// told of volumes before stands.
+  bool refine_walls();
 
   bool stopped() const { return stopped_; }
-  double removed_length(std::size_t step) const { return removed_[step]; }
+  void tell_removed(Simulation& result) const;
   std::vector<Hazard> hazards() const { return contacts_.hazards(body_.bounds.low); }
 
  private:
@@ -137,26 +138,34 @@ std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
   return apart(std::move(all));
 }
 
-void Run::refine_walls() {
-  if (stopped_) return;
+bool Run::refine_walls() {
+  if (stopped_) return false;
   const std::vector<WallColumns> found = find_walls(body_, threads_);
-  if (found.empty()) return;
+  if (found.empty()) return false;
   if (progress_ != nullptr) progress_->phase("measuring walls");
-  std::vector<double> counted = removed_;
   double excess = 0.0;
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
-    WallGroup group(body_, found, next);
+    WallGroup group(body_, found, next, threads_);
     walls_ = &group;
     send_all(&group.tiles());
     excess += group.excess();
     walls_ = nullptr;
   }
-  if (stopped_) {
-    removed_ = std::move(counted);
-  } else {
-    body_.wall_volume = excess * body_.pitch * body_.pitch;
-  }
+  if (!stopped_) body_.wall_volume = excess * body_.pitch * body_.pitch;
   report(progress_, 1.0);
+  return !stopped_;
+}
+
+void Run::tell_removed(Simulation& result) const {
+  const double area = body_.pitch * body_.pitch;
+  double all = 0.0;
+  result.removed_by_step.resize(removed_.size());
+  for (std::size_t step = 0; step < removed_.size(); ++step) {
+    const double volume = removed_[step] * area;
+    all += volume;
+    result.removed_by_step[step] = static_cast<float>(volume);
+  }
+  result.removed = mm3(all);
 }
 
 /// Adds what a batch has cut to the steps, in order of sweeps and tiles, whichever thread was first: sums of
@@ -198,16 +207,8 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   }
   sim::Run run(result.workpiece, path, std::move(setup->survey), options, progress);
   run.cut_all();
-  if (options.role == SolidRole::stock) run.refine_walls();
-  const double area = setup->pitch.mm() * setup->pitch.mm();
-  double removed = 0.0;
-  result.removed_by_step.resize(path.size());
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const double volume = run.removed_length(i) * area;
-    removed += volume;
-    result.removed_by_step[i] = static_cast<float>(volume);
-  }
-  result.removed = mm3(removed);
+  run.tell_removed(result);
+  if (options.role == SolidRole::stock && run.refine_walls()) run.tell_removed(result);
   result.hazards = run.hazards();
   result.stopped = run.stopped();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

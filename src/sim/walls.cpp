@@ -29,7 +29,7 @@ constexpr double kMostShare = 0.25;
 constexpr std::size_t kAlways = 1 << 16;
 constexpr std::size_t kMostColumns = 1 << 22;
 /// Columns kept as points at a time; bounds the memory to about 100 MB.
-constexpr std::size_t kGroupColumns = 1 << 19;
+constexpr std::size_t kGroupColumns = 1 << 16;
 
 // ---- finding
 
@@ -312,20 +312,28 @@ double WallTile::excess() const {
   return sum;
 }
 
-WallGroup::WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next)
-    : wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
+WallGroup::WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next,
+                     unsigned threads)
+    : threads_(threads), wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
+  const std::size_t first = next;
   for (std::size_t columns = 0; next < found.size() && columns < kGroupColumns; ++next) {
     const WallColumns& walls = found[next];
     columns += walls.columns.size();
     wanted_[walls.tile] = true;
-    place_[walls.tile] = static_cast<std::uint32_t>(walls_.size());
-    walls_.push_back(store_.make(body, walls, parts_));
+    place_[walls.tile] = static_cast<std::uint32_t>(next - first);
   }
+  walls_.resize(next - first);
+  parallel_for(
+      threads_, walls_.size(),
+      [&](std::size_t n) { walls_[n] = store_.make(body, found[first + n], parts_); }, [] { return false; });
 }
 
 double WallGroup::excess() const {
+  std::vector<double> each(walls_.size());
+  parallel_for(
+      threads_, walls_.size(), [&](std::size_t n) { each[n] = walls_[n]->excess(); }, [] { return false; });
   double sum = 0.0;
-  for (const auto& walls : walls_) sum += walls->excess();
+  for (const double excess : each) sum += excess;
   return sum;
 }
 

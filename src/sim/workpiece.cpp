@@ -11,14 +11,14 @@ namespace kerf {
 namespace sim {
 
 Tile::Tile(Real height, int columns_x, int columns_y) {
-  for (int micro = 0; micro < kMicros; ++micro) {
-    std::fill_n(top[micro].v, kLanes, 0.0f);
-    std::fill_n(top_step[micro], kLanes, kStockSurface);
-    chain[micro] = -1;
-    micro_top[micro] = 0.0f;
-    micro_bottom[micro] = 0.0f;
-  }
-  for (int y = 0; y < columns_y; ++y) {
+  const bool is_whole = columns_x == kTileColumns && columns_y == kTileColumns;
+  const Real everywhere = is_whole ? height : 0.0f;
+  std::fill_n(top[0].v, kMicros * kLanes, everywhere);
+  std::fill_n(top_step[0], kMicros * kLanes, kStockSurface);
+  std::fill_n(micro_top, kMicros, everywhere);
+  std::fill_n(micro_bottom, kMicros, 0.0f);
+  std::fill_n(chain, kMicros, -1);
+  for (int y = 0; y < columns_y && !is_whole; ++y) {
     for (int x = 0; x < columns_x; ++x) {
       const int index = lane_index(x, y);
       top[index / kLanes][index % kLanes] = height;
