@@ -11,7 +11,7 @@
 namespace kerf::sim {
 namespace {
 
-constexpr int kThirds = 80;   // steps of a search for a lowest value: the way's last bits
+constexpr int kThirds = 80;    // steps of a search for a lowest value: the way's last bits
 constexpr int kHalvings = 55;  // steps of a search for a zero: likewise
 
 /// A straight part of a sweep.

@@ -19,7 +19,7 @@ enum PassBits : std::uint8_t {
   kPassNeck = 4,
   kPassShank = 8,
   kPassHolder = 16,
-  kPassRapid = 32,  // the cutting part at rapid speed; neck, shank and holder then are the same hazard
+  kPassRapid = 32,       // the cutting part at rapid speed; neck, shank and holder then are the same hazard
   kPassSpindleOff = 64,  // with kPassCut: what is cut is cut by a spindle that stands still
 };
 

@@ -141,11 +141,8 @@ TEST(Fixtures, EveryPartAtFeedAndRapid) {
     std::optional<ToolPart> part;
     double depth;
   };
-  const std::vector<Expected> expected{{0, 2, ToolPart::cutting, 3},
-                                       {0, 3, {}, 3},
-                                       {0, 6, {}, 1},
-                                       {0, 7, {}, 1},
-                                       {1, 10, ToolPart::shank, 8}};
+  const std::vector<Expected> expected{
+      {0, 2, ToolPart::cutting, 3}, {0, 3, {}, 3}, {0, 6, {}, 1}, {0, 7, {}, 1}, {1, 10, ToolPart::shank, 8}};
   ASSERT_EQ(found->size(), expected.size());
   for (std::size_t k = 0; k < expected.size(); ++k) {
     SCOPED_TRACE(k);
@@ -163,11 +160,8 @@ TEST(Fixtures, AMoveOfManyChordsMeetsWhatItMeetsOnce) {
   // A helix that turns three times at the same place in the clamp.
   Path path;
   path.tool(1).rapid({25, 20, 10}).cut({25, 20, 4.0});
-  path.arc({.to = {25, 20, 3},
-            .centre = {20, 20},
-            .turn = Turn::ccw,
-            .extra_turns = 2,
-            .feed = mm_per_min(100)});
+  path.arc(
+      {.to = {25, 20, 3}, .centre = {20, 20}, .turn = Turn::ccw, .extra_turns = 2, .feed = mm_per_min(100)});
   Diagnostics diagnostics;
   const auto found = find_fixture_contacts(
       path.path(), square_6(), std::vector{fixture("clamp", {{0, 0, 0}, {40, 40, 4}})}, {}, diagnostics);

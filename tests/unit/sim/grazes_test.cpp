@@ -1,6 +1,6 @@
 // Nothing reported that is not there, nothing missed: every kind of hazard a hundredth of a millimetre before
-// and beyond its limit in depth, and one column before and beyond it sideways, for every motion that can cause
-// it.
+// and beyond its limit in depth, and one column before and beyond it sideways, for every motion that can
+// cause it.
 #include <gtest/gtest.h>
 
 #include "../stock/solids.h"
@@ -116,12 +116,35 @@ std::vector<Limit> limits() {
       {"shank beside", HazardKind::shank_contact, with_shank(), kFeed, {30, -4, -16}, 1, 6, along},
       {"holder beside", HazardKind::holder_contact, with_holder(), kFeed, {30, -12, -16}, 1, 1, along},
       {"over flute beside", HazardKind::over_flute, flutes_only(), kFeed, {30, -3, -8}, 1, 3, level},
-      {"spindle beside", HazardKind::spindle_off, flutes_only(), kFeed, {30, -3, -4}, 1, 4, along, false, true},
+      {"spindle beside",
+       HazardKind::spindle_off,
+       flutes_only(),
+       kFeed,
+       {30, -3, -4},
+       1,
+       4,
+       along,
+       false,
+       true},
       // Sideways, in a slot as wide as the shank is thick less one: only the shank reaches the wall.
-      {"shank in the slot", HazardKind::shank_contact, slim({}, cylinder(1.5, 10, 60), {}), kFeed,
-       {30, 20.5, -16}, 1, 6, {T::line, T::back, T::plunge}, true},
-      {"rapid, shank in the slot", kRapid, slim({}, cylinder(1.5, 10, 60), {}), kFast,
-       {30, 20.5, -16}, 1, 6, {T::line, T::back, T::plunge}, true},
+      {"shank in the slot",
+       HazardKind::shank_contact,
+       slim({}, cylinder(1.5, 10, 60), {}),
+       kFeed,
+       {30, 20.5, -16},
+       1,
+       6,
+       {T::line, T::back, T::plunge},
+       true},
+      {"rapid, shank in the slot",
+       kRapid,
+       slim({}, cylinder(1.5, 10, 60), {}),
+       kFast,
+       {30, 20.5, -16},
+       1,
+       6,
+       {T::line, T::back, T::plunge},
+       true},
   };
 }
 
