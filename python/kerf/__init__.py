@@ -156,11 +156,16 @@ def save_left_stock(simulation, path):
     ----------
     simulation : Simulation
     path : str or os.PathLike
+        Ends in .kstock, by which `load_stock` knows it.
 
     Raises
     ------
+    ValueError
+        Where the path ends otherwise.
     OSError
         Where the file cannot be written.
     """
+    if not os.fspath(path).lower().endswith(".kstock"):
+        raise ValueError(f"what is left is written as .kstock, not as {os.fspath(path)!r}")
     with open(path, "wb") as file:
         file.write(_kerf._write_left(simulation))

@@ -19,7 +19,9 @@ const char* const kBodyHelp =
 Fixtures (--fixture), which no part of a tool may touch:
   --fixture "0,0,-12 to 20,15,6"       a box, from its lowest to its highest corner
   --fixture vice.stl                   a closed mesh
-A fourth axis (--rotary, not in compare), the bar from X0 on, turned by A about an axis along X:
+)";
+const char* const kRotaryHelp =
+    R"(A fourth axis (--rotary), the bar from X0 on, turned by A about an axis along X:
   --rotary "d=40 length=100"           axis at Y0 Z0; "x=-5 y=0 z=12" where it begins and stands elsewhere
 )";
 

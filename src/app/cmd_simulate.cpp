@@ -193,7 +193,7 @@ Command add_simulate(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
-                  kExamples + std::string(kJobHelp) + kBodyHelp, options->output);
+                  kExamples + std::string(kJobHelp) + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(*app, options->job);
   add_body_options(*app, options->job.bodies);
   add_rotary_option(*app, options->job.bodies);
@@ -202,13 +202,12 @@ Command add_simulate(CLI::App& root) {
   add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
   options->picture_options = {
-      app->add_option("--view", options->view,
-                      "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
-          ->type_name("VIEW")
-          ->capture_default_str(),
-      app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")
-          ->type_name("WxH")
-          ->capture_default_str()};
+      app->add_option(
+             "--view", options->view,
+             "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION (default: -35,50)")
+          ->type_name("VIEW"),
+      app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+          ->type_name("WxH")};
   add_number(*app, "--threads", options->threads, 0, kMostThreads, "N",
              "Threads to use (default: all; same result)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};

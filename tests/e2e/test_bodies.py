@@ -129,6 +129,9 @@ def test_compare(kerf, program, box, files):
     outside = kerf("compare", "--json", path, target, "--target-shift", "0,0,3")
     assert "target_outside" in outside.codes()
     assert kerf("compare", path, target, "-o", "part.stl").status == 2
+    # --size is that of --view's picture.
+    assert kerf("compare", path, target, "-o", "map.png", "--size", "10x10").status == 2
+    assert "full from 0.25 mm" in kerf("compare", path, target, "-o", "map.png").out
 
 
 WRAP = ("G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\n"
