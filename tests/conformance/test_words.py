@@ -1,5 +1,5 @@
-"""Every word of LinuxCNC's quick reference: what tests/data/gcode/words.txt expects of Kerf is what LinuxCNC does,
-or the row says why not."""
+"""Every word of LinuxCNC's quick reference: what tests/data/gcode/words.txt expects of Kerf is what LinuxCNC
+does, or the row says why not."""
 import re
 from pathlib import Path
 
