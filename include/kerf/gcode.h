@@ -71,6 +71,7 @@ struct GcodeProgram {
   std::map<int, Tool> tools;   // described in the program's comments, by the T word they stand with
   std::optional<Stock> stock;  // from STOCK/BLOCK or stockMin/stockMax comments
   bool ended = false;          // M2, M30 or a closing % was seen
+  bool cut_short = false;      // a limit was reached, or it is no text; its end is not known
   GcodeDialect dialect = GcodeDialect::rs274;
 };
 

@@ -112,6 +112,20 @@ void show_summary(Console& console, const Result& result) {
   console.summary(fmt::format("hazards  {}", count_text(result.findings)));
 }
 
+/// What went wrong in the material and at the fixtures. Of a program whose Z counts downwards only that is
+/// told, as all else follows from it.
+std::vector<Finding> findings_of_simulation(const Job& job, const Simulation& simulation,
+                                            const SimulationOptions& how, Diagnostics& diagnostics,
+                                            Progress& progress) {
+  const Toolpath& path = job.program.path;
+  if (const auto downwards = find_z_downwards(path)) return findings_of({*downwards}, path);
+  std::vector<Finding> findings =
+      merged(findings_of(simulation.hazards, path),
+             findings_at_fixtures(path, job.tools, job.fixtures, how, diagnostics, progress));
+  tell_assumed_flutes(findings, path, job.tools, diagnostics);
+  return findings;
+}
+
 Status simulate_job(Console& console, const Options& options, const JobSettings& settings,
                     const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
   TerminalProgress progress(console);
@@ -133,9 +147,7 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
   std::vector<Finding> findings;
   if (simulation && !simulation->stopped)
-    findings =
-        merged(findings_of(simulation->hazards, job.program.path),
-               findings_at_fixtures(job.program.path, job.tools, job.fixtures, how, diagnostics, progress));
+    findings = findings_of_simulation(job, *simulation, how, diagnostics, progress);
   OutputSet files;
   const bool written = simulation && !simulation->stopped && !diagnostics.has_errors() &&
                        write_outputs(outputs, job, *simulation, view, files, diagnostics, progress);

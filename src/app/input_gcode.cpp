@@ -56,7 +56,9 @@ LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics
   loaded.units = program.inch ? InputUnits::inch : InputUnits::mm;
   loaded.tools = std::move(program.tools);
   loaded.stock = program.stock;
-  loaded.end = program.ended ? ProgramEnd::seen : ProgramEnd::missing;
+  loaded.end = program.cut_short ? ProgramEnd::not_asked
+               : program.ended   ? ProgramEnd::seen
+                                 : ProgramEnd::missing;
   return loaded;
 }
 

@@ -5,13 +5,16 @@
 
 #include "app/text.h"
 
+#include "kerf/number.h"
+
 namespace kerf::app {
 
 void add_reading_options(CLI::App& app, ReadingOptions& options) {
   const auto known = [](const std::string& name) {
     if (dialect_named(name)) return std::string();
-    return fmt::format("\"{}\" is no controller that is known; expected {}", name,
-                       joined(dialect_names(), ", "));
+    const auto meant = did_you_mean(name, dialect_names());
+    return fmt::format("\"{}\" is no controller that is known; {}expected {}", name,
+                       meant ? fmt::format("did you mean {}? ", *meant) : "", joined(dialect_names(), ", "));
   };
   app.add_option("--dialect", options.dialect,
                  "The controller a G-code program is for (default: told by its text): " +

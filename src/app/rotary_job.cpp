@@ -76,7 +76,8 @@ Status simulate_bar(Console& console, const Job& job, const SimulationOptions& h
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
-  const std::vector<Finding> findings = findings_of(s->hazards, job.program.path);
+  std::vector<Finding> findings = findings_of(s->hazards, job.program.path);
+  tell_assumed_flutes(findings, job.program.path, job.tools, diagnostics);
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(json_of_result(job, *s, findings, outputs, diagnostics), Layout::indented));

@@ -139,6 +139,7 @@ class Interpreter : public SystemValues {
   // interpreter.cpp
   bool goes_on(const Block& block);
   void read_percent();
+  void tell_silent_spindle();
   void execute();
 
   void look_where_we_are();
@@ -207,6 +208,7 @@ class Interpreter : public SystemValues {
   void quadratic();
   void cubic();
   void nurbs();
+  void add_control_point();
   std::optional<Point2> point_words(char u, char v);
   void polyline(const std::vector<Point2>& points);
 
@@ -230,6 +232,9 @@ class Interpreter : public SystemValues {
 
   // threads.cpp
   void spindle_move(Tenths motion);
+  struct Thread;
+  Thread take_thread_words();
+  void thread_pass(const Thread& thread, const Place& start, double end_z, double depth);
   void thread_cycle();
 
   // motion.cpp
@@ -318,7 +323,7 @@ class Interpreter : public SystemValues {
   std::map<int, double> tool_diameters_;                 // mm, by G10 L1
   std::vector<Point2> control_points_;                   // of G5.2
   std::vector<double> control_weights_;
-  int curve_order_ = 3;
+  int curve_order_ = 0;
   std::optional<Point2> last_curve_handle_;  // of G5: second control point, from the end
   LaserMode beam_mode_ = LaserMode::off;
   double beam_power_ = 0.0;
@@ -332,6 +337,7 @@ class Interpreter : public SystemValues {
   TextSpot pending_spot_;
   std::optional<int> undescribed_tool_;  // changed to, not described, no motion since
   std::vector<std::pair<std::string, TextSpot>> waiting_remarks_;
+  std::optional<std::pair<Tenths, TextSpot>> silent_spindle_;  // the first M3 or M4 with no S word so far
   bool units_told_ = false;
   bool moved_ = false;
   bool no_feed_said_ = false;
