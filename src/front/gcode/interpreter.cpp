@@ -29,8 +29,8 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       max_steps_(std::min(options.max_steps, text.size() / kBytesOfStep + options.max_made_steps)),
       after_end_(options.after_end.value_or(usual_after_end(program.dialect, options))),
       file_(program.path.origins().file(options.file_name)) {
-  const bool printer = program.dialect == GcodeDialect::marlin || program.dialect == GcodeDialect::klipper;
-  line_.refuse((printer ? 0u : Line::bit('E')) | Line::bit('U') | Line::bit('V') | Line::bit('W'));
+  if (is_printer()) set_filament(text);
+  line_.refuse((is_printer() ? 0u : Line::bit('E')) | Line::bit('U') | Line::bit('V') | Line::bit('W'));
 }
 
 void Interpreter::run(const Block& block) {
