@@ -86,8 +86,7 @@ struct Probe {
   Feed feed;
   ProbeKind kind = ProbeKind::contact_or_error;
 };
-/// A straight move that lays a bead of `volume` mm3; below 0: filament drawn back. Width and height 0:
-/// untold.
+/// A straight move that lays a bead of `volume` mm3; below 0: draws filament back. 0 by 0: size not told.
 struct Extrude {
   Point3 to;
   Volume volume;
