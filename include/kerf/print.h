@@ -117,4 +117,9 @@ bool is_print(const Toolpath& path);
 std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintOptions& options,
                                               Diagnostics& diagnostics, Progress* progress = nullptr);
 
+/// The columns with every gap no higher than `height` filled, but those above the bed. The grooves and lenses
+/// between round-sided roads make most of a print's exact surface; closed by a layer's height, the mesh is
+/// smaller by far and shows the same part.
+ColumnGrid without_grooves(const ColumnGrid& columns, Length height);
+
 }  // namespace kerf

@@ -16,6 +16,8 @@
 
 #include "sim/parallel.h"
 #include "sim/print_hollow.h"
+#include "sim/print_support.h"
+#include "sim/print_survey.h"
 #include "sim/print_tile.h"
 
 #include "kerf/number.h"
@@ -24,162 +26,9 @@ namespace kerf {
 namespace printing {
 namespace {
 
-constexpr double kFinestPitch = 0.02;     // mm, of those that are chosen
-constexpr double kColumnsPerWidth = 5.0;  // of the usual road
-constexpr double kChosenColumns = 4e6;    // where no pitch is told
-constexpr double kChosenIntervals = 2e7;  // likewise; every column of every road may keep one
-constexpr double kPitchDigits = 1000.0;   // a chosen pitch is whole in this part of a mm
-constexpr double kCoarse = 0.5;           // of the usual road's width
-constexpr double kLargestPrint = 1e5;     // mm along an edge, as simulate has it
-constexpr int kMargin = 2;                // columns without material around the print
-constexpr double kTouch = 1e-4;           // mm, and in units of the height's last place:
-constexpr double kTouchUlps = 4.0;
 constexpr std::size_t kBatchPairs = 1'000'000;     // of piece and tile, laid at once
 constexpr std::size_t kBatchColumns = 30'000'000;  // likewise, of all pieces: bounds what a batch can add
 constexpr double kStraight = 1e-6;                 // sine of the angle below which a corner has no wedge
-
-// ---- the survey
-
-struct Survey final : RoadSink {
-  explicit Survey(Progress* asked) : progress(asked) {}
-
-  void road(const Road& r) override {
-    const double reach = r.section.width / 2.0;
-    for (const Point3 p : {r.from, r.to}) {
-      box.add(p + Point3{-reach, -reach, -r.section.height});
-      box.add(p + Point3{reach, reach, 0.0});
-    }
-    ++roads;
-    length += r.length;
-    area += r.length * r.section.width;
-    if (levels.empty() || levels.back() != r.level) levels.push_back(r.level);
-    if (levels.size() > 2 * sorted) sort_levels();
-  }
-  bool goes_on() override {
-    constexpr std::size_t kBetween = 4096;
-    stopped = stopped || (++motions % kBetween == 0 && stop_requested(progress));
-    return !stopped;
-  }
-  /// Leaves each level once, lowest first; those that rounding alone tells apart become the lowest of them.
-  void sort_levels() {
-    std::sort(levels.begin(), levels.end());
-    std::size_t kept = 0;
-    for (const double z : levels)
-      if (kept == 0 || z > levels[kept - 1] + kSameLevel) levels[kept++] = z;
-    levels.resize(kept);
-    sorted = std::max<std::size_t>(kept, 1024);
-  }
-  std::uint32_t layer_of(double level) const {
-    const auto it = std::upper_bound(levels.begin(), levels.end(), level);
-    return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(it - levels.begin() - 1, 0));
-  }
-  double usual_width() const { return area / length; }
-
-  Progress* progress;
-  Box3 box;
-  std::size_t roads = 0, motions = 0, sorted = 1024;
-  double length = 0.0, area = 0.0;  // mm, mm2 of all roads in the plan
-  std::vector<double> levels;
-  bool stopped = false;
-};
-
-double choose_pitch(const Survey& survey, const PrintOptions& options) {
-  if (options.resolution.mm() > 0.0) return options.resolution.mm();
-  const Point3 size = survey.box.size();
-  double pitch = std::max(kFinestPitch, survey.usual_width() / kColumnsPerWidth);
-  pitch = std::max(pitch, std::sqrt(size.x * size.y / kChosenColumns));
-  pitch = std::max(pitch, std::sqrt(survey.area / kChosenIntervals));
-  return std::ceil(pitch * kPitchDigits) / kPitchDigits;
-}
-
-/// Where the columns stand. Nothing, and said, where there are too many.
-std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& options, const Toolpath& path,
-                                Diagnostics& diagnostics) {
-  const double told = options.resolution.mm();
-  if (!(told >= 0.0) || !std::isfinite(told)) {
-    diagnostics.error(Code::bad_resolution, {},
-                      "the resolution must be a length above 0, or 0 to choose one");
-    return std::nullopt;
-  }
-  const Point3 size = survey.box.size();
-  const double high = survey.box.high.z - options.bed.mm();
-  if (!(size.x < kLargestPrint && size.y < kLargestPrint && std::abs(high) < kLargestPrint)) {
-    diagnostics.error(Code::print_too_large, {},
-                      fmt::format("the print is {} x {} x {} mm, which cannot be meant",
-                                  number_text(size.x, 0), number_text(size.y, 0), number_text(high, 0)));
-    return std::nullopt;
-  }
-  const double pitch = choose_pitch(survey, options);
-  const double nx = std::ceil(size.x / pitch) + 1 + 2 * kMargin,
-               ny = std::ceil(size.y / pitch) + 1 + 2 * kMargin;
-  if (nx * ny > static_cast<double>(options.max_columns)) {
-    const double least = std::sqrt(size.x * size.y / static_cast<double>(options.max_columns));
-    diagnostics
-        .error(Code::print_too_large, {},
-               fmt::format("columns {} mm apart are {:.0f} for this print, more than {}",
-                           number_text(pitch, 4), nx * ny, options.max_columns))
-        .hint = fmt::format("ask for columns {} mm apart or more", number_text(1.1 * least, 3));
-    return std::nullopt;
-  }
-  if (pitch > kCoarse * survey.usual_width())
-    diagnostics.warning(Code::print_coarse, path.size() > 0 ? path.origin_of(0) : Origin{},
-                        fmt::format("columns {} mm apart are coarse for roads {} mm wide; figures are rough",
-                                    number_text(pitch, 3), number_text(survey.usual_width(), 3)));
-  Frame frame;
-  frame.pitch = pitch;
-  frame.nx = static_cast<int>(nx);
-  frame.ny = static_cast<int>(ny);
-  frame.x = (std::floor(survey.box.low.x / pitch) - kMargin + kShift) * pitch;
-  frame.y = (std::floor(survey.box.low.y / pitch) - kMargin + kShift) * pitch;
-  frame.bed = options.bed.mm();
-  const auto height = static_cast<float>(std::max(high, 1.0));
-  const float last_place = std::nextafter(height, std::numeric_limits<float>::max()) - height;
-  frame.touch = static_cast<float>(std::max(kTouch, kTouchUlps * static_cast<double>(last_place)));
-  return frame;
-}
-
-// ---- stretches of road that nothing holds
-
-/// Follows roads in time order and tells stretches without support.
-class Stretches {
- public:
-  explicit Stretches(std::vector<PrintHazard>& hazards) : hazards_(hazards) {}
-
-  /// Returns the length of the road that has nothing below.
-  double add(const Road& road, const Sums& sums) {
-    if (!road.goes_on) {
-      close();
-      held_ = false;
-      share_ = 0.0;
-    }
-    // A road so short that no column stands under it is as the one before.
-    if (sums.middle > 0) share_ = static_cast<double>(sums.bare) / sums.middle;
-    held_ = held_ || sums.held || sums.full == 0.0;
-    const double bare = share_ * road.length;
-    const PrintHazardKind kind = held_ ? PrintHazardKind::unsupported : PrintHazardKind::in_air;
-    if (open_ && (bare == 0.0 || kind != stretch_.kind)) close();
-    if (bare == 0.0) return 0.0;
-    if (!open_) {
-      open_ = true;
-      width_ = road.section.width;
-      stretch_ = {kind, road.step, 0, road.from, {}, {}, {}};
-    }
-    ++stretch_.steps;
-    stretch_.length = stretch_.length + mm(bare);
-    return bare;
-  }
-  void close() {
-    if (!std::exchange(open_, false)) return;
-    if (stretch_.kind == PrintHazardKind::in_air || stretch_.length.mm() > width_)
-      hazards_.push_back(stretch_);
-  }
-
- private:
-  std::vector<PrintHazard>& hazards_;
-  PrintHazard stretch_;
-  bool open_ = false, held_ = false;
-  double width_ = 0.0, share_ = 0.0;
-};
 
 // ---- laying
 
@@ -631,7 +480,7 @@ std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintO
     return std::nullopt;
   }
   survey.sort_levels();
-  const auto frame = printing::make_frame(survey, options, path, diagnostics);
+  const auto frame = printing::make_frame(survey, options, diagnostics);
   if (!frame) return std::nullopt;
   printing::Printer printer(path, options, *frame, survey, diagnostics, progress);
   if (!printer.print() && !printer.stopped()) return std::nullopt;
