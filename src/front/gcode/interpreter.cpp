@@ -29,8 +29,9 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       max_steps_(std::min(options.max_steps, text.size() / kBytesOfStep + options.max_made_steps)),
       after_end_(options.after_end.value_or(usual_after_end(program.dialect, options))),
       file_(program.path.origins().file(options.file_name)) {
-  const bool printer = program.dialect == GcodeDialect::marlin || program.dialect == GcodeDialect::klipper;
-  if (printer) line_.follow(LetterRules::printer);
+  if (!is_printer()) return;
+  set_filament(text);
+  line_.follow(LetterRules::printer);
 }
 
 void Interpreter::run(const Block& block) {
