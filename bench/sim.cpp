@@ -14,6 +14,7 @@
 #include <malloc.h>
 #endif
 
+#include "kerf/live.h"
 #include "kerf/simulate.h"
 
 namespace kerf {
@@ -206,6 +207,40 @@ void ReliefMesh(benchmark::State& state) {
   state.counters["prototype_top_only_s"] = 0.1;
 }
 
+/// The million moves with one of them lower, after they were cut as they were.
+void LiveEdit(benchmark::State& state) {
+  LiveOptions options;
+  options.simulation.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+  LiveSimulation live(table(), block(), options);
+  const Toolpath path = relief(1000, 1000);
+  Diagnostics diagnostics;
+  if (!live.update(path, diagnostics)) return state.SkipWithError("not simulated");
+  double depth = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Toolpath edited = path;
+    Point3 lower = path[path.size() / 2].to();
+    lower.z -= depth += 0.001;
+    edited.set_end(path.size() / 2, lower);
+    state.ResumeTiming();
+    if (!live.update(std::move(edited), diagnostics)) return state.SkipWithError("not simulated");
+  }
+}
+/// The part as it was after a part of the million moves, somewhere else each time.
+void LiveInstant(benchmark::State& state) {
+  LiveOptions options;
+  options.simulation.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+  LiveSimulation live(table(), block(), options);
+  Diagnostics diagnostics;
+  if (!live.update(relief(1000, 1000), diagnostics)) return state.SkipWithError("not simulated");
+  const std::size_t steps = live.path().size();
+  std::size_t at = 0;
+  for (auto _ : state) {
+    at = (at + steps / 7 * 3 + 1) % steps;
+    benchmark::DoNotOptimize(live.at(at));
+  }
+}
+
 // Resolution in microns, threads.
 BENCHMARK(Relief1M)
     ->Args({100, 1})
@@ -225,6 +260,9 @@ BENCHMARK(Random100k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->U
 BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
     benchmark::kMillisecond);
 BENCHMARK(ReliefMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+
+BENCHMARK(LiveEdit)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(LiveInstant)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kerf

@@ -28,8 +28,8 @@ namespace kerf {
 /// The step id of a surface that no step made: the stock's own faces.
 inline constexpr std::uint32_t kStockSurface = 0xffffffffu;
 
-/// What the solid is for: to be cut, or (fixtures.h) not to be touched at all. A no-go solid tells every cut
-/// into it as HazardKind::spindle_off, as if the spindle stood.
+/// What the solid is for: to be cut, or (fixtures.h) not to be touched at all. A no-go solid stays whole,
+/// whatever goes through it, and tells every cut into it as HazardKind::spindle_off, as if the spindle stood.
 enum class SolidRole : std::uint8_t { stock, no_go };
 
 struct SimulationOptions {

@@ -294,25 +294,7 @@ class MotionReader {
  public:
   explicit MotionReader(const Toolpath& path) : path_(&path) {}
   /// Goes on to the next motion, at first to the first; false where there is none.
-  bool next() {
-    if (motion_ != nullptr) {
-      context_.from = motion_->to();
-      context_.unknown_from = motion_->unknown_axes();
-    }
-    for (motion_ = nullptr; next_ < path_->size();) {
-      const Step& s = (*path_)[next_++];
-      if (s.kind() == StepKind::tool_change) context_.tool = s.tool_change().tool;
-      if (s.kind() == StepKind::spindle) {
-        context_.spindle = s.spindle();
-        context_.spindle_stated = true;
-      }
-      if (!s.is_motion()) continue;
-      context_.index = next_ - 1;
-      motion_ = &s;
-      return true;
-    }
-    return false;
-  }
+  bool next();
   /// The motion that next() went to.
   const Step& step() const { return *motion_; }
   const MotionContext& context() const { return context_; }

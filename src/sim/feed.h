@@ -3,24 +3,15 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include "sim/plan.h"
+#include "sim/survey.h"
 
 #include "kerf/toolpath.h"
 
 namespace kerf::sim {
-
-/// Which tool cuts where, found before anything is cut so that a missing tool costs no time.
-struct Survey {
-  std::map<int, std::uint32_t> index;  // tool number to place in `solids`
-  std::vector<ToolSolids> solids;
-  std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
-  bool judges_spindle = false;   // the program says something of the spindle and is not for a laser
-};
 
 /// From a first step to a last one; none while the first is after the last.
 struct StepRange {
@@ -31,12 +22,18 @@ struct StepRange {
   }
 };
 
+/// The same steps in order, no range touching another.
+std::vector<StepRange> apart(std::vector<StepRange> ranges);
+
 /// What of a toolpath is to be cut, and how it is judged.
 struct FeedScope {
   PlanScope plan;
   std::vector<StepRange> steps;  // in order and apart
   Length hazard_depth;
-  bool is_no_go = false;  // every cut is one of a spindle that stands
+  bool is_no_go = false;                 // every cut is one of a spindle that stands
+  std::vector<std::size_t> pauses = {};  // in order: a batch ends before each of these steps
+  /// Null, or one a step: what sweeps and contacts have in place of it.
+  const std::vector<std::uint32_t>* numbers = nullptr;
 };
 
 class Feeder {
@@ -45,22 +42,26 @@ class Feeder {
       : survey_(survey),
         scope_(std::move(scope)),
         tiles_(body.tiles.size()),
+        path_size_(path.size()),
         planner_(body, survey.solids, scope_.hazard_depth, scope_.plan),
         motion_(path) {}
 
-  /// Fills a batch, whatever it held, with what comes next; it is empty at the end of the path.
+  /// Fills a batch, whatever it held, with what comes next.
   void fill(Batch& batch);
 
  private:
   bool is_wanted(std::size_t step);
+  bool is_done() const { return next_range_ >= scope_.steps.size(); }
+  bool reached_pause();
   void add(Batch& batch);
 
   const Survey& survey_;
   FeedScope scope_;
-  std::size_t tiles_;
+  std::size_t tiles_, path_size_;
   Planner planner_;
   MotionReader motion_;
-  std::size_t next_range_ = 0;
+  std::size_t next_range_ = 0, next_pause_ = 0;
+  bool waiting_ = false;  // the motion that was read has not been added
 };
 
 }  // namespace kerf::sim

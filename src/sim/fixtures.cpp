@@ -29,7 +29,8 @@ std::optional<ToolPart> part_of(HazardKind kind) {
   return std::nullopt;
 }
 
-/// Over-long cuts and cuts below its floor mean nothing for a solid that is not to be touched.
+/// Cuts below its floor mean nothing for a solid that is not to be touched, and over-long ones are contacts
+/// of the part above the flutes.
 bool is_contact(HazardKind kind) { return kind == HazardKind::rapid_in_stock || part_of(kind).has_value(); }
 
 /// What is wrong with a fixture's own mesh is told; what the toolpath lacks, the stock's simulation has told.

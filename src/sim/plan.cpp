@@ -23,8 +23,6 @@ constexpr double kSameLevel = 1e-9;  // mm
 /// A line no longer than this many times the tool's reach is paired with all tiles of its box: hardly more
 /// than those it meets.
 constexpr double kShort = 2.0;
-/// Heights of the virtual cylinder above the flutes; higher than any block that is accepted, mm.
-constexpr double kAboveAll = 1e6;
 
 double distance_to_interval(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
@@ -134,20 +132,11 @@ void Batch::sort(std::size_t tiles) {
   });
 }
 
-/// Half the width of what follows the flutes; no more than theirs at their end, so that a thicker shank is
-/// told of as a shank. Nothing drawn above the flutes: their own width goes on.
-double radius_above_flutes(const Silhouette& tool) {
-  if (tool.cutting.empty()) return 0.0;
-  const double flutes = tool.cutting.knots.back().r;
-  for (const Profile* part : {&tool.neck, &tool.shank, &tool.holder})
-    if (!part->empty()) return std::min(flutes, part->knots.front().r);
-  return flutes;
-}
-
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
   ToolSolids solids;
   solids.cutting = make_solid(tool.cutting, mm(kProfileChord), Length());
-  const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
+  const Silhouette whole = held(tool);
+  const Profile* parts[] = {&whole.cutting, &whole.neck, &whole.shank, &whole.holder};
   for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kProfileChord), side_clearance);
   const double rim = radius_above_flutes(tool) - side_clearance.mm();
   if (rim > 0.0) solids.over_flute = make_cylinder(rim, solids.cutting.top, solids.cutting.top + kAboveAll);
@@ -196,6 +185,17 @@ bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
          box.low.z < size_.z;
 }
 
+void Planner::pass_over(const Step& step, const MotionContext& context, std::uint32_t tool) {
+  const Motion motion = motion_of(step, context);
+  if (!motion.is_swept) return interrupt();
+  remember(step, tool, motion.to);
+}
+
+void Planner::remember(const Step& step, std::uint32_t tool, Point3 end) {
+  cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
+  end_ = end;
+}
+
 void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
                   Batch& batch) {
   const Motion motion = motion_of(step, context);
@@ -208,8 +208,7 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
       cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
   sweep.step = static_cast<std::uint32_t>(context.index);
   sweep.tool = tool;
-  cutting_tool_ = cuts ? std::optional(tool) : std::nullopt;
-  end_ = motion.to;
+  remember(step, tool, motion.to);
   if (step.kind() == StepKind::arc && context.unknown_from == 0)
     return add_arc(step, context, sweep, follows, batch);
   sweep.follows = follows;

@@ -37,9 +37,9 @@ struct Batch {
   std::vector<Pair> pairs;
   std::vector<Contact> contacts;  // found by the planner itself: below_floor
   std::size_t steps_done = 0;     // of the toolpath, with this batch
+  bool is_last = false;
 
   bool full() const;
-  bool empty() const { return sweeps.empty() && contacts.empty(); }
   void clear();
   /// Sorts the pairs by tile; `tiles` is the number of all tiles.
   void sort(std::size_t tiles);
@@ -73,6 +73,8 @@ class Planner {
   bool unfinished() const { return chords_.next < chords_.count; }
   /// Adds more of an unfinished motion, until it ends or the batch is full.
   void go_on(Batch& batch);
+  /// Takes a motion as done: the next may follow it.
+  void pass_over(const Step& step, const MotionContext& context, std::uint32_t tool);
   /// Forgets where the tool was: nothing follows the sweep before.
   void interrupt() { cutting_tool_.reset(); }
 
@@ -90,6 +92,7 @@ class Planner {
     Point3 from;
   };
   Motion motion_of(const Step& step, const MotionContext& context) const;
+  void remember(const Step& step, std::uint32_t tool, Point3 end);
   void add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
   void emit(Sweep& sweep, Batch& batch);
