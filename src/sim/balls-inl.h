@@ -18,7 +18,7 @@ namespace kerf::sim::HWY_NAMESPACE {
 inline constexpr int kGroup = kLanes;  // sweeps: one bit of a mask each
 
 /// Steeper paths go another way: along them heights are differences of numbers that grow with the slope.
-inline constexpr Real kSteepest = 4;
+inline constexpr double kSteepest = 4;
 
 /// A ball's sweep, seen from its begin: u runs along the path in plan, v across, z is the ball's centre.
 struct BallSweep {
@@ -48,8 +48,17 @@ struct BallGroup {
   Real radius2 = 0;
 };
 
-/// Whether balls over a tile go this way at all.
-HWY_INLINE bool quick_for_balls(const TileJob& job) {
+/// Whether a sweep goes this way where the tile allows it. Only such sweeps share a group, so that how a
+/// sweep is cut does not depend on the others.
+HWY_INLINE bool is_quick_ball(const TileJob& job, const Sweep& sweep) {
+  const LaneSolid& solid = (*job.tools)[sweep.tool].cutting;
+  return solid.is_ball && std::abs(sweep.slope) <= kSteepest &&
+         std::min(sweep.z, sweep.z_end) + static_cast<double>(solid.top) >=
+             static_cast<double>(job.field->height);
+}
+
+/// Whether the columns of a tile are a pitch apart and stand on the floor.
+HWY_INLINE bool is_plain(const TileJob& job) {
   return job.weights == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
 }
 

@@ -24,7 +24,6 @@ struct GroupWork {
   int count = 0;
   bool all_open = true;   // the solid reaches above the block in all sweeps
   bool one_level = true;  // all are level at one height
-  bool steep = false;     // some are
   View view[kGroup];
   bool open[kGroup];
   std::uint32_t step[kGroup];
@@ -199,7 +198,6 @@ HWY_INLINE void add_sweep(GroupWork& work, const Sweep& sweep) {
   work.step[k] = sweep.step;
   work.all_open = work.all_open && work.open[k];
   work.one_level = work.one_level && view.z_low == work.view[0].z_low && view.z_high == view.z_low;
-  work.steep = work.steep || std::abs(view.slope) > kSteepest;
   store(0, work.taken[k]);
 }
 
@@ -220,9 +218,8 @@ HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   work.solid = &(*job.tools)[job.sweeps[job.list[first]].tool].cutting;
   work.count = 0;
   work.all_open = work.one_level = true;
-  work.steep = false;
   for (int k = 0; k < count; ++k) add_sweep(work, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
-  if (work.solid->is_ball && work.all_open && !work.steep && quick_for_balls(job))
+  if (is_plain(job) && is_quick_ball(job, job.sweeps[job.list[first]]))
     return cut_balls(work.balls, work.view, job, work.solid->pieces[0].lower, first, count);
   Tile& tile = *job.tile;
   alignas(64) std::uint32_t supers[kGroup] = {};

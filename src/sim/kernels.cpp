@@ -29,10 +29,11 @@ void cut_tile(const TileJob& job) {
       job.removed[q++] = cut_sweep(job, sweep);
       continue;
     }
+    const bool is_quick = is_quick_ball(job, sweep);
     int count = 1;
     while (count < kGroup && q + static_cast<std::size_t>(count) < job.count) {
       const Sweep& next = job.sweeps[job.list[q + static_cast<std::size_t>(count)]];
-      if (!only_cuts(next) || next.tool != sweep.tool) break;
+      if (!only_cuts(next) || next.tool != sweep.tool || is_quick_ball(job, next) != is_quick) break;
       ++count;
     }
     cut_group(work, q, count);

@@ -177,8 +177,8 @@ void CapSheet::refine() {
 /// Whether triangles will meet a corner that has no vertex yet. Where it has material on all sides they do:
 /// it is needed, or the corner of a whole square.
 bool CapSheet::is_new_vertex(int x, int y) const {
-  if (known_(x, y) != kNone) return false;
   if (needed_(x, y) == 0 && (x % kSquare != 0 || y % kSquare != 0)) return false;
+  if (known_(x, y) != kNone) return false;
   const Columns& columns = builder_.columns;
   for (int q = 0; q < 4; ++q)
     if (columns.ends(column_x(x, q), column_y(y, q)) == 0) return false;

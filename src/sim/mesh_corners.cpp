@@ -12,8 +12,6 @@
 namespace kerf::meshing {
 namespace {
 
-/// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
-constexpr double kSlopeShare = 0.5;
 /// A higher step is a slope, not a wall, if the step before or after it in the same direction is at least its
 /// height divided by this: smooth surfaces change their rise by less from column to column until they are
 /// walls.
@@ -107,17 +105,6 @@ void CornerPlane::wanted(int j, std::vector<int>& out) const {
   }
 }
 
-FourHeights four_heights(float a, float b, float c, float d) {
-  FourHeights four;
-  four.low = std::min(std::min(a, b), std::min(c, d));
-  four.high = std::max(std::max(a, b), std::max(c, d));
-  four.mean = four.low == four.high ? four.low
-                                    : (static_cast<double>(a) + static_cast<double>(b) +
-                                       static_cast<double>(c) + static_cast<double>(d)) /
-                                          4;
-  return four;
-}
-
 namespace {
 
 /// Quadrants that are neighbours.
@@ -125,8 +112,7 @@ constexpr std::pair<int, int> kNeighbours[] = {{0, 1}, {0, 2}, {1, 3}, {2, 3}};
 
 }  // namespace
 
-bool one_surface(const Columns& columns, int i, int j, int end, const FourHeights& heights) {
-  if (heights.high - heights.low <= kSlopeShare * columns.pitch()) return true;
+bool joined_by_slopes(const Columns& columns, int i, int j, int end) {
   return std::all_of(std::begin(kNeighbours), std::end(kNeighbours), [&](const std::pair<int, int>& pair) {
     const auto [q, other] = pair;
     return columns.continues(column_x(i, q), column_y(j, q), end, column_x(i, other), column_y(j, other),

@@ -2,6 +2,7 @@
 // one surface there, and where its vertex lies. docs/decisions/0006-mesh.md tells the whole method.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,6 +13,9 @@ namespace kerf::meshing {
 
 /// No vertex yet, or no such end.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
+inline constexpr double kSlopeShare = 0.5;
 
 /// Reads a ColumnGrid by column. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the
 /// high one.
@@ -113,11 +117,23 @@ struct FourHeights {
   double mean = 0.0;
   float low = 0.0f, high = 0.0f;
 };
-FourHeights four_heights(float a, float b, float c, float d);
+inline FourHeights four_heights(float a, float b, float c, float d) {
+  FourHeights four;
+  four.low = std::min(std::min(a, b), std::min(c, d));
+  four.high = std::max(std::max(a, b), std::max(c, d));
+  four.mean = four.low == four.high ? four.low
+                                    : (static_cast<double>(a) + static_cast<double>(b) +
+                                       static_cast<double>(c) + static_cast<double>(d)) /
+                                          4;
+  return four;
+}
 
-/// Whether the ends `end` of the four columns around a corner are one surface. They are columns of one
+/// Whether the ends `end` of the four columns around a corner continue each other. They are columns of one
 /// interval each, with material at one height.
-bool one_surface(const Columns& columns, int i, int j, int end, const FourHeights& heights);
+bool joined_by_slopes(const Columns& columns, int i, int j, int end);
+inline bool one_surface(const Columns& columns, int i, int j, int end, const FourHeights& heights) {
+  return heights.high - heights.low <= kSlopeShare * columns.pitch() || joined_by_slopes(columns, i, j, end);
+}
 
 /// Those corners with one y that walls or inner caps may need. Vectors are kept from row to row, so that no
 /// memory is asked for in the long run.

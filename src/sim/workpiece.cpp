@@ -224,6 +224,8 @@ ColumnGrid Workpiece::grid() const {
   const std::size_t count = static_cast<std::size_t>(body.nx) * static_cast<std::size_t>(body.ny);
   grid.first.reserve(count + 1);
   grid.intervals.reserve(count);
+  sim::use_huge_pages(grid.first.data(), (count + 1) * sizeof grid.first[0]);
+  sim::use_huge_pages(grid.intervals.data(), count * sizeof grid.intervals[0]);
   for (int j = 0; j < body.ny; ++j) {
     const std::size_t row =
         static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
