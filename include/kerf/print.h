@@ -122,4 +122,7 @@ std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintO
 /// smaller by far and shows the same part.
 ColumnGrid without_grooves(const ColumnGrid& columns, Length height);
 
+/// The surface of a print's columns: extract_mesh, with a road's step on the walls beside nothing too.
+Mesh extract_print_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress = nullptr);
+
 }  // namespace kerf
