@@ -108,6 +108,9 @@ struct PrintSimulation {
   bool stopped = false;              // interrupted: what is here is not complete
 };
 
+/// What a road holds that is so long in the plan, wide and high; it is no higher than wide.
+Volume road_volume(Length length, Length width, Length height);
+
 /// Whether a program prints and does nothing else: it extrudes while it moves and turns no spindle.
 bool is_print(const Toolpath& path);
 
