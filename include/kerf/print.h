@@ -108,6 +108,9 @@ struct PrintSimulation {
   bool stopped = false;              // interrupted: what is here is not complete
 };
 
+/// What a road holds that is so long in the plan, wide and high; it is no higher than wide.
+Volume road_volume(Length length, Length width, Length height);
+
 /// Whether a program prints and does nothing else: it extrudes while it moves and turns no spindle.
 bool is_print(const Toolpath& path);
 
@@ -121,5 +124,8 @@ std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintO
 /// between round-sided roads make most of a print's exact surface; closed by a layer's height, the mesh is
 /// smaller by far and shows the same part.
 ColumnGrid without_grooves(const ColumnGrid& columns, Length height);
+
+/// The surface of a print's columns: extract_mesh, with a road's step on the walls beside nothing too.
+Mesh extract_print_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress = nullptr);
 
 }  // namespace kerf

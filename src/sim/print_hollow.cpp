@@ -169,28 +169,3 @@ bool measure_hollow(const ColumnGrid& grid, double touch, std::vector<PrintLayer
 }
 
 }  // namespace kerf::printing
-
-namespace kerf {
-
-ColumnGrid without_grooves(const ColumnGrid& columns, Length height) {
-  ColumnGrid out{columns.bounds, columns.pitch, columns.nx, columns.ny, {}, {}, {}};
-  out.first.reserve(columns.first.size());
-  for (std::size_t c = 0; c + 1 < columns.first.size(); ++c) {
-    out.first.push_back(static_cast<std::uint32_t>(out.intervals.size()));
-    for (std::uint32_t k = columns.first[c]; k < columns.first[c + 1]; ++k) {
-      const Interval& run = columns.intervals[k];
-      const bool joins =
-          k > columns.first[c] && static_cast<double>(run.low - out.intervals.back().high) <= height.mm();
-      if (!joins) {
-        out.intervals.push_back(run);
-        continue;
-      }
-      out.intervals.back().high = run.high;
-      out.intervals.back().high_step = run.high_step;
-    }
-  }
-  if (!columns.first.empty()) out.first.push_back(static_cast<std::uint32_t>(out.intervals.size()));
-  return out;
-}
-
-}  // namespace kerf

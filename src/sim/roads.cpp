@@ -240,3 +240,12 @@ void for_each_road(const Toolpath& path, const PrintOptions& options, RoadSink& 
 }
 
 }  // namespace kerf::printing
+
+namespace kerf {
+
+Volume road_volume(Length length, Length width, Length height) {
+  const double w = width.mm(), h = height.mm();
+  return mm3(length.mm() * ((w - h) * h + std::numbers::pi / 4.0 * h * h));
+}
+
+}  // namespace kerf

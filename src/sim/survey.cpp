@@ -149,7 +149,7 @@ class Surveyor {
   void check_extras(const Step& step, const MotionContext& context) {
     if (step.kind() == StepKind::extrude)
       once(Code::extrusion_not_simulated, context,
-           "printing is not simulated; extruding moves are passed over");
+           "a program that cuts is simulated as one; its extruding moves are passed over");
     const MotionExtra* extra = path_.extra(context.index);
     if (extra == nullptr) return;
     if (extra->abc)

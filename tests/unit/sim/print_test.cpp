@@ -74,6 +74,7 @@ TEST(PrintSection, TwoOfThreeTellTheThird) {
   const auto section = printing::section_of(kArea, kHeight);
   EXPECT_NEAR(section.width, kWidth, 1e-12);
   EXPECT_NEAR(printing::height_of(kArea, kWidth), kHeight, 1e-12);
+  EXPECT_NEAR(road_volume(mm(3), mm(kWidth), mm(kHeight)).mm3(), 3 * kArea, 1e-12);
   const double round = kPi / 4.0 * 0.15 * 0.15;  // a thread thinner than the layer
   EXPECT_NEAR(printing::section_of(round, kHeight).width, 0.15, 1e-12);
   EXPECT_NEAR(printing::section_of(round, kHeight).height, 0.15, 1e-12);
