@@ -1,6 +1,7 @@
 // Foreign G-code in: RS274 text becomes a toolpath, with the tools and the stock that its comments describe.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -40,7 +41,12 @@ std::optional<GcodeDialect> dialect_named(std::string_view name);
 /// Every name that dialect_named knows, for messages.
 const std::vector<std::string>& dialect_names();
 /// What a text's remarks and words say of the controller it is for; rs274 where they say nothing.
-GcodeDialect guess_dialect(std::string_view text);
+struct DialectGuess {
+  GcodeDialect dialect = GcodeDialect::rs274;
+  std::string from = {};   // what told it, for a message: "M104 in line 3 and E in line 20"
+  std::uint32_t line = 0;  // the first such line
+};
+DialectGuess guess_dialect(std::string_view text);
 
 struct GcodeReadOptions {
   std::string file_name = "<text>";    // for origins

@@ -18,11 +18,12 @@ constexpr std::size_t kMostReserved = 2'000'000;  // steps; a longer program gro
 
 GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
   if (options.dialect) return *options.dialect;
-  const GcodeDialect guessed = guess_dialect(text);
-  if (guessed != GcodeDialect::rs274)
-    diagnostics.note(Code::dialect_guessed, TextSpot{options.file_name, 0, 0},
-                     fmt::format("this looks like a program for {}, and is read as one", to_string(guessed)));
-  return guessed;
+  const DialectGuess guess = guess_dialect(text);
+  if (guess.dialect != GcodeDialect::rs274)
+    diagnostics.note(Code::dialect_guessed, TextSpot{options.file_name, guess.line, 0},
+                     fmt::format("this looks like a program for {} ({}), and is read as one",
+                                 to_string(guess.dialect), guess.from));
+  return guess.dialect;
 }
 
 /// False, said once, for bytes that are no text: their lines would make an error each.

@@ -33,7 +33,7 @@ const Case kCases[] = {
     {"O1 sub\nO1 call\nO1 endsub\nO1 call", Code::calls_too_deep, kError, 2, 1, 0},
     {"O1 while [1]\nO1 endwhile", Code::runs_too_long, kError, 1, 1, 0},
     {"G0 ^45", Code::polar_from_zero, kError, 1, 1, 0},
-    {"; LightBurn", Code::dialect_guessed, kNote, 0, 0, 0},
+    {"; LightBurn", Code::dialect_guessed, kNote, 1, 0, 0},
     {"G21\n(T4  D=3.175 CR=0 - flat end mill)", Code::tool_from_remark, kNote, 2, 1, 0},
     {"G0 X1 E5", Code::unknown_letter, kWarning, 1, 7, 1},
     {"G0 X1 G77.7", Code::unknown_g_code, kWarning, 1, 7, 1},
