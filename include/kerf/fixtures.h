@@ -28,8 +28,8 @@ struct FixtureContact {
 };
 
 /// Looks for contacts; in order of steps, each step as if it were the first. A block is tested by its shape,
-/// so that no contact over `options.hazard_depth` is missed; of a body a contact can be missed that is less
-/// than half a column sideways. What a move meets is counted by columns, which are at most
+/// so that no contact over `options.hazard_depth` is missed, and 40,000 columns say how much is met. Of a
+/// body a contact can be missed that is less than half a column sideways; its columns are at most
 /// `options.resolution` apart (0: as fine as a million of them allows). Appends errors, and returns nothing,
 /// as `simulate` does; nothing without an error if stopped.
 std::optional<std::vector<FixtureContact>> find_fixture_contacts(const Toolpath& path, const ToolTable& tools,

@@ -86,7 +86,7 @@ struct Probe {
   Feed feed;
   ProbeKind kind = ProbeKind::contact_or_error;
 };
-/// A straight move that lays down a bead: `volume` mm3 in all, of the given width and height.
+/// A straight move that lays a bead of `volume` mm3; below 0: draws filament back. 0 by 0: size not told.
 struct Extrude {
   Point3 to;
   Volume volume;

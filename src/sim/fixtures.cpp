@@ -7,13 +7,19 @@
 namespace kerf {
 namespace {
 
-constexpr double kColumns = 1e6;                    // of a fixture, where its size asks for it
-constexpr double kFinest = 0.02, kCoarsest = 0.25;  // mm, between them
+/// Columns of a fixture, where its size asks for them, and the range of their distance. Those of a body find
+/// contacts; those of a box only say how much is met, and may be few: every move is sent through all of them
+/// that it meets.
+struct Columns {
+  double count, finest, coarsest;  // mm
+};
+constexpr Columns kOfBodies{1e6, 0.02, 0.25}, kOfBoxes{4e4, 0.02, 1.0};
 
 Length pitch_for(const Stock& solid, Length told) {
+  const Columns& columns = solid.body ? kOfBodies : kOfBoxes;
   const Point3 size = solid.block.size();
-  const double own = std::clamp(std::sqrt(size.x * size.y / kColumns), kFinest, kCoarsest);
-  return mm(told.mm() > 0.0 ? std::min(own, told.mm()) : own);
+  const double own = std::clamp(std::sqrt(size.x * size.y / columns.count), columns.finest, columns.coarsest);
+  return mm(solid.body && told.mm() > 0.0 ? std::min(own, told.mm()) : own);
 }
 
 std::optional<ToolPart> part_of(HazardKind kind) {

@@ -52,8 +52,8 @@ class Run {
     report(progress_, 1.0);
   }
 
-  /// Counts the columns at walls anew, see walls.h. False if there are none, or if stopped: then what was told
-  /// of volumes before stands.
+  /// Counts the columns at walls anew, see walls.h. False if there are none, or if stopped: then what was
+  /// told of volumes before stands.
   bool refine_walls();
 
   bool stopped() const { return stopped_; }

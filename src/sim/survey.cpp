@@ -10,6 +10,7 @@
 #include "sim/parallel.h"
 #include "sim/plan.h"
 
+#include "kerf/names.h"
 #include "kerf/number.h"
 
 namespace kerf::sim {
@@ -119,7 +120,7 @@ class Surveyor {
         chord_count(walk_of(step, context.from)).too_coarse)
       diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
                            "the arc is so long that it is simulated with chords coarser than usual");
-    if (step.unknown_axes() != 0) warn_unknown_place(context);
+    if (step.unknown_axes() != 0) warn_unknown_place(step.unknown_axes(), context);
   }
 
   bool has_step(StepKind kind) const {
@@ -159,7 +160,7 @@ class Surveyor {
   void check_extras(const Step& step, const MotionContext& context) {
     if (step.kind() == StepKind::extrude)
       once(Code::extrusion_not_simulated, context,
-           "printing is not simulated; extruding moves are passed over");
+           "a program that cuts is simulated as one; its extruding moves are passed over");
     const MotionExtra* extra = path_.extra(context.index);
     if (extra == nullptr) return;
     if (extra->abc)
@@ -186,10 +187,21 @@ class Surveyor {
     error.hint = "give exactly one tool, which is then used until the program chooses another";
   }
 
-  void warn_unknown_place(const MotionContext& context) {
-    once(Code::cut_at_unknown_place, context,
-         "the program cuts here before it has said where X, Y and Z are; X0 Y0 are taken, and without a Z "
-         "nothing is cut");
+  void warn_unknown_place(unsigned axes, const MotionContext& context) {
+    constexpr unsigned kAxisZ = 4;
+    std::vector<std::string> unknown, taken;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((axes >> axis & 1u) == 0) continue;
+      unknown.emplace_back(1, "XYZ"[axis]);
+      if (axis < 2) taken.push_back(fmt::format("{}0", "XYZ"[axis]));
+    }
+    std::string message = fmt::format("the program cuts here before it has said where {} {}; ",
+                                      list_text(unknown, "and"), unknown.size() == 1 ? "is" : "are");
+    if (!taken.empty())
+      message += fmt::format("{} {} taken", list_text(taken, "and"), taken.size() == 1 ? "is" : "are");
+    if ((axes & kAxisZ) != 0)
+      message += taken.empty() ? "without it nothing is cut" : ", and without a Z nothing is cut";
+    once(Code::cut_at_unknown_place, context, std::move(message));
   }
 
   void once(Code code, const MotionContext& context, std::string message) {
