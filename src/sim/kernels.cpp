@@ -100,6 +100,7 @@ LaneSolid::LaneSolid(const Solid& solid)
     offset[i] = static_cast<Real>(solid.lines[i].offset);
     slope[i] = static_cast<Real>(solid.lines[i].slope);
   }
+  is_flat = is_cylinders && std::all_of(slope, slope + kCullLines, [](Real v) { return v == 0; });
 }
 
 LaneTool::LaneTool(const ToolSolids& tool) : cutting(tool.cutting), over_flute(tool.over_flute) {

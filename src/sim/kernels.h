@@ -28,6 +28,7 @@ struct LaneSolid {
   bool one_envelope = false;
   bool is_ball = false;       // of one envelope, which is half a ball and has the closed form
   bool is_cylinders = false;  // all pieces are
+  bool is_flat = false;       // nothing of it is lower than its flat bottom, which reaches to its rim
   Real rim = 0, bottom = 0, top = 0;
   Real offset[kCullLines] = {}, slope[kCullLines] = {};
 };

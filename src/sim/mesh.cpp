@@ -1,6 +1,8 @@
 // The surface of the columns as a closed mesh: corners row by row, walls, inner caps, then the merged outer
 // caps.
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "sim/mesh_build.h"
 #include "sim/parallel.h"
@@ -56,32 +58,8 @@ void add_inner_caps(Builder& builder, CornerRow& below, CornerRow& above, int j)
   }
 }
 
-/// How many rows are worked on between two questions whether to stop.
-constexpr int kRowsBetweenStops = 64;
-
-/// Walls and inner caps: rows of corners from low y to high y, two at a time, of which only those corners are
-/// looked at that are not simple. False if stopped.
-bool sweep_rows(Builder& builder, const CornerPlane& plane, CapSheet& top, CapSheet& bottom,
-                Progress* progress) {
-  const Columns& columns = builder.columns;
-  WallFiller walls(builder);
-  CornerRow below, above;
-  for (int j = 0; j <= columns.ny(); ++j) {
-    if (j % kRowsBetweenStops == 0 && stop_requested(progress)) return false;
-    above.build(columns, plane, j);
-    add_walls_along_row(walls, columns, plane, above, j);
-    if (j > 0) {
-      add_walls_across_row(walls, plane, below, above, j - 1);
-      add_inner_caps(builder, below, above, j - 1);
-      top.take(below, j - 1);
-      bottom.take(below, j - 1);
-    }
-    std::swap(below, above);
-  }
-  top.take(below, columns.ny());
-  bottom.take(below, columns.ny());
-  return true;
-}
+/// Rows of corners that are built at a time, by several threads.
+constexpr int kRows = 64;
 
 /// Does all the work on several threads that can be done so.
 class Extraction {
@@ -101,7 +79,7 @@ class Extraction {
     });
     if (!scanned) return false;
     report(progress_, 0.3);
-    if (!sweep_rows(builder_, plane, top_, bottom_, progress_)) return false;
+    if (!add_walls(plane)) return false;
     report(progress_, 0.6);
     return in_parallel(2, [&](int n) { sheet(n).refine(); }) && emit();
   }
@@ -116,6 +94,34 @@ class Extraction {
         threads_, static_cast<std::size_t>(count), [&](std::size_t n) { work(static_cast<int>(n)); },
         [&] { return stopped = stopped || stop_requested(progress_); });
     return !stopped;
+  }
+
+  /// Walls and inner caps: rows of corners from low y to high y, two at a time, of which only those corners
+  /// are looked at that are not simple. False if stopped.
+  bool add_walls(const CornerPlane& plane) {
+    const Columns& columns = builder_.columns;
+    WallFiller walls(builder_);
+    std::vector<CornerRow> rows(kRows + 1);  // the first is the last of those before
+    for (int first = 0; first <= columns.ny(); first += kRows) {
+      const int count = std::min(kRows, columns.ny() + 1 - first);
+      const auto row = [&](int j) -> CornerRow& { return rows[static_cast<std::size_t>(j - first + 1)]; };
+      if (!in_parallel(count, [&](int n) { row(first + n).build(columns, plane, first + n); })) return false;
+      for (int j = first; j < first + count; ++j) {
+        add_walls_along_row(walls, columns, plane, row(j), j);
+        if (j == 0) continue;
+        add_walls_across_row(walls, plane, row(j - 1), row(j), j - 1);
+        add_inner_caps(builder_, row(j - 1), row(j), j - 1);
+        take(row(j - 1), j - 1);
+      }
+      std::swap(rows.front(), row(first + count - 1));
+    }
+    take(rows.front(), columns.ny());
+    return true;
+  }
+
+  void take(CornerRow& row, int j) {
+    top_.take(row, j);
+    bottom_.take(row, j);
   }
 
   bool emit() {

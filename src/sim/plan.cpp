@@ -65,14 +65,15 @@ void set_line(Sweep& sweep, Point3 from, Point3 to) {
   sweep.z = from.z;
   sweep.z_end = to.z;
   const double dx = to.x - from.x, dy = to.y - from.y;
-  const double length = std::sqrt(dx * dx + dy * dy);
+  const double dz = to.z - from.z, plan2 = dx * dx + dy * dy;
+  const double length = std::sqrt(plan2);
   if (length < kNoLength) return;
   const double per_length = 1.0 / length;
   sweep.length = length;
   sweep.ux = dx * per_length;
   sweep.uy = dy * per_length;
-  sweep.slope = (to.z - from.z) * per_length;
-  sweep.ball_lead = static_cast<float>(sweep.slope / std::sqrt(1.0 + sweep.slope * sweep.slope));
+  sweep.slope = dz * per_length;
+  sweep.ball_lead = static_cast<float>(dz / std::sqrt(plan2 + dz * dz));
 }
 
 /// Whether an arc is swept as it is.

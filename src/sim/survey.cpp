@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "sim/parallel.h"
 #include "sim/plan.h"
 
 #include "kerf/names.h"
@@ -89,10 +90,20 @@ class Surveyor {
         clearance_(clearance),
         diagnostics_(diagnostics) {}
 
-  Survey run() {
+  /// The steps are read from memory twice, at the same time where there are two threads.
+  Survey run(unsigned threads) {
     if (tools_.tools().size() == 1) survey_.only_tool = tools_.tools().begin()->first;
-    for_each_motion(path_, [&](const Step& step, const MotionContext& context) { look_at(step, context); });
-    survey_.judges_spindle = has_step(StepKind::spindle) && !has_step(StepKind::laser_power);
+    bool judges_spindle = false;
+    const auto read = [&](std::size_t n) {
+      if (n == 0) {
+        for_each_motion(path_,
+                        [&](const Step& step, const MotionContext& context) { look_at(step, context); });
+      } else {
+        judges_spindle = has_step(StepKind::spindle) && !has_step(StepKind::laser_power);
+      }
+    };
+    parallel_for(threads, 2, read, [] { return false; });
+    survey_.judges_spindle = judges_spindle;
     return std::move(survey_);
   }
 
@@ -220,7 +231,8 @@ std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const 
   if (!pitch) return std::nullopt;
   const std::size_t errors_before = diagnostics.errors();
   const double clearance = std::max(options.hazard_depth.mm(), kLeastClearance);
-  Setup setup{mm(*pitch), Surveyor(path, tools, stock, clearance, diagnostics).run()};
+  Setup setup{mm(*pitch),
+              Surveyor(path, tools, stock, clearance, diagnostics).run(thread_count(options.threads))};
   if (diagnostics.errors() != errors_before) return std::nullopt;
   // What is above short flutes goes into a solid that is not to be touched as neck, shank or holder.
   if (options.role == SolidRole::no_go)

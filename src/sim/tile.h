@@ -101,6 +101,14 @@ struct Tile {
   Slot& add_slot(int micro);
   /// Puts an interval into a free place of its column.
   void store_remnant(int micro, const Remnant& rest);
+  /// Asks for the memory that `lengths` will read of a micro, if there is such a micro.
+  void fetch(int micro) const {
+    if (micro >= kMicros || chain[micro] < 0) return;
+    const Slot& slot = slots[static_cast<std::size_t>(chain[micro])];
+    __builtin_prefetch(&slot.low);
+    __builtin_prefetch(&slot.high);
+    __builtin_prefetch(&slot.next);
+  }
   /// Length of material of each column of a micro.
   void lengths(int micro, Lanes& out) const;
   /// Appends the intervals of a column, lowest first.

@@ -31,6 +31,9 @@ constexpr std::size_t kMostColumns = 1 << 22;
 /// Columns kept as points at a time; bounds the memory to about 100 MB.
 constexpr std::size_t kGroupColumns = 1 << 16;
 
+/// Micros that memory is asked for ahead.
+constexpr int kAhead = 8;
+
 // ---- finding
 
 constexpr int kGrades = 32;
@@ -126,6 +129,7 @@ void Window::read(int column, int row, const Tile* tile) {
     const Place place = place_of(micro * kLanes);
     if (place.x >= columns_ || place.y >= rows_) continue;
     Lanes lengths;
+    tile->fetch(micro + kAhead);
     tile->lengths(micro, lengths);
     const int across = std::min(columns_ - place.x, 4);
     for (int y = 0; y < std::min(rows_ - place.y, 4); ++y)
@@ -216,6 +220,7 @@ double weighted_length(const Tile& tile, const std::vector<Real>& weights) {
     const Real* weight = weights.data() + micro * kLanes;
     if (std::all_of(weight, weight + kLanes, [](Real v) { return v == 0; })) continue;
     Lanes lengths;
+    tile.fetch(micro + kAhead);
     tile.lengths(micro, lengths);
     for (int i = 0; i < kLanes; ++i) sum += static_cast<double>(lengths[i]) * static_cast<double>(weight[i]);
   }
