@@ -53,8 +53,13 @@ struct PathHazard {
   std::string hint = {};  // what to do about it; may be empty
 };
 
-/// "no_feed", "negative_feed", "no_tool", "arc_radii", "spindle_off", "no_program_end".
+/// "no_feed", "negative_feed", "no_tool", "arc_radii", "spindle_off", "no_program_end" ...
 std::string_view kind_of(const PathHazard& hazard);
+
+/// The hazard of a program written for machines whose Z counts downwards: every rapid on the way from place
+/// to place runs at or below the lowest cut, where Z upwards has the stock. Of the material nothing can be
+/// told then. Nothing for other programs; check_path includes it.
+std::optional<PathHazard> find_z_downwards(const Toolpath& path);
 
 /// Whether controllers take an arc that begins and ends so far from its centre, mm.
 bool radii_agree(double start, double end, const CheckOptions& options);

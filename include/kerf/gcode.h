@@ -1,6 +1,7 @@
 // Foreign G-code in: RS274 text becomes a toolpath, with the tools and the stock that its comments describe.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -40,7 +41,12 @@ std::optional<GcodeDialect> dialect_named(std::string_view name);
 /// Every name that dialect_named knows, for messages.
 const std::vector<std::string>& dialect_names();
 /// What a text's remarks and words say of the controller it is for; rs274 where they say nothing.
-GcodeDialect guess_dialect(std::string_view text);
+struct DialectGuess {
+  GcodeDialect dialect = GcodeDialect::rs274;
+  std::string from = {};   // what told it, for a message: "M104 in line 3 and E in line 20"
+  std::uint32_t line = 0;  // the first such line
+};
+DialectGuess guess_dialect(std::string_view text);
 
 struct GcodeReadOptions {
   std::string file_name = "<text>";    // for origins
@@ -55,7 +61,8 @@ struct GcodeReadOptions {
   std::optional<AfterEnd> after_end = {};
   BlockDelete block_delete = BlockDelete::run;
   std::optional<GcodeDialect> dialect = {};  // nothing: guessed from the text, and said
-  double filament_diameter = 1.75;           // mm; turns a printer's E into volume
+  /// mm; turns a printer's E into volume. Nothing: what the slicer's remarks say, else 1.75.
+  std::optional<double> filament_diameter = {};
   /// Text of the file "name.ngc" that `o<name> call` asks for (letters, digits, '_', '-' only); null: none.
   std::function<std::optional<std::string>(const std::string& file_name)> read_file = {};
   /// Diameter in mm of a tool, for G41 and G42; `described` is what the program's remarks say of it, or null.
@@ -71,6 +78,7 @@ struct GcodeProgram {
   std::map<int, Tool> tools;   // described in the program's comments, by the T word they stand with
   std::optional<Stock> stock;  // from STOCK/BLOCK or stockMin/stockMax comments
   bool ended = false;          // M2, M30 or a closing % was seen
+  bool cut_short = false;      // a limit was reached, or it is no text; its end is not known
   GcodeDialect dialect = GcodeDialect::rs274;
 };
 

@@ -10,8 +10,8 @@ namespace kerf {
 /// `name` in small letters without spaces, hyphens, underscores; "center" becomes "centre". For comparing
 /// only.
 std::string fold_name(std::string_view name);
-/// "a, b or c": a list of words for messages.
-std::string list_text(const std::vector<std::string>& words);
+/// "a, b or c": a list of words for messages; `last` stands before the last one.
+std::string list_text(const std::vector<std::string>& words, std::string_view last = "or");
 /// `text` without white space (any character up to the blank) at both ends.
 std::string_view trim(std::string_view text);
 

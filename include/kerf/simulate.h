@@ -147,6 +147,7 @@ struct MeshOptions {
   /// the step of one of them. Steps that it does not reach, and with a tolerance all steps where it is empty,
   /// are groups of their own.
   std::span<const std::uint8_t> step_groups = {};
+  unsigned threads = 0;  // 0: as many as the machine has. The mesh is the same for any number.
 };
 
 /// The surface of the columns: closed, oriented, every edge shared by exactly two triangles. Surfaces run

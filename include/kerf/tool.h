@@ -199,10 +199,11 @@ struct Tool {
   int number = 0;                  // as it stands in the program (T word)
   std::vector<std::string> names;  // vendor's and generated numbers, "Amana 46200-K"
   std::string description;
-  ToolShape shape;        // with the measures that were not told filled in
-  Silhouette silhouette;  // made from shape and body
-  Length diameter;        // largest of the cutting part
-  Length flute;           // height of the cutting part
+  ToolShape shape;             // with the measures that were not told filled in
+  Silhouette silhouette;       // made from shape and body
+  Length diameter;             // largest of the cutting part
+  Length flute;                // height of the cutting part
+  bool flute_assumed = false;  // nobody told the flute: it is usual_flute's
   int teeth = 2;
   bool plunges = true;  // cuts at its centre, so that it may go straight down
 };

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "kerf/diagnostics.h"
 #include "kerf/tool.h"
@@ -21,5 +22,14 @@ void read_tool_file(std::string_view text, std::string_view file_name, ToolTable
 /// Reads a tool told in words: "square d=3.175 flute=12.7", "V d=12.7 angle=90", the name of a built-in tool,
 /// or its number. `where` is the errors' place.
 std::optional<Tool> read_tool_option(std::string_view text, const Origin& where, Diagnostics& diagnostics);
+
+/// A key of tool files and options besides the measures of the shape (parameters_of).
+struct ToolKey {
+  std::string_view name, meaning;
+};
+const std::vector<ToolKey>& tool_keys();
+/// The short names that a key has for a shape: "d" and "dia" for the diameter; "r" stands for whichever
+/// radius the shape has.
+std::vector<std::string_view> short_names_of(std::string_view key, const ToolShape& shape);
 
 }  // namespace kerf

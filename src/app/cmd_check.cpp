@@ -112,6 +112,24 @@ std::vector<Finding> findings_in_material(const Job& job, double resolution, Dia
                 findings_of(simulation->hazards, path));
 }
 
+/// All hazards of a job, in the order of steps.
+std::vector<Finding> findings_in(const Job& job, const CheckOptions& checks, double resolution,
+                                 Diagnostics& diagnostics, Progress& progress) {
+  const std::vector<PathHazard> of_path = check_path(job.program.path, checks);
+  std::vector<Finding> findings = merged(findings_of(of_path, job.program.path), unknown_tools(job));
+  if (diagnostics.has_errors()) return findings;
+  const bool downwards = std::any_of(of_path.begin(), of_path.end(),
+                                     [](const PathHazard& h) { return h.code == Code::path_z_downwards; });
+  if (downwards) {
+    diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
+                        "the material was not looked at, as Z seems to count downwards");
+    return findings;
+  }
+  std::vector<Finding> in_material = findings_in_material(job, resolution, diagnostics, progress);
+  tell_assumed_flutes(in_material, job.program.path, job.tools, diagnostics);
+  return merged(std::move(findings), std::move(in_material));
+}
+
 /// What the reader said, without what is a hazard of its own: a missing feed or end is told once.
 Diagnostics without_hazards(const Diagnostics& all) {
   Diagnostics rest = all;
@@ -150,23 +168,15 @@ Status run(Console& console, const Options& options) {
     show_result(console, LoadedProgram{}, {}, diagnostics);
     return Status::input_errors;
   }
-  std::vector<Finding> findings;
   const ProgramEnd end = program->end;
   const Job job = make_job(std::move(*program), settings, {}, UnknownTool::told_elsewhere, diagnostics);
-  if (job.program.path.size() == 0 && !diagnostics.has_errors())
-    diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
-                      "the program is empty, so there is nothing to check");
   CheckOptions checks;
   checks.end = end;
   checks.machine = settings.input.machine ? &*settings.input.machine : nullptr;
   checks.material = material ? &*material : nullptr;
   checks.tools = &job.tools;
   if (job.stock) checks.stock = job.stock->block;
-  findings = findings_of(check_path(job.program.path, checks), job.program.path);
-  findings = merged(std::move(findings), unknown_tools(job));
-  if (!diagnostics.has_errors())
-    findings =
-        merged(std::move(findings), findings_in_material(job, options.resolution, diagnostics, progress));
+  const std::vector<Finding> findings = findings_in(job, checks, options.resolution, diagnostics, progress);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   show_result(console, job.program, findings, without_hazards(diagnostics));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/command.h"
+#include "app/findings.h"
 #include "app/job.h"
 #include "app/json.h"
 #include "app/terminal_progress.h"
@@ -116,6 +117,7 @@ Json tool_json(const Job& job, const ToolFigures& t) {
   out["source"] = t.tool ? to_string(job.tool_sources.at(*t.tool)) : to_string(ToolSource::unknown);
   out["deepest_mm"] = t.deepest ? json_of(*t.deepest) : Json(nullptr);
   out["flute_mm"] = tool != nullptr ? json_of(tool->flute.mm()) : Json(nullptr);
+  out["flute_assumed"] = tool != nullptr && tool->flute_assumed;
   out["deeper_than_flute"] = deeper_than_flute(job, t, tool);
   if (tool != nullptr) {
     out["shape"] = name_of(tool->shape);
@@ -166,6 +168,11 @@ std::string box_text(const Box3& box) {
                      number_text(size.y, 3), number_text(size.z, 3));
 }
 
+std::string flute_text(const Tool& tool) {
+  const std::string text = fmt::format("flute {} mm", number_text(tool.flute.mm(), 3));
+  return tool.flute_assumed ? fmt::format("{} assumed ({})", text, reason_of_flute(tool)) : text;
+}
+
 void print_tools(Console& console, const Job& job, const Times& times) {
   if (job.report.tools.empty()) return;
   console.print("\nTools\n");
@@ -179,7 +186,7 @@ void print_tools(Console& console, const Job& job, const Times& times) {
                                                   : "before any change");
     line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1), clock_text(seconds));
     if (t.deepest) line += fmt::format(", deepest Z {}", number_text(*t.deepest, 3));
-    if (tool != nullptr) line += fmt::format(", flute {} mm", number_text(tool->flute.mm(), 3));
+    if (tool != nullptr) line += ", " + flute_text(*tool);
     if (deeper_than_flute(job, t, tool)) line += "  <- deeper than its flute";
     if (tool != nullptr) line += fmt::format("  ({})", to_string(job.tool_sources.at(*t.tool)));
     console.print(line + "\n");
@@ -247,6 +254,9 @@ Status run(Console& console, const Options& options) {
   if (!program) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job(std::move(*program), settings, {}, UnknownTool::warning, diagnostics);
   const Times times = times_of(job, settings.input.machine);
+  if (const auto downwards = find_z_downwards(job.program.path))
+    diagnostics.warning(downwards->code, job.program.path.origin_of(downwards->step), downwards->message)
+        .hint = downwards->hint;
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));

@@ -30,11 +30,14 @@ bool ends_with(const std::string& text, std::string_view ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// The tools as text of the target's kind; nothing (with an error) for an unknown ending.
-std::optional<std::string> written(const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
-  if (ends_with(options.target, ".toml")) return write_tool_file(table);
+/// The tools as text of the target's kind; Kerf's own for standard output.
+std::string written(const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
   if (ends_with(options.target, ".tbl")) return write_linuxcnc_table(table, unit_mm(options), diagnostics);
-  return std::nullopt;
+  return write_tool_file(table);
+}
+
+void print_text(Console& console, const std::string& text) {
+  if (!console.json()) console.print(text);
 }
 
 Status show_result(Console& console, const ToolTable& table, const Options& options,
@@ -43,12 +46,12 @@ Status show_result(Console& console, const ToolTable& table, const Options& opti
   if (console.json()) {
     Json numbers = Json::array();
     for (const auto& [number, tool] : table.tools()) numbers.push_back(number);
-    const Json outputs =
-        diagnostics.has_errors() ? Json(Json::array()) : Json(std::vector<std::string>{options.target});
+    const bool none = diagnostics.has_errors() || options.target.empty();
+    const Json outputs = none ? Json(Json::array()) : Json(std::vector<std::string>{options.target});
     console.print_json(
         text_of(Json{{"tools", numbers}, {"outputs", outputs}, {"diagnostics", json_of(diagnostics)}},
                 Layout::indented));
-  } else if (!diagnostics.has_errors()) {
+  } else if (!diagnostics.has_errors() && !options.target.empty()) {
     console.summary(fmt::format("{}: {} tools", options.target, table.tools().size()));
   }
   return diagnostics.has_errors() ? Status::input_errors : Status::done;
@@ -56,16 +59,19 @@ Status show_result(Console& console, const ToolTable& table, const Options& opti
 
 Status write(Console& console, const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) {
-    const auto text = written(table, options, diagnostics);
+    const std::string text = written(table, options, diagnostics);
     OutputSet outputs;
-    if (text && outputs.write(options.target, *text, diagnostics)) outputs.commit(diagnostics);
+    if (options.target.empty())
+      print_text(console, text);
+    else if (outputs.write(options.target, text, diagnostics))
+      outputs.commit(diagnostics);
   }
   return show_result(console, table, options, diagnostics);
 }
 
 /// Wrong usage, if there is any, before anything is read.
 bool usable(const Options& options, Diagnostics& usage) {
-  if (!ends_with(options.target, ".toml") && !ends_with(options.target, ".tbl"))
+  if (!options.target.empty() && !ends_with(options.target, ".toml") && !ends_with(options.target, ".tbl"))
     usage.error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
                 "tools are written as .toml (Kerf's tool file) or .tbl (LinuxCNC's tool table)");
   for (const std::string& file : options.files)
@@ -96,8 +102,8 @@ Status run_export(Console& console, const Options& options) {
 }
 
 void add_target(CLI::App& app, Options& options) {
-  app.add_option("-o,--output", options.target, "The file to write: .toml or .tbl")
-      ->required()
+  app.add_option("-o,--output", options.target,
+                 "The file to write: .toml or .tbl (default: a tool file to standard output)")
       ->type_name("PATH");
   app.add_option("--unit", options.unit, "Unit of a tool.tbl: mm or inch")
       ->check(CLI::IsMember({"mm", "inch"}))

@@ -29,6 +29,7 @@ Command add_outline(CLI::App& root);
 Command add_post(CLI::App& root);
 Command add_tools_list(CLI::App& tools);
 Command add_tools_show(CLI::App& tools);
+Command add_tools_shapes(CLI::App& tools);
 Command add_tools_import(CLI::App& tools);
 Command add_tools_export(CLI::App& tools);
 

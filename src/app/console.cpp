@@ -44,6 +44,7 @@ std::string printable(std::string text) {
 struct Kind {
   std::vector<const Diagnostic*> same;
   std::size_t not_kept = 0;  // those that were only counted
+  std::size_t others = 0;    // other texts of the same code, beyond those that are shown
 };
 
 /// The line of a text; 0 for places of other kinds.
@@ -52,15 +53,24 @@ std::uint32_t line_of(const Diagnostic& diagnostic) {
   return spot == nullptr ? 0 : spot->line;
 }
 
+/// Of one code, so many texts are shown; junk makes a different one of each line.
+constexpr std::size_t kMostTextsOfCode = 10;
+
 /// In the order of each kind's first one. What has no line, or notes of its own, stands alone.
 std::vector<Kind> kinds_of(const Diagnostics& diagnostics) {
   std::vector<Kind> kinds;
   std::map<std::pair<Code, std::string_view>, std::size_t> place;
   std::map<Code, std::size_t> last_of_code;
+  std::map<Code, std::size_t> texts;
   for (const Diagnostic& d : diagnostics.list()) {
+    if (texts[d.code] == kMostTextsOfCode && line_of(d) != 0 && place.count({d.code, d.message}) == 0) {
+      ++kinds[last_of_code[d.code]].others;
+      continue;
+    }
     const auto [it, is_new] = place.try_emplace({d.code, d.message}, kinds.size());
     if (is_new || !d.notes.empty() || line_of(d) == 0) {
       last_of_code[d.code] = kinds.size();
+      if (line_of(d) != 0) ++texts[d.code];
       kinds.push_back({{&d}});
     } else {
       kinds[it->second].same.push_back(&d);
@@ -75,6 +85,10 @@ std::vector<Kind> kinds_of(const Diagnostics& diagnostics) {
 /// "\n  and 48 more in line 13, 15, 17 ..." for those of a kind beyond its first one.
 std::string more_of(const Kind& kind) {
   constexpr std::size_t kLinesNamed = 5;
+  if (kind.others > 0)
+    return fmt::format("\n  and {} more [{}] (--json lists {})",
+                       kind.same.size() - 1 + kind.others + kind.not_kept,
+                       static_cast<int>(kind.same.front()->code), kind.not_kept > 0 ? "some" : "them");
   const std::size_t more = kind.same.size() - 1 + kind.not_kept;
   if (more == 0) return {};
   std::string lines;

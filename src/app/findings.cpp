@@ -2,6 +2,7 @@
 #include "app/findings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <map>
 
@@ -72,7 +73,42 @@ std::string line_of(const Finding& f) {
   return line;
 }
 
+std::string hint_for_flute(const Tool& tool) {
+  return fmt::format("tell the flute's length, as in --tool {}=\"{} d={} flute=20\"", tool.number,
+                     name_of(tool.shape), number_text(tool.diameter.mm(), 3));
+}
+
+/// The tools of the findings' steps, in their order; findings are in the order of steps.
+std::vector<const Tool*> tools_of(const std::vector<Finding>& findings, const Toolpath& path,
+                                  const ToolTable& tools) {
+  std::vector<const Tool*> out;
+  const Tool* tool = tools.tools().size() == 1 ? &tools.tools().begin()->second : nullptr;
+  std::size_t step = 0;
+  for (const Finding& f : findings) {
+    for (; step <= f.step && step < path.size(); ++step)
+      if (path[step].kind() == StepKind::tool_change) tool = tools.find(path[step].tool_change().tool);
+    out.push_back(tool);
+  }
+  return out;
+}
+
+void warn_of_flute(const Finding& f, const Tool& tool, Diagnostics& diagnostics) {
+  const std::string moves = f.steps > 1 ? fmt::format(", in {} moves", f.steps) : "";
+  diagnostics
+      .warning(Code::flute_assumed, f.origin,
+               fmt::format("a cut {} mm deeper than the flute of tool {}, which nobody told: {} mm are "
+                           "assumed ({}){}",
+                           number_text(f.depth_mm, 3), tool.number, number_text(tool.flute.mm(), 3),
+                           reason_of_flute(tool), moves))
+      .hint = hint_for_flute(tool);
+}
+
 }  // namespace
+
+std::string_view reason_of_flute(const Tool& tool) {
+  const bool by_diameter = std::abs(tool.flute.mm() - 3.0 * tool.diameter.mm()) < 1e-9 * tool.flute.mm();
+  return by_diameter ? "3 diameters" : "usual for its size";
+}
 
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
@@ -104,6 +140,31 @@ std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> o
   std::stable_sort(of_path.begin(), of_path.end(),
                    [](const Finding& a, const Finding& b) { return a.step < b.step; });
   return of_path;
+}
+
+void tell_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, const ToolTable& tools,
+                         Diagnostics& diagnostics) {
+  const std::vector<const Tool*> tool_of = tools_of(findings, path, tools);
+  std::map<int, std::pair<const Tool*, Finding>> deepest;
+  std::vector<Finding> rest;
+  for (std::size_t i = 0; i < findings.size(); ++i) {
+    Finding& f = findings[i];
+    const bool assumed = tool_of[i] != nullptr && tool_of[i]->flute_assumed;
+    if (!assumed || f.kind != to_string(HazardKind::over_flute)) {
+      if (assumed &&
+          (f.kind == to_string(HazardKind::shank_contact) || f.kind == to_string(HazardKind::neck_contact)))
+        f.hint = hint_for_flute(*tool_of[i]);
+      rest.push_back(std::move(f));
+      continue;
+    }
+    const auto [it, is_new] = deepest.try_emplace(tool_of[i]->number, tool_of[i], f);
+    if (is_new) continue;
+    Finding& first = it->second.second;
+    first.steps += f.steps;
+    first.depth_mm = std::max(first.depth_mm, f.depth_mm);
+  }
+  findings = std::move(rest);
+  for (const auto& [number, of_tool] : deepest) warn_of_flute(of_tool.second, *of_tool.first, diagnostics);
 }
 
 Json json_of(const Finding& f) {

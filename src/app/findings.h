@@ -9,6 +9,7 @@
 
 #include "kerf/check.h"
 #include "kerf/simulate.h"
+#include "kerf/tool.h"
 
 namespace kerf::app {
 
@@ -30,6 +31,13 @@ std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const T
 std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolpath& path);
 /// Both lists in the order of steps. The path's own "spindle_off" covers that of the material.
 std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> of_material);
+
+/// Takes out cuts deeper than a flute whose length nobody told, and warns of them instead, once a tool. What
+/// meets a shank or neck that stands above such a flute stays a hazard, with a hint.
+void tell_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, const ToolTable& tools,
+                         Diagnostics& diagnostics);
+/// "3 diameters" or "usual for its size": where an assumed flute's length comes from.
+std::string_view reason_of_flute(const Tool& tool);
 
 Json json_of(const Finding& finding);
 Json json_of(const std::vector<Finding>& findings);

@@ -75,6 +75,9 @@ std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& 
   LoadedProgram program = front_end->read(*file, options, diagnostics, progress);
   program.source = file->path();
   program.front_end = front_end->name;
+  if (program.path.size() == 0 && !diagnostics.has_errors())
+    diagnostics.error(Code::nothing_to_cut, TextSpot{program.source, 0, 0},
+                      "the program is empty: nothing in it makes a step");
   return program;
 }
 

@@ -47,6 +47,7 @@ LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics
   if (input.read_on || streamed) options.after_end = AfterEnd::read_on;
   options.dialect = input.dialect;
   options.strict = input.strict;
+  options.filament_diameter = input.filament_diameter;
   options.tool_diameter = input.tool_diameter;
   options.file_name = file.path();
   options.read_file = [&file](const std::string& name) { return read_beside(file.path(), name); };
@@ -56,7 +57,9 @@ LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics
   loaded.units = program.inch ? InputUnits::inch : InputUnits::mm;
   loaded.tools = std::move(program.tools);
   loaded.stock = program.stock;
-  loaded.end = program.ended ? ProgramEnd::seen : ProgramEnd::missing;
+  loaded.end = program.cut_short ? ProgramEnd::not_asked
+               : program.ended   ? ProgramEnd::seen
+                                 : ProgramEnd::missing;
   return loaded;
 }
 

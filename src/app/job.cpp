@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "kerf/assumed_stock.h"
+#include "kerf/check.h"
 #include "kerf/machine_files.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -21,6 +22,7 @@ Tools (--tool), the last word over tool files, the program's comments and the bu
                                        and for programs without a tool change
   --tool 2="V d=12.7 angle=90"         for tool 2
   --tool 2=301                         tool 2 is the built-in tool 301 (see: kerf tools list)
+                                       all shapes and keys (neck_length, teeth ...): kerf tools shapes
 Stock (--stock), lengths in mm or with "in"; else the program's comments, else a block around the cuts:
   --stock "100x60x12"                  program zero at the lower left of the top
   --stock "100x60x12 at centre bottom" or lower-left, top-right ..., top or bottom
@@ -266,7 +268,10 @@ void tell_assumed(const AssumedStock& assumed, const Job& job, Diagnostics& diag
   const Origin where = TextSpot{job.program.source, 0, 0};
   const Box3& cuts = job.report.all.cut_bounds;
   Diagnostic* said = nullptr;
-  if (assumed.top != AssumedTop::zero)
+  if (find_z_downwards(job.program.path))
+    said = &diagnostics.note(Code::stock_assumed, where,
+                             fmt::format("the program does not tell its stock; {}", block));
+  else if (assumed.top != AssumedTop::zero)
     said = &diagnostics.warning(
         Code::stock_assumed, where,
         fmt::format("the program does not tell its stock, and Z0 seems not to be its top; {}, its top {}",

@@ -33,16 +33,19 @@ Examples:
   kerf tools list                      number, shape, size and names of every tool
   kerf tools show 102                  one tool: its measures, its profile, a sketch
   kerf tools show "V d=12.7 angle=90"  a tool told in words, as --tool takes it
+  kerf tools shapes                    the shapes, and all keys for such words
 )";
 
 std::vector<Command> add_commands(CLI::App& root) {
   std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root)};
-  CLI::App* tools = root.add_subcommand("tools", "The tools that Kerf knows: list, show, import, export");
+  CLI::App* tools =
+      root.add_subcommand("tools", "The tools that Kerf knows: list, show, shapes, import, export");
   tools->require_subcommand(1);
   tools->footer(kToolsExamples);
   commands.push_back(add_tools_list(*tools));
   commands.push_back(add_tools_show(*tools));
+  commands.push_back(add_tools_shapes(*tools));
   commands.push_back(add_tools_import(*tools));
   commands.push_back(add_tools_export(*tools));
   root.add_subcommand("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");

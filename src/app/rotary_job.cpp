@@ -70,13 +70,14 @@ Status simulate_bar(Console& console, const Job& job, const SimulationOptions& h
   bool written = s && !s->stopped && !diagnostics.has_errors();
   if (written && !outputs.empty()) {
     const Mesh mesh = extract_mesh(s->workpiece, &progress);
-    written = !progress.stop_requested() &&
-              write_surface(outputs, job, mesh, s->hazards, view, files, diagnostics, progress);
+    written = !progress.stop_requested() && write_surface(outputs, job.program, mesh, steps_of(s->hazards),
+                                                          view, files, diagnostics, progress);
   }
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
-  const std::vector<Finding> findings = findings_of(s->hazards, job.program.path);
+  std::vector<Finding> findings = findings_of(s->hazards, job.program.path);
+  tell_assumed_flutes(findings, job.program.path, job.tools, diagnostics);
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(json_of_result(job, *s, findings, outputs, diagnostics), Layout::indented));

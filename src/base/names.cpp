@@ -16,10 +16,10 @@ std::string fold_name(std::string_view name) {
   return folded;
 }
 
-std::string list_text(const std::vector<std::string>& words) {
+std::string list_text(const std::vector<std::string>& words, std::string_view last) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0) text += i + 1 == words.size() ? " or " : ", ";
+    if (i > 0) text += i + 1 == words.size() ? " " + std::string(last) + " " : ", ";
     text += words[i];
   }
   return text;

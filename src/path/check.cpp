@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "kerf/number.h"
+#include "kerf/report.h"
 
 namespace kerf {
 namespace {
@@ -212,6 +213,37 @@ void check_other_steps(const Toolpath& path, const Setting& setting, std::vector
                    [](const PathHazard& a, const PathHazard& b) { return a.step < b.step; });
 }
 
+constexpr double kTravel = 1e-3;  // mm sideways that make a rapid one from place to place
+
+/// Heights of cuts, and of the rapids from place to place.
+struct Levels {
+  Range cuts, rapids;
+  std::size_t highest_rapid = 0;  // step
+};
+
+Levels levels_of(const Toolpath& path) {
+  constexpr unsigned kAxisZ = 4;
+  Levels levels;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    if (((s.unknown_axes() | context.unknown_from) & kAxisZ) != 0) return;
+    const Point3 way = s.to() - context.from;
+    if (s.is_cutting()) {
+      levels.cuts.add(s.to().z);
+    } else if (s.kind() == StepKind::rapid && std::hypot(way.x, way.y) > kTravel) {
+      if (s.to().z > levels.rapids.high) levels.highest_rapid = context.index;
+      levels.rapids.add(s.to().z);
+    }
+  });
+  return levels;
+}
+
+/// "Z -5 to 3"
+std::string heights_text(const Range& range) {
+  const std::string low = number_text(range.low, kShownDecimals);
+  if (range.low == range.high) return "Z " + low;
+  return fmt::format("Z {} to {}", low, number_text(range.high, kShownDecimals));
+}
+
 /// Tells whether a motion takes part in runs of a rule: rapids between cuts do not end a run of cuts.
 bool ends_runs(const Step& s) { return needs_feed(s); }
 
@@ -227,6 +259,26 @@ bool radii_agree(double start, double end, const CheckOptions& options) {
   const double allowed =
       std::min(std::max(options.arc_radii_apart.mm(), share), options.arc_radii_limit.mm());
   return std::abs(end - start) <= allowed;
+}
+
+std::optional<PathHazard> find_z_downwards(const Toolpath& path) {
+  const Levels levels = levels_of(path);
+  if (levels.cuts.empty() || levels.rapids.empty()) return std::nullopt;
+  const bool below = levels.rapids.high <= levels.cuts.low + kRounding &&
+                     levels.rapids.low < levels.cuts.low - kRounding &&
+                     levels.cuts.high > levels.rapids.high + kRounding;
+  if (!below) return std::nullopt;
+  PathHazard hazard;
+  hazard.code = Code::path_z_downwards;
+  hazard.step = static_cast<std::uint32_t>(levels.highest_rapid);
+  hazard.at = path[levels.highest_rapid].to();
+  hazard.message = fmt::format(
+      "the program counts Z downwards, it seems: its rapids run at {}, its cuts at {}; where Z counts "
+      "upwards, "
+      "as is usual, the rapids go through the stock",
+      heights_text(levels.rapids), heights_text(levels.cuts));
+  hazard.hint = "write the program anew with positive Z upwards (a setting of the program that made it)";
+  return hazard;
 }
 
 std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& options) {
@@ -249,6 +301,7 @@ std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& opt
       }
     }
   });
+  if (auto downwards = find_z_downwards(path)) found.push_back(std::move(*downwards));
   check_other_steps(path, setting, found);
   if (options.end == ProgramEnd::missing && path.size() > 0) {
     const auto last = static_cast<std::uint32_t>(path.size() - 1);

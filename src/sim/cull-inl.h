@@ -72,7 +72,7 @@ HWY_INLINE Nearness near_arc(const View& w, const Blocks& b) {
   return {higher_of(dr * dr, dx * dx + dy * dy), w.z_low, w.z_high, every_lane()};
 }
 
-/// Most pieces for which `new_ground` is worth its time.
+/// Most pieces of a solid for which all of them are looked at together.
 inline constexpr std::size_t kFewPieces = 4;
 
 /// Of a level line that follows another: blocks in which some piece takes what it did not take at the line's

@@ -143,6 +143,7 @@ std::optional<Tool> make_tool(int number, const ToolShape& shape, const ToolBody
   tool.silhouette = silhouette_of(drawn, body);
   tool.diameter = mm(2.0 * tool.silhouette.cutting.max_radius());
   tool.flute = mm(tool.silhouette.cutting.top());
+  tool.flute_assumed = drawn.flute_assumed;
   tool.plunges = detail::cuts_at_centre(tool.shape);
   return tool;
 }

@@ -54,6 +54,11 @@ class Drawer {
   void cone(Outline outline, double half_angle, double radius, Length& flute);
   /// From a head's end inwards to a neck: cutting up to `flute`, or not at all where that is not told.
   void necked(Outline head, Length neck_diameter, Length& flute);
+  /// Where a shape does not tell its flute: that of a usual tool.
+  void assume_flute(Length& flute, Length diameter) {
+    result.flute_assumed = flute.mm() == 0.0;
+    if (result.flute_assumed) flute = usual_flute(diameter);
+  }
   void keep(Outline& outline) { result.cutting = outline.take(); }
 
   double neck_length_;
@@ -65,14 +70,14 @@ bool Drawer::require(bool fits, const std::string& reason) {
 }
 
 void Drawer::operator()(shape::Square& s) {
-  if (s.flute.mm() == 0.0) s.flute = usual_flute(s.diameter);
+  assume_flute(s.flute, s.diameter);
   Outline outline(0.0, 0.0);
   outline.line_to(0.5 * s.diameter.mm(), 0.0).line_to(0.5 * s.diameter.mm(), s.flute.mm());
   keep(outline);
 }
 
 void Drawer::operator()(shape::Ball& s) {
-  if (s.flute.mm() == 0.0) s.flute = usual_flute(s.diameter);
+  assume_flute(s.flute, s.diameter);
   const double radius = 0.5 * s.diameter.mm();
   if (!require(s.flute.mm() >= radius,
                fmt::format("a ball of diameter {} needs a flute of at least {}, not {}",
@@ -85,7 +90,7 @@ void Drawer::operator()(shape::Ball& s) {
 }
 
 void Drawer::corner_mill(Length diameter, Length& flute, Length corner_radius) {
-  if (flute.mm() == 0.0) flute = usual_flute(diameter);
+  assume_flute(flute, diameter);
   const double radius = 0.5 * diameter.mm();
   const double corner = corner_radius.mm();
   const bool fits =
@@ -269,7 +274,8 @@ void Drawer::operator()(shape::TSlot& s) {
 void Drawer::operator()(shape::Drill& s) {
   const double radius = 0.5 * s.diameter.mm();
   const double half_angle = 0.5 * s.point_angle.rad();
-  if (s.flute.mm() == 0.0) s.flute = std::max(usual_flute(s.diameter), mm(radius / std::tan(half_angle)));
+  assume_flute(s.flute, s.diameter);
+  if (result.flute_assumed) s.flute = std::max(s.flute, mm(radius / std::tan(half_angle)));
   cone(Outline(0.0, 0.0), half_angle, radius, s.flute);
 }
 

@@ -24,10 +24,11 @@ class Outline {
 
 /// What a shape gives: its profile, or why there is none.
 struct Cutting {
-  ToolShape shape;        // with the measures that were not told
-  Profile cutting, neck;  // the neck that belongs to the shape and does not cut
-  std::string error;      // not empty: the measures do not fit together
-  std::string warning;    // the flute ends before the cone has reached the diameter
+  ToolShape shape;             // with the measures that were not told
+  Profile cutting, neck;       // the neck that belongs to the shape and does not cut
+  std::string error;           // not empty: the measures do not fit together
+  bool flute_assumed = false;  // usual_flute, as the shape does not tell it
+  std::string warning;         // the flute ends before the cone has reached the diameter
 };
 /// The shape's measures are known to be finite and not negative, the required ones above 0.
 Cutting cutting_of(const ToolShape& shape, Length neck_length);

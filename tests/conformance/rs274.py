@@ -64,21 +64,130 @@ class Canon:
         self.moves.append(("A", *self.place(end), *in_name_order, int(v[4])))
 
 
+class Events(Canon):
+    """All that a program does, in the notation of tests/data/gcode/words.txt."""
+
+    STOPS = {"PROGRAM_STOP": "M0", "OPTIONAL_PROGRAM_STOP": "M1", "PALLET_SHUTTLE": "M60"}
+    PATHS = {"CANON_EXACT_PATH": "exact path", "CANON_EXACT_STOP": "exact stop", "CANON_CONTINUOUS": "blend"}
+
+    def __init__(self):
+        super().__init__()
+        self.events, self.feed, self.per_turn = [], 0.0, False
+        self.speed, self.turn_of_spindle, self.spindle = 0.0, "off", "S 0 off"
+        self.synchronous = 0.0  # units a turn of the spindle, of G33 and G76
+        self.mist = self.flood = False
+        self.coolant = "K off"
+        self.at, self.rotary = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
+
+    def call(self, name, text):
+        before = len(self.moves)
+        super().call(name, text)
+        for move in self.moves[before:]:
+            self.move(move, [float(v) for v in text.split(",")][-3:])
+        if name in self.STOPS:
+            if not (name == "PROGRAM_STOP" and self.events[-1:] == ["M60"]):  # a pallet change stops too
+                self.events.append(self.STOPS[name])
+        elif name == "PROGRAM_END":
+            self.events.append("end")
+        elif name in ("CHANGE_TOOL", "CHANGE_TOOL_NUMBER"):
+            self.events.append(f"T {text}")
+        elif name == "SET_MOTION_CONTROL_MODE":
+            kind, *tolerance = text.split(",")
+            self.events.append(" ".join(["P", self.PATHS[kind], *(number(float(t)) for t in tolerance)]))
+        elif name == "NURBS_FEED":
+            self.events.append("N")
+        elif name == "RIGID_TAP":
+            self.tap(self.place([v * self.scale for v in self.numbers(text)[:3]]))
+        elif name == "STRAIGHT_PROBE":
+            place = self.place([v * self.scale for v in self.numbers(text)[:3]])
+            self.events.append(" ".join(["Q", *map(number, place)]) + self.feed_text())
+        else:
+            self.set_state(name, text)
+
+    def tap(self, bottom):
+        """In, and out again with the spindle reversed."""
+        turns = [self.spindle, self.spindle.replace("ccw", "x").replace("cw", "ccw").replace("x", "cw")]
+        for place, spindle in ((bottom, turns[1]), (self.at, turns[0])):
+            self.events += [" ".join(["C", *map(number, place)]) + self.feed_text(), spindle]
+
+    def set_state(self, name, text):
+        if name == "SET_FEED_RATE":
+            self.feed = float(text)
+        elif name == "SET_FEED_MODE":
+            self.per_turn = text.endswith("1")
+        elif name == "STOP_SPEED_FEED_SYNCH":
+            self.synchronous = 0.0
+        elif name == "START_SPEED_FEED_SYNC":
+            self.synchronous = self.numbers(text)[0]
+        elif name == "SET_SPINDLE_SPEED":
+            self.speed = float(text.split(",")[1])
+        elif "SPINDLE" in name and ("START" in name or "STOP" in name):
+            self.turn_of_spindle = ("off" if name.startswith("STOP") else
+                                    "ccw" if "COUNTER" in name else "cw")
+        elif name in ("MIST_ON", "MIST_OFF"):
+            self.mist = name.endswith("ON")
+            if not self.mist:
+                return  # FLOOD_OFF follows
+        elif name in ("FLOOD_ON", "FLOOD_OFF"):
+            self.flood = name.endswith("ON")
+        self.tell_changes()
+
+    def tell_changes(self):
+        turns = self.turn_of_spindle != "off"
+        spindle = f"S {number(self.speed) if turns else 0} {self.turn_of_spindle}"
+        coolant = "K" + (" mist" * self.mist + " flood" * self.flood or " off")
+        if spindle != self.spindle:
+            self.events.append(spindle)
+        if coolant != self.coolant:
+            self.events.append(coolant)
+        self.spindle, self.coolant = spindle, coolant
+
+    def feed_text(self):
+        if self.synchronous:
+            return f" f {number(self.synchronous * self.scale * self.speed)}"
+        return f" f {number(self.feed * self.scale * (self.speed if self.per_turn else 1.0))}"
+
+    def move(self, move, rotary):
+        text = written(move)
+        if move[0] == "D":
+            self.events.append(text)
+            return
+        if move[0] in "CA":
+            text += self.feed_text()
+        if move[0] in "RC" and any(rotary):
+            text += " a " + " ".join(map(number, rotary))
+        self.events.append(text)
+        self.at = move[1:4]
+
+
+def events_of(text, canon=None):
+    """What a program does, and the interpreter's complaint or None."""
+    canon = canon or Events()
+    complaint = follow(text, canon)
+    return canon.events, complaint
+
+
 def moves_of(text):
     """The moves of a program, and the interpreter's complaint or None."""
+    canon = Canon()
+    complaint = follow(text, canon)
+    return canon.moves, complaint
+
+
+def follow(text, canon):
+    """Runs a program through the interpreter; `canon` hears its calls. The complaint or None."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "tool.tbl").write_text(TOOLS)
         Path(folder, "v.var").write_text("")
         Path(folder, "part.ngc").write_text(text)
         done = subprocess.run(["rs274", "-v", "v.var", "-t", "tool.tbl", "-g", "part.ngc"], cwd=folder,
                               capture_output=True, text=True, timeout=60)
-    canon = Canon()
     for line in done.stdout.splitlines():
         match = CALL.match(line)
         if match:
             canon.call(*match.groups())
     complaint = done.stderr.replace("executing", "").strip()
-    return canon.moves, complaint or (None if done.returncode == 0 else "refused")
+    return complaint or (None if done.returncode == 0 else "refused")
 
 
 def number(value):

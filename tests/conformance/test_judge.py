@@ -15,7 +15,6 @@ pytestmark = pytest.mark.skipif(not CASES or not Path(CASES, "judge.py").exists(
 # Known differences, each with its reason. The list may only become shorter.
 KNOWN = {
     "gcode": {
-        "estlcam_Enclosure.nc": "O-words are reported, not understood yet",
         "camotics_vcarve.ngc": "recorded with points rounded to 0.0001 inch; its exact length is 56.081 mm",
     },
     # Each has its row in docs/differences.md.

@@ -40,8 +40,25 @@ def test_bad_text_is_an_error_with_file_and_line(kerf, program, files, command, 
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_an_empty_file_is_no_crash(kerf, program, command):
-    assert kerf(*command, program("")).status in (0, 1, 3)
+@pytest.mark.parametrize("text", ["", "\n\n", "%\n%\n", "(nothing)\n"])
+def test_an_empty_file_is_an_error(kerf, program, command, text):
+    run = kerf(*command, program(text))
+    assert run.status == 1
+    assert "[1012]" in run.err and run.err.count(": error: ") == 1  # nothing_to_cut
+
+
+def test_utf_16_is_told_by_its_name(kerf, program):
+    run = kerf("info", program(SOUND.encode("utf-16")))
+    assert run.status == 1 and run.err.count("\n") == 2
+    assert "part.nc:1:1: error: this is UTF-16" in run.err and "iconv" in run.err
+
+
+def test_junk_is_a_short_answer(kerf, program):
+    assert kerf("info", program(junk(3))).err.count("\n") == 1
+    letters = "".join(f"{chr(65 + i % 26)}{chr(66 + i % 13)}!\n" for i in range(900))
+    run = kerf("info", program(letters))
+    assert run.status == 1 and run.err.count(": error: ") < 25
+    assert "more [2002] (--json lists" in run.err
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -114,3 +114,71 @@ def test_without_any_tool_the_material_is_left_out_and_said_so(kerf, program):
     assert run.status == 3
     assert kinds(run) == ["no_tool"]
     assert "not_simulated" in run.codes()
+
+
+# 9.5 mm deep; --tool "square d=3" has no flute, so that Kerf takes 3 diameters.
+DEEP = SOUND.replace("-6.00mm", "-12.00mm").replace("G1 Z-1", "G1 Z-9.5")
+
+
+def test_a_flute_that_nobody_told_is_a_warning(kerf, program):
+    path = program(DEEP)
+    run = kerf("check", "--json", "-t", "square d=3", path)
+    assert run.status == 0 and run.json["hazards"] == []
+    warning, = [d for d in run.json["diagnostics"] if d["name"] == "flute_assumed"]
+    assert warning["severity"] == "warning" and warning["origin"]["line"] == 9
+    assert "0.5 mm deeper" in warning["message"] and "9 mm are assumed (3 diameters)" in warning["message"]
+    assert "flute=20" in warning["hint"]
+    told = kerf("check", "--json", "-t", "square d=3 flute=9", path)
+    assert told.status == 3 and kinds(told) == ["over_flute"]
+    shank = kerf("check", "--json", "-t", "square d=3 shank=6", path)
+    assert shank.status == 3 and kinds(shank) == ["shank_contact"]
+    assert all("flute=" in h["hint"] for h in shank.json["hazards"])
+
+
+def test_simulate_and_info_tell_of_an_assumed_flute_too(kerf, program):
+    path = program(DEEP)
+    simulated = kerf("simulate", "--json", "--resolution", "0.5", "-t", "square d=3", path)
+    assert simulated.json["hazards"] == [] and "flute_assumed" in simulated.codes()
+    info = kerf("info", "-t", "square d=3", path)
+    assert "flute 9 mm assumed (3 diameters)  <- deeper" in info.out
+    assert kerf("info", "--json", "-t", "square d=3", path).json["tools"][0]["flute_assumed"] is True
+    assert "flute 12.7 mm assumed (usual for its size)" in kerf("info", "-t", "square d=3.175", path).out
+    assert "assumed" not in kerf("info", path).out
+
+
+# The same part for a machine whose Z counts downwards.
+DOWNWARDS = """G21 G90 G17
+M3 S10000
+G0 Z-5
+G0 X10 Y10
+G1 Z1 F100
+G1 X20 F400
+G0 Z-5
+G0 X0 Y0
+M5
+M2
+"""
+
+
+def test_z_downwards_is_one_hazard(kerf, program):
+    tool = ["-t", "square d=3 flute=12"]
+    run = kerf("check", "--json", *tool, program(DOWNWARDS))
+    assert run.status == 3
+    hazard, = run.json["hazards"]
+    assert hazard["kind"] == "z_downwards" and hazard["origin"]["line"] == 4 and hazard["hint"]
+    assert "Z downwards" in hazard["message"]
+    simulated = kerf("simulate", "--json", "--resolution", "0.5", *tool, program(DOWNWARDS))
+    assert [h["kind"] for h in simulated.json["hazards"]] == ["z_downwards"]
+    assert "Z downwards" in kerf("info", *tool, program(DOWNWARDS)).err
+
+
+def test_a_program_stopped_at_a_limit_is_not_told_to_lack_its_end(kerf, program):
+    run = kerf("check", "--json", program("M6 T102\nM3 S1000\nO1 while [1]\nG0 X1\nO1 endwhile\n"))
+    assert run.status == 1
+    assert run.json["hazards"] == [] and run.codes() == ["too_many_steps"]
+
+
+def test_inverse_time_without_a_feed_is_a_hazard(kerf, program):
+    run = kerf("check", "--json", program(SOUND.replace("G1 X20 F400", "G93 G1 X15 F2\nG1 X20\nG94 F400")))
+    assert run.status == 3 and kinds(run) == ["no_feed"]
+    assert [h["origin"]["line"] for h in run.json["hazards"]] == [10]

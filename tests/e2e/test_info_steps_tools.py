@@ -109,6 +109,28 @@ def test_what_is_no_tool_library_is_not_imported(kerf, program, files):
     assert kerf("tools", "import", program(FUSION, "f.json"), "-o", "mine.xyz").status == 2
 
 
+def test_the_wrong_kind_of_file_is_told_first(kerf, program):
+    run = kerf("tools", "import", program())
+    assert run.status == 1 and "[3022]" in run.err and "--output" not in run.err  # tool_library_unknown
+    run = kerf("tools", "import", program(FUSION, "f.json"))
+    assert run.status == 0 and "[[tool]]" in run.out
+
+
+def test_tools_shapes_lists_every_key(kerf):
+    out = kerf("tools", "shapes").out
+    for word in ("bull nose", "corner_radius", "neck_length", "head", "plunges", "(d, dia)", "thread mill"):
+        assert word in out
+    got = kerf("tools", "shapes", "--json").json
+    keyhole = next(s for s in got["shapes"] if s["shape"] == "keyhole")
+    assert [m["key"] for m in keyhole["measures"]] == ["diameter", "head", "neck_diameter", "flute"]
+    keys = [k["key"] for k in got["keys"]]
+    for key, value in (("neck_length", "5"), ("neck_diameter", "2"), ("shank_length", "5"), ("teeth", "3")):
+        assert key in keys
+    shown = kerf("tools", "show", "square d=3 flute=5 neck_diameter=2 neck_length=5 shank=3 teeth=3")
+    assert shown.status == 0, shown.err
+    assert "kerf tools shapes" in kerf("simulate", "--help").out
+
+
 def test_info_still_tells_of_a_program_with_errors(kerf, program):
     run = kerf("info", "--json", program(SOUND.replace("G1 X20 F400", "G1 X20 F400 X")))
     assert run.status == 1
@@ -214,6 +236,8 @@ def test_a_dialect_can_be_forced(kerf, program):
     assert seconds == pytest.approx({"linuxcnc": 500, "Marlin": 0.5})
     wrong = kerf("steps", "--dialect", "siemens", path)
     assert wrong.status == 2 and "siemens" in wrong.err and "fanuc" in wrong.err
+    near = kerf("steps", "--dialect", "grlb", path)
+    assert near.status == 2 and "did you mean grbl?" in near.err and "klipper" in near.err
 
 
 def test_several_programs_of_a_file(kerf, program):

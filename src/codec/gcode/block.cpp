@@ -17,7 +17,7 @@ enum class CharClass : std::uint8_t { other, blank, letter, comment, hash };
 constexpr std::array<CharClass, 256> make_classes() {
   std::array<CharClass, 256> classes{};
   for (unsigned c = 'a'; c <= 'z'; ++c) classes[c] = classes[c - 'a' + 'A'] = CharClass::letter;
-  classes['@'] = classes['^'] = classes['*'] = CharClass::letter;
+  classes['@'] = classes['^'] = classes['*'] = classes['$'] = CharClass::letter;
   classes[' '] = classes['\t'] = CharClass::blank;
   classes['('] = classes[';'] = CharClass::comment;
   classes['#'] = CharClass::hash;
@@ -228,7 +228,9 @@ bool BlockReader::is_command() const {
 
 bool BlockReader::read_item(Block& block) {
   switch (class_of(*p_)) {
-    case CharClass::letter: return upper(*p_) == 'O' ? read_o_word(block) : read_word(block);
+    case CharClass::letter:
+      if (*p_ == '$' && block.words.empty()) break;  // a setting of GRBL's, which is no program
+      return upper(*p_) == 'O' ? read_o_word(block) : read_word(block);
     case CharClass::comment: read_comment(block); return true;
     case CharClass::hash: return read_assignment(block);
     case CharClass::blank:

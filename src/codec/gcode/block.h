@@ -19,8 +19,8 @@ namespace kerf::gcode {
 
 enum class ValueKind : std::uint8_t { number, expression };
 
-/// A letter and its value. Letters are upper case; '@', '^' (polar words) and '*' (a checksum) count as
-/// letters.
+/// A letter and its value. Letters are upper case; '@', '^' (polar words), '$' (a spindle's number; not first
+/// on its line) and '*' (a checksum) count as letters.
 struct Word {
   double value = 0.0;              // of a number; 0 for an expression
   std::uint32_t column = 0;        // of the letter, from 1

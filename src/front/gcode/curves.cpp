@@ -14,6 +14,7 @@ constexpr double kChord = 0.002;     // mm that a chord may stray from its curve
 constexpr int kMostChords = 10'000;  // of one curve
 constexpr std::size_t kMostPoints = 10'000;
 constexpr int kHighestOrder = 20;
+constexpr int kUsualOrder = 3;
 
 /// Chords of a cubic in Bezier form: its second derivative is largest at an end.
 int chords_of(Point2 a, Point2 b, Point2 c, Point2 d) {
@@ -135,27 +136,33 @@ void Interpreter::quadratic() {
   polyline(points);
 }
 
+/// The place where the tool stands is the first control point, whose weight G5.2 P without X and Y tells.
+void Interpreter::add_control_point() {
+  const bool first = control_points_.empty();
+  if (first) curve_order_ = kUsualOrder;
+  if (const auto order = line_.take('L'))
+    curve_order_ = static_cast<int>(std::clamp(std::floor(*order), 2.0, double{kHighestOrder}));
+  const bool place_told = line_.has_unused(kAxisLetters);
+  const std::optional<Place> to = target();
+  const double weight = line_.take('P').value_or(1.0);
+  if (!to || control_points_.size() > kMostPoints) return;
+  if (!(weight > 0.0 && weight < 1e6)) {
+    talker_.error(Code::word_out_of_range, line_.column('P'), "the weight of a control point is above 0");
+    return;
+  }
+  if (first) {
+    control_points_.push_back(here_.at.xy());
+    control_weights_.push_back(place_told ? 1.0 : weight);
+  }
+  if (!place_told) return;
+  control_points_.push_back(to->at.xy());
+  control_weights_.push_back(weight);
+}
+
 /// G5.2 X Y P L collects control points until G5.3 draws the curve.
 void Interpreter::nurbs() {
   const bool draws = line_.has(Group::motion) && line_.code(Group::motion) == 53;
-  if (!draws) {
-    if (const auto order = line_.take('L'))
-      curve_order_ = static_cast<int>(std::clamp(std::floor(*order), 2.0, double{kHighestOrder}));
-    const std::optional<Place> to = target();
-    const double weight = line_.take('P').value_or(1.0);
-    if (!to || control_points_.size() > kMostPoints) return;
-    if (control_points_.empty()) {
-      control_points_.push_back(here_.at.xy());
-      control_weights_.push_back(1.0);
-    }
-    if (!(weight > 0.0 && weight < 1e6)) {
-      talker_.error(Code::word_out_of_range, line_.column('P'), "the weight of a control point is above 0");
-      return;
-    }
-    control_points_.push_back(to->at.xy());
-    control_weights_.push_back(weight);
-    return;
-  }
+  if (!draws) return add_control_point();
   std::vector<Weighted> points;
   for (std::size_t i = 0; i < control_points_.size(); ++i)
     points.push_back({control_points_[i], control_weights_[i]});

@@ -1,6 +1,7 @@
 // Which controller a program is for: told by its remarks, else by words that only one kind of machine has.
 #include <algorithm>
 #include <cctype>
+#include <fmt/format.h>
 #include <set>
 #include <string>
 
@@ -10,8 +11,10 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLookedAt = 64 * 1024;  // bytes from the begin
-constexpr int kFewMoves = 8;                  // a program is told by what more moves than these do
+constexpr std::size_t kLookedAt = 64 * 1024;       // bytes from the begin, remarks left aside
+constexpr std::size_t kMostRemarks = 1024 * 1024;  // bytes with them: slicers put pictures there
+constexpr std::size_t kShown = 60;                 // characters of what told it
+constexpr int kFewMoves = 8;                       // a program is told by what more moves than these do
 constexpr std::size_t kFewPowers = 3;
 
 struct Name {
@@ -57,12 +60,33 @@ std::optional<GcodeDialect> remarked_in(std::string_view remark) {
   return std::nullopt;
 }
 
+/// Lines of one kind: how many, and the first of them.
+struct Sign {
+  int count = 0;
+  std::uint32_t line = 0;
+  std::string text;
+
+  void add(std::uint32_t number, std::string_view what) {
+    if (count++ > 0) return;
+    line = number;
+    text = what.substr(0, kShown);
+  }
+  explicit operator bool() const { return count > 0; }
+};
+
 /// What is counted over the lines.
 struct Signs {
-  int heated = 0, words_of_klipper = 0;
-  int powered_moves = 0, deep_moves = 0;
-  bool beam = false, numbered = false, calls = false;
+  Sign heating, extruding, klipper_command;
+  Sign beam, powered_move;
+  Sign number, call;
+  int deep_moves = 0;
   std::set<std::string, std::less<>> powers;
+};
+
+/// A remark that names a controller.
+struct Remark {
+  GcodeDialect dialect;
+  Sign sign;
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -90,31 +114,92 @@ std::string_view after(std::string_view line, char letter) {
   return line.substr(at + 1, end - at - 1);
 }
 
-void look_at(const std::string& line, Signs& signs) {
+bool is_heating(std::string_view code) {
+  for (const std::string_view heating : {"104", "109", "140", "190", "82", "83"})
+    if (code == heating) return true;
+  return false;
+}
+
+/// "O1001" alone, as Fanuc's programs begin; O-words have letters behind their label.
+bool is_program_number(const std::string& line) {
+  return line[0] == 'O' && line.size() > 4 && std::all_of(line.begin() + 1, line.end(), is_digit);
+}
+
+/// `line` is bare; `raw` is the same as it stands there.
+void look_at(const std::string& line, std::string_view raw, std::uint32_t number, Signs& signs) {
   if (line.empty()) return;
   const std::string_view code = after(line, 'M');
-  for (const std::string_view heating : {"104", "109", "140", "190", "82", "83"})
-    if (line[0] == 'M' && code == heating) ++signs.heated;
+  if (line[0] == 'M' && is_heating(code)) signs.heating.add(number, "M" + std::string(code));
   const bool command = line.size() > 4 && line.find('_') != std::string::npos && !is_digit(line[1]);
-  if (command && line.find('#') == std::string::npos && line[0] != 'O') ++signs.words_of_klipper;
-  signs.beam = signs.beam || code == "3" || code == "4" || code == "03" || code == "04";
-  signs.calls = signs.calls || code == "98" || code == "99";
-  signs.numbered = signs.numbered || (line[0] == 'O' && line.size() > 4 && is_digit(line[1]));
+  if (command && line.find('#') == std::string::npos && line[0] != 'O')
+    signs.klipper_command.add(number, raw.substr(0, raw.find_first_of(" \t=;(")));
+  if (code == "3" || code == "4" || code == "03" || code == "04")
+    signs.beam.add(number, "M" + std::string(code));
+  if (code == "98" || code == "99") signs.call.add(number, "M" + std::string(code));
+  if (is_program_number(line)) signs.number.add(number, line);
   const bool moves = line.find_first_of("XY") != std::string::npos;
+  if (line[0] == 'G' && !after(line, 'E').empty()) signs.extruding.add(number, "E");
   if (line.find('Z') != std::string::npos) ++signs.deep_moves;
   const std::string_view power = after(line, 'S');
   if (!moves || power.empty()) return;
-  ++signs.powered_moves;
+  signs.powered_move.add(number, "S");
   if (signs.powers.size() <= kFewPowers) signs.powers.emplace(power);
 }
 
-GcodeDialect told_by(const Signs& signs) {
-  if (signs.heated > 1) return signs.words_of_klipper > 0 ? GcodeDialect::klipper : GcodeDialect::marlin;
-  const bool beam = signs.beam && signs.powered_moves > kFewMoves && signs.powers.size() >= kFewPowers;
-  if (beam && signs.deep_moves * kFewMoves < signs.powered_moves) return GcodeDialect::laser;
-  if (signs.numbered && signs.calls) return GcodeDialect::fanuc;
-  return GcodeDialect::rs274;
+std::string place_of(const Sign& sign) { return fmt::format("{} in line {}", sign.text, sign.line); }
+
+DialectGuess told_by(const Signs& s) {
+  if (s.heating.count > 1 && s.extruding && s.klipper_command)
+    return {GcodeDialect::klipper, place_of(s.heating) + " and " + place_of(s.klipper_command),
+            s.heating.line};
+  if (s.heating.count > 1 && s.extruding)
+    return {GcodeDialect::marlin, place_of(s.heating) + " and " + place_of(s.extruding), s.heating.line};
+  const bool beam = s.beam && s.powered_move.count > kFewMoves && s.powers.size() >= kFewPowers;
+  if (beam && s.deep_moves * kFewMoves < s.powered_move.count)
+    return {GcodeDialect::laser, fmt::format("{} and the S words of its moves", place_of(s.beam)),
+            s.beam.line};
+  if (s.number && s.call)
+    return {GcodeDialect::fanuc, place_of(s.number) + " and " + place_of(s.call), s.number.line};
+  return {};
 }
+
+/// Of printers, a remark alone says nothing: a mill may cut the model of a klipper.
+bool is_borne_out(GcodeDialect dialect, const Signs& signs) {
+  const bool printer = dialect == GcodeDialect::marlin || dialect == GcodeDialect::klipper;
+  return !printer || signs.heating || signs.extruding;
+}
+
+/// Control bytes and quotes do not belong in a message.
+std::string quoted(std::string_view remark) {
+  std::string text = "\"";
+  for (const char c : remark.substr(0, kShown))
+    text += static_cast<unsigned char>(c) < ' ' || c == '"' ? ' ' : c;
+  return text + '"';
+}
+
+/// Walks over the lines; those that are remarks alone do not count against what is looked at.
+class LineWalk {
+ public:
+  explicit LineWalk(std::string_view text) : text_(text.substr(0, kMostRemarks)) {}
+  bool next() {
+    if (text_.empty() || words_ > kLookedAt) return false;
+    const std::size_t end = text_.find_first_of("\r\n");
+    line = text_.substr(0, end);
+    const bool pair = end != std::string_view::npos && text_.substr(end, 2) == "\r\n";
+    text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + (pair ? 2 : 1));
+    ++number;
+    remark = line.find_first_of("(;");
+    if (remark != 0) words_ += line.size() + 1;
+    return true;
+  }
+  std::string_view line;
+  std::size_t remark = 0;  // where the line's remark begins
+  std::uint32_t number = 0;
+
+ private:
+  std::string_view text_;
+  std::size_t words_ = 0;
+};
 
 }  // namespace
 
@@ -147,25 +232,27 @@ const std::vector<std::string>& dialect_names() {
   return names;
 }
 
-GcodeDialect guess_dialect(std::string_view text) {
-  text = text.substr(0, kLookedAt);
+DialectGuess guess_dialect(std::string_view text) {
   Signs signs;
-  std::optional<GcodeDialect> remarked;
-  while (!text.empty()) {
-    const std::size_t end = text.find_first_of("\r\n");
-    const std::string_view line = text.substr(0, end);
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    look_at(bare(line), signs);
-    const std::size_t remark = line.find_first_of("(;");
-    if (remark == std::string_view::npos) continue;
-    std::string capitals(line.substr(remark));
+  Remark remark{};  // the first that names a dialect, or the first that names another than GRBL
+  bool is_named = false;
+  for (LineWalk walk(text); walk.next();) {
+    look_at(bare(walk.line), walk.line, walk.number, signs);
+    if (walk.remark == std::string_view::npos) continue;
+    const std::string_view text_of_remark = walk.line.substr(walk.remark);
+    std::string capitals(text_of_remark);
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const bool better = !remarked || *remarked == GcodeDialect::grbl;
-    if (const auto named = remarked_in(capitals); named && better) remarked = named;
+    const bool better = !is_named || remark.dialect == GcodeDialect::grbl;
+    const auto named = remarked_in(capitals);
+    if (!named || !better || (is_named && *named == remark.dialect)) continue;
+    is_named = true;
+    remark = {*named, {}};
+    remark.sign.add(walk.number, quoted(text_of_remark));
   }
-  const GcodeDialect told = told_by(signs);
-  const bool plain_remark = !remarked || *remarked == GcodeDialect::grbl;
-  return told != GcodeDialect::rs274 && plain_remark ? told : remarked.value_or(told);
+  const DialectGuess told = told_by(signs);
+  if (!is_named || !is_borne_out(remark.dialect, signs)) return told;
+  if (told.dialect != GcodeDialect::rs274 && remark.dialect == GcodeDialect::grbl) return told;
+  return {remark.dialect, place_of(remark.sign), remark.sign.line};
 }
 
 }  // namespace kerf

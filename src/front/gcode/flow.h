@@ -67,6 +67,8 @@ class Flow {
   bool next(Block& block);
   /// The text's reader while lines simply follow each other: no loop or call was met yet. Else null.
   BlockReader* straight_reader() { return jumped_ ? nullptr : sources_.front()->reader.get(); }
+  /// Whether next() gave up before the text's end.
+  bool gave_up() const { return stopped_; }
   /// Carries out the O-word of the line that next() gave last.
   void control(const Block& block);
   /// M98: calls a program by its number, `repeats` times.

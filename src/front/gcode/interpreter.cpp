@@ -29,8 +29,9 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       max_steps_(std::min(options.max_steps, text.size() / kBytesOfStep + options.max_made_steps)),
       after_end_(options.after_end.value_or(usual_after_end(program.dialect, options))),
       file_(program.path.origins().file(options.file_name)) {
-  const bool printer = program.dialect == GcodeDialect::marlin || program.dialect == GcodeDialect::klipper;
-  line_.refuse((printer ? 0u : Line::bit('E')) | Line::bit('U') | Line::bit('V') | Line::bit('W'));
+  if (!is_printer()) return;
+  set_filament(text);
+  line_.follow(LetterRules::printer);
 }
 
 void Interpreter::run(const Block& block) {
@@ -115,12 +116,13 @@ void Interpreter::execute() {
     if (line_.has(Group::units)) set_units();
   }
   if (line_.has('F')) set_feed();
-  if (line_.has(Group::spindle_mode)) set_spindle_mode();
-  if (line_.has('S')) set_speed();
+  if (line_.other_spindle()) line_.use(Line::bit('S') | Line::bit('D'));
+  if (line_.has(Group::spindle_mode) && !line_.other_spindle()) set_spindle_mode();
+  if (line_.unused('S')) set_speed();
   if (line_.has('T')) select_tool();
   if (line_.has_codes()) {
     if (line_.has(Group::tool_change)) change_tool();
-    if (line_.has(Group::spindle)) turn_spindle();
+    if (line_.has(Group::spindle) && !line_.other_spindle()) turn_spindle();
     switch_coolant();
     if (line_.has(Group::dwell)) dwell();
     guard_compensation();
@@ -149,9 +151,23 @@ void Interpreter::finish() {
   if (pending_shape_)
     talker_.diagnostics().warning(Code::tool_comment_unused, pending_spot_,
                                   "the comment describes a tool, but no tool change follows");
-  if (!program_.ended)
+  tell_silent_spindle();
+  program_.cut_short = full_ || flow_->gave_up();
+  if (!program_.ended && !program_.cut_short && path_.size() > 0)
     talker_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",
                     "was it cut off?");
+}
+
+/// A spindle that is started in a program without any S has no speed that a controller would know.
+void Interpreter::tell_silent_spindle() {
+  if (!silent_spindle_ || modes_.speed_told) return;
+  const auto& [code, where] = *silent_spindle_;
+  talker_.in_file(where.file);
+  talker_.at_line(where.line);
+  talker_.unusual(Code::word_missing, where.column,
+                  fmt::format("{} starts the spindle, and no S says how fast; taken as set by hand",
+                              code_text('M', code)),
+                  "put an S word before it or on its line");
 }
 
 /// Whether so many more steps are within the limit; else the program ends here, and it is said.

@@ -139,9 +139,13 @@ class Interpreter : public SystemValues {
   // interpreter.cpp
   bool goes_on(const Block& block);
   void read_percent();
+  void tell_silent_spindle();
   void execute();
 
   void look_where_we_are();
+  bool is_printer() const {
+    return program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
+  }
   bool printer_line();
 
   // plain.cpp
@@ -199,6 +203,9 @@ class Interpreter : public SystemValues {
   // printer.cpp
   void printer_code();
   void printer_reference();
+  void set_filament(std::string_view text);
+  void set_volumetric();
+  bool filament_is_relative() const;
   void extrude(const Place& to, double feed);
   void extrude_arc(const ArcWalk& walk, const Place& to, Feed feed);
 
@@ -207,6 +214,7 @@ class Interpreter : public SystemValues {
   void quadratic();
   void cubic();
   void nurbs();
+  void add_control_point();
   std::optional<Point2> point_words(char u, char v);
   void polyline(const std::vector<Point2>& points);
 
@@ -230,6 +238,9 @@ class Interpreter : public SystemValues {
 
   // threads.cpp
   void spindle_move(Tenths motion);
+  struct Thread;
+  Thread take_thread_words();
+  void thread_pass(const Thread& thread, const Place& start, double end_z, double depth);
   void thread_cycle();
 
   // motion.cpp
@@ -318,12 +329,15 @@ class Interpreter : public SystemValues {
   std::map<int, double> tool_diameters_;                 // mm, by G10 L1
   std::vector<Point2> control_points_;                   // of G5.2
   std::vector<double> control_weights_;
-  int curve_order_ = 3;
+  int curve_order_ = 0;
   std::optional<Point2> last_curve_handle_;  // of G5: second control point, from the end
   LaserMode beam_mode_ = LaserMode::off;
   double beam_power_ = 0.0;
-  double filament_ = 0.0;  // E position, mm
+  double filament_ = 0.0;           // E position, mm (mm3 where E tells volumes)
+  double filament_diameter_ = 0.0;  // mm
   bool filament_relative_ = false;
+  bool volumetric_ = false;                      // M200: E tells volumes
+  double bead_width_ = 0.0, bead_height_ = 0.0;  // mm, as remarks tell; 0: not told
   CycleMemory cycle_;
   Compensation compensation_;
 
@@ -332,6 +346,7 @@ class Interpreter : public SystemValues {
   TextSpot pending_spot_;
   std::optional<int> undescribed_tool_;  // changed to, not described, no motion since
   std::vector<std::pair<std::string, TextSpot>> waiting_remarks_;
+  std::optional<std::pair<Tenths, TextSpot>> silent_spindle_;  // the first M3 or M4 with no S word so far
   bool units_told_ = false;
   bool moved_ = false;
   bool no_feed_said_ = false;

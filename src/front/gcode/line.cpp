@@ -12,7 +12,8 @@ namespace kerf::gcode {
 namespace {
 
 constexpr Tenths kFirstLargeCode = 1000;  // M100
-constexpr double kTenthsSlack = 1e-4;     // G38.2 may arrive as 38.19999 from other programs
+constexpr std::uint32_t kSpecialLetters = Line::bit('E') | Line::bit('U') | Line::bit('V') | Line::bit('W');
+constexpr double kTenthsSlack = 1e-4;  // G38.2 may arrive as 38.19999 from other programs
 
 /// A code's number in tenths, or -1 if it has more than one place.
 Tenths tenths_of(double value) {
@@ -46,9 +47,33 @@ bool Line::sort(const Block& block, Parameters& parameters, Talker& talker) {
   polar_radius_.reset();
   polar_angle_.reset();
   column_of_block_ = block.words.empty() ? 1 : block.words.front().column;
-  if (block.computed) return compute(block, parameters, talker);
-  for (const Word& word : block.words) add_word(word, word.value, talker);
+  other_spindle_ = false;
+  if (block.computed) {
+    if (!compute(block, parameters, talker)) return false;
+  } else {
+    for (const Word& word : block.words) add_word(word, word.value, talker);
+  }
+  if ((letters_ & kSpecialLetters) != 0) drop_letters(talker);
   return true;
+}
+
+/// Takes out letters that have no meaning here, and says so.
+void Line::drop_letters(Talker& talker) {
+  const bool filament = rules_ == LetterRules::printer;
+  const bool taper = has(Group::motion) && code(Group::motion) == 760;
+  const bool e_is_used = filament || has(Group::other) || taper;
+  for (const char letter : {'E', 'U', 'V', 'W'}) {
+    if (!has(letter) || (letter == 'E' && e_is_used)) continue;
+    letters_ &= ~bit(letter);
+    if (letter == 'E' || filament)
+      talker.unusual(Code::unknown_letter, column(letter),
+                     fmt::format("the letter {} has no meaning here and is left out", letter));
+    else
+      talker.error(
+          Code::code_unsupported, column(letter),
+          fmt::format("{} moves a secondary axis, beside {}, which Kerf does not follow; it is left out",
+                      letter, static_cast<char>(letter + 3)));
+  }
 }
 
 /// A parameter and the value that it gets.
@@ -103,10 +128,7 @@ std::optional<Line::Setting> Line::assignment(const Computation& text, const Par
 
 void Line::add_word(const Word& word, double value, Talker& talker) {
   const bool letter = word.letter >= 'A' && word.letter <= 'Z';
-  if (!letter || (refused_ & bit(word.letter)) != 0) {
-    add_unusual_word(word, value, talker);
-    return;
-  }
+  if (!letter) return add_sign_word(word, value, talker);
   if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, value, talker);
   if (has(word.letter))
     talker.unusual(Code::word_repeated, word.column,
@@ -116,14 +138,15 @@ void Line::add_word(const Word& word, double value, Talker& talker) {
   columns_[index(word.letter)] = word.column;
 }
 
-bool Line::add_unusual_word(const Word& word, double value, Talker& talker) {
-  if (word.letter == '*') return true;  // a sender's checksum
+/// "@", "^" and "$"; "*" is a sender's checksum. "$-1" means all spindles.
+void Line::add_sign_word(const Word& word, double value, Talker& talker) {
   if (word.letter == '@') polar_radius_ = value;
   if (word.letter == '^') polar_angle_ = value;
-  if (word.letter >= 'A' && word.letter <= 'Z')
-    talker.unusual(Code::unknown_letter, word.column,
-                   fmt::format("the letter {} has no meaning here and is left out", word.letter));
-  return true;
+  if (word.letter != '$' || value == 0.0 || value == -1.0) return;
+  other_spindle_ = true;
+  talker.note(
+      Code::code_ignored, word.column,
+      fmt::format("spindle {:g} is not the one that cuts; what the line says of it is left out", value));
 }
 
 void Line::add_code(const Word& word, double value, Talker& talker) {

@@ -43,14 +43,18 @@ class Talker {
   std::uint32_t line_ = 0;
 };
 
+/// Printers have filament (E) and commands with letters of their own; mills have inputs and tapers (E), and
+/// no secondary axes (U V W) that Kerf could follow.
+enum class LetterRules : unsigned char { mill, printer };
+
 class Line {
  public:
   /// Sorts a block's words. Two words of a letter or two codes of a group: the last one counts, and it is
   /// said. Computed values are worked out, and parameters are set after all of the line's values are known.
   /// False if the line cannot be meant (a value that cannot be computed), which is then said.
   bool sort(const Block& block, Parameters& parameters, Talker& talker);
-  /// Letters (a mask of bit()) that mean nothing to the controller.
-  void refuse(std::uint32_t letters) { refused_ = letters; }
+  /// What the controller makes of the letters E, U, V and W.
+  void follow(LetterRules rules) { rules_ = rules; }
   /// "@" and "^": distance and angle of polar coordinates.
   std::optional<double> polar_radius() const { return polar_radius_; }
   std::optional<double> polar_angle() const { return polar_angle_; }
@@ -60,6 +64,8 @@ class Line {
     used_ &= ~bit(letter);
     values_[index(letter)] = value;
   }
+  /// "$1": what the line says of a spindle is about another one than the first.
+  bool other_spindle() const { return other_spindle_; }
   /// M codes from M100 on, which printers and users' own programs have; -1: none.
   int large_m_code() const { return large_m_code_; }
 
@@ -99,12 +105,15 @@ class Line {
   bool compute(const Block& block, Parameters& parameters, Talker& talker);
   std::optional<Setting> assignment(const Computation& text, const Parameters& parameters, Talker& talker);
   void add_word(const Word& word, double value, Talker& talker);
-  bool add_unusual_word(const Word& word, double value, Talker& talker);
+  void add_sign_word(const Word& word, double value, Talker& talker);
+  void drop_letters(Talker& talker);
   void list_unused(Talker& talker) const;
   void add_code(const Word& word, double value, Talker& talker);
 
-  std::uint32_t letters_ = 0, used_ = 0, groups_ = 0, refused_ = 0;
+  std::uint32_t letters_ = 0, used_ = 0, groups_ = 0;
+  LetterRules rules_ = LetterRules::mill;
   int large_m_code_ = -1;
+  bool other_spindle_ = false;
   std::optional<double> polar_radius_, polar_angle_;
   std::uint32_t column_of_block_ = 0;
   std::array<double, 26> values_{};

@@ -27,9 +27,10 @@ void Interpreter::move() {
     const CodeEntry* entry = find_g_code(code);
     modes_.motion = entry->support == Support::read ? code : kMotionNotRead;
     if (!is_cycle(modes_.motion)) cycle_ = {};
+    if (modes_.motion != 50) last_curve_handle_.reset();
     if (modes_.motion == kMotionNotRead) return line_.use(kAllLetters);
   }
-  if (stated && modes_.motion == 53) return curve(53);
+  if (stated && (modes_.motion == 52 || modes_.motion == 53)) return curve(modes_.motion);
   const bool axes = line_.has_unused(kAxisLetters | kRotaryLetters);
   const bool filament = line_.unused('E') && (modes_.motion == 0 || modes_.motion == 10);
   if (axes || filament || (is_arc(modes_.motion) && line_.has_unused(kArcLetters)))
@@ -188,21 +189,21 @@ double Interpreter::straight_length(const Place& to) const {
 
 /// Feed in mm/min of a move of `length` mm; 0, said once, where the program gives none.
 double Interpreter::feed_for(double length) {
-  if (modes_.feed_mode == FeedMode::inverse_time && !line_.has('F') && modes_.feed > 0.0)
-    talker_.unusual(Code::word_missing, line_.column(),
-                    "in inverse time each cutting line needs its F; the last one is kept");
-  double feed = modes_.feed;
+  const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
+  double feed = inverse && !line_.has('F') ? 0.0 : modes_.feed;  // in inverse time F is not modal
   if (modes_.feed_mode == FeedMode::per_turn) feed *= modes_.speed;
   if (!(feed > 0.0)) {
     if (!no_feed_said_)
       talker_.unusual(Code::no_feed, line_.column(),
-                      "a cutting move without a feed; the program gives no F for it",
-                      "put an F word before the first G1");
+                      inverse
+                          ? "in inverse time (G93) each cutting line needs an F of its own; this one has none"
+                          : "a cutting move without a feed; the program gives no F for it",
+                      inverse ? "put an F word on the line" : "put an F word before the first G1");
     no_feed_said_ = true;
     return 0.0;
   }
   no_feed_said_ = false;
-  if (modes_.feed_mode != FeedMode::inverse_time) return feed;
+  if (!inverse) return feed;
   return std::max(feed * length, kSlowestInverse);
 }
 

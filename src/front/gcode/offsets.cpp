@@ -77,6 +77,11 @@ void Interpreter::use_coordinates() {
 void Interpreter::set_data() {
   const double what = line_.take('L').value_or(-1.0);
   const double number = line_.take('P').value_or(-1.0);
+  if (what == 0.0) {
+    talker_.note(Code::code_ignored, line_.column(Group::reference),
+                 "G10 L0 reloads the tool table, which is the machine's; it is left out");
+    return;
+  }
   const bool whole = number == std::floor(number) && number >= 0.0 && number <= 1e6;
   const bool system = (what == 2.0 || what == 20.0) && whole && number <= kSystems;
   const bool tool = (what == 1.0 || what == 10.0 || what == 11.0) && whole;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "codec/gcode/block.h"
+#include "codec/gcode/plain_text.h"
 #include "front/gcode/flow.h"
 #include "front/gcode/interpreter.h"
 
@@ -17,11 +18,29 @@ constexpr std::size_t kMostReserved = 2'000'000;  // steps; a longer program gro
 
 GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
   if (options.dialect) return *options.dialect;
-  const GcodeDialect guessed = guess_dialect(text);
-  if (guessed != GcodeDialect::rs274)
-    diagnostics.note(Code::dialect_guessed, TextSpot{options.file_name, 0, 0},
-                     fmt::format("this looks like a program for {}, and is read as one", to_string(guessed)));
-  return guessed;
+  const DialectGuess guess = guess_dialect(text);
+  if (guess.dialect != GcodeDialect::rs274)
+    diagnostics.note(Code::dialect_guessed, TextSpot{options.file_name, guess.line, 0},
+                     fmt::format("this looks like a program for {} ({}), and is read as one",
+                                 to_string(guess.dialect), guess.from));
+  return guess.dialect;
+}
+
+/// False, said once, for bytes that are no text: their lines would make an error each.
+bool is_text(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
+  const std::optional<gcode::NotPlain> not_plain = gcode::find_not_plain(text);
+  if (!not_plain) return true;
+  const std::string_view before = text.substr(0, not_plain->at);
+  const auto line = static_cast<std::uint32_t>(std::count(before.begin(), before.end(), '\n')) + 1;
+  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+  const TextSpot where{options.file_name, line, static_cast<std::uint32_t>(not_plain->at - line_begin) + 1};
+  if (not_plain->kind == gcode::NotPlain::Kind::utf16)
+    diagnostics
+        .error(Code::text_not_plain, where, "this is UTF-16, two bytes a letter; no controller reads that")
+        .hint = "save it as UTF-8 or ASCII, e.g. with: iconv -f UTF-16 -t UTF-8";
+  else
+    diagnostics.error(Code::text_not_plain, where, "this is binary data, no G-code");
+  return false;
 }
 
 }  // namespace
@@ -30,6 +49,10 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
                         Progress* progress) {
   GcodeProgram program;
   if (progress != nullptr) progress->phase("reading G-code");
+  if (!is_text(text, options, diagnostics)) {
+    program.cut_short = true;
+    return program;
+  }
   program.path.reserve(std::min({text.size() / kBytesPerStep + 1, options.max_steps, kMostReserved}));
   program.dialect = dialect_of(text, options, diagnostics);
   gcode::Talker talker(options.file_name, options.strict, diagnostics);

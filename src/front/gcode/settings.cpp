@@ -51,7 +51,10 @@ void Interpreter::set_speed() {
     return;
   }
   const bool is_news = speed != modes_.speed && modes_.spindle != SpindleTurn::off;
-  modes_.speed = modes_.surface_speed > 0.0 ? 0.0 : speed;
+  if (modes_.surface_speed > 0.0)
+    modes_.surface_speed = speed;  // the spindle's own follows the work, which nobody knows
+  else
+    modes_.speed = speed;
   modes_.speed_told = true;
   if (program_.dialect == GcodeDialect::laser) return beam();
   if (is_news && !line_.has(Group::spindle) && !line_.has(Group::tool_change)) spin(modes_.spindle);
@@ -92,7 +95,10 @@ void Interpreter::change_tool() {
 }
 
 void Interpreter::turn_spindle() {
-  switch (line_.code(Group::spindle)) {
+  const Tenths code = line_.code(Group::spindle);
+  if (code != 50 && !modes_.speed_told && !silent_spindle_)
+    silent_spindle_ = {code, talker_.spot(line_.column(Group::spindle))};
+  switch (code) {
     case 30: return spin(SpindleTurn::cw);
     case 40: return spin(SpindleTurn::ccw);
     default: return spin(SpindleTurn::off);
@@ -128,7 +134,7 @@ void Interpreter::set_spindle_mode() {
   modes_.surface_speed = surface ? line_.value('S') : 0.0;
   if (surface && !line_.has('S'))
     talker_.error(Code::word_missing, line_.column(Group::spindle_mode), "G96 needs S, the cutting speed");
-  if (surface && limit > 0.0) modes_.speed = limit;
+  if (surface) modes_.speed = limit;
 }
 
 /// M98 P100 L2 calls subroutine 100 twice; Fanuc's M98 P20100 does the same.
@@ -182,9 +188,14 @@ void Interpreter::restore_modes(const Modes& kept) {
 }
 
 void Interpreter::read_large_m_code() {
-  talker_.unusual(Code::unknown_m_code, line_.column(Group::other),
-                  fmt::format("unknown code M{}; it is left out", line_.large_m_code()),
-                  "is this a program for another kind of machine?");
+  constexpr int kLastOfUsers = 199;
+  const int code = line_.large_m_code();
+  const bool users = program_.dialect == GcodeDialect::rs274 && code <= kLastOfUsers;
+  talker_.unusual(
+      Code::unknown_m_code, line_.column(Group::other),
+      users ? fmt::format("M{} runs a program of the user's own, which is not known; it is left out", code)
+            : fmt::format("unknown code M{}; it is left out", code),
+      users ? "" : "is this a program for another kind of machine?");
   line_.use(kAllLetters & ~(kAxisLetters | kRotaryLetters));
 }
 

@@ -34,49 +34,89 @@ void Interpreter::spindle_move(Tenths motion) {
   spin(turn);
 }
 
-/// G76 P Z I J K R Q H: passes of growing depth in X, as deep as leaves the same chip.
+/// What the words of G76 say, in mm; depths count along `side`.
+struct Interpreter::Thread {
+  double pitch = 0.0, peak = 0.0, first = 0.0, full = 0.0;
+  double fall = 1.0;    // how fast the depths of passes fall
+  double slant = 0.0;   // tangent of the slide's angle
+  double spring = 0.0;  // passes at full depth, once more
+  double taper = 0.0;   // length of the ends that rise
+  bool tapered_entry = false, tapered_exit = false;
+  double side = 1.0;  // of the work in X: +1 for inner threads
+  double way = 1.0;   // along Z
+
+  bool meant() const {
+    return pitch > 0.0 && peak != 0.0 && first > 0.0 && full > first && fall >= 1.0 && std::isfinite(slant) &&
+           spring >= 0.0 && spring <= kMostPasses && taper >= 0.0 &&
+           std::pow(full / first, fall) <= kMostPasses;
+  }
+};
+
+Interpreter::Thread Interpreter::take_thread_words() {
+  const double in_x = modes_.scale * (modes_.diameters ? 0.5 : 1.0);  // I, J and K are diameters as X is
+  Thread thread;
+  thread.pitch = line_.take('P').value_or(0.0) * modes_.scale;
+  thread.peak = line_.take('I').value_or(0.0) * in_x;
+  thread.first = line_.take('J').value_or(0.0) * in_x;
+  thread.full = line_.take('K').value_or(0.0) * in_x;
+  thread.fall = line_.take('R').value_or(1.0);
+  thread.slant = std::tan(line_.take('Q').value_or(0.0) * std::numbers::pi / 180.0);
+  thread.spring = line_.take('H').value_or(0.0);
+  thread.taper = line_.take('E').value_or(0.0) * modes_.scale;
+  const double ends = line_.take('L').value_or(0.0);  // 1: the entry rises, 2: the exit, 3: both
+  thread.tapered_entry = thread.taper > 0.0 && (ends == 1.0 || ends == 3.0);
+  thread.tapered_exit = thread.taper > 0.0 && (ends == 2.0 || ends == 3.0);
+  thread.side = thread.peak > 0.0 ? 1.0 : -1.0;
+  return thread;
+}
+
+/// One pass of a thread: in beside the work, along it at the pitch, and out.
+void Interpreter::thread_pass(const Thread& t, const Place& start, double end_z, double depth) {
+  const double clear = start.at.x - t.side * (t.full - depth);
+  const double bottom = start.at.x + t.side * (std::abs(t.peak) + depth);
+  const double outside = bottom - t.side * t.full;  // where a taper begins or ends
+  const double feed = t.pitch * modes_.speed;
+  const double taper_feed = t.taper > 0.0 ? feed * std::hypot(t.taper, t.full) / t.taper : feed;
+  const double begin_z = start.at.z + t.way * depth * t.slant;
+  const double last_z = end_z - t.way * (t.full - depth) * t.slant;
+  Place at = start;
+  const auto go = [&](double x, double z) {
+    at.at.x = x;
+    at.at.z = z;
+    return at;
+  };
+  rapid(go(clear, begin_z));
+  if (t.tapered_entry) {
+    cut(go(outside, begin_z), taper_feed);
+    cut(go(bottom, begin_z + t.way * t.taper), taper_feed);
+  } else {
+    rapid(go(bottom, begin_z));
+  }
+  cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed);
+  if (t.tapered_exit) cut(go(outside, last_z), taper_feed);
+  rapid(go(clear, last_z));
+}
+
+/// G76 P Z I J K R Q H E L: passes of growing depth in X, as deep as leaves the same chip.
 void Interpreter::thread_cycle() {
-  const double pitch = line_.take('P').value_or(0.0) * modes_.scale;
-  const double peak = line_.take('I').value_or(0.0) * modes_.scale;
-  const double first = line_.take('J').value_or(0.0) * modes_.scale;
-  const double full = line_.take('K').value_or(0.0) * modes_.scale;
-  const double fall = line_.take('R').value_or(1.0);
-  const double slant = std::tan(line_.take('Q').value_or(0.0) * std::numbers::pi / 180.0);
-  const double spring = line_.take('H').value_or(0.0);
+  Thread thread = take_thread_words();
   const Place start = here_;
   const std::optional<Place> end = target();
-  line_.use(Line::bit('E') | Line::bit('L'));
   if (!end) return;
-  const bool meant = pitch > 0.0 && peak != 0.0 && first > 0.0 && full >= first && fall >= 1.0 &&
-                     std::isfinite(slant) && spring >= 0.0 && spring <= kMostPasses;
-  if (!meant || std::pow(full / first, fall) > kMostPasses) {
+  thread.way = end->at.z < start.at.z ? -1.0 : 1.0;
+  if (!thread.meant()) {
     talker_.error(Code::word_out_of_range, line_.column(),
-                  "G76 needs P (pitch), I, J, K not below J, R from 1; it is left out");
+                  "G76 needs P (pitch), I, J, K above J, R from 1; it is left out");
     return;
   }
-  const double side = peak > 0.0 ? 1.0 : -1.0;
-  const auto pass = [&](double depth) {
-    Place at = start;
-    at.at.x = start.at.x - side * (std::abs(peak) - depth);
-    const double back = at.at.x;
-    at.at.z -= depth * slant;
-    rapid(at);
-    at.at.x = start.at.x + side * (std::abs(peak) + depth);
-    rapid(at);
-    at.at.z = end->at.z + (full - depth) * slant;
-    cut(at, pitch * modes_.speed);
-    at.at.x = back;
-    rapid(at);
-  };
-  double depth = first;
-  for (int n = 2; depth < full && !full_; ++n) {
-    pass(depth);
-    depth = first * std::pow(n, 1.0 / fall);
+  double depth = thread.first;
+  for (int n = 2; depth < thread.full && !full_; ++n) {
+    thread_pass(thread, start, end->at.z, depth);
+    depth = thread.first * std::pow(n, 1.0 / thread.fall);
   }
-  for (int i = 0; i <= static_cast<int>(spring) && !full_; ++i) pass(full);
-  Place last = start;
-  last.at.z = end->at.z;
-  rapid(last);
+  for (int i = 0; i <= static_cast<int>(thread.spring) && !full_; ++i)
+    thread_pass(thread, start, end->at.z, thread.full);
+  rapid(*end);
 }
 
 }  // namespace kerf::gcode

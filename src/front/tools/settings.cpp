@@ -7,6 +7,7 @@
 
 #include "kerf/names.h"
 #include "kerf/number.h"
+#include "kerf/tool_files.h"
 
 namespace kerf::detail {
 namespace {
@@ -48,6 +49,24 @@ constexpr std::array kShortKeys{
 };
 constexpr std::array<std::string_view, 3> kTextKeys{"name", "description", "transition"};
 
+bool has_measure(const ToolShape& shape, std::string_view key) {
+  for (const ShapeParameter& parameter : parameters_of(shape))
+    if (parameter.name == key) return true;
+  return false;
+}
+
+/// The key in full: "d" is the diameter, "r" whichever radius the shape has.
+std::string_view full_key(std::string_view key, const ToolShape& shape) {
+  if (has_measure(shape, key)) return key;
+  std::string_view last;
+  for (const ShortKey& known : kShortKeys) {
+    if (known.shorter != key) continue;
+    if (has_measure(shape, known.key)) return known.key;
+    last = known.key;
+  }
+  return last.empty() ? key : last;
+}
+
 class SettingReader {
  public:
   SettingReader(const ToolShape& blank, double scale, const Origin& where, Diagnostics& diagnostics)
@@ -66,9 +85,6 @@ class SettingReader {
     diagnostics_.error(Code::tool_value_type, setting.where,
                        fmt::format("{} must be {}", setting.key, expected));
   }
-  /// The key in full: "d" is the diameter, "r" whichever radius the shape has.
-  std::string full_key(const std::string& key) const;
-  bool shape_has(std::string_view key) const;
   /// A length in mm or an angle in degrees; nothing after an error.
   std::optional<double> number(const Setting& setting, ShapeParameter::Kind kind);
 
@@ -84,24 +100,6 @@ class SettingReader {
   std::vector<std::string> seen_;
   bool fine_ = true;
 };
-
-bool SettingReader::shape_has(std::string_view key) const {
-  for (const ShapeParameter& parameter : parameters_of(shape_)) {
-    if (parameter.name == key) return true;
-  }
-  return false;
-}
-
-std::string SettingReader::full_key(const std::string& key) const {
-  if (shape_has(key)) return key;
-  std::string_view last;
-  for (const ShortKey& known : kShortKeys) {
-    if (known.shorter != key) continue;
-    if (shape_has(known.key)) return std::string(known.key);
-    last = known.key;
-  }
-  return last.empty() ? key : std::string(last);
-}
 
 std::optional<double> SettingReader::number(const Setting& setting, ShapeParameter::Kind kind) {
   const bool is_length = kind == ShapeParameter::Kind::length;
@@ -189,19 +187,18 @@ void SettingReader::unknown(const Setting& setting) {
   if (std::holds_alternative<shape::Drawn>(shape_)) known.emplace_back("profile");
   std::string measures;
   for (const std::string& name : known) measures += (measures.empty() ? "" : ", ") + name;
-  for (const BodyKey& key : kBodyKeys) known.emplace_back(key.name);
-  for (const std::string_view key : kTextKeys) known.emplace_back(key);
-  known.insert(known.end(), {"teeth", "plunges", "shape", "number", "numbers", "names", "unit"});
+  for (const ToolKey& key : tool_keys()) known.emplace_back(key.name);
   Diagnostic& error =
       diagnostics_.error(Code::tool_key_unknown, setting.where,
                          fmt::format("a {} tool has no \"{}\"", name_of(shape_), setting.key.substr(0, 40)));
   const auto meant = did_you_mean(setting.key, known);
-  error.hint = meant ? fmt::format("did you mean {}?", *meant) : fmt::format("its measures: {}", measures);
+  error.hint = meant ? fmt::format("did you mean {}?", *meant)
+                     : fmt::format("its measures: {}; all keys: kerf tools shapes", measures);
 }
 
 void SettingReader::read(const Setting& told) {
   Setting setting = told;
-  setting.key = full_key(told.key);
+  setting.key = full_key(told.key, shape_);
   for (const std::string& seen : seen_) {
     if (seen == setting.key && seen != "name") return wrong(setting, "told only once");
   }
@@ -241,3 +238,36 @@ std::optional<Tool> tool_of(const ToolShape& blank, const std::vector<Setting>& 
 }
 
 }  // namespace kerf::detail
+
+namespace kerf {
+
+const std::vector<ToolKey>& tool_keys() {
+  static const std::vector<ToolKey> keys{
+      {"neck_diameter", "of a neck above the flutes that does not cut"},
+      {"neck_length", "of that neck"},
+      {"shank_diameter", "of the shank above it"},
+      {"shank_length", "from the neck or the flute; 20 mm where only the diameter is told"},
+      {"holder_diameter", "of the holder above the shank"},
+      {"holder_length", "of the holder"},
+      {"transition", "step or cone (45 degrees): how a shank wider than what is below it begins"},
+      {"teeth", "1 to 100; 2 where not told"},
+      {"plunges", "true or false: whether it cuts at its centre; each shape has its own default"},
+      {"number", "the tool's number"},
+      {"numbers", "in files: every number that it is known by"},
+      {"name", "a name, such as the vendor's"},
+      {"names", "in files: several of them"},
+      {"description", "any text"},
+      {"shape", "in files: which of the shapes it is"},
+      {"unit", "in files: mm or inch"},
+  };
+  return keys;
+}
+
+std::vector<std::string_view> short_names_of(std::string_view key, const ToolShape& shape) {
+  std::vector<std::string_view> names;
+  for (const detail::ShortKey& known : detail::kShortKeys)
+    if (known.key == key && detail::full_key(known.shorter, shape) == key) names.push_back(known.shorter);
+  return names;
+}
+
+}  // namespace kerf

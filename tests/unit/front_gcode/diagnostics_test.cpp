@@ -33,7 +33,7 @@ const Case kCases[] = {
     {"O1 sub\nO1 call\nO1 endsub\nO1 call", Code::calls_too_deep, kError, 2, 1, 0},
     {"O1 while [1]\nO1 endwhile", Code::runs_too_long, kError, 1, 1, 0},
     {"G0 ^45", Code::polar_from_zero, kError, 1, 1, 0},
-    {"; LightBurn", Code::dialect_guessed, kNote, 0, 0, 0},
+    {"; LightBurn", Code::dialect_guessed, kNote, 1, 0, 0},
     {"G21\n(T4  D=3.175 CR=0 - flat end mill)", Code::tool_from_remark, kNote, 2, 1, 0},
     {"G0 X1 E5", Code::unknown_letter, kWarning, 1, 7, 1},
     {"G0 X1 G77.7", Code::unknown_g_code, kWarning, 1, 7, 1},
@@ -75,7 +75,8 @@ const Case kCases[] = {
     {"F9 G83 X1 R1 Z-1", Code::word_missing, kError, 1, 1, 0},
     {"F9 G87 X1 R1 Z-1", Code::word_missing, kError, 1, 1, 0},
     {"F9 G82 X1 R1 Z0", Code::word_missing, kWarning, 1, 1, 4},
-    {"G93 G1 X1 F2\nX2", Code::word_missing, kWarning, 2, 1, 2},
+    {"G93 G1 X1 F2\nX2", Code::no_feed, kWarning, 2, 1, 2},
+    {"M3\nG0 X1", Code::word_missing, kWarning, 1, 1, 1},
     {"G81", Code::word_missing, kWarning, 1, 1, 0},
     {"F-1", Code::word_out_of_range, kError, 1, 1, 0},
     {"S-1", Code::word_out_of_range, kError, 1, 1, 0},
@@ -158,9 +159,71 @@ TEST(GcodeDiagnostics, EndsThatLack) {
   EXPECT_EQ(lone.list()[0].code, Code::lone_percent);
 }
 
+TEST(GcodeDiagnostics, ASpeedBehindM3IsEnough) {
+  Diagnostics diagnostics;
+  read_gcode("M3\nS1000\nG0 X1\nM2\n", {}, diagnostics);
+  EXPECT_TRUE(diagnostics.list().empty()) << to_string(diagnostics.list().front());
+}
+
+TEST(GcodeDiagnostics, InInverseTimeAFeedHoldsForItsLineOnly) {
+  Diagnostics diagnostics;
+  const GcodeProgram program = read_gcode("F100 G1 X1\nG93 X2\nX3 F2\nX4\nG94 F50 X5\nM2\n", {}, diagnostics);
+  std::vector<double> feeds;
+  for (const Step& s : program.path.steps())
+    if (s.is_cutting()) feeds.push_back(s.feed().mm_per_min());
+  EXPECT_EQ(feeds, (std::vector<double>{100, 0, 2, 0, 50}));
+}
+
+struct NoText {
+  std::string_view bytes;
+  std::uint32_t line, column;
+  std::string_view word;  // of the message
+};
+
+TEST(GcodeDiagnostics, WhatIsNoTextIsOneError) {
+  using namespace std::string_view_literals;
+  const NoText cases[] = {
+      {"\xFF\xFEG\0"
+       "0\0\n\0M\0"
+       "2\0"sv,
+       1, 1, "UTF-16"},
+      {"\xFE\xFF\0G\0"
+       "0"sv,
+       1, 1, "UTF-16"},
+      {"G\0"
+       "0\0X\0"
+       "1\0\n\0M\0"
+       "2\0"sv,
+       1, 2, "UTF-16"},
+      {"G0 X1\n\x7F"
+       "ELF\x02\x01\x01\0\0\0\0"sv,
+       2, 1, "binary"},
+  };
+  for (const NoText& c : cases) {
+    Diagnostics diagnostics;
+    const GcodeProgram program = read_gcode(c.bytes, {}, diagnostics);
+    EXPECT_TRUE(program.cut_short && program.path.size() == 0) << c.word;
+    ASSERT_EQ(diagnostics.list().size(), 1u) << c.word;
+    const Diagnostic& d = diagnostics.list().front();
+    EXPECT_EQ(d.code, Code::text_not_plain);
+    EXPECT_EQ(d.severity, Severity::error);
+    EXPECT_EQ(d.where, Origin(TextSpot{"<text>", c.line, c.column})) << to_string(d);
+    EXPECT_NE(d.message.find(c.word), std::string::npos) << d.message;
+  }
+}
+
+TEST(GcodeDiagnostics, OtherAlphabetsAndStrayBytesAreText) {
+  for (const std::string_view comment : {"(Fr\xE4ser)", "(\xE5\x88\x80\xE5\x85\xB7)", "\xEF\xBB\xBF(mark)"}) {
+    Diagnostics diagnostics;
+    const GcodeProgram program = read_gcode(std::string(comment) + "\nG21\nG0 X1\nM2\n\x1A", {}, diagnostics);
+    EXPECT_EQ(program.path.size(), 2u) << comment;
+    for (const Diagnostic& d : diagnostics.list()) EXPECT_NE(d.code, Code::text_not_plain) << comment;
+  }
+}
+
 TEST(GcodeDiagnostics, ManyFaultsCostBoundedMemory) {
   std::string text;
-  for (int i = 0; i < 100'000; ++i) text += "G1 X\x01\n";
+  for (int i = 0; i < 100'000; ++i) text += "G1 X?\n";
   Diagnostics diagnostics;
   read_gcode(text, {}, diagnostics);
   EXPECT_EQ(diagnostics.errors(), 100'000u);

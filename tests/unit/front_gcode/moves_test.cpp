@@ -1,25 +1,15 @@
 // The moves of small programs against those that LinuxCNC's interpreter makes of them
 // (tests/data/gcode/moves.txt).
-#include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
+
+#include "notation.h"
 
 #include "kerf/gcode.h"
 
 namespace kerf {
 namespace {
-
-std::vector<std::string> split(const std::string& text, const std::string& separator) {
-  std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos;
-       begin = end + separator.size())
-    parts.push_back(text.substr(begin, end - begin));
-  parts.push_back(text.substr(begin));
-  return parts;
-}
 
 std::string text_of(const Step& s) {
   std::ostringstream out;
@@ -45,19 +35,6 @@ std::vector<std::string> moves_of(const Toolpath& path) {
   return moves;
 }
 
-/// Words equal, numbers within `slack`.
-bool same(const std::string& a, const std::string& b, double slack) {
-  const auto left = split(a, " "), right = split(b, " ");
-  if (left.size() != right.size()) return false;
-  for (std::size_t i = 0; i < left.size(); ++i) {
-    if (left[i] == right[i]) continue;
-    char* end = nullptr;
-    const double x = std::strtod(left[i].c_str(), &end);
-    if (*end != 0 || !(std::abs(x - std::strtod(right[i].c_str(), nullptr)) <= slack)) return false;
-  }
-  return true;
-}
-
 TEST(Moves, AreThoseOfLinuxCnc) {
   std::ifstream file(KERF_TEST_DATA "/gcode/moves.txt");
   ASSERT_TRUE(file);
@@ -66,9 +43,7 @@ TEST(Moves, AreThoseOfLinuxCnc) {
   while (std::getline(file, program)) {
     if (program.rfind("#", 0) == 0) continue;
     ASSERT_TRUE(std::getline(file, wanted) && wanted.rfind("= ", 0) == 0) << program;
-    std::string text = program;
-    for (char& c : text)
-      if (c == '|') c = '\n';
+    const std::string text = program_text(program);
     Diagnostics diagnostics;
     GcodeReadOptions options;  // the tools of the recording
     options.tool_diameter = [](int tool, const Tool*) -> std::optional<double> {

@@ -219,6 +219,33 @@ TEST(CheckPath, APlungeWithAToolThatCannot) {
   EXPECT_EQ(kinds(ramp, {.tools = &cannot, .stock = stock}), Kinds{});
 }
 
+/// Two holes; `up` is 1 where Z counts upwards, -1 where it counts downwards.
+Job drilled(double up) {
+  Job job;
+  job.add(step::ToolChange{1})
+      .add(step::Spindle{rpm(10000), SpindleTurn::cw})
+      .add(step::Rapid{{0, 0, 5 * up}});
+  for (const double x : {1.0, 2.0})
+    job.add(step::Rapid{{x, 0, 5 * up}})
+        .add(step::Cut{{x, 0, -3 * up}, mm_per_min(100)})
+        .add(step::Rapid{{x, 0, 5 * up}});
+  return job;
+}
+
+TEST(CheckPath, ZThatCountsDownwards) {
+  EXPECT_EQ(kinds(drilled(1)), Kinds{});
+  const auto found = check_path(drilled(-1).path, {});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, Code::path_z_downwards);
+  EXPECT_NE(found[0].message.find("rapids run at Z -5, its cuts at Z 3;"), std::string::npos)
+      << found[0].message;
+  EXPECT_FALSE(found[0].hint.empty());
+  Job one_level;  // a laser, a plotter: nothing tells which way Z counts
+  one_level.add(step::ToolChange{1}).add(step::Spindle{rpm(1), SpindleTurn::cw});
+  one_level.add(step::Rapid{{0, 0, 0}}).add(step::Rapid{{1, 0, 0}}).add(step::Cut{{5, 0, 0}, mm_per_min(9)});
+  EXPECT_EQ(kinds(one_level), Kinds{});
+}
+
 TEST(CheckPath, AToolChangeBelowTheStocksTop) {
   Box3 stock;
   stock.add(Point3{0, 0, -10});

@@ -328,6 +328,22 @@ TEST(Warnings, CoarseArcAndUnknownPlace) {
   EXPECT_TRUE(attempt(unknown.path(), square_and_keyhole()).says(Code::cut_at_unknown_place));
 }
 
+TEST(Warnings, OnlyTheUnknownAxesAreNamed) {
+  const std::pair<unsigned, std::string_view> cases[] = {
+      {7, "said where X, Y and Z are; X0 and Y0 are taken, and without a Z nothing is cut"},
+      {2, "said where Y is; Y0 is taken"},
+      {4, "said where Z is; without it nothing is cut"}};
+  for (const auto& [axes, words] : cases) {
+    Path unknown;
+    unknown.tool(1).cut({0, 0, -1});
+    unknown.path().set_unknown_axes(1, axes);
+    const Refusal said = attempt(unknown.path(), square_and_keyhole());
+    ASSERT_TRUE(said.says(Code::cut_at_unknown_place));
+    const std::string& message = said.diagnostics.list().front().message;
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  }
+}
+
 class Stopper : public Progress {
  public:
   void phase(std::string_view what) override { phase_ = what; }

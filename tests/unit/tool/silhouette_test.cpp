@@ -46,6 +46,15 @@ TEST(Silhouette, SquareIsACylinder) {
   EXPECT_EQ(tool.number, 7);
 }
 
+TEST(Silhouette, AFluteThatNobodyToldIsMarked) {
+  EXPECT_TRUE(made(shape::Square{mm(3.0), {}}).flute_assumed);
+  EXPECT_TRUE(made(shape::Ball{mm(3.0), {}}).flute_assumed);
+  EXPECT_TRUE(made(shape::BullNose{mm(3.0), {}, mm(0.5)}).flute_assumed);
+  EXPECT_TRUE(made(shape::Drill{mm(3.0), {}, degrees(118)}).flute_assumed);
+  EXPECT_FALSE(made(shape::Square{mm(3.0), mm(9.0)}).flute_assumed);
+  EXPECT_FALSE(made(shape::Vee{mm(3.0), {}, degrees(90), {}, {}}).flute_assumed);  // the cone's end
+}
+
 TEST(Silhouette, BallRadiusAtHeight) {
   const Profile profile = made(shape::Ball{mm(6.0), mm(20.0)}).silhouette.cutting;
   for (const double z : {0.1, 1.0, 2.0, 2.9}) {

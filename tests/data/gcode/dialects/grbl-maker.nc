@@ -1,0 +1,8 @@
+%
+(sign)
+(Written by Carbide Create)
+G21 G90
+M3 S8000
+G0 Z5
+G1 X5 F100
+M2

@@ -1,0 +1,7 @@
+(pocket, for GRBL 1.1)
+G21 G90
+M3 S8000
+G0 X0 Y0 Z5
+G1 Z-1 F100
+G1 X20
+M2
