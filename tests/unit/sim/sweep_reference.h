@@ -144,7 +144,7 @@ class Reference {
   /// Whether a point is removed, by the samples alone: good for walls, up to a step of the samples on slopes.
   bool removes(Point3 p) const {
     for (const Point3& tip : points_) {
-      const double rho = std::hypot(p.x - tip.x, p.y - tip.y);
+      const double rho = std::sqrt((p.x - tip.x) * (p.x - tip.x) + (p.y - tip.y) * (p.y - tip.y));
       for (int k = 0; rho <= rim_ && k < tool_.segments(); ++k) {
         const std::optional<Run> r = tool_.run(rho, k);
         if (r && r->low + tip.z <= p.z && p.z <= r->high + tip.z) return true;
@@ -177,8 +177,9 @@ class Reference {
   };
   std::optional<Run> run_at(double x, double y, int segment, double t) const {
     const Point3 p = at(t);
-    const double rho = std::hypot(x - p.x, y - p.y);
-    if (rho > rim_ + 1e-12) return std::nullopt;
+    const double rho2 = (x - p.x) * (x - p.x) + (y - p.y) * (y - p.y);
+    if (rho2 > rim_ * rim_ + 1e-11) return std::nullopt;
+    const double rho = std::sqrt(rho2);
     const std::optional<Run> r = tool_.run(rho, segment);
     return r ? std::optional(Run{r->low + p.z, r->high + p.z, segment}) : std::nullopt;
   }
@@ -273,7 +274,11 @@ inline Toolpath path_of(const Motion& motion) {
 class Remainder {
  public:
   Remainder(const NamedProfile& tool, const Motion& motion)
-      : approach_{"approach", {motion.from.x, motion.from.y, 40}, {}, motion.from},
+      : approach_{"approach",
+                  {motion.from.x, motion.from.y,
+                   std::max(motion.from.z, kTop) + 0.1},  // the tip is above all
+                  {},
+                  motion.from},
         down_(tool.profile, approach_),
         along_(tool.profile, motion) {}
   std::vector<Silhouette2::Run> operator()(double x, double y) const {
