@@ -110,7 +110,8 @@ def test_the_filament_and_the_layer_can_be_told(kerf, program):
     thick = kerf("simulate", "--json", "--filament", "2.85", "--layer-height", "0.25", path).json
     assert thick["extruded_mm3"] == pytest.approx(math.pi / 4 * 2.85**2, rel=1e-6)
     assert thick["layers"][0]["height_mm"] == pytest.approx(0.25)
-    told = kerf("simulate", "--json", program("; filament_diameter = 2.85\n" + path.read_text(), "told.gcode"))
+    setting = "; filament_diameter = 2.85\n"
+    told = kerf("simulate", "--json", program(setting + path.read_text(), "told.gcode"))
     assert told.json["extruded_mm3"] == pytest.approx(thick["extruded_mm3"], rel=1e-6)
     wrong = program(HEAD + "G1 Z0.2\nG1 X0 Y0\n;WIDTH:0.45\n;HEIGHT:0.2\nG1 X20 E0.25\n", "wrong.gcode")
     assert "print_width_differs" in kerf("simulate", "--json", wrong).codes()
