@@ -82,7 +82,7 @@ def test_summary_meshes_and_pictures(kerf, files, tmp_path):
     laid = kerf("simulate", "--json", BOX).json["laid_mm3"]
     assert volume == pytest.approx(laid, rel=0.1)  # with the grooves between roads closed
     assert kerf("simulate", BOX, "-o", "grooved.stl", "--grooves").status == 0
-    assert Path(tmp_path, "grooved.stl").stat().st_size > 2 * len(data)
+    assert Path(tmp_path, "grooved.stl").stat().st_size > 1.3 * len(data)
 
 
 def test_what_goes_wrong_is_told_with_its_line(kerf, program):
@@ -110,7 +110,8 @@ def test_the_filament_and_the_layer_can_be_told(kerf, program):
     thick = kerf("simulate", "--json", "--filament", "2.85", "--layer-height", "0.25", path).json
     assert thick["extruded_mm3"] == pytest.approx(math.pi / 4 * 2.85**2, rel=1e-6)
     assert thick["layers"][0]["height_mm"] == pytest.approx(0.25)
-    told = kerf("simulate", "--json", program("; filament_diameter = 2.85\n" + path.read_text(), "told.gcode"))
+    setting = "; filament_diameter = 2.85\n"
+    told = kerf("simulate", "--json", program(setting + path.read_text(), "told.gcode"))
     assert told.json["extruded_mm3"] == pytest.approx(thick["extruded_mm3"], rel=1e-6)
     wrong = program(HEAD + "G1 Z0.2\nG1 X0 Y0\n;WIDTH:0.45\n;HEIGHT:0.2\nG1 X20 E0.25\n", "wrong.gcode")
     assert "print_width_differs" in kerf("simulate", "--json", wrong).codes()

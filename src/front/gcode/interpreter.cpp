@@ -153,7 +153,8 @@ void Interpreter::finish() {
                                   "the comment describes a tool, but no tool change follows");
   tell_silent_spindle();
   program_.cut_short = full_ || flow_->gave_up();
-  if (!program_.ended && !program_.cut_short && path_.size() > 0)
+  const bool ends = !is_printer();  // a printer stops where its program stops
+  if (ends && !program_.ended && !program_.cut_short && path_.size() > 0)
     talker_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",
                     "was it cut off?");
 }

@@ -66,6 +66,14 @@ TEST(Printer, RemarksTellTheNextRoads) {
   EXPECT_EQ(milled.dialect, GcodeDialect::rs274);
 }
 
+TEST(Printer, ProgramsNeedNoEnd) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = GcodeDialect::marlin;
+  read_gcode(kHead, options, diagnostics);
+  EXPECT_TRUE(diagnostics.list().empty()) << to_string(diagnostics.list().front());
+}
+
 TEST(Printer, TheFilamentsDiameterIsFoundInSettings) {
   using gcode::told_filament_diameter;
   EXPECT_EQ(told_filament_diameter("G1 X1\n; filament_diameter = 2.85,1.75\n"), 2.85);

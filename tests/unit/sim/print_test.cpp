@@ -31,7 +31,7 @@ class Print {
     const double area = (width - height) * height + kPi * height * height / 4.0;
     return push(to, area * distance(at_.xy(), to.xy()));
   }
-  Print& push(Point3 to, double volume, Length width = {}, Length height = {}) {
+  Print& push(Point3 to, double volume, Length width = mm(0), Length height = mm(0)) {
     path_.add(step::Extrude{to, mm3(volume), width, height, mm_per_min(1200)}, OriginId::none);
     return arrive(to);
   }
