@@ -83,9 +83,9 @@ struct Signs {
   std::set<std::string, std::less<>> powers;
 };
 
-/// A remark that names a controller.
+/// A remark that names a controller; none where `sign` is empty.
 struct Remark {
-  GcodeDialect dialect;
+  GcodeDialect dialect = GcodeDialect::rs274;
   Sign sign;
 };
 
@@ -234,25 +234,24 @@ const std::vector<std::string>& dialect_names() {
 
 DialectGuess guess_dialect(std::string_view text) {
   Signs signs;
-  Remark remark{};  // the first that names a dialect, or the first that names another than GRBL
-  bool is_named = false;
+  Remark remarked;
   for (LineWalk walk(text); walk.next();) {
     look_at(bare(walk.line), walk.line, walk.number, signs);
     if (walk.remark == std::string_view::npos) continue;
-    const std::string_view text_of_remark = walk.line.substr(walk.remark);
-    std::string capitals(text_of_remark);
+    const std::string_view remark = walk.line.substr(walk.remark);
+    std::string capitals(remark);
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const bool better = !is_named || remark.dialect == GcodeDialect::grbl;
+    const bool better = !remarked.sign || remarked.dialect == GcodeDialect::grbl;
     const auto named = remarked_in(capitals);
-    if (!named || !better || (is_named && *named == remark.dialect)) continue;
-    is_named = true;
-    remark = {*named, {}};
-    remark.sign.add(walk.number, quoted(text_of_remark));
+    if (!named || !better || (remarked.sign && *named == remarked.dialect)) continue;
+    remarked = {*named, {}};
+    remarked.sign.add(walk.number, quoted(remark));
   }
   const DialectGuess told = told_by(signs);
-  if (!is_named || !is_borne_out(remark.dialect, signs)) return told;
-  if (told.dialect != GcodeDialect::rs274 && remark.dialect == GcodeDialect::grbl) return told;
-  return {remark.dialect, place_of(remark.sign), remark.sign.line};
+  if (!is_borne_out(remarked.dialect, signs)) remarked = {};
+  const bool plain_remark = !remarked.sign || remarked.dialect == GcodeDialect::grbl;
+  if (!remarked.sign || (told.dialect != GcodeDialect::rs274 && plain_remark)) return told;
+  return {remarked.dialect, place_of(remarked.sign), remarked.sign.line};
 }
 
 }  // namespace kerf
