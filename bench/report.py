@@ -14,6 +14,7 @@ from pathlib import Path
 # Google Benchmark's own counters aside, what a row may hold besides its time.
 RATES = {"items_per_second": "items/s", "bytes_per_second": "B/s"}
 PEERS = "peers"
+PEAK = "peak_MB"  # the memory that a job needs beside its input
 TIMES_REAL = "times_real"  # how many times faster than the program that Kerf stands in for
 PEER = re.compile(r"([\w.]+?)_(cpu_s|s|ms)$")  # counters that quote another program's time
 OWN = {"real_time", "cpu_time", "items_per_second"}  # of the library, though they end like a quoted time
@@ -31,8 +32,7 @@ def run(program, pattern):
         if row.get("error_occurred"):
             sys.exit(f"{row['name']}: {row.get('error_message')}")
         rates = {label: row[key] for key, label in RATES.items() if key in row}
-        if TIMES_REAL in row:
-            rates[TIMES_REAL] = row[TIMES_REAL]
+        rates.update({label: row[label] for label in (TIMES_REAL, PEAK) if label in row})
         peers = [f"{m[1]} {value:g} {m[2].replace('_', ' ')}" for key, value in row.items()
                  if key not in OWN and (m := PEER.match(key))]
         if peers:
@@ -52,6 +52,8 @@ def rate_text(row):
     texts = [f"{row[label] / 1e6:10.3f} M{label}" for label in RATES.values() if label in row][:1]
     if TIMES_REAL in row:
         texts.append(f"{row[TIMES_REAL]:.1f} times the real program's speed")
+    if PEAK in row:
+        texts.append(f"{row[PEAK]:.0f} MB")
     if PEERS in row:
         texts.append(f"({row[PEERS]})")
     return "  ".join(texts)

@@ -1,13 +1,20 @@
 // The simulator's speed: jobs made here, moves a second, and beside them what other programs need for the
 // same.
 //
-// The peers' figures were measured on the same kind of machine (two cores) on the same jobs; they are printed
-// as counters: seconds of processor time for the whole job, at the resolution their name says.
+// peak_MB is the memory that a job needs beside its toolpath. The peers' figures were measured on the same
+// kind of machine (two cores) on the same jobs; they are printed as counters: seconds of processor time for
+// the whole job, at the resolution their name says.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
+#include <fstream>
 #include <random>
+#include <string>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
+#include "kerf/live.h"
 #include "kerf/simulate.h"
 
 namespace kerf {
@@ -108,12 +115,39 @@ Toolpath roughing() {
   return std::move(job.path);
 }
 
+/// A number of kilobytes from /proc/self/status, as MB; 0 where there is no such file.
+double status_mb(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    double kilobytes = 0.0;
+    if (word == name + ":" && status >> kilobytes) return kilobytes / 1024;
+  }
+  return 0.0;
+}
+
+/// How much more memory than at its begin the process has held at most.
+class PeakMemory {
+ public:
+  PeakMemory() {
+#if defined(__GLIBC__)
+    malloc_trim(0);  // what other jobs have left
+#endif
+    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
+    begin_mb_ = status_mb("VmRSS");
+  }
+  double mb() const { return status_mb("VmHWM") - begin_mb_; }
+
+ private:
+  double begin_mb_ = 0.0;
+};
+
 void run(benchmark::State& state, const Toolpath& path) {
   const ToolTable tools = table();
   SimulationOptions options;
   options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
   options.threads = static_cast<unsigned>(state.range(1));
   double removed = 0.0;
+  const PeakMemory memory;
   for (auto _ : state) {
     Diagnostics diagnostics;
     const auto result = simulate(path, tools, block(), options, diagnostics);
@@ -123,6 +157,7 @@ void run(benchmark::State& state, const Toolpath& path) {
   state.counters["moves/s"] =
       benchmark::Counter(static_cast<double>(path.size() * state.iterations()), benchmark::Counter::kIsRate);
   state.counters["removed_mm3"] = removed;
+  state.counters["peak_MB"] = memory.mb();
 }
 
 void Relief1M(benchmark::State& state) {
@@ -165,9 +200,45 @@ void ReliefMesh(benchmark::State& state) {
   const std::vector<std::uint8_t> one_group(path.size(), 0);
   const MeshOptions merged{.tolerance = mm(0.005), .step_groups = one_group};
   std::size_t triangles = 0;
+  const PeakMemory memory;
   for (auto _ : state) triangles = extract_mesh(result->workpiece.grid(), merged).step.size();
   state.counters["triangles"] = static_cast<double>(triangles);
+  state.counters["peak_MB"] = memory.mb();
   state.counters["prototype_top_only_s"] = 0.1;
+}
+
+/// The million moves with one of them lower, after they were cut as they were.
+void LiveEdit(benchmark::State& state) {
+  LiveOptions options;
+  options.simulation.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+  LiveSimulation live(table(), block(), options);
+  const Toolpath path = relief(1000, 1000);
+  Diagnostics diagnostics;
+  if (!live.update(path, diagnostics)) return state.SkipWithError("not simulated");
+  double depth = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Toolpath edited = path;
+    Point3 lower = path[path.size() / 2].to();
+    lower.z -= depth += 0.001;
+    edited.set_end(path.size() / 2, lower);
+    state.ResumeTiming();
+    if (!live.update(std::move(edited), diagnostics)) return state.SkipWithError("not simulated");
+  }
+}
+/// The part as it was after a part of the million moves, somewhere else each time.
+void LiveInstant(benchmark::State& state) {
+  LiveOptions options;
+  options.simulation.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+  LiveSimulation live(table(), block(), options);
+  Diagnostics diagnostics;
+  if (!live.update(relief(1000, 1000), diagnostics)) return state.SkipWithError("not simulated");
+  const std::size_t steps = live.path().size();
+  std::size_t at = 0;
+  for (auto _ : state) {
+    at = (at + steps / 7 * 3 + 1) % steps;
+    benchmark::DoNotOptimize(live.at(at));
+  }
 }
 
 // Resolution in microns, threads.
@@ -189,6 +260,9 @@ BENCHMARK(Random100k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->U
 BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
     benchmark::kMillisecond);
 BENCHMARK(ReliefMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+
+BENCHMARK(LiveEdit)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(LiveInstant)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace kerf

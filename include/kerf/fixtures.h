@@ -24,13 +24,14 @@ struct FixtureContact {
   std::optional<ToolPart> part;  // nothing in rapid moves, where it is the tool as a whole
   Point3 at;                     // mm, the first place met along the move
   Length depth;                  // largest, below the fixture's surface as it stands above
-  Volume met;                    // of the fixture, not met by earlier moves
+  Volume met;                    // of the fixture, by its columns
 };
 
-/// Looks for contacts; in order of steps. What a move meets is taken as broken away, so that moves after it
-/// at the same place tell only what they meet more. The fixtures' columns are at most `options.resolution`
-/// apart (0: as fine as a million of them allows); a contact that is less than half of that sideways can be
-/// missed. Appends errors, and returns nothing, as `simulate` does; nothing without an error if stopped.
+/// Looks for contacts; in order of steps, each step as if it were the first. A block is tested by its shape,
+/// so that no contact over `options.hazard_depth` is missed, and 40,000 columns say how much is met. Of a
+/// body a contact can be missed that is less than half a column sideways; its columns are at most
+/// `options.resolution` apart (0: as fine as a million of them allows). Appends errors, and returns nothing,
+/// as `simulate` does; nothing without an error if stopped.
 std::optional<std::vector<FixtureContact>> find_fixture_contacts(const Toolpath& path, const ToolTable& tools,
                                                                  std::span<const Fixture> fixtures,
                                                                  const SimulationOptions& options,

@@ -61,7 +61,8 @@ struct GcodeReadOptions {
   std::optional<AfterEnd> after_end = {};
   BlockDelete block_delete = BlockDelete::run;
   std::optional<GcodeDialect> dialect = {};  // nothing: guessed from the text, and said
-  double filament_diameter = 1.75;           // mm; turns a printer's E into volume
+  /// mm; turns a printer's E into volume. Nothing: what the slicer's remarks say, else 1.75.
+  std::optional<double> filament_diameter = {};
   /// Text of the file "name.ngc" that `o<name> call` asks for (letters, digits, '_', '-' only); null: none.
   std::function<std::optional<std::string>(const std::string& file_name)> read_file = {};
   /// Diameter in mm of a tool, for G41 and G42; `described` is what the program's remarks say of it, or null.

@@ -44,9 +44,9 @@ struct RotarySimulation {
 };
 
 /// Cuts a toolpath out of a bar. `options.resolution` is the rays' distance, along the bar and at its
-/// surface; 0 chooses one of about a million rays. Hazards are those of `simulate` but for below_floor. B and
-/// C are left out, with a warning. Errors as `simulate`'s, and rotary_limit for more motion than is cut in
-/// hours.
+/// surface; 0 chooses one of about a hundred thousand rays, from 0.02 to 1 mm. Hazards are those of
+/// `simulate` but for below_floor. B and C are left out, with a warning. Errors as `simulate`'s, and
+/// rotary_limit for more motion than is cut in hours.
 std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const ToolTable& tools,
                                                 const RoundBar& bar, const SimulationOptions& options,
                                                 Diagnostics& diagnostics, Progress* progress = nullptr);

@@ -28,8 +28,8 @@ namespace kerf {
 /// The step id of a surface that no step made: the stock's own faces.
 inline constexpr std::uint32_t kStockSurface = 0xffffffffu;
 
-/// What the solid is for: to be cut, or (fixtures.h) not to be touched at all. A no-go solid tells every cut
-/// into it as HazardKind::spindle_off, as if the spindle stood.
+/// What the solid is for: to be cut, or (fixtures.h) not to be touched at all. A no-go solid stays whole,
+/// whatever goes through it, and tells every cut into it as HazardKind::spindle_off, as if the spindle stood.
 enum class SolidRole : std::uint8_t { stock, no_go };
 
 struct SimulationOptions {
@@ -147,6 +147,7 @@ struct MeshOptions {
   /// the step of one of them. Steps that it does not reach, and with a tolerance all steps where it is empty,
   /// are groups of their own.
   std::span<const std::uint8_t> step_groups = {};
+  unsigned threads = 0;  // 0: as many as the machine has. The mesh is the same for any number.
 };
 
 /// The surface of the columns: closed, oriented, every edge shared by exactly two triangles. Surfaces run

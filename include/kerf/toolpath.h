@@ -86,7 +86,7 @@ struct Probe {
   Feed feed;
   ProbeKind kind = ProbeKind::contact_or_error;
 };
-/// A straight move that lays down a bead: `volume` mm3 in all, of the given width and height.
+/// A straight move that lays a bead of `volume` mm3; below 0: draws filament back. 0 by 0: size not told.
 struct Extrude {
   Point3 to;
   Volume volume;
@@ -289,23 +289,27 @@ struct MotionContext {
   bool spindle_stated = false;  // a spindle step was seen
 };
 
+/// The motions of a path one after the other, for those who go through them in parts.
+class MotionReader {
+ public:
+  explicit MotionReader(const Toolpath& path) : path_(&path) {}
+  /// Goes on to the next motion, at first to the first; false where there is none.
+  bool next();
+  /// The motion that next() went to.
+  const Step& step() const { return *motion_; }
+  const MotionContext& context() const { return context_; }
+
+ private:
+  const Toolpath* path_;
+  const Step* motion_ = nullptr;
+  std::size_t next_ = 0;
+  MotionContext context_;
+};
+
 /// Calls visit(step, context) for every motion, in order. `visit` returns void.
 template <class Visit>
 void for_each_motion(const Toolpath& path, Visit&& visit) {
-  MotionContext context;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    const Step& s = path[i];
-    if (s.kind() == StepKind::tool_change) context.tool = s.tool_change().tool;
-    if (s.kind() == StepKind::spindle) {
-      context.spindle = s.spindle();
-      context.spindle_stated = true;
-    }
-    if (!s.is_motion()) continue;
-    context.index = i;
-    visit(s, static_cast<const MotionContext&>(context));
-    context.from = s.to();
-    context.unknown_from = s.unknown_axes();
-  }
+  for (MotionReader motion(path); motion.next();) visit(motion.step(), motion.context());
 }
 
 /// The walk of arc step `s` that begins at `from`.

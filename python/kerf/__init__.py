@@ -12,6 +12,7 @@ from . import _kerf
 from ._kerf import (
     Diagnostic,
     Error,
+    PrintSimulation,
     Region,
     RotarySimulation,
     Simulation,
@@ -31,6 +32,7 @@ from ._kerf import (
     read_gcode,
     self_meetings,
     simulate,
+    simulate_print,
     simulate_rotary,
     widen,
 )
@@ -38,6 +40,7 @@ from ._kerf import (
 __all__ = [
     "Diagnostic",
     "Error",
+    "PrintSimulation",
     "Region",
     "RotarySimulation",
     "Simulation",
@@ -62,17 +65,20 @@ __all__ = [
     "save_left_stock",
     "self_meetings",
     "simulate",
+    "simulate_print",
     "simulate_rotary",
     "widen",
 ]
 
 
-def load(path):
+def load(path, filament=None):
     """Read a G-code file into a Toolpath.
 
     Parameters
     ----------
     path : str or os.PathLike
+    filament : float, optional
+        Diameter of a printer's filament, mm; see `read_gcode`.
 
     Returns
     -------
@@ -87,7 +93,7 @@ def load(path):
     """
     name = os.fspath(path)
     with open(name, encoding="latin-1") as file:
-        return read_gcode(file.read(), os.fsdecode(name))
+        return read_gcode(file.read(), os.fsdecode(name), filament)
 
 
 def load_stock(path):
@@ -156,11 +162,16 @@ def save_left_stock(simulation, path):
     ----------
     simulation : Simulation
     path : str or os.PathLike
+        Ends in .kstock, by which `load_stock` knows it.
 
     Raises
     ------
+    ValueError
+        Where the path ends otherwise.
     OSError
         Where the file cannot be written.
     """
+    if not os.fspath(path).lower().endswith(".kstock"):
+        raise ValueError(f"what is left is written as .kstock, not as {os.fspath(path)!r}")
     with open(path, "wb") as file:
         file.write(_kerf._write_left(simulation))

@@ -515,7 +515,8 @@ void bind_fits(py::module_& m) {
   m.def(
       "flattened",
       [](const py::object& path, double chord) {
-        return list_of(flattened(outline_of(path, "path"), mm(finite_number(chord, "chord"))));
+        if (finite_number(chord, "chord") <= 0.0) throw py::value_error("chord must be above 0 mm");
+        return list_of(flattened(outline_of(path, "path"), mm(chord)));
       },
       py::arg("path"), py::arg("chord"), kFlattened);
 }

@@ -17,8 +17,10 @@ namespace py = pybind11;
 
 namespace {
 
-Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTable>& tools, double resolution,
+Result run(const Toolpath& path, const Stock* stock, const std::optional<ToolTable>& tools, double resolution,
            long long threads) {
+  if (stock == nullptr)
+    throw py::type_error("stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation)");
   if (finite_number(resolution, "resolution") < 0.0)
     throw py::value_error("resolution must be 0 (automatic) or above, mm");
   SimulationOptions options;
@@ -30,7 +32,7 @@ Result run(const Toolpath& path, const Stock& stock, const std::optional<ToolTab
   std::optional<Simulation> simulation;
   {
     const py::gil_scoped_release release;
-    simulation = simulate(*kept, tools ? *tools : built_in_tools(), stock, options, diagnostics, &progress);
+    simulation = simulate(*kept, tools ? *tools : built_in_tools(), *stock, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);

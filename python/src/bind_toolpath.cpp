@@ -8,6 +8,7 @@
 #include "kerf/files.h"
 #include "kerf/gcode.h"
 #include "kerf/number.h"
+#include "kerf/print.h"
 #include "kerf/report.h"
 #include "kerf/toolpath.h"
 
@@ -15,6 +16,9 @@ namespace kerf::python {
 namespace py = pybind11;
 
 namespace {
+
+constexpr double kMostExtruded = 1e9;                                // mm3 in a move
+constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
 
 Turn to_turn(const std::string& name) {
   if (name == "cw") return Turn::cw;
@@ -47,6 +51,13 @@ py::dict describe(const Toolpath& path, std::size_t i) {
       d["plane"] = name_of_plane(arc.plane);
       d["turn"] = arc.turn == Turn::cw ? "cw" : "ccw";
       d["extra_turns"] = arc.extra_turns;
+      break;
+    }
+    case StepKind::extrude: {
+      const step::Extrude bead = path.extrude(i);
+      d["volume"] = bead.volume.mm3();
+      d["width"] = bead.width.mm();
+      d["height"] = bead.height.mm();
       break;
     }
     case StepKind::dwell: d["seconds"] = s.dwell().time.seconds(); break;
@@ -159,6 +170,46 @@ extra_turns : int
     Whole circles beyond the first arrival.)");
 }
 
+/// mm3 of a road from where the path stands, of this cross-section.
+double volume_of_road(const Toolpath& path, Point3 to, double width, double height) {
+  std::size_t i = path.size();
+  while (i > 0 && !path[i - 1].is_motion()) --i;
+  if (i == 0) throw py::value_error("without a volume a move must come before, from where the road goes");
+  if (!(height > 0.0 && width >= height))
+    throw py::value_error("without a volume width and height must be told, and width be no less than height");
+  return road_volume(mm(distance(path[i - 1].to().xy(), to.xy())), mm(width), mm(height)).mm3();
+}
+
+void bind_extrude(py::class_<Toolpath>& c) {
+  c.def(
+      "extrude",
+      [](Toolpath& path, const py::object& to, double feed, const std::optional<double>& volume, double width,
+         double height) {
+        step::Extrude bead;
+        bead.to = to_point3(to, "to");
+        bead.feed = positive_feed(feed);
+        bead.width = mm(number_within(width, 0.0, kWidestRoad.mm(), "width", "mm"));
+        bead.height = mm(number_within(height, 0.0, kWidestRoad.mm(), "height", "mm"));
+        bead.volume = mm3(volume ? number_within(*volume, -kMostExtruded, kMostExtruded, "volume", "mm3")
+                                 : volume_of_road(path, bead.to, width, height));
+        path.add(bead, path.origins().add(script_spot("extrude")));
+      },
+      py::arg("to"), py::arg("feed"), py::arg("volume") = py::none(), py::arg("width") = 0.0,
+      py::arg("height") = 0.0,
+      R"(Append a straight move that lays a bead, the nozzle's height being its top.
+
+Parameters
+----------
+to : sequence of 3 float
+    End position, mm, work coordinates.
+feed : float
+    mm/min, above 0.
+volume : float, optional
+    Of the whole bead, mm3; below 0 draws filament back. What `width` and `height` give where left out.
+width, height : float
+    Of the bead, mm; 0: told by the volume and the step in Z, see `simulate_print`.)");
+}
+
 void bind_other_steps(py::class_<Toolpath>& c) {
   c.def(
       "tool",
@@ -190,10 +241,13 @@ void bind_other_steps(py::class_<Toolpath>& c) {
       py::arg("text"), "Append a remark that posts write as a comment.");
 }
 
-Toolpath read(const std::string& text, const std::string& name) {
+Toolpath read(const std::string& text, const std::string& name, const std::optional<double>& filament) {
   Diagnostics diagnostics;
   GcodeReadOptions options;
   options.file_name = name;
+  if (filament)
+    options.filament_diameter =
+        number_within(*filament, kThinnestFilament, kThickestFilament, "filament", "mm");
   SignalProgress progress;
   GcodeProgram program;
   {
@@ -234,6 +288,7 @@ Examples
 >>> path.rapid((0, 0, 5)); path.cut((0, 0, -1), feed=100); path.cut((50, 0, -1), feed=400))");
   c.def(py::init<>());
   bind_motions(c);
+  bind_extrude(c);
   bind_other_steps(c);
   bind_copy(c);
   c.def("__repr__",
@@ -244,7 +299,7 @@ Examples
       [](const Toolpath& path, py::ssize_t i) { return describe(path, checked_index(path, i)); },
       py::arg("index"), "One step as a dict with the fields of `kerf steps`.");
   c.def("report", &report_dict, "Counts, lengths (mm) and bounds (mm) of the motions, as a dict.");
-  m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>",
+  m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>", py::arg("filament") = py::none(),
         R"(Read G-code text into a Toolpath.
 
 Parameters
@@ -253,6 +308,8 @@ text : str
     A whole program (RS274).
 name : str
     File name for messages.
+filament : float, optional
+    Diameter of a printer's filament, mm; what the program's remarks say, else 1.75, where left out.
 
 Returns
 -------

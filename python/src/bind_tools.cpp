@@ -38,6 +38,17 @@ Tool tool_from_text(const std::string& text, long long told_number) {
   return *tool;
 }
 
+/// "square d=3" or a tool's number.
+Tool tool_from_spec(const py::object& spec, long long number) {
+  if (py::isinstance<py::str>(spec)) return tool_from_text(py::cast<std::string>(spec), number);
+  if (!py::isinstance<py::int_>(spec))
+    throw py::type_error("spec must be a str such as 'square d=3.175 flute=12' or a tool's number");
+  int overflow = 0;
+  const long long told = PyLong_AsLongLongAndOverflow(spec.ptr(), &overflow);
+  return tool_from_text(std::to_string(whole_within(overflow == 0 ? told : -1, 0, kHighestTool, "spec")),
+                        number);
+}
+
 py::list knots_of(const Profile& profile) {
   py::list list;
   for (const Knot& knot : profile.knots) list.append(py::make_tuple(knot.r, knot.z, knot.bulge));
@@ -82,11 +93,7 @@ spec : str or int
 number : int
     Its number in programs; 0 keeps the number of a built-in tool.)");
   bind_copy(c);
-  c.def(py::init(&tool_from_text), py::arg("spec"), py::arg("number") = 0)
-      .def(py::init([](long long spec, long long number) {
-             return tool_from_text(std::to_string(whole_within(spec, 0, kHighestTool, "spec")), number);
-           }),
-           py::arg("spec"), py::arg("number") = 0)
+  c.def(py::init(&tool_from_spec), py::arg("spec"), py::arg("number") = 0)
       .def_static(
           "make",
           [](const std::string& shape_name, long long number, const py::kwargs& sizes) {

@@ -65,6 +65,7 @@ class SignalProgress final : public Progress {
 void bind_toolpath(pybind11::module_& m);
 void bind_tools(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
+void bind_print(pybind11::module_& m);
 void bind_bodies(pybind11::module_& m);
 void bind_region(pybind11::module_& m);
 

@@ -170,6 +170,7 @@ PYBIND11_MODULE(_kerf, m) {
   bind_tools(m);
   bind_toolpath(m);
   bind_simulation(m);
+  bind_print(m);
   bind_bodies(m);
   bind_region(m);
 }

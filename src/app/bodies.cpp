@@ -19,7 +19,9 @@ const char* const kBodyHelp =
 Fixtures (--fixture), which no part of a tool may touch:
   --fixture "0,0,-12 to 20,15,6"       a box, from its lowest to its highest corner
   --fixture vice.stl                   a closed mesh
-A fourth axis (--rotary, not in compare), the bar from X0 on, turned by A about an axis along X:
+)";
+const char* const kRotaryHelp =
+    R"(A fourth axis (--rotary), the bar from X0 on, turned by A about an axis along X:
   --rotary "d=40 length=100"           axis at Y0 Z0; "x=-5 y=0 z=12" where it begins and stands elsewhere
 )";
 
@@ -39,10 +41,14 @@ std::optional<Fixture> read_fixture(const std::string& text, Diagnostics& usage,
   return std::nullopt;
 }
 
+/// What meets the fixture; empty for a tool as a whole, at rapid speed.
+std::string part_name(const FixtureContact& contact) {
+  if (contact.part == ToolPart::cutting) return "cutting edge";
+  return contact.part ? std::string(to_string(*contact.part)) : std::string();
+}
+
 std::string message_of(const FixtureContact& contact, const Fixture& fixture) {
-  const std::string part = contact.part == ToolPart::cutting ? "cutting edge"
-                           : contact.part                    ? std::string(to_string(*contact.part))
-                                                             : std::string();
+  const std::string part = part_name(contact);
   const std::string where = fmt::format("{} mm deep into the fixture \"{}\"",
                                         number_text(contact.depth.mm(), 3), fixture.name.substr(0, 60));
   if (part.empty()) return "a rapid move goes " + where;
@@ -77,7 +83,7 @@ void add_rotary_option(CLI::App& app, BodyOptions& options) {
   CLI::Option* rotary = app.add_option("--rotary", options.rotary,
                                        "A round bar that A turns: d=.. length=.. [x=..] [y=..] [z=..]")
                             ->type_name("SPEC");
-  for (const char* other : {"--stock", "--stock-mesh", "--stock-left", "--flip", "--shift", "--fixture"})
+  for (const char* other : {"--stock", "--stock-mesh", "--stock-left", "--flip", "--shift"})
     rotary->excludes(app.get_option(other));
 }
 
@@ -95,6 +101,11 @@ BodySettings read_body_options(const BodyOptions& options, Diagnostics& usage, D
     if (auto fixture = read_fixture(text, usage, diagnostics))
       settings.fixtures.push_back(std::move(*fixture));
   if (options.rotary) settings.bar = read_rotary_option(*options.rotary, CallSpot{"", 0, "--rotary"}, usage);
+  if (options.rotary && !options.fixtures.empty())
+    usage
+        .error(Code::fixture_option, CallSpot{"", 0, "--fixture"},
+               "contacts with fixtures are not looked for on a fourth axis (--rotary)")
+        .hint = "leave --fixture out, and look after the chuck and the clamps yourself";
   return settings;
 }
 
@@ -116,7 +127,8 @@ std::vector<Finding> findings_at_fixtures(const Toolpath& path, const ToolTable&
                    .origin = path.origin_of(c.step),
                    .message = message_of(c, fixtures[c.fixture]),
                    .callers = path.origins().callers(path[c.step].origin()),
-                   .hint = {}});
+                   .hint = {},
+                   .about = fmt::format("{} {}", c.fixture, part_name(c))});
   return out;
 }
 

@@ -27,6 +27,7 @@ void add_body_options(CLI::App& app, BodyOptions& options);
 /// --rotary, for the commands that know a fourth axis; after add_body_options.
 void add_rotary_option(CLI::App& app, BodyOptions& options);
 extern const char* const kBodyHelp;
+extern const char* const kRotaryHelp;
 
 /// The options read.
 struct BodySettings {

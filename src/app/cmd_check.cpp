@@ -202,7 +202,7 @@ Command add_check(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "check", "Look for hazards in a program, without writing files; status 3 if any",
-                  kExamples + std::string(kJobHelp) + kBodyHelp, options->output);
+                  kExamples + std::string(kJobHelp) + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(*app, options->job);
   add_body_options(*app, options->job.bodies);
   add_rotary_option(*app, options->job.bodies);

@@ -43,6 +43,8 @@ struct Result {
   const std::vector<OutputFile>& outputs;
 };
 
+Length full_colour(const Options& options) { return mm(kFullColour * options.tolerance); }
+
 Json side_json(const Comparison& c, DifferenceKind kind) {
   const bool gouge = kind == DifferenceKind::gouge;
   const auto deepest = std::find_if(c.regions.begin(), c.regions.end(),
@@ -61,6 +63,7 @@ Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
   out["target"] = result.options.target;
   out["resolution_mm"] = json_of(result.simulation.workpiece.pitch().mm());
   out["tolerance_mm"] = json_of(result.options.tolerance);
+  out["full_colour_mm"] = json_of(full_colour(result.options).mm());
   out["target_mm3"] = json_of(c.target.mm3());
   out["part_mm3"] = json_of(c.part.mm3());
   out["gouge"] = side_json(c, DifferenceKind::gouge);
@@ -93,6 +96,9 @@ void show_summary(Console& console, const Result& result) {
   console.summary(fmt::format("rest     {} mm3, {} mm3 of it higher than {} mm", number_text(c.rest.mm3(), 3),
                               number_text(c.rest_beyond.mm3(), 3), number_text(result.options.tolerance, 4)));
   for (const OutputFile& f : result.outputs) console.summary(fmt::format("wrote    {}", f.path));
+  if (!result.outputs.empty())
+    console.summary(fmt::format("colours  red gouged, blue rest, full from {} mm on; green as the target",
+                                number_text(full_colour(result.options).mm(), 4)));
   for (std::size_t k = 0; k < std::min(c.regions.size(), kMostLines); ++k) {
     const DifferenceRegion& r = c.regions[k];
     console.print(fmt::format("{} of {} mm at X{} Y{} Z{}, {} mm3\n", to_string(r.kind),
@@ -124,7 +130,7 @@ std::string solid_picture(const Result& result, const View& view, Progress& prog
         column(y, block.low.y, c.ny) * static_cast<std::size_t>(c.nx) + column(x, block.low.x, c.nx);
     const auto depth = static_cast<double>(c.map[n]);
     colours.push_back(depth == 0.0 ? std::array<std::uint8_t, 3>{176, 206, 160}
-                                   : difference_colour(depth, mm(kFullColour * result.options.tolerance)));
+                                   : difference_colour(depth, full_colour(result.options)));
   }
   const Image image = render(mesh, colours, view);
   return write_png({image.width, image.height, image.rgba});
@@ -137,7 +143,7 @@ bool write_pictures(const Result& result, const std::optional<View>& view, Outpu
     if (view) {
       bytes = solid_picture(result, *view, progress);
     } else {
-      const Image map = draw_map(result.comparison, mm(kFullColour * result.options.tolerance), kMapPixels);
+      const Image map = draw_map(result.comparison, full_colour(result.options), kMapPixels);
       bytes = write_png({map.width, map.height, map.rgba});
     }
     if (progress.stop_requested() || !files.write(file.path, bytes, diagnostics)) return false;
@@ -250,11 +256,12 @@ Command add_compare(CLI::App& root) {
              "Differences no deeper than this are none, mm or 0.002in (default: 0.05)");
   add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
-  app->add_option("--view", options->view, "Draw the part in the map's colours instead, from: top, iso ...")
-      ->type_name("VIEW");
-  app->add_option("--size", options->size, "That picture's WIDTHxHEIGHT in pixels")
+  CLI::Option* view = app->add_option("--view", options->view,
+                                      "Draw the part in the map's colours instead, from: top, iso ...");
+  view->type_name("VIEW");
+  app->add_option("--size", options->size, "That picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
       ->type_name("WxH")
-      ->capture_default_str();
+      ->needs(view);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

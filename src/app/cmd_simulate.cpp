@@ -7,6 +7,7 @@
 #include "app/command.h"
 #include "app/findings.h"
 #include "app/outputs.h"
+#include "app/print_job.h"
 #include "app/rotary_job.h"
 #include "app/terminal_progress.h"
 
@@ -17,6 +18,7 @@ namespace {
 
 constexpr double kFinest = 0.0005, kCoarsest = 50.0;  // mm, --resolution
 constexpr double kMostThreads = 1024;
+constexpr double kThinnestLayer = 0.02, kThickestLayer = 20.0;  // mm, --layer-height
 
 struct Options {
   OutputOptions output;
@@ -26,7 +28,11 @@ struct Options {
   double threads = 0.0;
   std::string view = "-35,50";
   std::string size = "1600x1000";
-  std::vector<const CLI::Option*> picture_options;  // those that only pictures use
+  double layer_height = 0.0;
+  bool grooves = false;
+  std::vector<const CLI::Option*> picture_options;   // those that only pictures use
+  std::vector<const CLI::Option*> cutting_options;   // those that say nothing of a print
+  std::vector<const CLI::Option*> printing_options;  // those that only prints use
 };
 
 /// All that a finished simulation has to tell.
@@ -126,6 +132,24 @@ std::vector<Finding> findings_of_simulation(const Job& job, const Simulation& si
   return findings;
 }
 
+void tell_unused(const std::vector<const CLI::Option*>& options, const std::string& why,
+                 const std::string& hint, Diagnostics& diagnostics) {
+  for (const CLI::Option* option : options)
+    if (option->count() > 0)
+      diagnostics.warning(Code::option_unused, CallSpot{"", 0, option->get_name()}, why).hint = hint;
+}
+
+Status print_program(Console& console, const Options& options, const LoadedProgram& program,
+                     const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
+  tell_unused(options.cutting_options, "the program prints and cuts nothing", "", diagnostics);
+  PrintOptions how;
+  how.resolution = mm(options.resolution);
+  how.threads = static_cast<unsigned>(options.threads);
+  if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);
+  const Grooves grooves = options.grooves ? Grooves::kept : Grooves::closed;
+  return simulate_printing(console, program, how, grooves, outputs, view, diagnostics);
+}
+
 Status simulate_job(Console& console, const Options& options, const JobSettings& settings,
                     const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
   TerminalProgress progress(console);
@@ -133,6 +157,8 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  if (is_print(program->path)) return print_program(console, options, *program, outputs, view, diagnostics);
+  tell_unused(options.printing_options, "the program does not print, or cuts as well", "", diagnostics);
   const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
   if (!job.stock && !job.bar && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
@@ -166,15 +192,6 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   return Status::done;
 }
 
-void tell_unused_options(const Options& options, const std::vector<OutputFile>& outputs,
-                         Diagnostics& diagnostics) {
-  if (std::any_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.is_picture(); })) return;
-  for (const CLI::Option* option : options.picture_options)
-    if (option->count() > 0)
-      diagnostics.warning(Code::option_unused, CallSpot{"", 0, option->get_name()}, "no picture is written")
-          .hint = "ask for one with -o FILE.png";
-}
-
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
@@ -184,7 +201,9 @@ Status run(Console& console, const Options& options) {
   if (!view) console.complain(problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!view) return Status::wrong_usage;
-  tell_unused_options(options, outputs, diagnostics);
+  if (std::none_of(outputs.begin(), outputs.end(), [](const OutputFile& f) { return f.is_picture(); }))
+    tell_unused(options.picture_options, "no picture is written", "ask for one with -o FILE.png",
+                diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   return simulate_job(console, options, settings, outputs, *view, diagnostics);
 }
@@ -196,6 +215,7 @@ const char* const kExamples =
   kerf simulate part.nc --tool "ball d=3.175 flute=12.7" --stock "100x60x12 at lower-left top"
   kerf simulate side1.nc -o left.kstock              what is left, as the stock of the next job:
   kerf simulate side2.nc --stock-left left.kstock --flip x
+  kerf simulate print.gcode -o print.png             a print: roads laid, overlap, bridges, collisions
   cat part.nc | kerf simulate - --json --resolution 0.05
 )";
 
@@ -205,7 +225,7 @@ Command add_simulate(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
-                  kExamples + std::string(kJobHelp) + kBodyHelp, options->output);
+                  kExamples + std::string(kJobHelp) + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(*app, options->job);
   add_body_options(*app, options->job.bodies);
   add_rotary_option(*app, options->job.bodies);
@@ -214,13 +234,20 @@ Command add_simulate(CLI::App& root) {
   add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
   options->picture_options = {
-      app->add_option("--view", options->view,
-                      "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION")
-          ->type_name("VIEW")
-          ->capture_default_str(),
-      app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels")
-          ->type_name("WxH")
-          ->capture_default_str()};
+      app->add_option(
+             "--view", options->view,
+             "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION (default: -35,50)")
+          ->type_name("VIEW"),
+      app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+          ->type_name("WxH")};
+  options->printing_options = {
+      add_length(*app, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,
+                 "Of a print: the layers' height, mm (default: the program's comments, else its steps in Z)"),
+      app->add_flag("--grooves", options->grooves,
+                    "Of a print: keep the grooves between roads in meshes and pictures, which get large")};
+  for (const char* name : {"--tool", "--tools", "--stock", "--stock-mesh", "--stock-left", "--flip",
+                           "--shift", "--fixture", "--rotary"})
+    options->cutting_options.push_back(app->get_option(name));
   add_number(*app, "--threads", options->threads, 0, kMostThreads, "N",
              "Threads to use (default: all; same result)");
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};

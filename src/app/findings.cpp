@@ -52,12 +52,12 @@ bool goes_on(const Finding& line, const Finding& f) {
          (f.kind == to_string(HazardKind::spindle_off) && f.message == line.message);
 }
 
-/// Neighbouring steps with the same kind become one line; the deepest contact tells.
+/// Neighbouring steps with the same kind and subject become one line; the deepest contact tells.
 std::vector<Finding> grouped(const std::vector<Finding>& findings) {
   std::vector<Finding> lines;
-  std::map<std::string, std::size_t> open;
+  std::map<std::pair<std::string, std::string>, std::size_t> open;
   for (const Finding& f : findings) {
-    const auto it = open.find(f.kind);
+    const auto it = open.find({f.kind, f.about});
     if (it != open.end() && goes_on(lines[it->second], f)) {
       Finding& line = lines[it->second];
       line.steps += f.steps;
@@ -68,7 +68,7 @@ std::vector<Finding> grouped(const std::vector<Finding>& findings) {
       }
       continue;
     }
-    open[f.kind] = lines.size();
+    open[{f.kind, f.about}] = lines.size();
     lines.push_back(f);
   }
   return lines;

@@ -24,6 +24,7 @@ struct Finding {
   std::string message;
   std::vector<Origin> callers;  // the calls that led to the origin, innermost first
   std::string hint;             // may be empty
+  std::string about = {};       // what else must be the same for two findings to be one line: the fixture
 };
 
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path);

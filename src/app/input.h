@@ -34,10 +34,11 @@ struct LoadedProgram {
 
 /// What the reader of a program is told besides the file.
 struct InputOptions {
-  std::optional<Machine> machine;       // the one that is to run the program, where it is known
-  std::optional<GcodeDialect> dialect;  // of G-code; nothing: told by the text
-  bool read_on = false;                 // behind the end of a G-code program
-  bool strict = false;                  // what is unusual in G-code is an error
+  std::optional<Machine> machine;           // the one that is to run the program, where it is known
+  std::optional<GcodeDialect> dialect;      // of G-code; nothing: told by the text
+  bool read_on = false;                     // behind the end of a G-code program
+  bool strict = false;                      // what is unusual in G-code is an error
+  std::optional<double> filament_diameter;  // mm, of a printer; nothing: told by the program
   decltype(GcodeReadOptions::tool_diameter) tool_diameter;  // for cutter compensation
 };
 

@@ -47,6 +47,7 @@ LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics
   if (input.read_on || streamed) options.after_end = AfterEnd::read_on;
   options.dialect = input.dialect;
   options.strict = input.strict;
+  options.filament_diameter = input.filament_diameter;
   options.tool_diameter = input.tool_diameter;
   options.file_name = file.path();
   options.read_file = [&file](const std::string& name) { return read_beside(file.path(), name); };

@@ -67,10 +67,6 @@ void test_folder(const std::string& path, Diagnostics& diagnostics) {
   }
 }
 
-/// How far a written surface may lie from the one of all columns; no more than that one lies from the cut
-/// itself.
-const Length kMeshTolerance = mm(0.002);
-
 /// The colours of a part's surface: of each triangle, and what they stand for.
 struct Colouring {
   std::vector<std::uint8_t> of_triangle;
@@ -78,7 +74,8 @@ struct Colouring {
 };
 
 /// The palette's index of every step: of the tool in force, or of a hazard. Names the colours used.
-std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vector<Hazard>& hazards,
+std::vector<std::uint8_t> colours_of_steps(const Toolpath& path,
+                                           const std::vector<std::uint32_t>& hazard_steps,
                                            std::vector<std::string>& names) {
   names = {"stock", "hazard"};
   std::vector<std::uint8_t> colours(path.size(), kFirstToolColour);
@@ -98,13 +95,14 @@ std::vector<std::uint8_t> colours_of_steps(const Toolpath& path, const std::vect
     }
     colours[i] = now;
   }
-  for (const Hazard& h : hazards) colours[h.step] = kHazardColour;
+  for (const std::uint32_t step : hazard_steps) colours[step] = kHazardColour;
+  if (names.size() == kFirstToolColour) names.emplace_back("part");
   return colours;
 }
 
-Colouring colours_of(const Mesh& mesh, const Toolpath& path, const std::vector<Hazard>& hazards) {
+Colouring colours_of(const Mesh& mesh, const Toolpath& path, const std::vector<std::uint32_t>& hazard_steps) {
   Colouring colouring;
-  const auto of_step = colours_of_steps(path, hazards, colouring.names);
+  const auto of_step = colours_of_steps(path, hazard_steps, colouring.names);
   colouring.of_triangle.reserve(mesh.step.size());
   for (const std::uint32_t step : mesh.step)
     colouring.of_triangle.push_back(step < of_step.size() ? of_step[step] : kStockColour);
@@ -207,15 +205,21 @@ std::optional<View> read_view(const std::string& view, const std::string& size, 
   return out;
 }
 
-bool write_surface(const std::vector<OutputFile>& files, const Job& job, const Mesh& mesh,
-                   const std::vector<Hazard>& hazards, const View& view, OutputSet& set,
+std::vector<std::uint8_t> colour_groups(const Toolpath& path,
+                                        const std::vector<std::uint32_t>& hazard_steps) {
+  std::vector<std::string> names;
+  return colours_of_steps(path, hazard_steps, names);
+}
+
+bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& program, const Mesh& mesh,
+                   const std::vector<std::uint32_t>& hazard_steps, const View& view, OutputSet& set,
                    Diagnostics& diagnostics, Progress& progress) {
-  const Colouring colours = colours_of(mesh, job.program.path, hazards);
+  const Colouring colours = colours_of(mesh, program.path, hazard_steps);
   progress.phase("writing");
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.report(static_cast<double>(i) / static_cast<double>(files.size()));
     const OutputFile& file = files[i];
-    const std::string bytes = file.mesh ? mesh_file_of(mesh, colours, *file.mesh, job.program.source)
+    const std::string bytes = file.mesh ? mesh_file_of(mesh, colours, *file.mesh, program.source)
                                         : picture_of(mesh, colours.of_triangle, view);
     if (!set.write(file.path, bytes, diagnostics) || progress.stop_requested()) return false;
   }
@@ -234,12 +238,12 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   }
   if (surfaces.empty()) return true;
   progress.phase("making the surface");
-  std::vector<std::string> names;
-  const auto step_colours = colours_of_steps(job.program.path, simulation.hazards, names);
+  const std::vector<std::uint32_t> hazards = steps_of(simulation.hazards);
+  const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
   const Mesh mesh = extract_mesh(simulation.workpiece.grid(), options, &progress);
   if (progress.stop_requested()) return false;
-  return write_surface(surfaces, job, mesh, simulation.hazards, view, set, diagnostics, progress);
+  return write_surface(surfaces, job.program, mesh, hazards, view, set, diagnostics, progress);
 }
 
 }  // namespace kerf::app

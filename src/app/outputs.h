@@ -31,10 +31,22 @@ std::vector<OutputFile> read_outputs(const std::vector<std::string>& names,
 /// is wrong is put in `problem`.
 std::optional<View> read_view(const std::string& view, const std::string& size, std::string& problem);
 
-/// Writes a surface into `set`, as meshes and pictures.
-bool write_surface(const std::vector<OutputFile>& files, const Job& job, const Mesh& mesh,
-                   const std::vector<Hazard>& hazards, const View& view, OutputSet& set,
+/// Writes a surface into `set`, as meshes and pictures; what the steps of hazards have made is red.
+bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& program, const Mesh& mesh,
+                   const std::vector<std::uint32_t>& hazard_steps, const View& view, OutputSet& set,
                    Diagnostics& diagnostics, Progress& progress);
+/// The steps of hazards of any kind.
+template <class Hazards>
+std::vector<std::uint32_t> steps_of(const Hazards& hazards) {
+  std::vector<std::uint32_t> steps;
+  for (const auto& hazard : hazards) steps.push_back(hazard.step);
+  return steps;
+}
+/// How far a written surface may lie from the one of all columns; no more than that one lies from the cut
+/// itself.
+inline constexpr Length kMeshTolerance = mm(0.002);
+/// One a step: which of them make surfaces of one colour (MeshOptions::step_groups).
+std::vector<std::uint8_t> colour_groups(const Toolpath& path, const std::vector<std::uint32_t>& hazard_steps);
 /// Writes all files into `set` (not committed). False where one fails or the user stops it.
 bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
                    const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress);

@@ -8,6 +8,11 @@
 #include "kerf/number.h"
 
 namespace kerf::app {
+namespace {
+
+constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
+
+}  // namespace
 
 void add_reading_options(CLI::App& app, ReadingOptions& options) {
   const auto known = [](const std::string& name) {
@@ -23,6 +28,8 @@ void add_reading_options(CLI::App& app, ReadingOptions& options) {
       ->check(CLI::Validator(known, ""));
   app.add_flag("--read-on", options.read_on,
                "Read a G-code file to its end, the programs behind M2 and M30 too, as senders do");
+  add_length(app, "--filament", options.filament, kThinnestFilament, kThickestFilament,
+             "Diameter of a printer's filament, mm (default: told by the program, else 1.75)");
   app.add_flag("--strict", options.strict, "Take what is unusual in a G-code program as an error");
 }
 
@@ -30,6 +37,7 @@ void apply(const ReadingOptions& options, InputOptions& input) {
   input.dialect = dialect_named(options.dialect);
   input.read_on = options.read_on;
   input.strict = options.strict;
+  if (options.filament > 0.0) input.filament_diameter = options.filament;
 }
 
 }  // namespace kerf::app

@@ -12,6 +12,7 @@ namespace kerf::app {
 struct ReadingOptions {
   std::string dialect;  // empty: told by the text
   bool read_on = false, strict = false;
+  double filament = 0.0;  // mm; 0: told by the program
 };
 void add_reading_options(CLI::App& app, ReadingOptions& options);
 void apply(const ReadingOptions& options, InputOptions& input);

@@ -70,8 +70,8 @@ Status simulate_bar(Console& console, const Job& job, const SimulationOptions& h
   bool written = s && !s->stopped && !diagnostics.has_errors();
   if (written && !outputs.empty()) {
     const Mesh mesh = extract_mesh(s->workpiece, &progress);
-    written = !progress.stop_requested() &&
-              write_surface(outputs, job, mesh, s->hazards, view, files, diagnostics, progress);
+    written = !progress.stop_requested() && write_surface(outputs, job.program, mesh, steps_of(s->hazards),
+                                                          view, files, diagnostics, progress);
   }
   progress.clear();
   if (interrupted()) return tell_stopped(console);

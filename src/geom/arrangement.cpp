@@ -130,7 +130,7 @@ void Arrangement::cut_edges() {
   parts_.clear();
   parts_.reserve(edges + hits_.size());
   for (std::uint32_t i = 0; i < edges; ++i) {
-    on_it.assign(sorted.begin() + begin[i], sorted.begin() + begin[i + 1]);
+    on_it.assign(sorted.data() + begin[i], sorted.data() + begin[i + 1]);
     cut_edge(i, on_it, parts_);
   }
   std::size_t kept = 0;
@@ -293,8 +293,8 @@ bool Arrangement::spread_from(std::uint32_t root, const WindingSearch& search) {
   const Winding true_left = search.around(points_[leftmost], [&](std::uint32_t i) {
     return touches(set_->edges[i], points_[leftmost], 2.0 * weld_);
   });
-  std::vector<std::uint32_t> ends(ends_.begin() + ends_begin_[leftmost],
-                                  ends_.begin() + ends_begin_[leftmost + 1]);
+  std::vector<std::uint32_t> ends(ends_.data() + ends_begin_[leftmost],
+                                  ends_.data() + ends_begin_[leftmost + 1]);
   sort_ends_at(ends.data(), ends.data() + ends.size());
   const Winding found = left_of_end(ends.back());
   for (const std::uint32_t part : reached)

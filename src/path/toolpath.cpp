@@ -280,4 +280,24 @@ ArcWalk walk_of(const Step& s, Point3 from) {
   return walk_arc(from, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
 }
 
+bool MotionReader::next() {
+  if (motion_ != nullptr) {
+    context_.from = motion_->to();
+    context_.unknown_from = motion_->unknown_axes();
+  }
+  for (motion_ = nullptr; next_ < path_->size();) {
+    const Step& s = (*path_)[next_++];
+    if (s.kind() == StepKind::tool_change) context_.tool = s.tool_change().tool;
+    if (s.kind() == StepKind::spindle) {
+      context_.spindle = s.spindle();
+      context_.spindle_stated = true;
+    }
+    if (!s.is_motion()) continue;
+    context_.index = next_ - 1;
+    motion_ = &s;
+    return true;
+  }
+  return false;
+}
+
 }  // namespace kerf

@@ -13,6 +13,8 @@ namespace kerf::sim {
 /// At least `bytes` of memory, aligned to whole huge pages; free_block returns it. Throws std::bad_alloc.
 void* new_block(std::size_t bytes);
 void free_block(void* block);
+/// Asks for huge pages, as far as there are whole ones, for memory that is not yet touched.
+void use_huge_pages(void* memory, std::size_t bytes);
 
 /// Makes objects of one type; their memory is kept until the store ends. Safe to use from several threads.
 template <class Object>

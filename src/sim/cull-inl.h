@@ -72,7 +72,7 @@ HWY_INLINE Nearness near_arc(const View& w, const Blocks& b) {
   return {higher_of(dr * dr, dx * dx + dy * dy), w.z_low, w.z_high, every_lane()};
 }
 
-/// Most pieces for which `new_ground` is worth its time.
+/// Most pieces of a solid for which all of them are looked at together.
 inline constexpr std::size_t kFewPieces = 4;
 
 /// Of a level line that follows another: blocks in which some piece takes what it did not take at the line's
@@ -97,6 +97,9 @@ HWY_INLINE unsigned cull(const View& w, const LaneSolid& solid, const Blocks& b,
     const Vector over = higher_of(n.z_low + solid.pieces[0].lower.centre_z - load(top),
                                   0);  // of the ball's centre over the material
     meets = meets & (solid.pieces[0].lower.radius2 - n.distance2 > over * over);
+  } else if (solid.is_flat) {
+    meets = meets & (n.distance2 < solid.rim * solid.rim) & (n.z_low + solid.bottom < load(top)) &
+            (n.z_high + solid.top > load(bottom));
   } else {
     const Vector distance = root(n.distance2);
     Vector under = solid.offset[0] + solid.slope[0] * distance;

@@ -7,13 +7,19 @@
 namespace kerf {
 namespace {
 
-constexpr double kColumns = 1e6;                    // of a fixture, where its size asks for it
-constexpr double kFinest = 0.02, kCoarsest = 0.25;  // mm, between them
+/// Columns of a fixture, where its size asks for them, and the range of their distance. Those of a body find
+/// contacts; those of a box only say how much is met, and may be few: every move is sent through all of them
+/// that it meets.
+struct Columns {
+  double count, finest, coarsest;  // mm
+};
+constexpr Columns kOfBodies{1e6, 0.02, 0.25}, kOfBoxes{4e4, 0.02, 1.0};
 
 Length pitch_for(const Stock& solid, Length told) {
+  const Columns& columns = solid.body ? kOfBodies : kOfBoxes;
   const Point3 size = solid.block.size();
-  const double own = std::clamp(std::sqrt(size.x * size.y / kColumns), kFinest, kCoarsest);
-  return mm(told.mm() > 0.0 ? std::min(own, told.mm()) : own);
+  const double own = std::clamp(std::sqrt(size.x * size.y / columns.count), columns.finest, columns.coarsest);
+  return mm(solid.body && told.mm() > 0.0 ? std::min(own, told.mm()) : own);
 }
 
 std::optional<ToolPart> part_of(HazardKind kind) {
@@ -29,7 +35,8 @@ std::optional<ToolPart> part_of(HazardKind kind) {
   return std::nullopt;
 }
 
-/// Over-long cuts and cuts below its floor mean nothing for a solid that is not to be touched.
+/// Cuts below its floor mean nothing for a solid that is not to be touched, and over-long ones are contacts
+/// of the part above the flutes.
 bool is_contact(HazardKind kind) { return kind == HazardKind::rapid_in_stock || part_of(kind).has_value(); }
 
 /// What is wrong with a fixture's own mesh is told; what the toolpath lacks, the stock's simulation has told.

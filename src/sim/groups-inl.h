@@ -10,12 +10,11 @@
 
 #include <algorithm>
 
+#include "sim/balls-inl.h"
 #include "sim/passes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
-
-inline constexpr int kGroup = kLanes;  // sweeps: one bit of a mask each
 
 struct GroupWork {
   explicit GroupWork(const TileJob& tile_job) : job(tile_job) {}
@@ -30,13 +29,14 @@ struct GroupWork {
   std::uint32_t step[kGroup];
   Lanes taken[kGroup];                       // length of column, weighted
   alignas(64) std::uint32_t micros[kGroup];  // of one super, one bit each
+  BallGroup balls;
 };
 
 HWY_INLINE void add_taken(GroupWork& work, int k, Vector weighted) {
   store(load(work.taken[k]) + weighted, work.taken[k]);
 }
 
-/// A ball over columns that stand on the floor.
+/// A ball over columns that stand on the floor, where balls-inl.h will not do: steep paths, uneven columns.
 HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
   const TileJob& job = work.job;
   Tile& tile = *job.tile;
@@ -77,37 +77,66 @@ HWY_INLINE Mask covered_before(const View& w, const MicroPlaces& places, Real ri
   return x * x + y * y < rim2;
 }
 
+/// Of one cylinder of a tool: the columns that the sweeps cover.
+struct Cover {
+  HWY_INLINE Cover() {}  // the one that the compiler makes would be for no level of processor
+  Mask before;           // already at the begin of the earliest
+  Mask covered;          // then or later
+  Vector first;          // number of the sweep that was there first
+  unsigned by = 0;       // bits of the sweeps that were first somewhere
+};
+
+/// Finds which sweep is the first over each column, for all cylinders of a tool at once.
+HWY_INLINE void cover_columns(const GroupWork& work, const MicroPlaces& places, unsigned sweeps,
+                              Cover* covers) {
+  const std::vector<LanePiece>& pieces = work.solid->pieces;
+  const View& earliest = work.view[__builtin_ctz(sweeps)];
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    covers[p].before = covers[p].covered = covered_before(earliest, places, pieces[p].rim2);
+    covers[p].first = -1;
+    covers[p].by = 0;
+  }
+  for (; sweeps != 0; sweeps &= sweeps - 1) {
+    const int k = __builtin_ctz(sweeps);
+    const View& w = work.view[k];
+    const Vector distance2 = path_distance2(w, w.x + places.x, w.y + places.y);
+    for (std::size_t p = 0; p < pieces.size(); ++p) {
+      Cover& cover = covers[p];
+      const Mask here = (distance2 < pieces[p].rim2) & ~cover.covered;
+      cover.covered = cover.covered | here;
+      cover.first = select(here, static_cast<Real>(k), cover.first);
+      cover.by |= static_cast<unsigned>(any(here)) << k;
+    }
+  }
+}
+
 /// Cylinders that move at one height: whichever sweep is the first over a column takes all that any of them
 /// takes.
 HWY_NOINLINE void cover_micro(GroupWork& work, int micro, unsigned sweeps) {
   const TileJob& job = work.job;
   const Field& field = *job.field;
-  const MicroPlaces places = places_of(job, micro);
   const Vector weight = weights_of(job, micro);
   const Real z = work.view[0].z_low;
-  for (const LanePiece& piece : work.solid->pieces) {
-    const View& earliest = work.view[__builtin_ctz(sweeps)];
-    Mask covered = covered_before(earliest, places, piece.rim2), first[kGroup];
-    const Mask before = covered;
+  Cover covers[kFewPieces];
+  cover_columns(work, places_of(job, micro), sweeps, covers);
+  for (std::size_t p = 0; p < work.solid->pieces.size(); ++p) {
+    const LanePiece& piece = work.solid->pieces[p];
+    const Cover& cover = covers[p];
+    if (cover.by == 0) continue;
     Ids step = all_ids(0);
-    int by[kGroup], count = 0;
-    for (unsigned rest = sweeps; rest != 0; rest &= rest - 1) {
+    for (unsigned rest = cover.by; rest != 0; rest &= rest - 1) {
       const int k = __builtin_ctz(rest);
-      const View& w = work.view[k];
-      const Mask here = (path_distance2(w, w.x + places.x, w.y + places.y) < piece.rim2) & ~covered;
-      if (!any(here)) continue;
-      covered = covered | here;
-      step = select(here, all_ids(work.step[k]), step);
-      first[count] = here;
-      by[count++] = k;
+      step = select(cover.first == static_cast<Real>(k), all_ids(work.step[k]), step);
     }
-    if (count == 0) continue;
     const Real high = !work.solid->one_envelope ? z - piece.upper.height
                       : work.all_open           ? field.height + 1
                                                 : z + work.solid->top;
-    const Vector low = select(covered & ~before, z + piece.lower.height, kFar);
+    const Vector low = select(cover.covered & ~cover.before, z + piece.lower.height, kFar);
     const Vector taken = take(*job.tile, micro, low, high, step, field.same_height) * weight;
-    for (int n = 0; n < count; ++n) add_taken(work, by[n], only(first[n], taken));
+    for (unsigned rest = cover.by; rest != 0; rest &= rest - 1) {
+      const int k = __builtin_ctz(rest);
+      add_taken(work, k, only(cover.first == static_cast<Real>(k), taken));
+    }
   }
 }
 
@@ -151,7 +180,7 @@ HWY_NOINLINE void group_super(GroupWork& work, int super, unsigned sweeps) {
     const unsigned which = lanes_with(work.micros, 1u << inner);
     if (work.solid->is_ball && work.all_open && tile.chain[micro] < 0) {
       ball_micro(work, micro, which);
-    } else if (work.solid->is_cylinders && work.one_level) {
+    } else if (work.solid->is_cylinders && work.one_level && work.solid->pieces.size() <= kFewPieces) {
       cover_micro(work, micro, which);
     } else {
       any_micro(work, micro, which);
@@ -190,6 +219,8 @@ HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   work.count = 0;
   work.all_open = work.one_level = true;
   for (int k = 0; k < count; ++k) add_sweep(work, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
+  if (is_plain(job) && is_quick_ball(job, job.sweeps[job.list[first]]))
+    return cut_balls(work.balls, work.view, job, work.solid->pieces[0].lower, first, count);
   Tile& tile = *job.tile;
   alignas(64) std::uint32_t supers[kGroup] = {};
   unsigned met = 0;

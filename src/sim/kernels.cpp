@@ -10,6 +10,7 @@
 
 #include "sim/groups-inl.h"
 #include "sim/kernels.h"
+#include "sim/steps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
@@ -28,14 +29,31 @@ void cut_tile(const TileJob& job) {
       job.removed[q++] = cut_sweep(job, sweep);
       continue;
     }
+    const bool is_quick = is_quick_ball(job, sweep);
     int count = 1;
     while (count < kGroup && q + static_cast<std::size_t>(count) < job.count) {
       const Sweep& next = job.sweeps[job.list[q + static_cast<std::size_t>(count)]];
-      if (!only_cuts(next) || next.tool != sweep.tool) break;
+      if (!only_cuts(next) || next.tool != sweep.tool || is_quick_ball(job, next) != is_quick) break;
       ++count;
     }
     cut_group(work, q, count);
     q += static_cast<std::size_t>(count);
+  }
+}
+
+void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out) {
+  constexpr int kLast = kWindow - kRing - kLanes;  // begin of the last 16 columns of a row of the tile
+  for (int y = kRing - 1; y < kWindow - kRing; ++y) {
+    const Real* row = lengths[y];
+    const auto at = [&](int x) { return load(row + x); };
+    for (int x = kRing - 1; x < kLast + kLanes; x += kLanes) {
+      const int k = std::min(x, kLast);
+      add_steps(excess_of(rules, at(k - 1), at(k), at(k + 1), at(k + 2)), k, y, StepWay::along_x, out);
+    }
+    const auto next = [&](int x, int rows) { return load(row + x + rows * kWindow); };
+    for (int x = kRing; x <= kLast; x += kLanes)
+      add_steps(excess_of(rules, next(x, -1), next(x, 0), next(x, 1), next(x, 2)), x, y, StepWay::along_y,
+                out);
   }
 }
 
@@ -47,6 +65,7 @@ namespace kerf::sim {
 namespace {
 
 HWY_EXPORT(cut_tile);
+HWY_EXPORT(find_steps);
 
 LaneCap lane_cap(const Cap& cap) {
   const auto real = [](double v) { return static_cast<Real>(v); };
@@ -81,6 +100,7 @@ LaneSolid::LaneSolid(const Solid& solid)
     offset[i] = static_cast<Real>(solid.lines[i].offset);
     slope[i] = static_cast<Real>(solid.lines[i].slope);
   }
+  is_flat = is_cylinders && std::all_of(slope, slope + kCullLines, [](Real v) { return v == 0; });
 }
 
 LaneTool::LaneTool(const ToolSolids& tool) : cutting(tool.cutting), over_flute(tool.over_flute) {
@@ -88,6 +108,10 @@ LaneTool::LaneTool(const ToolSolids& tool) : cutting(tool.cutting), over_flute(t
 }
 
 void cut_tile(const TileJob& job) { HWY_DYNAMIC_DISPATCH(cut_tile)(job); }
+
+void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out) {
+  HWY_DYNAMIC_DISPATCH(find_steps)(rules, lengths, out);
+}
 
 }  // namespace kerf::sim
 #endif

@@ -28,6 +28,7 @@ struct LaneSolid {
   bool one_envelope = false;
   bool is_ball = false;       // of one envelope, which is half a ball and has the closed form
   bool is_cylinders = false;  // all pieces are
+  bool is_flat = false;       // nothing of it is lower than its flat bottom, which reaches to its rim
   Real rim = 0, bottom = 0, top = 0;
   Real offset[kCullLines] = {}, slope[kCullLines] = {};
 };
@@ -85,5 +86,26 @@ struct TileJob {
 };
 
 void cut_tile(const TileJob& job);
+
+/// Lengths of material of the columns of a tile and of a ring around it.
+inline constexpr int kRing = 2;
+inline constexpr int kWindow = kTileColumns + 2 * kRing;
+using WindowLengths = Real[kWindow][kWindow];
+
+/// Which steps between neighbouring columns count, see walls.cpp.
+struct StepRules {
+  Real explained_by_lower = 0, explained_by_higher = 0, most_explained = 0;
+  Real per_least = 0, per_least_level = 0;  // one divided by the least step that counts
+  Real same_height = 0;
+};
+/// A step from the column at (x, y) of the window to the next one along X or Y, in least steps that count.
+enum class StepWay : std::uint8_t { along_x, along_y };
+struct ColumnStep {
+  int x, y;
+  StepWay way;
+  Real excess;
+};
+/// Finds those that count, some of them twice.
+void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out);
 
 }  // namespace kerf::sim

@@ -11,15 +11,12 @@
 namespace kerf::meshing {
 namespace {
 
-/// Side of the largest merged square, in columns; a power of two.
-constexpr int kSquare = 64;
-/// Marks in CapSheet::known_ a corner whose quadrants have vertices of their own.
-constexpr std::uint32_t kMany = 0x80000000u;
+/// Mark in CapSheet::known_ corners whose quadrants have vertices of their own, and those whose vertex is yet
+/// to be numbered in its band.
+constexpr std::uint32_t kMany = 0x80000000u, kNew = 0x40000000u;
 
 /// Of a corner beside which there is no material, or where the cap is torn: what refers to it is not merged.
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
-
-constexpr int whole_squares(int n) { return (n + kSquare - 1) / kSquare * kSquare; }
 
 }  // namespace
 
@@ -28,11 +25,15 @@ CapSheet::CapSheet(Builder& builder, Side side)
       side_(side),
       stride_(whole_squares(builder.columns.nx()) + 1),
       rows_(whole_squares(builder.columns.ny()) + 1),
-      needed_(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_), 0),
-      known_((static_cast<std::size_t>(builder.columns.nx()) + 1) *
-                 (static_cast<std::size_t>(builder.columns.ny()) + 1),
-             kNone) {
-  if (builder.options.tolerance > Length()) height_.assign(needed_.size(), kUnknown);
+      height_(simplifies() ? stride_ : 1, simplifies() ? rows_ : 1),
+      needed_(stride_, rows_),
+      known_(builder.columns.nx() + 1, builder.columns.ny() + 1),
+      bands_(static_cast<std::size_t>(bands())) {}
+
+void CapSheet::begin_row(int j) {
+  needed_.fill_row(j, 0);
+  if (simplifies()) height_.fill_row(j, kUnknown);
+  if (j <= builder_.columns.ny()) known_.fill_row(j, kNone);
 }
 
 /// A corner with one surface all around that is not a simple one.
@@ -42,23 +43,19 @@ void CapSheet::take_whole(Sheet& sheet, int i, int j) {
   const bool has_moved =
       sheet.x != columns.corner_x(i) || sheet.y != columns.corner_y(j) || columns.uneven(i, j);
   const bool may_go = simplifies() ? is_level || (!has_moved && of_one_group(i, j)) : is_level;
-  known(i, j) = has_moved && !may_go ? builder_.vertex(sheet) : sheet.vertex;
-  if (simplifies()) height_[index(i, j)] = static_cast<float>(sheet.z);
-  needed_[index(i, j)] = known(i, j) != kNone || !may_go ? 1 : 0;
+  known_(i, j) = has_moved && !may_go ? builder_.vertex(sheet) : sheet.vertex;
+  if (simplifies()) height_(i, j) = static_cast<float>(sheet.z);
+  needed_(i, j) = known_(i, j) != kNone || !may_go ? 1 : 0;
 }
 
 void CapSheet::take(CornerRow& row, int j) {
-  const Columns& columns = builder_.columns;
-  for (int i = 0; i <= columns.nx(); ++i) {
+  for (const int i : row.numbers()) {
     const Corner& corner = row.corner(i);
     if (corner.simple) {
-      const int rank = side_ == Side::bottom ? 0 : 1;
-      const Sheet& sheet = row.sheet(corner, rank);
-      known(i, j) = sheet.vertex;
-      const bool level = corner.level[static_cast<std::size_t>(rank)];
-      const bool may_go = simplifies() ? level || of_one_group(i, j) : level;
-      if (simplifies()) height_[index(i, j)] = static_cast<float>(sheet.z);
-      needed_[index(i, j)] = sheet.vertex != kNone || !may_go ? 1 : 0;
+      const Sheet& sheet = row.sheet(corner, side_ == Side::bottom ? 0 : 1);
+      if (sheet.vertex == kNone) continue;
+      known_(i, j) = sheet.vertex;
+      needed_(i, j) = 1;
       continue;
     }
     std::array<int, 4> ranks{};
@@ -77,13 +74,13 @@ void CapSheet::take(CornerRow& row, int j) {
     const int highest = *std::max_element(ranks.begin(), ranks.end());
     const bool one_surface =
         std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r < 0 || r == highest; });
-    if (simplifies() && one_surface) height_[index(i, j)] = static_cast<float>(row.sheet(corner, highest).z);
+    if (simplifies() && one_surface) height_(i, j) = static_cast<float>(row.sheet(corner, highest).z);
     std::array<std::uint32_t, 4> part{kNone, kNone, kNone, kNone};
     for (std::size_t q = 0; q < 4; ++q)
       if (ranks[q] >= 0) part[q] = builder_.vertex(row.sheet(corner, ranks[q]));
-    known(i, j) = kMany + static_cast<std::uint32_t>(parts_.size());
+    known_(i, j) = kMany + static_cast<std::uint32_t>(parts_.size());
     parts_.push_back(part);
-    needed_[index(i, j)] = 1;
+    needed_(i, j) = 1;
   }
 }
 
@@ -100,26 +97,21 @@ bool CapSheet::level(int i, int j) const {
   return true;
 }
 
-bool CapSheet::same_group(std::uint32_t a, std::uint32_t b) const {
-  const std::span<const std::uint8_t> groups = builder_.options.step_groups;
-  return a == b || (a < groups.size() && b < groups.size() && groups[a] == groups[b]);
-}
-
 bool CapSheet::of_one_group(int i, int j) const {
   const Columns& columns = builder_.columns;
-  const auto step_at = [&](int q) {
+  const auto group_at = [&](int q) {
     const int ci = column_x(i, q), cj = column_y(j, q);
-    return columns.step(ci, cj, end_of(ci, cj));
+    return group_key(builder_.options, columns.step(ci, cj, end_of(ci, cj)));
   };
-  const std::uint32_t step = step_at(0);
-  return same_group(step, step_at(1)) && same_group(step, step_at(2)) && same_group(step, step_at(3));
+  const std::uint64_t group = group_at(0);
+  return group == group_at(1) && group == group_at(2) && group == group_at(3);
 }
 
 /// Calls work(middle, a, b, apex, other_apex) for the middles of all longest sides, from a to b, of the
 /// triangles that a square of kSquare can be halved into, the smallest triangles first; the apexes are those
 /// of the two triangles that the middle halves.
 template <class Work>
-void CapSheet::for_each_middle(const Work& work) {
+void CapSheet::for_each_middle(const Work& work) const {
   for (int s = 1; s < kSquare; s *= 2) {
     const int d = 2 * s;
     for (int y = 0; y < rows_; y += s) {  // sides of length 2 s along X or Y
@@ -145,21 +137,22 @@ void CapSheet::for_each_middle(const Work& work) {
 /// error below it.
 void CapSheet::find_errors() {
   const auto tolerance = static_cast<float>(builder_.options.tolerance.mm());
-  std::vector<float> error(needed_.size(), 0.0f);
+  Plane<float> error(stride_, rows_);
+  for (int y = 0; y < rows_; ++y) error.fill_row(y, 0.0f);
   const auto inside = [&](Node n) { return n.x >= 0 && n.y >= 0 && n.x < stride_ && n.y < rows_; };
   for_each_middle([&](Node middle, Node a, Node b, Node apex, Node other_apex) {
-    const std::size_t at = index(middle.x, middle.y);
-    if (height_[at] != kUnknown) {
+    float& mine = error(middle.x, middle.y);
+    const float height = height_(middle.x, middle.y);
+    if (height != kUnknown) {
       const bool known_sides = inside(a) && inside(b);
-      const float side =
-          known_sides ? 0.5f * (height_[index(a.x, a.y)] + height_[index(b.x, b.y)]) : kUnknown;
-      error[at] += std::abs(height_[at] - side);
-      if (error[at] > tolerance) needed_[at] = 1;
+      const float side = known_sides ? 0.5f * (height_(a.x, a.y) + height_(b.x, b.y)) : kUnknown;
+      mine += std::abs(height - side);
+      if (mine > tolerance) needed_(middle.x, middle.y) = 1;
     }
     for (const Node parent : {apex, other_apex}) {
       if (!inside(parent)) continue;
-      float& above = error[index(parent.x, parent.y)];
-      above = std::max(above, error[at]);
+      float& above = error(parent.x, parent.y);
+      above = std::max(above, mine);
     }
   });
 }
@@ -167,42 +160,99 @@ void CapSheet::find_errors() {
 /// A corner that halves a triangle needs the apexes of the two triangles it halves, up to the whole squares.
 void CapSheet::propagate() {
   const auto need = [&](Node n) {
-    if (n.x >= 0 && n.y >= 0 && n.x < stride_ && n.y < rows_) needed_[index(n.x, n.y)] = 1;
+    if (n.x >= 0 && n.y >= 0 && n.x < stride_ && n.y < rows_) needed_(n.x, n.y) = 1;
   };
   for_each_middle([&](Node middle, Node /*a*/, Node /*b*/, Node apex, Node other_apex) {
-    if (needed_[index(middle.x, middle.y)] == 0) return;
+    if (needed_(middle.x, middle.y) == 0) return;
     need(apex);
     need(other_apex);
   });
 }
 
-bool CapSheet::emit(Progress* progress) {
+void CapSheet::refine() {
   if (simplifies()) find_errors();
   propagate();
-  const int nx = builder_.columns.nx(), ny = builder_.columns.ny();
-  for (int y = 0; y < ny; y += kSquare) {
-    if (stop_requested(progress)) return false;
-    for (int x = 0; x < nx; x += kSquare) {
-      const Node sw{x, y}, se{x + kSquare, y}, ne{x + kSquare, y + kSquare}, nw{x, y + kSquare};
-      cover(sw, ne, se);
-      cover(ne, sw, nw);
-    }
-  }
+}
+
+/// Whether triangles will meet a corner that has no vertex yet. Where it has material on all sides they do:
+/// it is needed, or the corner of a whole square.
+bool CapSheet::is_new_vertex(int x, int y) const {
+  if (needed_(x, y) == 0 && (x % kSquare != 0 || y % kSquare != 0)) return false;
+  if (known_(x, y) != kNone) return false;
+  const Columns& columns = builder_.columns;
+  for (int q = 0; q < 4; ++q)
+    if (columns.ends(column_x(x, q), column_y(y, q)) == 0) return false;
   return true;
 }
 
-void CapSheet::cover(Node a, Node b, Node apex) {
-  const Node middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
-  const bool smallest = std::abs(a.x - b.x) == 1;
-  if (!smallest && needed_[index(middle.x, middle.y)] != 0) {
-    cover(apex, a, middle);
-    cover(b, apex, middle);
-    return;
+void CapSheet::place_vertices(int number) {
+  const Columns& columns = builder_.columns;
+  Band& band = bands_[static_cast<std::size_t>(number)];
+  for (int y = first_row(number); y < std::min(end_row(number), columns.ny() + 1); ++y) {
+    for (int x = 0; x <= columns.nx(); ++x) {
+      if (!is_new_vertex(x, y)) continue;
+      double sum = 0.0;
+      for (int q = 0; q < 4; ++q) {
+        const int i = column_x(x, q), j = column_y(y, q);
+        sum += columns.z(i, j, end_of(i, j));
+      }
+      known_(x, y) = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
+      const Point3 at = columns.grid().bounds.low + Point3{columns.corner_x(x), columns.corner_y(y), sum / 4};
+      for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
+    }
   }
-  leaf(a, b, apex);
 }
 
-void CapSheet::leaf(Node a, Node b, Node apex) {
+void CapSheet::number_vertices() {
+  std::vector<float>& positions = builder_.mesh.positions;
+  for (Band& band : bands_) {
+    band.first_vertex = static_cast<std::uint32_t>(positions.size() / 3);
+    positions.insert(positions.end(), band.positions.begin(), band.positions.end());
+  }
+}
+
+void CapSheet::make_triangles(int number) {
+  Band& band = bands_[static_cast<std::size_t>(number)];
+  const int y = first_row(number);
+  if (y >= builder_.columns.ny()) return;
+  for (int x = 0; x < builder_.columns.nx(); x += kSquare) {
+    const Node sw{x, y}, se{x + kSquare, y}, ne{x + kSquare, y + kSquare}, nw{x, y + kSquare};
+    cover(band, sw, ne, se);
+    cover(band, ne, sw, nw);
+  }
+}
+
+void CapSheet::make_room() {
+  Mesh& mesh = builder_.mesh;
+  std::size_t triangles = mesh.step.size();
+  for (Band& band : bands_) {
+    band.first_triangle = triangles;
+    triangles += band.step.size();
+  }
+  mesh.step.resize(triangles);
+  mesh.triangles.resize(3 * triangles);
+}
+
+void CapSheet::move_to_mesh(int number) {
+  Band& band = bands_[static_cast<std::size_t>(number)];
+  std::copy(band.step.begin(), band.step.end(), builder_.mesh.step.data() + band.first_triangle);
+  std::copy(band.triangles.begin(), band.triangles.end(),
+            builder_.mesh.triangles.data() + 3 * band.first_triangle);
+  band = {};
+}
+
+void CapSheet::cover(Band& band, Node a, Node b, Node apex) const {
+  const Node middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  const bool smallest = std::abs(a.x - b.x) == 1;
+  if (!smallest && needed_(middle.x, middle.y) != 0) {
+    cover(band, apex, a, middle);
+    cover(band, b, apex, middle);
+    return;
+  }
+  leaf(band, a, b, apex);
+}
+
+void CapSheet::leaf(Band& band, Node a, Node b, Node apex) const {
   const int sx = a.x + b.x + apex.x, sy = a.y + b.y + apex.y;
   // The column beside a corner of the triangle that lies inside it.
   const auto inner = [&](Node n) {
@@ -215,23 +265,18 @@ void CapSheet::leaf(Node a, Node b, Node apex) {
   const int turn = (b.x - a.x) * (apex.y - a.y) - (b.y - a.y) * (apex.x - a.x);
   const bool upward = side_ == Side::top;
   if ((turn > 0) != upward) std::swap(a, b);
-  builder_.add(vertex(a, inner(a)), vertex(b, inner(b)), vertex(apex, column), step);
+  const std::uint32_t va = vertex(a, inner(a)), vb = vertex(b, inner(b)), vc = vertex(apex, column);
+  if (va == vb || vb == vc || vc == va) return;
+  for (const std::uint32_t v : {va, vb, vc}) band.triangles.push_back(v);
+  band.step.push_back(step);
 }
 
-std::uint32_t CapSheet::vertex(Node corner, Node column) {
-  const Columns& columns = builder_.columns;
-  assert(corner.x <= columns.nx() && corner.y <= columns.ny());
-  std::uint32_t& entry = known(corner.x, corner.y);
-  if (entry == kNone) {
-    double sum = 0.0;
-    for (int q = 0; q < 4; ++q) {
-      const int i = column_x(corner.x, q), j = column_y(corner.y, q);
-      sum += columns.z(i, j, end_of(i, j));
-    }
-    entry = builder_.add_vertex(columns.corner_x(corner.x), columns.corner_y(corner.y), sum / 4);
-    return entry;
-  }
-  if (entry < kMany) return entry;
+std::uint32_t CapSheet::vertex(Node corner, Node column) const {
+  assert(corner.x <= builder_.columns.nx() && corner.y <= builder_.columns.ny());
+  const std::uint32_t entry = known_(corner.x, corner.y);
+  assert(entry != kNone);
+  if (entry < kNew) return entry;
+  if (entry < kMany) return bands_[static_cast<std::size_t>(corner.y / kSquare)].first_vertex + entry - kNew;
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));
   return parts_[entry - kMany][quadrant];
 }

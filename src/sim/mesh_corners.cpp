@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
+#include <iterator>
 #include <limits>
 #include <numeric>
 
 namespace kerf::meshing {
 namespace {
 
-/// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
-constexpr double kSlopeShare = 0.5;
 /// A higher step is a slope, not a wall, if the step before or after it in the same direction is at least its
 /// height divided by this: smooth surfaces change their rise by less from column to column until they are
 /// walls.
@@ -80,68 +80,84 @@ double Columns::slope(int i, int j, int end, int dx, int dy) const {
   return run > 0.0 ? rise / run : 0.0;
 }
 
-void CornerRow::build(const Columns& columns, int j) {
-  corners_.clear();
-  sheets_.clear();
-  ranks_.clear();
-  for (int i = 0; i <= columns.nx(); ++i)
-    if (!build_simple(columns, i, j)) build_any(columns, i, j);
+CornerPlane::CornerPlane(const Columns& columns)
+    : corners_x_(columns.nx() + 1),
+      bytes_(
+          static_cast<std::size_t>(columns.ny() + 3) * static_cast<std::size_t>(corners_x_ + kLeft + kRight),
+          1) {}
+
+void CornerPlane::wanted(int j, std::vector<int>& out) const {
+  constexpr int kBytes = 8;
+  constexpr std::uint64_t kAllSimple = 0x0101010101010101u;
+  const std::uint8_t *below = row(j - 1), *here = row(j), *above = row(j + 1);
+  const auto eight = [](const std::uint8_t* bytes) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+  };
+  out.clear();
+  for (int i = 0; i < corners_x_; i += kBytes) {
+    const std::uint64_t all =
+        eight(below + i) & eight(above + i) & eight(here + i) & eight(here + i - 1) & eight(here + i + 1);
+    if (all == kAllSimple) continue;
+    for (int k = i; k < std::min(i + kBytes, corners_x_); ++k)
+      if ((below[k] & above[k] & here[k] & here[k - 1] & here[k + 1]) == 0) out.push_back(k);
+  }
 }
 
 namespace {
 
-/// Whether the ends `end` of the four columns around a corner are of one step.
-bool same_step(const Columns& columns, int i, int j, int end) {
-  const std::uint32_t step = columns.step(i, j, end);
-  return columns.step(i - 1, j, end) == step && columns.step(i, j - 1, end) == step &&
-         columns.step(i - 1, j - 1, end) == step;
-}
+/// Quadrants that are neighbours.
+constexpr std::pair<int, int> kNeighbours[] = {{0, 1}, {0, 2}, {1, 3}, {2, 3}};
 
 }  // namespace
 
-/// The common case: four columns of one interval each, with one surface above and one below.
-bool CornerRow::build_simple(const Columns& columns, int i, int j) {
-  if (i == 0 || j == 0 || i == columns.nx() || j == columns.ny() || columns.uneven(i, j)) return false;
-  double low_sum = 0.0, high_sum = 0.0;
-  float low_min = std::numeric_limits<float>::max(), low_max = -low_min, high_min = low_min,
-        high_max = -low_min;
-  for (int q = 0; q < 4; ++q) {
-    if (columns.ends(column_x(i, q), column_y(j, q)) != 2) return false;
-    const Interval& run = columns.interval(column_x(i, q), column_y(j, q), 0);
-    low_sum += run.low;
-    high_sum += run.high;
-    low_min = std::min(low_min, run.low);
-    low_max = std::max(low_max, run.low);
-    high_min = std::min(high_min, run.high);
-    high_max = std::max(high_max, run.high);
+bool joined_by_slopes(const Columns& columns, int i, int j, int end) {
+  return std::all_of(std::begin(kNeighbours), std::end(kNeighbours), [&](const std::pair<int, int>& pair) {
+    const auto [q, other] = pair;
+    return columns.continues(column_x(i, q), column_y(j, q), end, column_x(i, other), column_y(j, other),
+                             end);
+  });
+}
+
+void CornerRow::build(const Columns& columns, const CornerPlane& plane, int j) {
+  sheets_.clear();
+  ranks_.clear();
+  corners_.resize(static_cast<std::size_t>(columns.nx()) + 1);
+  plane.wanted(j, numbers_);
+  for (const int i : numbers_) {
+    if (plane.simple(i, j)) {
+      build_simple(columns, i, j);
+    } else {
+      build_any(columns, i, j);
+    }
   }
-  const double limit = kSlopeShare * columns.pitch();
-  if (high_max - high_min > limit || low_max - low_min > limit || low_max >= high_min) return false;
+}
+
+void CornerRow::build_simple(const Columns& columns, int i, int j) {
   Corner corner;
   corner.simple = true;
-  corner.level = {low_min == low_max && same_step(columns, i, j, 0),
-                  high_min == high_max && same_step(columns, i, j, 1)};
   corner.first_sheet = static_cast<std::uint32_t>(sheets_.size());
   corner.sheets = 2;
-  const double x = columns.corner_x(i), y = columns.corner_y(j);
-  sheets_.push_back({x, y, low_min == low_max ? low_min : low_sum / 4, kNone, false});
-  sheets_.push_back({x, y, high_min == high_max ? high_min : high_sum / 4, kNone, false});
+  for (const int end : {0, 1}) {
+    const auto z = [&](int q) { return static_cast<float>(columns.z(column_x(i, q), column_y(j, q), end)); };
+    sheets_.push_back(
+        {columns.corner_x(i), columns.corner_y(j), four_heights(z(0), z(1), z(2), z(3)).mean, kNone, false});
+  }
   for (std::size_t q = 0; q < 4; ++q) {
     corner.first_rank[q] = static_cast<std::uint32_t>(ranks_.size());
     corner.ends[q] = 2;
   }
   ranks_.push_back(0);
   ranks_.push_back(1);
-  corners_.push_back(corner);
-  return true;
+  corners_[static_cast<std::size_t>(i)] = corner;
 }
 
 void CornerRow::build_any(const Columns& columns, int i, int j) {
   gather(columns, i, j);
   bool suspect =
       false;  // surfaces above each other, or a spiral, can meet in a vertex without sharing an edge
-  for (const auto& [q, other] : {std::pair{0, 1}, {0, 2}, {1, 3}, {2, 3}})
-    suspect = !join(columns, i, j, q, other) || suspect;
+  for (const auto& [q, other] : kNeighbours) suspect = !join(columns, i, j, q, other) || suspect;
   for (const std::vector<int>& ends : group_of_) suspect = suspect || ends.size() > 2;
   sort_groups(columns, i, j);
 
@@ -157,7 +173,7 @@ void CornerRow::build_any(const Columns& columns, int i, int j) {
   const bool border = i == 0 || j == 0 || i == columns.nx() || j == columns.ny();
   const Shift shift = shift_of(columns, corner, border);
   place(columns, i, j, corner, shift);
-  corners_.push_back(corner);
+  corners_[static_cast<std::size_t>(i)] = corner;
 }
 
 /// Every end of the four columns becomes a group of its own.

@@ -2,6 +2,7 @@
 // one surface there, and where its vertex lies. docs/decisions/0006-mesh.md tells the whole method.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,6 +13,9 @@ namespace kerf::meshing {
 
 /// No vertex yet, or no such end.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
+
+/// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
+inline constexpr double kSlopeShare = 0.5;
 
 /// Reads a ColumnGrid by column. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the
 /// high one.
@@ -84,14 +88,60 @@ struct Corner {
   std::array<int, 4> ends{};
   /// Four columns of one interval each, with one surface above (rank 1) and one below (rank 0).
   bool simple = false;
-  /// Of a simple corner, by rank: the surface is level there and of one step.
-  std::array<bool, 2> level{};
 };
 
-/// The corners with one y. Vectors are kept from row to row, so that no memory is asked for in the long run.
+/// Which corners are simple, one byte each: far the most, so that all others can be found quickly.
+class CornerPlane {
+ public:
+  explicit CornerPlane(const Columns& columns);
+  bool simple(int i, int j) const { return row(j)[i] != 0; }
+  /// The corners with one y, writable by several threads.
+  std::uint8_t* row(int j) { return bytes_.data() + offset(j); }
+  const std::uint8_t* row(int j) const { return bytes_.data() + offset(j); }
+  /// Replaces `out` by the corners of a row that are not simple or have such a neighbour along X or Y.
+  void wanted(int j, std::vector<int>& out) const;
+
+ private:
+  /// Bytes around the rows that count as simple corners; to the right as many as are read at a time.
+  static constexpr int kLeft = 8, kRight = 16;
+  std::size_t offset(int j) const {
+    return static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(corners_x_ + kLeft + kRight) + kLeft;
+  }
+
+  int corners_x_;
+  std::vector<std::uint8_t> bytes_;
+};
+
+/// Four heights around a corner.
+struct FourHeights {
+  double mean = 0.0;
+  float low = 0.0f, high = 0.0f;
+};
+inline FourHeights four_heights(float a, float b, float c, float d) {
+  FourHeights four;
+  four.low = std::min(std::min(a, b), std::min(c, d));
+  four.high = std::max(std::max(a, b), std::max(c, d));
+  four.mean = four.low == four.high ? four.low
+                                    : (static_cast<double>(a) + static_cast<double>(b) +
+                                       static_cast<double>(c) + static_cast<double>(d)) /
+                                          4;
+  return four;
+}
+
+/// Whether the ends `end` of the four columns around a corner continue each other. They are columns of one
+/// interval each, with material at one height.
+bool joined_by_slopes(const Columns& columns, int i, int j, int end);
+inline bool one_surface(const Columns& columns, int i, int j, int end, const FourHeights& heights) {
+  return heights.high - heights.low <= kSlopeShare * columns.pitch() || joined_by_slopes(columns, i, j, end);
+}
+
+/// Those corners with one y that walls or inner caps may need. Vectors are kept from row to row, so that no
+/// memory is asked for in the long run.
 class CornerRow {
  public:
-  void build(const Columns& columns, int j);
+  void build(const Columns& columns, const CornerPlane& plane, int j);
+  /// The corners that are here, in order.
+  const std::vector<int>& numbers() const { return numbers_; }
   const Corner& corner(int i) const { return corners_[static_cast<std::size_t>(i)]; }
   Sheet& sheet(const Corner& corner, int rank) {
     return sheets_[corner.first_sheet + static_cast<std::uint32_t>(rank)];
@@ -109,7 +159,7 @@ class CornerRow {
     double x = 0.0, y = 0.0;
   };
 
-  bool build_simple(const Columns& columns, int i, int j);
+  void build_simple(const Columns& columns, int i, int j);
   void build_any(const Columns& columns, int i, int j);
   void gather(const Columns& columns, int i, int j);
   bool join(const Columns& columns, int i, int j, int q, int other);
@@ -117,7 +167,8 @@ class CornerRow {
   Shift shift_of(const Columns& columns, Corner& corner, bool border);
   void place(const Columns& columns, int i, int j, const Corner& corner, Shift shift);
 
-  std::vector<Corner> corners_;
+  std::vector<int> numbers_;
+  std::vector<Corner> corners_;  // by number
   std::vector<Sheet> sheets_;
   std::vector<int> ranks_;
   // Scratch of one corner.

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "sim/mesh_build.h"
+#include "sim/parallel.h"
 
 #include "kerf/geometry.h"
 
@@ -20,7 +21,7 @@ constexpr int kMostRounds = 8;
 
 class Mender {
  public:
-  explicit Mender(Mesh& mesh) : mesh_(mesh) {}
+  Mender(Mesh& mesh, unsigned threads) : mesh_(mesh), threads_(threads) {}
   void run();
 
  private:
@@ -34,6 +35,7 @@ class Mender {
     return {mesh_.triangles[3 * t], mesh_.triangles[3 * t + 1], mesh_.triangles[3 * t + 2]};
   }
   void set(std::size_t t, Corners c) {
+    changed_.push_back(t);
     std::copy(c.begin(), c.end(), mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(3 * t));
   }
   bool is_gone(std::size_t t) const { return mesh_.triangles[3 * t] == mesh_.triangles[3 * t + 1]; }
@@ -41,6 +43,7 @@ class Mender {
   int longest_side(const Corners& c) const;
   bool is_flat(const Corners& c) const;
   void find_flat();
+  void find_flat_again();
   void gather_around();
   const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[place_[v]]; }
   std::size_t across(std::uint32_t a, std::uint32_t b) const;
@@ -52,7 +55,8 @@ class Mender {
   void drop_unused();
 
   Mesh& mesh_;
-  std::vector<std::size_t> flat_;
+  unsigned threads_;
+  std::vector<std::size_t> flat_, changed_;         // changed: since the flat ones were found
   std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
   std::vector<std::vector<std::uint32_t>> around_;  // triangles at a vertex, some of them gone or moved away
 };
@@ -81,9 +85,27 @@ bool Mender::is_flat(const Corners& c) const {
 }
 
 void Mender::find_flat() {
+  constexpr std::size_t kEach = 1 << 14;
+  std::vector<std::vector<std::size_t>> found(mesh_.step.size() / kEach + 1);
+  sim::parallel_for(
+      threads_, found.size(),
+      [&](std::size_t n) {
+        for (std::size_t t = n * kEach; t < std::min((n + 1) * kEach, mesh_.step.size()); ++t)
+          if (!is_gone(t) && is_flat(corners(t))) found[n].push_back(t);
+      },
+      [] { return false; });
   flat_.clear();
-  for (std::size_t t = 0; t < mesh_.step.size(); ++t)
-    if (!is_gone(t) && is_flat(corners(t))) flat_.push_back(t);
+  for (const std::vector<std::size_t>& part : found) flat_.insert(flat_.end(), part.begin(), part.end());
+}
+
+/// The flat ones among those that were flat and those that were changed.
+void Mender::find_flat_again() {
+  flat_.insert(flat_.end(), changed_.begin(), changed_.end());
+  std::sort(flat_.begin(), flat_.end());
+  flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
+  const auto is_done = [&](std::size_t t) { return is_gone(t) || !is_flat(corners(t)); };
+  flat_.erase(std::remove_if(flat_.begin(), flat_.end(), is_done), flat_.end());
+  changed_.clear();
 }
 
 /// The triangles around all vertices that flat triangles or their neighbours have.
@@ -209,14 +231,14 @@ void Mender::drop_unused() {
 }
 
 void Mender::run() {
-  for (int round = 0; round < kMostRounds; ++round) {
-    find_flat();
-    if (flat_.empty()) break;
+  find_flat();
+  for (int round = 0; round < kMostRounds && !flat_.empty(); ++round) {
     gather_around();
     bool any = false;
     for (const std::size_t t : flat_)
       if (!is_gone(t) && is_flat(corners(t))) any = mend(t) || any;
     if (!any) break;
+    find_flat_again();
   }
   if (place_.empty()) return;  // nothing was flat
   drop_gone();
@@ -225,6 +247,6 @@ void Mender::run() {
 
 }  // namespace
 
-void mend_flat_triangles(Mesh& mesh) { Mender(mesh).run(); }
+void mend_flat_triangles(Mesh& mesh, unsigned threads) { Mender(mesh, threads).run(); }
 
 }  // namespace kerf::meshing

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "sim/mesh_build.h"
 
@@ -39,6 +40,7 @@ class Splitter {
   Point3 point(std::uint32_t v) const;
   double angle(const Side& side);
   void collect();
+  void sort_sides();
   void pair_up();
   void pair_shared(std::size_t begin, std::size_t end);
   std::size_t root(std::size_t corner);
@@ -92,9 +94,23 @@ void Splitter::collect() {
         sides_.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
     }
   }
-  std::sort(sides_.begin(), sides_.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle, a.corner) < std::tie(b.low, b.high, b.triangle, b.corner);
-  });
+  sort_sides();
+}
+
+/// By edge, and the sides of an edge by triangle: first all under their lower vertex, then the few of each.
+void Splitter::sort_sides() {
+  std::vector<std::size_t> next(suspect_.size() + 1, 0);
+  for (const Side& side : sides_) ++next[side.low + std::size_t{1}];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<Side> sorted(sides_.size());
+  for (const Side& side : sides_) sorted[next[side.low]++] = side;
+  sides_ = std::move(sorted);
+  for (std::size_t low = 0, begin = 0; low < suspect_.size(); begin = next[low++]) {
+    const auto at = [&](std::size_t k) { return sides_.begin() + static_cast<std::ptrdiff_t>(k); };
+    std::sort(at(begin), at(next[low]), [](const Side& a, const Side& b) {
+      return std::tie(a.high, a.triangle, a.corner) < std::tie(b.high, b.triangle, b.corner);
+    });
+  }
 }
 
 /// Pairs the two triangles of each edge; of shared edges the ones with material between them.

@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace kerf::sim {
 namespace {
 
 /// A batch is cut when it holds this many; enough to keep all threads busy, and bounded memory.
-constexpr std::size_t kBatchSweeps = 1 << 15;
-constexpr std::size_t kBatchPairs = 1 << 22;
+constexpr std::size_t kBatchSweeps = 1 << 14;
+constexpr std::size_t kBatchPairs = 1 << 20;
 /// Most chords for one arc. More means a circle of kilometres or thousands of turns.
 constexpr int kMostChords = 1 << 20;
 /// A straight move shorter than this in plan is taken as straight up or down, mm.
@@ -22,8 +23,6 @@ constexpr double kSameLevel = 1e-9;  // mm
 /// A line no longer than this many times the tool's reach is paired with all tiles of its box: hardly more
 /// than those it meets.
 constexpr double kShort = 2.0;
-/// Heights of the virtual cylinder above the flutes; higher than any block that is accepted, mm.
-constexpr double kAboveAll = 1e6;
 
 double distance_to_interval(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
@@ -59,6 +58,45 @@ TileRange tiles_between(double low, double high, double pitch, int columns, int 
           std::min(static_cast<int>(last_column) / kTileColumns, tiles - 1)};
 }
 
+/// Makes a sweep a straight one.
+void set_line(Sweep& sweep, Point3 from, Point3 to) {
+  sweep.x = from.x;
+  sweep.y = from.y;
+  sweep.z = from.z;
+  sweep.z_end = to.z;
+  const double dx = to.x - from.x, dy = to.y - from.y;
+  const double dz = to.z - from.z, plan2 = dx * dx + dy * dy;
+  const double length = std::sqrt(plan2);
+  if (length < kNoLength) return;
+  const double per_length = 1.0 / length;
+  sweep.length = length;
+  sweep.ux = dx * per_length;
+  sweep.uy = dy * per_length;
+  sweep.slope = dz * per_length;
+  sweep.ball_lead = static_cast<float>(dz / std::sqrt(plan2 + dz * dz));
+}
+
+/// Whether an arc is swept as it is.
+bool is_level(const ArcWalk& walk) {
+  if (walk.plane != Plane::xy || std::abs(walk.start_w - walk.end_w) > kSameLevel) return false;
+  const double radius = 0.5 * (walk.start_radius + walk.end_radius);
+  if (std::abs(walk.start_radius - walk.end_radius) > kSameRadius) return false;
+  return radius <= kLargestRadius && radius >= kSameRadius;
+}
+
+/// Makes a sweep a level arc.
+void set_arc(Sweep& sweep, const ArcWalk& walk) {
+  sweep.is_arc = true;
+  sweep.x = walk.u;
+  sweep.y = walk.v;
+  sweep.z = sweep.z_end = walk.start_w;
+  sweep.ux = std::cos(walk.start_angle);
+  sweep.uy = std::sin(walk.start_angle);
+  sweep.radius = 0.5 * (walk.start_radius + walk.end_radius);
+  sweep.turn = walk.sweep;
+  sweep.length = sweep.radius * std::abs(walk.sweep);
+}
+
 }  // namespace
 
 bool Batch::full() const { return sweeps.size() >= kBatchSweeps || pairs.size() >= kBatchPairs; }
@@ -69,20 +107,37 @@ void Batch::clear() {
   contacts.clear();
 }
 
-/// Half the width of what follows the flutes; no more than theirs at their end, so that a thicker shank is
-/// told of as a shank. Nothing drawn above the flutes: their own width goes on.
-double radius_above_flutes(const Silhouette& tool) {
-  if (tool.cutting.empty()) return 0.0;
-  const double flutes = tool.cutting.knots.back().r;
-  for (const Profile* part : {&tool.neck, &tool.shank, &tool.holder})
-    if (!part->empty()) return std::min(flutes, part->knots.front().r);
-  return flutes;
+void Batch::sort(std::size_t tiles) {
+  count_.resize(tiles, 0);
+  busy.clear();
+  for (const Pair& pair : pairs)
+    if (count_[pair.tile]++ == 0) busy.push_back(pair.tile);
+  std::sort(busy.begin(), busy.end());
+  start.assign(1, 0);
+  for (const std::uint32_t tile : busy) {
+    start.push_back(start.back() + count_[tile]);
+    count_[tile] = static_cast<std::uint32_t>(start[start.size() - 2]);  // now where the next one goes
+  }
+  list.resize(pairs.size());
+  place.resize(pairs.size());
+  for (std::size_t p = 0; p < pairs.size(); ++p) {
+    place[p] = count_[pairs[p].tile]++;
+    list[place[p]] = pairs[p].sweep;
+  }
+  for (const std::uint32_t tile : busy) count_[tile] = 0;
+  order.resize(busy.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const std::size_t na = start[a + 1] - start[a], nb = start[b + 1] - start[b];
+    return na != nb ? na > nb : a < b;
+  });
 }
 
 ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
   ToolSolids solids;
   solids.cutting = make_solid(tool.cutting, mm(kProfileChord), Length());
-  const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
+  const Silhouette whole = held(tool);
+  const Profile* parts[] = {&whole.cutting, &whole.neck, &whole.shank, &whole.holder};
   for (int i = 0; i < 4; ++i) solids.touching[i] = make_solid(*parts[i], mm(kProfileChord), side_clearance);
   const double rim = radius_above_flutes(tool) - side_clearance.mm();
   if (rim > 0.0) solids.over_flute = make_cylinder(rim, solids.cutting.top, solids.cutting.top + kAboveAll);
@@ -122,42 +177,6 @@ Planner::Motion Planner::motion_of(const Step& step, const MotionContext& contex
   return motion;
 }
 
-Sweep Planner::line(Point3 from, Point3 to) const {
-  Sweep sweep;
-  sweep.x = from.x;
-  sweep.y = from.y;
-  sweep.z = from.z;
-  sweep.z_end = to.z;
-  const double dx = to.x - from.x, dy = to.y - from.y;
-  const double length = std::sqrt(dx * dx + dy * dy);
-  if (length < kNoLength) return sweep;
-  const double per_length = 1.0 / length;
-  sweep.length = length;
-  sweep.ux = dx * per_length;
-  sweep.uy = dy * per_length;
-  sweep.slope = (to.z - from.z) * per_length;
-  sweep.ball_lead = static_cast<float>(sweep.slope / std::sqrt(1.0 + sweep.slope * sweep.slope));
-  return sweep;
-}
-
-std::optional<Sweep> Planner::level_arc(const ArcWalk& walk) const {
-  if (walk.plane != Plane::xy || std::abs(walk.start_w - walk.end_w) > kSameLevel) return std::nullopt;
-  const double radius = 0.5 * (walk.start_radius + walk.end_radius);
-  if (std::abs(walk.start_radius - walk.end_radius) > kSameRadius) return std::nullopt;
-  if (radius > kLargestRadius || radius < kSameRadius) return std::nullopt;
-  Sweep sweep;
-  sweep.is_arc = true;
-  sweep.x = walk.u;
-  sweep.y = walk.v;
-  sweep.z = sweep.z_end = walk.start_w;
-  sweep.ux = std::cos(walk.start_angle);
-  sweep.uy = std::sin(walk.start_angle);
-  sweep.radius = radius;
-  sweep.turn = walk.sweep;
-  sweep.length = radius * std::abs(walk.sweep);
-  return sweep;
-}
-
 bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
   const ToolSolids& solids = tools_[tool];
   double rim = solids.cutting.rim;
@@ -165,6 +184,71 @@ bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
   const Box3 box = walk.bounds();
   return box.low.x < size_.x + rim && box.high.x > -rim && box.low.y < size_.y + rim && box.high.y > -rim &&
          box.low.z < size_.z;
+}
+
+void Planner::pass_over(const Step& step, const MotionContext& context, std::uint32_t tool) {
+  const Motion motion = motion_of(step, context);
+  if (!motion.is_swept) return interrupt();
+  remember(step, tool, motion.to);
+}
+
+void Planner::remember(const Step& step, std::uint32_t tool, Point3 end) {
+  cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
+  end_ = end;
+}
+
+void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
+                  Batch& batch) {
+  const Motion motion = motion_of(step, context);
+  const bool cuts = step.is_cutting();
+  if (!motion.is_swept) return interrupt();
+  const bool follows = cuts && cutting_tool_ == tool && end_ == motion.from;
+  constexpr int kParts = kPassNeck | kPassShank | kPassHolder;
+  Sweep sweep;
+  sweep.passes = static_cast<std::uint8_t>(
+      cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
+  sweep.step = static_cast<std::uint32_t>(context.index);
+  sweep.tool = tool;
+  remember(step, tool, motion.to);
+  if (step.kind() == StepKind::arc && context.unknown_from == 0)
+    return add_arc(step, context, sweep, follows, batch);
+  sweep.follows = follows;
+  set_line(sweep, motion.from, motion.to);
+  emit(sweep, batch);
+}
+
+void Planner::add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows,
+                      Batch& batch) {
+  ArcWalk walk = walk_of(step, context.from);
+  const PlaneAxes axes = axes_of(walk.plane);
+  walk.u -= body_.bounds.low[axes.u];
+  walk.v -= body_.bounds.low[axes.v];
+  walk.start_w -= body_.bounds.low[axes.w];
+  walk.end_w -= body_.bounds.low[axes.w];
+  if (!can_meet(walk, like.tool)) return;
+  if (is_level(walk)) {
+    Sweep arc = like;
+    set_arc(arc, walk);
+    return emit(arc, batch);
+  }
+  const bool cuts = step.is_cutting();
+  chords_ = {walk, like, 0, chord_count(walk).count, cuts && follows, cuts, walk.at(0.0)};
+  go_on(batch);
+}
+
+void Planner::go_on(Batch& batch) {
+  Chords& c = chords_;
+  for (; c.next < c.count && !batch.full(); ++c.next) {
+    const auto share_at = [&](int k) { return static_cast<float>(k) / static_cast<float>(c.count); };
+    const Point3 to = c.walk.at((c.next + 1.0) / c.count);
+    Sweep chord = c.like;
+    chord.follows = c.next > 0 ? c.others_follow : c.first_follows;
+    chord.share_begin = share_at(c.next);
+    chord.share_end = share_at(c.next + 1);
+    set_line(chord, c.from, to);
+    emit(chord, batch);
+    c.from = to;
+  }
 }
 
 std::uint8_t Planner::passes_that_meet(const Sweep& sweep, std::uint8_t wanted, double& reach) const {
@@ -189,7 +273,7 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, std::uint8_t wanted, 
   return any == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(passes);
 }
 
-void Planner::emit(Sweep sweep, Batch& batch) {
+void Planner::emit(Sweep& sweep, Batch& batch) {
   if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < -hazard_depth_)
     note_below_floor(sweep, batch);
   double reach = 0.0;

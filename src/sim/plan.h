@@ -26,7 +26,8 @@
 
 namespace kerf::sim {
 
-/// Sweeps in time order, and which sweep can touch which tile.
+/// Sweeps in time order, and which sweep can touch which tile: first in order of sweeps, and once sorted in
+/// order of tiles.
 struct Batch {
   struct Pair {
     std::uint32_t tile;
@@ -35,9 +36,22 @@ struct Batch {
   std::vector<Sweep> sweeps;
   std::vector<Pair> pairs;
   std::vector<Contact> contacts;  // found by the planner itself: below_floor
+  std::size_t steps_done = 0;     // of the toolpath, with this batch
+  bool is_last = false;
 
   bool full() const;
   void clear();
+  /// Sorts the pairs by tile; `tiles` is the number of all tiles.
+  void sort(std::size_t tiles);
+
+  // Tile busy[k] has the sweeps list[start[k]] to list[start[k + 1] - 1], in order of time.
+  std::vector<std::uint32_t> busy, list;
+  std::vector<std::size_t> start;
+  std::vector<std::uint32_t> order;  // of busy: the largest first, so that the threads end together
+  std::vector<std::uint32_t> place;  // of each pair in the list
+
+ private:
+  std::vector<std::uint32_t> count_;
 };
 
 /// Which pairs of sweep and tile are wanted. The usual ones: of all tiles, where a column's centre is
@@ -52,11 +66,15 @@ class Planner {
   Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
           PlanScope scope = {});
 
-  /// Adds a motion of a tool; `spindle_off`: what it cuts is cut with a spindle that stands. `flush` is
-  /// called whenever the batch is full and returns false to stop.
-  template <class Flush>
-  void add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off, Batch& batch,
-           const Flush& flush);
+  /// Adds a motion of a tool; `spindle_off`: what it cuts is cut with a spindle that stands. An arc of more
+  /// chords than the batch holds is left unfinished.
+  void add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
+           Batch& batch);
+  bool unfinished() const { return chords_.next < chords_.count; }
+  /// Adds more of an unfinished motion, until it ends or the batch is full.
+  void go_on(Batch& batch);
+  /// Takes a motion as done: the next may follow it.
+  void pass_over(const Step& step, const MotionContext& context, std::uint32_t tool);
   /// Forgets where the tool was: nothing follows the sweep before.
   void interrupt() { cutting_tool_.reset(); }
 
@@ -65,11 +83,19 @@ class Planner {
     Point3 from, to;  // block frame
     bool is_swept = true;
   };
+  /// An arc on its way into batches.
+  struct Chords {
+    ArcWalk walk;
+    Sweep like;  // in all but its place
+    int next = 0, count = 0;
+    bool first_follows = false, others_follow = false;
+    Point3 from;
+  };
   Motion motion_of(const Step& step, const MotionContext& context) const;
-  Sweep line(Point3 from, Point3 to) const;
-  std::optional<Sweep> level_arc(const ArcWalk& walk) const;
+  void remember(const Step& step, std::uint32_t tool, Point3 end);
+  void add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
-  void emit(Sweep sweep, Batch& batch);
+  void emit(Sweep& sweep, Batch& batch);
   std::uint8_t passes_that_meet(const Sweep& sweep, std::uint8_t wanted, double& reach) const;
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
   /// Number of the tile a place along X or Y is in; any number below 0 or above the last outside.
@@ -90,6 +116,7 @@ class Planner {
   Point3 size_;
   std::optional<std::uint32_t> cutting_tool_;  // of the sweep before, if that cut
   Point3 end_;                                 // where it ended, block frame
+  Chords chords_;
 };
 
 /// Chords for the arc of `walk` at the simulator's tolerance, and whether that many are more than are made.
@@ -98,52 +125,5 @@ struct ChordCount {
   bool too_coarse = false;
 };
 ChordCount chord_count(const ArcWalk& walk);
-
-template <class Flush>
-void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
-                  Batch& batch, const Flush& flush) {
-  const Motion motion = motion_of(step, context);
-  const bool cuts = step.is_cutting();
-  if (!motion.is_swept) return interrupt();
-  const bool follows = cuts && cutting_tool_ == tool && end_ == motion.from;
-  const int parts = kPassNeck | kPassShank | kPassHolder;
-  const int passes =
-      cuts ? kPassCut | kPassOverFlute | parts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | parts;
-  const auto send = [&](Sweep sweep, bool follows_on) {
-    sweep.step = static_cast<std::uint32_t>(context.index);
-    sweep.tool = tool;
-    sweep.passes = static_cast<std::uint8_t>(passes);
-    sweep.follows = follows_on;
-    emit(sweep, batch);
-    return !batch.full() || flush();
-  };
-  cutting_tool_ = cuts ? std::optional(tool) : std::nullopt;
-  end_ = motion.to;
-  if (step.kind() != StepKind::arc || context.unknown_from != 0) {
-    send(line(motion.from, motion.to), follows);
-    return;
-  }
-  ArcWalk walk = walk_of(step, context.from);
-  const PlaneAxes axes = axes_of(walk.plane);
-  walk.u -= body_.bounds.low[axes.u];
-  walk.v -= body_.bounds.low[axes.v];
-  walk.start_w -= body_.bounds.low[axes.w];
-  walk.end_w -= body_.bounds.low[axes.w];
-  if (!can_meet(walk, tool)) return;
-  if (const std::optional<Sweep> arc = level_arc(walk)) {
-    send(*arc, false);
-    return;
-  }
-  const int count = chord_count(walk).count;
-  Point3 from = walk.at(0.0);
-  for (int k = 0; k < count; ++k) {
-    const Point3 to = walk.at((k + 1.0) / count);
-    Sweep chord = line(from, to);
-    chord.share_begin = static_cast<float>(k) / static_cast<float>(count);
-    chord.share_end = static_cast<float>(k + 1) / static_cast<float>(count);
-    if (!send(chord, cuts && (k > 0 || follows))) return;
-    from = to;
-  }
-}
 
 }  // namespace kerf::sim

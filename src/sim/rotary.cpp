@@ -14,6 +14,7 @@
 
 #include "sim/parallel.h"
 #include "sim/rotary_tool.h"
+#include "sim/solid.h"
 
 #include "kerf/number.h"
 
@@ -22,7 +23,9 @@ namespace sim {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kUsualRays = 1e6;
+/// Of the automatic distance: a move along a small bar then takes hundredths of a second. The work goes with
+/// the third power of the rays' number along a line, for the row of standing tools becomes denser too.
+constexpr double kUsualRays = 1e5;
 constexpr double kFinest = 0.02, kCoarsest = 1.0;  // mm, of the usual distance of rays
 constexpr double kLeast = 1e-3;                    // mm, of any
 constexpr double kMostPoses = 1e8;                 // hours of work
@@ -33,7 +36,6 @@ const Length kProfileChord = mm(0.001);            // frusta for arcs of a tool
 const Length kPathChord = mm(0.002);               // chords for arcs of the path
 constexpr double kClearance = 1e-4;                // mm, sideways contacts below it are rounding
 constexpr float kCrumb = 1e-5f;                    // mm, shorter runs are none
-constexpr double kAboveAll = 1e6;                  // mm, higher than any bar
 
 struct RotaryTool {
   Frusta cutting;
@@ -45,10 +47,10 @@ RotaryTool make_rotary_tool(const Silhouette& tool) {
   RotaryTool out;
   const Length none, clearance = mm(kClearance);
   out.cutting = Frusta(tool.cutting, kProfileChord, none);
-  const Profile* parts[] = {&tool.cutting, &tool.neck, &tool.shank, &tool.holder};
+  const Silhouette whole = held(tool);
+  const Profile* parts[] = {&whole.cutting, &whole.neck, &whole.shank, &whole.holder};
   for (int k = 0; k < 4; ++k) out.touching[k] = Frusta(*parts[k], kProfileChord, clearance);
-  if (!out.cutting.empty())
-    out.over_flute = Frusta(out.cutting.rim() - kClearance, out.cutting.top(), out.cutting.top() + kAboveAll);
+  out.over_flute = Frusta(radius_above_flutes(tool) - kClearance, out.cutting.top(), kAboveAll);
   return out;
 }
 
@@ -211,15 +213,20 @@ class Slab {
   Contacts contacts;
 
  private:
-  enum class Pass : std::uint8_t { cut, rapid, over_flute, contact };
+  enum class Pass : std::uint8_t { cut, contact };
   struct Pose {
     Point3 tip;
     double turn, share;
     const RotaryMotion* motion;
   };
   void apply(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose);
-  void apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose, int i, int j);
-  double take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, bool keeps, double& longest);
+  void apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose, const TiltedRay& seen,
+                    std::vector<Interval>& ray);
+  std::vector<Interval>& ray_at(int i, int j) {
+    return work_.rays[static_cast<std::size_t>(j) * static_cast<std::size_t>(work_.along) +
+                      static_cast<std::size_t>(i)];
+  }
+  double take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, double& longest);
   double taken_by(std::uint32_t step, HazardKind kind, const void* ray, double more);
   void note(HazardKind kind, const Pose& pose, Point3 at, double depth, double volume);
 
@@ -248,11 +255,11 @@ void Slab::cut(const RotaryMotion& motion, const RotaryTool& tool) {
                     motion.share_begin + t * (motion.share_end - motion.share_begin), &motion};
     if (pose.tip.x - rim > high || pose.tip.x + rim < low) continue;
     if (!motion.cuts) {
-      for (const Frusta& part : tool.touching) apply(part, Pass::rapid, HazardKind::rapid_in_stock, pose);
+      for (const Frusta& part : tool.touching) apply(part, Pass::contact, HazardKind::rapid_in_stock, pose);
       continue;
     }
     apply(tool.cutting, Pass::cut, HazardKind::spindle_off, pose);
-    apply(tool.over_flute, Pass::over_flute, HazardKind::over_flute, pose);
+    apply(tool.over_flute, Pass::contact, HazardKind::over_flute, pose);
     constexpr HazardKind kinds[] = {HazardKind::neck_contact, HazardKind::shank_contact,
                                     HazardKind::holder_contact};
     for (int part = 1; part < 4; ++part) apply(tool.touching[part], Pass::contact, kinds[part - 1], pose);
@@ -279,40 +286,38 @@ void Slab::apply(const Frusta& part, Pass pass, HazardKind kind, const Pose& pos
   const int start = static_cast<int>(first - std::floor(first / around) * around);
   for (int n = 0; n < count; ++n) {
     const int j = (start + n) % around;
-    for (int i = i0; i <= i1; ++i) apply_to_ray(part, pass, kind, pose, i, j);
+    const double angle = (j + 0.5) * kTurn / around - pose.turn;
+    TiltedRay seen{0.0, -beside, bar_.axis_z - pose.tip.z, -std::sin(angle), std::cos(angle)};
+    for (int i = i0; i <= i1; ++i) {
+      seen.x = bar_.x_low + (i + 0.5) * work_.dx - pose.tip.x;
+      apply_to_ray(part, pass, kind, pose, seen, ray_at(i, j));
+    }
   }
 }
 
-void Slab::apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose, int i, int j) {
-  std::vector<Interval>& ray =
-      work_.rays[static_cast<std::size_t>(j) * static_cast<std::size_t>(work_.along) +
-                 static_cast<std::size_t>(i)];
+void Slab::apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose,
+                        const TiltedRay& seen, std::vector<Interval>& ray) {
   if (ray.empty()) return;
-  const double angle = (j + 0.5) * kTurn / work_.around - pose.turn, x = bar_.x_low + (i + 0.5) * work_.dx;
-  const TiltedRay tilted{x - pose.tip.x, bar_.axis_y - pose.tip.y, bar_.axis_z - pose.tip.z, -std::sin(angle),
-                         std::cos(angle)};
   const auto reach = static_cast<double>(ray.back().high);
-  if (tilted.z + std::max(reach * tilted.cosine, 0.0) <= part.bottom()) return;
+  if (seen.z + std::max(reach * seen.cosine, 0.0) <= part.bottom()) return;
   stretches_.clear();
-  part.meet(tilted, reach, stretches_);
+  part.meet(seen, reach, stretches_);
   double volume = 0.0, longest = 0.0, surface = 0.0;
   for (const Stretch& s : stretches_) {
     if (pass != Pass::cut && s.high - s.low <= hazard_depth_) continue;
     const double before = longest;
-    volume += take(ray, s, pose.motion->step, pass == Pass::over_flute, longest);
+    volume += take(ray, s, pose.motion->step, longest);
     if (longest > before) surface = std::min(s.high, reach);
   }
   if (!(volume > 0.0)) return;
   volume *= work_.dx * kTurn / work_.around;
-  const bool keeps = pass == Pass::over_flute;
-  if (!keeps) {
-    if (removed.empty() || removed.back().first != pose.motion->step)
-      removed.emplace_back(pose.motion->step, 0.0);
-    removed.back().second += volume;
-  }
+  if (removed.empty() || removed.back().first != pose.motion->step)
+    removed.emplace_back(pose.motion->step, 0.0);
+  removed.back().second += volume;
   if (pass == Pass::cut && !pose.motion->spindle_off) return;
-  const Point3 at{x, bar_.axis_y + surface * tilted.sine, bar_.axis_z + surface * tilted.cosine};
-  const double depth = keeps ? longest : taken_by(pose.motion->step, kind, &ray, longest);
+  const Point3 at{pose.tip.x + seen.x, bar_.axis_y + surface * seen.sine,
+                  bar_.axis_z + surface * seen.cosine};
+  const double depth = taken_by(pose.motion->step, kind, &ray, longest);
   if (depth > hazard_depth_) note(kind, pose, at, depth, volume);
 }
 
@@ -326,8 +331,8 @@ double Slab::taken_by(std::uint32_t step, HazardKind kind, const void* ray, doub
 }
 
 /// Takes a stretch out of a ray. Returns the integral of r over what was taken, and raises `longest` to the
-/// longest piece. `keeps`: only looks.
-double Slab::take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, bool keeps, double& longest) {
+/// longest piece.
+double Slab::take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, double& longest) {
   const auto low = static_cast<float>(s.low), high = static_cast<float>(s.high);
   if (!(high > ray.front().low) || !(low < ray.back().high)) return 0.0;
   double sum = 0.0;
@@ -344,7 +349,7 @@ double Slab::take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, boo
     if (from > run.low + kCrumb) rest_.push_back({run.low, from, run.low_step, step});
     if (run.high > to + kCrumb) rest_.push_back({to, run.high, step, run.high_step});
   }
-  if (!keeps && sum > 0.0) ray.assign(rest_.begin(), rest_.end());
+  if (sum > 0.0) ray.assign(rest_.begin(), rest_.end());
   return sum;
 }
 
@@ -355,7 +360,7 @@ void Slab::note(HazardKind kind, const Pose& pose, Point3 at, double depth, doub
     contact.at = at;
   }
   contact.depth = std::max(contact.depth, depth);
-  contact.volume += kind == HazardKind::over_flute ? 0.0 : volume;
+  contact.volume += volume;
 }
 
 void merge(const Contacts& from, Contacts& into) {

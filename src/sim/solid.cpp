@@ -221,6 +221,27 @@ Solid make_solid(const Profile& profile, Length chord, Length shrink) {
   return solid;
 }
 
+double radius_above_flutes(const Silhouette& tool) {
+  if (tool.cutting.empty()) return 0.0;
+  const double flutes = tool.cutting.knots.back().r;
+  for (const Profile* part : {&tool.neck, &tool.shank, &tool.holder})
+    if (!part->empty()) return std::min(flutes, part->knots.front().r);
+  return flutes;
+}
+
+Silhouette held(Silhouette tool) {
+  for (Profile* part : {&tool.holder, &tool.shank, &tool.neck}) {
+    if (part->empty()) continue;
+    part->knots.back().bulge = 0.0;
+    part->knots.push_back({part->knots.back().r, part->top() + kAboveAll, 0.0});
+    return tool;
+  }
+  if (tool.cutting.empty()) return tool;
+  const double radius = tool.cutting.knots.back().r, top = tool.cutting.top();
+  if (radius > 0.0) tool.shank.knots = {{radius, top, 0.0}, {radius, top + kAboveAll, 0.0}};
+  return tool;
+}
+
 Solid make_cylinder(double radius, double bottom, double top) {
   Profile profile;
   profile.knots = {{radius, bottom, 0.0}, {radius, top, 0.0}};

@@ -63,4 +63,13 @@ Solid make_solid(const Profile& profile, Length chord, Length shrink);
 /// A cylinder from `bottom` to `top`.
 Solid make_cylinder(double radius, double bottom, double top);
 
+/// How far what holds a tool reaches upwards: higher than any stock that is accepted, mm.
+inline constexpr double kAboveAll = 1e6;
+/// Half the width of what follows the flutes, mm; no more than theirs at their end, so that a thicker shank
+/// is told of as a shank. Nothing drawn above the flutes: their own width goes on.
+double radius_above_flutes(const Silhouette& tool);
+/// The tool and what holds it, which nobody draws but which is surely there: its highest part goes on
+/// upwards; if there are only flutes, a shank of their width follows.
+Silhouette held(Silhouette tool);
+
 }  // namespace kerf::sim

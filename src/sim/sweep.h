@@ -19,14 +19,14 @@ enum PassBits : std::uint8_t {
   kPassNeck = 4,
   kPassShank = 8,
   kPassHolder = 16,
-  kPassRapid = 32,  // the cutting part at rapid speed; neck, shank and holder then count as the same hazard
+  kPassRapid = 32,       // the cutting part at rapid speed; neck, shank and holder then are the same hazard
   kPassSpindleOff = 64,  // with kPassCut: what is cut is cut by a spindle that stands still
 };
 
 /// A tool in pieces: the cutting part as it is, and all parts slightly shrunk for finding contacts.
 struct ToolSolids {
   Solid cutting;
-  Solid touching[4];  // cutting, neck, shank, holder, as ToolPart numbers them
+  Solid touching[4];  // cutting, neck, shank, holder, as ToolPart numbers them, see held()
   Solid over_flute;   // as wide as the tool is just above the flutes, from there upwards
 };
 

@@ -23,9 +23,9 @@ HWY_INLINE Vector take_open(Tile& tile, int micro, Vector low, Ids step, Real sa
   return old - now;
 }
 
-/// One interval of 16 columns less [low, high]; columns where that leaves two intervals are returned as bits,
-/// and the caller stores what is above the gap.
-HWY_INLINE unsigned take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Real same, Vector& taken) {
+/// One interval of 16 columns less [low, high]; returned are the columns where that leaves two intervals, and
+/// the caller stores what is above the gap.
+HWY_INLINE Mask take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Real same, Vector& taken) {
   const Vector l = load(slot.low), h = load(slot.high);
   const Vector a = higher_of(low, l), b = lower_of(high, h);
   const Mask bottom = a <= l + same, top = b + same >= h;
@@ -38,7 +38,7 @@ HWY_INLINE unsigned take_from_slot(Slot& slot, Vector low, Vector high, Ids step
   // Of an interval that ends here too: Tile::cut_through reads it.
   store_ids(select(with_new_top | all_of_it, step, load_ids(slot.high_step)), slot.high_step);
   taken = taken + select(all_of_it, h - l, only(meets, b - a));
-  return bits_of(meets & ~bottom & ~top);
+  return meets & ~bottom & ~top;
 }
 
 /// Finds the highest and lowest material of a micro with a chain again.
@@ -52,30 +52,68 @@ HWY_INLINE void update_bounds(Tile& tile, int micro) {
   tile.micro_bottom[micro] = lowest_of(low);
 }
 
+/// What is left above the gaps in intervals that a sweep has split, one a column.
+struct Remnants {
+  Mask split;
+  Vector low, high;
+  Ids low_step, high_step;
+};
+
+HWY_INLINE void store_where(Mask where, Vector v, Lanes& lanes) {
+  store(select(where, v, load(lanes)), lanes);
+}
+HWY_INLINE void store_where(Mask where, Ids v, std::uint32_t* ids) {
+  store_ids(select(where, v, load_ids(ids)), ids);
+}
+
+/// Puts remnants into a slot that is free in all their columns, into a new one if some column has none that
+/// is free, else column by column wherever there is room.
+HWY_INLINE void store_remnants(Tile& tile, int micro, const Remnants& rest) {
+  Slot* room = nullptr;
+  Mask full = rest.split;
+  for (std::int32_t k = tile.chain[micro]; k >= 0 && room == nullptr;
+       k = tile.slots[static_cast<std::size_t>(k)].next) {
+    Slot& slot = tile.slots[static_cast<std::size_t>(k)];
+    const Mask taken = rest.split & (load(slot.low) <= load(slot.high));
+    if (!any(taken)) room = &slot;
+    full = full & taken;
+  }
+  if (room == nullptr && any(full)) room = &tile.add_slot(micro);
+  if (room != nullptr) {
+    store_where(rest.split, rest.low, room->low);
+    store_where(rest.split, rest.high, room->high);
+    store_where(rest.split, rest.low_step, room->low_step);
+    return store_where(rest.split, rest.high_step, room->high_step);
+  }
+  Lanes low, high;
+  alignas(64) std::uint32_t low_step[kLanes], high_step[kLanes];
+  store(rest.low, low);
+  store(rest.high, high);
+  store_ids(rest.low_step, low_step);
+  store_ids(rest.high_step, high_step);
+  for (unsigned split = bits_of(rest.split); split != 0; split &= split - 1) {
+    const int i = __builtin_ctz(split);
+    tile.store_remnant(micro, {i, low[i], high[i], low_step[i], high_step[i]});
+  }
+}
+
 /// Takes [low, high] from a micro with a chain.
 HWY_INLINE Vector take_from_chain(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same) {
   Vector taken;
-  Remnant rests[kLanes];
-  int count = 0;
-  alignas(64) std::uint32_t steps[kLanes];
-  store_ids(step, steps);
-  Lanes gap_top;
-  store(high, gap_top);
+  Remnants rest{no_lane(), high, 0, step, step};
   for (std::int32_t k = tile.chain[micro]; k >= 0;) {
     Slot& slot = tile.slots[static_cast<std::size_t>(k)];
-    const Lanes old_high = slot.high;
-    alignas(64) std::uint32_t old_step[kLanes];
-    std::memcpy(old_step, slot.high_step, sizeof old_step);
+    const Vector old_high = load(slot.high);
+    const Ids old_step = load_ids(slot.high_step);
     // The intervals of a column do not overlap, so at most one of them is split.
-    for (unsigned split = take_from_slot(slot, low, high, step, same, taken); split != 0;
-         split &= split - 1) {
-      const int i = __builtin_ctz(split);
-      rests[count++] = {i, gap_top[i], old_high[i], steps[i], old_step[i]};
-    }
+    const Mask split = take_from_slot(slot, low, high, step, same, taken);
+    rest.split = rest.split | split;
+    rest.high = select(split, old_high, rest.high);
+    rest.high_step = select(split, old_step, rest.high_step);
     k = slot.next;
   }
   if (!any(taken > 0)) return taken;
-  for (int n = 0; n < count; ++n) tile.store_remnant(micro, rests[n]);
+  if (any(rest.split)) store_remnants(tile, micro, rest);
   update_bounds(tile, micro);
   return taken;
 }

@@ -43,9 +43,16 @@ class Slots {
  public:
   Slot& operator[](std::size_t k) { return (*pages_[k / kPage])[k % kPage]; }
   const Slot& operator[](std::size_t k) const { return (*pages_[k / kPage])[k % kPage]; }
+  Slots() = default;
+  Slots(const Slots& other) : size_(other.size_) {
+    for (const auto& page : other.pages_) pages_.push_back(std::make_unique<Page>(*page));
+  }
+  Slots(Slots&&) = default;
+  Slots& operator=(const Slots& other) { return *this = Slots(other); }
+  Slots& operator=(Slots&&) = default;
   std::size_t size() const { return size_; }
   Slot& add() {
-    if (size_ % kPage == 0) pages_.push_back(std::make_unique<Page>());
+    if (size_ % kPage == 0) pages_.emplace_back(new Page);  // not cleared: add_slot does that
     return (*this)[size_++];
   }
 
@@ -94,12 +101,20 @@ struct Tile {
   Slot& add_slot(int micro);
   /// Puts an interval into a free place of its column.
   void store_remnant(int micro, const Remnant& rest);
+  /// Asks for the memory that `lengths` will read of a micro, if there is such a micro.
+  void fetch(int micro) const {
+    if (micro >= kMicros || chain[micro] < 0) return;
+    const Slot& slot = slots[static_cast<std::size_t>(chain[micro])];
+    __builtin_prefetch(&slot.low);
+    __builtin_prefetch(&slot.high);
+    __builtin_prefetch(&slot.next);
+  }
   /// Length of material of each column of a micro.
   void lengths(int micro, Lanes& out) const;
   /// Appends the intervals of a column, lowest first.
   void intervals(int index, std::vector<Interval>& out) const;
-  /// The step that took the last material of a column without any; kStockSurface if there never was any.
-  std::uint32_t cut_through(int index) const;
+  /// The steps (see Workpiece::Body::step_of) that took material of a column without any last, one a slot.
+  void cut_through(int index, std::vector<std::uint32_t>& out) const;
 };
 
 }  // namespace kerf::sim
@@ -120,6 +135,9 @@ struct Workpiece::Body {
   sim::Real same_height = 0.0f;
   /// What the columns at walls hold more (or less) than their centres say, mm3; see walls.h.
   double wall_volume = 0.0;
+  /// Null, or which step each number that the tiles keep as a step stands for. Lets a toolpath be edited
+  /// without a change to tiles that the edit does not touch.
+  std::shared_ptr<const std::vector<std::uint32_t>> step_of;
   /// What the columns begin with; nothing where the block begins full. Tiles that begin otherwise exist from
   /// the start.
   std::shared_ptr<const ColumnRuns> start;
@@ -127,7 +145,16 @@ struct Workpiece::Body {
   sim::BlockStore<sim::Tile> store;
   std::vector<sim::BlockStore<sim::Tile>::Pointer> tiles;
 
+  std::uint32_t step(std::uint32_t number) const {
+    return step_of && number != kStockSurface ? (*step_of)[number] : number;
+  }
+  /// Appends the intervals of a column of a tile, lowest first, with their steps.
+  void intervals(const sim::Tile& tile, int index, std::vector<Interval>& out) const;
+  /// The step that took the last material of a column without any; kStockSurface if there never was any.
+  std::uint32_t cut_through(const sim::Tile& tile, int index) const;
   sim::Tile& touch(std::size_t tile);
+  /// Makes a touched tile what it was before the first cut.
+  void restore(std::size_t tile);
   int columns_x_of(std::size_t tile) const;
   int columns_y_of(std::size_t tile) const;
   /// Where column i (of row j) stands, mm from the block's low side: in the middle of its part in the block.

@@ -96,6 +96,11 @@ HWY_INLINE Vector root(Vector v) {
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::Sqrt(hn::ZeroIfNegative(v.part[p]));
   return v;
 }
+/// Square root; of negative numbers no number, which no comparison holds for.
+HWY_INLINE Vector root_or_nan(Vector v) {
+  for (int p = 0; p < kParts; ++p) v.part[p] = hn::Sqrt(v.part[p]);
+  return v;
+}
 HWY_INLINE Vector square(Vector v) { return v * v; }
 HWY_INLINE Vector clamped(Vector v, Vector low, Vector high) { return lower_of(higher_of(v, low), high); }
 
@@ -107,6 +112,11 @@ HWY_INLINE Mask operator<(Vector a, Vector b) {
 HWY_INLINE Mask operator<=(Vector a, Vector b) {
   Mask m;
   for (int p = 0; p < kParts; ++p) m.part[p] = hn::Le(a.part[p], b.part[p]);
+  return m;
+}
+HWY_INLINE Mask operator==(Vector a, Vector b) {
+  Mask m;
+  for (int p = 0; p < kParts; ++p) m.part[p] = hn::Eq(a.part[p], b.part[p]);
   return m;
 }
 HWY_INLINE Mask operator>(Vector a, Vector b) { return b < a; }

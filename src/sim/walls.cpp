@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "sim/parallel.h"
 #include "sim/start.h"
@@ -28,12 +29,13 @@ constexpr double kMostShare = 0.25;
 constexpr std::size_t kAlways = 1 << 16;
 constexpr std::size_t kMostColumns = 1 << 22;
 /// Columns kept as points at a time; bounds the memory to about 100 MB.
-constexpr std::size_t kGroupColumns = 1 << 19;
+constexpr std::size_t kGroupColumns = 1 << 16;
+
+/// Micros that memory is asked for ahead.
+constexpr int kAhead = 8;
 
 // ---- finding
 
-constexpr int kRing = 2;  // columns around a tile that are looked at
-constexpr int kWindow = kTileColumns + 2 * kRing;
 constexpr int kGrades = 32;
 
 /// Place of a column in its tile, from its lane_index.
@@ -67,45 +69,59 @@ Real length_at(const Workpiece::Body& body, int i, int j) {
   return length_in(*body.tiles[tile], lane_index(i % kTileColumns, j % kTileColumns));
 }
 
-/// The steps around the columns of one tile, graded by powers of two of the least that counts.
-class Window {
- public:
-  /// False if there is nothing to see in and around the tile.
-  bool look(const Workpiece::Body& body, std::size_t tile);
-  int grade(int x, int y) const { return grade_[y][x]; }  // -1: no wall
-
- private:
-  static bool untouched(const Workpiece::Body& body, int tile_x, int tile_y);
-  void read(const Workpiece::Body& body, int column, int row, const Tile* tile);
-  Real excess(Real before, Real a, Real b, Real after) const;
-  bool grade_row(int y);
-  void note(int x, int y, int grade) {
-    if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
-    grade_[y][x] = static_cast<std::int8_t>(std::max<int>(grade_[y][x], grade));
-  }
-
-  Real same_height_ = 0, most_explained_ = 0;
-  Real per_least_ = 0, per_least_level_ = 0;  // one divided by the least step that counts
-  int columns_ = 0, rows_ = 0;
-  Real length_[kWindow][kWindow];
-  std::int8_t grade_[kTileColumns][kTileColumns];
+/// The columns of a tile that walls may go through, by lane_index, and how high the steps there are, graded
+/// by powers of two of the least that counts.
+struct Candidates {
+  std::vector<std::uint16_t> columns;
+  std::vector<std::int8_t> grades;
 };
 
-bool Window::untouched(const Workpiece::Body& body, int tile_x, int tile_y) {
-  for (int y = std::max(tile_y - 1, 0); y <= std::min(tile_y + 1, body.tiles_y - 1); ++y)
-    for (int x = std::max(tile_x - 1, 0); x <= std::min(tile_x + 1, body.tiles_x - 1); ++x)
-      if (body.tiles[static_cast<std::size_t>(y) * static_cast<std::size_t>(body.tiles_x) +
-                     static_cast<std::size_t>(x)])
+/// The steps around the columns of one tile.
+class Window {
+ public:
+  explicit Window(const Workpiece::Body& body);
+  Candidates look(std::size_t tile);
+
+ private:
+  bool untouched(int tile_x, int tile_y) const;
+  void read(int column, int row, const Tile* tile);
+  void note(int x, int y, int grade);
+
+  const Workpiece::Body& body_;
+  StepRules rules_;
+  int columns_ = 0, rows_ = 0;
+  WindowLengths length_;
+  std::int8_t grade_[kTileColumns * kTileColumns];  // by lane_index; -1: no wall
+  std::vector<ColumnStep> steps_;
+  std::vector<std::uint16_t> noted_;
+};
+
+Window::Window(const Workpiece::Body& body) : body_(body) {
+  const auto pitch = static_cast<Real>(body.pitch);
+  rules_.explained_by_lower = kExplainedByLower;
+  rules_.explained_by_higher = kExplainedByHigher;
+  rules_.most_explained = kMostExplained * pitch;
+  rules_.per_least = 1 / (kLeastStep * pitch);
+  rules_.per_least_level = 1 / std::max(kLeastLevelStep * pitch, body.same_height);
+  rules_.same_height = body.same_height;
+  std::fill(std::begin(grade_), std::end(grade_), std::int8_t{-1});
+}
+
+bool Window::untouched(int tile_x, int tile_y) const {
+  for (int y = std::max(tile_y - 1, 0); y <= std::min(tile_y + 1, body_.tiles_y - 1); ++y)
+    for (int x = std::max(tile_x - 1, 0); x <= std::min(tile_x + 1, body_.tiles_x - 1); ++x)
+      if (body_.tiles[static_cast<std::size_t>(y) * static_cast<std::size_t>(body_.tiles_x) +
+                      static_cast<std::size_t>(x)])
         return false;
   return true;
 }
 
-void Window::read(const Workpiece::Body& body, int column, int row, const Tile* tile) {
+void Window::read(int column, int row, const Tile* tile) {
   for (int y = 0; y < kWindow; ++y) {
     const bool inside = tile != nullptr && y >= kRing && y < kRing + rows_;
     for (int x = 0; x < kWindow; ++x) {
       if (inside && x == kRing) x += columns_;
-      if (x < kWindow) length_[y][x] = length_at(body, column + x - kRing, row + y - kRing);
+      if (x < kWindow) length_[y][x] = length_at(body_, column + x - kRing, row + y - kRing);
     }
   }
   if (tile == nullptr) return;
@@ -113,69 +129,44 @@ void Window::read(const Workpiece::Body& body, int column, int row, const Tile* 
     const Place place = place_of(micro * kLanes);
     if (place.x >= columns_ || place.y >= rows_) continue;
     Lanes lengths;
+    tile->fetch(micro + kAhead);
     tile->lengths(micro, lengths);
-    const auto across = static_cast<std::size_t>(std::min(columns_ - place.x, 4));
+    const int across = std::min(columns_ - place.x, 4);
     for (int y = 0; y < std::min(rows_ - place.y, 4); ++y)
-      std::copy_n(lengths.v + 4 * y, across, &length_[place.y + y + kRing][place.x + kRing]);
+      for (int x = 0; x < across; ++x) length_[place.y + y + kRing][place.x + x + kRing] = lengths[4 * y + x];
   }
 }
 
-/// Of four columns in a row: by how much the step in the middle exceeds what is explained, in least steps
-/// that count.
-inline Real Window::excess(Real before, Real a, Real b, Real after) const {
-  const Real middle = b - a, left = a - before, right = after - b;
-  const Real step = std::abs(middle), l = std::abs(left), r = std::abs(right);
-  const Real lower = l < r ? l : r, higher = l < r ? r : l;
-  const bool same_way = (left * middle > 0) & (right * middle > 0);
-  const Real by_lower = (same_way ? kExplainedByLower : 0.0f) * lower;
-  const Real by_higher =
-      kExplainedByHigher * higher < most_explained_ ? kExplainedByHigher * higher : most_explained_;
-  const Real rest = (step - (by_lower > by_higher ? by_lower : by_higher)) * per_least_;
-  const Real level = higher <= same_height_ ? step * per_least_level_ : 0.0f;
-  return rest > level ? rest : level;
+void Window::note(int x, int y, int grade) {
+  if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
+  const int index = lane_index(x, y);
+  if (grade_[index] < 0) noted_.push_back(static_cast<std::uint16_t>(index));
+  grade_[index] = static_cast<std::int8_t>(std::max<int>(grade_[index], grade));
 }
 
-/// Grades the steps between a row's columns, and between them and the next row's.
-bool Window::grade_row(int y) {
-  Real across[kWindow], along[kWindow];
-  Real most = 0;
-  for (int x = kRing - 1; x < kWindow - kRing; ++x) {
-    across[x] = excess(length_[y][x - 1], length_[y][x], length_[y][x + 1], length_[y][x + 2]);
-    along[x] = excess(length_[y - 1][x], length_[y][x], length_[y + 1][x], length_[y + 2][x]);
-    const Real larger = across[x] > along[x] ? across[x] : along[x];
-    most = larger > most ? larger : most;
-  }
-  if (most < 1) return false;
-  const auto grade = [](Real excess) { return std::min(std::ilogb(excess), kGrades - 1); };
-  for (int x = kRing - 1; x < kWindow - kRing; ++x) {
-    if (across[x] >= 1) {
-      note(x - kRing, y - kRing, grade(across[x]));
-      note(x + 1 - kRing, y - kRing, grade(across[x]));
-    }
-    if (along[x] >= 1) {
-      note(x - kRing, y - kRing, grade(along[x]));
-      note(x - kRing, y + 1 - kRing, grade(along[x]));
-    }
-  }
-  return true;
-}
-
-bool Window::look(const Workpiece::Body& body, std::size_t tile) {
-  const auto tiles_x = static_cast<std::size_t>(body.tiles_x);
+Candidates Window::look(std::size_t tile) {
+  const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
   const auto tile_x = static_cast<int>(tile % tiles_x), tile_y = static_cast<int>(tile / tiles_x);
-  if (!body.tiles[tile] && untouched(body, tile_x, tile_y)) return false;
-  const auto pitch = static_cast<Real>(body.pitch);
-  per_least_ = 1 / (kLeastStep * pitch);
-  per_least_level_ = 1 / std::max(kLeastLevelStep * pitch, body.same_height);
-  most_explained_ = kMostExplained * pitch;
-  same_height_ = body.same_height;
-  columns_ = body.columns_x_of(tile);
-  rows_ = body.columns_y_of(tile);
-  read(body, tile_x * kTileColumns, tile_y * kTileColumns, body.tiles[tile].get());
-  for (auto& row : grade_) std::fill(std::begin(row), std::end(row), std::int8_t{-1});
-  bool any = false;
-  for (int y = kRing - 1; y < kWindow - kRing; ++y) any = grade_row(y) || any;
-  return any;
+  if (!body_.tiles[tile] && untouched(tile_x, tile_y)) return {};
+  columns_ = body_.columns_x_of(tile);
+  rows_ = body_.columns_y_of(tile);
+  read(tile_x * kTileColumns, tile_y * kTileColumns, body_.tiles[tile].get());
+  steps_.clear();
+  find_steps(rules_, length_, steps_);
+  noted_.clear();
+  for (const ColumnStep& step : steps_) {
+    const int x = step.x - kRing, y = step.y - kRing;
+    const int grade = std::min(std::ilogb(step.excess), kGrades - 1);
+    note(x, y, grade);
+    note(step.way == StepWay::along_x ? x + 1 : x, step.way == StepWay::along_x ? y : y + 1, grade);
+  }
+  Candidates found;
+  std::sort(noted_.begin(), noted_.end());
+  for (const std::uint16_t index : noted_) {
+    found.columns.push_back(index);
+    found.grades.push_back(std::exchange(grade_[index], std::int8_t{-1}));
+  }
+  return found;
 }
 
 /// The lowest grade that leaves no more columns than are affordable.
@@ -229,17 +220,12 @@ double weighted_length(const Tile& tile, const std::vector<Real>& weights) {
     const Real* weight = weights.data() + micro * kLanes;
     if (std::all_of(weight, weight + kLanes, [](Real v) { return v == 0; })) continue;
     Lanes lengths;
+    tile.fetch(micro + kAhead);
     tile.lengths(micro, lengths);
     for (int i = 0; i < kLanes; ++i) sum += static_cast<double>(lengths[i]) * static_cast<double>(weight[i]);
   }
   return sum;
 }
-
-/// The columns of a tile that walls may go through, by lane_index, and how high the steps there are.
-struct Candidates {
-  std::vector<std::uint16_t> columns;
-  std::vector<std::int8_t> grades;
-};
 
 }  // namespace
 
@@ -247,16 +233,8 @@ std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned thread
   std::array<std::atomic<std::size_t>, kGrades> count{};
   std::vector<Candidates> candidates(body.tiles.size());
   const auto look = [&](std::size_t tile) {
-    Window window;
-    if (!window.look(body, tile)) return;
-    for (int index = 0; index < kTileColumns * kTileColumns; ++index) {
-      const Place place = place_of(index);
-      const int grade = window.grade(place.x, place.y);
-      if (grade < 0) continue;
-      ++count[static_cast<std::size_t>(grade)];
-      candidates[tile].columns.push_back(static_cast<std::uint16_t>(index));
-      candidates[tile].grades.push_back(static_cast<std::int8_t>(grade));
-    }
+    candidates[tile] = Window(body).look(tile);
+    for (const std::int8_t grade : candidates[tile].grades) ++count[static_cast<std::size_t>(grade)];
   };
   parallel_for(threads, body.tiles.size(), look, [] { return false; });
   const int lowest = lowest_grade(count, body);
@@ -339,20 +317,28 @@ double WallTile::excess() const {
   return sum;
 }
 
-WallGroup::WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next)
-    : wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
+WallGroup::WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next,
+                     unsigned threads)
+    : threads_(threads), wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
+  const std::size_t first = next;
   for (std::size_t columns = 0; next < found.size() && columns < kGroupColumns; ++next) {
     const WallColumns& walls = found[next];
     columns += walls.columns.size();
     wanted_[walls.tile] = true;
-    place_[walls.tile] = static_cast<std::uint32_t>(walls_.size());
-    walls_.push_back(store_.make(body, walls, parts_));
+    place_[walls.tile] = static_cast<std::uint32_t>(next - first);
   }
+  walls_.resize(next - first);
+  parallel_for(
+      threads_, walls_.size(),
+      [&](std::size_t n) { walls_[n] = store_.make(body, found[first + n], parts_); }, [] { return false; });
 }
 
 double WallGroup::excess() const {
+  std::vector<double> each(walls_.size());
+  parallel_for(
+      threads_, walls_.size(), [&](std::size_t n) { each[n] = walls_[n]->excess(); }, [] { return false; });
   double sum = 0.0;
-  for (const auto& walls : walls_) sum += walls->excess();
+  for (const double excess : each) sum += excess;
   return sum;
 }
 

@@ -60,13 +60,15 @@ class WallTile {
 class WallGroup {
  public:
   /// Takes from `found`, from number `next` on, which is moved on.
-  WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next);
+  WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next,
+            unsigned threads);
 
   const std::vector<bool>& tiles() const { return wanted_; }
   void cut(std::size_t tile, const TileJob& job) { walls_[place_[tile]]->cut(job); }
   double excess() const;
 
  private:
+  unsigned threads_;
   std::vector<bool> wanted_;
   std::vector<std::uint32_t> place_;  // of a tile in walls_
   WallTile::Parts parts_;

@@ -4,20 +4,21 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/start.h"
 #include "sim/tile.h"
 
 namespace kerf {
 namespace sim {
 
 Tile::Tile(Real height, int columns_x, int columns_y) {
-  for (int micro = 0; micro < kMicros; ++micro) {
-    std::fill_n(top[micro].v, kLanes, 0.0f);
-    std::fill_n(top_step[micro], kLanes, kStockSurface);
-    chain[micro] = -1;
-    micro_top[micro] = 0.0f;
-    micro_bottom[micro] = 0.0f;
-  }
-  for (int y = 0; y < columns_y; ++y) {
+  const bool is_whole = columns_x == kTileColumns && columns_y == kTileColumns;
+  const Real everywhere = is_whole ? height : 0.0f;
+  std::fill_n(top[0].v, kMicros * kLanes, everywhere);
+  std::fill_n(top_step[0], kMicros * kLanes, kStockSurface);
+  std::fill_n(micro_top, kMicros, everywhere);
+  std::fill_n(micro_bottom, kMicros, 0.0f);
+  std::fill_n(chain, kMicros, -1);
+  for (int y = 0; y < columns_y && !is_whole; ++y) {
     for (int x = 0; x < columns_x; ++x) {
       const int index = lane_index(x, y);
       top[index / kLanes][index % kLanes] = height;
@@ -101,16 +102,12 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
             [](const Interval& a, const Interval& b) { return a.low < b.low; });
 }
 
-std::uint32_t Tile::cut_through(int index) const {
+void Tile::cut_through(int index, std::vector<std::uint32_t>& out) const {
   const int micro = index / kLanes, lane = index % kLanes;
-  if (chain[micro] < 0) return top_step[micro][lane];
-  // An interval that ends keeps the step of its end as that of its high end. Steps are in order of time.
-  std::uint32_t last = kStockSurface;
-  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
-    const std::uint32_t step = slots[static_cast<std::size_t>(k)].high_step[lane];
-    if (step != kStockSurface && (last == kStockSurface || step > last)) last = step;
-  }
-  return last;
+  if (chain[micro] < 0) out.push_back(top_step[micro][lane]);
+  // An interval that ends keeps the step of its end as that of its high end.
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next)
+    out.push_back(slots[static_cast<std::size_t>(k)].high_step[lane]);
 }
 
 namespace {
@@ -158,9 +155,33 @@ int Workpiece::Body::columns_y_of(std::size_t tile) const {
   return std::min(ny - first, sim::kTileColumns);
 }
 
+void Workpiece::Body::intervals(const sim::Tile& tile, int index, std::vector<Interval>& out) const {
+  const std::size_t begin = out.size();
+  tile.intervals(index, out);
+  if (!step_of) return;
+  for (std::size_t k = begin; k < out.size(); ++k) {
+    out[k].low_step = step(out[k].low_step);
+    out[k].high_step = step(out[k].high_step);
+  }
+}
+
+std::uint32_t Workpiece::Body::cut_through(const sim::Tile& tile, int index) const {
+  std::vector<std::uint32_t> numbers;
+  tile.cut_through(index, numbers);
+  std::uint32_t last = kStockSurface;  // steps are in order of time
+  for (const std::uint32_t number : numbers)
+    if (number != kStockSurface && (last == kStockSurface || step(number) > last)) last = step(number);
+  return last;
+}
+
 sim::Tile& Workpiece::Body::touch(std::size_t tile) {
   if (!tiles[tile]) tiles[tile] = store.make(height, columns_x_of(tile), columns_y_of(tile));
   return *tiles[tile];
+}
+
+void Workpiece::Body::restore(std::size_t tile) {
+  *tiles[tile] = sim::Tile(height, columns_x_of(tile), columns_y_of(tile));
+  sim::fill_start_tile(*this, tile, *tiles[tile]);
 }
 
 double Workpiece::Body::place_x(int i) const { return sim::place_inside(i, pitch, bounds.size().x); }
@@ -188,7 +209,7 @@ std::vector<Interval> Workpiece::column(int i, int j) const {
   if (!body_->tiles[tile]) {
     out.push_back({0.0f, body_->height, kStockSurface, kStockSurface});
   } else {
-    body_->tiles[tile]->intervals(sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns), out);
+    body_->intervals(*body_->tiles[tile], sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns), out);
   }
   return out;
 }
@@ -203,6 +224,8 @@ ColumnGrid Workpiece::grid() const {
   const std::size_t count = static_cast<std::size_t>(body.nx) * static_cast<std::size_t>(body.ny);
   grid.first.reserve(count + 1);
   grid.intervals.reserve(count);
+  sim::use_huge_pages(grid.first.data(), (count + 1) * sizeof grid.first[0]);
+  sim::use_huge_pages(grid.intervals.data(), count * sizeof grid.intervals[0]);
   for (int j = 0; j < body.ny; ++j) {
     const std::size_t row =
         static_cast<std::size_t>(j / sim::kTileColumns) * static_cast<std::size_t>(body.tiles_x);
@@ -213,10 +236,10 @@ ColumnGrid Workpiece::grid() const {
         grid.intervals.push_back({0.0f, body.height, kStockSurface, kStockSurface});
       } else {
         const int index = sim::lane_index(i % sim::kTileColumns, j % sim::kTileColumns);
-        tile->intervals(index, grid.intervals);
+        body.intervals(*tile, index, grid.intervals);
         if (grid.first.back() != grid.intervals.size()) continue;
         if (grid.cut_through.empty()) grid.cut_through.assign(count, kStockSurface);
-        grid.cut_through[grid.first.size() - 1] = tile->cut_through(index);
+        grid.cut_through[grid.first.size() - 1] = body.cut_through(*tile, index);
       }
     }
   }

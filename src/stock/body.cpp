@@ -20,7 +20,7 @@ struct LatticeHash {
       h = (h ^ static_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15u;
       h ^= h >> 29;
     }
-    return h;
+    return static_cast<std::size_t>(h);
   }
 };
 

@@ -71,7 +71,7 @@ void SurfaceDistance::Tree::build(std::uint32_t begin, std::uint32_t end) {
   const Point3 size = middles.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(triangles.begin() + begin, triangles.begin() + middle, triangles.begin() + end,
+  std::nth_element(triangles.data() + begin, triangles.data() + middle, triangles.data() + end,
                    [axis](const auto& a, const auto& b) {
                      return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
                    });

@@ -181,7 +181,7 @@ def follow(text, canon):
         Path(folder, "v.var").write_text("")
         Path(folder, "part.ngc").write_text(text)
         done = subprocess.run(["rs274", "-v", "v.var", "-t", "tool.tbl", "-g", "part.ngc"], cwd=folder,
-                              capture_output=True, text=True, timeout=60)
+                              capture_output=True, text=True, timeout=300)
     for line in done.stdout.splitlines():
         match = CALL.match(line)
         if match:

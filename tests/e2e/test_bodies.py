@@ -83,6 +83,35 @@ def test_fixtures_are_hazards(kerf, program, box):
     assert kerf("check", "--fixture", "0,0,0 to 5,5,4", path).status == 0
 
 
+CLAMPED = ("G21 G90\nM6 T102\nM3 S9000\nG0 X-10 Y5 Z20\nG0 Z-2\nG1 X10 F500\nG0 X30\nG0 X50\nG0 Z20\n"
+           "G0 X5\nG0 Z-2\nG0 Z20\nM2\n")
+
+
+def test_every_move_through_a_clamp_is_told(kerf, program):
+    path = program(CLAMPED)
+    job = ("check", "--stock", "0,0,-30 to 60,40,-20", "--fixture", "0,0,-5 to 6,10,0",
+           "--fixture", "20,0,-5 to 26,10,0")
+    run = kerf(*job, "--json", path)
+    found = [(h["origin"]["line"], h["message"].split('"')[1]) for h in run.json["hazards"]
+             if h["kind"] == "fixture_contact"]
+    first, second = "0,0,-5 to 6,10,0", "20,0,-5 to 26,10,0"
+    assert found == [(6, first), (7, second), (11, first), (12, first)]
+    lines = [line for line in kerf(*job, path).out.splitlines() if "[fixture_contact]" in line]
+    assert len(lines) == 3 and "in 2 moves" in lines[2]  # the two clamps are never one line
+
+
+def test_fixtures_on_a_fourth_axis_are_refused(kerf, program):
+    run = kerf("check", "--rotary", "d=20 length=30", "--fixture", "0,0,0 to 5,5,5", program(WRAP))
+    assert run.status == 2 and "not looked for on a fourth axis" in run.err
+
+
+def test_a_fourth_axis_says_the_distance_that_it_chose(kerf, program):
+    path = program(WRAP)
+    run = kerf("simulate", "--json", "--rotary", "d=10 length=60", path)
+    assert run.json["resolution_mm"] == pytest.approx(0.137, abs=1e-3)
+    assert "0.137 mm apart" in kerf("simulate", "--rotary", "d=10 length=60", path).out
+
+
 def test_compare(kerf, program, box, files):
     path = program()
     target = box("target.stl", BLOCK[0], (40, 30, 0))
@@ -100,6 +129,9 @@ def test_compare(kerf, program, box, files):
     outside = kerf("compare", "--json", path, target, "--target-shift", "0,0,3")
     assert "target_outside" in outside.codes()
     assert kerf("compare", path, target, "-o", "part.stl").status == 2
+    # --size is that of --view's picture.
+    assert kerf("compare", path, target, "-o", "map.png", "--size", "10x10").status == 2
+    assert "full from 0.25 mm" in kerf("compare", path, target, "-o", "map.png").out
 
 
 WRAP = ("G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\n"

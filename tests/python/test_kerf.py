@@ -119,6 +119,8 @@ def test_tools():
     (lambda p: kerf.Stock.block((1e308, 1, 1)), "size must be from"),
     (lambda p: kerf.Stock.block((1e6, 1, 1)), "size must be from 0 to 100000 mm"),
     (lambda p: kerf.Tool("square d=3", number=-5), "number must be from 0"),
+    (lambda p: kerf.Tool(10**20), "spec must be from 0 to 999999999"),
+    (lambda p: kerf.save_left_stock(None, "left.stl"), "written as .kstock, not as 'left.stl'"),
     (lambda p: kerf.ToolTable().__setitem__(-5, kerf.Tool(102)), "number must be from 0"),
     (lambda p: kerf.simulate(p, kerf.Stock.block((1, 1, 1)), threads=-1), "threads must be from 0 to 1024"),
 ])
@@ -131,11 +133,23 @@ def test_values_out_of_range_are_value_errors_that_say_the_range(call, words):
 @pytest.mark.parametrize("call, words", [
     (lambda: kerf.load(3), "path"),
     (lambda: kerf.Tool.make("square", diameter="x"), "diameter must be a number"),
+    (lambda: kerf.Tool(None), "spec must be a str"),
+    (lambda: kerf.simulate(kerf.Toolpath(), None), "stock must be a stock"),
 ])
 def test_values_of_a_wrong_type_say_what_is_expected(call, words):
     with pytest.raises(TypeError) as caught:
         call()
     assert words in str(caught.value).lower()
+
+
+@pytest.mark.parametrize("number, words", [
+    (999999999, "no tool 999999999 is known"),
+    ("99999999999", "no tool 99999999999 is known; numbers have at most 9 digits"),
+])
+def test_an_unknown_number_is_no_shape(number, words):
+    with pytest.raises(kerf.Error) as caught:
+        kerf.Tool(number)
+    assert words in str(caught.value)
 
 
 def test_a_tool_by_its_number():

@@ -107,7 +107,8 @@ def test_bad_outlines_are_refused(outlines):
     lambda r: kerf.fit_spline(SQUARE, [NAN] * 9),
     lambda r: kerf.fit_spline(SQUARE, list(range(9)), degree=100),
     lambda r: kerf.flattened(SQUARE, NAN),
-], ids=range(25))
+    lambda r: kerf.flattened(SQUARE, 0),
+], ids=range(26))
 def test_bad_arguments_are_refused(call):
     with pytest.raises((kerf.Error, TypeError, ValueError)):
         call(kerf.Region([SQUARE]))

@@ -9,7 +9,7 @@ from sources import CPP, files, finish, root_of
 
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
-CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png"}
+CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png", "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
 BACK = {"back_drawing", "back_gcmc", "back_gcode"}
 # What each module may include besides itself. There is no ring, as each line uses only lines above it.
@@ -20,6 +20,7 @@ ALLOWED = {
     "stock": GEOMETRY,
     "path": {"tool", "stock"} | GEOMETRY,
     **{codec: {"base"} for codec in CODEC},
+    "codec_mesh": {"codec_zip", "base"},  # 3MF is a zip
     **{front: PATH | CODEC for front in FRONT},
     **{back: PATH | CODEC for back in BACK},
     "sim": PATH,
@@ -34,7 +35,7 @@ PUBLIC = {
     "tool": ["tool.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
-    "sim": ["simulate.h", "fixtures.h", "compare.h", "rotary.h"],
+    "sim": ["simulate.h", "live.h", "fixtures.h", "compare.h", "rotary.h", "print.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "back_gcmc": ["gcmc_drawing.h"],

@@ -44,7 +44,7 @@ class Drawn {
 
  private:
   static std::size_t mixed(std::size_t hash, double value) {
-    return hash * 1'099'511'628'211u ^ std::hash<double>{}(value);
+    return static_cast<std::size_t>(hash * 1'099'511'628'211u) ^ std::hash<double>{}(value);
   }
   static std::size_t hash(const drawing::Line& l) {
     return mixed(mixed(mixed(mixed(0, l.x1), l.y1), l.x2), l.y2);

@@ -117,8 +117,8 @@ std::string write_columns(const ColumnData& data) {
   mesh_format::append_little(out, data.nx);
   mesh_format::append_little(out, data.ny);
   const auto same = [&data](std::size_t a, std::size_t b) {
-    return std::equal(data.runs.begin() + data.first[a], data.runs.begin() + data.first[a + 1],
-                      data.runs.begin() + data.first[b], data.runs.begin() + data.first[b + 1]);
+    return std::equal(data.runs.data() + data.first[a], data.runs.data() + data.first[a + 1],
+                      data.runs.data() + data.first[b], data.runs.data() + data.first[b + 1]);
   };
   const std::size_t columns = data.first.empty() ? 0 : data.first.size() - 1;
   for (std::size_t n = 0; n < columns;) {

@@ -24,30 +24,35 @@ double linear(std::uint8_t value) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-/// Collects the binary part and its descriptions.
+/// Triangles of one colour, by number.
+using Triangles = std::vector<std::uint32_t>;
+
+/// A GLB's description, which comes before the numbers that it describes.
 class Asset {
  public:
   explicit Asset(const MeshView& mesh) : mesh_(mesh) {}
-  /// Adds the triangles (numbers) as a primitive; no colour: the default material.
-  void add_primitive(const std::vector<std::uint32_t>& triangles, std::size_t colour);
-  std::string finish();
+  /// Adds triangles as a primitive; no colour: the default material.
+  void add_primitive(const Triangles& triangles, std::size_t colour);
+  /// Bytes of all primitives' numbers, in the order in which they were added: positions, then steps.
+  std::size_t binary_size() const { return binary_size_; }
+  std::string json() const;
 
  private:
-  std::size_t add_accessor(std::size_t offset, const char* type, std::size_t count);
+  std::size_t add_accessor(std::size_t numbers, const char* type, std::size_t count);
   std::size_t add_material(std::size_t colour);
 
   const MeshView& mesh_;
-  std::string binary_;
+  std::size_t binary_size_ = 0;
   Json accessors_ = Json::array(), views_ = Json::array(), materials_ = Json::array(),
        primitives_ = Json::array();
 };
 
-/// Describes what was appended to the binary part since `offset`.
-std::size_t Asset::add_accessor(std::size_t offset, const char* type, std::size_t count) {
-  views_.push_back({{"buffer", 0},
-                    {"byteOffset", offset},
-                    {"byteLength", binary_.size() - offset},
-                    {"target", kArrayBuffer}});
+/// Describes the next numbers of the binary part.
+std::size_t Asset::add_accessor(std::size_t numbers, const char* type, std::size_t count) {
+  const std::size_t bytes = numbers * sizeof(float);
+  views_.push_back(
+      {{"buffer", 0}, {"byteOffset", binary_size_}, {"byteLength", bytes}, {"target", kArrayBuffer}});
+  binary_size_ += bytes;
   accessors_.push_back(
       {{"bufferView", views_.size() - 1}, {"componentType", kFloat}, {"count", count}, {"type", type}});
   return accessors_.size() - 1;
@@ -63,42 +68,43 @@ std::size_t Asset::add_material(std::size_t colour) {
   return materials_.size() - 1;
 }
 
-void Asset::add_primitive(const std::vector<std::uint32_t>& triangles, std::size_t colour) {
+/// The position of a corner of a triangle.
+const float* position_of(const MeshView& mesh, std::uint32_t triangle, std::size_t corner) {
+  return mesh.positions.data() + std::size_t{3} * mesh.triangles[std::size_t{3} * triangle + corner];
+}
+
+/// Attributes of a mesh may not be 32-bit integers; a float holds steps up to 16 million exactly. -1: no
+/// step.
+float step_of(const MeshView& mesh, std::uint32_t triangle) {
+  const bool known =
+      triangle < mesh.step.size() && mesh.step[triangle] != std::numeric_limits<std::uint32_t>::max();
+  return known ? static_cast<float>(mesh.step[triangle]) : -1.0f;
+}
+
+void Asset::add_primitive(const Triangles& triangles, std::size_t colour) {
   if (triangles.empty()) return;
   const std::size_t count = 3 * triangles.size();
   std::array<float, 3> low, high;
   low.fill(std::numeric_limits<float>::max());
   high.fill(std::numeric_limits<float>::lowest());
-  const std::size_t positions_at = binary_.size();
   for (const std::uint32_t t : triangles) {
-    for (std::size_t k = 0; k < 9; ++k) {
-      const float v = mesh_.positions[std::size_t{3} * mesh_.triangles[std::size_t{3} * t + k / 3] + k % 3];
-      append_little(binary_, v);
-      low[k % 3] = std::min(low[k % 3], v);
-      high[k % 3] = std::max(high[k % 3], v);
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const float* p = position_of(mesh_, t, corner);
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], p[k]);
+        high[k] = std::max(high[k], p[k]);
+      }
     }
   }
-  const std::size_t positions = add_accessor(positions_at, "VEC3", count);
+  const std::size_t positions = add_accessor(3 * count, "VEC3", count);
   accessors_[positions]["min"] = low;
   accessors_[positions]["max"] = high;
-
   Json attributes = {{"POSITION", positions}};
-  if (!mesh_.step.empty()) {
-    // Attributes of a mesh may not be 32-bit integers; a float holds steps up to 16 million exactly. -1: no
-    // step.
-    const std::size_t steps_at = binary_.size();
-    for (const std::uint32_t t : triangles) {
-      const bool known = t < mesh_.step.size() && mesh_.step[t] != std::numeric_limits<std::uint32_t>::max();
-      for (int k = 0; k < 3; ++k) append_little(binary_, known ? static_cast<float>(mesh_.step[t]) : -1.0f);
-    }
-    attributes["_STEP"] = add_accessor(steps_at, "SCALAR", count);
-  }
+  if (!mesh_.step.empty()) attributes["_STEP"] = add_accessor(count, "SCALAR", count);
   primitives_.push_back({{"attributes", attributes}, {"material", add_material(colour)}, {"mode", 4}});
 }
 
-std::string Asset::finish() {
-  // Lengths in a GLB have 32 bits; the description takes well under the last 16 MiB.
-  if (binary_.size() > std::numeric_limits<std::uint32_t>::max() - (std::size_t{16} << 20)) return {};
+std::string Asset::json() const {
   Json json = {{"asset", {{"version", "2.0"}, {"generator", "Kerf"}}}};
   const std::string name = plain_name(mesh_);
   if (!primitives_.empty()) {
@@ -113,34 +119,62 @@ std::string Asset::finish() {
     json["materials"] = materials_;
     json["accessors"] = accessors_;
     json["bufferViews"] = views_;
-    json["buffers"] = Json::array({{{"byteLength", binary_.size()}}});
+    json["buffers"] = Json::array({{{"byteLength", binary_size_}}});
   }
   std::string text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
-  const bool has_binary = !binary_.empty();
-  std::string out = "glTF";
-  out.reserve(28 + text.size() + binary_.size());
-  append_little(out, std::uint32_t{2});
-  append_little(out, static_cast<std::uint32_t>(20 + text.size() + (has_binary ? 8 + binary_.size() : 0)));
-  append_little(out, static_cast<std::uint32_t>(text.size()));
-  out += "JSON" + text;
-  if (has_binary) {
-    append_little(out, static_cast<std::uint32_t>(binary_.size()));
-    out.append("BIN\0", 4);
-    out += binary_;
+  return text;
+}
+
+/// The numbers of a primitive, some at a time, since a string grows faster by pieces than by numbers.
+void append_numbers(const MeshView& mesh, const Triangles& triangles, std::string& out) {
+  constexpr std::size_t kPiece = 4096;
+  std::string piece;
+  piece.reserve(kPiece + 9 * sizeof(float));
+  const auto add = [&](float number) { append_little(piece, number); };
+  const auto pass_on = [&](std::size_t at_least) {
+    if (piece.size() < at_least) return;
+    out += piece;
+    piece.clear();
+  };
+  for (const std::uint32_t t : triangles) {
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      for (int k = 0; k < 3; ++k) add(position_of(mesh, t, corner)[k]);
+    pass_on(kPiece);
   }
-  return out;
+  for (const std::uint32_t t : triangles) {
+    if (mesh.step.empty()) break;
+    for (int corner = 0; corner < 3; ++corner) add(step_of(mesh, t));
+    pass_on(kPiece);
+  }
+  pass_on(1);
 }
 
 }  // namespace
 
 std::string write_glb(const MeshView& mesh) {
-  std::vector<std::vector<std::uint32_t>> by_colour(mesh.palette.size() + 1);
+  std::vector<Triangles> by_colour(mesh.palette.size() + 1);
   for (std::size_t t = 0; t < triangle_count(mesh); ++t)
     by_colour[colour_of(mesh, t)].push_back(static_cast<std::uint32_t>(t));
   Asset asset(mesh);
   for (std::size_t c = 0; c < by_colour.size(); ++c) asset.add_primitive(by_colour[c], c);
-  return asset.finish();
+  // Lengths in a GLB have 32 bits; the description takes well under the last 16 MiB.
+  if (asset.binary_size() > std::numeric_limits<std::uint32_t>::max() - (std::size_t{16} << 20)) return {};
+  const std::string json = asset.json();
+  const bool has_binary = asset.binary_size() != 0;
+  const std::size_t size = 20 + json.size() + (has_binary ? 8 + asset.binary_size() : 0);
+  std::string out = "glTF";
+  out.reserve(size);
+  append_little(out, std::uint32_t{2});
+  append_little(out, static_cast<std::uint32_t>(size));
+  append_little(out, static_cast<std::uint32_t>(json.size()));
+  out += "JSON" + json;
+  if (has_binary) {
+    append_little(out, static_cast<std::uint32_t>(asset.binary_size()));
+    out.append("BIN\0", 4);
+    for (const Triangles& triangles : by_colour) append_numbers(mesh, triangles, out);
+  }
+  return out;
 }
 
 }  // namespace kerf::mesh_format

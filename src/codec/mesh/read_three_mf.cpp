@@ -7,63 +7,21 @@
 #include <expat.h>
 #include <fmt/format.h>
 #include <map>
-#include <minizip/unzip.h>
 #include <set>
 #include <vector>
 
 #include "codec/mesh/readers.h"
-#include "codec/mesh/zip_memory.h"
+#include "codec/zip/zip.h"
 
 #include "kerf/number.h"
 
 namespace kerf::mesh_format {
 namespace {
 
-constexpr std::size_t kPiece = std::size_t{1} << 16;      // bytes unpacked at a time
 constexpr std::size_t kAnyRatio = std::size_t{64} << 20;  // bytes that a small file may unpack to
 constexpr std::size_t kMostRatio = 400;                   // beyond: times its packed size
 constexpr std::size_t kMostParts = 10'000;                // parts, and uses of objects
 constexpr int kDeepest = 32;                              // objects within objects
-
-// ---- the zip
-
-uLong write_nothing(voidpf, voidpf, const void*, uLong) { return 0; }
-
-class Package {
- public:
-  explicit Package(std::string_view bytes) : memory_{bytes, 0} {
-    auto calls = memory_.calls(write_nothing);
-    zip_ = unzOpen2_64("", &calls);
-  }
-  ~Package() {
-    if (zip_ != nullptr) unzClose(zip_);
-  }
-  Package(const Package&) = delete;
-  Package& operator=(const Package&) = delete;
-
-  bool is_zip() const { return zip_ != nullptr; }
-  /// Hands a part to `take` piece by piece until that returns false. False if there is no such part or it is
-  /// damaged.
-  template <class Take>
-  bool unpack(const std::string& part, const Take& take) {
-    constexpr int kAnyCase = 2;
-    if (unzLocateFile(zip_, part.c_str(), kAnyCase) != UNZ_OK || unzOpenCurrentFile(zip_) != UNZ_OK)
-      return false;
-    std::vector<char> piece(kPiece);
-    int got = 0;
-    bool more = true;
-    do {
-      got = unzReadCurrentFile(zip_, piece.data(), static_cast<unsigned>(piece.size()));
-      if (got >= 0) more = take(std::string_view(piece.data(), static_cast<std::size_t>(got)), got == 0);
-    } while (got > 0 && more);
-    const bool whole = unzCloseCurrentFile(zip_) == UNZ_OK;
-    return got >= 0 && (whole || !more);
-  }
-
- private:
-  ZipMemory<std::string_view> memory_;
-  unzFile zip_ = nullptr;
-};
 
 // ---- the XML
 
@@ -264,7 +222,7 @@ void PartReader::add_use(const Attributes& attributes, std::vector<Use>& uses) {
 // ---- the file
 
 /// The part that _rels/.rels names as the model; the usual one where that does not help.
-std::string model_part(Package& package) {
+std::string model_part(zip::Reader& package) {
   struct Found {
     std::string target = "3D/3dmodel.model";
   } found;
@@ -322,7 +280,7 @@ bool place_object(const Model& model, const Use& use, const Affine& outer, int d
 }  // namespace
 
 bool read_three_mf(std::string_view bytes, MeshMaker& out) {
-  Package package(bytes);
+  zip::Reader package(bytes);
   if (!package.is_zip()) return out.fail("the file is no zip, as a 3MF is");
   Model model;
   std::set<std::string> done, open{model_part(package)};

@@ -5,57 +5,14 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <iterator>
-#include <minizip/zip.h>
 
 #include "codec/mesh/writers.h"
-#include "codec/mesh/zip_memory.h"
+#include "codec/zip/zip.h"
 
 namespace kerf::mesh_format {
 namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 16;
-
-using Memory = ZipMemory<std::string>;
-
-uLong write_memory(voidpf, voidpf stream, const void* from, uLong size) {
-  Memory& memory = Memory::of(stream);
-  if (memory.bytes.size() < memory.at + size) memory.bytes.resize(memory.at + size);
-  std::copy_n(static_cast<const char*>(from), size, memory.bytes.data() + memory.at);
-  memory.at += size;
-  return size;
-}
-
-/// A zip in memory. Parts are written one after the other; text is handed to the compressor in pieces.
-class Package {
- public:
-  Package() {
-    auto calls = memory_.calls(write_memory);
-    zip_ = zipOpen2_64("", APPEND_STATUS_CREATE, nullptr, &calls);
-  }
-  /// Begins a part; `large` where it may be longer than 4 GiB (readers of small files need not know zip64).
-  enum class Size : int { small = 0, large = 1 };
-  void begin(const char* part, Size size = Size::small) {
-    zip_fileinfo info{};
-    info.tmz_date.tm_year = 1980;  // the first day a zip can tell, so that the bytes do not change with time
-    info.tmz_date.tm_mday = 1;
-    zipOpenNewFileInZip64(zip_, part, &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, kLevel,
-                          static_cast<int>(size));
-  }
-  void write(std::string_view text) {
-    zipWriteInFileInZip(zip_, text.data(), static_cast<unsigned>(text.size()));
-  }
-  void end() { zipCloseFileInZip(zip_); }
-  std::string finish() {
-    zipClose(zip_, nullptr);
-    return std::move(memory_.bytes);
-  }
-
- private:
-  /// Quick compression: meshes shrink little more at higher levels, in several times the time.
-  static constexpr int kLevel = 3;
-  Memory memory_;
-  zipFile zip_ = nullptr;
-};
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -73,7 +30,7 @@ std::string escaped(std::string_view text) {
 
 class ModelWriter {
  public:
-  explicit ModelWriter(Package& package) : package_(package) { text_.reserve(kPiece + 4096); }
+  explicit ModelWriter(zip::Writer& package) : package_(package) { text_.reserve(kPiece + 4096); }
   ~ModelWriter() { package_.write(text_); }
   template <class... Args>
   void add(fmt::format_string<Args...> format, Args&&... args) {
@@ -84,7 +41,7 @@ class ModelWriter {
   }
 
  private:
-  Package& package_;
+  zip::Writer& package_;
   std::string text_;
 };
 
@@ -140,7 +97,7 @@ constexpr std::string_view kRelations =
 }  // namespace
 
 std::string write_three_mf(const MeshView& mesh) {
-  Package package;
+  zip::Writer package;
   package.begin("[Content_Types].xml");
   package.write(kContentTypes);
   package.end();
@@ -149,7 +106,7 @@ std::string write_three_mf(const MeshView& mesh) {
   package.end();
   // A line of the model has at most 100 bytes.
   const bool large = (vertex_count(mesh) + triangle_count(mesh)) > (std::size_t{1} << 32) / 100;
-  package.begin("3D/3dmodel.model", large ? Package::Size::large : Package::Size::small);
+  package.begin("3D/3dmodel.model", large ? zip::Writer::Size::large : zip::Writer::Size::small);
   write_model(ModelWriter(package), mesh);
   package.end();
   return package.finish();

@@ -201,7 +201,7 @@ Value insert(const Call& call) {
     call.fail(Code::gcmc_range,
               fmt::format("{}(): argument 2 index {} out of range [-{}..{}]", call.name, i, size + 1, size));
   }
-  const std::int64_t place = i < 0 ? i + size + 1 : i;
+  const auto place = static_cast<std::ptrdiff_t>(i < 0 ? i + size + 1 : i);
   Value v = std::move(call[0]);
   const Value& item = call[1];
   if (v.is_string()) {

@@ -45,14 +45,16 @@ constexpr Meeting meeting_of(Tag a, Tag b) {
   return static_cast<Meeting>(result | (whole_a ? +kLeftInteger : 0) | (whole_b ? +kRightInteger : 0) |
                               kPlain | (ua == ub ? +kComparable : 0));
 }
+/// Where two tags' meeting stands in the table.
+constexpr std::size_t meeting_at(Tag a, Tag b) { return static_cast<std::size_t>(a * kTags + b); }
 constexpr std::array<Meeting, kTags * kTags> all_meetings() {
   std::array<Meeting, kTags * kTags> all{};
   for (Tag a = 0; a < kTags; ++a)
-    for (Tag b = 0; b < kTags; ++b) all[a * kTags + b] = meeting_of(a, b);
+    for (Tag b = 0; b < kTags; ++b) all[meeting_at(a, b)] = meeting_of(a, b);
   return all;
 }
 inline constexpr auto kMeetings = all_meetings();
-inline Meeting meeting(Scalar a, Scalar b) { return kMeetings[a.tag * kTags + b.tag]; }
+inline Meeting meeting(Scalar a, Scalar b) { return kMeetings[meeting_at(a.tag, b.tag)]; }
 inline double left_number(Scalar a, Meeting m) {
   return m & kLeftInteger ? static_cast<double>(a.p.i) : a.p.d;
 }

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "front/gcode/interpreter.h"
+#include "front/gcode/print_remarks.h"
 #include "front/gcode/remarks.h"
 
 namespace kerf::gcode {
@@ -33,6 +34,12 @@ constexpr std::size_t kMostWaiting = 1000;  // remarks before the units are know
 void Interpreter::read_comment(const Comment& comment) {
   const std::string_view text = trimmed(comment.text);
   if (text.size() > kLongestComment) return;
+  if (is_printer()) {
+    if (const auto bead = read_bead_remark(text)) {
+      (bead->measure == BeadMeasure::width ? bead_width_ : bead_height_) = bead->mm;
+      return;
+    }
+  }
   if (begins_with(text, "MSG")) {
     const std::string_view rest = trimmed(text.substr(3));
     if (rest.empty() || rest.front() != ',') return;

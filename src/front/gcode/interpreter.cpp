@@ -29,8 +29,9 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
       max_steps_(std::min(options.max_steps, text.size() / kBytesOfStep + options.max_made_steps)),
       after_end_(options.after_end.value_or(usual_after_end(program.dialect, options))),
       file_(program.path.origins().file(options.file_name)) {
-  const bool printer = program.dialect == GcodeDialect::marlin || program.dialect == GcodeDialect::klipper;
-  if (printer) line_.follow(LetterRules::printer);
+  if (!is_printer()) return;
+  set_filament(text);
+  line_.follow(LetterRules::printer);
 }
 
 void Interpreter::run(const Block& block) {
@@ -152,7 +153,8 @@ void Interpreter::finish() {
                                   "the comment describes a tool, but no tool change follows");
   tell_silent_spindle();
   program_.cut_short = full_ || flow_->gave_up();
-  if (!program_.ended && !program_.cut_short && path_.size() > 0)
+  const bool ends = !is_printer();  // a printer stops where its program stops
+  if (ends && !program_.ended && !program_.cut_short && path_.size() > 0)
     talker_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",
                     "was it cut off?");
 }

@@ -143,6 +143,9 @@ class Interpreter : public SystemValues {
   void execute();
 
   void look_where_we_are();
+  bool is_printer() const {
+    return program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
+  }
   bool printer_line();
 
   // plain.cpp
@@ -200,6 +203,9 @@ class Interpreter : public SystemValues {
   // printer.cpp
   void printer_code();
   void printer_reference();
+  void set_filament(std::string_view text);
+  void set_volumetric();
+  bool filament_is_relative() const;
   void extrude(const Place& to, double feed);
   void extrude_arc(const ArcWalk& walk, const Place& to, Feed feed);
 
@@ -327,8 +333,11 @@ class Interpreter : public SystemValues {
   std::optional<Point2> last_curve_handle_;  // of G5: second control point, from the end
   LaserMode beam_mode_ = LaserMode::off;
   double beam_power_ = 0.0;
-  double filament_ = 0.0;  // E position, mm
+  double filament_ = 0.0;           // E position, mm (mm3 where E tells volumes)
+  double filament_diameter_ = 0.0;  // mm
   bool filament_relative_ = false;
+  bool volumetric_ = false;                      // M200: E tells volumes
+  double bead_width_ = 0.0, bead_height_ = 0.0;  // mm, as remarks tell; 0: not told
   CycleMemory cycle_;
   Compensation compensation_;
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "front/gcode/interpreter.h"
+#include "front/gcode/print_remarks.h"
 
 namespace kerf::gcode {
 namespace {
@@ -16,13 +17,13 @@ constexpr double kHottest = 2000.0;  // degrees Celsius that can be meant
 constexpr double kChord = 0.01;      // mm that a bead may stray from its arc
 constexpr int kMostChords = 10'000;
 constexpr int kMostFans = 100;
+constexpr double kUsualFilament = 1.75;  // mm
 
 }  // namespace
 
 /// True for a line whose M code only a printer has.
 bool Interpreter::printer_line() {
-  const bool printer = program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
-  if (!printer) return false;
+  if (!is_printer()) return false;
   if (line_.has('T') && !line_.has_codes()) {  // changes at once
     select_tool();
     if (modes_.selected_tool) {
@@ -61,6 +62,7 @@ void Interpreter::printer_code() {
       add(step::Fan{fan, std::clamp(power / kFullFan, 0.0, 1.0)});
       return;
     }
+    case 200: return set_volumetric();
     default: add(step::Verbatim{fmt::format("M{}", code)}); return;  // the machine's own matter
   }
 }
@@ -87,17 +89,37 @@ void Interpreter::printer_reference() {
   line_.use(kAllLetters);
 }
 
-/// A straight move with an E word: a bead where it moves, filament pushed or drawn back where it stands.
+/// How thick the filament is: as told by the caller, by the program's remarks, as usual.
+void Interpreter::set_filament(std::string_view text) {
+  filament_diameter_ = options_.filament_diameter ? *options_.filament_diameter
+                                                  : told_filament_diameter(text).value_or(kUsualFilament);
+}
+
+/// M200: with a diameter (D) above 0 the E words tell volumes from here on; S1 and S0 switch that alone.
+void Interpreter::set_volumetric() {
+  const auto diameter = line_.take('D'), on = line_.take('S');
+  if (diameter) volumetric_ = *diameter > 0.0;
+  if (on) volumetric_ = *on != 0.0;
+}
+
+/// Marlin's G91 holds for E too; Klipper's does not.
+bool Interpreter::filament_is_relative() const {
+  return filament_relative_ || (program_.dialect == GcodeDialect::marlin && !modes_.absolute);
+}
+
+/// A straight move with an E word: a bead where it moves, or filament pushed or drawn back.
 void Interpreter::extrude(const Place& to, double feed) {
   const double e = line_.take('E').value_or(0.0);
-  const double pushed = (filament_relative_ ? e : e - filament_) * modes_.scale;
-  filament_ = filament_relative_ ? filament_ + e : e;
-  const double area = std::numbers::pi / 4.0 * options_.filament_diameter * options_.filament_diameter;
-  const bool moves = !(to.at == here_.at);
-  if (moves && !(pushed > 0.0)) return cut(to, feed);
+  const bool relative = filament_is_relative();
+  const double pushed = relative ? e : e - filament_;
+  filament_ = relative ? filament_ + e : e;
+  const double area = std::numbers::pi / 4.0 * filament_diameter_ * filament_diameter_;
+  if (!(to.at == here_.at) && pushed == 0.0) return cut(to, feed);
   step::Extrude bead;
   bead.to = to.at;
-  bead.volume = Volume::raw(pushed * area);
+  bead.volume = Volume::raw(volumetric_ ? pushed : pushed * modes_.scale * area);
+  bead.width = mm(bead_width_);
+  bead.height = mm(bead_height_);
   bead.feed = mm_per_min(feed);
   if (std::isfinite(bead.volume.raw()) && add(bead)) arrive(to);
 }
@@ -105,10 +127,10 @@ void Interpreter::extrude(const Place& to, double feed) {
 /// Beads are straight: an arc with an E word becomes chords, each with its share.
 void Interpreter::extrude_arc(const ArcWalk& walk, const Place& to, Feed feed) {
   const double e = line_.take('E').value_or(0.0);
-  const double pushed = filament_relative_ ? e : e - filament_;
+  const bool relative = filament_is_relative();
+  const double pushed = relative ? e : e - filament_;
   const int count = walk.chords(mm(kChord), kMostChords);
   const double begin = filament_;
-  const bool relative = filament_relative_;
   for (int i = 1; i <= count; ++i) {
     Place next = to;
     if (i < count) next.at = walk.at(i / double(count));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <vector>
 
+#include "codec/zip/zip.h"
 #include "front/tools/settings.h"
 
 #include "kerf/names.h"
@@ -143,7 +144,7 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   const Origin where = TextSpot{std::string(file_name), 0, 0};
   std::string unpacked;
   if (bytes.substr(0, 4) == kZipMark) {
-    auto inner = detail::unzip_first(bytes, kLargestLibrary);
+    auto inner = zip::Reader(bytes).first(kLargestLibrary);
     if (!inner) {
       diagnostics.error(Code::tool_library_unreadable, where, "the zip archive is damaged, or too large");
       return;

@@ -49,7 +49,4 @@ void read_json_library(std::string_view text, ToolLibraryKind kind, LibraryWrite
 /// The kind of a library in JSON; nothing if the text is none.
 std::optional<ToolLibraryKind> json_library_kind(std::string_view text);
 
-/// The first file of a zip archive; nothing where it is damaged or larger than `limit` bytes.
-std::optional<std::string> unzip_first(std::string_view bytes, std::size_t limit);
-
 }  // namespace kerf::detail

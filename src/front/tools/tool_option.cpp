@@ -11,7 +11,7 @@ namespace kerf {
 namespace {
 
 constexpr std::size_t kLongestOption = 4096;
-constexpr int kHighestNumber = 99'999'999;
+constexpr std::size_t kMostDigits = 9;  // of a tool's number
 
 /// Words between blanks or commas; "=" binds to both sides even where blanks stand around it.
 std::vector<std::string_view> words_of(std::string_view text) {
@@ -36,12 +36,14 @@ std::vector<std::string_view> words_of(std::string_view text) {
   return words;
 }
 
+bool is_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 std::optional<int> whole_number(std::string_view text) {
-  if (text.empty() || text.size() > 8 || text.find_first_not_of("0123456789") != std::string_view::npos) {
-    return std::nullopt;
-  }
+  if (!is_digits(text) || text.size() > kMostDigits) return std::nullopt;
   const auto value = parse_number(text);
-  return value && *value <= kHighestNumber ? std::optional(static_cast<int>(*value)) : std::nullopt;
+  return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
 }
 
 /// A tool of the table, or the one that a six-digit number describes.
@@ -109,6 +111,12 @@ std::optional<Tool> read_tool_option(std::string_view text, const Origin& where,
     return std::nullopt;
   }
   if (const auto number = whole_number(trim(text))) return tool_of_number(*number, where, diagnostics);
+  if (is_digits(trim(text))) {
+    diagnostics.error(Code::tool_unknown, where,
+                      fmt::format("no tool {} is known; numbers have at most {} digits",
+                                  trim(text).substr(0, 40), kMostDigits));
+    return std::nullopt;
+  }
   return tool_of_words(words_of(text), where, diagnostics);
 }
 

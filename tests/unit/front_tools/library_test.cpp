@@ -4,6 +4,8 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "codec/zip/zip.h"
+
 #include "kerf/tool_files.h"
 #include "kerf/tool_libraries.h"
 
@@ -117,26 +119,19 @@ TEST(ToolLibrary, WhatIsNoLibrary) {
   EXPECT_TRUE(Read("PK\x03\x04 no zip").says(Code::tool_library_unreadable));
 }
 
-/// A zip archive with one stored file.
-std::string stored_zip(const std::string& content) {
-  const auto number = [](std::size_t value, int bytes) {
-    std::string out;
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>((value >> (8 * i)) & 0xff);
-    return out;
-  };
-  const std::string sizes = number(content.size(), 4) + number(content.size(), 4);
-  const std::string common = number(0, 4) + number(0, 4) + number(0, 4) + sizes + number(1, 2) + number(0, 2);
-  const std::string local = "PK\x03\x04" + number(20, 2) + common + "a" + content;
-  const std::string central = "PK\x01\x02" + number(20, 2) + number(20, 2) + common + number(0, 14) + "a";
-  return local + central + "PK\x05\x06" + number(0, 4) + number(1, 2) + number(1, 2) +
-         number(central.size(), 4) + number(local.size(), 4) + number(0, 2);
+std::string zipped(std::string_view content) {
+  zip::Writer archive;
+  archive.begin("tools.json");
+  archive.write(content);
+  archive.end();
+  return archive.finish();
 }
 
 TEST(ToolLibrary, AZippedFusionLibrary) {
-  const Read read(stored_zip(R"({"data": [{"type": "flat end mill", "unit": "millimeters",
+  const Read read(zipped(R"({"data": [{"type": "flat end mill", "unit": "millimeters",
     "geometry": {"DC": 6, "LCF": 12}, "post-process": {"number": 3}}]})"));
   EXPECT_EQ(read.shape(3), "square");
-  std::string cut = stored_zip("{}");
+  std::string cut = zipped("{}");
   cut.resize(cut.size() - 30);
   EXPECT_TRUE(Read(cut).says(Code::tool_library_unreadable));
 }

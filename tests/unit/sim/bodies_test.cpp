@@ -77,6 +77,23 @@ TEST(BodyStock, RapidsThroughAHollowMeetNothing) {
   EXPECT_EQ(result->hazards[0].step, 3u);
 }
 
+TEST(BodyStock, RapidsWithTheShankThroughAMeshAreTold) {
+  // The flutes pass below a ball, what holds them goes through it.
+  ToolTable tools;
+  tools.set(1, make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 5, 0}})));
+  Path path;
+  path.tool(1).rapid({-30, 0, -40}).rapid({30, 0, -40});
+  Diagnostics diagnostics;
+  const auto result =
+      run(path.path(), tools, stock_of_mesh(sphere_mesh({0, 0, 0}, 10, 100)), 0.1, diagnostics);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->hazards.size(), 1u);
+  EXPECT_EQ(result->hazards[0].kind, HazardKind::rapid_in_stock);
+  EXPECT_NEAR(result->hazards[0].depth.mm(), 20.0, 0.05);
+  const double exact = std::numbers::pi * (100.0 * 6.0 - 2.0 * 9.0);  // the slab |y| < 3
+  EXPECT_NEAR(result->hazards[0].removed.mm3(), exact, 0.01 * exact);
+}
+
 TEST(LeftStock, BothSidesMeetInTheMiddle) {
   // A pocket from the top and, after half a turn about the block's own middle, the same one from below:
   // through.
@@ -117,18 +134,42 @@ TEST(Fixtures, EveryPartAtFeedAndRapid) {
   const auto found = find_fixture_contacts(path.path(), tools, fixtures, {}, diagnostics);
   ASSERT_TRUE(found);
   EXPECT_TRUE(diagnostics.list().empty());
-  ASSERT_EQ(found->size(), 3u);
-  EXPECT_EQ((*found)[0].fixture, 0u);
-  EXPECT_EQ((*found)[0].step, 2u);
-  EXPECT_EQ((*found)[0].part, ToolPart::cutting);
-  EXPECT_NEAR((*found)[0].depth.mm(), 3.0, 1e-3);
+  // In and out again, at feed and at rapid speed: the clamp stays whole, so that each move meets it.
+  struct Expected {
+    std::size_t fixture;
+    std::uint32_t step;
+    std::optional<ToolPart> part;
+    double depth;
+  };
+  const std::vector<Expected> expected{
+      {0, 2, ToolPart::cutting, 3}, {0, 3, {}, 3}, {0, 6, {}, 1}, {0, 7, {}, 1}, {1, 10, ToolPart::shank, 8}};
+  ASSERT_EQ(found->size(), expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) {
+    SCOPED_TRACE(k);
+    EXPECT_EQ((*found)[k].fixture, expected[k].fixture);
+    EXPECT_EQ((*found)[k].step, expected[k].step);
+    EXPECT_EQ((*found)[k].part, expected[k].part);
+    EXPECT_NEAR((*found)[k].depth.mm(), expected[k].depth, 1e-3);
+  }
   EXPECT_NEAR((*found)[0].at.x, 0.0, 0.05);
-  EXPECT_EQ((*found)[1].step, 6u);
-  EXPECT_FALSE((*found)[1].part);
-  EXPECT_NEAR((*found)[1].depth.mm(), 1.0, 1e-3);
-  EXPECT_EQ((*found)[2].fixture, 1u);
-  EXPECT_EQ((*found)[2].step, 10u);
-  EXPECT_EQ((*found)[2].part, ToolPart::shank);
+  EXPECT_NEAR((*found)[0].met.mm3(), (*found)[1].met.mm3(), 0.01);
+  EXPECT_NEAR((*found)[2].met.mm3(), std::numbers::pi * 9.0, 0.1);
+}
+
+TEST(Fixtures, AMoveOfManyChordsMeetsWhatItMeetsOnce) {
+  // A helix that turns three times at the same place in the clamp.
+  Path path;
+  path.tool(1).rapid({25, 20, 10}).cut({25, 20, 4.0});
+  path.arc(
+      {.to = {25, 20, 3}, .centre = {20, 20}, .turn = Turn::ccw, .extra_turns = 2, .feed = mm_per_min(100)});
+  Diagnostics diagnostics;
+  const auto found = find_fixture_contacts(
+      path.path(), square_6(), std::vector{fixture("clamp", {{0, 0, 0}, {40, 40, 4}})}, {}, diagnostics);
+  ASSERT_TRUE(found);
+  ASSERT_EQ(found->size(), 1u);
+  const double ring = std::numbers::pi * (64 - 4);  // radii 2 and 8
+  EXPECT_LT((*found)[0].met.mm3(), ring * 1.0);
+  EXPECT_GT((*found)[0].met.mm3(), ring * 0.8);
 }
 
 TEST(Fixtures, WhatOnlyTouchesIsNoContact) {

@@ -50,6 +50,83 @@ TEST(Hazards, RapidThroughTheStockIsReportedWithPlaceDepthAndVolume) {
   EXPECT_NEAR(hazards[0].removed.mm3(), exact, 0.01 * exact);
 }
 
+TEST(Hazards, RapidWithFlutesAlreadyThroughTheStock) {
+  // The flutes pass below a plate of 10 mm; what is above them goes through it, drawn or not.
+  Tool flutes = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 5, 0}})), all = whole_tool(1);
+  const Profile none;
+  struct Case {
+    const char* name;
+    Tool tool;
+    double z, radius, depth;
+  };
+  std::vector<Case> cases{{"flutes only", flutes, -30, 3, 10}, {"half a flute", flutes, -13, 3, 10}};
+  cases.push_back({"neck", all, -20, 2.5, 10});
+  cases.push_back({"shank", all, -39, 4, 10});
+  cases.push_back({"holder", all, -55, 15, 10});
+  cases.push_back({"above the holder", all, -200, 15, 10});
+  all.silhouette.holder = none;
+  cases.push_back({"above the shank", all, -200, 4, 10});
+  for (const Case& c : cases) {
+    ToolTable tools;
+    tools.set(1, c.tool);
+    Path path;
+    path.tool(1).rapid({-20, 20, c.z}).rapid({80, 20, c.z});
+    Diagnostics diagnostics;
+    const auto result = run(path.path(), tools, block({0, 0, -10}, {60, 40, 0}), kPitch, diagnostics);
+    ASSERT_TRUE(result) << c.name;
+    ASSERT_EQ(result->hazards.size(), 1u) << c.name;
+    const Hazard& h = result->hazards[0];
+    EXPECT_EQ(h.kind, HazardKind::rapid_in_stock) << c.name;
+    EXPECT_NEAR(h.depth.mm(), c.depth, 1e-3) << c.name;
+    EXPECT_NEAR(h.removed.mm3(), 60 * 2 * c.radius * 10, 0.01 * 60 * 2 * c.radius * 10) << c.name;
+    EXPECT_NEAR(h.at.x, 0.05, 1e-6) << c.name;
+  }
+}
+
+TEST(Hazards, RapidWithAllPartsInTheStockCountsThemTogether) {
+  // Straight down 45 mm into a block of 50: flutes, neck, shank and 5 mm of the holder.
+  Path path;
+  path.tool(1).rapid({30, 20, 2}).rapid({30, 20, -45});
+  const auto hazards = hazards_of(path, 50);
+  ASSERT_EQ(hazards.size(), 1u);
+  EXPECT_EQ(hazards[0].kind, HazardKind::rapid_in_stock);
+  EXPECT_NEAR(hazards[0].depth.mm(), 45.0, 1e-3);
+  // The flutes open the whole hole above them; the shank a wider one from 25 on, the holder from 5 on.
+  const double exact = std::numbers::pi * (9 * 45 + (16 - 9) * 25 + (225 - 16) * 5);
+  EXPECT_NEAR(hazards[0].removed.mm3(), exact, 2e-3 * exact);
+}
+
+TEST(Hazards, RapidInAPocketWhoseWallsOnlyTheHolderMeets) {
+  // A pocket of 20 x 20, 8 deep, and a tool whose holder of 30 begins 6 above the tip.
+  Tool tool = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 6, 0}}));
+  tool.silhouette.holder = profile({{15, 6, 0}, {15, 30, 0}});
+  Tool long_tool = make_drawn(2, profile({{0, 0, 0}, {3, 0, 0}, {3, 30, 0}}));
+  ToolTable tools;
+  tools.set(1, tool);
+  tools.set(2, long_tool);
+  for (const double z : {-5.9, -7.0}) {
+    Path path;
+    path.tool(2).rapid({20, 10, 5}).cut({20, 10, -8});
+    for (double y = 10; y <= 24; y += 4) path.cut({20, y, -8}).cut({34, y, -8}).cut({20, y, -8});
+    path.rapid({20, 22, 5}).tool(1).rapid({27, 18, 5}).rapid({27, 18, z}).rapid({29, 18, z});
+    Diagnostics diagnostics;
+    const auto result = run(path.path(), tools, block({0, 0, -20}, {60, 40, 0}), kPitch, diagnostics);
+    ASSERT_TRUE(result);
+    const auto last = static_cast<std::uint32_t>(path.path().size() - 1);
+    if (z > -6.0) {
+      EXPECT_TRUE(result->hazards.empty());
+      continue;
+    }
+    ASSERT_EQ(result->hazards.size(), 2u);  // coming down, and moving on
+    EXPECT_EQ(result->hazards[0].step, last - 1);
+    EXPECT_EQ(result->hazards[1].step, last);
+    for (const Hazard& h : result->hazards) {
+      EXPECT_EQ(h.kind, HazardKind::rapid_in_stock);
+      EXPECT_NEAR(h.depth.mm(), 1.0, 1e-3);
+    }
+  }
+}
+
 TEST(Hazards, RapidAtTheTopTouchesNothing) {
   Path path;
   path.tool(1).rapid({-10, 20, 0}).rapid({70, 20, 0});

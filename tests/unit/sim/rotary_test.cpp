@@ -164,6 +164,24 @@ TEST(Rotary, HazardsAreTold) {
   EXPECT_NEAR(result->hazards[1].depth.mm(), 2.0, 0.02);
 }
 
+TEST(Rotary, RapidsThroughTheBarAreTold) {
+  // Above, at and below the axis, and with the flutes below the bar; a tool of 4 mm with a flute of 5.
+  const ToolTable tools = one_tool(profile({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}}));
+  for (const double z : {9.0, 1.0, 0.0, -3.0, -10.0, -40.0}) {
+    RotaryPath path;
+    path.tool(1).rapid({15, -30, z}).rapid({15, 30, z});
+    Diagnostics diagnostics;
+    const auto result = run(path, tools, 0.2, diagnostics);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->hazards.size(), 1u) << z;
+    EXPECT_EQ(result->hazards[0].kind, HazardKind::rapid_in_stock);
+    EXPECT_EQ(result->hazards[0].step, 2u);
+    EXPECT_NEAR(result->hazards[0].depth.mm(), std::min(10.0 - z, 10.0), 0.03) << z;
+    const double exact = 4 * (z <= -10 ? kPi * 100 : cap_area(10, z));
+    EXPECT_NEAR(result->removed.mm3(), exact, 0.03 * exact) << z;
+  }
+}
+
 TEST(Rotary, ACutAboveTheFlutesIsTold) {
   RotaryPath path;
   path.tool(1).rapid({-5, 0, 20}).rapid({-5, 0, 5}).cut({10, 0, 5});
@@ -200,6 +218,24 @@ TEST(Rotary, TheMeshIsClosedAndHoldsTheVolume) {
   const MeshCheck check = check_mesh(extract_mesh(result->workpiece));
   EXPECT_EQ(check.bad_edges, 0u);
   EXPECT_NEAR(check.volume.mm3(), result->workpiece.volume().mm3(), 5e-3 * check.volume.mm3());
+}
+
+TEST(Rotary, TheDistanceThatIsChosenFollowsTheBar) {
+  struct Case {
+    RoundBar bar;
+    double distance;
+  };
+  // sqrt(length * girth / 100,000), but from 0.02 to 1 mm.
+  for (const Case& c : {Case{{10, 0, 60, 0, 0}, 0.1373}, Case{{40, 0, 100, 0, 0}, 0.3545},
+                        Case{{1, 0, 5, 0, 0}, 0.02}, Case{{300, 0, 2000, 0, 0}, 1.0}}) {
+    RotaryPath path;
+    path.tool(1).rapid({0, 0, 1000});
+    Diagnostics diagnostics;
+    const auto result = simulate_rotary(path.path(), square(3), c.bar, {}, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->workpiece.dx, c.distance, 0.01 * c.distance);
+    EXPECT_NEAR(kPi * c.bar.diameter / result->workpiece.around, c.distance, 0.01 * c.distance);
+  }
 }
 
 TEST(Rotary, WhatCannotBeDoneIsTold) {

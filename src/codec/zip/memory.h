@@ -1,27 +1,27 @@
-// minizip's "file" as bytes in memory: the calls that reading and writing a 3MF have in common.
+// minizip's "file" as bytes in memory: the calls that reading and writing a zip have in common.
 #pragma once
 
 #include <algorithm>
 #include <minizip/ioapi.h>
 
-namespace kerf::mesh_format {
+namespace kerf::zip {
 
 /// Bytes (a text that grows or one that is only looked at) and a place among them. The calls refer to this
 /// object, which stays where it is while the zip is open.
 template <class Bytes>
-struct ZipMemory {
+struct Memory {
   Bytes bytes;
   std::size_t at = 0;
 
   zlib_filefunc64_def calls(write_file_func write) {
     return {open, read, write, tell, seek, nothing, nothing, this};
   }
-  static ZipMemory& of(voidpf stream) { return *static_cast<ZipMemory*>(stream); }
+  static Memory& of(voidpf stream) { return *static_cast<Memory*>(stream); }
 
  private:
   static voidpf open(voidpf opaque, const void*, int) { return opaque; }
   static uLong read(voidpf, voidpf stream, void* to, uLong size) {
-    ZipMemory& memory = of(stream);
+    Memory& memory = of(stream);
     const std::size_t left = memory.bytes.size() - std::min(memory.at, memory.bytes.size());
     const std::size_t n = std::min<std::size_t>(size, left);
     std::copy_n(memory.bytes.data() + memory.at, n, static_cast<char*>(to));
@@ -30,7 +30,7 @@ struct ZipMemory {
   }
   static ZPOS64_T tell(voidpf, voidpf stream) { return of(stream).at; }
   static long seek(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
-    ZipMemory& memory = of(stream);
+    Memory& memory = of(stream);
     const std::size_t size = memory.bytes.size();
     const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? memory.at
                              : origin == ZLIB_FILEFUNC_SEEK_END ? size
@@ -43,4 +43,4 @@ struct ZipMemory {
   static int nothing(voidpf, voidpf) { return 0; }
 };
 
-}  // namespace kerf::mesh_format
+}  // namespace kerf::zip

@@ -1,0 +1,18 @@
+// In place of the reader where there is no minizip: no archive opens.
+#if !KERF_WITH_ZIP
+
+#include "codec/zip/zip.h"
+
+namespace kerf::zip {
+
+struct Reader::Archive {};
+
+Reader::Reader(std::string_view) {}
+Reader::~Reader() = default;
+bool Reader::is_zip() const { return false; }
+bool Reader::unpack(const std::string&, const Take&) { return false; }
+std::optional<std::string> Reader::first(std::size_t) { return std::nullopt; }
+
+}  // namespace kerf::zip
+
+#endif  // !KERF_WITH_ZIP

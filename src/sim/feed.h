@@ -1,0 +1,67 @@
+// From a toolpath to batches of sweeps: in parts, so that one batch is made while the one before is cut.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "sim/plan.h"
+#include "sim/survey.h"
+
+#include "kerf/toolpath.h"
+
+namespace kerf::sim {
+
+/// From a first step to a last one; none while the first is after the last.
+struct StepRange {
+  std::size_t first = SIZE_MAX, last = 0;
+  void add(const StepRange& more) {
+    first = std::min(first, more.first);
+    last = std::max(last, more.last);
+  }
+};
+
+/// The same steps in order, no range touching another.
+std::vector<StepRange> apart(std::vector<StepRange> ranges);
+
+/// What of a toolpath is to be cut, and how it is judged.
+struct FeedScope {
+  PlanScope plan;
+  std::vector<StepRange> steps;  // in order and apart
+  Length hazard_depth;
+  bool is_no_go = false;                 // every cut is one of a spindle that stands
+  std::vector<std::size_t> pauses = {};  // in order: a batch ends before each of these steps
+  /// Null, or one a step: what sweeps and contacts have in place of it.
+  const std::vector<std::uint32_t>* numbers = nullptr;
+};
+
+class Feeder {
+ public:
+  Feeder(const Workpiece::Body& body, const Toolpath& path, const Survey& survey, FeedScope scope)
+      : survey_(survey),
+        scope_(std::move(scope)),
+        tiles_(body.tiles.size()),
+        path_size_(path.size()),
+        planner_(body, survey.solids, scope_.hazard_depth, scope_.plan),
+        motion_(path) {}
+
+  /// Fills a batch, whatever it held, with what comes next.
+  void fill(Batch& batch);
+
+ private:
+  bool is_wanted(std::size_t step);
+  bool is_done() const { return next_range_ >= scope_.steps.size(); }
+  bool reached_pause();
+  void add(Batch& batch);
+
+  const Survey& survey_;
+  FeedScope scope_;
+  std::size_t tiles_, path_size_;
+  Planner planner_;
+  MotionReader motion_;
+  std::size_t next_range_ = 0, next_pause_ = 0;
+  bool waiting_ = false;  // the motion that was read has not been added
+};
+
+}  // namespace kerf::sim

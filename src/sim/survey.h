@@ -1,0 +1,41 @@
+// What a simulation needs to know before it begins.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "sim/sweep.h"
+
+#include "kerf/simulate.h"
+#include "kerf/toolpath.h"
+
+namespace kerf::sim {
+
+/// Which tool cuts where, found before anything is cut so that a missing tool costs no time.
+struct Survey {
+  std::map<int, std::uint32_t> index;  // tool number to place in `solids`
+  std::vector<ToolSolids> solids;
+  std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
+  bool judges_spindle = false;   // the program says something of the spindle and is not for a laser
+
+  /// The number of the tool of a motion, if one is told or there is only one.
+  std::optional<int> tool_of(const MotionContext& motion) const {
+    return motion.tool ? motion.tool : only_tool;
+  }
+  /// Whether what the motion cuts is cut by a spindle that stands.
+  bool spindle_off(const MotionContext& motion) const {
+    return judges_spindle && (!motion.spindle_stated || motion.spindle.turn == SpindleTurn::off);
+  }
+};
+
+struct Setup {
+  Length pitch;
+  Survey survey;
+};
+/// Nothing, with an error appended, where the stock, the resolution or a tool will not do.
+std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const Stock& stock,
+                            const SimulationOptions& options, Diagnostics& diagnostics);
+
+}  // namespace kerf::sim
