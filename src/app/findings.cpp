@@ -30,6 +30,21 @@ std::string message_of(const Hazard& hazard) {
   return "the spindle stands still while the tool is in the stock";
 }
 
+std::string_view hint_of(HazardKind kind) {
+  switch (kind) {
+    case HazardKind::rapid_in_stock:
+      return "lift the tool before the rapid; if the stock is another one, tell it with --stock";
+    case HazardKind::neck_contact:
+    case HazardKind::shank_contact:
+    case HazardKind::holder_contact: return "use a longer tool, or clear the material beside it first";
+    case HazardKind::over_flute: return "use a tool with a longer flute, or cut less deep at a time";
+    case HazardKind::below_floor:
+      return "cut less deep; if the stock is thicker or lies elsewhere, tell it with --stock";
+    case HazardKind::spindle_off: break;
+  }
+  return "start the spindle (S10000 M3) before the cut";
+}
+
 /// Whether a finding goes on with a line's: its step is the next one, or it says that the spindle stands
 /// still, which is one slip however many cuts follow.
 bool goes_on(const Finding& line, const Finding& f) {
@@ -121,16 +136,9 @@ std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const T
 std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolpath& path) {
   std::vector<Finding> out;
   for (const Hazard& h : hazards)
-    out.push_back({std::string(to_string(h.kind)),
-                   h.step,
-                   1,
-                   h.at,
-                   h.depth.mm(),
-                   h.removed.mm3(),
-                   path.origin_of(h.step),
-                   message_of(h),
-                   path.origins().callers(path[h.step].origin()),
-                   {}});
+    out.push_back({std::string(to_string(h.kind)), h.step, 1, h.at, h.depth.mm(), h.removed.mm3(),
+                   path.origin_of(h.step), message_of(h), path.origins().callers(path[h.step].origin()),
+                   std::string(hint_of(h.kind))});
   return out;
 }
 

@@ -36,6 +36,32 @@ def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
         assert len(hazard["at"]) == 3 and hazard["origin"]["line"] > 0
 
 
+SMALL_MILL = "travel_x = [0, 8]\nspindle = [100, 8000]\n"
+
+
+@pytest.mark.parametrize("old, new, options, kind, line, hint", [
+    ("F100\nG1 X20 F400", "\nG1 X20", [], "no_feed", 8, "F word"),
+    ("M6 T102\n", "", [], "no_tool", 7, "--tool"),
+    ("I0 J5", "I0 J5.02", [], "arc_radii", 10, "decimals"),
+    ("", "", ["--machine", "mill.toml"], "outside_machine", 9, "zero"),
+    ("", "", ["--machine", "mill.toml"], "spindle_range", 6, "change S"),
+    ("M3 S10000\n", "", [], "spindle_off", 7, "M3"),
+    ("G0 Z5\nM5\n", "M5\nM6 T201\nG0 Z5\n", [], "tool_change_low", 12, "go up"),
+    ("", "", ["-t", "square d=3 flute=12 plunges=false"], "plunge", 8, "ramp"),
+    ("F400", "F8000", ["--material", "steel"], "chip_load", 9, "feed"),
+    ("M2\n", "", [], "no_program_end", 12, "M2"),
+    ("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5", [], "rapid_in_stock", 11, "lift"),
+    ("G1 Z-1", "G1 Z-8", [], "below_floor", 8, "--stock"),
+])
+def test_each_hazard_has_its_line_and_a_hint(kerf, program, old, new, options, kind, line, hint):
+    program(SMALL_MILL, "mill.toml")
+    run = kerf("check", "--json", *options, program(SOUND.replace(old, new) if old else SOUND))
+    assert run.status == 3, run.out
+    found = next(h for h in run.json["hazards"] if h["kind"] == kind)
+    assert found["origin"]["line"] == line
+    assert hint in found["hint"]
+
+
 @pytest.mark.parametrize("machine, kind", [
     ("travel_x = [0, 5]\n", "outside_machine"),
     ("spindle = [100, 8000]\n", "spindle_range"),

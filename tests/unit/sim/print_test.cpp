@@ -434,6 +434,40 @@ TEST(Print, RandomPrintsAddUpAndHaveClosedSurfaces) {
   }
 }
 
+TEST(Print, NumbersBeyondReasonAreSurvived) {
+  constexpr double kOdd[] = {0,   1e-9, 1e-4,  0.2, 0.45,   3,   50,      1e3,
+                             1e5, 1e7,  1e300, -1,  -1e300, NAN, INFINITY};
+  constexpr double kPlaces[] = {0, 1e-7, 0.1, 0.2, 0.3, 5, 7, 300, -4, 2e4, 1e7};
+  std::mt19937 random(11);
+  const auto place = [&] { return kPlaces[random() % (random() % 4 == 0 ? std::size(kPlaces) : 7)]; };
+  int laid = 0;
+  for (int n = 0; n < 300; ++n) {
+    Print print;
+    for (int i = 0; i < 20; ++i) {
+      const Point3 to{place(), place(), place()};
+      const double odd = kOdd[random() % std::size(kOdd)];
+      if (random() % 3 == 0)
+        print.travel(to);
+      else
+        print.push(to, random() % 2 == 0 ? odd : 0.3, mm(kOdd[random() % 8]), mm(kOdd[random() % 8]));
+    }
+    PrintOptions options;
+    options.max_columns = 50'000;
+    options.max_intervals = 200'000;
+    options.resolution = mm(random() % 2 == 0 ? 0.1 : 0.0);
+    Diagnostics diagnostics;
+    const auto s = simulate_print(print.path(), options, diagnostics);
+    EXPECT_EQ(s.has_value(), !diagnostics.has_errors());
+    if (!s) continue;
+    ++laid;
+    for (const Volume v :
+         {s->total.laid, s->total.overlap, s->total.ends, s->total.hollow, s->total.extruded})
+      EXPECT_TRUE(v.mm3() >= 0.0 && std::isfinite(v.mm3()));
+    for (const PrintHazard& h : s->hazards) EXPECT_TRUE(finite(h.at) && std::isfinite(h.depth.mm()));
+  }
+  EXPECT_GT(laid, 20);
+}
+
 TEST(Print, GroovesCanBeClosed) {
   Print print;
   for (int layer = 1; layer <= 5; ++layer)

@@ -14,6 +14,7 @@ constexpr double kPi = std::numbers::pi;
 class RotaryPath {
  public:
   RotaryPath& tool(int number) { return path_.add(step::ToolChange{number}, here_), *this; }
+  RotaryPath& spindle(SpindleTurn turn) { return path_.add(step::Spindle{rpm(9000), turn}, here_), *this; }
   RotaryPath& rapid(Point3 to, double a = 0.0) { return turned(path_.add(step::Rapid{to}, here_), a); }
   RotaryPath& cut(Point3 to, double a = 0.0) {
     return turned(path_.add(step::Cut{to, mm_per_min(500)}, here_), a);
@@ -179,6 +180,42 @@ TEST(Rotary, RapidsThroughTheBarAreTold) {
     EXPECT_NEAR(result->hazards[0].depth.mm(), std::min(10.0 - z, 10.0), 0.03) << z;
     const double exact = 4 * (z <= -10 ? kPi * 100 : cap_area(10, z));
     EXPECT_NEAR(result->removed.mm3(), exact, 0.03 * exact) << z;
+  }
+}
+
+TEST(Rotary, NearMissesAndGrazes) {
+  // A hundredth over and into the bar's top, and a ray's distance beside and into its side.
+  struct Limit {
+    const char* name;
+    double y, z;  // of the tip at the limit
+    double step;
+    bool is_rapid;
+  };
+  const ToolTable tools = one_tool(profile({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}}));
+  for (const Limit& limit :
+       {Limit{"rapid over it", 0, 10, 0.01, true}, Limit{"rapid beside it", 12, -4, 0.1, true},
+        Limit{"rapid beside it, above the flutes", 12, -30, 0.1, true},
+        Limit{"spindle off, over it", 0, 10, 0.01, false}}) {
+    for (const double beyond : {-limit.step, 0.0, limit.step}) {
+      SCOPED_TRACE(testing::Message() << limit.name << " " << beyond);
+      const bool over = limit.y == 0;
+      const Point3 from{-10, limit.y - (over ? 0 : beyond), limit.z - (over ? beyond : 0)};
+      const Point3 to{40, from.y, from.z};
+      RotaryPath path;
+      path.tool(1).spindle(limit.is_rapid ? SpindleTurn::cw : SpindleTurn::off).rapid({-10, 0, 40});
+      path.rapid(from);
+      limit.is_rapid ? path.rapid(to) : path.cut(to);
+      Diagnostics diagnostics;
+      const auto result = run(path, tools, 0.1, diagnostics);
+      ASSERT_TRUE(result);
+      ASSERT_EQ(result->hazards.size(), beyond > 0 ? 1u : 0u);
+      if (beyond <= 0) continue;
+      EXPECT_EQ(result->hazards[0].kind,
+                limit.is_rapid ? HazardKind::rapid_in_stock : HazardKind::spindle_off);
+      if (over) {
+        EXPECT_NEAR(result->hazards[0].depth.mm(), 0.01, 1e-3);
+      }
+    }
   }
 }
 
