@@ -305,14 +305,25 @@ TEST(Mesh, RandomHeightsKeepTheVolume) {
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.1 * outline_depth);
 }
 
-TEST(Mesh, SameColumnsSameMesh) {
-  const ColumnGrid grid = make_grid(70, 70, 0.1, 3, [](double x, double y) {
-    return Column{{0, static_cast<float>(2 + std::sin(3 * x) * std::cos(4 * y)), kStockSurface, 1}};
+TEST(Mesh, TheSameForAnyNumberOfThreads) {
+  // Slopes, walls, holes and undercuts over several bands of rows.
+  const ColumnGrid grid = make_grid(150, 200, 0.1, 3, [](double x, double y) {
+    const auto top = static_cast<float>(2 + std::sin(3 * x) * std::cos(4 * y));
+    if (std::fmod(x, 3.0) < 0.3) return Column{};
+    if (std::fmod(y, 2.0) < 0.4) return Column{{0, 0.4f, kStockSurface, 2}, {0.7f, top, 2, 1}};
+    return Column{{0, top, kStockSurface, 1}};
   });
-  const Mesh a = extract_mesh(grid), b = extract_mesh(grid);
-  EXPECT_EQ(a.positions, b.positions);
-  EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.step, b.step);
+  const std::vector<std::uint8_t> one_group(3, 0);
+  MeshOptions options{.tolerance = mm(0.005), .step_groups = one_group, .threads = 1};
+  const Mesh a = extract_mesh(grid, options);
+  EXPECT_EQ(check_mesh(a).bad_edges, 0u);
+  for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+    options.threads = threads;
+    const Mesh b = extract_mesh(grid, options);
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.step, b.step);
+  }
 }
 
 TEST(Mesh, StopsWhenAsked) {
