@@ -108,6 +108,7 @@ std::vector<Finding> findings_in_material(const Job& job, double resolution, Dia
   progress.phase("checking");
   const auto simulation = simulate(path, job.tools, *job.stock, how, diagnostics, &progress);
   if (!simulation) return {};
+  if (!simulation->stopped) tell_untouched(job, simulation->removed, diagnostics);
   return merged(findings_at_fixtures(path, job.tools, job.fixtures, how, diagnostics, progress),
                 findings_of(simulation->hazards, path));
 }

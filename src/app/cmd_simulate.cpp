@@ -172,8 +172,10 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   progress.phase("cutting");
   const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
   std::vector<Finding> findings;
-  if (simulation && !simulation->stopped)
+  if (simulation && !simulation->stopped) {
+    tell_untouched(job, simulation->removed, diagnostics);
     findings = findings_of_simulation(job, *simulation, how, diagnostics, progress);
+  }
   OutputSet files;
   const bool written = simulation && !simulation->stopped && !diagnostics.has_errors() &&
                        write_outputs(outputs, job, *simulation, view, files, diagnostics, progress);

@@ -356,6 +356,21 @@ JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diag
   return settings;
 }
 
+void tell_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
+  const Box3& cuts = job.report.all.cut_bounds;
+  if (removed > Volume() || cuts.empty() || !job.stock || job.stock_source == StockSource::assumed) return;
+  const auto text = [](const Box3& box) {
+    return fmt::format("X{} Y{} Z{} to X{} Y{} Z{}", number_text(box.low.x, 3), number_text(box.low.y, 3),
+                       number_text(box.low.z, 3), number_text(box.high.x, 3), number_text(box.high.y, 3),
+                       number_text(box.high.z, 3));
+  };
+  diagnostics
+      .warning(Code::stock_untouched, TextSpot{job.program.source, 0, 0},
+               fmt::format("the program cuts nothing of the stock: it cuts from {}, the stock lies from {}",
+                           text(cuts), text(job.stock->block)))
+      .hint = "look at the program's zero, its units, and the stock's place";
+}
+
 std::string hint_for_unknown(int tool) {
   return fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", tool);
 }

@@ -73,6 +73,9 @@ enum class UnknownTool { warning, error, told_elsewhere };
 Job make_job(LoadedProgram program, const JobSettings& settings, const ReportOptions& report,
              UnknownTool unknown, Diagnostics& diagnostics);
 
+/// Warns where a job that cuts has removed nothing from a stock that was told: a wrong zero, unit or corner.
+void tell_untouched(const Job& job, Volume removed, Diagnostics& diagnostics);
+
 /// What helps where nobody knows the shape of a tool.
 std::string hint_for_unknown(int tool);
 /// A tool in a few words: "square 3.175 mm".

@@ -58,8 +58,35 @@ Message no_tool(const Step& s, const MotionContext& context, Setting& setting) {
   return "a cutting move before any tool change: nobody knows what cuts here";
 }
 
+Box3 box_of(const Step& s, const MotionContext& context) {
+  Box3 box;
+  box.add(s.to());
+  if (s.kind() == StepKind::arc && context.unknown_from == 0) box.add(walk_of(s, context.from).bounds());
+  return box;
+}
+
+/// Half the width of the tool, mm; 0 where it is not known.
+double radius_of(std::optional<int> tool, const Setting& setting) {
+  const ToolTable* tools = setting.options.tools;
+  const Tool* known = tools != nullptr && tool ? tools->find(*tool) : nullptr;
+  return known != nullptr ? 0.5 * known->diameter.mm() : 0.0;
+}
+
+/// Whether a tool whose tip is somewhere in the box can be in the stock's block; true where that is not told.
+bool can_be_in_stock(const Box3& tip, double radius, const Setting& setting) {
+  if (!setting.options.stock) return true;
+  const Box3& stock = *setting.options.stock;
+  return tip.low.z < stock.high.z - kRounding && tip.low.x <= stock.high.x + radius &&
+         tip.high.x >= stock.low.x - radius && tip.low.y <= stock.high.y + radius &&
+         tip.high.y >= stock.low.y - radius;
+}
+
 Message spindle_off(const Step& s, const MotionContext& context, Setting& setting) {
   if (!s.is_cutting() || setting.laser || setting.printing) return std::nullopt;
+  Box3 way = box_of(s, context);
+  way.add(context.from);
+  const bool placed = (s.unknown_axes() | context.unknown_from) == 0;
+  if (placed && !can_be_in_stock(way, radius_of(context.tool, setting), setting)) return std::nullopt;
   if (context.spindle.turn != SpindleTurn::off) return std::nullopt;  // 0 rpm: its speed is set by hand
   if (!context.spindle_stated) return "a cutting move, and the program has not started the spindle";
   return "a cutting move while the spindle is switched off";
@@ -72,13 +99,6 @@ Message arc_radii(const Step& s, const MotionContext& context, Setting& setting)
   return fmt::format("an arc that begins {} mm from its centre and ends {} mm from it: controllers refuse it",
                      number_text(walk.start_radius, kShownDecimals),
                      number_text(walk.end_radius, kShownDecimals));
-}
-
-Box3 box_of(const Step& s, const MotionContext& context) {
-  Box3 box;
-  box.add(s.to());
-  if (s.kind() == StepKind::arc && context.unknown_from == 0) box.add(walk_of(s, context.from).bounds());
-  return box;
 }
 
 /// The travel's ends of an axis in work coordinates. Where the work's zero is not known, those that the moves
@@ -179,36 +199,79 @@ StepMessage spindle_range(const Step& s, const Setting& setting) {
   return hazard;
 }
 
-StepMessage low_tool_change(const Step& s, const Setting& setting, Point3 at, unsigned unknown) {
+/// Where the tool is between two motions.
+struct Rest {
+  Point3 at;
+  unsigned unknown = 7;  // axes
+  std::optional<int> tool;
+  bool spindle_on = false;
+};
+
+/// How far below the stock's top the tip of the tool is, mm, if the tool is in the stock's block.
+std::optional<double> depth_in_stock(const Rest& rest, const Setting& setting) {
   const auto& stock = setting.options.stock;
-  if (s.kind() != StepKind::tool_change || !stock || (unknown & 4u) != 0) return std::nullopt;
-  if (at.z >= stock->high.z || at.z < stock->low.z) return std::nullopt;
+  if (!stock || rest.unknown != 0 || setting.laser || setting.printing) return std::nullopt;
+  Box3 tip;
+  tip.add(rest.at);
+  if (!can_be_in_stock(tip, radius_of(rest.tool, setting), setting) || rest.at.z < stock->low.z)
+    return std::nullopt;
+  return stock->high.z - rest.at.z;
+}
+
+StepMessage low_tool_change(const Step& s, const Setting& setting, const Rest& rest) {
+  if (s.kind() != StepKind::tool_change) return std::nullopt;
+  const auto depth = depth_in_stock(rest, setting);
+  if (!depth) return std::nullopt;
   PathHazard hazard;
   hazard.code = Code::path_tool_change_low;
-  hazard.message =
-      fmt::format("the tool is changed at Z {}, {} mm below the stock's top",
-                  number_text(at.z, kShownDecimals), number_text(stock->high.z - at.z, kShownDecimals));
+  hazard.message = fmt::format("the tool is changed at Z {}, {} mm below the stock's top",
+                               number_text(rest.at.z, kShownDecimals), number_text(*depth, kShownDecimals));
   hazard.hint = "go up (G0 Z...) before the tool change";
   return hazard;
 }
 
+/// Of a spindle that stops, or a program that ends, with the tool in the stock.
+StepMessage low_stop(const Rest& rest, const Setting& setting, std::string_view what) {
+  const auto depth = rest.spindle_on ? depth_in_stock(rest, setting) : std::nullopt;
+  if (!depth) return std::nullopt;
+  PathHazard hazard;
+  hazard.code = Code::path_stop_low;
+  hazard.message = fmt::format("{} at Z {}, with the tool {} mm deep in the stock", what,
+                               number_text(rest.at.z, kShownDecimals), number_text(*depth, kShownDecimals));
+  hazard.hint = "go up (G0 Z...) before that";
+  return hazard;
+}
+
+StepMessage low_spindle_stop(const Step& s, const Setting& setting, const Rest& rest) {
+  if (s.kind() != StepKind::spindle || s.spindle().turn != SpindleTurn::off) return std::nullopt;
+  return low_stop(rest, setting, "the spindle stops");
+}
+
+void follow(const Step& s, Rest& rest) {
+  if (s.is_motion()) {
+    rest.at = s.to();
+    rest.unknown = s.unknown_axes();
+  }
+  if (s.kind() == StepKind::tool_change) rest.tool = s.tool_change().tool;
+  if (s.kind() == StepKind::spindle) rest.spindle_on = s.spindle().turn != SpindleTurn::off;
+}
+
 void check_other_steps(const Toolpath& path, const Setting& setting, std::vector<PathHazard>& found) {
-  Point3 at;
-  unsigned unknown = 7;
+  Rest rest;
+  const auto keep = [&](StepMessage message, std::size_t step) {
+    if (!message) return;
+    message->step = static_cast<std::uint32_t>(step);
+    message->at = rest.at;
+    found.push_back(std::move(*message));
+  };
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
-    if (s.is_motion()) {
-      at = s.to();
-      unknown = s.unknown_axes();
-      continue;
-    }
-    for (StepMessage message : {spindle_range(s, setting), low_tool_change(s, setting, at, unknown)}) {
-      if (!message) continue;
-      message->step = static_cast<std::uint32_t>(i);
-      message->at = at;
-      found.push_back(std::move(*message));
-    }
+    keep(spindle_range(s, setting), i);
+    keep(low_tool_change(s, setting, rest), i);
+    keep(low_spindle_stop(s, setting, rest), i);
+    follow(s, rest);
   }
+  if (path.size() > 0) keep(low_stop(rest, setting, "the program ends"), path.size() - 1);
   std::stable_sort(found.begin(), found.end(),
                    [](const PathHazard& a, const PathHazard& b) { return a.step < b.step; });
 }

@@ -158,6 +158,11 @@ Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& too
       per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {}
 
+bool is_walked(const MotionContext& arc) {
+  constexpr unsigned kZ = 4;
+  return (arc.unknown_from & kZ) == 0;
+}
+
 Planner::Motion Planner::motion_of(const Step& step, const MotionContext& context) const {
   Motion motion;
   motion.from = context.from - body_.bounds.low;
@@ -171,9 +176,12 @@ Planner::Motion Planner::motion_of(const Step& step, const MotionContext& contex
   }
   if ((end & kZ) != 0) motion.is_swept = false;
   if ((begin & kZ) != 0) motion.from.z = std::max(motion.to.z, size_.z);
+  if (step.kind() == StepKind::arc) {
+    if ((begin & kZ) != 0) motion.from = motion.to;
+    return motion;
+  }
   if ((begin & 1u) != 0) motion.from.x = motion.to.x;
   if ((begin & 2u) != 0) motion.from.y = motion.to.y;
-  if (step.kind() == StepKind::arc && begin != 0) motion.from = motion.to;
   return motion;
 }
 
@@ -210,7 +218,7 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   sweep.step = static_cast<std::uint32_t>(context.index);
   sweep.tool = tool;
   remember(step, tool, motion.to);
-  if (step.kind() == StepKind::arc && context.unknown_from == 0)
+  if (step.kind() == StepKind::arc && is_walked(context))
     return add_arc(step, context, sweep, follows, batch);
   sweep.follows = follows;
   set_line(sweep, motion.from, motion.to);

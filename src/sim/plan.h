@@ -10,7 +10,9 @@
 //           whose begin is unknown in X or Y: begins at its end's;
 //           whose end is unknown in X or Y: goes where an interpreter with zero offsets goes (with a
 //           warning);
-//   arc     whose begin is unknown: the tool at its end.
+//   arc     whose begin is unknown in X or Y: begins where an interpreter with zero offsets is (with a
+//           warning), since its centre is told from there;
+//           whose begin height is unknown: the tool at its end.
 #pragma once
 
 #include <algorithm>
@@ -118,6 +120,9 @@ class Planner {
   Point3 end_;                                 // where it ended, block frame
   Chords chords_;
 };
+
+/// Whether an arc is cut along its way, not just at its end.
+bool is_walked(const MotionContext& arc);
 
 /// Chords for the arc of `walk` at the simulator's tolerance, and whether that many are more than are made.
 struct ChordCount {

@@ -116,11 +116,13 @@ class Surveyor {
     if (!step.is_cutting()) return;
     if (!number) return no_tool(context);
     if (!is_known) no_such_tool(*number, context);
-    if (step.kind() == StepKind::arc && context.unknown_from == 0 &&
+    if (step.kind() == StepKind::arc && is_walked(context) &&
         chord_count(walk_of(step, context.from)).too_coarse)
       diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
                            "the arc is so long that it is simulated with chords coarser than usual");
-    if (step.unknown_axes() != 0) warn_unknown_place(step.unknown_axes(), context);
+    constexpr unsigned kXY = 3;
+    const unsigned arc_begin = step.kind() == StepKind::arc ? context.unknown_from & kXY : 0u;
+    if ((step.unknown_axes() | arc_begin) != 0) warn_unknown_place(step.unknown_axes() | arc_begin, context);
   }
 
   bool has_step(StepKind kind) const {

@@ -209,6 +209,7 @@ TEST(CheckPath, APlungeWithAToolThatCannot) {
   stock.add(Point3{100, 100, 0});
   Job job = started();
   job.add(step::Cut{{0, 0, 1}, mm_per_min(100)}).add(step::Cut{{0, 0, -1}, mm_per_min(100)});
+  job.add(step::Rapid{{0, 0, 5}});
   const auto found = check_path(job.path, {.tools = &cannot, .stock = stock});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].code, Code::path_plunge);
@@ -257,6 +258,46 @@ TEST(CheckPath, AToolChangeBelowTheStocksTop) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].code, Code::path_tool_change_low);
   EXPECT_EQ(found[0].step, 4u);
+}
+
+TEST(CheckPath, BesideTheStockAToolMayBeLow) {
+  Box3 stock;
+  stock.add(Point3{0, 0, -10});
+  stock.add(Point3{100, 100, 0});
+  Job job = started();
+  job.add(step::Rapid{{200, 0, 5}}).add(step::Rapid{{200, 0, -1}}).add(step::ToolChange{2});
+  job.add(step::Spindle{rpm(0), SpindleTurn::off});
+  EXPECT_TRUE(check_path(job.path, {.stock = stock}).empty());
+}
+
+TEST(CheckPath, ASpindleThatStopsInTheStock) {
+  Box3 stock;
+  stock.add(Point3{0, 0, -10});
+  stock.add(Point3{100, 100, 0});
+  Job job = started();
+  job.add(step::Cut{{5, 5, -1}, mm_per_min(100)}).add(step::Spindle{rpm(0), SpindleTurn::off});
+  const auto found = check_path(job.path, {.stock = stock});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].code, Code::path_stop_low);
+  EXPECT_NE(found[0].message.find("the spindle stops at Z -1, with the tool 1 mm deep"), std::string::npos);
+  Job running = started();
+  running.add(step::Cut{{5, 5, -1}, mm_per_min(100)});
+  const auto at_end = check_path(running.path, {.stock = stock});
+  ASSERT_EQ(at_end.size(), 1u);
+  EXPECT_NE(at_end[0].message.find("the program ends at Z -1"), std::string::npos);
+}
+
+TEST(CheckPath, AFeedThroughTheAirNeedsNoSpindle) {
+  Box3 stock;
+  stock.add(Point3{0, 0, -10});
+  stock.add(Point3{100, 100, 0});
+  Job job = started();
+  job.add(step::Rapid{{0, 0, 5}}).add(step::Spindle{rpm(0), SpindleTurn::off});
+  job.add(step::Cut{{50, 50, 1}, mm_per_min(100)}).add(step::Cut{{300, 50, 0}, mm_per_min(100)});
+  EXPECT_TRUE(check_path(job.path, {.stock = stock}).empty());
+  job.add(step::Cut{{50, 50, -0.1}, mm_per_min(100)}).add(step::Rapid{{50, 50, 5}});
+  ASSERT_EQ(check_path(job.path, {.stock = stock}).size(), 1u);
+  EXPECT_EQ(check_path(job.path, {.stock = stock})[0].code, Code::path_spindle_off);
 }
 
 TEST(CheckPath, AFeedBeyondTheChipLoad) {
