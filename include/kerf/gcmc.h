@@ -79,6 +79,9 @@ class GcmcOutput {
   virtual void message(const GcmcMessage& message) = 0;
   /// A piece of the text, as soon as there is enough of it.
   virtual void text(std::string_view piece) = 0;
+  /// True where no more text can be taken, as on a full disk: the program ends with the piece that failed,
+  /// without a message, since whoever takes the text knows why.
+  virtual bool is_broken() const { return false; }
 };
 
 struct GcmcRun {

@@ -125,6 +125,16 @@ def test_a_file_appears_whole_or_not_at_all(kerf, program, files, tmp_path):
     assert run.status == 1 and "cannot write" in run.err
 
 
+@pytest.mark.parametrize("text", ["move([1]);", "while(1) { move([1, 2]); }"])
+def test_a_write_that_fails_ends_the_program(kerf, text):
+    run = kerf("gcmc", "-qo", "/dev/full", stdin=text.encode())
+    assert run.status == 1 and run.err.startswith("kerf gcmc: /dev/full: ") and "cannot write" in run.err
+    with open("/dev/full", "wb") as full:
+        run = subprocess.run([KERF, "gcmc", "-q"], input=text.encode(), stdout=full, stderr=subprocess.PIPE,
+                             timeout=60)
+    assert run.returncode == 1 and run.stderr == b"kerf gcmc: cannot write to standard output\n"
+
+
 def test_devices_and_links_stay_what_they_are(kerf, program, tmp_path):
     assert kerf("gcmc", "-qo", "/dev/stdout", stdin=b"move([1]);").out == "G1 X1.00000000\n"
     assert Path("/dev/stdout").is_symlink()

@@ -125,12 +125,12 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
   Vm vm(tree, sources, code, options, output, diagnostics, progress);
   std::vector<LanguageConstant> constants = language_constants(vm.meter);
   for (std::size_t i = 0; i < names.size(); ++i) vm.define_constant(names[i], std::move(constants[i].value));
-  TextSink text(options, output);
+  TextSink text(vm, output);
   PathSink path(run.path, vm);
   if (options.want_text) vm.machine().sinks.push_back(&text);
   if (options.want_path) vm.machine().sinks.push_back(&path);
-  if (options.want_text) text.begin();
   try {
+    if (options.want_text) text.begin();
     run.status = exit_status(vm, vm.run());
     if (options.want_path) path.finish();
     if (options.want_text) text.end();
@@ -138,7 +138,7 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
   } catch (const Stop&) {
     run.status = 1;
     run.stopped = vm.was_stopped();
-    text.flush();
+    text.break_off();
   }
   run.warnings += vm.warnings();
   run.layers = vm.machine().layers;

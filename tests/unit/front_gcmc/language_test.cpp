@@ -564,6 +564,39 @@ TEST(GcmcLimits, MemoryIsBounded) {
         << program;
 }
 
+/// Takes so many pieces of text, and no more.
+class FullDisk final : public GcmcOutput {
+ public:
+  explicit FullDisk(int room) : room_(room) {}
+  void message(const GcmcMessage& m) override { said += to_line(m); }
+  void text(std::string_view) override { ++pieces; }
+  bool is_broken() const override { return pieces > room_; }
+  int pieces = 0;
+  std::string said;
+
+ private:
+  int room_;
+};
+
+TEST(GcmcLimits, AProgramEndsWhereItsTextCannotBeTaken) {
+  for (const char* program : {"while(1) { move([1, 2]); }",
+                              "s = \"0123456789\"; repeat(11) { s += s; } while(1) { literal(s); }"}) {
+    FullDisk disk(3);
+    Diagnostics diagnostics;
+    const GcmcRun ran = run_gcmc(program, bare(), disk, diagnostics);
+    EXPECT_EQ(disk.pieces, 4) << program;  // the one that fails is the last
+    EXPECT_EQ(disk.said, "");
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_FALSE(ran.completed);
+  }
+  GcmcOptions options = bare();
+  options.prologue = std::string(100'000, '%');
+  FullDisk disk(0);
+  Diagnostics diagnostics;
+  EXPECT_EQ(run_gcmc("message(1);", options, disk, diagnostics).status, 1);
+  EXPECT_EQ(disk.said, "");
+}
+
 // What a function held is let go when it ends: a copy of the list would otherwise be kept, and made again.
 TEST(GcmcLimits, FunctionsLetGoWhatTheyHeld) {
   GcmcOptions options = bare();
