@@ -135,6 +135,17 @@ def test_a_write_that_fails_ends_the_program(kerf, text):
     assert run.returncode == 1 and run.stderr == b"kerf gcmc: cannot write to standard output\n"
 
 
+def test_output_is_limited(kerf, program, files):
+    program("while(1) {\n  move([1, 2]);\n}\n", "p.gcmc")
+    run = kerf("gcmc", "-q", "--max-output", "1", "p.gcmc")
+    assert run.status == 1 and 2**20 <= len(run.out) < 2**21
+    assert run.err.startswith("p.gcmc:2:") and "error: More than 1 MB of output" in run.err
+    assert kerf("gcmc", "-q", "--max-output=1", "-o", "out.ngc", "p.gcmc").status == 1
+    assert files() == ["p.gcmc"]  # nothing of it is left behind
+    run = kerf("gcmc", "--max-output", "0", "p.gcmc")
+    assert run.status == 1 and "Output limit must be a number of MB" in run.err
+
+
 def test_devices_and_links_stay_what_they_are(kerf, program, tmp_path):
     assert kerf("gcmc", "-qo", "/dev/stdout", stdin=b"move([1]);").out == "G1 X1.00000000\n"
     assert Path("/dev/stdout").is_symlink()
@@ -221,7 +232,7 @@ sink();
 """, "p.gcmc")
     run = kerf("check", "p.gcmc")
     assert run.status == 3
-    assert re.search(r"p\.gcmc:6:\d+: .*\n  called from p\.gcmc:9:\d+\n", run.out)
+    assert re.search(r"p\.gcmc:6:\d+: .*\n    hint: .*\n  called from p\.gcmc:9:\d+\n", run.out)
     hazard = kerf("check", "--json", "p.gcmc").json["hazards"][0]
     assert hazard["origin"]["line"] == 6 and [c["line"] for c in hazard["callers"]] == [9]
     simulated = kerf("simulate", "--json", "p.gcmc").json

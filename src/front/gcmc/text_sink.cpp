@@ -31,11 +31,12 @@ std::string_view TextSink::taken() {
   return piece;
 }
 
-/// Ends the program where nobody can take its text any more.
+/// Ends the program where nobody can take its text any more, or where it is too much.
 void TextSink::pass_on(std::string_view piece) {
   if (piece.empty()) return;
   output_.text(piece);
   if (output_.is_broken()) throw Stop{};
+  vm_.count_output(piece.size());
 }
 
 void TextSink::flush() { pass_on(taken()); }

@@ -552,6 +552,36 @@ TEST(GcmcLimits, EndlessLoopsEnd) {
   EXPECT_EQ(said_by("repeat(1000000; i) { move([i]); }", options), "");  // who writes is not lost
 }
 
+TEST(GcmcLimits, OutputIsBounded) {
+  GcmcOptions options = bare();
+  options.max_output = 1 << 20;
+  for (const char* program :
+       {"\nwhile(1) { move([1, 2]); }", "\nwhile(1) { literal(\"\"); }", "\nwhile(1) { comment(\"x\"); }"}) {
+    options.want_path = false;
+    const Ran ran = run(program, options);
+    EXPECT_EQ(ran.said,
+              std::vector<std::string>{"error: More than 1 MB of output and messages: an endless loop?"});
+    EXPECT_EQ(ran.messages.at(0).where.line, 2u);
+    EXPECT_EQ(ran.messages.at(0).code, Code::gcmc_limit);
+    EXPECT_EQ(ran.run.status, 1);
+    EXPECT_LT(ran.text.size(), std::size_t{1} << 21);
+  }
+  options.max_output = 20'000;
+  for (const char* program : {"while(1) { message(\"0123456789\"); }", "while(1) { warning(1); }",
+                              "while(1) { error(1); }", "while(1) { x = 1mm + 1deg; }"}) {
+    const Ran ran = run(program, options);
+    EXPECT_NE(ran.said.back().find("an endless loop?"), std::string::npos) << program;
+    EXPECT_LT(ran.said.size(), 10'002u) << program;
+  }
+}
+
+TEST(GcmcLimits, StepsAreBoundedAlsoWithOutput) {
+  GcmcOptions options = bare();
+  options.max_steps = 100'000;
+  EXPECT_EQ(said_by("while(1) { move([1]); repeat(10000) {} }", options),
+            "error: The program takes more than 100000 loop steps");
+}
+
 TEST(GcmcLimits, MemoryIsBounded) {
   GcmcOptions options = bare();
   options.max_memory = 1 << 20;
