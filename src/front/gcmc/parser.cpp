@@ -143,9 +143,11 @@ void Parser::fail(std::string message, std::string hint) {
   throw Failure{};
 }
 
-/// A missing word is complained about and taken as if it were there.
+/// A missing word is complained about and taken as if it were there. What a string without its end swallowed
+/// is not: that was told.
 bool Parser::expect(Token token, std::string_view shown, std::string hint) {
   if (accept(token)) return true;
+  if (last_.unended) return false;
   const bool after_number = last_.token == Token::integer || last_.token == Token::real;
   if (hint.empty() && last_.token == Token::identifier) hint = meant(last_.text, statement_words());
   if (hint.empty() && after_number && is(Token::identifier)) hint = meant(word_.text, unit_words());

@@ -422,6 +422,11 @@ const std::vector<Case> kWords{
     {"q = \"\\xc1\\x81\";", "warning: String has over-long UTF-8 sequences"},
     {"$", "error: Illegal character in text '$' (0x24)"},
     {"x = \"unterminated\n", "error: Unterminated string|fatal: Unexpected EOF"},
+    {"x = \"unterminated", "fatal: Unexpected EOF"},
+    {"x = \"a\" \"b;\ny = ;\n", "error: Unterminated string|error: Expression expected after '='"},
+    {"message(\"abc);\ny = \"d;\nz = ;\n",
+     "error: Unterminated string|error: Unterminated string|error: Expression expected after '='"},
+    {"y = [\"abc];\n}\n", "error: Unterminated string|error: Syntax error"},
     {"/* no end", "fatal: Unexpected EOF"},
     {"x = \"a\" \n \"b\";", "error: ';' expected|error: Statement has no effect"},
     {"x = 3000000000; message(x);",
@@ -534,6 +539,15 @@ TEST(GcmcLanguage, DefinesRunFirst) {
   options.defines = {"oops"};
   const auto ran = run("", options);
   EXPECT_EQ(to_string(ran.messages.at(0).where), "<cmd-line defines>:1:6");
+}
+
+TEST(GcmcErrors, AStringWithoutEndHidesNothing) {
+  const Ran ran = run("x=1mm;\ny=\"abc;\n5=3;\nz.q=1;\n");
+  std::vector<std::string> places;
+  for (const GcmcMessage& m : ran.messages) places.push_back(to_string(m.where));
+  EXPECT_EQ(places, (std::vector<std::string>{"t.gcmc:2:9", "t.gcmc:3:5", "t.gcmc:4:4"}));
+  const Ran end = run("x=1;\ny=\"abc");
+  EXPECT_EQ(to_string(end.messages.at(0).where), "t.gcmc:2:7");  // behind the last character
 }
 
 // ---- limits
