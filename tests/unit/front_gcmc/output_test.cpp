@@ -254,6 +254,10 @@ TEST(GcmcLibrary, ArcsAsPoints) {
             "Runtime message(): {[1.464mm,3.536mm],[5.000mm,5.000mm],[8.536mm,3.536mm],[10mm,0mm]}");
   EXPECT_EQ(points("varc_ccw([10mm,0mm],5mm,0,5mm,90deg)"),
             "Runtime message(): {[2.500mm,-4.330mm],[7.500mm,-4.330mm],[10mm,0mm]}");
+  for (const char* way : {"varc_ccw([10mm,10mm],10mm,0,1mm,5deg)", "varc_cw([10mm,10mm],10mm,0,1mm,5deg)",
+                          "varc_ccw([-10mm,10mm],10mm,0,1mm,5deg)"})  // rounding adds no step
+    EXPECT_EQ(points(std::string("count(") + way + ")"), "Runtime message(): 18") << way;
+  EXPECT_EQ(points("count(varc_ccw([10mm,10mm],10mm,0,1mm,4.999deg))"), "Runtime message(): 19");
   EXPECT_EQ(points("count(varc_cw([10mm,0mm],5mm)), \" \", count(vcircle_cw([0mm,50mm])), \" \", "
                    "count(vcircle_cw([0mm,1mm]))"),
             "Runtime message(): 180 3142 360");
