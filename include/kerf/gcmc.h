@@ -90,7 +90,7 @@ struct GcmcRun {
   Toolpath path;
   /// The real program's exit status: 0, 1 after errors, or what the program returned.
   int status = 0;
-  std::size_t warnings = 0;  // of the language, not the program's own
+  std::size_t warnings = 0;  // of the language and by warning(); what option -W makes an error of
   bool completed = false;    // ran to its end or to a return; errors of its own may have been said
   bool stopped = false;      // by Progress::stop_requested
   /// Layers in order of their stack, where the program named any.

@@ -112,7 +112,10 @@ def test_warnings_as_errors(kerf):
     run = kerf("gcmc", "-qW", "-P1", stdin=b"x = 1mm + 1deg; move([x]);")
     assert run.status == 1 and run.out == "G1 X2.0\n"
     assert run.err.endswith("error: Runtime warnings considered to be errors\n")
-    assert kerf("gcmc", "-qW", stdin=b"warning(1);").status == 0  # the program's own do not count
+    run = kerf("gcmc", "-qW", "-P1", stdin=b"warning(1); move([1]);")  # the program's own count as well
+    assert run.status == 1 and run.out == "G1 X1.0\n"
+    assert run.err.endswith("error: Runtime warnings considered to be errors\n")
+    assert kerf("gcmc", "-qW", stdin=b"message(1);").status == 0
 
 
 def test_a_file_appears_whole_or_not_at_all(kerf, program, files, tmp_path):

@@ -141,6 +141,7 @@ void Vm::say_error(Code code, std::string text, std::string hint) {
 
 void Vm::say(GcmcSaid said, std::string text) {
   if (said == GcmcSaid::script_error) ++script_errors_;
+  if (said == GcmcSaid::script_warning) ++warnings_;
   report(said, Code::gcmc_script, std::move(text), {});
 }
 
