@@ -448,8 +448,12 @@ void Parser::include(std::vector<NodeId>& into) {
 
 void Parser::include_file(const std::string& name, Place at, std::vector<NodeId>& into) {
   Source source;
-  if (!includer_(name, source)) {
-    report_.error(at, Code::gcmc_include_missing, fmt::format("Include file '{}' cannot be found", name));
+  std::string obstacle;
+  if (!includer_(name, source, obstacle)) {
+    if (obstacle.empty())
+      report_.error(at, Code::gcmc_include_missing, fmt::format("Include file '{}' cannot be found", name));
+    else
+      report_.error(at, Code::file_unreadable, fmt::format("Include file '{}': {}", name, obstacle));
     return;
   }
   if (include_depth_ >= kDeepestInclude || sources_.size() >= kMostSources) {

@@ -1,5 +1,6 @@
 // The two forms of output: the text, and the toolpath with its origins; and the library.
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 
@@ -192,6 +193,27 @@ TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
   EXPECT_NE(said_by("include(\"kerf_gcmc_included.gcmc\");", options).find("nested too deeply"),
             std::string::npos);
   std::remove(file.c_str());
+}
+
+TEST(GcmcInclude, WhatCannotBeReadIsToldWhatItIs) {
+  EXPECT_EQ(said_by("include(\"/\");"), "error: Include file '/': cannot read the file: it is a folder");
+  EXPECT_EQ(run("include(\"/\");").messages.at(0).code, Code::file_unreadable);
+  EXPECT_EQ(said_by("include(\"/dev/zero\");"),
+            "error: Include file '/dev/zero': it is a device, not an ordinary file");
+  const std::filesystem::path large = std::filesystem::path(testing::TempDir()) / "kerf_large.gcmc";
+  std::ofstream(large) << ";";
+  std::filesystem::resize_file(large, std::uintmax_t{1} << 30);  // a hole, which takes no room
+  const std::string said = said_by("include(\"" + large.string() + "\");");
+  EXPECT_NE(said.find("kerf_large.gcmc': the file is larger than 268435456 bytes"), std::string::npos)
+      << said;
+  std::filesystem::remove(large);
+  // A folder of the name does not hide the file that is looked for further on.
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "kerf_hides";
+  std::filesystem::create_directories(folder / "varcs.inc.gcmc");
+  GcmcOptions options = bare();
+  options.include_paths = {folder.string()};
+  EXPECT_EQ(said_by("include(\"varcs.inc.gcmc\");", options), "");
+  std::filesystem::remove_all(folder);
 }
 
 // ---- library
