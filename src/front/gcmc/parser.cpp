@@ -274,17 +274,23 @@ Node Parser::opened(NodeKind kind, Place at) {
   return out;
 }
 
+/// An if with all its elifs, of which there may be any number: each is the other branch of the one before.
 NodeId Parser::parse_if(Place at) {
   const Deeper deeper(depth_);
-  if (depth_ > kDeepestNesting) fail("The program is nested too deeply");
-  Node out = opened(NodeKind::if_else, at);
-  out.a = condition();
-  out.b = body();
-  if (is(Token::kw_elif))
-    out.c = parse_if(word_.at);
-  else if (accept(Token::kw_else))
-    out.c = body();
-  return tree_.add(out);
+  std::vector<Node> branches;
+  do {
+    branches.push_back(opened(NodeKind::if_else, branches.empty() ? at : word_.at));
+    const NodeId decides = condition();
+    const NodeId then = body();
+    branches.back().a = decides;
+    branches.back().b = then;
+  } while (is(Token::kw_elif));
+  NodeId otherwise = accept(Token::kw_else) ? body() : kNoNode;
+  for (auto branch = branches.rbegin(); branch != branches.rend(); ++branch) {
+    branch->c = otherwise;
+    otherwise = tree_.add(*branch);
+  }
+  return otherwise;
 }
 
 NodeId Parser::parse_for(Place at) {

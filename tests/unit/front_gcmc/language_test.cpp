@@ -673,8 +673,10 @@ TEST(GcmcLimits, NestingIsBounded) {
   for (int i = 0; i < 2000; ++i) blocks += "if(1) {";
   EXPECT_NE(said_by(blocks).find("nested too deeply"), std::string::npos);
   std::string elifs = "if(0) {}";
-  for (int i = 0; i < 3000; ++i) elifs += " elif(0) {}";
-  EXPECT_NE(said_by(elifs).find("nested too deeply"), std::string::npos);
+  for (int i = 0; i < 20'000; ++i)
+    elifs += " elif(x == " + std::to_string(i) + ") { y = " + std::to_string(i) + "; }";
+  EXPECT_EQ(said_by("x = 19999; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): 19999");
+  EXPECT_EQ(said_by("x = -7; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): -1");
   EXPECT_NE(said_by("function f(a = f()) {} f();").find("too large"), std::string::npos);
 }
 
