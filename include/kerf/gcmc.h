@@ -52,10 +52,12 @@ struct GcmcOptions {
   std::string date;                     // for the head of the text, "2026-01-31 12:00:00"
   std::string prologue, epilogue;       // texts that replace the usual ones where not empty
 
-  std::size_t max_memory = std::size_t{2} << 30;  // bytes of vectors, lists and strings
-  std::size_t max_calls = 20'000;                 // calls inside of calls
-  std::uint64_t max_quiet_steps = 2'000'000'000;  // loop steps and calls without any output or message
-  std::size_t max_path_steps = 50'000'000;        // steps of the toolpath
+  std::size_t max_memory = std::size_t{2} << 30;      // bytes of vectors, lists and strings
+  std::size_t max_calls = 20'000;                     // calls inside of calls
+  std::uint64_t max_quiet_steps = 2'000'000'000;      // loop steps and calls without any output or message
+  std::uint64_t max_steps = 1'000'000'000'000;        // loop steps and calls in all
+  std::uint64_t max_output = std::uint64_t{2} << 30;  // bytes of text and messages; a call counts as one more
+  std::size_t max_path_steps = 50'000'000;            // steps of the toolpath
 };
 
 enum class GcmcSaid : std::uint8_t { message, script_warning, script_error, warning, error, fatal };
@@ -79,13 +81,16 @@ class GcmcOutput {
   virtual void message(const GcmcMessage& message) = 0;
   /// A piece of the text, as soon as there is enough of it.
   virtual void text(std::string_view piece) = 0;
+  /// True where no more text can be taken, as on a full disk: the program ends with the piece that failed,
+  /// without a message, since whoever takes the text knows why.
+  virtual bool is_broken() const { return false; }
 };
 
 struct GcmcRun {
   Toolpath path;
   /// The real program's exit status: 0, 1 after errors, or what the program returned.
   int status = 0;
-  std::size_t warnings = 0;  // of the language, not the program's own
+  std::size_t warnings = 0;  // of the language and by warning(); what option -W makes an error of
   bool completed = false;    // ran to its end or to a return; errors of its own may have been said
   bool stopped = false;      // by Progress::stop_requested
   /// Layers in order of their stack, where the program named any.

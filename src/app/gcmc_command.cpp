@@ -87,6 +87,7 @@ class Listener final : public GcmcOutput {
     std::fwrite(text.data(), 1, text.size(), stderr);
   }
   void text(std::string_view piece) override { out_.write(piece); }
+  bool is_broken() const override { return !out_.good(); }
   bool silent = false;
 
  private:
@@ -191,7 +192,7 @@ int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, List
     out.write(line.run.target == GcmcTarget::svg ? gcmc_svg(run.path, line.drawing)
                                                  : gcmc_dxf(run.path, line.drawing));
   }
-  if (!complete && !line.output.empty()) return run.status;  // nothing is written
+  if (!complete && !line.output.empty() && out.good()) return run.status;  // nothing is written
   if (!out.finish()) {
     complain(out.complaint());
     return 1;

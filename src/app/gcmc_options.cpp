@@ -14,6 +14,8 @@ namespace kerf::app {
 namespace {
 
 constexpr double kLargestOffset = 1e6;
+constexpr double kBytesPerMegabyte = 1 << 20;
+constexpr double kMostOutput = 1e9;  // MB; beyond any disk, and far from what 64 bits count
 constexpr double kMmPerInch = 25.4;
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
@@ -33,6 +35,7 @@ enum class Id : std::uint8_t {
   imperial,
   include,
   json,
+  max_output,
   no_flip,
   no_grid,
   no_m2,
@@ -100,6 +103,7 @@ constexpr Option kOptions[] = {
     {'\0', "check", "", Id::check, "Look for syntax errors only (Kerf)"},
     {'\0', "json", "", Id::json, "With --check: what was found as JSON (Kerf)"},
     {'\0', "explain", "", Id::explain, "Show lines, hints and calls with each message (Kerf)"},
+    {'\0', "max-output", "MB", Id::max_output, "End the program behind so much output (Kerf, default 2048)"},
     {'\0', "hex-handles", "", Id::hex_handles, "DXF entities with the handles that AutoCAD wants (Kerf)"},
 };
 
@@ -238,6 +242,7 @@ class Reader {
       case Id::imperial: run.imperial = drawing.imperial = true; break;
       case Id::include: run.include_paths.push_back(value); break;
       case Id::json: out_.json = true; break;
+      case Id::max_output: max_output(value); break;
       case Id::no_flip: drawing.flip = false; break;
       case Id::no_grid: drawing.show_grid = false; break;
       case Id::no_m2: run.subroutine_ends_program = false; break;
@@ -285,6 +290,13 @@ class Reader {
     if (!n || *n != std::floor(*n)) return error("Invalid number of decimals");
     if (*n < 1 || *n > 15) return error("Number of decimals out of range (1..15)");
     out_.run.precision = static_cast<int>(*n);
+  }
+
+  void max_output(const std::string& text) {
+    const auto megabytes = parse_number(text);
+    if (!megabytes || *megabytes <= 0.0 || *megabytes > kMostOutput)
+      return error(fmt::format("Output limit must be a number of MB above 0 and up to {}", kMostOutput));
+    out_.run.max_output = static_cast<std::uint64_t>(*megabytes * kBytesPerMegabyte);
   }
 
   void opacity(const std::string& text) {

@@ -112,7 +112,10 @@ def test_warnings_as_errors(kerf):
     run = kerf("gcmc", "-qW", "-P1", stdin=b"x = 1mm + 1deg; move([x]);")
     assert run.status == 1 and run.out == "G1 X2.0\n"
     assert run.err.endswith("error: Runtime warnings considered to be errors\n")
-    assert kerf("gcmc", "-qW", stdin=b"warning(1);").status == 0  # the program's own do not count
+    run = kerf("gcmc", "-qW", "-P1", stdin=b"warning(1); move([1]);")  # the program's own count as well
+    assert run.status == 1 and run.out == "G1 X1.0\n"
+    assert run.err.endswith("error: Runtime warnings considered to be errors\n")
+    assert kerf("gcmc", "-qW", stdin=b"message(1);").status == 0
 
 
 def test_a_file_appears_whole_or_not_at_all(kerf, program, files, tmp_path):
@@ -123,6 +126,27 @@ def test_a_file_appears_whole_or_not_at_all(kerf, program, files, tmp_path):
     assert (tmp_path / "out.ngc").read_text() == "G1 X1.00000000\n" and files() == ["out.ngc"]
     run = kerf("gcmc", "-o", "no/such/folder.ngc", stdin=b"")
     assert run.status == 1 and "cannot write" in run.err
+
+
+@pytest.mark.parametrize("text", ["move([1]);", "while(1) { move([1, 2]); }"])
+def test_a_write_that_fails_ends_the_program(kerf, text):
+    run = kerf("gcmc", "-qo", "/dev/full", stdin=text.encode())
+    assert run.status == 1 and run.err.startswith("kerf gcmc: /dev/full: ") and "cannot write" in run.err
+    with open("/dev/full", "wb") as full:
+        run = subprocess.run([KERF, "gcmc", "-q"], input=text.encode(), stdout=full, stderr=subprocess.PIPE,
+                             timeout=60)
+    assert run.returncode == 1 and run.stderr == b"kerf gcmc: cannot write to standard output\n"
+
+
+def test_output_is_limited(kerf, program, files):
+    program("while(1) {\n  move([1, 2]);\n}\n", "p.gcmc")
+    run = kerf("gcmc", "-q", "--max-output", "1", "p.gcmc")
+    assert run.status == 1 and 2**20 <= len(run.out) < 2**21
+    assert run.err.startswith("p.gcmc:2:") and "error: More than 1 MB of output" in run.err
+    assert kerf("gcmc", "-q", "--max-output=1", "-o", "out.ngc", "p.gcmc").status == 1
+    assert files() == ["p.gcmc"]  # nothing of it is left behind
+    run = kerf("gcmc", "--max-output", "0", "p.gcmc")
+    assert run.status == 1 and "Output limit must be a number of MB" in run.err
 
 
 def test_devices_and_links_stay_what_they_are(kerf, program, tmp_path):
@@ -211,7 +235,7 @@ sink();
 """, "p.gcmc")
     run = kerf("check", "p.gcmc")
     assert run.status == 3
-    assert re.search(r"p\.gcmc:6:\d+: .*\n  called from p\.gcmc:9:\d+\n", run.out)
+    assert re.search(r"p\.gcmc:6:\d+: .*\n    hint: .*\n  called from p\.gcmc:9:\d+\n", run.out)
     hazard = kerf("check", "--json", "p.gcmc").json["hazards"][0]
     assert hazard["origin"]["line"] == 6 and [c["line"] for c in hazard["callers"]] == [9]
     simulated = kerf("simulate", "--json", "p.gcmc").json

@@ -190,6 +190,10 @@ std::vector<NameId> ordered(const std::unordered_set<NameId>& names) {
 
 /// Names below node `id`: all of them, or those that are assigned there. Bodies of functions are left out.
 void Compiler::collect_names(NodeId id, bool assigned_only, Names& out) const {
+  for (; id != kNoNode && node(id).kind == NodeKind::if_else; id = node(id).c) {  // with all its elifs
+    collect_names(node(id).a, assigned_only, out);
+    collect_names(node(id).b, assigned_only, out);
+  }
   if (id == kNoNode) return;
   const Node& n = node(id);
   auto& names = out.names;
@@ -431,20 +435,25 @@ void Compiler::declaration(const Node& n) {
   if (references_.count(n.name) == 0) own_.insert(n.name);
 }
 
-void Compiler::if_else(const Node& n) {
-  std::vector<std::size_t> otherwise;
-  jump_on(n.a, false, otherwise);
-  inner_block(n.b);
-  if (n.c == kNoNode) {
+/// An if with its elifs, in a loop, as there may be any number of them.
+void Compiler::if_else(const Node& first) {
+  std::vector<std::size_t> ends;
+  std::optional<decltype(own_)> own;  // behind the first condition, which alone is evaluated always
+  for (const Node* n = &first;; n = &node(n->c)) {
+    if (n->kind != NodeKind::if_else) {
+      statement(static_cast<NodeId>(n - tree_.nodes.data()));
+      break;
+    }
+    std::vector<std::size_t> otherwise;
+    jump_on(n->a, false, otherwise);
+    inner_block(n->b);
+    if (n->c != kNoNode) ends.push_back(emit(n->at, Op::jump, 0));
     for (std::size_t j : otherwise) patch(j);
-    return;
+    if (n->c == kNoNode) break;
+    if (!own) own = own_;
   }
-  const std::size_t end = emit(n.at, Op::jump, 0);
-  for (std::size_t j : otherwise) patch(j);
-  const auto own = own_;
-  statement(n.c);
-  own_ = own;
-  patch(end);
+  if (own) own_ = *own;
+  for (std::size_t j : ends) patch(j);
 }
 
 /// The end of a loop that goes on from `begin` while the condition holds.

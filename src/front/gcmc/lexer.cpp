@@ -333,22 +333,25 @@ void Lexer::escape(std::string& bytes, std::size_t& zeros_from) {
   bytes += letter == std::string_view::npos ? c : kMeanings[letter];
 }
 
+/// Tells that the line or the file ends before the closing quote. Reading goes on with the next line, if any.
+void Lexer::unended_string() {
+  if (!ended()) {
+    ++at_;
+    report_.error(place(), Code::gcmc_word, "Unterminated string");
+  }
+  if (ended())
+    report_.fatal(place(), Code::gcmc_word, "Unexpected EOF");
+  else
+    --at_;
+}
+
 /// Reads up to the closing quote; false where the line or the file ends before.
 bool Lexer::string_piece(std::string& bytes) {
   std::size_t zeros_from = std::string::npos;
   ++at_;
   for (;;) {
     if (ended() || peek() == '\n') {
-      if (!ended()) {
-        ++at_;
-        report_.error(place(), Code::gcmc_word, "Unterminated string");
-        --at_;
-      }
-      if (source_.find('"', at_) == std::string_view::npos) {
-        if (!ended()) ++at_;
-        report_.fatal(place(), Code::gcmc_word, "Unexpected EOF");
-        at_ = source_.size();
-      }
+      unended_string();
       return false;
     }
     const char c = peek();
@@ -388,7 +391,9 @@ void Lexer::check_utf8(const std::string& bytes) {
 void Lexer::string(Word& word) {
   std::string bytes;
   word.token = Token::string;
-  while (string_piece(bytes)) {
+  for (;;) {
+    word.unended = !string_piece(bytes);
+    if (word.unended) break;
     std::size_t after = at_;  // literals that follow on the same line belong to this one
     while (after < source_.size() && is_space(source_[after])) ++after;
     if (after >= source_.size() || source_[after] != '"') break;

@@ -104,6 +104,7 @@ struct Word {
   std::string_view text;  // identifiers, and what messages quote
   Scalar number;          // integer and real
   std::u32string string;
+  bool unended = false;  // a string without its closing quote, which may have swallowed words that follow
 };
 
 /// What the lexer and the parser say: severity "error", "warning" or "fatal" and the message.
@@ -133,6 +134,7 @@ class Lexer {
   bool real(Word& word, std::size_t start);
   void string(Word& word);
   bool string_piece(std::string& bytes);
+  void unended_string();
   void escape(std::string& bytes, std::size_t& zeros_from);
   void octal(std::string& bytes, std::size_t& zeros_from);
   void check_utf8(const std::string& bytes);

@@ -143,9 +143,11 @@ void Parser::fail(std::string message, std::string hint) {
   throw Failure{};
 }
 
-/// A missing word is complained about and taken as if it were there.
+/// A missing word is complained about and taken as if it were there. What a string without its end swallowed
+/// is not: that was told.
 bool Parser::expect(Token token, std::string_view shown, std::string hint) {
   if (accept(token)) return true;
+  if (last_.unended) return false;
   const bool after_number = last_.token == Token::integer || last_.token == Token::real;
   if (hint.empty() && last_.token == Token::identifier) hint = meant(last_.text, statement_words());
   if (hint.empty() && after_number && is(Token::identifier)) hint = meant(word_.text, unit_words());
@@ -272,17 +274,23 @@ Node Parser::opened(NodeKind kind, Place at) {
   return out;
 }
 
+/// An if with all its elifs, of which there may be any number: each is the other branch of the one before.
 NodeId Parser::parse_if(Place at) {
   const Deeper deeper(depth_);
-  if (depth_ > kDeepestNesting) fail("The program is nested too deeply");
-  Node out = opened(NodeKind::if_else, at);
-  out.a = condition();
-  out.b = body();
-  if (is(Token::kw_elif))
-    out.c = parse_if(word_.at);
-  else if (accept(Token::kw_else))
-    out.c = body();
-  return tree_.add(out);
+  std::vector<Node> branches;
+  do {
+    branches.push_back(opened(NodeKind::if_else, branches.empty() ? at : word_.at));
+    const NodeId decides = condition();
+    const NodeId then = body();
+    branches.back().a = decides;
+    branches.back().b = then;
+  } while (is(Token::kw_elif));
+  NodeId otherwise = accept(Token::kw_else) ? body() : kNoNode;
+  for (auto branch = branches.rbegin(); branch != branches.rend(); ++branch) {
+    branch->c = otherwise;
+    otherwise = tree_.add(*branch);
+  }
+  return otherwise;
 }
 
 NodeId Parser::parse_for(Place at) {
@@ -446,8 +454,12 @@ void Parser::include(std::vector<NodeId>& into) {
 
 void Parser::include_file(const std::string& name, Place at, std::vector<NodeId>& into) {
   Source source;
-  if (!includer_(name, source)) {
-    report_.error(at, Code::gcmc_include_missing, fmt::format("Include file '{}' cannot be found", name));
+  std::string obstacle;
+  if (!includer_(name, source, obstacle)) {
+    if (obstacle.empty())
+      report_.error(at, Code::gcmc_include_missing, fmt::format("Include file '{}' cannot be found", name));
+    else
+      report_.error(at, Code::file_unreadable, fmt::format("Include file '{}': {}", name, obstacle));
     return;
   }
   if (include_depth_ >= kDeepestInclude || sources_.size() >= kMostSources) {

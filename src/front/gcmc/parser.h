@@ -19,8 +19,9 @@ struct Source {
   std::string bytes;
 };
 
-/// Finds included files; nothing if there is none of that name.
-using Includer = std::function<bool(const std::string& name, Source& found)>;
+/// Finds included files. False if there is none of that name, with what is wrong with the one that cannot be
+/// read.
+using Includer = std::function<bool(const std::string& name, Source& found, std::string& obstacle)>;
 /// True for the name of a built-in function.
 using IsBuiltin = std::function<bool(std::string_view name)>;
 

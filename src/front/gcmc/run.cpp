@@ -1,6 +1,7 @@
 // A whole run: sources, parsing, compiling, running, sinks.
 #include <algorithm>
 #include <deque>
+#include <filesystem>
 #include <fmt/format.h>
 #include <optional>
 #include <utility>
@@ -66,22 +67,32 @@ class Reporter final : public SourceReport {
   bool over_ = false;
 };
 
-std::optional<std::string> file_text(const std::string& path) {
-  Diagnostics ignored;
-  const auto file = InputFile::open(path, ignored, kLargestSource);
-  if (!file) return std::nullopt;
-  return std::string(file->bytes());
+/// The text of a file. Where there is one that cannot be read, `obstacle` tells why, unless it told before.
+std::optional<std::string> file_text(const std::string& path, std::string& obstacle) {
+  std::error_code failed;
+  const std::filesystem::file_status status = std::filesystem::status(path, failed);
+  if (!std::filesystem::exists(status)) return std::nullopt;
+  Diagnostics diagnostics;
+  std::optional<InputFile> file;
+  // A device may have no end.
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0}, "it is a device, not an ordinary file");
+  else
+    file = InputFile::open(path, diagnostics, kLargestSource);
+  if (file) return std::string(file->bytes());
+  if (obstacle.empty()) obstacle = diagnostics.list().front().message;
+  return std::nullopt;
 }
 
 /// Where included files are: the folder the user stands in, the given paths, Kerf's own library.
-bool find_include(const GcmcOptions& options, const std::string& name, Source& found) {
+bool find_include(const GcmcOptions& options, const std::string& name, Source& found, std::string& obstacle) {
   if (name.empty() || name == "-" || name.find('\0') != std::string::npos) return false;
   std::vector<std::string> places{name};
   if (name[0] != '/')
     for (const std::string& folder : options.include_paths)
       places.push_back(folder + (!folder.empty() && folder.back() == '/' ? "" : "/") + name);
   for (const std::string& path : places) {
-    if (auto text = file_text(path)) {
+    if (auto text = file_text(path, obstacle)) {
       found = {path, std::move(*text)};
       return true;
     }
@@ -101,8 +112,8 @@ bool parse_all(std::string_view text, const GcmcOptions& options, Tree& tree, st
   for (const std::string& d : options.defines) defines += d + ";\n";
   sources.push_back({"<cmd-line defines>", std::move(defines)});
   sources.push_back({options.file_name, std::string(text)});
-  const Includer includer = [&](const std::string& name, Source& found) {
-    return find_include(options, name, found);
+  const Includer includer = [&](const std::string& name, Source& found, std::string& obstacle) {
+    return find_include(options, name, found, obstacle);
   };
   const IsBuiltin is_builtin = [](std::string_view name) { return builtin_index(name) >= 0; };
   Parser parser(tree, sources, report, includer, is_builtin);
@@ -125,12 +136,12 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
   Vm vm(tree, sources, code, options, output, diagnostics, progress);
   std::vector<LanguageConstant> constants = language_constants(vm.meter);
   for (std::size_t i = 0; i < names.size(); ++i) vm.define_constant(names[i], std::move(constants[i].value));
-  TextSink text(options, output);
+  TextSink text(vm, output);
   PathSink path(run.path, vm);
   if (options.want_text) vm.machine().sinks.push_back(&text);
   if (options.want_path) vm.machine().sinks.push_back(&path);
-  if (options.want_text) text.begin();
   try {
+    if (options.want_text) text.begin();
     run.status = exit_status(vm, vm.run());
     if (options.want_path) path.finish();
     if (options.want_text) text.end();
@@ -138,7 +149,7 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
   } catch (const Stop&) {
     run.status = 1;
     run.stopped = vm.was_stopped();
-    text.flush();
+    text.break_off();
   }
   run.warnings += vm.warnings();
   run.layers = vm.machine().layers;

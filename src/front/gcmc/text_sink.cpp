@@ -17,13 +17,33 @@ constexpr char kOffsets[] = "IJK";
 
 }  // namespace
 
-TextSink::TextSink(const GcmcOptions& options, GcmcOutput& output)
-    : options_(options), output_(output), buffer_(new char[kPiece + kLongestLine]), at_(buffer_.get()) {}
+TextSink::TextSink(Vm& vm, GcmcOutput& output)
+    : vm_(vm),
+      options_(vm.options()),
+      output_(output),
+      buffer_(new char[kPiece + kLongestLine]),
+      at_(buffer_.get()) {}
 
-void TextSink::flush() {
+/// What the buffer holds, which is free for more then.
+std::string_view TextSink::taken() {
   const std::string_view piece(buffer_.get(), static_cast<std::size_t>(at_ - buffer_.get()));
-  if (!piece.empty()) output_.text(piece);
   at_ = buffer_.get();
+  return piece;
+}
+
+/// Ends the program where nobody can take its text any more, or where it is too much.
+void TextSink::pass_on(std::string_view piece) {
+  if (piece.empty()) return;
+  output_.text(piece);
+  if (output_.is_broken()) throw Stop{};
+  vm_.count_output(piece.size());
+}
+
+void TextSink::flush() { pass_on(taken()); }
+
+void TextSink::break_off() {
+  const std::string_view piece = taken();
+  if (!piece.empty() && !output_.is_broken()) output_.text(piece);
 }
 
 /// Before a line: there is room for the longest one afterwards.
@@ -36,7 +56,7 @@ void TextSink::put(std::string_view text) {
   make_room();
   if (text.size() > kLongestLine) {
     flush();
-    output_.text(text);
+    pass_on(text);
     return;
   }
   at_ = std::copy(text.begin(), text.end(), at_);

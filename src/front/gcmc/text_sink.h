@@ -5,6 +5,7 @@
 #include <string>
 
 #include "front/gcmc/sink.h"
+#include "front/gcmc/vm.h"
 
 #include "kerf/gcmc.h"
 
@@ -12,10 +13,11 @@ namespace kerf::gcmc {
 
 class TextSink final : public Sink {
  public:
-  TextSink(const GcmcOptions& options, GcmcOutput& output);
+  TextSink(Vm& vm, GcmcOutput& output);
   void begin();
   void end();
-  void flush();
+  /// Hands on what is there of a program that was ended by an error.
+  void break_off();
 
   void move(const Move& m) override;
   void arc(const ArcMove& m) override;
@@ -39,6 +41,9 @@ class TextSink final : public Sink {
   void close_path() override {}
 
  private:
+  std::string_view taken();
+  void pass_on(std::string_view piece);
+  void flush();
   void make_room();
   void put(std::string_view text);
   void line(std::string_view text);
@@ -49,6 +54,7 @@ class TextSink final : public Sink {
   void end_line() { *at_++ = '\n'; }
   void forget();
 
+  Vm& vm_;
   const GcmcOptions& options_;
   GcmcOutput& output_;
   std::unique_ptr<char[]> buffer_;

@@ -103,6 +103,10 @@ TextSpot Vm::spot(std::size_t instruction) const {
 }
 
 void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
+  if (said != GcmcSaid::error) {
+    show_life();
+    count_output(text.size());
+  }
   GcmcMessage message;
   message.said = said;
   message.code = code;
@@ -114,7 +118,6 @@ void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
     message.calls.push_back({spot(call_site(i)), fmt::format("in the call of {}()", name)});
   }
   output_.message(message);
-  show_life();
   if (said == GcmcSaid::message) return;
   Diagnostic d;
   d.severity =
@@ -138,6 +141,7 @@ void Vm::say_error(Code code, std::string text, std::string hint) {
 
 void Vm::say(GcmcSaid said, std::string text) {
   if (said == GcmcSaid::script_error) ++script_errors_;
+  if (said == GcmcSaid::script_warning) ++warnings_;
   report(said, Code::gcmc_script, std::move(text), {});
 }
 
@@ -177,6 +181,7 @@ const Value* Vm::variable(std::string_view name) const {
 void Vm::refuel() {
   fuel_ = kStepsPerLook;
   quiet_steps_ += kStepsPerLook;
+  steps_ += kStepsPerLook;
   if (stop_requested(progress_)) {
     stopped_ = true;
     fail(Code::stopped, "Interrupted");
@@ -184,6 +189,14 @@ void Vm::refuel() {
   if (quiet_steps_ > options_.max_quiet_steps)
     fail(Code::gcmc_limit,
          fmt::format("No output or message in {} loop steps: an endless loop?", quiet_steps_));
+  if (steps_ > options_.max_steps)
+    fail(Code::gcmc_limit, fmt::format("The program takes more than {} loop steps", options_.max_steps));
+}
+
+void Vm::fail_output() {
+  fail(Code::gcmc_limit,
+       fmt::format("More than {} MB of output and messages: an endless loop?", options_.max_output >> 20),
+       "--max-output permits more");
 }
 
 // ---- moving values

@@ -63,8 +63,16 @@ class Vm final : public Runtime {
   /// The variable of that name as the running code sees it, or nullptr.
   const Value* variable(std::string_view name) const;
   bool is_constant(const Value& variable) const { return constants_.count(&variable) != 0; }
-  /// Something came out: the program is not lost in a loop.
-  void show_life() { quiet_steps_ = 0; }
+  /// Something comes out: the program is not lost in a loop, unless it writes without end.
+  void show_life() {
+    quiet_steps_ = 0;
+    count_output(1);
+  }
+  /// Ends the program that writes too much.
+  void count_output(std::size_t bytes) {
+    output_bytes_ += bytes;
+    if (output_bytes_ > options_.max_output) fail_output();
+  }
 
   std::size_t current_instruction() const {
     return static_cast<std::size_t>(at_ - code_.instructions.data());
@@ -100,6 +108,7 @@ class Vm final : public Runtime {
   }
   bool reach(Value* end);
   void refuel();
+  [[noreturn]] void fail_output();
 
   // instructions that are more than a few lines
   void do_move(const Instruction& in);
@@ -180,7 +189,7 @@ class Vm final : public Runtime {
   const struct Builtin* builtins_;
   std::unordered_set<const Value*> constants_;  // variables that may not be assigned to
   std::int32_t fuel_ = 0;
-  std::uint64_t quiet_steps_ = 0;
+  std::uint64_t quiet_steps_ = 0, steps_ = 0, output_bytes_ = 0;
   std::size_t script_errors_ = 0;
   std::size_t warnings_ = 0;
   bool stopped_ = false;

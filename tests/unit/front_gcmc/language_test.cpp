@@ -422,6 +422,11 @@ const std::vector<Case> kWords{
     {"q = \"\\xc1\\x81\";", "warning: String has over-long UTF-8 sequences"},
     {"$", "error: Illegal character in text '$' (0x24)"},
     {"x = \"unterminated\n", "error: Unterminated string|fatal: Unexpected EOF"},
+    {"x = \"unterminated", "fatal: Unexpected EOF"},
+    {"x = \"a\" \"b;\ny = ;\n", "error: Unterminated string|error: Expression expected after '='"},
+    {"message(\"abc);\ny = \"d;\nz = ;\n",
+     "error: Unterminated string|error: Unterminated string|error: Expression expected after '='"},
+    {"y = [\"abc];\n}\n", "error: Unterminated string|error: Syntax error"},
     {"/* no end", "fatal: Unexpected EOF"},
     {"x = \"a\" \n \"b\";", "error: ';' expected|error: Statement has no effect"},
     {"x = 3000000000; message(x);",
@@ -536,6 +541,15 @@ TEST(GcmcLanguage, DefinesRunFirst) {
   EXPECT_EQ(to_string(ran.messages.at(0).where), "<cmd-line defines>:1:6");
 }
 
+TEST(GcmcErrors, AStringWithoutEndHidesNothing) {
+  const Ran ran = run("x=1mm;\ny=\"abc;\n5=3;\nz.q=1;\n");
+  std::vector<std::string> places;
+  for (const GcmcMessage& m : ran.messages) places.push_back(to_string(m.where));
+  EXPECT_EQ(places, (std::vector<std::string>{"t.gcmc:2:9", "t.gcmc:3:5", "t.gcmc:4:4"}));
+  const Ran end = run("x=1;\ny=\"abc");
+  EXPECT_EQ(to_string(end.messages.at(0).where), "t.gcmc:2:7");  // behind the last character
+}
+
 // ---- limits
 
 TEST(GcmcLimits, EndlessRecursionEnds) {
@@ -552,6 +566,36 @@ TEST(GcmcLimits, EndlessLoopsEnd) {
   EXPECT_EQ(said_by("repeat(1000000; i) { move([i]); }", options), "");  // who writes is not lost
 }
 
+TEST(GcmcLimits, OutputIsBounded) {
+  GcmcOptions options = bare();
+  options.max_output = 1 << 20;
+  for (const char* program :
+       {"\nwhile(1) { move([1, 2]); }", "\nwhile(1) { literal(\"\"); }", "\nwhile(1) { comment(\"x\"); }"}) {
+    options.want_path = false;
+    const Ran ran = run(program, options);
+    EXPECT_EQ(ran.said,
+              std::vector<std::string>{"error: More than 1 MB of output and messages: an endless loop?"});
+    EXPECT_EQ(ran.messages.at(0).where.line, 2u);
+    EXPECT_EQ(ran.messages.at(0).code, Code::gcmc_limit);
+    EXPECT_EQ(ran.run.status, 1);
+    EXPECT_LT(ran.text.size(), std::size_t{1} << 21);
+  }
+  options.max_output = 20'000;
+  for (const char* program : {"while(1) { message(\"0123456789\"); }", "while(1) { warning(1); }",
+                              "while(1) { error(1); }", "while(1) { x = 1mm + 1deg; }"}) {
+    const Ran ran = run(program, options);
+    EXPECT_NE(ran.said.back().find("an endless loop?"), std::string::npos) << program;
+    EXPECT_LT(ran.said.size(), 10'002u) << program;
+  }
+}
+
+TEST(GcmcLimits, StepsAreBoundedAlsoWithOutput) {
+  GcmcOptions options = bare();
+  options.max_steps = 100'000;
+  EXPECT_EQ(said_by("while(1) { move([1]); repeat(10000) {} }", options),
+            "error: The program takes more than 100000 loop steps");
+}
+
 TEST(GcmcLimits, MemoryIsBounded) {
   GcmcOptions options = bare();
   options.max_memory = 1 << 20;
@@ -562,6 +606,39 @@ TEST(GcmcLimits, MemoryIsBounded) {
     EXPECT_EQ(said_by(program, options),
               "error: The program uses more than 1 MB for vectors, lists and strings")
         << program;
+}
+
+/// Takes so many pieces of text, and no more.
+class FullDisk final : public GcmcOutput {
+ public:
+  explicit FullDisk(int room) : room_(room) {}
+  void message(const GcmcMessage& m) override { said += to_line(m); }
+  void text(std::string_view) override { ++pieces; }
+  bool is_broken() const override { return pieces > room_; }
+  int pieces = 0;
+  std::string said;
+
+ private:
+  int room_;
+};
+
+TEST(GcmcLimits, AProgramEndsWhereItsTextCannotBeTaken) {
+  for (const char* program : {"while(1) { move([1, 2]); }",
+                              "s = \"0123456789\"; repeat(11) { s += s; } while(1) { literal(s); }"}) {
+    FullDisk disk(3);
+    Diagnostics diagnostics;
+    const GcmcRun ran = run_gcmc(program, bare(), disk, diagnostics);
+    EXPECT_EQ(disk.pieces, 4) << program;  // the one that fails is the last
+    EXPECT_EQ(disk.said, "");
+    EXPECT_EQ(ran.status, 1);
+    EXPECT_FALSE(ran.completed);
+  }
+  GcmcOptions options = bare();
+  options.prologue = std::string(100'000, '%');
+  FullDisk disk(0);
+  Diagnostics diagnostics;
+  EXPECT_EQ(run_gcmc("message(1);", options, disk, diagnostics).status, 1);
+  EXPECT_EQ(disk.said, "");
 }
 
 // What a function held is let go when it ends: a copy of the list would otherwise be kept, and made again.
@@ -596,8 +673,10 @@ TEST(GcmcLimits, NestingIsBounded) {
   for (int i = 0; i < 2000; ++i) blocks += "if(1) {";
   EXPECT_NE(said_by(blocks).find("nested too deeply"), std::string::npos);
   std::string elifs = "if(0) {}";
-  for (int i = 0; i < 3000; ++i) elifs += " elif(0) {}";
-  EXPECT_NE(said_by(elifs).find("nested too deeply"), std::string::npos);
+  for (int i = 0; i < 20'000; ++i)
+    elifs += " elif(x == " + std::to_string(i) + ") { y = " + std::to_string(i) + "; }";
+  EXPECT_EQ(said_by("x = 19999; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): 19999");
+  EXPECT_EQ(said_by("x = -7; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): -1");
   EXPECT_NE(said_by("function f(a = f()) {} f();").find("too large"), std::string::npos);
 }
 

@@ -1,5 +1,6 @@
 // The two forms of output: the text, and the toolpath with its origins; and the library.
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 
@@ -194,6 +195,27 @@ TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
   std::remove(file.c_str());
 }
 
+TEST(GcmcInclude, WhatCannotBeReadIsToldWhatItIs) {
+  EXPECT_EQ(said_by("include(\"/\");"), "error: Include file '/': cannot read the file: it is a folder");
+  EXPECT_EQ(run("include(\"/\");").messages.at(0).code, Code::file_unreadable);
+  EXPECT_EQ(said_by("include(\"/dev/zero\");"),
+            "error: Include file '/dev/zero': it is a device, not an ordinary file");
+  const std::filesystem::path large = std::filesystem::path(testing::TempDir()) / "kerf_large.gcmc";
+  std::ofstream(large) << ";";
+  std::filesystem::resize_file(large, std::uintmax_t{1} << 30);  // a hole, which takes no room
+  const std::string said = said_by("include(\"" + large.string() + "\");");
+  EXPECT_NE(said.find("kerf_large.gcmc': the file is larger than 268435456 bytes"), std::string::npos)
+      << said;
+  std::filesystem::remove(large);
+  // A folder of the name does not hide the file that is looked for further on.
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "kerf_hides";
+  std::filesystem::create_directories(folder / "varcs.inc.gcmc");
+  GcmcOptions options = bare();
+  options.include_paths = {folder.string()};
+  EXPECT_EQ(said_by("include(\"varcs.inc.gcmc\");", options), "");
+  std::filesystem::remove_all(folder);
+}
+
 // ---- library
 
 const std::string kDrill = "include(\"canned_drill.inc.gcmc\"); ";
@@ -254,6 +276,10 @@ TEST(GcmcLibrary, ArcsAsPoints) {
             "Runtime message(): {[1.464mm,3.536mm],[5.000mm,5.000mm],[8.536mm,3.536mm],[10mm,0mm]}");
   EXPECT_EQ(points("varc_ccw([10mm,0mm],5mm,0,5mm,90deg)"),
             "Runtime message(): {[2.500mm,-4.330mm],[7.500mm,-4.330mm],[10mm,0mm]}");
+  for (const char* way : {"varc_ccw([10mm,10mm],10mm,0,1mm,5deg)", "varc_cw([10mm,10mm],10mm,0,1mm,5deg)",
+                          "varc_ccw([-10mm,10mm],10mm,0,1mm,5deg)"})  // rounding adds no step
+    EXPECT_EQ(points(std::string("count(") + way + ")"), "Runtime message(): 18") << way;
+  EXPECT_EQ(points("count(varc_ccw([10mm,10mm],10mm,0,1mm,4.999deg))"), "Runtime message(): 19");
   EXPECT_EQ(points("count(varc_cw([10mm,0mm],5mm)), \" \", count(vcircle_cw([0mm,50mm])), \" \", "
                    "count(vcircle_cw([0mm,1mm]))"),
             "Runtime message(): 180 3142 360");
