@@ -116,8 +116,9 @@ struct CornerReport {
   SharpReason reason = SharpReason::none;
   std::uint32_t first = 0;  ///< element of the result where the replacement begins
   std::uint32_t count = 0;  ///< elements of the result that it consists of; 0 if sharp
-  /// Where it stays sharp: the largest radius that could be cut here (0: none), given what the corners before
-  /// it took. A lower bound within 1e-6.
+  /// Where it stays sharp because the radius is too large or the edge is shared: the largest radius that
+  /// could be cut here (0: none), given what the corners before it took; shared evenly: what the others ask
+  /// for. A lower bound within 1e-6 of the request. 0 for corners that were cut.
   Length largest;
 };
 
