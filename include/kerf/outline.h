@@ -62,6 +62,9 @@ struct Circle {
   bool operator==(const Circle&) const = default;
 };
 
+/// The circle as a closed outline of two half circles, counter-clockwise from its right.
+Outline as_outline(const Circle& circle);
+
 /// The outlines of one part: the first is its outside, the others are holes.
 using Figure = std::vector<std::variant<Outline, Circle>>;
 

@@ -257,7 +257,8 @@ def test_fair_says_by_how_much_a_radius_is_too_large(capsys):
     assert all(line.endswith("the radius is 1 too large, the largest here is 5") for line in said)
     assert [r["largest"] for r in api.corner_reports(wish, "a", fair=True)] == [5.0] * 4
     fits = [[x, y, 5] for x, y, _ in wish[:4]] + [[0, 0, 0]]
-    assert all(r["outcome"] == "smoothed" and r["largest"] == 0.0 for r in api.corner_reports(fits, fair=True))
+    reports = api.corner_reports(fits, fair=True)
+    assert all(r["outcome"] == "smoothed" and r["largest"] == 0.0 for r in reports)
 
 
 def test_corners_that_are_not_said_are_counted(capsys):
