@@ -62,6 +62,9 @@ struct Circle {
   bool operator==(const Circle&) const = default;
 };
 
+/// The circle as a closed outline of two half circles, counter-clockwise from its right.
+Outline as_outline(const Circle& circle);
+
 /// The outlines of one part: the first is its outside, the others are holes.
 using Figure = std::vector<std::variant<Outline, Circle>>;
 
@@ -116,8 +119,9 @@ struct CornerReport {
   SharpReason reason = SharpReason::none;
   std::uint32_t first = 0;  ///< element of the result where the replacement begins
   std::uint32_t count = 0;  ///< elements of the result that it consists of; 0 if sharp
-  /// Where it stays sharp: the largest radius that could be cut here (0: none), given what the corners before
-  /// it took. A lower bound within 1e-6.
+  /// Where it stays sharp because the radius is too large or the edge is shared: the largest radius that
+  /// could be cut here (0: none), given what the corners before it took; shared evenly: what the others ask
+  /// for. A lower bound within 1e-6 of the request. 0 for corners that were cut.
   Length largest;
 };
 

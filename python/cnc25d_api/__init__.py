@@ -96,9 +96,10 @@ def cnc_cut_outline(outline, error_msg_id="", *, fair=False):
     OutlineError
         Malformed lists, numbers that are not finite, arcs that end where they begin.
     """
-    made, messages, _ = _outline.cut(outline, str(error_msg_id), bool(fair), False)
-    record_cut(outline, str(error_msg_id))
-    say(messages)
+    made, messages, own_messages, _ = _outline.cut(outline, str(error_msg_id), bool(fair), False)
+    if not record_cut(outline, str(error_msg_id)):
+        say(messages)
+    say(own_messages)
     return made
 
 
@@ -108,11 +109,12 @@ def corner_reports(outline, error_msg_id="", *, fair=False):
     Returns
     -------
     list of dict
-        `element` of the input; `outcome` ('smoothed', 'enlarged' or 'sharp'); `reason` where it stays sharp;
-        `largest`, the largest radius that would fit there; `first` and `count`, the elements of the
-        result that replace it.
+        `element` of the input; `outcome` ('smoothed', 'enlarged' or 'sharp'); `reason` where it stays sharp,
+        else 'none'; `largest`, the largest radius that would fit where it stays sharp because the radius
+        is too large, 0.0 elsewhere and for corners that were cut; `first` and `count`, the elements of
+        the result that replace it.
     """
-    return _outline.cut(outline, str(error_msg_id), bool(fair), True)[2]
+    return _outline.cut(outline, str(error_msg_id), bool(fair), True)[3]
 
 
 def smooth_outline_c_curve(outline, precision, router_bit_request, error_msg_id):

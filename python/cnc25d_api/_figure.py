@@ -4,11 +4,20 @@ import os
 import tempfile
 
 from . import _outline
-from ._lists import ideal_outline, outline_rotate, outline_shift_xy
+from ._lists import ideal_outline, outline_rotate, outline_shift_xy, refuse
 
 
-def _format(outline):
-    return _outline.check(outline, 237, 247)
+def _format(outline, name):
+    return _outline.check(outline, 237, 247, name)
+
+
+def _outlines(figure, name=""):
+    name = str(name) or "figure"
+    try:
+        return list(figure)
+    except TypeError:
+        text = f"outline {name}: a figure is a list or a tuple of outlines, not {type(figure).__name__}"
+        raise refuse(937, text, name) from None
 
 
 def cnc_cut_figure(figure, error_figure_id="", *, fair=False):
@@ -18,22 +27,25 @@ def cnc_cut_figure(figure, error_figure_id="", *, fair=False):
     """
     from . import cnc_cut_outline
     made = []
-    for k, outline in enumerate(figure):
-        is_wish = _format(outline) == "A"
-        made.append(cnc_cut_outline(outline, f"{error_figure_id}.ol{k}", fair=fair) if is_wish else outline)
+    for k, outline in enumerate(_outlines(figure, error_figure_id)):
+        name = f"{error_figure_id}.ol{k}"
+        made.append(cnc_cut_outline(outline, name, fair=fair) if _format(outline, name) == "A" else outline)
     return made
 
 
 def ideal_figure(figure, error_figure_id=""):
     """`ideal_outline` for each outline of format A; circles and format B stay as they are."""
-    return [ideal_outline(outline, f"{error_figure_id}.ol{k}") if _format(outline) == "A" else outline
-            for k, outline in enumerate(figure)]
+    made = []
+    for k, outline in enumerate(_outlines(figure, error_figure_id)):
+        name = f"{error_figure_id}.ol{k}"
+        made.append(ideal_outline(outline, name) if _format(outline, name) == "A" else outline)
+    return made
 
 
 def rotate_and_translate_figure(figure, center_x, center_y, rotation_angle, translate_x, translate_y):
     """Turn a figure about a point by an angle in radians, then shift it."""
     return [outline_shift_xy(outline_rotate(outline, center_x, center_y, rotation_angle),
-                             translate_x, 1, translate_y, 1) for outline in figure]
+                             translate_x, 1, translate_y, 1) for outline in _outlines(figure)]
 
 
 def flip_rotate_and_translate_figure(figure, zero_x, zero_y, size_x, size_y, flip_x, flip_y, rotation_angle,
@@ -43,8 +55,11 @@ def flip_rotate_and_translate_figure(figure, zero_x, zero_y, size_x, size_y, fli
 
     flip_x, flip_y are 1 or -1.
     """
+    for name, flip in (("flip_x", flip_x), ("flip_y", flip_y)):
+        if flip not in (1, -1):
+            raise refuse(264, f"{name} must be 1 or -1, not {flip!r}")
     made = []
-    for outline in figure:
+    for outline in _outlines(figure):
         outline = outline_shift_xy(outline, -(zero_x + size_x / 2), 1, -(zero_y + size_y / 2), 1)
         outline = outline_shift_xy(outline, 0, flip_x, 0, flip_y)
         outline = outline_rotate(outline, 0, 0, rotation_angle)

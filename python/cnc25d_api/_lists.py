@@ -7,11 +7,20 @@ from ._outline import OutlineError
 from ._say import warn
 
 
-def refuse(number, text):
+# More chords than this are no drawing; each is a tuple of four numbers.
+_MOST_CHORDS = 1_000_000
+
+
+def refuse(number, text, outline=""):
     """The OutlineError of a message number."""
     error = OutlineError(f"ERR{number}: Error, {text}")
-    error.code, error.outline, error.element = number, "", None
+    error.code, error.outline, error.element = number, outline, None
     return error
+
+
+def _check_format(outline_format):
+    if outline_format not in (None, "A", "B", "C"):
+        raise refuse(264, f"outline_format must be 'A', 'B', 'C' or None, not {outline_format!r}")
 
 
 def outline_shift_x(outline, x_offset, x_factor, *, outline_format=None):
@@ -38,6 +47,7 @@ def outline_shift_xy(outline, x_offset, x_factor, y_offset, y_factor, *, outline
     OutlineError
         Malformed lists, factors of 0.
     """
+    _check_format(outline_format)
     made = _outline.place(outline, x_offset, x_factor, y_offset, y_factor, outline_format or "")
     if made and not isinstance(made[0], tuple) and abs(x_factor) != abs(y_factor):
         warn(358, f"factors {x_factor} and {y_factor} would make an ellipse: a circle is made")
@@ -46,12 +56,13 @@ def outline_shift_xy(outline, x_offset, x_factor, y_offset, y_factor, *, outline
 
 def outline_rotate(outline, center_x, center_y, rotation_angle, *, outline_format=None):
     """Turn an outline about a point by an angle in radians (with outline_format="C": inclinations, too)."""
+    _check_format(outline_format)
     return _outline.rotate(outline, center_x, center_y, rotation_angle, outline_format or "")
 
 
 def outline_close(outline):
     """A copy of the outline, closed by a line where it is open. A circle comes back as it is."""
-    kind = _outline.check(outline, 237, 247)
+    kind = _outline.check(outline, 237, 247, "")
     if kind == "circle":
         return list(outline)
     end = -2 if kind == "B" else -3
@@ -69,9 +80,10 @@ def outline_reverse(outline, *, outline_format=None):
 
     Format C with outline_format="C": inclinations are turned by pi.
     """
+    _check_format(outline_format)
     if outline_format == "C":
         return _outline.reverse_curve(outline)
-    kind = _outline.check(outline, 257, 258)
+    kind = _outline.check(outline, 257, 258, "")
     if kind == "circle":
         return list(outline)
     ends = [tuple(row[-2:]) if kind == "B" else tuple(row[-3:-1]) for row in outline]
@@ -89,7 +101,7 @@ def outline_reverse(outline, *, outline_format=None):
 
 def ideal_outline(outline, error_mark_string=""):
     """Format A or C without its last column: format B. Format B and circles come back, with a warning."""
-    kind = _outline.check(outline, 868, 868)
+    kind = _outline.check(outline, 868, 868, str(error_mark_string))
     if kind != "A":
         warn(441, f"{error_mark_string} is a circle or of format B already")
         return outline
@@ -102,10 +114,15 @@ def outline_arc_line(outline, backend="tkinter"):
     There are twelve chords for each unit of radius in a full circle, and never less than three. Other
     backends than "tkinter" drew into objects of other libraries: `write_figure_in_svg` and
     `write_figure_in_dxf` write files.
+
+    Raises
+    ------
+    OutlineError
+        Malformed lists, and outlines that would take more than a million chords.
     """
     if backend != "tkinter":
         raise refuse(264, f"backend {backend!r}: only 'tkinter' gives a list; see write_figure_in_svg")
-    kind = _outline.check(outline, 237, 247)
+    kind = _outline.check(outline, 237, 247, "")
     if kind == "circle":
         return _circle_chords(*outline)
     if kind == "A":
@@ -114,24 +131,33 @@ def outline_arc_line(outline, backend="tkinter"):
     chords = []
     start = tuple(outline[0])
     for row in outline[1:]:
-        points = _arc_points(start, tuple(row[:2]), tuple(row[2:])) if len(row) == 4 else [tuple(row)]
+        room = _MOST_CHORDS - len(chords)
+        is_arc = len(row) == 4
+        points = _arc_points(start, tuple(row[:2]), tuple(row[2:]), room) if is_arc else [tuple(row)]
         for point in points:
             chords.append(start + point)
             start = point
     return chords
 
 
+def _check_chords(count, room):
+    if count > room:
+        raise refuse(264, f"more than {_MOST_CHORDS} chords would be made, twelve for each unit of radius: "
+                     "choose a larger unit")
+
+
 def _circle_chords(x, y, radius):
     if radius <= 0:
         raise refuse(409, f"the radius {radius} of a circle is not above 0")
     count = max(3, int(12 * radius))
+    _check_chords(count, _MOST_CHORDS)
     points = [(x + radius * math.cos(2 * math.pi * i / count), y + radius * math.sin(2 * math.pi * i / count))
               for i in range(count)]
     return [points[i] + points[(i + 1) % count] for i in range(count)]
 
 
-def _arc_points(start, via, end):
-    """Points of an arc after its start; the end and the passing point are among them."""
+def _arc_points(start, via, end, room):
+    """Points of an arc after its start, at most `room`; the end and the passing point are among them."""
     circle = _outline.arc_circle(start, via, end)
     if circle is None:
         return [end]
@@ -141,9 +167,10 @@ def _arc_points(start, via, end):
     for begin, stop in ((start, via), (via, end)):
         angle = math.atan2(begin[1] - y, begin[0] - x)
         sweep = (turn * (math.atan2(stop[1] - y, stop[0] - x) - angle)) % (2 * math.pi)
-        count = min(int(sweep / step), 100000)
+        count = int(sweep / step)
+        _check_chords(len(points) + count, room)
         points += [(x + radius * math.cos(angle + turn * sweep * i / (count + 1)),
-                    y + radius * math.sin(angle + turn * sweep * i / (count + 1))) for i in range(1, count
-                    + 1)]
+                    y + radius * math.sin(angle + turn * sweep * i / (count + 1)))
+                   for i in range(1, count + 1)]
         points.append(stop)
     return points

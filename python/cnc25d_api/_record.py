@@ -8,13 +8,15 @@ _noted = []
 
 
 def record_cut(outline, name):
-    """Note an outline of format A that was cut; nothing where nobody asked."""
+    """Note an outline of format A that was cut. False where nobody asked; who asks cuts it again and says
+    what stays sharp."""
     target = os.environ.get("KERF_OUTLINES")
     if not target:
-        return
+        return False
     if not _noted:
         atexit.register(_write, target)
     _noted.append(_described(outline, name or f"outline{len(_noted)}"))
+    return True
 
 
 def _described(outline, name):

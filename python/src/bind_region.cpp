@@ -92,7 +92,7 @@ constexpr const char* kWiden =
 
 Parameters
 ----------
-path : list of points and arcs
+path : list of points and arcs, or a circle
     As an outline of `Region`; open or closed, and it may cross itself.
 half_width : float
     mm, above 0.
@@ -110,7 +110,7 @@ constexpr const char* kParallel = R"(The curve beside a path that keeps a distan
 
 Parameters
 ----------
-path : list of points and arcs
+path : list of points and arcs, or a circle
 to_left : float
     mm; below 0 it runs on the right.
 tolerance : float
@@ -126,7 +126,7 @@ constexpr const char* kSelfMeetings = R"(Where an outline crosses or touches its
 
 Parameters
 ----------
-path : list of points and arcs
+path : list of points and arcs, or a circle
 tolerance : float
     What is no further apart than this touches, in mm.
 
@@ -188,7 +188,7 @@ constexpr const char* kFlattened = R"(An outline with chords for its arcs.
 
 Parameters
 ----------
-path : list of points and arcs
+path : list of points and arcs, or a circle
 chord : float
     mm: how far a chord may stray from its arc. At least 16 chords are made of a full circle, at most 4096.
 
@@ -256,6 +256,18 @@ Outline outline_of(const py::handle& value, const std::string& name) {
   return outline;
 }
 
+Circle circle_of(const py::handle& value, const std::string& name) {
+  const Point3 numbers = to_point3(value, name.c_str());
+  const Circle circle{{numbers.x, numbers.y}, mm(numbers.z)};
+  if (!(circle.radius.mm() > 0.0)) throw py::value_error(name + ": a circle's radius must be above 0");
+  return circle;
+}
+
+/// A list of points and arcs, or the three numbers of a circle.
+Outline path_of(const py::handle& value) {
+  return is_row_of_numbers(value) ? as_outline(circle_of(value, "path")) : outline_of(value, "path");
+}
+
 Figure figure_of(const py::handle& value) {
   Figure figure;
   const py::sequence outlines = sequence_of(value, "a list of outlines is expected");
@@ -263,8 +275,7 @@ Figure figure_of(const py::handle& value) {
     const py::object item = outlines[i];
     const std::string name = "outline " + std::to_string(i);
     if (is_row_of_numbers(item)) {
-      const Point3 circle = to_point3(item, name.c_str());
-      figure.push_back(Circle{{circle.x, circle.y}, mm(circle.z)});
+      figure.push_back(circle_of(item, name));
     } else {
       figure.push_back(outline_of(item, name));
     }
@@ -449,7 +460,7 @@ void bind_paths(py::module_& m) {
       [](const py::object& path, double half_width, const std::string& ends, double tolerance) {
         const RegionOptions options = options_of(tolerance, "widen");
         const PathEnds how = ends_of(ends);
-        const Outline outline = outline_of(path, "path");
+        const Outline outline = path_of(path);
         finite_number(half_width, "half_width");
         return PyRegion(
             compute([&](Diagnostics& d) { return widen(outline, mm(half_width), how, options, d); }));
@@ -460,7 +471,7 @@ void bind_paths(py::module_& m) {
       "parallel",
       [](const py::object& path, double to_left, double tolerance) {
         const RegionOptions options = options_of(tolerance, "parallel");
-        const Outline outline = outline_of(path, "path");
+        const Outline outline = path_of(path);
         finite_number(to_left, "to_left");
         return list_of(compute([&](Diagnostics& d) { return parallel(outline, mm(to_left), options, d); }));
       },
@@ -470,7 +481,7 @@ void bind_paths(py::module_& m) {
       "self_meetings",
       [](const py::object& path, double tolerance) {
         const RegionOptions options = options_of(tolerance, "self_meetings");
-        const Outline outline = outline_of(path, "path");
+        const Outline outline = path_of(path);
         py::list list;
         for (const SelfMeeting& s :
              compute([&](Diagnostics& d) { return self_meetings(outline, options, d); }))
@@ -516,7 +527,7 @@ void bind_fits(py::module_& m) {
       "flattened",
       [](const py::object& path, double chord) {
         if (finite_number(chord, "chord") <= 0.0) throw py::value_error("chord must be above 0 mm");
-        return list_of(flattened(outline_of(path, "path"), mm(chord)));
+        return list_of(flattened(path_of(path), mm(chord)));
       },
       py::arg("path"), py::arg("chord"), kFlattened);
 }

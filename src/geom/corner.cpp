@@ -232,14 +232,25 @@ Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits
   return request > 0.0 ? smooth(in, out, r, limits.weld) : enlarge(in, out, r, limits);
 }
 
-double largest_radius(Side in, Side out, double request, const CornerLimits& limits) {
-  double good = 0.0, bad = 1.0;  // shares of the request
+double largest_radius(Side in, Side out, double request, const CornerLimits& limits, const Room& room) {
+  const auto fits = [&](double radius) {
+    const Replacement tried = solve_corner(in, out, std::copysign(radius, request), limits);
+    return tried.reason == SharpReason::none && taken(in, tried.first) <= room.in &&
+           taken(out, tried.pieces[tried.count - 1].to) <= room.out;
+  };
+  double good = 0.0, bad = std::abs(request);
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (good + bad);
-    const Replacement tried = solve_corner(in, out, middle * request, limits);
-    (tried.reason == SharpReason::none ? good : bad) = middle;
+    (fits(middle) ? good : bad) = middle;
   }
-  return good * std::abs(request);
+  if (!(good > 0.0)) return 0.0;
+  // The bounds of outlines are often round numbers, and the search ends just below them.
+  const double step = std::pow(10.0, std::floor(std::log10(bad - good)));
+  for (const double coarse : {10.0 * step, step}) {
+    const double round = std::ceil(good / coarse) * coarse;
+    if (round <= bad && fits(round)) return round;
+  }
+  return good;
 }
 
 double taken(const Side& side, Point2 point) {

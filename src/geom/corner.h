@@ -4,6 +4,8 @@
 // incoming one backwards, so that the rules are written once for both.
 #pragma once
 
+#include <limits>
+
 #include "segment.h"
 
 namespace kerf::outline_detail {
@@ -71,8 +73,13 @@ struct Replacement {
 
 /// Solves a corner. `request` as in Segment::corner, not 0. Sets which side of each neighbour is the inside.
 Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits& limits);
-/// The largest radius with the sign of `request` and below it that can be cut; 0 where none can.
-double largest_radius(Side in, Side out, double request, const CornerLimits& limits);
+/// How much of its two neighbours a corner may take, measured along them.
+struct Room {
+  double in = std::numeric_limits<double>::infinity(), out = std::numeric_limits<double>::infinity();
+};
+/// The largest radius with the sign of `request` and below it that can be cut and takes no more than `room`;
+/// 0 where none can. A round number where one lies within the error of the search.
+double largest_radius(Side in, Side out, double request, const CornerLimits& limits, const Room& room);
 /// How much of a side, measured along it, a replacement takes that reaches it at `point`.
 double taken(const Side& side, Point2 point);
 

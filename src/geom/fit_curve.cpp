@@ -25,7 +25,8 @@ bool check_fit(const std::vector<Point2>& points, std::size_t fewest, Length wit
       return refuse(Code::outline_not_finite,
                     fmt::format("point {}: a number is not finite or beyond 1e60", i));
   if (!(within.mm() > 0.0 && within.mm() <= kLargestCoordinate))
-    return refuse(Code::region_bad_argument, "the tolerance must be a number above 0");
+    return refuse(Code::region_bad_argument,
+                  fmt::format("the tolerance must be above 0 and at most 1e60, not {:g}", within.mm()));
   return true;
 }
 

@@ -120,7 +120,7 @@ bool shrinks_away(const Outline& loop, double by) {
 bool usable_distance(double value, const char* what, const RegionOptions& options, Diagnostics& diagnostics) {
   if (std::abs(value) <= outline_detail::kLargestCoordinate) return true;
   diagnostics.error(Code::region_bad_argument, options.where,
-                    fmt::format("{}{}the {} must be a finite number, not {:g}", options.name,
+                    fmt::format("{}{}the {} must be a number within 1e60 of 0, not {:g}", options.name,
                                 options.name.empty() ? "" : ": ", what, value));
   return false;
 }
@@ -221,13 +221,15 @@ void Strips::half_circle(Point2 centre, Point2 aside) {
   sector(centre, centre + width_ * aside, centre - width_ * aside, Side::none);
 }
 
-bool usable_path(const Outline& path, double width, const RegionOptions& options, Diagnostics& diagnostics) {
+bool usable_path(const Outline& path, double width, std::string_view wanted, const RegionOptions& options,
+                 Diagnostics& diagnostics) {
   if (!usable_distance(width, "distance from a path", options, diagnostics) ||
       !usable_options(options, diagnostics) ||
       !outline_detail::check_outline(path, options.name, options.where, diagnostics))
     return false;
   if (width > 0.0) return true;
-  diagnostics.error(Code::region_bad_argument, options.where, "the distance from a path must not be 0");
+  diagnostics.error(Code::region_bad_argument, options.where,
+                    fmt::format("the distance from a path must {}", wanted));
   return false;
 }
 
@@ -299,7 +301,7 @@ std::optional<Offset> offset(const Region& region, Length by, const RegionOption
 std::optional<Region> widen(const Outline& path, Length half_width, PathEnds ends,
                             const RegionOptions& options, Diagnostics& diagnostics) {
   const double width = half_width.mm();
-  if (!usable_path(path, width, options, diagnostics)) return std::nullopt;
+  if (!usable_path(path, width, "be above 0", options, diagnostics)) return std::nullopt;
   EdgeSet set(weld_for(options, std::max(width, largest_coordinate(path))));
   Strips strips(set, width);
   lay(path, ends, strips);
@@ -311,7 +313,7 @@ std::optional<Region> widen(const Outline& path, Length half_width, PathEnds end
 std::optional<std::vector<Outline>> parallel(const Outline& path, Length to_left,
                                              const RegionOptions& options, Diagnostics& diagnostics) {
   const double width = std::abs(to_left.mm());
-  if (!usable_path(path, width, options, diagnostics)) return std::nullopt;
+  if (!usable_path(path, width, "not be 0", options, diagnostics)) return std::nullopt;
   EdgeSet set(weld_for(options, std::max(width, largest_coordinate(path))));
   Strips strips(set, width);
   lay(path, PathEnds::round, strips);

@@ -1,4 +1,5 @@
 // The corners of a whole outline: who is cut first, what the others find left, and what is said about it.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -69,6 +70,7 @@ class CornerPass {
   double weld_;
   CornerLimits limits_;
   std::vector<bool> crowded_;  // EdgeSharing::even: corners that are not to be cut
+  std::vector<Room> rooms_;    // and what each could have without being one of them
   Point2 here_;                // end of the result so far
   std::size_t said_[16] = {};  // by reason
   std::size_t straight_arcs_ = 0;
@@ -99,6 +101,7 @@ void CornerPass::note_straight_arc(std::size_t segment) {
 void CornerPass::share_evenly() {
   const std::size_t n = outline_.segments.size();
   crowded_.assign(n + 1, false);
+  rooms_.assign(n + 1, {});
   struct Want {
     double before = 0.0, after = 0.0;  // along the arriving and the leaving segment
   };
@@ -115,10 +118,12 @@ void CornerPass::share_evenly() {
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = i + 1 == n && closed_ ? 0 : i + 1;
     const double a = wants[i].after, b = wants[next].before;
-    if (a <= 0.0 || b <= 0.0) continue;
+    if (a <= 0.0 && b <= 0.0) continue;
     const Carrier c = carrier(i);
     const double whole = c.is_arc() ? taken(leaving(c, c.to), c.to - c.from) : c.length;
-    if (a + b <= whole + weld_ + kFit * whole) continue;
+    rooms_[i].out = std::max(0.5 * whole, whole - b);
+    rooms_[next].in = std::max(0.5 * whole, whole - a);
+    if (a <= 0.0 || b <= 0.0 || a + b <= whole + weld_ + kFit * whole) continue;
     if (a > 0.5 * whole) crowded_[i] = true;
     if (b > 0.5 * whole) crowded_[next] = true;
   }
@@ -246,8 +251,9 @@ void CornerPass::report_sharp(std::size_t corner, SharpReason reason, const Side
   CornerReport& report = result_.corners.emplace_back();
   report.element = static_cast<std::uint32_t>(corner);
   report.reason = reason;
-  if (code_of(reason) == Code::corner_too_large)
-    report.largest = mm(largest_radius(in, out, request(corner), limits_));
+  if (reason == SharpReason::shared || code_of(reason) == Code::corner_too_large)
+    report.largest =
+        mm(largest_radius(in, out, request(corner), limits_, rooms_.empty() ? Room() : rooms_[corner]));
   say(report);
 }
 
@@ -317,6 +323,14 @@ std::string_view words(SharpReason reason) {
   return "";
 }
 
+/// To the six digits that are printed, so that what is read in a message can be used.
+double rounded_down(double value) {
+  constexpr double kRounding = 1e-14;  // of the product; a round number must not lose its last digit
+  const double unit = std::pow(10.0, 5.0 - std::floor(std::log10(value)));
+  if (!std::isfinite(unit)) return value;
+  return std::floor(value * unit * (1.0 + kRounding)) / unit;
+}
+
 }  // namespace
 
 std::string_view to_string(CornerOutcome outcome) {
@@ -335,9 +349,10 @@ std::string corner_message(const CornerReport& report, Length request, std::stri
   std::string text =
       fmt::format("corner {}.{} stays sharp, it cannot be {} with radius {:g}: {}", name, report.element,
                   request.mm() > 0.0 ? "smoothed" : "enlarged", r, words(report.reason));
-  if (report.largest > Length())
-    text += fmt::format("; the radius is {:g} too large, the largest here is {:g}", r - report.largest.mm(),
-                        report.largest.mm());
+  if (report.largest > Length()) {
+    const double largest = rounded_down(report.largest.mm());
+    text += fmt::format("; the radius is {:g} too large, the largest here is {:g}", r - largest, largest);
+  }
   return text;
 }
 

@@ -54,6 +54,11 @@ Curve placed(const Curve& curve, const Placement& placement) {
   return made;
 }
 
+Outline as_outline(const Circle& circle) {
+  const Point2 c = circle.centre, right{circle.radius.mm(), 0.0}, up{0.0, circle.radius.mm()};
+  return {c + right, {}, {{c - right, c + up, {}}, {c + right, c - up, {}}}};
+}
+
 Circle placed(const Circle& circle, const Placement& placement) {
   const double scale = std::sqrt(std::abs(placement.factor.x) * std::abs(placement.factor.y));
   return {placed_point(circle.centre, placement), scale * circle.radius};

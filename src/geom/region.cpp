@@ -82,12 +82,11 @@ std::optional<Region> make_region(const Figure& figure, const RegionOptions& opt
   std::vector<Outline> outlines;
   for (const auto& shape : figure) {
     if (const auto* circle = std::get_if<Circle>(&shape)) {
-      const Point2 right{circle->radius.mm(), 0.0}, up{0.0, circle->radius.mm()}, c = circle->centre;
       if (!(circle->radius.mm() > 0.0))
         return diagnostics.error(Code::region_bad_argument, options.where,
                                  "a circle's radius must be above 0"),
                std::nullopt;
-      outlines.push_back({c + right, {}, {{c - right, c + up, {}}, {c + right, c - up, {}}}});
+      outlines.push_back(as_outline(*circle));
     } else {
       outlines.push_back(std::get<Outline>(shape));
     }

@@ -115,9 +115,8 @@ double largest_coordinate(const Outline& outline) {
 bool usable_options(const RegionOptions& options, Diagnostics& diagnostics) {
   const double weld = options.tolerance.weld.mm();
   if (weld >= 0.0 && weld <= outline_detail::kLargestCoordinate) return true;
-  diagnostics.error(
-      Code::region_bad_argument, options.where,
-      fmt::format("{}: the tolerance must be a number from 0 on, not {:g}", named(options), weld));
+  diagnostics.error(Code::region_bad_argument, options.where,
+                    fmt::format("{}: the tolerance must be from 0 to 1e60, not {:g}", named(options), weld));
   return false;
 }
 

@@ -49,6 +49,13 @@ def test_the_outlines_of_a_script_are_drawn(kerf, tmp_path):
     assert (tmp_path / "box.svg").exists()
 
 
+def test_a_corner_of_a_script_is_warned_about_once(kerf, tmp_path):
+    pytest.importorskip("cnc25d_api")
+    (tmp_path / "box.py").write_text(SCRIPT.replace("30, 0, 5", "30, 0, 50"))
+    run = kerf("outline", "box.py", env={"KERF_PYTHON": sys.executable})
+    assert run.status == 0 and run.err.count("stays sharp") == 1, run.err
+
+
 @pytest.mark.parametrize("text, code", [("{", "outline_file_syntax"), ("{}", "outline_file_content")])
 def test_bad_files_are_refused(kerf, tmp_path, text, code):
     (tmp_path / "bad.json").write_text(text)

@@ -164,6 +164,50 @@ def test_bad_lists_name_outline_and_element(bad, element):
     assert isinstance(caught.value, ValueError)
 
 
+@pytest.mark.parametrize("call, outline, element", [
+    (lambda: api.cnc_cut_outline([[0, 0, 0], [1e300, 0, 1], [10, 10, 0]], "o"), "o", 1),
+    (lambda: api.cnc_cut_outline([[0, 0, 0], [1, 0, 0], [5, 5, 1, 0, 0]], "o.1"), "o.1", 2),
+    (lambda: api.cnc_cut_figure([5], "fig"), "fig.ol0", None),
+    (lambda: api.cnc_cut_figure([SQUARE, [[0, 0, 0], [float("nan"), 0, 0]]], "fig"), "fig.ol1", 1),
+    (lambda: api.ideal_figure([[0, 0, 1], 5], "fig"), "fig.ol1", None),
+    (lambda: api.cnc_cut_figure(5, "fig"), "fig", None),
+    (lambda: api.ideal_figure(5, "fig"), "fig", None),
+    (lambda: api.rotate_and_translate_figure(5, 0, 0, 0, 0, 0), "figure", None),
+    (lambda: api.smooth_outline_c_curve([[0, 0, 0], [1, 0, 0], [2, 0, 3]], 0.01, 0, "l"), "l", 1),
+    (lambda: api.smooth_outline_c_curve([[0, 0, 0], [0, 0, 0]], 0.01, 0, "l"), "l", 0),
+    (lambda: api.smooth_outline_b_curve([[0, 0], [1, 1], [1, 1]], 0.01, 0, "l"), "l", 1),
+], ids=range(11))
+def test_an_error_has_the_name_and_the_element(call, outline, element):
+    with pytest.raises(api.OutlineError) as caught:
+        call()
+    assert (caught.value.outline, caught.value.element) == (outline, element)
+    place = f"outline {outline}" + ("" if element is None else f", element {element}") + ": "
+    text = str(caught.value)
+    assert text.startswith(f"ERR{caught.value.code}: Error, {place}")
+    assert text.count("element") == (element is not None) and '"' not in text
+
+
+@pytest.mark.parametrize("call", [
+    lambda: api.outline_shift_x(SQUARE, 1, 1, outline_format="Q"),
+    lambda: api.outline_rotate(SQUARE, 0, 0, 1, outline_format="c"),
+    lambda: api.outline_reverse(SQUARE, outline_format=3),
+    lambda: api.flip_rotate_and_translate_figure([SQUARE], 0, 0, 10, 10, 2, 1, 0, 0, 0),
+    lambda: api.flip_rotate_and_translate_figure([SQUARE], 0, 0, 10, 10, 1, 0, 0, 0, 0),
+], ids=range(5))
+def test_options_that_are_unknown_are_refused(call):
+    with pytest.raises(api.OutlineError, match="must be"):
+        call()
+
+
+def test_chords_without_bound_are_refused_before_they_are_made():
+    huge = [[0, 0, 1e9], [[0, 0], [1e9, 1e9, 2e9, 0]],
+            [[0, 0]] + [[1e4 * i + 5e3, 5e3, 1e4 * (i + 1), 0] for i in range(1000)]]
+    for outline in huge:
+        with pytest.raises(api.OutlineError, match="more than 1000000 chords"):
+            api.outline_arc_line(outline)
+    assert len(api.outline_arc_line([0, 0, 1000])) == 12000
+
+
 def test_a_list_that_changes_while_it_is_read_does_no_harm():
     outline = [[0, 0, 0], [1, 0, 0], [1, 1, 0]]
 
@@ -203,6 +247,25 @@ def test_fair_does_not_depend_on_where_the_outline_begins():
         reports = api.corner_reports(outline, "a", fair=True)
         cut = {order[r["element"]] for r in reports if r["outcome"] == "smoothed"}
         assert cut == {1}
+
+
+def test_fair_says_by_how_much_a_radius_is_too_large(capsys):
+    wish = [[0, 0, 6], [10, 0, 6], [10, 10, 6], [0, 10, 6], [0, 0, 0]]
+    api.cnc_cut_outline(wish, "a", fair=True)
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 4
+    assert all(line.endswith("the radius is 1 too large, the largest here is 5") for line in said)
+    assert [r["largest"] for r in api.corner_reports(wish, "a", fair=True)] == [5.0] * 4
+    fits = [[x, y, 5] for x, y, _ in wish[:4]] + [[0, 0, 0]]
+    reports = api.corner_reports(fits, fair=True)
+    assert all(r["outcome"] == "smoothed" and r["largest"] == 0.0 for r in reports)
+
+
+def test_corners_that_are_not_said_are_counted(capsys):
+    api.cnc_cut_outline([[0, 0, 0]] + [[i + 1, i % 2, 5] for i in range(1000)] + [[1001, 0, 0]], "x")
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 51
+    assert said[-1] == "WARN675: Warning, and 950 more corners stay sharp"
 
 
 def test_format_c_is_moved_with_its_tangents():

@@ -49,6 +49,41 @@ def test_paths():
     assert kerf.self_meetings([(0, 0), (4, 4), (4, 0), (0, 4)]) == [(2, 2, 0, 2)]
 
 
+def test_a_circle_is_a_path():
+    circle = (1, 2, 5)
+    assert kerf.widen(circle, 1).area == pytest.approx(math.pi * (36 - 16))
+    assert kerf.widen(list(circle), 6).area == pytest.approx(math.pi * 121)
+    inner, outer = kerf.parallel(circle, 2), kerf.parallel(circle, -2)  # counter-clockwise: left is inside
+    assert kerf.Region(inner).area == pytest.approx(math.pi * 9)
+    assert kerf.Region(outer).area == pytest.approx(math.pi * 49)
+    assert kerf.self_meetings(circle) == []
+    points = kerf.flattened(circle, 0.01)
+    assert points[0] == points[-1] and len(points) > 16
+    assert all(math.hypot(x - 1, y - 2) == pytest.approx(5) for x, y in points)
+    for path in [(0, 0, 0), (0, 0, -1), (0, 0, NAN), (0, 0), (0, 0, 1, 2)]:
+        for call in (kerf.widen, kerf.parallel, kerf.flattened):
+            with pytest.raises(ValueError):
+                call(path, 1)
+        with pytest.raises(ValueError):
+            kerf.self_meetings(path)
+
+
+@pytest.mark.parametrize("call, said", [
+    (lambda r: kerf.widen(SQUARE, -1), "must be above 0"),
+    (lambda r: kerf.widen(SQUARE, 0), "must be above 0"),
+    (lambda r: kerf.parallel(SQUARE, 0), "must not be 0"),
+    (lambda r: r.offset(1e300), "must be a number within 1e60 of 0, not 1e\\+300"),
+    (lambda r: kerf.widen(SQUARE, 1e300), "must be a number within 1e60 of 0, not 1e\\+300"),
+    (lambda r: r.offset(1, tolerance=1e300), "must be from 0 to 1e60, not 1e\\+300"),
+    (lambda r: kerf.fit_arcs(SQUARE, 1e300), "must be above 0 and at most 1e60, not 1e\\+300"),
+    (lambda r: kerf.fit_bezier(SQUARE, math.inf), "must be above 0 and at most 1e60, not inf"),
+    (lambda r: kerf.fit_bezier([(0, 0), (1e300, 0)], 1), "point 1: a number is not finite or beyond 1e60"),
+], ids=range(9))
+def test_a_bad_number_is_answered_with_its_range(call, said):
+    with pytest.raises((kerf.Error, ValueError), match=said):
+        call(kerf.Region([SQUARE]))
+
+
 def test_curves_become_arcs():
     circle = [(math.cos(a / 50 * math.pi), math.sin(a / 50 * math.pi)) for a in range(101)]
     assert len(kerf.fit_arcs(circle, 0.01)) <= 5

@@ -95,7 +95,11 @@ PyObject* tuple_of(const double* numbers, Py_ssize_t count) {
   return tuple;
 }
 
-bool finite(Point2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+constexpr double kLargest = 1e60;  // beyond it the geometry refuses a number, too
+constexpr const char* kUnusable = "a number is not finite or beyond 1e60";
+
+bool usable(double number) { return std::abs(number) <= kLargest; }
+bool usable(Point2 p) { return usable(p.x) && usable(p.y); }
 
 }  // namespace
 
@@ -141,8 +145,7 @@ kerf::Circle read_circle(PyObject* list, const FormatCodes& codes, const std::st
   if (row.size() != 3)
     refuse_length(codes.circle_length, name, -1, row.size(), "3 (centre x, centre y, radius)");
   const kerf::Circle circle{{row(0), row(1)}, kerf::mm(row(2))};
-  if (!finite(circle.centre) || !std::isfinite(circle.radius.mm()))
-    throw Refusal{7002, name, -1, "a number is not finite"};
+  if (!usable(circle.centre) || !usable(circle.radius.mm())) throw Refusal{7002, name, -1, kUnusable};
   return circle;
 }
 
@@ -221,15 +224,15 @@ void require_finite(const kerf::Outline& outline, const std::string& name) {
   for (std::size_t i = 0; i < outline.elements(); ++i) {
     const kerf::Segment* s = i == 0 ? nullptr : &outline.segments[i - 1];
     const double corner = s != nullptr ? s->corner.mm() : outline.start_corner.mm();
-    if (!finite(outline.point(i)) || !std::isfinite(corner) || (s != nullptr && s->via && !finite(*s->via)))
-      throw Refusal{7002, name, static_cast<Py_ssize_t>(i), "a number is not finite"};
+    if (!usable(outline.point(i)) || !usable(corner) || (s != nullptr && s->via && !usable(*s->via)))
+      throw Refusal{7002, name, static_cast<Py_ssize_t>(i), kUnusable};
   }
 }
 
 void require_finite(const kerf::Curve& curve, const std::string& name) {
   for (std::size_t i = 0; i < curve.size(); ++i)
-    if (!finite(curve[i].at) || !std::isfinite(curve[i].heading.rad()))
-      throw Refusal{7002, name, static_cast<Py_ssize_t>(i), "a number is not finite"};
+    if (!usable(curve[i].at) || !usable(curve[i].heading.rad()))
+      throw Refusal{7002, name, static_cast<Py_ssize_t>(i), kUnusable};
 }
 
 }  // namespace cnc25d

@@ -43,7 +43,7 @@ py::list make_list(const kerf::Circle& circle);
 /// than what rounding does to its coordinates.
 kerf::Tolerance tolerance_for(const kerf::Outline& outline);
 
-/// Refuses what is not finite, naming the element (for functions whose geometry does not check).
+/// Refuses what is not finite or beyond 1e60, naming the element.
 void require_finite(const kerf::Outline& outline, const std::string& name);
 void require_finite(const kerf::Curve& curve, const std::string& name);
 

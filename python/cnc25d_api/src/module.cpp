@@ -65,18 +65,36 @@ std::string warning_text(int number, const std::string& message) {
   return "WARN" + std::to_string(number) + ": Warning, " + message;
 }
 
+/// The refusal of an error that geometry found. Its messages begin with the place, as `NAME.3: ` or
+/// `outline "NAME", element 3: `, which an OutlineError has beside its text.
+Refusal refusal_of(const kerf::Diagnostic& error, const std::string& name) {
+  Refusal refusal{catalogue_number(error.code), name, -1, error.message};
+  for (const std::string& prefix : {name + ".", "outline \"" + name + "\", element "}) {
+    if (error.message.rfind(prefix, 0) != 0) continue;
+    const std::size_t begin = prefix.size(), end = error.message.find_first_not_of("0123456789", begin);
+    constexpr std::size_t kDigits = 10;  // more than any list has elements
+    if (end == std::string::npos || end == begin || end - begin > kDigits) continue;
+    if (error.message.compare(end, 2, ": ") != 0) continue;
+    refusal.element = static_cast<Py_ssize_t>(std::stoll(error.message.substr(begin, end - begin)));
+    refusal.text = error.message.substr(end + 2);
+    break;
+  }
+  return refusal;
+}
+
 /// Turns what was said into the lines to print; refuses where there was an error.
 class Messages {
  public:
   void add(const std::string& text) { list_.append(py::str(text)); }
-  void add(const kerf::Diagnostics& diagnostics) {
+  void add(const kerf::Diagnostics& diagnostics, const std::string& name) {
     for (const kerf::Diagnostic& d : diagnostics.list()) {
-      if (d.severity == kerf::Severity::error) throw Refusal{catalogue_number(d.code), {}, -1, d.message};
+      if (d.severity == kerf::Severity::error) throw refusal_of(d, name);
       if (!about_corner(d.code)) add(warning_text(catalogue_number(d.code), d.message));
     }
     for (const Code code : diagnostics.dropped_codes())
-      add(warning_text(catalogue_number(code), "and " + std::to_string(diagnostics.dropped(code)) +
-                                                   " more: " + std::string(kerf::meaning_of(code))));
+      if (!about_corner(code))
+        add(warning_text(catalogue_number(code), "and " + std::to_string(diagnostics.dropped(code)) +
+                                                     " more: " + std::string(kerf::meaning_of(code))));
   }
   py::list list() const { return list_; }
 
@@ -88,17 +106,23 @@ class Messages {
 void add_corner_messages(Messages& messages, const kerf::Outline& outline, const kerf::CutOutline& cut,
                          const std::string& name) {
   constexpr int kMost = 50;
-  int said = 0;
+  int said = 0, unsaid = 0, number = 0;
   for (const kerf::CornerReport& report : cut.corners) {
     if (report.reason == SharpReason::none) continue;
-    if (++said > kMost) return;  // the rest is in the counts of the diagnostics
     const std::size_t i = report.element, n = outline.segments.size();
     const kerf::Length request = i == 0 ? outline.start_corner : outline.segments[i - 1].corner;
     const int arcs =
         (outline.segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (outline.segments[i].via ? 1 : 0);
-    const int number = catalogue_number(report.reason, request < kerf::Length(), arcs);
+    if (said == kMost && unsaid++ > 0) continue;
+    number = catalogue_number(report.reason, request < kerf::Length(), arcs);
+    if (said == kMost) continue;
+    ++said;
     messages.add(warning_text(number, kerf::corner_message(report, request, name)));
   }
+  if (unsaid == 0) return;
+  messages.add(warning_text(number, "and " + std::to_string(unsaid) +
+                                        (unsaid == 1 ? " more corner stays" : " more corners stay") +
+                                        " sharp"));
 }
 
 py::list report_list(const kerf::CutOutline& cut) {
@@ -116,7 +140,7 @@ py::list report_list(const kerf::CutOutline& cut) {
   return list;
 }
 
-/// (format B, messages, reports or None)
+/// (format B, messages that `kerf outline` has as well, messages of this module, reports or None)
 py::tuple cut(const py::object& list, const std::string& name, bool even, bool report) {
   const FormatCodes codes{.single = 202, .first_length = 564, .segment_a = 563};
   const kerf::Outline outline = read_outline(list.ptr(), Format::a, codes, name);
@@ -130,15 +154,15 @@ py::tuple cut(const py::object& list, const std::string& name, bool even, bool r
   options.name = name;
   kerf::Diagnostics diagnostics;
   const auto made = kerf::cut_corners(outline, options, diagnostics);
-  Messages messages;
-  messages.add(diagnostics);
+  Messages messages, own;
+  messages.add(diagnostics, name);
   if (diagnostics.warnings() > 0) add_corner_messages(messages, outline, *made, name);
   const double gap = distance(outline.start, outline.segments.back().to);
   if (!outline.closed() && gap <= 1e3 * options.tolerance.weld.mm())
-    messages.add(warning_text(static_cast<int>(Code::outline_malformed),
-                              quoted(name) + ": its ends differ by " + std::to_string(gap) +
-                                  ", so it counts as open; outline_close() closes it"));
-  return py::make_tuple(make_list(made->outline), messages.list(),
+    own.add(warning_text(static_cast<int>(Code::outline_malformed),
+                         quoted(name) + ": its ends differ by " + std::to_string(gap) +
+                             ", so it counts as open; outline_close() closes it"));
+  return py::make_tuple(make_list(made->outline), messages.list(), own.list(),
                         report ? py::object(report_list(*made)) : py::none());
 }
 
@@ -156,7 +180,7 @@ kerf::CurveOptions curve_options(double precision, double least_radius, const st
 py::tuple smooth(const kerf::Curve& curve, const kerf::CurveOptions& options, Messages& messages) {
   kerf::Diagnostics diagnostics;
   const auto made = kerf::smooth_curve(curve, options, diagnostics);
-  messages.add(diagnostics);
+  messages.add(diagnostics, options.name);
   return py::make_tuple(make_list(*made), messages.list());
 }
 
@@ -194,7 +218,7 @@ py::tuple smooth_b(const py::object& list, double precision, double least_radius
   kerf::Diagnostics diagnostics;
   const auto curve = kerf::guess_headings(points, options, diagnostics);
   Messages messages;
-  messages.add(diagnostics);
+  messages.add(diagnostics, name);
   return smooth(*curve, options, messages);
 }
 
@@ -326,14 +350,14 @@ py::object arc_circle(std::pair<double, double> from, std::pair<double, double> 
 }
 
 /// "A", "B" or "circle", everything about the list checked.
-std::string check(const py::object& list, int segment_b, int segment_a) {
+std::string check(const py::object& list, int segment_b, int segment_a, const std::string& name) {
   const FormatCodes codes{.segment_b = segment_b, .segment_a = segment_a};
-  const Format kind = format_of(list.ptr(), codes, {});
+  const Format kind = format_of(list.ptr(), codes, name);
   if (kind == Format::circle) {
-    read_circle(list.ptr(), codes, {});
+    read_circle(list.ptr(), codes, name);
     return "circle";
   }
-  require_finite(read_outline(list.ptr(), kind, codes, {}), {});
+  require_finite(read_outline(list.ptr(), kind, codes, name), name);
   return kind == Format::a ? "A" : "B";
 }
 

@@ -157,6 +157,45 @@ TEST(Corners, SharedEvenlyTheResultDoesNotDependOnTheStart) {
   EXPECT_EQ(made->corners[1].outcome, CornerOutcome::smoothed);  // 4 of 10: within its half
   EXPECT_EQ(made->corners[0].reason, SharpReason::shared);
   EXPECT_EQ(diagnostics.list()[0].code, Code::corner_shared);
+  // What is said to be the largest radius fits where it is used.
+  for (const CornerReport& report : made->corners) {
+    if (report.outcome != CornerOutcome::sharp) continue;
+    Outline smaller = outline;
+    (report.element == 0 ? smaller.start_corner : smaller.segments[report.element - 1].corner) =
+        report.largest;
+    EXPECT_EQ(cut(smaller, options).corners.at(report.element).outcome, CornerOutcome::smoothed);
+  }
+}
+
+TEST(Corners, SharedEvenlyTheMessageSaysByHowMuch) {
+  Diagnostics diagnostics;
+  const CornerOptions options{.sharing = EdgeSharing::even, .name = "plate"};
+  const auto made = cut_corners(square(10, 6), options, diagnostics);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(diagnostics.warnings(), 4u);
+  for (const Diagnostic& d : diagnostics.list())
+    EXPECT_NE(d.message.find("the radius is 1 too large, the largest here is 5"), std::string::npos)
+        << d.message;
+}
+
+TEST(Corners, ALargestRadiusIsSaidWithDigitsThatFit) {
+  for (const double request : {12.0, 20.0, 1e3, 1e7}) {
+    Diagnostics diagnostics;
+    const Outline outline = corner({-10, 0}, {}, request, {}, {0, 10});
+    ASSERT_TRUE(cut_corners(outline, {.name = "plate"}, diagnostics));
+    EXPECT_NE(diagnostics.list().at(0).message.find("the largest here is 10"), std::string::npos)
+        << diagnostics.list()[0].message;
+  }
+  for (const double slant : {1.0, 3.0, 7.0, 9.0}) {
+    Diagnostics diagnostics;
+    Outline outline = corner({-10, 0}, {}, 50, {}, {slant, 10});
+    ASSERT_TRUE(cut_corners(outline, {.name = "plate"}, diagnostics));
+    const std::string& message = diagnostics.list().at(0).message;
+    const std::size_t at = message.find("the largest here is ");
+    ASSERT_NE(at, std::string::npos) << message;
+    outline.segments[0].corner = mm(std::stod(message.substr(at + 20)));
+    EXPECT_EQ(cut(outline).corners.at(0).outcome, CornerOutcome::smoothed) << message;
+  }
 }
 
 TEST(Corners, EachReasonToStaySharpIsSaid) {
