@@ -329,5 +329,5 @@ def test_compensation_takes_the_tool_of_the_options(kerf, program):
 
 def test_drilled_circles_have_the_size_of_the_option(kerf, program):
     part = program("G21 G90\nT77 M6\nM3 S1000\nG0 X5 Y5 Z5\nG1 Z-3 F100\nG0 Z5\nM30\n")
-    svg = kerf("post", "--to", "svg", "--tool", "77=drill d=7", part)
+    svg = kerf("post", "--to", "svg", "--tool", "77=square d=7", part)
     assert svg.status == 0 and 'r="3.5"' in svg.out, svg.out
