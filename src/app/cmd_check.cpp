@@ -69,6 +69,39 @@ std::vector<Finding> unknown_tools(const Job& job) {
   return list;
 }
 
+/// A hazard for each G code that nobody knows: it may be a move, and the toolpath is looked at without it.
+std::vector<Finding> left_out_codes(const Diagnostics& diagnostics) {
+  std::vector<Finding> list;
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.code == Code::unknown_g_code && d.severity != Severity::error)
+      list.push_back({.kind = "left_out",
+                      .at = {},
+                      .origin = d.where,
+                      .message = d.message + ", and nobody knows whether it moves the tool",
+                      .callers = {},
+                      .hint = d.hint});
+  return list;
+}
+
+bool is_at_or_behind(const Origin& origin, const Origin& place) {
+  const auto *at = std::get_if<TextSpot>(&origin), *spot = std::get_if<TextSpot>(&place);
+  return at != nullptr && spot != nullptr && at->line >= spot->line && at->file == spot->file;
+}
+
+/// Gives findings that have a line only their step: the next motion, else the last one.
+void place_on_path(std::vector<Finding>& findings, const Toolpath& path) {
+  std::size_t placed = 0;  // they are in the order of lines
+  for (std::size_t i = 0; i < path.size() && placed < findings.size(); ++i) {
+    if (!path[i].is_motion()) continue;
+    const Origin origin = path.origin_of(i);
+    for (std::size_t k = placed; k < findings.size(); ++k) {
+      findings[k].step = i;
+      findings[k].at = path[i].to();
+    }
+    while (placed < findings.size() && is_at_or_behind(origin, findings[placed].origin)) ++placed;
+  }
+}
+
 /// What can be cut: the toolpath up to the first cut with an unknown tool, after which nobody knows what is
 /// left of the stock. Says so where that is not all.
 Toolpath known_part(const Job& job, Diagnostics& diagnostics) {
@@ -118,6 +151,9 @@ std::vector<Finding> findings_in(const Job& job, const CheckOptions& checks, dou
                                  Diagnostics& diagnostics, Progress& progress) {
   const std::vector<PathHazard> of_path = check_path(job.program.path, checks);
   std::vector<Finding> findings = merged(findings_of(of_path, job.program.path), unknown_tools(job));
+  std::vector<Finding> left_out = left_out_codes(diagnostics);
+  place_on_path(left_out, job.program.path);
+  findings = merged(std::move(findings), std::move(left_out));
   if (diagnostics.has_errors()) return findings;
   const bool downwards = std::any_of(of_path.begin(), of_path.end(),
                                      [](const PathHazard& h) { return h.code == Code::path_z_downwards; });
@@ -131,11 +167,14 @@ std::vector<Finding> findings_in(const Job& job, const CheckOptions& checks, dou
   return merged(std::move(findings), std::move(in_material));
 }
 
-/// What the reader said, without what is a hazard of its own: a missing feed or end is told once.
+/// What the reader said, without what is a hazard of its own: a missing feed or end, a code that is left out
+/// are told once.
 Diagnostics without_hazards(const Diagnostics& all) {
   Diagnostics rest = all;
   rest.remove_if([](const Diagnostic& d) {
-    return d.severity != Severity::error && (d.code == Code::no_feed || d.code == Code::no_program_end);
+    const bool is_hazard =
+        d.code == Code::no_feed || d.code == Code::no_program_end || d.code == Code::unknown_g_code;
+    return d.severity != Severity::error && is_hazard;
   });
   return rest;
 }
@@ -192,8 +231,9 @@ const char* const kExamples =
 
 Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor,
 cuts without feed, tool or turning spindle, arcs that controllers refuse, plunges with tools that cannot,
-tool changes below the stock's top, a missing program end; with --machine also moves out of its travel and
-speeds that its spindle has not; with --material feeds that the teeth cannot take.
+tool changes below the stock's top, G codes that nobody knows, a missing program end; with --machine also
+moves out of its travel and speeds that its spindle has not; with --material feeds that the teeth cannot
+take.
 Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 )";
 
@@ -203,7 +243,7 @@ Command add_check(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "check", "Look for hazards in a program, without writing files; status 3 if any",
-                  kExamples + std::string(kJobHelp) + kBodyHelp + kRotaryHelp, options->output);
+                  kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(*app, options->job);
   add_body_options(*app, options->job.bodies);
   add_rotary_option(*app, options->job.bodies);

@@ -245,7 +245,7 @@ The target is a closed mesh in the program's work coordinates. Depths are distan
 Command add_compare(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app = new_command(root, "compare", "Compare the cut part with a target mesh: gouges and rests",
-                              kExamples + std::string(kJobHelp) + kBodyHelp, options->output);
+                              kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp, options->output);
   add_job_options(*app, options->job);
   app->add_option("TARGET", options->target, "What the part is to be: a mesh, .stl .3mf .glb .obj")
       ->required();

@@ -278,7 +278,7 @@ const char* const kExamples =
 Command add_info(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app = new_command(root, "info", "Tell a program's size, time, tools, feeds and stock",
-                              kExamples + std::string(kJobHelp), options->output);
+                              kExamples + std::string(kToolHelp) + kStockHelp, options->output);
   add_job_options(*app, options->job);
   add_machine_option(*app, options->job);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};

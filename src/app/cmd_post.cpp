@@ -30,6 +30,7 @@ struct Options {
   bool shorten = false;
   std::string dxf_version = "r2000";
   bool rapids = false;
+  ToolOptions tools;
   ReadingOptions reading;
 };
 
@@ -80,13 +81,14 @@ std::string title_of(const LoadedProgram& program) {
   return program.source == "-" ? "" : std::filesystem::path(program.source).stem().string();
 }
 
-PostOptions post_options(const Options& options, const LoadedProgram& program, LengthUnit unit) {
+PostOptions post_options(const Options& options, const LoadedProgram& program,
+                         const std::map<int, Tool>& tools, LengthUnit unit) {
   PostOptions out;
   out.program_name = title_of(program);
   out.unit = unit;
   out.tool_change = read_policy(options.tool_change);
   out.missing_feed = mm_per_min(options.feed);
-  for (const auto& [number, tool] : used_tools(program)) {
+  for (const auto& [number, tool] : tools) {
     out.tool_names[number] = short_name(tool);
     // Such comments are in the program's units; their rounding is for mm.
     if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
@@ -171,13 +173,14 @@ struct Target {
 };
 
 std::vector<PostedFile> written(const Target& target, const Options& options, const LoadedProgram& program,
-                                Diagnostics& diagnostics, Progress& progress) {
+                                const std::map<int, Tool>& tools, Diagnostics& diagnostics,
+                                Progress& progress) {
   if (target.drawing == nullptr) {
     const LengthUnit unit = options.inch ? LengthUnit::inch
                             : options.mm ? LengthUnit::mm
                                          : target.profile->unit;
-    auto files =
-        post(program.path, *target.profile, post_options(options, program, unit), diagnostics, &progress);
+    auto files = post(program.path, *target.profile, post_options(options, program, tools, unit), diagnostics,
+                      &progress);
     for (const PostedFile& file : files) lint_gcode(file.text, *target.profile, "output", diagnostics);
     return files;
   }
@@ -186,6 +189,7 @@ std::vector<PostedFile> written(const Target& target, const Options& options, co
   request.rapids = options.rapids ? RapidLines::drawn : RapidLines::left_out;
   request.version = *read_dxf_version(options.dxf_version);
   request.title = title_of(program);
+  request.tools = tools;
   PostedFile file;
   file.text = draw_program(program, *target.drawing, request);
   file.lines = static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
@@ -199,12 +203,15 @@ Status run(Console& console, const Options& options) {
   if (options.post_file.empty()) target.drawing = find_drawing_format(options.to);
   if (target.drawing == nullptr) target.profile = choose_profile(options, usage, diagnostics);
   check_usage(options, usage);
+  const ToolSettings tools = read_tool_options(options.tools, usage, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (target.drawing == nullptr && !target.profile) return fail(console, diagnostics, Status::input_errors);
+  if (diagnostics.has_errors() || (target.drawing == nullptr && !target.profile))
+    return fail(console, diagnostics, Status::input_errors);
 
   TerminalProgress progress(console);
   InputOptions input;
   apply(options.reading, input);
+  input.tool_diameter = diameters_of(tools);
   auto program = load_program(options.file, diagnostics, &progress, input);
   if (interrupted()) return tell_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -212,7 +219,7 @@ Status run(Console& console, const Options& options) {
   Json result{{"source", program->source}, {"post", name}};
   program->path = improved(std::move(program->path), options, result["passes"] = Json::array(), console);
   progress.phase("writing");
-  const auto files = written(target, options, *program, diagnostics, progress);
+  const auto files = written(target, options, *program, used_tools(*program, tools), diagnostics, progress);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -229,6 +236,7 @@ const char* const kExamples =
   kerf post --to linuxcnc --inch part.nc -o part.ngc
   kerf post --to grbl --tool-change files part.nc -o part.nc    part-T1.nc, part-T2.nc ...
   kerf post --post mymill.toml part.nc -o out.nc    for a machine of one's own
+  kerf post --to grbl --tool 1="square d=6" part.nc -o out.nc    G41 and G42 need the tool
   kerf post --to dxf part.nc -o part.dxf            the cuts as seen from above
   kerf post --list
 
@@ -252,7 +260,8 @@ void add_drawing_options(CLI::App& app, Options& options) {
 
 Command add_post(CLI::App& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "post", "Write a program for a controller", kExamples, options->output);
+  CLI::App* app = new_command(root, "post", "Write a program for a controller",
+                              kExamples + std::string(kToolHelp), options->output);
   add_program(*app, options->file)->required(false);
   app->add_option("--to", options->to, "The controller: a name of --list")->type_name("POST");
   app->add_option("--post", options->post_file, "A post file of one's own instead")->type_name("FILE");
@@ -267,6 +276,7 @@ Command add_post(CLI::App& root) {
   add_number(*app, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "For cutting moves that have no feed");
   add_pass_options(*app, *options);
   add_drawing_options(*app, *options);
+  add_tool_options(*app, options->tools);
   add_reading_options(*app, options->reading);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }

@@ -227,7 +227,7 @@ Command add_simulate(CLI::App& root) {
   auto options = std::make_shared<Options>();
   CLI::App* app =
       new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
-                  kExamples + std::string(kJobHelp) + kBodyHelp + kRotaryHelp, options->output);
+                  kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(*app, options->job);
   add_body_options(*app, options->job.bodies);
   add_rotary_option(*app, options->job.bodies);

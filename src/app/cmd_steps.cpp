@@ -3,6 +3,7 @@
 
 #include "app/command.h"
 #include "app/input.h"
+#include "app/job.h"
 #include "app/json.h"
 #include "app/reading.h"
 #include "app/terminal_progress.h"
@@ -16,14 +17,19 @@ constexpr std::size_t kBufferBytes = 1 << 16;
 struct Options {
   OutputOptions output;
   std::string file;
+  ToolOptions tools;
   ReadingOptions reading;
 };
 
 Status run(Console& console, const Options& options) {
-  Diagnostics diagnostics;
+  Diagnostics usage, diagnostics;
+  const ToolSettings tools = read_tool_options(options.tools, usage, diagnostics);
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
   InputOptions input;
   apply(options.reading, input);
+  input.tool_diameter = diameters_of(tools);
   const auto program = load_program(options.file, diagnostics, &progress, input);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
@@ -47,6 +53,7 @@ Status run(Console& console, const Options& options) {
 
 const char* const kExamples =
     R"(  kerf steps part.nc
+  kerf steps part.nc --tool 1="square d=6"      G41 and G42 need the tool
   kerf steps part.nc | grep '"step":"tool"'
 
 Prints a line {"kerf_steps":1,"units":"mm","source":FILE}, then one JSON object a step: positions complete,
@@ -58,11 +65,12 @@ program with errors.
 
 Command add_steps(CLI::App& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app =
-      new_command(root, "steps", "Print a program's toolpath as JSON lines", kExamples, options->output);
+  CLI::App* app = new_command(root, "steps", "Print a program's toolpath as JSON lines",
+                              kExamples + std::string(kToolHelp), options->output);
   app->get_option("--json")->description("Changes nothing here: each step is a JSON object in any case");
   app->get_option("--quiet")->description("No progress bar or notes; warnings and errors stay");
   add_program(*app, options->file);
+  add_tool_options(*app, options->tools);
   add_reading_options(*app, options->reading);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 
 #include "kerf/assumed_stock.h"
 #include "kerf/check.h"
@@ -15,7 +16,7 @@
 
 namespace kerf::app {
 
-const char* const kJobHelp =
+const char* const kToolHelp =
     R"(
 Tools (--tool), the last word over tool files, the program's comments and the built-in table:
   --tool "square d=3.175 flute=12.7"   for every tool number that has no --tool N=... of its own,
@@ -23,7 +24,10 @@ Tools (--tool), the last word over tool files, the program's comments and the bu
   --tool 2="V d=12.7 angle=90"         for tool 2
   --tool 2=301                         tool 2 is the built-in tool 301 (see: kerf tools list)
                                        all shapes and keys (neck_length, teeth ...): kerf tools shapes
-Stock (--stock), lengths in mm or with "in"; else the program's comments, else a block around the cuts:
+)";
+
+const char* const kStockHelp =
+    R"(Stock (--stock), lengths in mm or with "in"; else the program's comments, else a block around the cuts:
   --stock "100x60x12"                  program zero at the lower left of the top
   --stock "100x60x12 at centre bottom" or lower-left, top-right ..., top or bottom
   --stock "0,0,-12 to 100,60,0"        lowest and highest corner
@@ -65,7 +69,7 @@ std::optional<ToolOption> split_tool_option(std::string_view text, const Origin&
   return ToolOption{static_cast<int>(*number), spec};
 }
 
-void read_tool_option_of(const std::string& text, JobSettings& settings, Diagnostics& usage) {
+void read_tool_option_of(const std::string& text, ToolSettings& settings, Diagnostics& usage) {
   const Origin where = CallSpot{"", 0, fmt::format("--tool \"{}\"", text.substr(0, 80))};
   const auto option = split_tool_option(text, where, usage);
   if (!option) return;
@@ -79,7 +83,8 @@ void read_tool_option_of(const std::string& text, JobSettings& settings, Diagnos
   }
 }
 
-void read_tool_files(const std::vector<std::string>& names, JobSettings& settings, Diagnostics& diagnostics) {
+void read_tool_files(const std::vector<std::string>& names, ToolSettings& settings,
+                     Diagnostics& diagnostics) {
   for (const std::string& name : names) {
     const auto file = InputFile::open(name, diagnostics);
     if (!file) continue;
@@ -119,10 +124,11 @@ Uses uses_of(const Toolpath& path) {
 /// describes.
 std::optional<std::pair<Tool, ToolSource>> tool_for_start(const LoadedProgram& program,
                                                           const JobSettings& settings, const Uses& uses) {
-  if (settings.any_number) return {{*settings.any_number, ToolSource::option}};
+  if (settings.tools.any_number) return {{*settings.tools.any_number, ToolSource::option}};
   if (!uses.numbers.empty()) return std::nullopt;
-  if (settings.numbered.size() == 1) return {{settings.numbered.begin()->second, ToolSource::option}};
-  if (settings.numbered.empty() && program.tools.size() == 1)
+  if (settings.tools.numbered.size() == 1)
+    return {{settings.tools.numbered.begin()->second, ToolSource::option}};
+  if (settings.tools.numbered.empty() && program.tools.size() == 1)
     return {{program.tools.begin()->second, ToolSource::comment}};
   return std::nullopt;
 }
@@ -161,21 +167,7 @@ Origin first_use_of(int number, const Toolpath& path) {
   return {};
 }
 
-/// Which tool cutter compensation reckons with: as choose() below, before the program is read.
-decltype(InputOptions::tool_diameter) diameters_of(const JobSettings& settings) {
-  return [numbered = settings.numbered, any = settings.any_number, table = settings.table](
-             int number, const Tool* described) -> std::optional<double> {
-    Diagnostics unheard;  // choose() tells
-    const auto told = numbered.find(number);
-    const Tool* tool = told != numbered.end() ? &told->second
-                       : any                  ? &*any
-                                              : choose_tool(table.find(number), described, {}, unheard);
-    if (tool == nullptr) return std::nullopt;
-    return tool->diameter.mm();
-  };
-}
-
-Choice choose(int number, const LoadedProgram& program, const JobSettings& settings,
+Choice choose(int number, const LoadedProgram& program, const ToolSettings& settings,
               Diagnostics& diagnostics) {
   if (const auto it = settings.numbered.find(number); it != settings.numbered.end())
     return {&it->second, ToolSource::option};
@@ -192,15 +184,17 @@ Choice choose(int number, const LoadedProgram& program, const JobSettings& setti
 /// A --tool N=... for a tool that the program does not use is most often a slip in the number.
 void tell_unused_options(const Job& job, const JobSettings& settings, const Uses& uses,
                          Diagnostics& diagnostics) {
-  const bool for_start = uses.numbers.empty() && settings.numbered.size() == 1 && !settings.any_number;
-  for (const auto& [number, tool] : settings.numbered) {
+  const bool for_start =
+      uses.numbers.empty() && settings.tools.numbered.size() == 1 && !settings.tools.any_number;
+  for (const auto& [number, tool] : settings.tools.numbered) {
     if (job.tool_sources.count(number) > 0 || for_start) continue;
     std::vector<std::string> used;
     for (const int n : uses.numbers) used.push_back(std::to_string(n));
     diagnostics
         .warning(Code::option_unused, CallSpot{"", 0, fmt::format("--tool {}=...", number)},
                  fmt::format("the program never uses tool {}", number))
-        .hint = used.empty() ? "it has no tool change at all" : "it uses tool " + list_text(used);
+        .hint = used.empty() ? "it has no tool change at all; --tool SPEC, without a number, is for all tools"
+                             : "it uses tool " + list_text(used);
   }
 }
 
@@ -224,7 +218,7 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
   if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::told_elsewhere)
     tell_no_tool(job.program.path, unknown, diagnostics);
   for (const int number : uses.numbers) {
-    const Choice choice = choose(number, job.program, settings, diagnostics);
+    const Choice choice = choose(number, job.program, settings.tools, diagnostics);
     job.tool_sources[number] = choice.source;
     if (choice.tool == nullptr && unknown == UnknownTool::told_elsewhere) continue;
     if (choice.tool == nullptr) {
@@ -238,7 +232,7 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
     job.tools.set(number, std::move(tool));
   }
   tell_unused_options(job, settings, uses, diagnostics);
-  if (settings.any_number && uses.numbers.size() > 1 + settings.numbered.size())
+  if (settings.tools.any_number && uses.numbers.size() > 1 + settings.tools.numbered.size())
     diagnostics.note(Code::tool_option_wide, {},
                      fmt::format("--tool without a number stands for {} tool numbers of the program",
                                  uses.numbers.size()));
@@ -320,11 +314,15 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
 
 }  // namespace
 
+void add_tool_options(CLI::App& app, ToolOptions& options) {
+  add_repeated(app, "-t,--tool", options.specs, "SPEC",
+               "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
+  add_repeated(app, "--tools", options.files, "PATH", "A file of tools (TOML)");
+}
+
 void add_job_options(CLI::App& app, JobOptions& options) {
   add_program(app, options.file);
-  add_repeated(app, "-t,--tool", options.tools, "SPEC",
-               "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
-  add_repeated(app, "--tools", options.tool_files, "PATH", "A file of tools (TOML)");
+  add_tool_options(app, options.tools);
   app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
       ->type_name("SPEC");
   add_reading_options(app, options.reading);
@@ -341,18 +339,51 @@ void add_machine_option(CLI::App& app, JobOptions& options) {
       ->type_name("PATH");
 }
 
+ToolSettings read_tool_options(const ToolOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
+  ToolSettings settings;
+  settings.table = built_in_tools();
+  for (const std::string& text : options.specs) read_tool_option_of(text, settings, usage);
+  read_tool_files(options.files, settings, diagnostics);
+  return settings;
+}
+
+/// Which tool cutter compensation reckons with: as choose(), before the program is read.
+decltype(InputOptions::tool_diameter) diameters_of(const ToolSettings& settings) {
+  return [numbered = settings.numbered, any = settings.any_number, table = settings.table](
+             int number, const Tool* described) -> std::optional<double> {
+    Diagnostics unheard;  // choose() tells
+    const auto told = numbered.find(number);
+    const Tool* tool = told != numbered.end() ? &told->second
+                       : any                  ? &*any
+                                              : choose_tool(table.find(number), described, {}, unheard);
+    if (tool == nullptr) return std::nullopt;
+    return tool->diameter.mm();
+  };
+}
+
+std::map<int, Tool> used_tools(const LoadedProgram& program, const ToolSettings& settings) {
+  std::set<int> numbers;
+  for (const auto& [number, tool] : program.tools) numbers.insert(number);
+  for (const Step& s : program.path.steps())
+    if (s.kind() == StepKind::tool_change) numbers.insert(s.tool_change().tool);
+  Diagnostics unheard;  // a comment that differs from the table is told where shapes count
+  std::map<int, Tool> tools;
+  for (const int number : numbers)
+    if (const Choice choice = choose(number, program, settings, unheard); choice.tool != nullptr)
+      tools.emplace(number, *choice.tool);
+  return tools;
+}
+
 JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
   JobSettings settings;
-  settings.table = built_in_tools();
-  for (const std::string& text : options.tools) read_tool_option_of(text, settings, usage);
+  settings.tools = read_tool_options(options.tools, usage, diagnostics);
   if (options.stock) settings.stock = read_stock_option(*options.stock, CallSpot{"", 0, "--stock"}, usage);
-  read_tool_files(options.tool_files, settings, diagnostics);
   settings.bodies = read_body_options(options.bodies, usage, diagnostics);
   if (!options.machine.empty())
     if (const auto file = InputFile::open(options.machine, diagnostics))
       settings.input.machine = read_machine_file(file->bytes(), options.machine, diagnostics);
   apply(options.reading, settings.input);
-  settings.input.tool_diameter = diameters_of(settings);
+  settings.input.tool_diameter = diameters_of(settings.tools);
   return settings;
 }
 

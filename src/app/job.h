@@ -19,36 +19,51 @@
 namespace kerf::app {
 
 /// The options as told.
+struct ToolOptions {
+  std::vector<std::string> specs;  // --tool [N=]SPEC
+  std::vector<std::string> files;  // --tools FILE
+};
 struct JobOptions {
   std::string file;
-  std::vector<std::string> tools;       // --tool [N=]SPEC
-  std::vector<std::string> tool_files;  // --tools FILE
-  std::optional<std::string> stock;     // --stock SPEC
-  std::string machine;                  // --machine FILE
+  ToolOptions tools;
+  std::optional<std::string> stock;  // --stock SPEC
+  std::string machine;               // --machine FILE
   BodyOptions bodies;
   ReadingOptions reading;  // --dialect, --strict
 };
 void add_job_options(CLI::App& app, JobOptions& options);
+/// --tool and --tools alone, for the commands that need no stock.
+void add_tool_options(CLI::App& app, ToolOptions& options);
 /// The program and the files of stock and fixtures, which no output may replace.
 std::vector<std::string> input_files(const JobOptions& options);
 /// --machine, for the commands that make use of one.
 void add_machine_option(CLI::App& app, JobOptions& options);
-/// Text for the help of the commands that take --tool and --stock.
-extern const char* const kJobHelp;
+/// Text for the help of the commands that take --tool, and of those that take --stock.
+extern const char* const kToolHelp;
+extern const char* const kStockHelp;
 
 /// The options read.
-struct JobSettings {
+struct ToolSettings {
   std::map<int, Tool> numbered;          // --tool N=SPEC
   std::optional<Tool> any_number;        // --tool SPEC
   ToolTable table;                       // built in and from files
   std::map<int, std::string> from_file;  // which numbers of the table came from which --tools file
+};
+struct JobSettings {
+  ToolSettings tools;
   std::optional<Stock> stock;
   BodySettings bodies;
   InputOptions input;  // for load_program, with the machine
 };
 /// Reads the tool and stock options. What the command line got wrong goes to `usage`, what files got wrong to
 /// `diagnostics`.
+ToolSettings read_tool_options(const ToolOptions& options, Diagnostics& usage, Diagnostics& diagnostics);
 JobSettings read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics);
+
+/// What a front end needs to know of the tools: their diameters, for cutter compensation.
+decltype(InputOptions::tool_diameter) diameters_of(const ToolSettings& settings);
+/// The tools that a program changes to or describes, by number, as far as they are known.
+std::map<int, Tool> used_tools(const LoadedProgram& program, const ToolSettings& settings);
 
 enum class ToolSource { unknown, option, comment, file, built_in };
 std::string_view to_string(ToolSource source);

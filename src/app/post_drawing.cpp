@@ -28,24 +28,13 @@ std::optional<DxfVersion> read_dxf_version(std::string_view name) {
   return std::nullopt;
 }
 
-std::map<int, Tool> used_tools(const LoadedProgram& program) {
-  std::map<int, Tool> tools(program.tools.begin(), program.tools.end());
-  for (const Step& s : program.path.steps()) {
-    if (s.kind() != StepKind::tool_change) continue;
-    const int number = s.tool_change().tool;
-    if (tools.count(number) != 0) continue;
-    if (const Tool* tool = built_in_tools().find(number)) tools.emplace(number, *tool);
-  }
-  return tools;
-}
-
 std::string draw_program(const LoadedProgram& program, const DrawingFormat& format,
                          const DrawingRequest& request) {
   ToolpathDrawingOptions options;
   options.unit = request.unit;
   options.rapids = request.rapids;
   options.title = request.title;
-  for (const auto& [number, tool] : used_tools(program)) {
+  for (const auto& [number, tool] : request.tools) {
     options.tool_names[number] = short_name(tool);
     options.tool_diameters[number] = tool.diameter;
   }

@@ -22,14 +22,12 @@ const DrawingFormat* find_drawing_format(std::string_view name);
 /// `--dxf-version`: "r2000" or "r12"; nothing for another text.
 std::optional<DxfVersion> read_dxf_version(std::string_view name);
 
-/// Tools that a program changes to, with what is known of them.
-std::map<int, Tool> used_tools(const LoadedProgram& program);
-
 struct DrawingRequest {
   DrawingUnit unit = DrawingUnit::mm;
   RapidLines rapids = RapidLines::left_out;
   DxfVersion version = DxfVersion::r2000;
   std::string title;
+  std::map<int, Tool> tools;  // by number; their sizes are those of drilled holes
 };
 /// The file's text.
 std::string draw_program(const LoadedProgram& program, const DrawingFormat& format,

@@ -111,6 +111,21 @@ AxisTravel open_travel(const AxisTravel& travel, const Setting& setting, int axi
   return {setting.reached.high[axis] - travel.length(), setting.reached.low[axis] + travel.length()};
 }
 
+/// What is passed: an end of the travel, where the work's zero is known, else its length.
+std::string message_outside(const Box3& box, const AxisTravel& travel, const Setting& setting, int axis) {
+  const auto text = [](double v) { return number_text(v, kShownDecimals); };
+  const char name = "XYZ"[axis];
+  const auto& zero = setting.options.machine->work_zero;
+  if (!zero)
+    return fmt::format("a move out of the machine: its {} axis is {} mm long, and the moves so far span more",
+                       name, text(travel.length()));
+  const double low = box.low[axis] + (*zero)[axis], high = box.high[axis] + (*zero)[axis];
+  const bool above = high > travel.high + kRounding;
+  return fmt::format("a move out of the machine: {}{} in machine coordinates, {} the axis's end at {}", name,
+                     text(above ? high : low), above ? "above" : "below",
+                     text(above ? travel.high : travel.low));
+}
+
 Message outside_machine(const Step& s, const MotionContext& context, Setting& setting) {
   if (setting.options.machine == nullptr) return std::nullopt;
   const Box3 box = box_of(s, context);
@@ -121,8 +136,7 @@ Message outside_machine(const Step& s, const MotionContext& context, Setting& se
     const AxisTravel open = open_travel(*travel, setting, axis);
     const bool longer = box.high[axis] - box.low[axis] > travel->length() + kRounding;
     if (longer || box.low[axis] < open.low - kRounding || box.high[axis] > open.high + kRounding) {
-      message = fmt::format("a move out of the machine: its {} axis is {} mm long", "XYZ"[axis],
-                            number_text(travel->length(), kShownDecimals));
+      message = message_outside(box, *travel, setting, axis);
       continue;
     }
     setting.reached.low[axis] = std::min(setting.reached.low[axis], box.low[axis]);
@@ -170,7 +184,7 @@ struct Rule {
 constexpr Rule kRules[] = {
     {Code::path_no_feed, no_feed, "put an F word before the first cut"},
     {Code::path_negative_feed, negative_feed, "give the feed without its sign"},
-    {Code::path_no_tool, no_tool, "change to a tool (T1 M6), or tell it with --tool"},
+    {Code::path_no_tool, no_tool, "change to a tool (T1 M6), or tell it with --tool SPEC, without a number"},
     {Code::path_spindle_off, spindle_off, "start the spindle (S10000 M3) before the cut"},
     {Code::path_arc_radii, arc_radii, "write the arc's end and centre with more decimals"},
     {Code::path_outside_machine, outside_machine, "move the work's zero, or turn or divide the part"},

@@ -208,3 +208,28 @@ def test_inverse_time_without_a_feed_is_a_hazard(kerf, program):
     run = kerf("check", "--json", program(SOUND.replace("G1 X20 F400", "G93 G1 X15 F2\nG1 X20\nG94 F400")))
     assert run.status == 3 and kinds(run) == ["no_feed"]
     assert [h["origin"]["line"] for h in run.json["hazards"]] == [10]
+
+
+@pytest.mark.parametrize("code, dialect", [("G65 P100", "linuxcnc"), ("G12 I5", "mach3")])
+def test_a_code_that_nobody_knows_is_a_hazard(kerf, program, code, dialect):
+    part = program(SOUND.replace("G1 Z-1", f"{code}\nG1 Z-1"))
+    run = kerf("check", "--json", "--dialect", dialect, part)
+    assert run.status == 3, run.out
+    found = next(h for h in run.json["hazards"] if h["kind"] == "left_out")
+    line = 1 + part.read_text().splitlines().index(code)
+    assert found["origin"]["line"] == line and code.split()[0] in found["message"]
+    assert not [d for d in run.json["diagnostics"] if d["name"] == "unknown_g_code"]  # told once
+    assert "no hazard found" not in kerf("check", part).out
+
+
+def test_an_m_code_that_nobody_knows_is_none(kerf, program):
+    run = kerf("check", "--json", program(SOUND.replace("G1 Z-1", "M77\nG1 Z-1")))
+    assert run.status == 0, run.out
+    assert [d["severity"] for d in run.json["diagnostics"] if d["name"] == "unknown_m_code"] == ["warning"]
+
+
+def test_no_tool_names_the_option_without_a_number(kerf, program):
+    text = SOUND.replace("M6 T102\n", "")
+    run = kerf("check", "--json", "-t", "1=square d=3", "-t", "2=square d=6", program(text))
+    hazard = next(h for h in run.json["hazards"] if h["kind"] == "no_tool")
+    assert "--tool SPEC, without a number" in hazard["hint"]

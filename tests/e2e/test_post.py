@@ -297,3 +297,37 @@ def test_passes_say_what_they_save(kerf, program):
     assert rapids["rapid_mm_before"] - rapids["rapid_mm_after"] == pytest.approx(8)
     written = motion_of(kerf, path.parent / "out.nc")
     assert written["lines"] == 2 and written["cut_mm"] == pytest.approx(16)
+
+COMPENSATED = """G21 G90 G17
+T77 M6
+M3 S10000
+G0 X-10 Y-10 Z5
+G1 Z-3 F200
+G41 D77 G1 X0 Y0
+Y40
+G40 G1 X-10 Y-10
+G0 Z5
+M5
+M30
+"""
+
+
+def test_compensation_takes_the_tool_of_the_options(kerf, program):
+    part = program(COMPENSATED)
+    untold = kerf("post", "--to", "grbl", part)
+    assert untold.status == 1 and "[2045]" in untold.err and "--tool 77=" in untold.err
+    with_option = kerf("post", "--to", "grbl", "--tool", "77=square d=6", part)
+    assert with_option.status == 0, with_option.err
+    assert "X-3" in with_option.out  # the tool's radius beside X0
+    table = program('[[tool]]\nnumber = 77\nshape = "square"\ndiameter = 4\n', "tools.toml")
+    with_file = kerf("post", "--to", "grbl", "--tools", table, part)
+    assert with_file.status == 0, with_file.err
+    assert "X-2" in with_file.out
+    assert kerf("post", "--to", "grbl", "--tool", "77=round d=six", part).status == 2
+    assert kerf("post", "--to", "grbl", "--tools", "none.toml", part).status == 1
+
+
+def test_drilled_circles_have_the_size_of_the_option(kerf, program):
+    part = program("G21 G90\nT77 M6\nM3 S1000\nG0 X5 Y5 Z5\nG1 Z-3 F100\nG0 Z5\nM30\n")
+    svg = kerf("post", "--to", "svg", "--tool", "77=square d=7", part)
+    assert svg.status == 0 and 'r="3.5"' in svg.out, svg.out

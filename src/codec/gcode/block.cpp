@@ -63,6 +63,13 @@ const char* after_bracket(const char* p, const char* end) {
   return end;
 }
 
+/// "X4O", "XO5": whether the word at `letter`, which has no number, is or meets an O in the place of a digit.
+bool is_o_for_zero(const char* line, const char* letter, const char* end) {
+  const bool behind_number = letter != line && (is_digit(letter[-1]) || letter[-1] == '.');
+  const bool before_o = end - letter > 1 && upper(letter[1]) == 'O';
+  return before_o || (upper(*letter) == 'O' && behind_number);
+}
+
 const char* after_blanks(const char* p, const char* end) {
   while (p != end && is_blank(*p)) ++p;
   return p;
@@ -274,7 +281,8 @@ bool BlockReader::read_computed_value(Block& block, Word& word) {
   const char* letter = p_;
   const char* value_end = after_computed_value(letter + 1, end_);
   if (value_end == letter + 1)
-    return fault(block, Code::number_missing, letter, fmt::format("no number after {}", shown(*letter)));
+    return fault(block, Code::number_missing, letter, fmt::format("no number after {}", shown(*letter)),
+                 is_o_for_zero(line_start_, letter, end_) ? "is the letter O meant as the digit 0?" : "");
   word.kind = ValueKind::expression;
   block.computed = true;
   word.value_length = static_cast<std::uint32_t>(value_end - letter) - 1;

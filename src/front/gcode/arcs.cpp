@@ -11,7 +11,7 @@ namespace {
 
 // The radii at an arc's ends may differ by what rounding to a program's decimals leaves: GRBL's limits.
 constexpr double kRadiusSlack = 0.005;      // mm
-constexpr double kRadiusShare = 0.001;      // of the radius
+constexpr double kRadiusShare = 0.001;      // of the radius; also what an R may be short of half the chord
 constexpr double kHopelessMismatch = 2.83;  // mm; LinuxCNC's limit, past it the centre is not meant so
 constexpr double kChordSlack = 0.0283;      // mm that a radius may be short of half the chord without a word
 constexpr double kSmallestRadius = 1e-9;    // mm; less is a point
@@ -103,7 +103,17 @@ std::optional<Point2> Interpreter::centre_from_radius(const Place& to, Turn turn
         "a full circle needs I and J");
     return std::nullopt;
   }
-  if (half - std::abs(radius) > kChordSlack)
+  const double shortfall = half - std::abs(radius);
+  if (shortfall > kChordSlack && shortfall > kRadiusShare * half) {
+    talker_.error(
+        Code::arc_radius_too_small, line_.column('R'),
+        fmt::format("the radius {:.4g} mm does not reach the arc's end, which is {:.4g} mm away: it "
+                    "would have to be {:.4g} mm at least; read as a straight cut",
+                    std::abs(radius), chord, half),
+        "controllers refuse such an arc");
+    return std::nullopt;
+  }
+  if (shortfall > kChordSlack)
     talker_.unusual(Code::arc_radius_too_small, line_.column('R'),
                     fmt::format("the radius {:.4g} mm does not reach the arc's end, which is {:.4g} mm away; "
                                 "read as a half turn",

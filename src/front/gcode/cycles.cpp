@@ -93,6 +93,7 @@ bool Interpreter::take_cycle_words(Tenths motion) {
     talker_.error(Code::word_out_of_range, line_.column(), "a dwell time cannot be negative");
     cycle_.dwell.reset();
   }
+  tell_long_dwell(cycle_.dwell.value_or(0.0), 'P');
   if (needs_dwell(motion) && !cycle_.dwell) {
     talker_.unusual(Code::word_missing, line_.column(),
                     fmt::format("{} without a P word; read without a dwell", code_text('G', motion)));

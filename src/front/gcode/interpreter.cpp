@@ -151,6 +151,7 @@ void Interpreter::finish() {
   if (pending_shape_)
     talker_.diagnostics().warning(Code::tool_comment_unused, pending_spot_,
                                   "the comment describes a tool, but no tool change follows");
+  leave_system();
   tell_silent_spindle();
   program_.cut_short = full_ || flow_->gave_up();
   const bool ends = !is_printer();  // a printer stops where its program stops
@@ -163,12 +164,10 @@ void Interpreter::finish() {
 void Interpreter::tell_silent_spindle() {
   if (!silent_spindle_ || modes_.speed_told) return;
   const auto& [code, where] = *silent_spindle_;
-  talker_.in_file(where.file);
-  talker_.at_line(where.line);
-  talker_.unusual(Code::word_missing, where.column,
-                  fmt::format("{} starts the spindle, and no S says how fast; taken as set by hand",
-                              code_text('M', code)),
-                  "put an S word before it or on its line");
+  talker_.unusual_at(where, Code::word_missing,
+                     fmt::format("{} starts the spindle, and no S says how fast; taken as set by hand",
+                                 code_text('M', code)),
+                     "put an S word before it or on its line");
 }
 
 /// Whether so many more steps are within the limit; else the program ends here, and it is said.

@@ -169,6 +169,7 @@ class Interpreter : public SystemValues {
   void turn_spindle();
   void switch_coolant();
   void dwell();
+  void tell_long_dwell(double time, char letter);
   void set_plane();
   void set_path_mode();
   void set_distance();
@@ -184,6 +185,8 @@ class Interpreter : public SystemValues {
 
   // offsets.cpp
   void use_coordinates();
+  void leave_system();
+  void tell_unknown_offset(int system);
   void set_data();
   void set_system(int system);
   void touch_off(int system);
@@ -318,10 +321,13 @@ class Interpreter : public SystemValues {
   std::array<double, 3> rotary_{};  // degrees
   bool rotary_used_ = false;
   Placement placement_;
-  Point3 local_shift_;         // by G92 and G52, mm
-  Point3 kept_local_shift_;    // what G92.2 put aside
-  double program_turn_ = 0.0;  // G68, degrees
-  Point3 program_turn_about_;  // program coordinates, mm
+  std::size_t system_from_ = 0;                       // the first step made in the coordinate system in force
+  TextSpot system_spot_;                              // where that was chosen
+  std::uint32_t systems_used_ = 0, systems_set_ = 0;  // bit n: moved in; told by G10
+  Point3 local_shift_;                                // by G92 and G52, mm
+  Point3 kept_local_shift_;                           // what G92.2 put aside
+  double program_turn_ = 0.0;                         // G68, degrees
+  Point3 program_turn_about_;                         // program coordinates, mm
   Tenths work_offset_ = 540;
   bool rests_ = false;  // the next motion begins at rest: a zero was shifted
   Place home_28_, home_30_;
@@ -350,6 +356,8 @@ class Interpreter : public SystemValues {
   bool units_told_ = false;
   bool moved_ = false;
   bool no_feed_said_ = false;
+  bool offset_said_ = false;
+  bool long_dwell_said_ = false;
   bool after_end_said_ = false;
   bool percent_open_ = false;
   bool words_since_percent_ = false;

@@ -29,7 +29,12 @@ void Talker::error(Code code, std::uint32_t column, std::string message, std::st
 }
 
 void Talker::unusual(Code code, std::uint32_t column, std::string message, std::string_view hint) {
-  say(strict_ ? Severity::error : Severity::warning, code, column, std::move(message), hint);
+  unusual_at(spot(column), code, std::move(message), hint);
+}
+
+void Talker::unusual_at(TextSpot where, Code code, std::string message, std::string_view hint) {
+  const Severity severity = strict_ ? Severity::error : Severity::warning;
+  diagnostics_.add({severity, code, std::move(where), std::move(message), {}, std::string(hint)});
 }
 
 void Talker::note(Code code, std::uint32_t column, std::string message) {

@@ -32,6 +32,8 @@ class Talker {
 
   void error(Code code, std::uint32_t column, std::string message, std::string_view hint = {});
   void unusual(Code code, std::uint32_t column, std::string message, std::string_view hint = {});
+  /// Of a place that was passed before.
+  void unusual_at(TextSpot where, Code code, std::string message, std::string_view hint);
   void note(Code code, std::uint32_t column, std::string message);
 
  private:

@@ -3,6 +3,7 @@
 // The toolpath's coordinates are those of G54 as it is when the program begins; its offset counts as 0. What
 // the program sets from then on moves and turns its coordinates in these.
 // Source: LinuxCNC's pages "G10", "G52", "G92"; Mach3's manual for G51 and G68.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -69,8 +70,40 @@ void Interpreter::refresh_placement() {
 }
 
 void Interpreter::use_coordinates() {
+  leave_system();
   modes_.system = system_of(line_.code(Group::coordinates));
+  system_spot_ = talker_.spot(line_.column(Group::coordinates));
   refresh_placement();
+}
+
+/// Looks whether the program has moved in the coordinate system that it leaves. Where it did so in another
+/// one too, both offsets must be known; machine coordinates (G53, G28) need none.
+void Interpreter::leave_system() {
+  const auto& steps = path_.steps();
+  const bool used = std::any_of(steps.begin() + static_cast<std::ptrdiff_t>(system_from_), steps.end(),
+                                [](const Step& s) { return s.is_motion() && s.reference_axes() == 0; });
+  system_from_ = steps.size();
+  if (!used) return;
+  systems_used_ |= 1u << modes_.system;
+  const bool several = (systems_used_ & (systems_used_ - 1)) != 0;
+  for (int system = 2; several && !offset_said_ && system <= kSystems; ++system)
+    if ((systems_used_ & (1u << system)) != 0) tell_unknown_offset(system);
+}
+
+/// Unless G10 or a parameter told it. Offsets are the machine's matter, but the toolpath has one zero.
+void Interpreter::tell_unknown_offset(int system) {
+  bool told = (systems_set_ & (1u << system)) != 0;
+  for (int i = 0; i <= kTurnOfSystem; ++i)
+    told = told || parameters_.slot(first_parameter(system) + i) != 0.0;
+  if (told) return;
+  offset_said_ = true;
+  const std::string name = system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
+  talker_.unusual_at(
+      system_spot_, Code::offset_unknown,
+      fmt::format("the program moves in several work offsets, and does not say how far that of {} lies from "
+                  "G54's; it is taken as the same",
+                  name),
+      fmt::format("tell it, e.g. G10 L2 P{} X100 Y0 Z0, or look at each part by itself", system));
 }
 
 /// G10: L2 and L20 set a coordinate system, L1, L10 and L11 a tool.
@@ -98,6 +131,7 @@ void Interpreter::set_data() {
 
 /// G10 L2: the offset itself, whatever the distance mode.
 void Interpreter::set_system(int system) {
+  systems_set_ |= 1u << system;
   const int first = first_parameter(system);
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
@@ -113,6 +147,7 @@ void Interpreter::set_system(int system) {
 /// G10 L20: the offset that gives the place where the tool stands the coordinates of the line. Where the
 /// place was not known, it has them from now on.
 void Interpreter::touch_off(int system) {
+  systems_set_ |= 1u << system;
   const int first = first_parameter(system);
   Point3 offset;
   for (int axis = 0; axis < 3; ++axis) offset[axis] = parameters_.slot(first + axis);

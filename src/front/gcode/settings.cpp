@@ -9,6 +9,8 @@ namespace kerf::gcode {
 namespace {
 
 constexpr double kMostRepeats = 9999;
+constexpr double kMillisecondsPerSecond = 1000.0;
+constexpr double kLongDwell = 60.0;  // seconds; spindles and coolant take less
 
 }  // namespace
 
@@ -178,6 +180,7 @@ void Interpreter::keep_modes() {
 /// Motion, tool and position stay as they are.
 void Interpreter::restore_modes(const Modes& kept) {
   const Modes now = modes_;
+  leave_system();
   modes_ = kept;
   modes_.motion = now.motion;
   modes_.tool = now.tool;
@@ -218,9 +221,20 @@ void Interpreter::dwell() {
     talker_.error(Code::word_out_of_range, line_.column('P'), "a time cannot be negative");
     return;
   }
-  const bool milliseconds =
-      program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
-  add(step::Dwell{seconds(milliseconds ? *time / 1000.0 : *time)});
+  const double time_s = is_printer() ? *time / kMillisecondsPerSecond : *time;
+  tell_long_dwell(time_s, 'P');
+  add(step::Dwell{seconds(time_s)});
+}
+
+/// P is in seconds or in milliseconds, as the controller has it; what takes minutes may be meant otherwise.
+void Interpreter::tell_long_dwell(double time, char letter) {
+  if (time <= kLongDwell || long_dwell_said_) return;
+  long_dwell_said_ = true;
+  const std::string_view unit = is_printer() ? "milliseconds" : "seconds";
+  talker_.unusual(Code::dwell_long, line_.column(letter),
+                  fmt::format("a wait of {:.3g} minutes: P is read in {}, as {} has it", time / 60.0, unit,
+                              to_string(program_.dialect)),
+                  is_printer() ? "" : "if it is meant in milliseconds, divide it by 1000");
 }
 
 void Interpreter::set_plane() {
@@ -283,6 +297,7 @@ void Interpreter::end_program() {
   end_compensation();
   compensation_.leaving = false;
   modes_.motion = 10;
+  leave_system();
   modes_.system = 1;
   refresh_placement();
   modes_.plane = Plane::xy;

@@ -1,5 +1,6 @@
 // One program for each thing that the reader says, with its place, its severity, and what is read all the
 // same.
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include "kerf/gcode.h"
@@ -96,7 +97,12 @@ const Case kCases[] = {
     {"F9 G90.1 G2 X2 I1", Code::arc_no_centre, kError, 1, 1, 1},
     {"F9 G2 X5 I2.6", Code::arc_radius_mismatch, kWarning, 1, 1, 1},
     {"F9 G2 X50 I2.6", Code::arc_radius_mismatch, kError, 1, 1, 1},
-    {"F9 G2 X50 R20", Code::arc_radius_too_small, kWarning, 1, 11, 1},
+    {"F9 G2 X100 R49.96", Code::arc_radius_too_small, kWarning, 1, 12, 1},
+    {"F9 G2 X50 R20", Code::arc_radius_too_small, kError, 1, 11, 1},
+    {"G4 P61", Code::dwell_long, kWarning, 1, 4, 0},
+    {"F9 G82 X1 R1 Z0 P2000", Code::dwell_long, kWarning, 1, 17, 4},
+    {"G54 G0 X1\nG55 X2", Code::offset_unknown, kWarning, 2, 1, 2},
+    {"G59.3 G0 X1\nG54 X2", Code::offset_unknown, kWarning, 2, 1, 2},
     {"F9 G2 X0 R20", Code::arc_in_place, kError, 1, 10, 1},
     {"F9 G81 X5 R1 Z2", Code::cycle_upside_down, kError, 1, 1, 0},
     {"G91 G53 G0 Z-5", Code::g53_incremental, kWarning, 1, 5, 1},
@@ -126,6 +132,49 @@ TEST(GcodeDiagnostics, EachIsSaidAtItsPlace) {
     EXPECT_EQ(found->where, Origin(TextSpot{"<text>", c.line, c.column}))
         << c.text << ": " << to_string(*found);
     EXPECT_EQ(motions_of(program.path), c.motions) << c.text << ": " << to_string(*found);
+  }
+}
+
+std::size_t count_of(Code code, std::string_view text) {
+  Diagnostics diagnostics;
+  read_gcode(std::string(text) + "\nM2\n", {}, diagnostics);
+  return static_cast<std::size_t>(std::count_if(diagnostics.list().begin(), diagnostics.list().end(),
+                                                [&](const Diagnostic& d) { return d.code == code; }));
+}
+
+TEST(GcodeDiagnostics, AnOffsetIsAskedForWhereTheProgramMovesInTwoSystems) {
+  EXPECT_EQ(count_of(Code::offset_unknown, "G54\nG55 G0 X1\nX2"), 0u);
+  EXPECT_EQ(count_of(Code::offset_unknown, "G0 G53 Z0\nG55 G0 X1\nG54"), 0u);  // no move in G54
+  EXPECT_EQ(count_of(Code::offset_unknown, "G10 L2 P2 X0\nG0 X1\nG55 X1"), 0u);
+  EXPECT_EQ(count_of(Code::offset_unknown, "#5241 = 50\nG0 X1\nG55 X1"), 0u);
+  EXPECT_EQ(count_of(Code::offset_unknown, "G0 X1\nG55 X1\nG56 X1\nG55 X2"), 1u);
+}
+
+TEST(GcodeDiagnostics, ARadiusTooSmallSaysWhichWouldDo) {
+  Diagnostics diagnostics;
+  read_gcode("G0 X5 Y5\nG1 Z-3 F200\nG2 X30 Y5 R5\nM2\n", {}, diagnostics);
+  ASSERT_EQ(diagnostics.errors(), 1u);
+  EXPECT_NE(diagnostics.list().back().message.find("12.5 mm"), std::string::npos);
+  EXPECT_EQ(count_of(Code::arc_radius_too_small, "F9 G0 X5 Y5\nG2 X30 Y5 R12.49"), 0u);  // rounded
+}
+
+TEST(GcodeDiagnostics, ALongDwellSaysHowPIsRead) {
+  EXPECT_EQ(count_of(Code::dwell_long, "G4 P60"), 0u);
+  EXPECT_EQ(count_of(Code::dwell_long, "G4 P2000\nG4 P2000"), 1u);
+  Diagnostics diagnostics;
+  read_gcode("G4 P2000\nM2\n", {.dialect = GcodeDialect::grbl}, diagnostics);
+  EXPECT_NE(diagnostics.list().front().message.find("seconds, as GRBL"), std::string::npos);
+  Diagnostics printer;
+  read_gcode("G4 P2000\nM2\n", {.dialect = GcodeDialect::marlin}, printer);
+  EXPECT_EQ(printer.list().size(), 0u);
+}
+
+TEST(GcodeDiagnostics, AnOInThePlaceOfAZeroHasAHint) {
+  for (const char* text : {"G0 X4O", "G0 XO", "G0 X4.O Y1"}) {
+    Diagnostics diagnostics;
+    read_gcode(std::string(text) + "\nM2\n", {}, diagnostics);
+    ASSERT_TRUE(diagnostics.has_errors()) << text;
+    EXPECT_NE(diagnostics.list().front().hint.find("digit 0"), std::string::npos) << text;
   }
 }
 

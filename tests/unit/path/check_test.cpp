@@ -158,7 +158,22 @@ TEST(CheckPath, AMoveOutOfTheMachineWhereItsPlaceIsKnown) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].code, Code::path_outside_machine);
   EXPECT_EQ(found[0].step, 4u);
+  EXPECT_NE(found[0].message.find("X100.5 in machine coordinates, above the axis's end at 100"),
+            std::string::npos)
+      << found[0].message;
   EXPECT_FALSE(found[0].hint.empty());
+}
+
+TEST(CheckPath, AMoveBelowTheMachinesEndNamesThatEnd) {
+  Machine machine = table_of(100, 100, 50);
+  machine.work_zero = Point3{10, 10, -40};
+  Job job = started();
+  job.add(step::Cut{{0, 0, -11}, mm_per_min(100)});
+  const auto found = check_path(job.path, {.machine = &machine});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NE(found[0].message.find("Z-51 in machine coordinates, below the axis's end at -50"),
+            std::string::npos)
+      << found[0].message;
 }
 
 TEST(CheckPath, OnlyTheLengthCountsWhereTheMachinesPlaceIsNotKnown) {
