@@ -63,6 +63,8 @@ const char* after_bracket(const char* p, const char* end) {
   return end;
 }
 
+constexpr std::string_view kOForZero = "is the letter O meant as the digit 0?";
+
 /// "X4O", "XO5": whether the word at `letter`, which has no number, is or meets an O in the place of a digit.
 bool is_o_for_zero(const char* line, const char* letter, const char* end) {
   const bool behind_number = letter != line && (is_digit(letter[-1]) || letter[-1] == '.');
@@ -282,7 +284,7 @@ bool BlockReader::read_computed_value(Block& block, Word& word) {
   const char* value_end = after_computed_value(letter + 1, end_);
   if (value_end == letter + 1)
     return fault(block, Code::number_missing, letter, fmt::format("no number after {}", shown(*letter)),
-                 is_o_for_zero(line_start_, letter, end_) ? "is the letter O meant as the digit 0?" : "");
+                 is_o_for_zero(line_start_, letter, end_) ? kOForZero : "");
   word.kind = ValueKind::expression;
   block.computed = true;
   word.value_length = static_cast<std::uint32_t>(value_end - letter) - 1;
@@ -316,6 +318,11 @@ bool BlockReader::read_assignment(Block& block) {
 /// program.
 bool BlockReader::read_o_word(Block& block) {
   const char* begin = p_;
+  if (!block.words.empty() && is_o_for_zero(line_start_, begin, end_))  // "X4O"; "N10O100 sub" is one
+    return fault(
+        block, Code::number_malformed, begin,
+        fmt::format("{} cannot follow the number of the {} word", shown(*begin), block.words.back().letter),
+        kOForZero);
   const Decimal number = read_decimal(begin + 1, end_);
   if (number.fault == DecimalFault::none) {
     const char* rest = after_blanks(number.end, end_);

@@ -170,7 +170,7 @@ TEST(GcodeDiagnostics, ALongDwellSaysHowPIsRead) {
 }
 
 TEST(GcodeDiagnostics, AnOInThePlaceOfAZeroHasAHint) {
-  for (const char* text : {"G0 X4O", "G0 XO", "G0 X4.O Y1"}) {
+  for (const char* text : {"G0 X4O", "G0 XO", "G0 X4.O Y1", "G0 X4O5"}) {
     Diagnostics diagnostics;
     read_gcode(std::string(text) + "\nM2\n", {}, diagnostics);
     ASSERT_TRUE(diagnostics.has_errors()) << text;
