@@ -233,3 +233,16 @@ def test_no_tool_names_the_option_without_a_number(kerf, program):
     run = kerf("check", "--json", "-t", "1=square d=3", "-t", "2=square d=6", program(text))
     hazard = next(h for h in run.json["hazards"] if h["kind"] == "no_tool")
     assert "--tool SPEC, without a number" in hazard["hint"]
+
+
+def test_a_program_beside_its_stock_is_warned_of(kerf, tmp_path):
+    path = tmp_path / "beside.nc"
+    path.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X500 Y5 Z5\nG1 Z-3 F200\nG1 X540\nG0 Z5\nM5\nM30\n")
+    options = ("--tool", "1=square d=6 flute=20", "--stock", "60x40x20")
+    for command in ("check", "simulate"):
+        run = kerf(command, path, *options, "--json")
+        assert "stock_untouched" in run.codes(), command
+    assert "stock_untouched" not in kerf("check", path, *options[:2], "--json").codes()
+    inside = tmp_path / "inside.nc"
+    inside.write_text(path.read_text().replace("X500", "X10").replace("X540", "X40"))
+    assert "stock_untouched" not in kerf("check", inside, *options, "--json").codes()
