@@ -232,6 +232,7 @@ TEST(CheckPath, APlungeWithAToolThatCannot) {
   EXPECT_EQ(kinds(job, {.tools = &can, .stock = stock}), Kinds{});
   Job ramp = started();
   ramp.add(step::Cut{{5, 0, -1}, mm_per_min(100)});
+  ramp.add(step::Rapid{{50, 0, 5}});
   EXPECT_EQ(kinds(ramp, {.tools = &cannot, .stock = stock}), Kinds{});
 }
 
