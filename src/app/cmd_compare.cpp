@@ -77,8 +77,7 @@ Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
                        {"at", json_of(r.at)},
                        {"volume_mm3", json_of(r.volume.mm3())},
                        {"bounds_mm", json_of(r.bounds)}});
-  Json& files = out["outputs"] = Json::array();
-  for (const OutputFile& f : result.outputs) files.push_back(f.path);
+  out["outputs"] = json_of(result.outputs);
   out["diagnostics"] = json_of(diagnostics);
   return out;
 }
@@ -95,7 +94,7 @@ void show_summary(Console& console, const Result& result) {
                               number_text(result.options.tolerance, 4)));
   console.summary(fmt::format("rest     {} mm3, {} mm3 of it higher than {} mm", number_text(c.rest.mm3(), 3),
                               number_text(c.rest_beyond.mm3(), 3), number_text(result.options.tolerance, 4)));
-  for (const OutputFile& f : result.outputs) console.summary(fmt::format("wrote    {}", f.path));
+  show_written(console, result.outputs);
   if (!result.outputs.empty())
     console.summary(fmt::format("colours  red gouged, blue rest, full from {} mm on; green as the target",
                                 number_text(full_colour(result.options).mm(), 4)));
@@ -190,9 +189,7 @@ Status compare_job(Console& console, const Options& options, const JobSettings& 
   if (comparison && !diagnostics.has_errors())
     written =
         write_pictures({options, job, *simulation, *comparison, outputs}, view, files, diagnostics, progress);
-  progress.clear();
-  if (interrupted()) return tell_stopped(console);
-  if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+  if (const auto end = finish_outputs(console, progress, written, files, diagnostics)) return *end;
   const Result result{options, job, *simulation, *comparison, outputs};
   console.show(diagnostics);
   if (console.json()) {

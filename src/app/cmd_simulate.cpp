@@ -87,8 +87,7 @@ Json json_of_result(const Result& result, const Diagnostics& diagnostics) {
       Json{{"block_mm", json_of(result.job.stock->block)}, {"source", to_string(result.job.stock_source)}};
   out["hazards"] = json_of(result.findings);
   out["tools"] = tools_json(result);
-  Json& files = out["outputs"] = Json::array();
-  for (const OutputFile& f : result.outputs) files.push_back(f.path);
+  out["outputs"] = json_of(result.outputs);
   out["diagnostics"] = json_of(diagnostics);
   return out;
 }
@@ -114,7 +113,7 @@ void show_summary(Console& console, const Result& result) {
   }
   console.summary(fmt::format("columns  {} mm apart, simulated in {} s",
                               number_text(s.workpiece.pitch().mm(), 4), number_text(s.seconds, 3)));
-  for (const OutputFile& f : result.outputs) console.summary(fmt::format("wrote    {}", f.path));
+  show_written(console, result.outputs);
   console.summary(fmt::format("hazards  {}", count_text(result.findings)));
 }
 
@@ -179,9 +178,7 @@ Status simulate_job(Console& console, const Options& options, const JobSettings&
   OutputSet files;
   const bool written = simulation && !simulation->stopped && !diagnostics.has_errors() &&
                        write_outputs(outputs, job, *simulation, view, files, diagnostics, progress);
-  progress.clear();
-  if (interrupted()) return tell_stopped(console);
-  if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+  if (const auto end = finish_outputs(console, progress, written, files, diagnostics)) return *end;
 
   const Result result{job, *simulation, std::move(findings), outputs};
   console.show(diagnostics);

@@ -226,6 +226,33 @@ bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& pr
   return true;
 }
 
+void refuse_left(const std::vector<OutputFile>& files, std::string_view what, Diagnostics& diagnostics) {
+  for (const OutputFile& file : files)
+    if (file.is_left)
+      diagnostics
+          .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+                 fmt::format("\"{}\": {} cannot be the stock of a next job yet", file.path, what))
+          .hint = "write it as a mesh, and take that as --stock-mesh";
+}
+
+std::optional<Status> finish_outputs(Console& console, TerminalProgress& progress, bool written,
+                                     OutputSet& set, Diagnostics& diagnostics) {
+  progress.clear();
+  if (interrupted()) return tell_stopped(console);
+  if (!written || !set.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+  return std::nullopt;
+}
+
+Json json_of(const std::vector<OutputFile>& files) {
+  Json list = Json::array();
+  for (const OutputFile& file : files) list.push_back(file.path);
+  return list;
+}
+
+void show_written(Console& console, const std::vector<OutputFile>& files) {
+  for (const OutputFile& file : files) console.summary(fmt::format("wrote    {}", file.path));
+}
+
 bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
                    const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
   std::vector<OutputFile> surfaces;

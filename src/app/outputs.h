@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "app/job.h"
+#include "app/terminal_progress.h"
 
 #include "kerf/files.h"
 #include "kerf/mesh_files.h"
@@ -26,6 +27,16 @@ struct OutputFile {
 std::vector<OutputFile> read_outputs(const std::vector<std::string>& names,
                                      const std::vector<std::string>& inputs, Diagnostics& usage,
                                      Diagnostics& diagnostics);
+
+/// An error for each file that is to hold what is left for a next job, which `what` ("a print") cannot be
+/// yet.
+void refuse_left(const std::vector<OutputFile>& files, std::string_view what, Diagnostics& diagnostics);
+/// Puts the files into place once all are written. Nothing where that is done; else the command's end, told.
+std::optional<Status> finish_outputs(Console& console, TerminalProgress& progress, bool written,
+                                     OutputSet& set, Diagnostics& diagnostics);
+/// The files' paths, for --json and for the summary.
+Json json_of(const std::vector<OutputFile>& files);
+void show_written(Console& console, const std::vector<OutputFile>& files);
 
 /// Reads "top", "iso" ... or "AZIMUTH,ELEVATION" in degrees, and "WIDTHxHEIGHT" in pixels. The text of what
 /// is wrong is put in `problem`.

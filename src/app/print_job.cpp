@@ -100,8 +100,7 @@ Json json_of_result(const LoadedProgram& program, const PrintSimulation& s,
   out["steps"] = program.path.size();
   out["seconds"] = json_of(s.seconds);
   out["hazards"] = hazards_json(s.hazards, program.path);
-  Json& files = out["outputs"] = Json::array();
-  for (const OutputFile& f : outputs) files.push_back(f.path);
+  out["outputs"] = json_of(outputs);
   out["diagnostics"] = json_of(diagnostics);
   return out;
 }
@@ -124,17 +123,8 @@ void show_summary(Console& console, const LoadedProgram& program, const PrintSim
   if (t.blobs.mm3() > 0.0) console.summary(fmt::format("blobs    {} mm3 pushed on the spot", text(t.blobs)));
   console.summary(fmt::format("columns  {} mm apart, simulated in {} s", number_text(s.columns.pitch, 4),
                               number_text(s.seconds, 3)));
-  for (const OutputFile& f : outputs) console.summary(fmt::format("wrote    {}", f.path));
+  show_written(console, outputs);
   console.summary(fmt::format("hazards  {}", count_text(findings)));
-}
-
-void refuse_left(const std::vector<OutputFile>& outputs, Diagnostics& diagnostics) {
-  for (const OutputFile& file : outputs)
-    if (file.is_left)
-      diagnostics
-          .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
-                 fmt::format("\"{}\": a print cannot be the stock of a next job yet", file.path))
-          .hint = "write it as a mesh, and take that as --stock-mesh";
 }
 
 bool write_part(const std::vector<OutputFile>& outputs, const LoadedProgram& program,
@@ -157,7 +147,7 @@ bool write_part(const std::vector<OutputFile>& outputs, const LoadedProgram& pro
 Status simulate_printing(Console& console, const LoadedProgram& program, const PrintOptions& how,
                          Grooves grooves, const std::vector<OutputFile>& outputs, const View& view,
                          Diagnostics& diagnostics) {
-  refuse_left(outputs, diagnostics);
+  refuse_left(outputs, "a print", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
   const auto s = simulate_print(program.path, how, diagnostics, &progress);
@@ -165,9 +155,7 @@ Status simulate_printing(Console& console, const LoadedProgram& program, const P
   bool written = s && !s->stopped && !diagnostics.has_errors();
   if (written && !outputs.empty())
     written = write_part(outputs, program, *s, grooves, view, files, diagnostics, progress);
-  progress.clear();
-  if (interrupted()) return tell_stopped(console);
-  if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+  if (const auto end = finish_outputs(console, progress, written, files, diagnostics)) return *end;
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(json_of_result(program, *s, outputs, diagnostics), Layout::indented));

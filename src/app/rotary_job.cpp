@@ -30,8 +30,7 @@ Json json_of_result(const Job& job, const RotarySimulation& s, const std::vector
   out["seconds"] = json_of(s.seconds);
   out["stock"] = json_of_bar(*job.bar);
   out["hazards"] = json_of(findings);
-  Json& files = out["outputs"] = Json::array();
-  for (const OutputFile& f : outputs) files.push_back(f.path);
+  out["outputs"] = json_of(outputs);
   out["diagnostics"] = json_of(diagnostics);
   return out;
 }
@@ -46,23 +45,15 @@ void show_summary(Console& console, const Job& job, const RotarySimulation& s,
                               number_text(s.stock.mm3() - s.removed.mm3(), 1)));
   console.summary(fmt::format("rays     {} mm apart, simulated in {} s", number_text(s.workpiece.dx, 4),
                               number_text(s.seconds, 3)));
-  for (const OutputFile& f : outputs) console.summary(fmt::format("wrote    {}", f.path));
+  show_written(console, outputs);
   console.summary(fmt::format("hazards  {}", count_text(findings)));
-}
-
-void refuse_left(const std::vector<OutputFile>& outputs, Diagnostics& diagnostics) {
-  for (const OutputFile& file : outputs)
-    if (file.is_left)
-      diagnostics.error(
-          Code::output_kind_unknown, CallSpot{"", 0, "-o"},
-          fmt::format("\"{}\": what is left of a bar cannot be the stock of a next job", file.path));
 }
 
 }  // namespace
 
 Status simulate_bar(Console& console, const Job& job, const SimulationOptions& how,
                     const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
-  refuse_left(outputs, diagnostics);
+  refuse_left(outputs, "what is left of a bar", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
   const auto s = simulate_rotary(job.program.path, job.tools, *job.bar, how, diagnostics, &progress);
@@ -73,9 +64,7 @@ Status simulate_bar(Console& console, const Job& job, const SimulationOptions& h
     written = !progress.stop_requested() && write_surface(outputs, job.program, mesh, steps_of(s->hazards),
                                                           view, files, diagnostics, progress);
   }
-  progress.clear();
-  if (interrupted()) return tell_stopped(console);
-  if (!written || !files.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+  if (const auto end = finish_outputs(console, progress, written, files, diagnostics)) return *end;
   std::vector<Finding> findings = findings_of(s->hazards, job.program.path);
   tell_assumed_flutes(findings, job.program.path, job.tools, diagnostics);
   console.show(diagnostics);

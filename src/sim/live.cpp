@@ -97,6 +97,7 @@ struct LiveSimulation::State {
   bool must_begin_anew(std::size_t new_motions) const;
   bool begin(Length pitch, Diagnostics& diagnostics, Progress* progress);
   void place_keyframes();
+  std::vector<bool> numbers_gone(const sim::MotionChange& change) const;
   std::vector<bool> tiles_of_old(const sim::MotionChange& change) const;
   void take(Toolpath&& new_path, sim::Survey&& new_survey, std::vector<sim::MotionKey>&& keys,
             const sim::MotionChange& change);
@@ -165,10 +166,17 @@ void LiveSimulation::State::place_keyframes() {
     keyframes.push_back({motions.size() * k / (options.states + 1), keyframes[0].tiles});
 }
 
+/// Which numbers belong to motions that are gone.
+std::vector<bool> LiveSimulation::State::numbers_gone(const sim::MotionChange& change) const {
+  std::vector<bool> gone(next_number, false);
+  for (std::size_t m = change.first; m < change.old_end; ++m) gone[numbers[m]] = true;
+  return gone;
+}
+
 /// The tiles from which the motions that are gone have taken something, or where they met something.
 std::vector<bool> LiveSimulation::State::tiles_of_old(const sim::MotionChange& change) const {
-  std::vector<bool> gone(next_number, false), tiles(logs.size(), false);
-  for (std::size_t m = change.first; m < change.old_end; ++m) gone[numbers[m]] = true;
+  const std::vector<bool> gone = numbers_gone(change);
+  std::vector<bool> tiles(logs.size(), false);
   for (std::size_t tile = 0; tile < logs.size(); ++tile) {
     const sim::TileLog& log = logs[tile];
     tiles[tile] = std::any_of(log.removed.begin(), log.removed.end(),
@@ -182,8 +190,7 @@ std::vector<bool> LiveSimulation::State::tiles_of_old(const sim::MotionChange& c
 /// Makes the new toolpath the one that the state is for; the tiles stay as they are.
 void LiveSimulation::State::take(Toolpath&& new_path, sim::Survey&& new_survey,
                                  std::vector<sim::MotionKey>&& keys, const sim::MotionChange& change) {
-  std::vector<bool> gone(next_number, false);
-  for (std::size_t m = change.first; m < change.old_end; ++m) gone[numbers[m]] = true;
+  const std::vector<bool> gone = numbers_gone(change);
   std::erase_if(floor, [&](const sim::Contact& contact) { return gone[contact.step]; });
   std::vector<std::uint32_t> now(numbers.begin(),
                                  numbers.begin() + static_cast<std::ptrdiff_t>(change.first));

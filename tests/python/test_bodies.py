@@ -4,6 +4,7 @@ import struct
 
 import kerf
 import pytest
+from jobs import SLOT, slot
 
 
 def box_stl(low, high):
@@ -23,19 +24,6 @@ def block(tmp_path):
     path = tmp_path / "block.stl"
     path.write_bytes(box_stl((0, 0, -6), (40, 20, 0)))
     return path
-
-
-def slot():
-    path = kerf.Toolpath()
-    path.tool(102)
-    path.rapid((10, 10, 5))
-    path.cut((10, 10, -2), feed=100)
-    path.cut((30, 10, -2), feed=400)
-    path.rapid((30, 10, 5))
-    return path
-
-
-SLOT = 2 * (20 * 3.175 + math.pi * 3.175**2 / 4)
 
 
 def test_a_mesh_is_stock(block):

@@ -5,23 +5,12 @@ import math
 import pytest
 
 import kerf
-
-
-def slot():
-    path = kerf.Toolpath()
-    path.tool(102)
-    path.spindle(16000)
-    path.rapid((10, 10, 5))
-    path.cut((10, 10, -2), feed=100)
-    path.cut((30, 10, -2), feed=400)
-    path.rapid((30, 10, 5))
-    return path
+from jobs import SLOT, slot
 
 
 def test_a_slot_removes_its_volume():
     result = kerf.simulate(slot(), kerf.Stock.block((40, 20, 6)), resolution=0.05)
-    exact = 2 * (20 * 3.175 + math.pi * 3.175**2 / 4)
-    assert result.removed_mm3 == pytest.approx(exact, rel=2e-3)
+    assert result.removed_mm3 == pytest.approx(SLOT, rel=2e-3)
     assert result.stock_mm3 == pytest.approx(4800)
     assert result.hazards == []
     assert result.removed_by_step.sum() == pytest.approx(result.removed_mm3, rel=1e-6)
