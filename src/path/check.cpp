@@ -65,11 +65,14 @@ Box3 box_of(const Step& s, const MotionContext& context) {
   return box;
 }
 
+const Tool* known_tool(std::optional<int> number, const Setting& setting) {
+  return setting.options.tools != nullptr && number ? setting.options.tools->find(*number) : nullptr;
+}
+
 /// Half the width of the tool, mm; 0 where it is not known.
-double radius_of(std::optional<int> tool, const Setting& setting) {
-  const ToolTable* tools = setting.options.tools;
-  const Tool* known = tools != nullptr && tool ? tools->find(*tool) : nullptr;
-  return known != nullptr ? 0.5 * known->diameter.mm() : 0.0;
+double radius_of(std::optional<int> number, const Setting& setting) {
+  const Tool* tool = known_tool(number, setting);
+  return tool != nullptr ? 0.5 * tool->diameter.mm() : 0.0;
 }
 
 /// Whether a tool whose tip is somewhere in the box can be in the stock's block; true where that is not told.
@@ -83,11 +86,12 @@ bool can_be_in_stock(const Box3& tip, double radius, const Setting& setting) {
 
 Message spindle_off(const Step& s, const MotionContext& context, Setting& setting) {
   if (!s.is_cutting() || setting.laser || setting.printing) return std::nullopt;
-  Box3 way = box_of(s, context);
-  way.add(context.from);
-  const bool placed = (s.unknown_axes() | context.unknown_from) == 0;
-  if (placed && !can_be_in_stock(way, radius_of(context.tool, setting), setting)) return std::nullopt;
   if (context.spindle.turn != SpindleTurn::off) return std::nullopt;  // 0 rpm: its speed is set by hand
+  if ((s.unknown_axes() | context.unknown_from) == 0) {
+    Box3 way = box_of(s, context);
+    way.add(context.from);
+    if (!can_be_in_stock(way, radius_of(context.tool, setting), setting)) return std::nullopt;
+  }
   if (!context.spindle_stated) return "a cutting move, and the program has not started the spindle";
   return "a cutting move while the spindle is switched off";
 }
@@ -145,24 +149,19 @@ Message outside_machine(const Step& s, const MotionContext& context, Setting& se
   return message;
 }
 
-const Tool* tool_in_use(const MotionContext& context, const Setting& setting) {
-  if (setting.options.tools == nullptr || !context.tool) return nullptr;
-  return setting.options.tools->find(*context.tool);
-}
-
 Message plunge(const Step& s, const MotionContext& context, Setting& setting) {
   if (s.kind() != StepKind::cut || context.unknown_from != 0) return std::nullopt;
   const Point3 way = s.to() - context.from;
   if (way.x != 0.0 || way.y != 0.0 || !(way.z < 0.0)) return std::nullopt;
   if (setting.options.stock && s.to().z >= setting.options.stock->high.z) return std::nullopt;
-  const Tool* tool = tool_in_use(context, setting);
+  const Tool* tool = known_tool(context.tool, setting);
   if (tool == nullptr || tool->plunges) return std::nullopt;
   return fmt::format("tool {} does not cut at its centre, and goes straight down here", *context.tool);
 }
 
 Message chip_load(const Step& s, const MotionContext& context, Setting& setting) {
   const Material* material = setting.options.material;
-  const Tool* tool = tool_in_use(context, setting);
+  const Tool* tool = known_tool(context.tool, setting);
   const double speed = context.spindle.speed.rpm();
   const bool turns = context.spindle.turn != SpindleTurn::off && speed > 0.0;
   if (!s.is_cutting() || material == nullptr || tool == nullptr || !turns || tool->teeth < 1)
@@ -221,14 +220,16 @@ struct Rest {
   bool spindle_on = false;
 };
 
-/// How far below the stock's top the tip of the tool is, mm, if the tool is in the stock's block.
+/// How far below the stock's top the tip of the tool is, mm, if the tool is in the stock's block, or may be
+/// there because X or Y is not known.
 std::optional<double> depth_in_stock(const Rest& rest, const Setting& setting) {
   const auto& stock = setting.options.stock;
-  if (!stock || rest.unknown != 0 || setting.laser || setting.printing) return std::nullopt;
+  constexpr unsigned kAxisZ = 4;
+  if (!stock || (rest.unknown & kAxisZ) != 0 || setting.laser || setting.printing) return std::nullopt;
+  if (rest.at.z >= stock->high.z || rest.at.z < stock->low.z) return std::nullopt;
   Box3 tip;
   tip.add(rest.at);
-  if (!can_be_in_stock(tip, radius_of(rest.tool, setting), setting) || rest.at.z < stock->low.z)
-    return std::nullopt;
+  if (rest.unknown == 0 && !can_be_in_stock(tip, radius_of(rest.tool, setting), setting)) return std::nullopt;
   return stock->high.z - rest.at.z;
 }
 

@@ -276,6 +276,18 @@ TEST(CheckPath, AToolChangeBelowTheStocksTop) {
   EXPECT_EQ(found[0].step, 4u);
 }
 
+TEST(CheckPath, WhereXAndYAreNotKnownALowToolMayBeInTheStock) {
+  constexpr unsigned kXY = 3;
+  Box3 stock;
+  stock.add(Point3{0, 0, -10});
+  stock.add(Point3{100, 100, 0});
+  Job job;
+  job.add(step::ToolChange{1}).add(step::Spindle{rpm(10000), SpindleTurn::cw}).add(step::Rapid{{0, 0, -1}});
+  job.path.set_unknown_axes(2, kXY);
+  job.add(step::ToolChange{2}).add(step::Spindle{rpm(0), SpindleTurn::off});
+  EXPECT_EQ(kinds(job, {.stock = stock}), (Kinds{"tool_change_low", "stop_low"}));
+}
+
 TEST(CheckPath, BesideTheStockAToolMayBeLow) {
   Box3 stock;
   stock.add(Point3{0, 0, -10});
