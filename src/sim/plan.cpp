@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "sim/survey.h"
+
 namespace kerf::sim {
 namespace {
 
@@ -158,11 +160,6 @@ Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& too
       per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {}
 
-bool is_walked(const MotionContext& arc) {
-  constexpr unsigned kZ = 4;
-  return (arc.unknown_from & kZ) == 0;
-}
-
 Planner::Motion Planner::motion_of(const Step& step, const MotionContext& context) const {
   Motion motion;
   motion.from = context.from - body_.bounds.low;
@@ -177,7 +174,7 @@ Planner::Motion Planner::motion_of(const Step& step, const MotionContext& contex
   if ((end & kZ) != 0) motion.is_swept = false;
   if ((begin & kZ) != 0) motion.from.z = std::max(motion.to.z, size_.z);
   if (step.kind() == StepKind::arc) {
-    if ((begin & kZ) != 0) motion.from = motion.to;
+    if (!is_walked(context)) motion.from = motion.to;
     return motion;
   }
   if ((begin & 1u) != 0) motion.from.x = motion.to.x;

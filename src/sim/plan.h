@@ -121,9 +121,6 @@ class Planner {
   Chords chords_;
 };
 
-/// Whether an arc is cut along its way, not just at its end.
-bool is_walked(const MotionContext& arc);
-
 /// Chords for the arc of `walk` at the simulator's tolerance, and whether that many are more than are made.
 struct ChordCount {
   int count = 1;

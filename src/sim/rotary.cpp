@@ -15,6 +15,7 @@
 #include "sim/parallel.h"
 #include "sim/rotary_tool.h"
 #include "sim/solid.h"
+#include "sim/survey.h"
 
 #include "kerf/number.h"
 
@@ -171,16 +172,16 @@ void Reader::add(const Step& step, const MotionContext& context) {
   motion.step = static_cast<std::uint32_t>(context.index);
   motion.tool = *tool;
   motion.cuts = step.is_cutting();
-  motion.spindle_off =
-      judges_spindle_ && (!context.spindle_stated || context.spindle.turn == SpindleTurn::off);
+  motion.spindle_off = judges_spindle_ && spindle_stands(context);
   // What is not known neither cuts nor is told, as in the plane simulator.
   constexpr unsigned kZ = 4;
   if ((step.unknown_axes() & kZ) != 0 || (!motion.cuts && (step.unknown_axes() | context.unknown_from) != 0))
     return;
   if ((context.unknown_from & kZ) != 0)
     motion.from.z = std::max(motion.to.z, bar_.axis_z + 0.5 * bar_.diameter);
-  if ((context.unknown_from & 3u) != 0) motion.from = {motion.to.x, motion.to.y, motion.from.z};
-  if (step.kind() != StepKind::arc || context.unknown_from != 0) return push(motion);
+  const bool walked = step.kind() == StepKind::arc && is_walked(context);
+  if ((context.unknown_from & 3u) != 0 && !walked) motion.from = {motion.to.x, motion.to.y, motion.from.z};
+  if (!walked) return push(motion);
   const ArcWalk walk = walk_of(step, context.from);
   const int count = walk.chords(kPathChord);
   for (int k = 0; k < count; ++k) {

@@ -13,6 +13,16 @@
 
 namespace kerf::sim {
 
+/// Whether the spindle stands, as far as the program has said.
+inline bool spindle_stands(const MotionContext& motion) {
+  return !motion.spindle_stated || motion.spindle.turn == SpindleTurn::off;
+}
+/// Whether an arc is cut along its way, not just at its end: from X0 or Y0 where those are not known.
+inline bool is_walked(const MotionContext& arc) {
+  constexpr unsigned kZ = 4;
+  return (arc.unknown_from & kZ) == 0;
+}
+
 /// Which tool cuts where, found before anything is cut so that a missing tool costs no time.
 struct Survey {
   std::map<int, std::uint32_t> index;  // tool number to place in `solids`
@@ -25,9 +35,7 @@ struct Survey {
     return motion.tool ? motion.tool : only_tool;
   }
   /// Whether what the motion cuts is cut by a spindle that stands.
-  bool spindle_off(const MotionContext& motion) const {
-    return judges_spindle && (!motion.spindle_stated || motion.spindle.turn == SpindleTurn::off);
-  }
+  bool spindle_off(const MotionContext& motion) const { return judges_spindle && spindle_stands(motion); }
 };
 
 struct Setup {

@@ -19,6 +19,15 @@ class RotaryPath {
   RotaryPath& cut(Point3 to, double a = 0.0) {
     return turned(path_.add(step::Cut{to, mm_per_min(500)}, here_), a);
   }
+  RotaryPath& arc(Point3 to, Point2 centre) {
+    return turned(path_.add(step::Arc{.to = to, .centre = centre, .feed = mm_per_min(500)}, here_), 0.0);
+  }
+  /// Where X and Y are is not known from the first motion on.
+  RotaryPath& lost() {
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      if (path_[i].is_motion()) path_.set_unknown_axes(i, 3);
+    return *this;
+  }
   const Toolpath& path() const { return path_; }
 
  private:
@@ -59,6 +68,21 @@ TEST(Rotary, AnUntouchedBar) {
   EXPECT_NEAR(result->stock.mm3(), kPi * 100 * 30, 1e-2);
   EXPECT_EQ(result->removed.mm3(), 0.0);
   EXPECT_TRUE(result->hazards.empty());
+}
+
+TEST(Rotary, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
+  double removed[2] = {};
+  for (const bool lost : {false, true}) {
+    RotaryPath path;
+    path.tool(1).rapid({0, 0, 20}).cut({0, 0, 9}).arc({0, 0, 9}, {8, 0});
+    if (lost) path.lost();
+    Diagnostics diagnostics;
+    const auto result = run(path, square(3), 0.2, diagnostics);
+    ASSERT_TRUE(result);
+    removed[lost ? 1 : 0] = result->removed.mm3();
+  }
+  EXPECT_GT(removed[0], 50.0);
+  EXPECT_EQ(removed[1], removed[0]);
 }
 
 TEST(Rotary, AFlatByIndexing) {

@@ -210,6 +210,23 @@ TEST(UnknownPlaces, ARapidFromAnUnknownPlaceIsSweptAtItsEndOnly) {
   EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * 9 * 2, 1.0);
 }
 
+TEST(UnknownPlaces, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
+  for (const unsigned unknown : {0u, 3u}) {
+    Toolpath path;
+    const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+    path.add(step::ToolChange{1}, here);
+    path.set_unknown_axes(path.add(step::Rapid{{0, 0, 5}}, here), unknown);
+    path.set_unknown_axes(path.add(step::Cut{{0, 0, -1}, mm_per_min(100)}, here), unknown);
+    path.set_unknown_axes(
+        path.add(step::Arc{.to = {0, 0, -1}, .centre = {10, 0}, .feed = mm_per_min(100)}, here), unknown);
+    Diagnostics diagnostics;
+    const auto result = run(path, square_and_keyhole(), block({-10, -20, -5}, {30, 20, 0}), 0.1, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(diagnostics.warnings(), unknown == 0 ? 0u : 1u);
+    EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * (13 * 13 - 7 * 7), 2.0);
+  }
+}
+
 TEST(UnknownPlaces, ACutFromAnUnknownHeightComesFromAbove) {
   Toolpath path;
   const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
