@@ -1,6 +1,7 @@
 """What LinuxCNC's interpreter makes of a program: its moves in mm, in coordinates of G54 as they were when
 the program began.  python3 rs274.py FILE... prints them, in the notation of tests/data/gcode/moves.txt."""
 import math
+import os
 import re
 import shutil
 import subprocess
@@ -15,6 +16,12 @@ AXES = {"XY": (0, 1, 2), "XZ": (2, 0, 1), "YZ": (1, 2, 0)}  # first, second, thi
 
 def is_installed():
     return shutil.which("rs274") is not None
+
+
+def at_home_in(folder):
+    """The environment of an interpreter that runs in this folder.  The interpreter keeps its table of tools in a
+    file in the home folder; two that run at the same time must not share it."""
+    return {**os.environ, "HOME": str(folder)}
 
 
 class Canon:
@@ -181,7 +188,7 @@ def follow(text, canon):
         Path(folder, "v.var").write_text("")
         Path(folder, "part.ngc").write_text(text)
         done = subprocess.run(["rs274", "-v", "v.var", "-t", "tool.tbl", "-g", "part.ngc"], cwd=folder,
-                              capture_output=True, text=True, timeout=300)
+                              env=at_home_in(folder), capture_output=True, text=True, timeout=300)
     for line in done.stdout.splitlines():
         match = CALL.match(line)
         if match:

@@ -5,17 +5,17 @@ import json
 import math
 import os
 import re
-import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+import rs274
 
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
 FILES = sorted(p for p in CASES.glob("*.*") if p.suffix in (".nc", ".ngc", ".gcode"))
 if not FILES:
     pytest.skip("the given cases are not here (KERF_CASES_DIR)", allow_module_level=True)
-if shutil.which("rs274") is None:
+if not rs274.is_installed():
     pytest.skip("rs274 is not installed (linuxcnc-uspace)", allow_module_level=True)
 # Programs with moves that no feed belongs to: LinuxCNC refuses them, and so does the post without --feed.
 FEED = ["--feed", "500"]
@@ -29,13 +29,11 @@ def canon():
 
 
 def figures(path, folder):
-    os.environ["TOOL_TBL"] = str(CASES / "tool.tbl")
-    before = os.getcwd()
-    os.chdir(folder)  # the interpreter keeps a file of parameters where it runs
-    try:
+    with pytest.MonkeyPatch.context() as patch:
+        for name, value in {**rs274.at_home_in(folder), "TOOL_TBL": str(CASES / "tool.tbl")}.items():
+            patch.setenv(name, value)
+        patch.chdir(folder)  # the interpreter keeps a file of parameters where it runs
         return canon().run(str(path), timeout=300)
-    finally:
-        os.chdir(before)
 
 
 def original_figures(path, folder):
