@@ -1,0 +1,230 @@
+// Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and the
+// vertex goes to where the planes meet; then once more from there with places much nearer to it.
+#include "sim/sharpen.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/parallel.h"
+#include "sim/tile.h"
+
+namespace kerf::sim {
+namespace {
+
+// All in pitches.
+constexpr double kFirstLook = 0.45;   // from the vertex: within the square of its corner
+constexpr double kSecondLook = 0.1;   // from its new place: curves are planes there
+constexpr double kMostProjected = 0.8;
+constexpr double kHalfSquare = 0.5;
+constexpr double kMostMoved = 1.2;
+constexpr double kMostRefined = 0.25;
+constexpr double kMissed = 0.02;      // a new place that is further off all surfaces is none
+
+/// Places closer to a surface are on it, mm: a hundredth of what single precision of a mesh tells.
+constexpr double kOnSurface = 1e-8;
+constexpr int kCloserLooks = 2;
+constexpr int kMostSteps = 6;  // of Newton's method; the distance is nearly linear
+/// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
+constexpr double kSameSide = 0.1;
+/// A direction in which planes pull by less than this share of the strongest tells nothing: planes that are
+/// less than 6 degrees apart are one curved surface.
+constexpr double kLeastShare = 0.003;
+/// Vertices within this of the block's sides are on them, mm.
+constexpr double kOnBlock = 1e-5;
+
+}  // namespace
+
+// ---- fans
+
+Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads) : mesh_(mesh), low_(low) {
+  const std::size_t corners = mesh.triangles.size();
+  first_.assign(mesh.positions.size() / 3 + 1, 0);
+  for (const std::uint32_t v : mesh.triangles) ++first_[v + 1];
+  for (std::size_t v = 0; v + 1 < first_.size(); ++v) first_[v + 1] += first_[v];
+  triangle_.resize(corners);
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t k = 0; k < corners; ++k)
+    triangle_[next[mesh.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
+  normal_.resize(corners);
+  constexpr std::size_t kAtATime = 1 << 14;
+  const std::size_t count = corners / 3;
+  const auto work = [&](std::size_t piece) {
+    for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
+      const std::uint32_t* c = mesh.triangles.data() + 3 * t;
+      const Point3 a = point(c[0]), n = cross(point(c[1]) - a, point(c[2]) - a);
+      const double size = length(n), per_size = size > 0.0 ? 1.0 / size : 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+        normal_[3 * t + static_cast<std::size_t>(axis)] = static_cast<float>(per_size * n[axis]);
+    }
+  };
+  parallel_for(threads, (count + kAtATime - 1) / kAtATime, work, [] { return false; });
+}
+
+Point3 Fans::point(std::uint32_t vertex) const {
+  const float* p = mesh_.positions.data() + std::size_t{3} * vertex;
+  return Point3{p[0], p[1], p[2]} - low_;
+}
+
+Point3 Fans::middle(std::uint32_t triangle) const {
+  const std::uint32_t* c = mesh_.triangles.data() + std::size_t{3} * triangle;
+  return (1.0 / 3.0) * (point(c[0]) + point(c[1]) + point(c[2]));
+}
+
+Point3 Fans::normal(std::uint32_t triangle) const {
+  const float* n = normal_.data() + std::size_t{3} * triangle;
+  return {n[0], n[1], n[2]};
+}
+
+// ---- what is near
+
+void Nearby::gather(const std::vector<const Sweep*>& sweeps, Point3 place) {
+  bounds_.clear();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Sweep* sweep : sweeps) {
+    bounds_.push_back(bounds_of_distance(*sweep, tools_[sweep->tool], place, reach_));
+    nearest = std::min(nearest, bounds_.back().high);
+  }
+  near_.clear();
+  // A place `reach` away is nearer to each by no more than that, and further from the nearest by no more.
+  for (std::size_t k = 0; k < sweeps.size(); ++k)
+    if (bounds_[k].low <= std::min(nearest + 2.0 * reach_, reach_)) near_.push_back(sweeps[k]);
+}
+
+Distance Nearby::at(Point3 place) const {
+  Distance nearest;
+  for (const Sweep* sweep : near_) {
+    const Distance distance = distance_to(*sweep, tools_[sweep->tool], place, 2.0 * reach_);
+    if (distance.value < nearest.value) nearest = distance;
+  }
+  return nearest;
+}
+
+// ---- where a vertex goes
+
+Placer::Placer(const Fans& fans, const Workpiece::Body& body, const Nearby& nearby)
+    : fans_(fans), size_(body.bounds.size()), pitch_(body.pitch), nearby_(nearby) {}
+
+/// Moves a place onto the nearest surface that was cut. False if there is none near that faces `outwards`.
+bool Placer::put_on_surface(Sample& sample, Point3 outwards) const {
+  const Point3 from = sample.at;
+  for (int n = 0; n < kMostSteps; ++n) {
+    const Distance distance = nearby_.at(sample.at);
+    if (std::abs(distance.value) > kMostProjected * pitch_) return false;
+    sample.normal = -1.0 * distance.gradient;
+    if (std::abs(distance.value) <= kOnSurface) break;
+    sample.at = sample.at - distance.value * distance.gradient;
+  }
+  return distance(sample.at, from) <= kMostProjected * pitch_ && dot(sample.normal, outwards) >= kSameSide;
+}
+
+void Placer::find_samples(std::uint32_t vertex, Point3 from) {
+  samples_.clear();
+  of_stock_.clear();
+  fans_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = fans_.normal(triangle);
+    if (dot(normal, normal) == 0.0) return;
+    if (fans_.step(triangle) == kStockSurface) {
+      of_stock_.push_back({from, normal});
+      return;
+    }
+    const Point3 way = fans_.middle(triangle) - from;
+    const double far = length(way);
+    Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}};
+    if (put_on_surface(sample, normal)) samples_.push_back(sample);
+  });
+}
+
+/// What lies on the block's sides stays there, and what lies on its top or bottom if these are left there.
+void Placer::fix_axes(std::uint32_t vertex, Point3 from) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_low = from[axis] <= kOnBlock, is_high = from[axis] >= size_[axis] - kOnBlock;
+    corner_[axis] = std::round(from[axis] / pitch_) * pitch_;
+    bool& fixed = fixed_[static_cast<std::size_t>(axis)];
+    fixed = axis < 2 && (is_low || is_high);
+    if (axis < 2 || (!is_low && !is_high)) continue;
+    fans_.around(vertex, [&](std::uint32_t triangle) {
+      if (fans_.step(triangle) == kStockSurface && std::abs(fans_.normal(triangle).z) > 0.999)
+        fixed = true;
+    });
+  }
+}
+
+Quadric Placer::quadric_at(Point3 from, const Fixed& fixed) const {
+  Quadric quadric;
+  for (const auto* list : {&samples_, &of_stock_})
+    for (const Sample& sample : *list) quadric.add(sample.normal, dot(sample.normal, sample.at - from));
+  for (int axis = 0; axis < 3; ++axis)
+    if (fixed[static_cast<std::size_t>(axis)]) quadric.fix(axis);
+  return quadric;
+}
+
+/// How far a place is from the planes, at most.
+double Placer::miss_of(Point3 at) const {
+  double most = 0.0;
+  for (const auto* list : {&samples_, &of_stock_})
+    for (const Sample& sample : *list) most = std::max(most, std::abs(dot(sample.normal, at - sample.at)));
+  return most;
+}
+
+/// The place in the corner's square that lies best on the planes, as far as so many directions tell. Where
+/// the nearest such place is outside, the vertex goes along the side of the square.
+Point3 Placer::solved(Point3 from, int directions) const {
+  Fixed fixed = fixed_;
+  Point3 to = from;
+  for (int n = 0; n < 3; ++n) {
+    to = from + quadric_at(from, fixed).step(directions, kLeastShare);
+    int worst = -1;
+    double most = kHalfSquare * pitch_ * (1.0 + 1e-9);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double out = std::abs(to[axis] - corner_[axis]);
+      if (fixed[static_cast<std::size_t>(axis)] || out <= most) continue;
+      worst = axis;
+      most = out;
+    }
+    if (worst < 0) break;
+    from[worst] = corner_[worst] + std::copysign(kHalfSquare * pitch_, to[worst] - corner_[worst]);
+    fixed[static_cast<std::size_t>(worst)] = true;
+    to = from;
+  }
+  return to;
+}
+
+Point3 Placer::best_step(Point3 from) const {
+  for (int directions = quadric_at(from, fixed_).directions(kLeastShare); directions > 0; --directions) {
+    const Point3 to = solved(from, directions);
+    if (distance(from, to) <= kMostMoved * pitch_ && (directions == 1 || miss_of(to) <= kMissed * pitch_))
+      return to;
+  }
+  return from;
+}
+
+/// Looks for the surfaces again at places that are nearer, where curved ones are as good as planes.
+void Placer::look_closer(Point3 from) {
+  std::size_t kept = 0;
+  for (const Sample& sample : samples_) {
+    const Point3 way = sample.at - from;
+    const double far = length(way);
+    Sample nearer{far > 0.0 ? from + std::min(1.0, kSecondLook * pitch_ / far) * way : from, {}};
+    if (put_on_surface(nearer, sample.normal)) samples_[kept++] = nearer;
+  }
+  samples_.resize(kept);
+}
+
+Point3 Placer::place(std::uint32_t vertex) {
+  const Point3 from = fans_.point(vertex);
+  find_samples(vertex, from);
+  if (samples_.empty()) return from;
+  fix_axes(vertex, from);
+  Point3 to = best_step(from);
+  for (int n = 0; n < kCloserLooks; ++n) {
+    look_closer(to);
+    const Point3 better = best_step(to);
+    if (distance(to, better) > kMostRefined * pitch_) break;
+    to = better;
+  }
+  const double before = std::abs(nearby_.at(from).value), after = std::abs(nearby_.at(to).value);
+  return after <= kMissed * pitch_ || after < before ? to : from;
+}
+
+}  // namespace kerf::sim

@@ -1,0 +1,91 @@
+// The parts of sharpen_mesh: what is around the vertices, what is near them, and where they go.
+// docs/decisions/0006-mesh.md tells the method.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/quadric.h"
+#include "sim/sweep_distance.h"
+
+#include "kerf/simulate.h"
+
+namespace kerf::sim {
+
+/// The triangles around each vertex of a mesh, their middles and normals, in the block's frame.
+class Fans {
+ public:
+  Fans(const Mesh& mesh, Point3 low, unsigned threads);
+  std::size_t vertices() const { return first_.size() - 1; }
+  /// Calls visit(triangle) for each triangle around a vertex.
+  template <class Visit>
+  void around(std::uint32_t vertex, const Visit& visit) const {
+    for (std::size_t k = first_[vertex]; k < first_[vertex + 1]; ++k) visit(triangle_[k]);
+  }
+  Point3 point(std::uint32_t vertex) const;
+  Point3 middle(std::uint32_t triangle) const;
+  /// Outwards; nothing (0, 0, 0) of a triangle without area.
+  Point3 normal(std::uint32_t triangle) const;
+  /// Three numbers a triangle.
+  std::vector<float>& normals() { return normal_; }
+  std::uint32_t step(std::uint32_t triangle) const { return mesh_.step[triangle]; }
+
+ private:
+  const Mesh& mesh_;
+  Point3 low_;
+  std::vector<std::size_t> first_;
+  std::vector<std::uint32_t> triangle_;
+  std::vector<float> normal_;
+};
+
+/// What sweeps leave near a vertex: the material is where all distances are above 0.
+class Nearby {
+ public:
+  Nearby(const std::vector<ToolDistance>& tools, double reach) : tools_(tools), reach_(reach) {}
+  /// Those of `sweeps` that may bound the material within `reach` of a place.
+  void gather(const std::vector<const Sweep*>& sweeps, Point3 place);
+  bool empty() const { return near_.empty(); }
+  /// To what is taken away, with the direction into the material.
+  Distance at(Point3 place) const;
+
+ private:
+  const std::vector<ToolDistance>& tools_;
+  double reach_;
+  std::vector<const Sweep*> near_;
+  std::vector<DistanceBounds> bounds_;
+};
+
+/// Finds new places for the vertices of one mesh.
+class Placer {
+ public:
+  Placer(const Fans& fans, const Workpiece::Body& body, const Nearby& nearby);
+  /// The new place of a vertex; the old one where no better one is found.
+  Point3 place(std::uint32_t vertex);
+
+ private:
+  using Fixed = std::array<bool, 3>;
+  /// A place on a surface near the vertex and the material's normal there, outwards.
+  struct Sample {
+    Point3 at, normal;
+  };
+  void find_samples(std::uint32_t vertex, Point3 from);
+  bool put_on_surface(Sample& sample, Point3 outwards) const;
+  void fix_axes(std::uint32_t vertex, Point3 from);
+  Quadric quadric_at(Point3 from, const Fixed& fixed) const;
+  double miss_of(Point3 at) const;
+  Point3 solved(Point3 from, int directions) const;
+  Point3 best_step(Point3 from) const;
+  void look_closer(Point3 from);
+
+  const Fans& fans_;
+  Point3 size_;
+  double pitch_;
+  const Nearby& nearby_;
+  Point3 corner_;     // of the columns, whose square the vertex stays in; in plan
+  Fixed fixed_{};     // axes along which it stays
+  std::vector<Sample> samples_;   // on surfaces that were cut
+  std::vector<Sample> of_stock_;  // on the stock's own
+};
+
+}  // namespace kerf::sim
