@@ -10,6 +10,8 @@
 namespace kerf {
 
 struct SharpenOptions {
+  /// Where the middle of an edge is further than this from the surface the edge gets another vertex.
+  Length tolerance = mm(0.002);
   unsigned threads = 0;  // 0: as many as the machine has. The mesh is the same for any number.
 };
 

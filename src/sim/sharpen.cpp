@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/parallel.h"
-#include "sim/tile.h"
 
 namespace kerf::sim {
 namespace {
@@ -15,7 +13,6 @@ namespace {
 // All in pitches.
 constexpr double kFirstLook = 0.45;   // from the vertex: within the square of its corner
 constexpr double kSecondLook = 0.1;   // from its new place: curves are planes there
-constexpr double kMostProjected = 0.8;
 constexpr double kHalfSquare = 0.5;
 constexpr double kMostMoved = 1.2;
 constexpr double kMostRefined = 0.25;
@@ -25,6 +22,8 @@ constexpr double kMissed = 0.02;      // a new place that is further off all sur
 constexpr double kOnSurface = 1e-8;
 constexpr int kCloserLooks = 2;
 constexpr int kMostSteps = 6;  // of Newton's method; the distance is nearly linear
+/// A surface that the fixed axes leave less of its slope than this (squared) is met too far away.
+constexpr double kLeastGain = 0.05;
 /// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
 constexpr double kSameSide = 0.1;
 /// A direction in which planes pull by less than this share of the strongest tells nothing: planes that are
@@ -76,46 +75,43 @@ Point3 Fans::normal(std::uint32_t triangle) const {
   return {n[0], n[1], n[2]};
 }
 
-// ---- what is near
-
-void Nearby::gather(const std::vector<const Sweep*>& sweeps, Point3 place) {
-  bounds_.clear();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Sweep* sweep : sweeps) {
-    bounds_.push_back(bounds_of_distance(*sweep, tools_[sweep->tool], place, reach_));
-    nearest = std::min(nearest, bounds_.back().high);
-  }
-  near_.clear();
-  // A place `reach` away is nearer to each by no more than that, and further from the nearest by no more.
-  for (std::size_t k = 0; k < sweeps.size(); ++k)
-    if (bounds_[k].low <= std::min(nearest + 2.0 * reach_, reach_)) near_.push_back(sweeps[k]);
-}
-
-Distance Nearby::at(Point3 place) const {
-  Distance nearest;
-  for (const Sweep* sweep : near_) {
-    const Distance distance = distance_to(*sweep, tools_[sweep->tool], place, 2.0 * reach_);
-    if (distance.value < nearest.value) nearest = distance;
-  }
-  return nearest;
-}
-
 // ---- where a vertex goes
 
 Placer::Placer(const Fans& fans, const Workpiece::Body& body, const Nearby& nearby)
-    : fans_(fans), size_(body.bounds.size()), pitch_(body.pitch), nearby_(nearby) {}
+    : fans_(fans),
+      size_(body.bounds.size()),
+      pitch_(body.pitch),
+      is_block_(!body.start),
+      nearby_(nearby) {}
 
-/// Moves a place onto the nearest surface that was cut. False if there is none near that faces `outwards`.
-bool Placer::put_on_surface(Sample& sample, Point3 outwards) const {
-  const Point3 from = sample.at;
+bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
+                    Point3& place, Point3& normal) {
+  const Point3 from = place;
   for (int n = 0; n < kMostSteps; ++n) {
-    const Distance distance = nearby_.at(sample.at);
-    if (std::abs(distance.value) > kMostProjected * pitch_) return false;
-    sample.normal = -1.0 * distance.gradient;
+    const Distance distance = nearby.at(place);
+    if (std::abs(distance.value) > most) return false;
+    normal = -1.0 * distance.gradient;
     if (std::abs(distance.value) <= kOnSurface) break;
-    sample.at = sample.at - distance.value * distance.gradient;
+    Point3 way = distance.gradient;
+    for (int axis = 0; axis < 3; ++axis)
+      if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
+    const double gain = dot(way, way);
+    if (gain < kLeastGain) return false;
+    place = place - (distance.value / gain) * way;
   }
-  return distance(sample.at, from) <= kMostProjected * pitch_ && dot(sample.normal, outwards) >= kSameSide;
+  return distance(place, from) <= most && dot(normal, outwards) >= kSameSide * length(outwards);
+}
+
+/// The stock's own surface: of a block its side that faces nearly so, else the triangle's plane.
+void Placer::add_stock_plane(Point3 from, Point3 normal) {
+  if (!is_block_) return of_stock_.push_back({from, normal});
+  int axis = 0;
+  for (const int other : {1, 2})
+    if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+  Sample side{from, {}};
+  side.at[axis] = normal[axis] > 0.0 ? size_[axis] : 0.0;
+  side.normal[axis] = std::copysign(1.0, normal[axis]);
+  if (std::abs(side.at[axis] - from[axis]) <= kMostMoved * pitch_) of_stock_.push_back(side);
 }
 
 void Placer::find_samples(std::uint32_t vertex, Point3 from) {
@@ -124,10 +120,7 @@ void Placer::find_samples(std::uint32_t vertex, Point3 from) {
   fans_.around(vertex, [&](std::uint32_t triangle) {
     const Point3 normal = fans_.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
-    if (fans_.step(triangle) == kStockSurface) {
-      of_stock_.push_back({from, normal});
-      return;
-    }
+    if (fans_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
     const Point3 way = fans_.middle(triangle) - from;
     const double far = length(way);
     Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}};
@@ -214,7 +207,7 @@ void Placer::look_closer(Point3 from) {
 Point3 Placer::place(std::uint32_t vertex) {
   const Point3 from = fans_.point(vertex);
   find_samples(vertex, from);
-  if (samples_.empty()) return from;
+  if (samples_.empty() && of_stock_.empty()) return from;
   fix_axes(vertex, from);
   Point3 to = best_step(from);
   for (int n = 0; n < kCloserLooks; ++n) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "sim/quadric.h"
-#include "sim/sweep_distance.h"
+#include "sim/spots.h"
 
 #include "kerf/simulate.h"
 
@@ -28,7 +28,7 @@ class Fans {
   /// Outwards; nothing (0, 0, 0) of a triangle without area.
   Point3 normal(std::uint32_t triangle) const;
   /// Three numbers a triangle.
-  std::vector<float>& normals() { return normal_; }
+  const std::vector<float>& normals() const { return normal_; }
   std::uint32_t step(std::uint32_t triangle) const { return mesh_.step[triangle]; }
 
  private:
@@ -39,22 +39,11 @@ class Fans {
   std::vector<float> normal_;
 };
 
-/// What sweeps leave near a vertex: the material is where all distances are above 0.
-class Nearby {
- public:
-  Nearby(const std::vector<ToolDistance>& tools, double reach) : tools_(tools), reach_(reach) {}
-  /// Those of `sweeps` that may bound the material within `reach` of a place.
-  void gather(const std::vector<const Sweep*>& sweeps, Point3 place);
-  bool empty() const { return near_.empty(); }
-  /// To what is taken away, with the direction into the material.
-  Distance at(Point3 place) const;
-
- private:
-  const std::vector<ToolDistance>& tools_;
-  double reach_;
-  std::vector<const Sweep*> near_;
-  std::vector<DistanceBounds> bounds_;
-};
+/// Moves `place` onto the nearest surface that was cut, and tells the material's normal there. False if that
+/// is further than `most`, or does not face `outwards`.
+/// `fixed`: axes along which it does not move.
+bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
+                    Point3& place, Point3& normal);
 
 /// Finds new places for the vertices of one mesh.
 class Placer {
@@ -64,13 +53,18 @@ class Placer {
   Point3 place(std::uint32_t vertex);
 
  private:
+  static constexpr double kMostProjected = 0.8;  // pitches
   using Fixed = std::array<bool, 3>;
   /// A place on a surface near the vertex and the material's normal there, outwards.
   struct Sample {
     Point3 at, normal;
   };
+  void add_stock_plane(Point3 from, Point3 normal);
   void find_samples(std::uint32_t vertex, Point3 from);
-  bool put_on_surface(Sample& sample, Point3 outwards) const;
+  bool put_on_surface(Sample& sample, Point3 outwards) const {
+    return sim::put_on_surface(nearby_, kMostProjected * pitch_, outwards, {}, sample.at,
+                               sample.normal);
+  }
   void fix_axes(std::uint32_t vertex, Point3 from);
   Quadric quadric_at(Point3 from, const Fixed& fixed) const;
   double miss_of(Point3 at) const;
@@ -81,6 +75,7 @@ class Placer {
   const Fans& fans_;
   Point3 size_;
   double pitch_;
+  bool is_block_;
   const Nearby& nearby_;
   Point3 corner_;     // of the columns, whose square the vertex stays in; in plan
   Fixed fixed_{};     // axes along which it stays

@@ -11,11 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "sim/feed.h"
+#include "sim/edges.h"
 #include "sim/mesh_build.h"
 #include "sim/parallel.h"
 #include "sim/sharpen.h"
-#include "sim/tile.h"
 
 #include "kerf/exact_mesh.h"
 
@@ -25,203 +24,161 @@ namespace {
 
 /// Vertices that are nearer than this to their surfaces are left alone, mm.
 constexpr double kGoodEnough = 0.0005;
-/// Columns along the side of a block of columns that share a list of sweeps.
-constexpr int kBlock = 8;
-constexpr int kBlocksAcross = kTileColumns / kBlock;
 /// How far from a vertex surfaces are looked for, in pitches.
 constexpr double kReach = 1.3;
+
+/// Each round halves an edge.
+constexpr int kMostSplits = 5;
 
 class Sharpener {
  public:
   Sharpener(Mesh& mesh, const Workpiece::Body& body, const Toolpath& path, Survey survey,
-            const ToolTable& tools, unsigned threads, Progress* progress);
+            const ToolTable& tools, const SharpenOptions& options, Progress* progress);
   bool run();
 
  private:
-  struct Place {
-    std::uint32_t tile, block, vertex;
-    bool operator<(const Place& other) const {
-      return std::tie(tile, block, vertex) < std::tie(other.tile, other.block, other.vertex);
-    }
-  };
-  bool is_wanted(std::uint32_t vertex) const;
-  void find_places();
-  void gather_sweeps();
-  void do_tile(std::size_t first, std::size_t end);
-  void near_block(const Place& place, std::vector<const Sweep*>& near) const;
-  bool turns_over(std::size_t triangle) const;
-  void take_back_folds();
+  bool is_wanted(const Fans& fans, std::uint32_t vertex) const;
+  std::vector<Spot> find_spots(const Fans& fans) const;
+  void place_vertices();
+  void split_edges();
+  bool is_folded(std::size_t triangle, const MeshState& before) const;
+  void settle(MeshState& before);
   bool stopped() { return stopped_ = stopped_ || stop_requested(progress_); }
 
   Mesh& mesh_;
   const Workpiece::Body& body_;
   const Toolpath& path_;
   Survey survey_;
+  double tolerance_;
   unsigned threads_;
   Progress* progress_;
   bool stopped_ = false;
-  Fans fans_;
   std::vector<ToolDistance> tools_;
-  std::vector<Place> places_;  // vertices that are looked at, by tile and block
-  std::vector<float> moved_;   // positions
-  std::vector<Sweep> sweeps_;
-  std::vector<std::vector<std::uint32_t>> of_tile_;
+  SweepsByTile sweeps_;
 };
 
 Sharpener::Sharpener(Mesh& mesh, const Workpiece::Body& body, const Toolpath& path, Survey survey,
-                     const ToolTable& tools, unsigned threads, Progress* progress)
+                     const ToolTable& tools, const SharpenOptions& options, Progress* progress)
     : mesh_(mesh),
       body_(body),
       path_(path),
       survey_(std::move(survey)),
-      threads_(threads),
+      tolerance_(options.tolerance.mm()),
+      threads_(thread_count(options.threads)),
       progress_(progress),
-      fans_(mesh, body.bounds.low, threads) {
+      sweeps_(body, tools_, kReach * body.pitch) {
   std::vector<const Silhouette*> silhouettes(survey_.solids.size());
   for (const auto& [number, index] : survey_.index) silhouettes[index] = &tools.find(number)->silhouette;
   for (const Silhouette* silhouette : silhouettes) tools_.emplace_back(*silhouette);
 }
 
-/// Whether the triangles around a vertex bend, and something was cut there. What is flat is right already.
-bool Sharpener::is_wanted(std::uint32_t vertex) const {
+/// Whether the triangles around a vertex bend. What is flat is right already.
+bool Sharpener::is_wanted(const Fans& fans, std::uint32_t vertex) const {
   std::optional<Point3> first;
   double most = 0.0;
-  bool was_cut = false;
-  fans_.around(vertex, [&](std::uint32_t triangle) {
-    const Point3 normal = fans_.normal(triangle);
+  fans.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = fans.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
-    was_cut = was_cut || fans_.step(triangle) != kStockSurface;
     if (!first) first = normal;
     const Point3 turn = normal - *first;
     most = std::max(most, dot(turn, turn));
   });
   // A surface that turns by an angle over two pitches is an eighth of it times the pitch from its chord.
   const double least = 8.0 * kGoodEnough / body_.pitch;
-  return was_cut && most > least * least;
+  return most > least * least;
 }
 
-void Sharpener::find_places() {
+std::vector<Spot> Sharpener::find_spots(const Fans& fans) const {
   constexpr std::size_t kAtATime = 1 << 14;
-  const std::size_t count = fans_.vertices(), pieces = (count + kAtATime - 1) / kAtATime;
-  std::vector<std::vector<Place>> found(pieces);
-  const double per_pitch = 1.0 / body_.pitch;
-  const auto column = [&](double v, int columns) {
-    return std::clamp(static_cast<int>(std::floor(v * per_pitch)), 0, columns - 1);
-  };
+  const std::size_t count = fans.vertices(), pieces = (count + kAtATime - 1) / kAtATime;
+  std::vector<std::vector<Spot>> found(pieces);
   const auto work = [&](std::size_t piece) {
     for (std::size_t v = piece * kAtATime; v < std::min(count, (piece + 1) * kAtATime); ++v) {
       const auto vertex = static_cast<std::uint32_t>(v);
-      if (!is_wanted(vertex)) continue;
-      const Point3 at = fans_.point(vertex);
-      const int i = column(at.x, body_.nx), j = column(at.y, body_.ny);
-      const int tile = j / kTileColumns * body_.tiles_x + i / kTileColumns;
-      const int block = j % kTileColumns / kBlock * kBlocksAcross + i % kTileColumns / kBlock;
-      found[piece].push_back({static_cast<std::uint32_t>(tile), static_cast<std::uint32_t>(block), vertex});
+      if (is_wanted(fans, vertex)) found[piece].push_back(sweeps_.spot_at(fans.point(vertex), vertex));
     }
   };
-  parallel_for(threads_, pieces, work, [&] { return stopped(); });
-  for (const std::vector<Place>& some : found) places_.insert(places_.end(), some.begin(), some.end());
-  std::sort(places_.begin(), places_.end());
+  parallel_for(threads_, pieces, work, [] { return false; });
+  std::vector<Spot> spots;
+  for (const std::vector<Spot>& some : found) spots.insert(spots.end(), some.begin(), some.end());
+  std::sort(spots.begin(), spots.end());
+  return spots;
 }
 
-/// All sweeps that can have cut near the vertices that are looked at.
-void Sharpener::gather_sweeps() {
-  std::vector<bool> wanted(body_.tiles.size(), false);
-  for (const Place& place : places_) wanted[place.tile] = true;
-  of_tile_.resize(body_.tiles.size());
-  const PlanScope scope{.margin = 2.0 * kReach * body_.pitch, .tiles = &wanted};
-  Feeder feeder(body_, path_, survey_,
-                {.plan = scope, .steps = {StepRange{0, path_.size()}}, .hazard_depth = Length()});
-  Batch batch;
-  do {
-    feeder.fill(batch);
-    std::vector<std::uint32_t> number(batch.sweeps.size(), meshing::kNone);
-    for (const Batch::Pair& pair : batch.pairs) {
-      std::uint32_t& mine = number[pair.sweep];
-      if (mine == meshing::kNone) {
-        mine = static_cast<std::uint32_t>(sweeps_.size());
-        sweeps_.push_back(batch.sweeps[pair.sweep]);
-      }
-      of_tile_[pair.tile].push_back(mine);
-    }
-  } while (!batch.is_last && !stopped());
-}
-
-void Sharpener::near_block(const Place& place, std::vector<const Sweep*>& near) const {
-  const auto tiles_x = static_cast<std::uint32_t>(body_.tiles_x);
-  const double i = place.tile % tiles_x * kTileColumns + (place.block % kBlocksAcross + 0.5) * kBlock;
-  const double j = place.tile / tiles_x * kTileColumns + (place.block / kBlocksAcross + 0.5) * kBlock;
-  const double x = i * body_.pitch, y = j * body_.pitch;
-  const double half = (std::numbers::sqrt2 * 0.5 * kBlock + kReach) * body_.pitch;
-  near.clear();
-  for (const std::uint32_t n : of_tile_[place.tile]) {
-    const Sweep& sweep = sweeps_[n];
-    if (distance_in_plan(sweep, {x, y}) <= tools_[sweep.tool].rim() + half) near.push_back(&sweep);
-  }
-}
-
-/// The vertices of one tile, which are places_[first] to places_[end - 1].
-void Sharpener::do_tile(std::size_t first, std::size_t end) {
-  const double reach = kReach * body_.pitch;
-  Nearby nearby(tools_, reach);
-  Placer placer(fans_, body_, nearby);
-  std::vector<const Sweep*> near;
-  for (std::size_t n = first; n < end; ++n) {
-    const Place& place = places_[n];
-    if (n == first || place.block != places_[n - 1].block) near_block(place, near);
-    nearby.gather(near, fans_.point(place.vertex));
-    if (nearby.empty()) continue;
-    const Point3 to = placer.place(place.vertex) + body_.bounds.low;
+void Sharpener::place_vertices() {
+  const Fans fans(mesh_, body_.bounds.low, threads_);
+  const std::vector<Spot> spots = find_spots(fans);
+  sweeps_.gather(path_, survey_, spots, [&] { return stopped(); });
+  std::vector<Point3> places(spots.size());
+  std::atomic<std::size_t> done{0};
+  const auto stop = [&] {
+    report(progress_, 0.6 * static_cast<double>(done) / static_cast<double>(spots.size()));
+    return stopped();
+  };
+  sweeps_.visit(
+      spots, threads_, [&](std::uint32_t vertex) { return fans.point(vertex); },
+      [&](std::size_t n, const Nearby& nearby) {
+        places[n] = Placer(fans, body_, nearby).place(spots[n].number);
+        ++done;
+      },
+      stop);
+  if (stopped()) return;
+  MeshState before{mesh_.positions, fans.normals()};
+  for (std::size_t n = 0; n < spots.size(); ++n) {
+    const Point3 place = places[n] + body_.bounds.low;
     for (int axis = 0; axis < 3; ++axis)
-      moved_[std::size_t{3} * place.vertex + static_cast<std::size_t>(axis)] = static_cast<float>(to[axis]);
+      mesh_.positions[std::size_t{3} * spots[n].number + static_cast<std::size_t>(axis)] =
+          static_cast<float>(place[axis]);
+  }
+  settle(before);
+}
+
+void Sharpener::split_edges() {
+  EdgeSplitter splitter(mesh_, body_, sweeps_, tolerance_, threads_);
+  for (int round = 0; round < kMostSplits; ++round) {
+    MeshState straight;
+    if (!splitter.split(straight, [&] { return stopped(); })) return;
+    settle(straight);
+    report(progress_, 0.6 + 0.3 * (round + 1) / kMostSplits);
   }
 }
 
-/// Whether a triangle faces the other way than before.
-bool Sharpener::turns_over(std::size_t triangle) const {
-  const std::uint32_t* c = mesh_.triangles.data() + 3 * triangle;
-  const Point3 a = fans_.point(c[0]), b = fans_.point(c[1]), d = fans_.point(c[2]);
-  return dot(cross(b - a, d - a), fans_.normal(static_cast<std::uint32_t>(triangle))) < 0.0;
+/// Whether a triangle faces the other way than it did.
+bool Sharpener::is_folded(std::size_t triangle, const MeshState& before) const {
+  const auto point = [&](std::size_t k) {
+    const float* p = mesh_.positions.data() + std::size_t{3} * mesh_.triangles[3 * triangle + k];
+    return Point3{p[0], p[1], p[2]};
+  };
+  const float* facing = before.outwards.data() + 3 * triangle;
+  const Point3 a = point(0);
+  return dot(cross(point(1) - a, point(2) - a), Point3{facing[0], facing[1], facing[2]}) < 0.0;
 }
 
-/// Where triangles would face the other way their vertices stay where they were.
-void Sharpener::take_back_folds() {
+/// Where triangles face the other way than before, others get their sides, or their vertices go back.
+void Sharpener::settle(MeshState& before) {
   constexpr int kMostRounds = 4;
+  meshing::unfold_triangles(mesh_, before.outwards, threads_);
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<std::uint32_t> back;
-    for (std::size_t t = 0; t < mesh_.triangles.size() / 3; ++t) {
-      if (!turns_over(t)) continue;
-      back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
-    }
+    for (std::size_t t = 0; t < mesh_.step.size(); ++t)
+      if (is_folded(t, before))
+        back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
     if (back.empty()) return;
     for (const std::uint32_t v : back)
-      std::copy_n(moved_.begin() + 3 * std::ptrdiff_t{v}, 3, mesh_.positions.begin() + 3 * std::ptrdiff_t{v});
+      std::copy_n(before.positions.begin() + 3 * std::ptrdiff_t{v}, 3,
+                  mesh_.positions.begin() + 3 * std::ptrdiff_t{v});
   }
 }
 
 bool Sharpener::run() {
   if (progress_ != nullptr) progress_->phase("sharpening");
-  find_places();
-  if (!stopped()) gather_sweeps();
-  moved_ = mesh_.positions;
-  std::vector<std::size_t> begins;
-  for (std::size_t n = 0; n < places_.size(); ++n)
-    if (n == 0 || places_[n].tile != places_[n - 1].tile) begins.push_back(n);
-  begins.push_back(places_.size());
-  std::atomic<std::size_t> done{0};
-  const auto work = [&](std::size_t k) {
-    do_tile(begins[k], begins[k + 1]);
-    ++done;
-  };
-  const auto stop = [&] {
-    report(progress_, static_cast<double>(done) / static_cast<double>(begins.size()));
-    return stopped();
-  };
-  if (!stopped()) parallel_for(threads_, begins.size() - 1, work, stop);
-  if (stopped()) return false;
-  mesh_.positions.swap(moved_);
-  meshing::unfold_triangles(mesh_, fans_.normals(), threads_);
-  take_back_folds();
+  Mesh rough = mesh_;
+  place_vertices();
+  if (!stopped()) split_edges();
+  if (stopped()) {
+    mesh_ = std::move(rough);
+    return false;
+  }
   meshing::mend_flat_triangles(mesh_, threads_);
   report(progress_, 1.0);
   return true;
@@ -239,7 +196,7 @@ bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, 
   std::optional<sim::Setup> setup = sim::set_up(path, tools, stock, of_simulation, said_before);
   if (!setup || mesh.triangles.empty()) return true;  // nothing was cut
   return sim::Sharpener(mesh, workpiece.body(), path, std::move(setup->survey), tools,
-                        sim::thread_count(options.threads), progress)
+                        options, progress)
       .run();
 }
 
