@@ -22,10 +22,17 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-/// Sum of the normals around a vertex, as long as 1.
-Point3 vertex_normal(const Fans& fans, std::uint32_t vertex) {
+/// Of the triangles around a vertex those that face within so much (cosine) of a given one are its surface;
+/// a triangle that bridges an edge belongs to both sides.
+constexpr double kOneSurface = 0.5;
+
+/// Normal of a surface at a vertex: the sum of those of its triangles, as long as 1.
+Point3 normal_at(const Fans& fans, std::uint32_t vertex, Point3 facing) {
   Point3 sum;
-  fans.around(vertex, [&](std::uint32_t triangle) { sum = sum + fans.normal(triangle); });
+  fans.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = fans.normal(triangle);
+    if (dot(normal, facing) >= kOneSurface) sum = sum + normal;
+  });
   const double size = length(sum);
   return size > 0.0 ? (1.0 / size) * sum : sum;
 }
@@ -52,6 +59,29 @@ Point3 EdgeSplitter::middle_of(const Fans& fans, std::uint32_t corner) const {
   return 0.5 * (fans.point(ends.a) + fans.point(ends.b));
 }
 
+/// The triangle on the other side of an edge; the same one if there is none.
+std::uint32_t EdgeSplitter::across(const Fans& fans, std::uint32_t corner) const {
+  const Ends ends = ends_of(corner);
+  std::uint32_t other = corner / 3;
+  fans.around(ends.a, [&](std::uint32_t t) {
+    for (std::uint32_t k = 3 * t; k < 3 * t + 3; ++k)
+      if (t != corner / 3 && mesh_.triangles[k] == ends.b) other = t;
+  });
+  return other;
+}
+
+/// By how much the surfaces beside an edge turn from its begin to its end, radians. A circle strays from its
+/// chord by an eighth of the chord times this.
+double EdgeSplitter::bend_of(const Fans& fans, std::uint32_t corner) const {
+  const Ends ends = ends_of(corner);
+  double most = 0.0;
+  for (const std::uint32_t triangle : {corner / 3, across(fans, corner)}) {
+    const Point3 facing = fans.normal(triangle);
+    most = std::max(most, distance(normal_at(fans, ends.a, facing), normal_at(fans, ends.b, facing)));
+  }
+  return most;
+}
+
 /// Edges of surfaces that were cut, whose ends' normals say that the surface may bend away between them.
 void EdgeSplitter::find_suspects(const Fans& fans) {
   constexpr std::size_t kAtATime = 3 << 13;
@@ -61,12 +91,9 @@ void EdgeSplitter::find_suspects(const Fans& fans) {
     for (std::size_t c = piece * kAtATime; c < std::min(corners, (piece + 1) * kAtATime); ++c) {
       const auto corner = static_cast<std::uint32_t>(c);
       const Ends ends = ends_of(corner);
-      if (ends.a > ends.b) continue;
-      const Point3 way = fans.point(ends.b) - fans.point(ends.a);
-      const Point3 turn = vertex_normal(fans, ends.b) - vertex_normal(fans, ends.a);
-      // A circle strays from its chord by an eighth of the chord times the angle between its ends.
-      const double most = length(way) * length(turn) / 8.0;
-      if (most <= tolerance_ || length(way) < kShortest * pitch_) continue;
+      if (ends.a > ends.b || ends.b < first_new_) continue;
+      const double size = distance(fans.point(ends.a), fans.point(ends.b));
+      if (size < kShortest * pitch_ || size * bend_of(fans, corner) <= 8.0 * tolerance_) continue;
       found[piece].push_back(sweeps_.spot_at(middle_of(fans, corner), corner));
     }
   };
@@ -76,15 +103,11 @@ void EdgeSplitter::find_suspects(const Fans& fans) {
   std::sort(spots_.begin(), spots_.end());
 }
 
-void EdgeSplitter::look_at(const Fans& fans, std::size_t n, const Nearby& nearby) {
+void EdgeSplitter::look_at(const Fans& fans, std::size_t n, Around& around) {
   const std::uint32_t corner = spots_[n].number, triangle = corner / 3;
   const Ends ends = ends_of(corner);
   const Point3 a = fans.point(ends.a), b = fans.point(ends.b);
-  std::uint32_t other = triangle;
-  fans.around(ends.a, [&](std::uint32_t t) {
-    for (std::uint32_t k = 3 * t; k < 3 * t + 3; ++k)
-      if (t != triangle && mesh_.triangles[k] == ends.b) other = t;
-  });
+  const std::uint32_t other = across(fans, corner);
   const bool stock = fans.step(triangle) == kStockSurface, other_stock = fans.step(other) == kStockSurface;
   if (stock && other_stock) return;
   std::array<bool, 3> fixed{};
@@ -94,6 +117,7 @@ void EdgeSplitter::look_at(const Fans& fans, std::size_t n, const Nearby& nearby
     fixed[static_cast<std::size_t>(axis)] = (low || high) && (axis < 2 || stock || other_stock);
   }
   const Point3 middle = 0.5 * (a + b);
+  const Nearby& nearby = around.all(middle);
   if (std::abs(nearby.at(middle).value) <= tolerance_) return;
   // What is to be met faces as the surfaces do that were cut.
   const Point3 outwards = stock         ? fans.normal(other)
@@ -153,6 +177,7 @@ bool EdgeSplitter::part(const Fans& fans, MeshState& straight) {
   std::vector<bool> has_new(fans.vertices(), false);
   straight.positions = mesh_.positions;
   straight.outwards = fans.normals();
+  first_new_ = static_cast<std::uint32_t>(fans.vertices());
   for (std::size_t n = 0; n < spots_.size(); ++n) {
     if (!found_[n].strays) continue;
     const Ends ends = ends_of(spots_[n].number);

@@ -29,8 +29,7 @@ class EdgeSplitter {
     find_suspects(fans);
     found_.assign(spots_.size(), {});
     sweeps_.visit(
-        spots_, threads_, [&](std::uint32_t corner) { return middle_of(fans, corner); },
-        [&](std::size_t n, const Nearby& nearby) { look_at(fans, n, nearby); }, stop);
+        spots_, threads_, [&](std::size_t n, Around& around) { look_at(fans, n, around); }, stop);
     return !stop() && part(fans, straight);
   }
 
@@ -44,8 +43,10 @@ class EdgeSplitter {
   };
   Ends ends_of(std::uint32_t corner) const;
   Point3 middle_of(const Fans& fans, std::uint32_t corner) const;
+  std::uint32_t across(const Fans& fans, std::uint32_t corner) const;
+  double bend_of(const Fans& fans, std::uint32_t corner) const;
   void find_suspects(const Fans& fans);
-  void look_at(const Fans& fans, std::size_t n, const Nearby& nearby);
+  void look_at(const Fans& fans, std::size_t n, Around& around);
   bool part(const Fans& fans, MeshState& straight);
   void add_vertex(Point3 at, Point3 middle, MeshState& straight);
   void part_triangle(std::size_t triangle, const std::array<std::uint32_t, 3>& middles, MeshState& straight);
@@ -57,6 +58,7 @@ class EdgeSplitter {
   unsigned threads_;
   std::vector<Spot> spots_;  // edges: the corner that an edge begins at, in the triangle where it goes upwards
   std::vector<Found> found_;
+  std::uint32_t first_new_ = 0;  // vertex: edges between older ones have been looked at
 };
 
 }  // namespace kerf::sim

@@ -20,12 +20,20 @@ constexpr double kMissed = 0.02;      // a new place that is further off all sur
 
 /// Places closer to a surface are on it, mm: a hundredth of what single precision of a mesh tells.
 constexpr double kOnSurface = 1e-8;
+/// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
+constexpr double kIntoMaterial = 1e-5;
 constexpr int kCloserLooks = 2;
 constexpr int kMostSteps = 6;  // of Newton's method; the distance is nearly linear
 /// A surface that the fixed axes leave less of its slope than this (squared) is met too far away.
 constexpr double kLeastGain = 0.05;
 /// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
 constexpr double kSameSide = 0.1;
+/// Triangles around a vertex that face so nearly the same way (cosine, 11 degrees) are one surface.
+constexpr double kSmooth = 0.98;
+/// And so nearly (1.1 degrees) one plane.
+constexpr double kOnePlane = 0.9998;
+/// Surfaces that bend less than this share of the tolerance between places are planes.
+constexpr double kFlat = 1.0;
 /// A direction in which planes pull by less than this share of the strongest tells nothing: planes that are
 /// less than 6 degrees apart are one curved surface.
 constexpr double kLeastShare = 0.003;
@@ -77,22 +85,19 @@ Point3 Fans::normal(std::uint32_t triangle) const {
 
 // ---- where a vertex goes
 
-Placer::Placer(const Fans& fans, const Workpiece::Body& body, const Nearby& nearby)
-    : fans_(fans),
-      size_(body.bounds.size()),
-      pitch_(body.pitch),
-      is_block_(!body.start),
-      nearby_(nearby) {}
-
 bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
                     Point3& place, Point3& normal) {
   const Point3 from = place;
   for (int n = 0; n < kMostSteps; ++n) {
     const Distance distance = nearby.at(place);
     if (std::abs(distance.value) > most) return false;
-    normal = -1.0 * distance.gradient;
-    if (std::abs(distance.value) <= kOnSurface) break;
     Point3 way = distance.gradient;
+    if (std::abs(distance.value) <= kOnSurface) {
+      // An edge of the tool sweeps a surface of its own, which is only told from the material's side.
+      normal = -1.0 * nearby.at(place + kIntoMaterial * way).gradient;
+      break;
+    }
+    normal = -1.0 * way;
     for (int axis = 0; axis < 3; ++axis)
       if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
     const double gain = dot(way, way);
@@ -104,11 +109,11 @@ bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const st
 
 /// The stock's own surface: of a block its side that faces nearly so, else the triangle's plane.
 void Placer::add_stock_plane(Point3 from, Point3 normal) {
-  if (!is_block_) return of_stock_.push_back({from, normal});
+  if (!is_block_) return of_stock_.push_back({from, normal, normal});
   int axis = 0;
   for (const int other : {1, 2})
     if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
-  Sample side{from, {}};
+  Sample side{from, {}, {}};
   side.at[axis] = normal[axis] > 0.0 ? size_[axis] : 0.0;
   side.normal[axis] = std::copysign(1.0, normal[axis]);
   if (std::abs(side.at[axis] - from[axis]) <= kMostMoved * pitch_) of_stock_.push_back(side);
@@ -121,9 +126,12 @@ void Placer::find_samples(std::uint32_t vertex, Point3 from) {
     const Point3 normal = fans_.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
     if (fans_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
+    // Of triangles in one plane one is enough.
+    for (const Sample& sample : samples_)
+      if (dot(sample.looking, normal) > kOnePlane) return;
     const Point3 way = fans_.middle(triangle) - from;
     const double far = length(way);
-    Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}};
+    Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}, normal};
     if (put_on_surface(sample, normal)) samples_.push_back(sample);
   });
 }
@@ -198,26 +206,75 @@ void Placer::look_closer(Point3 from) {
   for (const Sample& sample : samples_) {
     const Point3 way = sample.at - from;
     const double far = length(way);
-    Sample nearer{far > 0.0 ? from + std::min(1.0, kSecondLook * pitch_ / far) * way : from, {}};
+    Sample nearer{far > 0.0 ? from + std::min(1.0, kSecondLook * pitch_ / far) * way : from, {}, {}};
     if (put_on_surface(nearer, sample.normal)) samples_[kept++] = nearer;
   }
   samples_.resize(kept);
 }
 
-Point3 Placer::place(std::uint32_t vertex) {
-  const Point3 from = fans_.point(vertex);
+/// Whether the triangles around a vertex are those of one curved surface, and where it faces.
+bool Placer::is_smooth(std::uint32_t vertex, Point3& outwards) const {
+  Point3 sum;
+  bool stock = false, cut = false;
+  fans_.around(vertex, [&](std::uint32_t triangle) {
+    sum = sum + fans_.normal(triangle);
+    (fans_.step(triangle) == kStockSurface ? stock : cut) = true;
+  });
+  if (stock || !cut) return false;
+  const double size = length(sum);
+  if (size <= 0.0) return false;
+  outwards = (1.0 / size) * sum;
+  bool smooth = true;
+  fans_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = fans_.normal(triangle);
+    if (dot(normal, normal) > 0.0 && dot(normal, outwards) < kSmooth) smooth = false;
+  });
+  return smooth;
+}
+
+Point3 Placer::on_smooth(Point3 from, Point3 outwards) {
+  Sample sample{from, {}, {}};
+  return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, fixed_, sample.at, sample.normal)
+             ? sample.at
+             : from;
+}
+
+/// Whether the surfaces bend so little between the places that planes stand for them.
+bool Placer::is_flat_enough() const {
+  for (const Sample& one : samples_)
+    for (const Sample& other : samples_) {
+      if (dot(one.normal, other.normal) < kSmooth) continue;
+      // A circle strays from its chord by an eighth of the chord times the angle between its ends; the
+      // vertex may be as far beyond the places as they are apart.
+      if (distance(one.at, other.at) * distance(one.normal, other.normal) > kFlat * tolerance_) return false;
+    }
+  return true;
+}
+
+Point3 Placer::on_edge(std::uint32_t vertex, Point3 from) {
   find_samples(vertex, from);
   if (samples_.empty() && of_stock_.empty()) return from;
-  fix_axes(vertex, from);
   Point3 to = best_step(from);
-  for (int n = 0; n < kCloserLooks; ++n) {
+  for (int n = 0; n < kCloserLooks && !is_flat_enough(); ++n) {
     look_closer(to);
     const Point3 better = best_step(to);
     if (distance(to, better) > kMostRefined * pitch_) break;
     to = better;
   }
-  const double before = std::abs(nearby_.at(from).value), after = std::abs(nearby_.at(to).value);
+  const double before = std::abs(nearby_->at(from).value), after = std::abs(nearby_->at(to).value);
   return after <= kMissed * pitch_ || after < before ? to : from;
+}
+
+Point3 Placer::place(std::uint32_t vertex, Around& around) {
+  const Point3 from = fans_.point(vertex);
+  fix_axes(vertex, from);
+  Point3 outwards;
+  if (is_smooth(vertex, outwards)) {
+    nearby_ = &around.of_columns(from);
+    return on_smooth(from, outwards);
+  }
+  nearby_ = &around.all(from);
+  return on_edge(vertex, from);
 }
 
 }  // namespace kerf::sim

@@ -48,9 +48,14 @@ bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const st
 /// Finds new places for the vertices of one mesh.
 class Placer {
  public:
-  Placer(const Fans& fans, const Workpiece::Body& body, const Nearby& nearby);
+  Placer(const Fans& fans, const Workpiece::Body& body, double tolerance)
+      : fans_(fans),
+        size_(body.bounds.size()),
+        pitch_(body.pitch),
+        tolerance_(tolerance),
+        is_block_(!body.start) {}
   /// The new place of a vertex; the old one where no better one is found.
-  Point3 place(std::uint32_t vertex);
+  Point3 place(std::uint32_t vertex, Around& around);
 
  private:
   static constexpr double kMostProjected = 0.8;  // pitches
@@ -58,13 +63,18 @@ class Placer {
   /// A place on a surface near the vertex and the material's normal there, outwards.
   struct Sample {
     Point3 at, normal;
+    Point3 looking;  // the normal of the triangle that it was looked for on
   };
   void add_stock_plane(Point3 from, Point3 normal);
   void find_samples(std::uint32_t vertex, Point3 from);
   bool put_on_surface(Sample& sample, Point3 outwards) const {
-    return sim::put_on_surface(nearby_, kMostProjected * pitch_, outwards, {}, sample.at,
+    return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, {}, sample.at,
                                sample.normal);
   }
+  bool is_smooth(std::uint32_t vertex, Point3& outwards) const;
+  bool is_flat_enough() const;
+  Point3 on_smooth(Point3 from, Point3 outwards);
+  Point3 on_edge(std::uint32_t vertex, Point3 from);
   void fix_axes(std::uint32_t vertex, Point3 from);
   Quadric quadric_at(Point3 from, const Fixed& fixed) const;
   double miss_of(Point3 at) const;
@@ -74,9 +84,9 @@ class Placer {
 
   const Fans& fans_;
   Point3 size_;
-  double pitch_;
+  double pitch_, tolerance_;
   bool is_block_;
-  const Nearby& nearby_;
+  const Nearby* nearby_ = nullptr;
   Point3 corner_;     // of the columns, whose square the vertex stays in; in plan
   Fixed fixed_{};     // axes along which it stays
   std::vector<Sample> samples_;   // on surfaces that were cut

@@ -22,13 +22,13 @@ namespace kerf {
 namespace sim {
 namespace {
 
-/// Vertices that are nearer than this to their surfaces are left alone, mm.
-constexpr double kGoodEnough = 0.0005;
+/// Vertices that are nearer than this share of the tolerance to their surfaces are left alone.
+constexpr double kGoodEnough = 0.5;
 /// How far from a vertex surfaces are looked for, in pitches.
-constexpr double kReach = 1.3;
+constexpr double kReach = 0.95;
 
 /// Each round halves an edge.
-constexpr int kMostSplits = 5;
+constexpr int kMostSplits = 6;
 
 class Sharpener {
  public:
@@ -84,7 +84,7 @@ bool Sharpener::is_wanted(const Fans& fans, std::uint32_t vertex) const {
     most = std::max(most, dot(turn, turn));
   });
   // A surface that turns by an angle over two pitches is an eighth of it times the pitch from its chord.
-  const double least = 8.0 * kGoodEnough / body_.pitch;
+  const double least = 8.0 * kGoodEnough * tolerance_ / body_.pitch;
   return most > least * least;
 }
 
@@ -116,9 +116,9 @@ void Sharpener::place_vertices() {
     return stopped();
   };
   sweeps_.visit(
-      spots, threads_, [&](std::uint32_t vertex) { return fans.point(vertex); },
-      [&](std::size_t n, const Nearby& nearby) {
-        places[n] = Placer(fans, body_, nearby).place(spots[n].number);
+      spots, threads_,
+      [&](std::size_t n, Around& around) {
+        places[n] = Placer(fans, body_, tolerance_).place(spots[n].number, around);
         ++done;
       },
       stop);

@@ -13,20 +13,37 @@
 
 namespace kerf::sim {
 
+/// Sweeps in the order that Nearby wants them in: level ones of one tool at one height together.
+bool comes_before(const Sweep* a, const Sweep* b);
+
 /// What sweeps leave near a place: the material is where all distances are above 0.
 class Nearby {
  public:
   Nearby(const std::vector<ToolDistance>& tools, double reach) : tools_(tools), reach_(reach) {}
-  /// Those of `sweeps` that may bound the material within `reach` of a place.
+  /// Those of `sweeps` (in order) that may bound the material within `reach` of a place.
   void gather(const std::vector<const Sweep*>& sweeps, Point3 place);
   /// To what is taken away, with the direction into the material.
   Distance at(Point3 place) const;
 
  private:
+  struct Level {  // sweeps of one tool at one height: level_[first] to level_[end - 1]
+    std::size_t first, end;
+    double low;  // the distance of the nearest to the place that all were gathered around
+  };
+  struct Other {
+    double low;  // not above that distance
+    const Sweep* sweep;
+  };
+  std::size_t gather_level(const std::vector<const Sweep*>& sweeps, std::size_t first);
+  Point2 nearest_of(const Level& level, Point2 place) const;
+
   const std::vector<ToolDistance>& tools_;
   double reach_;
-  std::vector<const Sweep*> near_;
-  std::vector<DistanceBounds> bounds_;
+  Point3 around_;
+  std::vector<Level> levels_;
+  std::vector<const Sweep*> level_;
+  std::vector<Other> others_;      // the nearest first
+  std::vector<double> distances_;  // in plan, squared
 };
 
 /// A place that is looked at, in its tile and its block of columns there.
@@ -49,21 +66,41 @@ class SweepsByTile {
   void gather(const Toolpath& path, const Survey& survey, const std::vector<Spot>& spots, const Stop& stop);
 
   Spot spot_at(Point3 place, std::uint32_t number) const;
-  /// Calls work(spot number, nearby) for each of the spots, which are in order, on all threads; place_of(n)
-  /// tells where number n is.
-  template <class PlaceOf, class Work, class Stop>
-  void visit(const std::vector<Spot>& spots, unsigned threads, const PlaceOf& place_of, const Work& work,
-             const Stop& stop) const;
+  /// Calls work(n, around) for number n of the spots, which are in order, on all threads.
+  template <class Work, class Stop>
+  void visit(const std::vector<Spot>& spots, unsigned threads, const Work& work, const Stop& stop) const;
 
  private:
   void take(const Batch& batch);
-  std::vector<const Sweep*> near_block(const Spot& spot) const;
+  friend class Around;
 
   const Workpiece::Body& body_;
   const std::vector<ToolDistance>& tools_;
   double reach_;
   std::vector<Sweep> sweeps_;
   std::vector<std::vector<std::uint32_t>> of_tile_;
+};
+
+/// What is around the spots of one tile, one spot after the other.
+class Around {
+ public:
+  explicit Around(const SweepsByTile& sweeps) : sweeps_(sweeps), nearby_(sweeps.tools_, sweeps.reach_) {}
+  void go_to(const Spot& spot);
+  /// From all sweeps.
+  const Nearby& all(Point3 place);
+  /// From those that made the columns around a place: quicker, and as good where the surface is smooth.
+  const Nearby& of_columns(Point3 place);
+
+ private:
+  void gather_block();
+
+  const SweepsByTile& sweeps_;
+  Nearby nearby_;
+  Spot spot_;
+  bool has_block_ = false;
+  std::vector<const Sweep*> of_block_, of_columns_;
+  std::vector<Interval> intervals_;
+  std::vector<std::uint32_t> steps_;
 };
 
 template <class Stop>
@@ -82,20 +119,18 @@ void SweepsByTile::gather(const Toolpath& path, const Survey& survey, const std:
   } while (!batch.is_last && !stop());
 }
 
-template <class PlaceOf, class Work, class Stop>
-void SweepsByTile::visit(const std::vector<Spot>& spots, unsigned threads, const PlaceOf& place_of,
-                         const Work& work, const Stop& stop) const {
+template <class Work, class Stop>
+void SweepsByTile::visit(const std::vector<Spot>& spots, unsigned threads, const Work& work,
+                         const Stop& stop) const {
   std::vector<std::size_t> begin;
   for (std::size_t n = 0; n < spots.size(); ++n)
     if (n == 0 || spots[n].tile != spots[n - 1].tile) begin.push_back(n);
   begin.push_back(spots.size());
   const auto do_tile = [&](std::size_t k) {
-    Nearby nearby(tools_, reach_);
-    std::vector<const Sweep*> near;
+    Around around(*this);
     for (std::size_t n = begin[k]; n < begin[k + 1]; ++n) {
-      if (n == begin[k] || spots[n].block != spots[n - 1].block) near = near_block(spots[n]);
-      nearby.gather(near, place_of(spots[n].number));
-      work(n, nearby);
+      around.go_to(spots[n]);
+      work(n, around);
     }
   };
   parallel_for(threads, begin.size() - 1, do_tile, stop);

@@ -115,7 +115,8 @@ Distance Looker::nearest(Span span) const {
   return best;
 }
 
-/// The place of a sweep's path that is nearest in plan.
+}  // namespace
+
 Point2 nearest_in_plan(const Sweep& sweep, Point2 place) {
   const double dx = place.x - sweep.x, dy = place.y - sweep.y;
   if (!sweep.is_arc) {
@@ -137,27 +138,15 @@ Point2 nearest_in_plan(const Sweep& sweep, Point2 place) {
   return distance(begin, place) <= distance(end, place) ? begin : end;
 }
 
-bool is_level(const Sweep& sweep) { return sweep.is_arc || sweep.z == sweep.z_end; }
-
-Distance distance_to_level(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {
-  const Point2 nearest = nearest_in_plan(sweep, place.xy());
-  const double dx = place.x - nearest.x, dy = place.y - nearest.y, rho2 = dx * dx + dy * dy;
-  const double wide = tool.rim() + reach;
-  if (rho2 > wide * wide) return {};
-  const double rho = std::sqrt(rho2);
-  const TurnedDistance turned = tool.at(rho, place.z - sweep.z);
+Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, Point3 place) {
+  const double dx = place.x - nearest.x, dy = place.y - nearest.y, rho = std::sqrt(dx * dx + dy * dy);
+  const TurnedDistance turned = tool.at(rho, place.z - z);
   const double per_rho = rho > 0.0 ? turned.by_r / rho : 0.0;
   return {turned.value, {per_rho * dx, per_rho * dy, turned.by_z}};
 }
 
-}  // namespace
-
-double distance_in_plan(const Sweep& sweep, Point2 place) {
-  return distance(nearest_in_plan(sweep, place), place);
-}
-
 Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {
-  if (is_level(sweep)) return distance_to_level(sweep, tool, place, reach);
+  if (is_level(sweep)) return distance_to_level(tool, nearest_in_plan(sweep, place.xy()), sweep.z, place);
   const Looker looker(sweep, tool, place);
   const Span span = looker.near(reach);
   return span.empty() ? Distance{} : looker.nearest(span);
@@ -165,7 +154,7 @@ Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place,
 
 DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {
   if (is_level(sweep)) {
-    const double value = distance_to_level(sweep, tool, place, reach).value;
+    const double value = distance_to(sweep, tool, place, reach).value;
     return {value, value};
   }
   const Looker looker(sweep, tool, place);

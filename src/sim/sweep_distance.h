@@ -16,8 +16,14 @@ struct Distance {
 /// may be said to be far away (1e30).
 Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach);
 
-/// From a place to a sweep's path, both seen from above, mm.
-double distance_in_plan(const Sweep& sweep, Point2 place);
+/// The place of a sweep's path that is nearest, both seen from above.
+Point2 nearest_in_plan(const Sweep& sweep, Point2 place);
+
+/// Whether a sweep stays at one height. Of several of one tool at one height the one that is nearest in plan
+/// is nearest.
+inline bool is_level(const Sweep& sweep) { return sweep.is_arc || sweep.z == sweep.z_end; }
+/// distance_to of a level sweep at height `z` whose path is nearest at `nearest`.
+Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, Point3 place);
 
 /// Bounds of distance_to for the time of one look at the tool; `low` is not above what distance_to tells,
 /// `high` not below it.
