@@ -44,21 +44,37 @@ constexpr double kOnBlock = 1e-5;
 
 // ---- fans
 
-Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads) : mesh_(mesh), low_(low) {
-  const std::size_t corners = mesh.triangles.size();
-  first_.assign(mesh.positions.size() / 3 + 1, 0);
-  for (const std::uint32_t v : mesh.triangles) ++first_[v + 1];
+Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new)
+    : mesh_(mesh), low_(low) {
+  std::vector<bool> wanted(mesh.positions.size() / 3, first_new == 0);
+  for (std::size_t k = 0; first_new > 0 && k < mesh.triangles.size(); k += 3) {
+    const std::uint32_t* c = mesh.triangles.data() + k;
+    if (std::max({c[0], c[1], c[2]}) >= first_new) wanted[c[0]] = wanted[c[1]] = wanted[c[2]] = true;
+  }
+  gather(wanted);
+  find_normals(wanted, threads);
+}
+
+void Fans::gather(const std::vector<bool>& wanted) {
+  first_.assign(wanted.size() + 1, 0);
+  for (const std::uint32_t v : mesh_.triangles)
+    if (wanted[v]) ++first_[v + 1];
   for (std::size_t v = 0; v + 1 < first_.size(); ++v) first_[v + 1] += first_[v];
-  triangle_.resize(corners);
+  triangle_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t k = 0; k < corners; ++k)
-    triangle_[next[mesh.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
-  normal_.resize(corners);
+  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
+    if (wanted[mesh_.triangles[k]])
+      triangle_[next[mesh_.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
+}
+
+void Fans::find_normals(const std::vector<bool>& wanted, unsigned threads) {
   constexpr std::size_t kAtATime = 1 << 14;
-  const std::size_t count = corners / 3;
+  const std::size_t count = mesh_.triangles.size() / 3;
+  normal_.resize(3 * count);
   const auto work = [&](std::size_t piece) {
     for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
-      const std::uint32_t* c = mesh.triangles.data() + 3 * t;
+      const std::uint32_t* c = mesh_.triangles.data() + 3 * t;
+      if (!wanted[c[0]] && !wanted[c[1]] && !wanted[c[2]]) continue;
       const Point3 a = point(c[0]), n = cross(point(c[1]) - a, point(c[2]) - a);
       const double size = length(n), per_size = size > 0.0 ? 1.0 / size : 0.0;
       for (int axis = 0; axis < 3; ++axis)
@@ -126,9 +142,9 @@ void Placer::find_samples(std::uint32_t vertex, Point3 from) {
     const Point3 normal = fans_.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
     if (fans_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
-    // Of triangles in one plane one is enough.
+    // Of triangles in one plane one is enough, if that is the surface's own.
     for (const Sample& sample : samples_)
-      if (dot(sample.looking, normal) > kOnePlane) return;
+      if (dot(sample.looking, normal) > kOnePlane && dot(sample.normal, normal) > kOnePlane) return;
     const Point3 way = fans_.middle(triangle) - from;
     const double far = length(way);
     Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}, normal};

@@ -13,10 +13,11 @@
 
 namespace kerf::sim {
 
-/// The triangles around each vertex of a mesh, their middles and normals, in the block's frame.
+/// The triangles around vertices of a mesh, their middles and normals, in the block's frame.
 class Fans {
  public:
-  Fans(const Mesh& mesh, Point3 low, unsigned threads);
+  /// `first_new`: only those around the vertices from this number on and around their neighbours.
+  Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new = 0);
   std::size_t vertices() const { return first_.size() - 1; }
   /// Calls visit(triangle) for each triangle around a vertex.
   template <class Visit>
@@ -25,13 +26,16 @@ class Fans {
   }
   Point3 point(std::uint32_t vertex) const;
   Point3 middle(std::uint32_t triangle) const;
-  /// Outwards; nothing (0, 0, 0) of a triangle without area.
+  /// Outwards; nothing (0, 0, 0) of a triangle without area, or around no vertex that is wanted.
   Point3 normal(std::uint32_t triangle) const;
   /// Three numbers a triangle.
   const std::vector<float>& normals() const { return normal_; }
   std::uint32_t step(std::uint32_t triangle) const { return mesh_.step[triangle]; }
 
  private:
+  void gather(const std::vector<bool>& wanted);
+  void find_normals(const std::vector<bool>& wanted, unsigned threads);
+
   const Mesh& mesh_;
   Point3 low_;
   std::vector<std::size_t> first_;
