@@ -23,7 +23,10 @@ constexpr double kOnSurface = 1e-8;
 /// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
 constexpr double kIntoMaterial = 1e-5;
 constexpr int kCloserLooks = 2;
-constexpr int kMostSteps = 6;  // of Newton's method; the distance is nearly linear
+constexpr int kMostSteps = 12;  // of Newton's method; the distance is nearly linear
+/// Share of the most that a place may move by which it goes into the material at a time, if it is deeper than
+/// the other share in what is cut away.
+constexpr double kInwards = 0.15, kShallow = 1e-3;
 /// A surface that the fixed axes leave less of its slope than this (squared) is met too far away.
 constexpr double kLeastGain = 0.05;
 /// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
@@ -101,26 +104,53 @@ Point3 Fans::normal(std::uint32_t triangle) const {
 
 // ---- where a vertex goes
 
-bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
-                    Point3& place, Point3& normal) {
-  const Point3 from = place;
+namespace {
+
+enum class From : std::uint8_t { either_side, material };
+
+Point3 freed(Point3 way, const std::array<bool, 3>& fixed) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
+  return way;
+}
+
+/// Newton's method; `from` the material's side it first goes there.
+bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
+                  const std::array<bool, 3>& fixed, Point3& place, Point3& normal) {
   for (int n = 0; n < kMostSteps; ++n) {
     const Distance distance = nearby.at(place);
     if (std::abs(distance.value) > most) return false;
-    Point3 way = distance.gradient;
     if (std::abs(distance.value) <= kOnSurface) {
       // An edge of the tool sweeps a surface of its own, which is only told from the material's side.
-      normal = -1.0 * nearby.at(place + kIntoMaterial * way).gradient;
-      break;
+      normal = -1.0 * nearby.at(place + kIntoMaterial * distance.gradient).gradient;
+      return true;
     }
-    normal = -1.0 * way;
-    for (int axis = 0; axis < 3; ++axis)
-      if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
+    if (from == From::material && distance.value < -kShallow * most) {
+      place = place + (kInwards * most - distance.value) * inwards;
+      continue;
+    }
+    const Point3 way = freed(distance.gradient, fixed);
     const double gain = dot(way, way);
     if (gain < kLeastGain) return false;
     place = place - (distance.value / gain) * way;
   }
-  return distance(place, from) <= most && dot(normal, outwards) >= kSameSide * length(outwards);
+  return false;
+}
+
+}  // namespace
+
+bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
+                    Point3& place, Point3& normal) {
+  const Point3 begin = place;
+  const Point3 inwards = (-1.0 / length(outwards)) * freed(outwards, fixed);
+  // What is cut away by several sweeps is deeper than any of them tells; then from the material's side.
+  for (const From from : {From::either_side, From::material}) {
+    place = begin;
+    if (find_surface(nearby, from, most, inwards, fixed, place, normal) && distance(place, begin) <= most &&
+        dot(normal, outwards) >= kSameSide * length(outwards))
+      return true;
+  }
+  return false;
 }
 
 /// The stock's own surface: of a block its side that faces nearly so, else the triangle's plane.

@@ -104,7 +104,9 @@ Distance Nearby::at(Point3 place) const {
   }
   for (const Other& other : others_) {
     if (other.low - moved > nearest.value) break;
-    take(distance_to(*other.sweep, tools_[other.sweep->tool], place, 2.0 * reach_));
+    const ToolDistance& tool = tools_[other.sweep->tool];
+    if (bounds_of_distance(*other.sweep, tool, place, 2.0 * reach_).low >= nearest.value) continue;
+    take(distance_to(*other.sweep, tool, place, 2.0 * reach_, nearest.value));
   }
   return nearest;
 }
