@@ -122,11 +122,11 @@ bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
     if (std::abs(distance.value) > most) return false;
     if (std::abs(distance.value) <= kOnSurface) {
       // An edge of the tool sweeps a surface of its own, which is only told from the material's side.
-      normal = -1.0 * nearby.at(place + kIntoMaterial * distance.gradient).gradient;
+      normal = -1.0 * nearby.at(place + kIntoMaterial * inwards).gradient;
       return true;
     }
     if (from == From::material && distance.value < -kShallow * most) {
-      place = place + (kInwards * most - distance.value) * inwards;
+      place = place + (kInwards * most - distance.value) * freed(inwards, fixed);
       continue;
     }
     const Point3 way = freed(distance.gradient, fixed);
@@ -142,7 +142,7 @@ bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
 bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
                     Point3& place, Point3& normal) {
   const Point3 begin = place;
-  const Point3 inwards = (-1.0 / length(outwards)) * freed(outwards, fixed);
+  const Point3 inwards = (-1.0 / length(outwards)) * outwards;
   // What is cut away by several sweeps is deeper than any of them tells; then from the material's side.
   for (const From from : {From::either_side, From::material}) {
     place = begin;
