@@ -280,8 +280,16 @@ BENCHMARK(Keyhole100k)
 BENCHMARK(Random100k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
     benchmark::kMillisecond);
-BENCHMARK(ReliefExactMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(KeyholeExactMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(ReliefExactMesh)
+    ->Args({100})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(KeyholeExactMesh)
+    ->Args({100})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(ReliefMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 
 BENCHMARK(LiveEdit)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -5,9 +5,9 @@
 #include "bindings.h"
 #include "simulation_result.h"
 
+#include "kerf/exact_mesh.h"
 #include "kerf/files.h"
 #include "kerf/image_files.h"
-#include "kerf/exact_mesh.h"
 #include "kerf/mesh_files.h"
 #include "kerf/number.h"
 #include "kerf/simulate.h"
@@ -48,7 +48,8 @@ py::tuple mesh_arrays(const Result& result, bool sharp) {
     const py::gil_scoped_release release;
     mesh = extract_mesh(result.simulation.workpiece.grid(), &progress);
     if (sharp)
-      sharpen_mesh(mesh, result.simulation.workpiece, *result.path, *result.tools, result.stock, {}, &progress);
+      sharpen_mesh(mesh, result.simulation.workpiece, *result.path, *result.tools, result.stock, {},
+                   &progress);
   }
   progress.rethrow();
   return mesh_tuple(mesh);
@@ -83,7 +84,9 @@ py::tuple mesh_tuple(const Mesh& mesh) {
                         to_array(mesh.step, "uint32", 1));
 }
 
-void bind_simulation(py::module_& m) {
+namespace {
+
+void bind_result(py::module_& m) {
   py::class_<Result>(m, "Simulation", "What a toolpath left of the stock. Made by `simulate`.")
       .def("__repr__",
            [](const Result& r) {
@@ -138,6 +141,12 @@ Returns
 tuple of ndarray
     Points (n, 3) float32 in mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.
 )");
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& m) {
+  bind_result(m);
   m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(),
         py::arg("resolution") = 0.0, py::arg("threads") = 0,
         R"(Cut a toolpath out of a stock.

@@ -58,7 +58,8 @@ class EdgeSplitter {
   const SweepsByTile& sweeps_;
   std::vector<bool> bends_;
   unsigned threads_;
-  std::vector<Spot> spots_;  // edges: the corner that an edge begins at, in the triangle where it goes upwards
+  std::vector<Spot>
+      spots_;  // edges: the corner that an edge begins at, in the triangle where it goes upwards
   std::vector<Found> found_;
   std::uint32_t first_new_ = 0;  // vertex: edges between older ones have been looked at
 };

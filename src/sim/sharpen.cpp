@@ -1,5 +1,5 @@
-// Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and the
-// vertex goes to where the planes meet; then once more from there with places much nearer to it.
+// Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and
+// the vertex goes to where the planes meet; then once more from there with places much nearer to it.
 #include "sim/sharpen.h"
 
 #include <algorithm>
@@ -11,12 +11,12 @@ namespace kerf::sim {
 namespace {
 
 // All in pitches.
-constexpr double kFirstLook = 0.45;   // from the vertex: within the square of its corner
-constexpr double kSecondLook = 0.1;   // from its new place: curves are planes there
+constexpr double kFirstLook = 0.45;  // from the vertex: within the square of its corner
+constexpr double kSecondLook = 0.1;  // from its new place: curves are planes there
 constexpr double kHalfSquare = 0.5;
 constexpr double kMostMoved = 1.2;
 constexpr double kMostRefined = 0.25;
-constexpr double kMissed = 0.02;      // a new place that is further off all surfaces is none
+constexpr double kMissed = 0.02;  // a new place that is further off all surfaces is none
 
 /// Places closer to a surface are on it, mm: a hundredth of what single precision of a mesh tells.
 constexpr double kOnSurface = 1e-8;
@@ -47,8 +47,7 @@ constexpr double kOnBlock = 1e-5;
 
 // ---- fans
 
-Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new)
-    : mesh_(mesh), low_(low) {
+Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new) : mesh_(mesh), low_(low) {
   std::vector<bool> wanted(mesh.positions.size() / 3, first_new == 0);
   for (std::size_t k = 0; first_new > 0 && k < mesh.triangles.size(); k += 3) {
     const std::uint32_t* c = mesh.triangles.data() + k;
@@ -66,8 +65,7 @@ void Fans::gather(const std::vector<bool>& wanted) {
   triangle_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
   for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
-    if (wanted[mesh_.triangles[k]])
-      triangle_[next[mesh_.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
+    if (wanted[mesh_.triangles[k]]) triangle_[next[mesh_.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
 }
 
 void Fans::find_normals(const std::vector<bool>& wanted, unsigned threads) {
@@ -191,8 +189,7 @@ void Placer::fix_axes(std::uint32_t vertex, Point3 from) {
     fixed = axis < 2 && (is_low || is_high);
     if (axis < 2 || (!is_low && !is_high)) continue;
     fans_.around(vertex, [&](std::uint32_t triangle) {
-      if (fans_.step(triangle) == kStockSurface && std::abs(fans_.normal(triangle).z) > 0.999)
-        fixed = true;
+      if (fans_.step(triangle) == kStockSurface && std::abs(fans_.normal(triangle).z) > 0.999) fixed = true;
     });
   }
 }

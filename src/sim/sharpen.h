@@ -72,8 +72,7 @@ class Placer {
   void add_stock_plane(Point3 from, Point3 normal);
   void find_samples(std::uint32_t vertex, Point3 from);
   bool put_on_surface(Sample& sample, Point3 outwards) const {
-    return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, {}, sample.at,
-                               sample.normal);
+    return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, {}, sample.at, sample.normal);
   }
   bool is_smooth(std::uint32_t vertex, Point3& outwards) const;
   bool is_flat_enough() const;
@@ -91,8 +90,8 @@ class Placer {
   double pitch_, tolerance_;
   bool is_block_;
   const Nearby* nearby_ = nullptr;
-  Point3 corner_;     // of the columns, whose square the vertex stays in; in plan
-  Fixed fixed_{};     // axes along which it stays
+  Point3 corner_;                 // of the columns, whose square the vertex stays in; in plan
+  Fixed fixed_{};                 // axes along which it stays
   std::vector<Sample> samples_;   // on surfaces that were cut
   std::vector<Sample> of_stock_;  // on the stock's own
 };

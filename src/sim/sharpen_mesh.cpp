@@ -164,8 +164,7 @@ void Sharpener::settle(MeshState& before) {
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<std::uint32_t> back;
     for (std::size_t t = 0; t < mesh_.step.size(); ++t)
-      if (is_folded(t, before))
-        back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
+      if (is_folded(t, before)) back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
     if (back.empty()) return;
     for (const std::uint32_t v : back)
       std::copy_n(before.positions.begin() + 3 * std::ptrdiff_t{v}, 3,
@@ -198,8 +197,7 @@ bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, 
   Diagnostics said_before;
   std::optional<sim::Setup> setup = sim::set_up(path, tools, stock, of_simulation, said_before);
   if (!setup || mesh.triangles.empty()) return true;  // nothing was cut
-  return sim::Sharpener(mesh, workpiece.body(), path, std::move(setup->survey), tools,
-                        options, progress)
+  return sim::Sharpener(mesh, workpiece.body(), path, std::move(setup->survey), tools, options, progress)
       .run();
 }
 

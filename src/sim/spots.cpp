@@ -21,8 +21,8 @@ constexpr std::uint32_t kNotYet = 0xffffffffu;
 
 bool comes_before(const Sweep* a, const Sweep* b) {
   const auto key = [](const Sweep* sweep) {
-    return std::tuple(!is_level(*sweep), is_level(*sweep) ? sweep->tool : 0, is_level(*sweep) ? sweep->z : 0.0,
-                      sweep);
+    return std::tuple(!is_level(*sweep), is_level(*sweep) ? sweep->tool : 0,
+                      is_level(*sweep) ? sweep->z : 0.0, sweep);
   };
   return key(a) < key(b);
 }
@@ -179,7 +179,9 @@ const Nearby& Around::of_columns(Point3 place) {
   of_columns_.clear();
   const std::vector<std::uint32_t>& list = sweeps_.of_tile_[spot_.tile];
   for (const std::uint32_t step : steps_) {
-    const auto before = [&](std::uint32_t n, std::uint32_t wanted) { return sweeps_.sweeps_[n].step < wanted; };
+    const auto before = [&](std::uint32_t n, std::uint32_t wanted) {
+      return sweeps_.sweeps_[n].step < wanted;
+    };
     for (auto at = std::lower_bound(list.begin(), list.end(), step, before);
          at != list.end() && sweeps_.sweeps_[*at].step == step; ++at)
       of_columns_.push_back(&sweeps_.sweeps_[*at]);

@@ -76,9 +76,9 @@ class Looker {
   bool is_plunge_;
 };
 
-/// The lowest place of a piece of the path at whose ends the distance falls towards its inside. The distance to
-/// a convex piece of a tool is a convex function along a line: it is above its tangents, and where those meet
-/// is the bottom of a kink; the bottom of a curve is where the slopes say.
+/// The lowest place of a piece of the path at whose ends the distance falls towards its inside. The distance
+/// to a convex piece of a tool is a convex function along a line: it is above its tangents, and where those
+/// meet is the bottom of a kink; the bottom of a curve is where the slopes say.
 Distance Looker::between(Span span, Look first, Look last, double enough) const {
   for (int n = 0; n < kMostLooks; ++n) {
     const double width = span.last - span.first, bend = last.along - first.along;

@@ -87,8 +87,7 @@ bool ToolDistance::is_inside(double rho, double z) const {
 void ToolDistance::look_at_line(const Piece& piece, double rho, double z, Nearest& nearest) {
   const double dr = piece.r1 - piece.r0, dz = piece.z1 - piece.z0;
   const double length2 = dr * dr + dz * dz;
-  const double share =
-      std::clamp(((rho - piece.r0) * dr + (z - piece.z0) * dz) / length2, 0.0, 1.0);
+  const double share = std::clamp(((rho - piece.r0) * dr + (z - piece.z0) * dz) / length2, 0.0, 1.0);
   if (!nearest.take(rho, z, piece.r0 + share * dr, piece.z0 + share * dz)) return;
   const double length = std::sqrt(length2);
   nearest.normal_r = dz / length;

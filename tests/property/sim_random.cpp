@@ -180,8 +180,7 @@ std::string unsound(const Mesh& mesh, const Simulation& result, double pitch, do
 
 std::string unsound_mesh(const Job& job, const Simulation& result, Strays& strays) {
   const Mesh rough = extract_mesh(result.workpiece.grid());
-  if (std::string problem = unsound(rough, result, job.pitch, strays.rough); !problem.empty())
-    return problem;
+  if (std::string problem = unsound(rough, result, job.pitch, strays.rough); !problem.empty()) return problem;
   std::array<Mesh, 2> sharp{rough, rough};
   for (const unsigned n : {0u, 1u}) {
     SharpenOptions options;
@@ -223,9 +222,10 @@ int main(int argc, char** argv) {
     std::fputs(fmt::format("seed {}: {}\n", seed + static_cast<std::uint64_t>(k), problem).c_str(), stdout);
   }
   std::fputs(fmt::format("{} jobs from seed {}, {} failed\n", count, seed, failed).c_str(), stdout);
-  std::fputs(fmt::format("volumes of the meshes stray by {:.4g} mm3 in all, of the sharpened ones by {:.4g}\n",
-                         strays.rough, strays.sharp)
-                 .c_str(),
-             stdout);
+  std::fputs(
+      fmt::format("volumes of the meshes stray by {:.4g} mm3 in all, of the sharpened ones by {:.4g}\n",
+                  strays.rough, strays.sharp)
+          .c_str(),
+      stdout);
   return failed == 0 ? 0 : 1;
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kSamples = 150;  // of each kind and job
 
 // What the mesh keeps at columns of 0.1 mm, see docs/decisions/0006-mesh.md: as the columns have it, where
 // walls stand between columns and edges are right to about half a pitch, and sharpened.
-constexpr double kSurfaceLimit = 0.018;     // mm
+constexpr double kSurfaceLimit = 0.018;  // mm
 constexpr double kEdgeLimit = 1.1 * kPitch;
 constexpr double kSharpSurfaceLimit = 0.01;
 // Of tools without a sharp flank that move on one level: the reference leaves scallops of its own elsewhere.
@@ -143,7 +143,8 @@ class MeshOfSweeps : public testing::TestWithParam<std::size_t> {};
 
 void print(const char* what, const NamedProfile& tool, const Motion& motion, const MeshErrors& errors) {
   std::printf(
-      "%s mesh, error in um  %-14s %-14s surface: largest %7.2f  99th percentile %7.2f  edges: largest %6.1f  "
+      "%s mesh, error in um  %-14s %-14s surface: largest %7.2f  99th percentile %7.2f  edges: largest %6.1f "
+      " "
       "99th percentile %6.1f\n",
       what, tool.name.c_str(), motion.name.c_str(), errors.surfaces.largest * 1000,
       errors.surfaces.percentile_99 * 1000, errors.edges.largest * 1000, errors.edges.percentile_99 * 1000);
