@@ -129,14 +129,17 @@ Point2 nearest_in_plan(const Sweep& sweep, Point2 place) {
     return {sweep.x + t * sweep.ux, sweep.y + t * sweep.uy};
   }
   const double far = std::sqrt(dx * dx + dy * dy);
-  double angle = std::atan2(sweep.ux * dy - sweep.uy * dx, sweep.ux * dx + sweep.uy * dy);
+  const double c = std::cos(sweep.turn), s = std::sin(sweep.turn);
+  // Seen from the begin, counted in the arc's own sense: left of it, and left of its end.
+  const double way = sweep.turn < 0.0 ? -1.0 : 1.0;
+  const double along = sweep.ux * dx + sweep.uy * dy, across = way * (sweep.ux * dy - sweep.uy * dx);
+  const bool after_begin = across >= 0.0, before_end = way * s * along - c * across >= 0.0;
   const double turn = std::abs(sweep.turn);
-  if (sweep.turn < 0.0) angle = -angle;
-  if (angle < 0.0) angle += 2.0 * std::numbers::pi;
-  if (angle <= turn && far > 0.0)
+  const bool between = turn >= 2.0 * std::numbers::pi ||
+                       (turn <= std::numbers::pi ? after_begin && before_end : after_begin || before_end);
+  if (between && far > 0.0)
     return {sweep.x + dx / far * sweep.radius, sweep.y + dy / far * sweep.radius};
   // Beyond the arc: whichever end is nearer.
-  const double c = std::cos(sweep.turn), s = std::sin(sweep.turn);
   const Point2 begin{sweep.x + sweep.radius * sweep.ux, sweep.y + sweep.radius * sweep.uy};
   const Point2 end{sweep.x + sweep.radius * (c * sweep.ux - s * sweep.uy),
                    sweep.y + sweep.radius * (s * sweep.ux + c * sweep.uy)};

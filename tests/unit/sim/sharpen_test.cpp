@@ -5,6 +5,7 @@
 
 #include "jobs.h"
 #include "sim/quadric.h"
+#include "sim/sweep_distance.h"
 #include "sim/tool_distance.h"
 
 #include "kerf/exact_mesh.h"
@@ -49,6 +50,30 @@ TEST(ToolDistance, NeverGrowsFasterThanThePlaceMoves) {
         EXPECT_NEAR(away, 1e-6, 1e-9) << each.name << " at " << r0 << " " << z0;
       }
     }
+  }
+}
+
+TEST(SweepDistance, TheNearestPlaceOfAnArcIsOnIt) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi), at(-9.0, 9.0);
+  for (int n = 0; n < 3000; ++n) {
+    sim::Sweep arc;
+    arc.is_arc = true;
+    arc.radius = 5.0;
+    const double begin = angle(random);
+    arc.ux = std::cos(begin);
+    arc.uy = std::sin(begin);
+    arc.turn = 2.0 * angle(random);
+    const Point2 place{at(random), at(random)};
+    double least = 1e9;
+    constexpr int kParts = 2000;
+    for (int k = 0; k <= kParts; ++k) {
+      const double a = begin + arc.turn * k / kParts;
+      least = std::min(least, distance(place, {5.0 * std::cos(a), 5.0 * std::sin(a)}));
+    }
+    const double found = distance(place, sim::nearest_in_plan(arc, place));
+    EXPECT_LE(found, least + 1e-9) << n;
+    EXPECT_GE(found, least - 5.0 * std::abs(arc.turn) / kParts) << n;
   }
 }
 
