@@ -254,6 +254,19 @@ void show_written(Console& console, const std::vector<OutputFile>& files) {
   for (const OutputFile& file : files) console.summary(fmt::format("wrote    {}", file.path));
 }
 
+namespace {
+
+/// Whether anybody can see how the columns stand: in a mesh, and in a picture where they are larger than its
+/// pixels.
+bool shows_columns(const std::vector<OutputFile>& surfaces, const Workpiece& workpiece, const View& view) {
+  const auto is_mesh = [](const OutputFile& file) { return !file.is_picture(); };
+  if (std::any_of(surfaces.begin(), surfaces.end(), is_mesh)) return true;
+  const Point3 size = workpiece.bounds().size();
+  return workpiece.pitch().mm() * std::min(view.width, view.height) > std::max(size.x, size.y);
+}
+
+}  // namespace
+
 bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
                    const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
   std::vector<OutputFile> surfaces;
@@ -270,7 +283,8 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
   Mesh mesh = extract_mesh(simulation.workpiece.grid(), options, &progress);
-  if (progress.stop_requested() ||
+  if (progress.stop_requested()) return false;
+  if (shows_columns(surfaces, simulation.workpiece, view) &&
       !sharpen_mesh(mesh, simulation.workpiece, job.program.path, job.tools, *job.stock, {}, &progress))
     return false;
   return write_surface(surfaces, job.program, mesh, hazards, view, set, diagnostics, progress);
