@@ -49,7 +49,7 @@ class Nearby {
     double x, y, ux, uy, length;
   };
   std::vector<const Sweep*> level_;
-  std::vector<Line> lines_;  // of level_
+  std::vector<Line> lines_;        // of level_
   std::vector<Other> others_;      // the nearest first
   std::vector<double> distances_;  // in plan, squared
 };

@@ -137,8 +137,7 @@ Point2 nearest_in_plan(const Sweep& sweep, Point2 place) {
   const double turn = std::abs(sweep.turn);
   const bool between = turn >= 2.0 * std::numbers::pi ||
                        (turn <= std::numbers::pi ? after_begin && before_end : after_begin || before_end);
-  if (between && far > 0.0)
-    return {sweep.x + dx / far * sweep.radius, sweep.y + dy / far * sweep.radius};
+  if (between && far > 0.0) return {sweep.x + dx / far * sweep.radius, sweep.y + dy / far * sweep.radius};
   // Beyond the arc: whichever end is nearer.
   const Point2 begin{sweep.x + sweep.radius * sweep.ux, sweep.y + sweep.radius * sweep.uy};
   const Point2 end{sweep.x + sweep.radius * (c * sweep.ux - s * sweep.uy),

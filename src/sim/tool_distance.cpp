@@ -65,7 +65,8 @@ bool ToolDistance::goes_on(const Piece& before, const Piece& next) {
 void ToolDistance::add_region(const std::vector<Knot>& knots) {
   if (knots.size() < 2) return;
   const auto add = [&](const Knot& a, const Knot& b) {
-    if ((a.r == b.r && a.z == b.z) || a.z >= kAboveAll) return;  // nothing is ever near the end of what holds it
+    if ((a.r == b.r && a.z == b.z) || a.z >= kAboveAll)
+      return;  // nothing is ever near the end of what holds it
     Piece piece = piece_between(a, b);
     if (!pieces_.empty() && goes_on(pieces_.back(), piece)) {
       piece.r0 = pieces_.back().r0;
