@@ -165,12 +165,23 @@ struct MeshCheck {
 };
 MeshCheck check_mesh(const Mesh& mesh);
 
-/// From where a picture is taken.
+/// Where a picture cuts the part open: the side of a plane that is nearer to the viewer is left out, and
+/// where the plane goes through material its face is drawn in kSectionColour, without light and shade.
+struct Section {
+  Plane plane = Plane::yz;  // it is parallel to
+  double at = 0.0;          // mm along the third axis, work coordinates
+};
+inline constexpr std::array<std::uint8_t, 3> kSectionColour{247, 226, 92};  // sRGB
+
+/// From where a picture is taken, and where it cuts the part open.
 struct View {
   Angle azimuth = degrees(-35);     // about Z; 0 looks along +Y from the front
   Angle elevation = degrees(50);    // above the horizon; 90 looks straight down
   int width = 1600, height = 1000;  // pixels
+  std::optional<Section> section = {};
 };
+/// Whether the face of a section can be seen from there; a view along the plane sees no more than its edge.
+bool faces(const View& view, const Section& section);
 /// "top", "front", "back", "left", "right", "iso", or nothing.
 std::optional<View> named_view(std::string_view name);
 
