@@ -17,6 +17,7 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
+#include "kerf/mesh_check.h"
 #include "kerf/progress.h"
 #include "kerf/stock.h"
 #include "kerf/stock_body.h"
@@ -157,13 +158,13 @@ struct MeshOptions {
 Mesh extract_mesh(const ColumnGrid& columns, Progress* progress = nullptr);
 Mesh extract_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress = nullptr);
 
-/// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
-/// opposite directions (0 for a sound mesh).
-struct MeshCheck {
-  Volume volume;
-  std::size_t bad_edges = 0;
-};
 MeshCheck check_mesh(const Mesh& mesh);
+
+/// What the mesh of columns should hold: their volume, within a tolerance that the walls' area, the pitch and
+/// the merging tell (docs/decisions/0006-mesh.md).
+VolumeRange mesh_volume(const ColumnGrid& columns, const MeshOptions& options = {});
+/// To be asked before a mesh is written, see mesh_check.h.
+bool verify_mesh(const Mesh& mesh, const VolumeRange& volume, Diagnostics& diagnostics);
 
 /// Where a picture cuts the part open: the side of a plane that is nearer to the viewer is left out, and
 /// where the plane goes through material its face is drawn in kSectionColour, without light and shade.

@@ -41,10 +41,14 @@ Result run(const Toolpath& path, const Stock* stock, const std::optional<ToolTab
 
 py::tuple mesh_arrays(const Result& result) {
   Mesh mesh;
+  Diagnostics diagnostics;
   {
     const py::gil_scoped_release release;
-    mesh = extract_mesh(result.simulation.workpiece.grid());
+    const ColumnGrid columns = result.simulation.workpiece.grid();
+    mesh = extract_mesh(columns);
+    verify_mesh(mesh, mesh_volume(columns), diagnostics);
   }
+  raise_or_warn(diagnostics);
   return mesh_tuple(mesh);
 }
 

@@ -272,8 +272,11 @@ std::vector<std::uint8_t> colour_groups(const Toolpath& path,
 }
 
 bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& program, const Mesh& mesh,
-                   const std::vector<std::uint32_t>& hazard_steps, const View& view, OutputSet& set,
-                   Diagnostics& diagnostics, Progress& progress) {
+                   const VolumeRange& volume, const std::vector<std::uint32_t>& hazard_steps,
+                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
+  const auto is_mesh = [](const OutputFile& file) { return file.mesh.has_value(); };
+  if (std::any_of(files.begin(), files.end(), is_mesh) && !verify_mesh(mesh, volume, diagnostics))
+    return false;
   const Colouring colours = colours_of(mesh, program.path, hazard_steps);
   progress.phase("writing");
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -329,9 +332,11 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const std::vector<std::uint32_t> hazards = steps_of(simulation.hazards);
   const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
-  const Mesh mesh = extract_mesh(simulation.workpiece.grid(), options, &progress);
+  const ColumnGrid columns = simulation.workpiece.grid();
+  const Mesh mesh = extract_mesh(columns, options, &progress);
   if (progress.stop_requested()) return false;
-  return write_surface(surfaces, job.program, mesh, hazards, view, set, diagnostics, progress);
+  return write_surface(surfaces, job.program, mesh, mesh_volume(columns, options), hazards, view, set,
+                       diagnostics, progress);
 }
 
 }  // namespace kerf::app

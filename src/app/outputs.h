@@ -50,10 +50,11 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
 /// False, with an error, where the section of a picture does not go through what is drawn.
 bool section_meets(const Mesh& mesh, const View& view, Diagnostics& diagnostics);
 
-/// Writes a surface into `set`, as meshes and pictures; what the steps of hazards have made is red.
+/// Writes a surface into `set`, as meshes, which are verified before, and pictures; what the steps of hazards
+/// have made is red.
 bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& program, const Mesh& mesh,
-                   const std::vector<std::uint32_t>& hazard_steps, const View& view, OutputSet& set,
-                   Diagnostics& diagnostics, Progress& progress);
+                   const VolumeRange& volume, const std::vector<std::uint32_t>& hazard_steps,
+                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress);
 /// The steps of hazards of any kind.
 template <class Hazards>
 std::vector<std::uint32_t> steps_of(const Hazards& hazards) {
