@@ -1,5 +1,5 @@
 // A small job from end to end: the text of gcodepreview's template (448 moves of 13 tools, the given case) is
-// read, simulated at the resolution the block chooses, meshed, verified and made a GLB.
+// read, simulated at the resolution the block chooses, meshed, sharpened, verified and made a GLB.
 //
 // The peers' figures: the same job's solid by Manifold, quick to slow as its hulls are told, in seconds; by
 // OpenSCAD it takes over half an hour.
@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 
+#include "kerf/exact_mesh.h"
 #include "kerf/gcode.h"
 #include "kerf/mesh_files.h"
 #include "kerf/simulate.h"
@@ -77,9 +78,13 @@ std::string made_glb(const std::string& text, Stopwatch& watch, std::size_t& tri
   const std::vector<std::uint8_t> one_group(program.path.size(), 0);
   const MeshOptions options{.tolerance = mm(0.002), .step_groups = one_group};
   const ColumnGrid columns = result->workpiece.grid();
-  const Mesh mesh = extract_mesh(columns, options);
+  Mesh mesh = extract_mesh(columns, options);
   watch.lap("mesh_cpu_s");
-  if (!verify_mesh(mesh, mesh_volume(columns, options), diagnostics)) return {};
+  const SharpenOptions sharp;
+  if (!sharpen_mesh(mesh, result->workpiece, program.path, built_in_tools(), stock, sharp)) return {};
+  watch.lap("sharpen_cpu_s");
+  const VolumeRange volume = mesh_volume(columns, {.tolerance = options.tolerance + sharp.tolerance});
+  if (!verify_mesh(mesh, volume, diagnostics)) return {};
   watch.lap("verify_cpu_s");
   triangles = mesh.step.size();
   MeshView view;

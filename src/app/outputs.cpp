@@ -10,6 +10,7 @@
 #include <set>
 #include <unistd.h>
 
+#include "kerf/exact_mesh.h"
 #include "kerf/image_files.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
@@ -333,10 +334,12 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
   const ColumnGrid columns = simulation.workpiece.grid();
-  const Mesh mesh = extract_mesh(columns, options, &progress);
-  if (progress.stop_requested()) return false;
-  return write_surface(surfaces, job.program, mesh, mesh_volume(columns, options), hazards, view, set,
-                       diagnostics, progress);
+  Mesh mesh = extract_mesh(columns, options, &progress);
+  if (progress.stop_requested() ||
+      !sharpen_mesh(mesh, simulation.workpiece, job.program.path, job.tools, *job.stock, {}, &progress))
+    return false;
+  const VolumeRange volume = mesh_volume(columns, {.tolerance = kMeshTolerance + SharpenOptions().tolerance});
+  return write_surface(surfaces, job.program, mesh, volume, hazards, view, set, diagnostics, progress);
 }
 
 }  // namespace kerf::app
