@@ -43,15 +43,20 @@ Result run(const Toolpath& path, const Stock* stock, const std::optional<ToolTab
 
 py::tuple mesh_arrays(const Result& result, bool sharp) {
   Mesh mesh;
+  Diagnostics diagnostics;
   SignalProgress progress;
   {
     const py::gil_scoped_release release;
-    mesh = extract_mesh(result.simulation.workpiece.grid(), &progress);
+    const ColumnGrid columns = result.simulation.workpiece.grid();
+    mesh = extract_mesh(columns, &progress);
     if (sharp)
       sharpen_mesh(mesh, result.simulation.workpiece, *result.path, *result.tools, result.stock, {},
                    &progress);
+    if (!progress.stop_requested())
+      verify_mesh(mesh, mesh_volume(columns, {.tolerance = SharpenOptions().tolerance}), diagnostics);
   }
   progress.rethrow();
+  raise_or_warn(diagnostics);
   return mesh_tuple(mesh);
 }
 
