@@ -166,9 +166,10 @@ void Sharpener::settle(MeshState& before) {
     for (std::size_t t = 0; t < mesh_.step.size(); ++t)
       if (is_folded(t, before)) back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
     if (back.empty()) return;
-    for (const std::uint32_t v : back)
-      std::copy_n(before.positions.begin() + 3 * std::ptrdiff_t{v}, 3,
-                  mesh_.positions.begin() + 3 * std::ptrdiff_t{v});
+    for (const std::uint32_t v : back) {
+      const auto first = static_cast<std::ptrdiff_t>(std::size_t{3} * v);
+      std::copy_n(before.positions.begin() + first, 3, mesh_.positions.begin() + first);
+    }
   }
 }
 
