@@ -59,7 +59,7 @@ HWY_INLINE bool is_quick_ball(const TileJob& job, const Sweep& sweep) {
 
 /// Whether the columns of a tile are a pitch apart and stand on the floor.
 HWY_INLINE bool is_plain(const TileJob& job) {
-  return job.weights == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
+  return job.points == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
 }
 
 HWY_INLINE void prepare_ball(BallSweep& ball, const View& w, const LaneCap& cap, const Field& field,

@@ -26,16 +26,18 @@ struct Blocks {
 HWY_INLINE Blocks square_of_blocks(Real x, Real y, Real step, Real half) {
   return {x + load(kColumn) * step, y + load(kRow) * step, half};
 }
+HWY_INLINE Blocks blocks_of(const PointTile::Squares& squares) {
+  return {load(squares.x), load(squares.y), load(squares.half)};
+}
 HWY_INLINE Blocks supers_of(const TileJob& job) {
-  if (const PointPlaces* p = job.points) return {load(p->super_x), load(p->super_y), load(p->super_half)};
+  if (job.points != nullptr) return blocks_of(job.points->around_supers);
   const Real pitch = job.field->step[1];
   return square_of_blocks(7.5f * pitch, 7.5f * pitch, 16 * pitch, 7.5f * pitch);
 }
 HWY_INLINE Blocks micros_of(const TileJob& job, int super) {
   const Field& field = *job.field;
   const Real pitch = field.step[1];
-  if (const PointPlaces* p = job.points)
-    return {load(p->x + super * kSupers), load(p->y + super * kSupers), 0.5f * pitch};
+  if (job.points != nullptr) return blocks_of(job.points->around_micros[super]);
   return square_of_blocks(field.step[(super & 3) * 16] + 1.5f * pitch,
                           field.step[(super >> 2) * 16] + 1.5f * pitch, 4 * pitch, 1.5f * pitch);
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "sim/block_contact.h"
@@ -67,6 +68,7 @@ class Run {
   void meet_tile(std::size_t tile, TileJob job);
   void note_block_contacts(const Batch& batch);
   void take_over(const CutBatch& batch);
+  double all_removed() const;  // length of column
 
   Workpiece::Body& body_;
   const Toolpath& path_;
@@ -140,21 +142,24 @@ std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
 
 bool Run::refine_walls() {
   if (stopped_) return false;
-  const std::vector<WallColumns> found = find_walls(body_, threads_);
+  const std::vector<WallSquares> found = find_walls(body_, threads_);
   if (found.empty()) return false;
   if (progress_ != nullptr) progress_->phase("measuring walls");
-  double excess = 0.0;
+  std::size_t squares = 0;
+  for (const WallSquares& walls : found) squares += walls.squares.size();
+  const double before = all_removed();
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
-    WallGroup group(body_, found, next, threads_);
+    WallGroup group(body_, cutter_, found, points_of_square(squares), next, threads_);
     walls_ = &group;
     send_all(&group.tiles());
-    excess += group.excess();
     walls_ = nullptr;
   }
-  if (!stopped_) body_.wall_volume = excess * body_.pitch * body_.pitch;
+  if (!stopped_) body_.wall_volume = (before - all_removed()) * body_.pitch * body_.pitch;
   report(progress_, 1.0);
   return !stopped_;
 }
+
+double Run::all_removed() const { return std::accumulate(removed_.begin(), removed_.end(), 0.0); }
 
 void Run::tell_removed(Simulation& result) const {
   const double area = body_.pitch * body_.pitch;

@@ -57,8 +57,8 @@ bool is_full(const Workpiece::Body& body, int column, int row, int columns, int 
 
 }  // namespace
 
-void refresh_bounds(Tile& tile) {
-  for (int micro = 0; micro < kMicros; ++micro) {
+void refresh_bounds(Tile& tile, int micros) {
+  for (int micro = 0; micro < micros; ++micro) {
     Real highest = 0.0f, lowest = kFar;
     if (tile.chain[micro] < 0) {
       highest = *std::max_element(tile.top[micro].v, tile.top[micro].v + kLanes);
@@ -81,8 +81,8 @@ void refresh_bounds(Tile& tile) {
   }
 }
 
-void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int micro) {
-  for (int lane = 0; lane < kLanes; ++lane) put_column(body.start->column(i, j), body, tile, micro, lane);
+void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int micro, int lane) {
+  put_column(body.start->column(i, j), body, tile, micro, lane);
 }
 
 void fill_start_tile(const Workpiece::Body& body, std::size_t number, Tile& tile) {

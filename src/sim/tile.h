@@ -70,6 +70,16 @@ constexpr int lane_index(int x, int y) {
   return (super * kSupers + micro) * kLanes + (y & 3) * 4 + (x & 3);
 }
 
+/// Place of a column in its tile, from its lane_index.
+struct Place {
+  int x, y;
+};
+constexpr Place place_of(int index) {
+  const int super = index >> 8, micro = (index >> 4) & 15, lane = index & 15;
+  return {(super & 3) * 16 + (micro & 3) * 4 + (lane & 3),
+          (super >> 2) * 16 + (micro >> 2) * 4 + (lane >> 2)};
+}
+
 /// What is left above the gap in an interval that a sweep has split.
 struct Remnant {
   int lane = 0;
@@ -84,6 +94,8 @@ constexpr int row_of(int micro) { return (micro >> 6) * 16 + (micro >> 2 & 3) * 
 struct Tile {
   /// All columns full up to `height`, but for those beyond `columns_x` and `columns_y`, which do not exist.
   Tile(Real height, int columns_x, int columns_y);
+  /// The columns of the first micros full; the others are never to be met.
+  Tile(Real height, int micros);
 
   Lanes top[kMicros];  // tops of columns that stand on the floor, 0 where cut away; unused in a micro with a
                        // chain

@@ -1,9 +1,10 @@
-// Columns that a wall goes through, counted at more than their centre.
+// Squares between columns that a wall goes through, counted at more than their corners.
 //
 // A column says what there is at its centre. Where its surroundings are smooth that is also the mean over its
-// square, but a wall that goes through the square is known by the centre to half a pitch only. So after the
-// cutting those columns are looked for and cut once more, by all sweeps and the same kernels, as 16 points
-// each. The mean over the points goes into the volumes: into those of the steps, which the kernels count, and
+// square, but a wall is known by the centres to half a pitch only. So after the cutting those squares are
+// looked for that have four neighbouring columns' centres as corners and a wall between some of them, and
+// points in them are cut by all sweeps and the same kernels. The mean over the points goes into the volumes,
+// in place of what the quarters of the four columns say: into those of the steps, which the kernels count, and
 // into Workpiece::Body::wall_volume. The columns themselves stay as they are.
 //
 // So that each step's part of a column is replaced too, the column's centre is cut anew beside the points,
@@ -14,45 +15,52 @@
 #include <memory>
 #include <vector>
 
-#include "sim/kernels.h"
+#include "sim/cutter.h"
 #include "sim/tile.h"
 
 namespace kerf::sim {
 
-/// The columns of a tile, by lane_index, that walls go through.
-struct WallColumns {
+/// A square between columns, by its place in a tile: from column x to the next one, from row y to the next. At
+/// the block's border -1, or the last column or row, stands for the half of a square that is left there.
+struct Square {
+  std::int8_t x, y;
+};
+
+/// The squares of a tile that walls go through, and how many quarters of the columns in it, by lane_index, such
+/// squares take.
+struct WallSquares {
+  struct Quarters {
+    std::uint16_t column;
+    std::uint16_t count;
+  };
   std::uint32_t tile = 0;
-  std::vector<std::uint16_t> columns;
+  std::vector<Square> squares;
+  std::vector<Quarters> quarters;
 };
 
 /// In order of tiles. There are never more than the workpiece can afford: of too many those with the lowest
 /// steps are left out.
-std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned threads);
+std::vector<WallSquares> find_walls(const Workpiece::Body& body, unsigned threads);
 
-/// The columns at the walls of one tile.
+/// How many points a square is given, of that many squares in all.
+int points_of_square(std::size_t squares);
+
+/// The walls of one tile.
 class WallTile {
  public:
   struct Part {
-    explicit Part(Real height) : tile(height, kTileColumns, kTileColumns) {}
+    Part(Real height, int micros) : tile(height, micros) {}
     Tile tile;
-    PointPlaces points{};
-    std::vector<Real> weights;
+    PointTile points;
   };
   using Parts = BlockStore<Part>;
-  WallTile(const Workpiece::Body& body, const WallColumns& walls, Parts& store);
+  WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls, int points_each,
+           Parts& store);
 
-  /// Cuts with the sweeps of the job, whose tile, shares and weights are replaced.
+  /// Cuts with the sweeps of the job, whose tile and shares are replaced.
   void cut(TileJob job);
-  /// Length of the columns' material by their points less that by their centres, border columns by their
-  /// shares, mm.
-  double excess() const;
 
  private:
-  void add_point_column(Part& part, const Workpiece::Body& body, std::uint32_t tile, int number,
-                        int lane) const;
-
-  Tile centres_;
-  std::vector<Real> centre_weights_;
   std::vector<Parts::Pointer> parts_;
 };
 
@@ -60,15 +68,13 @@ class WallTile {
 class WallGroup {
  public:
   /// Takes from `found`, from number `next` on, which is moved on.
-  WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next,
-            unsigned threads);
+  WallGroup(const Workpiece::Body& body, const Cutter& cutter, const std::vector<WallSquares>& found,
+            int points_each, std::size_t& next, unsigned threads);
 
   const std::vector<bool>& tiles() const { return wanted_; }
   void cut(std::size_t tile, const TileJob& job) { walls_[place_[tile]]->cut(job); }
-  double excess() const;
 
  private:
-  unsigned threads_;
   std::vector<bool> wanted_;
   std::vector<std::uint32_t> place_;  // of a tile in walls_
   WallTile::Parts parts_;

@@ -31,6 +31,20 @@ Tile::Tile(Real height, int columns_x, int columns_y) {
   }
 }
 
+Tile::Tile(Real height, int micros) {
+  std::fill_n(top[0].v, micros * kLanes, height);
+  std::fill_n(top_step[0], micros * kLanes, kStockSurface);
+  std::fill_n(micro_top, kMicros, -kFar);
+  std::fill_n(micro_top, micros, height);
+  std::fill_n(micro_bottom, kMicros, kFar);
+  std::fill_n(micro_bottom, micros, 0.0f);
+  std::fill_n(chain, kMicros, -1);
+  for (int super = 0; super < kSupers; ++super) {
+    super_top[super] = *std::max_element(micro_top + super * kSupers, micro_top + (super + 1) * kSupers);
+    super_bottom[super] = 0.0f;
+  }
+}
+
 Slot& Tile::add_slot(int micro) {
   const auto number = static_cast<std::int32_t>(slots.size());
   std::int32_t* link = &chain[micro];
