@@ -88,8 +88,8 @@ struct TileJob {
 
 void cut_tile(const TileJob& job);
 
-/// Lengths of material of the columns of a tile and of a ring around it.
-inline constexpr int kRing = 2;
+/// Lengths of material of the columns of a tile and of a ring of micros around it.
+inline constexpr int kRing = 4;
 inline constexpr int kWindow = kTileColumns + 2 * kRing;
 using WindowLengths = Real[kWindow][kWindow];
 

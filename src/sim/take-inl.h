@@ -41,15 +41,37 @@ HWY_INLINE Mask take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Re
   return meets & ~bottom & ~top;
 }
 
-/// Finds the highest and lowest material of a micro with a chain again.
+/// Columns that stand on the floor again need no chain: most undercut ones lose what is above the gap soon.
+HWY_NOINLINE void stand_again(Tile& tile, int micro) {
+  Vector top;
+  Ids step = all_ids(kStockSurface);
+  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
+    const Slot& slot = tile.slots[static_cast<std::size_t>(k)];
+    const Mask here = load(slot.low) == 0;
+    top = select(here, load(slot.high), top);
+    step = select(here, load_ids(slot.high_step), step);
+  }
+  store(top, tile.top[micro]);
+  store_ids(step, tile.top_step[micro]);
+  tile.drop_chain(micro);
+}
+
+/// Finds the highest and lowest material of a micro with a chain again, and whether it still needs one: not if
+/// every column has one run of material, which stands on the floor.
 HWY_INLINE void update_bounds(Tile& tile, int micro) {
   Vector high = -kFar, low = kFar;
+  Mask floats = no_lane(), stands = no_lane();
   for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
-    high = higher_of(high, load(tile.slots[static_cast<std::size_t>(k)].high));
-    low = lower_of(low, load(tile.slots[static_cast<std::size_t>(k)].low));
+    const Vector slot_high = load(tile.slots[static_cast<std::size_t>(k)].high);
+    const Vector slot_low = load(tile.slots[static_cast<std::size_t>(k)].low);
+    high = higher_of(high, slot_high);
+    low = lower_of(low, slot_low);
+    floats = floats | ((slot_low > 0) & (slot_low < slot_high));
+    stands = stands | (slot_low == 0);
   }
   tile.micro_top[micro] = highest_of(high);
   tile.micro_bottom[micro] = lowest_of(low);
+  if (!any(floats | ~stands)) stand_again(tile, micro);
 }
 
 /// What is left above the gaps in intervals that a sweep has split, one a column.

@@ -35,7 +35,7 @@ struct Slot {
   Lanes low, high;
   alignas(64) std::uint32_t low_step[kLanes];
   alignas(64) std::uint32_t high_step[kLanes];
-  std::int32_t next = -1;  // slot of the same chain
+  std::int32_t next = -1;  // slot of the same chain, or of those that are free
 };
 
 /// Slots by number. They never move, and no slot is copied as their number grows.
@@ -106,9 +106,12 @@ struct Tile {
   alignas(64) Real super_bottom[kSupers];
   std::int32_t chain[kMicros];  // first slot, or -1
   Slots slots;
+  std::int32_t free_slot = -1;  // first of those that no chain has any more
 
   /// Gives a micro a chain, if it has none yet.
   void make_chain(int micro);
+  /// Takes a micro's chain away: its columns stand on the floor again, and tell so in `top` and `top_step`.
+  void drop_chain(int micro);
   /// Adds an empty slot to the end of a micro's chain.
   Slot& add_slot(int micro);
   /// Puts an interval into a free place of its column.

@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "sim/parallel.h"
@@ -33,27 +34,6 @@ constexpr int kAhead = 8;
 
 constexpr int kGrades = 32;
 
-/// Length of material of a column.
-Real length_in(const Tile& tile, int index) {
-  const int micro = index / kLanes, lane = index % kLanes;
-  if (tile.chain[micro] < 0) return tile.top[micro][lane];
-  Real length = 0;
-  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
-    const Slot& slot = tile.slots[static_cast<std::size_t>(k)];
-    if (slot.high[lane] > slot.low[lane]) length += slot.high[lane] - slot.low[lane];
-  }
-  return length;
-}
-
-Real length_at(const Workpiece::Body& body, int i, int j) {
-  i = std::clamp(i, 0, body.nx - 1);  // beyond the block it goes on as at its border
-  j = std::clamp(j, 0, body.ny - 1);
-  const auto tile = static_cast<std::size_t>(j / kTileColumns) * static_cast<std::size_t>(body.tiles_x) +
-                    static_cast<std::size_t>(i / kTileColumns);
-  if (!body.tiles[tile]) return body.height;
-  return length_in(*body.tiles[tile], lane_index(i % kTileColumns, j % kTileColumns));
-}
-
 /// A square that a wall may go through, and how high the highest step on its edges is, graded by powers of two
 /// of the least that counts.
 struct Candidate {
@@ -63,8 +43,17 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
-/// Squares from -1 to the last column or row.
-constexpr int kSquares = kTileColumns + 1;
+/// Squares by number: that of the column at its low corner, four times, and which of its corners lie before the
+/// tile. So sixteen in a row lie close together.
+constexpr int kSquares = 4 * kMicros * kLanes;
+int number_of(int x, int y) {
+  return 4 * lane_index(std::max(x, 0), std::max(y, 0)) + (x < 0 ? 1 : 0) + (y < 0 ? 2 : 0);
+}
+Square square_of(int number) {
+  const Place place = place_of(number / 4);
+  return {static_cast<std::int8_t>((number & 1) != 0 ? -1 : place.x),
+          static_cast<std::int8_t>((number & 2) != 0 ? -1 : place.y)};
+}
 
 /// The steps around the columns of one tile.
 class Window {
@@ -74,16 +63,19 @@ class Window {
 
  private:
   bool untouched(int tile_x, int tile_y) const;
-  void read(int column, int row, const Tile* tile);
+  void read(const Tile* tile);
+  void read_micro(int column, int row);
+  void go_on_at_borders();
   void note(int x, int y, int grade);
 
   const Workpiece::Body& body_;
   StepRules rules_;
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0, rows_ = 0;            // of the tile
+  int first_column_ = 0, first_row_ = 0;  // where it begins
   WindowLengths length_;
-  std::int8_t grade_[kSquares][kSquares];  // by row and column from -1 on; -1: no wall
+  std::int8_t grade_[kSquares];  // by number, of those that are noted
+  std::array<std::uint64_t, kSquares / 64> noted_{};
   std::vector<ColumnStep> steps_;
-  std::vector<Square> noted_;
 };
 
 Window::Window(const Workpiece::Body& body) : body_(body) {
@@ -94,7 +86,6 @@ Window::Window(const Workpiece::Body& body) : body_(body) {
   rules_.per_least = 1 / (kLeastStep * pitch);
   rules_.per_least_level = 1 / std::max(kLeastLevelStep * pitch, body.same_height);
   rules_.same_height = body.same_height;
-  std::fill_n(grade_[0], kSquares * kSquares, std::int8_t{-1});
 }
 
 bool Window::untouched(int tile_x, int tile_y) const {
@@ -106,38 +97,63 @@ bool Window::untouched(int tile_x, int tile_y) const {
   return true;
 }
 
-void Window::read(int column, int row, const Tile* tile) {
-  for (int y = 0; y < kWindow; ++y) {
-    const bool inside = tile != nullptr && y >= kRing && y < kRing + rows_;
-    for (int x = 0; x < kWindow; ++x) {
-      if (inside && x == kRing) x += columns_;
-      if (x < kWindow) length_[y][x] = length_at(body_, column + x - kRing, row + y - kRing);
-    }
+/// Reads the lengths of the micro that has a column in its corner.
+void Window::read_micro(int column, int row) {
+  const std::size_t number = static_cast<std::size_t>((row + first_row_) / kTileColumns) *
+                                 static_cast<std::size_t>(body_.tiles_x) +
+                             static_cast<std::size_t>((column + first_column_) / kTileColumns);
+  const Tile* tile = body_.tiles[number].get();
+  const int x = column & (kTileColumns - 1), y = row & (kTileColumns - 1);
+  Lanes lengths;
+  if (tile != nullptr) {
+    tile->lengths(lane_index(x, y) / kLanes, lengths);
+  } else {
+    std::fill_n(lengths.v, kLanes, body_.height);
   }
-  if (tile == nullptr) return;
+  for (int k = 0; k < 4; ++k)
+    std::memcpy(&length_[row + kRing + k][column + kRing], lengths.v + 4 * k, 4 * sizeof(Real));
+}
+
+/// Beyond the block's borders it goes on as at them.
+void Window::go_on_at_borders() {
+  const int left = std::max(-first_column_, -kRing) + kRing, low = std::max(-first_row_, -kRing) + kRing;
+  const int right = std::min(body_.nx - first_column_ + kRing, kWindow) - 1;
+  const int high = std::min(body_.ny - first_row_ + kRing, kWindow) - 1;
+  for (int y = low; y <= high; ++y) {
+    std::fill(length_[y], length_[y] + left, length_[y][left]);
+    std::fill(length_[y] + right + 1, length_[y] + kWindow, length_[y][right]);
+  }
+  for (int y = 0; y < low; ++y) std::copy_n(length_[low], kWindow, length_[y]);
+  for (int y = high + 1; y < kWindow; ++y) std::copy_n(length_[high], kWindow, length_[y]);
+}
+
+/// Reads the lengths of a tile and of what is around it.
+void Window::read(const Tile* tile) {
+  const auto read_if_any = [&](int column, int row) {
+    const int i = column + first_column_, j = row + first_row_;
+    if (i >= 0 && j >= 0 && i < body_.nx && j < body_.ny) read_micro(column, row);
+  };
   for (int micro = 0; micro < kMicros; ++micro) {
-    const Place place = place_of(micro * kLanes);
-    if (place.x >= columns_ || place.y >= rows_) continue;
-    Lanes lengths;
-    tile->fetch(micro + kAhead);
-    tile->lengths(micro, lengths);
-    const int across = std::min(columns_ - place.x, 4);
-    for (int y = 0; y < std::min(rows_ - place.y, 4); ++y)
-      for (int x = 0; x < across; ++x) length_[place.y + y + kRing][place.x + x + kRing] = lengths[4 * y + x];
+    if (tile != nullptr) tile->fetch(micro + kAhead);
+    read_if_any(column_of(micro), row_of(micro));
   }
+  for (int k = -kRing; k <= kTileColumns; k += 4) {
+    read_if_any(k, -kRing);
+    read_if_any(k, kTileColumns);
+    read_if_any(-kRing, k);
+    read_if_any(kTileColumns, k);
+  }
+  go_on_at_borders();
 }
 
 void Window::note(int x, int y, int grade) {
   if (x < -1 || y < -1 || x >= columns_ || y >= rows_) return;
-  std::int8_t& noted = grade_[y + 1][x + 1];
-  if (noted < 0) noted_.push_back({static_cast<std::int8_t>(x), static_cast<std::int8_t>(y)});
-  noted = static_cast<std::int8_t>(std::max<int>(noted, grade));
-}
-
-/// Neighbours follow each other, so that sixteen in a row lie close together.
-int order_of(Square square) {
-  const int beyond = (square.x < 0 ? 1 : 0) + (square.y < 0 ? 2 : 0);
-  return 4 * lane_index(std::max<int>(square.x, 0), std::max<int>(square.y, 0)) + beyond;
+  const int number = number_of(x, y);
+  std::uint64_t& noted = noted_[static_cast<std::size_t>(number / 64)];
+  const std::uint64_t bit = std::uint64_t{1} << (number % 64);
+  if ((noted & bit) == 0) grade_[number] = 0;
+  noted |= bit;
+  grade_[number] = static_cast<std::int8_t>(std::max<int>(grade_[number], grade));
 }
 
 Candidates Window::look(std::size_t tile) {
@@ -146,21 +162,27 @@ Candidates Window::look(std::size_t tile) {
   if (!body_.tiles[tile] && untouched(tile_x, tile_y)) return {};
   columns_ = body_.columns_x_of(tile);
   rows_ = body_.columns_y_of(tile);
-  read(tile_x * kTileColumns, tile_y * kTileColumns, body_.tiles[tile].get());
+  first_column_ = tile_x * kTileColumns;
+  first_row_ = tile_y * kTileColumns;
+  read(body_.tiles[tile].get());
   steps_.clear();
   find_steps(rules_, length_, steps_);
-  noted_.clear();
+  noted_ = {};
   for (const ColumnStep& step : steps_) {
     const int x = step.x - kRing, y = step.y - kRing;
     const int grade = std::min(std::ilogb(step.excess), kGrades - 1);
     note(x, y, grade);
     note(step.way == StepWay::along_x ? x : x - 1, step.way == StepWay::along_x ? y - 1 : y, grade);
   }
-  std::sort(noted_.begin(), noted_.end(), [](Square a, Square b) { return order_of(a) < order_of(b); });
   Candidates found;
-  for (const Square square : noted_)
-    found.push_back({square, grade_[square.y + 1][square.x + 1],
-                     (square.x >= 0 || tile_x == 0) && (square.y >= 0 || tile_y == 0)});
+  for (std::size_t word = 0; word < noted_.size(); ++word) {
+    for (std::uint64_t rest = noted_[word]; rest != 0; rest &= rest - 1) {
+      const int number = static_cast<int>(word * 64) + __builtin_ctzll(rest);
+      const Square square = square_of(number);
+      found.push_back(
+          {square, grade_[number], (square.x >= 0 || tile_x == 0) && (square.y >= 0 || tile_y == 0)});
+    }
+  }
   return found;
 }
 
@@ -180,22 +202,26 @@ int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, con
 WallSquares squares_above(int grade, const Candidates& candidates, const Workpiece::Body& body,
                           std::size_t tile) {
   WallSquares walls{static_cast<std::uint32_t>(tile), {}, {}};
+  if (candidates.empty()) return walls;
   const int columns = body.columns_x_of(tile), rows = body.columns_y_of(tile);
-  std::vector<std::uint16_t> corners;
+  std::uint8_t quarters[kMicros][kLanes] = {};
+  bool any_in[kMicros] = {};
   for (const Candidate& candidate : candidates) {
     if (candidate.grade < grade) continue;
     const Square square = candidate.square;
     if (candidate.is_own) walls.squares.push_back(square);
-    for (int y = std::max<int>(square.y, 0); y <= std::min(square.y + 1, rows - 1); ++y)
-      for (int x = std::max<int>(square.x, 0); x <= std::min(square.x + 1, columns - 1); ++x)
-        corners.push_back(static_cast<std::uint16_t>(lane_index(x, y)));
+    for (int y = std::max<int>(square.y, 0); y <= std::min(square.y + 1, rows - 1); ++y) {
+      for (int x = std::max<int>(square.x, 0); x <= std::min(square.x + 1, columns - 1); ++x) {
+        const int column = lane_index(x, y);
+        ++quarters[column / kLanes][column % kLanes];
+        any_in[column / kLanes] = true;
+      }
+    }
   }
-  std::sort(corners.begin(), corners.end());
-  for (const std::uint16_t corner : corners) {
-    if (walls.quarters.empty() || walls.quarters.back().column != corner)
-      walls.quarters.push_back({corner, 0});
-    ++walls.quarters.back().count;
-  }
+  for (int micro = 0; micro < kMicros; ++micro)
+    for (int lane = 0; lane < kLanes && any_in[micro]; ++lane)
+      if (const std::uint8_t count = quarters[micro][lane]; count != 0)
+        walls.quarters.push_back({static_cast<std::uint16_t>(micro * kLanes + lane), count});
   return walls;
 }
 

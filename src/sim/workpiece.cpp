@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/start.h"
 #include "sim/tile.h"
@@ -46,16 +47,18 @@ Tile::Tile(Real height, int micros) {
 }
 
 Slot& Tile::add_slot(int micro) {
-  const auto number = static_cast<std::int32_t>(slots.size());
   std::int32_t* link = &chain[micro];
   while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
-  *link = number;
-  Slot& slot = slots.add();
+  const bool is_new = free_slot < 0;
+  *link = is_new ? static_cast<std::int32_t>(slots.size()) : free_slot;
+  Slot& slot = is_new ? slots.add() : slots[static_cast<std::size_t>(free_slot)];
+  if (!is_new) free_slot = slot.next;
   for (int i = 0; i < kLanes; ++i) {
     slot.low[i] = kFar;
     slot.high[i] = -kFar;
     slot.low_step[i] = slot.high_step[i] = kStockSurface;
   }
+  slot.next = -1;
   return slot;
 }
 
@@ -82,6 +85,13 @@ void Tile::make_chain(int micro) {
     slot.high[i] = top[micro][i];
   }
   std::copy_n(top_step[micro], kLanes, slot.high_step);  // of columns cut through as well, see cut_through
+}
+
+void Tile::drop_chain(int micro) {
+  std::int32_t* link = &chain[micro];
+  while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
+  *link = free_slot;
+  free_slot = std::exchange(chain[micro], -1);
 }
 
 void Tile::lengths(int micro, Lanes& out) const {
