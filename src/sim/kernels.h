@@ -59,13 +59,13 @@ inline Real even_place(const Field& field, int column) {
 struct PointMicro {
   Lanes x, y, weight;
 };
-/// A tile whose columns are points, with squares around the micros and supers.
+/// A tile whose columns are points, with boxes around the micros and supers.
 struct PointTile {
-  struct Squares {
-    Lanes x, y, half;
+  struct Boxes {
+    Lanes x, y, half_x, half_y;
   };
   std::vector<PointMicro> micros;  // kMicros at most; what is above is not to be cut
-  Squares around_micros[kSupers], around_supers;
+  Boxes around_micros[kSupers], around_supers;
 };
 
 /// The work on one tile: sweeps `list[0]` to `list[count - 1]` in time order.

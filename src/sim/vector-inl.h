@@ -119,6 +119,11 @@ HWY_INLINE Mask operator==(Vector a, Vector b) {
   for (int p = 0; p < kParts; ++p) m.part[p] = hn::Eq(a.part[p], b.part[p]);
   return m;
 }
+HWY_INLINE Mask operator==(Ids a, Ids b) {
+  Mask m;
+  for (int p = 0; p < kParts; ++p) m.part[p] = hn::RebindMask(RealTag(), hn::Eq(a.part[p], b.part[p]));
+  return m;
+}
 HWY_INLINE Mask operator>(Vector a, Vector b) { return b < a; }
 HWY_INLINE Mask operator>=(Vector a, Vector b) { return b <= a; }
 HWY_INLINE Mask operator&(Mask a, Mask b) {

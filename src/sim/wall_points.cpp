@@ -96,37 +96,40 @@ void PointList::fill_up() {
   }
 }
 
-/// Lanes of squares around points, or around squares.
+/// What encloses points, or boxes.
 struct Extent {
   Real x0 = kFar, x1 = -kFar, y0 = kFar, y1 = -kFar;
-  void add(Real x, Real y, Real half) {
-    x0 = std::min(x0, x - half);
-    x1 = std::max(x1, x + half);
-    y0 = std::min(y0, y - half);
-    y1 = std::max(y1, y + half);
+  void add(const Extent& more) {
+    x0 = std::min(x0, more.x0);
+    x1 = std::max(x1, more.x1);
+    y0 = std::min(y0, more.y0);
+    y1 = std::max(y1, more.y1);
   }
-  void tell(PointTile::Squares& squares, int lane) const {
-    squares.x[lane] = 0.5f * (x0 + x1);
-    squares.y[lane] = 0.5f * (y0 + y1);
-    squares.half[lane] = 0.5f * std::max(x1 - x0, y1 - y0);
+  void tell(PointTile::Boxes& boxes, int lane) const {
+    boxes.x[lane] = 0.5f * (x0 + x1);
+    boxes.y[lane] = 0.5f * (y0 + y1);
+    boxes.half_x[lane] = 0.5f * (x1 - x0);
+    boxes.half_y[lane] = 0.5f * (y1 - y0);
   }
 };
+Extent extent_of(const PointMicro& points) {
+  const auto [x0, x1] = std::minmax_element(points.x.v, points.x.v + kLanes);
+  const auto [y0, y1] = std::minmax_element(points.y.v, points.y.v + kLanes);
+  return {*x0, *x1, *y0, *y1};
+}
 
-/// Finds the squares around micros and supers; those without any stay at 0.
+/// Finds the boxes around micros and supers; those without any stay at 0.
 void enclose(PointTile& tile) {
   tile.around_supers = {};
   for (std::size_t first = 0; first < tile.micros.size(); first += kSupers) {
     const std::size_t super = first / kSupers, end = std::min(first + kSupers, tile.micros.size());
-    PointTile::Squares& squares = tile.around_micros[super];
-    squares = {};
+    PointTile::Boxes& boxes = tile.around_micros[super];
+    boxes = {};
     Extent all;
     for (std::size_t micro = first; micro < end; ++micro) {
-      const auto inner = static_cast<int>(micro - first);
-      Extent extent;
-      for (int lane = 0; lane < kLanes; ++lane)
-        extent.add(tile.micros[micro].x[lane], tile.micros[micro].y[lane], 0.0f);
-      extent.tell(squares, inner);
-      all.add(squares.x[inner], squares.y[inner], squares.half[inner]);
+      const Extent extent = extent_of(tile.micros[micro]);
+      extent.tell(boxes, static_cast<int>(micro - first));
+      all.add(extent);
     }
     all.tell(tile.around_supers, static_cast<int>(super));
   }
