@@ -6,62 +6,21 @@
 // Heights are mm above the block's floor, single precision.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "sim/blocks.h"
+#include "sim/slots.h"
 
 #include "kerf/simulate.h"
 
 namespace kerf::sim {
 
-using Real = float;
-inline constexpr int kLanes = 16;        // columns of a micro
 inline constexpr int kMicros = 256;      // micros of a tile
 inline constexpr int kSupers = 16;       // supers of a tile, and micros of a super
 inline constexpr int kTileColumns = 64;  // columns along a tile's edge
 inline constexpr Real kFar = 1e30f;      // stands for "no material here", safe to calculate with
-
-struct alignas(64) Lanes {
-  Real v[kLanes];
-  Real& operator[](int i) { return v[i]; }
-  Real operator[](int i) const { return v[i]; }
-};
-
-/// One interval in each column of a micro; low above high where there is none.
-struct Slot {
-  Lanes low, high;
-  alignas(64) std::uint32_t low_step[kLanes];
-  alignas(64) std::uint32_t high_step[kLanes];
-  std::int32_t next = -1;  // slot of the same chain, or of those that are free
-};
-
-/// Slots by number. They never move, and no slot is copied as their number grows.
-class Slots {
- public:
-  Slot& operator[](std::size_t k) { return (*pages_[k / kPage])[k % kPage]; }
-  const Slot& operator[](std::size_t k) const { return (*pages_[k / kPage])[k % kPage]; }
-  Slots() = default;
-  Slots(const Slots& other) : size_(other.size_) {
-    for (const auto& page : other.pages_) pages_.push_back(std::make_unique<Page>(*page));
-  }
-  Slots(Slots&&) = default;
-  Slots& operator=(const Slots& other) { return *this = Slots(other); }
-  Slots& operator=(Slots&&) = default;
-  std::size_t size() const { return size_; }
-  Slot& add() {
-    if (size_ % kPage == 0) pages_.emplace_back(new Page);  // not cleared: add_slot does that
-    return (*this)[size_++];
-  }
-
- private:
-  static constexpr std::size_t kPage = 64;
-  using Page = std::array<Slot, kPage>;
-  std::vector<std::unique_ptr<Page>> pages_;
-  std::size_t size_ = 0;
-};
 
 /// Number of a column in its tile's arrays, from its place in the tile.
 constexpr int lane_index(int x, int y) {
@@ -93,9 +52,9 @@ constexpr int row_of(int micro) { return (micro >> 6) * 16 + (micro >> 2 & 3) * 
 
 struct Tile {
   /// All columns full up to `height`, but for those beyond `columns_x` and `columns_y`, which do not exist.
-  Tile(Real height, int columns_x, int columns_y);
+  Tile(Real height, int columns_x, int columns_y, std::shared_ptr<SlotPages> memory);
   /// The columns of the first micros full; the others are never to be met.
-  Tile(Real height, int micros);
+  Tile(Real height, int micros, std::shared_ptr<SlotPages> memory);
 
   Lanes top[kMicros];  // tops of columns that stand on the floor, 0 where cut away; unused in a micro with a
                        // chain
@@ -156,6 +115,7 @@ struct Workpiece::Body {
   /// What the columns begin with; nothing where the block begins full. Tiles that begin otherwise exist from
   /// the start.
   std::shared_ptr<const ColumnRuns> start;
+  std::shared_ptr<sim::SlotPages> slot_pages = std::make_shared<sim::SlotPages>();
   /// Tiles that nothing has touched yet do not exist.
   sim::BlockStore<sim::Tile> store;
   std::vector<sim::BlockStore<sim::Tile>::Pointer> tiles;

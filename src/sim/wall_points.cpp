@@ -156,7 +156,7 @@ void fill_part(const Workpiece::Body& body, const Point* points, WallTile::Part&
 int points_of_square(std::size_t squares) { return squares <= kManySquares ? kManyPoints : kFewPoints; }
 
 WallTile::WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls,
-                   int points_each, Parts& store) {
+                   int points_each, Parts& memory) {
   PointList list(body, walls.tile);
   for (const Square square : walls.squares) list.add_square(square, points_each);
   list.fill_up();
@@ -166,7 +166,7 @@ WallTile::WallTile(const Workpiece::Body& body, const Cutter& cutter, const Wall
   const std::size_t micros = list.points().size() / kLanes;
   for (std::size_t first = 0; first < micros; first += kMicros) {
     const std::size_t count = std::min<std::size_t>(kMicros, micros - first);
-    Part& part = *parts_.emplace_back(store.make(body.height, static_cast<int>(count)));
+    Part& part = *parts_.emplace_back(memory.store.make(body.height, static_cast<int>(count), memory.slots));
     part.points.micros.resize(count);
     fill_part(body, list.points().data() + first * kLanes, part);
   }
@@ -176,7 +176,7 @@ void WallTile::cut(TileJob job) {
   std::vector<double> removed(job.count);
   double* const sum = job.removed;
   job.removed = removed.data();
-  for (const Parts::Pointer& part : parts_) {
+  for (const auto& part : parts_) {
     job.tile = &part->tile;
     job.points = &part->points;
     cut_tile(job);

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "sim/cutter.h"
@@ -49,19 +50,24 @@ int points_of_square(std::size_t squares);
 class WallTile {
  public:
   struct Part {
-    Part(Real height, int micros) : tile(height, micros) {}
+    Part(Real height, int micros, std::shared_ptr<SlotPages> memory)
+        : tile(height, micros, std::move(memory)) {}
     Tile tile;
     PointTile points;
   };
-  using Parts = BlockStore<Part>;
+  /// Where the parts of many tiles live.
+  struct Parts {
+    BlockStore<Part> store;
+    std::shared_ptr<SlotPages> slots = std::make_shared<SlotPages>();
+  };
   WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls, int points_each,
-           Parts& store);
+           Parts& memory);
 
   /// Cuts with the sweeps of the job, whose tile and shares are replaced.
   void cut(TileJob job);
 
  private:
-  std::vector<Parts::Pointer> parts_;
+  std::vector<BlockStore<Part>::Pointer> parts_;
 };
 
 /// As many tiles' walls as are kept in memory at a time.

@@ -11,7 +11,8 @@
 namespace kerf {
 namespace sim {
 
-Tile::Tile(Real height, int columns_x, int columns_y) {
+Tile::Tile(Real height, int columns_x, int columns_y, std::shared_ptr<SlotPages> memory)
+    : slots(std::move(memory)) {
   const bool is_whole = columns_x == kTileColumns && columns_y == kTileColumns;
   const Real everywhere = is_whole ? height : 0.0f;
   std::fill_n(top[0].v, kMicros * kLanes, everywhere);
@@ -32,7 +33,7 @@ Tile::Tile(Real height, int columns_x, int columns_y) {
   }
 }
 
-Tile::Tile(Real height, int micros) {
+Tile::Tile(Real height, int micros, std::shared_ptr<SlotPages> memory) : slots(std::move(memory)) {
   std::fill_n(top[0].v, micros * kLanes, height);
   std::fill_n(top_step[0], micros * kLanes, kStockSurface);
   std::fill_n(micro_top, kMicros, -kFar);
@@ -199,12 +200,12 @@ std::uint32_t Workpiece::Body::cut_through(const sim::Tile& tile, int index) con
 }
 
 sim::Tile& Workpiece::Body::touch(std::size_t tile) {
-  if (!tiles[tile]) tiles[tile] = store.make(height, columns_x_of(tile), columns_y_of(tile));
+  if (!tiles[tile]) tiles[tile] = store.make(height, columns_x_of(tile), columns_y_of(tile), slot_pages);
   return *tiles[tile];
 }
 
 void Workpiece::Body::restore(std::size_t tile) {
-  *tiles[tile] = sim::Tile(height, columns_x_of(tile), columns_y_of(tile));
+  *tiles[tile] = sim::Tile(height, columns_x_of(tile), columns_y_of(tile), slot_pages);
   sim::fill_start_tile(*this, tile, *tiles[tile]);
 }
 
