@@ -77,40 +77,45 @@ HWY_INLINE Mask covered_before(const View& w, const MicroPlaces& places, Real ri
   return x * x + y * y < rim2;
 }
 
-/// Of one cylinder of a tool: which columns the sweeps of a group cover.
+/// Of one cylinder of a tool: the number of the sweep of a group that is the first over each column; kGroup
+/// where none is, or where the sweep before all of them has been.
 struct Cover {
   HWY_INLINE Cover() {}  // the one that the compiler makes would be for no level of processor
-  Mask new_to;           // columns that are not covered at the begin of the earliest
-  Ids first;             // number of the sweep that is there first; kGroup if none is
+  Ids first;
 };
 
 /// Finds which sweep is the first over each column, for all cylinders of a tool at once: the latest sweep
 /// first, so that the others only have to take columns over.
+template <int kPieces>
 HWY_INLINE void cover_columns(const GroupWork& work, const MicroPlaces& places, unsigned sweeps,
                               Cover* covers) {
-  const std::vector<LanePiece>& pieces = work.solid->pieces;
+  const LanePiece* pieces = work.solid->pieces.data();
   const View& earliest = work.view[__builtin_ctz(sweeps)];
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    covers[p].new_to = ~covered_before(earliest, places, pieces[p].rim2);
-    covers[p].first = all_ids(kGroup);
+  Ids first[kPieces];
+  Real rim2[kPieces];
+  for (int p = 0; p < kPieces; ++p) {
+    first[p] = all_ids(kGroup);
+    rim2[p] = pieces[p].rim2;
   }
   while (sweeps != 0) {
-    const int k = 31 - __builtin_clz(sweeps);
+    const unsigned k = 31u - static_cast<unsigned>(__builtin_clz(sweeps));
     sweeps ^= 1u << k;
     const View& w = work.view[k];
-    const Vector distance2 = path_distance2(w, w.x + places.x, w.y + places.y);
-    for (std::size_t p = 0; p < pieces.size(); ++p)
-      covers[p].first = select(distance2 < pieces[p].rim2, all_ids(static_cast<unsigned>(k)), covers[p].first);
+    const Vector distance2 = line_distance2(w, w.x + places.x, w.y + places.y);
+    for (int p = 0; p < kPieces; ++p) first[p] = select(distance2 < rim2[p], all_ids(k), first[p]);
   }
+  for (int p = 0; p < kPieces; ++p)
+    covers[p].first = select(covered_before(earliest, places, rim2[p]), all_ids(kGroup), first[p]);
 }
-
-/// One bit for each number among sixteen below 32.
-HWY_INLINE unsigned bits_for(Ids numbers) {
-  alignas(64) std::uint32_t each[kLanes];
-  store_ids(numbers, each);
-  unsigned bits = 0;
-  for (const std::uint32_t number : each) bits |= 1u << number;
-  return bits;
+HWY_INLINE void cover_all_columns(const GroupWork& work, const MicroPlaces& places, unsigned sweeps,
+                                  Cover* covers) {
+  static_assert(kFewPieces == 4);
+  switch (work.solid->pieces.size()) {
+    case 1: return cover_columns<1>(work, places, sweeps, covers);
+    case 2: return cover_columns<2>(work, places, sweeps, covers);
+    case 3: return cover_columns<3>(work, places, sweeps, covers);
+    default: return cover_columns<4>(work, places, sweeps, covers);
+  }
 }
 
 /// Cylinders that move at one height: whichever sweep is the first over a column takes all that any of them
@@ -121,11 +126,11 @@ HWY_NOINLINE void cover_micro(GroupWork& work, int micro, unsigned sweeps) {
   const Vector weight = weights_of(job, micro);
   const Real z = work.view[0].z_low;
   Cover covers[kFewPieces];
-  cover_columns(work, places_of(job, micro), sweeps, covers);
+  cover_all_columns(work, places_of(job, micro), sweeps, covers);
   for (std::size_t p = 0; p < work.solid->pieces.size(); ++p) {
     const LanePiece& piece = work.solid->pieces[p];
-    const Ids first = select(covers[p].new_to, covers[p].first, all_ids(kGroup));
-    const unsigned by = bits_for(first) & ~(1u << kGroup);
+    const Ids first = covers[p].first;
+    const unsigned by = bits_named(first) & ~(1u << kGroup);
     if (by == 0) continue;
     Ids step = all_ids(0);
     for (unsigned rest = by; rest != 0; rest &= rest - 1) {
