@@ -14,6 +14,7 @@
 #include <malloc.h>
 #endif
 
+#include "kerf/exact_mesh.h"
 #include "kerf/live.h"
 #include "kerf/simulate.h"
 
@@ -207,6 +208,26 @@ void ReliefMesh(benchmark::State& state) {
   state.counters["prototype_top_only_s"] = 0.1;
 }
 
+/// A mesh within 2 microns of what the sweeps leave, from columns made before: extraction and sharpening.
+void exact_mesh(benchmark::State& state, const Toolpath& path) {
+  SimulationOptions options;
+  options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+  Diagnostics diagnostics;
+  const auto result = simulate(path, table(), block(), options, diagnostics);
+  if (!result) return state.SkipWithError("not simulated");
+  const std::vector<std::uint8_t> one_group(path.size(), 0);
+  const MeshOptions merged{.tolerance = mm(0.002), .step_groups = one_group};
+  std::size_t triangles = 0;
+  for (auto _ : state) {
+    Mesh mesh = extract_mesh(result->workpiece.grid(), merged);
+    sharpen_mesh(mesh, result->workpiece, path, table(), block());
+    triangles = mesh.step.size();
+  }
+  state.counters["triangles"] = static_cast<double>(triangles);
+}
+void ReliefExactMesh(benchmark::State& state) { exact_mesh(state, relief(1000, 1000)); }
+void KeyholeExactMesh(benchmark::State& state) { exact_mesh(state, keyhole_slots(100000)); }
+
 /// The million moves with one of them lower, after they were cut as they were.
 void LiveEdit(benchmark::State& state) {
   LiveOptions options;
@@ -259,6 +280,8 @@ BENCHMARK(Keyhole100k)
 BENCHMARK(Random100k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
     benchmark::kMillisecond);
+BENCHMARK(ReliefExactMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(KeyholeExactMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(ReliefMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 
 BENCHMARK(LiveEdit)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -9,6 +9,7 @@
 #include <set>
 #include <unistd.h>
 
+#include "kerf/exact_mesh.h"
 #include "kerf/image_files.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
@@ -268,8 +269,10 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const std::vector<std::uint32_t> hazards = steps_of(simulation.hazards);
   const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
-  const Mesh mesh = extract_mesh(simulation.workpiece.grid(), options, &progress);
-  if (progress.stop_requested()) return false;
+  Mesh mesh = extract_mesh(simulation.workpiece.grid(), options, &progress);
+  if (progress.stop_requested() ||
+      !sharpen_mesh(mesh, simulation.workpiece, job.program.path, job.tools, *job.stock, {}, &progress))
+    return false;
   return write_surface(surfaces, job.program, mesh, hazards, view, set, diagnostics, progress);
 }
 

@@ -33,24 +33,6 @@ Piece frustum(double r0, double z0, double r1, double z1) {
   return piece;
 }
 
-struct ArcShape {
-  double r, z, radius;  // centre and radius in the (r, z) plane
-};
-
-/// The circle through two knots with the first one's bulge.
-ArcShape arc_shape(const Knot& a, const Knot& b) {
-  const double dr = b.r - a.r, dz = b.z - a.z;
-  const double chord = std::hypot(dr, dz);
-  const double bulge = a.bulge;
-  const double offset =
-      0.25 * (1.0 / bulge - bulge);  // of the centre from the chord's middle, in chords, to its left
-  ArcShape arc;
-  arc.r = 0.5 * (a.r + b.r) - offset * dz;
-  arc.z = 0.5 * (a.z + b.z) + offset * dr;
-  arc.radius = 0.25 * chord * (std::abs(bulge) + 1.0 / std::abs(bulge));
-  return arc;
-}
-
 Cap arc_cap(double flat, double height, double centre_r, double centre_z, double radius) {
   const bool on_axis = std::abs(centre_r) < kSameRadius;
   return {.curve = on_axis ? CapCurve::ball : CapCurve::torus,
@@ -187,6 +169,19 @@ void find_cull_lines(Solid& solid) {
 }
 
 }  // namespace
+
+ArcShape arc_shape(const Knot& a, const Knot& b) {
+  const double dr = b.r - a.r, dz = b.z - a.z;
+  const double chord = std::hypot(dr, dz);
+  const double bulge = a.bulge;
+  const double offset =
+      0.25 * (1.0 / bulge - bulge);  // of the centre from the chord's middle, in chords, to its left
+  ArcShape arc;
+  arc.r = 0.5 * (a.r + b.r) - offset * dz;
+  arc.z = 0.5 * (a.z + b.z) + offset * dr;
+  arc.radius = 0.25 * chord * (std::abs(bulge) + 1.0 / std::abs(bulge));
+  return arc;
+}
 
 double Cap::at(double rho) const {
   if (rho <= flat) return height;

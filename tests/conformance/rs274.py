@@ -19,8 +19,8 @@ def is_installed():
 
 
 def at_home_in(folder):
-    """The environment of an interpreter that runs in this folder.  The interpreter keeps its table of tools in a
-    file in the home folder; two that run at the same time must not share it."""
+    """The environment of an interpreter that runs in this folder.  It keeps its table of tools in a file of
+    the home folder; two that run at the same time must not share it."""
     return {**os.environ, "HOME": str(folder)}
 
 

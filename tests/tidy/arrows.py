@@ -35,7 +35,7 @@ PUBLIC = {
     "tool": ["tool.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
-    "sim": ["simulate.h", "live.h", "fixtures.h", "compare.h", "rotary.h", "print.h"],
+    "sim": ["simulate.h", "exact_mesh.h", "live.h", "fixtures.h", "compare.h", "rotary.h", "print.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "back_gcmc": ["gcmc_drawing.h"],

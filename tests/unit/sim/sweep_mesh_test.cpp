@@ -5,6 +5,8 @@
 
 #include "sweep_reference.h"
 
+#include "kerf/exact_mesh.h"
+
 namespace kerf::test {
 namespace {
 
@@ -138,7 +140,13 @@ TEST_P(MeshOfSweeps, LiesWhereTheReferenceSays) {
   for (const Motion& motion : motions()) {
     const auto result = cut(tool, motion, kPitch);
     ASSERT_TRUE(result);
-    const MeshErrors errors = errors_of(extract_mesh(result->workpiece.grid()), Remainder(tool, motion));
+    const Remainder left(tool, motion);
+    Mesh mesh = extract_mesh(result->workpiece.grid());
+    const MeshErrors rough = errors_of(mesh, left);
+    ASSERT_TRUE(sharpen_mesh(mesh, result->workpiece, path_of(motion), table_of(tool), block_of_motions()));
+    EXPECT_EQ(check_mesh(mesh).bad_edges, 0u) << motion.name;
+    const MeshErrors errors = errors_of(mesh, left);
+    std::printf("rough %7.2f %7.2f %7.2f %7.2f ", rough.surfaces.largest * 1000, rough.surfaces.percentile_99 * 1000, rough.edges.largest * 1000, rough.edges.percentile_99 * 1000);
     std::printf(
         "mesh error, um   %-14s %-14s surface: largest %7.2f  99th percentile %7.2f  edges: largest "
         "%6.1f  99th percentile %6.1f\n",

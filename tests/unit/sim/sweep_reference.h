@@ -295,16 +295,22 @@ class Remainder {
   Reference down_, along_;
 };
 
-/// The job of one motion with one tool. Its neck is like a thread: some motions go deeper than the profile is
-/// high, and nothing is to follow it there.
-inline std::optional<Simulation> cut(const NamedProfile& tool, const Motion& motion, double pitch) {
+/// The tool as number 1. Its neck is like a thread: some motions go deeper than the profile is high, and
+/// nothing is to follow it there.
+inline ToolTable table_of(const NamedProfile& tool) {
   ToolTable tools;
   Tool drawn = make_drawn(1, tool.profile);
   const double top = tool.profile.top();
   drawn.silhouette.neck = profile({{1e-4, top, 0}, {1e-4, top + 1, 0}});
   tools.set(1, drawn);
+  return tools;
+}
+inline Stock block_of_motions() { return block({0, 0, 0}, {28, 24, kTop}); }
+
+/// The job of one motion with one tool.
+inline std::optional<Simulation> cut(const NamedProfile& tool, const Motion& motion, double pitch) {
   Diagnostics diagnostics;
-  return run(path_of(motion), tools, block({0, 0, 0}, {28, 24, kTop}), pitch, diagnostics);
+  return run(path_of(motion), table_of(tool), block_of_motions(), pitch, diagnostics);
 }
 
 /// Errors over a pattern of places, mm.

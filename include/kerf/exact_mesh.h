@@ -1,0 +1,27 @@
+// Sharp edges, exact walls and surfaces for the mesh of a cut part: the columns say where surfaces are to
+// about half a pitch, the toolpath says where they are exactly.
+#pragma once
+
+#include <cstddef>
+
+#include "kerf/progress.h"
+#include "kerf/simulate.h"
+
+namespace kerf {
+
+struct SharpenOptions {
+  /// Where the middle of an edge is further than this from the surface the edge gets another vertex.
+  Length tolerance = mm(0.002);
+  unsigned threads = 0;  // 0: as many as the machine has. The mesh is the same for any number.
+};
+
+/// Moves the vertices of `mesh`, which extract_mesh has made of `workpiece`, onto what the tools of `path`
+/// really left: walls to their true place, edges to where their two surfaces meet, corners to where three do,
+/// curved surfaces to their height. No vertex leaves the square of its corner of the columns, what lies on
+/// the stock's block stays on it, and the mesh stays closed. `path`, `tools` and `stock` are those of the
+/// simulation. Surfaces of a stock that is no block, and features smaller than a pitch, stay as the columns
+/// have them. False if stopped; the mesh then is as it was. See docs/decisions/0006-mesh.md.
+bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, const ToolTable& tools,
+                  const Stock& stock, const SharpenOptions& options = {}, Progress* progress = nullptr);
+
+}  // namespace kerf

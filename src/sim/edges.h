@@ -1,0 +1,64 @@
+// Edges of a mesh that stray from the surface between their ends: long ones on steep or strongly curved
+// places, which the columns show too few points of.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "sim/sharpen.h"
+
+namespace kerf::sim {
+
+/// Positions of a mesh and where its triangles are to face, three numbers each.
+struct MeshState {
+  std::vector<float> positions, outwards;
+};
+
+/// Puts vertices on edges and parts the triangles there.
+class EdgeSplitter {
+ public:
+  /// `tolerance`: how far an edge's middle may be from the surface, mm.
+  EdgeSplitter(Mesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps, double tolerance,
+               unsigned threads);
+  /// Splits each edge that strays once. False if there was none. `straight` gets the mesh with the new
+  /// vertices in the middles of their edges.
+  template <class Stop>
+  bool split(MeshState& straight, const Stop& stop) {
+    const Fans fans(mesh_, low_, threads_);
+    find_suspects(fans);
+    found_.assign(spots_.size(), {});
+    sweeps_.visit(
+        spots_, threads_, [&](std::size_t n, Around& around) { look_at(fans, n, around); }, stop);
+    return !stop() && part(fans, straight);
+  }
+
+ private:
+  struct Found {
+    bool strays = false;
+    Point3 at;  // block frame
+  };
+  struct Ends {
+    std::uint32_t a, b;
+  };
+  Ends ends_of(std::uint32_t corner) const;
+  Point3 middle_of(const Fans& fans, std::uint32_t corner) const;
+  std::uint32_t across(const Fans& fans, std::uint32_t corner) const;
+  double bend_of(const Fans& fans, std::uint32_t corner) const;
+  void find_suspects(const Fans& fans);
+  void look_at(const Fans& fans, std::size_t n, Around& around);
+  bool part(const Fans& fans, MeshState& straight);
+  void add_vertex(Point3 at, Point3 middle, MeshState& straight);
+  void part_triangle(std::size_t triangle, const std::array<std::uint32_t, 3>& middles, MeshState& straight);
+
+  Mesh& mesh_;
+  Point3 low_, size_;
+  double pitch_, tolerance_;
+  const SweepsByTile& sweeps_;
+  unsigned threads_;
+  std::vector<Spot> spots_;  // edges: the corner that an edge begins at, in the triangle where it goes upwards
+  std::vector<Found> found_;
+  std::uint32_t first_new_ = 0;  // vertex: edges between older ones have been looked at
+};
+
+}  // namespace kerf::sim

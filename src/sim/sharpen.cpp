@@ -1,0 +1,280 @@
+// Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and the
+// vertex goes to where the planes meet; then once more from there with places much nearer to it.
+#include "sim/sharpen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/parallel.h"
+
+namespace kerf::sim {
+namespace {
+
+// All in pitches.
+constexpr double kFirstLook = 0.45;   // from the vertex: within the square of its corner
+constexpr double kSecondLook = 0.1;   // from its new place: curves are planes there
+constexpr double kHalfSquare = 0.5;
+constexpr double kMostMoved = 1.2;
+constexpr double kMostRefined = 0.25;
+constexpr double kMissed = 0.02;      // a new place that is further off all surfaces is none
+
+/// Places closer to a surface are on it, mm: a hundredth of what single precision of a mesh tells.
+constexpr double kOnSurface = 1e-8;
+/// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
+constexpr double kIntoMaterial = 1e-5;
+constexpr int kCloserLooks = 2;
+constexpr int kMostSteps = 6;  // of Newton's method; the distance is nearly linear
+/// A surface that the fixed axes leave less of its slope than this (squared) is met too far away.
+constexpr double kLeastGain = 0.05;
+/// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
+constexpr double kSameSide = 0.1;
+/// Triangles around a vertex that face so nearly the same way (cosine, 11 degrees) are one surface.
+constexpr double kSmooth = 0.98;
+/// And so nearly (1.1 degrees) one plane.
+constexpr double kOnePlane = 0.9998;
+/// Surfaces that bend less than this share of the tolerance between places are planes.
+constexpr double kFlat = 1.0;
+/// A direction in which planes pull by less than this share of the strongest tells nothing: planes that are
+/// less than 6 degrees apart are one curved surface.
+constexpr double kLeastShare = 0.003;
+/// Vertices within this of the block's sides are on them, mm.
+constexpr double kOnBlock = 1e-5;
+
+}  // namespace
+
+// ---- fans
+
+Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads) : mesh_(mesh), low_(low) {
+  const std::size_t corners = mesh.triangles.size();
+  first_.assign(mesh.positions.size() / 3 + 1, 0);
+  for (const std::uint32_t v : mesh.triangles) ++first_[v + 1];
+  for (std::size_t v = 0; v + 1 < first_.size(); ++v) first_[v + 1] += first_[v];
+  triangle_.resize(corners);
+  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
+  for (std::size_t k = 0; k < corners; ++k)
+    triangle_[next[mesh.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
+  normal_.resize(corners);
+  constexpr std::size_t kAtATime = 1 << 14;
+  const std::size_t count = corners / 3;
+  const auto work = [&](std::size_t piece) {
+    for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
+      const std::uint32_t* c = mesh.triangles.data() + 3 * t;
+      const Point3 a = point(c[0]), n = cross(point(c[1]) - a, point(c[2]) - a);
+      const double size = length(n), per_size = size > 0.0 ? 1.0 / size : 0.0;
+      for (int axis = 0; axis < 3; ++axis)
+        normal_[3 * t + static_cast<std::size_t>(axis)] = static_cast<float>(per_size * n[axis]);
+    }
+  };
+  parallel_for(threads, (count + kAtATime - 1) / kAtATime, work, [] { return false; });
+}
+
+Point3 Fans::point(std::uint32_t vertex) const {
+  const float* p = mesh_.positions.data() + std::size_t{3} * vertex;
+  return Point3{p[0], p[1], p[2]} - low_;
+}
+
+Point3 Fans::middle(std::uint32_t triangle) const {
+  const std::uint32_t* c = mesh_.triangles.data() + std::size_t{3} * triangle;
+  return (1.0 / 3.0) * (point(c[0]) + point(c[1]) + point(c[2]));
+}
+
+Point3 Fans::normal(std::uint32_t triangle) const {
+  const float* n = normal_.data() + std::size_t{3} * triangle;
+  return {n[0], n[1], n[2]};
+}
+
+// ---- where a vertex goes
+
+bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
+                    Point3& place, Point3& normal) {
+  const Point3 from = place;
+  for (int n = 0; n < kMostSteps; ++n) {
+    const Distance distance = nearby.at(place);
+    if (std::abs(distance.value) > most) return false;
+    Point3 way = distance.gradient;
+    if (std::abs(distance.value) <= kOnSurface) {
+      // An edge of the tool sweeps a surface of its own, which is only told from the material's side.
+      normal = -1.0 * nearby.at(place + kIntoMaterial * way).gradient;
+      break;
+    }
+    normal = -1.0 * way;
+    for (int axis = 0; axis < 3; ++axis)
+      if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
+    const double gain = dot(way, way);
+    if (gain < kLeastGain) return false;
+    place = place - (distance.value / gain) * way;
+  }
+  return distance(place, from) <= most && dot(normal, outwards) >= kSameSide * length(outwards);
+}
+
+/// The stock's own surface: of a block its side that faces nearly so, else the triangle's plane.
+void Placer::add_stock_plane(Point3 from, Point3 normal) {
+  if (!is_block_) return of_stock_.push_back({from, normal, normal});
+  int axis = 0;
+  for (const int other : {1, 2})
+    if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+  Sample side{from, {}, {}};
+  side.at[axis] = normal[axis] > 0.0 ? size_[axis] : 0.0;
+  side.normal[axis] = std::copysign(1.0, normal[axis]);
+  if (std::abs(side.at[axis] - from[axis]) <= kMostMoved * pitch_) of_stock_.push_back(side);
+}
+
+void Placer::find_samples(std::uint32_t vertex, Point3 from) {
+  samples_.clear();
+  of_stock_.clear();
+  fans_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = fans_.normal(triangle);
+    if (dot(normal, normal) == 0.0) return;
+    if (fans_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
+    // Of triangles in one plane one is enough.
+    for (const Sample& sample : samples_)
+      if (dot(sample.looking, normal) > kOnePlane) return;
+    const Point3 way = fans_.middle(triangle) - from;
+    const double far = length(way);
+    Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}, normal};
+    if (put_on_surface(sample, normal)) samples_.push_back(sample);
+  });
+}
+
+/// What lies on the block's sides stays there, and what lies on its top or bottom if these are left there.
+void Placer::fix_axes(std::uint32_t vertex, Point3 from) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool is_low = from[axis] <= kOnBlock, is_high = from[axis] >= size_[axis] - kOnBlock;
+    corner_[axis] = std::round(from[axis] / pitch_) * pitch_;
+    bool& fixed = fixed_[static_cast<std::size_t>(axis)];
+    fixed = axis < 2 && (is_low || is_high);
+    if (axis < 2 || (!is_low && !is_high)) continue;
+    fans_.around(vertex, [&](std::uint32_t triangle) {
+      if (fans_.step(triangle) == kStockSurface && std::abs(fans_.normal(triangle).z) > 0.999)
+        fixed = true;
+    });
+  }
+}
+
+Quadric Placer::quadric_at(Point3 from, const Fixed& fixed) const {
+  Quadric quadric;
+  for (const auto* list : {&samples_, &of_stock_})
+    for (const Sample& sample : *list) quadric.add(sample.normal, dot(sample.normal, sample.at - from));
+  for (int axis = 0; axis < 3; ++axis)
+    if (fixed[static_cast<std::size_t>(axis)]) quadric.fix(axis);
+  return quadric;
+}
+
+/// How far a place is from the planes, at most.
+double Placer::miss_of(Point3 at) const {
+  double most = 0.0;
+  for (const auto* list : {&samples_, &of_stock_})
+    for (const Sample& sample : *list) most = std::max(most, std::abs(dot(sample.normal, at - sample.at)));
+  return most;
+}
+
+/// The place in the corner's square that lies best on the planes, as far as so many directions tell. Where
+/// the nearest such place is outside, the vertex goes along the side of the square.
+Point3 Placer::solved(Point3 from, int directions) const {
+  Fixed fixed = fixed_;
+  Point3 to = from;
+  for (int n = 0; n < 3; ++n) {
+    to = from + quadric_at(from, fixed).step(directions, kLeastShare);
+    int worst = -1;
+    double most = kHalfSquare * pitch_ * (1.0 + 1e-9);
+    for (int axis = 0; axis < 2; ++axis) {
+      const double out = std::abs(to[axis] - corner_[axis]);
+      if (fixed[static_cast<std::size_t>(axis)] || out <= most) continue;
+      worst = axis;
+      most = out;
+    }
+    if (worst < 0) break;
+    from[worst] = corner_[worst] + std::copysign(kHalfSquare * pitch_, to[worst] - corner_[worst]);
+    fixed[static_cast<std::size_t>(worst)] = true;
+    to = from;
+  }
+  return to;
+}
+
+Point3 Placer::best_step(Point3 from) const {
+  for (int directions = quadric_at(from, fixed_).directions(kLeastShare); directions > 0; --directions) {
+    const Point3 to = solved(from, directions);
+    if (distance(from, to) <= kMostMoved * pitch_ && (directions == 1 || miss_of(to) <= kMissed * pitch_))
+      return to;
+  }
+  return from;
+}
+
+/// Looks for the surfaces again at places that are nearer, where curved ones are as good as planes.
+void Placer::look_closer(Point3 from) {
+  std::size_t kept = 0;
+  for (const Sample& sample : samples_) {
+    const Point3 way = sample.at - from;
+    const double far = length(way);
+    Sample nearer{far > 0.0 ? from + std::min(1.0, kSecondLook * pitch_ / far) * way : from, {}, {}};
+    if (put_on_surface(nearer, sample.normal)) samples_[kept++] = nearer;
+  }
+  samples_.resize(kept);
+}
+
+/// Whether the triangles around a vertex are those of one curved surface, and where it faces.
+bool Placer::is_smooth(std::uint32_t vertex, Point3& outwards) const {
+  Point3 sum;
+  bool stock = false, cut = false;
+  fans_.around(vertex, [&](std::uint32_t triangle) {
+    sum = sum + fans_.normal(triangle);
+    (fans_.step(triangle) == kStockSurface ? stock : cut) = true;
+  });
+  if (stock || !cut) return false;
+  const double size = length(sum);
+  if (size <= 0.0) return false;
+  outwards = (1.0 / size) * sum;
+  bool smooth = true;
+  fans_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = fans_.normal(triangle);
+    if (dot(normal, normal) > 0.0 && dot(normal, outwards) < kSmooth) smooth = false;
+  });
+  return smooth;
+}
+
+Point3 Placer::on_smooth(Point3 from, Point3 outwards) {
+  Sample sample{from, {}, {}};
+  return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, fixed_, sample.at, sample.normal)
+             ? sample.at
+             : from;
+}
+
+/// Whether the surfaces bend so little between the places that planes stand for them.
+bool Placer::is_flat_enough() const {
+  for (const Sample& one : samples_)
+    for (const Sample& other : samples_) {
+      if (dot(one.normal, other.normal) < kSmooth) continue;
+      // A circle strays from its chord by an eighth of the chord times the angle between its ends; the
+      // vertex may be as far beyond the places as they are apart.
+      if (distance(one.at, other.at) * distance(one.normal, other.normal) > kFlat * tolerance_) return false;
+    }
+  return true;
+}
+
+Point3 Placer::on_edge(std::uint32_t vertex, Point3 from) {
+  find_samples(vertex, from);
+  if (samples_.empty() && of_stock_.empty()) return from;
+  Point3 to = best_step(from);
+  for (int n = 0; n < kCloserLooks && !is_flat_enough(); ++n) {
+    look_closer(to);
+    const Point3 better = best_step(to);
+    if (distance(to, better) > kMostRefined * pitch_) break;
+    to = better;
+  }
+  const double before = std::abs(nearby_->at(from).value), after = std::abs(nearby_->at(to).value);
+  return after <= kMissed * pitch_ || after < before ? to : from;
+}
+
+Point3 Placer::place(std::uint32_t vertex, Around& around) {
+  const Point3 from = fans_.point(vertex);
+  fix_axes(vertex, from);
+  Point3 outwards;
+  if (is_smooth(vertex, outwards)) {
+    nearby_ = &around.of_columns(from);
+    return on_smooth(from, outwards);
+  }
+  nearby_ = &around.all(from);
+  return on_edge(vertex, from);
+}
+
+}  // namespace kerf::sim

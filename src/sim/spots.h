@@ -1,0 +1,139 @@
+// Places on a mesh and the sweeps that can have cut near them, tile by tile.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <tuple>
+#include <vector>
+
+#include "sim/feed.h"
+#include "sim/parallel.h"
+#include "sim/sweep_distance.h"
+#include "sim/tile.h"
+
+namespace kerf::sim {
+
+/// Sweeps in the order that Nearby wants them in: level ones of one tool at one height together.
+bool comes_before(const Sweep* a, const Sweep* b);
+
+/// What sweeps leave near a place: the material is where all distances are above 0.
+class Nearby {
+ public:
+  Nearby(const std::vector<ToolDistance>& tools, double reach) : tools_(tools), reach_(reach) {}
+  /// Those of `sweeps` (in order) that may bound the material within `reach` of a place.
+  void gather(const std::vector<const Sweep*>& sweeps, Point3 place);
+  /// To what is taken away, with the direction into the material.
+  Distance at(Point3 place) const;
+
+ private:
+  struct Level {  // sweeps of one tool at one height: level_[first] to level_[end - 1]
+    std::size_t first, end;
+    double low;  // the distance of the nearest to the place that all were gathered around
+  };
+  struct Other {
+    double low;  // not above that distance
+    const Sweep* sweep;
+  };
+  std::size_t gather_level(const std::vector<const Sweep*>& sweeps, std::size_t first);
+  Point2 nearest_of(const Level& level, Point2 place) const;
+
+  const std::vector<ToolDistance>& tools_;
+  double reach_;
+  Point3 around_;
+  std::vector<Level> levels_;
+  std::vector<const Sweep*> level_;
+  std::vector<Other> others_;      // the nearest first
+  std::vector<double> distances_;  // in plan, squared
+};
+
+/// A place that is looked at, in its tile and its block of columns there.
+struct Spot {
+  std::uint32_t tile = 0, block = 0;
+  std::uint32_t number = 0;  // whose place it is
+  bool operator<(const Spot& other) const {
+    return std::tie(tile, block, number) < std::tie(other.tile, other.block, other.number);
+  }
+};
+
+/// All sweeps of a job that come near some tiles.
+class SweepsByTile {
+ public:
+  /// `reach`: how far from a place there is something to be found, mm.
+  SweepsByTile(const Workpiece::Body& body, const std::vector<ToolDistance>& tools, double reach)
+      : body_(body), tools_(tools), reach_(reach) {}
+  /// Gathers them for the tiles of some spots. `stop` is asked now and then.
+  template <class Stop>
+  void gather(const Toolpath& path, const Survey& survey, const std::vector<Spot>& spots, const Stop& stop);
+
+  Spot spot_at(Point3 place, std::uint32_t number) const;
+  /// Calls work(n, around) for number n of the spots, which are in order, on all threads.
+  template <class Work, class Stop>
+  void visit(const std::vector<Spot>& spots, unsigned threads, const Work& work, const Stop& stop) const;
+
+ private:
+  void take(const Batch& batch);
+  friend class Around;
+
+  const Workpiece::Body& body_;
+  const std::vector<ToolDistance>& tools_;
+  double reach_;
+  std::vector<Sweep> sweeps_;
+  std::vector<std::vector<std::uint32_t>> of_tile_;
+};
+
+/// What is around the spots of one tile, one spot after the other.
+class Around {
+ public:
+  explicit Around(const SweepsByTile& sweeps) : sweeps_(sweeps), nearby_(sweeps.tools_, sweeps.reach_) {}
+  void go_to(const Spot& spot);
+  /// From all sweeps.
+  const Nearby& all(Point3 place);
+  /// From those that made the columns around a place: quicker, and as good where the surface is smooth.
+  const Nearby& of_columns(Point3 place);
+
+ private:
+  void gather_block();
+
+  const SweepsByTile& sweeps_;
+  Nearby nearby_;
+  Spot spot_;
+  bool has_block_ = false;
+  std::vector<const Sweep*> of_block_, of_columns_;
+  std::vector<Interval> intervals_;
+  std::vector<std::uint32_t> steps_;
+};
+
+template <class Stop>
+void SweepsByTile::gather(const Toolpath& path, const Survey& survey, const std::vector<Spot>& spots,
+                          const Stop& stop) {
+  std::vector<bool> wanted(body_.tiles.size(), false);
+  for (const Spot& spot : spots) wanted[spot.tile] = true;
+  of_tile_.resize(body_.tiles.size());
+  const PlanScope scope{.margin = 2.0 * reach_, .tiles = &wanted};
+  Feeder feeder(body_, path, survey,
+                {.plan = scope, .steps = {StepRange{0, path.size()}}, .hazard_depth = Length()});
+  Batch batch;
+  do {
+    feeder.fill(batch);
+    take(batch);
+  } while (!batch.is_last && !stop());
+}
+
+template <class Work, class Stop>
+void SweepsByTile::visit(const std::vector<Spot>& spots, unsigned threads, const Work& work,
+                         const Stop& stop) const {
+  std::vector<std::size_t> begin;
+  for (std::size_t n = 0; n < spots.size(); ++n)
+    if (n == 0 || spots[n].tile != spots[n - 1].tile) begin.push_back(n);
+  begin.push_back(spots.size());
+  const auto do_tile = [&](std::size_t k) {
+    Around around(*this);
+    for (std::size_t n = begin[k]; n < begin[k + 1]; ++n) {
+      around.go_to(spots[n]);
+      work(n, around);
+    }
+  };
+  parallel_for(threads, begin.size() - 1, do_tile, stop);
+}
+
+}  // namespace kerf::sim

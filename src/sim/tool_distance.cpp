@@ -1,0 +1,129 @@
+// The nearest place on the outline of half a tool, and on which side of it a place lies.
+#include "sim/tool_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/solid.h"
+
+namespace kerf::sim {
+namespace {
+
+/// Nearer to the outline than this its own normal is the direction, mm: a difference of places has none left.
+constexpr double kOnOutline = 1e-9;
+
+}  // namespace
+
+struct ToolDistance::Nearest {
+  double distance2 = std::numeric_limits<double>::infinity();
+  double r = 0.0, z = 0.0;                // the place
+  double normal_r = 0.0, normal_z = 0.0;  // of the outline there, outwards
+
+  bool take(double from_r, double from_z, double to_r, double to_z) {
+    const double dr = from_r - to_r, dz = from_z - to_z;
+    const double square = dr * dr + dz * dz;
+    if (square >= distance2) return false;
+    distance2 = square;
+    r = to_r;
+    z = to_z;
+    return true;
+  }
+};
+
+ToolDistance::ToolDistance(const Silhouette& tool) {
+  const Silhouette whole = held(tool);
+  std::vector<Knot> knots;
+  for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder}) {
+    const Profile& profile = whole.part(part);
+    if (profile.empty()) continue;
+    // Parts that stand on each other are one outline: there is no surface between them.
+    if (!knots.empty() && profile.bottom() > knots.back().z) {
+      add_region(knots);
+      knots.clear();
+    }
+    if (!knots.empty()) knots.back().bulge = 0.0;
+    knots.insert(knots.end(), profile.knots.begin(), profile.knots.end());
+    rim_ = std::max(rim_, profile.max_radius());
+  }
+  add_region(knots);
+  bottom_ = pieces_.empty() ? 0.0 : pieces_.front().z0;
+}
+
+void ToolDistance::add_region(const std::vector<Knot>& knots) {
+  if (knots.size() < 2) return;
+  const auto add = [&](const Knot& a, const Knot& b) {
+    if (a.r != b.r || a.z != b.z) pieces_.push_back(piece_between(a, b));
+  };
+  add({0.0, knots.front().z, 0.0}, knots.front());
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) add(knots[k], knots[k + 1]);
+  add({knots.back().r, knots.back().z, 0.0}, {0.0, knots.back().z, 0.0});
+}
+
+ToolDistance::Piece ToolDistance::piece_between(const Knot& a, const Knot& b) {
+  Piece piece{.r0 = a.r, .z0 = a.z, .r1 = b.r, .z1 = b.z};
+  if (a.bulge == 0.0) return piece;
+  const ArcShape arc = arc_shape(a, b);
+  piece.side = a.bulge > 0.0 ? 1.0 : -1.0;
+  piece.centre_r = arc.r;
+  piece.centre_z = arc.z;
+  piece.radius = arc.radius;
+  return piece;
+}
+
+double ToolDistance::radius_at(const Piece& piece, double z) {
+  if (piece.side == 0.0) return piece.r0 + (piece.r1 - piece.r0) * (z - piece.z0) / (piece.z1 - piece.z0);
+  const double height = z - piece.centre_z;
+  return piece.centre_r +
+         piece.side * std::sqrt(std::max(0.0, piece.radius * piece.radius - height * height));
+}
+
+bool ToolDistance::is_inside(double rho, double z) const {
+  for (const Piece& piece : pieces_)
+    if (piece.z0 <= z && z < piece.z1) return rho < radius_at(piece, z);
+  return false;
+}
+
+void ToolDistance::look_at_line(const Piece& piece, double rho, double z, Nearest& nearest) {
+  const double dr = piece.r1 - piece.r0, dz = piece.z1 - piece.z0;
+  const double length2 = dr * dr + dz * dz;
+  const double share =
+      std::clamp(((rho - piece.r0) * dr + (z - piece.z0) * dz) / length2, 0.0, 1.0);
+  if (!nearest.take(rho, z, piece.r0 + share * dr, piece.z0 + share * dz)) return;
+  const double length = std::sqrt(length2);
+  nearest.normal_r = dz / length;
+  nearest.normal_z = -dr / length;
+}
+
+void ToolDistance::look_at_arc(const Piece& piece, double rho, double z, Nearest& nearest) {
+  const double r = rho - piece.centre_r, h = z - piece.centre_z;
+  const double begin_r = piece.r0 - piece.centre_r, begin_z = piece.z0 - piece.centre_z;
+  const double end_r = piece.r1 - piece.centre_r, end_z = piece.z1 - piece.centre_z;
+  const double length = std::sqrt(r * r + h * h);
+  // No arc of a profile is longer than half a circle, as it never goes down.
+  const bool between = piece.side * (begin_r * h - begin_z * r) >= 0.0 &&
+                       piece.side * (r * end_z - h * end_r) >= 0.0 && length > 0.0;
+  const auto set_normal = [&] {
+    nearest.normal_r = piece.side * (nearest.r - piece.centre_r) / piece.radius;
+    nearest.normal_z = piece.side * (nearest.z - piece.centre_z) / piece.radius;
+  };
+  if (between) {
+    const double scale = piece.radius / length;
+    if (nearest.take(rho, z, piece.centre_r + scale * r, piece.centre_z + scale * h)) set_normal();
+    return;
+  }
+  if (nearest.take(rho, z, piece.r0, piece.z0)) set_normal();
+  if (nearest.take(rho, z, piece.r1, piece.z1)) set_normal();
+}
+
+TurnedDistance ToolDistance::at(double rho, double z) const {
+  Nearest nearest;
+  for (const Piece& piece : pieces_)
+    piece.side == 0.0 ? look_at_line(piece, rho, z, nearest) : look_at_arc(piece, rho, z, nearest);
+  const double distance = std::sqrt(nearest.distance2);
+  const double sign = is_inside(rho, z) ? -1.0 : 1.0;
+  if (distance < kOnOutline) return {sign * distance, nearest.normal_r, nearest.normal_z};
+  return {sign * distance, sign * (rho - nearest.r) / distance, sign * (z - nearest.z) / distance};
+}
+
+}  // namespace kerf::sim

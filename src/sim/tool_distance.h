@@ -1,0 +1,47 @@
+// How far a place is from a tool that stands still: what exact meshes are computed from, in double precision.
+#pragma once
+
+#include <vector>
+
+#include "kerf/tool.h"
+
+namespace kerf::sim {
+
+/// Distance to a solid of revolution, mm, negative inside, and how it changes with the distance from the axis
+/// and with the height.
+struct TurnedDistance {
+  double value = 0.0;
+  double by_r = 0.0, by_z = 0.0;
+};
+
+/// A tool and what holds it (see `held`) as the outline of its half: lines and arcs, hollow ones too.
+class ToolDistance {
+ public:
+  explicit ToolDistance(const Silhouette& tool);
+
+  /// Of a place `rho` mm from the axis and `z` mm above the tip. Moving outwards never brings a place nearer:
+  /// a level sweep is nearest where its path is nearest in plan.
+  TurnedDistance at(double rho, double z) const;
+  double rim() const { return rim_; }        // mm, the largest radius
+  double bottom() const { return bottom_; }  // mm above the tip
+
+ private:
+  /// From a knot to the next, material on the left: towards the axis on the way up.
+  struct Piece {
+    double r0 = 0.0, z0 = 0.0, r1 = 0.0, z1 = 0.0;
+    double side = 0.0;  // of an arc: 1 where it bulges away from the axis, -1 where it is hollow; else 0
+    double centre_r = 0.0, centre_z = 0.0, radius = 0.0;
+  };
+  struct Nearest;
+  void add_region(const std::vector<Knot>& knots);
+  static Piece piece_between(const Knot& a, const Knot& b);
+  static double radius_at(const Piece& piece, double z);
+  static void look_at_line(const Piece& piece, double rho, double z, Nearest& nearest);
+  static void look_at_arc(const Piece& piece, double rho, double z, Nearest& nearest);
+  bool is_inside(double rho, double z) const;
+
+  std::vector<Piece> pieces_;
+  double rim_ = 0.0, bottom_ = 0.0;
+};
+
+}  // namespace kerf::sim
