@@ -149,7 +149,7 @@ bool Run::refine_walls() {
   for (const WallSquares& walls : found) squares += walls.squares.size();
   const double before = all_removed();
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
-    WallGroup group(body_, cutter_, found, points_of_square(squares), next, threads_);
+    WallGroup group(body_, cutter_, found, squares, next, threads_);
     walls_ = &group;
     send_all(&group.tiles());
     walls_ = nullptr;

@@ -1,6 +1,7 @@
 // Counting the squares that walls go through at points of a lattice each.
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
+#include <iterator>
 
 #include "sim/parallel.h"
 #include "sim/start.h"
@@ -9,12 +10,25 @@
 namespace kerf::sim {
 namespace {
 
-/// A lattice even in every direction, as shares of a square: of 16 points and, where there are so many squares
-/// that their errors, which follow no pattern, cancel all the same, of 4.
-constexpr int kManyPoints = 16, kFewPoints = 4;
-constexpr std::size_t kManySquares = 1 << 14;
-constexpr int kMany[kManyPoints] = {0, 5, 10, 15, 4, 9, 14, 3, 8, 13, 2, 7, 12, 1, 6, 11};
-constexpr int kFew[kFewPoints] = {1, 3, 0, 2};
+/// The points of a square: a lattice that is even in every direction, with one point in each of as many columns
+/// and rows. What is told is the row of each column's point.
+struct Lattice {
+  int count;
+  int row[16];
+  std::size_t most_squares;  // for which this many are needed
+};
+/// Squares have their lattices shifted by amounts that follow no pattern, so that what all of them are off by
+/// grows with the root of their number only: of many squares few points do. Along the whole outline the error is
+/// then less than a thousandth of a pitch.
+constexpr Lattice kLattices[] = {
+    {16, {0, 5, 10, 15, 4, 9, 14, 3, 8, 13, 2, 7, 12, 1, 6, 11}, 1 << 14},
+    {4, {1, 3, 0, 2}, 1 << 16},
+    {2, {0, 1}, SIZE_MAX},
+};
+const Lattice& lattice_of(std::size_t squares) {
+  return *std::find_if(std::begin(kLattices), std::end(kLattices),
+                       [=](const Lattice& lattice) { return squares <= lattice.most_squares; });
+}
 
 /// Squares kept as points at a time; bounds the memory to about 100 MB.
 constexpr std::size_t kGroupSquares = 1 << 17;
@@ -52,7 +66,7 @@ class PointList {
         low_x_((column_ + 0.5) * body.pitch),
         low_y_((row_ + 0.5) * body.pitch) {}
 
-  void add_square(Square square, int points_each);
+  void add_square(Square square, const Lattice& lattice);
   void add_centre(const TileColumns& columns, const WallSquares::Quarters& quarters);
   /// Lets what follows begin with a new micro.
   void fill_up();
@@ -65,17 +79,17 @@ class PointList {
   std::vector<Point> points_;
 };
 
-void PointList::add_square(Square square, int points_each) {
+void PointList::add_square(Square square, const Lattice& lattice) {
+  const double count = lattice.count;
   const int i = column_ + square.x, j = row_ + square.y;
   const Point3 size = body_.bounds.size();
   const Span x{i < 0 ? 0.0 : body_.place_x(i), i + 1 < body_.nx ? body_.place_x(i + 1) : size.x};
   const Span y{j < 0 ? 0.0 : body_.place_y(j), j + 1 < body_.ny ? body_.place_y(j + 1) : size.y};
-  const auto weight = static_cast<Real>(x.length() * y.length() / (body_.pitch * body_.pitch) / points_each);
+  const auto weight = static_cast<Real>(x.length() * y.length() / (body_.pitch * body_.pitch) / count);
   const std::uint32_t bits = scrambled(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-  const int* lattice = points_each == kManyPoints ? kMany : kFew;
-  for (int k = 0; k < points_each; ++k) {
-    const double at_x = x.at(fraction(unit_share(bits) + static_cast<double>(k) / points_each));
-    const double at_y = y.at(fraction(unit_share(bits >> 16) + static_cast<double>(lattice[k]) / points_each));
+  for (int k = 0; k < lattice.count; ++k) {
+    const double at_x = x.at(fraction(unit_share(bits) + k / count));
+    const double at_y = y.at(fraction(unit_share(bits >> 16) + lattice.row[k] / count));
     points_.push_back({static_cast<Real>(at_x - low_x_), static_cast<Real>(at_y - low_y_), weight,
                        std::min(static_cast<int>(at_x / body_.pitch), body_.nx - 1),
                        std::min(static_cast<int>(at_y / body_.pitch), body_.ny - 1)});
@@ -153,12 +167,10 @@ void fill_part(const Workpiece::Body& body, const Point* points, WallTile::Part&
 
 }  // namespace
 
-int points_of_square(std::size_t squares) { return squares <= kManySquares ? kManyPoints : kFewPoints; }
-
 WallTile::WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls,
-                   int points_each, Parts& memory) {
+                   std::size_t all_squares, Parts& memory) {
   PointList list(body, walls.tile);
-  for (const Square square : walls.squares) list.add_square(square, points_each);
+  for (const Square square : walls.squares) list.add_square(square, lattice_of(all_squares));
   list.fill_up();
   const TileColumns columns = cutter.columns_of(walls.tile);
   for (const WallSquares::Quarters& quarters : walls.quarters) list.add_centre(columns, quarters);
@@ -186,7 +198,7 @@ void WallTile::cut(TileJob job) {
 }
 
 WallGroup::WallGroup(const Workpiece::Body& body, const Cutter& cutter, const std::vector<WallSquares>& found,
-                     int points_each, std::size_t& next, unsigned threads)
+                     std::size_t all_squares, std::size_t& next, unsigned threads)
     : wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
   const std::size_t first = next;
   for (std::size_t squares = 0; next < found.size() && squares < kGroupSquares; ++next) {
@@ -197,7 +209,7 @@ WallGroup::WallGroup(const Workpiece::Body& body, const Cutter& cutter, const st
   }
   walls_.resize(next - first);
   const auto make = [&](std::size_t n) {
-    walls_[n] = store_.make(body, cutter, found[first + n], points_each, parts_);
+    walls_[n] = store_.make(body, cutter, found[first + n], all_squares, parts_);
   };
   parallel_for(threads, walls_.size(), make, [] { return false; });
 }

@@ -43,9 +43,6 @@ struct WallSquares {
 /// steps are left out.
 std::vector<WallSquares> find_walls(const Workpiece::Body& body, unsigned threads);
 
-/// How many points a square is given, of that many squares in all.
-int points_of_square(std::size_t squares);
-
 /// The walls of one tile.
 class WallTile {
  public:
@@ -60,8 +57,9 @@ class WallTile {
     BlockStore<Part> store;
     std::shared_ptr<SlotPages> slots = std::make_shared<SlotPages>();
   };
-  WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls, int points_each,
-           Parts& memory);
+  /// The more squares there are in all tiles, the fewer points each of them needs.
+  WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls,
+           std::size_t all_squares, Parts& memory);
 
   /// Cuts with the sweeps of the job, whose tile and shares are replaced.
   void cut(TileJob job);
@@ -75,7 +73,7 @@ class WallGroup {
  public:
   /// Takes from `found`, from number `next` on, which is moved on.
   WallGroup(const Workpiece::Body& body, const Cutter& cutter, const std::vector<WallSquares>& found,
-            int points_each, std::size_t& next, unsigned threads);
+            std::size_t all_squares, std::size_t& next, unsigned threads);
 
   const std::vector<bool>& tiles() const { return wanted_; }
   void cut(std::size_t tile, const TileJob& job) { walls_[place_[tile]]->cut(job); }
