@@ -1,8 +1,8 @@
 // The workpiece's inside: tiles of 64 x 64 columns, each tile 4 x 4 supers of 4 x 4 micros of 4 x 4 columns.
 //
-// The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Most
-// columns are one run of material that stands on the floor: a micro then keeps only tops. The first undercut
-// in a micro gives it a chain of slots, each with one interval a column; a chain grows as long as needed.
+// The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Of each
+// column the run of material that stands on the floor is kept as its top; most have no other. What floats above
+// undercuts is in a chain of slots, each with one interval a column, which is as long as needed.
 // Heights are mm above the block's floor, single precision.
 #pragma once
 
@@ -56,24 +56,21 @@ struct Tile {
   /// The columns of the first micros full; the others are never to be met.
   Tile(Real height, int micros, std::shared_ptr<SlotPages> memory);
 
-  Lanes top[kMicros];  // tops of columns that stand on the floor, 0 where cut away; unused in a micro with a
-                       // chain
+  Lanes top[kMicros];  // of what stands on the floor, 0 where nothing does
   alignas(64) std::uint32_t top_step[kMicros][kLanes];
   alignas(64) Real micro_top[kMicros];  // highest and lowest material of each micro
   alignas(64) Real micro_bottom[kMicros];
   alignas(64) Real super_top[kSupers];
   alignas(64) Real super_bottom[kSupers];
-  std::int32_t chain[kMicros];  // first slot, or -1
+  std::int32_t chain[kMicros];  // first slot of what floats, or -1
   Slots slots;
   std::int32_t free_slot = -1;  // first of those that no chain has any more
 
-  /// Gives a micro a chain, if it has none yet.
-  void make_chain(int micro);
-  /// Takes a micro's chain away: its columns stand on the floor again, and tell so in `top` and `top_step`.
+  /// Frees the slots of a micro in which nothing floats any more.
   void drop_chain(int micro);
   /// Adds an empty slot to the end of a micro's chain.
   Slot& add_slot(int micro);
-  /// Puts an interval into a free place of its column.
+  /// Puts an interval that floats into a free place of its column.
   void store_remnant(int micro, const Remnant& rest);
   /// Asks for the memory that `lengths` will read of a micro, if there is such a micro.
   void fetch(int micro) const {

@@ -77,17 +77,6 @@ void Tile::store_remnant(int micro, const Remnant& rest) {
   free->high_step[rest.lane] = rest.high_step;
 }
 
-void Tile::make_chain(int micro) {
-  if (chain[micro] >= 0) return;
-  Slot& slot = add_slot(micro);
-  for (int i = 0; i < kLanes; ++i) {
-    if (!(top[micro][i] > 0.0f)) continue;
-    slot.low[i] = 0.0f;
-    slot.high[i] = top[micro][i];
-  }
-  std::copy_n(top_step[micro], kLanes, slot.high_step);  // of columns cut through as well, see cut_through
-}
-
 void Tile::drop_chain(int micro) {
   std::int32_t* link = &chain[micro];
   while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
@@ -96,11 +85,7 @@ void Tile::drop_chain(int micro) {
 }
 
 void Tile::lengths(int micro, Lanes& out) const {
-  if (chain[micro] < 0) {
-    out = top[micro];
-    return;
-  }
-  std::fill_n(out.v, kLanes, 0.0f);
+  out = top[micro];
   for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
     for (int i = 0; i < kLanes; ++i) {
@@ -112,11 +97,8 @@ void Tile::lengths(int micro, Lanes& out) const {
 
 void Tile::intervals(int index, std::vector<Interval>& out) const {
   const int micro = index / kLanes, lane = index % kLanes;
-  if (chain[micro] < 0) {
-    const Real high = top[micro][lane];
-    if (high > 0.0f) out.push_back({0.0f, high, kStockSurface, top_step[micro][lane]});
-    return;
-  }
+  const Real high = top[micro][lane];
+  if (high > 0.0f) out.push_back({0.0f, high, kStockSurface, top_step[micro][lane]});
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
   for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
@@ -129,8 +111,8 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
 
 void Tile::cut_through(int index, std::vector<std::uint32_t>& out) const {
   const int micro = index / kLanes, lane = index % kLanes;
-  if (chain[micro] < 0) out.push_back(top_step[micro][lane]);
   // An interval that ends keeps the step of its end as that of its high end.
+  out.push_back(top_step[micro][lane]);
   for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next)
     out.push_back(slots[static_cast<std::size_t>(k)].high_step[lane]);
 }
