@@ -68,7 +68,8 @@ HWY_INLINE Nearness near_line(const View& w, const Blocks& b, Real rim) {
 HWY_INLINE Nearness near_arc(const View& w, const Blocks& b) {
   constexpr Real kDiagonal = 1.4142136f;
   const Vector x = w.x + b.x, y = w.y + b.y;
-  const Vector dr = higher_of(absolute(root(x * x + y * y) - w.radius) - kDiagonal * higher_of(b.half_x, b.half_y), 0);
+  const Vector dr =
+      higher_of(absolute(root(x * x + y * y) - w.radius) - kDiagonal * higher_of(b.half_x, b.half_y), 0);
   const Vector dx = higher_of(outside(x, w.box_low_x, w.box_high_x) - b.half_x, 0);
   const Vector dy = higher_of(outside(y, w.box_low_y, w.box_high_y) - b.half_y, 0);
   return {higher_of(dr * dr, dx * dx + dy * dy), w.z_low, w.z_high, every_lane()};

@@ -54,8 +54,8 @@ inline Real even_place(const Field& field, int column) {
   return field.step[column / 4 * 4] + static_cast<Real>(column % 4) * field.step[1];
 }
 
-/// Sixteen points anywhere, which are a micro's columns then: places from the tile's first column, mm, and how
-/// much what is taken of each counts.
+/// Sixteen points anywhere, which are a micro's columns then: places from the tile's first column, mm, and
+/// how much what is taken of each counts.
 struct PointMicro {
   Lanes x, y, weight;
 };
@@ -106,8 +106,8 @@ struct ColumnStep {
   StepWay way;
   Real excess;
 };
-/// Finds those that count, some of them twice: from columns and rows 1 before the tile's first to those 1 after
-/// its last.
+/// Finds those that count, some of them twice: from columns and rows 1 before the tile's first to those 1
+/// after its last.
 void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out);
 
 }  // namespace kerf::sim

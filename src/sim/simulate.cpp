@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 
 #include "sim/block_contact.h"
@@ -68,7 +67,6 @@ class Run {
   void meet_tile(std::size_t tile, TileJob job);
   void note_block_contacts(const Batch& batch);
   void take_over(const CutBatch& batch);
-  double all_removed() const;  // length of column
 
   Workpiece::Body& body_;
   const Toolpath& path_;
@@ -147,19 +145,15 @@ bool Run::refine_walls() {
   if (progress_ != nullptr) progress_->phase("measuring walls");
   std::size_t squares = 0;
   for (const WallSquares& walls : found) squares += walls.squares.size();
-  const double before = all_removed();
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
     WallGroup group(body_, cutter_, found, squares, next, threads_);
     walls_ = &group;
     send_all(&group.tiles());
     walls_ = nullptr;
   }
-  if (!stopped_) body_.wall_volume = (before - all_removed()) * body_.pitch * body_.pitch;
   report(progress_, 1.0);
   return !stopped_;
 }
-
-double Run::all_removed() const { return std::accumulate(removed_.begin(), removed_.end(), 0.0); }
 
 void Run::tell_removed(Simulation& result) const {
   const double area = body_.pitch * body_.pitch;
@@ -213,7 +207,11 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   sim::Run run(result.workpiece, path, std::move(setup->survey), options, progress);
   run.cut_all();
   run.tell_removed(result);
-  if (options.role == SolidRole::stock && run.refine_walls()) run.tell_removed(result);
+  if (options.role == SolidRole::stock) {
+    const Volume by_columns = result.removed;
+    if (run.refine_walls()) run.tell_removed(result);
+    result.workpiece.body().wall_volume = (by_columns - result.removed).mm3();
+  }
   result.hazards = run.hazards();
   result.stopped = run.stopped();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

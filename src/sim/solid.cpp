@@ -56,8 +56,8 @@ Piece zone(const Knot& a, const Knot& b) {
   return piece;
 }
 
-/// Frusta for a hollow arc. Their knots lie as far beyond it as makes the volume right: two thirds of what the
-/// middles of chords between points of the arc would stray to the other side.
+/// Frusta for a hollow arc. Their knots lie as far beyond it as makes the volume right: two thirds of what
+/// the middles of chords between points of the arc would stray to the other side.
 void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<Piece>& pieces) {
   constexpr double kBeyond = 2.0 / 3.0;
   const ArcShape arc = arc_shape(a, b);

@@ -41,8 +41,8 @@ HWY_INLINE Mask take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Re
   return meets & ~bottom & ~top;
 }
 
-/// Finds the highest and lowest material of a micro with a chain again, and whether anything floats in it still:
-/// most undercut columns lose soon what is above the gap.
+/// Finds the highest and lowest material of a micro with a chain again, and whether anything floats in it
+/// still: most undercut columns lose soon what is above the gap.
 HWY_INLINE void update_bounds(Tile& tile, int micro) {
   Vector high = load(tile.top[micro]), low = select(high > 0, 0, kFar);
   Mask floats = no_lane();

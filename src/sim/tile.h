@@ -1,8 +1,8 @@
 // The workpiece's inside: tiles of 64 x 64 columns, each tile 4 x 4 supers of 4 x 4 micros of 4 x 4 columns.
 //
 // The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Of each
-// column the run of material that stands on the floor is kept as its top; most have no other. What floats above
-// undercuts is in a chain of slots, each with one interval a column, which is as long as needed.
+// column the run of material that stands on the floor is kept as its top; most have no other. What floats
+// above undercuts is in a chain of slots, each with one interval a column, which is as long as needed.
 // Heights are mm above the block's floor, single precision.
 #pragma once
 

@@ -10,16 +10,16 @@
 namespace kerf::sim {
 namespace {
 
-/// The points of a square: a lattice that is even in every direction, with one point in each of as many columns
-/// and rows. What is told is the row of each column's point.
+/// The points of a square: a lattice that is even in every direction, with one point in each of as many
+/// columns and rows. What is told is the row of each column's point.
 struct Lattice {
   int count;
   int row[16];
   std::size_t most_squares;  // for which this many are needed
 };
 /// Squares have their lattices shifted by amounts that follow no pattern, so that what all of them are off by
-/// grows with the root of their number only: of many squares few points do. Along the whole outline the error is
-/// then less than a thousandth of a pitch.
+/// grows with the root of their number only: of many squares few points do. Along the whole outline the error
+/// is then less than a thousandth of a pitch.
 constexpr Lattice kLattices[] = {
     {16, {0, 5, 10, 15, 4, 9, 14, 3, 8, 13, 2, 7, 12, 1, 6, 11}, 1 << 14},
     {4, {1, 3, 0, 2}, 1 << 16},
@@ -99,8 +99,8 @@ void PointList::add_square(Square square, const Lattice& lattice) {
 void PointList::add_centre(const TileColumns& columns, const WallSquares::Quarters& quarters) {
   const Place place = place_of(quarters.column);
   const Real share = columns.share_x[place.x] * columns.share_y[place.y];
-  points_.push_back({columns.x[place.x], columns.y[place.y], -0.25f * static_cast<Real>(quarters.count) * share,
-                     column_ + place.x, row_ + place.y});
+  points_.push_back({columns.x[place.x], columns.y[place.y],
+                     -0.25f * static_cast<Real>(quarters.count) * share, column_ + place.x, row_ + place.y});
 }
 
 void PointList::fill_up() {

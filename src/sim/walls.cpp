@@ -34,8 +34,8 @@ constexpr int kAhead = 8;
 
 constexpr int kGrades = 32;
 
-/// A square that a wall may go through, and how high the highest step on its edges is, graded by powers of two
-/// of the least that counts.
+/// A square that a wall may go through, and how high the highest step on its edges is, graded by powers of
+/// two of the least that counts.
 struct Candidate {
   Square square;
   std::int8_t grade;
@@ -43,8 +43,8 @@ struct Candidate {
 };
 using Candidates = std::vector<Candidate>;
 
-/// Squares by number: that of the column at its low corner, four times, and which of its corners lie before the
-/// tile. So sixteen in a row lie close together.
+/// Squares by number: that of the column at its low corner, four times, and which of its corners lie before
+/// the tile. So sixteen in a row lie close together.
 constexpr int kSquares = 4 * kMicros * kLanes;
 int number_of(int x, int y) {
   return 4 * lane_index(std::max(x, 0), std::max(y, 0)) + (x < 0 ? 1 : 0) + (y < 0 ? 2 : 0);
@@ -99,9 +99,9 @@ bool Window::untouched(int tile_x, int tile_y) const {
 
 /// Reads the lengths of the micro that has a column in its corner.
 void Window::read_micro(int column, int row) {
-  const std::size_t number = static_cast<std::size_t>((row + first_row_) / kTileColumns) *
-                                 static_cast<std::size_t>(body_.tiles_x) +
-                             static_cast<std::size_t>((column + first_column_) / kTileColumns);
+  const std::size_t number =
+      static_cast<std::size_t>((row + first_row_) / kTileColumns) * static_cast<std::size_t>(body_.tiles_x) +
+      static_cast<std::size_t>((column + first_column_) / kTileColumns);
   const Tile* tile = body_.tiles[number].get();
   const int x = column & (kTileColumns - 1), y = row & (kTileColumns - 1);
   Lanes lengths;

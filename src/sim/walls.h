@@ -4,8 +4,8 @@
 // square, but a wall is known by the centres to half a pitch only. So after the cutting those squares are
 // looked for that have four neighbouring columns' centres as corners and a wall between some of them, and
 // points in them are cut by all sweeps and the same kernels. The mean over the points goes into the volumes,
-// in place of what the quarters of the four columns say: into those of the steps, which the kernels count, and
-// into Workpiece::Body::wall_volume. The columns themselves stay as they are.
+// in place of what the quarters of the four columns say: into those of the steps, which the kernels count,
+// and into Workpiece::Body::wall_volume. The columns themselves stay as they are.
 //
 // So that each step's part of a column is replaced too, the column's centre is cut anew beside the points,
 // with a weight below 0.
@@ -21,14 +21,14 @@
 
 namespace kerf::sim {
 
-/// A square between columns, by its place in a tile: from column x to the next one, from row y to the next. At
-/// the block's border -1, or the last column or row, stands for the half of a square that is left there.
+/// A square between columns, by its place in a tile: from column x to the next one, from row y to the next.
+/// At the block's border -1, or the last column or row, stands for the half of a square that is left there.
 struct Square {
   std::int8_t x, y;
 };
 
-/// The squares of a tile that walls go through, and how many quarters of the columns in it, by lane_index, such
-/// squares take.
+/// The squares of a tile that walls go through, and how many quarters such squares take of the columns in it,
+/// which are told by lane_index.
 struct WallSquares {
   struct Quarters {
     std::uint16_t column;
