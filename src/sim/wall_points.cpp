@@ -16,14 +16,15 @@ struct Lattice {
   int count;
   int row[16];
   std::size_t most_squares;  // for which this many are needed
+  bool counts_rest;          // see PointList::add_column
 };
 /// Squares have their lattices shifted by amounts that follow no pattern, so that what all of them are off by
 /// grows with the root of their number only: of many squares few points do. Along the whole outline the error
 /// is then less than a thousandth of a pitch.
 constexpr Lattice kLattices[] = {
-    {16, {0, 5, 10, 15, 4, 9, 14, 3, 8, 13, 2, 7, 12, 1, 6, 11}, 1 << 14},
-    {4, {1, 3, 0, 2}, 1 << 16},
-    {2, {0, 1}, SIZE_MAX},
+    {16, {0, 5, 10, 15, 4, 9, 14, 3, 8, 13, 2, 7, 12, 1, 6, 11}, 1 << 14, true},
+    {4, {1, 3, 0, 2}, 1 << 16, true},
+    {2, {0, 1}, SIZE_MAX, false},
 };
 const Lattice& lattice_of(std::size_t squares) {
   return *std::find_if(std::begin(kLattices), std::end(kLattices),
@@ -67,7 +68,9 @@ class PointList {
         low_y_((row_ + 0.5) * body.pitch) {}
 
   void add_square(Square square, const Lattice& lattice);
-  void add_centre(const TileColumns& columns, const WallSquares::Quarters& quarters);
+  /// Takes from a column what squares replace. Where it slopes beside a wall, its centre says too little of
+  /// the quarters that are left, to the first order: `counts_rest` has them replaced by their own middles.
+  void add_column(const TileColumns& columns, const WallSquares::Quarters& quarters, const Lattice& lattice);
   /// Lets what follows begin with a new micro.
   void fill_up();
   const std::vector<Point>& points() const { return points_; }
@@ -96,11 +99,22 @@ void PointList::add_square(Square square, const Lattice& lattice) {
   }
 }
 
-void PointList::add_centre(const TileColumns& columns, const WallSquares::Quarters& quarters) {
+void PointList::add_column(const TileColumns& columns, const WallSquares::Quarters& quarters,
+                           const Lattice& lattice) {
   const Place place = place_of(quarters.column);
-  const Real share = columns.share_x[place.x] * columns.share_y[place.y];
-  points_.push_back({columns.x[place.x], columns.y[place.y],
-                     -0.25f * static_cast<Real>(quarters.count) * share, column_ + place.x, row_ + place.y});
+  const Real share_x = columns.share_x[place.x], share_y = columns.share_y[place.y];
+  const Real quarter = 0.25f * share_x * share_y;
+  const auto quarter_pitch = static_cast<Real>(0.25 * body_.pitch);
+  Point centre{columns.x[place.x], columns.y[place.y], 0.0f, column_ + place.x, row_ + place.y};
+  for (int k = 0; k < 4; ++k) {
+    const bool is_taken = (quarters.taken >> k & 1) != 0;
+    if (is_taken || lattice.counts_rest) centre.weight -= quarter;
+    if (is_taken || !lattice.counts_rest) continue;
+    points_.push_back({centre.x + ((k & 1) != 0 ? share_x : -share_x) * quarter_pitch,
+                       centre.y + ((k & 2) != 0 ? share_y : -share_y) * quarter_pitch, quarter, centre.i,
+                       centre.j});
+  }
+  points_.push_back(centre);
 }
 
 void PointList::fill_up() {
@@ -169,11 +183,12 @@ void fill_part(const Workpiece::Body& body, const Point* points, WallTile::Part&
 
 WallTile::WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls,
                    std::size_t all_squares, Parts& memory) {
+  const Lattice& lattice = lattice_of(all_squares);
   PointList list(body, walls.tile);
-  for (const Square square : walls.squares) list.add_square(square, lattice_of(all_squares));
+  for (const Square square : walls.squares) list.add_square(square, lattice);
   list.fill_up();
   const TileColumns columns = cutter.columns_of(walls.tile);
-  for (const WallSquares::Quarters& quarters : walls.quarters) list.add_centre(columns, quarters);
+  for (const WallSquares::Quarters& quarters : walls.quarters) list.add_column(columns, quarters, lattice);
   list.fill_up();
   const std::size_t micros = list.points().size() / kLanes;
   for (std::size_t first = 0; first < micros; first += kMicros) {

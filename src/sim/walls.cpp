@@ -213,15 +213,16 @@ WallSquares squares_above(int grade, const Candidates& candidates, const Workpie
     for (int y = std::max<int>(square.y, 0); y <= std::min(square.y + 1, rows - 1); ++y) {
       for (int x = std::max<int>(square.x, 0); x <= std::min(square.x + 1, columns - 1); ++x) {
         const int column = lane_index(x, y);
-        ++quarters[column / kLanes][column % kLanes];
+        const int quarter = (x == square.x ? 1 : 0) + (y == square.y ? 2 : 0);
+        quarters[column / kLanes][column % kLanes] |= static_cast<std::uint8_t>(1 << quarter);
         any_in[column / kLanes] = true;
       }
     }
   }
   for (int micro = 0; micro < kMicros; ++micro)
     for (int lane = 0; lane < kLanes && any_in[micro]; ++lane)
-      if (const std::uint8_t count = quarters[micro][lane]; count != 0)
-        walls.quarters.push_back({static_cast<std::uint16_t>(micro * kLanes + lane), count});
+      if (const std::uint8_t taken = quarters[micro][lane]; taken != 0)
+        walls.quarters.push_back({static_cast<std::uint16_t>(micro * kLanes + lane), taken});
   return walls;
 }
 

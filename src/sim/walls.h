@@ -27,12 +27,11 @@ struct Square {
   std::int8_t x, y;
 };
 
-/// The squares of a tile that walls go through, and how many quarters such squares take of the columns in it,
-/// which are told by lane_index.
+/// The squares of a tile that walls go through, and which quarters they take of the columns in it.
 struct WallSquares {
   struct Quarters {
-    std::uint16_t column;
-    std::uint16_t count;
+    std::uint16_t column;  // by lane_index
+    std::uint8_t taken;    // a bit each: of the low side, beyond the middle in X, in Y, in both
   };
   std::uint32_t tile = 0;
   std::vector<Square> squares;
