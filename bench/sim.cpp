@@ -208,6 +208,24 @@ void ReliefMesh(benchmark::State& state) {
   state.counters["prototype_top_only_s"] = 0.1;
 }
 
+/// What verifying that mesh costs, which every export does before it writes.
+void ReliefMeshVerified(benchmark::State& state) {
+  SimulationOptions options;
+  options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+  const Toolpath path = relief(1000, 1000);
+  Diagnostics diagnostics;
+  const auto result = simulate(path, table(), block(), options, diagnostics);
+  if (!result) return state.SkipWithError("not simulated");
+  const std::vector<std::uint8_t> one_group(path.size(), 0);
+  const MeshOptions merged{.tolerance = mm(0.005), .step_groups = one_group};
+  const ColumnGrid columns = result->workpiece.grid();
+  const Mesh mesh = extract_mesh(columns, merged);
+  for (auto _ : state)
+    if (!verify_mesh(mesh, mesh_volume(columns, merged), diagnostics))
+      return state.SkipWithError("the mesh is not sound");
+  state.counters["triangles"] = static_cast<double>(mesh.step.size());
+}
+
 /// A mesh within 2 microns of what the sweeps leave, from columns made before: extraction and sharpening.
 void exact_mesh(benchmark::State& state, const Toolpath& path) {
   SimulationOptions options;
@@ -280,9 +298,22 @@ BENCHMARK(Keyhole100k)
 BENCHMARK(Random100k)->Args({100, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(Roughing)->Args({100, 2})->Args({50, 2})->MeasureProcessCPUTime()->UseRealTime()->Unit(
     benchmark::kMillisecond);
-BENCHMARK(ReliefExactMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(KeyholeExactMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(ReliefExactMesh)
+    ->Args({100})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(KeyholeExactMesh)
+    ->Args({100})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK(ReliefMesh)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(ReliefMeshVerified)
+    ->Args({100})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 BENCHMARK(LiveEdit)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 BENCHMARK(LiveInstant)->Args({100})->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);

@@ -54,5 +54,7 @@ std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const Tool
 /// The surface of what is left, at A = 0. Closed; along A = 0 two faces lie upon each other inside the
 /// material.
 Mesh extract_mesh(const RotaryWorkpiece& workpiece, Progress* progress = nullptr);
+/// What that should hold, as of columns.
+VolumeRange mesh_volume(const RotaryWorkpiece& workpiece);
 
 }  // namespace kerf

@@ -17,6 +17,7 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
+#include "kerf/mesh_check.h"
 #include "kerf/progress.h"
 #include "kerf/stock.h"
 #include "kerf/stock_body.h"
@@ -157,20 +158,31 @@ struct MeshOptions {
 Mesh extract_mesh(const ColumnGrid& columns, Progress* progress = nullptr);
 Mesh extract_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress = nullptr);
 
-/// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
-/// opposite directions (0 for a sound mesh).
-struct MeshCheck {
-  Volume volume;
-  std::size_t bad_edges = 0;
-};
 MeshCheck check_mesh(const Mesh& mesh);
 
-/// From where a picture is taken.
+/// What the mesh of columns should hold: their volume, within a tolerance that the walls' area, the pitch and
+/// the merging tell (docs/decisions/0006-mesh.md).
+VolumeRange mesh_volume(const ColumnGrid& columns, const MeshOptions& options = {});
+/// To be asked before a mesh is written, see mesh_check.h.
+bool verify_mesh(const Mesh& mesh, const VolumeRange& volume, Diagnostics& diagnostics);
+
+/// Where a picture cuts the part open: the side of a plane that is nearer to the viewer is left out, and
+/// where the plane goes through material its face is drawn in kSectionColour, without light and shade.
+struct Section {
+  Plane plane = Plane::yz;  // it is parallel to
+  double at = 0.0;          // mm along the third axis, work coordinates
+};
+inline constexpr std::array<std::uint8_t, 3> kSectionColour{247, 226, 92};  // sRGB
+
+/// From where a picture is taken, and where it cuts the part open.
 struct View {
   Angle azimuth = degrees(-35);     // about Z; 0 looks along +Y from the front
   Angle elevation = degrees(50);    // above the horizon; 90 looks straight down
   int width = 1600, height = 1000;  // pixels
+  std::optional<Section> section = {};
 };
+/// Whether the face of a section can be seen from there; a view along the plane sees no more than its edge.
+bool faces(const View& view, const Section& section);
 /// "top", "front", "back", "left", "right", "iso", or nothing.
 std::optional<View> named_view(std::string_view name);
 

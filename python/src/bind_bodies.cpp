@@ -130,10 +130,13 @@ TurnedResult run_rotary(const Toolpath& path, double diameter, const py::object&
 
 py::tuple rotary_mesh(const TurnedResult& result) {
   Mesh mesh;
+  Diagnostics diagnostics;
   {
     const py::gil_scoped_release release;
     mesh = extract_mesh(result.simulation.workpiece);
+    verify_mesh(mesh, mesh_volume(result.simulation.workpiece), diagnostics);
   }
+  raise_or_warn(diagnostics);
   return mesh_tuple(mesh);
 }
 

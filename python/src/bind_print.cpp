@@ -90,13 +90,17 @@ py::list hazards_of(const PrintResult& r) {
 
 py::tuple mesh_of(const PrintResult& r, bool grooves) {
   Mesh mesh;
+  Diagnostics diagnostics;
   {
     const py::gil_scoped_release release;
     Length layer;
     for (const PrintLayer& l : r.simulation.layers) layer = std::max(layer, l.height);
-    mesh =
-        extract_print_mesh(grooves ? r.simulation.columns : without_grooves(r.simulation.columns, layer), {});
+    const ColumnGrid closed = grooves ? ColumnGrid{} : without_grooves(r.simulation.columns, layer);
+    const ColumnGrid& columns = grooves ? r.simulation.columns : closed;
+    mesh = extract_print_mesh(columns, {});
+    verify_mesh(mesh, mesh_volume(columns), diagnostics);
   }
+  raise_or_warn(diagnostics);
   return mesh_tuple(mesh);
 }
 

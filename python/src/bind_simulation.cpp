@@ -5,6 +5,7 @@
 #include "bindings.h"
 #include "simulation_result.h"
 
+#include "kerf/exact_mesh.h"
 #include "kerf/files.h"
 #include "kerf/image_files.h"
 #include "kerf/mesh_files.h"
@@ -29,22 +30,33 @@ Result run(const Toolpath& path, const Stock* stock, const std::optional<ToolTab
   Diagnostics diagnostics;
   SignalProgress progress;
   auto kept = std::make_shared<const Toolpath>(path);
+  auto used = std::make_shared<const ToolTable>(tools ? *tools : built_in_tools());
   std::optional<Simulation> simulation;
   {
     const py::gil_scoped_release release;
-    simulation = simulate(*kept, tools ? *tools : built_in_tools(), *stock, options, diagnostics, &progress);
+    simulation = simulate(*kept, *used, *stock, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return {std::move(*simulation), std::move(kept)};
+  return {std::move(*simulation), std::move(kept), std::move(used), *stock};
 }
 
-py::tuple mesh_arrays(const Result& result) {
+py::tuple mesh_arrays(const Result& result, bool sharp) {
   Mesh mesh;
+  Diagnostics diagnostics;
+  SignalProgress progress;
   {
     const py::gil_scoped_release release;
-    mesh = extract_mesh(result.simulation.workpiece.grid());
+    const ColumnGrid columns = result.simulation.workpiece.grid();
+    mesh = extract_mesh(columns, &progress);
+    if (sharp)
+      sharpen_mesh(mesh, result.simulation.workpiece, *result.path, *result.tools, result.stock, {},
+                   &progress);
+    if (!progress.stop_requested())
+      verify_mesh(mesh, mesh_volume(columns, {.tolerance = SharpenOptions().tolerance}), diagnostics);
   }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
   return mesh_tuple(mesh);
 }
 
@@ -77,7 +89,9 @@ py::tuple mesh_tuple(const Mesh& mesh) {
                         to_array(mesh.step, "uint32", 1));
 }
 
-void bind_simulation(py::module_& m) {
+namespace {
+
+void bind_result(py::module_& m) {
   py::class_<Result>(m, "Simulation", "What a toolpath left of the stock. Made by `simulate`.")
       .def("__repr__",
            [](const Result& r) {
@@ -118,9 +132,26 @@ void bind_simulation(py::module_& m) {
           "ndarray (steps,): volume removed by each step, mm3.")
       .def("column", &column_of, py::arg("i"), py::arg("j"),
            "Material of a column: list of (low, high) Z in mm, lowest first.")
-      .def("mesh", &mesh_arrays,
-           "Surface as (points (n, 3) float32 mm, triangles (m, 3) uint32, step of each triangle (m,) "
-           "uint32).");
+      .def("mesh", &mesh_arrays, py::kw_only(), py::arg("sharp") = true,
+           R"(The surface as a closed mesh.
+
+Parameters
+----------
+sharp : bool
+    Whether vertices go where the tools really ended, to about 2 microns; else surfaces run through the
+    columns and walls stand between them, right to half a resolution, which is several times faster.
+
+Returns
+-------
+tuple of ndarray
+    Points (n, 3) float32 in mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.
+)");
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& m) {
+  bind_result(m);
   m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(),
         py::arg("resolution") = 0.0, py::arg("threads") = 0,
         R"(Cut a toolpath out of a stock.

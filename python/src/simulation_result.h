@@ -14,6 +14,8 @@ namespace kerf::python {
 struct Result {
   Simulation simulation;
   std::shared_ptr<const Toolpath> path;
+  std::shared_ptr<const ToolTable> tools;
+  Stock stock;
 };
 
 /// A hazard as the dictionary that Python gets.

@@ -31,8 +31,7 @@ struct Options {
   std::vector<std::string> outputs;
   double resolution = 0.0;
   double tolerance = 0.05;
-  std::optional<std::string> view;
-  std::string size = "1600x1000";
+  PictureOptions picture = {.view = ""};  // without a view the map from above is drawn, not the part
 };
 
 struct Result {
@@ -110,8 +109,7 @@ void show_summary(Console& console, const Result& result) {
 }
 
 /// The part's surface in the colours of the map.
-std::string solid_picture(const Result& result, const View& view, Progress& progress) {
-  const Mesh mesh = extract_mesh(result.simulation.workpiece.grid(), &progress);
+std::string solid_picture(const Result& result, const Mesh& mesh, const View& view) {
   const Comparison& c = result.comparison;
   const Box3& block = result.simulation.workpiece.bounds();
   const double pitch = result.simulation.workpiece.pitch().mm();
@@ -137,10 +135,15 @@ std::string solid_picture(const Result& result, const View& view, Progress& prog
 
 bool write_pictures(const Result& result, const std::optional<View>& view, OutputSet& files,
                     Diagnostics& diagnostics, Progress& progress) {
+  Mesh mesh;
+  if (view && !result.outputs.empty()) {
+    mesh = extract_mesh(result.simulation.workpiece.grid(), &progress);
+    if (progress.stop_requested() || !section_meets(mesh, *view, diagnostics)) return false;
+  }
   for (const OutputFile& file : result.outputs) {
     std::string bytes;
     if (view) {
-      bytes = solid_picture(result, *view, progress);
+      bytes = solid_picture(result, mesh, *view);
     } else {
       const Image map = draw_map(result.comparison, full_colour(result.options), kMapPixels);
       bytes = write_png({map.width, map.height, map.rgba});
@@ -220,7 +223,7 @@ Status run(Console& console, const Options& options) {
   const auto target = load_target(options, usage, diagnostics);
   std::string problem;
   std::optional<View> view;
-  if (options.view) view = read_view(*options.view, options.size, problem);
+  if (!options.picture.view.empty()) view = read_view(options.picture, problem);
   if (!problem.empty()) console.complain(problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!problem.empty()) return Status::wrong_usage;
@@ -231,7 +234,7 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples =
     R"(  kerf compare part.nc target.stl                    where material lacks or stands, by how much
   kerf compare part.nc target.stl -o map.png         the map from above: red gouged, blue left standing
-  kerf compare part.nc target.stl -o part.png --view iso
+  kerf compare part.nc target.stl -o part.png --view iso --section y=20
   kerf compare part.nc target.3mf --tolerance 0.1 --json --target-shift 0,0,-12
 
 The target is a closed mesh in the program's work coordinates. Depths are distances from its surface.
@@ -253,12 +256,14 @@ Command add_compare(CLI::App& root) {
              "Differences no deeper than this are none, mm or 0.002in (default: 0.05)");
   add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
-  CLI::Option* view = app->add_option("--view", options->view,
+  CLI::Option* view = app->add_option("--view", options->picture.view,
                                       "Draw the part in the map's colours instead, from: top, iso ...");
   view->type_name("VIEW");
-  app->add_option("--size", options->size, "That picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+  app->add_option("--size", options->picture.size,
+                  "That picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
       ->type_name("WxH")
       ->needs(view);
+  add_section(*app, options->picture)->needs(view);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

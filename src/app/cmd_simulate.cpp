@@ -26,8 +26,7 @@ struct Options {
   std::vector<std::string> outputs;
   double resolution = 0.0;
   double threads = 0.0;
-  std::string view = "-35,50";
-  std::string size = "1600x1000";
+  PictureOptions picture;
   double layer_height = 0.0;
   bool grooves = false;
   std::vector<const CLI::Option*> picture_options;   // those that only pictures use
@@ -196,7 +195,7 @@ Status run(Console& console, const Options& options) {
   const JobSettings settings = read_job_options(options.job, usage, diagnostics);
   const auto outputs = read_outputs(options.outputs, input_files(options.job), usage, diagnostics);
   std::string problem;
-  const auto view = read_view(options.view, options.size, problem);
+  const auto view = read_view(options.picture, problem);
   if (!view) console.complain(problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!view) return Status::wrong_usage;
@@ -211,6 +210,7 @@ const char* const kExamples =
     R"(  kerf simulate part.nc                              what is removed, and what goes wrong
   kerf simulate part.nc -o part.stl -o part.png      the part as a mesh and as a picture
   kerf simulate part.nc -o top.png --view top --size 1200x800
+  kerf simulate part.nc -o slot.png --view front --section y=20     cut open, to see an undercut
   kerf simulate part.nc --tool "ball d=3.175 flute=12.7" --stock "100x60x12 at lower-left top"
   kerf simulate side1.nc -o left.kstock              what is left, as the stock of the next job:
   kerf simulate side2.nc --stock-left left.kstock --flip x
@@ -234,11 +234,13 @@ Command add_simulate(CLI::App& root) {
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
   options->picture_options = {
       app->add_option(
-             "--view", options->view,
+             "--view", options->picture.view,
              "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION (default: -35,50)")
           ->type_name("VIEW"),
-      app->add_option("--size", options->size, "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
-          ->type_name("WxH")};
+      app->add_option("--size", options->picture.size,
+                      "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+          ->type_name("WxH"),
+      add_section(*app, options->picture)};
   options->printing_options = {
       add_length(*app, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,
                  "Of a print: the layers' height, mm (default: the program's comments, else its steps in Z)"),

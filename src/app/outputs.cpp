@@ -6,6 +6,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <set>
 #include <unistd.h>
 
@@ -140,6 +141,40 @@ std::optional<std::pair<double, double>> split_pair(const std::string& text, cha
   return {{*a, *b}};
 }
 
+constexpr std::string_view kAxes = "xyz";
+constexpr std::array<Plane, 3> kAcross{Plane::yz, Plane::xz, Plane::xy};  // by the axis
+
+std::string text_of(const Section& section) {
+  return fmt::format("{}={}", kAxes[static_cast<std::size_t>(axes_of(section.plane).w)],
+                     exact_text(section.at));
+}
+
+/// "x=25"
+std::optional<Section> parse_section(std::string_view text) {
+  const std::size_t axis =
+      text.empty() ? std::string_view::npos
+                   : kAxes.find(static_cast<char>(std::tolower(static_cast<unsigned char>(text[0]))));
+  if (axis == std::string_view::npos || text.size() < 3 || text[1] != '=') return std::nullopt;
+  const auto at = parse_length(text.substr(2), 1.0);
+  if (!at) return std::nullopt;
+  return Section{kAcross[axis], *at};
+}
+
+bool read_section(const std::string& text, View& view, std::string& problem) {
+  view.section = parse_section(text);
+  if (!view.section) {
+    problem = fmt::format(
+        "--section: \"{}\" is no plane; expected an axis and a place on it in mm or with \"in\", as x=25, "
+        "y=-3.5 or z=0.25in",
+        text.substr(0, 40));
+    return false;
+  }
+  if (faces(view, *view.section)) return true;
+  problem = fmt::format("--section: this view sees no more of {} than its edge; choose another --view",
+                        text_of(*view.section));
+  return false;
+}
+
 }  // namespace
 
 std::vector<OutputFile> read_outputs(const std::vector<std::string>& names,
@@ -173,11 +208,11 @@ std::vector<OutputFile> read_outputs(const std::vector<std::string>& names,
   return files;
 }
 
-std::optional<View> read_view(const std::string& view, const std::string& size, std::string& problem) {
+std::optional<View> read_view(const PictureOptions& options, std::string& problem) {
   View out;
-  if (const auto named = named_view(view)) {
+  if (const auto named = named_view(options.view)) {
     out = *named;
-  } else if (const auto angles = split_pair(view, ',')) {
+  } else if (const auto angles = split_pair(options.view, ',')) {
     if (std::abs(angles->first) > 360.0 || std::abs(angles->second) > 90.0) {
       problem = "--view: the azimuth goes from -360 to 360 degrees and the elevation from -90 to 90";
       return std::nullopt;
@@ -187,23 +222,48 @@ std::optional<View> read_view(const std::string& view, const std::string& size, 
   } else {
     problem =
         fmt::format("--view: \"{}\" is neither top, front, back, left, right or iso nor AZIMUTH,ELEVATION",
-                    view.substr(0, 40));
-    if (const auto close = did_you_mean(view, {"top", "front", "back", "left", "right", "iso"}))
+                    options.view.substr(0, 40));
+    if (const auto close = did_you_mean(options.view, {"top", "front", "back", "left", "right", "iso"}))
       problem += fmt::format("; did you mean {}?", *close);
     return std::nullopt;
   }
-  const auto pixels = split_pair(size, 'x');
+  const auto pixels = split_pair(options.size, 'x');
   const auto good = [](double v) {
     return v >= 16 && v <= kMostPixels && v == static_cast<double>(static_cast<int>(v));
   };
   if (!pixels || !good(pixels->first) || !good(pixels->second)) {
     problem = fmt::format("--size: \"{}\" is no WIDTHxHEIGHT in pixels, each from 16 to {}",
-                          size.substr(0, 40), kMostPixels);
+                          options.size.substr(0, 40), kMostPixels);
     return std::nullopt;
   }
   out.width = static_cast<int>(pixels->first);
   out.height = static_cast<int>(pixels->second);
+  if (!options.section.empty() && !read_section(options.section, out, problem)) return std::nullopt;
   return out;
+}
+
+CLI::Option* add_section(CLI::App& app, PictureOptions& options) {
+  return app
+      .add_option("--section", options.section,
+                  "Picture of the part cut open at x=25, y=-3.5 or z=1in: without the viewer's side of that")
+      ->type_name("PLANE");
+}
+
+bool section_meets(const Mesh& mesh, const View& view, Diagnostics& diagnostics) {
+  if (!view.section) return true;
+  const auto axis = static_cast<std::size_t>(axes_of(view.section->plane).w);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t k = axis; k < mesh.positions.size(); k += 3) {
+    low = std::min<double>(low, mesh.positions[k]);
+    high = std::max<double>(high, mesh.positions[k]);
+  }
+  if (view.section->at > low && view.section->at < high) return true;
+  const std::string part = low < high ? fmt::format("the part, which lies from {}={} to {}", kAxes[axis],
+                                                    number_text(low, 3), number_text(high, 3))
+                                      : "anything: nothing is left";
+  diagnostics.error(Code::section_outside, CallSpot{"", 0, "--section"},
+                    fmt::format("{} does not go through {}", text_of(*view.section), part));
+  return false;
 }
 
 std::vector<std::uint8_t> colour_groups(const Toolpath& path,
@@ -213,13 +273,17 @@ std::vector<std::uint8_t> colour_groups(const Toolpath& path,
 }
 
 bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& program, const Mesh& mesh,
-                   const std::vector<std::uint32_t>& hazard_steps, const View& view, OutputSet& set,
-                   Diagnostics& diagnostics, Progress& progress) {
+                   const VolumeRange& volume, const std::vector<std::uint32_t>& hazard_steps,
+                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
+  const auto is_mesh = [](const OutputFile& file) { return file.mesh.has_value(); };
+  if (std::any_of(files.begin(), files.end(), is_mesh) && !verify_mesh(mesh, volume, diagnostics))
+    return false;
   const Colouring colours = colours_of(mesh, program.path, hazard_steps);
   progress.phase("writing");
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.report(static_cast<double>(i) / static_cast<double>(files.size()));
     const OutputFile& file = files[i];
+    if (file.is_picture() && !section_meets(mesh, view, diagnostics)) return false;
     const std::string bytes = file.mesh ? mesh_file_of(mesh, colours, *file.mesh, program.source)
                                         : picture_of(mesh, colours.of_triangle, view);
     if (!set.write(file.path, bytes, diagnostics) || progress.stop_requested()) return false;
@@ -254,6 +318,19 @@ void show_written(Console& console, const std::vector<OutputFile>& files) {
   for (const OutputFile& file : files) console.summary(fmt::format("wrote    {}", file.path));
 }
 
+namespace {
+
+/// Whether anybody can see how the columns stand: in a mesh, and in a picture where they are larger than its
+/// pixels.
+bool shows_columns(const std::vector<OutputFile>& surfaces, const Workpiece& workpiece, const View& view) {
+  const auto is_mesh = [](const OutputFile& file) { return !file.is_picture(); };
+  if (std::any_of(surfaces.begin(), surfaces.end(), is_mesh)) return true;
+  const Point3 size = workpiece.bounds().size();
+  return workpiece.pitch().mm() * std::min(view.width, view.height) > std::max(size.x, size.y);
+}
+
+}  // namespace
+
 bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
                    const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress) {
   std::vector<OutputFile> surfaces;
@@ -269,11 +346,14 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const std::vector<std::uint32_t> hazards = steps_of(simulation.hazards);
   const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
-  Mesh mesh = extract_mesh(simulation.workpiece.grid(), options, &progress);
-  if (progress.stop_requested() ||
+  const ColumnGrid columns = simulation.workpiece.grid();
+  Mesh mesh = extract_mesh(columns, options, &progress);
+  if (progress.stop_requested()) return false;
+  if (shows_columns(surfaces, simulation.workpiece, view) &&
       !sharpen_mesh(mesh, simulation.workpiece, job.program.path, job.tools, *job.stock, {}, &progress))
     return false;
-  return write_surface(surfaces, job.program, mesh, hazards, view, set, diagnostics, progress);
+  const VolumeRange volume = mesh_volume(columns, {.tolerance = kMeshTolerance + SharpenOptions().tolerance});
+  return write_surface(surfaces, job.program, mesh, volume, hazards, view, set, diagnostics, progress);
 }
 
 }  // namespace kerf::app

@@ -38,14 +38,23 @@ std::optional<Status> finish_outputs(Console& console, TerminalProgress& progres
 Json json_of(const std::vector<OutputFile>& files);
 void show_written(Console& console, const std::vector<OutputFile>& files);
 
-/// Reads "top", "iso" ... or "AZIMUTH,ELEVATION" in degrees, and "WIDTHxHEIGHT" in pixels. The text of what
-/// is wrong is put in `problem`.
-std::optional<View> read_view(const std::string& view, const std::string& size, std::string& problem);
+/// How a picture is to be taken, as told.
+struct PictureOptions {
+  std::string view = "-35,50";     // "top", "iso" ... or "AZIMUTH,ELEVATION" in degrees
+  std::string size = "1600x1000";  // pixels
+  std::string section = "";        // "x=25"; empty: the part is not cut open
+};
+CLI::Option* add_section(CLI::App& app, PictureOptions& options);
+/// Reads them. The text of what is wrong is put in `problem`.
+std::optional<View> read_view(const PictureOptions& options, std::string& problem);
+/// False, with an error, where the section of a picture does not go through what is drawn.
+bool section_meets(const Mesh& mesh, const View& view, Diagnostics& diagnostics);
 
-/// Writes a surface into `set`, as meshes and pictures; what the steps of hazards have made is red.
+/// Writes a surface into `set`, as meshes, which are verified before, and pictures; what the steps of hazards
+/// have made is red.
 bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& program, const Mesh& mesh,
-                   const std::vector<std::uint32_t>& hazard_steps, const View& view, OutputSet& set,
-                   Diagnostics& diagnostics, Progress& progress);
+                   const VolumeRange& volume, const std::vector<std::uint32_t>& hazard_steps,
+                   const View& view, OutputSet& set, Diagnostics& diagnostics, Progress& progress);
 /// The steps of hazards of any kind.
 template <class Hazards>
 std::vector<std::uint32_t> steps_of(const Hazards& hazards) {

@@ -136,10 +136,11 @@ bool write_part(const std::vector<OutputFile>& outputs, const LoadedProgram& pro
   const auto groups = colour_groups(program.path, red);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = groups};
   progress.phase("making the surface");
-  const Mesh mesh = extract_print_mesh(
-      grooves == Grooves::kept ? s.columns : without_grooves(s.columns, layer), options, &progress);
-  return !progress.stop_requested() &&
-         write_surface(outputs, program, mesh, red, view, files, diagnostics, progress);
+  const ColumnGrid closed = grooves == Grooves::kept ? ColumnGrid{} : without_grooves(s.columns, layer);
+  const ColumnGrid& columns = grooves == Grooves::kept ? s.columns : closed;
+  const Mesh mesh = extract_print_mesh(columns, options, &progress);
+  return !progress.stop_requested() && write_surface(outputs, program, mesh, mesh_volume(columns, options),
+                                                     red, view, files, diagnostics, progress);
 }
 
 }  // namespace

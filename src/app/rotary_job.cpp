@@ -61,8 +61,9 @@ Status simulate_bar(Console& console, const Job& job, const SimulationOptions& h
   bool written = s && !s->stopped && !diagnostics.has_errors();
   if (written && !outputs.empty()) {
     const Mesh mesh = extract_mesh(s->workpiece, &progress);
-    written = !progress.stop_requested() && write_surface(outputs, job.program, mesh, steps_of(s->hazards),
-                                                          view, files, diagnostics, progress);
+    written =
+        !progress.stop_requested() && write_surface(outputs, job.program, mesh, mesh_volume(s->workpiece),
+                                                    steps_of(s->hazards), view, files, diagnostics, progress);
   }
   if (const auto end = finish_outputs(console, progress, written, files, diagnostics)) return *end;
   std::vector<Finding> findings = findings_of(s->hazards, job.program.path);

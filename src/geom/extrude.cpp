@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 #include "outline_check.h"
 #include "triangulate.h"
 
 #include "kerf/fit.h"
+#include "kerf/mesh_check.h"
 
 namespace kerf {
 namespace {
@@ -52,6 +54,20 @@ std::vector<Ring> rings_of(const Figure& figure, const Tolerance& tolerance, Dia
   return rings;
 }
 
+/// What a prism over the rings holds. Its corners are rounded to single precision.
+VolumeRange volume_of(const std::vector<Ring>& rings, double height) {
+  double base = 0.0, around = 0.0, farthest = height;
+  for (const Ring& ring : rings) {
+    base += area(ring);
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      around += distance(ring[k], ring[(k + 1) % ring.size()]);
+      farthest = std::max({farthest, std::abs(ring[k].x), std::abs(ring[k].y)});
+    }
+  }
+  const double moved = farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
+  return {mm3(base * height), mm3(moved * (2.0 * base + around * height))};
+}
+
 }  // namespace
 
 std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tolerance& tolerance,
@@ -93,6 +109,8 @@ std::optional<SolidMesh> extrude(const Figure& figure, Length height, const Tole
     }
     first += n;
   }
+  if (!verify_mesh(mesh.positions, mesh.triangles, volume_of(rings, height.mm()), diagnostics))
+    return std::nullopt;
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_map>
+#include <utility>
 
 #include "sim/parallel.h"
 
@@ -40,13 +41,14 @@ Point3 normal_at(const Fans& fans, std::uint32_t vertex, Point3 facing) {
 }  // namespace
 
 EdgeSplitter::EdgeSplitter(Mesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps,
-                           double tolerance, unsigned threads)
+                           std::vector<bool> bends, double tolerance, unsigned threads)
     : mesh_(mesh),
       low_(body.bounds.low),
       size_(body.bounds.size()),
       pitch_(body.pitch),
       tolerance_(tolerance),
       sweeps_(sweeps),
+      bends_(std::move(bends)),
       threads_(threads) {}
 
 EdgeSplitter::Ends EdgeSplitter::ends_of(std::uint32_t corner) const {
@@ -92,6 +94,7 @@ void EdgeSplitter::find_suspects(const Fans& fans) {
       const auto corner = static_cast<std::uint32_t>(c);
       const Ends ends = ends_of(corner);
       if (ends.a > ends.b || ends.b < first_new_) continue;
+      if (first_new_ == 0 && !bends_[ends.a] && !bends_[ends.b]) continue;
       const double size = distance(fans.point(ends.a), fans.point(ends.b));
       if (size < kShortest * pitch_ || size * bend_of(fans, corner) <= 8.0 * tolerance_) continue;
       found[piece].push_back(sweeps_.spot_at(middle_of(fans, corner), corner));

@@ -18,14 +18,15 @@ struct MeshState {
 /// Puts vertices on edges and parts the triangles there.
 class EdgeSplitter {
  public:
-  /// `tolerance`: how far an edge's middle may be from the surface, mm.
-  EdgeSplitter(Mesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps, double tolerance,
-               unsigned threads);
+  /// `bends`: the vertices around which the mesh is not flat; between others no edge strays. `tolerance`: how
+  /// far an edge's middle may be from the surface, mm.
+  EdgeSplitter(Mesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps, std::vector<bool> bends,
+               double tolerance, unsigned threads);
   /// Splits each edge that strays once. False if there was none. `straight` gets the mesh with the new
   /// vertices in the middles of their edges.
   template <class Stop>
   bool split(MeshState& straight, const Stop& stop) {
-    const Fans fans(mesh_, low_, threads_);
+    const Fans fans(mesh_, low_, threads_, first_new_);
     find_suspects(fans);
     found_.assign(spots_.size(), {});
     sweeps_.visit(
@@ -55,8 +56,10 @@ class EdgeSplitter {
   Point3 low_, size_;
   double pitch_, tolerance_;
   const SweepsByTile& sweeps_;
+  std::vector<bool> bends_;
   unsigned threads_;
-  std::vector<Spot> spots_;  // edges: the corner that an edge begins at, in the triangle where it goes upwards
+  std::vector<Spot>
+      spots_;  // edges: the corner that an edge begins at, in the triangle where it goes upwards
   std::vector<Found> found_;
   std::uint32_t first_new_ = 0;  // vertex: edges between older ones have been looked at
 };

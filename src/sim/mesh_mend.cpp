@@ -61,7 +61,7 @@ class Mender {
 
   Mesh& mesh_;
   unsigned threads_;
-  std::vector<float>* outwards_;  // null, or where each triangle is to face
+  std::vector<float>* outwards_;                    // null, or where each triangle is to face
   std::vector<std::size_t> flat_, changed_;         // changed: since the flat ones were found
   std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
   std::vector<std::vector<std::uint32_t>> around_;  // triangles at a vertex, some of them gone or moved away

@@ -36,6 +36,23 @@ std::uint8_t encoded(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * s));
 }
 
+/// Away from the viewer.
+Point3 looking(const View& view) {
+  const double a = view.azimuth.rad(),
+               e = std::clamp(view.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
+  return {-std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), -std::sin(e)};
+}
+
+/// The direction of the axis that a section stands across.
+Point3 across(const Section& section) {
+  switch (section.plane) {
+    case Plane::xy: return {0, 0, 1};
+    case Plane::xz: return {0, 1, 0};
+    case Plane::yz: break;
+  }
+  return {1, 0, 0};
+}
+
 Point3 unit(Point3 a) {
   const double n = length(a);
   return n > 0.0 ? (1.0 / n) * a : Point3{0, 0, 1};
@@ -71,6 +88,10 @@ class Painter {
   };
 
   void aim(const View& view, double radius);
+  void place_section(const Section& section);
+  std::optional<Cut> cut_in(const Projection& projection) const {
+    return section_ ? std::optional<Cut>(Cut(*section_, projection)) : std::nullopt;
+  }
   void draw_shadows();
   void smooth_normals();
   void lay_ground_and_normals();
@@ -96,6 +117,7 @@ class Painter {
   bool ground_ = false;
   Projection eye_, sun_;
   Point3 fill_;
+  std::optional<CutPlane> section_;
   Target seen_, shadow_;
   std::vector<Spot> spots_;
   std::vector<std::array<float, 3>> vertex_normals_;
@@ -125,11 +147,12 @@ void Painter::aim(const View& view, double radius) {
   const Point3 ahead{-std::sin(a), std::cos(a), 0};
   eye_.centre = 0.5 * (box_.low + box_.high);
   eye_.right = {std::cos(a), std::sin(a), 0};
-  eye_.into = std::cos(e) * ahead + Point3{0, 0, -std::sin(e)};
+  eye_.into = looking(view);
   eye_.up = cross(eye_.right, eye_.into);
   const bool square_on = std::abs(std::cos(e)) < 1e-6 || std::abs(std::sin(e)) < 1e-6;
   eye_.nearness = square_on || radius <= 0.0 ? 0.0 : 1.0 / (kViewDistance * radius);
-  eye_.fit(mesh_, width_ * fine_, height_ * fine_, kMargin);
+  if (view.section && faces(view, *view.section)) place_section(*view.section);
+  eye_.fit(mesh_, section_, width_ * fine_, height_ * fine_, kMargin);
   ground_ = std::sin(e) > 0.1;
 
   // From the left; from the front for a viewer beside the part, from behind for one above it, as drawings are
@@ -141,13 +164,20 @@ void Painter::aim(const View& view, double radius) {
   sun_.into = -1.0 * light;
   sun_.right = unit(cross(sun_.into, std::abs(light.z) > 0.9 ? Point3{0, 1, 0} : Point3{0, 0, 1}));
   sun_.up = cross(sun_.right, sun_.into);
-  sun_.fit(mesh_, kShadowSize, kShadowSize, 0.01);
+  sun_.fit(mesh_, section_, kShadowSize, kShadowSize, 0.01);
+}
+
+/// Leaves out the viewer's side of the plane.
+void Painter::place_section(const Section& section) {
+  CutPlane plane{across(section), section.at};
+  if (!Cut(plane, eye_).is_before()) plane = {-1.0 * plane.normal, -plane.at};
+  section_ = plane;
 }
 
 void Painter::draw_shadows() {
   shadow_.width = shadow_.height = kShadowSize;
   shadow_.depth.assign(std::size_t{kShadowSize} * kShadowSize, kFarDepth);
-  draw(mesh_, project_all(mesh_, sun_), shadow_);
+  draw(mesh_, project_all(mesh_, sun_), cut_in(sun_), shadow_);
 }
 
 /// One normal a vertex, the mean of its faces weighted by area.
@@ -192,6 +222,10 @@ void Painter::lay_ground_and_normals() {
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < seen_.width; ++x) {
         const std::size_t at = seen_.index(x, y);
+        if (seen_.triangle[at] == kCutFace) {
+          normals_[at] = PackedNormal::of(section_->normal);
+          continue;
+        }
         if (seen_.triangle[at] != kNothing) {
           normals_[at] = PackedNormal::of(normal_at(seen_.triangle[at], x + 0.5, y + 0.5));
           continue;
@@ -343,6 +377,7 @@ double Painter::line_at(int x, int y) const {
       line = std::min(line, 0.45);
       continue;
     }
+    if ((seen_.triangle[other] == kCutFace) != (seen_.triangle[at] == kCutFace)) line = std::min(line, 0.6);
     const Point3 way = eye_.point(qx + 0.5, qy + 0.5, seen_.depth[other]) - p;
     const double jump = std::abs(dot(way, eye_.into));
     // Lines are drawn on the nearer side of a jump that is more than a steep slope.
@@ -361,6 +396,7 @@ Colour Painter::shade(int x, int y) const {
   const std::size_t at = seen_.index(x, y);
   const std::uint32_t triangle = seen_.triangle[at];
   if (triangle == kNothing && seen_.depth[at] >= kFarDepth) return background(y);
+  if (triangle == kCutFace) return line_at(x, y) * linear(kSectionColour);
   const Point3 p = eye_.point(x + 0.5, y + 0.5, seen_.depth[at]);
   const Point3 n = normals_[at].get();
   const double closed = std::min(1.0, 1.35 * occlusion_[pixel(x / fine_, y / fine_)]);
@@ -392,7 +428,7 @@ Image Painter::paint() {
   occlusion_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0f);
   if (!box_.empty() && finite(box_.low) && finite(box_.high)) {
     spots_ = project_all(mesh_, eye_);
-    draw(mesh_, spots_, seen_);
+    draw(mesh_, spots_, cut_in(eye_), seen_);
     draw_shadows();
     smooth_normals();
     lay_ground_and_normals();
@@ -435,6 +471,11 @@ std::optional<View> named_view(std::string_view name) {
   if (name == "right") return look(90, 0);
   if (name == "iso") return view;
   return std::nullopt;
+}
+
+bool faces(const View& view, const Section& section) {
+  constexpr double kSlightest = 0.02;  // sine of the angle between the view and the plane: about a degree
+  return std::abs(dot(rendering::across(section), rendering::looking(view))) > kSlightest;
 }
 
 Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view) {

@@ -1,9 +1,11 @@
 // The renderer's lower half: projections, and triangles into a depth buffer.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "kerf/geometry.h"
@@ -12,7 +14,16 @@
 namespace kerf::rendering {
 
 inline constexpr std::uint32_t kNothing = 0xffffffffu;
+inline constexpr std::uint32_t kCutFace = 0xfffffffeu;  // in the place of a triangle: the face of a section
 inline constexpr float kFarDepth = 3.0e38f;
+
+/// What a section leaves out: all p with dot(normal, p) above `at`.
+struct CutPlane {
+  Point3 normal;  // unit vector
+  double at = 0.0;
+  /// The nearest point that is not left out.
+  Point3 kept(Point3 p) const { return p - std::max(0.0, dot(normal, p) - at) * normal; }
+};
 
 /// From mm to samples of a picture and back. Mildly perspective, or parallel where `nearness` is 0. Depth is
 /// affine over the picture for plane faces in both cases.
@@ -33,9 +44,25 @@ struct Projection {
     const double far = depth / (1.0 - nearness * depth), w = 1.0 + nearness * far;
     return centre + (x - x0) * w / scale * right + (y0 - y) * w / scale * up + far * into;
   }
-  /// Places and scales the picture so that the mesh fills `width` x `height` samples but for a margin (share
-  /// of it).
-  void fit(const Mesh& mesh, int width, int height, double margin);
+  /// Places and scales the picture so that what a section leaves of the mesh fills `width` x `height` samples
+  /// but for a margin (share of it).
+  void fit(const Mesh& mesh, const std::optional<CutPlane>& section, int width, int height, double margin);
+};
+
+/// A section's plane in a picture, where it is a plane as well.
+class Cut {
+ public:
+  Cut(const CutPlane& plane, const Projection& projection);
+  bool leaves_out(double x, double y, double depth) const {
+    return x_ * x + y_ * y + depth_ * depth + constant_ > 0.0;
+  }
+  /// Whether what is left out lies before the plane, not behind it.
+  bool is_before() const { return depth_ < 0.0; }
+  /// Depth of the plane at a sample, where it is_before.
+  double depth_at(double x, double y) const { return -(x_ * x + y_ * y + constant_) / depth_; }
+
+ private:
+  double x_, y_, depth_, constant_;
 };
 
 /// A vertex in the picture.
@@ -55,8 +82,8 @@ struct Target {
 };
 
 std::vector<Spot> project_all(const Mesh& mesh, const Projection& projection);
-/// Draws the triangles that face the viewer.
-void draw(const Mesh& mesh, const std::vector<Spot>& spots, Target& target);
+/// Draws the triangles that face the viewer, but for what `cut` leaves out, and the cut's face as kCutFace.
+void draw(const Mesh& mesh, const std::vector<Spot>& spots, const std::optional<Cut>& cut, Target& target);
 /// Calls work(begin, end) for bands of 0 to count, on as many threads as there are.
 void in_bands(int count, const std::function<void(int, int)>& work);
 

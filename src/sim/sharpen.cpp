@@ -1,5 +1,5 @@
-// Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and the
-// vertex goes to where the planes meet; then once more from there with places much nearer to it.
+// Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and
+// the vertex goes to where the planes meet; then once more from there with places much nearer to it.
 #include "sim/sharpen.h"
 
 #include <algorithm>
@@ -11,19 +11,22 @@ namespace kerf::sim {
 namespace {
 
 // All in pitches.
-constexpr double kFirstLook = 0.45;   // from the vertex: within the square of its corner
-constexpr double kSecondLook = 0.1;   // from its new place: curves are planes there
+constexpr double kFirstLook = 0.45;  // from the vertex: within the square of its corner
+constexpr double kSecondLook = 0.1;  // from its new place: curves are planes there
 constexpr double kHalfSquare = 0.5;
 constexpr double kMostMoved = 1.2;
 constexpr double kMostRefined = 0.25;
-constexpr double kMissed = 0.02;      // a new place that is further off all surfaces is none
+constexpr double kMissed = 0.02;  // a new place that is further off all surfaces is none
 
 /// Places closer to a surface are on it, mm: a hundredth of what single precision of a mesh tells.
 constexpr double kOnSurface = 1e-8;
 /// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
 constexpr double kIntoMaterial = 1e-5;
 constexpr int kCloserLooks = 2;
-constexpr int kMostSteps = 6;  // of Newton's method; the distance is nearly linear
+constexpr int kMostSteps = 12;  // of Newton's method; the distance is nearly linear
+/// Share of the most that a place may move by which it goes into the material at a time, if it is deeper than
+/// the other share in what is cut away.
+constexpr double kInwards = 0.15, kShallow = 1e-3;
 /// A surface that the fixed axes leave less of its slope than this (squared) is met too far away.
 constexpr double kLeastGain = 0.05;
 /// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
@@ -44,21 +47,35 @@ constexpr double kOnBlock = 1e-5;
 
 // ---- fans
 
-Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads) : mesh_(mesh), low_(low) {
-  const std::size_t corners = mesh.triangles.size();
-  first_.assign(mesh.positions.size() / 3 + 1, 0);
-  for (const std::uint32_t v : mesh.triangles) ++first_[v + 1];
+Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new) : mesh_(mesh), low_(low) {
+  std::vector<bool> wanted(mesh.positions.size() / 3, first_new == 0);
+  for (std::size_t k = 0; first_new > 0 && k < mesh.triangles.size(); k += 3) {
+    const std::uint32_t* c = mesh.triangles.data() + k;
+    if (std::max({c[0], c[1], c[2]}) >= first_new) wanted[c[0]] = wanted[c[1]] = wanted[c[2]] = true;
+  }
+  gather(wanted);
+  find_normals(wanted, threads);
+}
+
+void Fans::gather(const std::vector<bool>& wanted) {
+  first_.assign(wanted.size() + 1, 0);
+  for (const std::uint32_t v : mesh_.triangles)
+    if (wanted[v]) ++first_[v + 1];
   for (std::size_t v = 0; v + 1 < first_.size(); ++v) first_[v + 1] += first_[v];
-  triangle_.resize(corners);
+  triangle_.resize(first_.back());
   std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t k = 0; k < corners; ++k)
-    triangle_[next[mesh.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
-  normal_.resize(corners);
+  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
+    if (wanted[mesh_.triangles[k]]) triangle_[next[mesh_.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
+}
+
+void Fans::find_normals(const std::vector<bool>& wanted, unsigned threads) {
   constexpr std::size_t kAtATime = 1 << 14;
-  const std::size_t count = corners / 3;
+  const std::size_t count = mesh_.triangles.size() / 3;
+  normal_.resize(3 * count);
   const auto work = [&](std::size_t piece) {
     for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
-      const std::uint32_t* c = mesh.triangles.data() + 3 * t;
+      const std::uint32_t* c = mesh_.triangles.data() + 3 * t;
+      if (!wanted[c[0]] && !wanted[c[1]] && !wanted[c[2]]) continue;
       const Point3 a = point(c[0]), n = cross(point(c[1]) - a, point(c[2]) - a);
       const double size = length(n), per_size = size > 0.0 ? 1.0 / size : 0.0;
       for (int axis = 0; axis < 3; ++axis)
@@ -85,26 +102,53 @@ Point3 Fans::normal(std::uint32_t triangle) const {
 
 // ---- where a vertex goes
 
-bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
-                    Point3& place, Point3& normal) {
-  const Point3 from = place;
+namespace {
+
+enum class From : std::uint8_t { either_side, material };
+
+Point3 freed(Point3 way, const std::array<bool, 3>& fixed) {
+  for (int axis = 0; axis < 3; ++axis)
+    if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
+  return way;
+}
+
+/// Newton's method; `from` the material's side it first goes there.
+bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
+                  const std::array<bool, 3>& fixed, Point3& place, Point3& normal) {
   for (int n = 0; n < kMostSteps; ++n) {
     const Distance distance = nearby.at(place);
     if (std::abs(distance.value) > most) return false;
-    Point3 way = distance.gradient;
     if (std::abs(distance.value) <= kOnSurface) {
       // An edge of the tool sweeps a surface of its own, which is only told from the material's side.
-      normal = -1.0 * nearby.at(place + kIntoMaterial * way).gradient;
-      break;
+      normal = -1.0 * nearby.at(place + kIntoMaterial * inwards).gradient;
+      return true;
     }
-    normal = -1.0 * way;
-    for (int axis = 0; axis < 3; ++axis)
-      if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
+    if (from == From::material && distance.value < -kShallow * most) {
+      place = place + (kInwards * most - distance.value) * freed(inwards, fixed);
+      continue;
+    }
+    const Point3 way = freed(distance.gradient, fixed);
     const double gain = dot(way, way);
     if (gain < kLeastGain) return false;
     place = place - (distance.value / gain) * way;
   }
-  return distance(place, from) <= most && dot(normal, outwards) >= kSameSide * length(outwards);
+  return false;
+}
+
+}  // namespace
+
+bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
+                    Point3& place, Point3& normal) {
+  const Point3 begin = place;
+  const Point3 inwards = (-1.0 / length(outwards)) * outwards;
+  // What is cut away by several sweeps is deeper than any of them tells; then from the material's side.
+  for (const From from : {From::either_side, From::material}) {
+    place = begin;
+    if (find_surface(nearby, from, most, inwards, fixed, place, normal) && distance(place, begin) <= most &&
+        dot(normal, outwards) >= kSameSide * length(outwards))
+      return true;
+  }
+  return false;
 }
 
 /// The stock's own surface: of a block its side that faces nearly so, else the triangle's plane.
@@ -126,9 +170,9 @@ void Placer::find_samples(std::uint32_t vertex, Point3 from) {
     const Point3 normal = fans_.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
     if (fans_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
-    // Of triangles in one plane one is enough.
+    // Of triangles in one plane one is enough, if that is the surface's own.
     for (const Sample& sample : samples_)
-      if (dot(sample.looking, normal) > kOnePlane) return;
+      if (dot(sample.looking, normal) > kOnePlane && dot(sample.normal, normal) > kOnePlane) return;
     const Point3 way = fans_.middle(triangle) - from;
     const double far = length(way);
     Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}, normal};
@@ -145,8 +189,7 @@ void Placer::fix_axes(std::uint32_t vertex, Point3 from) {
     fixed = axis < 2 && (is_low || is_high);
     if (axis < 2 || (!is_low && !is_high)) continue;
     fans_.around(vertex, [&](std::uint32_t triangle) {
-      if (fans_.step(triangle) == kStockSurface && std::abs(fans_.normal(triangle).z) > 0.999)
-        fixed = true;
+      if (fans_.step(triangle) == kStockSurface && std::abs(fans_.normal(triangle).z) > 0.999) fixed = true;
     });
   }
 }

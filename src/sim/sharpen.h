@@ -13,10 +13,11 @@
 
 namespace kerf::sim {
 
-/// The triangles around each vertex of a mesh, their middles and normals, in the block's frame.
+/// The triangles around vertices of a mesh, their middles and normals, in the block's frame.
 class Fans {
  public:
-  Fans(const Mesh& mesh, Point3 low, unsigned threads);
+  /// `first_new`: only those around the vertices from this number on and around their neighbours.
+  Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new = 0);
   std::size_t vertices() const { return first_.size() - 1; }
   /// Calls visit(triangle) for each triangle around a vertex.
   template <class Visit>
@@ -25,13 +26,16 @@ class Fans {
   }
   Point3 point(std::uint32_t vertex) const;
   Point3 middle(std::uint32_t triangle) const;
-  /// Outwards; nothing (0, 0, 0) of a triangle without area.
+  /// Outwards; nothing (0, 0, 0) of a triangle without area, or around no vertex that is wanted.
   Point3 normal(std::uint32_t triangle) const;
   /// Three numbers a triangle.
   const std::vector<float>& normals() const { return normal_; }
   std::uint32_t step(std::uint32_t triangle) const { return mesh_.step[triangle]; }
 
  private:
+  void gather(const std::vector<bool>& wanted);
+  void find_normals(const std::vector<bool>& wanted, unsigned threads);
+
   const Mesh& mesh_;
   Point3 low_;
   std::vector<std::size_t> first_;
@@ -68,8 +72,7 @@ class Placer {
   void add_stock_plane(Point3 from, Point3 normal);
   void find_samples(std::uint32_t vertex, Point3 from);
   bool put_on_surface(Sample& sample, Point3 outwards) const {
-    return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, {}, sample.at,
-                               sample.normal);
+    return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, {}, sample.at, sample.normal);
   }
   bool is_smooth(std::uint32_t vertex, Point3& outwards) const;
   bool is_flat_enough() const;
@@ -87,8 +90,8 @@ class Placer {
   double pitch_, tolerance_;
   bool is_block_;
   const Nearby* nearby_ = nullptr;
-  Point3 corner_;     // of the columns, whose square the vertex stays in; in plan
-  Fixed fixed_{};     // axes along which it stays
+  Point3 corner_;                 // of the columns, whose square the vertex stays in; in plan
+  Fixed fixed_{};                 // axes along which it stays
   std::vector<Sample> samples_;   // on surfaces that were cut
   std::vector<Sample> of_stock_;  // on the stock's own
 };

@@ -55,6 +55,7 @@ class Sharpener {
   bool stopped_ = false;
   std::vector<ToolDistance> tools_;
   SweepsByTile sweeps_;
+  std::vector<bool> bends_;  // vertices that were looked at
 };
 
 Sharpener::Sharpener(Mesh& mesh, const Workpiece::Body& body, const Toolpath& path, Survey survey,
@@ -108,6 +109,8 @@ std::vector<Spot> Sharpener::find_spots(const Fans& fans) const {
 void Sharpener::place_vertices() {
   const Fans fans(mesh_, body_.bounds.low, threads_);
   const std::vector<Spot> spots = find_spots(fans);
+  bends_.assign(fans.vertices(), false);
+  for (const Spot& spot : spots) bends_[spot.number] = true;
   sweeps_.gather(path_, survey_, spots, [&] { return stopped(); });
   std::vector<Point3> places(spots.size());
   std::atomic<std::size_t> done{0};
@@ -134,7 +137,7 @@ void Sharpener::place_vertices() {
 }
 
 void Sharpener::split_edges() {
-  EdgeSplitter splitter(mesh_, body_, sweeps_, tolerance_, threads_);
+  EdgeSplitter splitter(mesh_, body_, sweeps_, std::move(bends_), tolerance_, threads_);
   for (int round = 0; round < kMostSplits; ++round) {
     MeshState straight;
     if (!splitter.split(straight, [&] { return stopped(); })) return;
@@ -161,8 +164,7 @@ void Sharpener::settle(MeshState& before) {
   for (int round = 0; round < kMostRounds; ++round) {
     std::vector<std::uint32_t> back;
     for (std::size_t t = 0; t < mesh_.step.size(); ++t)
-      if (is_folded(t, before))
-        back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
+      if (is_folded(t, before)) back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
     if (back.empty()) return;
     for (const std::uint32_t v : back)
       std::copy_n(before.positions.begin() + 3 * std::ptrdiff_t{v}, 3,
@@ -195,8 +197,7 @@ bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, 
   Diagnostics said_before;
   std::optional<sim::Setup> setup = sim::set_up(path, tools, stock, of_simulation, said_before);
   if (!setup || mesh.triangles.empty()) return true;  // nothing was cut
-  return sim::Sharpener(mesh, workpiece.body(), path, std::move(setup->survey), tools,
-                        options, progress)
+  return sim::Sharpener(mesh, workpiece.body(), path, std::move(setup->survey), tools, options, progress)
       .run();
 }
 

@@ -13,6 +13,8 @@ namespace {
 /// Columns along the side of a block of columns that share a list of sweeps.
 constexpr int kBlock = 8;
 constexpr int kBlocksAcross = kTileColumns / kBlock;
+/// Places within so many pitches of one share a shorter list.
+constexpr double kWider = 4.0;
 /// Columns along the side of the square around a place whose steps are looked at.
 constexpr int kColumns = 4;
 constexpr std::uint32_t kNotYet = 0xffffffffu;
@@ -21,11 +23,21 @@ constexpr std::uint32_t kNotYet = 0xffffffffu;
 
 bool comes_before(const Sweep* a, const Sweep* b) {
   const auto key = [](const Sweep* sweep) {
-    return std::tuple(!is_level(*sweep), is_level(*sweep) ? sweep->tool : 0, is_level(*sweep) ? sweep->z : 0.0,
-                      sweep);
+    return std::tuple(!is_level(*sweep), is_level(*sweep) ? sweep->tool : 0,
+                      is_level(*sweep) ? sweep->z : 0.0, sweep);
   };
   return key(a) < key(b);
 }
+
+namespace {
+
+/// Whether a place may be within reach of an arc: it is near the whole circle.
+bool may_be_near(const Sweep& arc, Point2 place, double reach) {
+  const double dx = place.x - arc.x, dy = place.y - arc.y;
+  return std::abs(std::sqrt(dx * dx + dy * dy) - arc.radius) <= reach;
+}
+
+}  // namespace
 
 /// Takes those of one height, the first of which is number `first`; returns the number after the last.
 std::size_t Nearby::gather_level(const std::vector<const Sweep*>& sweeps, std::size_t first) {
@@ -36,14 +48,22 @@ std::size_t Nearby::gather_level(const std::vector<const Sweep*>& sweeps, std::s
   for (; end < sweeps.size(); ++end) {
     const Sweep& sweep = *sweeps[end];
     if (!is_level(sweep) || sweep.tool != like.tool || sweep.z != like.z) break;
-    const Point2 way = around_.xy() - nearest_in_plan(sweep, around_.xy());
-    distances_.push_back(dot(way, way));
-    nearest2 = std::min(nearest2, distances_.back());
+    double square = std::numeric_limits<double>::infinity();
+    if (!sweep.is_arc || may_be_near(sweep, around_.xy(), std::sqrt(nearest2) + 2.0 * reach_)) {
+      const Point2 way = around_.xy() - nearest_in_plan(sweep, around_.xy());
+      square = dot(way, way);
+    }
+    distances_.push_back(square);
+    nearest2 = std::min(nearest2, square);
   }
   const double most = std::sqrt(nearest2) + 2.0 * reach_;
   Level level{level_.size(), level_.size(), 0.0};
   for (std::size_t k = first; k < end; ++k)
-    if (distances_[k - first] <= most * most) level_.push_back(sweeps[k]);
+    if (distances_[k - first] <= most * most) {
+      const Sweep& sweep = *sweeps[k];
+      level_.push_back(&sweep);
+      lines_.push_back({sweep.x, sweep.y, sweep.ux, sweep.uy, sweep.is_arc ? -1.0 : sweep.length});
+    }
   level.end = level_.size();
   const ToolDistance& tool = tools_[like.tool];
   level.low = distance_to_level(tool, nearest_of(level, around_.xy()), like.z, around_).value;
@@ -55,6 +75,7 @@ void Nearby::gather(const std::vector<const Sweep*>& sweeps, Point3 place) {
   around_ = place;
   levels_.clear();
   level_.clear();
+  lines_.clear();
   others_.clear();
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < sweeps.size();) {
@@ -78,11 +99,25 @@ void Nearby::gather(const std::vector<const Sweep*>& sweeps, Point3 place) {
   });
 }
 
+void Nearby::list(std::vector<const Sweep*>& out) const {
+  out.clear();
+  for (const Level& level : levels_)
+    out.insert(out.end(), level_.begin() + static_cast<std::ptrdiff_t>(level.first),
+               level_.begin() + static_cast<std::ptrdiff_t>(level.end));
+  for (const Other& other : others_) out.push_back(other.sweep);
+}
+
+bool Nearby::holds(Point3 place, double reach) const { return distance(place, around_) + reach <= reach_; }
+
 Point2 Nearby::nearest_of(const Level& level, Point2 place) const {
   Point2 nearest;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = level.first; k < level.end; ++k) {
-    const Point2 at = nearest_in_plan(*level_[k], place);
+    const Line& line = lines_[k];
+    const double dx = place.x - line.x, dy = place.y - line.y;
+    const double t = std::clamp(dx * line.ux + dy * line.uy, 0.0, std::max(line.length, 0.0));
+    Point2 at{line.x + t * line.ux, line.y + t * line.uy};
+    if (line.length < 0.0) at = nearest_in_plan(*level_[k], place);  // an arc
     const double square = dot(at - place, at - place);
     if (square >= least) continue;
     least = square;
@@ -104,7 +139,9 @@ Distance Nearby::at(Point3 place) const {
   }
   for (const Other& other : others_) {
     if (other.low - moved > nearest.value) break;
-    take(distance_to(*other.sweep, tools_[other.sweep->tool], place, 2.0 * reach_));
+    const ToolDistance& tool = tools_[other.sweep->tool];
+    if (bounds_of_distance(*other.sweep, tool, place, 2.0 * reach_).low >= nearest.value) continue;
+    take(distance_to(*other.sweep, tool, place, 2.0 * reach_, nearest.value));
   }
   return nearest;
 }
@@ -131,8 +168,13 @@ void SweepsByTile::take(const Batch& batch) {
   }
 }
 
+Around::Around(const SweepsByTile& sweeps)
+    : sweeps_(sweeps),
+      wider_(sweeps.tools_, sweeps.reach_ + kWider * sweeps.body_.pitch),
+      nearby_(sweeps.tools_, sweeps.reach_) {}
+
 void Around::go_to(const Spot& spot) {
-  if (spot.tile != spot_.tile || spot.block != spot_.block) has_block_ = false;
+  if (spot.tile != spot_.tile || spot.block != spot_.block) has_block_ = has_wider_ = false;
   spot_ = spot;
 }
 
@@ -155,7 +197,12 @@ void Around::gather_block() {
 
 const Nearby& Around::all(Point3 place) {
   if (!has_block_) gather_block();
-  nearby_.gather(of_block_, place);
+  if (!has_wider_ || !wider_.holds(place, sweeps_.reach_)) {
+    wider_.gather(of_block_, place);
+    wider_.list(of_wider_);
+    has_wider_ = true;
+  }
+  nearby_.gather(of_wider_, place);
   return nearby_;
 }
 
@@ -177,7 +224,9 @@ const Nearby& Around::of_columns(Point3 place) {
   of_columns_.clear();
   const std::vector<std::uint32_t>& list = sweeps_.of_tile_[spot_.tile];
   for (const std::uint32_t step : steps_) {
-    const auto before = [&](std::uint32_t n, std::uint32_t wanted) { return sweeps_.sweeps_[n].step < wanted; };
+    const auto before = [&](std::uint32_t n, std::uint32_t wanted) {
+      return sweeps_.sweeps_[n].step < wanted;
+    };
     for (auto at = std::lower_bound(list.begin(), list.end(), step, before);
          at != list.end() && sweeps_.sweeps_[*at].step == step; ++at)
       of_columns_.push_back(&sweeps_.sweeps_[*at]);

@@ -24,6 +24,10 @@ class Nearby {
   void gather(const std::vector<const Sweep*>& sweeps, Point3 place);
   /// To what is taken away, with the direction into the material.
   Distance at(Point3 place) const;
+  /// What was gathered, in order.
+  void list(std::vector<const Sweep*>& out) const;
+  /// Whether it is all that can be met within `reach` of a place.
+  bool holds(Point3 place, double reach) const;
 
  private:
   struct Level {  // sweeps of one tool at one height: level_[first] to level_[end - 1]
@@ -39,9 +43,13 @@ class Nearby {
 
   const std::vector<ToolDistance>& tools_;
   double reach_;
-  Point3 around_;
+  Point3 around_;  // the place that all were gathered around
   std::vector<Level> levels_;
+  struct Line {  // what is needed of a sweep to find its nearest place in plan
+    double x, y, ux, uy, length;
+  };
   std::vector<const Sweep*> level_;
+  std::vector<Line> lines_;        // of level_
   std::vector<Other> others_;      // the nearest first
   std::vector<double> distances_;  // in plan, squared
 };
@@ -84,7 +92,7 @@ class SweepsByTile {
 /// What is around the spots of one tile, one spot after the other.
 class Around {
  public:
-  explicit Around(const SweepsByTile& sweeps) : sweeps_(sweeps), nearby_(sweeps.tools_, sweeps.reach_) {}
+  explicit Around(const SweepsByTile& sweeps);
   void go_to(const Spot& spot);
   /// From all sweeps.
   const Nearby& all(Point3 place);
@@ -95,10 +103,10 @@ class Around {
   void gather_block();
 
   const SweepsByTile& sweeps_;
-  Nearby nearby_;
+  Nearby wider_, nearby_;  // the wider ones serve several places
   Spot spot_;
-  bool has_block_ = false;
-  std::vector<const Sweep*> of_block_, of_columns_;
+  bool has_block_ = false, has_wider_ = false;
+  std::vector<const Sweep*> of_block_, of_wider_, of_columns_;
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> steps_;
 };

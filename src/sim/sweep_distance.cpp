@@ -17,10 +17,9 @@ struct Span {
 /// Looks along a path are this share of the tool's radius apart at first, and never more than so many.
 constexpr double kLookShare = 0.25;
 constexpr int kMostLooks = 64;
-/// The search for the nearest point ends there, mm along the path: flanks turn it into at most as much in
-/// distance.
+/// The search for the nearest point ends when so little can be gained, mm, or with so short a piece of path.
+constexpr double kDistanceTolerance = 1e-9;
 constexpr double kPathTolerance = 1e-7;
-constexpr int kMostHalvings = 40;
 
 /// A sweep that is a line, and a place that looks at it.
 class Looker {
@@ -59,7 +58,8 @@ class Looker {
     return {std::max(0.0, along - half), std::min(sweep_.length, along + half)};
   }
 
-  Distance nearest(Span span) const;
+  /// Anything that is not below `enough` will do where nothing is.
+  Distance nearest(Span span, double enough) const;
 
  private:
   Distance from(double x, double y, double z) const {
@@ -68,7 +68,7 @@ class Looker {
     const double per_rho = rho > 0.0 ? turned.by_r / rho : 0.0;
     return {turned.value, {per_rho * dx, per_rho * dy, turned.by_z}};
   }
-  Distance between(Span span, Look first, Look last) const;
+  Distance between(Span span, Look first, Look last, double enough) const;
 
   const Sweep& sweep_;
   const ToolDistance& tool_;
@@ -76,14 +76,19 @@ class Looker {
   bool is_plunge_;
 };
 
-/// Halves a piece of the path at whose ends the distance falls towards its inside.
-Distance Looker::between(Span span, Look first, Look last) const {
-  for (int n = 0; n < kMostHalvings && span.last - span.first > kPathTolerance; ++n) {
-    // Where the slopes say that the bottom is, but well inside; every third time in the middle.
-    const double share = n % 3 == 2 || !(first.along < 0.0 && last.along > 0.0)
-                             ? 0.5
-                             : std::clamp(first.along / (first.along - last.along), 0.02, 0.98);
-    const double t = span.first + share * (span.last - span.first);
+/// The lowest place of a piece of the path at whose ends the distance falls towards its inside. The distance
+/// to a convex piece of a tool is a convex function along a line: it is above its tangents, and where those
+/// meet is the bottom of a kink; the bottom of a curve is where the slopes say.
+Distance Looker::between(Span span, Look first, Look last, double enough) const {
+  for (int n = 0; n < kMostLooks; ++n) {
+    const double width = span.last - span.first, bend = last.along - first.along;
+    const double drop = last.distance.value - first.distance.value;
+    const double meet = (last.along * width - drop) / bend;  // of the tangents, from the first end
+    const double lowest = first.distance.value + first.along * meet;
+    const double best = std::min(first.distance.value, last.distance.value);
+    if (best - lowest <= kDistanceTolerance || lowest >= enough || !(width > kPathTolerance)) break;
+    const double where = n % 2 == 0 ? meet : -first.along / bend * width;
+    const double t = span.first + std::clamp(where, 0.01 * width, 0.99 * width);
     const Look look = at(t);
     if (look.along > 0.0) {
       span.last = t;
@@ -96,7 +101,7 @@ Distance Looker::between(Span span, Look first, Look last) const {
   return first.distance.value < last.distance.value ? first.distance : last.distance;
 }
 
-Distance Looker::nearest(Span span) const {
+Distance Looker::nearest(Span span, double enough) const {
   const double step = kLookShare * std::max(tool_.rim(), kPathTolerance);
   const double wanted = std::ceil((span.last - span.first) / step);
   const int pieces = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMostLooks)));
@@ -106,7 +111,7 @@ Distance Looker::nearest(Span span) const {
   for (int k = 1; k <= pieces; ++k) {
     const Look look = at(place(k));
     if (before.along < 0.0 && look.along > 0.0) {
-      const Distance inside = between({place(k - 1), place(k)}, before, look);
+      const Distance inside = between({place(k - 1), place(k)}, before, look, std::min(enough, best.value));
       if (inside.value < best.value) best = inside;
     }
     if (look.distance.value < best.value) best = look.distance;
@@ -124,14 +129,16 @@ Point2 nearest_in_plan(const Sweep& sweep, Point2 place) {
     return {sweep.x + t * sweep.ux, sweep.y + t * sweep.uy};
   }
   const double far = std::sqrt(dx * dx + dy * dy);
-  double angle = std::atan2(sweep.ux * dy - sweep.uy * dx, sweep.ux * dx + sweep.uy * dy);
-  const double turn = std::abs(sweep.turn);
-  if (sweep.turn < 0.0) angle = -angle;
-  if (angle < 0.0) angle += 2.0 * std::numbers::pi;
-  if (angle <= turn && far > 0.0)
-    return {sweep.x + dx / far * sweep.radius, sweep.y + dy / far * sweep.radius};
-  // Beyond the arc: whichever end is nearer.
   const double c = std::cos(sweep.turn), s = std::sin(sweep.turn);
+  // Seen from the begin, counted in the arc's own sense: left of it, and left of its end.
+  const double way = sweep.turn < 0.0 ? -1.0 : 1.0;
+  const double along = sweep.ux * dx + sweep.uy * dy, across = way * (sweep.ux * dy - sweep.uy * dx);
+  const bool after_begin = across >= 0.0, before_end = way * s * along - c * across >= 0.0;
+  const double turn = std::abs(sweep.turn);
+  const bool between = turn >= 2.0 * std::numbers::pi ||
+                       (turn <= std::numbers::pi ? after_begin && before_end : after_begin || before_end);
+  if (between && far > 0.0) return {sweep.x + dx / far * sweep.radius, sweep.y + dy / far * sweep.radius};
+  // Beyond the arc: whichever end is nearer.
   const Point2 begin{sweep.x + sweep.radius * sweep.ux, sweep.y + sweep.radius * sweep.uy};
   const Point2 end{sweep.x + sweep.radius * (c * sweep.ux - s * sweep.uy),
                    sweep.y + sweep.radius * (s * sweep.ux + c * sweep.uy)};
@@ -145,11 +152,12 @@ Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, P
   return {turned.value, {per_rho * dx, per_rho * dy, turned.by_z}};
 }
 
-Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {
+Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
+                     double enough) {
   if (is_level(sweep)) return distance_to_level(tool, nearest_in_plan(sweep, place.xy()), sweep.z, place);
   const Looker looker(sweep, tool, place);
   const Span span = looker.near(reach);
-  return span.empty() ? Distance{} : looker.nearest(span);
+  return span.empty() ? Distance{} : looker.nearest(span, enough);
 }
 
 DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {

@@ -13,8 +13,9 @@ struct Distance {
 };
 
 /// Of a place, in the sweeps' frame, to what the tool takes away along a sweep. Places further than `reach`
-/// may be said to be far away (1e30).
-Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach);
+/// may be said to be far away (1e30), and distances that are not below `enough` need not be exact.
+Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
+                     double enough = 1e30);
 
 /// The place of a sweep's path that is nearest, both seen from above.
 Point2 nearest_in_plan(const Sweep& sweep, Point2 place);

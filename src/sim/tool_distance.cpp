@@ -18,7 +18,8 @@ constexpr double kOnOutline = 1e-9;
 struct ToolDistance::Nearest {
   double distance2 = std::numeric_limits<double>::infinity();
   double r = 0.0, z = 0.0;                // the place
-  double normal_r = 0.0, normal_z = 0.0;  // of the outline there, outwards
+  double normal_r = 0.0, normal_z = 0.0;  // of the outline there, outwards; of an arc
+  const Piece* line = nullptr;            // the piece, if it is a line
 
   bool take(double from_r, double from_z, double to_r, double to_z) {
     const double dr = from_r - to_r, dz = from_z - to_z;
@@ -50,10 +51,30 @@ ToolDistance::ToolDistance(const Silhouette& tool) {
   bottom_ = pieces_.empty() ? 0.0 : pieces_.front().z0;
 }
 
+double ToolDistance::per_square(const Piece& piece) {
+  const double dr = piece.r1 - piece.r0, dz = piece.z1 - piece.z0;
+  return 1.0 / (dr * dr + dz * dz);
+}
+
+/// Whether two pieces, one after the other, are one upright line: flutes and shank of one width.
+bool ToolDistance::goes_on(const Piece& before, const Piece& next) {
+  return before.side == 0.0 && next.side == 0.0 && before.r1 == next.r0 && before.z1 == next.z0 &&
+         before.r0 == before.r1 && next.r0 == next.r1;
+}
+
 void ToolDistance::add_region(const std::vector<Knot>& knots) {
   if (knots.size() < 2) return;
   const auto add = [&](const Knot& a, const Knot& b) {
-    if (a.r != b.r || a.z != b.z) pieces_.push_back(piece_between(a, b));
+    if ((a.r == b.r && a.z == b.z) || a.z >= kAboveAll)
+      return;  // nothing is ever near the end of what holds it
+    Piece piece = piece_between(a, b);
+    if (!pieces_.empty() && goes_on(pieces_.back(), piece)) {
+      piece.r0 = pieces_.back().r0;
+      piece.z0 = pieces_.back().z0;
+      piece.per_length2 = per_square(piece);
+      pieces_.pop_back();
+    }
+    pieces_.push_back(piece);
   };
   add({0.0, knots.front().z, 0.0}, knots.front());
   for (std::size_t k = 0; k + 1 < knots.size(); ++k) add(knots[k], knots[k + 1]);
@@ -62,6 +83,7 @@ void ToolDistance::add_region(const std::vector<Knot>& knots) {
 
 ToolDistance::Piece ToolDistance::piece_between(const Knot& a, const Knot& b) {
   Piece piece{.r0 = a.r, .z0 = a.z, .r1 = b.r, .z1 = b.z};
+  piece.per_length2 = per_square(piece);
   if (a.bulge == 0.0) return piece;
   const ArcShape arc = arc_shape(a, b);
   piece.side = a.bulge > 0.0 ? 1.0 : -1.0;
@@ -86,13 +108,10 @@ bool ToolDistance::is_inside(double rho, double z) const {
 
 void ToolDistance::look_at_line(const Piece& piece, double rho, double z, Nearest& nearest) {
   const double dr = piece.r1 - piece.r0, dz = piece.z1 - piece.z0;
-  const double length2 = dr * dr + dz * dz;
   const double share =
-      std::clamp(((rho - piece.r0) * dr + (z - piece.z0) * dz) / length2, 0.0, 1.0);
+      std::clamp(((rho - piece.r0) * dr + (z - piece.z0) * dz) * piece.per_length2, 0.0, 1.0);
   if (!nearest.take(rho, z, piece.r0 + share * dr, piece.z0 + share * dz)) return;
-  const double length = std::sqrt(length2);
-  nearest.normal_r = dz / length;
-  nearest.normal_z = -dr / length;
+  nearest.line = &piece;
 }
 
 void ToolDistance::look_at_arc(const Piece& piece, double rho, double z, Nearest& nearest) {
@@ -104,6 +123,7 @@ void ToolDistance::look_at_arc(const Piece& piece, double rho, double z, Nearest
   const bool between = piece.side * (begin_r * h - begin_z * r) >= 0.0 &&
                        piece.side * (r * end_z - h * end_r) >= 0.0 && length > 0.0;
   const auto set_normal = [&] {
+    nearest.line = nullptr;
     nearest.normal_r = piece.side * (nearest.r - piece.centre_r) / piece.radius;
     nearest.normal_z = piece.side * (nearest.z - piece.centre_z) / piece.radius;
   };
@@ -122,7 +142,12 @@ TurnedDistance ToolDistance::at(double rho, double z) const {
     piece.side == 0.0 ? look_at_line(piece, rho, z, nearest) : look_at_arc(piece, rho, z, nearest);
   const double distance = std::sqrt(nearest.distance2);
   const double sign = is_inside(rho, z) ? -1.0 : 1.0;
-  if (distance < kOnOutline) return {sign * distance, nearest.normal_r, nearest.normal_z};
+  if (distance < kOnOutline) {
+    if (nearest.line == nullptr) return {sign * distance, nearest.normal_r, nearest.normal_z};
+    const Piece& line = *nearest.line;
+    const double per_length = std::sqrt(line.per_length2);
+    return {sign * distance, per_length * (line.z1 - line.z0), per_length * (line.r0 - line.r1)};
+  }
   return {sign * distance, sign * (rho - nearest.r) / distance, sign * (z - nearest.z) / distance};
 }
 

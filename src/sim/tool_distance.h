@@ -29,12 +29,15 @@ class ToolDistance {
   /// From a knot to the next, material on the left: towards the axis on the way up.
   struct Piece {
     double r0 = 0.0, z0 = 0.0, r1 = 0.0, z1 = 0.0;
+    double per_length2 = 0.0;  // one divided by the square of its chord
     double side = 0.0;  // of an arc: 1 where it bulges away from the axis, -1 where it is hollow; else 0
     double centre_r = 0.0, centre_z = 0.0, radius = 0.0;
   };
   struct Nearest;
   void add_region(const std::vector<Knot>& knots);
   static Piece piece_between(const Knot& a, const Knot& b);
+  static double per_square(const Piece& piece);
+  static bool goes_on(const Piece& before, const Piece& next);
   static double radius_at(const Piece& piece, double z);
   static void look_at_line(const Piece& piece, double rho, double z, Nearest& nearest);
   static void look_at_arc(const Piece& piece, double rho, double z, Nearest& nearest);

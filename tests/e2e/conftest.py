@@ -72,3 +72,9 @@ def program(tmp_path):
 def files(tmp_path):
     """The names of all files in the test's folder."""
     return lambda: sorted(p.name for p in tmp_path.iterdir())
+
+
+@pytest.fixture
+def folder_bytes(tmp_path):
+    """The contents of all files in the test's folder, by their names."""
+    return lambda: {p.name: p.read_bytes() for p in tmp_path.iterdir()}

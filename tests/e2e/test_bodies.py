@@ -129,8 +129,12 @@ def test_compare(kerf, program, box, files):
     outside = kerf("compare", "--json", path, target, "--target-shift", "0,0,3")
     assert "target_outside" in outside.codes()
     assert kerf("compare", path, target, "-o", "part.stl").status == 2
-    # --size is that of --view's picture.
+    # --size and --section are those of --view's picture.
+    assert kerf("compare", path, target, "-o", "map.png", "--section", "x=10").status == 2
     assert kerf("compare", path, target, "-o", "map.png", "--size", "10x10").status == 2
+    assert kerf("compare", path, target, "-o", "cut.png", "--view", "iso", "--section", "x=10").status == 0
+    beside = kerf("compare", path, target, "-o", "beside.png", "--view", "iso", "--section", "x=-1")
+    assert beside.status == 1 and "[1017]" in beside.err and "beside.png" not in files()  # section_outside
     assert "full from 0.25 mm" in kerf("compare", path, target, "-o", "map.png").out
 
 

@@ -74,6 +74,44 @@ def test_views(kerf, program, files, view):
     assert "v.png" in files()
 
 
+@pytest.mark.parametrize("plane, view", [("x=20", "left"), ("Y=15", "-35,50"), ("z=-0.5", "top"),
+                                         ("x=0.5in", "iso")])
+def test_a_section_changes_the_picture_alone(kerf, program, folder_bytes, plane, view):
+    path = program()
+    common = ["--resolution", "0.5", path, "-o", "v.png", "-o", "v.stl", "--view", view, "--size", "64x48"]
+    assert kerf("simulate", *common).status == 0
+    whole = folder_bytes()
+    run = kerf("simulate", *common, "--section", plane)
+    assert run.status == 0, run.err
+    open_ = folder_bytes()
+    assert open_["v.png"] != whole["v.png"] and open_["v.stl"] == whole["v.stl"]
+
+
+@pytest.mark.parametrize("plane", ["w=3", "x", "x=", "x=left", "25", "x>25", "x=nan"])
+def test_a_section_that_is_no_plane_is_wrong_usage(kerf, program, files, plane):
+    run = kerf("simulate", program(), "-o", "v.png", "--section", plane)
+    assert run.status == 2
+    assert "--section" in run.err and "x=25" in run.err
+    assert files() == ["part.nc"]
+
+
+def test_a_section_that_the_view_cannot_see(kerf, program):
+    run = kerf("simulate", program(), "-o", "v.png", "--view", "top", "--section", "x=20")
+    assert run.status == 2
+    assert "edge" in run.err and "--view" in run.err
+
+
+def test_a_section_beside_the_part(kerf, program, files):
+    run = kerf("simulate", program(), "-o", "v.png", "-o", "v.stl", "--section", "x=41")
+    assert run.status == 1
+    assert "[1017]" in run.err and "x=0 to 40" in run.err  # section_outside
+    assert files() == ["part.nc"]
+
+
+def test_a_section_without_a_picture_is_told(kerf, program):
+    assert "option_unused" in kerf("simulate", "--json", program(), "--section", "x=20").codes()
+
+
 def test_the_result_is_the_same_for_any_number_of_threads(kerf, program):
     path = program()
     one = kerf("simulate", "--json", "--resolution", "0.1", "--threads", "1", path).json

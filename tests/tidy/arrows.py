@@ -31,7 +31,7 @@ OUTSIDE = PATH | CODEC | FRONT | BACK | {"sim"}  # benchmarks, fuzz targets and 
 PUBLIC = {
     "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
              "codes.def"],
-    "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h"],
+    "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h", "mesh_check.h"],
     "tool": ["tool.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
+#include <limits>
 #include <map>
+#include <optional>
 #include <random>
 #include <set>
 
@@ -96,7 +98,10 @@ std::size_t flat_triangles(const Mesh& mesh) {
 
 void expect_sound(const ColumnGrid& grid, const Mesh& mesh) {
   EXPECT_EQ(mesh.triangles.size(), 3 * mesh.step.size());
-  EXPECT_EQ(check_mesh(mesh).bad_edges, 0u);
+  const MeshCheck check = check_mesh(mesh);
+  const VolumeRange range = mesh_volume(grid, {.tolerance = mm(0.01)});
+  EXPECT_EQ(check.bad_edges, 0u);
+  EXPECT_NEAR(check.volume.mm3(), range.expected.mm3(), range.tolerance.mm3());
   EXPECT_TRUE(one_fan_a_vertex(mesh));
   const Box3 box = bounds_of(mesh);
   for (int axis = 0; axis < 3; ++axis) {
@@ -349,6 +354,51 @@ TEST(CheckMesh, CountsOpenAndDoubledEdges) {
   EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
   mesh.triangles[0] = 99;
   EXPECT_GT(check_mesh(mesh).bad_edges, 0u);
+}
+
+/// The code of the only error, or nothing where the mesh may be written.
+std::optional<Code> refusal(const Mesh& mesh, const VolumeRange& volume) {
+  Diagnostics diagnostics;
+  const bool sound = verify_mesh(mesh, volume, diagnostics);
+  EXPECT_EQ(sound, !diagnostics.has_errors());
+  return sound ? std::nullopt : std::optional<Code>(diagnostics.list().at(0).code);
+}
+
+TEST(Mesh, OnlySoundMeshesMayBeWritten) {
+  const ColumnGrid grid = make_grid(12, 8, 0.5, 5, [](double x, double y) {
+    return Column{{0, x > 2 && x < 4 && y > 1 && y < 3 ? 2.0f : 5.0f, kStockSurface, 3}};
+  });
+  const Mesh sound = extract_mesh(grid);
+  const VolumeRange range = mesh_volume(grid);
+  EXPECT_NEAR(range.expected.mm3(), 6 * 4 * 5 - 2 * 2 * 3, 1e-9);
+  EXPECT_NEAR(range.tolerance.mm3(), 0.5 * (4 * 2 * 3), 0.01);  // a pitch of the pocket's walls
+  EXPECT_EQ(refusal(sound, range), std::nullopt);
+
+  Mesh open = sound;
+  open.triangles.resize(open.triangles.size() - 3);
+  EXPECT_EQ(refusal(open, range), Code::mesh_unsound);
+  Mesh turned = sound;
+  std::swap(turned.triangles[0], turned.triangles[1]);
+  EXPECT_EQ(refusal(turned, range), Code::mesh_unsound);
+  Mesh inside_out = sound;
+  for (std::size_t t = 0; t < inside_out.triangles.size(); t += 3)
+    std::swap(inside_out.triangles[t], inside_out.triangles[t + 1]);
+  EXPECT_EQ(check_mesh(inside_out).bad_edges, 0u);
+  EXPECT_EQ(refusal(inside_out, range), Code::mesh_unsound);
+  Mesh higher = sound;
+  for (std::size_t k = 2; k < higher.positions.size(); k += 3)
+    if (higher.positions[k] == 0.0f) higher.positions[k] = 1.0f;
+  EXPECT_EQ(check_mesh(higher).bad_edges, 0u);
+  EXPECT_EQ(refusal(higher, range), Code::mesh_unsound);
+  Mesh lost = sound;
+  lost.positions[3] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refusal(lost, range), Code::mesh_unsound);
+  Mesh beyond = sound;
+  beyond.triangles[5] = static_cast<std::uint32_t>(beyond.positions.size());
+  EXPECT_EQ(refusal(beyond, range), Code::mesh_unsound);
+
+  EXPECT_EQ(refusal(Mesh{}, mesh_volume(ColumnGrid{})), std::nullopt);
+  EXPECT_EQ(refusal(Mesh{}, range), Code::mesh_unsound);
 }
 
 TEST(Mesh, NoTriangleIsWithoutArea) {

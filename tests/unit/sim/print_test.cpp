@@ -424,6 +424,9 @@ TEST(Print, RandomPrintsAddUpAndHaveClosedSurfaces) {
     const MeshCheck check = check_mesh(mesh);
     EXPECT_EQ(check.bad_edges, 0u) << seed;
     EXPECT_NEAR(check.volume.mm3(), in_columns(s), 0.05 * in_columns(s)) << seed;
+    const VolumeRange range = mesh_volume(s.columns);
+    EXPECT_NEAR(range.expected.mm3(), in_columns(s), 1e-6 * in_columns(s)) << seed;
+    EXPECT_NEAR(check.volume.mm3(), range.expected.mm3(), range.tolerance.mm3()) << seed;
     for (std::uint32_t c = 0; c + 1 < s.columns.first.size(); ++c)
       for (std::uint32_t k = s.columns.first[c]; k < s.columns.first[c + 1]; ++k) {
         EXPECT_LT(s.columns.intervals[k].low, s.columns.intervals[k].high);

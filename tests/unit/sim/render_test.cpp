@@ -122,6 +122,58 @@ TEST(Render, IsoShowsLightAndShade) {
   EXPECT_GT(shades, 6);
 }
 
+/// A block 20 x 10 x 5 mm with a slot along Y that is 4 mm wide below Z-2 and 2 mm wide above.
+Mesh undercut_block() {
+  ColumnGrid grid;
+  grid.bounds = {{0, 0, -5}, {20, 10, 0}};
+  grid.pitch = 0.5;
+  grid.nx = 40;
+  grid.ny = 20;
+  grid.first.push_back(0);
+  for (int j = 0; j < grid.ny; ++j) {
+    for (int i = 0; i < grid.nx; ++i) {
+      const bool head = i >= 16 && i < 24, neck = i >= 18 && i < 22;
+      grid.intervals.push_back({0.0f, head ? 1.0f : 5.0f, kStockSurface, head ? 4u : kStockSurface});
+      if (head && !neck) grid.intervals.push_back({3.0f, 5.0f, 4u, kStockSurface});
+      grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
+    }
+  }
+  return extract_mesh(grid);
+}
+
+/// Pixels of a section's face: all else is blue here.
+int section_pixels(const Mesh& mesh, View view, const Section& section) {
+  view.section = section;
+  return look(render(mesh, std::vector<Rgb>(mesh.step.size(), Rgb{40, 60, 220}), view)).red;
+}
+
+TEST(Render, ASectionShowsTheProfileOfAnUndercut) {
+  const Mesh mesh = undercut_block();
+  const double square = 17.6 * 17.6;  // pixels a mm2: 20 mm in 88 % of 400 pixels
+  // 20 x 5 mm without the head of 4 x 2 mm and the neck of 2 x 2 mm; one mm in, it is the same.
+  for (const double y : {0.25, 5.0, 9.75})
+    EXPECT_NEAR(section_pixels(mesh, small("front"), {Plane::xz, y}), (100 - 12) * square, 500) << y;
+  EXPECT_NEAR(section_pixels(mesh, small("back"), {Plane::xz, 5.0}), (100 - 12) * square, 500);
+  // Through the neck, the head, and the floor below.
+  EXPECT_NEAR(section_pixels(mesh, small("top"), {Plane::xy, -1.0}), (200 - 20) * square, 1000);
+  EXPECT_NEAR(section_pixels(mesh, small("top"), {Plane::xy, -3.0}), (200 - 40) * square, 1000);
+  EXPECT_NEAR(section_pixels(mesh, small("top"), {Plane::xy, -4.5}), 200 * square, 1000);
+  EXPECT_GT(section_pixels(mesh, small("iso"), {Plane::yz, 5.0}), 3000);
+}
+
+TEST(Render, ASectionLeavesOutTheViewersSide) {
+  // The half at low x is lower. Across it from the left that one is left out, so that all of the high one's
+  // height is seen; from the right the low one's.
+  const Mesh mesh = stepped_block(3);
+  const double square = 35.2 * 35.2;  // pixels a mm2: now 10 mm in 88 % of 400 pixels
+  EXPECT_NEAR(section_pixels(mesh, small("left"), {Plane::yz, 15.0}), 50 * square, 1500);
+  EXPECT_NEAR(section_pixels(mesh, small("right"), {Plane::yz, 5.0}), 20 * square, 1500);
+  // A view along the plane cuts nothing.
+  EXPECT_FALSE(faces(small("top"), {Plane::yz, 10.0}));
+  EXPECT_TRUE(faces(small("iso"), {Plane::yz, 10.0}));
+  EXPECT_EQ(section_pixels(mesh, small("top"), {Plane::yz, 10.0}), 0);
+}
+
 TEST(Render, SamePictureTwiceAndNothingToDraw) {
   const Mesh mesh = stepped_block(2);
   EXPECT_EQ(render(mesh, colours_of(mesh), small("iso")).rgba,

@@ -279,6 +279,10 @@ TEST(Rotary, TheMeshIsClosedAndHoldsTheVolume) {
   const MeshCheck check = check_mesh(extract_mesh(result->workpiece));
   EXPECT_EQ(check.bad_edges, 0u);
   EXPECT_NEAR(check.volume.mm3(), result->workpiece.volume().mm3(), 5e-3 * check.volume.mm3());
+  const VolumeRange range = mesh_volume(result->workpiece);
+  EXPECT_NEAR(range.expected.mm3(), result->workpiece.volume().mm3(), 1e-6 * check.volume.mm3());
+  EXPECT_NEAR(check.volume.mm3(), range.expected.mm3(), range.tolerance.mm3());
+  EXPECT_LT(range.tolerance.mm3(), 0.2 * check.volume.mm3());
 }
 
 TEST(Rotary, TheDistanceThatIsChosenFollowsTheBar) {

@@ -1,0 +1,67 @@
+// Laying a print: a square of infill, layer upon layer, each across the one below.
+#include "kerf/print.h"
+
+#include <benchmark/benchmark.h>
+
+namespace kerf {
+namespace {
+
+constexpr double kWidth = 0.45, kHeight = 0.2;  // mm, of a road
+constexpr int kRows = 40;                       // roads a layer
+
+/// Rows of full infill, each as long as all are wide, with a short road at each turn.
+Toolpath infill(std::int64_t roads) {
+  Toolpath path;
+  const OriginId here = path.origins().add(CallSpot{.file = "", .line = 0, .call = "bench"});
+  const double side = kRows * kWidth;
+  const auto place = [&](int layer, int row, bool far) {
+    const double across = (row + 0.5) * kWidth, along = far == (row % 2 == 0) ? side : 0.0;
+    const double z = (layer + 1) * kHeight;
+    return layer % 2 == 0 ? Point3{along, across, z} : Point3{across, along, z};
+  };
+  Point3 at;
+  const auto lay = [&](Point3 to) {
+    path.add(step::Extrude{to, road_volume(mm(distance(at, to)), mm(kWidth), mm(kHeight)), mm(kWidth),
+                           mm(kHeight), mm_per_min(3000)},
+             here);
+    at = to;
+  };
+  for (std::int64_t laid = 0, layer = 0; laid < roads; ++layer) {
+    at = place(static_cast<int>(layer), 0, false);
+    path.add(step::Rapid{at}, here);
+    for (int row = 0; row < kRows && laid < roads; ++row, laid += 2) {
+      if (row > 0) lay(place(static_cast<int>(layer), row, false));
+      lay(place(static_cast<int>(layer), row, true));
+    }
+  }
+  return path;
+}
+
+/// Roads, the columns' distance in microns, threads.
+void print_infill(benchmark::State& state) {
+  const Toolpath path = infill(state.range(0));
+  PrintOptions options;
+  options.resolution = mm(1e-3 * static_cast<double>(state.range(1)));
+  options.threads = static_cast<unsigned>(state.range(2));
+  std::size_t roads = 0;
+  double laid = 0.0;
+  for (auto _ : state) {
+    Diagnostics diagnostics;
+    const auto print = simulate_print(path, options, diagnostics);
+    if (!print) return state.SkipWithError("not printed");
+    roads = print->roads;
+    laid = print->total.laid.mm3();
+  }
+  state.counters["roads/s"] = benchmark::Counter(
+      static_cast<double>(roads) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["roads"] = static_cast<double>(roads);
+  state.counters["laid_mm3"] = laid;
+}
+BENCHMARK(print_infill)
+    ->Args({100'000, 90, 2})
+    ->MeasureProcessCPUTime()
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace kerf
