@@ -59,7 +59,7 @@ HWY_INLINE bool is_quick_ball(const TileJob& job, const Sweep& sweep) {
 
 /// Whether the columns of a tile are a pitch apart and stand on the floor.
 HWY_INLINE bool is_plain(const TileJob& job) {
-  return job.weights == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
+  return job.points == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
 }
 
 HWY_INLINE void prepare_ball(BallSweep& ball, const View& w, const LaneCap& cap, const Field& field,
@@ -113,10 +113,10 @@ HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real sam
   store(load(ball.taken) + (top - now), ball.taken);
 }
 
-/// Blocks of columns that a ball can meet, given their highest material, and where their middles are.
+/// Square blocks of columns that a ball can meet, given their highest material, and where their middles are.
 HWY_INLINE Mask cull_ball(const BallSweep& ball, const View& w, const Blocks& b, Vector top, Real radius2,
                           Vector& u, Vector& v) {
-  const Vector reach = b.half * (std::abs(w.cx) + std::abs(w.cy));
+  const Vector reach = b.half_x * (std::abs(w.cx) + std::abs(w.cy));
   const Vector x = w.x + b.x, y = w.y + b.y;
   u = x * w.cx + y * w.cy - ball.begin;
   v = y * w.cx - x * w.cy;

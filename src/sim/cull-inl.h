@@ -17,25 +17,26 @@ namespace kerf::sim::HWY_NAMESPACE {
 inline constexpr Lanes kColumn = {{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}};
 inline constexpr Lanes kRow = {{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3}};
 
-/// Sixteen square blocks of columns: their centres from the tile's first column, half the reach of their
-/// columns.
+/// Sixteen blocks of columns: their centres from the tile's first column, half the reach of their columns.
 struct Blocks {
-  Vector x, y, half;
+  Vector x, y, half_x, half_y;
 };
 /// Blocks in 4 rows of 4: the centre of the first, their distance, half the reach of their columns.
 HWY_INLINE Blocks square_of_blocks(Real x, Real y, Real step, Real half) {
-  return {x + load(kColumn) * step, y + load(kRow) * step, half};
+  return {x + load(kColumn) * step, y + load(kRow) * step, half, half};
+}
+HWY_INLINE Blocks blocks_of(const PointTile::Boxes& boxes) {
+  return {load(boxes.x), load(boxes.y), load(boxes.half_x), load(boxes.half_y)};
 }
 HWY_INLINE Blocks supers_of(const TileJob& job) {
-  if (const PointPlaces* p = job.points) return {load(p->super_x), load(p->super_y), load(p->super_half)};
+  if (job.points != nullptr) return blocks_of(job.points->around_supers);
   const Real pitch = job.field->step[1];
   return square_of_blocks(7.5f * pitch, 7.5f * pitch, 16 * pitch, 7.5f * pitch);
 }
 HWY_INLINE Blocks micros_of(const TileJob& job, int super) {
   const Field& field = *job.field;
   const Real pitch = field.step[1];
-  if (const PointPlaces* p = job.points)
-    return {load(p->x + super * kSupers), load(p->y + super * kSupers), 0.5f * pitch};
+  if (job.points != nullptr) return blocks_of(job.points->around_micros[super]);
   return square_of_blocks(field.step[(super & 3) * 16] + 1.5f * pitch,
                           field.step[(super >> 2) * 16] + 1.5f * pitch, 4 * pitch, 1.5f * pitch);
 }
@@ -48,11 +49,12 @@ struct Nearness {
 };
 
 HWY_INLINE Nearness near_line(const View& w, const Blocks& b, Real rim) {
-  const Vector reach = b.half * (std::abs(w.cx) + std::abs(w.cy));
+  const Real along = std::abs(w.cx), across = std::abs(w.cy);
+  const Vector reach = b.half_x * along + b.half_y * across;
   const Vector x = w.x + b.x, y = w.y + b.y;
   const Vector u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
   const Vector du = higher_of(outside(u, w.t_low, w.t_high) - reach, 0);
-  const Vector dv = higher_of(absolute(v) - reach, 0);
+  const Vector dv = higher_of(absolute(v) - (b.half_x * across + b.half_y * along), 0);
   Nearness n{du * du + dv * dv, w.z_low, w.z_high, u + reach > w.behind};
   if (w.slope != 0 && w.t_high - w.t_low > rim) {
     const Vector za = w.z + w.slope * clamped(u - reach - rim, w.t_low, w.t_high);
@@ -66,9 +68,10 @@ HWY_INLINE Nearness near_line(const View& w, const Blocks& b, Real rim) {
 HWY_INLINE Nearness near_arc(const View& w, const Blocks& b) {
   constexpr Real kDiagonal = 1.4142136f;
   const Vector x = w.x + b.x, y = w.y + b.y;
-  const Vector dr = higher_of(absolute(root(x * x + y * y) - w.radius) - kDiagonal * b.half, 0);
-  const Vector dx = higher_of(outside(x, w.box_low_x, w.box_high_x) - b.half, 0);
-  const Vector dy = higher_of(outside(y, w.box_low_y, w.box_high_y) - b.half, 0);
+  const Vector dr =
+      higher_of(absolute(root(x * x + y * y) - w.radius) - kDiagonal * higher_of(b.half_x, b.half_y), 0);
+  const Vector dx = higher_of(outside(x, w.box_low_x, w.box_high_x) - b.half_x, 0);
+  const Vector dy = higher_of(outside(y, w.box_low_y, w.box_high_y) - b.half_y, 0);
   return {higher_of(dr * dr, dx * dx + dy * dy), w.z_low, w.z_high, every_lane()};
 }
 
@@ -79,7 +82,7 @@ inline constexpr std::size_t kFewPieces = 4;
 /// begin. A cylinder takes nothing new from a block that its first disc covers.
 HWY_INLINE Mask new_ground(const View& w, const LaneSolid& solid, const Blocks& b, Vector distance2) {
   const Vector x = w.x + b.x - w.t_low * w.cx, y = w.y + b.y - w.t_low * w.cy;
-  const Vector far2 = square(absolute(x) + b.half) + square(absolute(y) + b.half);
+  const Vector far2 = square(absolute(x) + b.half_x) + square(absolute(y) + b.half_y);
   Mask some = no_lane();
   for (const LanePiece& piece : solid.pieces) {
     const Mask near = distance2 < piece.rim2;

@@ -28,12 +28,11 @@ Cutter::Cutter(Workpiece::Body& body, const std::vector<ToolSolids>& tools, Leng
     along_y_.add(body_.share_y(j), body_.place_y(std::min(j, body_.ny - 1)), j, body_.pitch);
 }
 
-TileJob Cutter::job(CutBatch& batch, std::size_t k) const {
-  const std::size_t tile = batch.busy[k];
+/// Tells the kernels where the columns of a tile are.
+void Cutter::place_columns(std::size_t tile, TileJob& job) const {
   const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
   const auto column = static_cast<int>(tile % tiles_x) * kTileColumns;
   const auto row = static_cast<int>(tile / tiles_x) * kTileColumns;
-  TileJob job;
   job.field = &field_;
   job.x = (column + 0.5) * body_.pitch;
   job.y = (row + 0.5) * body_.pitch;
@@ -43,6 +42,24 @@ TileJob Cutter::job(CutBatch& batch, std::size_t k) const {
     job.share_x = along_x_.share.data() + column;
     job.share_y = along_y_.share.data() + row;
   }
+}
+
+TileColumns Cutter::columns_of(std::size_t tile) const {
+  TileJob job;
+  place_columns(tile, job);
+  TileColumns columns;
+  for (int i = 0; i < kTileColumns; ++i) {
+    columns.x[i] = job.place_x != nullptr ? job.place_x[i] : even_place(field_, i);
+    columns.y[i] = job.place_y != nullptr ? job.place_y[i] : even_place(field_, i);
+    columns.share_x[i] = job.share_x != nullptr ? job.share_x[i] : 1.0f;
+    columns.share_y[i] = job.share_y != nullptr ? job.share_y[i] : 1.0f;
+  }
+  return columns;
+}
+
+TileJob Cutter::job(CutBatch& batch, std::size_t k) const {
+  TileJob job;
+  place_columns(batch.busy[k], job);
   job.tools = &tools_;
   job.sweeps = batch.sweeps.data();
   job.list = batch.list.data() + batch.start[k];

@@ -17,6 +17,12 @@ struct CutBatch : Batch {
   std::vector<std::vector<Contact>> contacts_of;  // one a tile
 };
 
+/// Places of a tile's columns from its first one, as the kernels see them, and their shares in the block.
+struct TileColumns {
+  Real x[kTileColumns], y[kTileColumns];
+  Real share_x[kTileColumns], share_y[kTileColumns];
+};
+
 /// What tiles and kernels share during a run.
 class Cutter {
  public:
@@ -25,6 +31,7 @@ class Cutter {
   /// The work on tile number `k` of the batch, all but the tile itself; what it finds goes into the batch.
   /// Tiles may be worked on at the same time.
   TileJob job(CutBatch& batch, std::size_t k) const;
+  TileColumns columns_of(std::size_t tile) const;
 
  private:
   /// Along one axis: each column's share in the block, and its place from the first column of its tile.
@@ -32,6 +39,7 @@ class Cutter {
     std::vector<Real> share, place;
     void add(double column_share, double column_place, int number, double pitch);
   };
+  void place_columns(std::size_t tile, TileJob& job) const;
 
   Workpiece::Body& body_;
   std::vector<LaneTool> tools_;

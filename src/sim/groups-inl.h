@@ -77,36 +77,44 @@ HWY_INLINE Mask covered_before(const View& w, const MicroPlaces& places, Real ri
   return x * x + y * y < rim2;
 }
 
-/// Of one cylinder of a tool: the columns that the sweeps cover.
+/// Of one cylinder of a tool: the number of the sweep of a group that is the first over each column; kGroup
+/// where none is, or where the sweep before all of them has been.
 struct Cover {
   HWY_INLINE Cover() {}  // the one that the compiler makes would be for no level of processor
-  Mask before;           // already at the begin of the earliest
-  Mask covered;          // then or later
-  Vector first;          // number of the sweep that was there first
-  unsigned by = 0;       // bits of the sweeps that were first somewhere
+  Ids first;
 };
 
-/// Finds which sweep is the first over each column, for all cylinders of a tool at once.
+/// Finds which sweep is the first over each column, for all cylinders of a tool at once: the latest sweep
+/// first, so that the others only have to take columns over.
+template <int kPieces>
 HWY_INLINE void cover_columns(const GroupWork& work, const MicroPlaces& places, unsigned sweeps,
                               Cover* covers) {
-  const std::vector<LanePiece>& pieces = work.solid->pieces;
+  const LanePiece* pieces = work.solid->pieces.data();
   const View& earliest = work.view[__builtin_ctz(sweeps)];
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    covers[p].before = covers[p].covered = covered_before(earliest, places, pieces[p].rim2);
-    covers[p].first = -1;
-    covers[p].by = 0;
+  Ids first[kPieces];
+  Real rim2[kPieces];
+  for (int p = 0; p < kPieces; ++p) {
+    first[p] = all_ids(kGroup);
+    rim2[p] = pieces[p].rim2;
   }
-  for (; sweeps != 0; sweeps &= sweeps - 1) {
-    const int k = __builtin_ctz(sweeps);
+  while (sweeps != 0) {
+    const unsigned k = 31u - static_cast<unsigned>(__builtin_clz(sweeps));
+    sweeps ^= 1u << k;
     const View& w = work.view[k];
-    const Vector distance2 = path_distance2(w, w.x + places.x, w.y + places.y);
-    for (std::size_t p = 0; p < pieces.size(); ++p) {
-      Cover& cover = covers[p];
-      const Mask here = (distance2 < pieces[p].rim2) & ~cover.covered;
-      cover.covered = cover.covered | here;
-      cover.first = select(here, static_cast<Real>(k), cover.first);
-      cover.by |= static_cast<unsigned>(any(here)) << k;
-    }
+    const Vector distance2 = line_distance2(w, w.x + places.x, w.y + places.y);
+    for (int p = 0; p < kPieces; ++p) first[p] = select(distance2 < rim2[p], all_ids(k), first[p]);
+  }
+  for (int p = 0; p < kPieces; ++p)
+    covers[p].first = select(covered_before(earliest, places, rim2[p]), all_ids(kGroup), first[p]);
+}
+HWY_INLINE void cover_all_columns(const GroupWork& work, const MicroPlaces& places, unsigned sweeps,
+                                  Cover* covers) {
+  static_assert(kFewPieces == 4);
+  switch (work.solid->pieces.size()) {
+    case 1: return cover_columns<1>(work, places, sweeps, covers);
+    case 2: return cover_columns<2>(work, places, sweeps, covers);
+    case 3: return cover_columns<3>(work, places, sweeps, covers);
+    default: return cover_columns<4>(work, places, sweeps, covers);
   }
 }
 
@@ -118,24 +126,25 @@ HWY_NOINLINE void cover_micro(GroupWork& work, int micro, unsigned sweeps) {
   const Vector weight = weights_of(job, micro);
   const Real z = work.view[0].z_low;
   Cover covers[kFewPieces];
-  cover_columns(work, places_of(job, micro), sweeps, covers);
+  cover_all_columns(work, places_of(job, micro), sweeps, covers);
   for (std::size_t p = 0; p < work.solid->pieces.size(); ++p) {
     const LanePiece& piece = work.solid->pieces[p];
-    const Cover& cover = covers[p];
-    if (cover.by == 0) continue;
+    const Ids first = covers[p].first;
+    const unsigned by = bits_named(first) & ~(1u << kGroup);
+    if (by == 0) continue;
     Ids step = all_ids(0);
-    for (unsigned rest = cover.by; rest != 0; rest &= rest - 1) {
+    for (unsigned rest = by; rest != 0; rest &= rest - 1) {
       const int k = __builtin_ctz(rest);
-      step = select(cover.first == static_cast<Real>(k), all_ids(work.step[k]), step);
+      step = select(first == all_ids(static_cast<unsigned>(k)), all_ids(work.step[k]), step);
     }
     const Real high = !work.solid->one_envelope ? z - piece.upper.height
                       : work.all_open           ? field.height + 1
                                                 : z + work.solid->top;
-    const Vector low = select(cover.covered & ~cover.before, z + piece.lower.height, kFar);
+    const Vector low = select(first == all_ids(kGroup), kFar, z + piece.lower.height);
     const Vector taken = take(*job.tile, micro, low, high, step, field.same_height) * weight;
-    for (unsigned rest = cover.by; rest != 0; rest &= rest - 1) {
+    for (unsigned rest = by; rest != 0; rest &= rest - 1) {
       const int k = __builtin_ctz(rest);
-      add_taken(work, k, only(cover.first == static_cast<Real>(k), taken));
+      add_taken(work, k, only(first == all_ids(static_cast<unsigned>(k)), taken));
     }
   }
 }

@@ -42,18 +42,22 @@ void cut_tile(const TileJob& job) {
 }
 
 void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out) {
-  constexpr int kLast = kWindow - kRing - kLanes;  // begin of the last 16 columns of a row of the tile
-  for (int y = kRing - 1; y < kWindow - kRing; ++y) {
+  // A step from the last column that is looked at in its own way goes out of what is looked at.
+  constexpr int kFirst = kRing - 1, kLast = kWindow - kRing;
+  for (int y = kFirst; y <= kLast; ++y) {
     const Real* row = lengths[y];
     const auto at = [&](int x) { return load(row + x); };
-    for (int x = kRing - 1; x < kLast + kLanes; x += kLanes) {
-      const int k = std::min(x, kLast);
+    for (int x = kFirst; x < kLast; x += kLanes) {
+      const int k = std::min(x, kLast - kLanes);
       add_steps(excess_of(rules, at(k - 1), at(k), at(k + 1), at(k + 2)), k, y, StepWay::along_x, out);
     }
+    if (y == kLast) break;
     const auto next = [&](int x, int rows) { return load(row + x + rows * kWindow); };
-    for (int x = kRing; x <= kLast; x += kLanes)
-      add_steps(excess_of(rules, next(x, -1), next(x, 0), next(x, 1), next(x, 2)), x, y, StepWay::along_y,
+    for (int x = kFirst; x <= kLast; x += kLanes) {
+      const int k = std::min(x, kLast + 1 - kLanes);
+      add_steps(excess_of(rules, next(k, -1), next(k, 0), next(k, 1), next(k, 2)), k, y, StepWay::along_y,
                 out);
+    }
   }
 }
 

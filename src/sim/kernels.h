@@ -48,23 +48,25 @@ struct Field {
   Real hazard_depth = 0;
   Real step[kTileColumns];  // i * pitch
 };
+/// Place of a column from its tile's first one where all are a pitch apart, to the bit as the kernels see it:
+/// from the first column of its micro on.
+inline Real even_place(const Field& field, int column) {
+  return field.step[column / 4 * 4] + static_cast<Real>(column % 4) * field.step[1];
+}
 
-/// A tile whose micros are single columns, each seen at 16 points of a lattice that fills the column evenly
-/// in every direction. Each column has its lattice shifted by amounts of its own, so that errors of points
-/// that lie along a wall do not add up. Lengths in mm from the tile's first column.
-struct PointPlaces {
-  alignas(64) Real x[kMicros], y[kMicros];  // middle of the column, of the part in the block
-  Real size_x[kMicros], size_y[kMicros];    // of that part
-  Real shift_x[kMicros], shift_y[kMicros];  // of the lattice, 0 to 1
-  alignas(64) Real super_x[kSupers], super_y[kSupers], super_half[kSupers];  // a square around 16 columns
+/// Sixteen points anywhere, which are a micro's columns then: places from the tile's first column, mm, and
+/// how much what is taken of each counts.
+struct PointMicro {
+  Lanes x, y, weight;
 };
-/// The lattice, as shares of the column's size.
-inline constexpr Lanes kPointsX = {{0 / 16.0f, 1 / 16.0f, 2 / 16.0f, 3 / 16.0f, 4 / 16.0f, 5 / 16.0f,
-                                    6 / 16.0f, 7 / 16.0f, 8 / 16.0f, 9 / 16.0f, 10 / 16.0f, 11 / 16.0f,
-                                    12 / 16.0f, 13 / 16.0f, 14 / 16.0f, 15 / 16.0f}};
-inline constexpr Lanes kPointsY = {{0 / 16.0f, 5 / 16.0f, 10 / 16.0f, 15 / 16.0f, 4 / 16.0f, 9 / 16.0f,
-                                    14 / 16.0f, 3 / 16.0f, 8 / 16.0f, 13 / 16.0f, 2 / 16.0f, 7 / 16.0f,
-                                    12 / 16.0f, 1 / 16.0f, 6 / 16.0f, 11 / 16.0f}};
+/// A tile whose columns are points, with boxes around the micros and supers.
+struct PointTile {
+  struct Boxes {
+    Lanes x, y, half_x, half_y;
+  };
+  std::vector<PointMicro> micros;  // kMicros at most; what is above is not to be cut
+  Boxes around_micros[kSupers], around_supers;
+};
 
 /// The work on one tile: sweeps `list[0]` to `list[count - 1]` in time order.
 struct TileJob {
@@ -75,8 +77,7 @@ struct TileJob {
   // Null in other tiles, whose columns are a pitch apart.
   const Real *place_x = nullptr, *place_y = nullptr;
   const Real *share_x = nullptr, *share_y = nullptr;
-  const PointPlaces* points = nullptr;  // not null: the micros are columns seen at 16 points
-  const Real* weights = nullptr;        // instead of the shares: one a column (or point) in the tile's order
+  const PointTile* points = nullptr;  // instead of places and shares: the columns are points
   const std::vector<LaneTool>* tools = nullptr;
   const Sweep* sweeps = nullptr;
   const std::uint32_t* list = nullptr;
@@ -87,8 +88,8 @@ struct TileJob {
 
 void cut_tile(const TileJob& job);
 
-/// Lengths of material of the columns of a tile and of a ring around it.
-inline constexpr int kRing = 2;
+/// Lengths of material of the columns of a tile and of a ring of micros around it.
+inline constexpr int kRing = 4;
 inline constexpr int kWindow = kTileColumns + 2 * kRing;
 using WindowLengths = Real[kWindow][kWindow];
 
@@ -105,7 +106,8 @@ struct ColumnStep {
   StepWay way;
   Real excess;
 };
-/// Finds those that count, some of them twice.
+/// Finds those that count, some of them twice: from columns and rows 1 before the tile's first to those 1
+/// after its last.
 void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out);
 
 }  // namespace kerf::sim

@@ -14,20 +14,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
-/// Where the 16 points of a column stand, see PointPlaces.
-HWY_INLINE Vector points_along(const Lanes& at, Real shift, Real middle, Real size) {
-  const Vector share = load(at) + shift;
-  return middle + (select(share >= 1, share - 1, share) - 0.5f) * size;
-}
-
 /// Places of the columns of a micro from the tile's first column.
 struct MicroPlaces {
   Vector x, y;
 };
 HWY_INLINE MicroPlaces places_of(const TileJob& job, int micro) {
-  if (const PointPlaces* p = job.points)
-    return {points_along(kPointsX, p->shift_x[micro], p->x[micro], p->size_x[micro]),
-            points_along(kPointsY, p->shift_y[micro], p->y[micro], p->size_y[micro])};
+  if (job.points != nullptr) {
+    const PointMicro& points = job.points->micros[static_cast<std::size_t>(micro)];
+    return {load(points.x), load(points.y)};
+  }
   const Field& field = *job.field;
   const int column = column_of(micro), row = row_of(micro);
   if (job.place_x == nullptr)
@@ -52,7 +47,7 @@ HWY_INLINE MicroView look_at(const View& w, const MicroPlaces& places) {
 }
 
 HWY_INLINE Vector weights_of(const TileJob& job, int micro) {
-  if (job.weights != nullptr) return load(job.weights + micro * kLanes);
+  if (job.points != nullptr) return load(job.points->micros[static_cast<std::size_t>(micro)].weight);
   if (job.share_x == nullptr) return 1;
   const int column = column_of(micro), row = row_of(micro);
   Lanes weight;

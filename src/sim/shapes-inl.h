@@ -27,12 +27,15 @@ struct MicroView {
 
 HWY_INLINE Vector outside(Vector v, Real low, Real high) { return higher_of(low - v, v - high); }
 
-/// Squared distance of each column from a line's or an arc's path in plan.
+/// Squared distance of each column from a line's path in plan.
+HWY_INLINE Vector line_distance2(const View& w, Vector x, Vector y) {
+  const Vector u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
+  return square(higher_of(outside(u, w.t_low, w.t_high), 0)) + v * v;
+}
+
+/// The same from a line's or an arc's path.
 HWY_INLINE Vector path_distance2(const View& w, Vector x, Vector y) {
-  if (!w.is_arc) {
-    const Vector u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
-    return square(higher_of(outside(u, w.t_low, w.t_high), 0)) + v * v;
-  }
+  if (!w.is_arc) return line_distance2(w, x, y);
   const Mask after_begin = w.begin_x * y - w.begin_y * x >= 0;
   const Mask before_end = x * w.end_y - y * w.end_x >= 0;
   const Mask inside = w.full   ? every_lane()

@@ -140,18 +140,17 @@ std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
 
 bool Run::refine_walls() {
   if (stopped_) return false;
-  const std::vector<WallColumns> found = find_walls(body_, threads_);
+  const std::vector<WallSquares> found = find_walls(body_, threads_);
   if (found.empty()) return false;
   if (progress_ != nullptr) progress_->phase("measuring walls");
-  double excess = 0.0;
+  std::size_t squares = 0;
+  for (const WallSquares& walls : found) squares += walls.squares.size();
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
-    WallGroup group(body_, found, next, threads_);
+    WallGroup group(body_, cutter_, found, squares, next, threads_);
     walls_ = &group;
     send_all(&group.tiles());
-    excess += group.excess();
     walls_ = nullptr;
   }
-  if (!stopped_) body_.wall_volume = excess * body_.pitch * body_.pitch;
   report(progress_, 1.0);
   return !stopped_;
 }
@@ -208,7 +207,11 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   sim::Run run(result.workpiece, path, std::move(setup->survey), options, progress);
   run.cut_all();
   run.tell_removed(result);
-  if (options.role == SolidRole::stock && run.refine_walls()) run.tell_removed(result);
+  if (options.role == SolidRole::stock) {
+    const Volume by_columns = result.removed;
+    if (run.refine_walls()) run.tell_removed(result);
+    result.workpiece.body().wall_volume = (by_columns - result.removed).mm3();
+  }
   result.hazards = run.hazards();
   result.stopped = run.stopped();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

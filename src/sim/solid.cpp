@@ -56,17 +56,21 @@ Piece zone(const Knot& a, const Knot& b) {
   return piece;
 }
 
-void add_hollow_arc(const Knot& a, const Knot& b, double chord, std::vector<Piece>& pieces) {
+/// Frusta for a hollow arc. Their knots lie as far beyond it as makes the volume right: two thirds of what
+/// the middles of chords between points of the arc would stray to the other side.
+void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<Piece>& pieces) {
+  constexpr double kBeyond = 2.0 / 3.0;
   const ArcShape arc = arc_shape(a, b);
   const double sweep = 4.0 * std::atan(a.bulge);
-  const double step = 2.0 * std::acos(1.0 - std::min(chord / arc.radius, 1.0));
+  const double step = 2.0 * std::acos(1.0 - std::min(stray / kBeyond / arc.radius, 1.0));
   const int count = std::clamp(static_cast<int>(std::ceil(std::abs(sweep) / step)), 1, kMostFrusta);
+  const double radius = arc.radius * (1.0 + kBeyond * (1.0 - std::cos(0.5 * sweep / count)));
   const double start = std::atan2(a.z - arc.z, a.r - arc.r);
   double r0 = a.r, z0 = a.z;
   for (int k = 1; k <= count; ++k) {
     const double angle = start + sweep * k / count;
-    const double r1 = k == count ? b.r : std::max(0.0, arc.r + arc.radius * std::cos(angle));
-    const double z1 = k == count ? b.z : std::clamp(arc.z + arc.radius * std::sin(angle), z0, b.z);
+    const double r1 = k == count ? b.r : std::max(0.0, arc.r + radius * std::cos(angle));
+    const double z1 = k == count ? b.z : std::clamp(arc.z + radius * std::sin(angle), z0, b.z);
     if (z1 > z0) pieces.push_back(frustum(r0, z0, r1, z1));
     r0 = r1;
     z0 = z1;

@@ -14,34 +14,17 @@ Run within_block(const Run& run, const Workpiece::Body& body) {
   return out;
 }
 
-bool stands_on_floor(std::span<const Run> runs, const Workpiece::Body& body) {
-  return runs.empty() || (runs.size() == 1 && within_block(runs[0], body).low == 0.0f);
-}
-
 /// Puts the runs of a column into one lane of a micro, which is as made until then.
 void put_column(std::span<const Run> runs, const Workpiece::Body& body, Tile& tile, int micro, int lane) {
-  if (tile.chain[micro] < 0 && !stands_on_floor(runs, body)) tile.make_chain(micro);
-  if (tile.chain[micro] < 0) {
-    tile.top[micro][lane] = runs.empty() ? 0.0f : std::max(within_block(runs[0], body).high, 0.0f);
-    return;
-  }
-  std::int32_t slot = tile.chain[micro];
-  tile.slots[static_cast<std::size_t>(slot)].low[lane] = kFar;
-  tile.slots[static_cast<std::size_t>(slot)].high[lane] = -kFar;
-  bool first = true;
+  tile.top[micro][lane] = 0.0f;
   for (const Run& told : runs) {
     const Run run = within_block(told, body);
     if (!(run.high > run.low)) continue;
-    if (!first) {
-      slot = tile.slots[static_cast<std::size_t>(slot)].next;
-      if (slot < 0) {
-        slot = static_cast<std::int32_t>(tile.slots.size());
-        tile.add_slot(micro);
-      }
+    if (run.low == 0.0f) {
+      tile.top[micro][lane] = run.high;
+    } else {
+      tile.store_remnant(micro, {lane, run.low, run.high, kStockSurface, kStockSurface});
     }
-    tile.slots[static_cast<std::size_t>(slot)].low[lane] = run.low;
-    tile.slots[static_cast<std::size_t>(slot)].high[lane] = run.high;
-    first = false;
   }
 }
 
@@ -57,13 +40,10 @@ bool is_full(const Workpiece::Body& body, int column, int row, int columns, int 
 
 }  // namespace
 
-void refresh_bounds(Tile& tile) {
-  for (int micro = 0; micro < kMicros; ++micro) {
-    Real highest = 0.0f, lowest = kFar;
-    if (tile.chain[micro] < 0) {
-      highest = *std::max_element(tile.top[micro].v, tile.top[micro].v + kLanes);
-      lowest = 0.0f;
-    }
+void refresh_bounds(Tile& tile, int micros) {
+  for (int micro = 0; micro < micros; ++micro) {
+    const Real* high = std::max_element(tile.top[micro].v, tile.top[micro].v + kLanes);
+    Real highest = *high, lowest = *high > 0.0f ? 0.0f : kFar;
     for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
       const Slot& slot = tile.slots[static_cast<std::size_t>(k)];
       for (int lane = 0; lane < kLanes; ++lane) {
@@ -81,8 +61,8 @@ void refresh_bounds(Tile& tile) {
   }
 }
 
-void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int micro) {
-  for (int lane = 0; lane < kLanes; ++lane) put_column(body.start->column(i, j), body, tile, micro, lane);
+void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int micro, int lane) {
+  put_column(body.start->column(i, j), body, tile, micro, lane);
 }
 
 void fill_start_tile(const Workpiece::Body& body, std::size_t number, Tile& tile) {

@@ -14,9 +14,9 @@ bool fill_from_body(Workpiece::Body& body, const StockBody& from, Diagnostics& d
 
 /// Puts what the body tells of a tile into one that is full; nothing to do where the block begins full.
 void fill_start_tile(const Workpiece::Body& body, std::size_t number, Tile& tile);
-/// Puts the material that column (i, j) begins with into all lanes of a micro.
-void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int micro);
-/// Sets the bounds that culling needs from what the columns hold.
-void refresh_bounds(Tile& tile);
+/// Puts the material that column (i, j) begins with into one lane of a micro, which is as made until then.
+void put_start_column(const Workpiece::Body& body, int i, int j, Tile& tile, int micro, int lane);
+/// Sets the bounds that culling needs from what the columns of the first micros hold.
+void refresh_bounds(Tile& tile, int micros = kMicros);
 
 }  // namespace kerf::sim

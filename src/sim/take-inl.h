@@ -41,15 +41,21 @@ HWY_INLINE Mask take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Re
   return meets & ~bottom & ~top;
 }
 
-/// Finds the highest and lowest material of a micro with a chain again.
+/// Finds the highest and lowest material of a micro with a chain again, and whether anything floats in it
+/// still: most undercut columns lose soon what is above the gap.
 HWY_INLINE void update_bounds(Tile& tile, int micro) {
-  Vector high = -kFar, low = kFar;
+  Vector high = load(tile.top[micro]), low = select(high > 0, 0, kFar);
+  Mask floats = no_lane();
   for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
-    high = higher_of(high, load(tile.slots[static_cast<std::size_t>(k)].high));
-    low = lower_of(low, load(tile.slots[static_cast<std::size_t>(k)].low));
+    const Vector slot_high = load(tile.slots[static_cast<std::size_t>(k)].high);
+    const Vector slot_low = load(tile.slots[static_cast<std::size_t>(k)].low);
+    high = higher_of(high, slot_high);
+    low = lower_of(low, slot_low);
+    floats = floats | (slot_low < slot_high);
   }
   tile.micro_top[micro] = highest_of(high);
   tile.micro_bottom[micro] = lowest_of(low);
+  if (!any(floats)) tile.drop_chain(micro);
 }
 
 /// What is left above the gaps in intervals that a sweep has split, one a column.
@@ -97,10 +103,26 @@ HWY_INLINE void store_remnants(Tile& tile, int micro, const Remnants& rest) {
   }
 }
 
-/// Takes [low, high] from a micro with a chain.
-HWY_INLINE Vector take_from_chain(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same) {
-  Vector taken;
+/// Takes [low, high] from what stands on the floor; what it leaves above the gap goes to `rest`.
+HWY_INLINE Vector take_from_standing(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same,
+                                     Remnants& rest) {
+  const Vector h = load(tile.top[micro]);
+  const Ids old_step = load_ids(tile.top_step[micro]);
+  const Vector a = higher_of(low, 0), b = lower_of(high, h);
+  const Mask bottom = a <= same, top = b + same >= h;
+  const Mask meets = (b > a) & ((b - a > same) | (bottom & top));
+  store(select(meets, only(~bottom, a), h), tile.top[micro]);
+  store_ids(select(meets, step, old_step), tile.top_step[micro]);
+  rest.split = meets & ~top;
+  rest.high = h;
+  rest.high_step = old_step;
+  return select(meets & bottom & top, h, only(meets, b - a));
+}
+
+/// Takes [low, high] from what stands and what floats.
+HWY_INLINE Vector take_from_all(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same) {
   Remnants rest{no_lane(), high, 0, step, step};
+  Vector taken = take_from_standing(tile, micro, low, high, step, same, rest);
   for (std::int32_t k = tile.chain[micro]; k >= 0;) {
     Slot& slot = tile.slots[static_cast<std::size_t>(k)];
     const Vector old_high = load(slot.high);
@@ -128,9 +150,8 @@ HWY_NOINLINE Vector take(Tile& tile, int micro, Vector low, Vector high, Ids ste
     if (!any(cuts)) return 0;
     if (!any(cuts & (high + same < top)))
       return take_open(tile, micro, select(high > same, low, kFar), step, same);
-    tile.make_chain(micro);
   }
-  return take_from_chain(tile, micro, low, high, step, same);
+  return take_from_all(tile, micro, low, high, step, same);
 }
 
 }  // namespace kerf::sim::HWY_NAMESPACE

@@ -1,73 +1,42 @@
 // The workpiece's inside: tiles of 64 x 64 columns, each tile 4 x 4 supers of 4 x 4 micros of 4 x 4 columns.
 //
-// The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Most
-// columns are one run of material that stands on the floor: a micro then keeps only tops. The first undercut
-// in a micro gives it a chain of slots, each with one interval a column; a chain grows as long as needed.
+// The 16 columns of a micro are one row of lanes, so that kernels work on 16 neighbours at a time. Of each
+// column the run of material that stands on the floor is kept as its top; most have no other. What floats
+// above undercuts is in a chain of slots, each with one interval a column, which is as long as needed.
 // Heights are mm above the block's floor, single precision.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
 
 #include "sim/blocks.h"
+#include "sim/slots.h"
 
 #include "kerf/simulate.h"
 
 namespace kerf::sim {
 
-using Real = float;
-inline constexpr int kLanes = 16;        // columns of a micro
 inline constexpr int kMicros = 256;      // micros of a tile
 inline constexpr int kSupers = 16;       // supers of a tile, and micros of a super
 inline constexpr int kTileColumns = 64;  // columns along a tile's edge
 inline constexpr Real kFar = 1e30f;      // stands for "no material here", safe to calculate with
-
-struct alignas(64) Lanes {
-  Real v[kLanes];
-  Real& operator[](int i) { return v[i]; }
-  Real operator[](int i) const { return v[i]; }
-};
-
-/// One interval in each column of a micro; low above high where there is none.
-struct Slot {
-  Lanes low, high;
-  alignas(64) std::uint32_t low_step[kLanes];
-  alignas(64) std::uint32_t high_step[kLanes];
-  std::int32_t next = -1;  // slot of the same chain
-};
-
-/// Slots by number. They never move, and no slot is copied as their number grows.
-class Slots {
- public:
-  Slot& operator[](std::size_t k) { return (*pages_[k / kPage])[k % kPage]; }
-  const Slot& operator[](std::size_t k) const { return (*pages_[k / kPage])[k % kPage]; }
-  Slots() = default;
-  Slots(const Slots& other) : size_(other.size_) {
-    for (const auto& page : other.pages_) pages_.push_back(std::make_unique<Page>(*page));
-  }
-  Slots(Slots&&) = default;
-  Slots& operator=(const Slots& other) { return *this = Slots(other); }
-  Slots& operator=(Slots&&) = default;
-  std::size_t size() const { return size_; }
-  Slot& add() {
-    if (size_ % kPage == 0) pages_.emplace_back(new Page);  // not cleared: add_slot does that
-    return (*this)[size_++];
-  }
-
- private:
-  static constexpr std::size_t kPage = 64;
-  using Page = std::array<Slot, kPage>;
-  std::vector<std::unique_ptr<Page>> pages_;
-  std::size_t size_ = 0;
-};
 
 /// Number of a column in its tile's arrays, from its place in the tile.
 constexpr int lane_index(int x, int y) {
   const int super = (y >> 4) * 4 + (x >> 4);
   const int micro = ((y >> 2) & 3) * 4 + ((x >> 2) & 3);
   return (super * kSupers + micro) * kLanes + (y & 3) * 4 + (x & 3);
+}
+
+/// Place of a column in its tile, from its lane_index.
+struct Place {
+  int x, y;
+};
+constexpr Place place_of(int index) {
+  const int super = index >> 8, micro = (index >> 4) & 15, lane = index & 15;
+  return {(super & 3) * 16 + (micro & 3) * 4 + (lane & 3),
+          (super >> 2) * 16 + (micro >> 2) * 4 + (lane >> 2)};
 }
 
 /// What is left above the gap in an interval that a sweep has split.
@@ -83,23 +52,25 @@ constexpr int row_of(int micro) { return (micro >> 6) * 16 + (micro >> 2 & 3) * 
 
 struct Tile {
   /// All columns full up to `height`, but for those beyond `columns_x` and `columns_y`, which do not exist.
-  Tile(Real height, int columns_x, int columns_y);
+  Tile(Real height, int columns_x, int columns_y, std::shared_ptr<SlotPages> memory);
+  /// The columns of the first micros full; the others are never to be met.
+  Tile(Real height, int micros, std::shared_ptr<SlotPages> memory);
 
-  Lanes top[kMicros];  // tops of columns that stand on the floor, 0 where cut away; unused in a micro with a
-                       // chain
+  Lanes top[kMicros];  // of what stands on the floor, 0 where nothing does
   alignas(64) std::uint32_t top_step[kMicros][kLanes];
   alignas(64) Real micro_top[kMicros];  // highest and lowest material of each micro
   alignas(64) Real micro_bottom[kMicros];
   alignas(64) Real super_top[kSupers];
   alignas(64) Real super_bottom[kSupers];
-  std::int32_t chain[kMicros];  // first slot, or -1
+  std::int32_t chain[kMicros];  // first slot of what floats, or -1
   Slots slots;
+  std::int32_t free_slot = -1;  // first of those that no chain has any more
 
-  /// Gives a micro a chain, if it has none yet.
-  void make_chain(int micro);
+  /// Frees the slots of a micro in which nothing floats any more.
+  void drop_chain(int micro);
   /// Adds an empty slot to the end of a micro's chain.
   Slot& add_slot(int micro);
-  /// Puts an interval into a free place of its column.
+  /// Puts an interval that floats into a free place of its column.
   void store_remnant(int micro, const Remnant& rest);
   /// Asks for the memory that `lengths` will read of a micro, if there is such a micro.
   void fetch(int micro) const {
@@ -141,6 +112,7 @@ struct Workpiece::Body {
   /// What the columns begin with; nothing where the block begins full. Tiles that begin otherwise exist from
   /// the start.
   std::shared_ptr<const ColumnRuns> start;
+  std::shared_ptr<sim::SlotPages> slot_pages = std::make_shared<sim::SlotPages>();
   /// Tiles that nothing has touched yet do not exist.
   sim::BlockStore<sim::Tile> store;
   std::vector<sim::BlockStore<sim::Tile>::Pointer> tiles;

@@ -119,6 +119,11 @@ HWY_INLINE Mask operator==(Vector a, Vector b) {
   for (int p = 0; p < kParts; ++p) m.part[p] = hn::Eq(a.part[p], b.part[p]);
   return m;
 }
+HWY_INLINE Mask operator==(Ids a, Ids b) {
+  Mask m;
+  for (int p = 0; p < kParts; ++p) m.part[p] = hn::RebindMask(RealTag(), hn::Eq(a.part[p], b.part[p]));
+  return m;
+}
 HWY_INLINE Mask operator>(Vector a, Vector b) { return b < a; }
 HWY_INLINE Mask operator>=(Vector a, Vector b) { return b <= a; }
 HWY_INLINE Mask operator&(Mask a, Mask b) {
@@ -182,6 +187,12 @@ struct SumUp {
     return hn::Add(a, b);
   }
 };
+struct AnyBit {
+  template <class V>
+  HWY_INLINE V operator()(V a, V b) const {
+    return hn::Or(a, b);
+  }
+};
 struct Highest {
   template <class V>
   HWY_INLINE V operator()(V a, V b) const {
@@ -196,12 +207,12 @@ struct Lowest {
 };
 #if HWY_TARGET == HWY_SCALAR
 template <class D, class Operation>
-HWY_INLINE Real reduced_part(D /*d*/, hn::Vec<D> v, const Operation& /*operation*/) {
+HWY_INLINE hn::TFromD<D> reduced_part(D /*d*/, hn::Vec<D> v, const Operation& /*operation*/) {
   return hn::GetLane(v);
 }
 #else
 template <class D, class Operation>
-HWY_INLINE Real reduced_part(D /*d*/, hn::Vec<D> v, const Operation& operation) {
+HWY_INLINE hn::TFromD<D> reduced_part(D /*d*/, hn::Vec<D> v, const Operation& operation) {
   if constexpr (hn::MaxLanes(D()) > 4) {
     const hn::Half<D> half;
     return reduced_part(half, operation(hn::LowerHalf(half, v), hn::UpperHalf(half, v)), operation);
@@ -213,15 +224,21 @@ HWY_INLINE Real reduced_part(D /*d*/, hn::Vec<D> v, const Operation& operation) 
 }
 #endif
 /// All lanes together, halves first: in the same order whatever the width.
-template <class Operation>
-HWY_INLINE Real reduced(Vector v, const Operation& operation) {
+template <class Tag, class Sixteen, class Operation>
+HWY_INLINE hn::TFromD<Tag> reduced(Sixteen v, const Operation& operation) {
   for (int n = kParts / 2; n > 0; n /= 2)
     for (int p = 0; p < n; ++p) v.part[p] = operation(v.part[p], v.part[p + n]);
-  return reduced_part(RealTag(), v.part[0], operation);
+  return reduced_part(Tag(), v.part[0], operation);
 }
-HWY_INLINE Real sum_of(Vector v) { return reduced(v, SumUp()); }
-HWY_INLINE Real highest_of(Vector v) { return reduced(v, Highest()); }
-HWY_INLINE Real lowest_of(Vector v) { return reduced(v, Lowest()); }
+HWY_INLINE Real sum_of(Vector v) { return reduced<RealTag>(v, SumUp()); }
+HWY_INLINE Real highest_of(Vector v) { return reduced<RealTag>(v, Highest()); }
+HWY_INLINE Real lowest_of(Vector v) { return reduced<RealTag>(v, Lowest()); }
+/// The bits that numbers below 32 name.
+HWY_INLINE unsigned bits_named(Ids numbers) {
+  const auto one = hn::Set(IdTag(), 1);
+  for (int p = 0; p < kParts; ++p) numbers.part[p] = hn::Shl(one, numbers.part[p]);
+  return reduced<IdTag>(numbers, AnyBit());
+}
 
 }  // namespace kerf::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,14 +1,14 @@
-// Finding the columns that walls go through, and counting them at 16 points each.
+// Finding the squares between columns that walls go through.
 #include "sim/walls.h"
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "sim/parallel.h"
-#include "sim/start.h"
 
 namespace kerf::sim {
 namespace {
@@ -24,57 +24,36 @@ constexpr Real kLeastLevelStep = 0.002f;
 constexpr Real kExplainedByLower = 2.0f;
 constexpr Real kExplainedByHigher = 1.5f;
 constexpr Real kMostExplained = 4.0f;
-/// Most columns that are counted anew: a share of all columns and in any case this many; bounds the time.
+/// Most squares that are counted anew: a share of all and in any case this many; bounds the time.
 constexpr double kMostShare = 0.25;
 constexpr std::size_t kAlways = 1 << 16;
-constexpr std::size_t kMostColumns = 1 << 22;
-/// Columns kept as points at a time; bounds the memory to about 100 MB.
-constexpr std::size_t kGroupColumns = 1 << 16;
+constexpr std::size_t kMostSquares = 1 << 22;
 
 /// Micros that memory is asked for ahead.
 constexpr int kAhead = 8;
 
-// ---- finding
-
 constexpr int kGrades = 32;
 
-/// Place of a column in its tile, from its lane_index.
-struct Place {
-  int x, y;
+/// A square that a wall may go through, and how high the highest step on its edges is, graded by powers of
+/// two of the least that counts.
+struct Candidate {
+  Square square;
+  std::int8_t grade;
+  bool is_own;  // not another tile's, which has it too
 };
-Place place_of(int index) {
-  const int super = index >> 8, micro = (index >> 4) & 15, lane = index & 15;
-  return {(super & 3) * 16 + (micro & 3) * 4 + (lane & 3),
-          (super >> 2) * 16 + (micro >> 2) * 4 + (lane >> 2)};
-}
+using Candidates = std::vector<Candidate>;
 
-/// Length of material of a column.
-Real length_in(const Tile& tile, int index) {
-  const int micro = index / kLanes, lane = index % kLanes;
-  if (tile.chain[micro] < 0) return tile.top[micro][lane];
-  Real length = 0;
-  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
-    const Slot& slot = tile.slots[static_cast<std::size_t>(k)];
-    if (slot.high[lane] > slot.low[lane]) length += slot.high[lane] - slot.low[lane];
-  }
-  return length;
+/// Squares by number: that of the column at its low corner, four times, and which of its corners lie before
+/// the tile. So sixteen in a row lie close together.
+constexpr int kSquares = 4 * kMicros * kLanes;
+int number_of(int x, int y) {
+  return 4 * lane_index(std::max(x, 0), std::max(y, 0)) + (x < 0 ? 1 : 0) + (y < 0 ? 2 : 0);
 }
-
-Real length_at(const Workpiece::Body& body, int i, int j) {
-  i = std::clamp(i, 0, body.nx - 1);  // beyond the block it goes on as at its border
-  j = std::clamp(j, 0, body.ny - 1);
-  const auto tile = static_cast<std::size_t>(j / kTileColumns) * static_cast<std::size_t>(body.tiles_x) +
-                    static_cast<std::size_t>(i / kTileColumns);
-  if (!body.tiles[tile]) return body.height;
-  return length_in(*body.tiles[tile], lane_index(i % kTileColumns, j % kTileColumns));
+Square square_of(int number) {
+  const Place place = place_of(number / 4);
+  return {static_cast<std::int8_t>((number & 1) != 0 ? -1 : place.x),
+          static_cast<std::int8_t>((number & 2) != 0 ? -1 : place.y)};
 }
-
-/// The columns of a tile that walls may go through, by lane_index, and how high the steps there are, graded
-/// by powers of two of the least that counts.
-struct Candidates {
-  std::vector<std::uint16_t> columns;
-  std::vector<std::int8_t> grades;
-};
 
 /// The steps around the columns of one tile.
 class Window {
@@ -84,16 +63,19 @@ class Window {
 
  private:
   bool untouched(int tile_x, int tile_y) const;
-  void read(int column, int row, const Tile* tile);
+  void read(const Tile* tile);
+  void read_micro(int column, int row);
+  void go_on_at_borders();
   void note(int x, int y, int grade);
 
   const Workpiece::Body& body_;
   StepRules rules_;
-  int columns_ = 0, rows_ = 0;
+  int columns_ = 0, rows_ = 0;            // of the tile
+  int first_column_ = 0, first_row_ = 0;  // where it begins
   WindowLengths length_;
-  std::int8_t grade_[kTileColumns * kTileColumns];  // by lane_index; -1: no wall
+  std::int8_t grade_[kSquares];  // by number, of those that are noted
+  std::array<std::uint64_t, kSquares / 64> noted_{};
   std::vector<ColumnStep> steps_;
-  std::vector<std::uint16_t> noted_;
 };
 
 Window::Window(const Workpiece::Body& body) : body_(body) {
@@ -104,7 +86,6 @@ Window::Window(const Workpiece::Body& body) : body_(body) {
   rules_.per_least = 1 / (kLeastStep * pitch);
   rules_.per_least_level = 1 / std::max(kLeastLevelStep * pitch, body.same_height);
   rules_.same_height = body.same_height;
-  std::fill(std::begin(grade_), std::end(grade_), std::int8_t{-1});
 }
 
 bool Window::untouched(int tile_x, int tile_y) const {
@@ -116,32 +97,63 @@ bool Window::untouched(int tile_x, int tile_y) const {
   return true;
 }
 
-void Window::read(int column, int row, const Tile* tile) {
-  for (int y = 0; y < kWindow; ++y) {
-    const bool inside = tile != nullptr && y >= kRing && y < kRing + rows_;
-    for (int x = 0; x < kWindow; ++x) {
-      if (inside && x == kRing) x += columns_;
-      if (x < kWindow) length_[y][x] = length_at(body_, column + x - kRing, row + y - kRing);
-    }
+/// Reads the lengths of the micro that has a column in its corner.
+void Window::read_micro(int column, int row) {
+  const std::size_t number =
+      static_cast<std::size_t>((row + first_row_) / kTileColumns) * static_cast<std::size_t>(body_.tiles_x) +
+      static_cast<std::size_t>((column + first_column_) / kTileColumns);
+  const Tile* tile = body_.tiles[number].get();
+  const int x = column & (kTileColumns - 1), y = row & (kTileColumns - 1);
+  Lanes lengths;
+  if (tile != nullptr) {
+    tile->lengths(lane_index(x, y) / kLanes, lengths);
+  } else {
+    std::fill_n(lengths.v, kLanes, body_.height);
   }
-  if (tile == nullptr) return;
+  for (int k = 0; k < 4; ++k)
+    std::memcpy(&length_[row + kRing + k][column + kRing], lengths.v + 4 * k, 4 * sizeof(Real));
+}
+
+/// Beyond the block's borders it goes on as at them.
+void Window::go_on_at_borders() {
+  const int left = std::max(-first_column_, -kRing) + kRing, low = std::max(-first_row_, -kRing) + kRing;
+  const int right = std::min(body_.nx - first_column_ + kRing, kWindow) - 1;
+  const int high = std::min(body_.ny - first_row_ + kRing, kWindow) - 1;
+  for (int y = low; y <= high; ++y) {
+    std::fill(length_[y], length_[y] + left, length_[y][left]);
+    std::fill(length_[y] + right + 1, length_[y] + kWindow, length_[y][right]);
+  }
+  for (int y = 0; y < low; ++y) std::copy_n(length_[low], kWindow, length_[y]);
+  for (int y = high + 1; y < kWindow; ++y) std::copy_n(length_[high], kWindow, length_[y]);
+}
+
+/// Reads the lengths of a tile and of what is around it.
+void Window::read(const Tile* tile) {
+  const auto read_if_any = [&](int column, int row) {
+    const int i = column + first_column_, j = row + first_row_;
+    if (i >= 0 && j >= 0 && i < body_.nx && j < body_.ny) read_micro(column, row);
+  };
   for (int micro = 0; micro < kMicros; ++micro) {
-    const Place place = place_of(micro * kLanes);
-    if (place.x >= columns_ || place.y >= rows_) continue;
-    Lanes lengths;
-    tile->fetch(micro + kAhead);
-    tile->lengths(micro, lengths);
-    const int across = std::min(columns_ - place.x, 4);
-    for (int y = 0; y < std::min(rows_ - place.y, 4); ++y)
-      for (int x = 0; x < across; ++x) length_[place.y + y + kRing][place.x + x + kRing] = lengths[4 * y + x];
+    if (tile != nullptr) tile->fetch(micro + kAhead);
+    read_if_any(column_of(micro), row_of(micro));
   }
+  for (int k = -kRing; k <= kTileColumns; k += 4) {
+    read_if_any(k, -kRing);
+    read_if_any(k, kTileColumns);
+    read_if_any(-kRing, k);
+    read_if_any(kTileColumns, k);
+  }
+  go_on_at_borders();
 }
 
 void Window::note(int x, int y, int grade) {
-  if (x < 0 || y < 0 || x >= columns_ || y >= rows_) return;
-  const int index = lane_index(x, y);
-  if (grade_[index] < 0) noted_.push_back(static_cast<std::uint16_t>(index));
-  grade_[index] = static_cast<std::int8_t>(std::max<int>(grade_[index], grade));
+  if (x < -1 || y < -1 || x >= columns_ || y >= rows_) return;
+  const int number = number_of(x, y);
+  std::uint64_t& noted = noted_[static_cast<std::size_t>(number / 64)];
+  const std::uint64_t bit = std::uint64_t{1} << (number % 64);
+  if ((noted & bit) == 0) grade_[number] = 0;
+  noted |= bit;
+  grade_[number] = static_cast<std::int8_t>(std::max<int>(grade_[number], grade));
 }
 
 Candidates Window::look(std::size_t tile) {
@@ -150,30 +162,35 @@ Candidates Window::look(std::size_t tile) {
   if (!body_.tiles[tile] && untouched(tile_x, tile_y)) return {};
   columns_ = body_.columns_x_of(tile);
   rows_ = body_.columns_y_of(tile);
-  read(tile_x * kTileColumns, tile_y * kTileColumns, body_.tiles[tile].get());
+  first_column_ = tile_x * kTileColumns;
+  first_row_ = tile_y * kTileColumns;
+  read(body_.tiles[tile].get());
   steps_.clear();
   find_steps(rules_, length_, steps_);
-  noted_.clear();
+  noted_ = {};
   for (const ColumnStep& step : steps_) {
     const int x = step.x - kRing, y = step.y - kRing;
     const int grade = std::min(std::ilogb(step.excess), kGrades - 1);
     note(x, y, grade);
-    note(step.way == StepWay::along_x ? x + 1 : x, step.way == StepWay::along_x ? y : y + 1, grade);
+    note(step.way == StepWay::along_x ? x : x - 1, step.way == StepWay::along_x ? y - 1 : y, grade);
   }
   Candidates found;
-  std::sort(noted_.begin(), noted_.end());
-  for (const std::uint16_t index : noted_) {
-    found.columns.push_back(index);
-    found.grades.push_back(std::exchange(grade_[index], std::int8_t{-1}));
+  for (std::size_t word = 0; word < noted_.size(); ++word) {
+    for (std::uint64_t rest = noted_[word]; rest != 0; rest &= rest - 1) {
+      const int number = static_cast<int>(word * 64) + __builtin_ctzll(rest);
+      const Square square = square_of(number);
+      found.push_back(
+          {square, grade_[number], (square.x >= 0 || tile_x == 0) && (square.y >= 0 || tile_y == 0)});
+    }
   }
   return found;
 }
 
-/// The lowest grade that leaves no more columns than are affordable.
+/// The lowest grade that leaves no more squares than are affordable.
 int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, const Workpiece::Body& body) {
   const double all = static_cast<double>(body.nx) * static_cast<double>(body.ny);
   const std::size_t most =
-      std::min(kMostColumns, std::max(kAlways, static_cast<std::size_t>(kMostShare * all)));
+      std::min(kMostSquares, std::max(kAlways, static_cast<std::size_t>(kMostShare * all)));
   std::size_t sum = 0;
   int grade = kGrades;
   while (grade > 0 && sum + count[static_cast<std::size_t>(grade - 1)] <= most)
@@ -181,165 +198,54 @@ int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, con
   return grade;
 }
 
-// ---- points
-
-/// Numbers between 0 and 1 that follow no pattern, from a column's place.
-std::uint32_t scrambled(std::uint32_t i, std::uint32_t j) {
-  std::uint32_t v = i * 0x9e3779b1u ^ (j * 0x85ebca77u + 0x165667b1u);
-  v = (v ^ (v >> 15)) * 0x2c1b3c6du;
-  v = (v ^ (v >> 12)) * 0x297a2d39u;
-  return v ^ (v >> 15);
-}
-Real unit_share(std::uint32_t bits) { return static_cast<Real>(bits & 0xffffu) / 65536.0f; }
-
-/// Leaves only the micros that `wanted` names to be cut.
-template <class Wanted>
-void keep_micros(Tile& tile, const Wanted& wanted) {
+/// The squares with steps of at least a grade.
+WallSquares squares_above(int grade, const Candidates& candidates, const Workpiece::Body& body,
+                          std::size_t tile) {
+  WallSquares walls{static_cast<std::uint32_t>(tile), {}, {}};
+  if (candidates.empty()) return walls;
+  const int columns = body.columns_x_of(tile), rows = body.columns_y_of(tile);
+  std::uint8_t quarters[kMicros][kLanes] = {};
+  bool any_in[kMicros] = {};
+  for (const Candidate& candidate : candidates) {
+    if (candidate.grade < grade) continue;
+    const Square square = candidate.square;
+    if (candidate.is_own) walls.squares.push_back(square);
+    for (int y = std::max<int>(square.y, 0); y <= std::min(square.y + 1, rows - 1); ++y) {
+      for (int x = std::max<int>(square.x, 0); x <= std::min(square.x + 1, columns - 1); ++x) {
+        const int column = lane_index(x, y);
+        const int quarter = (x == square.x ? 1 : 0) + (y == square.y ? 2 : 0);
+        quarters[column / kLanes][column % kLanes] |= static_cast<std::uint8_t>(1 << quarter);
+        any_in[column / kLanes] = true;
+      }
+    }
+  }
   for (int micro = 0; micro < kMicros; ++micro)
-    if (!wanted(micro)) tile.micro_top[micro] = -kFar;
-  for (int super = 0; super < kSupers; ++super)
-    tile.super_top[super] =
-        *std::max_element(tile.micro_top + super * kSupers, tile.micro_top + (super + 1) * kSupers);
-}
-
-/// A square around each 16 columns that are points.
-void enclose(PointPlaces& points, int count, Real pitch) {
-  for (int super = 0; super * kSupers < count; ++super) {
-    const int begin = super * kSupers, end = std::min(count, begin + kSupers);
-    const auto [x0, x1] = std::minmax_element(points.x + begin, points.x + end);
-    const auto [y0, y1] = std::minmax_element(points.y + begin, points.y + end);
-    points.super_x[super] = 0.5f * (*x0 + *x1);
-    points.super_y[super] = 0.5f * (*y0 + *y1);
-    points.super_half[super] = 0.5f * std::max(*x1 - *x0, *y1 - *y0) + 0.5f * pitch;
-  }
-}
-
-double weighted_length(const Tile& tile, const std::vector<Real>& weights) {
-  double sum = 0.0;
-  for (int micro = 0; micro < kMicros; ++micro) {
-    const Real* weight = weights.data() + micro * kLanes;
-    if (std::all_of(weight, weight + kLanes, [](Real v) { return v == 0; })) continue;
-    Lanes lengths;
-    tile.fetch(micro + kAhead);
-    tile.lengths(micro, lengths);
-    for (int i = 0; i < kLanes; ++i) sum += static_cast<double>(lengths[i]) * static_cast<double>(weight[i]);
-  }
-  return sum;
+    for (int lane = 0; lane < kLanes && any_in[micro]; ++lane)
+      if (const std::uint8_t taken = quarters[micro][lane]; taken != 0)
+        walls.quarters.push_back({static_cast<std::uint16_t>(micro * kLanes + lane), taken});
+  return walls;
 }
 
 }  // namespace
 
-std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned threads) {
+std::vector<WallSquares> find_walls(const Workpiece::Body& body, unsigned threads) {
   std::array<std::atomic<std::size_t>, kGrades> count{};
   std::vector<Candidates> candidates(body.tiles.size());
   const auto look = [&](std::size_t tile) {
     candidates[tile] = Window(body).look(tile);
-    for (const std::int8_t grade : candidates[tile].grades) ++count[static_cast<std::size_t>(grade)];
+    for (const Candidate& candidate : candidates[tile])
+      if (candidate.is_own) ++count[static_cast<std::size_t>(candidate.grade)];
   };
   parallel_for(threads, body.tiles.size(), look, [] { return false; });
   const int lowest = lowest_grade(count, body);
-  std::vector<WallColumns> found;
-  for (std::size_t tile = 0; tile < candidates.size(); ++tile) {
-    const Candidates& here = candidates[tile];
-    WallColumns walls{static_cast<std::uint32_t>(tile), {}};
-    for (std::size_t n = 0; n < here.columns.size(); ++n)
-      if (here.grades[n] >= lowest) walls.columns.push_back(here.columns[n]);
-    if (!walls.columns.empty()) found.push_back(std::move(walls));
-  }
-  return found;
-}
-
-WallTile::WallTile(const Workpiece::Body& body, const WallColumns& walls, Parts& store)
-    : centres_(body.height, body.columns_x_of(walls.tile), body.columns_y_of(walls.tile)),
-      centre_weights_(kMicros * kLanes, 0.0f) {
-  fill_start_tile(body, walls.tile, centres_);
-  const auto tiles_x = static_cast<std::uint32_t>(body.tiles_x);
-  const int column = static_cast<int>(walls.tile % tiles_x) * kTileColumns;
-  const int row = static_cast<int>(walls.tile / tiles_x) * kTileColumns;
-  bool has_wall[kMicros] = {};
-  for (const std::uint16_t index : walls.columns) {
-    const Place place = place_of(index);
-    centre_weights_[index] = -static_cast<Real>(body.share_x(column + place.x) * body.share_y(row + place.y));
-    has_wall[index / kLanes] = true;
-  }
-  keep_micros(centres_, [&](int micro) { return has_wall[micro]; });
-  const auto pitch = static_cast<Real>(body.pitch);
-  for (std::size_t first = 0; first < walls.columns.size(); first += kMicros) {
-    const int count = static_cast<int>(std::min<std::size_t>(kMicros, walls.columns.size() - first));
-    Part& part = *parts_.emplace_back(store.make(body.height));
-    part.weights.assign(kMicros * kLanes, 0.0f);
-    for (int n = 0; n < count; ++n)
-      add_point_column(part, body, walls.tile, n, walls.columns[first + static_cast<std::size_t>(n)]);
-    enclose(part.points, count, pitch);
-    if (body.start) refresh_bounds(part.tile);
-    keep_micros(part.tile, [&](int micro) { return micro < count; });
-  }
-}
-
-void WallTile::add_point_column(Part& part, const Workpiece::Body& body, std::uint32_t tile, int number,
-                                int lane) const {
-  const auto tiles_x = static_cast<std::uint32_t>(body.tiles_x);
-  const Place place = place_of(lane);
-  const int i = static_cast<int>(tile % tiles_x) * kTileColumns + place.x;
-  const int j = static_cast<int>(tile / tiles_x) * kTileColumns + place.y;
-  const double share_x = body.share_x(i), share_y = body.share_y(j);
-  PointPlaces& points = part.points;
-  points.x[number] = static_cast<Real>((place.x - 0.5 + 0.5 * share_x) * body.pitch);
-  points.y[number] = static_cast<Real>((place.y - 0.5 + 0.5 * share_y) * body.pitch);
-  points.size_x[number] = static_cast<Real>(share_x * body.pitch);
-  points.size_y[number] = static_cast<Real>(share_y * body.pitch);
-  const std::uint32_t bits = scrambled(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
-  points.shift_x[number] = unit_share(bits);
-  points.shift_y[number] = unit_share(bits >> 16);
-  if (body.start) put_start_column(body, i, j, part.tile, number);
-  std::fill_n(part.weights.begin() + number * kLanes, kLanes, static_cast<Real>(share_x * share_y / kLanes));
-}
-
-void WallTile::cut(TileJob job) {
-  std::vector<double> removed(job.count);
-  double* const sum = job.removed;
-  job.removed = removed.data();
-  const auto cut_one = [&](Tile& tile, const std::vector<Real>& weights, const PointPlaces* points) {
-    job.tile = &tile;
-    job.weights = weights.data();
-    job.points = points;
-    cut_tile(job);
-    for (std::size_t k = 0; k < job.count; ++k) sum[k] += removed[k];
-    job.contacts->clear();  // the columns' centres have told them
+  std::vector<WallSquares> found(body.tiles.size());
+  const auto choose = [&](std::size_t tile) {
+    found[tile] = squares_above(lowest, candidates[tile], body, tile);
   };
-  cut_one(centres_, centre_weights_, nullptr);
-  for (const Parts::Pointer& part : parts_) cut_one(part->tile, part->weights, &part->points);
-}
-
-double WallTile::excess() const {
-  double sum = weighted_length(centres_, centre_weights_);
-  for (const Parts::Pointer& part : parts_) sum += weighted_length(part->tile, part->weights);
-  return sum;
-}
-
-WallGroup::WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next,
-                     unsigned threads)
-    : threads_(threads), wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
-  const std::size_t first = next;
-  for (std::size_t columns = 0; next < found.size() && columns < kGroupColumns; ++next) {
-    const WallColumns& walls = found[next];
-    columns += walls.columns.size();
-    wanted_[walls.tile] = true;
-    place_[walls.tile] = static_cast<std::uint32_t>(next - first);
-  }
-  walls_.resize(next - first);
-  parallel_for(
-      threads_, walls_.size(),
-      [&](std::size_t n) { walls_[n] = store_.make(body, found[first + n], parts_); }, [] { return false; });
-}
-
-double WallGroup::excess() const {
-  std::vector<double> each(walls_.size());
-  parallel_for(
-      threads_, walls_.size(), [&](std::size_t n) { each[n] = walls_[n]->excess(); }, [] { return false; });
-  double sum = 0.0;
-  for (const double excess : each) sum += excess;
-  return sum;
+  parallel_for(threads, body.tiles.size(), choose, [] { return false; });
+  const auto has_none = [](const WallSquares& walls) { return walls.quarters.empty(); };
+  found.erase(std::remove_if(found.begin(), found.end(), has_none), found.end());
+  return found;
 }
 
 }  // namespace kerf::sim

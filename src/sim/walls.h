@@ -1,10 +1,11 @@
-// Columns that a wall goes through, counted at more than their centre.
+// Squares between columns that a wall goes through, counted at more than their corners.
 //
 // A column says what there is at its centre. Where its surroundings are smooth that is also the mean over its
-// square, but a wall that goes through the square is known by the centre to half a pitch only. So after the
-// cutting those columns are looked for and cut once more, by all sweeps and the same kernels, as 16 points
-// each. The mean over the points goes into the volumes: into those of the steps, which the kernels count, and
-// into Workpiece::Body::wall_volume. The columns themselves stay as they are.
+// square, but a wall is known by the centres to half a pitch only. So after the cutting those squares are
+// looked for that have four neighbouring columns' centres as corners and a wall between some of them, and
+// points in them are cut by all sweeps and the same kernels. The mean over the points goes into the volumes,
+// in place of what the quarters of the four columns say: into those of the steps, which the kernels count,
+// and into Workpiece::Body::wall_volume. The columns themselves stay as they are.
 //
 // So that each step's part of a column is replaced too, the column's centre is cut anew beside the points,
 // with a weight below 0.
@@ -12,63 +13,71 @@
 
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
-#include "sim/kernels.h"
+#include "sim/cutter.h"
 #include "sim/tile.h"
 
 namespace kerf::sim {
 
-/// The columns of a tile, by lane_index, that walls go through.
-struct WallColumns {
+/// A square between columns, by its place in a tile: from column x to the next one, from row y to the next.
+/// At the block's border -1, or the last column or row, stands for the half of a square that is left there.
+struct Square {
+  std::int8_t x, y;
+};
+
+/// The squares of a tile that walls go through, and which quarters they take of the columns in it.
+struct WallSquares {
+  struct Quarters {
+    std::uint16_t column;  // by lane_index
+    std::uint8_t taken;    // a bit each: of the low side, beyond the middle in X, in Y, in both
+  };
   std::uint32_t tile = 0;
-  std::vector<std::uint16_t> columns;
+  std::vector<Square> squares;
+  std::vector<Quarters> quarters;
 };
 
 /// In order of tiles. There are never more than the workpiece can afford: of too many those with the lowest
 /// steps are left out.
-std::vector<WallColumns> find_walls(const Workpiece::Body& body, unsigned threads);
+std::vector<WallSquares> find_walls(const Workpiece::Body& body, unsigned threads);
 
-/// The columns at the walls of one tile.
+/// The walls of one tile.
 class WallTile {
  public:
   struct Part {
-    explicit Part(Real height) : tile(height, kTileColumns, kTileColumns) {}
+    Part(Real height, int micros, std::shared_ptr<SlotPages> memory)
+        : tile(height, micros, std::move(memory)) {}
     Tile tile;
-    PointPlaces points{};
-    std::vector<Real> weights;
+    PointTile points;
   };
-  using Parts = BlockStore<Part>;
-  WallTile(const Workpiece::Body& body, const WallColumns& walls, Parts& store);
+  /// Where the parts of many tiles live.
+  struct Parts {
+    BlockStore<Part> store;
+    std::shared_ptr<SlotPages> slots = std::make_shared<SlotPages>();
+  };
+  /// The more squares there are in all tiles, the fewer points each of them needs.
+  WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls,
+           std::size_t all_squares, Parts& memory);
 
-  /// Cuts with the sweeps of the job, whose tile, shares and weights are replaced.
+  /// Cuts with the sweeps of the job, whose tile and shares are replaced.
   void cut(TileJob job);
-  /// Length of the columns' material by their points less that by their centres, border columns by their
-  /// shares, mm.
-  double excess() const;
 
  private:
-  void add_point_column(Part& part, const Workpiece::Body& body, std::uint32_t tile, int number,
-                        int lane) const;
-
-  Tile centres_;
-  std::vector<Real> centre_weights_;
-  std::vector<Parts::Pointer> parts_;
+  std::vector<BlockStore<Part>::Pointer> parts_;
 };
 
 /// As many tiles' walls as are kept in memory at a time.
 class WallGroup {
  public:
   /// Takes from `found`, from number `next` on, which is moved on.
-  WallGroup(const Workpiece::Body& body, const std::vector<WallColumns>& found, std::size_t& next,
-            unsigned threads);
+  WallGroup(const Workpiece::Body& body, const Cutter& cutter, const std::vector<WallSquares>& found,
+            std::size_t all_squares, std::size_t& next, unsigned threads);
 
   const std::vector<bool>& tiles() const { return wanted_; }
   void cut(std::size_t tile, const TileJob& job) { walls_[place_[tile]]->cut(job); }
-  double excess() const;
 
  private:
-  unsigned threads_;
   std::vector<bool> wanted_;
   std::vector<std::uint32_t> place_;  // of a tile in walls_
   WallTile::Parts parts_;

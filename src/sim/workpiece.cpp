@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/start.h"
 #include "sim/tile.h"
@@ -10,7 +11,8 @@
 namespace kerf {
 namespace sim {
 
-Tile::Tile(Real height, int columns_x, int columns_y) {
+Tile::Tile(Real height, int columns_x, int columns_y, std::shared_ptr<SlotPages> memory)
+    : slots(std::move(memory)) {
   const bool is_whole = columns_x == kTileColumns && columns_y == kTileColumns;
   const Real everywhere = is_whole ? height : 0.0f;
   std::fill_n(top[0].v, kMicros * kLanes, everywhere);
@@ -31,17 +33,33 @@ Tile::Tile(Real height, int columns_x, int columns_y) {
   }
 }
 
+Tile::Tile(Real height, int micros, std::shared_ptr<SlotPages> memory) : slots(std::move(memory)) {
+  std::fill_n(top[0].v, micros * kLanes, height);
+  std::fill_n(top_step[0], micros * kLanes, kStockSurface);
+  std::fill_n(micro_top, kMicros, -kFar);
+  std::fill_n(micro_top, micros, height);
+  std::fill_n(micro_bottom, kMicros, kFar);
+  std::fill_n(micro_bottom, micros, 0.0f);
+  std::fill_n(chain, kMicros, -1);
+  for (int super = 0; super < kSupers; ++super) {
+    super_top[super] = *std::max_element(micro_top + super * kSupers, micro_top + (super + 1) * kSupers);
+    super_bottom[super] = 0.0f;
+  }
+}
+
 Slot& Tile::add_slot(int micro) {
-  const auto number = static_cast<std::int32_t>(slots.size());
   std::int32_t* link = &chain[micro];
   while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
-  *link = number;
-  Slot& slot = slots.add();
+  const bool is_new = free_slot < 0;
+  *link = is_new ? static_cast<std::int32_t>(slots.size()) : free_slot;
+  Slot& slot = is_new ? slots.add() : slots[static_cast<std::size_t>(free_slot)];
+  if (!is_new) free_slot = slot.next;
   for (int i = 0; i < kLanes; ++i) {
     slot.low[i] = kFar;
     slot.high[i] = -kFar;
     slot.low_step[i] = slot.high_step[i] = kStockSurface;
   }
+  slot.next = -1;
   return slot;
 }
 
@@ -59,23 +77,15 @@ void Tile::store_remnant(int micro, const Remnant& rest) {
   free->high_step[rest.lane] = rest.high_step;
 }
 
-void Tile::make_chain(int micro) {
-  if (chain[micro] >= 0) return;
-  Slot& slot = add_slot(micro);
-  for (int i = 0; i < kLanes; ++i) {
-    if (!(top[micro][i] > 0.0f)) continue;
-    slot.low[i] = 0.0f;
-    slot.high[i] = top[micro][i];
-  }
-  std::copy_n(top_step[micro], kLanes, slot.high_step);  // of columns cut through as well, see cut_through
+void Tile::drop_chain(int micro) {
+  std::int32_t* link = &chain[micro];
+  while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
+  *link = free_slot;
+  free_slot = std::exchange(chain[micro], -1);
 }
 
 void Tile::lengths(int micro, Lanes& out) const {
-  if (chain[micro] < 0) {
-    out = top[micro];
-    return;
-  }
-  std::fill_n(out.v, kLanes, 0.0f);
+  out = top[micro];
   for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
     for (int i = 0; i < kLanes; ++i) {
@@ -87,11 +97,8 @@ void Tile::lengths(int micro, Lanes& out) const {
 
 void Tile::intervals(int index, std::vector<Interval>& out) const {
   const int micro = index / kLanes, lane = index % kLanes;
-  if (chain[micro] < 0) {
-    const Real high = top[micro][lane];
-    if (high > 0.0f) out.push_back({0.0f, high, kStockSurface, top_step[micro][lane]});
-    return;
-  }
+  const Real high = top[micro][lane];
+  if (high > 0.0f) out.push_back({0.0f, high, kStockSurface, top_step[micro][lane]});
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
   for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
     const Slot& slot = slots[static_cast<std::size_t>(k)];
@@ -104,8 +111,8 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
 
 void Tile::cut_through(int index, std::vector<std::uint32_t>& out) const {
   const int micro = index / kLanes, lane = index % kLanes;
-  if (chain[micro] < 0) out.push_back(top_step[micro][lane]);
   // An interval that ends keeps the step of its end as that of its high end.
+  out.push_back(top_step[micro][lane]);
   for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next)
     out.push_back(slots[static_cast<std::size_t>(k)].high_step[lane]);
 }
@@ -175,12 +182,12 @@ std::uint32_t Workpiece::Body::cut_through(const sim::Tile& tile, int index) con
 }
 
 sim::Tile& Workpiece::Body::touch(std::size_t tile) {
-  if (!tiles[tile]) tiles[tile] = store.make(height, columns_x_of(tile), columns_y_of(tile));
+  if (!tiles[tile]) tiles[tile] = store.make(height, columns_x_of(tile), columns_y_of(tile), slot_pages);
   return *tiles[tile];
 }
 
 void Workpiece::Body::restore(std::size_t tile) {
-  *tiles[tile] = sim::Tile(height, columns_x_of(tile), columns_y_of(tile));
+  *tiles[tile] = sim::Tile(height, columns_x_of(tile), columns_y_of(tile), slot_pages);
   sim::fill_start_tile(*this, tile, *tiles[tile]);
 }
 

@@ -120,6 +120,36 @@ TEST_P(Walls, ABorderColumnCountsForItsShare) {
 
 INSTANTIATE_TEST_SUITE_P(Pitches, Walls, testing::Values(0.05, 0.1, 0.2, 0.5));
 
+// So many squares that each has only a few points: their errors cancel.
+TEST(WallsOfManySquares, AreAsExactAlongTheWholeOutline) {
+  constexpr double kPitch = 0.05, kRadius = 1.0137, kDepth = 2.5;
+  constexpr int kSlots = 24;
+  Path path;
+  path.tool(1);
+  double area = 0.0, outline = 0.0;
+  for (int n = 0; n < kSlots; ++n) {
+    const Point3 from{3.0, 4.0 + 3.0 * n, -kDepth}, to{97.0, 4.0 + 3.0 * n + 0.61, -kDepth};
+    path.rapid({from.x, from.y, 5}).cut(from).cut(to).rapid({to.x, to.y, 5});
+    const double length = std::hypot(to.x - from.x, to.y - from.y);
+    area += 2 * kRadius * length + kPi * kRadius * kRadius;
+    outline += 2 * length + 2 * kPi * kRadius;
+  }
+  const Simulation result =
+      simulated(path.path(), end_mill(kRadius), block({0, 0, -4}, {100, 80, 0}), kPitch);
+  EXPECT_NEAR(result.removed.mm3(), area * kDepth, 2e-3 * kPitch * outline * kDepth);
+}
+
+// The frusta that stand for a hollow arc lie on both sides of it.
+TEST(Walls, AHollowFlankHasItsVolume) {
+  ToolTable tools;
+  tools.set(1, make_drawn(1, profile({{0, 0, 0}, {0.5, 0, -kQuarter}, {2.5, 2, 0}, {2.5, 6, 0}})));
+  Path path;
+  path.tool(1).rapid({5, 5, 5}).cut({5, 5, -2});
+  const double exact = kPi * (2.5 * 2.5 * 2 - 5 * kPi + 8 - 8.0 / 3);  // of (2.5 - sqrt(4 - z^2))^2
+  const Simulation result = simulated(path.path(), tools, block({0, 0, -4}, {10, 10, 0}), 0.02);
+  EXPECT_NEAR(result.removed.mm3(), exact, 3e-4 * exact);
+}
+
 /// Level moves across each other, with short chords among them, whose walls many steps make together.
 Toolpath crossing_moves(unsigned seed) {
   Random random(seed);
