@@ -15,14 +15,15 @@ constexpr double kFirstLook = 0.45;  // from the vertex: within the square of it
 constexpr double kSecondLook = 0.1;  // from its new place: curves are planes there
 constexpr double kHalfSquare = 0.5;
 constexpr double kMostMoved = 1.2;
-constexpr double kMostRefined = 0.25;
+constexpr double kMostSpan = 10.0;
+constexpr double kMostRefined = 0.6;
 constexpr double kMissed = 0.02;  // a new place that is further off all surfaces is none
 
 /// Places closer to a surface are on it, mm: a hundredth of what single precision of a mesh tells.
 constexpr double kOnSurface = 1e-8;
 /// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
 constexpr double kIntoMaterial = 1e-5;
-constexpr int kCloserLooks = 2;
+constexpr int kCloserLooks = 3;
 constexpr int kMostSteps = 12;  // of Newton's method; the distance is nearly linear
 /// Share of the most that a place may move by which it goes into the material at a time, if it is deeper than
 /// the other share in what is cut away.
@@ -33,6 +34,8 @@ constexpr double kLeastGain = 0.05;
 constexpr double kSameSide = 0.1;
 /// Triangles around a vertex that face so nearly the same way (cosine, 11 degrees) are one surface.
 constexpr double kSmooth = 0.98;
+/// A side of the block, by the larger part of its normal.
+constexpr double kUpright = 0.9999;
 /// And so nearly (1.1 degrees) one plane.
 constexpr double kOnePlane = 0.9998;
 /// Surfaces that bend less than this share of the tolerance between places are planes.
@@ -154,13 +157,14 @@ bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const st
 /// The stock's own surface: of a block its side that faces nearly so, else the triangle's plane.
 void Placer::add_stock_plane(Point3 from, Point3 normal) {
   if (!is_block_) return of_stock_.push_back({from, normal, normal});
-  int axis = 0;
-  for (const int other : {1, 2})
-    if (std::abs(normal[other]) > std::abs(normal[axis])) axis = other;
+  // Of what is no side of the block the columns have taken the step to the next one for a slope.
+  int axis = 2;
+  for (const int other : {0, 1})
+    if (std::abs(normal[other]) > kUpright) axis = other;
   Sample side{from, {}, {}};
   side.at[axis] = normal[axis] > 0.0 ? size_[axis] : 0.0;
   side.normal[axis] = std::copysign(1.0, normal[axis]);
-  if (std::abs(side.at[axis] - from[axis]) <= kMostMoved * pitch_) of_stock_.push_back(side);
+  if (std::abs(side.at[axis] - from[axis]) <= most_moved_) of_stock_.push_back(side);
 }
 
 void Placer::find_samples(std::uint32_t vertex, Point3 from) {
@@ -178,6 +182,20 @@ void Placer::find_samples(std::uint32_t vertex, Point3 from) {
     Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}, normal};
     if (put_on_surface(sample, normal)) samples_.push_back(sample);
   });
+  if (!samples_.empty() || of_stock_.empty()) return;
+  // The columns have taken what was cut for a slope of the stock: the edge between them is near.
+  Point3 outwards;
+  fans_.around(vertex, [&](std::uint32_t triangle) { outwards = outwards + fans_.normal(triangle); });
+  Sample sample{from, {}, {}};
+  if (length(outwards) > 0.0 && put_on_surface(sample, outwards)) samples_.push_back(sample);
+}
+
+/// How far a place is from the surface of what is left.
+double Placer::miss_at(Point3 place) const {
+  double inside = -nearby_->at(place).value;
+  for (int axis = 0; is_block_ && axis < 3; ++axis)
+    inside = std::max({inside, -place[axis], place[axis] - size_[axis]});
+  return std::abs(inside);
 }
 
 /// What lies on the block's sides stays there, and what lies on its top or bottom if these are left there.
@@ -237,8 +255,7 @@ Point3 Placer::solved(Point3 from, int directions) const {
 Point3 Placer::best_step(Point3 from) const {
   for (int directions = quadric_at(from, fixed_).directions(kLeastShare); directions > 0; --directions) {
     const Point3 to = solved(from, directions);
-    if (distance(from, to) <= kMostMoved * pitch_ && (directions == 1 || miss_of(to) <= kMissed * pitch_))
-      return to;
+    if (distance(from, to) <= most_moved_ && (directions == 1 || miss_of(to) <= kMissed * pitch_)) return to;
   }
   return from;
 }
@@ -294,18 +311,30 @@ bool Placer::is_flat_enough() const {
   return true;
 }
 
-Point3 Placer::on_edge(std::uint32_t vertex, Point3 from) {
+/// On steep places columns are far apart in height, and so may a vertex be from where it belongs.
+double Placer::most_moved(std::uint32_t vertex, Point3 from) const {
+  double span = 0.0;
+  fans_.around(vertex, [&](std::uint32_t triangle) {
+    span = std::max(span, 1.5 * std::abs(fans_.middle(triangle).z - from.z));
+  });
+  return kMostMoved * pitch_ + std::min(span, kMostSpan * pitch_);
+}
+
+Point3 Placer::on_edge(std::uint32_t vertex, Point3 from, Around& around) {
+  most_moved_ = most_moved(vertex, from);
   find_samples(vertex, from);
   if (samples_.empty() && of_stock_.empty()) return from;
+  const double miss_before = miss_at(from);
   Point3 to = best_step(from);
+  if (distance(from, to) > kFirstLook * pitch_) nearby_ = &around.all(to);
   for (int n = 0; n < kCloserLooks && !is_flat_enough(); ++n) {
     look_closer(to);
     const Point3 better = best_step(to);
     if (distance(to, better) > kMostRefined * pitch_) break;
     to = better;
   }
-  const double before = std::abs(nearby_->at(from).value), after = std::abs(nearby_->at(to).value);
-  return after <= kMissed * pitch_ || after < before ? to : from;
+  const double after = miss_at(to);
+  return after <= kMissed * pitch_ || after < miss_before ? to : from;
 }
 
 Point3 Placer::place(std::uint32_t vertex, Around& around) {
@@ -317,7 +346,7 @@ Point3 Placer::place(std::uint32_t vertex, Around& around) {
     return on_smooth(from, outwards);
   }
   nearby_ = &around.all(from);
-  return on_edge(vertex, from);
+  return on_edge(vertex, from, around);
 }
 
 }  // namespace kerf::sim

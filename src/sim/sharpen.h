@@ -77,10 +77,12 @@ class Placer {
   bool is_smooth(std::uint32_t vertex, Point3& outwards) const;
   bool is_flat_enough() const;
   Point3 on_smooth(Point3 from, Point3 outwards);
-  Point3 on_edge(std::uint32_t vertex, Point3 from);
+  double most_moved(std::uint32_t vertex, Point3 from) const;
+  Point3 on_edge(std::uint32_t vertex, Point3 from, Around& around);
   void fix_axes(std::uint32_t vertex, Point3 from);
   Quadric quadric_at(Point3 from, const Fixed& fixed) const;
   double miss_of(Point3 at) const;
+  double miss_at(Point3 place) const;
   Point3 solved(Point3 from, int directions) const;
   Point3 best_step(Point3 from) const;
   void look_closer(Point3 from);
@@ -90,6 +92,7 @@ class Placer {
   double pitch_, tolerance_;
   bool is_block_;
   const Nearby* nearby_ = nullptr;
+  double most_moved_ = 0.0;       // mm, in any direction
   Point3 corner_;                 // of the columns, whose square the vertex stays in; in plan
   Fixed fixed_{};                 // axes along which it stays
   std::vector<Sample> samples_;   // on surfaces that were cut

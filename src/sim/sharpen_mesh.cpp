@@ -14,6 +14,7 @@
 #include "sim/edges.h"
 #include "sim/mesh_build.h"
 #include "sim/parallel.h"
+#include "sim/relabel.h"
 #include "sim/sharpen.h"
 
 #include "kerf/exact_mesh.h"
@@ -183,6 +184,7 @@ bool Sharpener::run() {
     return false;
   }
   meshing::mend_flat_triangles(mesh_, threads_);
+  if (!body_.start) relabel_triangles(mesh_, body_.bounds);
   report(progress_, 1.0);
   return true;
 }

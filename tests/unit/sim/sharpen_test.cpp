@@ -184,6 +184,26 @@ TEST(SharpMesh, WhatIsOnTheBlockStaysOnIt) {
   EXPECT_EQ(check_mesh(part.sharp).bad_edges, 0u);
 }
 
+TEST(SharpMesh, SteepRimsBelongToTheCut) {
+  Path path;  // a ball so deep that its flanks are upright at the top
+  path.tool(1).rapid({10, 8, 5}).cut({10, 8, -5}).cut({31, 13.77, -3});
+  const Part part = part_of(path.path(), profile({{0, 0, kQuarter}, {3, 3, 0}, {3, 12, 0}}), kBlock);
+  const auto strays = [](const Mesh& mesh) {
+    std::size_t count = 0;
+    for (std::size_t t = 0; t < mesh.step.size(); ++t) {
+      if (mesh.step[t] != kStockSurface) continue;
+      const Point3 a = vertex_of(mesh, mesh.triangles[3 * t]), b = vertex_of(mesh, mesh.triangles[3 * t + 1]),
+                   c = vertex_of(mesh, mesh.triangles[3 * t + 2]);
+      const Point3 n = cross(b - a, c - a);
+      const double most = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+      count += most < 0.999 * length(n);
+    }
+    return count;
+  };
+  EXPECT_GT(strays(part.rough), 50u);
+  EXPECT_LE(strays(part.sharp), 2u);
+}
+
 TEST(SharpMesh, ADiscardedRunLeavesTheMeshAsItWas) {
   class Stopped : public Progress {
    public:
