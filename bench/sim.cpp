@@ -8,8 +8,11 @@
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <random>
 #include <string>
+#include <utility>
+#include <vector>
 #if defined(__GLIBC__)
 #include <malloc.h>
 #endif
@@ -190,19 +193,33 @@ void Roughing(benchmark::State& state) {
   run(state, path);
 }
 
-/// The closed mesh of the relief, merged within 5 microns, with its columns made before.
-void ReliefMesh(benchmark::State& state) {
-  SimulationOptions options;
-  options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
-  const Toolpath path = relief(1000, 1000);
+/// A job cut before its mesh is made, merged within a tolerance, all steps of one colour.
+struct CutJob {
+  CutJob(const benchmark::State& state, Toolpath job, Length tolerance) : path(std::move(job)) {
+    SimulationOptions options;
+    options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
+    result = simulate(path, table(), block(), options, diagnostics);
+    if (result) columns = result->workpiece.grid();
+    one_group.assign(path.size(), 0);
+    merged = {.tolerance = tolerance, .step_groups = one_group};
+  }
+  CutJob(const CutJob&) = delete;
+
+  Toolpath path;
   Diagnostics diagnostics;
-  const auto result = simulate(path, table(), block(), options, diagnostics);
-  if (!result) return state.SkipWithError("not simulated");
-  const std::vector<std::uint8_t> one_group(path.size(), 0);
-  const MeshOptions merged{.tolerance = mm(0.005), .step_groups = one_group};
+  std::optional<Simulation> result;
+  ColumnGrid columns;
+  std::vector<std::uint8_t> one_group;
+  MeshOptions merged;
+};
+
+/// The closed mesh of the relief, merged within 5 microns.
+void ReliefMesh(benchmark::State& state) {
+  const CutJob job(state, relief(1000, 1000), mm(0.005));
+  if (!job.result) return state.SkipWithError("not simulated");
   std::size_t triangles = 0;
   const PeakMemory memory;
-  for (auto _ : state) triangles = extract_mesh(result->workpiece.grid(), merged).step.size();
+  for (auto _ : state) triangles = extract_mesh(job.result->workpiece.grid(), job.merged).step.size();
   state.counters["triangles"] = static_cast<double>(triangles);
   state.counters["peak_MB"] = memory.mb();
   state.counters["prototype_top_only_s"] = 0.1;
@@ -210,35 +227,23 @@ void ReliefMesh(benchmark::State& state) {
 
 /// What verifying that mesh costs, which every export does before it writes.
 void ReliefMeshVerified(benchmark::State& state) {
-  SimulationOptions options;
-  options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
-  const Toolpath path = relief(1000, 1000);
-  Diagnostics diagnostics;
-  const auto result = simulate(path, table(), block(), options, diagnostics);
-  if (!result) return state.SkipWithError("not simulated");
-  const std::vector<std::uint8_t> one_group(path.size(), 0);
-  const MeshOptions merged{.tolerance = mm(0.005), .step_groups = one_group};
-  const ColumnGrid columns = result->workpiece.grid();
-  const Mesh mesh = extract_mesh(columns, merged);
+  CutJob job(state, relief(1000, 1000), mm(0.005));
+  if (!job.result) return state.SkipWithError("not simulated");
+  const Mesh mesh = extract_mesh(job.columns, job.merged);
   for (auto _ : state)
-    if (!verify_mesh(mesh, mesh_volume(columns, merged), diagnostics))
+    if (!verify_mesh(mesh, mesh_volume(job.columns, job.merged), job.diagnostics))
       return state.SkipWithError("the mesh is not sound");
   state.counters["triangles"] = static_cast<double>(mesh.step.size());
 }
 
-/// A mesh within 2 microns of what the sweeps leave, from columns made before: extraction and sharpening.
-void exact_mesh(benchmark::State& state, const Toolpath& path) {
-  SimulationOptions options;
-  options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
-  Diagnostics diagnostics;
-  const auto result = simulate(path, table(), block(), options, diagnostics);
-  if (!result) return state.SkipWithError("not simulated");
-  const std::vector<std::uint8_t> one_group(path.size(), 0);
-  const MeshOptions merged{.tolerance = mm(0.002), .step_groups = one_group};
+/// A mesh within 2 microns of what the sweeps leave: extraction and sharpening.
+void exact_mesh(benchmark::State& state, Toolpath path) {
+  const CutJob job(state, std::move(path), mm(0.002));
+  if (!job.result) return state.SkipWithError("not simulated");
   std::size_t triangles = 0;
   for (auto _ : state) {
-    Mesh mesh = extract_mesh(result->workpiece.grid(), merged);
-    sharpen_mesh(mesh, result->workpiece, path, table(), block());
+    Mesh mesh = extract_mesh(job.columns, job.merged);
+    sharpen_mesh(mesh, job.result->workpiece, job.path, table(), block());
     triangles = mesh.step.size();
   }
   state.counters["triangles"] = static_cast<double>(triangles);
