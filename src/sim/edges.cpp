@@ -25,7 +25,7 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
 
 /// Of the triangles around a vertex those that face within so much (cosine) of a given one are its surface;
 /// a triangle that bridges an edge belongs to both sides.
-constexpr double kOneSurface = 0.5;
+constexpr double kOneSurface = 0.2;
 
 /// Normal of a surface at a vertex: the sum of those of its triangles, as long as 1.
 Point3 normal_at(const Fans& fans, std::uint32_t vertex, Point3 facing) {
@@ -130,7 +130,7 @@ void EdgeSplitter::look_at(const Fans& fans, std::size_t n, Around& around) {
   Point3 normal;
   if (!put_on_surface(nearby, kMostMoved * distance(a, b), outwards, fixed, found.at, normal)) return;
   for (int axis = 0; axis < 3; ++axis)
-    if (found.at[axis] < -kOnBlock || found.at[axis] > size_[axis] + kOnBlock) return;
+    if (found.at[axis] < 0.0 || found.at[axis] > size_[axis]) return;
   found_[n] = found;
 }
 

@@ -43,6 +43,10 @@ Point3 looking(const View& view) {
   return {-std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), -std::sin(e)};
 }
 
+/// A section stands so far behind where it is asked for, mm: floors and walls at that very place are not half
+/// in the picture and half out of it. More than meshes stray, less than anybody sees.
+constexpr double kBehindSurfaces = 0.01;
+
 /// The direction of the axis that a section stands across.
 Point3 across(const Section& section) {
   switch (section.plane) {
@@ -171,6 +175,7 @@ void Painter::aim(const View& view, double radius) {
 void Painter::place_section(const Section& section) {
   CutPlane plane{across(section), section.at};
   if (!Cut(plane, eye_).is_before()) plane = {-1.0 * plane.normal, -plane.at};
+  plane.at -= kBehindSurfaces;
   section_ = plane;
 }
 

@@ -14,6 +14,7 @@ namespace {
 constexpr double kFirstLook = 0.45;  // from the vertex: within the square of its corner
 constexpr double kSecondLook = 0.1;  // from its new place: curves are planes there
 constexpr double kHalfSquare = 0.5;
+constexpr double kOnSide = 1e-9;  // of the square or the block: no further out
 constexpr double kMostMoved = 1.2;
 constexpr double kMostSpan = 10.0;
 constexpr double kMostRefined = 0.6;
@@ -229,27 +230,34 @@ double Placer::miss_of(Point3 at) const {
   return most;
 }
 
-/// The place in the corner's square that lies best on the planes, as far as so many directions tell. Where
-/// the nearest such place is outside, the vertex goes along the side of the square.
+/// The place in the corner's square and in the block that lies best on the planes, as far as so many
+/// directions tell. Where the nearest such place is outside, the vertex goes along the side.
 Point3 Placer::solved(Point3 from, int directions) const {
   Fixed fixed = fixed_;
   Point3 to = from;
-  for (int n = 0; n < 3; ++n) {
+  for (int n = 0; n <= 3; ++n) {
     to = from + quadric_at(from, fixed).step(directions, kLeastShare);
     int worst = -1;
-    double most = kHalfSquare * pitch_ * (1.0 + 1e-9);
-    for (int axis = 0; axis < 2; ++axis) {
-      const double out = std::abs(to[axis] - corner_[axis]);
+    double most = kOnSide * pitch_;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double out = std::abs(to[axis] - within(axis, to[axis]));
       if (fixed[static_cast<std::size_t>(axis)] || out <= most) continue;
       worst = axis;
       most = out;
     }
     if (worst < 0) break;
-    from[worst] = corner_[worst] + std::copysign(kHalfSquare * pitch_, to[worst] - corner_[worst]);
+    from[worst] = within(worst, to[worst]);
     fixed[static_cast<std::size_t>(worst)] = true;
     to = from;
   }
   return to;
+}
+
+/// A coordinate kept in the corner's square and in the block.
+double Placer::within(int axis, double value) const {
+  if (axis < 2)
+    value = std::clamp(value, corner_[axis] - kHalfSquare * pitch_, corner_[axis] + kHalfSquare * pitch_);
+  return std::clamp(value, 0.0, size_[axis]);
 }
 
 Point3 Placer::best_step(Point3 from) const {

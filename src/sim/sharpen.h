@@ -84,6 +84,7 @@ class Placer {
   double miss_of(Point3 at) const;
   double miss_at(Point3 place) const;
   Point3 solved(Point3 from, int directions) const;
+  double within(int axis, double value) const;
   Point3 best_step(Point3 from) const;
   void look_closer(Point3 from);
 

@@ -178,6 +178,7 @@ bool Sharpener::run() {
   if (progress_ != nullptr) progress_->phase("sharpening");
   Mesh rough = mesh_;
   place_vertices();
+  if (!stopped() && !body_.start) relabel_triangles(mesh_, body_.bounds);
   if (!stopped()) split_edges();
   if (stopped()) {
     mesh_ = std::move(rough);
