@@ -13,6 +13,12 @@ namespace {
 
 /// Edges shorter than this are left alone, pitches.
 constexpr double kShortest = 0.2;
+/// Rounds of turned edges before vertices are added.
+constexpr int kMostFlips = 3, kMostFlipsLater = 1;
+/// The other diagonal is taken where it strays by less than this share.
+constexpr double kBetter = 0.5;
+/// Triangles that turning would make thinner than this are not made, mm.
+constexpr double kThinnest = 1e-4;
 /// A new vertex is no further from its edge than this share of the edge.
 constexpr double kMostMoved = 0.35;
 /// Vertices within this of the block's sides are on them, mm.
@@ -47,6 +53,7 @@ EdgeSplitter::EdgeSplitter(Mesh& mesh, const Workpiece::Body& body, const Sweeps
       size_(body.bounds.size()),
       pitch_(body.pitch),
       tolerance_(tolerance),
+      is_block_(!body.start),
       sweeps_(sweeps),
       bends_(std::move(bends)),
       threads_(threads) {}
@@ -122,16 +129,91 @@ void EdgeSplitter::look_at(const Fans& fans, std::size_t n, Around& around) {
   const Point3 middle = 0.5 * (a + b);
   const Nearby& nearby = around.all(middle);
   if (std::abs(nearby.at(middle).value) <= tolerance_) return;
+  const int most_flips = first_new_ == 0 ? kMostFlips : kMostFlipsLater;
+  if (other != triangle && flips_ < most_flips && can_turn(fans, triangle, other, ends)) {
+    const Point3 across = 0.5 * (fans.point(opposite(triangle, ends)) + fans.point(opposite(other, ends)));
+    if (miss_at(nearby, across) < kBetter * miss_at(nearby, middle)) {
+      found_[n].turns = true;
+      return;
+    }
+  }
   // What is to be met faces as the surfaces do that were cut.
   const Point3 outwards = stock         ? fans.normal(other)
                           : other_stock ? fans.normal(triangle)
                                         : fans.normal(triangle) + fans.normal(other);
-  Found found{true, middle};
+  Found found{true, false, middle};
   Point3 normal;
   if (!put_on_surface(nearby, kMostMoved * distance(a, b), outwards, fixed, found.at, normal)) return;
   for (int axis = 0; axis < 3; ++axis)
     if (found.at[axis] < 0.0 || found.at[axis] > size_[axis]) return;
   found_[n] = found;
+}
+
+/// The corner of a triangle that is not on an edge.
+std::uint32_t EdgeSplitter::opposite(std::uint32_t triangle, Ends ends) const {
+  const std::uint32_t* c = mesh_.triangles.data() + std::size_t{3} * triangle;
+  return *std::find_if(c, c + 3, [&](std::uint32_t v) { return v != ends.a && v != ends.b; });
+}
+
+/// How far a place is from the surface of what is left.
+double EdgeSplitter::miss_at(const Nearby& nearby, Point3 place) const {
+  return is_block_ ? miss_in_block(nearby, size_, place) : std::abs(nearby.at(place).value);
+}
+
+/// Whether two triangles may have their other diagonal: it is no edge yet, and both then face as they did.
+bool EdgeSplitter::can_turn(const Fans& fans, std::uint32_t triangle, std::uint32_t other, Ends ends) const {
+  const std::uint32_t c = opposite(triangle, ends), d = opposite(other, ends);
+  if (c == d) return false;
+  bool is_edge = false;
+  fans.around(c, [&](std::uint32_t t) {
+    const std::uint32_t* corners = mesh_.triangles.data() + std::size_t{3} * t;
+    is_edge = is_edge || std::find(corners, corners + 3, d) != corners + 3;
+  });
+  if (is_edge) return false;
+  const Point3 a = fans.point(ends.a), b = fans.point(ends.b), pc = fans.point(c), pd = fans.point(d);
+  const Point3 facing = fans.normal(triangle) + fans.normal(other);
+  const Point3 one = cross(pd - a, pc - a), two = cross(b - pd, pc - pd);
+  const double least = kThinnest * distance(pc, pd);
+  return dot(one, facing) > least * length(facing) && dot(two, facing) > least * length(facing);
+}
+
+/// Triangle (a, b, c) and other (b, a, d) become (a, d, c) and (d, b, c).
+void EdgeSplitter::turn(std::uint32_t triangle, std::uint32_t other, Ends ends) {
+  const std::uint32_t c = opposite(triangle, ends), d = opposite(other, ends);
+  const auto set = [&](std::uint32_t t, const std::array<std::uint32_t, 3>& corners) {
+    std::copy(corners.begin(), corners.end(), mesh_.triangles.begin() + std::ptrdiff_t{3} * t);
+  };
+  set(triangle, {ends.a, d, c});
+  set(other, {d, ends.b, c});
+  // What comes to lie on the block again is found later.
+  std::uint32_t &step = mesh_.step[triangle], &other_step = mesh_.step[other];
+  if (step == kStockSurface) step = other_step;
+  if (other_step == kStockSurface) other_step = step;
+}
+
+/// False if no edge was turned.
+bool EdgeSplitter::flip(const Fans& fans, MeshState& straight) {
+  std::vector<bool> touched(mesh_.step.size(), false);
+  bool any = false;
+  for (std::size_t n = 0; n < spots_.size(); ++n) {
+    if (!found_[n].turns) continue;
+    const std::uint32_t corner = spots_[n].number, triangle = corner / 3, other = across(fans, corner);
+    if (other == triangle || touched[triangle] || touched[other]) continue;
+    // A diagonal that another pair has got in the meantime would be an edge of four.
+    const Ends ends = ends_of(corner);
+    bool near_touched = false;
+    fans.around(opposite(triangle, ends),
+                [&](std::uint32_t t) { near_touched = near_touched || touched[t]; });
+    if (near_touched) continue;
+    turn(triangle, other, ends);
+    touched[triangle] = touched[other] = true;
+    any = true;
+  }
+  if (!any) return false;
+  ++flips_;
+  straight.positions = mesh_.positions;
+  straight.outwards.assign(3 * mesh_.step.size(), 0.0f);
+  return true;
 }
 
 void EdgeSplitter::add_vertex(Point3 at, Point3 middle, MeshState& straight) {
@@ -181,6 +263,7 @@ bool EdgeSplitter::part(const Fans& fans, MeshState& straight) {
   straight.positions = mesh_.positions;
   straight.outwards = fans.normals();
   first_new_ = static_cast<std::uint32_t>(fans.vertices());
+  flips_ = 0;
   for (std::size_t n = 0; n < spots_.size(); ++n) {
     if (!found_[n].strays) continue;
     const Ends ends = ends_of(spots_[n].number);

@@ -191,12 +191,14 @@ void Placer::find_samples(std::uint32_t vertex, Point3 from) {
   if (length(outwards) > 0.0 && put_on_surface(sample, outwards)) samples_.push_back(sample);
 }
 
-/// How far a place is from the surface of what is left.
+double miss_in_block(const Nearby& nearby, Point3 size, Point3 place) {
+  double outside = -nearby.at(place).value;
+  for (int axis = 0; axis < 3; ++axis) outside = std::max({outside, -place[axis], place[axis] - size[axis]});
+  return std::abs(outside);
+}
+
 double Placer::miss_at(Point3 place) const {
-  double inside = -nearby_->at(place).value;
-  for (int axis = 0; is_block_ && axis < 3; ++axis)
-    inside = std::max({inside, -place[axis], place[axis] - size_[axis]});
-  return std::abs(inside);
+  return is_block_ ? miss_in_block(*nearby_, size_, place) : std::abs(nearby_->at(place).value);
 }
 
 /// What lies on the block's sides stays there, and what lies on its top or bottom if these are left there.

@@ -49,6 +49,9 @@ class Fans {
 bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
                     Point3& place, Point3& normal);
 
+/// How far a place is from the surface of what is left of a block of this size, mm.
+double miss_in_block(const Nearby& nearby, Point3 size, Point3 place);
+
 /// Finds new places for the vertices of one mesh.
 class Placer {
  public:

@@ -28,8 +28,8 @@ constexpr double kGoodEnough = 0.5;
 /// How far from a vertex surfaces are looked for, in pitches.
 constexpr double kReach = 0.95;
 
-/// Each round halves an edge.
-constexpr int kMostSplits = 6;
+/// Each round turns edges or halves them.
+constexpr int kMostRounds = 13;
 
 class Sharpener {
  public:
@@ -139,11 +139,11 @@ void Sharpener::place_vertices() {
 
 void Sharpener::split_edges() {
   EdgeSplitter splitter(mesh_, body_, sweeps_, std::move(bends_), tolerance_, threads_);
-  for (int round = 0; round < kMostSplits; ++round) {
+  for (int round = 0; round < kMostRounds; ++round) {
     MeshState straight;
     if (!splitter.split(straight, [&] { return stopped(); })) return;
     settle(straight);
-    report(progress_, 0.6 + 0.3 * (round + 1) / kMostSplits);
+    report(progress_, 0.6 + 0.3 * (round + 1) / kMostRounds);
   }
 }
 
@@ -160,9 +160,9 @@ bool Sharpener::is_folded(std::size_t triangle, const MeshState& before) const {
 
 /// Where triangles face the other way than before, others get their sides, or their vertices go back.
 void Sharpener::settle(MeshState& before) {
-  constexpr int kMostRounds = 4;
+  constexpr int kMostReturns = 4;
   meshing::unfold_triangles(mesh_, before.outwards, threads_);
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostReturns; ++round) {
     std::vector<std::uint32_t> back;
     for (std::size_t t = 0; t < mesh_.step.size(); ++t)
       if (is_folded(t, before)) back.insert(back.end(), &mesh_.triangles[3 * t], &mesh_.triangles[3 * t] + 3);
