@@ -138,8 +138,9 @@ void bind_result(py::module_& m) {
 Parameters
 ----------
 sharp : bool
-    Whether vertices go where the tools really ended, to about 2 microns; else surfaces run through the
-    columns and walls stand between them, right to half a resolution, which is several times faster.
+    Whether vertices go where the tools really ended, most of them to about 2 microns (see
+    docs/decisions/0006-mesh.md for where not); else surfaces run through the columns and walls stand
+    between them, right to half a resolution, which is several times faster.
 
 Returns
 -------
