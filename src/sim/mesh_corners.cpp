@@ -313,8 +313,8 @@ void CornerRow::place(const Columns& columns, int i, int j, const Corner& corner
     const double below = r > 0 ? (groups_[r - 1].mean + group.mean) / 2 : std::min(0.0, group.mean);
     const double above = r + 1 < corner.sheets ? (groups_[r + 1].mean + group.mean) / 2
                                                : std::max(columns.height(), group.mean);
-    // Steeper than so much there are walls, and what goes on beyond them is a guess.
-    const double most = kSlopeShare * columns.pitch();
+    // Steeper than that there are walls, and what goes on beyond them is a guess.
+    const double most = columns.pitch();
     sheet.z = std::clamp(group.mean + std::clamp(change / members, -most, most), below, above);
   }
 }
