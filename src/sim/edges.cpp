@@ -181,7 +181,7 @@ bool EdgeSplitter::can_turn(const Fans& fans, std::uint32_t triangle, std::uint3
 void EdgeSplitter::turn(std::uint32_t triangle, std::uint32_t other, Ends ends) {
   const std::uint32_t c = opposite(triangle, ends), d = opposite(other, ends);
   const auto set = [&](std::uint32_t t, const std::array<std::uint32_t, 3>& corners) {
-    std::copy(corners.begin(), corners.end(), mesh_.triangles.begin() + std::ptrdiff_t{3} * t);
+    std::copy(corners.begin(), corners.end(), mesh_.triangles.data() + std::size_t{3} * t);
   };
   set(triangle, {ends.a, d, c});
   set(other, {d, ends.b, c});
