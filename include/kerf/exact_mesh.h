@@ -2,8 +2,6 @@
 // about half a pitch, the toolpath says where they are exactly.
 #pragma once
 
-#include <cstddef>
-
 #include "kerf/progress.h"
 #include "kerf/simulate.h"
 

@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "sim/mesh_build.h"
 #include "sim/parallel.h"
 
 namespace kerf::sim {
@@ -21,13 +22,7 @@ constexpr double kBetter = 0.5;
 constexpr double kThinnest = 1e-4;
 /// A new vertex is no further from its edge than this share of the edge.
 constexpr double kMostMoved = 0.35;
-/// Vertices within this of the block's sides are on them, mm.
-constexpr double kOnBlock = 1e-5;
-constexpr std::uint32_t kNone = 0xffffffffu;
-
-std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
-  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
-}
+using meshing::kNone;
 
 /// Of the triangles around a vertex those that face within so much (cosine) of a given one are its surface;
 /// a triangle that bridges an edge belongs to both sides.
@@ -192,7 +187,7 @@ void EdgeSplitter::turn(std::uint32_t triangle, std::uint32_t other, Ends ends) 
 }
 
 /// False if no edge was turned.
-bool EdgeSplitter::flip(const Fans& fans, MeshState& straight) {
+bool EdgeSplitter::flip(const Fans& fans) {
   std::vector<bool> touched(mesh_.step.size(), false);
   bool any = false;
   for (std::size_t n = 0; n < spots_.size(); ++n) {
@@ -209,11 +204,8 @@ bool EdgeSplitter::flip(const Fans& fans, MeshState& straight) {
     touched[triangle] = touched[other] = true;
     any = true;
   }
-  if (!any) return false;
-  ++flips_;
-  straight.positions = mesh_.positions;
-  straight.outwards.assign(3 * mesh_.step.size(), 0.0f);
-  return true;
+  if (any) ++flips_;
+  return any;
 }
 
 void EdgeSplitter::add_vertex(Point3 at, Point3 middle, MeshState& straight) {
@@ -267,7 +259,7 @@ bool EdgeSplitter::part(const Fans& fans, MeshState& straight) {
   for (std::size_t n = 0; n < spots_.size(); ++n) {
     if (!found_[n].strays) continue;
     const Ends ends = ends_of(spots_[n].number);
-    vertex_of[key_of(ends.a, ends.b)] = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
+    vertex_of[meshing::edge_key(ends.a, ends.b)] = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
     has_new[ends.a] = has_new[ends.b] = true;
     add_vertex(found_[n].at, middle_of(fans, spots_[n].number), straight);
   }
@@ -278,7 +270,7 @@ bool EdgeSplitter::part(const Fans& fans, MeshState& straight) {
     std::array<std::uint32_t, 3> middles{kNone, kNone, kNone};
     bool any = false;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto found = vertex_of.find(key_of(c[k], c[(k + 1) % 3]));
+      const auto found = vertex_of.find(meshing::edge_key(c[k], c[(k + 1) % 3]));
       if (found == vertex_of.end()) continue;
       middles[k] = found->second;
       any = true;

@@ -15,6 +15,9 @@ struct MeshState {
   std::vector<float> positions, outwards;
 };
 
+/// What a round has done.
+enum class EdgeRound : std::uint8_t { nothing, turned, parted };
+
 /// Puts vertices on edges and parts the triangles there, or gives two triangles their other diagonal.
 class EdgeSplitter {
  public:
@@ -23,16 +26,18 @@ class EdgeSplitter {
   EdgeSplitter(Mesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps, std::vector<bool> bends,
                double tolerance, unsigned threads);
   /// Turns edges that stray where that helps; if there are none (any more), splits each that strays once.
-  /// False if there was none. `straight` gets the mesh with the new vertices in the middles of their edges.
+  /// Where triangles were parted `straight` gets the mesh with the new vertices in the middles of their
+  /// edges.
   template <class Stop>
-  bool split(MeshState& straight, const Stop& stop) {
+  EdgeRound split(MeshState& straight, const Stop& stop) {
     const Fans fans(mesh_, low_, threads_, first_new_);
     find_suspects(fans);
     found_.assign(spots_.size(), {});
     sweeps_.visit(
         spots_, threads_, [&](std::size_t n, Around& around) { look_at(fans, n, around); }, stop);
-    if (stop()) return false;
-    return flip(fans, straight) || part(fans, straight);
+    if (stop()) return EdgeRound::nothing;
+    if (flip(fans)) return EdgeRound::turned;
+    return part(fans, straight) ? EdgeRound::parted : EdgeRound::nothing;
   }
 
  private:
@@ -53,7 +58,7 @@ class EdgeSplitter {
   std::uint32_t opposite(std::uint32_t triangle, Ends ends) const;
   bool can_turn(const Fans& fans, std::uint32_t triangle, std::uint32_t other, Ends ends) const;
   double miss_at(const Nearby& nearby, Point3 place) const;
-  bool flip(const Fans& fans, MeshState& straight);
+  bool flip(const Fans& fans);
   void turn(std::uint32_t triangle, std::uint32_t other, Ends ends);
   bool part(const Fans& fans, MeshState& straight);
   void add_vertex(Point3 at, Point3 middle, MeshState& straight);

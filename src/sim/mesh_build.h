@@ -13,6 +13,11 @@
 
 namespace kerf::meshing {
 
+/// One number for an edge, whichever way it is walked.
+inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
+
 /// A mesh that grows. Vertices whose edges may be shared by four triangles are remembered for
 /// `split_shared_edges`.
 struct Builder {

@@ -9,6 +9,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "sim/mesh_build.h"
+
 namespace kerf::sim {
 namespace {
 
@@ -35,9 +37,6 @@ class Relabeller {
       if (lies_on(triangle, axis, block_.low[axis]) || lies_on(triangle, axis, block_.high[axis]))
         return true;
     return false;
-  }
-  static std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
-    return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
   }
   std::vector<std::size_t> find_strays();
   bool take_steps(std::vector<std::size_t>& strays);
@@ -70,12 +69,13 @@ bool Relabeller::take_steps(std::vector<std::size_t>& strays) {
     if (mesh_.step[t] == kStockSurface) continue;
     const std::uint32_t* c = mesh_.triangles.data() + 3 * t;
     for (std::size_t k = 0; k < 3; ++k)
-      if (near[c[k]] && near[c[(k + 1) % 3]]) step_beside[key_of(c[k], c[(k + 1) % 3])] = mesh_.step[t];
+      if (near[c[k]] && near[c[(k + 1) % 3]])
+        step_beside[meshing::edge_key(c[k], c[(k + 1) % 3])] = mesh_.step[t];
   }
   const auto takes = [&](std::size_t t) {
     const std::uint32_t* c = mesh_.triangles.data() + 3 * t;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto beside = step_beside.find(key_of(c[k], c[(k + 1) % 3]));
+      const auto beside = step_beside.find(meshing::edge_key(c[k], c[(k + 1) % 3]));
       if (beside == step_beside.end()) continue;
       mesh_.step[t] = beside->second;
       return true;

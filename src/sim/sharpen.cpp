@@ -44,8 +44,6 @@ constexpr double kFlat = 1.0;
 /// A direction in which planes pull by less than this share of the strongest tells nothing: planes that are
 /// less than 6 degrees apart are one curved surface.
 constexpr double kLeastShare = 0.003;
-/// Vertices within this of the block's sides are on them, mm.
-constexpr double kOnBlock = 1e-5;
 
 }  // namespace
 

@@ -13,6 +13,9 @@
 
 namespace kerf::sim {
 
+/// Vertices within this of the block's sides are on them, mm.
+inline constexpr double kOnBlock = 1e-5;
+
 /// The triangles around vertices of a mesh, their middles and normals, in the block's frame.
 class Fans {
  public:

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -141,8 +139,9 @@ void Sharpener::split_edges() {
   EdgeSplitter splitter(mesh_, body_, sweeps_, std::move(bends_), tolerance_, threads_);
   for (int round = 0; round < kMostRounds; ++round) {
     MeshState straight;
-    if (!splitter.split(straight, [&] { return stopped(); })) return;
-    settle(straight);
+    const EdgeRound done = splitter.split(straight, [&] { return stopped(); });
+    if (done == EdgeRound::nothing) return;
+    if (done == EdgeRound::parted) settle(straight);
     report(progress_, 0.6 + 0.3 * (round + 1) / kMostRounds);
   }
 }
@@ -198,6 +197,7 @@ bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, 
   SimulationOptions of_simulation;
   of_simulation.resolution = workpiece.pitch();
   of_simulation.threads = options.threads;
+  of_simulation.max_columns = SIZE_MAX;  // they are there already
   Diagnostics said_before;
   std::optional<sim::Setup> setup = sim::set_up(path, tools, stock, of_simulation, said_before);
   if (!setup || mesh.triangles.empty()) return true;  // nothing was cut

@@ -11,8 +11,9 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// A block 20 x 10 x 5 mm with a step: the half at low x is lower by `depth`.
-Mesh stepped_block(float depth) {
+/// A block 20 x 10 x 5 mm of columns 0.5 mm wide; runs_at(i) tells what the columns of a row along Y hold.
+template <class RunsAt>
+Mesh block_of_rows(const RunsAt& runs_at) {
   ColumnGrid grid;
   grid.bounds = {{0, 0, -5}, {20, 10, 0}};
   grid.pitch = 0.5;
@@ -21,12 +22,19 @@ Mesh stepped_block(float depth) {
   grid.first.push_back(0);
   for (int j = 0; j < grid.ny; ++j) {
     for (int i = 0; i < grid.nx; ++i) {
-      grid.intervals.push_back(
-          {0.0f, i < 20 ? 5.0f - depth : 5.0f, kStockSurface, i < 20 ? 4u : kStockSurface});
+      const std::vector<Interval> runs = runs_at(i);
+      grid.intervals.insert(grid.intervals.end(), runs.begin(), runs.end());
       grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
     }
   }
   return extract_mesh(grid);
+}
+
+/// The half at low x is lower by `depth`.
+Mesh stepped_block(float depth) {
+  return block_of_rows([&](int i) -> std::vector<Interval> {
+    return {{0.0f, i < 20 ? 5.0f - depth : 5.0f, kStockSurface, i < 20 ? 4u : kStockSurface}};
+  });
 }
 
 std::vector<Rgb> colours_of(const Mesh& mesh) {
@@ -122,23 +130,14 @@ TEST(Render, IsoShowsLightAndShade) {
   EXPECT_GT(shades, 6);
 }
 
-/// A block 20 x 10 x 5 mm with a slot along Y that is 4 mm wide below Z-2 and 2 mm wide above.
+/// With a slot along Y that is 4 mm wide below Z-2 and 2 mm wide above.
 Mesh undercut_block() {
-  ColumnGrid grid;
-  grid.bounds = {{0, 0, -5}, {20, 10, 0}};
-  grid.pitch = 0.5;
-  grid.nx = 40;
-  grid.ny = 20;
-  grid.first.push_back(0);
-  for (int j = 0; j < grid.ny; ++j) {
-    for (int i = 0; i < grid.nx; ++i) {
-      const bool head = i >= 16 && i < 24, neck = i >= 18 && i < 22;
-      grid.intervals.push_back({0.0f, head ? 1.0f : 5.0f, kStockSurface, head ? 4u : kStockSurface});
-      if (head && !neck) grid.intervals.push_back({3.0f, 5.0f, 4u, kStockSurface});
-      grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
-    }
-  }
-  return extract_mesh(grid);
+  return block_of_rows([](int i) {
+    const bool head = i >= 16 && i < 24, neck = i >= 18 && i < 22;
+    std::vector<Interval> runs{{0.0f, head ? 1.0f : 5.0f, kStockSurface, head ? 4u : kStockSurface}};
+    if (head && !neck) runs.push_back({3.0f, 5.0f, 4u, kStockSurface});
+    return runs;
+  });
 }
 
 /// Pixels of a section's face: all else is blue here.
