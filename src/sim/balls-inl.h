@@ -20,17 +20,20 @@ inline constexpr int kGroup = kLanes;  // sweeps: one bit of a mask each
 /// Steeper paths go another way: along them heights are differences of numbers that grow with the slope.
 inline constexpr double kSteepest = 4;
 
-/// A ball's sweep, seen from its begin: u runs along the path in plan, v across, z is the ball's centre.
+/// A ball's sweep, seen from its begin: u runs along the path in plan, v across, z is the ball's centre. A
+/// tile's supers, a super's micros and a micro's columns are one pattern of 4 x 4 places, four times as large
+/// each time.
 struct BallSweep {
   Lanes u, v;              // of a micro's columns from its middle
+  Lanes super_u, super_v;  // of the middles of the tile's supers
   Lanes micro_u, micro_v;  // of the middles of a super's micros
-  Lanes taken;             // length of column
-  Real begin = 0;          // along the path from the view's origin
+  Lanes taken[2];          // length of column, in turns, since a sum waits for the one before
   Real length = 0, slope = 0;
   Real z_begin = 0, z_end = 0;
   Real slant2 = 1;  // length along the path a mm in plan, squared
-  Real lead2 = 0;   // View::ball_lead squared, with its sign
-  Real behind = 0;
+  Real lead2 = 0;   // Sweep::ball_lead squared, with its sign
+  Real behind = 0;  // all before this was cut by the sweep before
+  Real reach = 0;   // from a square's middle to its border along u and v, a mm of half its side
   std::uint32_t step = 0;
   bool follows = false;
   bool to_floor = false;  // it may cut through
@@ -46,6 +49,7 @@ struct BallGroup {
   BallSweep ball[kGroup];
   BallPairs pairs;
   Real radius2 = 0;
+  double radius = 0, centre_z = 0;  // mm; of the ball, above the tip
 };
 
 /// Whether a sweep goes this way where the tile allows it. Only such sweeps share a group, so that how a
@@ -62,35 +66,57 @@ HWY_INLINE bool is_plain(const TileJob& job) {
   return job.points == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
 }
 
-HWY_INLINE void prepare_ball(BallSweep& ball, const View& w, const LaneCap& cap, const Field& field,
-                             const Sweep& sweep) {
-  const Real pitch = field.step[1];
-  const Real centre_z = cap.centre_z, radius = std::sqrt(cap.radius2);
+/// Where the tile is: the pattern of its places turned to the sweep's path.
+HWY_INLINE void place_tile(BallSweep& ball, const Sweep& sweep, Real pitch, double along, double across) {
+  const Real cx = static_cast<Real>(sweep.ux), cy = static_cast<Real>(sweep.uy);
   const Vector x = (load(kColumn) - 1.5f) * pitch, y = (load(kRow) - 1.5f) * pitch;
-  store(x * w.cx + y * w.cy, ball.u);
-  store(y * w.cx - x * w.cy, ball.v);
-  store(0, ball.taken);
+  const Vector u = x * cx + y * cy, v = y * cx - x * cy;
+  store(u, ball.u);
+  store(v, ball.v);
+  store(u * 16.0f + static_cast<Real>(along), ball.super_u);
+  store(v * 16.0f + static_cast<Real>(across), ball.super_v);
+  ball.reach = std::abs(cx) + std::abs(cy);
+}
+
+HWY_INLINE void prepare_ball(BallSweep& ball, const BallGroup& group, const TileJob& job,
+                             const Sweep& sweep) {
+  const double pitch = job.field->pitch;
+  const double x = job.x + 31.5 * pitch - sweep.x, y = job.y + 31.5 * pitch - sweep.y;
+  const double across = y * sweep.ux - x * sweep.uy;
+  double along = x * sweep.ux + y * sweep.uy, left_out = 0, length = sweep.length;
   // Ends that no column of the tile can see are brought nearer, so that numbers stay small.
-  const Real sight = kTileColumns * pitch + 2 * radius;
-  const Real begin = std::max(w.t_low, -sight), end = std::min(w.t_high, sight);
-  ball.begin = begin;
-  ball.length = end - begin;
-  ball.slope = w.slope;
-  ball.z_begin = w.z + w.slope * begin + centre_z;
-  ball.z_end = w.z + w.slope * end + centre_z;
-  ball.slant2 = 1 + w.slope * w.slope;
-  ball.lead2 = w.ball_lead * std::abs(w.ball_lead);
-  ball.behind = w.behind - begin;
+  const double sight = kTileColumns * pitch + group.radius;
+  if (length > sight) {
+    left_out = std::clamp(along - sight, 0.0, length);
+    along -= left_out;
+    length = std::clamp(along + sight, 0.0, length - left_out);
+  }
+  const double tip = sweep.length > 0 ? sweep.z + sweep.slope * left_out : std::min(sweep.z, sweep.z_end);
+  const double z = tip + group.centre_z;
+  ball.length = static_cast<Real>(length);
+  ball.slope = static_cast<Real>(sweep.slope);
+  ball.z_begin = static_cast<Real>(z);
+  ball.z_end = static_cast<Real>(z + sweep.slope * length);
+  ball.slant2 = 1 + ball.slope * ball.slope;
+  ball.lead2 = sweep.ball_lead * std::abs(sweep.ball_lead);
   ball.step = sweep.step;
-  ball.to_floor = w.z_low + centre_z - radius < 2 * field.same_height;
+  // The tip, near enough to the floor to be told from it by rounding.
+  ball.to_floor =
+      std::min(ball.z_begin, ball.z_end) - static_cast<Real>(group.radius) < 2 * job.field->same_height;
   ball.follows = sweep.follows && sweep.length > 0;  // straight down what follows is all new
+  // The lowest point above what lies further back is the begin, where the sweep before has ended.
+  const double lead = std::min(0.0, static_cast<double>(sweep.ball_lead)) * group.radius;
+  ball.behind = ball.follows ? static_cast<Real>(lead - left_out) : -kFar;
+  place_tile(ball, sweep, job.field->step[1], along, across);
+  store(0, ball.taken[0]);
+  store(0, ball.taken[1]);
 }
 
 /// Cuts one micro with one sweep. The ball touches a column deepest where it is ahead of it by its lead, but
 /// not before its begin or beyond its end; which of the three is told by squares, since a root takes as long
 /// as ten other operations. What a sweep that follows another touches at its begin is cut already.
 HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real same, Lanes& tops,
-                              std::uint32_t* steps) {
+                              std::uint32_t* steps, Lanes& taken) {
   const Vector u = load(ball.u) + ball.micro_u[inner], v = load(ball.v) + ball.micro_v[inner];
   const Vector across = radius2 - v * v, beyond = u - ball.length;
   const Vector lead2 = ball.lead2 * across;
@@ -110,20 +136,17 @@ HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real sam
   const Vector now = select(cut, low, top);
   store(now, tops);
   store_ids(select(cut, all_ids(ball.step), load_ids(steps)), steps);
-  store(load(ball.taken) + (top - now), ball.taken);
+  store(load(taken) + (top - now), taken);
 }
 
-/// Square blocks of columns that a ball can meet, given their highest material, and where their middles are.
-HWY_INLINE Mask cull_ball(const BallSweep& ball, const View& w, const Blocks& b, Vector top, Real radius2,
-                          Vector& u, Vector& v) {
-  const Vector reach = b.half_x * (std::abs(w.cx) + std::abs(w.cy));
-  const Vector x = w.x + b.x, y = w.y + b.y;
-  u = x * w.cx + y * w.cy - ball.begin;
-  v = y * w.cx - x * w.cy;
-  const Vector du = higher_of(outside(u, 0, ball.length) - reach, 0);
+/// Square blocks of columns, 2 `half` wide with their middles at (u, v), that a ball can meet, given their
+/// highest material.
+HWY_INLINE Mask cull_ball(const BallSweep& ball, Vector u, Vector v, Real half, Vector top, Real radius2) {
+  const Real reach = half * ball.reach;
+  const Vector du = u - clamped(u, -reach, ball.length + reach);
   const Vector dv = higher_of(absolute(v) - reach, 0);
   const Vector over = higher_of(std::min(ball.z_begin, ball.z_end) - top, 0);
-  return (radius2 - du * du - dv * dv > over * over) & (u + reach > ball.behind);
+  return (radius2 - du * du - dv * dv > over * over) & (u > ball.behind - reach);
 }
 
 HWY_INLINE void add_pairs(BallPairs& pairs, int sweep, Mask micros) {
@@ -138,31 +161,38 @@ HWY_INLINE void add_pairs(BallPairs& pairs, int sweep, Mask micros) {
   }
 }
 
-/// Cuts one super with those sweeps of the group whose bits are set.
-HWY_NOINLINE void balls_over_super(BallGroup& group, const View* view, const TileJob& job, int super,
-                                   unsigned sweeps) {
-  Tile& tile = *job.tile;
-  const int first = super * kSupers;
-  const Blocks blocks = micros_of(job, super);
-  const Vector top = load(tile.micro_top + first);
+/// Lists which micros of a super the sweeps whose bits are set can meet. Returns those that any can.
+HWY_INLINE Mask list_pairs(BallGroup& group, const TileJob& job, int super, unsigned sweeps) {
+  const Vector top = load(job.tile->micro_top + super * kSupers);
+  const Real half = 1.5f * job.field->step[1];
   Mask met = no_lane();
   group.pairs.count = 0;
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
     BallSweep& ball = group.ball[k];
-    Vector u, v;
-    const Mask micros = cull_ball(ball, view[k], blocks, top, group.radius2, u, v);
+    const Vector u = load(ball.u) * 4.0f + ball.super_u[super];
+    const Vector v = load(ball.v) * 4.0f + ball.super_v[super];
     store(u, ball.micro_u);
     store(v, ball.micro_v);
+    const Mask micros = cull_ball(ball, u, v, half, top, group.radius2);
     add_pairs(group.pairs, k, micros);
     met = met | micros;
   }
+  return met;
+}
+
+/// Cuts one super with those sweeps of the group whose bits are set.
+HWY_NOINLINE void balls_over_super(BallGroup& group, const TileJob& job, int super, unsigned sweeps) {
+  Tile& tile = *job.tile;
+  const int first = super * kSupers;
+  const Mask met = list_pairs(group, job, super, sweeps);
   const Real same = job.field->same_height;
   for (int n = 0; n < group.pairs.count; ++n) {
     const std::uint32_t pair = group.pairs.pair[n];
     const auto inner = static_cast<int>(pair % kSupers);
-    cut_with_ball(group.ball[pair / kSupers], inner, group.radius2, same, tile.top[first + inner],
-                  tile.top_step[first + inner]);
+    BallSweep& ball = group.ball[pair / kSupers];
+    cut_with_ball(ball, inner, group.radius2, same, tile.top[first + inner], tile.top_step[first + inner],
+                  ball.taken[n % 2]);
   }
   for (unsigned rest = bits_of(met); rest != 0; rest &= rest - 1) {
     const int micro = first + __builtin_ctz(rest);
@@ -171,27 +201,32 @@ HWY_NOINLINE void balls_over_super(BallGroup& group, const View* view, const Til
   tile.super_top[super] = highest_of(load(tile.micro_top + first));
 }
 
-/// Cuts with `count` sweeps of the job's list from number `first` on, given their views.
-HWY_NOINLINE void cut_balls(BallGroup& group, const View* view, const TileJob& job, const LaneCap& cap,
-                            std::size_t first, int count) {
+/// Cuts with `count` sweeps of the job's list from number `first` on.
+HWY_NOINLINE void cut_balls(BallGroup& group, const TileJob& job, const LaneCap& cap, std::size_t first,
+                            int count) {
   Tile& tile = *job.tile;
+  const Field& field = *job.field;
   group.radius2 = cap.radius2;
+  group.radius = std::sqrt(static_cast<double>(cap.radius2));
+  group.centre_z = static_cast<double>(cap.centre_z);
   alignas(64) std::uint32_t supers[kGroup] = {};
   unsigned met = 0;
-  const Blocks blocks = supers_of(job);
   for (int k = 0; k < count; ++k) {
     BallSweep& ball = group.ball[k];
-    prepare_ball(ball, view[k], cap, *job.field, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
-    Vector u, v;
-    supers[k] = bits_of(cull_ball(ball, view[k], blocks, load(tile.super_top), group.radius2, u, v));
+    prepare_ball(ball, group, job, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
+    supers[k] = bits_of(cull_ball(ball, load(ball.super_u), load(ball.super_v), 7.5f * field.step[1],
+                                  load(tile.super_top), group.radius2));
     met |= supers[k];
   }
   for (; met != 0; met &= met - 1) {
     const int super = __builtin_ctz(met);
-    balls_over_super(group, view, job, super, lanes_with(supers, 1u << super));
+    balls_over_super(group, job, super, lanes_with(supers, 1u << super));
   }
-  for (int k = 0; k < count; ++k)
-    job.removed[first + static_cast<std::size_t>(k)] = static_cast<double>(sum_of(load(group.ball[k].taken)));
+  for (int k = 0; k < count; ++k) {
+    const BallSweep& ball = group.ball[k];
+    job.removed[first + static_cast<std::size_t>(k)] =
+        static_cast<double>(sum_of(load(ball.taken[0]) + load(ball.taken[1])));
+  }
 }
 
 }  // namespace kerf::sim::HWY_NAMESPACE

@@ -225,11 +225,11 @@ HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   const TileJob& job = work.job;
   fetch_ahead(job, first + static_cast<std::size_t>(count));
   work.solid = &(*job.tools)[job.sweeps[job.list[first]].tool].cutting;
+  if (is_plain(job) && is_quick_ball(job, job.sweeps[job.list[first]]))
+    return cut_balls(work.balls, job, work.solid->pieces[0].lower, first, count);
   work.count = 0;
   work.all_open = work.one_level = true;
   for (int k = 0; k < count; ++k) add_sweep(work, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
-  if (is_plain(job) && is_quick_ball(job, job.sweeps[job.list[first]]))
-    return cut_balls(work.balls, work.view, job, work.solid->pieces[0].lower, first, count);
   Tile& tile = *job.tile;
   alignas(64) std::uint32_t supers[kGroup] = {};
   unsigned met = 0;
