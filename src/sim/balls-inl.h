@@ -121,22 +121,23 @@ HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real sam
   const Vector across = radius2 - v * v, beyond = u - ball.length;
   const Vector lead2 = ball.lead2 * across;
   const Vector u2 = u * absolute(u), beyond2 = beyond * absolute(beyond);
-  const Mask at_begin = u2<lead2, at_end = beyond2> lead2;
+  const Mask at_end = beyond2 > lead2;
   Vector down2 = select(at_end, across - absolute(beyond2), ball.slant2 * across);
   Vector centre = select(at_end, ball.z_end, ball.z_begin + ball.slope * u);
   if (!ball.follows) {
+    const Mask at_begin = u2 < lead2;
     down2 = select(at_begin, across - absolute(u2), down2);
     centre = select(at_begin, ball.z_begin, centre);
   }
   Vector low = centre - root_or_nan(down2);
   if (ball.to_floor) low = select(low < same, 0, low);
-  const Vector top = load(tops);
-  Mask cut = low + same < top;
-  if (ball.follows) cut = cut & ~at_begin;
-  const Vector now = select(cut, low, top);
-  store(now, tops);
-  store_ids(select(cut, all_ids(ball.step), load_ids(steps)), steps);
-  store(load(taken) + (top - now), taken);
+  const Vector top = load(tops), depth = top - low;
+  Mask cut = depth > same;
+  if (ball.follows) cut = cut & (u2 >= lead2);
+  store(select(cut, low, top), tops);
+  store_where(cut, ball.step, steps);
+  const Vector sum = load(taken);
+  store(select(cut, sum + depth, sum), taken);
 }
 
 /// Square blocks of columns, 2 `half` wide with their middles at (u, v), that a ball can meet, given their
@@ -186,12 +187,12 @@ HWY_NOINLINE void balls_over_super(BallGroup& group, const TileJob& job, int sup
   Tile& tile = *job.tile;
   const int first = super * kSupers;
   const Mask met = list_pairs(group, job, super, sweeps);
-  const Real same = job.field->same_height;
-  for (int n = 0; n < group.pairs.count; ++n) {
+  const Real same = job.field->same_height, radius2 = group.radius2;
+  for (int n = 0, count = group.pairs.count; n < count; ++n) {
     const std::uint32_t pair = group.pairs.pair[n];
     const auto inner = static_cast<int>(pair % kSupers);
     BallSweep& ball = group.ball[pair / kSupers];
-    cut_with_ball(ball, inner, group.radius2, same, tile.top[first + inner], tile.top_step[first + inner],
+    cut_with_ball(ball, inner, radius2, same, tile.top[first + inner], tile.top_step[first + inner],
                   ball.taken[n % 2]);
   }
   for (unsigned rest = bits_of(met); rest != 0; rest &= rest - 1) {

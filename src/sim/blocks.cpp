@@ -38,4 +38,12 @@ void use_huge_pages(void* memory, std::size_t bytes) {
 
 void free_block(void* block) { std::free(block); }
 
+Zeros::Zeros(std::size_t count)
+    : size_(count), numbers_(static_cast<double*>(std::calloc(count + 1, sizeof(double)))) {
+  if (!numbers_) throw std::bad_alloc();
+  use_huge_pages(numbers_.get(), count * sizeof(double));
+}
+
+void Zeros::Free::operator()(double* numbers) const { std::free(numbers); }
+
 }  // namespace kerf::sim

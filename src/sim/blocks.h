@@ -16,6 +16,23 @@ void free_block(void* block);
 /// Asks for huge pages, as far as there are whole ones, for memory that is not yet touched.
 void use_huge_pages(void* memory, std::size_t bytes);
 
+/// Numbers that begin as 0, in memory that is not touched before they are needed.
+class Zeros {
+ public:
+  /// Throws std::bad_alloc.
+  explicit Zeros(std::size_t count);
+  std::size_t size() const { return size_; }
+  double& operator[](std::size_t i) { return numbers_.get()[i]; }
+  double operator[](std::size_t i) const { return numbers_.get()[i]; }
+
+ private:
+  struct Free {
+    void operator()(double* numbers) const;
+  };
+  std::size_t size_;
+  std::unique_ptr<double, Free> numbers_;
+};
+
 /// Makes objects of one type; their memory is kept until the store ends. Safe to use from several threads.
 template <class Object>
 class BlockStore {

@@ -25,17 +25,25 @@ bool Feeder::is_wanted(std::size_t step) {
   return next_range_ < steps.size() && steps[next_range_].first <= step;
 }
 
+bool Feeder::find_tool(int number) {
+  if (number == tool_number_) return true;
+  const auto tool = survey_.index.find(number);
+  if (tool == survey_.index.end()) return false;
+  tool_number_ = number;
+  tool_ = tool->second;
+  return true;
+}
+
 /// Adds the motion that was read.
 void Feeder::add(Batch& batch) {
   const Step& step = motion_.step();
   const MotionContext& context = motion_.context();
   if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_.interrupt();
   const std::optional<int> number = survey_.tool_of(context);
-  const auto tool = number ? survey_.index.find(*number) : survey_.index.end();
-  if (tool == survey_.index.end()) return planner_.interrupt();  // a rapid before the first tool
-  if (!is_wanted(context.index)) return planner_.pass_over(step, context, tool->second);
+  if (!number || !find_tool(*number)) return planner_.interrupt();  // a rapid before the first tool
+  if (!is_wanted(context.index)) return planner_.pass_over(step, context, tool_);
   const bool spindle_off = scope_.is_no_go || survey_.spindle_off(context);
-  planner_.add(step, context, tool->second, spindle_off, batch);
+  planner_.add(step, context, tool_, spindle_off, batch);
 }
 
 /// Whether a batch is to end before the motion that was read.
@@ -46,10 +54,30 @@ bool Feeder::reached_pause() {
   return next_pause_ != before;
 }
 
+/// Goes on to the last bookmark before the range of steps that is wanted next, if that is further on: to a
+/// motion that is not wanted, but from which the next one may follow.
+bool Feeder::skip() {
+  if (scope_.bookmarks == nullptr || next_range_ < skipped_to_) return false;
+  skipped_to_ = next_range_ + 1;
+  const std::size_t wanted = scope_.steps[next_range_].first;
+  const auto is_before = [](const MotionReader& mark, std::size_t step) {
+    return mark.context().index < step;
+  };
+  auto mark = std::lower_bound(scope_.bookmarks->begin(), scope_.bookmarks->end(), wanted, is_before);
+  if (mark == scope_.bookmarks->begin()) return false;
+  --mark;
+  if (mark->context().index <= motion_.context().index) return false;
+  motion_ = *mark;
+  return true;
+}
+
+bool Feeder::next_motion() { return skip() || motion_.next(); }
+
 void Feeder::fill(Batch& batch) {
   batch.clear();
+  passed_.push_back(motion_);
   planner_.go_on(batch);
-  while (!batch.full() && !is_done() && (waiting_ || motion_.next())) {
+  while (!batch.full() && !is_done() && (waiting_ || next_motion())) {
     if (!waiting_ && (waiting_ = reached_pause())) break;
     waiting_ = false;
     add(batch);

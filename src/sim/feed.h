@@ -34,6 +34,8 @@ struct FeedScope {
   std::vector<std::size_t> pauses = {};  // in order: a batch ends before each of these steps
   /// Null, or one a step: what sweeps and contacts have in place of it.
   const std::vector<std::uint32_t>* numbers = nullptr;
+  /// Null, or `Feeder::passed` of a feeder of the same path: what is not wanted need not be read.
+  const std::vector<MotionReader>* bookmarks = nullptr;
 };
 
 class Feeder {
@@ -48,11 +50,17 @@ class Feeder {
 
   /// Fills a batch, whatever it held, with what comes next.
   void fill(Batch& batch);
+  /// The reader as it was before each batch.
+  const std::vector<MotionReader>& passed() const { return passed_; }
 
  private:
   bool is_wanted(std::size_t step);
+  bool next_motion();
+  bool skip();
   bool is_done() const { return next_range_ >= scope_.steps.size(); }
   bool reached_pause();
+  /// Sets tool_ to the place of a tool's solids; false if it has none.
+  bool find_tool(int number);
   void add(Batch& batch);
 
   const Survey& survey_;
@@ -60,7 +68,11 @@ class Feeder {
   std::size_t tiles_, path_size_;
   Planner planner_;
   MotionReader motion_;
+  std::vector<MotionReader> passed_;
   std::size_t next_range_ = 0, next_pause_ = 0;
+  std::size_t skipped_to_ = 0;      // the ranges before this one were skipped to
+  std::optional<int> tool_number_;  // of tool_
+  std::uint32_t tool_ = 0;
   bool waiting_ = false;  // the motion that was read has not been added
 };
 

@@ -75,7 +75,7 @@ void set_line(Sweep& sweep, Point3 from, Point3 to) {
   sweep.ux = dx * per_length;
   sweep.uy = dy * per_length;
   sweep.slope = dz * per_length;
-  sweep.ball_lead = static_cast<float>(dz / std::sqrt(plan2 + dz * dz));
+  sweep.ball_lead = static_cast<float>(dz) / std::sqrt(static_cast<float>(plan2 + dz * dz));
 }
 
 /// Whether an arc is swept as it is.
@@ -97,6 +97,14 @@ void set_arc(Sweep& sweep, const ArcWalk& walk) {
   sweep.radius = 0.5 * (walk.start_radius + walk.end_radius);
   sweep.turn = walk.sweep;
   sweep.length = sweep.radius * std::abs(walk.sweep);
+}
+
+/// The lowest of the parts that only touch; above everything if there are none.
+double other_bottom(const ToolSolids& tool) {
+  double bottom = kAboveAll;
+  for (const Solid* part : {&tool.over_flute, &tool.touching[1], &tool.touching[2], &tool.touching[3]})
+    if (!part->empty()) bottom = std::min(bottom, part->bottom);
+  return bottom;
 }
 
 }  // namespace
@@ -158,7 +166,18 @@ Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& too
       hazard_depth_(hazard_depth.mm()),
       scope_(scope),
       per_tile_(1.0 / (kTileColumns * body.pitch)),
-      size_(body.bounds.size()) {}
+      size_(body.bounds.size()) {
+  for (const ToolSolids& tool : tools) other_bottoms_.push_back(other_bottom(tool));
+  const double side = kTileColumns * body.pitch;
+  for (std::size_t tile = 0; scope_.tiles != nullptr && tile < scope_.tiles->size(); ++tile) {
+    if (!(*scope_.tiles)[tile]) continue;
+    const auto across = static_cast<std::size_t>(body.tiles_x);
+    const Point3 corner{static_cast<double>(tile % across) * side, static_cast<double>(tile / across) * side,
+                        0.0};
+    wanted_.add(corner);
+    wanted_.add(corner + Point3{side, side, 0.0});
+  }
+}
 
 Planner::Motion Planner::motion_of(const Step& step, const MotionContext& context) const {
   Motion motion;
@@ -256,8 +275,9 @@ void Planner::go_on(Batch& batch) {
   }
 }
 
-std::uint8_t Planner::passes_that_meet(const Sweep& sweep, std::uint8_t wanted, double& reach) const {
+std::uint8_t Planner::passes_that_meet(const Sweep& sweep, double& reach) const {
   const ToolSolids& tool = tools_[sweep.tool];
+  const int wanted = sweep.passes;
   const double low = std::min(sweep.z, sweep.z_end), high = std::max(sweep.z, sweep.z_end);
   int passes = wanted & kPassSpindleOff;
   const auto check = [&](int bit, const Solid& solid, double ignore) {
@@ -268,23 +288,34 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, std::uint8_t wanted, 
   };
   check(kPassCut, tool.cutting, 0.0);
   check(kPassRapid, tool.touching[0], hazard_depth_);
-  check(kPassOverFlute, tool.over_flute, hazard_depth_);
-  check(kPassNeck, tool.touching[1], hazard_depth_);
-  check(kPassShank, tool.touching[2], hazard_depth_);
-  check(kPassHolder, tool.touching[3], hazard_depth_);
+  if (low + other_bottoms_[sweep.tool] < size_.z - hazard_depth_) {
+    check(kPassOverFlute, tool.over_flute, hazard_depth_);
+    check(kPassNeck, tool.touching[1], hazard_depth_);
+    check(kPassShank, tool.touching[2], hazard_depth_);
+    check(kPassHolder, tool.touching[3], hazard_depth_);
+  }
   // That a rapid's parts are no feed's is remembered even where the cutting part itself is clear.
   const int any = passes & ~kPassSpindleOff;
   if (any != 0 && (wanted & kPassRapid) != 0) passes |= kPassRapid;
   return any == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(passes);
 }
 
-void Planner::emit(Sweep& sweep, Batch& batch) {
+/// Whether a sweep comes near the box around the tiles that are wanted.
+bool Planner::is_near_tiles(const Sweep& s, double reach) const {
+  if (s.is_arc) return true;
+  const double x1 = s.x + s.length * s.ux, y1 = s.y + s.length * s.uy;
+  return std::max(s.x, x1) + reach >= wanted_.low.x && std::min(s.x, x1) - reach <= wanted_.high.x &&
+         std::max(s.y, y1) + reach >= wanted_.low.y && std::min(s.y, y1) - reach <= wanted_.high.y;
+}
+
+void Planner::emit(const Sweep& sweep, Batch& batch) {
   if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < -hazard_depth_)
     note_below_floor(sweep, batch);
   double reach = 0.0;
-  sweep.passes = passes_that_meet(sweep, sweep.passes, reach);
-  if (sweep.passes == 0) return;
+  const std::uint8_t passes = passes_that_meet(sweep, reach);
+  if (passes == 0) return;
   reach += scope_.margin;
+  if (scope_.tiles != nullptr && !is_near_tiles(sweep, reach)) return;
   const std::size_t before = batch.pairs.size();
   const auto number = static_cast<std::uint32_t>(batch.sweeps.size());
   if (sweep.is_arc) {
@@ -292,7 +323,9 @@ void Planner::emit(Sweep& sweep, Batch& batch) {
   } else {
     pair_line(sweep, reach, number, batch);
   }
-  if (batch.pairs.size() != before) batch.sweeps.push_back(sweep);
+  if (batch.pairs.size() == before) return;
+  batch.sweeps.push_back(sweep);
+  batch.sweeps.back().passes = passes;
 }
 
 void Planner::pair(int column, int row, std::uint32_t number, Batch& batch) const {
@@ -303,11 +336,12 @@ void Planner::pair(int column, int row, std::uint32_t number, Batch& batch) cons
 /// All tiles that the box around a line and its reach meets.
 void Planner::pair_box(const Sweep& s, double x1, double y1, double reach, std::uint32_t number,
                        Batch& batch) const {
-  const int left = tile_at(std::min(s.x, x1) - reach), right = tile_at(std::max(s.x, x1) + reach);
-  const int low = tile_at(std::min(s.y, y1) - reach), high = tile_at(std::max(s.y, y1) + reach);
-  for (int row = std::max(low, 0); row <= std::min(high, body_.tiles_y - 1); ++row)
-    for (int column = std::max(left, 0); column <= std::min(right, body_.tiles_x - 1); ++column)
-      pair(column, row, number, batch);
+  const int left = std::max(tile_at(std::min(s.x, x1) - reach), 0);
+  const int right = std::min(tile_at(std::max(s.x, x1) + reach), body_.tiles_x - 1);
+  const int low = std::max(tile_at(std::min(s.y, y1) - reach), 0);
+  const int high = std::min(tile_at(std::max(s.y, y1) + reach), body_.tiles_y - 1);
+  for (int row = low; row <= high; ++row)
+    for (int column = left; column <= right; ++column) pair(column, row, number, batch);
 }
 
 void Planner::pair_line(const Sweep& s, double reach, std::uint32_t number, Batch& batch) const {

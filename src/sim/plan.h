@@ -97,12 +97,13 @@ class Planner {
   void remember(const Step& step, std::uint32_t tool, Point3 end);
   void add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
-  void emit(Sweep& sweep, Batch& batch);
-  std::uint8_t passes_that_meet(const Sweep& sweep, std::uint8_t wanted, double& reach) const;
+  bool is_near_tiles(const Sweep& sweep, double reach) const;
+  void emit(const Sweep& sweep, Batch& batch);
+  std::uint8_t passes_that_meet(const Sweep& sweep, double& reach) const;
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
   /// Number of the tile a place along X or Y is in; any number below 0 or above the last outside.
   int tile_at(double place) const {
-    return static_cast<int>(std::clamp(std::floor(place * per_tile_), -1.0, 1e6));
+    return static_cast<int>(std::clamp(place * per_tile_ + 1.0, 0.0, 1e6)) - 1;  // std::floor is a call
   }
   void pair_box(const Sweep& sweep, double x1, double y1, double reach, std::uint32_t number,
                 Batch& batch) const;
@@ -112,8 +113,10 @@ class Planner {
 
   const Workpiece::Body& body_;
   const std::vector<ToolSolids>& tools_;
+  std::vector<double> other_bottoms_;  // one a tool: the lowest of what does not cut, mm above the tip
   double hazard_depth_;
   PlanScope scope_;
+  Box3 wanted_;  // around the tiles of the scope; in X and Y only
   double per_tile_;
   Point3 size_;
   std::optional<std::uint32_t> cutting_tool_;  // of the sweep before, if that cut

@@ -42,7 +42,7 @@ class Run {
         is_no_go_(options.role == SolidRole::no_go),
         threads_(thread_count(options.threads)),
         progress_(progress),
-        removed_(path.size(), 0.0),
+        removed_(path.size()),
         cutter_(body_, survey_.solids, hazard_depth_) {}
 
   void cut_all() {
@@ -75,9 +75,10 @@ class Run {
   bool is_no_go_;
   unsigned threads_;
   Progress* progress_;
-  std::vector<double> removed_;     // length of column, one a step
+  Zeros removed_;                   // length of column, one a step
   WallGroup* walls_ = nullptr;      // what is cut instead of the workpiece, if any
   std::vector<StepRange> in_tile_;  // which steps each tile has seen
+  std::vector<MotionReader> bookmarks_;
   bool stopped_ = false;
   Cutter cutter_;
   ContactList contacts_;
@@ -90,13 +91,15 @@ void Run::send_all(const std::vector<bool>* tiles) {
                 {.plan = scope,
                  .steps = tiles == nullptr ? std::vector{StepRange{0, path_.size()}} : steps_in(*tiles),
                  .hazard_depth = hazard_depth_,
-                 .is_no_go = is_no_go_});
+                 .is_no_go = is_no_go_,
+                 .bookmarks = &bookmarks_});
   const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
   const double steps = static_cast<double>(std::max<std::size_t>(path_.size(), 1));
   cut_batches(
       feeder, threads_, [&](CutBatch& batch, std::size_t k) { cut_tile_number(batch, k); },
       [&](const CutBatch& batch) { take_over(batch); },
       [&](const CutBatch& batch) { report(progress_, static_cast<double>(batch.steps_done) / steps); }, stop);
+  if (tiles == nullptr) bookmarks_ = feeder.passed();
 }
 
 void Run::cut_tile_number(CutBatch& batch, std::size_t k) {
@@ -158,11 +161,12 @@ bool Run::refine_walls() {
 void Run::tell_removed(Simulation& result) const {
   const double area = body_.pitch * body_.pitch;
   double all = 0.0;
-  result.removed_by_step.resize(removed_.size());
+  result.removed_by_step.clear();
+  result.removed_by_step.reserve(removed_.size());
   for (std::size_t step = 0; step < removed_.size(); ++step) {
     const double volume = removed_[step] * area;
     all += volume;
-    result.removed_by_step[step] = static_cast<float>(volume);
+    result.removed_by_step.push_back(static_cast<float>(volume));
   }
   result.removed = mm3(all);
 }

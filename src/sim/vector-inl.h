@@ -156,6 +156,16 @@ HWY_INLINE Vector only(Mask m, Vector v) {
   return v;
 }
 
+/// Stores one number where the mask is true. Stores with a mask are quick where masks are registers only.
+HWY_INLINE void store_where(Mask m, std::uint32_t id, std::uint32_t* ids) {
+#if HWY_TARGET <= HWY_AVX3
+  for (int p = 0; p < kParts; ++p)
+    hn::BlendedStore(hn::Set(IdTag(), id), hn::RebindMask(IdTag(), m.part[p]), IdTag(), ids + p * kWidth);
+#else
+  store_ids(select(m, all_ids(id), load_ids(ids)), ids);
+#endif
+}
+
 HWY_INLINE bool any(Mask m) {
   for (int p = 1; p < kParts; ++p) m.part[0] = hn::Or(m.part[0], m.part[p]);
   return !hn::AllFalse(RealTag(), m.part[0]);
