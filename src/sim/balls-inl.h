@@ -27,7 +27,7 @@ struct BallSweep {
   Lanes u, v;              // of a micro's columns from its middle
   Lanes super_u, super_v;  // of the middles of the tile's supers
   Lanes micro_u, micro_v;  // of the middles of a super's micros
-  Lanes taken[2];          // length of column, in turns, since a sum waits for the one before
+  Lanes taken;             // length of column
   Real length = 0, slope = 0;
   Real z_begin = 0, z_end = 0;
   Real slant2 = 1;  // length along the path a mm in plan, squared
@@ -108,8 +108,7 @@ HWY_INLINE void prepare_ball(BallSweep& ball, const BallGroup& group, const Tile
   const double lead = std::min(0.0, static_cast<double>(sweep.ball_lead)) * group.radius;
   ball.behind = ball.follows ? static_cast<Real>(lead - left_out) : -kFar;
   place_tile(ball, sweep, job.field->step[1], along, across);
-  store(0, ball.taken[0]);
-  store(0, ball.taken[1]);
+  store(0, ball.taken);
 }
 
 /// Cuts one micro with one sweep. The ball touches a column deepest where it is ahead of it by its lead, but
@@ -193,7 +192,7 @@ HWY_NOINLINE void balls_over_super(BallGroup& group, const TileJob& job, int sup
     const auto inner = static_cast<int>(pair % kSupers);
     BallSweep& ball = group.ball[pair / kSupers];
     cut_with_ball(ball, inner, radius2, same, tile.top[first + inner], tile.top_step[first + inner],
-                  ball.taken[n % 2]);
+                  ball.taken);
   }
   for (unsigned rest = bits_of(met); rest != 0; rest &= rest - 1) {
     const int micro = first + __builtin_ctz(rest);
@@ -225,8 +224,7 @@ HWY_NOINLINE void cut_balls(BallGroup& group, const TileJob& job, const LaneCap&
   }
   for (int k = 0; k < count; ++k) {
     const BallSweep& ball = group.ball[k];
-    job.removed[first + static_cast<std::size_t>(k)] =
-        static_cast<double>(sum_of(load(ball.taken[0]) + load(ball.taken[1])));
+    job.removed[first + static_cast<std::size_t>(k)] = static_cast<double>(sum_of(load(ball.taken)));
   }
 }
 

@@ -129,11 +129,7 @@ void Batch::sort(std::size_t tiles) {
     count_[tile] = static_cast<std::uint32_t>(start[start.size() - 2]);  // now where the next one goes
   }
   list.resize(pairs.size());
-  place.resize(pairs.size());
-  for (std::size_t p = 0; p < pairs.size(); ++p) {
-    place[p] = count_[pairs[p].tile]++;
-    list[place[p]] = pairs[p].sweep;
-  }
+  for (const Pair& pair : pairs) list[count_[pair.tile]++] = pair.sweep;
   for (const std::uint32_t tile : busy) count_[tile] = 0;
   order.resize(busy.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -228,17 +224,20 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   if (!motion.is_swept) return interrupt();
   const bool follows = cuts && cutting_tool_ == tool && end_ == motion.from;
   constexpr int kParts = kPassNeck | kPassShank | kPassHolder;
-  Sweep sweep;
+  Sweep& sweep = batch.sweeps.emplace_back();
   sweep.passes = static_cast<std::uint8_t>(
       cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
   sweep.step = static_cast<std::uint32_t>(context.index);
   sweep.tool = tool;
   remember(step, tool, motion.to);
-  if (step.kind() == StepKind::arc && is_walked(context))
-    return add_arc(step, context, sweep, follows, batch);
+  if (step.kind() == StepKind::arc && is_walked(context)) {
+    const Sweep like = sweep;
+    batch.sweeps.pop_back();
+    return add_arc(step, context, like, follows, batch);
+  }
   sweep.follows = follows;
   set_line(sweep, motion.from, motion.to);
-  emit(sweep, batch);
+  emit(batch);
 }
 
 void Planner::add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows,
@@ -251,9 +250,8 @@ void Planner::add_arc(const Step& step, const MotionContext& context, const Swee
   walk.end_w -= body_.bounds.low[axes.w];
   if (!can_meet(walk, like.tool)) return;
   if (is_level(walk)) {
-    Sweep arc = like;
-    set_arc(arc, walk);
-    return emit(arc, batch);
+    set_arc(batch.sweeps.emplace_back(like), walk);
+    return emit(batch);
   }
   const bool cuts = step.is_cutting();
   chords_ = {walk, like, 0, chord_count(walk).count, cuts && follows, cuts, walk.at(0.0)};
@@ -265,12 +263,12 @@ void Planner::go_on(Batch& batch) {
   for (; c.next < c.count && !batch.full(); ++c.next) {
     const auto share_at = [&](int k) { return static_cast<float>(k) / static_cast<float>(c.count); };
     const Point3 to = c.walk.at((c.next + 1.0) / c.count);
-    Sweep chord = c.like;
+    Sweep& chord = batch.sweeps.emplace_back(c.like);
     chord.follows = c.next > 0 ? c.others_follow : c.first_follows;
     chord.share_begin = share_at(c.next);
     chord.share_end = share_at(c.next + 1);
     set_line(chord, c.from, to);
-    emit(chord, batch);
+    emit(batch);
     c.from = to;
   }
 }
@@ -308,24 +306,28 @@ bool Planner::is_near_tiles(const Sweep& s, double reach) const {
          std::max(s.y, y1) + reach >= wanted_.low.y && std::min(s.y, y1) - reach <= wanted_.high.y;
 }
 
-void Planner::emit(const Sweep& sweep, Batch& batch) {
+/// Finds the tiles of the batch's last sweep, and takes it back if there are none.
+void Planner::emit(Batch& batch) {
+  if (!find_pairs(batch.sweeps.back(), batch)) batch.sweeps.pop_back();
+}
+
+/// False if the sweep meets no tile.
+bool Planner::find_pairs(Sweep& sweep, Batch& batch) const {
   if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < -hazard_depth_)
     note_below_floor(sweep, batch);
   double reach = 0.0;
-  const std::uint8_t passes = passes_that_meet(sweep, reach);
-  if (passes == 0) return;
+  sweep.passes = passes_that_meet(sweep, reach);
+  if (sweep.passes == 0) return false;
   reach += scope_.margin;
-  if (scope_.tiles != nullptr && !is_near_tiles(sweep, reach)) return;
+  if (scope_.tiles != nullptr && !is_near_tiles(sweep, reach)) return false;
   const std::size_t before = batch.pairs.size();
-  const auto number = static_cast<std::uint32_t>(batch.sweeps.size());
+  const auto number = static_cast<std::uint32_t>(batch.sweeps.size() - 1);
   if (sweep.is_arc) {
     pair_arc(sweep, reach, number, batch);
   } else {
     pair_line(sweep, reach, number, batch);
   }
-  if (batch.pairs.size() == before) return;
-  batch.sweeps.push_back(sweep);
-  batch.sweeps.back().passes = passes;
+  return batch.pairs.size() != before;
 }
 
 void Planner::pair(int column, int row, std::uint32_t number, Batch& batch) const {

@@ -50,7 +50,6 @@ struct Batch {
   std::vector<std::uint32_t> busy, list;
   std::vector<std::size_t> start;
   std::vector<std::uint32_t> order;  // of busy: the largest first, so that the threads end together
-  std::vector<std::uint32_t> place;  // of each pair in the list
 
  private:
   std::vector<std::uint32_t> count_;
@@ -98,7 +97,8 @@ class Planner {
   void add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
   bool is_near_tiles(const Sweep& sweep, double reach) const;
-  void emit(const Sweep& sweep, Batch& batch);
+  void emit(Batch& batch);
+  bool find_pairs(Sweep& sweep, Batch& batch) const;
   std::uint8_t passes_that_meet(const Sweep& sweep, double& reach) const;
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
   /// Number of the tile a place along X or Y is in; any number below 0 or above the last outside.

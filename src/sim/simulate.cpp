@@ -171,11 +171,11 @@ void Run::tell_removed(Simulation& result) const {
   result.removed = mm3(all);
 }
 
-/// Adds what a batch has cut to the steps, in order of sweeps and tiles, whichever thread was first: sums of
+/// Adds what a batch has cut to the steps, in order of tiles and time, whichever thread was first: sums of
 /// floating numbers depend on the order.
 void Run::take_over(const CutBatch& batch) {
-  for (std::size_t p = 0; p < batch.pairs.size(); ++p)
-    removed_[batch.sweeps[batch.pairs[p].sweep].step] += batch.removed[batch.place[p]];
+  for (std::size_t at = 0; at < batch.list.size(); ++at)
+    removed_[batch.sweeps[batch.list[at]].step] += batch.removed[at];
   if (walls_ == nullptr) {
     if (is_no_go_) note_block_contacts(batch);
     for (const Contact& contact : batch.contacts) contacts_.add(contact);
