@@ -32,6 +32,7 @@ struct BallSweep {
   Real z_begin = 0, z_end = 0;
   Real slant2 = 1;  // length along the path a mm in plan, squared
   Real lead2 = 0;   // Sweep::ball_lead squared, with its sign
+  Real lowest = 0;  // of the centre
   Real behind = 0;  // all before this was cut by the sweep before
   Real reach = 0;   // from a square's middle to its border along u and v, a mm of half its side
   std::uint32_t step = 0;
@@ -49,7 +50,26 @@ struct BallGroup {
   BallSweep ball[kGroup];
   BallPairs pairs;
   Real radius2 = 0;
-  double radius = 0, centre_z = 0;  // mm; of the ball, above the tip
+};
+
+/// What all sweeps of a group share.
+struct BallTile {
+  HWY_INLINE BallTile(const TileJob& job, const LaneCap& cap)
+      : middle_x(job.x + 31.5 * job.field->pitch),
+        middle_y(job.y + 31.5 * job.field->pitch),
+        radius(std::sqrt(cap.radius2)),
+        sight(kTileColumns * job.field->pitch + static_cast<double>(radius)),
+        centre_z(static_cast<double>(cap.centre_z)),
+        floor(radius + 2 * job.field->same_height),
+        x((load(kColumn) - 1.5f) * job.field->step[1]),
+        y((load(kRow) - 1.5f) * job.field->step[1]) {}
+
+  double middle_x, middle_y;
+  Real radius;
+  double sight;     // ends of paths that are further away along the path are seen by no column
+  double centre_z;  // of the ball, above the tip
+  Real floor;       // a ball with its centre below this may cut through
+  Vector x, y;      // the places of the pattern, the least ones
 };
 
 /// Whether a sweep goes this way where the tile allows it. Only such sweeps share a group, so that how a
@@ -67,10 +87,10 @@ HWY_INLINE bool is_plain(const TileJob& job) {
 }
 
 /// Where the tile is: the pattern of its places turned to the sweep's path.
-HWY_INLINE void place_tile(BallSweep& ball, const Sweep& sweep, Real pitch, double along, double across) {
+HWY_INLINE void place_tile(BallSweep& ball, const Sweep& sweep, const BallTile& tile, double along,
+                           double across) {
   const Real cx = static_cast<Real>(sweep.ux), cy = static_cast<Real>(sweep.uy);
-  const Vector x = (load(kColumn) - 1.5f) * pitch, y = (load(kRow) - 1.5f) * pitch;
-  const Vector u = x * cx + y * cy, v = y * cx - x * cy;
+  const Vector u = tile.x * cx + tile.y * cy, v = tile.y * cx - tile.x * cy;
   store(u, ball.u);
   store(v, ball.v);
   store(u * 16.0f + static_cast<Real>(along), ball.super_u);
@@ -78,36 +98,34 @@ HWY_INLINE void place_tile(BallSweep& ball, const Sweep& sweep, Real pitch, doub
   ball.reach = std::abs(cx) + std::abs(cy);
 }
 
-HWY_INLINE void prepare_ball(BallSweep& ball, const BallGroup& group, const TileJob& job,
-                             const Sweep& sweep) {
-  const double pitch = job.field->pitch;
-  const double x = job.x + 31.5 * pitch - sweep.x, y = job.y + 31.5 * pitch - sweep.y;
+HWY_INLINE void prepare_ball(BallSweep& ball, const BallTile& tile, const Sweep& sweep) {
+  const double x = tile.middle_x - sweep.x, y = tile.middle_y - sweep.y;
   const double across = y * sweep.ux - x * sweep.uy;
   double along = x * sweep.ux + y * sweep.uy, left_out = 0, length = sweep.length;
-  // Ends that no column of the tile can see are brought nearer, so that numbers stay small.
-  const double sight = kTileColumns * pitch + group.radius;
-  if (length > sight) {
-    left_out = std::clamp(along - sight, 0.0, length);
+  if (HWY_UNLIKELY(length > tile.sight)) {  // so that numbers stay small
+    left_out = std::clamp(along - tile.sight, 0.0, length);
     along -= left_out;
-    length = std::clamp(along + sight, 0.0, length - left_out);
+    length = std::clamp(along + tile.sight, 0.0, length - left_out);
   }
-  const double tip = sweep.length > 0 ? sweep.z + sweep.slope * left_out : std::min(sweep.z, sweep.z_end);
-  const double z = tip + group.centre_z;
+  const double z = sweep.z + sweep.slope * left_out + tile.centre_z;
   ball.length = static_cast<Real>(length);
   ball.slope = static_cast<Real>(sweep.slope);
   ball.z_begin = static_cast<Real>(z);
   ball.z_end = static_cast<Real>(z + sweep.slope * length);
+  ball.follows = sweep.follows;
+  if (HWY_UNLIKELY(sweep.length == 0)) {  // straight up or down: what follows is all new
+    ball.z_begin = ball.z_end = static_cast<Real>(std::min(sweep.z, sweep.z_end) + tile.centre_z);
+    ball.follows = false;
+  }
+  ball.lowest = lower_real(ball.z_begin, ball.z_end);
   ball.slant2 = 1 + ball.slope * ball.slope;
   ball.lead2 = sweep.ball_lead * std::abs(sweep.ball_lead);
   ball.step = sweep.step;
-  // The tip, near enough to the floor to be told from it by rounding.
-  ball.to_floor =
-      std::min(ball.z_begin, ball.z_end) - static_cast<Real>(group.radius) < 2 * job.field->same_height;
-  ball.follows = sweep.follows && sweep.length > 0;  // straight down what follows is all new
+  ball.to_floor = ball.lowest < tile.floor;
   // The lowest point above what lies further back is the begin, where the sweep before has ended.
-  const double lead = std::min(0.0, static_cast<double>(sweep.ball_lead)) * group.radius;
-  ball.behind = ball.follows ? static_cast<Real>(lead - left_out) : -kFar;
-  place_tile(ball, sweep, job.field->step[1], along, across);
+  const Real lead = lower_real(sweep.ball_lead, 0) * tile.radius;
+  ball.behind = ball.follows ? lead - static_cast<Real>(left_out) : -kFar;
+  place_tile(ball, sweep, tile, along, across);
   store(0, ball.taken);
 }
 
@@ -145,7 +163,7 @@ HWY_INLINE Mask cull_ball(const BallSweep& ball, Vector u, Vector v, Real half, 
   const Real reach = half * ball.reach;
   const Vector du = u - clamped(u, -reach, ball.length + reach);
   const Vector dv = higher_of(absolute(v) - reach, 0);
-  const Vector over = higher_of(std::min(ball.z_begin, ball.z_end) - top, 0);
+  const Vector over = higher_of(ball.lowest - top, 0);
   return (radius2 - du * du - dv * dv > over * over) & (u > ball.behind - reach);
 }
 
@@ -207,13 +225,12 @@ HWY_NOINLINE void cut_balls(BallGroup& group, const TileJob& job, const LaneCap&
   Tile& tile = *job.tile;
   const Field& field = *job.field;
   group.radius2 = cap.radius2;
-  group.radius = std::sqrt(static_cast<double>(cap.radius2));
-  group.centre_z = static_cast<double>(cap.centre_z);
+  const BallTile around(job, cap);
   alignas(64) std::uint32_t supers[kGroup] = {};
   unsigned met = 0;
   for (int k = 0; k < count; ++k) {
     BallSweep& ball = group.ball[k];
-    prepare_ball(ball, group, job, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
+    prepare_ball(ball, around, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
     supers[k] = bits_of(cull_ball(ball, load(ball.super_u), load(ball.super_v), 7.5f * field.step[1],
                                   load(tile.super_top), group.radius2));
     met |= supers[k];

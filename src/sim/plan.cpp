@@ -330,11 +330,6 @@ bool Planner::find_pairs(Sweep& sweep, Batch& batch) const {
   return batch.pairs.size() != before;
 }
 
-void Planner::pair(int column, int row, std::uint32_t number, Batch& batch) const {
-  const auto tile = static_cast<std::uint32_t>(row * body_.tiles_x + column);
-  if (scope_.tiles == nullptr || (*scope_.tiles)[tile]) batch.pairs.push_back({tile, number});
-}
-
 /// All tiles that the box around a line and its reach meets.
 void Planner::pair_box(const Sweep& s, double x1, double y1, double reach, std::uint32_t number,
                        Batch& batch) const {

@@ -109,7 +109,10 @@ class Planner {
                 Batch& batch) const;
   void pair_line(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
   void pair_arc(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
-  void pair(int column, int row, std::uint32_t number, Batch& batch) const;
+  void pair(int column, int row, std::uint32_t number, Batch& batch) const {
+    const auto tile = static_cast<std::uint32_t>(row * body_.tiles_x + column);
+    if (scope_.tiles == nullptr || (*scope_.tiles)[tile]) batch.pairs.push_back({tile, number});
+  }
 
   const Workpiece::Body& body_;
   const std::vector<ToolSolids>& tools_;
