@@ -183,7 +183,7 @@ struct View {
 };
 /// Whether the face of a section can be seen from there; a view along the plane sees no more than its edge.
 bool faces(const View& view, const Section& section);
-/// "top", "front", "back", "left", "right", "iso", or nothing.
+/// "top", "bottom", "front", "back", "left", "right", "iso", or nothing.
 std::optional<View> named_view(std::string_view name);
 
 struct Image {

@@ -235,7 +235,7 @@ Command add_simulate(CLI::App& root) {
   options->picture_options = {
       app->add_option(
              "--view", options->picture.view,
-             "Picture from: top, front, back, left, right, iso, or AZIMUTH,ELEVATION (default: -35,50)")
+             "Picture from: top, bottom, front, back, left, right, iso, or AZIMUTH,ELEVATION (default: -35,50)")
           ->type_name("VIEW"),
       app->add_option("--size", options->picture.size,
                       "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")

@@ -221,9 +221,9 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
     out.elevation = degrees(angles->second);
   } else {
     problem =
-        fmt::format("--view: \"{}\" is neither top, front, back, left, right or iso nor AZIMUTH,ELEVATION",
+        fmt::format("--view: \"{}\" is neither top, bottom, front, back, left, right or iso nor AZIMUTH,ELEVATION",
                     options.view.substr(0, 40));
-    if (const auto close = did_you_mean(options.view, {"top", "front", "back", "left", "right", "iso"}))
+    if (const auto close = did_you_mean(options.view, {"top", "bottom", "front", "back", "left", "right", "iso"}))
       problem += fmt::format("; did you mean {}?", *close);
     return std::nullopt;
   }
@@ -278,6 +278,11 @@ bool write_surface(const std::vector<OutputFile>& files, const LoadedProgram& pr
   const auto is_mesh = [](const OutputFile& file) { return file.mesh.has_value(); };
   if (std::any_of(files.begin(), files.end(), is_mesh) && !verify_mesh(mesh, volume, diagnostics))
     return false;
+  if (mesh.triangles.empty())
+    diagnostics
+        .warning(Code::nothing_left, TextSpot{program.source, 0, 0},
+                 "nothing of the stock is left, so that meshes and pictures are empty")
+        .hint = "look at the stock's size and place, and at the program's units";
   const Colouring colours = colours_of(mesh, program.path, hazard_steps);
   progress.phase("writing");
   for (std::size_t i = 0; i < files.size(); ++i) {

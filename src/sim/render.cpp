@@ -470,6 +470,7 @@ std::optional<View> named_view(std::string_view name) {
     return view;
   };
   if (name == "top") return look(0, 90);
+  if (name == "bottom") return look(0, -90);
   if (name == "front") return look(0, 0);
   if (name == "back") return look(180, 0);
   if (name == "left") return look(-90, 0);

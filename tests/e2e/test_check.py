@@ -235,6 +235,15 @@ def test_no_tool_names_the_option_without_a_number(kerf, program):
     assert "--tool SPEC, without a number" in hazard["hint"]
 
 
+def test_a_stock_that_is_cut_away_wholly_is_warned_of(kerf, tmp_path):
+    path = tmp_path / "all.nc"
+    path.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X-5 Y5 Z5\nG1 Z-1 F200\nG1 X15\nG0 Z5\nM5\nM30\n")
+    for depth, said in ((1, True), (2, False)):
+        run = kerf("simulate", path, "--tool", "1=square d=40 flute=20", "--stock", f"10x10x{depth}",
+                   "-o", tmp_path / "part.stl", "--json")
+        assert ("nothing_left" in run.codes()) == said
+
+
 def test_a_program_beside_its_stock_is_warned_of(kerf, tmp_path):
     path = tmp_path / "beside.nc"
     path.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X500 Y5 Z5\nG1 Z-3 F200\nG1 X540\nG0 Z5\nM5\nM30\n")

@@ -78,11 +78,12 @@ View small(const char* name) {
 }
 
 TEST(Render, KnowsItsViews) {
-  for (const char* name : {"top", "front", "back", "left", "right", "iso"})
+  for (const char* name : {"top", "bottom", "front", "back", "left", "right", "iso"})
     EXPECT_TRUE(named_view(name)) << name;
   EXPECT_FALSE(named_view("below"));
   EXPECT_FALSE(named_view("TOP"));
   EXPECT_DOUBLE_EQ(named_view("top")->elevation.deg(), 90);
+  EXPECT_DOUBLE_EQ(named_view("bottom")->elevation.deg(), -90);
   EXPECT_DOUBLE_EQ(named_view("front")->azimuth.deg(), 0);
 }
 
