@@ -232,15 +232,14 @@ Command add_simulate(CLI::App& root) {
                "Write the part: .stl .3mf .glb .obj, a picture: .png, the stock of the next job: .kstock");
   add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
-  options->picture_options = {
-      app->add_option(
-             "--view", options->picture.view,
-             "Picture from: top, bottom, front, back, left, right, iso, or AZIMUTH,ELEVATION (default: -35,50)")
-          ->type_name("VIEW"),
-      app->add_option("--size", options->picture.size,
-                      "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
-          ->type_name("WxH"),
-      add_section(*app, options->picture)};
+  options->picture_options = {app->add_option("--view", options->picture.view,
+                                              "Picture from: top, bottom, front, back, left, right, iso, or "
+                                              "AZIMUTH,ELEVATION (default: -35,50)")
+                                  ->type_name("VIEW"),
+                              app->add_option("--size", options->picture.size,
+                                              "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+                                  ->type_name("WxH"),
+                              add_section(*app, options->picture)};
   options->printing_options = {
       add_length(*app, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,
                  "Of a print: the layers' height, mm (default: the program's comments, else its steps in Z)"),

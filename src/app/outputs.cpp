@@ -220,10 +220,11 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
     out.azimuth = degrees(angles->first);
     out.elevation = degrees(angles->second);
   } else {
-    problem =
-        fmt::format("--view: \"{}\" is neither top, bottom, front, back, left, right or iso nor AZIMUTH,ELEVATION",
-                    options.view.substr(0, 40));
-    if (const auto close = did_you_mean(options.view, {"top", "bottom", "front", "back", "left", "right", "iso"}))
+    problem = fmt::format(
+        "--view: \"{}\" is neither top, bottom, front, back, left, right or iso nor AZIMUTH,ELEVATION",
+        options.view.substr(0, 40));
+    if (const auto close =
+            did_you_mean(options.view, {"top", "bottom", "front", "back", "left", "right", "iso"}))
       problem += fmt::format("; did you mean {}?", *close);
     return std::nullopt;
   }
