@@ -199,7 +199,7 @@ struct CutJob {
     SimulationOptions options;
     options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
     result = simulate(path, table(), block(), options, diagnostics);
-    if (result) columns = result->workpiece.grid();
+    if (result) columns.emplace(result->workpiece);
     one_group.assign(path.size(), 0);
     merged = {.tolerance = tolerance, .step_groups = one_group};
   }
@@ -208,7 +208,7 @@ struct CutJob {
   Toolpath path;
   Diagnostics diagnostics;
   std::optional<Simulation> result;
-  ColumnGrid columns;
+  std::optional<MeshColumns> columns;
   std::vector<std::uint8_t> one_group;
   MeshOptions merged;
 };
@@ -219,7 +219,7 @@ void ReliefMesh(benchmark::State& state) {
   if (!job.result) return state.SkipWithError("not simulated");
   std::size_t triangles = 0;
   const PeakMemory memory;
-  for (auto _ : state) triangles = extract_mesh(job.result->workpiece.grid(), job.merged).step.size();
+  for (auto _ : state) triangles = extract_mesh(MeshColumns(job.result->workpiece), job.merged).step.size();
   state.counters["triangles"] = static_cast<double>(triangles);
   state.counters["peak_MB"] = memory.mb();
   state.counters["prototype_top_only_s"] = 0.1;
@@ -229,9 +229,9 @@ void ReliefMesh(benchmark::State& state) {
 void ReliefMeshVerified(benchmark::State& state) {
   CutJob job(state, relief(1000, 1000), mm(0.005));
   if (!job.result) return state.SkipWithError("not simulated");
-  const Mesh mesh = extract_mesh(job.columns, job.merged);
+  const Mesh mesh = extract_mesh(*job.columns, job.merged);
   for (auto _ : state)
-    if (!verify_mesh(mesh, mesh_volume(job.columns, job.merged), job.diagnostics))
+    if (!verify_mesh(mesh, mesh_volume(*job.columns, job.merged), job.diagnostics))
       return state.SkipWithError("the mesh is not sound");
   state.counters["triangles"] = static_cast<double>(mesh.step.size());
 }
@@ -242,7 +242,7 @@ void exact_mesh(benchmark::State& state, Toolpath path) {
   if (!job.result) return state.SkipWithError("not simulated");
   std::size_t triangles = 0;
   for (auto _ : state) {
-    Mesh mesh = extract_mesh(job.columns, job.merged);
+    Mesh mesh = extract_mesh(*job.columns, job.merged);
     sharpen_mesh(mesh, job.result->workpiece, job.path, table(), block());
     triangles = mesh.step.size();
   }

@@ -80,8 +80,8 @@ std::optional<Mesh> made_mesh(const Simulation& result, const Toolpath& path, co
   const bool is_sharp = finish == Finish::sharpened;
   const std::vector<std::uint8_t> one_group(path.size(), 0);
   MeshOptions options{.tolerance = mm(is_sharp ? 0.002 : 0.005), .step_groups = one_group};
-  const ColumnGrid columns = result.workpiece.grid();
-  watch.lap("grid_cpu_s");
+  const MeshColumns columns(result.workpiece);
+  watch.lap("columns_cpu_s");
   Mesh mesh = extract_mesh(columns, options);
   watch.lap("mesh_cpu_s");
   if (is_sharp) {

@@ -47,8 +47,8 @@ py::tuple mesh_arrays(const Result& result, bool sharp) {
   SignalProgress progress;
   {
     const py::gil_scoped_release release;
-    const ColumnGrid columns = result.simulation.workpiece.grid();
-    mesh = extract_mesh(columns, &progress);
+    const MeshColumns columns(result.simulation.workpiece);
+    mesh = extract_mesh(columns, {}, &progress);
     if (sharp)
       sharpen_mesh(mesh, result.simulation.workpiece, *result.path, *result.tools, result.stock, {},
                    &progress);

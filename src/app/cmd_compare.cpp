@@ -137,7 +137,7 @@ bool write_pictures(const Result& result, const std::optional<View>& view, Outpu
                     Diagnostics& diagnostics, Progress& progress) {
   Mesh mesh;
   if (view && !result.outputs.empty()) {
-    mesh = extract_mesh(result.simulation.workpiece.grid(), &progress);
+    mesh = extract_mesh(MeshColumns(result.simulation.workpiece), {}, &progress);
     if (progress.stop_requested() || !section_meets(mesh, *view, diagnostics)) return false;
   }
   for (const OutputFile& file : result.outputs) {

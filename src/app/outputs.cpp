@@ -352,7 +352,7 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const std::vector<std::uint32_t> hazards = steps_of(simulation.hazards);
   const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
-  const ColumnGrid columns = simulation.workpiece.grid();
+  const MeshColumns columns(simulation.workpiece);
   Mesh mesh = extract_mesh(columns, options, &progress);
   if (progress.stop_requested()) return false;
   if (shows_columns(surfaces, simulation.workpiece, view) &&

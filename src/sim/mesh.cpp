@@ -145,10 +145,14 @@ class Extraction {
 Mesh extract_mesh(const ColumnGrid& grid, Progress* progress) { return extract_mesh(grid, {}, progress); }
 
 Mesh extract_mesh(const ColumnGrid& grid, const MeshOptions& options, Progress* progress) {
+  return extract_mesh(MeshColumns(grid, options.threads), options, progress);
+}
+
+Mesh extract_mesh(const MeshColumns& made, const MeshOptions& options, Progress* progress) {
   if (progress != nullptr) progress->phase("meshing");
-  if (grid.nx <= 0 || grid.ny <= 0 || grid.intervals.empty()) return {};
+  const Columns& columns = made.body().columns;
+  if (!columns.has_material()) return {};
   const unsigned threads = sim::thread_count(options.threads);
-  const Columns columns(grid);
   Builder builder{columns, options, {}, {}};
   if (!Extraction(builder, threads, progress).run()) return {};
   meshing::split_shared_edges(builder.mesh, builder.suspects);

@@ -124,8 +124,6 @@ class CapSheet {
   void make_room();
 
  private:
-  /// Side of the largest merged square, in columns; a power of two.
-  static constexpr int kSquare = 64;
   struct Node {
     int x, y;
   };

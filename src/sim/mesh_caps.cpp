@@ -197,7 +197,7 @@ void CapSheet::place_vertices(int number) {
         sum += columns.z(i, j, end_of(i, j));
       }
       known_(x, y) = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
-      const Point3 at = columns.grid().bounds.low + Point3{columns.corner_x(x), columns.corner_y(y), sum / 4};
+      const Point3 at = columns.frame().bounds.low + Point3{columns.corner_x(x), columns.corner_y(y), sum / 4};
       for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
     }
   }

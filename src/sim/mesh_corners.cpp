@@ -17,30 +17,19 @@ namespace {
 /// walls.
 constexpr double kRiseRatio = 2.5;
 
-/// A last column that lacks less than this share of a pitch is a whole one, but for rounding.
-constexpr double kNarrower = 1e-6;
-
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-Columns::Columns(const ColumnGrid& grid)
-    : grid_(grid),
-      size_x_(grid.bounds.high.x - grid.bounds.low.x),
-      size_y_(grid.bounds.high.y - grid.bounds.low.y),
-      height_(grid.bounds.high.z - grid.bounds.low.z),
-      narrow_x_(grid.nx * grid.pitch > size_x_ + kNarrower * grid.pitch),
-      narrow_y_(grid.ny * grid.pitch > size_y_ + kNarrower * grid.pitch) {}
-
 int Columns::facing_end(int i, int j, int end, int other_i, int other_j) const {
   const int other_ends = ends(other_i, other_j);
   const int k = end / 2;
-  const Interval& mine = interval(i, j, k);
+  const Interval mine = interval(i, j, k);
   // Void bounded by this end: above a high end, below a low end.
   const double void_low = end % 2 == 1 ? mine.high : k > 0 ? interval(i, j, k - 1).high : -kFar;
   const double void_high = end % 2 == 0 ? mine.low : end + 1 < ends(i, j) ? interval(i, j, k + 1).low : kFar;
   for (int n = 0; 2 * n < other_ends; ++n) {
-    const Interval& other = interval(other_i, other_j, n);
+    const Interval other = interval(other_i, other_j, n);
     if (other.low >= mine.high) break;
     if (other.high <= mine.low) continue;
     if (end % 2 == 1) {
@@ -74,8 +63,8 @@ double Columns::slope(int i, int j, int end, int dx, int dy) const {
     const int other = facing_end(i, j, end, other_i, other_j);
     if (other < 0 || !continues(i, j, end, other_i, other_j, other)) continue;
     rise += side * (z(other_i, other_j, other) - z(i, j, end));
-    run += side * (dx != 0 ? grid_.column_x(other_i) - grid_.column_x(i)
-                           : grid_.column_y(other_j) - grid_.column_y(j));
+    run += side * (dx != 0 ? frame_.column_x(other_i) - frame_.column_x(i)
+                           : frame_.column_y(other_j) - frame_.column_y(j));
   }
   return run > 0.0 ? rise / run : 0.0;
 }
@@ -305,8 +294,8 @@ void CornerRow::place(const Columns& columns, int i, int j, const Corner& corner
       const int e = group.end[static_cast<std::size_t>(q)];
       if (e < 0) continue;
       const int ci = column_x(i, q), cj = column_y(j, q);
-      change += columns.slope(ci, cj, e, 1, 0) * (x - columns.grid().column_x(ci));
-      change += columns.slope(ci, cj, e, 0, 1) * (y - columns.grid().column_y(cj));
+      change += columns.slope(ci, cj, e, 1, 0) * (x - columns.frame().column_x(ci));
+      change += columns.slope(ci, cj, e, 0, 1) * (y - columns.frame().column_y(cj));
       ++members;
     }
     if (change == 0.0) continue;

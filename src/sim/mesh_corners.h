@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kerf/simulate.h"
+#include "sim/mesh_columns.h"
 
 namespace kerf::meshing {
 
@@ -16,61 +16,6 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
 inline constexpr double kSlopeShare = 0.5;
-
-/// Reads a ColumnGrid by column. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the
-/// high one.
-class Columns {
- public:
-  explicit Columns(const ColumnGrid& grid);
-
-  int nx() const { return grid_.nx; }
-  int ny() const { return grid_.ny; }
-  double pitch() const { return grid_.pitch; }
-  double height() const { return height_; }
-  const ColumnGrid& grid() const { return grid_; }
-  /// Position of corner number i (0 to nx) above the block's low side; the last lies on the block's high
-  /// side.
-  double corner_x(int i) const { return i >= nx() ? size_x_ : std::min(i * pitch(), size_x_); }
-  double corner_y(int j) const { return j >= ny() ? size_y_ : std::min(j * pitch(), size_y_); }
-  /// Whether the four columns around a corner inside the grid stand unevenly around it: one is narrower.
-  bool uneven(int i, int j) const { return (i == nx() - 1 && narrow_x_) || (j == ny() - 1 && narrow_y_); }
-
-  bool inside(int i, int j) const { return i >= 0 && j >= 0 && i < nx() && j < ny(); }
-  std::size_t number(int i, int j) const {
-    return static_cast<std::size_t>(j) * static_cast<std::size_t>(nx()) + static_cast<std::size_t>(i);
-  }
-  /// Ends of a column; 0 outside the grid.
-  int ends(int i, int j) const {
-    if (!inside(i, j)) return 0;
-    const std::size_t n = number(i, j);
-    return 2 * static_cast<int>(grid_.first[n + 1] - grid_.first[n]);
-  }
-  const Interval& interval(int i, int j, int k) const {
-    return grid_.intervals[grid_.first[number(i, j)] + static_cast<std::size_t>(k)];
-  }
-  double z(int i, int j, int end) const {
-    const Interval& run = interval(i, j, end / 2);
-    return end % 2 == 0 ? run.low : run.high;
-  }
-  std::uint32_t step(int i, int j, int end) const {
-    const Interval& run = interval(i, j, end / 2);
-    return end % 2 == 0 ? run.low_step : run.high_step;
-  }
-  /// The end of a neighbouring column that faces the same void as `end` does with material behind both; -1:
-  /// none.
-  int facing_end(int i, int j, int end, int other_i, int other_j) const;
-  /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands
-  /// between.
-  bool continues(int i, int j, int end, int other_i, int other_j, int other_end) const;
-  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that
-  /// continue it.
-  double slope(int i, int j, int end, int dx, int dy) const;
-
- private:
-  const ColumnGrid& grid_;
-  double size_x_, size_y_, height_;
-  bool narrow_x_, narrow_y_;  // the last column of a row, the last row
-};
 
 /// One surface (or several ends of one column each) at a corner: one vertex.
 struct Sheet {

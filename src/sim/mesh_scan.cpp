@@ -22,7 +22,7 @@ void read_row(const Builder& builder, int j, std::vector<Single>& out) {
     Single& single = out[static_cast<std::size_t>(i)];
     single.is_one = columns.ends(i, j) == 2;
     if (!single.is_one) continue;
-    const Interval& run = columns.interval(i, j, 0);
+    const Interval run = columns.interval(i, j, 0);
     single = {true,
               {run.low, run.high},
               {run.low_step, run.high_step},

@@ -1,11 +1,13 @@
 // What a mesh should hold, told by the columns that it is made of.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <span>
 #include <vector>
 
+#include "sim/mesh_columns.h"
 #include "sim/parallel.h"
 
 #include "kerf/rotary.h"
@@ -17,8 +19,10 @@ namespace {
 /// How far the side faces of columns may all be from where the mesh has them, in pitches. Why one is enough,
 /// and how far they are: docs/decisions/0006-mesh.md.
 constexpr double kSideShare = 1.0;
-constexpr int kBandRows = 64;
 
+using meshing::Columns;
+using meshing::kSquare;
+using meshing::Square;
 using Runs = std::span<const Interval>;
 
 /// Columns by what their faces are: what they hold, the area of their ends, and the area of their sides that
@@ -46,49 +50,94 @@ double unshared(Runs a, Runs b, const Measure& measure) {
 
 double height(float low, float high) { return static_cast<double>(high) - static_cast<double>(low); }
 
+/// The same of two columns of one interval each, in height.
+double unshared(float low_a, float high_a, float low_b, float high_b) {
+  if (low_a < high_b && low_b < high_a)
+    return std::abs(height(low_a, low_b)) + std::abs(height(high_a, high_b));
+  return height(low_a, high_a) + height(low_b, high_b);
+}
+
 class BlockFaces {
  public:
-  explicit BlockFaces(const ColumnGrid& grid) : grid_(grid), size_(grid.bounds.size()) {}
+  explicit BlockFaces(const Columns& columns) : columns_(columns), size_(columns.frame().bounds.size()) {}
 
-  Faces of_rows(int first, int end) const {
+  /// Of the squares of a row of squares.
+  Faces of_squares(int square_y) const {
     Faces faces;
-    for (int j = first; j < end; ++j) {
-      const double deep = width(j, size_.y);
-      for (int i = 0; i < grid_.nx; ++i) {
-        const double wide = width(i, size_.x);
-        const Runs runs = column(i, j);
-        for (const Interval& run : runs) faces.volume += wide * deep * height(run.low, run.high);
-        faces.ends += 2.0 * wide * deep * static_cast<double>(runs.size());
-        if (i + 1 < grid_.nx) faces.sides += deep * unshared(runs, column(i + 1, j), height);
-        if (j + 1 < grid_.ny) faces.sides += wide * unshared(runs, column(i, j + 1), height);
-      }
-    }
+    for (int square_x = 0; square_x < columns_.squares_x(); ++square_x) add_square(square_x, square_y, faces);
     return faces;
   }
 
  private:
-  /// The last column may be narrower.
-  double width(int i, double size) const { return std::clamp(size - i * grid_.pitch, 0.0, grid_.pitch); }
-  Runs column(int i, int j) const {
-    const std::size_t n =
-        static_cast<std::size_t>(j) * static_cast<std::size_t>(grid_.nx) + static_cast<std::size_t>(i);
-    return {grid_.intervals.data() + grid_.first[n], grid_.first[n + 1] - grid_.first[n]};
+  void add_square(int square_x, int square_y, Faces& faces) const {
+    const int first_i = square_x * kSquare, end_i = std::min(first_i + kSquare, columns_.nx());
+    const int first_j = square_y * kSquare, end_j = std::min(first_j + kSquare, columns_.ny());
+    for (int j = first_j; j < end_j; ++j) {
+      // Within a square of columns of one interval each, of whole width, the numbers lie side by side.
+      const bool simple = columns_.square(square_x, square_y).many == nullptr && j + 1 < end_j;
+      const int plain_end = simple ? end_i - 1 : first_i;
+      add_plain(first_i, plain_end, j, faces);
+      for (int i = plain_end; i < end_i; ++i) add_column(i, j, faces);
+    }
   }
 
-  const ColumnGrid& grid_;
+  /// Columns of one interval each, with such neighbours to the right and above; none of them is narrower.
+  void add_plain(int first, int end, int j, Faces& faces) const {
+    if (first >= end) return;
+    const Square& square = columns_.square_of(first, j);
+    const std::size_t at = Columns::cell(first, j);
+    const float *low = square.low->z.data() + at, *high = square.high->z.data() + at;
+    const double pitch = columns_.pitch(), count = end - first;
+    double length = count * height(low[0], high[0]), bare = 0.0;
+    if (!square.is_uniform) {
+      length = 0.0;
+      for (int k = 0; k < end - first; ++k) {
+        const std::size_t c = static_cast<std::size_t>(k), right = c + 1, above = c + kSquare;
+        length += height(low[c], high[c]);
+        for (const std::size_t other : {right, above})
+          bare += unshared(low[c], high[c], low[other], high[other]);
+      }
+    }
+    faces.volume += pitch * pitch * length;
+    faces.ends += 2.0 * pitch * pitch * count;
+    faces.sides += pitch * bare;
+  }
+
+  void add_column(int i, int j, Faces& faces) const {
+    const double wide = width(i, size_.x), deep = width(j, size_.y);
+    std::array<Interval, 3> one;  // for columns that keep no intervals
+    const Runs runs = column(i, j, one[0]);
+    for (const Interval& run : runs) faces.volume += wide * deep * height(run.low, run.high);
+    faces.ends += 2.0 * wide * deep * static_cast<double>(runs.size());
+    if (i + 1 < columns_.nx()) faces.sides += deep * unshared(runs, column(i + 1, j, one[1]), height);
+    if (j + 1 < columns_.ny()) faces.sides += wide * unshared(runs, column(i, j + 1, one[2]), height);
+  }
+
+  /// The last column may be narrower.
+  double width(int i, double size) const {
+    return std::clamp(size - i * columns_.pitch(), 0.0, columns_.pitch());
+  }
+  Runs column(int i, int j, Interval& one) const {
+    const Square& square = columns_.square_of(i, j);
+    const std::size_t c = Columns::cell(i, j);
+    if (square.many != nullptr)
+      return {square.many->runs.data() + square.many->first[c],
+              square.many->first[c + 1] - square.many->first[c]};
+    one = columns_.interval(i, j, 0);
+    return {&one, 1};
+  }
+
+  const Columns& columns_;
   Point3 size_;
 };
 
-Faces faces_of(const ColumnGrid& grid, unsigned threads) {
-  if (grid.nx <= 0 || grid.ny <= 0 || grid.intervals.empty()) return {};
-  const BlockFaces block(grid);
-  std::vector<Faces> bands(static_cast<std::size_t>((grid.ny + kBandRows - 1) / kBandRows));
+Faces faces_of(const Columns& columns, unsigned threads) {
+  if (!columns.has_material()) return {};
+  const BlockFaces block(columns);
+  std::vector<Faces> bands(static_cast<std::size_t>(columns.squares_y()));
   sim::parallel_for(
       sim::thread_count(threads), bands.size(),
-      [&](std::size_t band) {
-        const int first = static_cast<int>(band) * kBandRows;
-        bands[band] = block.of_rows(first, std::min(grid.ny, first + kBandRows));
-      },
+      [&](std::size_t band) { bands[band] = block.of_squares(static_cast<int>(band)); },
       [] { return false; });
   Faces sum;
   for (const Faces& faces : bands) {
@@ -119,8 +168,13 @@ VolumeRange range_of(const Faces& faces, double pitch, double moved) {
 }  // namespace
 
 VolumeRange mesh_volume(const ColumnGrid& columns, const MeshOptions& options) {
-  return range_of(faces_of(columns, options.threads), columns.pitch,
-                  options.tolerance.mm() + rounding(farthest(columns.bounds)));
+  return mesh_volume(MeshColumns(columns, options.threads), options);
+}
+
+VolumeRange mesh_volume(const MeshColumns& made, const MeshOptions& options) {
+  const Columns& columns = made.body().columns;
+  return range_of(faces_of(columns, options.threads), columns.pitch(),
+                  options.tolerance.mm() + rounding(farthest(columns.frame().bounds)));
 }
 
 VolumeRange mesh_volume(const RotaryWorkpiece& work) {

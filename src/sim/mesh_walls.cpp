@@ -9,7 +9,7 @@
 namespace kerf::meshing {
 
 std::uint32_t Builder::add_vertex(double x, double y, double z) {
-  const Point3& low = columns.grid().bounds.low;
+  const Point3& low = columns.frame().bounds.low;
   const auto number = static_cast<std::uint32_t>(mesh.positions.size() / 3);
   for (const double v : {low.x + x, low.y + y, low.z + z}) mesh.positions.push_back(static_cast<float>(v));
   return number;
@@ -99,8 +99,7 @@ std::uint32_t WallFiller::step_of(ColumnAt column, bool is_a, std::size_t above)
   for (std::size_t k = above; k < edges_.size(); ++k)
     if (edges_[k].of_a == is_a && edges_[k].end % 2 == 0)
       return columns.step(column.i, column.j, edges_[k].end);
-  if (!columns.inside(column.i, column.j) || columns.grid().cut_through.empty()) return kStockSurface;
-  return columns.grid().cut_through[columns.number(column.i, column.j)];
+  return columns.cut_through(column.i, column.j);
 }
 
 /// Triangles between the two lines from edge `low` up to edge `high`, outward to B for positive `times`.

@@ -1,0 +1,154 @@
+// The material columns as the mesh reads them: squares of 64 x 64 columns, row by row, of which a square that
+// nothing has touched takes no memory, and one without undercuts and through cuts two numbers a column.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "sim/blocks.h"
+
+#include "kerf/simulate.h"
+
+namespace kerf::meshing {
+
+inline constexpr int kSquare = 64;  // columns along a square's side
+inline constexpr int kSquareColumns = kSquare * kSquare;
+
+/// One end of each column of a square.
+struct Ends {
+  Ends() {}  // not cleared: they are filled at once
+  std::array<float, kSquareColumns> z;
+  std::array<std::uint32_t, kSquareColumns> step;
+};
+
+/// The columns of a square that are not all of one interval: column c has runs[first[c]] to
+/// runs[first[c + 1] - 1].
+struct ManyRuns {
+  std::array<std::uint32_t, kSquareColumns + 1> first;
+  std::vector<Interval> runs;
+};
+
+/// The lowest and the highest end of each column, which caps are made of. Where a column is empty the step of
+/// the high one is who took its last material.
+struct Square {
+  const Ends* low = nullptr;
+  const Ends* high = nullptr;
+  const ManyRuns* many = nullptr;  // null: each column is one interval
+  bool is_uniform = false;         // all of one interval, at the same heights, by the same steps
+};
+
+/// Reads columns by number. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the high
+/// one.
+class Columns {
+ public:
+  Columns(const Workpiece& workpiece, unsigned threads);
+  Columns(const ColumnGrid& grid, unsigned threads);
+  Columns(const Columns&) = delete;
+
+  int nx() const { return frame_.nx; }
+  int ny() const { return frame_.ny; }
+  double pitch() const { return frame_.pitch; }
+  double height() const { return height_; }
+  bool has_material() const { return has_material_; }
+  /// Block, pitch and numbers of the columns, without the columns.
+  const ColumnGrid& frame() const { return frame_; }
+  /// Position of corner number i (0 to nx) above the block's low side; the last lies on the block's high
+  /// side.
+  double corner_x(int i) const { return i >= nx() ? size_x_ : std::min(i * pitch(), size_x_); }
+  double corner_y(int j) const { return j >= ny() ? size_y_ : std::min(j * pitch(), size_y_); }
+  /// Whether the four columns around a corner inside the grid stand unevenly around it: one is narrower.
+  bool uneven(int i, int j) const { return (i == nx() - 1 && narrow_x_) || (j == ny() - 1 && narrow_y_); }
+  bool has_narrow() const { return narrow_x_ || narrow_y_; }
+
+  int squares_x() const { return (nx() + kSquare - 1) / kSquare; }
+  int squares_y() const { return (ny() + kSquare - 1) / kSquare; }
+  const Square& square(int x, int y) const {
+    return squares_[static_cast<std::size_t>(y) * static_cast<std::size_t>(squares_x()) +
+                    static_cast<std::size_t>(x)];
+  }
+  const Square& square_of(int i, int j) const { return square(i / kSquare, j / kSquare); }
+  /// Number of a column in its square.
+  static std::size_t cell(int i, int j) {
+    return static_cast<std::size_t>(j % kSquare) * kSquare + static_cast<std::size_t>(i % kSquare);
+  }
+
+  bool inside(int i, int j) const { return i >= 0 && j >= 0 && i < nx() && j < ny(); }
+  /// Ends of a column; 0 outside the grid.
+  int ends(int i, int j) const {
+    if (!inside(i, j)) return 0;
+    const Square& s = square_of(i, j);
+    if (s.many == nullptr) return 2;
+    const std::size_t c = cell(i, j);
+    return 2 * static_cast<int>(s.many->first[c + 1] - s.many->first[c]);
+  }
+  Interval interval(int i, int j, int k) const {
+    const Square& s = square_of(i, j);
+    const std::size_t c = cell(i, j);
+    if (s.many != nullptr) return s.many->runs[s.many->first[c] + static_cast<std::size_t>(k)];
+    return {s.low->z[c], s.high->z[c], s.low->step[c], s.high->step[c]};
+  }
+  double z(int i, int j, int end) const {
+    const Interval run = interval(i, j, end / 2);
+    return end % 2 == 0 ? run.low : run.high;
+  }
+  std::uint32_t step(int i, int j, int end) const {
+    const Interval run = interval(i, j, end / 2);
+    return end % 2 == 0 ? run.low_step : run.high_step;
+  }
+  /// The step that took the last material of a column without any.
+  std::uint32_t cut_through(int i, int j) const {
+    return inside(i, j) ? square_of(i, j).high->step[cell(i, j)] : kStockSurface;
+  }
+  /// The end of a neighbouring column that faces the same void as `end` does with material behind both; -1:
+  /// none.
+  int facing_end(int i, int j, int end, int other_i, int other_j) const;
+  /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands
+  /// between.
+  bool continues(int i, int j, int end, int other_i, int other_j, int other_end) const;
+  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that
+  /// continue it.
+  double slope(int i, int j, int end, int dx, int dy) const;
+
+ private:
+  Columns(ColumnGrid frame, float full_height);
+  /// Columns of a square that are in the grid.
+  int columns_x(std::size_t square) const;
+  int columns_y(std::size_t square) const;
+  Ends& own(std::size_t square, int end);
+  void read_tile(const Workpiece::Body& body, std::size_t number);
+  void read_grid(const ColumnGrid& grid, std::size_t number);
+  /// Calls add(x, y, runs) for each column of a square, which appends the column's intervals and returns who
+  /// took the last of a column without any.
+  template <class Add>
+  void fill_many(std::size_t number, const Add& add);
+  template <class Read>
+  void fill(unsigned threads, const Read& read);
+  bool all_alike(std::size_t number) const;
+
+  ColumnGrid frame_;
+  double size_x_, size_y_, height_;
+  bool narrow_x_, narrow_y_;  // the last column of a row, the last row
+  bool has_material_ = false;
+  std::vector<Square> squares_;
+  sim::BlockStore<Ends> store_;
+  // What the squares point to: ends of their own, or those that all share.
+  std::vector<std::array<sim::BlockStore<Ends>::Pointer, 2>> own_;
+  std::vector<std::unique_ptr<const ManyRuns>> many_;
+  sim::BlockStore<Ends>::Pointer floor_, full_;  // of columns on the floor; of those that nothing has cut
+};
+
+}  // namespace kerf::meshing
+
+namespace kerf {
+
+/// What is behind MeshColumns.
+struct MeshColumns::Body {
+  template <class From>
+  Body(const From& from, unsigned threads) : columns(from, threads) {}
+  meshing::Columns columns;
+};
+
+}  // namespace kerf
