@@ -1,6 +1,7 @@
 // The surface of the columns as a closed mesh: corners row by row, walls, inner caps, then the merged outer
 // caps.
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -58,34 +59,53 @@ void add_inner_caps(Builder& builder, CornerRow& below, CornerRow& above, int j)
   }
 }
 
-/// Rows of corners that are built at a time, by several threads.
-constexpr int kRows = 64;
+/// Walls and inner caps between a row of corners and the one before it.
+void add_walls(WallFiller& walls, Builder& builder, const CornerPlane& plane, CornerRow& below,
+               CornerRow& row, int j) {
+  add_walls_along_row(walls, builder.columns, plane, row, j);
+  if (j == 0) return;
+  add_walls_across_row(walls, plane, below, row, j - 1);
+  add_inner_caps(builder, below, row, j - 1);
+}
+
+/// The walls of the corner rows of a band, which are made with vertices of their own. Of the row before the
+/// band, which they reach down to, each band has a copy.
+struct WallBand {
+  explicit WallBand(const Columns& columns, const MeshOptions& options)
+      : builder{columns, options, {}, {}} {}
+  Builder builder;
+  CornerRow before, last;
+};
 
 /// Does all the work on several threads that can be done so.
 class Extraction {
  public:
-  Extraction(Builder& builder, unsigned threads, Progress* progress)
-      : builder_(builder),
+  Extraction(const Columns& columns, const MeshOptions& options, unsigned threads, Progress* progress)
+      : columns_(columns),
+        options_(options),
         threads_(threads),
         progress_(progress),
-        top_(builder, CapSheet::Side::top),
-        bottom_(builder, CapSheet::Side::bottom) {}
+        plane_(columns),
+        top_(columns, options, plane_, CapSheet::Side::top),
+        bottom_(columns, options, plane_, CapSheet::Side::bottom),
+        walls_(static_cast<std::size_t>(top_.bands()), WallBand(columns, options)) {}
 
   /// False if stopped.
   bool run() {
-    CornerPlane plane(builder_.columns);
-    const bool scanned = in_parallel(top_.bands(), [&](int band) {
-      meshing::scan_corners(builder_, top_.first_row(band), top_.end_row(band), plane, top_, bottom_);
-    });
-    if (!scanned) return false;
-    report(progress_, 0.3);
-    if (!add_walls(plane)) return false;
-    report(progress_, 0.6);
-    return in_parallel(2, [&](int n) { sheet(n).refine(); }) && emit();
+    if (!in_bands([&](int band) { scan_corners(columns_, options_, band, plane_, top_, bottom_); }))
+      return false;
+    report(progress_, 0.2);
+    if (!in_bands([&](int band) { make_walls(band); })) return false;
+    join_walls();
+    report(progress_, 0.5);
+    return cover() && finish();
   }
+  Mesh mesh;
 
  private:
+  WallBand& walls(int band) { return walls_[static_cast<std::size_t>(band)]; }
   CapSheet& sheet(int number) { return number % 2 == 0 ? top_ : bottom_; }
+  int end_row(int band) const { return std::min((band + 1) * meshing::kSquare, columns_.ny() + 1); }
 
   template <class Work>
   bool in_parallel(int count, const Work& work) {
@@ -95,49 +115,129 @@ class Extraction {
         [&] { return stopped = stopped || stop_requested(progress_); });
     return !stopped;
   }
+  template <class Work>
+  bool in_bands(const Work& work) {
+    return in_parallel(top_.bands(), work);
+  }
+  template <class Work>
+  bool in_bands_of_both(const Work& work) {
+    return in_parallel(2 * top_.bands(), [&](int n) { work(sheet(n), n / 2); });
+  }
 
-  /// Walls and inner caps: rows of corners from low y to high y, two at a time, of which only those corners
-  /// are looked at that are not simple. False if stopped.
-  bool add_walls(const CornerPlane& plane) {
-    const Columns& columns = builder_.columns;
-    WallFiller walls(builder_);
-    std::vector<CornerRow> rows(kRows + 1);  // the first is the last of those before
-    for (int first = 0; first <= columns.ny(); first += kRows) {
-      const int count = std::min(kRows, columns.ny() + 1 - first);
-      const auto row = [&](int j) -> CornerRow& { return rows[static_cast<std::size_t>(j - first + 1)]; };
-      if (!in_parallel(count, [&](int n) { row(first + n).build(columns, plane, first + n); })) return false;
-      for (int j = first; j < first + count; ++j) {
-        add_walls_along_row(walls, columns, plane, row(j), j);
-        if (j == 0) continue;
-        add_walls_across_row(walls, plane, row(j - 1), row(j), j - 1);
-        add_inner_caps(builder_, row(j - 1), row(j), j - 1);
-        take(row(j - 1), j - 1);
-      }
-      std::swap(rows.front(), row(first + count - 1));
+  void take(WallBand& band, CornerRow& row, int j) {
+    top_.take(band.builder, row, j);
+    bottom_.take(band.builder, row, j);
+  }
+
+  /// From low y to high y, of corners those that are not simple. All rows but the last, which the next band's
+  /// walls reach down to, are then finished.
+  void make_walls(int number) {
+    WallBand& band = walls(number);
+    WallFiller filler(band.builder);
+    CornerRow other;
+    CornerRow *below = &band.before, *row = &band.last;
+    const int first = number * meshing::kSquare;
+    if (first > 0 && first <= columns_.ny()) below->build(columns_, plane_, first - 1);
+    for (int j = first; j < end_row(number); ++j) {
+      row->build(columns_, plane_, j);
+      add_walls(filler, band.builder, plane_, *below, *row, j);
+      if (j > first) take(band, *below, j - 1);
+      if (j == first) below = &other;
+      std::swap(below, row);
     }
-    take(rows.front(), columns.ny());
+    if (below == &other) std::swap(band.last, other);
+  }
+
+  /// Gives the bands' vertices their numbers in the mesh, those between two bands the same, and finishes the
+  /// last rows.
+  void join_walls() {
+    std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> same(walls_.size());
+    for (int b = 0; b < top_.bands(); ++b) {
+      const int end = end_row(b);
+      if (end <= b * meshing::kSquare) break;
+      if (b + 1 < top_.bands() && end <= columns_.ny())
+        same[static_cast<std::size_t>(b) + 1] = join(walls(b), walls(b + 1));
+      take(walls(b), walls(b).last, end - 1);
+    }
+    number_walls(same);
+  }
+
+  /// Vertices of the higher band that are vertices of the lower one, with these.
+  static std::vector<std::pair<std::uint32_t, std::uint32_t>> join(WallBand& low, WallBand& high) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> same;
+    std::vector<meshing::Sheet>&mine = low.last.sheets(), &copies = high.before.sheets();
+    for (std::size_t s = 0; s < copies.size(); ++s)
+      if (copies[s].vertex != meshing::kNone)
+        same.emplace_back(copies[s].vertex, low.builder.vertex(mine[s]));
+    return same;
+  }
+
+  void number_walls(const std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>>& same) {
+    std::vector<float>& positions = mesh.positions;
+    for (std::size_t b = 0; b < walls_.size(); ++b) {
+      const Mesh& band = walls_[b].builder.mesh;
+      std::vector<std::uint32_t> number(band.positions.size() / 3, meshing::kNone);
+      for (const auto& [mine, other] : same[b]) number[mine] = wall_vertices_[b - 1][other];
+      for (std::size_t v = 0; v < number.size(); ++v) {
+        if (number[v] != meshing::kNone) continue;
+        number[v] = static_cast<std::uint32_t>(positions.size() / 3);
+        for (std::size_t axis = 0; axis < 3; ++axis) positions.push_back(band.positions[3 * v + axis]);
+      }
+      for (const std::uint32_t v : walls_[b].builder.suspects) suspects_.push_back(number[v]);
+      wall_vertices_.push_back(std::move(number));
+    }
+  }
+
+  /// The two caps.
+  bool cover() {
+    if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.find_errors(band); })) return false;
+    if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.propagate(band); })) return false;
+    if (!in_parallel(2, [&](int n) { sheet(n).propagate_across(); })) return false;
+    if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.place_vertices(band); })) return false;
+    const auto of_walls = static_cast<std::uint32_t>(mesh.positions.size() / 3);
+    bottom_.number_vertices(top_.number_vertices(of_walls));
+    report(progress_, 0.7);
+    return in_bands_of_both([&](CapSheet& sheet, int band) { sheet.make_triangles(band, wall_vertices_); });
+  }
+
+  /// Puts all into one mesh and makes it a manifold without flat triangles.
+  bool finish() {
+    std::size_t triangles = top_.triangles() + bottom_.triangles();
+    for (const WallBand& band : walls_) triangles += band.builder.mesh.step.size();
+    const std::size_t vertices = mesh.positions.size() / 3 + top_.vertices() + bottom_.vertices();
+    reserve(mesh.positions, 3 * vertices);
+    reserve(mesh.triangles, 3 * triangles);
+    reserve(mesh.step, triangles);
+    for (std::size_t b = 0; b < walls_.size(); ++b) {
+      const Mesh& band = walls_[b].builder.mesh;
+      for (const std::uint32_t v : band.triangles) mesh.triangles.push_back(wall_vertices_[b][v]);
+      mesh.step.insert(mesh.step.end(), band.step.begin(), band.step.end());
+    }
+    std::vector<std::size_t> at_walls(mesh.step.size());
+    std::iota(at_walls.begin(), at_walls.end(), std::size_t{0});
+    for (const int n : {0, 1}) sheet(n).append_vertices(mesh);
+    for (const int n : {0, 1}) sheet(n).append_triangles(mesh, at_walls);
+    report(progress_, 0.85);
+    meshing::split_shared_edges(mesh, suspects_);
+    meshing::mend_flat_triangles(mesh, threads_);
     return true;
   }
 
-  void take(CornerRow& row, int j) {
-    top_.take(row, j);
-    bottom_.take(row, j);
+  template <class Number>
+  static void reserve(std::vector<Number>& numbers, std::size_t count) {
+    numbers.reserve(count);
+    sim::use_huge_pages(numbers.data(), count * sizeof(Number));
   }
 
-  bool emit() {
-    const int both = 2 * top_.bands();
-    if (!in_parallel(both, [&](int n) { sheet(n).place_vertices(n / 2); })) return false;
-    for (const int n : {0, 1}) sheet(n).number_vertices();
-    if (!in_parallel(both, [&](int n) { sheet(n).make_triangles(n / 2); })) return false;
-    report(progress_, 0.85);
-    for (const int n : {0, 1}) sheet(n).make_room();
-    return in_parallel(both, [&](int n) { sheet(n).move_to_mesh(n / 2); });
-  }
-
-  Builder& builder_;
+  const Columns& columns_;
+  const MeshOptions& options_;
   unsigned threads_;
   Progress* progress_;
+  CornerPlane plane_;
   CapSheet top_, bottom_;
+  std::vector<WallBand> walls_;
+  std::vector<std::vector<std::uint32_t>> wall_vertices_;  // of each band, in the mesh
+  std::vector<std::uint32_t> suspects_;
 };
 
 }  // namespace
@@ -152,13 +252,10 @@ Mesh extract_mesh(const MeshColumns& made, const MeshOptions& options, Progress*
   if (progress != nullptr) progress->phase("meshing");
   const Columns& columns = made.body().columns;
   if (!columns.has_material()) return {};
-  const unsigned threads = sim::thread_count(options.threads);
-  Builder builder{columns, options, {}, {}};
-  if (!Extraction(builder, threads, progress).run()) return {};
-  meshing::split_shared_edges(builder.mesh, builder.suspects);
-  meshing::mend_flat_triangles(builder.mesh, threads);
+  Extraction extraction(columns, options, sim::thread_count(options.threads), progress);
+  if (!extraction.run()) return {};
   report(progress, 1.0);
-  return std::move(builder.mesh);
+  return std::move(extraction.mesh);
 }
 
 }  // namespace kerf

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/blocks.h"
@@ -18,7 +18,7 @@ inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-/// A mesh that grows. Vertices whose edges may be shared by four triangles are remembered for
+/// A mesh that grows, of a band of rows. Vertices whose edges may be shared by four triangles are remembered for
 /// `split_shared_edges`.
 struct Builder {
   const Columns& columns;
@@ -67,106 +67,119 @@ class WallFiller {
   std::vector<Edge> edges_;
 };
 
-/// A number for each corner of a grid, in memory that is not touched before it is needed.
-template <class Number>
-class Plane {
- public:
-  Plane(int columns, int rows)
-      : columns_(static_cast<std::size_t>(columns)),
-        numbers_(static_cast<Number*>(
-            sim::new_block(columns_ * static_cast<std::size_t>(rows) * sizeof(Number)))) {}
-  Number& operator()(int x, int y) {
-    return numbers_.get()[static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x)];
+/// What a cap keeps of the corners of a square, those on its two high sides left out. Only squares where
+/// something happens have one.
+struct CapBlock {
+  CapBlock() {
+    needed.fill(0);
+    entry.fill(kNone);
   }
-  Number operator()(int x, int y) const {
-    return numbers_.get()[static_cast<std::size_t>(y) * columns_ + static_cast<std::size_t>(x)];
-  }
-  void fill_row(int y, Number number) { std::fill_n(&(*this)(0, y), columns_, number); }
-
- private:
-  struct Free {
-    void operator()(Number* block) const { sim::free_block(block); }
-  };
-  std::size_t columns_;
-  std::unique_ptr<Number, Free> numbers_;
+  std::array<std::uint8_t, kSquareColumns> needed;  // corners that must be vertices
+  std::array<std::uint32_t, kSquareColumns> entry;  // see CapSheet
 };
 
 /// The caps of all columns on one side, the tops of their highest intervals or the bottoms of their lowest,
 /// with level areas of one step merged: a right-triangulated irregular network over the corners, without
-/// T-junctions. Rows of squares are bands, which several threads can work on at a time.
+/// T-junctions. The whole squares of Columns are the largest triangles' squares; a row of them is a band, and
+/// different threads may work on different bands.
+///
+/// The entry of a corner is a vertex of its band's walls, or kNew + a vertex of the band, or kMany + the
+/// number of a corner whose quadrants have vertices of their own, or kNone.
 class CapSheet {
  public:
   enum class Side : std::uint8_t { top, bottom };
-  CapSheet(Builder& builder, Side side);
-  int bands() const { return (rows_ + kSquare - 1) / kSquare; }
-  int first_row(int band) const { return band * kSquare; }
-  int end_row(int band) const { return std::min(rows_, (band + 1) * kSquare); }
+  CapSheet(const Columns& columns, const MeshOptions& options, const CornerPlane& plane, Side side);
+  /// One more than there are rows of squares: the highest corners are in a band of their own.
+  int bands() const { return blocks_y_; }
+  bool simplifies() const { return options_.tolerance > Length(); }
 
-  /// Makes ready the corners of a row, which may lie beyond the grid.
-  void begin_row(int j);
-  /// Notes a simple corner: its height, and whether it may be dropped.
-  void add_simple(int i, int j, double z, bool may_go) {
-    if (simplifies()) height_(i, j) = static_cast<float>(z);
-    needed_(i, j) = may_go ? 0 : 1;
-  }
-  /// Takes over the other corners of a row, and what walls made of simple ones; to be called once no wall
-  /// touches the row any more.
-  void take(CornerRow& row, int j);
-  /// Finds the corners that triangles need.
-  void refine();
-  /// Finds the vertices of a band that there are not yet; they get numbers from number_vertices on.
+  /// Notes that a corner is needed; those of whole squares always are.
+  void need(int i, int j);
+  /// Takes over those corners of a row that are not simple, and what walls made of simple ones; to be called
+  /// once no wall touches the row any more. `walls` makes the vertices of the row's band.
+  void take(Builder& walls, CornerRow& row, int j);
+  /// Finds the corners of a row of squares without which the cap would be further off than the tolerance.
+  void find_errors(int band);
+  /// Finds the corners that needed corners need, in their own band; `propagate_across` finds the rest.
+  void propagate(int band);
+  void propagate_across();
+  /// Finds the vertices of a band that there are not yet; they get numbers from `first` on.
   void place_vertices(int band);
-  void number_vertices();
-  void make_triangles(int band);
-  /// Moves what there is of a band to its place in the mesh.
-  void move_to_mesh(int band);
-  /// Makes room in the mesh for all triangles; afterwards move_to_mesh may be called.
-  void make_room();
+  std::uint32_t number_vertices(std::uint32_t first);
+  /// `wall_vertices`: of each band, the vertices in the mesh of its walls' vertices.
+  void make_triangles(int band, std::span<const std::vector<std::uint32_t>> wall_vertices);
+  /// Appends all vertices, all triangles; the latter also tells of those that have a vertex of a wall.
+  void append_vertices(Mesh& mesh) const;
+  void append_triangles(Mesh& mesh, std::vector<std::size_t>& at_walls) const;
+  std::size_t vertices() const;
+  std::size_t triangles() const;
 
  private:
   struct Node {
     int x, y;
   };
+  /// The height of a corner that is not simple.
+  struct Given {
+    std::uint16_t cell;
+    float z;
+  };
   struct Band {
     std::vector<float> positions;
-    std::vector<std::uint32_t> triangles, step;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    std::vector<std::uint32_t> step, at_walls;
+    std::vector<std::array<std::uint32_t, 4>> parts;  // vertices by quadrant where the cap is torn
+    std::vector<Node> beyond;                         // needed corners of other bands
+    std::vector<int> above;  // x of the corners on the band's high side that errors need
     std::uint32_t first_vertex = 0;
-    std::size_t first_triangle = 0;
   };
-  static constexpr int whole_squares(int n) { return (n + kSquare - 1) / kSquare * kSquare; }
-  int end_of(int i, int j) const { return side_ == Side::bottom ? 0 : builder_.columns.ends(i, j) - 1; }
-  void take_whole(Sheet& sheet, int i, int j);
+  class Patch;
+  class Cover;
+
+  std::size_t block_number(int i, int j) const {
+    return static_cast<std::size_t>(j / kSquare) * static_cast<std::size_t>(blocks_x_) +
+           static_cast<std::size_t>(i / kSquare);
+  }
+  CapBlock& block(int i, int j);
+  static bool is_whole(int i, int j) { return i % kSquare == 0 && j % kSquare == 0; }
+  std::uint32_t& entry(int i, int j);
+  const Ends& ends_of(const Square& square) const {
+    return side_ == Side::bottom ? *square.low : *square.high;
+  }
+  int end_of(int i, int j) const { return side_ == Side::bottom ? 0 : columns_.ends(i, j) - 1; }
+  void give(int i, int j, double z);
+  void take_corner(Builder& walls, CornerRow& row, const Corner& corner, int i, int j);
+  void take_whole(Builder& walls, Sheet& sheet, int i, int j);
   bool level(int i, int j) const;
   bool of_one_group(int i, int j) const;
-  bool simplifies() const { return builder_.options.tolerance > Length(); }
-  template <class Work>
-  void for_each_middle(const Work& work) const;
-  void find_errors();
-  void propagate();
-  bool is_new_vertex(int x, int y) const;
-  void cover(Band& band, Node a, Node b, Node apex) const;
-  void leaf(Band& band, Node a, Node b, Node apex) const;
-  std::uint32_t vertex(Node corner, Node column) const;
+  bool is_plain(int square_x, int square_y) const;
+  static std::array<Node, 2> parents(Node n);
+  template <class Beyond>
+  void need_parents(Node n, int band, std::vector<Node>& work, const Beyond& beyond);
+  bool is_new_vertex(int i, int j);
+  void place_vertex(Band& band, int i, int j);
 
-  Builder& builder_;
+  const Columns& columns_;
+  const MeshOptions& options_;
+  const CornerPlane& plane_;
   Side side_;
-  int stride_ = 0, rows_ = 0;   // of the corners, whole squares
-  Plane<float> height_;         // of the corners, for a tolerance above 0; kUnknown where it does not matter
-  Plane<std::uint8_t> needed_;  // corners that must be vertices
-  Plane<std::uint32_t> known_;  // vertex of each corner, or kNone, or kNew or kMany + a number
-  std::vector<std::array<std::uint32_t, 4>> parts_;  // vertices by quadrant where the cap is torn
+  int blocks_x_, blocks_y_;
+  sim::BlockStore<CapBlock> store_;
+  std::vector<sim::BlockStore<CapBlock>::Pointer> blocks_;
+  std::vector<std::uint32_t> whole_;         // entries of the corners of whole squares
+  std::vector<std::vector<Given>> given_;    // by block
   std::vector<Band> bands_;
 };
 
 /// What the steps of a corner's columns are compared by: the group of a step, see MeshOptions::step_groups.
-inline std::uint64_t group_key(const MeshOptions& options, std::uint32_t step) {
-  constexpr std::uint64_t kOwnGroup = 0x100;
-  return step < options.step_groups.size() ? options.step_groups[step] : step + kOwnGroup;
+/// No toolpath has so many steps that one of them has a group's number.
+inline std::uint32_t group_key(const MeshOptions& options, std::uint32_t step) {
+  constexpr std::uint32_t kGroups = 0xffff0000u;
+  return step < options.step_groups.size() ? kGroups + options.step_groups[step] : step;
 }
 
-/// Finds the simple corners of rows `first` to `end` - 1 and tells both sheets of them.
-void scan_corners(const Builder& builder, int first, int end, CornerPlane& plane, CapSheet& top,
-                  CapSheet& bottom);
+/// Finds the simple corners of a band of rows and tells both sheets of those that they need.
+void scan_corners(const Columns& columns, const MeshOptions& options, int band, CornerPlane& plane,
+                  CapSheet& top, CapSheet& bottom);
 
 /// Makes every edge the edge of exactly two triangles and every vertex the tip of one fan, by parting
 /// vertices (and, where that does not part an edge, by halving it). All edges must already have as many

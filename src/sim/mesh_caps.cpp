@@ -3,282 +3,305 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <limits>
-#include <span>
+#include <cstring>
 
 #include "sim/mesh_build.h"
 
 namespace kerf::meshing {
 namespace {
 
-/// Mark in CapSheet::known_ corners whose quadrants have vertices of their own, and those whose vertex is yet
-/// to be numbered in its band.
+/// Marks of entries, see CapSheet.
 constexpr std::uint32_t kMany = 0x80000000u, kNew = 0x40000000u;
-
-/// Of a corner beside which there is no material, or where the cap is torn: what refers to it is not merged.
-constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 }  // namespace
 
-CapSheet::CapSheet(Builder& builder, Side side)
-    : builder_(builder),
+CapSheet::CapSheet(const Columns& columns, const MeshOptions& options, const CornerPlane& plane, Side side)
+    : columns_(columns),
+      options_(options),
+      plane_(plane),
       side_(side),
-      stride_(whole_squares(builder.columns.nx()) + 1),
-      rows_(whole_squares(builder.columns.ny()) + 1),
-      height_(simplifies() ? stride_ : 1, simplifies() ? rows_ : 1),
-      needed_(stride_, rows_),
-      known_(builder.columns.nx() + 1, builder.columns.ny() + 1),
-      bands_(static_cast<std::size_t>(bands())) {}
+      blocks_x_(columns.squares_x() + 1),
+      blocks_y_(columns.squares_y() + 1),
+      blocks_(static_cast<std::size_t>(blocks_x_) * static_cast<std::size_t>(blocks_y_)),
+      whole_(blocks_.size(), kNone),
+      given_(blocks_.size()),
+      bands_(static_cast<std::size_t>(blocks_y_)) {}
 
-void CapSheet::begin_row(int j) {
-  needed_.fill_row(j, 0);
-  if (simplifies()) height_.fill_row(j, kUnknown);
-  if (j <= builder_.columns.ny()) known_.fill_row(j, kNone);
+CapBlock& CapSheet::block(int i, int j) {
+  auto& mine = blocks_[block_number(i, j)];
+  if (!mine) mine = store_.make();
+  return *mine;
+}
+
+void CapSheet::need(int i, int j) {
+  if (!is_whole(i, j)) block(i, j).needed[Columns::cell(i, j)] = 1;
+}
+
+/// To be asked of whole squares' corners and of corners that are needed.
+std::uint32_t& CapSheet::entry(int i, int j) {
+  if (is_whole(i, j)) return whole_[block_number(i, j)];
+  return block(i, j).entry[Columns::cell(i, j)];
+}
+
+void CapSheet::give(int i, int j, double z) {
+  if (!simplifies()) return;
+  given_[block_number(i, j)].push_back(
+      {static_cast<std::uint16_t>(Columns::cell(i, j)), static_cast<float>(z)});
 }
 
 /// A corner with one surface all around that is not a simple one.
-void CapSheet::take_whole(Sheet& sheet, int i, int j) {
-  const Columns& columns = builder_.columns;
+void CapSheet::take_whole(Builder& walls, Sheet& sheet, int i, int j) {
   const bool is_level = level(i, j);
   const bool has_moved =
-      sheet.x != columns.corner_x(i) || sheet.y != columns.corner_y(j) || columns.uneven(i, j);
+      sheet.x != columns_.corner_x(i) || sheet.y != columns_.corner_y(j) || columns_.uneven(i, j);
   const bool may_go = simplifies() ? is_level || (!has_moved && of_one_group(i, j)) : is_level;
-  known_(i, j) = has_moved && !may_go ? builder_.vertex(sheet) : sheet.vertex;
-  if (simplifies()) height_(i, j) = static_cast<float>(sheet.z);
-  needed_(i, j) = known_(i, j) != kNone || !may_go ? 1 : 0;
+  give(i, j, sheet.z);
+  const std::uint32_t vertex = has_moved && !may_go ? walls.vertex(sheet) : sheet.vertex;
+  if (vertex == kNone && may_go) return;
+  need(i, j);
+  entry(i, j) = vertex;
 }
 
-void CapSheet::take(CornerRow& row, int j) {
+void CapSheet::take_corner(Builder& walls, CornerRow& row, const Corner& corner, int i, int j) {
+  std::array<int, 4> ranks{};
+  int empty = 0;
+  for (int q = 0; q < 4; ++q) {
+    const int ends = corner.ends[static_cast<std::size_t>(q)];
+    if (ends == 0) ++empty;
+    const int end = side_ == Side::bottom ? 0 : ends - 1;
+    ranks[static_cast<std::size_t>(q)] = ends == 0 ? -1 : row.rank(corner, q, end);
+  }
+  if (empty == 4) return;
+  if (std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r == ranks[0]; })) {
+    take_whole(walls, row.sheet(corner, ranks[0]), i, j);
+    return;
+  }
+  const int highest = *std::max_element(ranks.begin(), ranks.end());
+  const bool one_surface =
+      std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r < 0 || r == highest; });
+  if (one_surface) give(i, j, row.sheet(corner, highest).z);
+  std::array<std::uint32_t, 4> part{kNone, kNone, kNone, kNone};
+  for (std::size_t q = 0; q < 4; ++q)
+    if (ranks[q] >= 0) part[q] = walls.vertex(row.sheet(corner, ranks[q]));
+  auto& parts = bands_[static_cast<std::size_t>(j / kSquare)].parts;
+  need(i, j);
+  entry(i, j) = kMany + static_cast<std::uint32_t>(parts.size());
+  parts.push_back(part);
+}
+
+void CapSheet::take(Builder& walls, CornerRow& row, int j) {
   for (const int i : row.numbers()) {
     const Corner& corner = row.corner(i);
-    if (corner.simple) {
-      const Sheet& sheet = row.sheet(corner, side_ == Side::bottom ? 0 : 1);
-      if (sheet.vertex == kNone) continue;
-      known_(i, j) = sheet.vertex;
-      needed_(i, j) = 1;
+    if (!corner.simple) {
+      take_corner(walls, row, corner, i, j);
       continue;
     }
-    std::array<int, 4> ranks{};
-    int empty = 0;
-    for (int q = 0; q < 4; ++q) {
-      const int ends = corner.ends[static_cast<std::size_t>(q)];
-      if (ends == 0) ++empty;
-      const int end = side_ == Side::bottom ? 0 : ends - 1;
-      ranks[static_cast<std::size_t>(q)] = ends == 0 ? -1 : row.rank(corner, q, end);
-    }
-    if (empty == 4) continue;
-    if (std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r == ranks[0]; })) {
-      take_whole(row.sheet(corner, ranks[0]), i, j);
-      continue;
-    }
-    const int highest = *std::max_element(ranks.begin(), ranks.end());
-    const bool one_surface =
-        std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r < 0 || r == highest; });
-    if (simplifies() && one_surface) height_(i, j) = static_cast<float>(row.sheet(corner, highest).z);
-    std::array<std::uint32_t, 4> part{kNone, kNone, kNone, kNone};
-    for (std::size_t q = 0; q < 4; ++q)
-      if (ranks[q] >= 0) part[q] = builder_.vertex(row.sheet(corner, ranks[q]));
-    known_(i, j) = kMany + static_cast<std::uint32_t>(parts_.size());
-    parts_.push_back(part);
-    needed_(i, j) = 1;
+    const Sheet& sheet = row.sheet(corner, side_ == Side::bottom ? 0 : 1);
+    if (sheet.vertex == kNone) continue;
+    need(i, j);
+    entry(i, j) = sheet.vertex;
   }
 }
 
 /// The four columns around a corner (all of them have material) end at one height, by one step.
 bool CapSheet::level(int i, int j) const {
-  const Columns& columns = builder_.columns;
   const int end = end_of(i, j);
-  const double z = columns.z(i, j, end);
-  const std::uint32_t step = columns.step(i, j, end);
+  const double z = columns_.z(i, j, end);
+  const std::uint32_t step = columns_.step(i, j, end);
   for (int q = 0; q < 3; ++q) {
     const int ci = column_x(i, q), cj = column_y(j, q), e = end_of(ci, cj);
-    if (columns.z(ci, cj, e) != z || columns.step(ci, cj, e) != step) return false;
+    if (columns_.z(ci, cj, e) != z || columns_.step(ci, cj, e) != step) return false;
   }
   return true;
 }
 
 bool CapSheet::of_one_group(int i, int j) const {
-  const Columns& columns = builder_.columns;
   const auto group_at = [&](int q) {
     const int ci = column_x(i, q), cj = column_y(j, q);
-    return group_key(builder_.options, columns.step(ci, cj, end_of(ci, cj)));
+    return group_key(options_, columns_.step(ci, cj, end_of(ci, cj)));
   };
-  const std::uint64_t group = group_at(0);
+  const std::uint32_t group = group_at(0);
   return group == group_at(1) && group == group_at(2) && group == group_at(3);
 }
 
-/// Calls work(middle, a, b, apex, other_apex) for the middles of all longest sides, from a to b, of the
-/// triangles that a square of kSquare can be halved into, the smallest triangles first; the apexes are those
-/// of the two triangles that the middle halves.
-template <class Work>
-void CapSheet::for_each_middle(const Work& work) const {
-  for (int s = 1; s < kSquare; s *= 2) {
-    const int d = 2 * s;
-    for (int y = 0; y < rows_; y += s) {  // sides of length 2 s along X or Y
-      const bool along_y = y % d != 0;
-      const int ax = along_y ? 0 : s, ay = along_y ? s : 0;
-      for (int x = along_y ? 0 : s; x < stride_; x += d)
-        work(Node{x, y}, Node{x - ax, y - ay}, Node{x + ax, y + ay}, Node{x - ay, y - ax},
-             Node{x + ay, y + ax});
-    }
-    for (int y = s; y < rows_; y += d) {  // diagonals of squares of side 2 s
-      for (int x = s; x < stride_; x += d) {
-        // Between the corner and the centre of the square of side 4 s.
-        const int way = ((x - s) / d + (y - s) / d) % 2 == 0 ? s : -s;
-        work(Node{x, y}, Node{x - way, y - s}, Node{x + way, y + s}, Node{x + way, y - s},
-             Node{x - way, y + s});
-      }
-    }
-  }
-}
-
-/// Marks the corners without which the cap would lie further than the tolerance from where it runs with all
-/// of them. The error of leaving one out is its own height over the side it halves, and at most the largest
-/// error below it.
-void CapSheet::find_errors() {
-  const auto tolerance = static_cast<float>(builder_.options.tolerance.mm());
-  Plane<float> error(stride_, rows_);
-  for (int y = 0; y < rows_; ++y) error.fill_row(y, 0.0f);
-  const auto inside = [&](Node n) { return n.x >= 0 && n.y >= 0 && n.x < stride_ && n.y < rows_; };
-  for_each_middle([&](Node middle, Node a, Node b, Node apex, Node other_apex) {
-    float& mine = error(middle.x, middle.y);
-    const float height = height_(middle.x, middle.y);
-    if (height != kUnknown) {
-      const bool known_sides = inside(a) && inside(b);
-      const float side = known_sides ? 0.5f * (height_(a.x, a.y) + height_(b.x, b.y)) : kUnknown;
-      mine += std::abs(height - side);
-      if (mine > tolerance) needed_(middle.x, middle.y) = 1;
-    }
-    for (const Node parent : {apex, other_apex}) {
-      if (!inside(parent)) continue;
-      float& above = error(parent.x, parent.y);
-      above = std::max(above, mine);
-    }
-  });
-}
-
-/// A corner that halves a triangle needs the apexes of the two triangles it halves, up to the whole squares.
-void CapSheet::propagate() {
-  const auto need = [&](Node n) {
-    if (n.x >= 0 && n.y >= 0 && n.x < stride_ && n.y < rows_) needed_(n.x, n.y) = 1;
-  };
-  for_each_middle([&](Node middle, Node /*a*/, Node /*b*/, Node apex, Node other_apex) {
-    if (needed_(middle.x, middle.y) == 0) return;
-    need(apex);
-    need(other_apex);
-  });
-}
-
-void CapSheet::refine() {
-  if (simplifies()) find_errors();
-  propagate();
-}
-
-/// Whether triangles will meet a corner that has no vertex yet. Where it has material on all sides they do:
-/// it is needed, or the corner of a whole square.
-bool CapSheet::is_new_vertex(int x, int y) const {
-  if (needed_(x, y) == 0 && (x % kSquare != 0 || y % kSquare != 0)) return false;
-  if (known_(x, y) != kNone) return false;
-  const Columns& columns = builder_.columns;
+/// Whether triangles will meet a corner that has no vertex yet, and that is needed or the corner of a whole
+/// square. Where it has material on all sides they do.
+bool CapSheet::is_new_vertex(int i, int j) {
+  if (i > columns_.nx() || j > columns_.ny() || entry(i, j) != kNone) return false;
   for (int q = 0; q < 4; ++q)
-    if (columns.ends(column_x(x, q), column_y(y, q)) == 0) return false;
+    if (columns_.ends(column_x(i, q), column_y(j, q)) == 0) return false;
   return true;
 }
 
+void CapSheet::place_vertex(Band& band, int i, int j) {
+  if (!is_new_vertex(i, j)) return;
+  double sum = 0.0;
+  for (int q = 0; q < 4; ++q) {
+    const int ci = column_x(i, q), cj = column_y(j, q);
+    sum += static_cast<double>(ends_of(columns_.square_of(ci, cj)).z[Columns::cell(ci, cj)]);
+  }
+  entry(i, j) = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
+  const Point3 at = columns_.frame().bounds.low + Point3{columns_.corner_x(i), columns_.corner_y(j), sum / 4};
+  for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
+}
+
 void CapSheet::place_vertices(int number) {
-  const Columns& columns = builder_.columns;
   Band& band = bands_[static_cast<std::size_t>(number)];
-  for (int y = first_row(number); y < std::min(end_row(number), columns.ny() + 1); ++y) {
-    for (int x = 0; x <= columns.nx(); ++x) {
-      if (!is_new_vertex(x, y)) continue;
-      double sum = 0.0;
-      for (int q = 0; q < 4; ++q) {
-        const int i = column_x(x, q), j = column_y(y, q);
-        sum += columns.z(i, j, end_of(i, j));
+  for (int x = 0; x < blocks_x_; ++x) {
+    const int first_i = x * kSquare, first_j = number * kSquare;
+    place_vertex(band, first_i, first_j);
+    const CapBlock* const known = blocks_[block_number(first_i, first_j)].get();
+    if (known == nullptr) continue;
+    for (std::size_t k = 0; k < kSquareColumns; k += 8) {
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, known->needed.data() + k, sizeof eight);
+      for (std::size_t c = k; eight != 0 && c < k + 8; ++c) {
+        if (known->needed[c] != 0)
+          place_vertex(band, first_i + static_cast<int>(c) % kSquare, first_j + static_cast<int>(c) / kSquare);
       }
-      known_(x, y) = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
-      const Point3 at = columns.frame().bounds.low + Point3{columns.corner_x(x), columns.corner_y(y), sum / 4};
-      for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
     }
   }
 }
 
-void CapSheet::number_vertices() {
-  std::vector<float>& positions = builder_.mesh.positions;
+std::uint32_t CapSheet::number_vertices(std::uint32_t first) {
   for (Band& band : bands_) {
-    band.first_vertex = static_cast<std::uint32_t>(positions.size() / 3);
-    positions.insert(positions.end(), band.positions.begin(), band.positions.end());
+    band.first_vertex = first;
+    first += static_cast<std::uint32_t>(band.positions.size() / 3);
   }
+  return first;
 }
 
-void CapSheet::make_triangles(int number) {
-  Band& band = bands_[static_cast<std::size_t>(number)];
-  const int y = first_row(number);
-  if (y >= builder_.columns.ny()) return;
-  for (int x = 0; x < builder_.columns.nx(); x += kSquare) {
-    const Node sw{x, y}, se{x + kSquare, y}, ne{x + kSquare, y + kSquare}, nw{x, y + kSquare};
-    cover(band, sw, ne, se);
-    cover(band, ne, sw, nw);
+/// The triangles of a whole square; places count from its low corner.
+class CapSheet::Cover {
+ public:
+  Cover(CapSheet& sheet, int square_x, int number, std::span<const std::vector<std::uint32_t>> wall_vertices)
+      : columns_(sheet.columns_),
+        square_(columns_.square(square_x, number)),
+        ends_(sheet.ends_of(square_)),
+        up_(sheet.side_ == Side::top),
+        wide_(std::min(kSquare, columns_.nx() - square_x * kSquare)),
+        deep_(std::min(kSquare, columns_.ny() - number * kSquare)),
+        band_(sheet.bands_[static_cast<std::size_t>(number)]) {
+    for (int k = 0; k < 4; ++k) {
+      const int x = square_x + k % 2, y = number + k / 2;
+      const std::size_t at = sheet.block_number(x * kSquare, y * kSquare);
+      const auto band = static_cast<std::size_t>(y);
+      corners_[static_cast<std::size_t>(k)] = {
+          sheet.blocks_[at].get(), sheet.whole_[at], &sheet.bands_[band],
+          band < wall_vertices.size() ? wall_vertices[band].data() : nullptr};
+    }
   }
-}
 
-void CapSheet::make_room() {
-  Mesh& mesh = builder_.mesh;
-  std::size_t triangles = mesh.step.size();
-  for (Band& band : bands_) {
-    band.first_triangle = triangles;
-    triangles += band.step.size();
+  void run() {
+    const Node sw{0, 0}, se{kSquare, 0}, ne{kSquare, kSquare}, nw{0, kSquare};
+    cover(sw, ne, se);
+    cover(ne, sw, nw);
   }
-  mesh.step.resize(triangles);
-  mesh.triangles.resize(3 * triangles);
-}
 
-void CapSheet::move_to_mesh(int number) {
-  Band& band = bands_[static_cast<std::size_t>(number)];
-  std::copy(band.step.begin(), band.step.end(), builder_.mesh.step.data() + band.first_triangle);
-  std::copy(band.triangles.begin(), band.triangles.end(),
-            builder_.mesh.triangles.data() + 3 * band.first_triangle);
-  band = {};
-}
+ private:
+  /// What a block knows that a corner of the square belongs to.
+  struct Known {
+    const CapBlock* block = nullptr;
+    std::uint32_t whole = kNone;
+    const Band* band = nullptr;
+    const std::uint32_t* wall_vertices = nullptr;
+  };
+  const Known& known(Node n) const {
+    return corners_[static_cast<std::size_t>(n.x / kSquare + 2 * (n.y / kSquare))];
+  }
+  bool is_needed(Node n) const {
+    const CapBlock* const block = known(n).block;
+    return block != nullptr && block->needed[Columns::cell(n.x, n.y)] != 0;
+  }
+  void cover(Node a, Node b, Node apex);
+  void leaf(Node a, Node b, Node apex);
+  std::uint32_t vertex(Node corner, Node column, bool& at_wall) const;
 
-void CapSheet::cover(Band& band, Node a, Node b, Node apex) const {
+  const Columns& columns_;
+  const Square& square_;
+  const Ends& ends_;
+  bool up_;
+  int wide_, deep_;  // columns of the square that are in the grid
+  Band& band_;
+  std::array<Known, 4> corners_;
+};
+
+void CapSheet::Cover::cover(Node a, Node b, Node apex) {
   const Node middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
   const bool smallest = std::abs(a.x - b.x) == 1;
-  if (!smallest && needed_(middle.x, middle.y) != 0) {
-    cover(band, apex, a, middle);
-    cover(band, b, apex, middle);
+  if (!smallest && is_needed(middle)) {
+    cover(apex, a, middle);
+    cover(b, apex, middle);
     return;
   }
-  leaf(band, a, b, apex);
+  leaf(a, b, apex);
 }
 
-void CapSheet::leaf(Band& band, Node a, Node b, Node apex) const {
+void CapSheet::Cover::leaf(Node a, Node b, Node apex) {
   const int sx = a.x + b.x + apex.x, sy = a.y + b.y + apex.y;
   // The column beside a corner of the triangle that lies inside it.
   const auto inner = [&](Node n) {
     return Node{3 * n.x <= sx ? n.x : n.x - 1, 3 * n.y <= sy ? n.y : n.y - 1};
   };
   const Node column = inner(apex);
-  const Columns& columns = builder_.columns;
-  if (columns.ends(column.x, column.y) == 0) return;
-  const std::uint32_t step = columns.step(column.x, column.y, end_of(column.x, column.y));
+  if (column.x >= wide_ || column.y >= deep_) return;
+  const std::size_t cell = Columns::cell(column.x, column.y);
+  if (square_.many != nullptr && square_.many->first[cell + 1] == square_.many->first[cell]) return;
   const int turn = (b.x - a.x) * (apex.y - a.y) - (b.y - a.y) * (apex.x - a.x);
-  const bool upward = side_ == Side::top;
-  if ((turn > 0) != upward) std::swap(a, b);
-  const std::uint32_t va = vertex(a, inner(a)), vb = vertex(b, inner(b)), vc = vertex(apex, column);
+  if ((turn > 0) != up_) std::swap(a, b);
+  bool at_wall = false;
+  const std::uint32_t va = vertex(a, inner(a), at_wall), vb = vertex(b, inner(b), at_wall),
+                      vc = vertex(apex, column, at_wall);
   if (va == vb || vb == vc || vc == va) return;
-  for (const std::uint32_t v : {va, vb, vc}) band.triangles.push_back(v);
-  band.step.push_back(step);
+  if (at_wall) band_.at_walls.push_back(static_cast<std::uint32_t>(band_.triangles.size()));
+  band_.triangles.push_back({va, vb, vc});
+  band_.step.push_back(ends_.step[cell]);
 }
 
-std::uint32_t CapSheet::vertex(Node corner, Node column) const {
-  assert(corner.x <= builder_.columns.nx() && corner.y <= builder_.columns.ny());
-  const std::uint32_t entry = known_(corner.x, corner.y);
+std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) const {
+  const Known& known = this->known(corner);
+  const bool whole = is_whole(corner.x, corner.y);
+  assert(whole || known.block != nullptr);
+  const std::uint32_t entry = whole ? known.whole : known.block->entry[Columns::cell(corner.x, corner.y)];
   assert(entry != kNone);
-  if (entry < kNew) return entry;
-  if (entry < kMany) return bands_[static_cast<std::size_t>(corner.y / kSquare)].first_vertex + entry - kNew;
+  if ((entry & (kNew | kMany)) == kNew) return known.band->first_vertex + entry - kNew;
+  at_wall = true;
+  if (entry < kNew) return known.wall_vertices[entry];
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));
-  return parts_[entry - kMany][quadrant];
+  return known.wall_vertices[known.band->parts[entry - kMany][quadrant]];
+}
+
+void CapSheet::make_triangles(int number, std::span<const std::vector<std::uint32_t>> wall_vertices) {
+  if (number >= columns_.squares_y()) return;
+  for (int x = 0; x < columns_.squares_x(); ++x) Cover(*this, x, number, wall_vertices).run();
+}
+
+std::size_t CapSheet::vertices() const {
+  std::size_t sum = 0;
+  for (const Band& band : bands_) sum += band.positions.size() / 3;
+  return sum;
+}
+
+std::size_t CapSheet::triangles() const {
+  std::size_t sum = 0;
+  for (const Band& band : bands_) sum += band.triangles.size();
+  return sum;
+}
+
+void CapSheet::append_vertices(Mesh& mesh) const {
+  for (const Band& band : bands_)
+    mesh.positions.insert(mesh.positions.end(), band.positions.begin(), band.positions.end());
+}
+
+void CapSheet::append_triangles(Mesh& mesh, std::vector<std::size_t>& at_walls) const {
+  for (const Band& band : bands_) {
+    const std::size_t first = mesh.step.size();
+    for (const std::uint32_t t : band.at_walls) at_walls.push_back(first + t);
+    if (band.triangles.empty()) continue;
+    const std::uint32_t* const corners = band.triangles.front().data();
+    mesh.triangles.insert(mesh.triangles.end(), corners, corners + 3 * band.triangles.size());
+    mesh.step.insert(mesh.step.end(), band.step.begin(), band.step.end());
+  }
 }
 
 }  // namespace kerf::meshing

@@ -91,6 +91,8 @@ class CornerRow {
   Sheet& sheet(const Corner& corner, int rank) {
     return sheets_[corner.first_sheet + static_cast<std::uint32_t>(rank)];
   }
+  /// Of all corners: the same however often a row is built.
+  std::vector<Sheet>& sheets() { return sheets_; }
   int rank(const Corner& corner, int quadrant, int end) const {
     return ranks_[corner.first_rank[static_cast<std::size_t>(quadrant)] + static_cast<std::uint32_t>(end)];
   }
