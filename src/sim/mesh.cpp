@@ -194,39 +194,52 @@ class Extraction {
     if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.propagate(band); })) return false;
     if (!in_parallel(2, [&](int n) { sheet(n).propagate_across(); })) return false;
     if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.place_vertices(band); })) return false;
-    const auto of_walls = static_cast<std::uint32_t>(mesh.positions.size() / 3);
-    bottom_.number_vertices(top_.number_vertices(of_walls));
     report(progress_, 0.7);
-    return in_bands_of_both([&](CapSheet& sheet, int band) { sheet.make_triangles(band, wall_vertices_); });
+    return true;
   }
 
   /// Puts all into one mesh and makes it a manifold without flat triangles.
   bool finish() {
-    std::size_t triangles = top_.triangles() + bottom_.triangles();
-    for (const WallBand& band : walls_) triangles += band.builder.mesh.step.size();
-    const std::size_t vertices = mesh.positions.size() / 3 + top_.vertices() + bottom_.vertices();
-    reserve(mesh.positions, 3 * vertices);
-    reserve(mesh.triangles, 3 * triangles);
-    reserve(mesh.step, triangles);
-    for (std::size_t b = 0; b < walls_.size(); ++b) {
-      const Mesh& band = walls_[b].builder.mesh;
-      for (const std::uint32_t v : band.triangles) mesh.triangles.push_back(wall_vertices_[b][v]);
-      mesh.step.insert(mesh.step.end(), band.step.begin(), band.step.end());
+    CapSheet::Place place{mesh.positions.size() / 3, 0};
+    std::vector<std::size_t> first_of_walls;
+    for (const WallBand& band : walls_) {
+      first_of_walls.push_back(place.triangles);
+      place.triangles += band.builder.mesh.step.size();
     }
-    std::vector<std::size_t> at_walls(mesh.step.size());
-    std::iota(at_walls.begin(), at_walls.end(), std::size_t{0});
-    for (const int n : {0, 1}) sheet(n).append_vertices(mesh);
-    for (const int n : {0, 1}) sheet(n).append_triangles(mesh, at_walls);
+    const std::size_t wall_triangles = place.triangles;
+    for (const int n : {0, 1}) sheet(n).find_places(place);
+    enlarge(mesh.positions, 3 * place.vertices);
+    enlarge(mesh.triangles, 3 * place.triangles);
+    enlarge(mesh.step, place.triangles);
+    const bool filled =
+        in_bands([&](int band) { fill_walls(band, first_of_walls[static_cast<std::size_t>(band)]); }) &&
+        in_bands_of_both([&](CapSheet& sheet, int band) { sheet.fill(band, wall_vertices_, mesh); });
+    if (!filled) return false;
     report(progress_, 0.85);
-    meshing::split_shared_edges(mesh, suspects_);
-    meshing::mend_flat_triangles(mesh, threads_);
+    std::vector<std::size_t> at_walls(wall_triangles);
+    std::iota(at_walls.begin(), at_walls.end(), std::size_t{0});
+    std::size_t end = wall_triangles;
+    for (const int n : {0, 1}) sheet(n).close_gaps(mesh, end, at_walls);
+    mesh.triangles.resize(3 * end);
+    mesh.step.resize(end);
+    meshing::split_shared_edges(mesh, suspects_, at_walls);
+    meshing::mend_flat_triangles(mesh, threads_, at_walls);  // others are half squares or larger
     return true;
   }
 
+  void fill_walls(int number, std::size_t first) {
+    const Mesh& band = walls(number).builder.mesh;
+    const std::vector<std::uint32_t>& vertices = wall_vertices_[static_cast<std::size_t>(number)];
+    std::transform(band.triangles.begin(), band.triangles.end(), mesh.triangles.data() + 3 * first,
+                   [&](std::uint32_t v) { return vertices[v]; });
+    std::copy(band.step.begin(), band.step.end(), mesh.step.data() + first);
+  }
+
   template <class Number>
-  static void reserve(std::vector<Number>& numbers, std::size_t count) {
+  static void enlarge(std::vector<Number>& numbers, std::size_t count) {
     numbers.reserve(count);
     sim::use_huge_pages(numbers.data(), count * sizeof(Number));
+    numbers.resize(count);
   }
 
   const Columns& columns_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -103,16 +104,18 @@ class CapSheet {
   /// Finds the corners that needed corners need, in their own band; `propagate_across` finds the rest.
   void propagate(int band);
   void propagate_across();
-  /// Finds the vertices of a band that there are not yet; they get numbers from `first` on.
+  /// Finds the vertices of a band that there are not yet, and makes ready for its triangles.
   void place_vertices(int band);
-  std::uint32_t number_vertices(std::uint32_t first);
+  /// Gives the vertices and the triangles places in the mesh: after the first `place.vertices` vertices, and
+  /// from `place.triangles` on, as many as there may be. Adds their numbers to `place`.
+  struct Place {
+    std::size_t vertices = 0, triangles = 0;
+  };
+  void find_places(Place& place);
   /// `wall_vertices`: of each band, the vertices in the mesh of its walls' vertices.
-  void make_triangles(int band, std::span<const std::vector<std::uint32_t>> wall_vertices);
-  /// Appends all vertices, all triangles; the latter also tells of those that have a vertex of a wall.
-  void append_vertices(Mesh& mesh) const;
-  void append_triangles(Mesh& mesh, std::vector<std::size_t>& at_walls) const;
-  std::size_t vertices() const;
-  std::size_t triangles() const;
+  void fill(int band, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh);
+  /// Moves the triangles down to `end`, leaving none out, and appends those that have a vertex of a wall.
+  void close_gaps(Mesh& mesh, std::size_t& end, std::vector<std::size_t>& at_walls) const;
 
  private:
   struct Node {
@@ -125,12 +128,12 @@ class CapSheet {
   };
   struct Band {
     std::vector<float> positions;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
-    std::vector<std::uint32_t> step, at_walls;
     std::vector<std::array<std::uint32_t, 4>> parts;  // vertices by quadrant where the cap is torn
     std::vector<Node> beyond;                         // needed corners of other bands
     std::vector<int> above;  // x of the corners on the band's high side that errors need
-    std::uint32_t first_vertex = 0;
+    std::size_t first_vertex = 0, first_triangle = 0, triangles = 0;
+    std::size_t most_triangles = 0, below = 0;  // of its own squares; more of those of the band below
+    std::vector<std::size_t> at_walls;          // triangles
   };
   class Patch;
   class Cover;
@@ -155,6 +158,8 @@ class CapSheet {
   static std::array<Node, 2> parents(Node n);
   template <class Beyond>
   void need_parents(Node n, int band, std::vector<Node>& work, const Beyond& beyond);
+  template <class Work>
+  void for_needed(int band, const Work& work) const;
   bool is_new_vertex(int i, int j);
   void place_vertex(Band& band, int i, int j);
 
@@ -170,6 +175,23 @@ class CapSheet {
   std::vector<Band> bands_;
 };
 
+/// Calls work(i, j) for the needed corners of a band, whole squares' corners left out.
+template <class Work>
+void CapSheet::for_needed(int band, const Work& work) const {
+  for (int x = 0; x < blocks_x_; ++x) {
+    const CapBlock* const known = blocks_[block_number(x * kSquare, band * kSquare)].get();
+    if (known == nullptr) continue;
+    for (std::size_t k = 0; k < kSquareColumns; k += sizeof(std::uint64_t)) {
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, known->needed.data() + k, sizeof eight);
+      for (std::size_t c = k; eight != 0 && c < k + sizeof eight; ++c) {
+        if (known->needed[c] != 0)
+          work(x * kSquare + static_cast<int>(c) % kSquare, band * kSquare + static_cast<int>(c) / kSquare);
+      }
+    }
+  }
+}
+
 /// What the steps of a corner's columns are compared by: the group of a step, see MeshOptions::step_groups.
 /// No toolpath has so many steps that one of them has a group's number.
 inline std::uint32_t group_key(const MeshOptions& options, std::uint32_t step) {
@@ -183,11 +205,14 @@ void scan_corners(const Columns& columns, const MeshOptions& options, int band, 
 
 /// Makes every edge the edge of exactly two triangles and every vertex the tip of one fan, by parting
 /// vertices (and, where that does not part an edge, by halving it). All edges must already have as many
-/// triangles on one side as on the other.
-void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects);
+/// triangles on one side as on the other. `near`: all triangles that have a suspect, maybe more; those that
+/// are made are added.
+void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects,
+                        std::vector<std::size_t>& near);
 
 /// Takes out triangles without area, after which the mesh is as closed as before. A few may stay where taking
-/// them out would leave an edge to more than two triangles.
+/// them out would leave an edge to more than two triangles. `among`: all that may be without area, in order.
+void mend_flat_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among);
 void mend_flat_triangles(Mesh& mesh, unsigned threads);
 
 /// Flips sides of triangles that face away from their vector in `outwards` (three numbers each), where both

@@ -128,6 +128,7 @@ bool CapSheet::of_one_group(int i, int j) const {
 /// square. Where it has material on all sides they do.
 bool CapSheet::is_new_vertex(int i, int j) {
   if (i > columns_.nx() || j > columns_.ny() || entry(i, j) != kNone) return false;
+  if (plane_.simple(i, j)) return true;
   for (int q = 0; q < 4; ++q)
     if (columns_.ends(column_x(i, q), column_y(j, q)) == 0) return false;
   return true;
@@ -145,43 +146,43 @@ void CapSheet::place_vertex(Band& band, int i, int j) {
   for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
 }
 
+/// Halving a square's triangles at a corner makes two more of them, or on its side one of its own and one of
+/// the square beside it.
 void CapSheet::place_vertices(int number) {
   Band& band = bands_[static_cast<std::size_t>(number)];
-  for (int x = 0; x < blocks_x_; ++x) {
-    const int first_i = x * kSquare, first_j = number * kSquare;
-    place_vertex(band, first_i, first_j);
-    const CapBlock* const known = blocks_[block_number(first_i, first_j)].get();
-    if (known == nullptr) continue;
-    for (std::size_t k = 0; k < kSquareColumns; k += 8) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, known->needed.data() + k, sizeof eight);
-      for (std::size_t c = k; eight != 0 && c < k + 8; ++c) {
-        if (known->needed[c] != 0)
-          place_vertex(band, first_i + static_cast<int>(c) % kSquare, first_j + static_cast<int>(c) / kSquare);
-      }
-    }
-  }
+  for (int x = 0; x < blocks_x_; ++x) place_vertex(band, x * kSquare, number * kSquare);
+  band.most_triangles = 2 * static_cast<std::size_t>(columns_.squares_x());
+  for_needed(number, [&](int i, int j) {
+    const bool on_side = j % kSquare == 0;
+    band.most_triangles += on_side ? 1 : 2;
+    band.below += on_side ? 1 : 0;
+    place_vertex(band, i, j);
+  });
 }
 
-std::uint32_t CapSheet::number_vertices(std::uint32_t first) {
-  for (Band& band : bands_) {
-    band.first_vertex = first;
-    first += static_cast<std::uint32_t>(band.positions.size() / 3);
+void CapSheet::find_places(Place& place) {
+  for (std::size_t b = 0; b < bands_.size(); ++b) {
+    Band& band = bands_[b];
+    band.first_vertex = place.vertices;
+    band.first_triangle = place.triangles;
+    place.vertices += band.positions.size() / 3;
+    if (b + 1 < bands_.size()) place.triangles += band.most_triangles + bands_[b + 1].below;
   }
-  return first;
 }
 
 /// The triangles of a whole square; places count from its low corner.
 class CapSheet::Cover {
  public:
-  Cover(CapSheet& sheet, int square_x, int number, std::span<const std::vector<std::uint32_t>> wall_vertices)
+  Cover(CapSheet& sheet, int square_x, int number, std::span<const std::vector<std::uint32_t>> wall_vertices,
+        Mesh& mesh)
       : columns_(sheet.columns_),
         square_(columns_.square(square_x, number)),
         ends_(sheet.ends_of(square_)),
         up_(sheet.side_ == Side::top),
         wide_(std::min(kSquare, columns_.nx() - square_x * kSquare)),
         deep_(std::min(kSquare, columns_.ny() - number * kSquare)),
-        band_(sheet.bands_[static_cast<std::size_t>(number)]) {
+        band_(sheet.bands_[static_cast<std::size_t>(number)]),
+        mesh_(mesh) {
     for (int k = 0; k < 4; ++k) {
       const int x = square_x + k % 2, y = number + k / 2;
       const std::size_t at = sheet.block_number(x * kSquare, y * kSquare);
@@ -223,6 +224,7 @@ class CapSheet::Cover {
   bool up_;
   int wide_, deep_;  // columns of the square that are in the grid
   Band& band_;
+  Mesh& mesh_;
   std::array<Known, 4> corners_;
 };
 
@@ -253,9 +255,12 @@ void CapSheet::Cover::leaf(Node a, Node b, Node apex) {
   const std::uint32_t va = vertex(a, inner(a), at_wall), vb = vertex(b, inner(b), at_wall),
                       vc = vertex(apex, column, at_wall);
   if (va == vb || vb == vc || vc == va) return;
-  if (at_wall) band_.at_walls.push_back(static_cast<std::uint32_t>(band_.triangles.size()));
-  band_.triangles.push_back({va, vb, vc});
-  band_.step.push_back(ends_.step[cell]);
+  const std::size_t t = band_.first_triangle + band_.triangles++;
+  if (at_wall) band_.at_walls.push_back(t);
+  mesh_.triangles[3 * t] = va;
+  mesh_.triangles[3 * t + 1] = vb;
+  mesh_.triangles[3 * t + 2] = vc;
+  mesh_.step[t] = ends_.step[cell];
 }
 
 std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) const {
@@ -264,43 +269,29 @@ std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) c
   assert(whole || known.block != nullptr);
   const std::uint32_t entry = whole ? known.whole : known.block->entry[Columns::cell(corner.x, corner.y)];
   assert(entry != kNone);
-  if ((entry & (kNew | kMany)) == kNew) return known.band->first_vertex + entry - kNew;
+  if ((entry & (kNew | kMany)) == kNew) return static_cast<std::uint32_t>(known.band->first_vertex) + entry - kNew;
   at_wall = true;
   if (entry < kNew) return known.wall_vertices[entry];
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));
   return known.wall_vertices[known.band->parts[entry - kMany][quadrant]];
 }
 
-void CapSheet::make_triangles(int number, std::span<const std::vector<std::uint32_t>> wall_vertices) {
+void CapSheet::fill(int number, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh) {
+  const Band& band = bands_[static_cast<std::size_t>(number)];
+  std::copy(band.positions.begin(), band.positions.end(), mesh.positions.data() + 3 * band.first_vertex);
   if (number >= columns_.squares_y()) return;
-  for (int x = 0; x < columns_.squares_x(); ++x) Cover(*this, x, number, wall_vertices).run();
+  for (int x = 0; x < columns_.squares_x(); ++x) Cover(*this, x, number, wall_vertices, mesh).run();
 }
 
-std::size_t CapSheet::vertices() const {
-  std::size_t sum = 0;
-  for (const Band& band : bands_) sum += band.positions.size() / 3;
-  return sum;
-}
-
-std::size_t CapSheet::triangles() const {
-  std::size_t sum = 0;
-  for (const Band& band : bands_) sum += band.triangles.size();
-  return sum;
-}
-
-void CapSheet::append_vertices(Mesh& mesh) const {
-  for (const Band& band : bands_)
-    mesh.positions.insert(mesh.positions.end(), band.positions.begin(), band.positions.end());
-}
-
-void CapSheet::append_triangles(Mesh& mesh, std::vector<std::size_t>& at_walls) const {
+void CapSheet::close_gaps(Mesh& mesh, std::size_t& end, std::vector<std::size_t>& at_walls) const {
   for (const Band& band : bands_) {
-    const std::size_t first = mesh.step.size();
-    for (const std::uint32_t t : band.at_walls) at_walls.push_back(first + t);
-    if (band.triangles.empty()) continue;
-    const std::uint32_t* const corners = band.triangles.front().data();
-    mesh.triangles.insert(mesh.triangles.end(), corners, corners + 3 * band.triangles.size());
-    mesh.step.insert(mesh.step.end(), band.step.begin(), band.step.end());
+    const std::size_t first = band.first_triangle, gap = first - end;
+    if (gap != 0) {
+      std::copy_n(mesh.step.data() + first, band.triangles, mesh.step.data() + end);
+      std::copy_n(mesh.triangles.data() + 3 * first, 3 * band.triangles, mesh.triangles.data() + 3 * end);
+    }
+    for (const std::size_t t : band.at_walls) at_walls.push_back(t - gap);
+    end += band.triangles;
   }
 }
 

@@ -112,11 +112,12 @@ template <class Add>
 void Columns::fill_many(std::size_t number, const Add& add) {
   auto many = std::make_unique<ManyRuns>();
   Ends &low = own(number, 0), &high = own(number, 1);
+  const int wide = columns_x(number), deep = columns_y(number);
   for (int y = 0; y < kSquare; ++y) {
     for (int x = 0; x < kSquare; ++x) {
       const std::size_t c = cell(x, y), begin = many->runs.size();
       many->first[c] = static_cast<std::uint32_t>(begin);
-      if (x >= columns_x(number) || y >= columns_y(number)) continue;
+      if (x >= wide || y >= deep) continue;
       const std::uint32_t cut_through = add(x, y, many->runs);
       const bool is_empty = many->runs.size() == begin;
       low.z[c] = is_empty ? sim::kFar : many->runs[begin].low;
@@ -144,8 +145,11 @@ void Columns::read_tile(const Workpiece::Body& body, std::size_t number) {
   if (body.step_of)
     for (std::uint32_t& step : high.step) step = body.step(step);
   bool has_many = *std::max_element(tile->chain, tile->chain + sim::kMicros) >= 0;
-  for (int y = 0; y < columns_y(number) && !has_many; ++y)
-    for (int x = 0; x < columns_x(number); ++x) has_many = has_many || !(high.z[cell(x, y)] > 0.0f);
+  const int wide = columns_x(number), deep = columns_y(number);
+  for (int y = 0; y < deep && !has_many; ++y) {
+    const float* const z = high.z.data() + cell(0, y);
+    has_many = !(*std::min_element(z, z + wide) > 0.0f);
+  }
   if (!has_many) return;
   fill_many(number, [&](int x, int y, std::vector<Interval>& runs) {
     const int index = sim::lane_index(x, y);

@@ -108,6 +108,8 @@ class Columns {
   /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands
   /// between.
   bool continues(int i, int j, int end, int other_i, int other_j, int other_end) const;
+  /// The height that `end` has in a neighbouring column, see facing_end; false: it has none.
+  bool facing_z(int i, int j, int end, int other_i, int other_j, double& z) const;
   /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that
   /// continue it.
   double slope(int i, int j, int end, int dx, int dy) const;

@@ -12,16 +12,17 @@
 namespace kerf::meshing {
 namespace {
 
-/// A higher step is a slope, not a wall, if the step before or after it in the same direction is at least its
-/// height divided by this: smooth surfaces change their rise by less from column to column until they are
-/// walls.
-constexpr double kRiseRatio = 2.5;
-
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 int Columns::facing_end(int i, int j, int end, int other_i, int other_j) const {
+  if (!inside(other_i, other_j)) return -1;
+  const Square &square = square_of(i, j), &other_square = square_of(other_i, other_j);
+  if (square.many == nullptr && other_square.many == nullptr) {  // one interval each, as mostly
+    const std::size_t c = cell(i, j), o = cell(other_i, other_j);
+    return other_square.low->z[o] < square.high->z[c] && square.low->z[c] < other_square.high->z[o] ? end : -1;
+  }
   const int other_ends = ends(other_i, other_j);
   const int k = end / 2;
   const Interval mine = interval(i, j, k);
@@ -43,26 +44,30 @@ int Columns::facing_end(int i, int j, int end, int other_i, int other_j) const {
   return -1;
 }
 
+bool Columns::facing_z(int i, int j, int end, int other_i, int other_j, double& z) const {
+  const int facing = facing_end(i, j, end, other_i, other_j);
+  if (facing >= 0) z = this->z(other_i, other_j, facing);
+  return facing >= 0;
+}
+
 bool Columns::continues(int i, int j, int end, int other_i, int other_j, int other_end) const {
-  const double rise = z(other_i, other_j, other_end) - z(i, j, end);
+  const double mine = z(i, j, end), other = z(other_i, other_j, other_end), rise = other - mine;
   if (std::abs(rise) <= kSlopeShare * pitch()) return true;
   const int dx = other_i - i, dy = other_j - j;
-  const auto goes_on = [&](double step) {
-    return step * rise > 0.0 && std::abs(rise) <= kRiseRatio * std::abs(step);
-  };
-  const int before = facing_end(i, j, end, i - dx, j - dy);
-  if (before >= 0 && goes_on(z(i, j, end) - z(i - dx, j - dy, before))) return true;
-  const int after = facing_end(other_i, other_j, other_end, other_i + dx, other_j + dy);
-  return after >= 0 && goes_on(z(other_i + dx, other_j + dy, after) - z(other_i, other_j, other_end));
+  double next = 0.0;
+  return (facing_z(i, j, end, i - dx, j - dy, next) && goes_on(rise, mine - next)) ||
+         (facing_z(other_i, other_j, other_end, other_i + dx, other_j + dy, next) &&
+          goes_on(rise, next - other));
 }
 
 double Columns::slope(int i, int j, int end, int dx, int dy) const {
   double rise = 0.0, run = 0.0;
+  const double mine = z(i, j, end);
   for (const int side : {-1, 1}) {
     const int other_i = i + side * dx, other_j = j + side * dy;
     const int other = facing_end(i, j, end, other_i, other_j);
     if (other < 0 || !continues(i, j, end, other_i, other_j, other)) continue;
-    rise += side * (z(other_i, other_j, other) - z(i, j, end));
+    rise += side * (z(other_i, other_j, other) - mine);
     run += side * (dx != 0 ? frame_.column_x(other_i) - frame_.column_x(i)
                            : frame_.column_y(other_j) - frame_.column_y(j));
   }
@@ -101,14 +106,6 @@ constexpr std::pair<int, int> kNeighbours[] = {{0, 1}, {0, 2}, {1, 3}, {2, 3}};
 
 }  // namespace
 
-bool joined_by_slopes(const Columns& columns, int i, int j, int end) {
-  return std::all_of(std::begin(kNeighbours), std::end(kNeighbours), [&](const std::pair<int, int>& pair) {
-    const auto [q, other] = pair;
-    return columns.continues(column_x(i, q), column_y(j, q), end, column_x(i, other), column_y(j, other),
-                             end);
-  });
-}
-
 void CornerRow::build(const Columns& columns, const CornerPlane& plane, int j) {
   sheets_.clear();
   ranks_.clear();
@@ -144,11 +141,13 @@ void CornerRow::build_simple(const Columns& columns, int i, int j) {
 
 void CornerRow::build_any(const Columns& columns, int i, int j) {
   gather(columns, i, j);
-  bool suspect =
-      false;  // surfaces above each other, or a spiral, can meet in a vertex without sharing an edge
-  for (const auto& [q, other] : kNeighbours) suspect = !join(columns, i, j, q, other) || suspect;
-  for (const std::vector<int>& ends : group_of_) suspect = suspect || ends.size() > 2;
+  bool is_spiral = false;
+  for (const auto& [q, other] : kNeighbours) is_spiral = !join(columns, i, j, q, other) || is_spiral;
   sort_groups(columns, i, j);
+  // Surfaces above each other, or a spiral, can meet in a vertex without sharing an edge; not where all of
+  // them go all around.
+  const bool is_high = std::any_of(group_of_.begin(), group_of_.end(), [](auto& ends) { return ends.size() > 2; });
+  const bool suspect = is_spiral || (is_high && !std::all_of(groups_.begin(), groups_.end(), is_whole));
 
   Corner corner;
   corner.first_sheet = static_cast<std::uint32_t>(sheets_.size());
@@ -286,8 +285,7 @@ void CornerRow::place(const Columns& columns, int i, int j, const Corner& corner
     Sheet& sheet = sheets_[corner.first_sheet + r];
     sheet.x = x;
     sheet.y = y;
-    const bool whole = std::find(group.end.begin(), group.end.end(), -1) == group.end.end();
-    if (whole && shift.x == 0.0 && shift.y == 0.0 && !columns.uneven(i, j)) continue;
+    if (is_whole(group) && shift.x == 0.0 && shift.y == 0.0 && !columns.uneven(i, j)) continue;
     double change = 0.0;
     int members = 0;
     for (int q = 0; q < 4; ++q) {

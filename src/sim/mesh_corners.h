@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -16,6 +17,13 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 /// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
 inline constexpr double kSlopeShare = 0.5;
+/// A higher step is a slope, not a wall, if the step before or after it in the same direction is at least its
+/// height divided by this: smooth surfaces change their rise by less from column to column until they are
+/// walls.
+inline constexpr double kRiseRatio = 2.5;
+inline bool goes_on(double rise, double step) {
+  return step * rise > 0.0 && std::abs(rise) <= kRiseRatio * std::abs(step);
+}
 
 /// One surface (or several ends of one column each) at a corner: one vertex.
 struct Sheet {
@@ -73,13 +81,6 @@ inline FourHeights four_heights(float a, float b, float c, float d) {
   return four;
 }
 
-/// Whether the ends `end` of the four columns around a corner continue each other. They are columns of one
-/// interval each, with material at one height.
-bool joined_by_slopes(const Columns& columns, int i, int j, int end);
-inline bool one_surface(const Columns& columns, int i, int j, int end, const FourHeights& heights) {
-  return heights.high - heights.low <= kSlopeShare * columns.pitch() || joined_by_slopes(columns, i, j, end);
-}
-
 /// Those corners with one y that walls or inner caps may need. Vectors are kept from row to row, so that no
 /// memory is asked for in the long run.
 class CornerRow {
@@ -102,6 +103,9 @@ class CornerRow {
     std::array<int, 4> end{-1, -1, -1, -1};  // the end of each quadrant's column, or -1
     double mean = 0.0;
   };
+  static bool is_whole(const Group& group) {
+    return std::find(group.end.begin(), group.end.end(), -1) == group.end.end();
+  }
   struct Shift {
     double x = 0.0, y = 0.0;
   };

@@ -21,8 +21,10 @@ constexpr int kMostRounds = 8;
 
 class Mender {
  public:
-  Mender(Mesh& mesh, unsigned threads, std::vector<float>* outwards = nullptr)
-      : mesh_(mesh), threads_(threads), outwards_(outwards) {}
+  /// Looks at the triangles `among`, or at all.
+  Mender(Mesh& mesh, unsigned threads, const std::vector<std::size_t>* among,
+         std::vector<float>* outwards = nullptr)
+      : mesh_(mesh), threads_(threads), among_(among), outwards_(outwards) {}
   void run();
   /// Only flips, where triangles face the wrong way.
   void flip_all();
@@ -47,6 +49,8 @@ class Mender {
   bool is_flat(const Corners& c) const;
   bool is_folded(const Corners& c, std::size_t like) const;
   bool is_wrong(std::size_t t) const { return outwards_ ? is_folded(corners(t), t) : is_flat(corners(t)); }
+  template <class Test>
+  std::vector<std::size_t> find(std::size_t count, const Test& test) const;
   void find_flat();
   void find_flat_again();
   void gather_around();
@@ -61,6 +65,7 @@ class Mender {
 
   Mesh& mesh_;
   unsigned threads_;
+  const std::vector<std::size_t>* among_;
   std::vector<float>* outwards_;                    // null, or where each triangle is to face
   std::vector<std::size_t> flat_, changed_;         // changed: since the flat ones were found
   std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
@@ -69,25 +74,16 @@ class Mender {
 
 /// Number of the corner before the longest side.
 int Mender::longest_side(const Corners& c) const {
-  int longest = 0;
-  double most = -1.0;
-  for (int k = 0; k < 3; ++k) {
-    const double side =
-        distance(point(c[static_cast<std::size_t>(k)]), point(c[static_cast<std::size_t>((k + 1) % 3)]));
-    if (side > most) {
-      most = side;
-      longest = k;
-    }
-  }
-  return longest;
+  const Point3 a = point(c[0]), b = point(c[1]), d = point(c[2]);
+  const std::array<double, 3> squares{dot(b - a, b - a), dot(d - b, d - b), dot(a - d, a - d)};
+  return static_cast<int>(std::max_element(squares.begin(), squares.end()) - squares.begin());
 }
 
 bool Mender::is_flat(const Corners& c) const {
   const auto k = static_cast<std::size_t>(longest_side(c));
   const Point3 a = point(c[k]), side = point(c[(k + 1) % 3]) - a, other = point(c[(k + 2) % 3]) - a;
-  const Point3 cross{side.y * other.z - side.z * other.y, side.z * other.x - side.x * other.z,
-                     side.x * other.y - side.y * other.x};
-  return length(cross) <= kNoHeight * length(side);
+  const Point3 twice = cross(side, other);
+  return dot(twice, twice) <= kNoHeight * kNoHeight * dot(side, side);
 }
 
 /// Whether three corners in order face away from where triangle `like` is to face.
@@ -97,18 +93,31 @@ bool Mender::is_folded(const Corners& c, std::size_t like) const {
   return dot(facing, Point3{to[0], to[1], to[2]}) < 0.0;
 }
 
-void Mender::find_flat() {
+/// Numbers below `count` for which test(number) holds, in order.
+template <class Test>
+std::vector<std::size_t> Mender::find(std::size_t count, const Test& test) const {
   constexpr std::size_t kEach = 1 << 14;
-  std::vector<std::vector<std::size_t>> found(mesh_.step.size() / kEach + 1);
+  std::vector<std::vector<std::size_t>> found(count / kEach + 1);
   sim::parallel_for(
       threads_, found.size(),
       [&](std::size_t n) {
-        for (std::size_t t = n * kEach; t < std::min((n + 1) * kEach, mesh_.step.size()); ++t)
-          if (!is_gone(t) && is_wrong(t)) found[n].push_back(t);
+        for (std::size_t k = n * kEach; k < std::min((n + 1) * kEach, count); ++k)
+          if (test(k)) found[n].push_back(k);
       },
       [] { return false; });
-  flat_.clear();
-  for (const std::vector<std::size_t>& part : found) flat_.insert(flat_.end(), part.begin(), part.end());
+  std::vector<std::size_t> all;
+  for (const std::vector<std::size_t>& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+void Mender::find_flat() {
+  const auto wrong = [&](std::size_t t) { return !is_gone(t) && is_wrong(t); };
+  if (among_ == nullptr) {
+    flat_ = find(mesh_.step.size(), wrong);
+    return;
+  }
+  flat_ = find(among_->size(), [&](std::size_t k) { return wrong((*among_)[k]); });
+  for (std::size_t& t : flat_) t = (*among_)[t];
 }
 
 /// The flat ones among those that were flat and those that were changed.
@@ -130,17 +139,22 @@ void Mender::gather_around() {
     place_[v] = static_cast<std::uint32_t>(around_.size());
     around_.emplace_back();
   };
-  std::vector<bool> near(place_.size(), false);
+  std::vector<std::uint8_t> near(place_.size(), 0);
   for (const std::size_t t : flat_)
-    for (const std::uint32_t v : corners(t)) near[v] = true;
-  for (std::size_t t = 0; t < mesh_.step.size(); ++t) {
+    for (const std::uint32_t v : corners(t)) near[v] = 1;
+  const auto beside = find(mesh_.step.size(), [&](std::size_t t) {
     const Corners c = corners(t);
-    if (std::any_of(c.begin(), c.end(), [&](std::uint32_t v) { return near[v]; }))
-      for (const std::uint32_t v : c) want(v);
-  }
-  for (std::size_t t = 0; t < mesh_.step.size(); ++t)
+    return (near[c[0]] | near[c[1]] | near[c[2]]) != 0;
+  });
+  for (const std::size_t t : beside)
+    for (const std::uint32_t v : corners(t)) want(v);
+  const auto around = find(mesh_.step.size(), [&](std::size_t t) {
+    const Corners c = corners(t);
+    return !is_gone(t) && (place_[c[0]] & place_[c[1]] & place_[c[2]]) != kNone;
+  });
+  for (const std::size_t t : around)
     for (const std::uint32_t v : corners(t))
-      if (place_[v] != kNone && !is_gone(t)) around_[place_[v]].push_back(static_cast<std::uint32_t>(t));
+      if (place_[v] != kNone) around_[place_[v]].push_back(static_cast<std::uint32_t>(t));
 }
 
 /// The triangle with the edge from a to b; SIZE_MAX if there is none.
@@ -269,10 +283,14 @@ void Mender::run() {
 
 }  // namespace
 
-void mend_flat_triangles(Mesh& mesh, unsigned threads) { Mender(mesh, threads).run(); }
+void mend_flat_triangles(Mesh& mesh, unsigned threads) { Mender(mesh, threads, nullptr).run(); }
+
+void mend_flat_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among) {
+  Mender(mesh, threads, &among).run();
+}
 
 void unfold_triangles(Mesh& mesh, std::vector<float>& outwards, unsigned threads) {
-  Mender(mesh, threads, &outwards).flip_all();
+  Mender(mesh, threads, nullptr, &outwards).flip_all();
 }
 
 }  // namespace kerf::meshing

@@ -2,7 +2,6 @@
 // those that needed corners need.
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
 #include "sim/mesh_build.h"
@@ -27,14 +26,18 @@ struct Beside {
 class CapSheet::Patch {
  public:
   Patch(const CapSheet& sheet, int square_x, int square_y)
-      : sheet_(sheet), first_x_(square_x * kSquare), first_y_(square_y * kSquare) {}
+      : sheet_(sheet), first_x_(square_x * kSquare), first_y_(square_y * kSquare) {
+    for (const int y : {0, kSquare})
+      for (const int x : {0, kSquare}) error_[at(x, y)] = 0.0f;  // they halve no triangle
+  }
 
   /// Calls need(x, y), from the square's low corner, for each corner without which the triangles that it
   /// halves would be further off than the tolerance.
   template <class Need>
   void find(float tolerance, const Need& need) {
     read_heights();
-    for (int s = 1; s < kSquare; s *= 2) {
+    begin();
+    for (int s = 2; s < kSquare; s *= 2) {
       halve_sides(s);
       halve_diagonals(s);
     }
@@ -60,6 +63,11 @@ class CapSheet::Patch {
   void read_heights();
   void read_row(int y, std::array<float, kPatch + 1>& row) const;
   void put_given();
+  float own(std::size_t middle, std::size_t a, std::size_t b) const {
+    const float height = height_[middle];
+    return height == kUnknown ? 0.0f : std::abs(height - 0.5f * (height_[a] + height_[b]));
+  }
+  void begin();
   void halve_sides(int s);
   void halve_diagonals(int s);
   void put(std::size_t middle, std::size_t a, std::size_t b, const Below& below);
@@ -121,26 +129,45 @@ void CapSheet::Patch::put_given() {
 /// But what the middle adds fades out towards the sides on which the halves have their middles, so that of two
 /// levels only the larger one counts.
 void CapSheet::Patch::put(std::size_t middle, std::size_t a, std::size_t b, const Below& below) {
-  const float height = height_[middle];
-  const float own = height == kUnknown ? 0.0f : std::abs(height - 0.5f * (height_[a] + height_[b]));
-  one_level_[middle] = own + below.error;
+  const float mine = own(middle, a, b);
+  one_level_[middle] = mine + below.error;
   below_[middle] = below.error;
-  error_[middle] = std::min(own + below.error, std::max(own + below.below, below.one_level));
+  error_[middle] = std::min(mine + below.error, std::max(mine + below.below, below.one_level));
+}
+
+/// The two smallest levels, three quarters of all, of which the first has none below it.
+void CapSheet::Patch::begin() {
+  for (int y = 0; y < kPatch; ++y) {
+    const bool along_y = y % 2 != 0;
+    const std::size_t by = along_y ? kPatch : 1;
+    const std::size_t row = at(0, y);
+    for (std::size_t c = row + (along_y ? 0 : 1); c < row + kPatch; c += 2)
+      error_[c] = own(c, c - by, c + by);
+  }
+  for (int y = 1; y < kPatch; y += 2) {
+    for (int x = 1; x < kPatch; x += 2) {
+      const std::size_t c = at(x, y), up = c + kPatch, down = c - kPatch;
+      const bool rises = ((x + y) / 2) % 2 != 0;  // as in halve_diagonals
+      const float mine = rises ? own(c, down - 1, up + 1) : own(c, down + 1, up - 1);
+      const float below = std::max(std::max(error_[c - 1], error_[c + 1]), std::max(error_[down], error_[up]));
+      one_level_[c] = mine + below;
+      below_[c] = below;
+      error_[c] = std::max(mine, below);
+    }
+  }
 }
 
 /// Middles of the sides of length 2 s along X or Y.
 void CapSheet::Patch::halve_sides(int s) {
-  const int half = s / 2;
+  const int half = s / 2;  // s is at least 2
   for (int y = 0; y < kPatch; y += s) {
     const bool along_y = y % (2 * s) != 0;
     const int ax = along_y ? 0 : s, ay = along_y ? s : 0;
     for (int x = along_y ? 0 : s; x < kPatch; x += 2 * s) {
       Below below;
-      if (half > 0) {
-        const Beside bx(x, half), by(y, half);
-        for (const int cy : {by.low, by.high})
-          for (const int cx : {bx.low, bx.high}) below.take(*this, at(cx, cy));
-      }
+      const Beside bx(x, half), by(y, half);
+      for (const int cy : {by.low, by.high})
+        for (const int cx : {bx.low, bx.high}) below.take(*this, at(cx, cy));
       put(at(x, y), at(x - ax, y - ay), at(x + ax, y + ay), below);
     }
   }
@@ -234,21 +261,9 @@ void CapSheet::propagate(int number) {
     for (const int x : bands_[static_cast<std::size_t>(number) - 1].above) need(x, number * kSquare);
   std::vector<Node> work;
   const auto beyond = [&](Node n) { band.beyond.push_back(n); };
-  for (int x = 0; x < blocks_x_; ++x) {
-    const CapBlock* const known =
-        blocks_[block_number(x * kSquare, number * kSquare)].get();  // others are made, this one stays
-    if (known == nullptr) continue;
-    for (std::size_t k = 0; k < kSquareColumns; k += 8) {
-      std::uint64_t eight = 0;
-      std::memcpy(&eight, known->needed.data() + k, sizeof eight);
-      for (std::size_t c = k; eight != 0 && c < k + 8; ++c) {
-        if (known->needed[c] == 0) continue;
-        const Node n{x * kSquare + static_cast<int>(c) % kSquare,
-                     number * kSquare + static_cast<int>(c) / kSquare};
-        if (!is_whole(n.x, n.y)) need_parents(n, number, work, beyond);
-      }
-    }
-  }
+  for_needed(number, [&](int i, int j) {
+    need_parents({i, j}, number, work, beyond);
+  });
 }
 
 void CapSheet::propagate_across() {

@@ -1,5 +1,7 @@
 // The corners that most corners are: four columns of one interval each around them, one surface above and one
 // below. They are found row by row, and the caps are told of those that may not be dropped.
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <vector>
 
@@ -8,16 +10,55 @@
 namespace kerf::meshing {
 namespace {
 
-constexpr float kNowhere = 1e30f;
+/// Low ends that lie above all high ones: of columns that are not of one interval, and of places outside the
+/// grid.
+constexpr float kMany = 1e30f, kOutside = 2e30f;
 
-/// The ends of a row of columns that are of one interval, each array one number a column; those of others meet
-/// no column's. Keys are what merged columns must have in common: the steps, or their groups.
-struct Row {
-  explicit Row(int nx) : low(size(nx)), high(size(nx)), low_key(size(nx)), high_key(size(nx)) {}
-  static std::size_t size(int nx) { return static_cast<std::size_t>(nx); }
-  std::vector<float> low, high;
-  std::vector<std::uint32_t> low_key, high_key;
+/// The ends of a row of columns, those of one interval, each array one number a column; there are two more on
+/// both sides. Keys are what merged columns must have in common: the steps, or their groups.
+class Row {
+ public:
+  static constexpr std::size_t kBefore = 2;
+  explicit Row(int nx)
+      : low_(size(nx), kOutside), high_(size(nx), -kOutside), low_key_(size(nx)), high_key_(size(nx)) {}
+  float* low() { return low_.data() + kBefore; }
+  float* high() { return high_.data() + kBefore; }
+  const float* low() const { return low_.data() + kBefore; }
+  const float* high() const { return high_.data() + kBefore; }
+  std::uint32_t* low_key() { return low_key_.data() + kBefore; }
+  std::uint32_t* high_key() { return high_key_.data() + kBefore; }
+  const std::uint32_t* low_key() const { return low_key_.data() + kBefore; }
+  const std::uint32_t* high_key() const { return high_key_.data() + kBefore; }
+  void leave_out() {
+    std::fill(low_.begin(), low_.end(), kOutside);
+    std::fill(high_.begin(), high_.end(), -kOutside);
+  }
+
+ private:
+  static std::size_t size(int nx) { return static_cast<std::size_t>(nx) + 2 * kBefore; }
+  std::vector<float> low_, high_;
+  std::vector<std::uint32_t> low_key_, high_key_;
 };
+
+/// Four columns in a line, of which the middle ones are the neighbours in question.
+struct Line {
+  std::array<float, 4> low, high;
+};
+
+enum class Answer : std::uint8_t { no, yes, unknown };
+
+/// Whether the neighbours' ends continue each other, see Columns::continues.
+Answer continues(const Line& line, int end, double limit) {
+  const std::array<float, 4>& z = end == 0 ? line.low : line.high;
+  const double rise = static_cast<double>(z[2]) - static_cast<double>(z[1]);
+  if (std::abs(rise) <= limit) return Answer::yes;
+  if (line.low[0] == kMany || line.low[3] == kMany) return Answer::unknown;
+  const auto goes_on = [&](std::size_t k) {
+    return line.low[k] < line.high[k + 1] && line.low[k + 1] < line.high[k] &&
+           meshing::goes_on(rise, static_cast<double>(z[k + 1]) - static_cast<double>(z[k]));
+  };
+  return goes_on(0) || goes_on(2) ? Answer::yes : Answer::no;
+}
 
 class Scanner {
  public:
@@ -25,37 +66,43 @@ class Scanner {
       : columns_(columns),
         options_(options),
         merges_(options.tolerance > Length()),
+        limit_(kSlopeShare * columns.pitch()),
         top_(top),
         bottom_(bottom),
-        south_(columns.nx()),
-        north_(columns.nx()) {}
+        rows_(4, Row(columns.nx())),
+        alike_(static_cast<std::size_t>(columns.nx())) {}
 
   void run(int first, int end, CornerPlane& plane) {
-    if (first > 0) read(first - 1, south_);
+    for (int j = first - 2; j <= first; ++j) read(j, row(j));
     for (int j = first; j < end; ++j) {
       std::uint8_t* const simple = plane.row(j);
       std::fill_n(simple, columns_.nx() + 1, std::uint8_t{0});
-      if (j == columns_.ny()) return;
-      read(j, north_);
-      if (j > 0 && !columns_.uneven(0, j)) scan(j, simple);
-      std::swap(south_, north_);
+      read(j + 1, row(j + 1));
+      if (j > 0 && j < columns_.ny() && !columns_.uneven(0, j)) scan(j, simple);
     }
   }
 
  private:
+  /// The columns of row j, of which the last four are kept.
+  Row& row(int j) { return rows_[static_cast<std::size_t>(j + 4) % 4]; }
+  const Row& row(int j) const { return rows_[static_cast<std::size_t>(j + 4) % 4]; }
   void read(int j, Row& row) const;
   void read_keys(const Ends& ends, std::size_t at, std::size_t count, bool is_uniform,
                  std::uint32_t* out) const;
   void scan(int j, std::uint8_t* simple);
-  void compare(int begin, int end, std::uint8_t* simple) const;
-  void look_again(int i, int j, std::uint8_t& simple) const;
+  void scan_some(int begin, int end, int j, std::uint8_t* simple);
+  void compare(int begin, int end, int j, std::uint8_t* simple);
+  bool joined(int i, int j, int end) const;
+  bool is_simple(int i, int j) const;
   void need(int i, int j);
 
   const Columns& columns_;
   const MeshOptions& options_;
   bool merges_;
+  double limit_;  // of what is no wall
   CapSheet &top_, &bottom_;
-  Row south_, north_;
+  std::vector<Row> rows_;
+  std::vector<std::uint8_t> alike_;  // 1: the corner's columns have the same keys
 };
 
 void Scanner::read_keys(const Ends& ends, std::size_t at, std::size_t count, bool is_uniform,
@@ -71,29 +118,33 @@ void Scanner::read_keys(const Ends& ends, std::size_t at, std::size_t count, boo
 }
 
 void Scanner::read(int j, Row& row) const {
+  if (j < 0 || j >= columns_.ny()) {
+    row.leave_out();
+    return;
+  }
   for (int first = 0; first < columns_.nx(); first += kSquare) {
     const Square& square = columns_.square_of(first, j);
-    const auto to = static_cast<std::size_t>(first);
     const auto count = static_cast<std::size_t>(std::min(kSquare, columns_.nx() - first));
     const std::size_t at = Columns::cell(0, j);
-    std::copy_n(square.low->z.data() + at, count, row.low.data() + to);
-    std::copy_n(square.high->z.data() + at, count, row.high.data() + to);
-    read_keys(*square.low, at, count, square.is_uniform, row.low_key.data() + to);
-    read_keys(*square.high, at, count, square.is_uniform, row.high_key.data() + to);
+    std::copy_n(square.low->z.data() + at, count, row.low() + first);
+    std::copy_n(square.high->z.data() + at, count, row.high() + first);
+    read_keys(*square.low, at, count, square.is_uniform, row.low_key() + first);
+    read_keys(*square.high, at, count, square.is_uniform, row.high_key() + first);
     if (square.many == nullptr) continue;
     for (std::size_t k = 0; k < count; ++k) {
       if (square.many->first[at + k + 1] - square.many->first[at + k] == 1) continue;
-      row.low[to + k] = kNowhere;
-      row.high[to + k] = -kNowhere;
+      row.low()[static_cast<std::size_t>(first) + k] = kMany;
+      row.high()[static_cast<std::size_t>(first) + k] = -kMany;
     }
   }
 }
 
-/// Corners of a row whose four columns differ by less than any wall. Without branches, several at a time.
-void Scanner::compare(int begin, int end, std::uint8_t* simple) const {
-  const auto limit = static_cast<float>(kSlopeShare * columns_.pitch());
-  const float *sl = south_.low.data(), *nl = north_.low.data(), *sh = south_.high.data(),
-              *nh = north_.high.data();
+/// Corners whose four columns differ by less than any wall, and those whose keys are alike. Without branches,
+/// several at a time.
+void Scanner::compare(int begin, int end, int j, std::uint8_t* simple) {
+  const auto limit = static_cast<float>(limit_);
+  const Row &south = row(j - 1), &north = row(j);
+  const float *sl = south.low(), *nl = north.low(), *sh = south.high(), *nh = north.high();
   for (int i = begin; i < end; ++i) {
     const float low_low = std::min(std::min(sl[i - 1], sl[i]), std::min(nl[i - 1], nl[i]));
     const float low_high = std::max(std::max(sl[i - 1], sl[i]), std::max(nl[i - 1], nl[i]));
@@ -103,50 +154,93 @@ void Scanner::compare(int begin, int end, std::uint8_t* simple) const {
                      static_cast<int>(high_high - high_low <= limit) & static_cast<int>(low_high < high_low);
     simple[i] = static_cast<std::uint8_t>(flat);
   }
+  const std::uint32_t *slk = south.low_key(), *nlk = north.low_key(), *shk = south.high_key(),
+                      *nhk = north.high_key();
+  std::uint8_t* const alike = alike_.data();
+  for (int i = begin; i < end; ++i) {
+    const std::uint32_t other = (slk[i - 1] ^ slk[i]) | (slk[i] ^ nlk[i - 1]) | (nlk[i - 1] ^ nlk[i]) |
+                                (shk[i - 1] ^ shk[i]) | (shk[i] ^ nhk[i - 1]) | (nhk[i - 1] ^ nhk[i]);
+    alike[i] = static_cast<std::uint8_t>(other == 0);
+  }
 }
 
-/// A corner with a higher step, which may yet be a slope.
-void Scanner::look_again(int i, int j, std::uint8_t& simple) const {
-  const auto k = static_cast<std::size_t>(i);
-  const auto around = [k](const std::vector<float>& south, const std::vector<float>& north) {
-    return four_heights(south[k - 1], south[k], north[k - 1], north[k]);
+/// Whether the ends of the four columns around a corner continue each other, as slopes do. The columns are of
+/// one interval each, with material at one height.
+bool Scanner::joined(int i, int j, int end) const {
+  for (const int k : {-1, 0}) {  // rows, and columns
+    Line along, across;
+    for (int n = 0; n < 4; ++n) {
+      const auto place = static_cast<std::size_t>(n);
+      along.low[place] = row(j + k).low()[i - 2 + n];
+      along.high[place] = row(j + k).high()[i - 2 + n];
+      across.low[place] = row(j - 2 + n).low()[i + k];
+      across.high[place] = row(j - 2 + n).high()[i + k];
+    }
+    Answer answer = continues(along, end, limit_);
+    if (answer == Answer::no || (answer == Answer::unknown && !columns_.continues(i - 1, j + k, end, i, j + k, end)))
+      return false;
+    answer = continues(across, end, limit_);
+    if (answer == Answer::no || (answer == Answer::unknown && !columns_.continues(i + k, j - 1, end, i + k, j, end)))
+      return false;
+  }
+  return true;
+}
+
+/// Of a corner with a higher step, which may yet be a slope.
+bool Scanner::is_simple(int i, int j) const {
+  const auto around = [i](const float* south, const float* north) {
+    return four_heights(south[i - 1], south[i], north[i - 1], north[i]);
   };
-  const FourHeights low = around(south_.low, north_.low), high = around(south_.high, north_.high);
-  simple = low.high < high.low && one_surface(columns_, i, j, 1, high) && one_surface(columns_, i, j, 0, low)
-               ? 1
-               : 0;
+  const FourHeights low = around(row(j - 1).low(), row(j).low());
+  const FourHeights high = around(row(j - 1).high(), row(j).high());
+  const auto one_surface = [&](const FourHeights& heights, int end) {
+    return heights.high - heights.low <= limit_ || joined(i, j, end);
+  };
+  return low.high < high.low && one_surface(high, 1) && one_surface(low, 0);
 }
 
 /// Tells the caps of a simple corner if they may not drop it.
 void Scanner::need(int i, int j) {
-  const auto k = static_cast<std::size_t>(i);
-  const auto alike = [k](const auto& south, const auto& north) {
-    return south[k - 1] == south[k] && south[k] == north[k - 1] && north[k - 1] == north[k];
+  const auto alike = [i](const auto* south, const auto* north) {
+    return south[i - 1] == south[i] && south[i] == north[i - 1] && north[i - 1] == north[i];
   };
-  const bool low = alike(south_.low_key, north_.low_key) && (merges_ || alike(south_.low, north_.low));
-  const bool high = alike(south_.high_key, north_.high_key) && (merges_ || alike(south_.high, north_.high));
+  const Row &south = row(j - 1), &north = row(j);
+  const bool low = alike(south.low_key(), north.low_key()) && (merges_ || alike(south.low(), north.low()));
+  const bool high = alike(south.high_key(), north.high_key()) && (merges_ || alike(south.high(), north.high()));
   if (!low) bottom_.need(i, j);
   if (!high) top_.need(i, j);
+}
+
+void Scanner::scan_some(int begin, int end, int j, std::uint8_t* simple) {
+  constexpr std::uint64_t kAll = 0x0101010101010101u;
+  compare(begin, end, j, simple);
+  while (begin < end) {
+    std::uint64_t eight = 0;
+    if (merges_ && begin + 8 <= end) {
+      std::uint64_t alike = 0;
+      std::memcpy(&eight, simple + begin, sizeof eight);
+      std::memcpy(&alike, alike_.data() + begin, sizeof alike);
+      eight &= alike;
+    }
+    const int next = std::min(begin + 8, end);
+    for (; begin < next && eight != kAll; ++begin) {
+      if (simple[begin] == 0) simple[begin] = is_simple(begin, j) ? 1 : 0;
+      if (simple[begin] != 0) need(begin, j);
+    }
+    begin = next;
+  }
 }
 
 void Scanner::scan(int j, std::uint8_t* simple) {
   const int end = columns_.uneven(columns_.nx() - 1, j) ? columns_.nx() - 1 : columns_.nx();
   for (int first = 0; first < end; first += kSquare) {
     const int stop = std::min(first + kSquare, end);
-    int begin = std::max(first, 1);
     if (j % kSquare != 0 && columns_.square_of(first, j).is_uniform) {
       // Only the corners on the square's low side have other columns beside them.
       std::fill(simple + first + 1, simple + stop, std::uint8_t{1});
-      if (first == 0) continue;
-      compare(begin, begin + 1, simple);
-      if (simple[begin] == 0) look_again(begin, j, simple[begin]);
-      if (simple[begin] != 0) need(begin, j);
-      continue;
-    }
-    compare(begin, stop, simple);
-    for (; begin < stop; ++begin) {
-      if (simple[begin] == 0) look_again(begin, j, simple[begin]);
-      if (simple[begin] != 0) need(begin, j);
+      scan_some(std::max(first, 1), first + 1, j, simple);
+    } else {
+      scan_some(std::max(first, 1), stop, j, simple);
     }
   }
 }

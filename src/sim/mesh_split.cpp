@@ -29,7 +29,7 @@ struct Pair {
 
 class Splitter {
  public:
-  Splitter(Mesh& mesh, const std::vector<std::uint32_t>& suspects);
+  Splitter(Mesh& mesh, const std::vector<std::uint32_t>& suspects, std::vector<std::size_t>& near);
   /// One round; true if edges were halved, so that another must follow.
   bool round();
 
@@ -50,6 +50,7 @@ class Splitter {
   void halve_side(const Side& side, std::uint32_t middle);
 
   Mesh& mesh_;
+  std::vector<std::size_t>& near_;              // numbers of all triangles that may have a suspect vertex
   std::vector<std::uint8_t> suspect_, parted_;  // one a vertex
   std::vector<std::size_t> triangles_;          // those with a suspect vertex
   std::vector<Side> sides_;                     // of these, with both ends suspect or one parted
@@ -58,8 +59,8 @@ class Splitter {
   std::vector<std::size_t> parent_;  // union-find over the corners of triangles_
 };
 
-Splitter::Splitter(Mesh& mesh, const std::vector<std::uint32_t>& suspects)
-    : mesh_(mesh), suspect_(mesh.positions.size() / 3, 0) {
+Splitter::Splitter(Mesh& mesh, const std::vector<std::uint32_t>& suspects, std::vector<std::size_t>& near)
+    : mesh_(mesh), near_(near), suspect_(mesh.positions.size() / 3, 0) {
   for (const std::uint32_t v : suspects) suspect_[v] = 1;
 }
 
@@ -85,7 +86,8 @@ void Splitter::collect() {
   triangles_.clear();
   sides_.clear();
   suspect_.resize(mesh_.positions.size() / 3, 1);
-  for (std::size_t t = 0; t < mesh_.triangles.size(); t += 3) {
+  for (const std::size_t number : near_) {
+    const std::size_t t = 3 * number;
     if ((suspect_[index(t, 0)] | suspect_[index(t, 1)] | suspect_[index(t, 2)]) == 0) continue;
     triangles_.push_back(t);
     for (std::uint8_t k = 0; k < 3; ++k) {
@@ -237,6 +239,7 @@ void Splitter::halve_side(const Side& side, std::uint32_t middle) {
   const std::uint32_t apex = index(side.triangle, (side.corner + std::size_t{2}) % 3);
   index(side.triangle, (side.corner + std::size_t{1}) % 3) = middle;
   for (const std::uint32_t v : {middle, to, apex}) mesh_.triangles.push_back(v);
+  near_.push_back(mesh_.step.size());
   mesh_.step.push_back(mesh_.step[side.triangle / 3]);
 }
 
@@ -249,9 +252,10 @@ bool Splitter::round() {
 
 }  // namespace
 
-void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects) {
+void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects,
+                        std::vector<std::size_t>& near) {
   if (suspects.empty()) return;
-  Splitter splitter(mesh, suspects);
+  Splitter splitter(mesh, suspects, near);
   while (splitter.round()) {
   }
 }
