@@ -19,7 +19,9 @@ struct MeshCheck {
   Volume volume;
   std::size_t bad_edges = 0;
 };
-MeshCheck check_mesh(std::span<const float> positions, std::span<const std::uint32_t> triangles);
+/// `threads` 0: as many as the machine has. The result is the same for any number.
+MeshCheck check_mesh(std::span<const float> positions, std::span<const std::uint32_t> triangles,
+                     unsigned threads = 0);
 
 /// What a mesh should hold.
 struct VolumeRange {

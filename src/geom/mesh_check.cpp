@@ -4,7 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
+#include <utility>
 #include <vector>
+
+#include "base/parallel.h"
 
 #include "kerf/geometry.h"
 #include "kerf/number.h"
@@ -12,71 +16,110 @@
 namespace kerf {
 namespace {
 
-/// One triangle's side under the lower of its two vertices; forward if it runs upwards in number.
-struct Side {
-  std::uint32_t other;
-  int forward;
-};
+using Positions = std::span<const float>;
+using Triangles = std::span<const std::uint32_t>;
 
-/// Signed volume of the tetrahedra from the first vertex, in double precision: no digit is lost far from
+constexpr std::size_t kChunk = std::size_t{3} << 14;  // indices
+/// Each share of the edges is found in all triangles: with more of them there is nothing to be won.
+constexpr std::size_t kMostShares = 16;
+/// Of a vertex's number one bit is left for the way in which a side goes.
+constexpr std::size_t kMostVertices = std::size_t{1} << 31;
+
+bool never() { return false; }
+
+/// Six times the signed volume of the tetrahedra from a place, in double precision: no digit is lost far from
 /// zero.
-double enclosed(std::span<const float> positions, std::span<const std::uint32_t> triangles) {
+double six_volumes(Positions positions, Triangles triangles, Point3 from) {
   const auto at = [&](std::uint32_t v) {
     const float* p = positions.data() + std::size_t{3} * v;
     return Point3{p[0], p[1], p[2]};
   };
-  if (triangles.empty()) return 0.0;
-  const Point3 from = at(triangles[0]);
   double six = 0.0;
   for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
     const Point3 a = at(triangles[t]) - from, b = at(triangles[t + 1]) - from,
                  c = at(triangles[t + 2]) - from;
     six += dot(a, cross(b, c));
   }
-  return six / 6.0;
+  return six;
 }
 
+/// In chunks that are summed in order, whatever the threads.
+double enclosed(Positions positions, Triangles triangles, unsigned threads) {
+  if (triangles.empty()) return 0.0;
+  const float* const p = positions.data() + std::size_t{3} * triangles[0];
+  const Point3 from{p[0], p[1], p[2]};
+  std::vector<double> chunks((triangles.size() + kChunk - 1) / kChunk);
+  parallel_for(
+      threads, chunks.size(),
+      [&](std::size_t n) {
+        const std::size_t size = std::min(kChunk, triangles.size() - n * kChunk);
+        chunks[n] = six_volumes(positions, triangles.subspan(n * kChunk, size), from);
+      },
+      never);
+  return std::accumulate(chunks.begin(), chunks.end(), 0.0) / 6.0;
+}
+
+/// A triangle's side under the lower of its two vertices: twice the other one, and one more if it goes down in
+/// number.
+using Side = std::uint32_t;
+
 std::size_t count_bad(Side* begin, Side* end) {
-  std::sort(begin, end, [](const Side& a, const Side& b) { return a.other < b.other; });
+  std::sort(begin, end);
   std::size_t bad = 0;
   while (begin != end) {
     Side* last = begin;
-    int uses = 0, balance = 0;
-    for (; last != end && last->other == begin->other; ++last, ++uses) balance += last->forward;
-    if (uses != 2 || balance != 0) ++bad;
+    int downwards = 0;
+    for (; last != end && *last / 2 == *begin / 2; ++last) downwards += static_cast<int>(*last % 2);
+    if (last - begin != 2 || downwards != 1) ++bad;
     begin = last;
   }
   return bad;
 }
 
-}  // namespace
-
-MeshCheck check_mesh(std::span<const float> positions, std::span<const std::uint32_t> triangles) {
-  const std::size_t vertices = positions.size() / 3;
-  const std::size_t corners = triangles.size() / 3 * 3;
-  MeshCheck check;
-  for (const std::uint32_t v : triangles) {
-    if (v < vertices) continue;
-    check.bad_edges = triangles.size();  // not a mesh at all
-    return check;
-  }
-  check.volume = mm3(enclosed(positions, triangles));
-  std::vector<std::size_t> start(vertices + 1, 0);
+/// Edges, by their lower vertex from `first` to `end` - 1, without two triangles in opposite directions.
+std::size_t count_bad_edges(Triangles triangles, std::size_t first, std::size_t end) {
   const auto each_side = [&](auto&& visit) {
-    for (std::size_t t = 0; t < corners; t += 3) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = triangles[t + k], b = triangles[t + (k + 1) % 3];
-        visit(std::min(a, b), Side{std::max(a, b), a < b ? 1 : -1});
+    for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+      const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+        const std::size_t low = std::min(from, to);
+        if (low - first < end - first) visit(low - first, 2 * std::max(from, to) + (from < to ? 0u : 1u));
       }
     }
   };
-  each_side([&](std::uint32_t low, const Side&) { ++start[low + 1]; });
-  for (std::size_t v = 0; v < vertices; ++v) start[v + 1] += start[v];
-  std::vector<Side> sides(corners);
-  std::vector<std::size_t> next(start.begin(), start.end() - 1);
-  each_side([&](std::uint32_t low, const Side& side) { sides[next[low]++] = side; });
-  for (std::size_t v = 0; v < vertices; ++v)
-    check.bad_edges += count_bad(sides.data() + start[v], sides.data() + start[v + 1]);
+  // Of each vertex the place of its first side, once its sides have gone there one by one.
+  std::vector<std::size_t> start(end - first + 2, 0);
+  each_side([&](std::size_t low, Side) { ++start[low + 2]; });
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  std::vector<Side> sides(start.back());
+  each_side([&](std::size_t low, Side side) { sides[start[low + 1]++] = side; });
+  std::size_t bad = 0;
+  for (std::size_t v = 0; v < end - first; ++v)
+    bad += count_bad(sides.data() + start[v], sides.data() + start[v + 1]);
+  return bad;
+}
+
+}  // namespace
+
+MeshCheck check_mesh(Positions positions, Triangles triangles, unsigned threads) {
+  const std::size_t vertices = positions.size() / 3;
+  triangles = triangles.first(triangles.size() / 3 * 3);
+  MeshCheck check;
+  if (triangles.empty()) return check;
+  if (*std::max_element(triangles.begin(), triangles.end()) >= std::min(vertices, kMostVertices)) {
+    check.bad_edges = triangles.size();  // not a mesh at all
+    return check;
+  }
+  threads = thread_count(threads);
+  check.volume = mm3(enclosed(positions, triangles, threads));
+  std::vector<std::size_t> bad(std::min<std::size_t>(threads, kMostShares));
+  parallel_for(
+      threads, bad.size(),
+      [&](std::size_t n) {
+        bad[n] = count_bad_edges(triangles, n * vertices / bad.size(), (n + 1) * vertices / bad.size());
+      },
+      never);
+  check.bad_edges = std::accumulate(bad.begin(), bad.end(), std::size_t{0});
   return check;
 }
 

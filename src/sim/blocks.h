@@ -1,5 +1,4 @@
-// Memory in large blocks for many objects that live equally long: where the system offers it, in huge pages,
-// since touching a hundred megabytes for the first time in small ones takes longer than cutting a small job.
+// Memory in large blocks, of huge pages, for many objects that live equally long.
 #pragma once
 
 #include <cstddef>
@@ -8,13 +7,14 @@
 #include <utility>
 #include <vector>
 
+#include "base/huge_pages.h"
+
 namespace kerf::sim {
 
 /// At least `bytes` of memory, aligned to whole huge pages; free_block returns it. Throws std::bad_alloc.
 void* new_block(std::size_t bytes);
 void free_block(void* block);
-/// Asks for huge pages, as far as there are whole ones, for memory that is not yet touched.
-void use_huge_pages(void* memory, std::size_t bytes);
+using kerf::use_huge_pages;
 
 /// Numbers that begin as 0, in memory that is not touched before they are needed.
 class Zeros {

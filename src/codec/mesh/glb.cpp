@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "codec/mesh/writers.h"
 
 namespace kerf::mesh_format {
@@ -126,36 +127,43 @@ std::string Asset::json() const {
   return text;
 }
 
-/// The numbers of a primitive, some at a time, since a string grows faster by pieces than by numbers.
-void append_numbers(const MeshView& mesh, const Triangles& triangles, std::string& out) {
-  constexpr std::size_t kPiece = 4096;
-  std::string piece;
-  piece.reserve(kPiece + 9 * sizeof(float));
-  const auto add = [&](float number) { append_little(piece, number); };
-  const auto pass_on = [&](std::size_t at_least) {
-    if (piece.size() < at_least) return;
-    out += piece;
-    piece.clear();
-  };
-  for (const std::uint32_t t : triangles) {
+/// Appends `each` numbers of each triangle, some triangles at a time: put(triangle, numbers) tells them.
+template <std::size_t each, class Put>
+void append_numbers(const Triangles& triangles, std::string& out, const Put& put) {
+  constexpr std::size_t kPiece = 128;  // triangles
+  std::array<float, kPiece * each> piece;
+  for (std::size_t first = 0; first < triangles.size(); first += kPiece) {
+    const std::size_t count = std::min(kPiece, triangles.size() - first);
+    for (std::size_t k = 0; k < count; ++k) put(triangles[first + k], piece.data() + each * k);
+    append_little(out, std::span<const float>(piece.data(), each * count));
+  }
+}
+
+void append_primitive(const MeshView& mesh, const Triangles& triangles, std::string& out) {
+  append_numbers<9>(triangles, out, [&](std::uint32_t t, float* numbers) {
     for (std::size_t corner = 0; corner < 3; ++corner)
-      for (int k = 0; k < 3; ++k) add(position_of(mesh, t, corner)[k]);
-    pass_on(kPiece);
-  }
-  for (const std::uint32_t t : triangles) {
-    if (mesh.step.empty()) break;
-    for (int corner = 0; corner < 3; ++corner) add(step_of(mesh, t));
-    pass_on(kPiece);
-  }
-  pass_on(1);
+      std::copy_n(position_of(mesh, t, corner), 3, numbers + 3 * corner);
+  });
+  if (mesh.step.empty()) return;
+  append_numbers<3>(triangles, out,
+                    [&](std::uint32_t t, float* numbers) { std::fill_n(numbers, 3, step_of(mesh, t)); });
+}
+
+/// The triangles of each colour, those without one last.
+std::vector<Triangles> sort_by_colour(const MeshView& mesh) {
+  std::vector<std::size_t> counts(mesh.palette.size() + 1, 0);
+  for (std::size_t t = 0; t < triangle_count(mesh); ++t) ++counts[colour_of(mesh, t)];
+  std::vector<Triangles> by_colour(counts.size());
+  for (std::size_t c = 0; c < counts.size(); ++c) by_colour[c].reserve(counts[c]);
+  for (std::size_t t = 0; t < triangle_count(mesh); ++t)
+    by_colour[colour_of(mesh, t)].push_back(static_cast<std::uint32_t>(t));
+  return by_colour;
 }
 
 }  // namespace
 
 std::string write_glb(const MeshView& mesh) {
-  std::vector<Triangles> by_colour(mesh.palette.size() + 1);
-  for (std::size_t t = 0; t < triangle_count(mesh); ++t)
-    by_colour[colour_of(mesh, t)].push_back(static_cast<std::uint32_t>(t));
+  const std::vector<Triangles> by_colour = sort_by_colour(mesh);
   Asset asset(mesh);
   for (std::size_t c = 0; c < by_colour.size(); ++c) asset.add_primitive(by_colour[c], c);
   // Lengths in a GLB have 32 bits; the description takes well under the last 16 MiB.
@@ -165,6 +173,7 @@ std::string write_glb(const MeshView& mesh) {
   const std::size_t size = 20 + json.size() + (has_binary ? 8 + asset.binary_size() : 0);
   std::string out = "glTF";
   out.reserve(size);
+  use_huge_pages(out.data(), size);
   append_little(out, std::uint32_t{2});
   append_little(out, static_cast<std::uint32_t>(size));
   append_little(out, static_cast<std::uint32_t>(json.size()));
@@ -172,7 +181,7 @@ std::string write_glb(const MeshView& mesh) {
   if (has_binary) {
     append_little(out, static_cast<std::uint32_t>(asset.binary_size()));
     out.append("BIN\0", 4);
-    for (const Triangles& triangles : by_colour) append_numbers(mesh, triangles, out);
+    for (const Triangles& triangles : by_colour) append_primitive(mesh, triangles, out);
   }
   return out;
 }

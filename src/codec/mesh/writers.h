@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 #include <string>
 
 #include "kerf/mesh_files.h"
@@ -29,6 +31,15 @@ void append_little(std::string& out, T value) {
   std::array<char, sizeof(T)> bytes{};
   for (std::size_t k = 0; k < sizeof(T); ++k) bytes[k] = static_cast<char>(bits >> (8 * k) & 0xffu);
   out.append(bytes.data(), bytes.size());
+}
+
+/// Appends numbers as append_little does.
+inline void append_little(std::string& out, std::span<const float> numbers) {
+  if constexpr (std::endian::native == std::endian::little) {
+    out.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+  } else {
+    for (const float number : numbers) append_little(out, number);
+  }
 }
 
 inline std::size_t triangle_count(const MeshView& mesh) { return mesh.triangles.size() / 3; }

@@ -1,0 +1,14 @@
+// Memory in huge pages, where the system offers them: touching a hundred megabytes for the first time in small
+// ones takes longer than cutting a small job.
+#pragma once
+
+#include <cstddef>
+
+namespace kerf {
+
+inline constexpr std::size_t kHugePage = std::size_t{1} << 21;
+
+/// Asks for huge pages, as far as there are whole ones, for memory that is not yet touched.
+void use_huge_pages(void* memory, std::size_t bytes);
+
+}  // namespace kerf
