@@ -31,6 +31,8 @@ void copy_tops(const sim::Tile& tile, Ends& out) {
 
 Columns::Columns(ColumnGrid frame, float full_height)
     : frame_(std::move(frame)),
+      squares_x_((nx() + kSquare - 1) / kSquare),
+      squares_y_((ny() + kSquare - 1) / kSquare),
       size_x_(frame_.bounds.high.x - frame_.bounds.low.x),
       size_y_(frame_.bounds.high.y - frame_.bounds.low.y),
       height_(frame_.bounds.high.z - frame_.bounds.low.z),

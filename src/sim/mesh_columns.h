@@ -63,16 +63,20 @@ class Columns {
   bool uneven(int i, int j) const { return (i == nx() - 1 && narrow_x_) || (j == ny() - 1 && narrow_y_); }
   bool has_narrow() const { return narrow_x_ || narrow_y_; }
 
-  int squares_x() const { return (nx() + kSquare - 1) / kSquare; }
-  int squares_y() const { return (ny() + kSquare - 1) / kSquare; }
+  int squares_x() const { return squares_x_; }
+  int squares_y() const { return squares_y_; }
   const Square& square(int x, int y) const {
     return squares_[static_cast<std::size_t>(y) * static_cast<std::size_t>(squares_x()) +
                     static_cast<std::size_t>(x)];
   }
-  const Square& square_of(int i, int j) const { return square(i / kSquare, j / kSquare); }
+  /// The square of a column in the grid.
+  const Square& square_of(int i, int j) const {
+    const std::size_t x = static_cast<unsigned>(i) / kSquare, y = static_cast<unsigned>(j) / kSquare;
+    return squares_[y * static_cast<unsigned>(squares_x_) + x];
+  }
   /// Number of a column in its square.
   static std::size_t cell(int i, int j) {
-    return static_cast<std::size_t>(j % kSquare) * kSquare + static_cast<std::size_t>(i % kSquare);
+    return std::size_t{static_cast<unsigned>(j) % kSquare * kSquare + static_cast<unsigned>(i) % kSquare};
   }
 
   bool inside(int i, int j) const { return i >= 0 && j >= 0 && i < nx() && j < ny(); }
@@ -91,11 +95,17 @@ class Columns {
     return {s.low->z[c], s.high->z[c], s.low->step[c], s.high->step[c]};
   }
   double z(int i, int j, int end) const {
-    const Interval run = interval(i, j, end / 2);
-    return end % 2 == 0 ? run.low : run.high;
+    const Square& s = square_of(i, j);
+    const std::size_t c = cell(i, j);
+    if (s.many == nullptr) return static_cast<double>(end == 0 ? s.low->z[c] : s.high->z[c]);
+    const Interval& run = s.many->runs[s.many->first[c] + static_cast<std::size_t>(end / 2)];
+    return static_cast<double>(end % 2 == 0 ? run.low : run.high);
   }
   std::uint32_t step(int i, int j, int end) const {
-    const Interval run = interval(i, j, end / 2);
+    const Square& s = square_of(i, j);
+    const std::size_t c = cell(i, j);
+    if (s.many == nullptr) return end == 0 ? s.low->step[c] : s.high->step[c];
+    const Interval& run = s.many->runs[s.many->first[c] + static_cast<std::size_t>(end / 2)];
     return end % 2 == 0 ? run.low_step : run.high_step;
   }
   /// The step that took the last material of a column without any.
@@ -131,6 +141,7 @@ class Columns {
   bool all_alike(std::size_t number) const;
 
   ColumnGrid frame_;
+  int squares_x_, squares_y_;
   double size_x_, size_y_, height_;
   bool narrow_x_, narrow_y_;  // the last column of a row, the last row
   bool has_material_ = false;

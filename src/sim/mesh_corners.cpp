@@ -66,12 +66,14 @@ double Columns::slope(int i, int j, int end, int dx, int dy) const {
   for (const int side : {-1, 1}) {
     const int other_i = i + side * dx, other_j = j + side * dy;
     const int other = facing_end(i, j, end, other_i, other_j);
-    if (other < 0 || !continues(i, j, end, other_i, other_j, other)) continue;
-    rise += side * (z(other_i, other_j, other) - mine);
+    if (other < 0) continue;
+    const double step = z(other_i, other_j, other) - mine;
+    if (std::abs(step) > kSlopeShare * pitch() && !continues(i, j, end, other_i, other_j, other)) continue;
+    rise += side * step;
     run += side * (dx != 0 ? frame_.column_x(other_i) - frame_.column_x(i)
                            : frame_.column_y(other_j) - frame_.column_y(j));
   }
-  return run > 0.0 ? rise / run : 0.0;
+  return rise != 0.0 ? rise / run : 0.0;
 }
 
 CornerPlane::CornerPlane(const Columns& columns)
@@ -112,30 +114,51 @@ void CornerRow::build(const Columns& columns, const CornerPlane& plane, int j) {
   corners_.resize(static_cast<std::size_t>(columns.nx()) + 1);
   plane.wanted(j, numbers_);
   for (const int i : numbers_) {
-    if (plane.simple(i, j)) {
-      build_simple(columns, i, j);
+    const int layers = plane.simple(i, j) ? 2 : layers_around(columns, i, j);
+    if (layers != 0) {
+      build_layers(columns, i, j, layers);
     } else {
       build_any(columns, i, j);
     }
+    corners_[static_cast<std::size_t>(i)].simple = plane.simple(i, j);
   }
 }
 
-void CornerRow::build_simple(const Columns& columns, int i, int j) {
+/// How many ends each of the four columns around a corner has, if no step between them is a wall and each
+/// surface lies wholly above the one below; else 0.
+int CornerRow::layers_around(const Columns& columns, int i, int j) {
+  const int ends = columns.ends(column_x(i, 0), column_y(j, 0));
+  if (ends == 0 || columns.uneven(i, j)) return 0;
+  for (int q = 1; q < 4; ++q)
+    if (columns.ends(column_x(i, q), column_y(j, q)) != ends) return 0;
+  float below = -std::numeric_limits<float>::infinity();
+  for (int k = 0; 2 * k < ends; ++k) {
+    std::array<Interval, 4> runs;
+    for (int q = 0; q < 4; ++q)
+      runs[static_cast<std::size_t>(q)] = columns.interval(column_x(i, q), column_y(j, q), k);
+    const FourHeights low = four_heights(runs[0].low, runs[1].low, runs[2].low, runs[3].low);
+    const FourHeights high = four_heights(runs[0].high, runs[1].high, runs[2].high, runs[3].high);
+    const double wall = kSlopeShare * columns.pitch();
+    if (!(below < low.low && low.high < high.low) || low.high - low.low > wall || high.high - high.low > wall)
+      return 0;
+    below = high.high;
+  }
+  return ends;
+}
+
+/// A corner that all surfaces go around.
+void CornerRow::build_layers(const Columns& columns, int i, int j, int layers) {
   Corner corner;
-  corner.simple = true;
   corner.first_sheet = static_cast<std::uint32_t>(sheets_.size());
-  corner.sheets = 2;
-  for (const int end : {0, 1}) {
+  corner.sheets = static_cast<std::uint32_t>(layers);
+  corner.first_rank.fill(static_cast<std::uint32_t>(ranks_.size()));
+  corner.ends.fill(layers);
+  for (int end = 0; end < layers; ++end) {
     const auto z = [&](int q) { return static_cast<float>(columns.z(column_x(i, q), column_y(j, q), end)); };
     sheets_.push_back(
         {columns.corner_x(i), columns.corner_y(j), four_heights(z(0), z(1), z(2), z(3)).mean, kNone, false});
+    ranks_.push_back(end);
   }
-  for (std::size_t q = 0; q < 4; ++q) {
-    corner.first_rank[q] = static_cast<std::uint32_t>(ranks_.size());
-    corner.ends[q] = 2;
-  }
-  ranks_.push_back(0);
-  ranks_.push_back(1);
   corners_[static_cast<std::size_t>(i)] = corner;
 }
 

@@ -110,7 +110,8 @@ class CornerRow {
     double x = 0.0, y = 0.0;
   };
 
-  void build_simple(const Columns& columns, int i, int j);
+  static int layers_around(const Columns& columns, int i, int j);
+  void build_layers(const Columns& columns, int i, int j, int layers);
   void build_any(const Columns& columns, int i, int j);
   void gather(const Columns& columns, int i, int j);
   bool join(const Columns& columns, int i, int j, int q, int other);

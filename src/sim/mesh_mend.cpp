@@ -68,6 +68,7 @@ class Mender {
   const std::vector<std::size_t>* among_;
   std::vector<float>* outwards_;                    // null, or where each triangle is to face
   std::vector<std::size_t> flat_, changed_;         // changed: since the flat ones were found
+  std::vector<std::size_t> gone_;                   // triangles that are no more
   std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
   std::vector<std::vector<std::uint32_t>> around_;  // triangles at a vertex, some of them gone or moved away
 };
@@ -221,6 +222,7 @@ bool Mender::collapse(std::uint32_t keep, std::uint32_t gone) {
     const bool had_both = std::find(c.begin(), c.end(), keep) != c.end();
     std::replace(c.begin(), c.end(), gone, keep);
     set(t, had_both ? Corners{keep, keep, keep} : c);
+    if (had_both) gone_.push_back(t);
     if (!had_both) around_[place_[keep]].push_back(t);
   }
   return true;
@@ -234,14 +236,17 @@ bool Mender::mend(std::size_t t) {
 }
 
 void Mender::drop_gone() {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh_.step.size(); ++t) {
-    if (is_gone(t)) continue;
-    if (kept != t) {
-      set(kept, corners(t));
-      mesh_.step[kept] = mesh_.step[t];
+  std::sort(gone_.begin(), gone_.end());
+  std::size_t kept = 0, next = 0;
+  for (std::size_t n = 0; n <= gone_.size(); ++n) {
+    const std::size_t end = n < gone_.size() ? gone_[n] : mesh_.step.size();
+    if (kept != next) {
+      std::copy(mesh_.step.data() + next, mesh_.step.data() + end, mesh_.step.data() + kept);
+      std::copy(mesh_.triangles.data() + 3 * next, mesh_.triangles.data() + 3 * end,
+                mesh_.triangles.data() + 3 * kept);
     }
-    ++kept;
+    kept += end - next;
+    next = end + 1;
   }
   mesh_.triangles.resize(3 * kept);
   mesh_.step.resize(kept);
@@ -276,7 +281,7 @@ void Mender::flip_all() {
 
 void Mender::run() {
   flip_all();
-  if (place_.empty()) return;  // nothing was flat
+  if (gone_.empty()) return;
   drop_gone();
   drop_unused();
 }

@@ -15,10 +15,11 @@
 namespace kerf::meshing {
 namespace {
 
-/// A side of a triangle: `triangle` is the place of its first index.
+/// A side of a triangle: `triangle` is the place of its first index, `slot` its place in triangles_.
 struct Side {
   std::uint32_t low, high;  // vertices
   std::size_t triangle;
+  std::uint32_t slot;
   std::uint8_t corner;  // the side runs from this corner to the next
   bool forward;         // from low to high
 };
@@ -55,7 +56,6 @@ class Splitter {
   std::vector<std::size_t> triangles_;          // those with a suspect vertex
   std::vector<Side> sides_;                     // of these, with both ends suspect or one parted
   std::vector<Pair> pairs_, shared_pairs_;
-  std::vector<std::size_t> slot_;    // place of a triangle in triangles_
   std::vector<std::size_t> parent_;  // union-find over the corners of triangles_
 };
 
@@ -89,11 +89,12 @@ void Splitter::collect() {
   for (const std::size_t number : near_) {
     const std::size_t t = 3 * number;
     if ((suspect_[index(t, 0)] | suspect_[index(t, 1)] | suspect_[index(t, 2)]) == 0) continue;
+    const auto slot = static_cast<std::uint32_t>(triangles_.size());
     triangles_.push_back(t);
     for (std::uint8_t k = 0; k < 3; ++k) {
       const std::uint32_t a = index(t, k), b = index(t, (k + std::size_t{1}) % 3);
       if (suspect_[a] != 0 || suspect_[b] != 0)
-        sides_.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
+        sides_.push_back({std::min(a, b), std::max(a, b), t, slot, k, a < b});
     }
   }
   sort_sides();
@@ -107,9 +108,9 @@ void Splitter::sort_sides() {
   std::vector<Side> sorted(sides_.size());
   for (const Side& side : sides_) sorted[next[side.low]++] = side;
   sides_ = std::move(sorted);
-  for (std::size_t low = 0, begin = 0; low < suspect_.size(); begin = next[low++]) {
-    const auto at = [&](std::size_t k) { return sides_.begin() + static_cast<std::ptrdiff_t>(k); };
-    std::sort(at(begin), at(next[low]), [](const Side& a, const Side& b) {
+  for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
+    end = next[sides_[begin].low];
+    std::sort(sides_.data() + begin, sides_.data() + end, [](const Side& a, const Side& b) {
       return std::tie(a.high, a.triangle, a.corner) < std::tie(b.high, b.triangle, b.corner);
     });
   }
@@ -164,7 +165,7 @@ void Splitter::join(const Side& a, const Side& b) {
   const auto corner_at = [&](const Side& side, std::uint32_t vertex) {
     std::size_t k = side.corner;
     if (index(side.triangle, k) != vertex) k = (k + 1) % 3;
-    return 3 * slot_[side.triangle / 3] + k;
+    return 3 * std::size_t{side.slot} + k;
   };
   for (const std::uint32_t vertex : {a.low, a.high}) {
     if (parted_[vertex] == 0) continue;
@@ -175,8 +176,6 @@ void Splitter::join(const Side& a, const Side& b) {
 
 /// Gives each fan of triangles around a parted vertex a vertex of its own; the first fan keeps the old one.
 void Splitter::part_vertices() {
-  slot_.assign(mesh_.triangles.size() / 3, 0);
-  for (std::size_t k = 0; k < triangles_.size(); ++k) slot_[triangles_[k] / 3] = k;
   parent_.resize(3 * triangles_.size());
   std::iota(parent_.begin(), parent_.end(), std::size_t{0});
   for (const Pair& pair : pairs_) join(pair.forward, pair.backward);
@@ -201,6 +200,7 @@ void Splitter::part_vertices() {
 
 /// Halves the edges that are still shared after parting. True if there were any.
 bool Splitter::halve() {
+  if (shared_pairs_.empty()) return false;
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::size_t>;
   std::vector<Key> keys;
   for (std::size_t k = 0; k < shared_pairs_.size(); ++k) {
