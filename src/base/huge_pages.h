@@ -1,5 +1,5 @@
-// Memory in huge pages, where the system offers them: touching a hundred megabytes for the first time in small
-// ones takes longer than cutting a small job.
+// Memory in huge pages, where the system offers them: touching a hundred megabytes for the first time in
+// small ones takes longer than cutting a small job.
 #pragma once
 
 #include <cstddef>

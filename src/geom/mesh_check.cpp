@@ -59,8 +59,8 @@ double enclosed(Positions positions, Triangles triangles, unsigned threads) {
   return std::accumulate(chunks.begin(), chunks.end(), 0.0) / 6.0;
 }
 
-/// A triangle's side under the lower of its two vertices: twice the other one, and one more if it goes down in
-/// number.
+/// A triangle's side under the lower of its two vertices: twice the other one, and one more if it goes down
+/// in number.
 using Side = std::uint32_t;
 
 std::size_t count_bad(Side* begin, Side* end) {

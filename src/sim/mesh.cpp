@@ -71,8 +71,7 @@ void add_walls(WallFiller& walls, Builder& builder, const CornerPlane& plane, Co
 /// The walls of the corner rows of a band, which are made with vertices of their own. Of the row before the
 /// band, which they reach down to, each band has a copy.
 struct WallBand {
-  explicit WallBand(const Columns& columns, const MeshOptions& options)
-      : builder{columns, options, {}, {}} {}
+  explicit WallBand(const Columns& columns, const MeshOptions& options) : builder{columns, options, {}, {}} {}
   Builder builder;
   CornerRow before, last;
 };

@@ -19,8 +19,8 @@ inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-/// A mesh that grows, of a band of rows. Vertices whose edges may be shared by four triangles are remembered for
-/// `split_shared_edges`.
+/// A mesh that grows, of a band of rows. Vertices whose edges may be shared by four triangles are remembered
+/// for `split_shared_edges`.
 struct Builder {
   const Columns& columns;
   const MeshOptions& options;
@@ -170,8 +170,8 @@ class CapSheet {
   int blocks_x_, blocks_y_;
   sim::BlockStore<CapBlock> store_;
   std::vector<sim::BlockStore<CapBlock>::Pointer> blocks_;
-  std::vector<std::uint32_t> whole_;         // entries of the corners of whole squares
-  std::vector<std::vector<Given>> given_;    // by block
+  std::vector<std::uint32_t> whole_;       // entries of the corners of whole squares
+  std::vector<std::vector<Given>> given_;  // by block
   std::vector<Band> bands_;
 };
 

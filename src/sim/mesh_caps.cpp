@@ -269,7 +269,8 @@ std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) c
   assert(whole || known.block != nullptr);
   const std::uint32_t entry = whole ? known.whole : known.block->entry[Columns::cell(corner.x, corner.y)];
   assert(entry != kNone);
-  if ((entry & (kNew | kMany)) == kNew) return static_cast<std::uint32_t>(known.band->first_vertex) + entry - kNew;
+  if ((entry & (kNew | kMany)) == kNew)
+    return static_cast<std::uint32_t>(known.band->first_vertex) + entry - kNew;
   at_wall = true;
   if (entry < kNew) return known.wall_vertices[entry];
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));

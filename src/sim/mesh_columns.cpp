@@ -189,8 +189,7 @@ void Columns::read_grid(const ColumnGrid& grid, std::size_t number) {
   if (!has_many) return;
   fill_many(number, [&](int x, int y, std::vector<Interval>& runs) {
     const std::size_t n = column(x, y);
-    runs.insert(runs.end(), grid.intervals.begin() + grid.first[n],
-                grid.intervals.begin() + grid.first[n + 1]);
+    runs.insert(runs.end(), grid.intervals.data() + grid.first[n], grid.intervals.data() + grid.first[n + 1]);
     return grid.cut_through.empty() ? kStockSurface : grid.cut_through[n];
   });
 }

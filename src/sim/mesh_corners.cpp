@@ -21,7 +21,8 @@ int Columns::facing_end(int i, int j, int end, int other_i, int other_j) const {
   const Square &square = square_of(i, j), &other_square = square_of(other_i, other_j);
   if (square.many == nullptr && other_square.many == nullptr) {  // one interval each, as mostly
     const std::size_t c = cell(i, j), o = cell(other_i, other_j);
-    return other_square.low->z[o] < square.high->z[c] && square.low->z[c] < other_square.high->z[o] ? end : -1;
+    return other_square.low->z[o] < square.high->z[c] && square.low->z[c] < other_square.high->z[o] ? end
+                                                                                                    : -1;
   }
   const int other_ends = ends(other_i, other_j);
   const int k = end / 2;
@@ -169,7 +170,8 @@ void CornerRow::build_any(const Columns& columns, int i, int j) {
   sort_groups(columns, i, j);
   // Surfaces above each other, or a spiral, can meet in a vertex without sharing an edge; not where all of
   // them go all around.
-  const bool is_high = std::any_of(group_of_.begin(), group_of_.end(), [](auto& ends) { return ends.size() > 2; });
+  const bool is_high =
+      std::any_of(group_of_.begin(), group_of_.end(), [](auto& ends) { return ends.size() > 2; });
   const bool suspect = is_spiral || (is_high && !std::all_of(groups_.begin(), groups_.end(), is_whole));
 
   Corner corner;

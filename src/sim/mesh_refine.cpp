@@ -84,9 +84,7 @@ void CapSheet::Patch::read_row(int y, std::array<float, kPatch + 1>& row) const 
   const int j = first_y_ + y;
   row.fill(0.0f);
   if (j < 0 || j >= columns.ny()) return;
-  const auto z = [&](int i) {
-    return sheet_.ends_of(columns.square_of(i, j)).z[Columns::cell(i, j)];
-  };
+  const auto z = [&](int i) { return sheet_.ends_of(columns.square_of(i, j)).z[Columns::cell(i, j)]; };
   if (first_x_ > 0) row.front() = z(first_x_ - 1);
   if (first_x_ + kSquare < columns.nx()) row.back() = z(first_x_ + kSquare);
   const Ends& ends = sheet_.ends_of(columns.square_of(first_x_, j));
@@ -126,8 +124,8 @@ void CapSheet::Patch::put_given() {
 }
 
 /// A triangle is off by no more than its middle's height over the halved side plus what its halves are off.
-/// But what the middle adds fades out towards the sides on which the halves have their middles, so that of two
-/// levels only the larger one counts.
+/// But what the middle adds fades out towards the sides on which the halves have their middles, so that of
+/// two levels only the larger one counts.
 void CapSheet::Patch::put(std::size_t middle, std::size_t a, std::size_t b, const Below& below) {
   const float mine = own(middle, a, b);
   one_level_[middle] = mine + below.error;
@@ -149,7 +147,8 @@ void CapSheet::Patch::begin() {
       const std::size_t c = at(x, y), up = c + kPatch, down = c - kPatch;
       const bool rises = ((x + y) / 2) % 2 != 0;  // as in halve_diagonals
       const float mine = rises ? own(c, down - 1, up + 1) : own(c, down + 1, up - 1);
-      const float below = std::max(std::max(error_[c - 1], error_[c + 1]), std::max(error_[down], error_[up]));
+      const float below =
+          std::max(std::max(error_[c - 1], error_[c + 1]), std::max(error_[down], error_[up]));
       one_level_[c] = mine + below;
       below_[c] = below;
       error_[c] = std::max(mine, below);
@@ -241,7 +240,8 @@ void CapSheet::need_parents(Node n, int band, std::vector<Node>& work, const Bey
     const Node child = work.back();
     work.pop_back();
     for (const Node p : parents(child)) {
-      if (p.x < 0 || p.y < 0 || is_whole(p.x, p.y) || p.x / kSquare >= blocks_x_ || p.y / kSquare >= blocks_y_)
+      if (p.x < 0 || p.y < 0 || is_whole(p.x, p.y) || p.x / kSquare >= blocks_x_ ||
+          p.y / kSquare >= blocks_y_)
         continue;
       if (p.y / kSquare != band) {
         beyond(p);
@@ -261,9 +261,7 @@ void CapSheet::propagate(int number) {
     for (const int x : bands_[static_cast<std::size_t>(number) - 1].above) need(x, number * kSquare);
   std::vector<Node> work;
   const auto beyond = [&](Node n) { band.beyond.push_back(n); };
-  for_needed(number, [&](int i, int j) {
-    need_parents({i, j}, number, work, beyond);
-  });
+  for_needed(number, [&](int i, int j) { need_parents({i, j}, number, work, beyond); });
 }
 
 void CapSheet::propagate_across() {

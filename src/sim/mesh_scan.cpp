@@ -177,10 +177,12 @@ bool Scanner::joined(int i, int j, int end) const {
       across.high[place] = row(j - 2 + n).high()[i + k];
     }
     Answer answer = continues(along, end, limit_);
-    if (answer == Answer::no || (answer == Answer::unknown && !columns_.continues(i - 1, j + k, end, i, j + k, end)))
+    if (answer == Answer::no ||
+        (answer == Answer::unknown && !columns_.continues(i - 1, j + k, end, i, j + k, end)))
       return false;
     answer = continues(across, end, limit_);
-    if (answer == Answer::no || (answer == Answer::unknown && !columns_.continues(i + k, j - 1, end, i + k, j, end)))
+    if (answer == Answer::no ||
+        (answer == Answer::unknown && !columns_.continues(i + k, j - 1, end, i + k, j, end)))
       return false;
   }
   return true;
@@ -206,7 +208,8 @@ void Scanner::need(int i, int j) {
   };
   const Row &south = row(j - 1), &north = row(j);
   const bool low = alike(south.low_key(), north.low_key()) && (merges_ || alike(south.low(), north.low()));
-  const bool high = alike(south.high_key(), north.high_key()) && (merges_ || alike(south.high(), north.high()));
+  const bool high =
+      alike(south.high_key(), north.high_key()) && (merges_ || alike(south.high(), north.high()));
   if (!low) bottom_.need(i, j);
   if (!high) top_.need(i, j);
 }
