@@ -328,6 +328,7 @@ TEST(Mesh, TheSameForAnyNumberOfThreads) {
     EXPECT_EQ(a.positions, b.positions);
     EXPECT_EQ(a.triangles, b.triangles);
     EXPECT_EQ(a.step, b.step);
+    EXPECT_EQ(check_mesh(a.positions, a.triangles, threads).volume, check_mesh(a).volume);
   }
 }
 
@@ -348,7 +349,8 @@ TEST(CheckMesh, CountsOpenAndDoubledEdges) {
   EXPECT_EQ(check_mesh(mesh).bad_edges, 0u);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 1.0 / 6, 1e-9);
   std::swap(mesh.triangles[0], mesh.triangles[1]);  // one triangle turned over
-  EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
+  for (const unsigned threads : {1u, 2u, 3u, 7u})
+    EXPECT_EQ(check_mesh(mesh.positions, mesh.triangles, threads).bad_edges, 3u);
   mesh.triangles.resize(9);
   std::swap(mesh.triangles[0], mesh.triangles[1]);
   EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
@@ -450,6 +452,19 @@ double worst_height(const Mesh& mesh, double pitch, const Height& height, std::s
   return worst;
 }
 
+/// The heights of the corners of columns of 0.1 mm, in the mesh that merges nothing.
+std::map<std::pair<int, int>, double> corner_heights(const Mesh& full) {
+  std::map<std::pair<int, int>, double> corner;
+  for (std::size_t k = 0; k < full.positions.size(); k += 3) {
+    const auto i = static_cast<int>(std::lround(full.positions[k] / 0.1f));
+    const auto j = static_cast<int>(std::lround(full.positions[k + 1] / 0.1f));
+    const double z = full.positions[k + 2];
+    const auto [it, is_new] = corner.try_emplace({i, j}, z);
+    if (!is_new) it->second = std::max(it->second, z);
+  }
+  return corner;
+}
+
 TEST(Mesh, MergesWithinATolerance) {
   constexpr double kPitch = 0.1;
   constexpr int kX = 150, kY = 130;
@@ -459,29 +474,39 @@ TEST(Mesh, MergesWithinATolerance) {
   const ColumnGrid grid = make_grid(kX, kY, kPitch, 6, [&](double x, double y) {
     return Column{{0, static_cast<float>(surface(x, y))}};
   });
-  std::map<std::pair<int, int>, double> corner;  // of the mesh that merges nothing
   const Mesh full = extract_mesh(grid);
-  for (std::size_t k = 0; k < full.positions.size(); k += 3) {
-    const auto i = static_cast<int>(std::lround(full.positions[k] / kPitch));
-    const auto j = static_cast<int>(std::lround(full.positions[k + 1] / kPitch));
-    const double z = full.positions[k + 2];
-    const auto [it, is_new] = corner.try_emplace({i, j}, z);
-    if (!is_new) it->second = std::max(it->second, z);
-  }
+  const auto corner = corner_heights(full);
+  const auto height = [&](double i, double j) {
+    return corner.at({static_cast<int>(i), static_cast<int>(j)});
+  };
   std::size_t before = full.step.size();
   for (const double tolerance : {0.001, 0.005, 0.05}) {
     const Mesh mesh = extract_mesh(grid, {.tolerance = mm(tolerance)});
     expect_sound(grid, mesh);
     std::size_t seen = 0;
-    const auto height = [&](double i, double j) {
-      return corner.at({static_cast<int>(i), static_cast<int>(j)});
-    };
     EXPECT_LE(worst_height(mesh, kPitch, height, seen), tolerance + 1e-6);
     EXPECT_GE(seen, static_cast<std::size_t>(kX * kY));
     EXPECT_LT(mesh.step.size(), before);
     before = mesh.step.size();
   }
   EXPECT_LT(before, full.step.size() / 5);
+}
+
+TEST(Mesh, MergesTheLargestSquaresWithinATolerance) {
+  // Bent along one diagonal of the squares only, by a little more than the tolerance.
+  const ColumnGrid grid = make_grid(192, 192, 0.1, 8, [&](double x, double y) {
+    return Column{{0, static_cast<float>(2 + 0.0015 * (x + y) * (x + y))}};
+  });
+  const auto corner = corner_heights(extract_mesh(grid));
+  const auto height = [&](double i, double j) {
+    return corner.at({static_cast<int>(i), static_cast<int>(j)});
+  };
+  for (const double tolerance : {0.04, 0.05, 0.06, 0.07}) {
+    std::size_t seen = 0;
+    const Mesh mesh = extract_mesh(grid, {.tolerance = mm(tolerance)});
+    EXPECT_LE(worst_height(mesh, 0.1, height, seen), tolerance + 1e-6);
+    EXPECT_GE(seen, std::size_t{192 * 192});
+  }
 }
 
 TEST(Mesh, MergesOnlyStepsOfOneGroup) {

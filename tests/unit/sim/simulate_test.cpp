@@ -117,6 +117,30 @@ TEST(Simulate, GridAndColumnsAgree) {
   }
 }
 
+TEST(Simulate, AMeshOfAWorkpieceIsThatOfItsGrid) {
+  // Tiles that nothing has cut, undercuts, holes, and narrower columns at the high sides.
+  const Stock stock = block({-30, 0, -10}, {50, 40, 0});
+  Path path;
+  path.tool(1).rapid({10, 20, 2}).cut({10, 20, -11}).cut({30, 20, -11});
+  for (const Toolpath& job : {random_job(3, 200), path.path()}) {
+    Diagnostics diagnostics;
+    const auto result = run(job, square_and_keyhole(), stock, 0.3, diagnostics);
+    ASSERT_TRUE(result);
+    const ColumnGrid grid = result->workpiece.grid();
+    const MeshColumns columns(result->workpiece);
+    const MeshOptions options{.tolerance = mm(0.002)};
+    const Mesh a = extract_mesh(grid, options), b = extract_mesh(columns, options);
+    EXPECT_FALSE(a.triangles.empty());
+    EXPECT_EQ(a.positions, b.positions);
+    EXPECT_EQ(a.triangles, b.triangles);
+    EXPECT_EQ(a.step, b.step);
+    EXPECT_EQ(mesh_volume(grid).expected, mesh_volume(columns).expected);
+    EXPECT_EQ(mesh_volume(grid).tolerance, mesh_volume(columns).tolerance);
+    EXPECT_NEAR(mesh_volume(columns).expected.mm3(), result->workpiece.volume().mm3(),
+                mesh_volume(columns).tolerance.mm3());
+  }
+}
+
 TEST(Simulate, ColumnsCutThroughKnowWhoTookTheLast) {
   Path path;  // 2 plunge, 3 slot through, 6 keyhole beside it, 7 deeper where nothing is left
   path.tool(1).rapid({10, 20, 2}).cut({10, 20, -2}).cut({10, 20, -11}).cut({30, 20, -11});
