@@ -179,8 +179,4 @@ void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects);
 /// them out would leave an edge to more than two triangles.
 void mend_flat_triangles(Mesh& mesh, unsigned threads);
 
-/// Flips sides of triangles that face away from their vector in `outwards` (three numbers each), where both
-/// triangles then face the right way. Vertices keep their numbers.
-void unfold_triangles(Mesh& mesh, std::vector<float>& outwards, unsigned threads);
-
 }  // namespace kerf::meshing

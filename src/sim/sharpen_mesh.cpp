@@ -16,6 +16,7 @@
 #include "sim/sharpen.h"
 
 #include "kerf/exact_mesh.h"
+
 namespace kerf {
 namespace sim {
 namespace {
