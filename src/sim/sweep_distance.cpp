@@ -231,22 +231,17 @@ Nearest Looker::lowest_of_many(Span span, double enough) const {
   const int pieces = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMostLooks)));
   const auto place = [&](int k) { return span.first + span.width() * k / pieces; };
   Nearest best;
-  bool goes_on = false;  // along the level stretch of path that the last lowest place is on
   const auto take = [&](const Nearest& found) {
-    const double higher = std::max(best.distance.value, found.distance.value);
-    const double elsewhere = goes_on ? best.elsewhere : std::min(best.elsewhere, higher);
     if (found.distance.value < best.distance.value) best = found;
-    best.elsewhere = elsewhere;
   };
   Look before = at(span.first);
-  if (before.along >= 0.0) take({before.distance, span.first});
+  take({before.distance, span.first});
   for (int k = 1; k <= pieces; ++k) {
     const Look look = at(place(k));
-    goes_on = before.along == 0.0;
-    if (before.along <= 0.0 && look.along >= 0.0)
-      take(lowest({place(k - 1), place(k)}, 0.5 * (place(k - 1) + place(k)), look_width(), enough));
-    goes_on = look.along == 0.0;
-    if (look.along <= 0.0 && k == pieces) take({look.distance, span.last});
+    take({look.distance, place(k)});
+    if (before.along < 0.0 && look.along > 0.0)
+      take(lowest({place(k - 1), place(k)}, 0.5 * (place(k - 1) + place(k)), look_width(),
+                  std::min(enough, best.distance.value)));
     before = look;
   }
   return best;
@@ -298,18 +293,10 @@ Nearest nearest_beside(const Sweep& sweep, const ToolDistance& tool, Point3 plac
   const Looker looker(sweep, tool, place);
   const Span span = looker.near(reach);
   if (span.empty()) return {};
+  // Of several lowest places another one may be the lowest now.
+  if (!tool.is_convex()) return looker.lowest_of_many(span, enough);
   const double guess = known.where + looker.share_along(moved);
-  const double far = length(moved), stride = std::max(far, kLeastStride);
-  if (tool.is_convex()) return looker.lowest(span, guess, stride, enough);
-  if (tool.is_hollow()) return looker.lowest_of_many(span, enough);
-  // The same lowest place has moved a little; unless another one is lower now.
-  const Span beside{span.clamp(guess - looker.look_width()), span.clamp(guess + looker.look_width())};
-  Nearest found = looker.lowest(beside, guess, stride, enough);
-  found.elsewhere = known.elsewhere - far;
-  const bool has_left = (found.where == beside.first && beside.first > span.first) ||
-                        (found.where == beside.last && beside.last < span.last);
-  if (!has_left && found.distance.value <= found.elsewhere) return found;
-  return looker.lowest_of_many(span, enough);
+  return looker.lowest(span, guess, std::max(length(moved), kLeastStride), enough);
 }
 
 DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {

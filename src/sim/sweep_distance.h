@@ -30,7 +30,6 @@ Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, P
 struct Nearest {
   Distance distance;
   double where = 0.0;
-  double elsewhere = kNowhere;  // nowhere away from there it is nearer than this
 };
 /// Places further than `reach` may be said to be nowhere, and distances that are not below `enough` need not
 /// be exact.

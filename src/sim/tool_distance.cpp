@@ -56,8 +56,6 @@ ToolDistance::ToolDistance(const Silhouette& tool) {
   add_region(knots);
   bottom_ = pieces_.empty() ? 0.0 : pieces_.front().z0;
   is_convex_ = turns_left();
-  is_hollow_ =
-      std::any_of(pieces_.begin(), pieces_.end(), [](const Piece& piece) { return piece.side < 0.0; });
 }
 
 double ToolDistance::per_square(const Piece& piece) {

@@ -27,8 +27,6 @@ class ToolDistance {
   double bottom() const { return bottom_; }  // mm above the tip
   /// Whether the distance is a convex function: along a line it has one lowest place.
   bool is_convex() const { return is_convex_; }
-  /// Whether there are hollow arcs: along a line there may be many lowest places close to each other.
-  bool is_hollow() const { return is_hollow_; }
 
  private:
   /// From a knot to the next, material on the left: towards the axis on the way up.
@@ -52,7 +50,7 @@ class ToolDistance {
 
   std::vector<Piece> pieces_;
   double rim_ = 0.0, bottom_ = 0.0;
-  bool is_convex_ = false, is_hollow_ = false;
+  bool is_convex_ = false;
 };
 
 }  // namespace kerf::sim

@@ -133,8 +133,7 @@ TEST(SweepDistance, IsThatOfTheNearestOfAllPlacesOfTheTool) {
       const double afresh = sim::nearest_along(seen.sweep, tool, seen.place, kReach).distance.value;
       const double beside =
           sim::nearest_beside(seen.sweep, tool, seen.place, kReach, found, moved).distance.value;
-      EXPECT_LE(std::min(beside, kReach), std::min(afresh, kReach) + (tool.is_convex() ? 1e-7 : 1e-3))
-          << each.name << " " << n;
+      EXPECT_LE(std::min(beside, kReach), std::min(afresh, kReach) + 1e-7) << each.name << " " << n;
     }
   }
 }
