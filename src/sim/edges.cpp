@@ -1,12 +1,10 @@
-// Which edges stray, where their new vertices go, and the triangles that they part.
+// Which edges stray, where their new vertices go, and which get the other diagonal.
 #include "sim/edges.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <utility>
 
-#include "sim/mesh_build.h"
 #include "sim/parallel.h"
 
 namespace kerf::sim {
@@ -14,106 +12,166 @@ namespace {
 
 /// Edges shorter than this are left alone, pitches.
 constexpr double kShortest = 0.2;
-/// Rounds of turned edges before vertices are added.
-constexpr int kMostFlips = 3, kMostFlipsLater = 1;
 /// The other diagonal is taken where it strays by less than this share.
 constexpr double kBetter = 0.5;
 /// Triangles that turning would make thinner than this are not made, mm.
 constexpr double kThinnest = 1e-4;
 /// A new vertex is no further from its edge than this share of the edge.
 constexpr double kMostMoved = 0.35;
-using meshing::kNone;
 
 /// Of the triangles around a vertex those that face within so much (cosine) of a given one are its surface;
 /// a triangle that bridges an edge belongs to both sides.
 constexpr double kOneSurface = 0.2;
+/// Triangles that all face within half that angle of their mean are one surface, whichever is asked for.
+const double kAllOneSurface = std::sqrt(0.5 * (1.0 + kOneSurface));
 
-/// Normal of a surface at a vertex: the sum of those of its triangles, as long as 1.
-Point3 normal_at(const Fans& fans, std::uint32_t vertex, Point3 facing) {
-  Point3 sum;
-  fans.around(vertex, [&](std::uint32_t triangle) {
-    const Point3 normal = fans.normal(triangle);
-    if (dot(normal, facing) >= kOneSurface) sum = sum + normal;
-  });
-  const double size = length(sum);
-  return size > 0.0 ? (1.0 / size) * sum : sum;
-}
+/// Pieces of work have so many triangles or vertices.
+constexpr std::size_t kAtATime = 1 << 12;
 
 }  // namespace
 
-EdgeSplitter::EdgeSplitter(Mesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps,
+EdgeSplitter::EdgeSplitter(LinkedMesh& mesh, const Workpiece::Body& body, const SweepsByTile& sweeps,
                            std::vector<bool> bends, double tolerance, unsigned threads)
     : mesh_(mesh),
-      low_(body.bounds.low),
       size_(body.bounds.size()),
       pitch_(body.pitch),
       tolerance_(tolerance),
       is_block_(!body.start),
       sweeps_(sweeps),
       bends_(std::move(bends)),
-      threads_(threads) {}
-
-EdgeSplitter::Ends EdgeSplitter::ends_of(std::uint32_t corner) const {
-  const std::uint32_t first = corner / 3 * 3;
-  return {mesh_.triangles[corner], mesh_.triangles[first + (corner + 1 - first) % 3]};
+      threads_(threads) {
+  for (std::uint32_t t = 0; t < mesh_.triangles(); ++t)
+    if (bends_[mesh_.vertex(3 * t)] || bends_[mesh_.vertex(3 * t + 1)] || bends_[mesh_.vertex(3 * t + 2)])
+      changed_.push_back(t);
 }
 
-Point3 EdgeSplitter::middle_of(const Fans& fans, std::uint32_t corner) const {
-  const Ends ends = ends_of(corner);
-  return 0.5 * (fans.point(ends.a) + fans.point(ends.b));
+Point3 EdgeSplitter::middle_of(std::uint32_t corner) const {
+  return 0.5 * (mesh_.point(mesh_.vertex(corner)) + mesh_.point(mesh_.vertex(LinkedMesh::next(corner))));
 }
 
-/// The triangle on the other side of an edge; the same one if there is none.
-std::uint32_t EdgeSplitter::across(const Fans& fans, std::uint32_t corner) const {
-  const Ends ends = ends_of(corner);
-  std::uint32_t other = corner / 3;
-  fans.around(ends.a, [&](std::uint32_t t) {
-    for (std::uint32_t k = 3 * t; k < 3 * t + 3; ++k)
-      if (t != corner / 3 && mesh_.triangles[k] == ends.b) other = t;
+/// Normal of a surface at a vertex: the sum of those of its triangles, as long as 1.
+Point3 EdgeSplitter::normal_at(std::uint32_t vertex, Point3 facing) const {
+  Point3 sum;
+  mesh_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = mesh_.normal(triangle);
+    if (dot(normal, facing) >= kOneSurface) sum = sum + normal;
   });
-  return other;
+  const double size = length(sum);
+  return size > 0.0 ? (1.0 / size) * sum : sum;
+}
+
+/// Finds normal_at of a vertex where it is the same for all triangles.
+void EdgeSplitter::find_one_surface(std::uint32_t vertex) {
+  Point3 sum;
+  mesh_.around(vertex, [&](std::uint32_t triangle) { sum = sum + mesh_.normal(triangle); });
+  const double size = length(sum);
+  bool is_one = size > 0.0;
+  mesh_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = mesh_.normal(triangle);
+    is_one = is_one && (dot(normal, sum) >= kAllOneSurface * size || dot(normal, normal) == 0.0);
+  });
+  const double scale = is_one ? 1.0 / size : 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    smoothed_[vertex][static_cast<std::size_t>(axis)] = static_cast<float>(scale * sum[axis]);
+}
+
+/// For all vertices of changed triangles.
+void EdgeSplitter::find_one_surfaces() {
+  smoothed_.resize(mesh_.vertices());
+  std::vector<bool> seen(mesh_.vertices(), false);
+  std::vector<std::uint32_t> vertices;
+  for (const std::uint32_t t : changed_)
+    for (std::uint32_t c = 3 * t; c < 3 * t + 3; ++c) {
+      if (seen[mesh_.vertex(c)]) continue;
+      seen[mesh_.vertex(c)] = true;
+      vertices.push_back(mesh_.vertex(c));
+    }
+  const auto work = [&](std::size_t piece) {
+    for (std::size_t n = piece * kAtATime; n < std::min(vertices.size(), (piece + 1) * kAtATime); ++n)
+      find_one_surface(vertices[n]);
+  };
+  parallel_for(threads_, (vertices.size() + kAtATime - 1) / kAtATime, work, [] { return false; });
 }
 
 /// By how much the surfaces beside an edge turn from its begin to its end, radians. A circle strays from its
 /// chord by an eighth of the chord times this.
-double EdgeSplitter::bend_of(const Fans& fans, std::uint32_t corner) const {
-  const Ends ends = ends_of(corner);
+double EdgeSplitter::bend_of(std::uint32_t corner) const {
+  const std::uint32_t a = mesh_.vertex(corner), b = mesh_.vertex(LinkedMesh::next(corner));
+  const auto known = [&](std::uint32_t vertex) {
+    return Point3{smoothed_[vertex][0], smoothed_[vertex][1], smoothed_[vertex][2]};
+  };
+  const Point3 of_a = known(a), of_b = known(b);
+  const bool is_one_a = dot(of_a, of_a) > 0.0, is_one_b = dot(of_b, of_b) > 0.0;
+  if (is_one_a && is_one_b) return distance(of_a, of_b);
   double most = 0.0;
-  for (const std::uint32_t triangle : {corner / 3, across(fans, corner)}) {
-    const Point3 facing = fans.normal(triangle);
-    most = std::max(most, distance(normal_at(fans, ends.a, facing), normal_at(fans, ends.b, facing)));
+  for (const std::uint32_t side : {corner, mesh_.across(corner)}) {
+    if (side == kNone) continue;
+    const Point3 facing = mesh_.normal(side / 3);
+    most = std::max(most,
+                    distance(is_one_a ? of_a : normal_at(a, facing), is_one_b ? of_b : normal_at(b, facing)));
   }
   return most;
 }
 
-/// Edges of surfaces that were cut, whose ends' normals say that the surface may bend away between them.
-void EdgeSplitter::find_suspects(const Fans& fans) {
-  constexpr std::size_t kAtATime = 3 << 13;
-  const std::size_t corners = mesh_.triangles.size(), pieces = (corners + kAtATime - 1) / kAtATime;
+/// Whether an edge's ends' normals say that the surface may bend away between them.
+bool EdgeSplitter::is_suspect(std::uint32_t corner) const {
+  if (mesh_.is_marked(corner)) return false;
+  const std::uint32_t a = mesh_.vertex(corner), b = mesh_.vertex(LinkedMesh::next(corner));
+  if (first_new_ == 0 ? !bends_[a] && !bends_[b] : std::max(a, b) < first_new_) return false;
+  const double size = distance(mesh_.point(a), mesh_.point(b));
+  return size >= kShortest * pitch_ && size * bend_of(corner) > 8.0 * tolerance_;
+}
+
+/// Takes the strays out whose triangles have changed; and, if none may be turned any more, those that waited
+/// for that.
+void EdgeSplitter::look_again() {
+  const auto is_taken = [&](const Stray& stray) {
+    const std::uint32_t across = mesh_.across(stray.corner);
+    const bool has_changed =
+        is_changed_[stray.corner / 3] != 0 || (across != kNone && is_changed_[across / 3] != 0);
+    if (!has_changed && (may_turn_ || stray.found.verdict != Verdict::turns)) return false;
+    const std::uint32_t corner = mesh_.find(stray.a, stray.b);
+    if (corner != kNone)  // it was not turned
+      spots_.push_back(sweeps_.spot_at(middle_of(corner), std::min(corner, mesh_.across(corner))));
+    return true;
+  };
+  strays_.erase(std::remove_if(strays_.begin(), strays_.end(), is_taken), strays_.end());
+}
+
+/// Among the edges of changed triangles; where none may be turned any more, what waited for that too.
+void EdgeSplitter::find_suspects() {
+  find_one_surfaces();
+  is_changed_.resize(mesh_.triangles(), 0);
+  for (const std::uint32_t t : changed_) is_changed_[t] = 1;
+  const auto is_changed = [&](std::uint32_t corner) {
+    return corner != kNone && is_changed_[corner / 3] != 0;
+  };
+  const std::size_t pieces = (changed_.size() + kAtATime - 1) / kAtATime;
   std::vector<std::vector<Spot>> found(pieces);
   const auto work = [&](std::size_t piece) {
-    for (std::size_t c = piece * kAtATime; c < std::min(corners, (piece + 1) * kAtATime); ++c) {
-      const auto corner = static_cast<std::uint32_t>(c);
-      const Ends ends = ends_of(corner);
-      if (ends.a > ends.b || ends.b < first_new_) continue;
-      if (first_new_ == 0 && !bends_[ends.a] && !bends_[ends.b]) continue;
-      const double size = distance(fans.point(ends.a), fans.point(ends.b));
-      if (size < kShortest * pitch_ || size * bend_of(fans, corner) <= 8.0 * tolerance_) continue;
-      found[piece].push_back(sweeps_.spot_at(middle_of(fans, corner), corner));
-    }
+    for (std::size_t n = piece * kAtATime; n < std::min(changed_.size(), (piece + 1) * kAtATime); ++n)
+      for (std::uint32_t c = 3 * changed_[n]; c < 3 * changed_[n] + 3; ++c) {
+        if (is_changed(mesh_.across(c)) && mesh_.across(c) < c) continue;  // found from there
+        if (is_suspect(c))
+          found[piece].push_back(sweeps_.spot_at(middle_of(c), std::min(c, mesh_.across(c))));
+      }
   };
   parallel_for(threads_, pieces, work, [] { return false; });
   spots_.clear();
   for (const std::vector<Spot>& some : found) spots_.insert(spots_.end(), some.begin(), some.end());
+  look_again();
+  for (const std::uint32_t t : changed_) is_changed_[t] = 0;
+  changed_.clear();
   std::sort(spots_.begin(), spots_.end());
+  const auto is_same = [](const Spot& a, const Spot& b) { return a.number == b.number; };
+  spots_.erase(std::unique(spots_.begin(), spots_.end(), is_same), spots_.end());
 }
 
-void EdgeSplitter::look_at(const Fans& fans, std::size_t n, Around& around) {
-  const std::uint32_t corner = spots_[n].number, triangle = corner / 3;
-  const Ends ends = ends_of(corner);
-  const Point3 a = fans.point(ends.a), b = fans.point(ends.b);
-  const std::uint32_t other = across(fans, corner);
-  const bool stock = fans.step(triangle) == kStockSurface, other_stock = fans.step(other) == kStockSurface;
+void EdgeSplitter::look_at(std::size_t n, Around& around) {
+  const std::uint32_t corner = spots_[n].number, across = mesh_.across(corner);
+  const std::uint32_t triangle = corner / 3, other = across == kNone ? triangle : across / 3;
+  const Point3 a = mesh_.point(mesh_.vertex(corner)), b = mesh_.point(mesh_.vertex(LinkedMesh::next(corner)));
+  const bool stock = mesh_.step(triangle) == kStockSurface, other_stock = mesh_.step(other) == kStockSurface;
   if (stock && other_stock) return;
   std::array<bool, 3> fixed{};
   for (int axis = 0; axis < 3; ++axis) {
@@ -122,32 +180,29 @@ void EdgeSplitter::look_at(const Fans& fans, std::size_t n, Around& around) {
     fixed[static_cast<std::size_t>(axis)] = (low || high) && (axis < 2 || stock || other_stock);
   }
   const Point3 middle = 0.5 * (a + b);
+  Found& found = found_[n];
+  if (std::abs(around.wider(middle).at(middle).value) <= tolerance_) {
+    found.verdict = Verdict::good;
+    return;
+  }
   const Nearby& nearby = around.all(middle);
-  if (std::abs(nearby.at(middle).value) <= tolerance_) return;
-  const int most_flips = first_new_ == 0 ? kMostFlips : kMostFlipsLater;
-  if (other != triangle && flips_ < most_flips && can_turn(fans, triangle, other, ends)) {
-    const Point3 across = 0.5 * (fans.point(opposite(triangle, ends)) + fans.point(opposite(other, ends)));
-    if (miss_at(nearby, across) < kBetter * miss_at(nearby, middle)) {
-      found_[n].turns = true;
+  if (may_turn_ && can_turn(corner)) {
+    const Point3 turned = 0.5 * (mesh_.point(mesh_.vertex(LinkedMesh::before(corner))) +
+                                 mesh_.point(mesh_.vertex(LinkedMesh::before(across))));
+    if (miss_at(nearby, turned) < kBetter * miss_at(nearby, middle)) {
+      found.verdict = Verdict::turns;
       return;
     }
   }
   // What is to be met faces as the surfaces do that were cut.
-  const Point3 outwards = stock         ? fans.normal(other)
-                          : other_stock ? fans.normal(triangle)
-                                        : fans.normal(triangle) + fans.normal(other);
-  Found found{true, false, middle};
-  Point3 normal;
-  if (!put_on_surface(nearby, kMostMoved * distance(a, b), outwards, fixed, found.at, normal)) return;
+  const Point3 outwards = stock         ? mesh_.normal(other)
+                          : other_stock ? mesh_.normal(triangle)
+                                        : mesh_.normal(triangle) + mesh_.normal(other);
+  Point3 at = middle, normal;
+  if (!put_on_surface(nearby, kMostMoved * distance(a, b), outwards, fixed, at, normal)) return;
   for (int axis = 0; axis < 3; ++axis)
-    if (found.at[axis] < 0.0 || found.at[axis] > size_[axis]) return;
-  found_[n] = found;
-}
-
-/// The corner of a triangle that is not on an edge.
-std::uint32_t EdgeSplitter::opposite(std::uint32_t triangle, Ends ends) const {
-  const std::uint32_t* c = mesh_.triangles.data() + std::size_t{3} * triangle;
-  return *std::find_if(c, c + 3, [&](std::uint32_t v) { return v != ends.a && v != ends.b; });
+    if (at[axis] < 0.0 || at[axis] > size_[axis]) return;
+  found = {Verdict::parts, at};
 }
 
 /// How far a place is from the surface of what is left.
@@ -156,128 +211,119 @@ double EdgeSplitter::miss_at(const Nearby& nearby, Point3 place) const {
 }
 
 /// Whether two triangles may have their other diagonal: it is no edge yet, and both then face as they did.
-bool EdgeSplitter::can_turn(const Fans& fans, std::uint32_t triangle, std::uint32_t other, Ends ends) const {
-  const std::uint32_t c = opposite(triangle, ends), d = opposite(other, ends);
-  if (c == d) return false;
-  bool is_edge = false;
-  fans.around(c, [&](std::uint32_t t) {
-    const std::uint32_t* corners = mesh_.triangles.data() + std::size_t{3} * t;
-    is_edge = is_edge || std::find(corners, corners + 3, d) != corners + 3;
-  });
-  if (is_edge) return false;
-  const Point3 a = fans.point(ends.a), b = fans.point(ends.b), pc = fans.point(c), pd = fans.point(d);
-  const Point3 facing = fans.normal(triangle) + fans.normal(other);
+bool EdgeSplitter::can_turn(std::uint32_t corner) const {
+  const std::uint32_t across = mesh_.across(corner);
+  if (across == kNone) return false;
+  const std::uint32_t c = mesh_.vertex(LinkedMesh::before(corner));
+  const std::uint32_t d = mesh_.vertex(LinkedMesh::before(across));
+  if (c == d || mesh_.find(c, d) != kNone) return false;
+  const Point3 a = mesh_.point(mesh_.vertex(corner)), b = mesh_.point(mesh_.vertex(across));
+  const Point3 pc = mesh_.point(c), pd = mesh_.point(d);
+  const Point3 facing = mesh_.normal(corner / 3) + mesh_.normal(across / 3);
   const Point3 one = cross(pd - a, pc - a), two = cross(b - pd, pc - pd);
   const double least = kThinnest * distance(pc, pd);
   return dot(one, facing) > least * length(facing) && dot(two, facing) > least * length(facing);
 }
 
-/// Triangle (a, b, c) and other (b, a, d) become (a, d, c) and (d, b, c).
-void EdgeSplitter::turn(std::uint32_t triangle, std::uint32_t other, Ends ends) {
-  const std::uint32_t c = opposite(triangle, ends), d = opposite(other, ends);
-  const auto set = [&](std::uint32_t t, const std::array<std::uint32_t, 3>& corners) {
-    std::copy(corners.begin(), corners.end(), mesh_.triangles.data() + std::size_t{3} * t);
-  };
-  set(triangle, {ends.a, d, c});
-  set(other, {d, ends.b, c});
+void EdgeSplitter::take_found() {
+  for (std::size_t n = 0; n < spots_.size(); ++n) {
+    if (found_[n].verdict == Verdict::good) mesh_.mark(spots_[n].number);
+    if (found_[n].verdict == Verdict::parts || found_[n].verdict == Verdict::turns)
+      add_stray(spots_[n].number, found_[n]);
+  }
+}
+
+void EdgeSplitter::turn_edge(std::uint32_t corner) {
+  const std::uint32_t triangle = corner / 3, other = mesh_.across(corner) / 3;
+  mesh_.turn(corner);
   // What comes to lie on the block again is found later.
-  std::uint32_t &step = mesh_.step[triangle], &other_step = mesh_.step[other];
-  if (step == kStockSurface) step = other_step;
-  if (other_step == kStockSurface) other_step = step;
+  if (mesh_.step(triangle) == kStockSurface) mesh_.set_step(triangle, mesh_.step(other));
+  if (mesh_.step(other) == kStockSurface) mesh_.set_step(other, mesh_.step(triangle));
+  mesh_.find_normal(triangle);
+  mesh_.find_normal(other);
 }
 
-/// False if no edge was turned.
-bool EdgeSplitter::flip(const Fans& fans) {
-  std::vector<bool> touched(mesh_.step.size(), false);
-  bool any = false;
-  for (std::size_t n = 0; n < spots_.size(); ++n) {
-    if (!found_[n].turns) continue;
-    const std::uint32_t corner = spots_[n].number, triangle = corner / 3, other = across(fans, corner);
-    if (other == triangle || touched[triangle] || touched[other]) continue;
-    // A diagonal that another pair has got in the meantime would be an edge of four.
-    const Ends ends = ends_of(corner);
-    bool near_touched = false;
-    fans.around(opposite(triangle, ends),
-                [&](std::uint32_t t) { near_touched = near_touched || touched[t]; });
-    if (near_touched) continue;
-    turn(triangle, other, ends);
-    touched[triangle] = touched[other] = true;
-    any = true;
-  }
-  if (any) ++flips_;
-  return any;
-}
-
-void EdgeSplitter::add_vertex(Point3 at, Point3 middle, MeshState& straight) {
-  for (int axis = 0; axis < 3; ++axis) {
-    mesh_.positions.push_back(static_cast<float>(at[axis] + low_[axis]));
-    straight.positions.push_back(static_cast<float>(middle[axis] + low_[axis]));
+void EdgeSplitter::turn_edges() {
+  for (const Stray& stray : strays_) {
+    if (stray.found.verdict != Verdict::turns) continue;
+    const std::uint32_t triangle = stray.corner / 3, other = mesh_.across(stray.corner) / 3;
+    if (is_changed_[triangle] || is_changed_[other]) continue;
+    // Another pair can have got the diagonal in the meantime.
+    if (!can_turn(stray.corner)) continue;
+    turn_edge(stray.corner);
+    is_changed_[triangle] = is_changed_[other] = 1;
+    changed_.insert(changed_.end(), {triangle, other});
   }
 }
 
-/// Replaces a triangle by those between its corners and the new vertices on its sides (kNone: none).
-void EdgeSplitter::part_triangle(std::size_t triangle, const std::array<std::uint32_t, 3>& middles,
-                                 MeshState& straight) {
-  std::array<std::uint32_t, 6> ring{};  // corners and new vertices in order
-  std::size_t count = 0, first_new = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    ring[count++] = mesh_.triangles[3 * triangle + k];
-    if (middles[k] == kNone) continue;
-    first_new = count;
-    ring[count++] = middles[k];
-  }
-  const std::array<float, 3> facing{straight.outwards[3 * triangle], straight.outwards[3 * triangle + 1],
-                                    straight.outwards[3 * triangle + 2]};
-  bool is_first = true;
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    const std::array<std::uint32_t, 3> corners{a, b, c};
-    if (std::exchange(is_first, false)) {
-      std::copy(corners.begin(), corners.end(),
-                mesh_.triangles.begin() + static_cast<std::ptrdiff_t>(3 * triangle));
-      return;
-    }
-    mesh_.triangles.insert(mesh_.triangles.end(), corners.begin(), corners.end());
-    mesh_.step.push_back(mesh_.step[triangle]);
-    straight.outwards.insert(straight.outwards.end(), facing.begin(), facing.end());
+/// The one stray on the other two sides of a triangle; null if there is none or two.
+const EdgeSplitter::Stray* EdgeSplitter::only_other(std::uint32_t corner) const {
+  if (corner == kNone) return nullptr;
+  const std::uint32_t one = stray_of_[LinkedMesh::next(corner)], two = stray_of_[LinkedMesh::before(corner)];
+  if ((one == kNone) == (two == kNone)) return nullptr;
+  return &strays_[std::min(one, two)];
+}
+
+/// Strays whose two triangles have another stray each, both shorter. On walls and other surfaces that bend
+/// one way only those are along the bend, and an edge between their new vertices lies on the surface.
+void EdgeSplitter::find_crossed() {
+  const auto number_all = [&](const auto& number) {
+    for (std::uint32_t n = 0; n < strays_.size(); ++n)
+      for (const std::uint32_t c : {strays_[n].corner, mesh_.across(strays_[n].corner)})
+        if (c != kNone) stray_of_[c] = number(n);
   };
-  if (count == 6) {
-    for (std::size_t k = 0; k < 3; ++k) add(ring[2 * k], ring[2 * k + 1], ring[(2 * k + 5) % 6]);
-    return add(ring[1], ring[3], ring[5]);
+  stray_of_.resize(std::size_t{3} * mesh_.triangles(), kNone);
+  number_all([](std::uint32_t n) { return n; });
+  const auto size = [&](const Stray& stray) {
+    return distance(mesh_.point(mesh_.vertex(stray.corner)),
+                    mesh_.point(mesh_.vertex(LinkedMesh::next(stray.corner))));
+  };
+  spots_.clear();
+  for (std::uint32_t n = 0; n < strays_.size(); ++n) {
+    Stray& stray = strays_[n];
+    const Stray *one = only_other(stray.corner), *two = only_other(mesh_.across(stray.corner));
+    if (one == nullptr || two == nullptr || one == two) continue;
+    if (size(stray) <= std::max(size(*one), size(*two))) continue;
+    stray.crossing = 0.5 * (one->found.at + two->found.at);
+    spots_.push_back(sweeps_.spot_at(stray.crossing, n));
   }
-  // From one new vertex all others are seen.
-  for (std::size_t k = 1; k + 1 < count; ++k)
-    add(ring[first_new], ring[(first_new + k) % count], ring[(first_new + k + 1) % count]);
+  number_all([](std::uint32_t) { return kNone; });
+  std::sort(spots_.begin(), spots_.end());
 }
 
-bool EdgeSplitter::part(const Fans& fans, MeshState& straight) {
-  std::unordered_map<std::uint64_t, std::uint32_t> vertex_of;
-  std::vector<bool> has_new(fans.vertices(), false);
-  straight.positions = mesh_.positions;
-  straight.outwards = fans.normals();
-  first_new_ = static_cast<std::uint32_t>(fans.vertices());
-  flips_ = 0;
-  for (std::size_t n = 0; n < spots_.size(); ++n) {
-    if (!found_[n].strays) continue;
-    const Ends ends = ends_of(spots_[n].number);
-    vertex_of[meshing::edge_key(ends.a, ends.b)] = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
-    has_new[ends.a] = has_new[ends.b] = true;
-    add_vertex(found_[n].at, middle_of(fans, spots_[n].number), straight);
-  }
-  const std::size_t triangles = mesh_.step.size();
-  for (std::size_t t = 0; t < triangles && !vertex_of.empty(); ++t) {
-    const std::uint32_t* c = mesh_.triangles.data() + 3 * t;
-    if (has_new[c[0]] + has_new[c[1]] + has_new[c[2]] < 2) continue;
-    std::array<std::uint32_t, 3> middles{kNone, kNone, kNone};
-    bool any = false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto found = vertex_of.find(meshing::edge_key(c[k], c[(k + 1) % 3]));
-      if (found == vertex_of.end()) continue;
-      middles[k] = found->second;
-      any = true;
+bool EdgeSplitter::look_at_crossed(std::size_t n, Around& around) const {
+  const Point3 middle = strays_[spots_[n].number].crossing;
+  return std::abs(around.wider(middle).at(middle).value) <= tolerance_;
+}
+
+bool EdgeSplitter::part_strays() {
+  first_new_ = static_cast<std::uint32_t>(mesh_.vertices());
+  std::vector<LinkedMesh::Parting> partings;
+  std::vector<Point3> straight;  // the middles of edges that have new vertices
+  std::vector<Stray> crossed;
+  for (const Stray& stray : strays_) {
+    if (stray.found.verdict == Verdict::crossed) {
+      crossed.push_back(stray);
+      continue;
     }
-    if (any) part_triangle(t, middles, straight);
+    straight.push_back(middle_of(stray.corner));
+    partings.push_back({stray.corner, mesh_.add_vertex(stray.found.at)});
   }
-  return !vertex_of.empty();
+  strays_.clear();
+  changed_ = mesh_.part(partings);
+  mesh_.settle(changed_,
+               [&](std::uint32_t v) { return v < first_new_ ? mesh_.point(v) : straight[v - first_new_]; });
+  for (const Stray& each : crossed) {
+    const std::uint32_t corner = mesh_.find(each.a, each.b);
+    if (corner == kNone) continue;  // a fold was taken out there
+    if (can_turn(corner)) {
+      turn_edge(corner);
+      mesh_.mark(3 * (corner / 3) + 1);  // it was looked at
+    } else {
+      add_stray(corner, {Verdict::parts, each.found.at});
+    }
+  }
+  return !partings.empty();
 }
 
 }  // namespace kerf::sim

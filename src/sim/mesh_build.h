@@ -215,8 +215,4 @@ void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects,
 void mend_flat_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among);
 void mend_flat_triangles(Mesh& mesh, unsigned threads);
 
-/// Flips sides of triangles that face away from their vector in `outwards` (three numbers each), where both
-/// triangles then face the right way. Vertices keep their numbers.
-void unfold_triangles(Mesh& mesh, std::vector<float>& outwards, unsigned threads);
-
 }  // namespace kerf::meshing

@@ -22,12 +22,9 @@ constexpr int kMostRounds = 8;
 class Mender {
  public:
   /// Looks at the triangles `among`, or at all.
-  Mender(Mesh& mesh, unsigned threads, const std::vector<std::size_t>* among,
-         std::vector<float>* outwards = nullptr)
-      : mesh_(mesh), threads_(threads), among_(among), outwards_(outwards) {}
+  Mender(Mesh& mesh, unsigned threads, const std::vector<std::size_t>* among)
+      : mesh_(mesh), threads_(threads), among_(among) {}
   void run();
-  /// Only flips, where triangles face the wrong way.
-  void flip_all();
 
  private:
   using Corners = std::array<std::uint32_t, 3>;
@@ -47,8 +44,6 @@ class Mender {
 
   int longest_side(const Corners& c) const;
   bool is_flat(const Corners& c) const;
-  bool is_folded(const Corners& c, std::size_t like) const;
-  bool is_wrong(std::size_t t) const { return outwards_ ? is_folded(corners(t), t) : is_flat(corners(t)); }
   template <class Test>
   std::vector<std::size_t> find(std::size_t count, const Test& test) const;
   void find_flat();
@@ -60,13 +55,13 @@ class Mender {
   bool flip(std::size_t t);
   bool collapse(std::uint32_t keep, std::uint32_t gone);
   bool mend(std::size_t t);
+  void mend_all();
   void drop_gone();
   void drop_unused();
 
   Mesh& mesh_;
   unsigned threads_;
   const std::vector<std::size_t>* among_;
-  std::vector<float>* outwards_;                    // null, or where each triangle is to face
   std::vector<std::size_t> flat_, changed_;         // changed: since the flat ones were found
   std::vector<std::size_t> gone_;                   // triangles that are no more
   std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
@@ -87,13 +82,6 @@ bool Mender::is_flat(const Corners& c) const {
   return dot(twice, twice) <= kNoHeight * kNoHeight * dot(side, side);
 }
 
-/// Whether three corners in order face away from where triangle `like` is to face.
-bool Mender::is_folded(const Corners& c, std::size_t like) const {
-  const Point3 a = point(c[0]), facing = cross(point(c[1]) - a, point(c[2]) - a);
-  const float* to = outwards_->data() + 3 * like;
-  return dot(facing, Point3{to[0], to[1], to[2]}) < 0.0;
-}
-
 /// Numbers below `count` for which test(number) holds, in order.
 template <class Test>
 std::vector<std::size_t> Mender::find(std::size_t count, const Test& test) const {
@@ -112,7 +100,7 @@ std::vector<std::size_t> Mender::find(std::size_t count, const Test& test) const
 }
 
 void Mender::find_flat() {
-  const auto wrong = [&](std::size_t t) { return !is_gone(t) && is_wrong(t); };
+  const auto wrong = [&](std::size_t t) { return !is_gone(t) && is_flat(corners(t)); };
   if (among_ == nullptr) {
     flat_ = find(mesh_.step.size(), wrong);
     return;
@@ -126,7 +114,7 @@ void Mender::find_flat_again() {
   flat_.insert(flat_.end(), changed_.begin(), changed_.end());
   std::sort(flat_.begin(), flat_.end());
   flat_.erase(std::unique(flat_.begin(), flat_.end()), flat_.end());
-  const auto is_done = [&](std::size_t t) { return is_gone(t) || !is_wrong(t); };
+  const auto is_done = [&](std::size_t t) { return is_gone(t) || !is_flat(corners(t)); };
   flat_.erase(std::remove_if(flat_.begin(), flat_.end(), is_done), flat_.end());
   changed_.clear();
 }
@@ -185,11 +173,6 @@ bool Mender::flip(std::size_t t) {
     if (v != a && v != b) far = v;
   const Corners one{a, middle, far}, other{middle, b, far};
   if (far == kNone || joined(middle, far) || is_flat(one) || is_flat(other)) return false;
-  if (outwards_ != nullptr) {
-    if (is_folded(one, neighbour) || is_folded(other, neighbour)) return false;
-    std::copy_n(outwards_->begin() + static_cast<std::ptrdiff_t>(3 * neighbour), 3,
-                outwards_->begin() + static_cast<std::ptrdiff_t>(3 * t));
-  }
   set(t, one);
   set(neighbour, other);
   mesh_.step[t] = mesh_.step[neighbour];
@@ -267,20 +250,20 @@ void Mender::drop_unused() {
   for (std::uint32_t& v : mesh_.triangles) v = number[v];
 }
 
-void Mender::flip_all() {
+void Mender::mend_all() {
   find_flat();
   for (int round = 0; round < kMostRounds && !flat_.empty(); ++round) {
     gather_around();
     bool any = false;
     for (const std::size_t t : flat_)
-      if (!is_gone(t) && is_wrong(t)) any = (outwards_ ? flip(t) : mend(t)) || any;
+      if (!is_gone(t) && is_flat(corners(t))) any = mend(t) || any;
     if (!any) break;
     find_flat_again();
   }
 }
 
 void Mender::run() {
-  flip_all();
+  mend_all();
   if (gone_.empty()) return;
   drop_gone();
   drop_unused();
@@ -292,10 +275,6 @@ void mend_flat_triangles(Mesh& mesh, unsigned threads) { Mender(mesh, threads, n
 
 void mend_flat_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among) {
   Mender(mesh, threads, &among).run();
-}
-
-void unfold_triangles(Mesh& mesh, std::vector<float>& outwards, unsigned threads) {
-  Mender(mesh, threads, nullptr, &outwards).flip_all();
 }
 
 }  // namespace kerf::meshing

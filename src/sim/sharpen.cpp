@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/parallel.h"
-
 namespace kerf::sim {
 namespace {
 
@@ -20,8 +18,8 @@ constexpr double kMostSpan = 10.0;
 constexpr double kMostRefined = 0.6;
 constexpr double kMissed = 0.02;  // a new place that is further off all surfaces is none
 
-/// Places closer to a surface are on it, mm: a hundredth of what single precision of a mesh tells.
-constexpr double kOnSurface = 1e-8;
+/// Places closer to a surface are on it, mm: a tenth of what single precision of a mesh tells.
+constexpr double kOnSurface = 1e-7;
 /// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
 constexpr double kIntoMaterial = 1e-5;
 constexpr int kCloserLooks = 3;
@@ -45,67 +43,6 @@ constexpr double kFlat = 1.0;
 /// less than 6 degrees apart are one curved surface.
 constexpr double kLeastShare = 0.003;
 
-}  // namespace
-
-// ---- fans
-
-Fans::Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new) : mesh_(mesh), low_(low) {
-  std::vector<bool> wanted(mesh.positions.size() / 3, first_new == 0);
-  for (std::size_t k = 0; first_new > 0 && k < mesh.triangles.size(); k += 3) {
-    const std::uint32_t* c = mesh.triangles.data() + k;
-    if (std::max({c[0], c[1], c[2]}) >= first_new) wanted[c[0]] = wanted[c[1]] = wanted[c[2]] = true;
-  }
-  gather(wanted);
-  find_normals(wanted, threads);
-}
-
-void Fans::gather(const std::vector<bool>& wanted) {
-  first_.assign(wanted.size() + 1, 0);
-  for (const std::uint32_t v : mesh_.triangles)
-    if (wanted[v]) ++first_[v + 1];
-  for (std::size_t v = 0; v + 1 < first_.size(); ++v) first_[v + 1] += first_[v];
-  triangle_.resize(first_.back());
-  std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-  for (std::size_t k = 0; k < mesh_.triangles.size(); ++k)
-    if (wanted[mesh_.triangles[k]]) triangle_[next[mesh_.triangles[k]]++] = static_cast<std::uint32_t>(k / 3);
-}
-
-void Fans::find_normals(const std::vector<bool>& wanted, unsigned threads) {
-  constexpr std::size_t kAtATime = 1 << 14;
-  const std::size_t count = mesh_.triangles.size() / 3;
-  normal_.resize(3 * count);
-  const auto work = [&](std::size_t piece) {
-    for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
-      const std::uint32_t* c = mesh_.triangles.data() + 3 * t;
-      if (!wanted[c[0]] && !wanted[c[1]] && !wanted[c[2]]) continue;
-      const Point3 a = point(c[0]), n = cross(point(c[1]) - a, point(c[2]) - a);
-      const double size = length(n), per_size = size > 0.0 ? 1.0 / size : 0.0;
-      for (int axis = 0; axis < 3; ++axis)
-        normal_[3 * t + static_cast<std::size_t>(axis)] = static_cast<float>(per_size * n[axis]);
-    }
-  };
-  parallel_for(threads, (count + kAtATime - 1) / kAtATime, work, [] { return false; });
-}
-
-Point3 Fans::point(std::uint32_t vertex) const {
-  const float* p = mesh_.positions.data() + std::size_t{3} * vertex;
-  return Point3{p[0], p[1], p[2]} - low_;
-}
-
-Point3 Fans::middle(std::uint32_t triangle) const {
-  const std::uint32_t* c = mesh_.triangles.data() + std::size_t{3} * triangle;
-  return (1.0 / 3.0) * (point(c[0]) + point(c[1]) + point(c[2]));
-}
-
-Point3 Fans::normal(std::uint32_t triangle) const {
-  const float* n = normal_.data() + std::size_t{3} * triangle;
-  return {n[0], n[1], n[2]};
-}
-
-// ---- where a vertex goes
-
-namespace {
-
 enum class From : std::uint8_t { either_side, material };
 
 Point3 freed(Point3 way, const std::array<bool, 3>& fixed) {
@@ -117,22 +54,25 @@ Point3 freed(Point3 way, const std::array<bool, 3>& fixed) {
 /// Newton's method; `from` the material's side it first goes there.
 bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
                   const std::array<bool, 3>& fixed, Point3& place, Point3& normal) {
+  Distance distance = nearby.at(place);
   for (int n = 0; n < kMostSteps; ++n) {
-    const Distance distance = nearby.at(place);
     if (std::abs(distance.value) > most) return false;
-    if (std::abs(distance.value) <= kOnSurface) {
-      // An edge of the tool sweeps a surface of its own, which is only told from the material's side.
-      normal = -1.0 * nearby.at(place + kIntoMaterial * inwards).gradient;
-      return true;
-    }
     if (from == From::material && distance.value < -kShallow * most) {
       place = place + (kInwards * most - distance.value) * freed(inwards, fixed);
+      distance = nearby.at(place);
       continue;
     }
     const Point3 way = freed(distance.gradient, fixed);
     const double gain = dot(way, way);
     if (gain < kLeastGain) return false;
     place = place - (distance.value / gain) * way;
+    // A little inside, since an edge of the tool sweeps a surface of its own, which is only told from there.
+    distance = nearby.at(place + kIntoMaterial * inwards);
+    distance.value -= kIntoMaterial * dot(distance.gradient, inwards);
+    if (std::abs(distance.value) > kOnSurface) continue;
+    const double steepness = length(distance.gradient);
+    normal = (-1.0 / steepness) * distance.gradient;
+    return steepness > 0.0;
   }
   return false;
 }
@@ -169,14 +109,14 @@ void Placer::add_stock_plane(Point3 from, Point3 normal) {
 void Placer::find_samples(std::uint32_t vertex, Point3 from) {
   samples_.clear();
   of_stock_.clear();
-  fans_.around(vertex, [&](std::uint32_t triangle) {
-    const Point3 normal = fans_.normal(triangle);
+  mesh_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = mesh_.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
-    if (fans_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
+    if (mesh_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
     // Of triangles in one plane one is enough, if that is the surface's own.
     for (const Sample& sample : samples_)
       if (dot(sample.looking, normal) > kOnePlane && dot(sample.normal, normal) > kOnePlane) return;
-    const Point3 way = fans_.middle(triangle) - from;
+    const Point3 way = mesh_.middle(triangle) - from;
     const double far = length(way);
     Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}, normal};
     if (put_on_surface(sample, normal)) samples_.push_back(sample);
@@ -184,7 +124,7 @@ void Placer::find_samples(std::uint32_t vertex, Point3 from) {
   if (!samples_.empty() || of_stock_.empty()) return;
   // The columns have taken what was cut for a slope of the stock: the edge between them is near.
   Point3 outwards;
-  fans_.around(vertex, [&](std::uint32_t triangle) { outwards = outwards + fans_.normal(triangle); });
+  mesh_.around(vertex, [&](std::uint32_t triangle) { outwards = outwards + mesh_.normal(triangle); });
   Sample sample{from, {}, {}};
   if (length(outwards) > 0.0 && put_on_surface(sample, outwards)) samples_.push_back(sample);
 }
@@ -207,8 +147,8 @@ void Placer::fix_axes(std::uint32_t vertex, Point3 from) {
     bool& fixed = fixed_[static_cast<std::size_t>(axis)];
     fixed = axis < 2 && (is_low || is_high);
     if (axis < 2 || (!is_low && !is_high)) continue;
-    fans_.around(vertex, [&](std::uint32_t triangle) {
-      if (fans_.step(triangle) == kStockSurface && std::abs(fans_.normal(triangle).z) > 0.999) fixed = true;
+    mesh_.around(vertex, [&](std::uint32_t triangle) {
+      if (mesh_.step(triangle) == kStockSurface && std::abs(mesh_.normal(triangle).z) > 0.999) fixed = true;
     });
   }
 }
@@ -284,17 +224,17 @@ void Placer::look_closer(Point3 from) {
 bool Placer::is_smooth(std::uint32_t vertex, Point3& outwards) const {
   Point3 sum;
   bool stock = false, cut = false;
-  fans_.around(vertex, [&](std::uint32_t triangle) {
-    sum = sum + fans_.normal(triangle);
-    (fans_.step(triangle) == kStockSurface ? stock : cut) = true;
+  mesh_.around(vertex, [&](std::uint32_t triangle) {
+    sum = sum + mesh_.normal(triangle);
+    (mesh_.step(triangle) == kStockSurface ? stock : cut) = true;
   });
   if (stock || !cut) return false;
   const double size = length(sum);
   if (size <= 0.0) return false;
   outwards = (1.0 / size) * sum;
   bool smooth = true;
-  fans_.around(vertex, [&](std::uint32_t triangle) {
-    const Point3 normal = fans_.normal(triangle);
+  mesh_.around(vertex, [&](std::uint32_t triangle) {
+    const Point3 normal = mesh_.normal(triangle);
     if (dot(normal, normal) > 0.0 && dot(normal, outwards) < kSmooth) smooth = false;
   });
   return smooth;
@@ -322,8 +262,8 @@ bool Placer::is_flat_enough() const {
 /// On steep places columns are far apart in height, and so may a vertex be from where it belongs.
 double Placer::most_moved(std::uint32_t vertex, Point3 from) const {
   double span = 0.0;
-  fans_.around(vertex, [&](std::uint32_t triangle) {
-    span = std::max(span, 1.5 * std::abs(fans_.middle(triangle).z - from.z));
+  mesh_.around(vertex, [&](std::uint32_t triangle) {
+    span = std::max(span, 1.5 * std::abs(mesh_.middle(triangle).z - from.z));
   });
   return kMostMoved * pitch_ + std::min(span, kMostSpan * pitch_);
 }
@@ -332,7 +272,6 @@ Point3 Placer::on_edge(std::uint32_t vertex, Point3 from, Around& around) {
   most_moved_ = most_moved(vertex, from);
   find_samples(vertex, from);
   if (samples_.empty() && of_stock_.empty()) return from;
-  const double miss_before = miss_at(from);
   Point3 to = best_step(from);
   if (distance(from, to) > kFirstLook * pitch_) nearby_ = &around.all(to);
   for (int n = 0; n < kCloserLooks && !is_flat_enough(); ++n) {
@@ -342,11 +281,11 @@ Point3 Placer::on_edge(std::uint32_t vertex, Point3 from, Around& around) {
     to = better;
   }
   const double after = miss_at(to);
-  return after <= kMissed * pitch_ || after < miss_before ? to : from;
+  return after <= kMissed * pitch_ || after < miss_at(from) ? to : from;
 }
 
 Point3 Placer::place(std::uint32_t vertex, Around& around) {
-  const Point3 from = fans_.point(vertex);
+  const Point3 from = mesh_.point(vertex);
   fix_axes(vertex, from);
   Point3 outwards;
   if (is_smooth(vertex, outwards)) {

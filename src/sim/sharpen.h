@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "sim/linked_mesh.h"
 #include "sim/quadric.h"
 #include "sim/spots.h"
 
@@ -15,36 +16,6 @@ namespace kerf::sim {
 
 /// Vertices within this of the block's sides are on them, mm.
 inline constexpr double kOnBlock = 1e-5;
-
-/// The triangles around vertices of a mesh, their middles and normals, in the block's frame.
-class Fans {
- public:
-  /// `first_new`: only those around the vertices from this number on and around their neighbours.
-  Fans(const Mesh& mesh, Point3 low, unsigned threads, std::uint32_t first_new = 0);
-  std::size_t vertices() const { return first_.size() - 1; }
-  /// Calls visit(triangle) for each triangle around a vertex.
-  template <class Visit>
-  void around(std::uint32_t vertex, const Visit& visit) const {
-    for (std::size_t k = first_[vertex]; k < first_[vertex + 1]; ++k) visit(triangle_[k]);
-  }
-  Point3 point(std::uint32_t vertex) const;
-  Point3 middle(std::uint32_t triangle) const;
-  /// Outwards; nothing (0, 0, 0) of a triangle without area, or around no vertex that is wanted.
-  Point3 normal(std::uint32_t triangle) const;
-  /// Three numbers a triangle.
-  const std::vector<float>& normals() const { return normal_; }
-  std::uint32_t step(std::uint32_t triangle) const { return mesh_.step[triangle]; }
-
- private:
-  void gather(const std::vector<bool>& wanted);
-  void find_normals(const std::vector<bool>& wanted, unsigned threads);
-
-  const Mesh& mesh_;
-  Point3 low_;
-  std::vector<std::size_t> first_;
-  std::vector<std::uint32_t> triangle_;
-  std::vector<float> normal_;
-};
 
 /// Moves `place` onto the nearest surface that was cut, and tells the material's normal there. False if that
 /// is further than `most`, or does not face `outwards`.
@@ -58,8 +29,8 @@ double miss_in_block(const Nearby& nearby, Point3 size, Point3 place);
 /// Finds new places for the vertices of one mesh.
 class Placer {
  public:
-  Placer(const Fans& fans, const Workpiece::Body& body, double tolerance)
-      : fans_(fans),
+  Placer(const LinkedMesh& mesh, const Workpiece::Body& body, double tolerance)
+      : mesh_(mesh),
         size_(body.bounds.size()),
         pitch_(body.pitch),
         tolerance_(tolerance),
@@ -94,7 +65,7 @@ class Placer {
   Point3 best_step(Point3 from) const;
   void look_closer(Point3 from);
 
-  const Fans& fans_;
+  const LinkedMesh& mesh_;
   Point3 size_;
   double pitch_, tolerance_;
   bool is_block_;

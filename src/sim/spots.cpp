@@ -13,8 +13,8 @@ namespace {
 /// Columns along the side of a block of columns that share a list of sweeps.
 constexpr int kBlock = 8;
 constexpr int kBlocksAcross = kTileColumns / kBlock;
-/// Places within so many pitches of one share a shorter list.
-constexpr double kWider = 4.0;
+/// Pitches from the middle of a cube of so many columns to its corners: places there share a shorter list.
+constexpr double kWider = 0.5 * kBlock * std::numbers::sqrt3;
 /// Columns along the side of the square around a place whose steps are looked at.
 constexpr int kColumns = 4;
 constexpr std::uint32_t kNotYet = 0xffffffffu;
@@ -31,80 +31,150 @@ bool comes_before(const Sweep* a, const Sweep* b) {
 
 namespace {
 
+/// Whether the one that is nearest in plan is the nearer of two.
+bool is_one_level(const Sweep& a, const Sweep& b) {
+  return is_level(a) && is_level(b) && a.tool == b.tool && a.z == b.z;
+}
+
 /// Whether a place may be within reach of an arc: it is near the whole circle.
 bool may_be_near(const Sweep& arc, Point2 place, double reach) {
   const double dx = place.x - arc.x, dy = place.y - arc.y;
   return std::abs(std::sqrt(dx * dx + dy * dy) - arc.radius) <= reach;
 }
 
+/// The way of a place from the nearest of several paths, in plan.
+class NearestWay {
+ public:
+  void take(Point2 way) {
+    const double square = dot(way, way);
+    if (square >= square_) return;
+    square_ = square;
+    way_ = way;
+  }
+  double far() const { return std::sqrt(square_); }
+  /// Whether a path `way` from the place can be nearest to another one within `reach`.
+  bool may_change_to(const Sweep& path, Point2 way, double reach) const {
+    const double far = this->far(), most = far + 2.0 * reach, square = dot(way, way);
+    if (square > most * most) return false;
+    if (path.is_arc || far < 2.0 * reach || square <= square_) return true;
+    // The distance to a line is convex: above its tangent. That to one of its places is not more above its
+    // own than the other term tells.
+    const double other = std::sqrt(square);
+    const Point2 turn = (1.0 / other) * way - (1.0 / far) * way_;
+    return other - far <= reach * std::sqrt(dot(turn, turn)) + 0.5 * reach * reach / (far - reach);
+  }
+
+ private:
+  double square_ = std::numeric_limits<double>::infinity();
+  Point2 way_;
+};
+
 }  // namespace
 
-/// Takes those of one height, the first of which is number `first`; returns the number after the last.
-std::size_t Nearby::gather_level(const std::vector<const Sweep*>& sweeps, std::size_t first) {
-  const Sweep& like = *sweeps[first];
-  distances_.clear();
-  double nearest2 = std::numeric_limits<double>::infinity();
-  std::size_t end = first;
-  for (; end < sweeps.size(); ++end) {
-    const Sweep& sweep = *sweeps[end];
-    if (!is_level(sweep) || sweep.tool != like.tool || sweep.z != like.z) break;
-    double square = std::numeric_limits<double>::infinity();
-    if (!sweep.is_arc || may_be_near(sweep, around_.xy(), std::sqrt(nearest2) + 2.0 * reach_)) {
-      const Point2 way = around_.xy() - nearest_in_plan(sweep, around_.xy());
-      square = dot(way, way);
-    }
-    distances_.push_back(square);
-    nearest2 = std::min(nearest2, square);
-  }
-  const double most = std::sqrt(nearest2) + 2.0 * reach_;
-  Level level{level_.size(), level_.size(), 0.0};
-  for (std::size_t k = first; k < end; ++k)
-    if (distances_[k - first] <= most * most) {
-      const Sweep& sweep = *sweeps[k];
-      level_.push_back(&sweep);
-      lines_.push_back({sweep.x, sweep.y, sweep.ux, sweep.uy, sweep.is_arc ? -1.0 : sweep.length});
-    }
-  level.end = level_.size();
-  const ToolDistance& tool = tools_[like.tool];
-  level.low = distance_to_level(tool, nearest_of(level, around_.xy()), like.z, around_).value;
-  levels_.push_back(level);
-  return end;
-}
-
-void Nearby::gather(const std::vector<const Sweep*>& sweeps, Point3 place) {
+void Nearby::begin(Point3 place) {
   around_ = place;
   levels_.clear();
   level_.clear();
   lines_.clear();
   others_.clear();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < sweeps.size();) {
-    if (is_level(*sweeps[k])) {
-      k = gather_level(sweeps, k);
-      nearest = std::min(nearest, levels_.back().low);
-      continue;
-    }
-    const DistanceBounds bounds = bounds_of_distance(*sweeps[k], tools_[sweeps[k]->tool], place, reach_);
-    nearest = std::min(nearest, bounds.high);
-    if (bounds.low <= reach_) others_.push_back({bounds.low, sweeps[k]});
-    ++k;
-  }
-  // A place `reach` away is nearer to each by no more than that, and further from the nearest by no more.
-  const double most = std::min(nearest + 2.0 * reach_, reach_);
-  const auto is_far = [&](const auto& one) { return one.low > most; };
-  levels_.erase(std::remove_if(levels_.begin(), levels_.end(), is_far), levels_.end());
-  others_.erase(std::remove_if(others_.begin(), others_.end(), is_far), others_.end());
-  std::sort(others_.begin(), others_.end(), [](const Other& a, const Other& b) {
-    return a.low != b.low ? a.low < b.low : a.sweep < b.sweep;
-  });
 }
 
-void Nearby::list(std::vector<const Sweep*>& out) const {
-  out.clear();
-  for (const Level& level : levels_)
-    out.insert(out.end(), level_.begin() + static_cast<std::ptrdiff_t>(level.first),
-               level_.begin() + static_cast<std::ptrdiff_t>(level.end));
-  for (const Other& other : others_) out.push_back(other.sweep);
+/// Takes those that may be met of sweeps at one height; returns the distance of the nearest.
+double Nearby::gather_level(const Sweep* const* sweeps, const Line* lines, std::size_t count) {
+  const Sweep& like = *sweeps[0];
+  ways_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) ways_[k] = lines[k].way_to(around_.xy());
+  NearestWay nearest;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Sweep& sweep = *sweeps[k];
+    if (sweep.is_arc) {
+      const bool is_near = may_be_near(sweep, around_.xy(), nearest.far() + 2.0 * reach_);
+      ways_[k] = is_near ? around_.xy() - nearest_in_plan(sweep, around_.xy()) : Point2{kNowhere, kNowhere};
+    }
+    nearest.take(ways_[k]);
+  }
+  Level level{level_.size(), level_.size(), 0.0};
+  for (std::size_t k = 0; k < count; ++k)
+    if (nearest.may_change_to(*sweeps[k], ways_[k], reach_)) {
+      level_.push_back(sweeps[k]);
+      lines_.push_back(lines[k]);
+    }
+  level.end = level_.size();
+  const ToolDistance& tool = tools_[like.tool];
+  level.low = distance_to_level(tool, nearest_of(level, around_.xy()), like.z, around_).value;
+  levels_.push_back(level);
+  return level.low;
+}
+
+/// Leaves those that a place `reach` away can meet, if one of all is not further than `nearest`: it is nearer
+/// to each by no more than that, and further from the nearest by no more.
+void Nearby::keep_near(double nearest) {
+  const auto sort = [&] {
+    const double most = std::min(nearest + 2.0 * reach_, reach_);
+    const auto is_far = [&](const auto& one) { return one.low > most; };
+    levels_.erase(std::remove_if(levels_.begin(), levels_.end(), is_far), levels_.end());
+    others_.erase(std::remove_if(others_.begin(), others_.end(), is_far), others_.end());
+    std::sort(others_.begin(), others_.end(), [](const Other& a, const Other& b) {
+      return a.low != b.low ? a.low < b.low : a.sweep < b.sweep;
+    });
+  };
+  sort();
+  bool any = false;
+  for (Other& other : others_) {
+    if (other.is_known || other.low > nearest + 2.0 * reach_) continue;
+    other.nearest = nearest_along(*other.sweep, tools_[other.sweep->tool], around_, 2.0 * reach_);
+    other.low = other.nearest.distance.value;
+    other.is_known = any = true;
+    nearest = std::min(nearest, other.low);
+  }
+  if (any) sort();
+}
+
+void Nearby::gather(const std::vector<const Sweep*>& sweeps, Point3 place) {
+  begin(place);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < sweeps.size();) {
+    const Sweep& sweep = *sweeps[k];
+    if (is_level(sweep)) {
+      std::size_t end = k + 1;
+      while (end < sweeps.size() && is_one_level(sweep, *sweeps[end])) ++end;
+      of_level_.clear();
+      for (std::size_t n = k; n < end; ++n) of_level_.push_back(Line::of(*sweeps[n]));
+      nearest = std::min(nearest, gather_level(&sweeps[k], of_level_.data(), end - k));
+      k = end;
+      continue;
+    }
+    const DistanceBounds bounds = bounds_of_distance(sweep, tools_[sweep.tool], place, reach_);
+    nearest = std::min(nearest, bounds.high);
+    if (bounds.low <= reach_) others_.push_back({bounds.low, &sweep, {}, false});
+    ++k;
+  }
+  keep_near(nearest);
+}
+
+void Nearby::gather(const Nearby& wider, Point3 place) {
+  begin(place);
+  const Point3 moved = place - wider.around_;
+  const double far = length(moved);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Level& level : wider.levels_)
+    if (level.low - far <= std::min(nearest + 2.0 * reach_, reach_))
+      nearest = std::min(nearest, gather_level(&wider.level_[level.first], &wider.lines_[level.first],
+                                               level.end - level.first));
+  for (const Other& other : wider.others_) {
+    if (other.low - far > std::min(nearest + 2.0 * reach_, reach_)) break;
+    Other here = other;
+    if (other.is_known) {
+      here.nearest =
+          nearest_beside(*other.sweep, tools_[other.sweep->tool], place, 2.0 * reach_, other.nearest, moved);
+      here.low = here.nearest.distance.value;
+      nearest = std::min(nearest, here.low);
+    } else {
+      here.low = other.low - far;
+    }
+    others_.push_back(here);
+  }
+  keep_near(nearest);
 }
 
 bool Nearby::holds(Point3 place, double reach) const { return distance(place, around_) + reach <= reach_; }
@@ -113,15 +183,12 @@ Point2 Nearby::nearest_of(const Level& level, Point2 place) const {
   Point2 nearest;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = level.first; k < level.end; ++k) {
-    const Line& line = lines_[k];
-    const double dx = place.x - line.x, dy = place.y - line.y;
-    const double t = std::clamp(dx * line.ux + dy * line.uy, 0.0, std::max(line.length, 0.0));
-    Point2 at{line.x + t * line.ux, line.y + t * line.uy};
-    if (line.length < 0.0) at = nearest_in_plan(*level_[k], place);  // an arc
-    const double square = dot(at - place, at - place);
+    const Sweep& sweep = *level_[k];
+    const Point2 way = sweep.is_arc ? place - nearest_in_plan(sweep, place) : lines_[k].way_to(place);
+    const double square = dot(way, way);
     if (square >= least) continue;
     least = square;
-    nearest = at;
+    nearest = place - way;
   }
   return nearest;
 }
@@ -140,8 +207,10 @@ Distance Nearby::at(Point3 place) const {
   for (const Other& other : others_) {
     if (other.low - moved > nearest.value) break;
     const ToolDistance& tool = tools_[other.sweep->tool];
-    if (bounds_of_distance(*other.sweep, tool, place, 2.0 * reach_).low >= nearest.value) continue;
-    take(distance_to(*other.sweep, tool, place, 2.0 * reach_, nearest.value));
+    take(other.is_known ? nearest_beside(*other.sweep, tool, place, 2.0 * reach_, other.nearest,
+                                         place - around_, nearest.value)
+                              .distance
+                        : nearest_along(*other.sweep, tool, place, 2.0 * reach_, nearest.value).distance);
   }
   return nearest;
 }
@@ -153,7 +222,9 @@ Spot SweepsByTile::spot_at(Point3 place, std::uint32_t number) const {
   const int i = column(place.x, body_.nx), j = column(place.y, body_.ny);
   const int tile = j / kTileColumns * body_.tiles_x + i / kTileColumns;
   const int block = j % kTileColumns / kBlock * kBlocksAcross + i % kTileColumns / kBlock;
-  return {static_cast<std::uint32_t>(tile), static_cast<std::uint32_t>(block), number};
+  const double layer = std::floor(place.z / (kBlock * body_.pitch));
+  return {static_cast<std::uint32_t>(tile), static_cast<std::uint32_t>(block),
+          static_cast<std::int32_t>(layer), number};
 }
 
 void SweepsByTile::take(const Batch& batch) {
@@ -174,35 +245,57 @@ Around::Around(const SweepsByTile& sweeps)
       nearby_(sweeps.tools_, sweeps.reach_) {}
 
 void Around::go_to(const Spot& spot) {
-  if (spot.tile != spot_.tile || spot.block != spot_.block) has_block_ = has_wider_ = false;
+  const bool is_in_block = spot.tile == spot_.tile && spot.block == spot_.block;
+  has_block_ = has_block_ && is_in_block;
+  has_wider_ = has_wider_ && is_in_block && spot.layer == spot_.layer;
   spot_ = spot;
+}
+
+/// Of the spot's cube of columns.
+Point3 Around::middle() const {
+  const auto tiles_x = static_cast<std::uint32_t>(sweeps_.body_.tiles_x);
+  const double i = spot_.tile % tiles_x * kTileColumns + (spot_.block % kBlocksAcross + 0.5) * kBlock;
+  const double j = spot_.tile / tiles_x * kTileColumns + (spot_.block / kBlocksAcross + 0.5) * kBlock;
+  return sweeps_.body_.pitch * Point3{i, j, (spot_.layer + 0.5) * kBlock};
 }
 
 void Around::gather_block() {
   const Workpiece::Body& body = sweeps_.body_;
-  const auto tiles_x = static_cast<std::uint32_t>(body.tiles_x);
-  const double i = spot_.tile % tiles_x * kTileColumns + (spot_.block % kBlocksAcross + 0.5) * kBlock;
-  const double j = spot_.tile / tiles_x * kTileColumns + (spot_.block / kBlocksAcross + 0.5) * kBlock;
-  const Point2 middle{i * body.pitch, j * body.pitch};
+  const Point2 middle = this->middle().xy();
   const double half = std::numbers::sqrt2 * 0.5 * kBlock * body.pitch + sweeps_.reach_;
-  of_block_.clear();
+  reachable_.clear();
   for (const std::uint32_t n : sweeps_.of_tile_[spot_.tile]) {
     const Sweep& sweep = sweeps_.sweeps_[n];
-    if (distance(nearest_in_plan(sweep, middle), middle) <= sweeps_.tools_[sweep.tool].rim() + half)
-      of_block_.push_back(&sweep);
+    const Point2 way = middle - nearest_in_plan(sweep, middle);
+    const double most = sweeps_.tools_[sweep.tool].rim() + half;
+    if (dot(way, way) <= most * most) reachable_.push_back({&sweep, way});
   }
-  std::sort(of_block_.begin(), of_block_.end(), comes_before);
+  std::sort(reachable_.begin(), reachable_.end(),
+            [](const Reachable& a, const Reachable& b) { return comes_before(a.sweep, b.sweep); });
+  of_block_.clear();
+  for (std::size_t k = 0; k < reachable_.size();) {
+    std::size_t end = k;
+    NearestWay nearest;
+    for (; end < reachable_.size() && is_one_level(*reachable_[k].sweep, *reachable_[end].sweep); ++end)
+      nearest.take(reachable_[end].way);
+    if (end == k) of_block_.push_back(reachable_[k++].sweep);
+    for (; k < end; ++k)
+      if (nearest.may_change_to(*reachable_[k].sweep, reachable_[k].way, half))
+        of_block_.push_back(reachable_[k].sweep);
+  }
   has_block_ = true;
 }
 
-const Nearby& Around::all(Point3 place) {
+const Nearby& Around::wider(Point3 place) {
   if (!has_block_) gather_block();
-  if (!has_wider_ || !wider_.holds(place, sweeps_.reach_)) {
-    wider_.gather(of_block_, place);
-    wider_.list(of_wider_);
-    has_wider_ = true;
-  }
-  nearby_.gather(of_wider_, place);
+  if (!has_wider_) wider_.gather(of_block_, middle());
+  has_wider_ = wider_.holds(place, sweeps_.reach_);
+  if (!has_wider_) wider_.gather(of_block_, place);
+  return wider_;
+}
+
+const Nearby& Around::all(Point3 place) {
+  nearby_.gather(wider(place), place);
   return nearby_;
 }
 

@@ -1,6 +1,7 @@
 // Places on a mesh and the sweeps that can have cut near them, tile by tile.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -22,10 +23,10 @@ class Nearby {
   Nearby(const std::vector<ToolDistance>& tools, double reach) : tools_(tools), reach_(reach) {}
   /// Those of `sweeps` (in order) that may bound the material within `reach` of a place.
   void gather(const std::vector<const Sweep*>& sweeps, Point3 place);
+  /// Those of `wider`, which holds all that can be met there.
+  void gather(const Nearby& wider, Point3 place);
   /// To what is taken away, with the direction into the material.
   Distance at(Point3 place) const;
-  /// What was gathered, in order.
-  void list(std::vector<const Sweep*>& out) const;
   /// Whether it is all that can be met within `reach` of a place.
   bool holds(Point3 place, double reach) const;
 
@@ -34,32 +35,47 @@ class Nearby {
     std::size_t first, end;
     double low;  // the distance of the nearest to the place that all were gathered around
   };
+  struct Line {  // what is needed of a sweep to find its nearest place in plan
+    double x, y, ux, uy, length;
+    static Line of(const Sweep& sweep) {
+      return {sweep.x, sweep.y, sweep.ux, sweep.uy, sweep.is_arc ? 0.0 : sweep.length};
+    }
+    Point2 way_to(Point2 place) const {
+      const double dx = place.x - x, dy = place.y - y;
+      const double t = std::min(std::max(dx * ux + dy * uy, 0.0), length);
+      return {dx - t * ux, dy - t * uy};
+    }
+  };
   struct Other {
     double low;  // not above that distance
     const Sweep* sweep;
+    Nearest nearest;  // to that place
+    bool is_known;    // whether it is
   };
-  std::size_t gather_level(const std::vector<const Sweep*>& sweeps, std::size_t first);
+  void begin(Point3 place);
+  double gather_level(const Sweep* const* sweeps, const Line* lines, std::size_t count);
+  void keep_near(double nearest);
   Point2 nearest_of(const Level& level, Point2 place) const;
 
   const std::vector<ToolDistance>& tools_;
   double reach_;
   Point3 around_;  // the place that all were gathered around
   std::vector<Level> levels_;
-  struct Line {  // what is needed of a sweep to find its nearest place in plan
-    double x, y, ux, uy, length;
-  };
   std::vector<const Sweep*> level_;
-  std::vector<Line> lines_;        // of level_
-  std::vector<Other> others_;      // the nearest first
-  std::vector<double> distances_;  // in plan, squared
+  std::vector<Line> lines_;     // of level_; arcs have no length
+  std::vector<Other> others_;   // the nearest first
+  std::vector<Line> of_level_;  // that is being gathered
+  std::vector<Point2> ways_;    // in plan
 };
 
-/// A place that is looked at, in its tile and its block of columns there.
+/// A place that is looked at, in its tile, its block of columns there, and its layer of that.
 struct Spot {
   std::uint32_t tile = 0, block = 0;
+  std::int32_t layer = 0;
   std::uint32_t number = 0;  // whose place it is
   bool operator<(const Spot& other) const {
-    return std::tie(tile, block, number) < std::tie(other.tile, other.block, other.number);
+    return std::tie(tile, block, layer, number) <
+           std::tie(other.tile, other.block, other.layer, other.number);
   }
 };
 
@@ -96,17 +112,25 @@ class Around {
   void go_to(const Spot& spot);
   /// From all sweeps.
   const Nearby& all(Point3 place);
+  /// The same for one look.
+  const Nearby& wider(Point3 place);
   /// From those that made the columns around a place: quicker, and as good where the surface is smooth.
   const Nearby& of_columns(Point3 place);
 
  private:
+  Point3 middle() const;
   void gather_block();
 
+  struct Reachable {
+    const Sweep* sweep;
+    Point2 way;  // from there to the block's middle, in plan
+  };
   const SweepsByTile& sweeps_;
   Nearby wider_, nearby_;  // the wider ones serve several places
   Spot spot_;
   bool has_block_ = false, has_wider_ = false;
-  std::vector<const Sweep*> of_block_, of_wider_, of_columns_;
+  std::vector<Reachable> reachable_;
+  std::vector<const Sweep*> of_block_, of_columns_;
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> steps_;
 };

@@ -6,16 +6,14 @@
 
 namespace kerf::sim {
 
+/// Nothing is so far away.
+inline constexpr double kNowhere = 1e30;
+
 /// Distance to a solid, mm, negative inside, and the direction in which it grows.
 struct Distance {
-  double value = 1e30;
+  double value = kNowhere;
   Point3 gradient;
 };
-
-/// Of a place, in the sweeps' frame, to what the tool takes away along a sweep. Places further than `reach`
-/// may be said to be far away (1e30), and distances that are not below `enough` need not be exact.
-Distance distance_to(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
-                     double enough = 1e30);
 
 /// The place of a sweep's path that is nearest, both seen from above.
 Point2 nearest_in_plan(const Sweep& sweep, Point2 place);
@@ -23,13 +21,27 @@ Point2 nearest_in_plan(const Sweep& sweep, Point2 place);
 /// Whether a sweep stays at one height. Of several of one tool at one height the one that is nearest in plan
 /// is nearest.
 inline bool is_level(const Sweep& sweep) { return sweep.is_arc || sweep.z == sweep.z_end; }
-/// distance_to of a level sweep at height `z` whose path is nearest at `nearest`.
+/// Of a place, in the sweeps' frame, to what a tool takes away along a level sweep at height `z` whose path
+/// is nearest at `nearest`.
 Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, Point3 place);
 
-/// Bounds of distance_to for the time of one look at the tool; `low` is not above what distance_to tells,
-/// `high` not below it.
+/// The distance to what a tool takes away along a sweep that is not level, and where the tool then is: mm
+/// along the path in plan, or of a plunge the height.
+struct Nearest {
+  Distance distance;
+  double where = 0.0;
+};
+/// Places further than `reach` may be said to be nowhere, and distances that are not below `enough` need not
+/// be exact.
+Nearest nearest_along(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
+                      double enough = kNowhere);
+/// The same for a place beside another one, `moved` from it, for which it is known already.
+Nearest nearest_beside(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
+                       const Nearest& known, Point3 moved, double enough = kNowhere);
+
+/// Bounds of that distance for the time of one look at the tool.
 struct DistanceBounds {
-  double low = 1e30, high = 1e30;
+  double low = kNowhere, high = kNowhere;
 };
 DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach);
 

@@ -77,6 +77,67 @@ TEST(SweepDistance, TheNearestPlaceOfAnArcIsOnIt) {
   }
 }
 
+struct Seen {
+  sim::Sweep sweep;
+  Point3 place;
+};
+/// A straight sweep, a plunge sometimes, and a place within 2 mm of what it takes away.
+template <class In>
+Seen draw(const sim::ToolDistance& tool, const In& in) {
+  Seen seen;
+  sim::Sweep& sweep = seen.sweep;
+  const double angle = in(0.0, 6.3);
+  sweep.ux = std::cos(angle);
+  sweep.uy = std::sin(angle);
+  sweep.length = in(0.0, 1.0) < 0.2 ? 0.0 : in(0.1, 20.0);
+  sweep.slope = sweep.length > 0.0 ? in(-1.0, 1.0) : 0.0;
+  sweep.z_end = sweep.length > 0.0 ? sweep.length * sweep.slope : in(-9.0, 9.0);
+  const double t = in(0.0, sweep.length), r = in(0.0, tool.rim() + 2.0), around = in(0.0, 6.3);
+  seen.place = {t * sweep.ux + r * std::cos(around), t * sweep.uy + r * std::sin(around),
+                in(0.0, 1.0) * sweep.z_end + in(-2.0, 12.0)};
+  return seen;
+}
+double least_of_many(const Seen& seen, const sim::ToolDistance& tool) {
+  constexpr int kParts = 4000;
+  double least = 1e9;
+  for (int k = 0; k <= kParts; ++k) {
+    const double share = static_cast<double>(k) / kParts, t = share * seen.sweep.length;
+    const double rho = std::hypot(seen.place.x - t * seen.sweep.ux, seen.place.y - t * seen.sweep.uy);
+    least = std::min(least, tool.at(rho, seen.place.z - share * seen.sweep.z_end).value);
+  }
+  return least;
+}
+
+TEST(SweepDistance, IsThatOfTheNearestOfAllPlacesOfTheTool) {
+  constexpr double kReach = 2.0, kNear = 0.3, kMoved = 0.1;
+  std::mt19937_64 random(5);
+  const auto in = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (const NamedProfile& each : all_profiles()) {
+    const sim::ToolDistance tool(make_drawn(1, each.profile).silhouette);
+    for (int n = 0; n < 1000; ++n) {
+      Seen seen = draw(tool, in);
+      const double step = std::hypot(seen.sweep.length, seen.sweep.z_end) / 4000;
+      const sim::Nearest found = sim::nearest_along(seen.sweep, tool, seen.place, kReach);
+      const sim::DistanceBounds bounds = sim::bounds_of_distance(seen.sweep, tool, seen.place, kReach);
+      const double least = least_of_many(seen, tool);
+      if (std::abs(least) > kNear) continue;
+      // Between looks there may be two lowest places of tools that are not convex, seldom: one is as good.
+      EXPECT_LE(found.distance.value, least + (tool.is_convex() ? 1e-7 : 0.02)) << each.name << " " << n;
+      EXPECT_GE(found.distance.value, least - step) << each.name << " " << n;
+      EXPECT_LE(bounds.low, least + 1e-7) << each.name << " " << n;
+      EXPECT_GE(bounds.high, found.distance.value - 1e-7) << each.name << " " << n;
+      const Point3 moved{in(-kMoved, kMoved), in(-kMoved, kMoved), in(-kMoved, kMoved)};
+      seen.place = seen.place + moved;
+      const double afresh = sim::nearest_along(seen.sweep, tool, seen.place, kReach).distance.value;
+      const double beside =
+          sim::nearest_beside(seen.sweep, tool, seen.place, kReach, found, moved).distance.value;
+      EXPECT_LE(std::min(beside, kReach), std::min(afresh, kReach) + 1e-7) << each.name << " " << n;
+    }
+  }
+}
+
 TEST(Quadric, GoesToWherePlanesMeet) {
   sim::Quadric quadric;
   quadric.add({1, 0, 0}, 2.0);
