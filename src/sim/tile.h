@@ -75,10 +75,9 @@ struct Tile {
   /// Asks for the memory that `lengths` will read of a micro, if there is such a micro.
   void fetch(int micro) const {
     if (micro >= kMicros || chain[micro] < 0) return;
-    const Slot& slot = slots[static_cast<std::size_t>(chain[micro])];
+    const Slot& slot = slots[chain[micro]];
     __builtin_prefetch(&slot.low);
     __builtin_prefetch(&slot.high);
-    __builtin_prefetch(&slot.next);
   }
   /// Length of material of each column of a micro.
   void lengths(int micro, Lanes& out) const;

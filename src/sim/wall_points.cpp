@@ -1,9 +1,9 @@
 // Counting the squares that walls go through at points of a lattice each.
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <iterator>
 
-#include "sim/parallel.h"
 #include "sim/start.h"
 #include "sim/walls.h"
 
@@ -213,20 +213,29 @@ void WallTile::cut(TileJob job) {
 }
 
 WallGroup::WallGroup(const Workpiece::Body& body, const Cutter& cutter, const std::vector<WallSquares>& found,
-                     std::size_t all_squares, std::size_t& next, unsigned threads)
-    : wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
-  const std::size_t first = next;
+                     std::size_t all_squares, std::size_t& next, const std::vector<std::size_t>& sweeps)
+    : body_(body),
+      cutter_(cutter),
+      found_(found.data() + next),
+      all_squares_(all_squares),
+      wanted_(body.tiles.size(), false),
+      place_(body.tiles.size(), 0) {
   for (std::size_t squares = 0; next < found.size() && squares < kGroupSquares; ++next) {
     const WallSquares& walls = found[next];
     squares += walls.squares.size();
     wanted_[walls.tile] = true;
-    place_[walls.tile] = static_cast<std::uint32_t>(next - first);
+    place_[walls.tile] = static_cast<std::uint32_t>(walls_.size());
+    walls_.push_back({std::nullopt, sweeps[walls.tile]});
   }
-  walls_.resize(next - first);
-  const auto make = [&](std::size_t n) {
-    walls_[n] = store_.make(body, cutter, found[first + n], all_squares, parts_);
-  };
-  parallel_for(threads, walls_.size(), make, [] { return false; });
+}
+
+void WallGroup::cut(std::size_t tile, const TileJob& job) {
+  Walls& walls = walls_[place_[tile]];
+  if (!walls.tile) walls.tile.emplace(body_, cutter_, found_[place_[tile]], all_squares_, parts_);
+  walls.tile->cut(job);
+  assert(walls.sweeps_left >= job.count);
+  walls.sweeps_left -= job.count;
+  if (walls.sweeps_left == 0) walls.tile.reset();
 }
 
 }  // namespace kerf::sim
