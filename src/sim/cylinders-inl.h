@@ -25,11 +25,11 @@ namespace kerf::sim::HWY_NAMESPACE {
 inline constexpr int kBundles = kLanes;  // of a group: one bit of a mask each
 inline constexpr int kMostBundled = 8;   // sweeps of a bundle
 inline constexpr int kMostSweeps = kBundles * kMostBundled;
-inline constexpr Real kBundleLength = 2;  // pitches, where sweeps are that short
+inline constexpr Real kBundleLength = 3;  // pitches, where sweeps are that short
 /// What is left to rounding where blocks are compared, pitches.
 inline constexpr Real kBlockMargin = 0.01f;
-/// Sweeps of a bundle turn away from its chord by less than the angle with this cosine, or every block counts
-/// as not wholly before it or behind it.
+/// Sweeps of a bundle turn away from its chord by less than the angle with this cosine, or no block counts as
+/// wholly before it or behind it.
 inline constexpr Real kLeastCosine = 0.5f;
 
 /// A level sweep from the tile's first column.
@@ -93,7 +93,7 @@ HWY_INLINE DiscSweep disc_sweep(const TileJob& job, const Sweep& s, Real rim) {
           s.follows};
 }
 
-/// A bundle's chord, how far its sweeps bulge from it, and how much they turn away from it.
+/// A bundle's chord, how far its sweeps may be from it, and how much they turn away from it.
 struct BundleChord {
   Real along_x, along_y, length, bulge, slack;
 };
@@ -102,23 +102,20 @@ HWY_INLINE BundleChord chord_of(const DiscSweep* sweeps, int count, Real rim) {
   if (count == 1) return {first.along_x, first.along_y, first.length, 0, first.follows ? Real{0} : kFar};
   const DiscSweep& last = sweeps[count - 1];
   const Real x = last.end_x - first.begin_x, y = last.end_y - first.begin_y;
-  const Real length = std::sqrt(x * x + y * y);
-  BundleChord chord{length > 0 ? x / length : 1, length > 0 ? y / length : 0, length, 0, kFar};
-  Real cosine = 1, sine = 0, longest = 0;
+  const Real length = std::sqrt(x * x + y * y), per_length = length > 0 ? 1 / length : 0;
+  const Real along_x = x * per_length, along_y = y * per_length;
+  Real cosine = 1, sine = 0, way = 0;
   bool all_follow = true;
   for (int k = 0; k < count; ++k) {
     const DiscSweep& s = sweeps[k];
-    const Real dx = s.end_x - first.begin_x, dy = s.end_y - first.begin_y;
-    const Real u = dx * chord.along_x + dy * chord.along_y;
-    const Real beyond = std::max(std::max(-u, u - length), Real{0});
-    chord.bulge = std::max(chord.bulge, std::abs(dy * chord.along_x - dx * chord.along_y) + beyond);
-    cosine = std::min(cosine, s.along_x * chord.along_x + s.along_y * chord.along_y);
-    sine = std::max(sine, std::abs(s.along_y * chord.along_x - s.along_x * chord.along_y));
-    longest = std::max(longest, s.length);
+    cosine = std::min(cosine, s.along_x * along_x + s.along_y * along_y);
+    sine = std::max(sine, std::abs(s.along_y * along_x - s.along_x * along_y));
+    way += s.length;
     all_follow = all_follow && s.follows;
   }
-  if (all_follow && cosine > kLeastCosine) chord.slack = chord.bulge + sine / cosine * (rim + longest);
-  return chord;
+  if (cosine < kLeastCosine) return {along_x, along_y, length, way, kFar};
+  const Real bulge = sine * way;
+  return {along_x, along_y, length, bulge, all_follow ? bulge + sine / cosine * (rim + way) : kFar};
 }
 
 HWY_INLINE void prepare_bundles(CylinderGroup& group, Real pitch) {
@@ -182,13 +179,13 @@ HWY_INLINE unsigned bundles_over(const CylinderGroup& group, unsigned bundles, c
   return all_met;
 }
 
-/// Columns that a sweep covers between its ends, and at its begin if it follows no other.
-HWY_INLINE Mask covered_on_the_way(const DiscSweep& s, Vector x, Vector y, Real rim2) {
+/// Squared distance of columns from a sweep's way between its ends, and from its begin if it follows no
+/// other; `distance2` elsewhere. Columns are seen from the end.
+HWY_INLINE Vector nearest_on_the_way(const DiscSweep& s, Vector x, Vector y, Vector distance2) {
   const Vector u = x * s.along_x + y * s.along_y, v = y * s.along_x - x * s.along_y;
-  Mask covered = (u < 0) & (u > -s.length) & (v * v < rim2);
-  if (!s.follows)
-    covered = covered | (square(x + (s.end_x - s.begin_x)) + square(y + (s.end_y - s.begin_y)) < rim2);
-  return covered;
+  distance2 = select((u < 0) & (u > -s.length), lower_of(distance2, v * v), distance2);
+  if (s.follows) return distance2;
+  return lower_of(distance2, square(x + (s.end_x - s.begin_x)) + square(y + (s.end_y - s.begin_y)));
 }
 
 /// The number of the first sweep over each column; kMostSweeps where there is none.
@@ -198,14 +195,16 @@ HWY_INLINE Ids first_over(const CylinderGroup& group, const MicroPlaces& places,
   while (bundles != 0) {  // the latest first, so that the others only have to take columns over
     const int b = 31 - __builtin_clz(bundles);
     bundles ^= 1u << b;
-    const int begin = b * group.each;
+    const DiscSweep* const begin = group.sweep + b * group.each;
+    const DiscSweep* s = std::min(begin + group.each, group.sweep + group.count);
+    Ids number = all_ids(static_cast<std::uint32_t>(s - group.sweep));
     const bool is_passed = (passed >> b & 1u) != 0;
-    for (int k = std::min(begin + group.each, group.count) - 1; k >= begin; --k) {
-      const DiscSweep& s = group.sweep[k];
-      const Vector x = places.x - s.end_x, y = places.y - s.end_y;
-      Mask covered = x * x + y * y < rim2;
-      if (!is_passed) covered = covered | covered_on_the_way(s, x, y, rim2);
-      first = select(covered, all_ids(static_cast<unsigned>(k)), first);
+    while (s-- != begin) {
+      number = one_less(number);
+      const Vector x = places.x - s->end_x, y = places.y - s->end_y;
+      Vector distance2 = x * x + y * y;
+      if (!is_passed) distance2 = nearest_on_the_way(*s, x, y, distance2);
+      first = select(distance2 < rim2, number, first);
     }
   }
   return first;
@@ -217,22 +216,42 @@ HWY_INLINE void take_by_numbers(CylinderGroup& group, const TileJob& job, int mi
   const Mask none = numbers == all_ids(kMostSweeps);
   const unsigned met = bits_of(~none);
   if (met == 0) return;
-  const Vector low = select(none, kFar, group.low[piece]), weights = weights_of(job, micro);
-  const auto take_by = [&](Ids steps) {
-    return take(*job.tile, micro, low, group.high[piece], steps, job.field->same_height) * weights;
-  };
   alignas(64) std::uint32_t number[kLanes];
   store_ids(numbers, number);
-  const std::uint32_t one = number[__builtin_ctz(met)];
-  if (bits_of(numbers == all_ids(one)) == met) {
-    store(load(group.taken[one]) + take_by(all_ids(group.step[one])), group.taken[one]);
-    return;
-  }
   alignas(64) std::uint32_t step[kLanes];
   for (int i = 0; i < kLanes; ++i) step[i] = group.step[number[i]];
   Lanes taken;
-  store(take_by(load_ids(step)), taken);
+  store(take(*job.tile, micro, select(none, kFar, group.low[piece]), group.high[piece], load_ids(step),
+             job.field->same_height) *
+            weights_of(job, micro),
+        taken);
   for (int i = 0; i < kLanes; ++i) group.taken[number[i]][i] += taken[i];
+}
+
+/// The same where only few sweeps come in question: no look at each column.
+HWY_INLINE void take_by_few(CylinderGroup& group, const TileJob& job, int micro, std::size_t piece,
+                            Ids numbers) {
+  const Mask none = numbers == all_ids(kMostSweeps);
+  alignas(64) std::uint32_t number[kLanes];
+  store_ids(numbers, number);
+  const unsigned met = bits_of(~none);
+  if (met == 0) return;
+  std::uint32_t by[kLanes];
+  int count = 0;
+  Ids step = all_ids(0);
+  for (unsigned rest = met; rest != 0; ++count) {
+    by[count] = number[__builtin_ctz(rest)];
+    const Mask mine = numbers == all_ids(by[count]);
+    step = select(mine, all_ids(group.step[by[count]]), step);
+    rest &= ~bits_of(mine);
+  }
+  const Vector taken = take(*job.tile, micro, select(none, kFar, group.low[piece]), group.high[piece], step,
+                            job.field->same_height) *
+                       weights_of(job, micro);
+  for (int n = 0; n < count; ++n) {
+    Lanes& sum = group.taken[by[n]];
+    store(load(sum) + only(numbers == all_ids(by[n]), taken), sum);
+  }
 }
 
 /// Takes from a micro, a lane of a super, what is left of it.
@@ -244,7 +263,7 @@ HWY_NOINLINE void cylinders_over_micro(CylinderGroup& group, const TileJob& job,
     const unsigned met = lanes_with(group.micros.met[p], lane);
     if (met == 0) continue;
     const Ids first = first_over(group, places, met, passed, group.solid->pieces[p].rim2);
-    take_by_numbers(group, job, micro, p, first);
+    group.each > 1 ? take_by_numbers(group, job, micro, p, first) : take_by_few(group, job, micro, p, first);
   }
 }
 
@@ -261,6 +280,14 @@ HWY_NOINLINE void cylinders_over_super(CylinderGroup& group, const TileJob& job,
   update_super(tile, super);
 }
 
+/// The sweeps of one tile lie far apart.
+inline constexpr std::size_t kFetchedAhead = 16;
+HWY_INLINE void fetch(const Sweep& sweep) {
+  const auto* bytes = reinterpret_cast<const char*>(&sweep);
+  __builtin_prefetch(bytes);
+  __builtin_prefetch(bytes + sizeof(Sweep) - 1);
+}
+
 /// Adds sweeps to a group as long as they can be bundled like the first of them, or up to one a bundle.
 /// Returns how many were added.
 HWY_INLINE int gather_cylinders(CylinderGroup& group, const TileJob& job, std::size_t first,
@@ -274,6 +301,7 @@ HWY_INLINE int gather_cylinders(CylinderGroup& group, const TileJob& job, std::s
   int count = 0;
   for (; static_cast<std::size_t>(count) < most; ++count) {
     const std::size_t q = first + static_cast<std::size_t>(count);
+    if (q + kFetchedAhead < job.count) fetch(job.sweeps[job.list[q + kFetchedAhead]]);
     const Sweep& sweep = job.sweeps[job.list[q]];
     if (sweep.passes != kPassCut || sweep.is_arc || sweep.tool != like.tool || sweep.z != like.z ||
         sweep.z_end != like.z)

@@ -119,7 +119,10 @@ LaneTool::LaneTool(const ToolSolids& tool) : cutting(tool.cutting), over_flute(t
   for (const Solid& solid : tool.touching) touching.emplace_back(solid);
 }
 
-void cut_tile(const TileJob& job) { HWY_DYNAMIC_DISPATCH(cut_tile)(job); }
+void cut_tile(const TileJob& job) {
+  HWY_DYNAMIC_DISPATCH(cut_tile)(job);
+  job.tile->pack_slots();
+}
 
 void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out) {
   HWY_DYNAMIC_DISPATCH(find_steps)(rules, lengths, out);

@@ -61,6 +61,8 @@ class Slots {
     return *this;
   }
   ~Slots();
+  /// None, in the same memory.
+  Slots none() const { return Slots(memory_); }
 
   Slot& operator[](std::int32_t k) { return page(k).slot[place(k)]; }
   const Slot& operator[](std::int32_t k) const { return page(k).slot[place(k)]; }

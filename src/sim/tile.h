@@ -72,6 +72,9 @@ struct Tile {
   Slot& add_slot(int micro);
   /// Puts an interval that floats into a free place of its column.
   void store_remnant(int micro, const Remnant& rest);
+  /// Gives memory back if many slots are in no chain: in front of an undercutting tool all columns float for
+  /// a moment, behind it only some.
+  void pack_slots();
   /// Asks for the memory that `lengths` will read of a micro, if there is such a micro.
   void fetch(int micro) const {
     if (micro >= kMicros || chain[micro] < 0) return;

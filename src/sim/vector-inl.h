@@ -150,6 +150,10 @@ HWY_INLINE Ids select(Mask m, Ids yes, Ids no) {
     no.part[p] = hn::IfThenElse(hn::RebindMask(IdTag(), m.part[p]), yes.part[p], no.part[p]);
   return no;
 }
+HWY_INLINE Ids one_less(Ids a) {
+  for (int p = 0; p < kParts; ++p) a.part[p] = hn::Sub(a.part[p], hn::Set(IdTag(), 1));
+  return a;
+}
 /// The numbers where the mask is true, else 0.
 HWY_INLINE Vector only(Mask m, Vector v) {
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::IfThenElseZero(m.part[p], v.part[p]);

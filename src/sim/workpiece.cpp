@@ -47,6 +47,14 @@ Tile::Tile(Real height, int micros, std::shared_ptr<SlotPages> memory) : slots(s
   }
 }
 
+namespace {
+
+/// Unused slots that are kept in any case, and the share of all that is kept.
+constexpr std::int32_t kMostUnused = 16;
+constexpr std::int32_t kMostUnusedShare = 3;
+
+}  // namespace
+
 Slot& Tile::add_slot(int micro) {
   std::int32_t* link = &chain[micro];
   while (*link >= 0) link = &slots.next(*link);
@@ -86,6 +94,25 @@ void Tile::drop_chain(int micro) {
   while (*link >= 0) link = &slots.next(*link);
   *link = free_slot;
   free_slot = std::exchange(chain[micro], -1);
+}
+
+void Tile::pack_slots() {
+  std::int32_t unused = 0;
+  for (std::int32_t k = free_slot; k >= 0; k = slots.next(k)) ++unused;
+  if (unused < kMostUnused || unused < slots.size() / kMostUnusedShare) return;
+  Slots packed = slots.none();
+  for (std::int32_t& first : chain) {
+    std::int32_t* link = &first;
+    for (std::int32_t k = first; k >= 0; k = slots.next(k)) {
+      *link = packed.size();
+      packed.add();
+      packed[*link] = slots[k];
+      link = &packed.next(*link);
+    }
+    *link = -1;
+  }
+  slots = std::move(packed);
+  free_slot = -1;
 }
 
 void Tile::lengths(int micro, Lanes& out) const {
