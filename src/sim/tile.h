@@ -65,6 +65,7 @@ struct Tile {
   std::int32_t chain[kMicros];  // first slot of what floats, or -1
   Slots slots;
   std::int32_t free_slot = -1;  // first of those that no chain has any more
+  bool was_undercut = false;    // something has floated, if only for a moment
 
   /// Frees the slots of a micro in which nothing floats any more.
   void drop_chain(int micro);

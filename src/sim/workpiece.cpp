@@ -58,6 +58,7 @@ constexpr std::int32_t kMostUnusedShare = 3;
 Slot& Tile::add_slot(int micro) {
   std::int32_t* link = &chain[micro];
   while (*link >= 0) link = &slots.next(*link);
+  was_undercut = true;
   std::int32_t added = free_slot;
   if (added < 0) {
     added = slots.size();
