@@ -81,9 +81,9 @@ HWY_INLINE bool is_quick_ball(const TileJob& job, const Sweep& sweep) {
              static_cast<double>(job.field->height);
 }
 
-/// Whether the columns of a tile are a pitch apart and stand on the floor.
+/// Whether the columns of a tile are a pitch apart and have always stood on the floor.
 HWY_INLINE bool is_plain(const TileJob& job) {
-  return job.points == nullptr && job.place_x == nullptr && job.tile->slots.size() == 0;
+  return job.points == nullptr && job.place_x == nullptr && !job.tile->was_undercut;
 }
 
 /// Where the tile is: the pattern of its places turned to the sweep's path.

@@ -1,4 +1,4 @@
-// Memory in large blocks, of huge pages, for many objects that live equally long.
+// Memory in large blocks, of huge pages, for many objects of one size.
 #pragma once
 
 #include <cstddef>
@@ -33,18 +33,24 @@ class Zeros {
   std::unique_ptr<double, Free> numbers_;
 };
 
-/// Makes objects of one type; their memory is kept until the store ends. Safe to use from several threads.
+/// Makes objects of one type; their memory goes from one to the next and is kept until the store ends. Safe
+/// to use from several threads.
 template <class Object>
 class BlockStore {
  public:
   struct Destroy {
-    void operator()(Object* object) const { object->~Object(); }
+    BlockStore* store = nullptr;
+    void operator()(Object* object) const {
+      object->~Object();
+      const std::lock_guard lock(store->mutex_);
+      store->unused_.push_back(object);
+    }
   };
   using Pointer = std::unique_ptr<Object, Destroy>;
 
   template <class... Arguments>
   Pointer make(Arguments&&... arguments) {
-    return Pointer(new (place()) Object(std::forward<Arguments>(arguments)...));
+    return Pointer(new (place()) Object(std::forward<Arguments>(arguments)...), Destroy{this});
   }
 
  private:
@@ -58,6 +64,11 @@ class BlockStore {
 
   void* place() {
     const std::lock_guard lock(mutex_);
+    if (!unused_.empty()) {
+      void* at = unused_.back();
+      unused_.pop_back();
+      return at;
+    }
     if (blocks_.empty() || used_ + kEach > kBlock) {
       blocks_.emplace_back(new_block(kBlock));
       used_ = 0;
@@ -69,7 +80,8 @@ class BlockStore {
 
   std::mutex mutex_;
   std::vector<std::unique_ptr<void, Free>> blocks_;
-  std::size_t used_ = 0;
+  std::size_t used_ = 0;  // of the last block
+  std::vector<void*> unused_;
 };
 
 }  // namespace kerf::sim

@@ -28,17 +28,21 @@ HWY_INLINE Blocks square_of_blocks(Real x, Real y, Real step, Real half) {
 HWY_INLINE Blocks blocks_of(const PointTile::Boxes& boxes) {
   return {load(boxes.x), load(boxes.y), load(boxes.half_x), load(boxes.half_y)};
 }
+/// How far columns may be from where they were if they were a pitch apart, pitches: the last ones stand in
+/// the middle of what is left of them.
+HWY_INLINE Real farthest_shift(const TileJob& job) { return job.place_x != nullptr ? 0.5f : 0.0f; }
 HWY_INLINE Blocks supers_of(const TileJob& job) {
   if (job.points != nullptr) return blocks_of(job.points->around_supers);
   const Real pitch = job.field->step[1];
-  return square_of_blocks(7.5f * pitch, 7.5f * pitch, 16 * pitch, 7.5f * pitch);
+  return square_of_blocks(7.5f * pitch, 7.5f * pitch, 16 * pitch, (7.5f + farthest_shift(job)) * pitch);
 }
 HWY_INLINE Blocks micros_of(const TileJob& job, int super) {
   const Field& field = *job.field;
   const Real pitch = field.step[1];
   if (job.points != nullptr) return blocks_of(job.points->around_micros[super]);
   return square_of_blocks(field.step[(super & 3) * 16] + 1.5f * pitch,
-                          field.step[(super >> 2) * 16] + 1.5f * pitch, 4 * pitch, 1.5f * pitch);
+                          field.step[(super >> 2) * 16] + 1.5f * pitch, 4 * pitch,
+                          (1.5f + farthest_shift(job)) * pitch);
 }
 
 /// How far the path is from the blocks at least, squared, in plan, and the heights of the tip while the tool

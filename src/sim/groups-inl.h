@@ -22,8 +22,7 @@ struct GroupWork {
   const TileJob& job;
   const LaneSolid* solid = nullptr;
   int count = 0;
-  bool all_open = true;   // the solid reaches above the block in all sweeps
-  bool one_level = true;  // all are level at one height
+  bool all_open = true;  // the solid reaches above the block in all sweeps
   View view[kGroup];
   bool open[kGroup];
   std::uint32_t step[kGroup];
@@ -70,85 +69,6 @@ HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
   tile.micro_top[micro] = highest_of(top);
 }
 
-/// Columns that a cylinder of the first of the sweeps covers at its begin, where the sweep before has been.
-HWY_INLINE Mask covered_before(const View& w, const MicroPlaces& places, Real rim2) {
-  if (!w.level_follow) return no_lane();
-  const Vector x = w.x + places.x - w.t_low * w.cx, y = w.y + places.y - w.t_low * w.cy;
-  return x * x + y * y < rim2;
-}
-
-/// Of one cylinder of a tool: the number of the sweep of a group that is the first over each column; kGroup
-/// where none is, or where the sweep before all of them has been.
-struct Cover {
-  HWY_INLINE Cover() {}  // the one that the compiler makes would be for no level of processor
-  Ids first;
-};
-
-/// Finds which sweep is the first over each column, for all cylinders of a tool at once: the latest sweep
-/// first, so that the others only have to take columns over.
-template <int kPieces>
-HWY_INLINE void cover_columns(const GroupWork& work, const MicroPlaces& places, unsigned sweeps,
-                              Cover* covers) {
-  const LanePiece* pieces = work.solid->pieces.data();
-  const View& earliest = work.view[__builtin_ctz(sweeps)];
-  Ids first[kPieces];
-  Real rim2[kPieces];
-  for (int p = 0; p < kPieces; ++p) {
-    first[p] = all_ids(kGroup);
-    rim2[p] = pieces[p].rim2;
-  }
-  while (sweeps != 0) {
-    const unsigned k = 31u - static_cast<unsigned>(__builtin_clz(sweeps));
-    sweeps ^= 1u << k;
-    const View& w = work.view[k];
-    const Vector distance2 = line_distance2(w, w.x + places.x, w.y + places.y);
-    for (int p = 0; p < kPieces; ++p) first[p] = select(distance2 < rim2[p], all_ids(k), first[p]);
-  }
-  for (int p = 0; p < kPieces; ++p)
-    covers[p].first = select(covered_before(earliest, places, rim2[p]), all_ids(kGroup), first[p]);
-}
-HWY_INLINE void cover_all_columns(const GroupWork& work, const MicroPlaces& places, unsigned sweeps,
-                                  Cover* covers) {
-  static_assert(kFewPieces == 4);
-  switch (work.solid->pieces.size()) {
-    case 1: return cover_columns<1>(work, places, sweeps, covers);
-    case 2: return cover_columns<2>(work, places, sweeps, covers);
-    case 3: return cover_columns<3>(work, places, sweeps, covers);
-    default: return cover_columns<4>(work, places, sweeps, covers);
-  }
-}
-
-/// Cylinders that move at one height: whichever sweep is the first over a column takes all that any of them
-/// takes.
-HWY_NOINLINE void cover_micro(GroupWork& work, int micro, unsigned sweeps) {
-  const TileJob& job = work.job;
-  const Field& field = *job.field;
-  const Vector weight = weights_of(job, micro);
-  const Real z = work.view[0].z_low;
-  Cover covers[kFewPieces];
-  cover_all_columns(work, places_of(job, micro), sweeps, covers);
-  for (std::size_t p = 0; p < work.solid->pieces.size(); ++p) {
-    const LanePiece& piece = work.solid->pieces[p];
-    const Ids first = covers[p].first;
-    const unsigned by = bits_named(first) & ~(1u << kGroup);
-    if (by == 0) continue;
-    Ids step = all_ids(0);
-    for (unsigned rest = by; rest != 0; rest &= rest - 1) {
-      const int k = __builtin_ctz(rest);
-      step = select(first == all_ids(static_cast<unsigned>(k)), all_ids(work.step[k]), step);
-    }
-    const Real high = !work.solid->one_envelope ? z - piece.upper.height
-                      : work.all_open           ? field.height + 1
-                                                : z + work.solid->top;
-    const Vector low = select(first == all_ids(kGroup), kFar, z + piece.lower.height);
-    const Vector taken = take(*job.tile, micro, low, high, step, field.same_height) * weight;
-    for (unsigned rest = by; rest != 0; rest &= rest - 1) {
-      const int k = __builtin_ctz(rest);
-      add_taken(work, k, only(first == all_ids(static_cast<unsigned>(k)), taken));
-    }
-  }
-}
-
 /// Any solid over any columns.
 HWY_NOINLINE void any_micro(GroupWork& work, int micro, unsigned sweeps) {
   const TileJob& job = work.job;
@@ -189,8 +109,6 @@ HWY_NOINLINE void group_super(GroupWork& work, int super, unsigned sweeps) {
     const unsigned which = lanes_with(work.micros, 1u << inner);
     if (work.solid->is_ball && work.all_open && tile.chain[micro] < 0) {
       ball_micro(work, micro, which);
-    } else if (work.solid->is_cylinders && work.one_level && work.solid->pieces.size() <= kFewPieces) {
-      cover_micro(work, micro, which);
     } else {
       any_micro(work, micro, which);
     }
@@ -206,7 +124,6 @@ HWY_INLINE void add_sweep(GroupWork& work, const Sweep& sweep) {
   prepare_for(view, sweep, *work.solid, Follow::yes, work.open[k]);
   work.step[k] = sweep.step;
   work.all_open = work.all_open && work.open[k];
-  work.one_level = work.one_level && view.z_low == work.view[0].z_low && view.z_high == view.z_low;
   store(0, work.taken[k]);
 }
 
@@ -228,7 +145,7 @@ HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   if (is_plain(job) && is_quick_ball(job, job.sweeps[job.list[first]]))
     return cut_balls(work.balls, job, work.solid->pieces[0].lower, first, count);
   work.count = 0;
-  work.all_open = work.one_level = true;
+  work.all_open = true;
   for (int k = 0; k < count; ++k) add_sweep(work, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
   Tile& tile = *job.tile;
   alignas(64) std::uint32_t supers[kGroup] = {};

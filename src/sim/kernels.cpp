@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>  // NOLINT: this file again, once for each level
 #include <hwy/highway.h>
 
+#include "sim/cylinders-inl.h"
 #include "sim/groups-inl.h"
 #include "sim/kernels.h"
 #include "sim/steps-inl.h"
@@ -23,17 +24,24 @@ HWY_INLINE bool only_cuts(const Sweep& sweep) { return sweep.passes == kPassCut 
 
 void cut_tile(const TileJob& job) {
   GroupWork work(job);
+  CylinderGroup cylinders;
   for (std::size_t q = 0; q < job.count;) {
     const Sweep& sweep = job.sweeps[job.list[q]];
     if (!only_cuts(sweep)) {
       job.removed[q++] = cut_sweep(job, sweep);
       continue;
     }
+    if (is_level_cylinders(job, sweep)) {
+      q += cut_cylinders(cylinders, job, q, job.count - q);
+      continue;
+    }
     const bool is_quick = is_quick_ball(job, sweep);
     int count = 1;
     while (count < kGroup && q + static_cast<std::size_t>(count) < job.count) {
       const Sweep& next = job.sweeps[job.list[q + static_cast<std::size_t>(count)]];
-      if (!only_cuts(next) || next.tool != sweep.tool || is_quick_ball(job, next) != is_quick) break;
+      if (!only_cuts(next) || next.tool != sweep.tool || is_level_cylinders(job, next) ||
+          is_quick_ball(job, next) != is_quick)
+        break;
       ++count;
     }
     cut_group(work, q, count);
@@ -111,7 +119,10 @@ LaneTool::LaneTool(const ToolSolids& tool) : cutting(tool.cutting), over_flute(t
   for (const Solid& solid : tool.touching) touching.emplace_back(solid);
 }
 
-void cut_tile(const TileJob& job) { HWY_DYNAMIC_DISPATCH(cut_tile)(job); }
+void cut_tile(const TileJob& job) {
+  HWY_DYNAMIC_DISPATCH(cut_tile)(job);
+  job.tile->pack_slots();
+}
 
 void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out) {
   HWY_DYNAMIC_DISPATCH(find_steps)(rules, lengths, out);

@@ -48,6 +48,7 @@ class Run {
   void cut_all() {
     if (progress_ != nullptr) progress_->phase("cutting");
     in_tile_.assign(body_.tiles.size(), {});
+    sweeps_in_tile_.assign(body_.tiles.size(), 0);
     send_all(nullptr);
     report(progress_, 1.0);
   }
@@ -78,6 +79,7 @@ class Run {
   Zeros removed_;                   // length of column, one a step
   WallGroup* walls_ = nullptr;      // what is cut instead of the workpiece, if any
   std::vector<StepRange> in_tile_;  // which steps each tile has seen
+  std::vector<std::size_t> sweeps_in_tile_;
   std::vector<MotionReader> bookmarks_;
   bool stopped_ = false;
   Cutter cutter_;
@@ -149,7 +151,7 @@ bool Run::refine_walls() {
   std::size_t squares = 0;
   for (const WallSquares& walls : found) squares += walls.squares.size();
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
-    WallGroup group(body_, cutter_, found, squares, next, threads_);
+    WallGroup group(body_, cutter_, found, squares, next, sweeps_in_tile_);
     walls_ = &group;
     send_all(&group.tiles());
     walls_ = nullptr;
@@ -181,9 +183,11 @@ void Run::take_over(const CutBatch& batch) {
     for (const Contact& contact : batch.contacts) contacts_.add(contact);
     for (const std::vector<Contact>& of_tile : batch.contacts_of)
       for (const Contact& contact : of_tile) contacts_.add(contact);
-    for (std::size_t k = 0; k < batch.busy.size(); ++k)
+    for (std::size_t k = 0; k < batch.busy.size(); ++k) {
+      sweeps_in_tile_[batch.busy[k]] += batch.start[k + 1] - batch.start[k];
       in_tile_[batch.busy[k]].add({batch.sweeps[batch.list[batch.start[k]]].step,
                                    batch.sweeps[batch.list[batch.start[k + 1] - 1]].step});
+    }
   }
 }
 

@@ -1,35 +1,36 @@
 // Pages of slots out of large blocks.
 #include "sim/slots.h"
 
-#include <algorithm>
+#include <cstddef>
+#include <new>
 
 namespace kerf::sim {
 
-Slot* SlotPages::take() {
+SlotPages::Page* SlotPages::take() {
   constexpr std::size_t kBlock = std::size_t{1} << 21;
-  constexpr std::size_t kPageBytes = kSlots * sizeof(Slot);
   const std::lock_guard lock(mutex_);
   if (unused_.empty()) {
     auto* memory = static_cast<std::byte*>(blocks_.emplace_back(new_block(kBlock)).get());
-    for (std::size_t at = kBlock / kPageBytes * kPageBytes; at > 0; at -= kPageBytes)
-      unused_.push_back(reinterpret_cast<Slot*>(memory + at - kPageBytes));
+    for (std::size_t n = kBlock / sizeof(Page); n > 0; --n)
+      unused_.push_back(new (memory + (n - 1) * sizeof(Page)) Page);  // not touched, let alone cleared
   }
-  Slot* page = unused_.back();
+  Page* page = unused_.back();
   unused_.pop_back();
   return page;
 }
 
-void SlotPages::give_back(Slot* page) {
+void SlotPages::give_back(const std::vector<Page*>& pages) {
   const std::lock_guard lock(mutex_);
-  unused_.push_back(page);
+  unused_.insert(unused_.end(), pages.rbegin(), pages.rend());
 }
 
 Slots::Slots(const Slots& other) : memory_(other.memory_) {
-  for (std::size_t k = 0; k < other.size(); ++k) add() = other[k];
+  while (size_ < other.size_) add();
+  for (std::size_t n = 0; n < pages_.size(); ++n) *pages_[n] = *other.pages_[n];
 }
 
 Slots::~Slots() {
-  for (Slot* page : pages_) memory_->give_back(page);
+  if (!pages_.empty()) memory_->give_back(pages_);
 }
 
 }  // namespace kerf::sim

@@ -27,16 +27,19 @@ struct Slot {
   Lanes low, high;
   alignas(64) std::uint32_t low_step[kLanes];
   alignas(64) std::uint32_t high_step[kLanes];
-  std::int32_t next = -1;  // slot of the same chain, or of those that are free
 };
 
 /// Memory for slots, in pages that go from one tile to the next; all of it is kept until the last tile that
 /// uses it ends. Safe to use from several threads.
 class SlotPages {
  public:
-  static constexpr std::size_t kSlots = 64;  // of a page
-  Slot* take();
-  void give_back(Slot* page);
+  static constexpr std::size_t kSlots = 16;  // of a page
+  struct Page {
+    Slot slot[kSlots];
+    std::int32_t next[kSlots];  // slot of the same chain, or of those that are free; -1 after the last
+  };
+  Page* take();
+  void give_back(const std::vector<Page*>& pages);
 
  private:
   struct Free {
@@ -44,7 +47,7 @@ class SlotPages {
   };
   std::mutex mutex_;
   std::vector<std::unique_ptr<void, Free>> blocks_;
-  std::vector<Slot*> unused_;
+  std::vector<Page*> unused_;
 };
 
 /// Slots by number. They never move, and no slot is copied as their number grows.
@@ -58,26 +61,31 @@ class Slots {
     return *this;
   }
   ~Slots();
+  /// None, in the same memory.
+  Slots none() const { return Slots(memory_); }
 
-  Slot& operator[](std::size_t k) { return pages_[k / kPage][k % kPage]; }
-  const Slot& operator[](std::size_t k) const { return pages_[k / kPage][k % kPage]; }
-  std::size_t size() const { return size_; }
-  Slot& add() {
-    if (size_ % kPage == 0) pages_.push_back(memory_->take());
-    const std::size_t k = size_++;
-    return *new (&pages_[k / kPage][k % kPage]) Slot;  // not cleared: Tile::add_slot does that
+  Slot& operator[](std::int32_t k) { return page(k).slot[place(k)]; }
+  const Slot& operator[](std::int32_t k) const { return page(k).slot[place(k)]; }
+  std::int32_t& next(std::int32_t k) { return page(k).next[place(k)]; }
+  std::int32_t next(std::int32_t k) const { return page(k).next[place(k)]; }
+  std::int32_t size() const { return size_; }
+  /// Not cleared: Tile::add_slot does that.
+  void add() {
+    if (place(size_++) == 0) pages_.push_back(memory_->take());
   }
 
  private:
-  static constexpr std::size_t kPage = SlotPages::kSlots;
+  using Page = SlotPages::Page;
+  static std::size_t place(std::int32_t k) { return static_cast<std::size_t>(k) % SlotPages::kSlots; }
+  Page& page(std::int32_t k) const { return *pages_[static_cast<std::size_t>(k) / SlotPages::kSlots]; }
   void swap(Slots& other) {
     memory_.swap(other.memory_);
     pages_.swap(other.pages_);
     std::swap(size_, other.size_);
   }
   std::shared_ptr<SlotPages> memory_;
-  std::vector<Slot*> pages_;
-  std::size_t size_ = 0;
+  std::vector<Page*> pages_;
+  std::int32_t size_ = 0;
 };
 
 }  // namespace kerf::sim

@@ -44,8 +44,8 @@ void refresh_bounds(Tile& tile, int micros) {
   for (int micro = 0; micro < micros; ++micro) {
     const Real* high = std::max_element(tile.top[micro].v, tile.top[micro].v + kLanes);
     Real highest = *high, lowest = *high > 0.0f ? 0.0f : kFar;
-    for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
-      const Slot& slot = tile.slots[static_cast<std::size_t>(k)];
+    for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots.next(k)) {
+      const Slot& slot = tile.slots[k];
       for (int lane = 0; lane < kLanes; ++lane) {
         highest = std::max(highest, slot.high[lane]);
         lowest = std::min(lowest, slot.low[lane]);

@@ -46,9 +46,9 @@ HWY_INLINE Mask take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Re
 HWY_INLINE void update_bounds(Tile& tile, int micro) {
   Vector high = load(tile.top[micro]), low = select(high > 0, 0, kFar);
   Mask floats = no_lane();
-  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots[static_cast<std::size_t>(k)].next) {
-    const Vector slot_high = load(tile.slots[static_cast<std::size_t>(k)].high);
-    const Vector slot_low = load(tile.slots[static_cast<std::size_t>(k)].low);
+  for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots.next(k)) {
+    const Vector slot_high = load(tile.slots[k].high);
+    const Vector slot_low = load(tile.slots[k].low);
     high = higher_of(high, slot_high);
     low = lower_of(low, slot_low);
     floats = floats | (slot_low < slot_high);
@@ -77,9 +77,8 @@ HWY_INLINE void store_where(Mask where, Ids v, std::uint32_t* ids) {
 HWY_INLINE void store_remnants(Tile& tile, int micro, const Remnants& rest) {
   Slot* room = nullptr;
   Mask full = rest.split;
-  for (std::int32_t k = tile.chain[micro]; k >= 0 && room == nullptr;
-       k = tile.slots[static_cast<std::size_t>(k)].next) {
-    Slot& slot = tile.slots[static_cast<std::size_t>(k)];
+  for (std::int32_t k = tile.chain[micro]; k >= 0 && room == nullptr; k = tile.slots.next(k)) {
+    Slot& slot = tile.slots[k];
     const Mask taken = rest.split & (load(slot.low) <= load(slot.high));
     if (!any(taken)) room = &slot;
     full = full & taken;
@@ -124,7 +123,7 @@ HWY_INLINE Vector take_from_all(Tile& tile, int micro, Vector low, Vector high, 
   Remnants rest{no_lane(), high, 0, step, step};
   Vector taken = take_from_standing(tile, micro, low, high, step, same, rest);
   for (std::int32_t k = tile.chain[micro]; k >= 0;) {
-    Slot& slot = tile.slots[static_cast<std::size_t>(k)];
+    Slot& slot = tile.slots[k];
     const Vector old_high = load(slot.high);
     const Ids old_step = load_ids(slot.high_step);
     // The intervals of a column do not overlap, so at most one of them is split.
@@ -132,7 +131,7 @@ HWY_INLINE Vector take_from_all(Tile& tile, int micro, Vector low, Vector high, 
     rest.split = rest.split | split;
     rest.high = select(split, old_high, rest.high);
     rest.high_step = select(split, old_step, rest.high_step);
-    k = slot.next;
+    k = tile.slots.next(k);
   }
   if (!any(taken > 0)) return taken;
   if (any(rest.split)) store_remnants(tile, micro, rest);

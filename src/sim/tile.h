@@ -65,6 +65,7 @@ struct Tile {
   std::int32_t chain[kMicros];  // first slot of what floats, or -1
   Slots slots;
   std::int32_t free_slot = -1;  // first of those that no chain has any more
+  bool was_undercut = false;    // something has floated, if only for a moment
 
   /// Frees the slots of a micro in which nothing floats any more.
   void drop_chain(int micro);
@@ -72,13 +73,15 @@ struct Tile {
   Slot& add_slot(int micro);
   /// Puts an interval that floats into a free place of its column.
   void store_remnant(int micro, const Remnant& rest);
+  /// Gives memory back if many slots are in no chain: in front of an undercutting tool all columns float for
+  /// a moment, behind it only some.
+  void pack_slots();
   /// Asks for the memory that `lengths` will read of a micro, if there is such a micro.
   void fetch(int micro) const {
     if (micro >= kMicros || chain[micro] < 0) return;
-    const Slot& slot = slots[static_cast<std::size_t>(chain[micro])];
+    const Slot& slot = slots[chain[micro]];
     __builtin_prefetch(&slot.low);
     __builtin_prefetch(&slot.high);
-    __builtin_prefetch(&slot.next);
   }
   /// Length of material of each column of a micro.
   void lengths(int micro, Lanes& out) const;

@@ -150,6 +150,10 @@ HWY_INLINE Ids select(Mask m, Ids yes, Ids no) {
     no.part[p] = hn::IfThenElse(hn::RebindMask(IdTag(), m.part[p]), yes.part[p], no.part[p]);
   return no;
 }
+HWY_INLINE Ids one_less(Ids a) {
+  for (int p = 0; p < kParts; ++p) a.part[p] = hn::Sub(a.part[p], hn::Set(IdTag(), 1));
+  return a;
+}
 /// The numbers where the mask is true, else 0.
 HWY_INLINE Vector only(Mask m, Vector v) {
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::IfThenElseZero(m.part[p], v.part[p]);
@@ -197,12 +201,6 @@ struct SumUp {
     return hn::Add(a, b);
   }
 };
-struct AnyBit {
-  template <class V>
-  HWY_INLINE V operator()(V a, V b) const {
-    return hn::Or(a, b);
-  }
-};
 struct Highest {
   template <class V>
   HWY_INLINE V operator()(V a, V b) const {
@@ -243,12 +241,6 @@ HWY_INLINE hn::TFromD<Tag> reduced(Sixteen v, const Operation& operation) {
 HWY_INLINE Real sum_of(Vector v) { return reduced<RealTag>(v, SumUp()); }
 HWY_INLINE Real highest_of(Vector v) { return reduced<RealTag>(v, Highest()); }
 HWY_INLINE Real lowest_of(Vector v) { return reduced<RealTag>(v, Lowest()); }
-/// The bits that numbers below 32 name.
-HWY_INLINE unsigned bits_named(Ids numbers) {
-  const auto one = hn::Set(IdTag(), 1);
-  for (int p = 0; p < kParts; ++p) numbers.part[p] = hn::Shl(one, numbers.part[p]);
-  return reduced<IdTag>(numbers, AnyBit());
-}
 
 }  // namespace kerf::sim::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,9 +1,9 @@
 // Counting the squares that walls go through at points of a lattice each.
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <iterator>
 
-#include "sim/parallel.h"
 #include "sim/start.h"
 #include "sim/walls.h"
 
@@ -51,7 +51,7 @@ struct Span {
   double at(double share) const { return low + share * (high - low); }
 };
 
-/// A point, and the column of the workpiece in whose square it is.
+/// A point, and the column of the workpiece in whose square it is, where columns do not all begin alike.
 struct Point {
   Real x, y, weight;
   int i, j;
@@ -60,12 +60,14 @@ struct Point {
 /// The points of one tile, in the order in which they fill micros.
 class PointList {
  public:
-  PointList(const Workpiece::Body& body, std::size_t tile)
+  PointList(const Workpiece::Body& body, std::size_t tile, std::size_t most_points)
       : body_(body),
         column_(static_cast<int>(tile % static_cast<std::size_t>(body.tiles_x)) * kTileColumns),
         row_(static_cast<int>(tile / static_cast<std::size_t>(body.tiles_x)) * kTileColumns),
         low_x_((column_ + 0.5) * body.pitch),
-        low_y_((row_ + 0.5) * body.pitch) {}
+        low_y_((row_ + 0.5) * body.pitch) {
+    points_.reserve(most_points);
+  }
 
   void add_square(Square square, const Lattice& lattice);
   /// Takes from a column what squares replace. Where it slopes beside a wall, its centre says too little of
@@ -93,9 +95,12 @@ void PointList::add_square(Square square, const Lattice& lattice) {
   for (int k = 0; k < lattice.count; ++k) {
     const double at_x = x.at(fraction(unit_share(bits) + k / count));
     const double at_y = y.at(fraction(unit_share(bits >> 16) + lattice.row[k] / count));
-    points_.push_back({static_cast<Real>(at_x - low_x_), static_cast<Real>(at_y - low_y_), weight,
-                       std::min(static_cast<int>(at_x / body_.pitch), body_.nx - 1),
-                       std::min(static_cast<int>(at_y / body_.pitch), body_.ny - 1)});
+    Point point{static_cast<Real>(at_x - low_x_), static_cast<Real>(at_y - low_y_), weight, 0, 0};
+    if (body_.start) {
+      point.i = std::min(static_cast<int>(at_x / body_.pitch), body_.nx - 1);
+      point.j = std::min(static_cast<int>(at_y / body_.pitch), body_.ny - 1);
+    }
+    points_.push_back(point);
   }
 }
 
@@ -184,7 +189,10 @@ void fill_part(const Workpiece::Body& body, const Point* points, WallTile::Part&
 WallTile::WallTile(const Workpiece::Body& body, const Cutter& cutter, const WallSquares& walls,
                    std::size_t all_squares, Parts& memory) {
   const Lattice& lattice = lattice_of(all_squares);
-  PointList list(body, walls.tile);
+  const std::size_t a_column = lattice.counts_rest ? 5 : 1;
+  PointList list(body, walls.tile,
+                 walls.squares.size() * static_cast<std::size_t>(lattice.count) +
+                     walls.quarters.size() * a_column + 2 * kLanes);
   for (const Square square : walls.squares) list.add_square(square, lattice);
   list.fill_up();
   const TileColumns columns = cutter.columns_of(walls.tile);
@@ -213,20 +221,29 @@ void WallTile::cut(TileJob job) {
 }
 
 WallGroup::WallGroup(const Workpiece::Body& body, const Cutter& cutter, const std::vector<WallSquares>& found,
-                     std::size_t all_squares, std::size_t& next, unsigned threads)
-    : wanted_(body.tiles.size(), false), place_(body.tiles.size(), 0) {
-  const std::size_t first = next;
+                     std::size_t all_squares, std::size_t& next, const std::vector<std::size_t>& sweeps)
+    : body_(body),
+      cutter_(cutter),
+      found_(found.data() + next),
+      all_squares_(all_squares),
+      wanted_(body.tiles.size(), false),
+      place_(body.tiles.size(), 0) {
   for (std::size_t squares = 0; next < found.size() && squares < kGroupSquares; ++next) {
     const WallSquares& walls = found[next];
     squares += walls.squares.size();
     wanted_[walls.tile] = true;
-    place_[walls.tile] = static_cast<std::uint32_t>(next - first);
+    place_[walls.tile] = static_cast<std::uint32_t>(walls_.size());
+    walls_.push_back({std::nullopt, sweeps[walls.tile]});
   }
-  walls_.resize(next - first);
-  const auto make = [&](std::size_t n) {
-    walls_[n] = store_.make(body, cutter, found[first + n], all_squares, parts_);
-  };
-  parallel_for(threads, walls_.size(), make, [] { return false; });
+}
+
+void WallGroup::cut(std::size_t tile, const TileJob& job) {
+  Walls& walls = walls_[place_[tile]];
+  if (!walls.tile) walls.tile.emplace(body_, cutter_, found_[place_[tile]], all_squares_, parts_);
+  walls.tile->cut(job);
+  assert(walls.sweeps_left >= job.count);
+  walls.sweeps_left -= job.count;
+  if (walls.sweeps_left == 0) walls.tile.reset();
 }
 
 }  // namespace kerf::sim

@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -67,22 +68,31 @@ class WallTile {
   std::vector<BlockStore<Part>::Pointer> parts_;
 };
 
-/// As many tiles' walls as are kept in memory at a time.
+/// As many tiles' walls as are cut in one go. A tile's exist from its first sweep to its last, since most
+/// jobs are done with a tile long before they end.
 class WallGroup {
  public:
-  /// Takes from `found`, from number `next` on, which is moved on.
+  /// Takes from `found`, from number `next` on, which is moved on. `sweeps` tells how many come to each tile;
+  /// the arguments have to outlive the group.
   WallGroup(const Workpiece::Body& body, const Cutter& cutter, const std::vector<WallSquares>& found,
-            std::size_t all_squares, std::size_t& next, unsigned threads);
+            std::size_t all_squares, std::size_t& next, const std::vector<std::size_t>& sweeps);
 
   const std::vector<bool>& tiles() const { return wanted_; }
-  void cut(std::size_t tile, const TileJob& job) { walls_[place_[tile]]->cut(job); }
+  void cut(std::size_t tile, const TileJob& job);
 
  private:
+  struct Walls {
+    std::optional<WallTile> tile;
+    std::size_t sweeps_left = 0;
+  };
+  const Workpiece::Body& body_;
+  const Cutter& cutter_;
+  const WallSquares* found_;
+  std::size_t all_squares_;
   std::vector<bool> wanted_;
   std::vector<std::uint32_t> place_;  // of a tile in walls_
   WallTile::Parts parts_;
-  BlockStore<WallTile> store_;
-  std::vector<BlockStore<WallTile>::Pointer> walls_;
+  std::vector<Walls> walls_;
 };
 
 }  // namespace kerf::sim

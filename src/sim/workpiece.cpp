@@ -47,27 +47,40 @@ Tile::Tile(Real height, int micros, std::shared_ptr<SlotPages> memory) : slots(s
   }
 }
 
+namespace {
+
+/// Unused slots that are kept in any case, and the share of all that is kept.
+constexpr std::int32_t kMostUnused = 16;
+constexpr std::int32_t kMostUnusedShare = 3;
+
+}  // namespace
+
 Slot& Tile::add_slot(int micro) {
   std::int32_t* link = &chain[micro];
-  while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
-  const bool is_new = free_slot < 0;
-  *link = is_new ? static_cast<std::int32_t>(slots.size()) : free_slot;
-  Slot& slot = is_new ? slots.add() : slots[static_cast<std::size_t>(free_slot)];
-  if (!is_new) free_slot = slot.next;
+  while (*link >= 0) link = &slots.next(*link);
+  was_undercut = true;
+  std::int32_t added = free_slot;
+  if (added < 0) {
+    added = slots.size();
+    slots.add();
+  } else {
+    free_slot = slots.next(added);
+  }
+  *link = added;
+  slots.next(added) = -1;
+  Slot& slot = slots[added];
   for (int i = 0; i < kLanes; ++i) {
     slot.low[i] = kFar;
     slot.high[i] = -kFar;
     slot.low_step[i] = slot.high_step[i] = kStockSurface;
   }
-  slot.next = -1;
   return slot;
 }
 
 void Tile::store_remnant(int micro, const Remnant& rest) {
   Slot* free = nullptr;
-  for (std::int32_t k = chain[micro]; k >= 0 && free == nullptr;
-       k = slots[static_cast<std::size_t>(k)].next) {
-    Slot& slot = slots[static_cast<std::size_t>(k)];
+  for (std::int32_t k = chain[micro]; k >= 0 && free == nullptr; k = slots.next(k)) {
+    Slot& slot = slots[k];
     if (slot.low[rest.lane] > slot.high[rest.lane]) free = &slot;
   }
   if (free == nullptr) free = &add_slot(micro);
@@ -79,15 +92,34 @@ void Tile::store_remnant(int micro, const Remnant& rest) {
 
 void Tile::drop_chain(int micro) {
   std::int32_t* link = &chain[micro];
-  while (*link >= 0) link = &slots[static_cast<std::size_t>(*link)].next;
+  while (*link >= 0) link = &slots.next(*link);
   *link = free_slot;
   free_slot = std::exchange(chain[micro], -1);
 }
 
+void Tile::pack_slots() {
+  std::int32_t unused = 0;
+  for (std::int32_t k = free_slot; k >= 0; k = slots.next(k)) ++unused;
+  if (unused < kMostUnused || unused < slots.size() / kMostUnusedShare) return;
+  Slots packed = slots.none();
+  for (std::int32_t& first : chain) {
+    std::int32_t* link = &first;
+    for (std::int32_t k = first; k >= 0; k = slots.next(k)) {
+      *link = packed.size();
+      packed.add();
+      packed[*link] = slots[k];
+      link = &packed.next(*link);
+    }
+    *link = -1;
+  }
+  slots = std::move(packed);
+  free_slot = -1;
+}
+
 void Tile::lengths(int micro, Lanes& out) const {
   out = top[micro];
-  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
-    const Slot& slot = slots[static_cast<std::size_t>(k)];
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots.next(k)) {
+    const Slot& slot = slots[k];
     for (int i = 0; i < kLanes; ++i) {
       const Real length = slot.high[i] - slot.low[i];
       out[i] += length > 0 ? length : 0;
@@ -100,8 +132,8 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
   const Real high = top[micro][lane];
   if (high > 0.0f) out.push_back({0.0f, high, kStockSurface, top_step[micro][lane]});
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
-  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next) {
-    const Slot& slot = slots[static_cast<std::size_t>(k)];
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots.next(k)) {
+    const Slot& slot = slots[k];
     if (slot.high[lane] > slot.low[lane])
       out.push_back({slot.low[lane], slot.high[lane], slot.low_step[lane], slot.high_step[lane]});
   }
@@ -113,8 +145,7 @@ void Tile::cut_through(int index, std::vector<std::uint32_t>& out) const {
   const int micro = index / kLanes, lane = index % kLanes;
   // An interval that ends keeps the step of its end as that of its high end.
   out.push_back(top_step[micro][lane]);
-  for (std::int32_t k = chain[micro]; k >= 0; k = slots[static_cast<std::size_t>(k)].next)
-    out.push_back(slots[static_cast<std::size_t>(k)].high_step[lane]);
+  for (std::int32_t k = chain[micro]; k >= 0; k = slots.next(k)) out.push_back(slots[k].high_step[lane]);
 }
 
 namespace {
