@@ -16,7 +16,8 @@ void* new_block(std::size_t bytes);
 void free_block(void* block);
 using kerf::use_huge_pages;
 
-/// Numbers that begin as 0, in memory that is not touched before they are needed.
+/// Numbers that begin as 0, in memory that is not touched before they are needed. It comes straight from the
+/// system where that can be had: what a heap gives a second time is not 0 any more.
 class Zeros {
  public:
   /// Throws std::bad_alloc.
@@ -27,6 +28,7 @@ class Zeros {
 
  private:
   struct Free {
+    std::size_t bytes = 0;
     void operator()(double* numbers) const;
   };
   std::size_t size_;

@@ -107,6 +107,13 @@ double other_bottom(const ToolSolids& tool) {
   return bottom;
 }
 
+/// The largest radius of all parts.
+double widest(const ToolSolids& tool) {
+  double rim = std::max(tool.cutting.rim, tool.over_flute.rim);
+  for (const Solid& part : tool.touching) rim = std::max(rim, part.rim);
+  return rim;
+}
+
 }  // namespace
 
 bool Batch::full() const { return sweeps.size() >= kBatchSweeps || pairs.size() >= kBatchPairs; }
@@ -163,7 +170,10 @@ Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& too
       scope_(scope),
       per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {
-  for (const ToolSolids& tool : tools) other_bottoms_.push_back(other_bottom(tool));
+  for (const ToolSolids& tool : tools) {
+    other_bottoms_.push_back(other_bottom(tool));
+    widest_.push_back(widest(tool));
+  }
   const double side = kTileColumns * body.pitch;
   for (std::size_t tile = 0; scope_.tiles != nullptr && tile < scope_.tiles->size(); ++tile) {
     if (!(*scope_.tiles)[tile]) continue;
@@ -198,12 +208,20 @@ Planner::Motion Planner::motion_of(const Step& step, const MotionContext& contex
 }
 
 bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
-  const ToolSolids& solids = tools_[tool];
-  double rim = solids.cutting.rim;
-  for (const Solid& solid : solids.touching) rim = std::max(rim, solid.rim);
+  const double rim = widest_[tool];
   const Box3 box = walk.bounds();
   return box.low.x < size_.x + rim && box.high.x > -rim && box.low.y < size_.y + rim && box.high.y > -rim &&
          box.low.z < size_.z;
+}
+
+/// Whether a straight motion is away from all tiles that are wanted, and has nothing else to tell.
+bool Planner::is_far(const Motion& motion, std::uint32_t tool) const {
+  if (scope_.tiles == nullptr || std::min(motion.from.z, motion.to.z) < -hazard_depth_) return false;
+  const double reach = widest_[tool] + scope_.margin;
+  return std::max(motion.from.x, motion.to.x) + reach < wanted_.low.x ||
+         std::min(motion.from.x, motion.to.x) - reach > wanted_.high.x ||
+         std::max(motion.from.y, motion.to.y) + reach < wanted_.low.y ||
+         std::min(motion.from.y, motion.to.y) - reach > wanted_.high.y;
 }
 
 void Planner::pass_over(const Step& step, const MotionContext& context, std::uint32_t tool) {
@@ -223,14 +241,16 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   const bool cuts = step.is_cutting();
   if (!motion.is_swept) return interrupt();
   const bool follows = cuts && cutting_tool_ == tool && end_ == motion.from;
+  const bool is_arc = step.kind() == StepKind::arc && is_walked(context);
+  remember(step, tool, motion.to);
+  if (!is_arc && is_far(motion, tool)) return;
   constexpr int kParts = kPassNeck | kPassShank | kPassHolder;
   Sweep& sweep = batch.sweeps.emplace_back();
   sweep.passes = static_cast<std::uint8_t>(
       cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
   sweep.step = static_cast<std::uint32_t>(context.index);
   sweep.tool = tool;
-  remember(step, tool, motion.to);
-  if (step.kind() == StepKind::arc && is_walked(context)) {
+  if (is_arc) {
     const Sweep like = sweep;
     batch.sweeps.pop_back();
     return add_arc(step, context, like, follows, batch);
@@ -298,14 +318,6 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, double& reach) const 
   return any == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(passes);
 }
 
-/// Whether a sweep comes near the box around the tiles that are wanted.
-bool Planner::is_near_tiles(const Sweep& s, double reach) const {
-  if (s.is_arc) return true;
-  const double x1 = s.x + s.length * s.ux, y1 = s.y + s.length * s.uy;
-  return std::max(s.x, x1) + reach >= wanted_.low.x && std::min(s.x, x1) - reach <= wanted_.high.x &&
-         std::max(s.y, y1) + reach >= wanted_.low.y && std::min(s.y, y1) - reach <= wanted_.high.y;
-}
-
 /// Finds the tiles of the batch's last sweep, and takes it back if there are none.
 void Planner::emit(Batch& batch) {
   if (!find_pairs(batch.sweeps.back(), batch)) batch.sweeps.pop_back();
@@ -319,7 +331,6 @@ bool Planner::find_pairs(Sweep& sweep, Batch& batch) const {
   sweep.passes = passes_that_meet(sweep, reach);
   if (sweep.passes == 0) return false;
   reach += scope_.margin;
-  if (scope_.tiles != nullptr && !is_near_tiles(sweep, reach)) return false;
   const std::size_t before = batch.pairs.size();
   const auto number = static_cast<std::uint32_t>(batch.sweeps.size() - 1);
   if (sweep.is_arc) {

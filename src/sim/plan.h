@@ -96,7 +96,7 @@ class Planner {
   void remember(const Step& step, std::uint32_t tool, Point3 end);
   void add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
-  bool is_near_tiles(const Sweep& sweep, double reach) const;
+  bool is_far(const Motion& motion, std::uint32_t tool) const;
   void emit(Batch& batch);
   bool find_pairs(Sweep& sweep, Batch& batch) const;
   std::uint8_t passes_that_meet(const Sweep& sweep, double& reach) const;
@@ -117,6 +117,7 @@ class Planner {
   const Workpiece::Body& body_;
   const std::vector<ToolSolids>& tools_;
   std::vector<double> other_bottoms_;  // one a tool: the lowest of what does not cut, mm above the tip
+  std::vector<double> widest_;         // one a tool: its largest radius, mm
   double hazard_depth_;
   PlanScope scope_;
   Box3 wanted_;  // around the tiles of the scope; in X and Y only

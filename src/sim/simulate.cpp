@@ -43,6 +43,7 @@ class Run {
         threads_(thread_count(options.threads)),
         progress_(progress),
         removed_(path.size()),
+        more_(path.size()),
         cutter_(body_, survey_.solids, hazard_depth_) {}
 
   void cut_all() {
@@ -53,12 +54,13 @@ class Run {
     report(progress_, 1.0);
   }
 
-  /// Counts the columns at walls anew, see walls.h. False if there are none, or if stopped: then what was
-  /// told of volumes before stands.
+  /// Counts the columns at walls anew, see walls.h. False if there are none, or if stopped: then the columns'
+  /// centres alone tell the volumes.
   bool refine_walls();
 
   bool stopped() const { return stopped_; }
-  void tell_removed(Simulation& result) const;
+  enum class Counted : std::uint8_t { centres, walls_too };
+  void tell_removed(Simulation& result, Counted counted) const;
   std::vector<Hazard> hazards() const { return contacts_.hazards(body_.bounds.low); }
 
  private:
@@ -76,7 +78,8 @@ class Run {
   bool is_no_go_;
   unsigned threads_;
   Progress* progress_;
-  Zeros removed_;                   // length of column, one a step
+  Zeros removed_;                   // length of column by the columns' centres, one a step
+  Zeros more_;                      // and what the walls between them add
   WallGroup* walls_ = nullptr;      // what is cut instead of the workpiece, if any
   std::vector<StepRange> in_tile_;  // which steps each tile has seen
   std::vector<std::size_t> sweeps_in_tile_;
@@ -160,24 +163,27 @@ bool Run::refine_walls() {
   return !stopped_;
 }
 
-void Run::tell_removed(Simulation& result) const {
+void Run::tell_removed(Simulation& result, Counted counted) const {
   const double area = body_.pitch * body_.pitch;
-  double all = 0.0;
-  result.removed_by_step.clear();
+  double by_centres = 0.0, all = 0.0;
   result.removed_by_step.reserve(removed_.size());
   for (std::size_t step = 0; step < removed_.size(); ++step) {
-    const double volume = removed_[step] * area;
+    const double more = counted == Counted::walls_too ? more_[step] : 0.0;
+    const double volume = (removed_[step] + more) * area;
+    by_centres += removed_[step] * area;
     all += volume;
     result.removed_by_step.push_back(static_cast<float>(volume));
   }
   result.removed = mm3(all);
+  result.workpiece.body().wall_volume = by_centres - all;
 }
 
 /// Adds what a batch has cut to the steps, in order of tiles and time, whichever thread was first: sums of
 /// floating numbers depend on the order.
 void Run::take_over(const CutBatch& batch) {
+  Zeros& sums = walls_ == nullptr ? removed_ : more_;
   for (std::size_t at = 0; at < batch.list.size(); ++at)
-    removed_[batch.sweeps[batch.list[at]].step] += batch.removed[at];
+    sums[batch.sweeps[batch.list[at]].step] += batch.removed[at];
   if (walls_ == nullptr) {
     if (is_no_go_) note_block_contacts(batch);
     for (const Contact& contact : batch.contacts) contacts_.add(contact);
@@ -214,12 +220,8 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   }
   sim::Run run(result.workpiece, path, std::move(setup->survey), options, progress);
   run.cut_all();
-  run.tell_removed(result);
-  if (options.role == SolidRole::stock) {
-    const Volume by_columns = result.removed;
-    if (run.refine_walls()) run.tell_removed(result);
-    result.workpiece.body().wall_volume = (by_columns - result.removed).mm3();
-  }
+  const bool walls_too = options.role == SolidRole::stock && run.refine_walls();
+  run.tell_removed(result, walls_too ? sim::Run::Counted::walls_too : sim::Run::Counted::centres);
   result.hazards = run.hazards();
   result.stopped = run.stopped();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
