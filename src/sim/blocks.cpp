@@ -32,7 +32,7 @@ Zeros::Zeros(std::size_t count) : size_(count), numbers_(nullptr, Free{(count + 
 void Zeros::Free::operator()(double* numbers) const { (void)munmap(numbers, bytes); }
 #else
 Zeros::Zeros(std::size_t count)
-    : size_(count), numbers_(static_cast<double*>(std::calloc(count + 1, sizeof(double)))) {
+    : size_(count), numbers_(static_cast<double*>(std::calloc(count + 1, sizeof(double))), Free{}) {
   if (!numbers_) throw std::bad_alloc();
 }
 
