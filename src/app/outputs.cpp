@@ -355,9 +355,12 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const MeshColumns columns(simulation.workpiece);
   Mesh mesh = extract_mesh(columns, options, &progress);
   if (progress.stop_requested()) return false;
-  if (shows_columns(surfaces, simulation.workpiece, view) &&
-      !sharpen_mesh(mesh, simulation.workpiece, job.program.path, job.tools, *job.stock, {}, &progress))
+  if (!shows_columns(surfaces, simulation.workpiece, view)) {
+    relabel_mesh(mesh, simulation.workpiece);
+  } else if (!sharpen_mesh(mesh, simulation.workpiece, job.program.path, job.tools, *job.stock, {},
+                           &progress)) {
     return false;
+  }
   const VolumeRange volume = mesh_volume(columns, {.tolerance = kMeshTolerance + SharpenOptions().tolerance});
   return write_surface(surfaces, job.program, mesh, volume, hazards, view, set, diagnostics, progress);
 }

@@ -175,9 +175,14 @@ bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, 
     return false;
   }
   meshing::mend_flat_triangles(mesh, sim::thread_count(options.threads));
-  if (!body.start) sim::relabel_triangles(mesh, body.bounds);
+  relabel_mesh(mesh, workpiece);
   report(progress, 1.0);
   return true;
+}
+
+void relabel_mesh(Mesh& mesh, const Workpiece& workpiece) {
+  const Workpiece::Body& body = workpiece.body();
+  if (!body.start) sim::relabel_triangles(mesh, body.bounds);  // else its surface may lie anywhere
 }
 
 }  // namespace kerf

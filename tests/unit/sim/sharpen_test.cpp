@@ -245,24 +245,48 @@ TEST(SharpMesh, WhatIsOnTheBlockStaysOnIt) {
   EXPECT_EQ(check_mesh(part.sharp).bad_edges, 0u);
 }
 
-TEST(SharpMesh, SteepRimsBelongToTheCut) {
-  Path path;  // a ball so deep that its flanks are upright at the top
+/// A ball so deep that its flanks are upright at the top.
+Path steep_rims() {
+  Path path;
   path.tool(1).rapid({10, 8, 5}).cut({10, 8, -5}).cut({31, 13.77, -3});
-  const Part part = part_of(path.path(), profile({{0, 0, kQuarter}, {3, 3, 0}, {3, 12, 0}}), kBlock);
-  const auto strays = [](const Mesh& mesh) {
-    std::size_t count = 0;
-    for (std::size_t t = 0; t < mesh.step.size(); ++t) {
-      if (mesh.step[t] != kStockSurface) continue;
-      const Point3 a = vertex_of(mesh, mesh.triangles[3 * t]), b = vertex_of(mesh, mesh.triangles[3 * t + 1]),
-                   c = vertex_of(mesh, mesh.triangles[3 * t + 2]);
-      const Point3 n = cross(b - a, c - a);
-      const double most = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-      count += most < 0.999 * length(n);
-    }
-    return count;
-  };
+  return path;
+}
+const Profile kDeepBall = profile({{0, 0, kQuarter}, {3, 3, 0}, {3, 12, 0}});
+
+/// Triangles of the stock's surface that lie aslant.
+std::size_t strays(const Mesh& mesh) {
+  std::size_t count = 0;
+  for (std::size_t t = 0; t < mesh.step.size(); ++t) {
+    if (mesh.step[t] != kStockSurface) continue;
+    const Point3 a = vertex_of(mesh, mesh.triangles[3 * t]), b = vertex_of(mesh, mesh.triangles[3 * t + 1]),
+                 c = vertex_of(mesh, mesh.triangles[3 * t + 2]);
+    const Point3 n = cross(b - a, c - a);
+    const double most = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    count += most < 0.999 * length(n);
+  }
+  return count;
+}
+
+TEST(SharpMesh, SteepRimsBelongToTheCut) {
+  const Part part = part_of(steep_rims().path(), kDeepBall, kBlock);
   EXPECT_GT(strays(part.rough), 50u);
   EXPECT_LE(strays(part.sharp), 2u);
+}
+
+TEST(RelabelledMesh, SteepRimsBelongToTheCutToo) {
+  Path path = steep_rims();
+  ToolTable tools;
+  tools.set(1, make_drawn(1, kDeepBall));
+  Diagnostics diagnostics;
+  const auto result = run(path.path(), tools, kBlock, kPitch, diagnostics);
+  ASSERT_TRUE(result);
+  const Mesh rough = extract_mesh(MeshColumns(result->workpiece));
+  Mesh mesh = rough;
+  relabel_mesh(mesh, result->workpiece);
+  EXPECT_GT(strays(rough), 50u);
+  EXPECT_EQ(strays(mesh), 0u);
+  EXPECT_EQ(mesh.positions, rough.positions);
+  EXPECT_EQ(mesh.triangles, rough.triangles);
 }
 
 TEST(SharpMesh, ADiscardedRunLeavesTheMeshAsItWas) {
