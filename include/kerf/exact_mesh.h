@@ -22,8 +22,8 @@ struct SharpenOptions {
 bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, const ToolTable& tools,
                   const Stock& stock, const SharpenOptions& options = {}, Progress* progress = nullptr);
 
-/// For a mesh that is not sharpened: between the stock's surface and a steep cut there is a strip as wide as a
-/// column, whose triangles are the one's and the other's in turns. All of them become the cut's, as in a
+/// For a mesh that is not sharpened: between the stock's surface and a steep cut there is a strip as wide as
+/// a column, whose triangles are the one's and the other's in turns. All of them become the cut's, as in a
 /// sharpened mesh. Changes no more than whose triangles are.
 void relabel_mesh(Mesh& mesh, const Workpiece& workpiece);
 

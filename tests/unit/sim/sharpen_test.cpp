@@ -280,7 +280,7 @@ TEST(RelabelledMesh, SteepRimsBelongToTheCutToo) {
   Diagnostics diagnostics;
   const auto result = run(path.path(), tools, kBlock, kPitch, diagnostics);
   ASSERT_TRUE(result);
-  const Mesh rough = extract_mesh(MeshColumns(result->workpiece));
+  const Mesh rough = extract_mesh(MeshColumns(result->workpiece), {});
   Mesh mesh = rough;
   relabel_mesh(mesh, result->workpiece);
   EXPECT_GT(strays(rough), 50u);
