@@ -395,11 +395,15 @@ void tell_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
                        number_text(box.low.z, 3), number_text(box.high.x, 3), number_text(box.high.y, 3),
                        number_text(box.high.z, 3));
   };
+  const Box3& block = job.stock->block;
+  const bool are_apart = cuts.low.x > block.high.x || cuts.high.x < block.low.x ||
+                         cuts.low.y > block.high.y || cuts.high.y < block.low.y || cuts.low.z >= block.high.z;
   diagnostics
       .warning(Code::stock_untouched, TextSpot{job.program.source, 0, 0},
                fmt::format("the program cuts nothing of the stock: it cuts from {}, the stock lies from {}",
-                           text(cuts), text(job.stock->block)))
-      .hint = "look at the program's zero, its units, and the stock's place";
+                           text(cuts), text(block)))
+      .hint = are_apart ? "look at the program's zero, its units, and the stock's place"
+                        : "its cuts may be narrower than the columns are apart: try a finer --resolution";
 }
 
 std::string hint_for_unknown(int tool) {

@@ -183,8 +183,7 @@ void CornerRow::build_any(const Columns& columns, int i, int j) {
     ranks_.insert(ranks_.end(), group_of_[q].begin(), group_of_[q].end());
   }
   for (const Group& group : groups_) sheets_.push_back({0.0, 0.0, group.mean, kNone, suspect});
-  const bool border = i == 0 || j == 0 || i == columns.nx() || j == columns.ny();
-  const Shift shift = shift_of(columns, corner, border);
+  const Shift shift = shift_of(columns, i, j, corner);
   place(columns, i, j, corner, shift);
   corners_[static_cast<std::size_t>(i)] = corner;
 }
@@ -272,8 +271,9 @@ void CornerRow::sort_groups(const Columns& columns, int i, int j) {
 
 /// Where the corner's line is moved to, so that walls run smoothly past the columns' squares: to the middle
 /// of the points half way between the columns that a wall divides (surface nets in plan), weighted by the
-/// walls' heights. Marks the sheets between which four walls meet. Corners on the block's sides stay.
-CornerRow::Shift CornerRow::shift_of(const Columns& columns, Corner& corner, bool border) {
+/// walls' heights. Marks the sheets between which four walls meet. Corners on the block's sides stay, and
+/// those before a narrow last column go no more than half way to the side.
+CornerRow::Shift CornerRow::shift_of(const Columns& columns, int i, int j, Corner& corner) {
   std::array<int, 4> material{};
   std::array<int, 4> next{};
   Shift sum;
@@ -296,8 +296,12 @@ CornerRow::Shift CornerRow::shift_of(const Columns& columns, Corner& corner, boo
     sum.y += height * (north - south) / walls;
     weight += height;
   }
+  const bool border = i == 0 || j == 0 || i == columns.nx() || j == columns.ny();
   if (border || weight <= 0.0) return {};
-  return {sum.x / weight * columns.pitch() / 2, sum.y / weight * columns.pitch() / 2};
+  const double room_x = columns.corner_x(i + 1) - columns.corner_x(i);
+  const double room_y = columns.corner_y(j + 1) - columns.corner_y(j);
+  return {std::min(sum.x / weight * columns.pitch(), room_x) / 2,
+          std::min(sum.y / weight * columns.pitch(), room_y) / 2};
 }
 
 /// Gives each sheet its point. A sheet with all four columns around an unmoved corner has their mean height;

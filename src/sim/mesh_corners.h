@@ -116,7 +116,7 @@ class CornerRow {
   void gather(const Columns& columns, int i, int j);
   bool join(const Columns& columns, int i, int j, int q, int other);
   void sort_groups(const Columns& columns, int i, int j);
-  Shift shift_of(const Columns& columns, Corner& corner, bool border);
+  Shift shift_of(const Columns& columns, int i, int j, Corner& corner);
   void place(const Columns& columns, int i, int j, const Corner& corner, Shift shift);
 
   std::vector<int> numbers_;

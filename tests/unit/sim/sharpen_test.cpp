@@ -201,6 +201,20 @@ TEST(SharpMesh, WallsAndFloorOfASlotAreExact) {
   EXPECT_EQ(check_mesh(part.sharp).bad_edges, 0u);
 }
 
+TEST(SharpMesh, AWallInANarrowLastColumnStaysInTheBlock) {
+  constexpr double kWide = 12.02;  // of the last column a fifth is there
+  Path path;
+  path.tool(1).rapid({-5, 8.027, 5}).cut({-5, 8.027, -2}).cut({9.02, 8.027, -2});
+  const Part part =
+      part_of(path.path(), profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}}), block({0, 0, -8}, {kWide, 16, 0}));
+  for (const Mesh* mesh : {&part.rough, &part.sharp}) {
+    double most = 0.0;
+    for (std::size_t v = 0; v < mesh->positions.size() / 3; ++v) most = std::max(most, vertex_of(*mesh, v).x);
+    EXPECT_LE(most, kWide + 1e-6);
+    EXPECT_EQ(check_mesh(*mesh).bad_edges, 0u);
+  }
+}
+
 TEST(SharpMesh, TheBottomOfAGrooveIsSharp) {
   Path path;
   path.tool(1).rapid({5, 6.027, 5}).cut({5, 6.027, -2}).cut({31.31, 13.77, -2});
