@@ -254,8 +254,8 @@ def test_a_program_beside_its_stock_is_warned_of(kerf, tmp_path):
     assert "stock_untouched" not in kerf("check", path, *options[:2], "--json").codes()
     between = tmp_path / "between.nc"  # narrower than the columns are apart, not beside the stock
     between.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X2 Y2 Z5\nG1 Z-1 F200\nG1 X8\nG0 Z5\nM5\nM30\n")
-    run = kerf("simulate", between, "--tool", "1=square d=3 flute=20", "--stock", "10x10x5", "--resolution", "10",
-               "--json")
+    run = kerf("simulate", between, "--tool", "1=square d=3 flute=20", "--stock", "10x10x5",
+               "--resolution", "10", "--json")
     warning = next(d for d in run.json["diagnostics"] if d["name"] == "stock_untouched")
     assert "--resolution" in warning["hint"]
     inside = tmp_path / "inside.nc"
