@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "sim/feed.h"
 #include "sim/kernels.h"
-#include "sim/parallel.h"
 
 namespace kerf::sim {
 

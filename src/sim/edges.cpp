@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 
 namespace kerf::sim {
 namespace {

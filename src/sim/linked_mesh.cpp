@@ -4,13 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 
 namespace kerf::sim {
 namespace {
 
-/// A triangle of less height than this has no area: below what single precision tells apart, mm.
-constexpr double kNoHeight = 1e-6;
 /// A flip can fold another triangle, which is looked at again; not for ever.
 constexpr int kMostUnfolds = 8;
 
@@ -255,13 +253,6 @@ std::vector<std::uint32_t> LinkedMesh::part(const std::vector<Parting>& partings
 
 // ---- folds
 
-bool LinkedMesh::is_flat(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
-  const std::array<Point3, 3> p{point(a), point(b), point(c)};
-  double longest = 0.0;
-  for (std::size_t k = 0; k < 3; ++k) longest = std::max(longest, distance(p[k], p[(k + 1) % 3]));
-  return length(cross(p[1] - p[0], p[2] - p[0])) <= kNoHeight * longest;
-}
-
 bool LinkedMesh::faces(std::uint32_t a, std::uint32_t b, std::uint32_t c, Point3 outwards) const {
   const Point3 p = point(a);
   return dot(cross(point(b) - p, point(c) - p), outwards) >= 0.0;
@@ -282,7 +273,7 @@ bool LinkedMesh::unfold(std::uint32_t triangle, std::vector<std::uint32_t>& chan
   const std::uint32_t neighbour = beyond / 3;
   const std::uint32_t a = vertex(side), b = vertex(beyond), c = vertex(before(side)),
                       d = vertex(before(beyond));
-  if (c == d || find(c, d) != kNone || is_flat(a, d, c) || is_flat(d, b, c)) return false;
+  if (c == d || find(c, d) != kNone || has_no_area(a, d, c) || has_no_area(d, b, c)) return false;
   const Point3 outwards = normal(neighbour);
   if (!faces(a, d, c, outwards) || !faces(d, b, c, outwards)) return false;
   turn(side);

@@ -106,7 +106,9 @@ class LinkedMesh {
   std::uint32_t new_triangle(std::uint32_t like);
   Point3 facing(std::uint32_t triangle) const;
   bool is_folded(std::uint32_t triangle) const { return dot(facing(triangle), normal(triangle)) < 0.0; }
-  bool is_flat(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+  bool has_no_area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+    return meshing::has_no_area(point(a), point(b), point(c));
+  }
   bool faces(std::uint32_t a, std::uint32_t b, std::uint32_t c, Point3 outwards) const;
   bool unfold(std::uint32_t triangle, std::vector<std::uint32_t>& changed);
   void unfold_all(std::vector<std::uint32_t>& changed);

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "sim/mesh_build.h"
-#include "sim/parallel.h"
 
 namespace kerf {
 namespace {
@@ -109,7 +109,7 @@ class Extraction {
   template <class Work>
   bool in_parallel(int count, const Work& work) {
     bool stopped = false;
-    sim::parallel_for(
+    parallel_for(
         threads_, static_cast<std::size_t>(count), [&](std::size_t n) { work(static_cast<int>(n)); },
         [&] { return stopped = stopped || stop_requested(progress_); });
     return !stopped;
@@ -264,7 +264,7 @@ Mesh extract_mesh(const MeshColumns& made, const MeshOptions& options, Progress*
   if (progress != nullptr) progress->phase("meshing");
   const Columns& columns = made.body().columns;
   if (!columns.has_material()) return {};
-  Extraction extraction(columns, options, sim::thread_count(options.threads), progress);
+  Extraction extraction(columns, options, thread_count(options.threads), progress);
   if (!extraction.run()) return {};
   report(progress, 1.0);
   return std::move(extraction.mesh);

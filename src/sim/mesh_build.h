@@ -12,11 +12,22 @@
 #include "sim/blocks.h"
 #include "sim/mesh_corners.h"
 
+#include "kerf/geometry.h"
+
 namespace kerf::meshing {
 
 /// One number for an edge, whichever way it is walked.
 inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
+
+/// A triangle of less height than this over its longest side has no area: below what single precision tells
+/// apart, mm.
+inline constexpr double kNoHeight = 1e-6;
+inline bool has_no_area(Point3 a, Point3 b, Point3 c) {
+  const Point3 twice = cross(b - a, c - a);
+  const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+  return dot(twice, twice) <= kNoHeight * kNoHeight * longest2;
 }
 
 /// A mesh that grows, of a band of rows. Vertices whose edges may be shared by four triangles are remembered

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 #include "sim/tile.h"
 
 namespace kerf::meshing {
@@ -77,7 +77,7 @@ void Columns::fill(unsigned threads, const Read& read) {
     read(n);
     if (squares_[n].many == nullptr && !squares_[n].is_uniform) squares_[n].is_uniform = all_alike(n);
   };
-  sim::parallel_for(threads, squares_.size(), read_one, [] { return false; });
+  parallel_for(threads, squares_.size(), read_one, [] { return false; });
   has_material_ = std::any_of(squares_.begin(), squares_.end(),
                               [](const Square& s) { return s.many == nullptr || !s.many->runs.empty(); });
 }
@@ -199,9 +199,9 @@ void Columns::read_grid(const ColumnGrid& grid, std::size_t number) {
 namespace kerf {
 
 MeshColumns::MeshColumns(const Workpiece& workpiece, unsigned threads)
-    : body_(std::make_unique<Body>(workpiece, sim::thread_count(threads))) {}
+    : body_(std::make_unique<Body>(workpiece, thread_count(threads))) {}
 MeshColumns::MeshColumns(const ColumnGrid& grid, unsigned threads)
-    : body_(std::make_unique<Body>(grid, sim::thread_count(threads))) {}
+    : body_(std::make_unique<Body>(grid, thread_count(threads))) {}
 MeshColumns::MeshColumns(MeshColumns&&) noexcept = default;
 MeshColumns& MeshColumns::operator=(MeshColumns&&) noexcept = default;
 MeshColumns::~MeshColumns() = default;

@@ -6,16 +6,14 @@
 #include <cmath>
 #include <iterator>
 
+#include "base/parallel.h"
 #include "sim/mesh_build.h"
-#include "sim/parallel.h"
 
 #include "kerf/geometry.h"
 
 namespace kerf::meshing {
 namespace {
 
-/// A triangle of less height than this has no area: below what single precision tells apart, mm.
-constexpr double kNoHeight = 1e-6;
 /// A flip can leave another flat triangle, which is looked at again; not for ever.
 constexpr int kMostRounds = 8;
 
@@ -75,19 +73,14 @@ int Mender::longest_side(const Corners& c) const {
   return static_cast<int>(std::max_element(squares.begin(), squares.end()) - squares.begin());
 }
 
-bool Mender::is_flat(const Corners& c) const {
-  const auto k = static_cast<std::size_t>(longest_side(c));
-  const Point3 a = point(c[k]), side = point(c[(k + 1) % 3]) - a, other = point(c[(k + 2) % 3]) - a;
-  const Point3 twice = cross(side, other);
-  return dot(twice, twice) <= kNoHeight * kNoHeight * dot(side, side);
-}
+bool Mender::is_flat(const Corners& c) const { return has_no_area(point(c[0]), point(c[1]), point(c[2])); }
 
 /// Numbers below `count` for which test(number) holds, in order.
 template <class Test>
 std::vector<std::size_t> Mender::find(std::size_t count, const Test& test) const {
   constexpr std::size_t kEach = 1 << 14;
   std::vector<std::vector<std::size_t>> found(count / kEach + 1);
-  sim::parallel_for(
+  parallel_for(
       threads_, found.size(),
       [&](std::size_t n) {
         for (std::size_t k = n * kEach; k < std::min((n + 1) * kEach, count); ++k)

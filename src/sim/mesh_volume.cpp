@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "sim/mesh_columns.h"
-#include "sim/parallel.h"
 
 #include "kerf/rotary.h"
 #include "kerf/simulate.h"
@@ -135,8 +135,8 @@ Faces faces_of(const Columns& columns, unsigned threads) {
   if (!columns.has_material()) return {};
   const BlockFaces block(columns);
   std::vector<Faces> bands(static_cast<std::size_t>(columns.squares_y()));
-  sim::parallel_for(
-      sim::thread_count(threads), bands.size(),
+  parallel_for(
+      thread_count(threads), bands.size(),
       [&](std::size_t band) { bands[band] = block.of_squares(static_cast<int>(band)); },
       [] { return false; });
   Faces sum;

@@ -170,10 +170,7 @@ Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& too
       scope_(scope),
       per_tile_(1.0 / (kTileColumns * body.pitch)),
       size_(body.bounds.size()) {
-  for (const ToolSolids& tool : tools) {
-    other_bottoms_.push_back(other_bottom(tool));
-    widest_.push_back(widest(tool));
-  }
+  for (const ToolSolids& tool : tools) extents_.push_back({widest(tool), other_bottom(tool)});
   const double side = kTileColumns * body.pitch;
   for (std::size_t tile = 0; scope_.tiles != nullptr && tile < scope_.tiles->size(); ++tile) {
     if (!(*scope_.tiles)[tile]) continue;
@@ -208,7 +205,7 @@ Planner::Motion Planner::motion_of(const Step& step, const MotionContext& contex
 }
 
 bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
-  const double rim = widest_[tool];
+  const double rim = extents_[tool].widest;
   const Box3 box = walk.bounds();
   return box.low.x < size_.x + rim && box.high.x > -rim && box.low.y < size_.y + rim && box.high.y > -rim &&
          box.low.z < size_.z;
@@ -217,7 +214,7 @@ bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
 /// Whether a straight motion is away from all tiles that are wanted, and has nothing else to tell.
 bool Planner::is_far(const Motion& motion, std::uint32_t tool) const {
   if (scope_.tiles == nullptr || std::min(motion.from.z, motion.to.z) < -hazard_depth_) return false;
-  const double reach = widest_[tool] + scope_.margin;
+  const double reach = extents_[tool].widest + scope_.margin;
   return std::max(motion.from.x, motion.to.x) + reach < wanted_.low.x ||
          std::min(motion.from.x, motion.to.x) - reach > wanted_.high.x ||
          std::max(motion.from.y, motion.to.y) + reach < wanted_.low.y ||
@@ -245,18 +242,15 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   remember(step, tool, motion.to);
   if (!is_arc && is_far(motion, tool)) return;
   constexpr int kParts = kPassNeck | kPassShank | kPassHolder;
-  Sweep& sweep = batch.sweeps.emplace_back();
+  Sweep sweep;
   sweep.passes = static_cast<std::uint8_t>(
       cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
   sweep.step = static_cast<std::uint32_t>(context.index);
   sweep.tool = tool;
-  if (is_arc) {
-    const Sweep like = sweep;
-    batch.sweeps.pop_back();
-    return add_arc(step, context, like, follows, batch);
-  }
+  if (is_arc) return add_arc(step, context, sweep, follows, batch);
   sweep.follows = follows;
   set_line(sweep, motion.from, motion.to);
+  batch.sweeps.push_back(sweep);
   emit(batch);
 }
 
@@ -306,7 +300,7 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, double& reach) const 
   };
   check(kPassCut, tool.cutting, 0.0);
   check(kPassRapid, tool.touching[0], hazard_depth_);
-  if (low + other_bottoms_[sweep.tool] < size_.z - hazard_depth_) {
+  if (low + extents_[sweep.tool].other_bottom < size_.z - hazard_depth_) {
     check(kPassOverFlute, tool.over_flute, hazard_depth_);
     check(kPassNeck, tool.touching[1], hazard_depth_);
     check(kPassShank, tool.touching[2], hazard_depth_);

@@ -96,6 +96,11 @@ class Planner {
   void remember(const Step& step, std::uint32_t tool, Point3 end);
   void add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
+  /// What tells quickly that a tool cannot meet something.
+  struct ToolExtent {
+    double widest;        // largest radius of all parts, mm
+    double other_bottom;  // the lowest of what does not cut, mm above the tip
+  };
   bool is_far(const Motion& motion, std::uint32_t tool) const;
   void emit(Batch& batch);
   bool find_pairs(Sweep& sweep, Batch& batch) const;
@@ -116,8 +121,7 @@ class Planner {
 
   const Workpiece::Body& body_;
   const std::vector<ToolSolids>& tools_;
-  std::vector<double> other_bottoms_;  // one a tool: the lowest of what does not cut, mm above the tip
-  std::vector<double> widest_;         // one a tool: its largest radius, mm
+  std::vector<ToolExtent> extents_;  // one a tool
   double hazard_depth_;
   PlanScope scope_;
   Box3 wanted_;  // around the tiles of the scope; in X and Y only

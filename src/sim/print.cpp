@@ -14,7 +14,7 @@
 #include <memory>
 #include <utility>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 #include "sim/print_hollow.h"
 #include "sim/print_support.h"
 #include "sim/print_survey.h"
@@ -69,7 +69,7 @@ class Printer final : public RoadSink {
         survey_(survey),
         diagnostics_(diagnostics),
         progress_(progress),
-        threads_(sim::thread_count(options.threads)),
+        threads_(thread_count(options.threads)),
         tiles_x_((frame.nx + kTileSide - 1) / kTileSide),
         tiles_y_((frame.ny + kTileSide - 1) / kTileSide),
         tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)),
@@ -301,8 +301,8 @@ void Printer::lay_batch() {
     for (std::size_t k = begins[n]; k < begins[n + 1]; ++k)
       tile->add(batch_.pieces[batch_.pairs[k].piece], depth, sums_[k], contacts[n]);
   };
-  sim::parallel_for(threads_, begins.size() - 1, lay_tile,
-                    [&] { return stopped_ = stopped_ || stop_requested(progress_); });
+  parallel_for(threads_, begins.size() - 1, lay_tile,
+               [&] { return stopped_ = stopped_ || stop_requested(progress_); });
   stopped_ = stopped_ || stop_requested(progress_);
   if (stopped_) return;
   for (const std::vector<Contact>& of_tile : contacts)

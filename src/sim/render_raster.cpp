@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 
 namespace kerf::rendering {
 namespace {
@@ -155,11 +155,11 @@ void draw(const Mesh& mesh, const std::vector<Spot>& spots, const std::optional<
 }
 
 void in_bands(int count, const std::function<void(int, int)>& work) {
-  const unsigned bands = sim::thread_count(0);
+  const unsigned bands = thread_count(0);
   const auto bound = [&](std::size_t n) {
     return static_cast<int>(std::int64_t{count} * static_cast<std::int64_t>(n) / bands);
   };
-  sim::parallel_for(
+  parallel_for(
       bands, bands, [&](std::size_t n) { work(bound(n), bound(n + 1)); }, [] { return false; });
 }
 

@@ -12,7 +12,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 #include "sim/rotary_tool.h"
 #include "sim/solid.h"
 #include "sim/survey.h"
@@ -442,8 +442,8 @@ std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const Tool
     slabs.emplace_back(result.workpiece, row, std::min(row + sim::kSlabRows, result.workpiece.along) - 1,
                        options.hazard_depth.mm());
   std::size_t begun = 0;
-  sim::parallel_for(
-      sim::thread_count(options.threads), slabs.size(),
+  parallel_for(
+      thread_count(options.threads), slabs.size(),
       [&](std::size_t n) {
         for (const sim::RotaryMotion& motion : reader.motions)
           slabs[n].cut(motion, reader.tools[motion.tool]);

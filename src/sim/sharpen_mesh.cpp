@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "sim/edges.h"
 #include "sim/mesh_build.h"
-#include "sim/parallel.h"
 #include "sim/relabel.h"
 #include "sim/sharpen.h"
 
@@ -174,7 +174,7 @@ bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, 
     mesh = std::move(rough);
     return false;
   }
-  meshing::mend_flat_triangles(mesh, sim::thread_count(options.threads));
+  meshing::mend_flat_triangles(mesh, thread_count(options.threads));
   relabel_mesh(mesh, workpiece);
   report(progress, 1.0);
   return true;

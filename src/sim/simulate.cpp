@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <utility>
 
+#include "base/parallel.h"
 #include "sim/block_contact.h"
 #include "sim/cutter.h"
 #include "sim/feed.h"
-#include "sim/parallel.h"
 #include "sim/start.h"
 #include "sim/walls.h"
 

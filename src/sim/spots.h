@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
+#include "base/parallel.h"
 #include "sim/feed.h"
-#include "sim/parallel.h"
 #include "sim/sweep_distance.h"
 #include "sim/tile.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <utility>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 #include "sim/plan.h"
 
 #include "kerf/names.h"

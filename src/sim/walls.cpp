@@ -8,7 +8,7 @@
 #include <cstring>
 #include <utility>
 
-#include "sim/parallel.h"
+#include "base/parallel.h"
 
 namespace kerf::sim {
 namespace {
