@@ -211,9 +211,9 @@ bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
          box.low.z < size_.z;
 }
 
-/// Whether a straight motion is away from all tiles that are wanted, and has nothing else to tell.
+/// Whether a straight motion is away from the tiles that are wanted, and has nothing else to tell.
 bool Planner::is_far(const Motion& motion, std::uint32_t tool) const {
-  if (scope_.tiles == nullptr || std::min(motion.from.z, motion.to.z) < -hazard_depth_) return false;
+  if (std::min(motion.from.z, motion.to.z) < -hazard_depth_) return false;
   const double reach = extents_[tool].widest + scope_.margin;
   return std::max(motion.from.x, motion.to.x) + reach < wanted_.low.x ||
          std::min(motion.from.x, motion.to.x) - reach > wanted_.high.x ||
@@ -227,20 +227,22 @@ void Planner::pass_over(const Step& step, const MotionContext& context, std::uin
   remember(step, tool, motion.to);
 }
 
-void Planner::remember(const Step& step, std::uint32_t tool, const Point3& end) {
-  cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
-  end_ = end;
-}
-
 void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
                   Batch& batch) {
-  const Motion motion = motion_of(step, context);
+  // Numbers by themselves until the end: a million times a point is written and read again is a tenth of it
+  // all.
+  Point3 from = context.from - body_.bounds.low, to = step.to() - body_.bounds.low;
+  if ((context.unknown_from | step.unknown_axes()) != 0) {
+    const Motion motion = motion_of(step, context);
+    if (!motion.is_swept) return interrupt();
+    from = motion.from;
+    to = motion.to;
+  }
   const bool cuts = step.is_cutting();
-  if (!motion.is_swept) return interrupt();
-  const bool follows = cuts && cutting_tool_ == tool && end_ == motion.from;
+  const bool follows = cuts && cutting_tool_ == tool && end_ == from;
   const bool is_arc = step.kind() == StepKind::arc && is_walked(context);
-  remember(step, tool, motion.to);
-  if (!is_arc && is_far(motion, tool)) return;
+  remember(step, tool, to);
+  if (!is_arc && scope_.tiles != nullptr && is_far({from, to}, tool)) return;
   constexpr int kParts = kPassNeck | kPassShank | kPassHolder;
   static constexpr Sweep kNew;
   Sweep& sweep =
@@ -251,8 +253,8 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   sweep.tool = tool;
   sweep.follows = follows;
   if (is_arc) return add_arc(step, context, batch);
-  set_line(sweep, motion.from, motion.to);
-  emit(motion.to, batch);
+  set_line(sweep, from, to);
+  emit(to, batch);
 }
 
 /// The batch's last sweep is one in all but its place.

@@ -93,7 +93,10 @@ class Planner {
     Point3 from;
   };
   Motion motion_of(const Step& step, const MotionContext& context) const;
-  void remember(const Step& step, std::uint32_t tool, const Point3& end);
+  void remember(const Step& step, std::uint32_t tool, const Point3& end) {
+    cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
+    end_ = end;
+  }
   void add_arc(const Step& step, const MotionContext& context, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
   /// What tells quickly that a tool cannot meet something.
