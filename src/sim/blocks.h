@@ -16,25 +16,6 @@ void* new_block(std::size_t bytes);
 void free_block(void* block);
 using kerf::use_huge_pages;
 
-/// Numbers that begin as 0, in memory that is not touched before they are needed. It comes straight from the
-/// system where that can be had: what a heap gives a second time is not 0 any more.
-class Zeros {
- public:
-  /// Throws std::bad_alloc.
-  explicit Zeros(std::size_t count);
-  std::size_t size() const { return size_; }
-  double& operator[](std::size_t i) { return numbers_.get()[i]; }
-  double operator[](std::size_t i) const { return numbers_.get()[i]; }
-
- private:
-  struct Free {
-    std::size_t bytes = 0;
-    void operator()(double* numbers) const;
-  };
-  std::size_t size_;
-  std::unique_ptr<double, Free> numbers_;
-};
-
 /// Makes objects of one type; their memory goes from one to the next and is kept until the store ends. Safe
 /// to use from several threads.
 template <class Object>

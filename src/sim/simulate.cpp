@@ -4,15 +4,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <numeric>
+#include <functional>
+#include <optional>
 #include <utility>
 
-#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "sim/block_contact.h"
 #include "sim/cutter.h"
 #include "sim/feed.h"
 #include "sim/start.h"
+#include "sim/step_sums.h"
 #include "sim/walls.h"
 
 namespace kerf {
@@ -48,8 +49,7 @@ class Run {
         is_no_go_(options.role == SolidRole::no_go),
         threads_(thread_count(options.threads)),
         progress_(progress),
-        removed_(path.size()),
-        more_(path.size()),
+        removed_(body_.pitch * body_.pitch, path.size()),
         cutter_(body_, survey_.solids, hazard_depth_) {}
 
   void cut_all() {
@@ -60,13 +60,12 @@ class Run {
     report(progress_, 1.0);
   }
 
-  /// Counts the columns at walls anew, see walls.h. False if there are none that matter, or if stopped: then
-  /// the columns' centres alone tell the volumes.
-  bool refine_walls();
+  /// Counts the columns at walls anew, see walls.h. Where there are none that matter, or if stopped, the
+  /// columns' centres alone tell the volumes.
+  void refine_walls();
 
   bool stopped() const { return stopped_; }
-  enum class Counted : std::uint8_t { centres, walls_too };
-  void tell_removed(Simulation& result, Counted counted) const;
+  void tell_removed(Simulation& result);
   std::vector<Hazard> hazards() const { return contacts_.hazards(body_.bounds.low); }
 
  private:
@@ -76,9 +75,6 @@ class Run {
   void meet_tile(std::size_t tile, TileJob job);
   void note_block_contacts(const Batch& batch);
   void take_over(const CutBatch& batch);
-  template <class Part>
-  double sum_of_parts(const Part& part) const;
-  double removed_by_centres() const;
 
   Workpiece::Body& body_;
   const Toolpath& path_;
@@ -87,8 +83,8 @@ class Run {
   bool is_no_go_;
   unsigned threads_;
   Progress* progress_;
-  Zeros removed_;                   // length of column by the columns' centres, one a step
-  Zeros more_;                      // and what the walls between them add
+  StepSums removed_;                // by the columns' centres
+  std::optional<StepSums> more_;    // and what the walls between them add
   WallGroup* walls_ = nullptr;      // what is cut instead of the workpiece, if any
   std::vector<StepRange> in_tile_;  // which steps each tile has seen
   std::vector<std::size_t> sweeps_in_tile_;
@@ -152,15 +148,18 @@ std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
   return apart(std::move(all));
 }
 
-bool Run::refine_walls() {
-  if (stopped_) return false;
+void Run::refine_walls() {
+  if (stopped_) return;
   const std::vector<WallSquares> found = find_walls(body_, threads_);
   double most = 0.0;
-  for (const WallSquares& walls : found) most += walls.most_error;
-  if (most <= kNegligible * removed_by_centres()) return false;
-  if (progress_ != nullptr) progress_->phase("measuring walls");
   std::size_t squares = 0;
-  for (const WallSquares& walls : found) squares += walls.squares.size();
+  for (const WallSquares& walls : found) {
+    most += walls.most_error;
+    squares += walls.squares.size();
+  }
+  if (found.empty() || most * body_.pitch * body_.pitch <= kNegligible * removed_.total()) return;
+  if (progress_ != nullptr) progress_->phase("measuring walls");
+  more_.emplace(body_.pitch * body_.pitch, path_.size());
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
     WallGroup group(body_, cutter_, found, squares, next, sweeps_in_tile_);
     walls_ = &group;
@@ -168,57 +167,22 @@ bool Run::refine_walls() {
     walls_ = nullptr;
   }
   report(progress_, 1.0);
-  return !stopped_;
+  if (stopped_) more_.reset();
 }
 
-/// Calls part(first, last, n) for the parts of all steps on all threads, and returns the sum of what it
-/// gives, in order: sums of floating numbers depend on it.
-template <class Part>
-double Run::sum_of_parts(const Part& part) const {
-  constexpr std::size_t kPart = 1 << 16;  // steps
-  std::vector<double> sums(removed_.size() / kPart + 1);
-  const auto add = [&](std::size_t n) {
-    sums[n] = part(n * kPart, std::min((n + 1) * kPart, removed_.size()));
-  };
-  parallel_for(threads_, sums.size(), add, [] { return false; });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
+void Run::tell_removed(Simulation& result) {
+  const double more = more_ ? more_->total() : 0.0;
+  result.removed = mm3(removed_.total() + more);
+  result.workpiece.body().wall_volume = -more;
+  result.removed_by_step = removed_.take_volumes();
+  if (!more_) return;
+  const std::vector<float> walls = more_->take_volumes();
+  std::transform(walls.begin(), walls.end(), result.removed_by_step.begin(), result.removed_by_step.begin(),
+                 std::plus<>());
 }
 
-/// Length of column by the columns' centres, mm.
-double Run::removed_by_centres() const {
-  return sum_of_parts([&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t step = first; step < last; ++step) sum += removed_[step];
-    return sum;
-  });
-}
-
-void Run::tell_removed(Simulation& result, Counted counted) const {
-  const double area = body_.pitch * body_.pitch;
-  std::vector<float>& volumes = result.removed_by_step;
-  volumes.reserve(removed_.size());
-  use_huge_pages(volumes.data(), removed_.size() * sizeof(float));
-  volumes.resize(removed_.size());
-  const double all = sum_of_parts([&](std::size_t first, std::size_t last) {
-    double sum = 0.0;
-    for (std::size_t step = first; step < last; ++step) {
-      const double volume = (removed_[step] + (counted == Counted::walls_too ? more_[step] : 0.0)) * area;
-      sum += volume;
-      volumes[step] = static_cast<float>(volume);
-    }
-    return sum;
-  });
-  result.removed = mm3(all);
-  result.workpiece.body().wall_volume =
-      counted == Counted::walls_too ? removed_by_centres() * area - all : 0.0;
-}
-
-/// Adds what a batch has cut to the steps, in order of tiles and time, whichever thread was first: sums of
-/// floating numbers depend on the order.
 void Run::take_over(const CutBatch& batch) {
-  Zeros& sums = walls_ == nullptr ? removed_ : more_;
-  for (std::size_t at = 0; at < batch.list.size(); ++at)
-    sums[batch.sweeps[batch.list[at]].step] += batch.removed[at];
+  (walls_ == nullptr ? removed_ : *more_).add(batch);
   if (walls_ == nullptr) {
     if (is_no_go_) note_block_contacts(batch);
     for (const Contact& contact : batch.contacts) contacts_.add(contact);
@@ -255,8 +219,8 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
   }
   sim::Run run(result.workpiece, path, std::move(setup->survey), options, progress);
   run.cut_all();
-  const bool walls_too = options.role == SolidRole::stock && run.refine_walls();
-  run.tell_removed(result, walls_too ? sim::Run::Counted::walls_too : sim::Run::Counted::centres);
+  if (options.role == SolidRole::stock) run.refine_walls();
+  run.tell_removed(result);
   result.hazards = run.hazards();
   result.stopped = run.stopped();
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
