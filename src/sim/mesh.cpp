@@ -71,7 +71,8 @@ void add_walls(WallFiller& walls, Builder& builder, const CornerPlane& plane, Co
 /// The walls of the corner rows of a band, which are made with vertices of their own. Of the row before the
 /// band, which they reach down to, each band has a copy.
 struct WallBand {
-  explicit WallBand(const Columns& columns, const MeshOptions& options) : builder{columns, options, {}, {}} {}
+  WallBand(const Columns& columns, const MeshOptions& options)
+      : builder{columns, options, {}, {}}, before(columns), last(columns) {}
   Builder builder;
   CornerRow before, last;
 };
@@ -133,12 +134,12 @@ class Extraction {
   void make_walls(int number) {
     WallBand& band = walls(number);
     WallFiller filler(band.builder);
-    CornerRow other;
+    CornerRow other(columns_);
     CornerRow *below = &band.before, *row = &band.last;
     const int first = number * meshing::kSquare;
-    if (first > 0 && first <= columns_.ny()) below->build(columns_, plane_, first - 1);
+    if (first > 0 && first <= columns_.ny()) below->build(plane_, first - 1);
     for (int j = first; j < end_row(number); ++j) {
-      row->build(columns_, plane_, j);
+      row->build(plane_, j);
       add_walls(filler, band.builder, plane_, *below, *row, j);
       if (j > first) take(band, *below, j - 1);
       if (j == first) below = &other;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/blocks.h"
@@ -39,6 +40,9 @@ struct Square {
   const ManyRuns* many = nullptr;  // null: each column is one interval
   bool is_uniform = false;         // all of one interval, at the same heights, by the same steps
 };
+
+/// The intervals of a column, lowest first.
+using Runs = std::span<const Interval>;
 
 /// Reads columns by number. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the high
 /// one.
@@ -88,11 +92,16 @@ class Columns {
     const std::size_t c = cell(i, j);
     return 2 * static_cast<int>(s.many->first[c + 1] - s.many->first[c]);
   }
-  Interval interval(int i, int j, int k) const {
+  /// The intervals of a column, none outside the grid; `one` is where that of a column is put of which no
+  /// intervals are kept.
+  Runs runs(int i, int j, Interval& one) const {
+    if (!inside(i, j)) return {};
     const Square& s = square_of(i, j);
     const std::size_t c = cell(i, j);
-    if (s.many != nullptr) return s.many->runs[s.many->first[c] + static_cast<std::size_t>(k)];
-    return {s.low->z[c], s.high->z[c], s.low->step[c], s.high->step[c]};
+    if (s.many != nullptr)
+      return {s.many->runs.data() + s.many->first[c], std::size_t{s.many->first[c + 1] - s.many->first[c]}};
+    one = {s.low->z[c], s.high->z[c], s.low->step[c], s.high->step[c]};
+    return {&one, 1};
   }
   double z(int i, int j, int end) const {
     const Square& s = square_of(i, j);
@@ -112,17 +121,6 @@ class Columns {
   std::uint32_t cut_through(int i, int j) const {
     return inside(i, j) ? square_of(i, j).high->step[cell(i, j)] : kStockSurface;
   }
-  /// The end of a neighbouring column that faces the same void as `end` does with material behind both; -1:
-  /// none.
-  int facing_end(int i, int j, int end, int other_i, int other_j) const;
-  /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands
-  /// between.
-  bool continues(int i, int j, int end, int other_i, int other_j, int other_end) const;
-  /// The height that `end` has in a neighbouring column, see facing_end; false: it has none.
-  bool facing_z(int i, int j, int end, int other_i, int other_j, double& z) const;
-  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that
-  /// continue it.
-  double slope(int i, int j, int end, int dx, int dy) const;
 
  private:
   Columns(ColumnGrid frame, float full_height);

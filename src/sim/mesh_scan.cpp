@@ -92,6 +92,7 @@ class Scanner {
   void scan(int j, std::uint8_t* simple);
   void scan_some(int begin, int end, int j, std::uint8_t* simple);
   void compare(int begin, int end, int j, std::uint8_t* simple);
+  bool continue_each_other(int i, int j, int dx, int dy, int end) const;
   bool joined(int i, int j, int end) const;
   bool is_simple(int i, int j) const;
   void need(int i, int j);
@@ -164,6 +165,15 @@ void Scanner::compare(int begin, int end, int j, std::uint8_t* simple) {
   }
 }
 
+/// The same of a column and the next one of any columns.
+bool Scanner::continue_each_other(int i, int j, int dx, int dy, int end) const {
+  std::array<Interval, 4> one;
+  return meshing::continues({columns_.runs(i - dx, j - dy, one[0]), columns_.runs(i, j, one[1]),
+                             columns_.runs(i + dx, j + dy, one[2]),
+                             columns_.runs(i + 2 * dx, j + 2 * dy, one[3])},
+                            end, end, columns_.pitch());
+}
+
 /// Whether the ends of the four columns around a corner continue each other, as slopes do. The columns are of
 /// one interval each, with material at one height.
 bool Scanner::joined(int i, int j, int end) const {
@@ -178,11 +188,11 @@ bool Scanner::joined(int i, int j, int end) const {
     }
     Answer answer = continues(along, end, limit_);
     if (answer == Answer::no ||
-        (answer == Answer::unknown && !columns_.continues(i - 1, j + k, end, i, j + k, end)))
+        (answer == Answer::unknown && !continue_each_other(i - 1, j + k, 1, 0, end)))
       return false;
     answer = continues(across, end, limit_);
     if (answer == Answer::no ||
-        (answer == Answer::unknown && !columns_.continues(i + k, j - 1, end, i + k, j, end)))
+        (answer == Answer::unknown && !continue_each_other(i + k, j - 1, 0, 1, end)))
       return false;
   }
   return true;

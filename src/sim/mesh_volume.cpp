@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -22,8 +21,8 @@ constexpr double kSideShare = 1.0;
 
 using meshing::Columns;
 using meshing::kSquare;
+using meshing::Runs;
 using meshing::Square;
-using Runs = std::span<const Interval>;
 
 /// Columns by what their faces are: what they hold, the area of their ends, and the area of their sides that
 /// stand bare beside their neighbours'.
@@ -106,25 +105,16 @@ class BlockFaces {
   void add_column(int i, int j, Faces& faces) const {
     const double wide = width(i, size_.x), deep = width(j, size_.y);
     std::array<Interval, 3> one;  // for columns that keep no intervals
-    const Runs runs = column(i, j, one[0]);
+    const Runs runs = columns_.runs(i, j, one[0]);
     for (const Interval& run : runs) faces.volume += wide * deep * height(run.low, run.high);
     faces.ends += 2.0 * wide * deep * static_cast<double>(runs.size());
-    if (i + 1 < columns_.nx()) faces.sides += deep * unshared(runs, column(i + 1, j, one[1]), height);
-    if (j + 1 < columns_.ny()) faces.sides += wide * unshared(runs, column(i, j + 1, one[2]), height);
+    if (i + 1 < columns_.nx()) faces.sides += deep * unshared(runs, columns_.runs(i + 1, j, one[1]), height);
+    if (j + 1 < columns_.ny()) faces.sides += wide * unshared(runs, columns_.runs(i, j + 1, one[2]), height);
   }
 
   /// The last column may be narrower.
   double width(int i, double size) const {
     return std::clamp(size - i * columns_.pitch(), 0.0, columns_.pitch());
-  }
-  Runs column(int i, int j, Interval& one) const {
-    const Square& square = columns_.square_of(i, j);
-    const std::size_t c = Columns::cell(i, j);
-    if (square.many != nullptr)
-      return {square.many->runs.data() + square.many->first[c],
-              square.many->first[c + 1] - square.many->first[c]};
-    one = columns_.interval(i, j, 0);
-    return {&one, 1};
   }
 
   const Columns& columns_;
