@@ -208,10 +208,14 @@ class Extraction {
     }
     const std::size_t wall_triangles = place.triangles;
     for (const int n : {0, 1}) sheet(n).find_places(place);
-    enlarge(mesh.positions, 3 * place.vertices);
-    enlarge(mesh.triangles, 3 * place.triangles);
-    enlarge(mesh.step, place.triangles);
+    // Memory that is touched for the first time takes as long as what is written to it.
+    const auto enlarge_some = [&](int n) {
+      if (n == 0) return enlarge(mesh.triangles, 3 * place.triangles);
+      enlarge(mesh.positions, 3 * place.vertices);
+      enlarge(mesh.step, place.triangles);
+    };
     const bool filled =
+        in_parallel(2, enlarge_some) &&
         in_bands([&](int band) { fill_walls(band, first_of_walls[static_cast<std::size_t>(band)]); }) &&
         in_bands_of_both([&](CapSheet& sheet, int band) { sheet.fill(band, wall_vertices_, mesh); });
     if (!filled) return false;
@@ -222,7 +226,7 @@ class Extraction {
     for (const int n : {0, 1}) sheet(n).close_gaps(mesh, end, at_walls);
     mesh.triangles.resize(3 * end);
     mesh.step.resize(end);
-    meshing::split_shared_edges(mesh, suspects_, at_walls);
+    meshing::split_shared_edges(mesh, threads_, suspects_, at_walls);
     meshing::mend_flat_triangles(mesh, threads_, at_walls);  // others are half squares or larger
     return true;
   }

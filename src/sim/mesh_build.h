@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel.h"
 #include "sim/blocks.h"
 #include "sim/mesh_corners.h"
 
@@ -214,11 +215,28 @@ inline std::uint32_t group_key(const MeshOptions& options, std::uint32_t step) {
 void scan_corners(const Columns& columns, const MeshOptions& options, int band, CornerPlane& plane,
                   CapSheet& top, CapSheet& bottom);
 
+/// Numbers below `count` for which test(number) holds, in order, looked for on several threads.
+template <class Test>
+std::vector<std::size_t> numbers_where(unsigned threads, std::size_t count, const Test& test) {
+  constexpr std::size_t kEach = 1 << 14;
+  std::vector<std::vector<std::size_t>> found(count / kEach + 1);
+  parallel_for(
+      threads, found.size(),
+      [&](std::size_t n) {
+        for (std::size_t k = n * kEach; k < std::min((n + 1) * kEach, count); ++k)
+          if (test(k)) found[n].push_back(k);
+      },
+      [] { return false; });
+  std::vector<std::size_t> all;
+  for (const std::vector<std::size_t>& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 /// Makes every edge the edge of exactly two triangles and every vertex the tip of one fan, by parting
 /// vertices (and, where that does not part an edge, by halving it). All edges must already have as many
 /// triangles on one side as on the other. `near`: all triangles that have a suspect, maybe more; those that
 /// are made are added.
-void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects,
+void split_shared_edges(Mesh& mesh, unsigned threads, const std::vector<std::uint32_t>& suspects,
                         std::vector<std::size_t>& near);
 
 /// Takes out triangles without area, after which the mesh is as closed as before. A few may stay where taking
