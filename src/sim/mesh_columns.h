@@ -38,7 +38,10 @@ struct Square {
   const Ends* low = nullptr;
   const Ends* high = nullptr;
   const ManyRuns* many = nullptr;  // null: each column is one interval
-  bool is_uniform = false;         // all of one interval, at the same heights, by the same steps
+  // Whether all these ends are at one height, by the same step.
+  bool is_low_level = false, is_high_level = false;
+  /// All columns are of one interval, and alike.
+  bool is_uniform() const { return many == nullptr && is_low_level && is_high_level; }
 };
 
 /// The intervals of a column, lowest first.
@@ -136,7 +139,7 @@ class Columns {
   void fill_many(std::size_t number, const Add& add);
   template <class Read>
   void fill(unsigned threads, const Read& read);
-  bool all_alike(std::size_t number) const;
+  bool is_level(std::size_t number, const Ends& ends) const;
 
   ColumnGrid frame_;
   int squares_x_, squares_y_;

@@ -192,11 +192,14 @@ bool CapSheet::is_plain(int square_x, int square_y) const {
   if (square_x == 0 || square_y == 0 || square_x + 1 >= columns_.squares_x() ||
       square_y + 1 >= columns_.squares_y())
     return false;
+  const auto is_level = [this](const Square& square) {
+    return side_ == Side::bottom ? square.is_low_level : square.is_high_level;
+  };
   const float z = ends_of(columns_.square(square_x, square_y)).z[0];
   for (int y = square_y - 1; y <= square_y + 1; ++y) {
     for (int x = square_x - 1; x <= square_x + 1; ++x) {
       const Square& square = columns_.square(x, y);
-      if (!square.is_uniform || ends_of(square).z[0] != z) return false;
+      if (!is_level(square) || ends_of(square).z[0] != z) return false;
     }
   }
   return true;

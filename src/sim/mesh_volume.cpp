@@ -88,7 +88,7 @@ class BlockFaces {
     const float *low = square.low->z.data() + at, *high = square.high->z.data() + at;
     const double pitch = columns_.pitch(), count = end - first;
     double length = count * height(low[0], high[0]), bare = 0.0;
-    if (!square.is_uniform) {
+    if (!square.is_uniform()) {
       length = 0.0;
       for (int k = 0; k < end - first; ++k) {
         const std::size_t c = static_cast<std::size_t>(k), right = c + 1, above = c + kSquare;
