@@ -89,17 +89,39 @@ class BlockFaces {
     const double pitch = columns_.pitch(), count = end - first;
     double length = count * height(low[0], high[0]), bare = 0.0;
     if (!square.is_uniform()) {
-      length = 0.0;
-      for (int k = 0; k < end - first; ++k) {
-        const std::size_t c = static_cast<std::size_t>(k), right = c + 1, above = c + kSquare;
-        length += height(low[c], high[c]);
-        for (const std::size_t other : {right, above})
-          bare += unshared(low[c], high[c], low[other], high[other]);
-      }
+      const auto columns = static_cast<std::size_t>(end - first);
+      length = square.is_low_level ? standing(high, low[0], columns, bare) : any(low, high, columns, bare);
     }
     faces.volume += pitch * pitch * length;
     faces.ends += 2.0 * pitch * pitch * count;
     faces.sides += pitch * bare;
+  }
+
+  /// Length of columns, and of what is bare of their sides.
+  static double any(const float* low, const float* high, std::size_t count, double& bare) {
+    double length = 0.0;
+    for (std::size_t c = 0; c < count; ++c) {
+      length += height(low[c], high[c]);
+      for (const std::size_t other : {c + 1, c + kSquare})
+        bare += unshared(low[c], high[c], low[other], high[other]);
+    }
+    return length;
+  }
+
+  /// The same of columns that stand on one floor, without branches, several at a time.
+  static double standing(const float* high, float floor, std::size_t count, double& bare) {
+    constexpr std::size_t kLanes = 4;
+    std::array<double, kLanes> lengths{}, sides{};
+    const auto add = [&](std::size_t c, std::size_t lane) {
+      lengths[lane] += height(floor, high[c]);
+      sides[lane] += std::abs(height(high[c], high[c + 1])) + std::abs(height(high[c], high[c + kSquare]));
+    };
+    const std::size_t whole = count / kLanes * kLanes;
+    for (std::size_t c = 0; c < whole; c += kLanes)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) add(c + lane, lane);
+    for (std::size_t c = whole; c < count; ++c) add(c, c - whole);
+    bare += (sides[0] + sides[1]) + (sides[2] + sides[3]);
+    return (lengths[0] + lengths[1]) + (lengths[2] + lengths[3]);
   }
 
   void add_column(int i, int j, Faces& faces) const {
