@@ -174,6 +174,9 @@ class Extraction {
 
   void number_walls(const std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>>& same) {
     std::vector<float>& positions = mesh.positions;
+    std::size_t numbers = 0;
+    for (const WallBand& band : walls_) numbers += band.builder.mesh.positions.size();
+    positions.reserve(numbers);
     for (std::size_t b = 0; b < walls_.size(); ++b) {
       const Mesh& band = walls_[b].builder.mesh;
       std::vector<std::uint32_t> number(band.positions.size() / 3, meshing::kNone);
