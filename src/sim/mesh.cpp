@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "sim/mesh_build.h"
 
@@ -211,14 +212,16 @@ class Extraction {
     }
     const std::size_t wall_triangles = place.triangles;
     for (const int n : {0, 1}) sheet(n).find_places(place);
-    // Memory that is touched for the first time takes as long as what is written to it.
-    const auto enlarge_some = [&](int n) {
-      if (n == 0) return enlarge(mesh.triangles, 3 * place.triangles);
-      enlarge(mesh.positions, 3 * place.vertices);
-      enlarge(mesh.step, place.triangles);
+    prepare(mesh.positions, 3 * place.vertices);
+    prepare(mesh.triangles, 3 * place.triangles);
+    prepare(mesh.step, place.triangles);
+    const auto enlarge = [&](int n) {
+      if (n == 0) return mesh.triangles.resize(3 * place.triangles);
+      mesh.positions.resize(3 * place.vertices);
+      mesh.step.resize(place.triangles);
     };
     const bool filled =
-        in_parallel(2, enlarge_some) &&
+        in_parallel(2, enlarge) &&
         in_bands([&](int band) { fill_walls(band, first_of_walls[static_cast<std::size_t>(band)]); }) &&
         in_bands_of_both([&](CapSheet& sheet, int band) { sheet.fill(band, wall_vertices_, mesh); });
     if (!filled) return false;
@@ -243,10 +246,9 @@ class Extraction {
   }
 
   template <class Number>
-  static void enlarge(std::vector<Number>& numbers, std::size_t count) {
+  void prepare(std::vector<Number>& numbers, std::size_t count) const {
     numbers.reserve(count);
-    sim::use_huge_pages(numbers.data(), count * sizeof(Number));
-    numbers.resize(count);
+    prepare_pages(numbers.data(), count * sizeof(Number), threads_);
   }
 
   const Columns& columns_;
