@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
@@ -81,14 +82,15 @@ class WallFiller {
 };
 
 /// What a cap keeps of the corners of a square, those on its two high sides left out. Only squares where
-/// something happens have one.
+/// something happens have one. It is small: that each corner has an entry of its own, needed or not, takes
+/// longer to clear than the rest to fill.
 struct CapBlock {
-  CapBlock() {
-    needed.fill(0);
-    entry.fill(kNone);
-  }
-  std::array<std::uint8_t, kSquareColumns> needed;  // corners that must be vertices
-  std::array<std::uint32_t, kSquareColumns> entry;  // see CapSheet
+  CapBlock() { needed.fill(0); }
+  /// Place in the band's entries, of a needed corner.
+  std::size_t place(std::size_t cell) const { return before[cell / kSquare] + needed[cell] - std::size_t{1}; }
+  /// Corners that must be vertices: not 0. Once all are known, their numbers in their rows, from 1.
+  std::array<std::uint8_t, kSquareColumns> needed;
+  std::array<std::uint32_t, kSquare> before;  // needed corners of the band before each row
 };
 
 /// The caps of all columns on one side, the tops of their highest intervals or the bottoms of their lowest,
@@ -141,6 +143,8 @@ class CapSheet {
   struct Band {
     std::vector<float> positions;
     std::vector<std::array<std::uint32_t, 4>> parts;  // vertices by quadrant where the cap is torn
+    std::vector<std::pair<Node, std::uint32_t>> taken;  // corners whose entries are known from the start
+    std::vector<std::uint32_t> entries;                 // of the needed corners, those of whole squares left out
     std::vector<Node> beyond;                         // needed corners of other bands
     std::vector<int> above;  // x of the corners on the band's high side that errors need
     std::size_t first_vertex = 0, first_triangle = 0, triangles = 0;
@@ -156,7 +160,9 @@ class CapSheet {
   }
   CapBlock& block(int i, int j);
   static bool is_whole(int i, int j) { return i % kSquare == 0 && j % kSquare == 0; }
+  void take_entry(int i, int j, std::uint32_t entry);
   std::uint32_t& entry(int i, int j);
+  void number_corners(Band& band, int number);
   const Ends& ends_of(const Square& square) const {
     return side_ == Side::bottom ? *square.low : *square.high;
   }

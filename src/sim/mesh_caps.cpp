@@ -37,10 +37,20 @@ void CapSheet::need(int i, int j) {
   if (!is_whole(i, j)) block(i, j).needed[Columns::cell(i, j)] = 1;
 }
 
+void CapSheet::take_entry(int i, int j, std::uint32_t entry) {
+  if (is_whole(i, j)) {
+    whole_[block_number(i, j)] = entry;
+    return;
+  }
+  need(i, j);
+  bands_[static_cast<std::size_t>(j / kSquare)].taken.push_back({{i, j}, entry});
+}
+
 /// To be asked of whole squares' corners and of corners that are needed.
 std::uint32_t& CapSheet::entry(int i, int j) {
-  if (is_whole(i, j)) return whole_[block_number(i, j)];
-  return block(i, j).entry[Columns::cell(i, j)];
+  const std::size_t block = block_number(i, j);
+  if (is_whole(i, j)) return whole_[block];
+  return bands_[static_cast<std::size_t>(j / kSquare)].entries[blocks_[block]->place(Columns::cell(i, j))];
 }
 
 void CapSheet::give(int i, int j, double z) {
@@ -58,8 +68,7 @@ void CapSheet::take_whole(Builder& walls, Sheet& sheet, int i, int j) {
   give(i, j, sheet.z);
   const std::uint32_t vertex = has_moved && !may_go ? walls.vertex(sheet) : sheet.vertex;
   if (vertex == kNone && may_go) return;
-  need(i, j);
-  entry(i, j) = vertex;
+  take_entry(i, j, vertex);
 }
 
 void CapSheet::take_corner(Builder& walls, CornerRow& row, const Corner& corner, int i, int j) {
@@ -84,8 +93,7 @@ void CapSheet::take_corner(Builder& walls, CornerRow& row, const Corner& corner,
   for (std::size_t q = 0; q < 4; ++q)
     if (ranks[q] >= 0) part[q] = walls.vertex(row.sheet(corner, ranks[q]));
   auto& parts = bands_[static_cast<std::size_t>(j / kSquare)].parts;
-  need(i, j);
-  entry(i, j) = kMany + static_cast<std::uint32_t>(parts.size());
+  take_entry(i, j, kMany + static_cast<std::uint32_t>(parts.size()));
   parts.push_back(part);
 }
 
@@ -98,8 +106,7 @@ void CapSheet::take(Builder& walls, CornerRow& row, int j) {
     }
     const Sheet& sheet = row.sheet(corner, side_ == Side::bottom ? 0 : 1);
     if (sheet.vertex == kNone) continue;
-    need(i, j);
-    entry(i, j) = sheet.vertex;
+    take_entry(i, j, sheet.vertex);
   }
 }
 
@@ -146,10 +153,34 @@ void CapSheet::place_vertex(Band& band, int i, int j) {
   for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
 }
 
+/// Gives each needed corner of a band a place for its entry.
+void CapSheet::number_corners(Band& band, int number) {
+  std::uint32_t count = 0;
+  for (int x = 0; x < blocks_x_; ++x) {
+    CapBlock* const known = blocks_[block_number(x * kSquare, number * kSquare)].get();
+    if (known == nullptr) continue;
+    for (std::size_t row = 0; row < kSquare; ++row) {
+      known->before[row] = count;
+      std::uint8_t* const needed = known->needed.data() + row * kSquare;
+      std::uint8_t in_row = 0;
+      for (std::size_t k = 0; k < kSquare; k += sizeof(std::uint64_t)) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, needed + k, sizeof eight);
+        for (std::size_t c = k; eight != 0 && c < k + sizeof eight; ++c)
+          if (needed[c] != 0) needed[c] = ++in_row;
+      }
+      count += in_row;
+    }
+  }
+  band.entries.assign(count, kNone);
+  for (const auto& [at, entry] : band.taken) this->entry(at.x, at.y) = entry;
+}
+
 /// Halving a square's triangles at a corner makes two more of them, or on its side one of its own and one of
 /// the square beside it.
 void CapSheet::place_vertices(int number) {
   Band& band = bands_[static_cast<std::size_t>(number)];
+  number_corners(band, number);
   for (int x = 0; x < blocks_x_; ++x) place_vertex(band, x * kSquare, number * kSquare);
   band.most_triangles = 2 * static_cast<std::size_t>(columns_.squares_x());
   for_needed(number, [&](int i, int j) {
@@ -267,7 +298,7 @@ std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) c
   const Known& known = this->known(corner);
   const bool whole = is_whole(corner.x, corner.y);
   assert(whole || known.block != nullptr);
-  const std::uint32_t entry = whole ? known.whole : known.block->entry[Columns::cell(corner.x, corner.y)];
+  const std::uint32_t entry = whole ? known.whole : known.band->entries[known.block->place(Columns::cell(corner.x, corner.y))];
   assert(entry != kNone);
   if ((entry & (kNew | kMany)) == kNew)
     return static_cast<std::uint32_t>(known.band->first_vertex) + entry - kNew;
