@@ -213,8 +213,12 @@ void CapSheet::find_errors(int number) {
   for (int square_x = 0; square_x < columns_.squares_x(); ++square_x) {
     if (is_plain(square_x, number)) continue;
     const int first_x = square_x * kSquare;
+    CapBlock* mine = nullptr;
     Patch(*this, square_x, number).find(tolerance, [&](int x, int y) {
-      if (y < kSquare) {
+      if (x < kSquare && y < kSquare) {
+        if (mine == nullptr) mine = &block(first_x, first_y);
+        mine->needed[Columns::cell(x, y)] = 1;
+      } else if (y < kSquare) {
         need(first_x + x, first_y + y);
       } else {
         band.above.push_back(first_x + x);

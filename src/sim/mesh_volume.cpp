@@ -72,11 +72,14 @@ class BlockFaces {
     const int first_i = square_x * kSquare, end_i = std::min(first_i + kSquare, columns_.nx());
     const int first_j = square_y * kSquare, end_j = std::min(first_j + kSquare, columns_.ny());
     for (int j = first_j; j < end_j; ++j) {
-      // Within a square of columns of one interval each, of whole width, the numbers lie side by side.
-      const bool simple = columns_.square(square_x, square_y).many == nullptr && j + 1 < end_j;
-      const int plain_end = simple ? end_i - 1 : first_i;
-      add_plain(first_i, plain_end, j, faces);
-      for (int i = plain_end; i < end_i; ++i) add_column(i, j, faces);
+      // Within a square, of columns of whole width, the numbers lie side by side.
+      const int inner_end = j + 1 < end_j ? end_i - 1 : first_i;
+      if (columns_.square(square_x, square_y).many == nullptr) {
+        add_plain(first_i, inner_end, j, faces);
+      } else {
+        add_mixed(first_i, inner_end, j, faces);
+      }
+      for (int i = inner_end; i < end_i; ++i) add_column(i, j, faces);
     }
   }
 
@@ -91,6 +94,26 @@ class BlockFaces {
     if (!square.is_uniform()) {
       const auto columns = static_cast<std::size_t>(end - first);
       length = square.is_low_level ? standing(high, low[0], columns, bare) : any(low, high, columns, bare);
+    }
+    faces.volume += pitch * pitch * length;
+    faces.ends += 2.0 * pitch * pitch * count;
+    faces.sides += pitch * bare;
+  }
+
+  /// Columns of which some are of one interval, as their neighbours to the right and above are.
+  void add_mixed(int first, int end, int j, Faces& faces) const {
+    const Square& square = columns_.square_of(first, j);
+    const auto is_one = [&](std::size_t c) { return square.many->first[c + 1] - square.many->first[c] == 1; };
+    const double pitch = columns_.pitch();
+    double length = 0.0, bare = 0.0, count = 0.0;
+    for (int i = first; i < end; ++i) {
+      const std::size_t c = Columns::cell(i, j);
+      if (is_one(c) && is_one(c + 1) && is_one(c + kSquare)) {
+        length += any(square.low->z.data() + c, square.high->z.data() + c, 1, bare);
+        count += 1.0;
+      } else {
+        add_column(i, j, faces);
+      }
     }
     faces.volume += pitch * pitch * length;
     faces.ends += 2.0 * pitch * pitch * count;
