@@ -86,6 +86,18 @@ class Columns {
     return std::size_t{static_cast<unsigned>(j) % kSquare * kSquare + static_cast<unsigned>(i) % kSquare};
   }
 
+  /// Whether all columns from `low` to `high` along both axes, as far as they are in the grid, stand on one
+  /// level.
+  bool have_level_floor(int low_i, int low_j, int high_i, int high_j) const {
+    const int first_x = std::max(low_i, 0) / kSquare, last_x = std::min(high_i, nx() - 1) / kSquare;
+    const int first_y = std::max(low_j, 0) / kSquare, last_y = std::min(high_j, ny() - 1) / kSquare;
+    const float z = square(first_x, first_y).low->z[0];
+    for (int y = first_y; y <= last_y; ++y)
+      for (int x = first_x; x <= last_x; ++x)
+        if (const Square& s = square(x, y); !s.is_low_level || s.low->z[0] != z) return false;
+    return true;
+  }
+
   bool inside(int i, int j) const { return i >= 0 && j >= 0 && i < nx() && j < ny(); }
   /// Ends of a column; 0 outside the grid.
   int ends(int i, int j) const {

@@ -48,6 +48,7 @@ bool continues(const ColumnLine& line, int end, int other_end, double pitch) {
 }
 
 double Neighbourhood::slope(int i, int j, int end, int dx, int dy) {
+  if (end == 0 && is_floor_level_) return 0.0;
   double rise = 0.0, run = 0.0;
   const Runs mine = runs(i, j);
   const double z = z_of(mine, end);

@@ -56,6 +56,7 @@ class Neighbourhood {
     i_ = i - kReach;
     j_ = j - kReach;
     known_ = 0;
+    is_floor_level_ = columns_->have_level_floor(i_, j_, i_ + kSide - 1, j_ + kSide - 1);
   }
   /// A column that touches the corner or is one of the next two of these along X or Y.
   Runs runs(int i, int j) {
@@ -78,6 +79,7 @@ class Neighbourhood {
   static constexpr int kReach = 3, kSide = 2 * kReach;  // columns
   const Columns* columns_;
   int i_ = 0, j_ = 0;
+  bool is_floor_level_ = false;  // all lowest ends are at one height
   std::uint64_t known_ = 0;  // a bit a column
   std::array<Runs, kSide * kSide> runs_;
   std::array<Interval, kSide * kSide> one_;
