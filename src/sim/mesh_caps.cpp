@@ -173,6 +173,7 @@ void CapSheet::number_corners(Band& band, int number) {
     }
   }
   band.entries.assign(count, kNone);
+  band.positions.reserve(3 * (std::size_t{count} + static_cast<std::size_t>(blocks_x_)));
   for (const auto& [at, entry] : band.taken) this->entry(at.x, at.y) = entry;
 }
 

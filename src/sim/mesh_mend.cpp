@@ -15,6 +15,8 @@ namespace {
 
 /// A flip can leave another flat triangle, which is looked at again; not for ever.
 constexpr int kMostRounds = 8;
+/// Triangles around a vertex, mostly no more.
+constexpr std::size_t kAround = 8;
 
 /// Puts the last things into the places of those that are no more: move(from, to). Returns how many there
 /// are then. Sorts `holes`.
@@ -134,7 +136,7 @@ void Mender::gather_around() {
   const auto want = [&](std::uint32_t v) {
     if (place_[v] != kNone) return;
     place_[v] = static_cast<std::uint32_t>(around_.size());
-    around_.emplace_back();
+    around_.emplace_back().reserve(kAround);
     near[v] |= kWanted;
   };
   const auto has = [&](std::size_t t, std::uint8_t mark) {

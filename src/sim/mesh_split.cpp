@@ -15,7 +15,7 @@ namespace kerf::meshing {
 namespace {
 
 /// A side of a triangle, by its vertices and by the corner from which it runs to the triangle's next one.
-/// Corner k of triangles_[n] has the number 3 n + k.
+/// Corner k of triangle n of those that are looked at has the number 3 n + k.
 struct Side {
   std::uint32_t low, high, corner;
 };
@@ -35,12 +35,14 @@ class Splitter {
   bool round();
 
  private:
-  std::uint32_t& vertex(std::uint32_t corner) {
-    return mesh_.triangles[3 * triangles_[corner / 3] + corner % 3];
+  std::uint32_t vertex(std::uint32_t corner) const { return corners_[corner]; }
+  void set_vertex(std::uint32_t corner, std::uint32_t v) {
+    corners_[corner] = v;
+    mesh_.triangles[3 * triangles_[corner / 3] + corner % 3] = v;
   }
-  bool is_forward(const Side& side) { return vertex(side.corner) == side.low; }
+  bool is_forward(const Side& side) const { return vertex(side.corner) == side.low; }
   Point3 point(std::uint32_t v) const;
-  double angle(const Side& side);
+  double angle(const Side& side) const;
   void collect();
   void sort_sides();
   void pair_up();
@@ -56,6 +58,7 @@ class Splitter {
   std::vector<std::size_t>& near_;      // numbers of all triangles that may have a suspect vertex
   std::vector<std::uint8_t> suspect_;   // one a vertex
   std::vector<std::size_t> triangles_;  // those with a suspect vertex
+  std::vector<std::uint32_t> corners_;  // their vertices
   std::vector<Side> sides_;             // of these, with a suspect end
   std::vector<Pair> pairs_, shared_pairs_;
   std::vector<std::uint32_t> parent_;  // union-find over the corners
@@ -73,7 +76,7 @@ Point3 Splitter::point(std::uint32_t v) const {
 }
 
 /// Direction of the triangle around its side, seen along low to high, in [0, 2 pi).
-double Splitter::angle(const Side& side) {
+double Splitter::angle(const Side& side) const {
   const Point3 from = point(side.low), along = point(side.high) - from;
   const Point3 out = point(vertex(next_corner(next_corner(side.corner)))) - from;
   Point3 u = std::abs(along.x) < std::abs(along.z) ? Point3{1, 0, 0} : Point3{0, 0, 1};
@@ -92,6 +95,9 @@ void Splitter::collect() {
     return (suspect_[t[0]] | suspect_[t[1]] | suspect_[t[2]]) != 0;
   });
   for (std::size_t& t : triangles_) t = near_[t];
+  corners_.resize(3 * triangles_.size());
+  for (std::size_t n = 0; n < triangles_.size(); ++n)
+    std::copy_n(mesh_.triangles.data() + 3 * triangles_[n], 3, corners_.data() + 3 * n);
   sides_.clear();
   for (std::uint32_t corner = 0; corner < 3 * triangles_.size(); ++corner) {
     const std::uint32_t a = vertex(corner), b = vertex(next_corner(corner));
@@ -179,7 +185,7 @@ void Splitter::part_vertices() {
   std::vector<std::uint32_t> vertex_of(parent_.size(), kNone);
   std::vector<std::uint8_t> kept(suspect_.size(), 0);
   for (std::uint32_t c = 0; c < parent_.size(); ++c) {
-    std::uint32_t& old = vertex(c);
+    const std::uint32_t old = vertex(c);
     if (suspect_[old] == 0) continue;
     std::uint32_t& mine = vertex_of[root(c)];
     if (mine == kNone) {
@@ -191,7 +197,7 @@ void Splitter::part_vertices() {
       }
       kept[old] = 1;
     }
-    old = mine;
+    if (mine != old) set_vertex(c, mine);
   }
 }
 
@@ -232,7 +238,7 @@ bool Splitter::halve() {
 
 void Splitter::halve_side(const Side& side, std::uint32_t middle) {
   const std::uint32_t end = next_corner(side.corner), to = vertex(end), apex = vertex(next_corner(end));
-  vertex(end) = middle;
+  set_vertex(end, middle);
   for (const std::uint32_t v : {middle, to, apex}) mesh_.triangles.push_back(v);
   near_.push_back(mesh_.step.size());
   mesh_.step.push_back(mesh_.step[triangles_[side.corner / 3]]);
