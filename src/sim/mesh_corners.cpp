@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <iterator>
 #include <limits>
 #include <numeric>
@@ -69,21 +68,16 @@ double Neighbourhood::slope(int i, int j, int end, int dx, int dy) {
   return rise != 0.0 ? rise / run : 0.0;
 }
 
-CornerPlane::CornerPlane(const Columns& columns)
-    : corners_x_(columns.nx() + 1),
-      bytes_(
-          static_cast<std::size_t>(columns.ny() + 3) * static_cast<std::size_t>(corners_x_ + kLeft + kRight),
-          1) {}
+CornerPlane::CornerPlane(const Columns& columns) : corners_x_(columns.nx() + 1) {
+  const std::size_t size = offset(columns.ny() + 2) - kLeft;
+  bytes_.reserve(size);
+  sim::use_huge_pages(bytes_.data(), size);  // squares are read across many rows
+  bytes_.resize(size, 1);
+}
 
 void CornerPlane::wanted(int j, std::vector<int>& out) const {
   constexpr int kBytes = 8;
-  constexpr std::uint64_t kAllSimple = 0x0101010101010101u;
   const std::uint8_t *below = row(j - 1), *here = row(j), *above = row(j + 1);
-  const auto eight = [](const std::uint8_t* bytes) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes, sizeof word);
-    return word;
-  };
   out.clear();
   for (int i = 0; i < corners_x_; i += kBytes) {
     const std::uint64_t all =

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "sim/mesh_columns.h"
@@ -116,12 +117,20 @@ class CornerPlane {
   /// The corners with one y, writable by several threads.
   std::uint8_t* row(int j) { return bytes_.data() + offset(j); }
   const std::uint8_t* row(int j) const { return bytes_.data() + offset(j); }
+  /// Whether eight corners beside each other, from a place in a row, are simple.
+  static bool eight_simple(const std::uint8_t* corners) { return eight(corners) == kAllSimple; }
   /// Replaces `out` by the corners of a row that are not simple or have such a neighbour along X or Y.
   void wanted(int j, std::vector<int>& out) const;
 
  private:
   /// Bytes around the rows that count as simple corners; to the right as many as are read at a time.
   static constexpr int kLeft = 8, kRight = 16;
+  static constexpr std::uint64_t kAllSimple = 0x0101010101010101u;
+  static std::uint64_t eight(const std::uint8_t* bytes) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+  }
   std::size_t offset(int j) const {
     return static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(corners_x_ + kLeft + kRight) + kLeft;
   }
