@@ -23,7 +23,8 @@ using Positions = std::span<const float>;
 using Triangles = std::span<const std::uint32_t>;
 
 constexpr std::size_t kChunk = std::size_t{3} << 14;  // indices
-/// Each share of the triangles counts the sides of all vertices: with more of them there is nothing to be won.
+/// Each share of the triangles counts the sides of all vertices: with more of them there is nothing to be
+/// won.
 constexpr std::size_t kMostShares = 8;
 /// Of a vertex's number one bit is left for the way in which a side goes; sides are counted in 32 bits.
 constexpr std::size_t kMostVertices = std::size_t{1} << 31, kMostSides = (std::size_t{1} << 32) - 1;
@@ -66,8 +67,8 @@ double enclosed(Positions positions, Triangles triangles, unsigned threads) {
 /// in number.
 using Side = std::uint32_t;
 
-/// Whether each of a few sides has just one that is the same edge, in the opposite direction. Without branches
-/// that depend on them.
+/// Whether each of a few sides has just one that is the same edge, in the opposite direction. Without
+/// branches that depend on them.
 bool are_pairs(const Side* sides, std::size_t count) {
   std::size_t opposite = 0, same = 0;
   for (std::size_t k = 1; k < count; ++k) {

@@ -142,11 +142,11 @@ class CapSheet {
   };
   struct Band {
     std::vector<float> positions;
-    std::vector<std::array<std::uint32_t, 4>> parts;  // vertices by quadrant where the cap is torn
+    std::vector<std::array<std::uint32_t, 4>> parts;    // vertices by quadrant where the cap is torn
     std::vector<std::pair<Node, std::uint32_t>> taken;  // corners whose entries are known from the start
-    std::vector<std::uint32_t> entries;                 // of the needed corners, those of whole squares left out
-    std::vector<Node> beyond;                         // needed corners of other bands
-    std::vector<int> above;  // x of the corners on the band's high side that errors need
+    std::vector<std::uint32_t> entries;  // of the needed corners, those of whole squares left out
+    std::vector<Node> beyond;            // needed corners of other bands
+    std::vector<int> above;              // x of the corners on the band's high side that errors need
     std::size_t first_vertex = 0, first_triangle = 0, triangles = 0;
     std::size_t most_triangles = 0, below = 0;  // of its own squares; more of those of the band below
     std::vector<std::size_t> at_walls;          // triangles
@@ -178,7 +178,7 @@ class CapSheet {
   void need_parents(Node n, int band, std::vector<Node>& work, const Beyond& beyond);
   template <class Work>
   void for_needed(int band, const Work& work) const;
-  bool is_new_vertex(int i, int j);
+  bool is_new_vertex(int i, int j) const;
   void place_vertex(Band& band, int i, int j);
 
   const Columns& columns_;

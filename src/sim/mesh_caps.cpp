@@ -133,8 +133,7 @@ bool CapSheet::of_one_group(int i, int j) const {
 
 /// Whether triangles will meet a corner that has no vertex yet, and that is needed or the corner of a whole
 /// square. Where it has material on all sides they do.
-bool CapSheet::is_new_vertex(int i, int j) {
-  if (i > columns_.nx() || j > columns_.ny() || entry(i, j) != kNone) return false;
+bool CapSheet::is_new_vertex(int i, int j) const {
   if (plane_.simple(i, j)) return true;
   for (int q = 0; q < 4; ++q)
     if (columns_.ends(column_x(i, q), column_y(j, q)) == 0) return false;
@@ -142,13 +141,15 @@ bool CapSheet::is_new_vertex(int i, int j) {
 }
 
 void CapSheet::place_vertex(Band& band, int i, int j) {
-  if (!is_new_vertex(i, j)) return;
+  if (i > columns_.nx() || j > columns_.ny()) return;
+  std::uint32_t& mine = entry(i, j);
+  if (mine != kNone || !is_new_vertex(i, j)) return;
   double sum = 0.0;
   for (int q = 0; q < 4; ++q) {
     const int ci = column_x(i, q), cj = column_y(j, q);
     sum += static_cast<double>(ends_of(columns_.square_of(ci, cj)).z[Columns::cell(ci, cj)]);
   }
-  entry(i, j) = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
+  mine = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
   const Point3 at = columns_.frame().bounds.low + Point3{columns_.corner_x(i), columns_.corner_y(j), sum / 4};
   for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
 }
@@ -214,14 +215,20 @@ class CapSheet::Cover {
         wide_(std::min(kSquare, columns_.nx() - square_x * kSquare)),
         deep_(std::min(kSquare, columns_.ny() - number * kSquare)),
         band_(sheet.bands_[static_cast<std::size_t>(number)]),
-        mesh_(mesh) {
+        triangles_(mesh.triangles.data()),
+        step_(mesh.step.data()) {
     for (int k = 0; k < 4; ++k) {
       const int x = square_x + k % 2, y = number + k / 2;
       const std::size_t at = sheet.block_number(x * kSquare, y * kSquare);
-      const auto band = static_cast<std::size_t>(y);
+      const auto number_of_band = static_cast<std::size_t>(y);
+      const Band& band = sheet.bands_[number_of_band];
       corners_[static_cast<std::size_t>(k)] = {
-          sheet.blocks_[at].get(), sheet.whole_[at], &sheet.bands_[band],
-          band < wall_vertices.size() ? wall_vertices[band].data() : nullptr};
+          sheet.blocks_[at].get(),
+          band.entries.data(),
+          sheet.whole_[at],
+          static_cast<std::uint32_t>(band.first_vertex),
+          &band,
+          number_of_band < wall_vertices.size() ? wall_vertices[number_of_band].data() : nullptr};
     }
   }
 
@@ -235,12 +242,14 @@ class CapSheet::Cover {
   /// What a block knows that a corner of the square belongs to.
   struct Known {
     const CapBlock* block = nullptr;
+    const std::uint32_t* entries = nullptr;
     std::uint32_t whole = kNone;
+    std::uint32_t first_vertex = 0;
     const Band* band = nullptr;
     const std::uint32_t* wall_vertices = nullptr;
   };
   const Known& known(Node n) const {
-    return corners_[static_cast<std::size_t>(n.x / kSquare + 2 * (n.y / kSquare))];
+    return corners_[static_cast<unsigned>(n.x) / kSquare + 2 * (static_cast<unsigned>(n.y) / kSquare)];
   }
   bool is_needed(Node n) const {
     const CapBlock* const block = known(n).block;
@@ -256,7 +265,7 @@ class CapSheet::Cover {
   bool up_;
   int wide_, deep_;  // columns of the square that are in the grid
   Band& band_;
-  Mesh& mesh_;
+  std::uint32_t *triangles_, *step_;  // the mesh's
   std::array<Known, 4> corners_;
 };
 
@@ -289,20 +298,19 @@ void CapSheet::Cover::leaf(Node a, Node b, Node apex) {
   if (va == vb || vb == vc || vc == va) return;
   const std::size_t t = band_.first_triangle + band_.triangles++;
   if (at_wall) band_.at_walls.push_back(t);
-  mesh_.triangles[3 * t] = va;
-  mesh_.triangles[3 * t + 1] = vb;
-  mesh_.triangles[3 * t + 2] = vc;
-  mesh_.step[t] = ends_.step[cell];
+  triangles_[3 * t] = va;
+  triangles_[3 * t + 1] = vb;
+  triangles_[3 * t + 2] = vc;
+  step_[t] = ends_.step[cell];
 }
 
 std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) const {
   const Known& known = this->known(corner);
-  const bool whole = is_whole(corner.x, corner.y);
-  assert(whole || known.block != nullptr);
-  const std::uint32_t entry = whole ? known.whole : known.band->entries[known.block->place(Columns::cell(corner.x, corner.y))];
+  const std::size_t cell = Columns::cell(corner.x, corner.y);
+  assert(cell == 0 || known.block != nullptr);
+  const std::uint32_t entry = cell == 0 ? known.whole : known.entries[known.block->place(cell)];
   assert(entry != kNone);
-  if ((entry & (kNew | kMany)) == kNew)
-    return static_cast<std::uint32_t>(known.band->first_vertex) + entry - kNew;
+  if ((entry & (kNew | kMany)) == kNew) return known.first_vertex + entry - kNew;
   at_wall = true;
   if (entry < kNew) return known.wall_vertices[entry];
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));

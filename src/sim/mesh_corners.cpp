@@ -147,8 +147,8 @@ void CornerRow::build_layers(int i, int j, int layers) {
   corner.ends.fill(layers);
   for (int end = 0; end < layers; ++end) {
     const auto z = [&](int q) { return static_cast<float>(z_of(runs(i, j, q), end)); };
-    sheets_.push_back(
-        {columns_->corner_x(i), columns_->corner_y(j), four_heights(z(0), z(1), z(2), z(3)).mean, kNone, false});
+    sheets_.push_back({columns_->corner_x(i), columns_->corner_y(j),
+                       four_heights(z(0), z(1), z(2), z(3)).mean, kNone, false});
     ranks_.push_back(end);
   }
   corners_[static_cast<std::size_t>(i)] = corner;

@@ -36,7 +36,8 @@ void sort_few(std::vector<Thing>& things, const Before& before) {
     return;
   }
   for (std::size_t k = 1; k < things.size(); ++k)
-    for (std::size_t n = k; n > 0 && before(things[n], things[n - 1]); --n) std::swap(things[n], things[n - 1]);
+    for (std::size_t n = k; n > 0 && before(things[n], things[n - 1]); --n)
+      std::swap(things[n], things[n - 1]);
 }
 
 /// The end of `other` that faces the same void as `end` of `mine` does, with material behind both; -1: none.
@@ -81,7 +82,7 @@ class Neighbourhood {
   const Columns* columns_;
   int i_ = 0, j_ = 0;
   bool is_floor_level_ = false;  // all lowest ends are at one height
-  std::uint64_t known_ = 0;  // a bit a column
+  std::uint64_t known_ = 0;      // a bit a column
   std::array<Runs, kSide * kSide> runs_;
   std::array<Interval, kSide * kSide> one_;
 };

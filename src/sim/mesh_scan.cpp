@@ -20,7 +20,11 @@ class Row {
  public:
   static constexpr std::size_t kBefore = 2;
   explicit Row(int nx)
-      : low_(size(nx), kOutside), high_(size(nx), -kOutside), low_key_(size(nx)), high_key_(size(nx)), level_(size(nx) / kSquare + 1) {}
+      : low_(size(nx), kOutside),
+        high_(size(nx), -kOutside),
+        low_key_(size(nx)),
+        high_key_(size(nx)),
+        level_(size(nx) / kSquare + 1) {}
   float* low() { return low_.data() + kBefore; }
   float* high() { return high_.data() + kBefore; }
   const float* low() const { return low_.data() + kBefore; }
@@ -34,7 +38,8 @@ class Row {
     std::fill(high_.begin(), high_.end(), -kOutside);
     std::fill(level_.begin(), level_.end(), std::array<const Ends*, 2>{});
   }
-  /// Whether the level ends (0: low ones) of the columns from `first` on, those of a square, are here already.
+  /// Whether the level ends (0: low ones) of the columns from `first` on, those of a square, are here
+  /// already.
   bool has(std::size_t end, int first, const Ends& ends, bool is_level) {
     const Ends*& mine = level_[static_cast<std::size_t>(first / kSquare)][end];
     if (is_level && mine == &ends) return true;
@@ -185,10 +190,10 @@ void Scanner::compare(int begin, int end, int j, std::uint8_t* simple) {
 /// The same of a column and the next one of any columns.
 bool Scanner::continue_each_other(int i, int j, int dx, int dy, int end) const {
   std::array<Interval, 4> one;
-  return meshing::continues({columns_.runs(i - dx, j - dy, one[0]), columns_.runs(i, j, one[1]),
-                             columns_.runs(i + dx, j + dy, one[2]),
-                             columns_.runs(i + 2 * dx, j + 2 * dy, one[3])},
-                            end, end, columns_.pitch());
+  return meshing::continues(
+      {columns_.runs(i - dx, j - dy, one[0]), columns_.runs(i, j, one[1]),
+       columns_.runs(i + dx, j + dy, one[2]), columns_.runs(i + 2 * dx, j + 2 * dy, one[3])},
+      end, end, columns_.pitch());
 }
 
 /// The same where all low ends are alike.
@@ -224,12 +229,10 @@ bool Scanner::joined(int i, int j, int end) const {
       across.high[place] = row(j - 2 + n).high()[i + k];
     }
     Answer answer = continues(along, end, limit_);
-    if (answer == Answer::no ||
-        (answer == Answer::unknown && !continue_each_other(i - 1, j + k, 1, 0, end)))
+    if (answer == Answer::no || (answer == Answer::unknown && !continue_each_other(i - 1, j + k, 1, 0, end)))
       return false;
     answer = continues(across, end, limit_);
-    if (answer == Answer::no ||
-        (answer == Answer::unknown && !continue_each_other(i + k, j - 1, 0, 1, end)))
+    if (answer == Answer::no || (answer == Answer::unknown && !continue_each_other(i + k, j - 1, 0, 1, end)))
       return false;
   }
   return true;

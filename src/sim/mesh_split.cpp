@@ -25,7 +25,9 @@ struct Pair {
   std::uint32_t forward, backward;
 };
 
-constexpr std::uint32_t next_corner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+constexpr std::uint32_t next_corner(std::uint32_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
 
 class Splitter {
  public:
