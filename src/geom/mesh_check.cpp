@@ -25,7 +25,7 @@ using Triangles = std::span<const std::uint32_t>;
 constexpr std::size_t kChunk = std::size_t{3} << 14;  // indices
 /// Each share of the triangles counts the sides of all vertices: with more of them there is nothing to be
 /// won.
-constexpr std::size_t kMostShares = 8;
+constexpr std::size_t kMostShares = 4;
 /// Of a vertex's number one bit is left for the way in which a side goes; sides are counted in 32 bits.
 constexpr std::size_t kMostVertices = std::size_t{1} << 31, kMostSides = (std::size_t{1} << 32) - 1;
 
