@@ -215,6 +215,10 @@ class Toolpath {
   OriginTable& origins() { return origins_; }
   const OriginTable& origins() const { return origins_; }
   Origin origin_of(std::size_t i) const { return origins_.resolve(steps_[i].origin()); }
+  /// Whether any step is of this kind; told without a look at the steps.
+  bool has(StepKind kind) const { return (kinds_ >> static_cast<unsigned>(kind) & 1u) != 0; }
+  /// The last motion before step `i`, if there is one.
+  std::optional<std::size_t> motion_before(std::size_t i) const;
 
   // Each returns the new step's index. Positions must be finite (asserted).
   std::size_t add(const step::Rapid& s, OriginId origin);
@@ -262,7 +266,9 @@ class Toolpath {
   void reserve(std::size_t steps);
 
  private:
+  friend class MotionReader;
   Step& append(StepKind kind, OriginId origin);
+  void note_kind(StepKind kind);
   Step& append_motion(StepKind kind, Point3 to, OriginId origin);
   std::int32_t intern(std::string_view text);
   struct Bead {
@@ -271,6 +277,8 @@ class Toolpath {
   };
 
   std::vector<Step> steps_;
+  std::vector<std::size_t> changes_;  // the tool changes and spindle steps among them, in order
+  std::uint32_t kinds_ = 0;           // a bit each
   OriginTable origins_;
   std::vector<std::string> texts_;
   std::unordered_map<std::string, std::int32_t> text_index_;
@@ -293,6 +301,8 @@ struct MotionContext {
 class MotionReader {
  public:
   explicit MotionReader(const Toolpath& path) : path_(&path) {}
+  /// As it is when all steps before number `first` have been read; takes no longer where there are many.
+  MotionReader(const Toolpath& path, std::size_t first);
   /// Goes on to the next motion, at first to the first; false where there is none.
   bool next();
   /// The motion that next() went to.
@@ -300,6 +310,8 @@ class MotionReader {
   const MotionContext& context() const { return context_; }
 
  private:
+  void note_change(const Step& step);
+
   const Toolpath* path_;
   const Step* motion_ = nullptr;
   std::size_t next_ = 0;

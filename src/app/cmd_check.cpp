@@ -26,7 +26,7 @@ constexpr double kFinest = 0.0005, kCoarsest = 50;  // mm, --resolution
 struct Options {
   OutputOptions output;
   JobOptions job;
-  double resolution = 0.0;
+  double resolution = 0.0, threads = 0.0;
   std::string material;
 };
 
@@ -122,7 +122,7 @@ Toolpath known_part(const Job& job, Diagnostics& diagnostics) {
 }
 
 /// The hazards met in the material, as far as it can be simulated (`diagnostics` says how far).
-std::vector<Finding> findings_in_material(const Job& job, double resolution, Diagnostics& diagnostics,
+std::vector<Finding> findings_in_material(const Job& job, const Options& options, Diagnostics& diagnostics,
                                           Progress& progress) {
   if (!job.stock && !job.bar) {
     diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
@@ -132,12 +132,13 @@ std::vector<Finding> findings_in_material(const Job& job, double resolution, Dia
   const Toolpath path = known_part(job, diagnostics);
   if (path.size() == 0) return {};
   SimulationOptions how;
+  how.threads = static_cast<unsigned>(options.threads);
   if (job.bar) {
-    how.resolution = mm(resolution);
+    how.resolution = mm(options.resolution);
     const auto simulation = simulate_rotary(path, job.tools, *job.bar, how, diagnostics, &progress);
     return simulation ? findings_of(simulation->hazards, path) : std::vector<Finding>{};
   }
-  how.resolution = resolution_for(*job.stock, resolution);
+  how.resolution = resolution_for(*job.stock, options.resolution);
   progress.phase("checking");
   const auto simulation = simulate(path, job.tools, *job.stock, how, diagnostics, &progress);
   if (!simulation) return {};
@@ -147,7 +148,7 @@ std::vector<Finding> findings_in_material(const Job& job, double resolution, Dia
 }
 
 /// All hazards of a job, in the order of steps.
-std::vector<Finding> findings_in(const Job& job, const CheckOptions& checks, double resolution,
+std::vector<Finding> findings_in(const Job& job, const CheckOptions& checks, const Options& options,
                                  Diagnostics& diagnostics, Progress& progress) {
   const std::vector<PathHazard> of_path = check_path(job.program.path, checks);
   std::vector<Finding> findings = merged(findings_of(of_path, job.program.path), unknown_tools(job));
@@ -162,7 +163,7 @@ std::vector<Finding> findings_in(const Job& job, const CheckOptions& checks, dou
                         "the material was not looked at, as Z seems to count downwards");
     return findings;
   }
-  std::vector<Finding> in_material = findings_in_material(job, resolution, diagnostics, progress);
+  std::vector<Finding> in_material = findings_in_material(job, options, diagnostics, progress);
   tell_assumed_flutes(in_material, job.program.path, job.tools, diagnostics);
   return merged(std::move(findings), std::move(in_material));
 }
@@ -216,7 +217,7 @@ Status run(Console& console, const Options& options) {
   checks.material = material ? &*material : nullptr;
   checks.tools = &job.tools;
   if (job.stock) checks.stock = job.stock->block;
-  const std::vector<Finding> findings = findings_in(job, checks, options.resolution, diagnostics, progress);
+  const std::vector<Finding> findings = findings_in(job, checks, options, diagnostics, progress);
   progress.clear();
   if (interrupted()) return tell_stopped(console);
   show_result(console, job.program, findings, without_hazards(diagnostics));
@@ -253,6 +254,7 @@ Command add_check(CLI::App& root) {
       ->type_name("NAME");
   add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.01in (default: coarse, by the stock's size)");
+  add_threads(*app, options->threads);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

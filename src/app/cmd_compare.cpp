@@ -29,7 +29,7 @@ struct Options {
   std::string target;
   std::optional<std::string> target_shift;
   std::vector<std::string> outputs;
-  double resolution = 0.0;
+  double resolution = 0.0, threads = 0.0;
   double tolerance = 0.05;
   PictureOptions picture = {.view = ""};  // without a view the map from above is drawn, not the part
 };
@@ -182,6 +182,7 @@ Status compare_job(Console& console, const Options& options, const JobSettings& 
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   SimulationOptions how;
   how.resolution = resolution_for(*job.stock, options.resolution);
+  how.threads = static_cast<unsigned>(options.threads);
   const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
   std::optional<Comparison> comparison;
   if (simulation && !simulation->stopped)
@@ -264,6 +265,7 @@ Command add_compare(CLI::App& root) {
       ->type_name("WxH")
       ->needs(view);
   add_section(*app, options->picture)->needs(view);
+  add_threads(*app, options->threads);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

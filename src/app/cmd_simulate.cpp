@@ -16,8 +16,7 @@
 namespace kerf::app {
 namespace {
 
-constexpr double kFinest = 0.0005, kCoarsest = 50.0;  // mm, --resolution
-constexpr double kMostThreads = 1024;
+constexpr double kFinest = 0.0005, kCoarsest = 50.0;            // mm, --resolution
 constexpr double kThinnestLayer = 0.02, kThickestLayer = 20.0;  // mm, --layer-height
 
 struct Options {
@@ -248,8 +247,7 @@ Command add_simulate(CLI::App& root) {
   for (const char* name : {"--tool", "--tools", "--stock", "--stock-mesh", "--stock-left", "--flip",
                            "--shift", "--fixture", "--rotary"})
     options->cutting_options.push_back(app->get_option(name));
-  add_number(*app, "--threads", options->threads, 0, kMostThreads, "N",
-             "Threads to use (default: all; same result)");
+  add_threads(*app, options->threads);
   return {app, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

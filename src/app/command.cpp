@@ -64,6 +64,11 @@ CLI::Option* add_length(CLI::App& app, const std::string& name, double& mm, doub
       ->type_name("MM");
 }
 
+CLI::Option* add_threads(CLI::App& app, double& threads) {
+  constexpr double kMost = 1024;
+  return add_number(app, "--threads", threads, 0, kMost, "N", "Threads to use (default: all; same result)");
+}
+
 CLI::Option* add_program(CLI::App& app, std::string& file) {
   return app
       .add_option("FILE", file, "The program: " + known_endings() + "; - reads G-code from standard input")

@@ -49,6 +49,8 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, d
 /// An option whose value is a length from `low` to `high` mm, told in mm or with its unit ("0.01in").
 CLI::Option* add_length(CLI::App& app, const std::string& name, double& mm, double low, double high,
                         const std::string& summary);
+/// The option --threads; 0 stands for all.
+CLI::Option* add_threads(CLI::App& app, double& threads);
 /// The positional FILE of the commands that read a program.
 CLI::Option* add_program(CLI::App& app, std::string& file);
 /// An option that may be given several times, one value each time.

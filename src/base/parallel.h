@@ -3,7 +3,8 @@
 
 #include <atomic>
 #include <cstddef>
-#include <system_error>
+#include <cstdint>
+#include <functional>
 #include <thread>
 #include <vector>
 
@@ -16,34 +17,49 @@ inline constexpr bool kHasThreads = false;
 inline constexpr bool kHasThreads = true;
 #endif
 
-inline unsigned thread_count(unsigned wanted) {
-  constexpr unsigned kMost = 256;
-  if (!kHasThreads) return 1;
-  const unsigned count = wanted != 0 ? wanted : std::thread::hardware_concurrency();
-  return count == 0 ? 1 : count < kMost ? count : kMost;
-}
+/// How many threads to use; 0 asks for as many as the machine has.
+unsigned thread_count(unsigned wanted);
 
-/// Calls work(i) once for each i below `count`, in no fixed order. The calling thread takes part and asks
-/// stop() between pieces; after that returned true no further piece is begun.
+/// Threads that wait for work: for those who have many short rounds of it, as a thread takes as long to begin
+/// as many a round takes to be done.
+class Team {
+ public:
+  /// `threads` with the calling one; fewer where the machine gives no more.
+  explicit Team(unsigned threads);
+  ~Team();
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  /// Calls work(i) once for each i below `count`, in no fixed order. The calling thread takes part and asks
+  /// stop() between pieces; after that returned true no further piece is begun. Returns when all are done.
+  template <class Work, class Stop>
+  void run(std::size_t count, const Work& work, const Stop& stop) {
+    std::atomic<std::size_t> next{0};
+    begin([&] {
+      for (std::size_t i = next++; i < count; i = next++) work(i);
+    });
+    for (std::size_t i = next++; i < count; i = next++) {
+      work(i);
+      if (stop()) next = count;
+    }
+    finish();
+  }
+
+ private:
+  void begin(std::function<void()> round);
+  void finish();
+  void help();
+
+  std::vector<std::thread> helpers_;
+  std::function<void()> round_;            // what the helpers do; empty: go home
+  std::atomic<std::uint32_t> rounds_{0};   // begun
+  std::atomic<std::uint32_t> working_{0};  // helpers that have not done with the last round
+};
+
+/// One round of a team that has come for it.
 template <class Work, class Stop>
 void parallel_for(unsigned threads, std::size_t count, const Work& work, const Stop& stop) {
-  std::atomic<std::size_t> next{0};
-  const auto helper = [&] {
-    for (std::size_t i = next++; i < count; i = next++) work(i);
-  };
-  std::vector<std::thread> helpers;
-  for (unsigned n = 1; n < threads && n < count; ++n) {
-    try {
-      helpers.emplace_back(helper);
-    } catch (const std::system_error&) {
-      break;  // the machine gives no more threads; those there are do the work
-    }
-  }
-  for (std::size_t i = next++; i < count; i = next++) {
-    work(i);
-    if (stop()) next = count;
-  }
-  for (std::thread& thread : helpers) thread.join();
+  Team(count < threads ? static_cast<unsigned>(count) : threads).run(count, work, stop);
 }
 
 }  // namespace kerf

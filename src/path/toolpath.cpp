@@ -1,6 +1,7 @@
 // The toolpath: packing and unpacking of steps.
 #include "kerf/toolpath.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
@@ -73,7 +74,14 @@ Step& Toolpath::append(StepKind kind, OriginId origin) {
   Step& s = steps_.emplace_back();
   s.kind_ = kind;
   s.origin_ = origin;
+  note_kind(kind);
   return s;
+}
+
+/// Of the last step.
+void Toolpath::note_kind(StepKind kind) {
+  kinds_ |= 1u << static_cast<unsigned>(kind);
+  if (kind == StepKind::tool_change || kind == StepKind::spindle) changes_.push_back(steps_.size() - 1);
 }
 
 Step& Toolpath::append_motion(StepKind kind, Point3 to, OriginId origin) {
@@ -200,6 +208,7 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
       Step& s = steps_.emplace_back(other.steps_[i]);
       s.origin_ = origin;
       s.extra_ = 0;
+      note_kind(s.kind_);
     }
   }
   if (const MotionExtra* extra = other.extra(i)) set_extra(steps_.size() - 1, *extra);
@@ -245,6 +254,12 @@ const MotionExtra* Toolpath::extra(std::size_t i) const {
   return steps_[i].extra_ == 0 ? nullptr : &extras_[steps_[i].extra_];
 }
 
+std::optional<std::size_t> Toolpath::motion_before(std::size_t i) const {
+  while (i > 0)
+    if (steps_[--i].is_motion()) return i;
+  return std::nullopt;
+}
+
 step::Extrude Toolpath::extrude(std::size_t i) const {
   const Step& s = steps_[i];
   assert(s.kind_ == StepKind::extrude);
@@ -280,6 +295,25 @@ ArcWalk walk_of(const Step& s, Point3 from) {
   return walk_arc(from, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
 }
 
+MotionReader::MotionReader(const Toolpath& path, std::size_t first) : path_(&path), next_(first) {
+  if (const auto before = path.motion_before(first)) motion_ = &path[*before];
+  const auto none = path.changes_.begin();
+  bool knows_tool = false, knows_spindle = false;
+  for (auto change = std::lower_bound(none, path.changes_.end(), first);
+       change != none && !(knows_tool && knows_spindle);) {
+    const Step& step = path[*--change];
+    bool& known = step.kind() == StepKind::spindle ? knows_spindle : knows_tool;
+    if (!std::exchange(known, true)) note_change(step);
+  }
+}
+
+void MotionReader::note_change(const Step& step) {
+  if (step.kind() == StepKind::tool_change) context_.tool = step.tool_change().tool;
+  if (step.kind() != StepKind::spindle) return;
+  context_.spindle = step.spindle();
+  context_.spindle_stated = true;
+}
+
 bool MotionReader::next() {
   if (motion_ != nullptr) {
     context_.from = motion_->to();
@@ -287,12 +321,10 @@ bool MotionReader::next() {
   }
   for (motion_ = nullptr; next_ < path_->size();) {
     const Step& s = (*path_)[next_++];
-    if (s.kind() == StepKind::tool_change) context_.tool = s.tool_change().tool;
-    if (s.kind() == StepKind::spindle) {
-      context_.spindle = s.spindle();
-      context_.spindle_stated = true;
+    if (!s.is_motion()) {
+      note_change(s);
+      continue;
     }
-    if (!s.is_motion()) continue;
     context_.index = next_ - 1;
     motion_ = &s;
     return true;

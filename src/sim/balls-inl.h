@@ -72,14 +72,18 @@ struct BallTile {
   Vector x, y;      // the places of the pattern, the least ones
 };
 
-/// Whether a sweep goes this way where the tile allows it. Only such sweeps share a group, so that how a
+/// Which sweeps of a tool go this way where the tile allows it. Only such sweeps share a group, so that how a
 /// sweep is cut does not depend on the others.
-HWY_INLINE bool is_quick_ball(const TileJob& job, const Sweep& sweep) {
-  const LaneSolid& solid = (*job.tools)[sweep.tool].cutting;
-  return solid.is_ball && std::abs(sweep.slope) <= kSteepest &&
-         std::min(sweep.z, sweep.z_end) + static_cast<double>(solid.top) >=
-             static_cast<double>(job.field->height);
-}
+struct BallWay {
+  HWY_INLINE BallWay(const TileJob& job, const LaneSolid& solid)
+      : is_ball(solid.is_ball),
+        lowest(static_cast<double>(job.field->height) - static_cast<double>(solid.top)) {}
+  HWY_INLINE bool takes(const Sweep& sweep) const {
+    return is_ball && std::abs(sweep.slope) <= kSteepest && std::min(sweep.z, sweep.z_end) >= lowest;
+  }
+  bool is_ball;
+  double lowest;  // of a tip whose solid reaches above the block
+};
 
 /// Whether the columns of a tile are a pitch apart and have always stood on the floor.
 HWY_INLINE bool is_plain(const TileJob& job) {

@@ -56,6 +56,7 @@ template <class Cut, class AddUp, class AtRest, class Stop>
 void cut_batches(Feeder& feeder, unsigned threads, const Cut& cut, const AddUp& add_up, const AtRest& at_rest,
                  const Stop& stop) {
   CutBatch now, other;
+  Team team(threads);
   feeder.fill(now);
   for (bool more = true; more && !stop(); std::swap(now, other)) {
     more = !now.is_last;
@@ -66,7 +67,7 @@ void cut_batches(Feeder& feeder, unsigned threads, const Cut& cut, const AddUp& 
       add_up(other);
       if (more) feeder.fill(other);
     };
-    parallel_for(threads, now.busy.size() + 1, work, stop);
+    team.run(now.busy.size() + 1, work, stop);
     at_rest(now);
   }
   add_up(other);

@@ -66,11 +66,14 @@ struct CylinderGroup {
   BundleBits supers, micros;
 };
 
+/// Whether a tool's level sweeps go this way.
+HWY_INLINE bool may_be_level_cylinders(const LaneSolid& solid) {
+  return solid.is_cylinders && !solid.pieces.empty() && solid.pieces.size() <= kFewPieces;
+}
+
 /// Whether a sweep goes this way.
 HWY_INLINE bool is_level_cylinders(const TileJob& job, const Sweep& sweep) {
-  const LaneSolid& solid = (*job.tools)[sweep.tool].cutting;
-  return solid.is_cylinders && !solid.pieces.empty() && solid.pieces.size() <= kFewPieces &&
-         sweep.z == sweep.z_end;
+  return sweep.z == sweep.z_end && may_be_level_cylinders((*job.tools)[sweep.tool].cutting);
 }
 
 /// Ends that no column of the tile can see are brought nearer, so that numbers stay small.

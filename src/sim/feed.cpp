@@ -54,28 +54,21 @@ bool Feeder::reached_pause() {
   return next_pause_ != before;
 }
 
-/// Goes on to the last bookmark before the range of steps that is wanted next, if that is further on: to a
-/// motion that is not wanted, but from which the next one may follow.
+/// Goes on to the motion before the range of steps that is wanted next, if that is further on: it is not
+/// wanted, but the next one may follow it.
 bool Feeder::skip() {
-  if (scope_.bookmarks == nullptr || next_range_ < skipped_to_) return false;
+  if (next_range_ < skipped_to_) return false;
   skipped_to_ = next_range_ + 1;
-  const std::size_t wanted = scope_.steps[next_range_].first;
-  const auto is_before = [](const MotionReader& mark, std::size_t step) {
-    return mark.context().index < step;
-  };
-  auto mark = std::lower_bound(scope_.bookmarks->begin(), scope_.bookmarks->end(), wanted, is_before);
-  if (mark == scope_.bookmarks->begin()) return false;
-  --mark;
-  if (mark->context().index <= motion_.context().index) return false;
-  motion_ = *mark;
-  return true;
+  const std::optional<std::size_t> before = path_.motion_before(scope_.steps[next_range_].first);
+  if (!before || *before <= motion_.context().index) return false;
+  motion_ = MotionReader(path_, *before);
+  return motion_.next();
 }
 
 bool Feeder::next_motion() { return skip() || motion_.next(); }
 
 void Feeder::fill(Batch& batch) {
   batch.clear();
-  passed_.push_back(motion_);
   planner_.go_on(batch);
   while (!batch.full() && !is_done() && (waiting_ || next_motion())) {
     if (!waiting_ && (waiting_ = reached_pause())) break;
@@ -83,7 +76,7 @@ void Feeder::fill(Batch& batch) {
     add(batch);
   }
   batch.is_last = !batch.full() && !waiting_;
-  batch.steps_done = batch.is_last ? path_size_ : motion_.context().index;
+  batch.steps_done = batch.is_last ? path_.size() : motion_.context().index;
   if (scope_.numbers != nullptr) {
     for (Sweep& sweep : batch.sweeps) sweep.step = (*scope_.numbers)[sweep.step];
     for (Contact& contact : batch.contacts) contact.step = (*scope_.numbers)[contact.step];

@@ -34,24 +34,20 @@ struct FeedScope {
   std::vector<std::size_t> pauses = {};  // in order: a batch ends before each of these steps
   /// Null, or one a step: what sweeps and contacts have in place of it.
   const std::vector<std::uint32_t>* numbers = nullptr;
-  /// Null, or `Feeder::passed` of a feeder of the same path: what is not wanted need not be read.
-  const std::vector<MotionReader>* bookmarks = nullptr;
 };
 
 class Feeder {
  public:
   Feeder(const Workpiece::Body& body, const Toolpath& path, const Survey& survey, FeedScope scope)
-      : survey_(survey),
+      : path_(path),
+        survey_(survey),
         scope_(std::move(scope)),
         tiles_(body.tiles.size()),
-        path_size_(path.size()),
         planner_(body, survey.solids, scope_.hazard_depth, scope_.plan),
         motion_(path) {}
 
   /// Fills a batch, whatever it held, with what comes next.
   void fill(Batch& batch);
-  /// The reader as it was before each batch.
-  const std::vector<MotionReader>& passed() const { return passed_; }
 
  private:
   bool is_wanted(std::size_t step);
@@ -63,12 +59,12 @@ class Feeder {
   bool find_tool(int number);
   void add(Batch& batch);
 
+  const Toolpath& path_;
   const Survey& survey_;
   FeedScope scope_;
-  std::size_t tiles_, path_size_;
+  std::size_t tiles_;
   Planner planner_;
   MotionReader motion_;
-  std::vector<MotionReader> passed_;
   std::size_t next_range_ = 0, next_pause_ = 0;
   std::size_t skipped_to_ = 0;      // the ranges before this one were skipped to
   std::optional<int> tool_number_;  // of tool_

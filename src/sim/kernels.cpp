@@ -20,6 +20,23 @@ namespace {
 /// Whether a sweep may go in a group.
 HWY_INLINE bool only_cuts(const Sweep& sweep) { return sweep.passes == kPassCut && !sweep.is_arc; }
 
+/// How many sweeps from number `first` on go together: they only cut, with one tool, and in one way.
+HWY_INLINE int group_size(const TileJob& job, std::size_t first) {
+  const std::size_t most = std::min(first + kGroup, job.count);
+  const Sweep& sweep = job.sweeps[job.list[first]];
+  const BallWay ball(job, (*job.tools)[sweep.tool].cutting);
+  const bool may_be_level = may_be_level_cylinders((*job.tools)[sweep.tool].cutting);
+  const bool is_quick = ball.takes(sweep);
+  std::size_t end = first + 1;
+  for (; end < most; ++end) {
+    const Sweep& next = job.sweeps[job.list[end]];
+    if (!only_cuts(next) || next.tool != sweep.tool || (may_be_level && next.z == next.z_end) ||
+        ball.takes(next) != is_quick)
+      break;
+  }
+  return static_cast<int>(end - first);
+}
+
 }  // namespace
 
 void cut_tile(const TileJob& job) {
@@ -35,15 +52,7 @@ void cut_tile(const TileJob& job) {
       q += cut_cylinders(cylinders, job, q, job.count - q);
       continue;
     }
-    const bool is_quick = is_quick_ball(job, sweep);
-    int count = 1;
-    while (count < kGroup && q + static_cast<std::size_t>(count) < job.count) {
-      const Sweep& next = job.sweeps[job.list[q + static_cast<std::size_t>(count)]];
-      if (!only_cuts(next) || next.tool != sweep.tool || is_level_cylinders(job, next) ||
-          is_quick_ball(job, next) != is_quick)
-        break;
-      ++count;
-    }
+    const int count = group_size(job, q);
     cut_group(work, q, count);
     q += static_cast<std::size_t>(count);
   }

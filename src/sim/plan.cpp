@@ -61,7 +61,7 @@ TileRange tiles_between(double low, double high, double pitch, int columns, int 
 }
 
 /// Makes a sweep a straight one.
-void set_line(Sweep& sweep, Point3 from, Point3 to) {
+void set_line(Sweep& sweep, const Point3& from, const Point3& to) {
   sweep.x = from.x;
   sweep.y = from.y;
   sweep.z = from.z;
@@ -211,9 +211,9 @@ bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
          box.low.z < size_.z;
 }
 
-/// Whether a straight motion is away from all tiles that are wanted, and has nothing else to tell.
+/// Whether a straight motion is away from the tiles that are wanted, and has nothing else to tell.
 bool Planner::is_far(const Motion& motion, std::uint32_t tool) const {
-  if (scope_.tiles == nullptr || std::min(motion.from.z, motion.to.z) < -hazard_depth_) return false;
+  if (std::min(motion.from.z, motion.to.z) < -hazard_depth_) return false;
   const double reach = extents_[tool].widest + scope_.margin;
   return std::max(motion.from.x, motion.to.x) + reach < wanted_.low.x ||
          std::min(motion.from.x, motion.to.x) - reach > wanted_.high.x ||
@@ -227,48 +227,54 @@ void Planner::pass_over(const Step& step, const MotionContext& context, std::uin
   remember(step, tool, motion.to);
 }
 
-void Planner::remember(const Step& step, std::uint32_t tool, Point3 end) {
-  cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
-  end_ = end;
-}
-
 void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
                   Batch& batch) {
-  const Motion motion = motion_of(step, context);
+  // Numbers by themselves until the end: a million times a point is written and read again is a tenth of it
+  // all.
+  Point3 from = context.from - body_.bounds.low, to = step.to() - body_.bounds.low;
+  if ((context.unknown_from | step.unknown_axes()) != 0) {
+    const Motion motion = motion_of(step, context);
+    if (!motion.is_swept) return interrupt();
+    from = motion.from;
+    to = motion.to;
+  }
   const bool cuts = step.is_cutting();
-  if (!motion.is_swept) return interrupt();
-  const bool follows = cuts && cutting_tool_ == tool && end_ == motion.from;
+  const bool follows = cuts && cutting_tool_ == tool && end_ == from;
   const bool is_arc = step.kind() == StepKind::arc && is_walked(context);
-  remember(step, tool, motion.to);
-  if (!is_arc && is_far(motion, tool)) return;
+  remember(step, tool, to);
+  if (!is_arc && scope_.tiles != nullptr && is_far({from, to}, tool)) return;
   constexpr int kParts = kPassNeck | kPassShank | kPassHolder;
-  Sweep sweep;
+  static constexpr Sweep kNew;
+  Sweep& sweep =
+      batch.sweeps.emplace_back(kNew);  // in its place: a copy of what was just written waits for it
   sweep.passes = static_cast<std::uint8_t>(
       cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
   sweep.step = static_cast<std::uint32_t>(context.index);
   sweep.tool = tool;
-  if (is_arc) return add_arc(step, context, sweep, follows, batch);
   sweep.follows = follows;
-  set_line(sweep, motion.from, motion.to);
-  batch.sweeps.push_back(sweep);
-  emit(batch);
+  if (is_arc) return add_arc(step, context, batch);
+  set_line(sweep, from, to);
+  emit(to, batch);
 }
 
-void Planner::add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows,
-                      Batch& batch) {
+/// The batch's last sweep is one in all but its place.
+void Planner::add_arc(const Step& step, const MotionContext& context, Batch& batch) {
   ArcWalk walk = walk_of(step, context.from);
   const PlaneAxes axes = axes_of(walk.plane);
   walk.u -= body_.bounds.low[axes.u];
   walk.v -= body_.bounds.low[axes.v];
   walk.start_w -= body_.bounds.low[axes.w];
   walk.end_w -= body_.bounds.low[axes.w];
-  if (!can_meet(walk, like.tool)) return;
-  if (is_level(walk)) {
-    set_arc(batch.sweeps.emplace_back(like), walk);
-    return emit(batch);
+  const Sweep like = batch.sweeps.back();
+  const bool meets = can_meet(walk, like.tool);
+  if (meets && is_level(walk)) {
+    batch.sweeps.back().follows = false;
+    set_arc(batch.sweeps.back(), walk);
+    return emit({}, batch);
   }
-  const bool cuts = step.is_cutting();
-  chords_ = {walk, like, 0, chord_count(walk).count, cuts && follows, cuts, walk.at(0.0)};
+  batch.sweeps.pop_back();
+  if (!meets) return;
+  chords_ = {walk, like, 0, chord_count(walk).count, like.follows, step.is_cutting(), walk.at(0.0)};
   go_on(batch);
 }
 
@@ -282,7 +288,7 @@ void Planner::go_on(Batch& batch) {
     chord.share_begin = share_at(c.next);
     chord.share_end = share_at(c.next + 1);
     set_line(chord, c.from, to);
-    emit(batch);
+    emit(to, batch);
     c.from = to;
   }
 }
@@ -312,13 +318,13 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, double& reach) const 
   return any == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(passes);
 }
 
-/// Finds the tiles of the batch's last sweep, and takes it back if there are none.
-void Planner::emit(Batch& batch) {
-  if (!find_pairs(batch.sweeps.back(), batch)) batch.sweeps.pop_back();
+/// Finds the tiles of the batch's last sweep, and takes it back if there are none. `to`: where a line ends.
+void Planner::emit(const Point3& to, Batch& batch) {
+  if (!find_pairs(batch.sweeps.back(), to, batch)) batch.sweeps.pop_back();
 }
 
 /// False if the sweep meets no tile.
-bool Planner::find_pairs(Sweep& sweep, Batch& batch) const {
+bool Planner::find_pairs(Sweep& sweep, const Point3& to, Batch& batch) const {
   if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < -hazard_depth_)
     note_below_floor(sweep, batch);
   double reach = 0.0;
@@ -330,31 +336,31 @@ bool Planner::find_pairs(Sweep& sweep, Batch& batch) const {
   if (sweep.is_arc) {
     pair_arc(sweep, reach, number, batch);
   } else {
-    pair_line(sweep, reach, number, batch);
+    pair_line(sweep, to, reach, number, batch);
   }
   return batch.pairs.size() != before;
 }
 
 /// All tiles that the box around a line and its reach meets.
-void Planner::pair_box(const Sweep& s, double x1, double y1, double reach, std::uint32_t number,
+void Planner::pair_box(const Sweep& s, const Point3& to, double reach, std::uint32_t number,
                        Batch& batch) const {
-  const int left = std::max(tile_at(std::min(s.x, x1) - reach), 0);
-  const int right = std::min(tile_at(std::max(s.x, x1) + reach), body_.tiles_x - 1);
-  const int low = std::max(tile_at(std::min(s.y, y1) - reach), 0);
-  const int high = std::min(tile_at(std::max(s.y, y1) + reach), body_.tiles_y - 1);
+  const int left = std::max(tile_at(std::min(s.x, to.x) - reach), 0);
+  const int right = std::min(tile_at(std::max(s.x, to.x) + reach), body_.tiles_x - 1);
+  const int low = std::max(tile_at(std::min(s.y, to.y) - reach), 0);
+  const int high = std::min(tile_at(std::max(s.y, to.y) + reach), body_.tiles_y - 1);
   for (int row = low; row <= high; ++row)
     for (int column = left; column <= right; ++column) pair(column, row, number, batch);
 }
 
-void Planner::pair_line(const Sweep& s, double reach, std::uint32_t number, Batch& batch) const {
-  const double x1 = s.x + s.length * s.ux, y1 = s.y + s.length * s.uy;
-  if (s.length <= kShort * reach) return pair_box(s, x1, y1, reach, number, batch);
-  const TileRange rows = tiles_between(std::min(s.y, y1) - reach, std::max(s.y, y1) + reach, body_.pitch,
+void Planner::pair_line(const Sweep& s, const Point3& to, double reach, std::uint32_t number,
+                        Batch& batch) const {
+  if (s.length <= kShort * reach) return pair_box(s, to, reach, number, batch);
+  const TileRange rows = tiles_between(std::min(s.y, to.y) - reach, std::max(s.y, to.y) + reach, body_.pitch,
                                        body_.ny, body_.tiles_y);
   for (int row = rows.first; row <= rows.last; ++row) {
     const double low = (row * kTileColumns + 0.5) * body_.pitch - reach;
     const double high = ((row + 1) * kTileColumns - 0.5) * body_.pitch + reach;
-    const Span span = span_between(s.x, s.y, x1, y1, low, high);
+    const Span span = span_between(s.x, s.y, to.x, to.y, low, high);
     if (span.empty()) continue;
     const TileRange columns =
         tiles_between(span.low - reach, span.high + reach, body_.pitch, body_.nx, body_.tiles_x);

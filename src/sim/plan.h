@@ -93,8 +93,11 @@ class Planner {
     Point3 from;
   };
   Motion motion_of(const Step& step, const MotionContext& context) const;
-  void remember(const Step& step, std::uint32_t tool, Point3 end);
-  void add_arc(const Step& step, const MotionContext& context, const Sweep& like, bool follows, Batch& batch);
+  void remember(const Step& step, std::uint32_t tool, const Point3& end) {
+    cutting_tool_ = step.is_cutting() ? std::optional(tool) : std::nullopt;
+    end_ = end;
+  }
+  void add_arc(const Step& step, const MotionContext& context, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
   /// What tells quickly that a tool cannot meet something.
   struct ToolExtent {
@@ -102,17 +105,18 @@ class Planner {
     double other_bottom;  // the lowest of what does not cut, mm above the tip
   };
   bool is_far(const Motion& motion, std::uint32_t tool) const;
-  void emit(Batch& batch);
-  bool find_pairs(Sweep& sweep, Batch& batch) const;
+  void emit(const Point3& to, Batch& batch);
+  bool find_pairs(Sweep& sweep, const Point3& to, Batch& batch) const;
   std::uint8_t passes_that_meet(const Sweep& sweep, double& reach) const;
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
   /// Number of the tile a place along X or Y is in; any number below 0 or above the last outside.
   int tile_at(double place) const {
-    return static_cast<int>(std::clamp(place * per_tile_ + 1.0, 0.0, 1e6)) - 1;  // std::floor is a call
+    // std::floor is a call, and std::clamp branches.
+    return static_cast<int>(std::min(std::max(place * per_tile_ + 1.0, 0.0), 1e6)) - 1;
   }
-  void pair_box(const Sweep& sweep, double x1, double y1, double reach, std::uint32_t number,
-                Batch& batch) const;
-  void pair_line(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
+  void pair_box(const Sweep& sweep, const Point3& to, double reach, std::uint32_t number, Batch& batch) const;
+  void pair_line(const Sweep& sweep, const Point3& to, double reach, std::uint32_t number,
+                 Batch& batch) const;
   void pair_arc(const Sweep& sweep, double reach, std::uint32_t number, Batch& batch) const;
   void pair(int column, int row, std::uint32_t number, Batch& batch) const {
     const auto tile = static_cast<std::uint32_t>(row * body_.tiles_x + column);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "sim/block_contact.h"
 #include "sim/cutter.h"
@@ -31,6 +33,10 @@ std::string_view to_string(HazardKind kind) {
 namespace sim {
 namespace {
 
+/// Walls between columns that can change the volume by less than this much of what was removed are not
+/// counted anew.
+constexpr double kNegligible = 1e-6;
+
 class Run {
  public:
   Run(Workpiece& workpiece, const Toolpath& path, Survey survey, const SimulationOptions& options,
@@ -54,8 +60,8 @@ class Run {
     report(progress_, 1.0);
   }
 
-  /// Counts the columns at walls anew, see walls.h. False if there are none, or if stopped: then the columns'
-  /// centres alone tell the volumes.
+  /// Counts the columns at walls anew, see walls.h. False if there are none that matter, or if stopped: then
+  /// the columns' centres alone tell the volumes.
   bool refine_walls();
 
   bool stopped() const { return stopped_; }
@@ -70,6 +76,9 @@ class Run {
   void meet_tile(std::size_t tile, TileJob job);
   void note_block_contacts(const Batch& batch);
   void take_over(const CutBatch& batch);
+  template <class Part>
+  double sum_of_parts(const Part& part) const;
+  double removed_by_centres() const;
 
   Workpiece::Body& body_;
   const Toolpath& path_;
@@ -83,7 +92,6 @@ class Run {
   WallGroup* walls_ = nullptr;      // what is cut instead of the workpiece, if any
   std::vector<StepRange> in_tile_;  // which steps each tile has seen
   std::vector<std::size_t> sweeps_in_tile_;
-  std::vector<MotionReader> bookmarks_;
   bool stopped_ = false;
   Cutter cutter_;
   ContactList contacts_;
@@ -96,15 +104,13 @@ void Run::send_all(const std::vector<bool>* tiles) {
                 {.plan = scope,
                  .steps = tiles == nullptr ? std::vector{StepRange{0, path_.size()}} : steps_in(*tiles),
                  .hazard_depth = hazard_depth_,
-                 .is_no_go = is_no_go_,
-                 .bookmarks = &bookmarks_});
+                 .is_no_go = is_no_go_});
   const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
   const double steps = static_cast<double>(std::max<std::size_t>(path_.size(), 1));
   cut_batches(
       feeder, threads_, [&](CutBatch& batch, std::size_t k) { cut_tile_number(batch, k); },
       [&](const CutBatch& batch) { take_over(batch); },
       [&](const CutBatch& batch) { report(progress_, static_cast<double>(batch.steps_done) / steps); }, stop);
-  if (tiles == nullptr) bookmarks_ = feeder.passed();
 }
 
 void Run::cut_tile_number(CutBatch& batch, std::size_t k) {
@@ -149,7 +155,9 @@ std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
 bool Run::refine_walls() {
   if (stopped_) return false;
   const std::vector<WallSquares> found = find_walls(body_, threads_);
-  if (found.empty()) return false;
+  double most = 0.0;
+  for (const WallSquares& walls : found) most += walls.most_error;
+  if (most <= kNegligible * removed_by_centres()) return false;
   if (progress_ != nullptr) progress_->phase("measuring walls");
   std::size_t squares = 0;
   for (const WallSquares& walls : found) squares += walls.squares.size();
@@ -163,19 +171,46 @@ bool Run::refine_walls() {
   return !stopped_;
 }
 
+/// Calls part(first, last, n) for the parts of all steps on all threads, and returns the sum of what it
+/// gives, in order: sums of floating numbers depend on it.
+template <class Part>
+double Run::sum_of_parts(const Part& part) const {
+  constexpr std::size_t kPart = 1 << 16;  // steps
+  std::vector<double> sums(removed_.size() / kPart + 1);
+  const auto add = [&](std::size_t n) {
+    sums[n] = part(n * kPart, std::min((n + 1) * kPart, removed_.size()));
+  };
+  parallel_for(threads_, sums.size(), add, [] { return false; });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+/// Length of column by the columns' centres, mm.
+double Run::removed_by_centres() const {
+  return sum_of_parts([&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t step = first; step < last; ++step) sum += removed_[step];
+    return sum;
+  });
+}
+
 void Run::tell_removed(Simulation& result, Counted counted) const {
   const double area = body_.pitch * body_.pitch;
-  double by_centres = 0.0, all = 0.0;
-  result.removed_by_step.reserve(removed_.size());
-  for (std::size_t step = 0; step < removed_.size(); ++step) {
-    const double more = counted == Counted::walls_too ? more_[step] : 0.0;
-    const double volume = (removed_[step] + more) * area;
-    by_centres += removed_[step] * area;
-    all += volume;
-    result.removed_by_step.push_back(static_cast<float>(volume));
-  }
+  std::vector<float>& volumes = result.removed_by_step;
+  volumes.reserve(removed_.size());
+  use_huge_pages(volumes.data(), removed_.size() * sizeof(float));
+  volumes.resize(removed_.size());
+  const double all = sum_of_parts([&](std::size_t first, std::size_t last) {
+    double sum = 0.0;
+    for (std::size_t step = first; step < last; ++step) {
+      const double volume = (removed_[step] + (counted == Counted::walls_too ? more_[step] : 0.0)) * area;
+      sum += volume;
+      volumes[step] = static_cast<float>(volume);
+    }
+    return sum;
+  });
   result.removed = mm3(all);
-  result.workpiece.body().wall_volume = by_centres - all;
+  result.workpiece.body().wall_volume =
+      counted == Counted::walls_too ? removed_by_centres() * area - all : 0.0;
 }
 
 /// Adds what a batch has cut to the steps, in order of tiles and time, whichever thread was first: sums of

@@ -90,20 +90,12 @@ class Surveyor {
         clearance_(clearance),
         diagnostics_(diagnostics) {}
 
-  /// The steps are read from memory twice, at the same time where there are two threads.
-  Survey run(unsigned threads) {
+  /// The motions from step `first` to the one before `last`.
+  Survey run(std::size_t first, std::size_t last) {
     if (tools_.tools().size() == 1) survey_.only_tool = tools_.tools().begin()->first;
-    bool judges_spindle = false;
-    const auto read = [&](std::size_t n) {
-      if (n == 0) {
-        for_each_motion(path_,
-                        [&](const Step& step, const MotionContext& context) { look_at(step, context); });
-      } else {
-        judges_spindle = has_step(StepKind::spindle) && !has_step(StepKind::laser_power);
-      }
-    };
-    parallel_for(threads, 2, read, [] { return false; });
-    survey_.judges_spindle = judges_spindle;
+    survey_.judges_spindle = path_.has(StepKind::spindle) && !path_.has(StepKind::laser_power);
+    for (MotionReader motion(path_, first); motion.next() && motion.context().index < last;)
+      look_at(motion.step(), motion.context());
     return std::move(survey_);
   }
 
@@ -123,11 +115,6 @@ class Surveyor {
     constexpr unsigned kXY = 3;
     const unsigned arc_begin = step.kind() == StepKind::arc ? context.unknown_from & kXY : 0u;
     if ((step.unknown_axes() | arc_begin) != 0) warn_unknown_place(step.unknown_axes() | arc_begin, context);
-  }
-
-  bool has_step(StepKind kind) const {
-    const std::vector<Step>& steps = path_.steps();
-    return std::any_of(steps.begin(), steps.end(), [kind](const Step& step) { return step.kind() == kind; });
   }
 
   /// Makes the solids of a tool that is met for the first time. False if its shape is not known.
@@ -224,6 +211,32 @@ class Surveyor {
   bool said_no_tool_ = false;
 };
 
+/// Adds the tools of a later part of the path.
+void add_tools(Survey& survey, Survey&& part) {
+  std::vector<const std::pair<const int, std::uint32_t>*> in_order(part.solids.size());
+  for (const auto& tool : part.index) in_order[tool.second] = &tool;
+  for (const auto* tool : in_order)
+    if (survey.index.try_emplace(tool->first, static_cast<std::uint32_t>(survey.solids.size())).second)
+      survey.solids.push_back(std::move(part.solids[tool->second]));
+}
+
+/// Long paths are looked at in parts; only if there is something to be said, once more from begin to end.
+Survey survey_of(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance,
+                 unsigned threads, Diagnostics& diagnostics) {
+  constexpr std::size_t kPart = 1 << 16;  // steps
+  const std::size_t count = path.size() / kPart + 1;
+  std::vector<Diagnostics> said(count);
+  std::vector<Survey> found(count);
+  const auto look = [&](std::size_t n) {
+    found[n] = Surveyor(path, tools, stock, clearance, said[n]).run(n * kPart, (n + 1) * kPart);
+  };
+  parallel_for(threads, count, look, [] { return false; });
+  const bool is_quiet = std::all_of(said.begin(), said.end(), [](const auto& d) { return d.list().empty(); });
+  if (!is_quiet) return Surveyor(path, tools, stock, clearance, diagnostics).run(0, path.size());
+  for (std::size_t n = 1; n < count; ++n) add_tools(found[0], std::move(found[n]));
+  return std::move(found[0]);
+}
+
 }  // namespace
 
 std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const Stock& stock,
@@ -234,7 +247,7 @@ std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const 
   const std::size_t errors_before = diagnostics.errors();
   const double clearance = std::max(options.hazard_depth.mm(), kLeastClearance);
   Setup setup{mm(*pitch),
-              Surveyor(path, tools, stock, clearance, diagnostics).run(thread_count(options.threads))};
+              survey_of(path, tools, stock, clearance, thread_count(options.threads), diagnostics)};
   if (diagnostics.errors() != errors_before) return std::nullopt;
   // What is above short flutes goes into a solid that is not to be touched as neck, shank or holder.
   if (options.role == SolidRole::no_go)

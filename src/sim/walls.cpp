@@ -198,10 +198,16 @@ int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, con
   return grade;
 }
 
+/// No step of a grade is higher than this many pitches.
+double highest_step(int grade) {
+  return std::ldexp(static_cast<double>(kLeastStep), grade + 1) + static_cast<double>(kMostExplained);
+}
+
 /// The squares with steps of at least a grade.
 WallSquares squares_above(int grade, const Candidates& candidates, const Workpiece::Body& body,
                           std::size_t tile) {
-  WallSquares walls{static_cast<std::uint32_t>(tile), {}, {}};
+  WallSquares walls;
+  walls.tile = static_cast<std::uint32_t>(tile);
   if (candidates.empty()) return walls;
   const int columns = body.columns_x_of(tile), rows = body.columns_y_of(tile);
   std::uint8_t quarters[kMicros][kLanes] = {};
@@ -209,7 +215,10 @@ WallSquares squares_above(int grade, const Candidates& candidates, const Workpie
   for (const Candidate& candidate : candidates) {
     if (candidate.grade < grade) continue;
     const Square square = candidate.square;
-    if (candidate.is_own) walls.squares.push_back(square);
+    if (candidate.is_own) {
+      walls.squares.push_back(square);
+      walls.most_error += highest_step(candidate.grade) * body.pitch;
+    }
     for (int y = std::max<int>(square.y, 0); y <= std::min(square.y + 1, rows - 1); ++y) {
       for (int x = std::max<int>(square.x, 0); x <= std::min(square.x + 1, columns - 1); ++x) {
         const int column = lane_index(x, y);

@@ -35,6 +35,7 @@ struct WallSquares {
     std::uint8_t taken;    // a bit each: of the low side, beyond the middle in X, in Y, in both
   };
   std::uint32_t tile = 0;
+  double most_error = 0.0;  // what the columns' centres can say too much or too little, mm of column
   std::vector<Square> squares;
   std::vector<Quarters> quarters;
 };

@@ -36,6 +36,12 @@ def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
         assert len(hazard["at"]) == 3 and hazard["origin"]["line"] > 0
 
 
+def test_the_result_is_the_same_for_any_number_of_threads(kerf, program):
+    path = program(SOUND.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5"))
+    one, four = (kerf("check", "--json", "--threads", n, path).json for n in ("1", "4"))
+    assert one == four and one["hazards"]
+
+
 SMALL_MILL = "travel_x = [0, 8]\nspindle = [100, 8000]\n"
 
 

@@ -64,6 +64,8 @@ def test_slips_of_the_fingers(kerf, program, arguments, meant):
     ["simulate", "part.nc", "--tool", "spoon d=3"],
     ["simulate", "part.nc", "--tool", "1=spoon d=3"],
     ["check", "part.nc", "--tool", ""],
+    ["check", "part.nc", "--threads", "many"],
+    ["compare", "part.nc", "part.stl", "--threads", "-1"],
     ["info", "part.nc", "--stock", "1x1x1e999"],
     ["simulate", "part.nc", "-o", "part.xyz"],
     ["simulate", "part.nc", "-o", "part"],

@@ -1,6 +1,7 @@
 // The toolpath's packing: what goes in comes out.
 #include "kerf/toolpath.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace kerf {
@@ -74,6 +75,61 @@ TEST(Toolpath, WalksMotionsWithTheirState) {
   EXPECT_EQ(seen[1].unknown_from, 3u);
   EXPECT_EQ(seen[1].from, (Point3{0, 0, 5}));
   EXPECT_EQ(seen[1].tool, 2);
+}
+
+bool is_same(const MotionContext& a, const MotionContext& b) {
+  return a.index == b.index && a.from == b.from && a.unknown_from == b.unknown_from && a.tool == b.tool &&
+         a.spindle.speed == b.spindle.speed && a.spindle.turn == b.spindle.turn &&
+         a.spindle_stated == b.spindle_stated;
+}
+
+TEST(Toolpath, AReaderThatBeginsAnywhereReadsTheSame) {
+  Toolpath path;
+  const auto motion = [&](double x) { path.add(step::Cut{{x, 0, 0}, mm_per_min(10)}, OriginId::none); };
+  path.add(step::Note{"begin"}, OriginId::none);
+  motion(1);
+  path.add(step::ToolChange{7}, OriginId::none);
+  motion(2);
+  path.add(step::Spindle{rpm(1000), SpindleTurn::cw}, OriginId::none);
+  path.add(step::Dwell{}, OriginId::none);
+  path.set_unknown_axes(3, 4);
+  motion(3);
+  path.add(step::Spindle{rpm(0), SpindleTurn::off}, OriginId::none);
+  path.add(step::ToolChange{9}, OriginId::none);
+  motion(4);
+  path.add(step::Note{"end"}, OriginId::none);
+  std::vector<MotionContext> all;
+  for_each_motion(path, [&](const Step&, const MotionContext& c) { all.push_back(c); });
+  ASSERT_EQ(all.size(), 4u);
+  Toolpath copy;
+  for (std::size_t i = 0; i < path.size(); ++i) copy.add_copy(path, i);
+  for (const Toolpath* of : {&path, &copy}) {
+    for (std::size_t first = 0; first <= path.size(); ++first) {
+      std::vector<MotionContext> rest;
+      for (MotionReader reader(*of, first); reader.next();) rest.push_back(reader.context());
+      ASSERT_LE(rest.size(), all.size());
+      EXPECT_TRUE(
+          std::equal(rest.begin(), rest.end(), all.end() - static_cast<std::ptrdiff_t>(rest.size()), is_same))
+          << "from step " << first;
+      EXPECT_EQ(rest.size(), static_cast<std::size_t>(std::count_if(
+                                 all.begin(), all.end(), [&](const auto& c) { return c.index >= first; })));
+    }
+  }
+}
+
+TEST(Toolpath, TellsKindsAndMotionsBefore) {
+  Toolpath path;
+  EXPECT_FALSE(path.has(StepKind::cut));
+  EXPECT_EQ(path.motion_before(0), std::nullopt);
+  path.add(step::Note{"x"}, OriginId::none);
+  path.add(step::Cut{{0, 0, 0}, mm_per_min(10)}, OriginId::none);
+  path.add(step::Note{"y"}, OriginId::none);
+  EXPECT_TRUE(path.has(StepKind::cut));
+  EXPECT_TRUE(path.has(StepKind::note));
+  EXPECT_FALSE(path.has(StepKind::laser_power));
+  EXPECT_EQ(path.motion_before(1), std::nullopt);
+  EXPECT_EQ(path.motion_before(2), 1u);
+  EXPECT_EQ(path.motion_before(3), 1u);
 }
 
 }  // namespace

@@ -1,0 +1,74 @@
+// The team's threads.
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+namespace kerf {
+namespace {
+
+/// How often to look again before the system is asked to wake the thread: about as long as waking takes.
+constexpr int kLooks = 2000;
+
+void pause() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
+/// Returns when `value` is no longer `old`.
+void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
+  for (int look = 0; look < kLooks; ++look) {
+    if (value.load(std::memory_order_acquire) != old) return;
+    pause();
+  }
+  value.wait(old, std::memory_order_acquire);
+}
+
+}  // namespace
+
+unsigned thread_count(unsigned wanted) {
+  constexpr unsigned kMost = 256;
+  if (!kHasThreads) return 1;
+  return std::clamp(wanted != 0 ? wanted : std::thread::hardware_concurrency(), 1u, kMost);
+}
+
+Team::Team(unsigned threads) {
+  for (unsigned n = 1; n < threads; ++n) {
+    try {
+      helpers_.emplace_back([this] { help(); });
+    } catch (const std::system_error&) {
+      break;  // the machine gives no more threads; those there are do the work
+    }
+  }
+}
+
+Team::~Team() {
+  begin({});
+  for (std::thread& helper : helpers_) helper.join();
+}
+
+void Team::begin(std::function<void()> round) {
+  if (helpers_.empty()) return;
+  round_ = std::move(round);
+  working_.store(static_cast<std::uint32_t>(helpers_.size()), std::memory_order_relaxed);
+  rounds_.fetch_add(1, std::memory_order_release);
+  rounds_.notify_all();
+}
+
+void Team::finish() {
+  for (std::uint32_t left = working_; left != 0; left = working_.load(std::memory_order_acquire))
+    wait_while(working_, left);
+}
+
+void Team::help() {
+  for (std::uint32_t seen = 0;; ++seen) {
+    wait_while(rounds_, seen);
+    if (!round_) return;
+    round_();
+    if (working_.fetch_sub(1, std::memory_order_release) == 1) working_.notify_one();
+  }
+}
+
+}  // namespace kerf
