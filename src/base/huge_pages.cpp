@@ -3,21 +3,45 @@
 
 #include <cstdint>
 
+#include "base/parallel.h"
+
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
 
 namespace kerf {
+namespace {
+
+/// The huge pages that lie wholly in some memory.
+struct Pages {
+  Pages(void* memory, std::size_t bytes)
+      : begin((reinterpret_cast<std::uintptr_t>(memory) + kHugePage - 1) / kHugePage * kHugePage),
+        end((reinterpret_cast<std::uintptr_t>(memory) + bytes) / kHugePage * kHugePage) {}
+  std::size_t count() const { return begin < end ? (end - begin) / kHugePage : 0; }
+  std::uintptr_t begin, end;
+};
+
+}  // namespace
 
 void use_huge_pages(void* memory, std::size_t bytes) {
+  const Pages pages(memory, bytes);
+  if (pages.count() == 0) return;
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
-  const auto begin = (reinterpret_cast<std::uintptr_t>(memory) + kHugePage - 1) / kHugePage * kHugePage;
-  const auto end = (reinterpret_cast<std::uintptr_t>(memory) + bytes) / kHugePage * kHugePage;
-  if (begin >= end) return;
-  (void)madvise(reinterpret_cast<void*>(begin), end - begin,
+  (void)madvise(reinterpret_cast<void*>(pages.begin), pages.end - pages.begin,
                 MADV_HUGEPAGE);  // refused: small ones do as well
+#endif
+}
+
+void prepare_pages(void* memory, std::size_t bytes, unsigned threads) {
+  use_huge_pages(memory, bytes);
+#if defined(__linux__) && defined(MADV_POPULATE_WRITE)
+  const Pages pages(memory, bytes);
+  const auto give = [&](std::size_t n) {
+    (void)madvise(reinterpret_cast<void*>(pages.begin + n * kHugePage), kHugePage, MADV_POPULATE_WRITE);
+  };
+  if (pages.count() > 1) parallel_for(threads, pages.count(), give, [] { return false; });
 #else
-  (void)memory, (void)bytes;
+  (void)threads;
 #endif
 }
 

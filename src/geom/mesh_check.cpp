@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 
 #include "kerf/geometry.h"
@@ -20,10 +23,11 @@ using Positions = std::span<const float>;
 using Triangles = std::span<const std::uint32_t>;
 
 constexpr std::size_t kChunk = std::size_t{3} << 14;  // indices
-/// Each share of the edges is found in all triangles: with more of them there is nothing to be won.
-constexpr std::size_t kMostShares = 16;
-/// Of a vertex's number one bit is left for the way in which a side goes.
-constexpr std::size_t kMostVertices = std::size_t{1} << 31;
+/// Each share of the triangles counts the sides of all vertices: with more of them there is nothing to be
+/// won.
+constexpr std::size_t kMostShares = 4;
+/// Of a vertex's number one bit is left for the way in which a side goes; sides are counted in 32 bits.
+constexpr std::size_t kMostVertices = std::size_t{1} << 31, kMostSides = (std::size_t{1} << 32) - 1;
 
 bool never() { return false; }
 
@@ -63,7 +67,24 @@ double enclosed(Positions positions, Triangles triangles, unsigned threads) {
 /// in number.
 using Side = std::uint32_t;
 
+/// Whether each of a few sides has just one that is the same edge, in the opposite direction. Without
+/// branches that depend on them.
+bool are_pairs(const Side* sides, std::size_t count) {
+  std::size_t opposite = 0, same = 0;
+  for (std::size_t k = 1; k < count; ++k) {
+    for (std::size_t n = 0; n < k; ++n) {
+      const Side difference = sides[k] ^ sides[n];
+      opposite += difference == 1 ? 1 : 0;
+      same += difference == 0 ? 1 : 0;
+    }
+  }
+  return same == 0 && 2 * opposite == count;
+}
+
+/// Edges of one lower vertex without two triangles in opposite directions.
 std::size_t count_bad(Side* begin, Side* end) {
+  constexpr std::ptrdiff_t kFew = 16;
+  if (end - begin <= kFew && are_pairs(begin, static_cast<std::size_t>(end - begin))) return 0;
   std::sort(begin, end);
   std::size_t bad = 0;
   while (begin != end) {
@@ -76,28 +97,86 @@ std::size_t count_bad(Side* begin, Side* end) {
   return bad;
 }
 
-/// Edges, by their lower vertex from `first` to `end` - 1, without two triangles in opposite directions.
-std::size_t count_bad_edges(Triangles triangles, std::size_t first, std::size_t end) {
-  const auto each_side = [&](auto&& visit) {
+/// Sorts the sides of all triangles by their lower vertices. Each thread takes a share of the triangles.
+class Edges {
+ public:
+  Edges(Triangles triangles, std::size_t vertices, unsigned threads)
+      : triangles_(triangles),
+        vertices_(vertices),
+        threads_(threads),
+        next_(std::min<std::size_t>(threads, kMostShares)) {}
+
+  /// Edges without two triangles in opposite directions; nothing where the triangles have vertices that there
+  /// are not.
+  std::optional<std::size_t> bad() {
+    std::vector<std::uint8_t> sound(next_.size());
+    parallel_for(
+        threads_, next_.size(), [&](std::size_t n) { sound[n] = count(n) ? 1 : 0; }, never);
+    if (std::find(sound.begin(), sound.end(), 0) != sound.end()) return std::nullopt;
+    find_places();
+    parallel_for(
+        threads_, next_.size(), [&](std::size_t n) { put(n); }, never);
+    std::vector<std::size_t> bad(vertices_ / kEach + 1);
+    parallel_for(
+        threads_, bad.size(),
+        [&](std::size_t n) { bad[n] = count_bad_of(n * kEach, std::min((n + 1) * kEach, vertices_)); },
+        never);
+    return std::accumulate(bad.begin(), bad.end(), std::size_t{0});
+  }
+
+ private:
+  static constexpr std::size_t kEach = std::size_t{1} << 14;  // vertices
+
+  Triangles share(std::size_t n) const {
+    const std::size_t count = triangles_.size() / 3;
+    const std::size_t begin = n * count / next_.size(), end = (n + 1) * count / next_.size();
+    return triangles_.subspan(3 * begin, 3 * (end - begin));
+  }
+  template <class Visit>
+  static void each_side(Triangles triangles, const Visit& visit) {
     for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
       const std::uint32_t a = triangles[t], b = triangles[t + 1], c = triangles[t + 2];
-      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
-        const std::size_t low = std::min(from, to);
-        if (low - first < end - first) visit(low - first, 2 * std::max(from, to) + (from < to ? 0u : 1u));
-      }
+      for (const auto& [from, to] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)})
+        visit(std::min(from, to), 2 * std::max(from, to) + (from < to ? 0u : 1u));
     }
-  };
-  // Of each vertex the place of its first side, once its sides have gone there one by one.
-  std::vector<std::size_t> start(end - first + 2, 0);
-  each_side([&](std::size_t low, Side) { ++start[low + 2]; });
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  std::vector<Side> sides(start.back());
-  each_side([&](std::size_t low, Side side) { sides[start[low + 1]++] = side; });
-  std::size_t bad = 0;
-  for (std::size_t v = 0; v < end - first; ++v)
-    bad += count_bad(sides.data() + start[v], sides.data() + start[v + 1]);
-  return bad;
-}
+  }
+
+  /// Counts the sides of each vertex in a share; false if there is no such vertex.
+  bool count(std::size_t n) {
+    const Triangles mine = share(n);
+    next_[n].assign(vertices_, 0);
+    for (std::size_t first = 0; first < mine.size(); first += kChunk) {
+      const Triangles chunk = mine.subspan(first, std::min(kChunk, mine.size() - first));
+      if (*std::max_element(chunk.begin(), chunk.end()) >= vertices_) return false;
+      each_side(chunk, [&](std::uint32_t low, Side) { ++next_[n][low]; });
+    }
+    return true;
+  }
+  /// Sides are sorted by vertex, those of a vertex by share.
+  void find_places() {
+    std::uint32_t place = 0;
+    for (std::size_t v = 0; v < vertices_; ++v)
+      for (std::vector<std::uint32_t>& next : next_) place += std::exchange(next[v], place);
+    sides_.reset(new Side[place]);  // not cleared: all are put there
+    use_huge_pages(sides_.get(), place * sizeof(Side));
+  }
+  void put(std::size_t n) {
+    each_side(share(n), [&](std::uint32_t low, Side side) { sides_[next_[n][low]++] = side; });
+  }
+  std::size_t count_bad_of(std::size_t first, std::size_t end) const {
+    std::size_t bad = 0;
+    std::uint32_t begin = first == 0 ? 0 : next_.back()[first - 1];
+    for (std::size_t v = first; v < end; ++v)
+      bad += count_bad(sides_.get() + std::exchange(begin, next_.back()[v]), sides_.get() + next_.back()[v]);
+    return bad;
+  }
+
+  Triangles triangles_;
+  std::size_t vertices_;
+  unsigned threads_;
+  std::vector<std::vector<std::uint32_t>> next_;  // by share: of each vertex, where its next side goes
+  std::unique_ptr<Side[]> sides_;
+};
 
 }  // namespace
 
@@ -106,20 +185,12 @@ MeshCheck check_mesh(Positions positions, Triangles triangles, unsigned threads)
   triangles = triangles.first(triangles.size() / 3 * 3);
   MeshCheck check;
   if (triangles.empty()) return check;
-  if (*std::max_element(triangles.begin(), triangles.end()) >= std::min(vertices, kMostVertices)) {
-    check.bad_edges = triangles.size();  // not a mesh at all
-    return check;
-  }
   threads = thread_count(threads);
-  check.volume = mm3(enclosed(positions, triangles, threads));
-  std::vector<std::size_t> bad(std::min<std::size_t>(threads, kMostShares));
-  parallel_for(
-      threads, bad.size(),
-      [&](std::size_t n) {
-        bad[n] = count_bad_edges(triangles, n * vertices / bad.size(), (n + 1) * vertices / bad.size());
-      },
-      never);
-  check.bad_edges = std::accumulate(bad.begin(), bad.end(), std::size_t{0});
+  std::optional<std::size_t> bad;
+  if (vertices <= kMostVertices && triangles.size() <= kMostSides)
+    bad = Edges(triangles, vertices, threads).bad();
+  check.bad_edges = bad.value_or(triangles.size());  // without a number: not a mesh at all
+  if (bad) check.volume = mm3(enclosed(positions, triangles, threads));
   return check;
 }
 

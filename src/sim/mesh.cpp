@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/huge_pages.h"
 #include "base/parallel.h"
 #include "sim/mesh_build.h"
 
@@ -71,7 +72,8 @@ void add_walls(WallFiller& walls, Builder& builder, const CornerPlane& plane, Co
 /// The walls of the corner rows of a band, which are made with vertices of their own. Of the row before the
 /// band, which they reach down to, each band has a copy.
 struct WallBand {
-  explicit WallBand(const Columns& columns, const MeshOptions& options) : builder{columns, options, {}, {}} {}
+  WallBand(const Columns& columns, const MeshOptions& options)
+      : builder{columns, options, {}, {}}, before(columns), last(columns) {}
   Builder builder;
   CornerRow before, last;
 };
@@ -133,12 +135,12 @@ class Extraction {
   void make_walls(int number) {
     WallBand& band = walls(number);
     WallFiller filler(band.builder);
-    CornerRow other;
+    CornerRow other(columns_);
     CornerRow *below = &band.before, *row = &band.last;
     const int first = number * meshing::kSquare;
-    if (first > 0 && first <= columns_.ny()) below->build(columns_, plane_, first - 1);
+    if (first > 0 && first <= columns_.ny()) below->build(plane_, first - 1);
     for (int j = first; j < end_row(number); ++j) {
-      row->build(columns_, plane_, j);
+      row->build(plane_, j);
       add_walls(filler, band.builder, plane_, *below, *row, j);
       if (j > first) take(band, *below, j - 1);
       if (j == first) below = &other;
@@ -173,6 +175,9 @@ class Extraction {
 
   void number_walls(const std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>>& same) {
     std::vector<float>& positions = mesh.positions;
+    std::size_t numbers = 0;
+    for (const WallBand& band : walls_) numbers += band.builder.mesh.positions.size();
+    positions.reserve(numbers);
     for (std::size_t b = 0; b < walls_.size(); ++b) {
       const Mesh& band = walls_[b].builder.mesh;
       std::vector<std::uint32_t> number(band.positions.size() / 3, meshing::kNone);
@@ -207,10 +212,16 @@ class Extraction {
     }
     const std::size_t wall_triangles = place.triangles;
     for (const int n : {0, 1}) sheet(n).find_places(place);
-    enlarge(mesh.positions, 3 * place.vertices);
-    enlarge(mesh.triangles, 3 * place.triangles);
-    enlarge(mesh.step, place.triangles);
+    prepare(mesh.positions, 3 * place.vertices);
+    prepare(mesh.triangles, 3 * place.triangles);
+    prepare(mesh.step, place.triangles);
+    const auto enlarge = [&](int n) {
+      if (n == 0) return mesh.triangles.resize(3 * place.triangles);
+      mesh.positions.resize(3 * place.vertices);
+      mesh.step.resize(place.triangles);
+    };
     const bool filled =
+        in_parallel(2, enlarge) &&
         in_bands([&](int band) { fill_walls(band, first_of_walls[static_cast<std::size_t>(band)]); }) &&
         in_bands_of_both([&](CapSheet& sheet, int band) { sheet.fill(band, wall_vertices_, mesh); });
     if (!filled) return false;
@@ -221,7 +232,7 @@ class Extraction {
     for (const int n : {0, 1}) sheet(n).close_gaps(mesh, end, at_walls);
     mesh.triangles.resize(3 * end);
     mesh.step.resize(end);
-    meshing::split_shared_edges(mesh, suspects_, at_walls);
+    meshing::split_shared_edges(mesh, threads_, suspects_, at_walls);
     meshing::mend_flat_triangles(mesh, threads_, at_walls);  // others are half squares or larger
     return true;
   }
@@ -235,10 +246,9 @@ class Extraction {
   }
 
   template <class Number>
-  static void enlarge(std::vector<Number>& numbers, std::size_t count) {
+  void prepare(std::vector<Number>& numbers, std::size_t count) const {
     numbers.reserve(count);
-    sim::use_huge_pages(numbers.data(), count * sizeof(Number));
-    numbers.resize(count);
+    prepare_pages(numbers.data(), count * sizeof(Number), threads_);
   }
 
   const Columns& columns_;

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <cstring>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "base/parallel.h"
 #include "sim/blocks.h"
 #include "sim/mesh_corners.h"
 
@@ -80,14 +82,15 @@ class WallFiller {
 };
 
 /// What a cap keeps of the corners of a square, those on its two high sides left out. Only squares where
-/// something happens have one.
+/// something happens have one. It is small: that each corner has an entry of its own, needed or not, takes
+/// longer to clear than the rest to fill.
 struct CapBlock {
-  CapBlock() {
-    needed.fill(0);
-    entry.fill(kNone);
-  }
-  std::array<std::uint8_t, kSquareColumns> needed;  // corners that must be vertices
-  std::array<std::uint32_t, kSquareColumns> entry;  // see CapSheet
+  CapBlock() { needed.fill(0); }
+  /// Place in the band's entries, of a needed corner.
+  std::size_t place(std::size_t cell) const { return before[cell / kSquare] + needed[cell] - std::size_t{1}; }
+  /// Corners that must be vertices: not 0. Once all are known, their numbers in their rows, from 1.
+  std::array<std::uint8_t, kSquareColumns> needed;
+  std::array<std::uint32_t, kSquare> before;  // needed corners of the band before each row
 };
 
 /// The caps of all columns on one side, the tops of their highest intervals or the bottoms of their lowest,
@@ -139,9 +142,11 @@ class CapSheet {
   };
   struct Band {
     std::vector<float> positions;
-    std::vector<std::array<std::uint32_t, 4>> parts;  // vertices by quadrant where the cap is torn
-    std::vector<Node> beyond;                         // needed corners of other bands
-    std::vector<int> above;  // x of the corners on the band's high side that errors need
+    std::vector<std::array<std::uint32_t, 4>> parts;    // vertices by quadrant where the cap is torn
+    std::vector<std::pair<Node, std::uint32_t>> taken;  // corners whose entries are known from the start
+    std::vector<std::uint32_t> entries;  // of the needed corners, those of whole squares left out
+    std::vector<Node> beyond;            // needed corners of other bands
+    std::vector<int> above;              // x of the corners on the band's high side that errors need
     std::size_t first_vertex = 0, first_triangle = 0, triangles = 0;
     std::size_t most_triangles = 0, below = 0;  // of its own squares; more of those of the band below
     std::vector<std::size_t> at_walls;          // triangles
@@ -155,7 +160,9 @@ class CapSheet {
   }
   CapBlock& block(int i, int j);
   static bool is_whole(int i, int j) { return i % kSquare == 0 && j % kSquare == 0; }
+  void take_entry(int i, int j, std::uint32_t entry);
   std::uint32_t& entry(int i, int j);
+  void number_corners(Band& band, int number);
   const Ends& ends_of(const Square& square) const {
     return side_ == Side::bottom ? *square.low : *square.high;
   }
@@ -171,7 +178,7 @@ class CapSheet {
   void need_parents(Node n, int band, std::vector<Node>& work, const Beyond& beyond);
   template <class Work>
   void for_needed(int band, const Work& work) const;
-  bool is_new_vertex(int i, int j);
+  bool is_new_vertex(int i, int j) const;
   void place_vertex(Band& band, int i, int j);
 
   const Columns& columns_;
@@ -214,11 +221,28 @@ inline std::uint32_t group_key(const MeshOptions& options, std::uint32_t step) {
 void scan_corners(const Columns& columns, const MeshOptions& options, int band, CornerPlane& plane,
                   CapSheet& top, CapSheet& bottom);
 
+/// Numbers below `count` for which test(number) holds, in order, looked for on several threads.
+template <class Test>
+std::vector<std::size_t> numbers_where(unsigned threads, std::size_t count, const Test& test) {
+  constexpr std::size_t kEach = 1 << 14;
+  std::vector<std::vector<std::size_t>> found(count / kEach + 1);
+  parallel_for(
+      threads, found.size(),
+      [&](std::size_t n) {
+        for (std::size_t k = n * kEach; k < std::min((n + 1) * kEach, count); ++k)
+          if (test(k)) found[n].push_back(k);
+      },
+      [] { return false; });
+  std::vector<std::size_t> all;
+  for (const std::vector<std::size_t>& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
 /// Makes every edge the edge of exactly two triangles and every vertex the tip of one fan, by parting
 /// vertices (and, where that does not part an edge, by halving it). All edges must already have as many
 /// triangles on one side as on the other. `near`: all triangles that have a suspect, maybe more; those that
 /// are made are added.
-void split_shared_edges(Mesh& mesh, const std::vector<std::uint32_t>& suspects,
+void split_shared_edges(Mesh& mesh, unsigned threads, const std::vector<std::uint32_t>& suspects,
                         std::vector<std::size_t>& near);
 
 /// Takes out triangles without area, after which the mesh is as closed as before. A few may stay where taking

@@ -37,10 +37,20 @@ void CapSheet::need(int i, int j) {
   if (!is_whole(i, j)) block(i, j).needed[Columns::cell(i, j)] = 1;
 }
 
+void CapSheet::take_entry(int i, int j, std::uint32_t entry) {
+  if (is_whole(i, j)) {
+    whole_[block_number(i, j)] = entry;
+    return;
+  }
+  need(i, j);
+  bands_[static_cast<std::size_t>(j / kSquare)].taken.push_back({{i, j}, entry});
+}
+
 /// To be asked of whole squares' corners and of corners that are needed.
 std::uint32_t& CapSheet::entry(int i, int j) {
-  if (is_whole(i, j)) return whole_[block_number(i, j)];
-  return block(i, j).entry[Columns::cell(i, j)];
+  const std::size_t block = block_number(i, j);
+  if (is_whole(i, j)) return whole_[block];
+  return bands_[static_cast<std::size_t>(j / kSquare)].entries[blocks_[block]->place(Columns::cell(i, j))];
 }
 
 void CapSheet::give(int i, int j, double z) {
@@ -58,8 +68,7 @@ void CapSheet::take_whole(Builder& walls, Sheet& sheet, int i, int j) {
   give(i, j, sheet.z);
   const std::uint32_t vertex = has_moved && !may_go ? walls.vertex(sheet) : sheet.vertex;
   if (vertex == kNone && may_go) return;
-  need(i, j);
-  entry(i, j) = vertex;
+  take_entry(i, j, vertex);
 }
 
 void CapSheet::take_corner(Builder& walls, CornerRow& row, const Corner& corner, int i, int j) {
@@ -84,8 +93,7 @@ void CapSheet::take_corner(Builder& walls, CornerRow& row, const Corner& corner,
   for (std::size_t q = 0; q < 4; ++q)
     if (ranks[q] >= 0) part[q] = walls.vertex(row.sheet(corner, ranks[q]));
   auto& parts = bands_[static_cast<std::size_t>(j / kSquare)].parts;
-  need(i, j);
-  entry(i, j) = kMany + static_cast<std::uint32_t>(parts.size());
+  take_entry(i, j, kMany + static_cast<std::uint32_t>(parts.size()));
   parts.push_back(part);
 }
 
@@ -98,8 +106,7 @@ void CapSheet::take(Builder& walls, CornerRow& row, int j) {
     }
     const Sheet& sheet = row.sheet(corner, side_ == Side::bottom ? 0 : 1);
     if (sheet.vertex == kNone) continue;
-    need(i, j);
-    entry(i, j) = sheet.vertex;
+    take_entry(i, j, sheet.vertex);
   }
 }
 
@@ -126,8 +133,7 @@ bool CapSheet::of_one_group(int i, int j) const {
 
 /// Whether triangles will meet a corner that has no vertex yet, and that is needed or the corner of a whole
 /// square. Where it has material on all sides they do.
-bool CapSheet::is_new_vertex(int i, int j) {
-  if (i > columns_.nx() || j > columns_.ny() || entry(i, j) != kNone) return false;
+bool CapSheet::is_new_vertex(int i, int j) const {
   if (plane_.simple(i, j)) return true;
   for (int q = 0; q < 4; ++q)
     if (columns_.ends(column_x(i, q), column_y(j, q)) == 0) return false;
@@ -135,21 +141,48 @@ bool CapSheet::is_new_vertex(int i, int j) {
 }
 
 void CapSheet::place_vertex(Band& band, int i, int j) {
-  if (!is_new_vertex(i, j)) return;
+  if (i > columns_.nx() || j > columns_.ny()) return;
+  std::uint32_t& mine = entry(i, j);
+  if (mine != kNone || !is_new_vertex(i, j)) return;
   double sum = 0.0;
   for (int q = 0; q < 4; ++q) {
     const int ci = column_x(i, q), cj = column_y(j, q);
     sum += static_cast<double>(ends_of(columns_.square_of(ci, cj)).z[Columns::cell(ci, cj)]);
   }
-  entry(i, j) = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
+  mine = kNew + static_cast<std::uint32_t>(band.positions.size() / 3);
   const Point3 at = columns_.frame().bounds.low + Point3{columns_.corner_x(i), columns_.corner_y(j), sum / 4};
   for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
+}
+
+/// Gives each needed corner of a band a place for its entry.
+void CapSheet::number_corners(Band& band, int number) {
+  std::uint32_t count = 0;
+  for (int x = 0; x < blocks_x_; ++x) {
+    CapBlock* const known = blocks_[block_number(x * kSquare, number * kSquare)].get();
+    if (known == nullptr) continue;
+    for (std::size_t row = 0; row < kSquare; ++row) {
+      known->before[row] = count;
+      std::uint8_t* const needed = known->needed.data() + row * kSquare;
+      std::uint8_t in_row = 0;
+      for (std::size_t k = 0; k < kSquare; k += sizeof(std::uint64_t)) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, needed + k, sizeof eight);
+        for (std::size_t c = k; eight != 0 && c < k + sizeof eight; ++c)
+          if (needed[c] != 0) needed[c] = ++in_row;
+      }
+      count += in_row;
+    }
+  }
+  band.entries.assign(count, kNone);
+  band.positions.reserve(3 * (std::size_t{count} + static_cast<std::size_t>(blocks_x_)));
+  for (const auto& [at, entry] : band.taken) this->entry(at.x, at.y) = entry;
 }
 
 /// Halving a square's triangles at a corner makes two more of them, or on its side one of its own and one of
 /// the square beside it.
 void CapSheet::place_vertices(int number) {
   Band& band = bands_[static_cast<std::size_t>(number)];
+  number_corners(band, number);
   for (int x = 0; x < blocks_x_; ++x) place_vertex(band, x * kSquare, number * kSquare);
   band.most_triangles = 2 * static_cast<std::size_t>(columns_.squares_x());
   for_needed(number, [&](int i, int j) {
@@ -182,14 +215,20 @@ class CapSheet::Cover {
         wide_(std::min(kSquare, columns_.nx() - square_x * kSquare)),
         deep_(std::min(kSquare, columns_.ny() - number * kSquare)),
         band_(sheet.bands_[static_cast<std::size_t>(number)]),
-        mesh_(mesh) {
+        triangles_(mesh.triangles.data()),
+        step_(mesh.step.data()) {
     for (int k = 0; k < 4; ++k) {
       const int x = square_x + k % 2, y = number + k / 2;
       const std::size_t at = sheet.block_number(x * kSquare, y * kSquare);
-      const auto band = static_cast<std::size_t>(y);
+      const auto number_of_band = static_cast<std::size_t>(y);
+      const Band& band = sheet.bands_[number_of_band];
       corners_[static_cast<std::size_t>(k)] = {
-          sheet.blocks_[at].get(), sheet.whole_[at], &sheet.bands_[band],
-          band < wall_vertices.size() ? wall_vertices[band].data() : nullptr};
+          sheet.blocks_[at].get(),
+          band.entries.data(),
+          sheet.whole_[at],
+          static_cast<std::uint32_t>(band.first_vertex),
+          &band,
+          number_of_band < wall_vertices.size() ? wall_vertices[number_of_band].data() : nullptr};
     }
   }
 
@@ -203,12 +242,14 @@ class CapSheet::Cover {
   /// What a block knows that a corner of the square belongs to.
   struct Known {
     const CapBlock* block = nullptr;
+    const std::uint32_t* entries = nullptr;
     std::uint32_t whole = kNone;
+    std::uint32_t first_vertex = 0;
     const Band* band = nullptr;
     const std::uint32_t* wall_vertices = nullptr;
   };
   const Known& known(Node n) const {
-    return corners_[static_cast<std::size_t>(n.x / kSquare + 2 * (n.y / kSquare))];
+    return corners_[static_cast<unsigned>(n.x) / kSquare + 2 * (static_cast<unsigned>(n.y) / kSquare)];
   }
   bool is_needed(Node n) const {
     const CapBlock* const block = known(n).block;
@@ -224,7 +265,7 @@ class CapSheet::Cover {
   bool up_;
   int wide_, deep_;  // columns of the square that are in the grid
   Band& band_;
-  Mesh& mesh_;
+  std::uint32_t *triangles_, *step_;  // the mesh's
   std::array<Known, 4> corners_;
 };
 
@@ -257,20 +298,19 @@ void CapSheet::Cover::leaf(Node a, Node b, Node apex) {
   if (va == vb || vb == vc || vc == va) return;
   const std::size_t t = band_.first_triangle + band_.triangles++;
   if (at_wall) band_.at_walls.push_back(t);
-  mesh_.triangles[3 * t] = va;
-  mesh_.triangles[3 * t + 1] = vb;
-  mesh_.triangles[3 * t + 2] = vc;
-  mesh_.step[t] = ends_.step[cell];
+  triangles_[3 * t] = va;
+  triangles_[3 * t + 1] = vb;
+  triangles_[3 * t + 2] = vc;
+  step_[t] = ends_.step[cell];
 }
 
 std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) const {
   const Known& known = this->known(corner);
-  const bool whole = is_whole(corner.x, corner.y);
-  assert(whole || known.block != nullptr);
-  const std::uint32_t entry = whole ? known.whole : known.block->entry[Columns::cell(corner.x, corner.y)];
+  const std::size_t cell = Columns::cell(corner.x, corner.y);
+  assert(cell == 0 || known.block != nullptr);
+  const std::uint32_t entry = cell == 0 ? known.whole : known.entries[known.block->place(cell)];
   assert(entry != kNone);
-  if ((entry & (kNew | kMany)) == kNew)
-    return static_cast<std::uint32_t>(known.band->first_vertex) + entry - kNew;
+  if ((entry & (kNew | kMany)) == kNew) return known.first_vertex + entry - kNew;
   at_wall = true;
   if (entry < kNew) return known.wall_vertices[entry];
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));

@@ -75,7 +75,9 @@ template <class Read>
 void Columns::fill(unsigned threads, const Read& read) {
   const auto read_one = [&](std::size_t n) {
     read(n);
-    if (squares_[n].many == nullptr && !squares_[n].is_uniform) squares_[n].is_uniform = all_alike(n);
+    Square& square = squares_[n];
+    square.is_low_level = square.low == floor_.get() || is_level(n, *square.low);
+    square.is_high_level = square.high == full_.get() || is_level(n, *square.high);
   };
   parallel_for(threads, squares_.size(), read_one, [] { return false; });
   has_material_ = std::any_of(squares_.begin(), squares_.end(),
@@ -97,17 +99,13 @@ Ends& Columns::own(std::size_t square, int end) {
   return *ends;
 }
 
-bool Columns::all_alike(std::size_t number) const {
-  const int wide = columns_x(number), deep = columns_y(number);
-  const auto alike = [&](const Ends& ends) {
-    for (int y = 0; y < deep; ++y) {
-      for (std::size_t c = cell(0, y); c < cell(0, y) + static_cast<std::size_t>(wide); ++c)
-        if (ends.z[c] != ends.z[0] || ends.step[c] != ends.step[0]) return false;
-    }
-    return true;
-  };
-  const Square& square = squares_[number];
-  return alike(*square.high) && (square.low == floor_.get() || alike(*square.low));
+bool Columns::is_level(std::size_t number, const Ends& ends) const {
+  const auto wide = static_cast<std::size_t>(columns_x(number));
+  for (int y = 0; y < columns_y(number); ++y) {
+    for (std::size_t c = cell(0, y); c < cell(0, y) + wide; ++c)
+      if (ends.z[c] != ends.z[0] || ends.step[c] != ends.step[0]) return false;
+  }
+  return true;
 }
 
 template <class Add>
@@ -139,7 +137,6 @@ void Columns::read_tile(const Workpiece::Body& body, std::size_t number) {
   const sim::Tile* const tile = body.tiles[number].get();
   if (tile == nullptr) {
     square.high = full_.get();
-    square.is_uniform = true;
     return;
   }
   Ends& high = own(number, 1);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sim/blocks.h"
@@ -37,8 +38,14 @@ struct Square {
   const Ends* low = nullptr;
   const Ends* high = nullptr;
   const ManyRuns* many = nullptr;  // null: each column is one interval
-  bool is_uniform = false;         // all of one interval, at the same heights, by the same steps
+  // Whether all these ends are at one height, by the same step.
+  bool is_low_level = false, is_high_level = false;
+  /// All columns are of one interval, and alike.
+  bool is_uniform() const { return many == nullptr && is_low_level && is_high_level; }
 };
+
+/// The intervals of a column, lowest first.
+using Runs = std::span<const Interval>;
 
 /// Reads columns by number. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the high
 /// one.
@@ -79,6 +86,18 @@ class Columns {
     return std::size_t{static_cast<unsigned>(j) % kSquare * kSquare + static_cast<unsigned>(i) % kSquare};
   }
 
+  /// Whether all columns from `low` to `high` along both axes, as far as they are in the grid, stand on one
+  /// level.
+  bool have_level_floor(int low_i, int low_j, int high_i, int high_j) const {
+    const int first_x = std::max(low_i, 0) / kSquare, last_x = std::min(high_i, nx() - 1) / kSquare;
+    const int first_y = std::max(low_j, 0) / kSquare, last_y = std::min(high_j, ny() - 1) / kSquare;
+    const float z = square(first_x, first_y).low->z[0];
+    for (int y = first_y; y <= last_y; ++y)
+      for (int x = first_x; x <= last_x; ++x)
+        if (const Square& s = square(x, y); !s.is_low_level || s.low->z[0] != z) return false;
+    return true;
+  }
+
   bool inside(int i, int j) const { return i >= 0 && j >= 0 && i < nx() && j < ny(); }
   /// Ends of a column; 0 outside the grid.
   int ends(int i, int j) const {
@@ -88,11 +107,16 @@ class Columns {
     const std::size_t c = cell(i, j);
     return 2 * static_cast<int>(s.many->first[c + 1] - s.many->first[c]);
   }
-  Interval interval(int i, int j, int k) const {
+  /// The intervals of a column, none outside the grid; `one` is where that of a column is put of which no
+  /// intervals are kept.
+  Runs runs(int i, int j, Interval& one) const {
+    if (!inside(i, j)) return {};
     const Square& s = square_of(i, j);
     const std::size_t c = cell(i, j);
-    if (s.many != nullptr) return s.many->runs[s.many->first[c] + static_cast<std::size_t>(k)];
-    return {s.low->z[c], s.high->z[c], s.low->step[c], s.high->step[c]};
+    if (s.many != nullptr)
+      return {s.many->runs.data() + s.many->first[c], std::size_t{s.many->first[c + 1] - s.many->first[c]}};
+    one = {s.low->z[c], s.high->z[c], s.low->step[c], s.high->step[c]};
+    return {&one, 1};
   }
   double z(int i, int j, int end) const {
     const Square& s = square_of(i, j);
@@ -112,17 +136,6 @@ class Columns {
   std::uint32_t cut_through(int i, int j) const {
     return inside(i, j) ? square_of(i, j).high->step[cell(i, j)] : kStockSurface;
   }
-  /// The end of a neighbouring column that faces the same void as `end` does with material behind both; -1:
-  /// none.
-  int facing_end(int i, int j, int end, int other_i, int other_j) const;
-  /// Whether `end` and its neighbour's `other_end` (from facing_end) are one surface, or a wall stands
-  /// between.
-  bool continues(int i, int j, int end, int other_i, int other_j, int other_end) const;
-  /// The height that `end` has in a neighbouring column, see facing_end; false: it has none.
-  bool facing_z(int i, int j, int end, int other_i, int other_j, double& z) const;
-  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at a column's end, from the neighbours that
-  /// continue it.
-  double slope(int i, int j, int end, int dx, int dy) const;
 
  private:
   Columns(ColumnGrid frame, float full_height);
@@ -138,7 +151,7 @@ class Columns {
   void fill_many(std::size_t number, const Add& add);
   template <class Read>
   void fill(unsigned threads, const Read& read);
-  bool all_alike(std::size_t number) const;
+  bool is_level(std::size_t number, const Ends& ends) const;
 
   ColumnGrid frame_;
   int squares_x_, squares_y_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "sim/mesh_columns.h"
@@ -23,6 +24,72 @@ inline constexpr double kSlopeShare = 0.5;
 inline constexpr double kRiseRatio = 2.5;
 inline bool goes_on(double rise, double step) {
   return step * rise > 0.0 && std::abs(rise) <= kRiseRatio * std::abs(step);
+}
+
+/// Puts a few things in order; those that are alike stay as they are to each other. No memory is asked for,
+/// unless there are many.
+template <class Thing, class Before>
+void sort_few(std::vector<Thing>& things, const Before& before) {
+  constexpr std::size_t kFew = 16;
+  if (things.size() > kFew) {
+    std::stable_sort(things.begin(), things.end(), before);
+    return;
+  }
+  for (std::size_t k = 1; k < things.size(); ++k)
+    for (std::size_t n = k; n > 0 && before(things[n], things[n - 1]); --n)
+      std::swap(things[n], things[n - 1]);
+}
+
+/// The end of `other` that faces the same void as `end` of `mine` does, with material behind both; -1: none.
+int facing_end(Runs mine, int end, Runs other);
+
+/// Of four columns in a line: whether `end` of the second and `other_end` of the third (from facing_end) are
+/// one surface, or a wall stands between.
+struct ColumnLine {
+  Runs before, mine, other, after;
+};
+bool continues(const ColumnLine& line, int end, int other_end, double pitch);
+
+/// The columns around a corner, each read when it is asked for first.
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(const Columns& columns) : columns_(&columns) {}
+  void move_to(int i, int j) {
+    i_ = i - kReach;
+    j_ = j - kReach;
+    known_ = 0;
+    is_floor_level_ = columns_->have_level_floor(i_, j_, i_ + kSide - 1, j_ + kSide - 1);
+  }
+  /// A column that touches the corner or is one of the next two of these along X or Y.
+  Runs runs(int i, int j) {
+    const auto n = static_cast<std::size_t>(kSide * (j - j_) + (i - i_));
+    if ((known_ >> n & 1u) == 0) {
+      known_ |= std::uint64_t{1} << n;
+      runs_[n] = columns_->runs(i, j, one_[n]);
+    }
+    return runs_[n];
+  }
+  double pitch() const { return columns_->pitch(); }
+  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at the end of a column that touches the corner,
+  /// from the neighbours that continue it.
+  double slope(int i, int j, int end, int dx, int dy);
+  ColumnLine line(int i, int j, int dx, int dy) {
+    return {runs(i - dx, j - dy), runs(i, j), runs(i + dx, j + dy), runs(i + 2 * dx, j + 2 * dy)};
+  }
+
+ private:
+  static constexpr int kReach = 3, kSide = 2 * kReach;  // columns
+  const Columns* columns_;
+  int i_ = 0, j_ = 0;
+  bool is_floor_level_ = false;  // all lowest ends are at one height
+  std::uint64_t known_ = 0;      // a bit a column
+  std::array<Runs, kSide * kSide> runs_;
+  std::array<Interval, kSide * kSide> one_;
+};
+
+inline double z_of(Runs runs, int end) {
+  const Interval& run = runs[static_cast<std::size_t>(end / 2)];
+  return static_cast<double>(end % 2 == 0 ? run.low : run.high);
 }
 
 /// One surface (or several ends of one column each) at a corner: one vertex.
@@ -51,12 +118,20 @@ class CornerPlane {
   /// The corners with one y, writable by several threads.
   std::uint8_t* row(int j) { return bytes_.data() + offset(j); }
   const std::uint8_t* row(int j) const { return bytes_.data() + offset(j); }
+  /// Whether eight corners beside each other, from a place in a row, are simple.
+  static bool eight_simple(const std::uint8_t* corners) { return eight(corners) == kAllSimple; }
   /// Replaces `out` by the corners of a row that are not simple or have such a neighbour along X or Y.
   void wanted(int j, std::vector<int>& out) const;
 
  private:
   /// Bytes around the rows that count as simple corners; to the right as many as are read at a time.
   static constexpr int kLeft = 8, kRight = 16;
+  static constexpr std::uint64_t kAllSimple = 0x0101010101010101u;
+  static std::uint64_t eight(const std::uint8_t* bytes) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes, sizeof word);
+    return word;
+  }
   std::size_t offset(int j) const {
     return static_cast<std::size_t>(j + 1) * static_cast<std::size_t>(corners_x_ + kLeft + kRight) + kLeft;
   }
@@ -85,7 +160,8 @@ inline FourHeights four_heights(float a, float b, float c, float d) {
 /// memory is asked for in the long run.
 class CornerRow {
  public:
-  void build(const Columns& columns, const CornerPlane& plane, int j);
+  explicit CornerRow(const Columns& columns) : columns_(&columns), around_(columns) {}
+  void build(const CornerPlane& plane, int j);
   /// The corners that are here, in order.
   const std::vector<int>& numbers() const { return numbers_; }
   const Corner& corner(int i) const { return corners_[static_cast<std::size_t>(i)]; }
@@ -110,20 +186,23 @@ class CornerRow {
     double x = 0.0, y = 0.0;
   };
 
-  static int layers_around(const Columns& columns, int i, int j);
-  void build_layers(const Columns& columns, int i, int j, int layers);
-  void build_any(const Columns& columns, int i, int j);
-  void gather(const Columns& columns, int i, int j);
-  bool join(const Columns& columns, int i, int j, int q, int other);
-  void sort_groups(const Columns& columns, int i, int j);
-  Shift shift_of(const Columns& columns, int i, int j, Corner& corner);
-  void place(const Columns& columns, int i, int j, const Corner& corner, Shift shift);
+  Runs runs(int i, int j, int quadrant);
+  int layers_around(int i, int j);
+  void build_layers(int i, int j, int layers);
+  void build_any(int i, int j);
+  void gather(int i, int j);
+  bool join(int i, int j, int q, int other);
+  void sort_groups(int i, int j);
+  Shift shift_of(int i, int j, Corner& corner);
+  void place(int i, int j, const Corner& corner, Shift shift);
 
+  const Columns* columns_;
   std::vector<int> numbers_;
   std::vector<Corner> corners_;  // by number
   std::vector<Sheet> sheets_;
   std::vector<int> ranks_;
   // Scratch of one corner.
+  Neighbourhood around_;
   std::array<std::vector<int>, 4> group_of_;
   std::vector<Group> groups_;
 };

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "base/parallel.h"
 #include "sim/mesh_build.h"
 
 #include "kerf/geometry.h"
@@ -16,6 +15,24 @@ namespace {
 
 /// A flip can leave another flat triangle, which is looked at again; not for ever.
 constexpr int kMostRounds = 8;
+/// Triangles around a vertex, mostly no more.
+constexpr std::size_t kAround = 8;
+
+/// Puts the last things into the places of those that are no more: move(from, to). Returns how many there
+/// are then. Sorts `holes`.
+template <class Move>
+std::size_t fill_holes(std::vector<std::size_t>& holes, std::size_t count, const Move& move) {
+  std::sort(holes.begin(), holes.end());
+  const std::size_t kept = count - holes.size();
+  std::size_t last = count, holes_left = holes.size();
+  for (const std::size_t hole : holes) {
+    if (hole >= kept) break;
+    --last;
+    for (; holes[holes_left - 1] == last; --holes_left) --last;
+    move(last, hole);
+  }
+  return kept;
+}
 
 class Mender {
  public:
@@ -42,10 +59,9 @@ class Mender {
 
   int longest_side(const Corners& c) const;
   bool is_flat(const Corners& c) const;
-  template <class Test>
-  std::vector<std::size_t> find(std::size_t count, const Test& test) const;
   void find_flat();
   void find_flat_again();
+  bool knows_around() const;
   void gather_around();
   const std::vector<std::uint32_t>& around(std::uint32_t v) const { return around_[place_[v]]; }
   std::size_t across(std::uint32_t a, std::uint32_t b) const;
@@ -54,14 +70,14 @@ class Mender {
   bool collapse(std::uint32_t keep, std::uint32_t gone);
   bool mend(std::size_t t);
   void mend_all();
-  void drop_gone();
-  void drop_unused();
+  void drop_gone_triangles();
+  void drop_gone_vertices();
 
   Mesh& mesh_;
   unsigned threads_;
   const std::vector<std::size_t>* among_;
   std::vector<std::size_t> flat_, changed_;         // changed: since the flat ones were found
-  std::vector<std::size_t> gone_;                   // triangles that are no more
+  std::vector<std::size_t> gone_, gone_vertices_;   // triangles and vertices that are no more
   std::vector<std::uint32_t> place_;                // of a vertex in around_, kNone: of no interest
   std::vector<std::vector<std::uint32_t>> around_;  // triangles at a vertex, some of them gone or moved away
 };
@@ -75,30 +91,13 @@ int Mender::longest_side(const Corners& c) const {
 
 bool Mender::is_flat(const Corners& c) const { return has_no_area(point(c[0]), point(c[1]), point(c[2])); }
 
-/// Numbers below `count` for which test(number) holds, in order.
-template <class Test>
-std::vector<std::size_t> Mender::find(std::size_t count, const Test& test) const {
-  constexpr std::size_t kEach = 1 << 14;
-  std::vector<std::vector<std::size_t>> found(count / kEach + 1);
-  parallel_for(
-      threads_, found.size(),
-      [&](std::size_t n) {
-        for (std::size_t k = n * kEach; k < std::min((n + 1) * kEach, count); ++k)
-          if (test(k)) found[n].push_back(k);
-      },
-      [] { return false; });
-  std::vector<std::size_t> all;
-  for (const std::vector<std::size_t>& part : found) all.insert(all.end(), part.begin(), part.end());
-  return all;
-}
-
 void Mender::find_flat() {
   const auto wrong = [&](std::size_t t) { return !is_gone(t) && is_flat(corners(t)); };
   if (among_ == nullptr) {
-    flat_ = find(mesh_.step.size(), wrong);
+    flat_ = numbers_where(threads_, mesh_.step.size(), wrong);
     return;
   }
-  flat_ = find(among_->size(), [&](std::size_t k) { return wrong((*among_)[k]); });
+  flat_ = numbers_where(threads_, among_->size(), [&](std::size_t k) { return wrong((*among_)[k]); });
   for (std::size_t& t : flat_) t = (*among_)[t];
 }
 
@@ -112,28 +111,46 @@ void Mender::find_flat_again() {
   changed_.clear();
 }
 
+/// Whether all is gathered that mending the flat triangles asks for.
+bool Mender::knows_around() const {
+  const auto knows = [&](std::uint32_t v) { return place_[v] != kNone; };
+  const auto knows_all = [&](std::size_t t) {
+    const Corners c = corners(t);
+    return std::all_of(c.begin(), c.end(), knows);
+  };
+  const auto knows_beside = [&](std::size_t t) {
+    const Corners c = corners(t);
+    return knows_all(t) && std::all_of(c.begin(), c.end(), [&](std::uint32_t v) {
+             return std::all_of(around(v).begin(), around(v).end(), knows_all);
+           });
+  };
+  return !place_.empty() && std::all_of(flat_.begin(), flat_.end(), knows_beside);
+}
+
 /// The triangles around all vertices that flat triangles or their neighbours have.
 void Mender::gather_around() {
   place_.assign(mesh_.positions.size() / 3, kNone);
   around_.clear();
+  constexpr std::uint8_t kOfFlat = 1, kWanted = 2;
+  std::vector<std::uint8_t> near(place_.size(), 0);
   const auto want = [&](std::uint32_t v) {
     if (place_[v] != kNone) return;
     place_[v] = static_cast<std::uint32_t>(around_.size());
-    around_.emplace_back();
+    around_.emplace_back().reserve(kAround);
+    near[v] |= kWanted;
   };
-  std::vector<std::uint8_t> near(place_.size(), 0);
-  for (const std::size_t t : flat_)
-    for (const std::uint32_t v : corners(t)) near[v] = 1;
-  const auto beside = find(mesh_.step.size(), [&](std::size_t t) {
+  const auto has = [&](std::size_t t, std::uint8_t mark) {
     const Corners c = corners(t);
-    return (near[c[0]] | near[c[1]] | near[c[2]]) != 0;
-  });
+    return ((near[c[0]] | near[c[1]] | near[c[2]]) & mark) != 0;
+  };
+  for (const std::size_t t : flat_)
+    for (const std::uint32_t v : corners(t)) near[v] = kOfFlat;
+  const auto beside =
+      numbers_where(threads_, mesh_.step.size(), [&](std::size_t t) { return has(t, kOfFlat); });
   for (const std::size_t t : beside)
     for (const std::uint32_t v : corners(t)) want(v);
-  const auto around = find(mesh_.step.size(), [&](std::size_t t) {
-    const Corners c = corners(t);
-    return !is_gone(t) && (place_[c[0]] & place_[c[1]] & place_[c[2]]) != kNone;
-  });
+  const auto around = numbers_where(threads_, mesh_.step.size(),
+                                    [&](std::size_t t) { return has(t, kWanted) && !is_gone(t); });
   for (const std::size_t t : around)
     for (const std::uint32_t v : corners(t))
       if (place_[v] != kNone) around_[place_[v]].push_back(static_cast<std::uint32_t>(t));
@@ -201,6 +218,7 @@ bool Mender::collapse(std::uint32_t keep, std::uint32_t gone) {
     if (had_both) gone_.push_back(t);
     if (!had_both) around_[place_[keep]].push_back(t);
   }
+  gone_vertices_.push_back(gone);
   return true;
 }
 
@@ -211,42 +229,39 @@ bool Mender::mend(std::size_t t) {
   return flip(t);
 }
 
-void Mender::drop_gone() {
-  std::sort(gone_.begin(), gone_.end());
-  std::size_t kept = 0, next = 0;
-  for (std::size_t n = 0; n <= gone_.size(); ++n) {
-    const std::size_t end = n < gone_.size() ? gone_[n] : mesh_.step.size();
-    if (kept != next) {
-      std::copy(mesh_.step.data() + next, mesh_.step.data() + end, mesh_.step.data() + kept);
-      std::copy(mesh_.triangles.data() + 3 * next, mesh_.triangles.data() + 3 * end,
-                mesh_.triangles.data() + 3 * kept);
-    }
-    kept += end - next;
-    next = end + 1;
-  }
+void Mender::drop_gone_triangles() {
+  const std::size_t kept = fill_holes(gone_, mesh_.step.size(), [&](std::size_t from, std::size_t to) {
+    mesh_.step[to] = mesh_.step[from];
+    std::copy_n(mesh_.triangles.data() + 3 * from, 3, mesh_.triangles.data() + 3 * to);
+  });
   mesh_.triangles.resize(3 * kept);
   mesh_.step.resize(kept);
 }
 
-/// Leaves out the vertices that no triangle has any more.
-void Mender::drop_unused() {
-  std::vector<std::uint32_t> number(mesh_.positions.size() / 3, kNone);
-  for (const std::uint32_t v : mesh_.triangles) number[v] = 0;
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < number.size(); ++v) {
-    if (number[v] == kNone) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      mesh_.positions[std::size_t{3} * kept + axis] = mesh_.positions[3 * v + axis];
-    number[v] = kept++;
-  }
-  mesh_.positions.resize(std::size_t{3} * kept);
-  for (std::uint32_t& v : mesh_.triangles) v = number[v];
+void Mender::drop_gone_vertices() {
+  if (gone_vertices_.empty()) return;
+  const std::size_t count = mesh_.positions.size() / 3;
+  std::vector<std::uint32_t> moved(gone_vertices_.size(), kNone);  // where the last vertices are now
+  const std::size_t kept = fill_holes(gone_vertices_, count, [&](std::size_t from, std::size_t to) {
+    moved[from - (count - gone_vertices_.size())] = static_cast<std::uint32_t>(to);
+    std::copy_n(mesh_.positions.data() + 3 * from, 3, mesh_.positions.data() + 3 * to);
+  });
+  mesh_.positions.resize(3 * kept);
+  constexpr std::size_t kEach = 1 << 16;
+  std::vector<std::uint32_t>& indices = mesh_.triangles;
+  parallel_for(
+      threads_, indices.size() / kEach + 1,
+      [&](std::size_t n) {
+        for (std::size_t k = n * kEach; k < std::min((n + 1) * kEach, indices.size()); ++k)
+          if (indices[k] >= kept) indices[k] = moved[indices[k] - kept];
+      },
+      [] { return false; });
 }
 
 void Mender::mend_all() {
   find_flat();
   for (int round = 0; round < kMostRounds && !flat_.empty(); ++round) {
-    gather_around();
+    if (!knows_around()) gather_around();
     bool any = false;
     for (const std::size_t t : flat_)
       if (!is_gone(t) && is_flat(corners(t))) any = mend(t) || any;
@@ -257,9 +272,8 @@ void Mender::mend_all() {
 
 void Mender::run() {
   mend_all();
-  if (gone_.empty()) return;
-  drop_gone();
-  drop_unused();
+  drop_gone_triangles();
+  drop_gone_vertices();
 }
 
 }  // namespace

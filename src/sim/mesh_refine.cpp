@@ -42,8 +42,9 @@ class CapSheet::Patch {
       halve_diagonals(s);
     }
     for (int y = 0; y < kPatch; ++y) {
-      for (int x = 0; x < kPatch; ++x)
-        if (error_[at(x, y)] > tolerance) need(x, y);
+      for (int x = 0; x < kSquare; x += kSome)
+        if (any_above(error_.data() + at(x, y), tolerance)) find_some(x, y, kSome, tolerance, need);
+      find_some(kSquare, y, 1, tolerance, need);
     }
   }
 
@@ -59,6 +60,17 @@ class CapSheet::Patch {
     }
   };
 
+  static constexpr int kSome = 8;  // are compared at a time
+  static bool any_above(const float* errors, float tolerance) {
+    int any = 0;
+    for (int k = 0; k < kSome; ++k) any |= static_cast<int>(errors[k] > tolerance);
+    return any != 0;
+  }
+  template <class Need>
+  void find_some(int first_x, int y, int count, float tolerance, const Need& need) const {
+    for (int x = first_x; x < first_x + count; ++x)
+      if (error_[at(x, y)] > tolerance) need(x, y);
+  }
   static std::size_t at(int x, int y) { return static_cast<std::size_t>(y * kPatch + x); }
   void read_heights();
   void read_row(int y, std::array<float, kPatch + 1>& row) const;
@@ -92,6 +104,9 @@ void CapSheet::Patch::read_row(int y, std::array<float, kPatch + 1>& row) const 
 }
 
 void CapSheet::Patch::read_heights() {
+  const int rows = std::min(kPatch, sheet_.columns_.ny() + 1 - first_y_);
+  for (int y = 0; y < rows; ++y)  // far apart from each other
+    __builtin_prefetch(sheet_.plane_.row(first_y_ + y) + first_x_);
   std::array<float, kPatch + 1> south, north;
   read_row(-1, south);
   for (int y = 0; y < kPatch; ++y) {
@@ -101,10 +116,12 @@ void CapSheet::Patch::read_heights() {
     std::fill_n(out, kPatch, kUnknown);
     if (first_y_ + y > sheet_.columns_.ny()) continue;
     const std::uint8_t* const simple = sheet_.plane_.row(first_y_ + y) + first_x_;
-    for (int x = 0; x < corners; ++x) {
-      const auto k = static_cast<std::size_t>(x);
-      const float mean = 0.25f * ((south[k] + south[k + 1]) + (north[k] + north[k + 1]));
-      out[x] = simple[x] != 0 ? mean : kUnknown;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k)
+      out[k] = 0.25f * ((south[k] + south[k + 1]) + (north[k] + north[k + 1]));
+    for (int x = 0; x < corners; x += kSome) {
+      if (CornerPlane::eight_simple(simple + x)) continue;
+      for (int k = x; k < std::min(x + kSome, corners); ++k)
+        if (simple[k] == 0) out[k] = kUnknown;
     }
     south = north;
   }
@@ -192,11 +209,14 @@ bool CapSheet::is_plain(int square_x, int square_y) const {
   if (square_x == 0 || square_y == 0 || square_x + 1 >= columns_.squares_x() ||
       square_y + 1 >= columns_.squares_y())
     return false;
+  const auto is_level = [this](const Square& square) {
+    return side_ == Side::bottom ? square.is_low_level : square.is_high_level;
+  };
   const float z = ends_of(columns_.square(square_x, square_y)).z[0];
   for (int y = square_y - 1; y <= square_y + 1; ++y) {
     for (int x = square_x - 1; x <= square_x + 1; ++x) {
       const Square& square = columns_.square(x, y);
-      if (!square.is_uniform || ends_of(square).z[0] != z) return false;
+      if (!is_level(square) || ends_of(square).z[0] != z) return false;
     }
   }
   return true;
@@ -210,8 +230,12 @@ void CapSheet::find_errors(int number) {
   for (int square_x = 0; square_x < columns_.squares_x(); ++square_x) {
     if (is_plain(square_x, number)) continue;
     const int first_x = square_x * kSquare;
+    CapBlock* mine = nullptr;
     Patch(*this, square_x, number).find(tolerance, [&](int x, int y) {
-      if (y < kSquare) {
+      if (x < kSquare && y < kSquare) {
+        if (mine == nullptr) mine = &block(first_x, first_y);
+        mine->needed[Columns::cell(x, y)] = 1;
+      } else if (y < kSquare) {
         need(first_x + x, first_y + y);
       } else {
         band.above.push_back(first_x + x);

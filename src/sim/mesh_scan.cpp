@@ -20,7 +20,11 @@ class Row {
  public:
   static constexpr std::size_t kBefore = 2;
   explicit Row(int nx)
-      : low_(size(nx), kOutside), high_(size(nx), -kOutside), low_key_(size(nx)), high_key_(size(nx)) {}
+      : low_(size(nx), kOutside),
+        high_(size(nx), -kOutside),
+        low_key_(size(nx)),
+        high_key_(size(nx)),
+        level_(size(nx) / kSquare + 1) {}
   float* low() { return low_.data() + kBefore; }
   float* high() { return high_.data() + kBefore; }
   const float* low() const { return low_.data() + kBefore; }
@@ -32,12 +36,22 @@ class Row {
   void leave_out() {
     std::fill(low_.begin(), low_.end(), kOutside);
     std::fill(high_.begin(), high_.end(), -kOutside);
+    std::fill(level_.begin(), level_.end(), std::array<const Ends*, 2>{});
+  }
+  /// Whether the level ends (0: low ones) of the columns from `first` on, those of a square, are here
+  /// already.
+  bool has(std::size_t end, int first, const Ends& ends, bool is_level) {
+    const Ends*& mine = level_[static_cast<std::size_t>(first / kSquare)][end];
+    if (is_level && mine == &ends) return true;
+    mine = is_level ? &ends : nullptr;
+    return false;
   }
 
  private:
   static std::size_t size(int nx) { return static_cast<std::size_t>(nx) + 2 * kBefore; }
   std::vector<float> low_, high_;
   std::vector<std::uint32_t> low_key_, high_key_;
+  std::vector<std::array<const Ends*, 2>> level_;  // by square: the ends that are here, if they are level
 };
 
 /// Four columns in a line, of which the middle ones are the neighbours in question.
@@ -83,15 +97,19 @@ class Scanner {
   }
 
  private:
+  /// Whether the low ends of columns that are compared may differ.
+  enum class Lows : std::uint8_t { any, level };
   /// The columns of row j, of which the last four are kept.
   Row& row(int j) { return rows_[static_cast<std::size_t>(j + 4) % 4]; }
   const Row& row(int j) const { return rows_[static_cast<std::size_t>(j + 4) % 4]; }
   void read(int j, Row& row) const;
-  void read_keys(const Ends& ends, std::size_t at, std::size_t count, bool is_uniform,
+  void read_keys(const Ends& ends, std::size_t at, std::size_t count, bool is_level,
                  std::uint32_t* out) const;
   void scan(int j, std::uint8_t* simple);
-  void scan_some(int begin, int end, int j, std::uint8_t* simple);
+  void scan_some(int begin, int end, int j, Lows lows, std::uint8_t* simple);
   void compare(int begin, int end, int j, std::uint8_t* simple);
+  void compare_highs(int begin, int end, int j, std::uint8_t* simple);
+  bool continue_each_other(int i, int j, int dx, int dy, int end) const;
   bool joined(int i, int j, int end) const;
   bool is_simple(int i, int j) const;
   void need(int i, int j);
@@ -105,12 +123,12 @@ class Scanner {
   std::vector<std::uint8_t> alike_;  // 1: the corner's columns have the same keys
 };
 
-void Scanner::read_keys(const Ends& ends, std::size_t at, std::size_t count, bool is_uniform,
+void Scanner::read_keys(const Ends& ends, std::size_t at, std::size_t count, bool is_level,
                         std::uint32_t* out) const {
   const std::uint32_t* const step = ends.step.data() + at;
   if (!merges_) {
     std::copy_n(step, count, out);
-  } else if (is_uniform) {
+  } else if (is_level) {
     std::fill_n(out, count, group_key(options_, step[0]));
   } else {
     for (std::size_t k = 0; k < count; ++k) out[k] = group_key(options_, step[k]);
@@ -126,11 +144,16 @@ void Scanner::read(int j, Row& row) const {
     const Square& square = columns_.square_of(first, j);
     const auto count = static_cast<std::size_t>(std::min(kSquare, columns_.nx() - first));
     const std::size_t at = Columns::cell(0, j);
-    std::copy_n(square.low->z.data() + at, count, row.low() + first);
-    std::copy_n(square.high->z.data() + at, count, row.high() + first);
-    read_keys(*square.low, at, count, square.is_uniform, row.low_key() + first);
-    read_keys(*square.high, at, count, square.is_uniform, row.high_key() + first);
-    if (square.many == nullptr) continue;
+    const bool is_one = square.many == nullptr;
+    if (!row.has(0, first, *square.low, is_one && square.is_low_level)) {
+      std::copy_n(square.low->z.data() + at, count, row.low() + first);
+      read_keys(*square.low, at, count, square.is_low_level, row.low_key() + first);
+    }
+    if (!row.has(1, first, *square.high, is_one && square.is_high_level)) {
+      std::copy_n(square.high->z.data() + at, count, row.high() + first);
+      read_keys(*square.high, at, count, square.is_high_level, row.high_key() + first);
+    }
+    if (is_one) continue;
     for (std::size_t k = 0; k < count; ++k) {
       if (square.many->first[at + k + 1] - square.many->first[at + k] == 1) continue;
       row.low()[static_cast<std::size_t>(first) + k] = kMany;
@@ -164,6 +187,35 @@ void Scanner::compare(int begin, int end, int j, std::uint8_t* simple) {
   }
 }
 
+/// The same of a column and the next one of any columns.
+bool Scanner::continue_each_other(int i, int j, int dx, int dy, int end) const {
+  std::array<Interval, 4> one;
+  return meshing::continues(
+      {columns_.runs(i - dx, j - dy, one[0]), columns_.runs(i, j, one[1]),
+       columns_.runs(i + dx, j + dy, one[2]), columns_.runs(i + 2 * dx, j + 2 * dy, one[3])},
+      end, end, columns_.pitch());
+}
+
+/// The same where all low ends are alike.
+void Scanner::compare_highs(int begin, int end, int j, std::uint8_t* simple) {
+  const auto limit = static_cast<float>(limit_);
+  const float low = row(j).low()[begin];
+  const Row &south = row(j - 1), &north = row(j);
+  const float *s = south.high(), *n = north.high();
+  const std::uint32_t *sk = south.high_key(), *nk = north.high_key();
+  std::uint8_t* const alike = alike_.data();
+  for (int i = begin; i < end; ++i) {
+    const float least = std::min(std::min(s[i - 1], s[i]), std::min(n[i - 1], n[i]));
+    const float most = std::max(std::max(s[i - 1], s[i]), std::max(n[i - 1], n[i]));
+    simple[i] =
+        static_cast<std::uint8_t>(static_cast<int>(most - least <= limit) & static_cast<int>(low < least));
+  }
+  for (int i = begin; i < end; ++i) {
+    const std::uint32_t other = (sk[i - 1] ^ sk[i]) | (sk[i] ^ nk[i - 1]) | (nk[i - 1] ^ nk[i]);
+    alike[i] = static_cast<std::uint8_t>(other == 0);
+  }
+}
+
 /// Whether the ends of the four columns around a corner continue each other, as slopes do. The columns are of
 /// one interval each, with material at one height.
 bool Scanner::joined(int i, int j, int end) const {
@@ -177,12 +229,10 @@ bool Scanner::joined(int i, int j, int end) const {
       across.high[place] = row(j - 2 + n).high()[i + k];
     }
     Answer answer = continues(along, end, limit_);
-    if (answer == Answer::no ||
-        (answer == Answer::unknown && !columns_.continues(i - 1, j + k, end, i, j + k, end)))
+    if (answer == Answer::no || (answer == Answer::unknown && !continue_each_other(i - 1, j + k, 1, 0, end)))
       return false;
     answer = continues(across, end, limit_);
-    if (answer == Answer::no ||
-        (answer == Answer::unknown && !columns_.continues(i + k, j - 1, end, i + k, j, end)))
+    if (answer == Answer::no || (answer == Answer::unknown && !continue_each_other(i + k, j - 1, 0, 1, end)))
       return false;
   }
   return true;
@@ -214,9 +264,9 @@ void Scanner::need(int i, int j) {
   if (!high) top_.need(i, j);
 }
 
-void Scanner::scan_some(int begin, int end, int j, std::uint8_t* simple) {
+void Scanner::scan_some(int begin, int end, int j, Lows lows, std::uint8_t* simple) {
   constexpr std::uint64_t kAll = 0x0101010101010101u;
-  compare(begin, end, j, simple);
+  lows == Lows::level ? compare_highs(begin, end, j, simple) : compare(begin, end, j, simple);
   while (begin < end) {
     std::uint64_t eight = 0;
     if (merges_ && begin + 8 <= end) {
@@ -238,12 +288,14 @@ void Scanner::scan(int j, std::uint8_t* simple) {
   const int end = columns_.uneven(columns_.nx() - 1, j) ? columns_.nx() - 1 : columns_.nx();
   for (int first = 0; first < end; first += kSquare) {
     const int stop = std::min(first + kSquare, end);
-    if (j % kSquare != 0 && columns_.square_of(first, j).is_uniform) {
-      // Only the corners on the square's low side have other columns beside them.
+    const Square& square = columns_.square_of(first, j);
+    const bool is_level = square.many == nullptr && square.is_low_level && j % kSquare != 0;
+    // Only the corners on a square's low side have columns of other squares beside them.
+    scan_some(std::max(first, 1), is_level ? first + 1 : stop, j, Lows::any, simple);
+    if (is_level && square.is_high_level) {
       std::fill(simple + first + 1, simple + stop, std::uint8_t{1});
-      scan_some(std::max(first, 1), first + 1, j, simple);
-    } else {
-      scan_some(std::max(first, 1), stop, j, simple);
+    } else if (is_level) {
+      scan_some(first + 1, stop, j, Lows::level, simple);
     }
   }
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "base/parallel.h"
@@ -22,8 +21,8 @@ constexpr double kSideShare = 1.0;
 
 using meshing::Columns;
 using meshing::kSquare;
+using meshing::Runs;
 using meshing::Square;
-using Runs = std::span<const Interval>;
 
 /// Columns by what their faces are: what they hold, the area of their ends, and the area of their sides that
 /// stand bare beside their neighbours'.
@@ -73,11 +72,14 @@ class BlockFaces {
     const int first_i = square_x * kSquare, end_i = std::min(first_i + kSquare, columns_.nx());
     const int first_j = square_y * kSquare, end_j = std::min(first_j + kSquare, columns_.ny());
     for (int j = first_j; j < end_j; ++j) {
-      // Within a square of columns of one interval each, of whole width, the numbers lie side by side.
-      const bool simple = columns_.square(square_x, square_y).many == nullptr && j + 1 < end_j;
-      const int plain_end = simple ? end_i - 1 : first_i;
-      add_plain(first_i, plain_end, j, faces);
-      for (int i = plain_end; i < end_i; ++i) add_column(i, j, faces);
+      // Within a square, of columns of whole width, the numbers lie side by side.
+      const int inner_end = j + 1 < end_j ? end_i - 1 : first_i;
+      if (columns_.square(square_x, square_y).many == nullptr) {
+        add_plain(first_i, inner_end, j, faces);
+      } else {
+        add_mixed(first_i, inner_end, j, faces);
+      }
+      for (int i = inner_end; i < end_i; ++i) add_column(i, j, faces);
     }
   }
 
@@ -89,13 +91,28 @@ class BlockFaces {
     const float *low = square.low->z.data() + at, *high = square.high->z.data() + at;
     const double pitch = columns_.pitch(), count = end - first;
     double length = count * height(low[0], high[0]), bare = 0.0;
-    if (!square.is_uniform) {
-      length = 0.0;
-      for (int k = 0; k < end - first; ++k) {
-        const std::size_t c = static_cast<std::size_t>(k), right = c + 1, above = c + kSquare;
-        length += height(low[c], high[c]);
-        for (const std::size_t other : {right, above})
-          bare += unshared(low[c], high[c], low[other], high[other]);
+    if (!square.is_uniform()) {
+      const auto columns = static_cast<std::size_t>(end - first);
+      length = square.is_low_level ? standing(high, low[0], columns, bare) : any(low, high, columns, bare);
+    }
+    faces.volume += pitch * pitch * length;
+    faces.ends += 2.0 * pitch * pitch * count;
+    faces.sides += pitch * bare;
+  }
+
+  /// Columns of which some are of one interval, as their neighbours to the right and above are.
+  void add_mixed(int first, int end, int j, Faces& faces) const {
+    const Square& square = columns_.square_of(first, j);
+    const auto is_one = [&](std::size_t c) { return square.many->first[c + 1] - square.many->first[c] == 1; };
+    const double pitch = columns_.pitch();
+    double length = 0.0, bare = 0.0, count = 0.0;
+    for (int i = first; i < end; ++i) {
+      const std::size_t c = Columns::cell(i, j);
+      if (is_one(c) && is_one(c + 1) && is_one(c + kSquare)) {
+        length += any(square.low->z.data() + c, square.high->z.data() + c, 1, bare);
+        count += 1.0;
+      } else {
+        add_column(i, j, faces);
       }
     }
     faces.volume += pitch * pitch * length;
@@ -103,28 +120,46 @@ class BlockFaces {
     faces.sides += pitch * bare;
   }
 
+  /// Length of columns, and of what is bare of their sides.
+  static double any(const float* low, const float* high, std::size_t count, double& bare) {
+    double length = 0.0;
+    for (std::size_t c = 0; c < count; ++c) {
+      length += height(low[c], high[c]);
+      for (const std::size_t other : {c + 1, c + kSquare})
+        bare += unshared(low[c], high[c], low[other], high[other]);
+    }
+    return length;
+  }
+
+  /// The same of columns that stand on one floor, without branches, several at a time.
+  static double standing(const float* high, float floor, std::size_t count, double& bare) {
+    constexpr std::size_t kLanes = 4;
+    std::array<double, kLanes> lengths{}, sides{};
+    const auto add = [&](std::size_t c, std::size_t lane) {
+      lengths[lane] += height(floor, high[c]);
+      sides[lane] += std::abs(height(high[c], high[c + 1])) + std::abs(height(high[c], high[c + kSquare]));
+    };
+    const std::size_t whole = count / kLanes * kLanes;
+    for (std::size_t c = 0; c < whole; c += kLanes)
+      for (std::size_t lane = 0; lane < kLanes; ++lane) add(c + lane, lane);
+    for (std::size_t c = whole; c < count; ++c) add(c, c - whole);
+    bare += (sides[0] + sides[1]) + (sides[2] + sides[3]);
+    return (lengths[0] + lengths[1]) + (lengths[2] + lengths[3]);
+  }
+
   void add_column(int i, int j, Faces& faces) const {
     const double wide = width(i, size_.x), deep = width(j, size_.y);
     std::array<Interval, 3> one;  // for columns that keep no intervals
-    const Runs runs = column(i, j, one[0]);
+    const Runs runs = columns_.runs(i, j, one[0]);
     for (const Interval& run : runs) faces.volume += wide * deep * height(run.low, run.high);
     faces.ends += 2.0 * wide * deep * static_cast<double>(runs.size());
-    if (i + 1 < columns_.nx()) faces.sides += deep * unshared(runs, column(i + 1, j, one[1]), height);
-    if (j + 1 < columns_.ny()) faces.sides += wide * unshared(runs, column(i, j + 1, one[2]), height);
+    if (i + 1 < columns_.nx()) faces.sides += deep * unshared(runs, columns_.runs(i + 1, j, one[1]), height);
+    if (j + 1 < columns_.ny()) faces.sides += wide * unshared(runs, columns_.runs(i, j + 1, one[2]), height);
   }
 
   /// The last column may be narrower.
   double width(int i, double size) const {
     return std::clamp(size - i * columns_.pitch(), 0.0, columns_.pitch());
-  }
-  Runs column(int i, int j, Interval& one) const {
-    const Square& square = columns_.square_of(i, j);
-    const std::size_t c = Columns::cell(i, j);
-    if (square.many != nullptr)
-      return {square.many->runs.data() + square.many->first[c],
-              square.many->first[c + 1] - square.many->first[c]};
-    one = columns_.interval(i, j, 0);
-    return {&one, 1};
   }
 
   const Columns& columns_;

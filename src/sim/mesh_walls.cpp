@@ -71,7 +71,7 @@ bool WallFiller::gather(const FaceLine& left, const FaceLine& right) {
           {left.row.rank(left.corner, lq, e), right.row.rank(right.corner, rq, e), change, e, of_a});
     }
   }
-  std::stable_sort(edges_.begin(), edges_.end(), [](const Edge& a, const Edge& b) {
+  sort_few(edges_, [](const Edge& a, const Edge& b) {
     if (a.left + a.right != b.left + b.right) return a.left + a.right < b.left + b.right;
     return a.left < b.left;
   });

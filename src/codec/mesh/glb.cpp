@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/huge_pages.h"
+#include "base/parallel.h"
 #include "codec/mesh/writers.h"
 
 namespace kerf::mesh_format {
@@ -25,8 +26,37 @@ double linear(std::uint8_t value) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-/// Triangles of one colour, by number.
-using Triangles = std::vector<std::uint32_t>;
+/// The triangles of one colour, or all.
+class Triangles {
+ public:
+  Triangles() = default;
+  explicit Triangles(std::size_t all) : count_(all) {}
+  void reserve(std::size_t count) { numbers_.reserve(count); }
+  void add(std::uint32_t triangle) {
+    numbers_.push_back(triangle);
+    ++count_;
+  }
+  std::size_t size() const { return count_; }
+  std::uint32_t operator[](std::size_t n) const {
+    return numbers_.empty() ? static_cast<std::uint32_t>(n) : numbers_[n];
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::vector<std::uint32_t> numbers_;  // empty: all
+};
+
+/// Work is shared out by so many triangles.
+constexpr std::size_t kPiece = std::size_t{1} << 14;
+
+/// Calls work(piece, first, end) for pieces of the triangles, on several threads.
+template <class Work>
+void in_pieces(std::size_t triangles, const Work& work) {
+  parallel_for(
+      thread_count(0), (triangles + kPiece - 1) / kPiece,
+      [&](std::size_t n) { work(n, n * kPiece, std::min((n + 1) * kPiece, triangles)); },
+      [] { return false; });
+}
 
 /// A GLB's description, which comes before the numbers that it describes.
 class Asset {
@@ -82,24 +112,44 @@ float step_of(const MeshView& mesh, std::uint32_t triangle) {
   return known ? static_cast<float>(mesh.step[triangle]) : -1.0f;
 }
 
-void Asset::add_primitive(const Triangles& triangles, std::size_t colour) {
-  if (triangles.empty()) return;
-  const std::size_t count = 3 * triangles.size();
-  std::array<float, 3> low, high;
-  low.fill(std::numeric_limits<float>::max());
-  high.fill(std::numeric_limits<float>::lowest());
-  for (const std::uint32_t t : triangles) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const float* p = position_of(mesh_, t, corner);
-      for (std::size_t k = 0; k < 3; ++k) {
-        low[k] = std::min(low[k], p[k]);
-        high[k] = std::max(high[k], p[k]);
-      }
+struct Bounds {
+  Bounds() {
+    low.fill(std::numeric_limits<float>::max());
+    high.fill(std::numeric_limits<float>::lowest());
+  }
+  void add(const float* lowest, const float* highest) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], lowest[k]);
+      high[k] = std::max(high[k], highest[k]);
     }
   }
+  std::array<float, 3> low, high;
+};
+
+Bounds bounds_of(const MeshView& mesh, const Triangles& triangles) {
+  std::vector<Bounds> pieces(triangles.size() / kPiece + 1);
+  in_pieces(triangles.size(), [&](std::size_t piece, std::size_t first, std::size_t end) {
+    Bounds bounds;
+    for (std::size_t n = first; n < end; ++n) {
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const float* const p = position_of(mesh, triangles[n], corner);
+        bounds.add(p, p);
+      }
+    }
+    pieces[piece] = bounds;
+  });
+  Bounds all;
+  for (const Bounds& piece : pieces) all.add(piece.low.data(), piece.high.data());
+  return all;
+}
+
+void Asset::add_primitive(const Triangles& triangles, std::size_t colour) {
+  if (triangles.size() == 0) return;
+  const std::size_t count = 3 * triangles.size();
+  const Bounds bounds = bounds_of(mesh_, triangles);
   const std::size_t positions = add_accessor(3 * count, "VEC3", count);
-  accessors_[positions]["min"] = low;
-  accessors_[positions]["max"] = high;
+  accessors_[positions]["min"] = bounds.low;
+  accessors_[positions]["max"] = bounds.high;
   Json attributes = {{"POSITION", positions}};
   if (!mesh_.step.empty()) attributes["_STEP"] = add_accessor(count, "SCALAR", count);
   primitives_.push_back({{"attributes", attributes}, {"material", add_material(colour)}, {"mode", 4}});
@@ -127,36 +177,32 @@ std::string Asset::json() const {
   return text;
 }
 
-/// Appends `each` numbers of each triangle, some triangles at a time: put(triangle, numbers) tells them.
-template <std::size_t each, class Put>
-void append_numbers(const Triangles& triangles, std::string& out, const Put& put) {
-  constexpr std::size_t kPiece = 128;  // triangles
-  std::array<float, kPiece * each> piece;
-  for (std::size_t first = 0; first < triangles.size(); first += kPiece) {
-    const std::size_t count = std::min(kPiece, triangles.size() - first);
-    for (std::size_t k = 0; k < count; ++k) put(triangles[first + k], piece.data() + each * k);
-    append_little(out, std::span<const float>(piece.data(), each * count));
-  }
-}
-
-void append_primitive(const MeshView& mesh, const Triangles& triangles, std::string& out) {
-  append_numbers<9>(triangles, out, [&](std::uint32_t t, float* numbers) {
-    for (std::size_t corner = 0; corner < 3; ++corner)
-      std::copy_n(position_of(mesh, t, corner), 3, numbers + 3 * corner);
+/// Writes the positions and the steps of the triangles, and returns where they end.
+char* put_primitive(const MeshView& mesh, const Triangles& triangles, char* out) {
+  constexpr std::size_t kCorner = 3 * sizeof(float);  // bytes of a position, or of a triangle's steps
+  char* const steps = out + 3 * kCorner * triangles.size();
+  in_pieces(triangles.size(), [&](std::size_t, std::size_t first, std::size_t end) {
+    for (std::size_t n = first; n < end; ++n) {
+      for (std::size_t corner = 0; corner < 3; ++corner)
+        put_little(std::span(position_of(mesh, triangles[n], corner), 3), out + (3 * n + corner) * kCorner);
+      if (mesh.step.empty()) continue;
+      std::array<float, 3> step;
+      step.fill(step_of(mesh, triangles[n]));
+      put_little(step, steps + n * kCorner);
+    }
   });
-  if (mesh.step.empty()) return;
-  append_numbers<3>(triangles, out,
-                    [&](std::uint32_t t, float* numbers) { std::fill_n(numbers, 3, step_of(mesh, t)); });
+  return mesh.step.empty() ? steps : steps + kCorner * triangles.size();
 }
 
 /// The triangles of each colour, those without one last.
 std::vector<Triangles> sort_by_colour(const MeshView& mesh) {
+  if (mesh.palette.empty()) return {Triangles(triangle_count(mesh))};
   std::vector<std::size_t> counts(mesh.palette.size() + 1, 0);
   for (std::size_t t = 0; t < triangle_count(mesh); ++t) ++counts[colour_of(mesh, t)];
   std::vector<Triangles> by_colour(counts.size());
   for (std::size_t c = 0; c < counts.size(); ++c) by_colour[c].reserve(counts[c]);
   for (std::size_t t = 0; t < triangle_count(mesh); ++t)
-    by_colour[colour_of(mesh, t)].push_back(static_cast<std::uint32_t>(t));
+    by_colour[colour_of(mesh, t)].add(static_cast<std::uint32_t>(t));
   return by_colour;
 }
 
@@ -173,7 +219,7 @@ std::string write_glb(const MeshView& mesh) {
   const std::size_t size = 20 + json.size() + (has_binary ? 8 + asset.binary_size() : 0);
   std::string out = "glTF";
   out.reserve(size);
-  use_huge_pages(out.data(), size);
+  prepare_pages(out.data(), size, thread_count(0));
   append_little(out, std::uint32_t{2});
   append_little(out, static_cast<std::uint32_t>(size));
   append_little(out, static_cast<std::uint32_t>(json.size()));
@@ -181,7 +227,9 @@ std::string write_glb(const MeshView& mesh) {
   if (has_binary) {
     append_little(out, static_cast<std::uint32_t>(asset.binary_size()));
     out.append("BIN\0", 4);
-    for (const Triangles& triangles : by_colour) append_primitive(mesh, triangles, out);
+    char* at = out.data() + out.size();
+    out.resize(size);
+    for (const Triangles& triangles : by_colour) at = put_primitive(mesh, triangles, at);
   }
   return out;
 }

@@ -33,12 +33,16 @@ void append_little(std::string& out, T value) {
   out.append(bytes.data(), bytes.size());
 }
 
-/// Appends numbers as append_little does.
-inline void append_little(std::string& out, std::span<const float> numbers) {
+/// Writes numbers as append_little does to where there is room for them.
+inline void put_little(std::span<const float> numbers, char* out) {
   if constexpr (std::endian::native == std::endian::little) {
-    out.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+    std::memcpy(out, numbers.data(), numbers.size_bytes());
   } else {
-    for (const float number : numbers) append_little(out, number);
+    for (std::size_t n = 0; n < numbers.size(); ++n) {
+      std::string bytes;
+      append_little(bytes, numbers[n]);
+      std::memcpy(out + sizeof(float) * n, bytes.data(), sizeof(float));
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <random>
 #include <set>
@@ -356,6 +357,30 @@ TEST(CheckMesh, CountsOpenAndDoubledEdges) {
   EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
   mesh.triangles[0] = 99;
   EXPECT_GT(check_mesh(mesh).bad_edges, 0u);
+}
+
+TEST(CheckMesh, FindsEdgesOfFourTriangles) {
+  Mesh mesh;  // two tetrahedra that share the edge from 0 to 1, and nothing else
+  mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1};
+  mesh.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 4, 1, 0, 1, 5, 1, 4, 5, 4, 0, 5};
+  for (const unsigned threads : {1u, 2u, 7u})
+    EXPECT_EQ(check_mesh(mesh.positions, mesh.triangles, threads).bad_edges, 1u);
+}
+
+TEST(CheckMesh, CountsEdgesAroundVerticesOfManyTriangles) {
+  constexpr std::uint32_t kCount = 40;
+  Mesh mesh;  // two pyramids base to base
+  mesh.positions = {0, 0, 1, 0, 0, -1};
+  for (std::uint32_t n = 0; n < kCount; ++n) {
+    const double angle = 2.0 * std::numbers::pi * n / kCount;
+    for (const double v : {std::cos(angle), std::sin(angle), 0.0})
+      mesh.positions.push_back(static_cast<float>(v));
+    const std::uint32_t here = 2 + n, next = 2 + (n + 1) % kCount;
+    for (const std::uint32_t v : {0u, here, next, 1u, next, here}) mesh.triangles.push_back(v);
+  }
+  EXPECT_EQ(check_mesh(mesh).bad_edges, 0u);
+  std::swap(mesh.triangles[0], mesh.triangles[1]);
+  EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
 }
 
 /// The code of the only error, or nothing where the mesh may be written.
