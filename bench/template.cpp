@@ -141,6 +141,7 @@ void add_rows(const std::string& name, const std::string& text, Finish finish) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [text, finish](benchmark::State& state) { make(state, text, finish); })
       ->Arg(0)
+      ->Arg(100)
       ->Arg(200)
       ->MeasureProcessCPUTime()
       ->UseRealTime()
