@@ -34,8 +34,8 @@ inline constexpr std::uint32_t kStockSurface = 0xffffffffu;
 enum class SolidRole : std::uint8_t { stock, no_go };
 
 struct SimulationOptions {
-  Length resolution;     // column pitch; 0 chooses one: of left-over stock its own, else about 4 million
-                         // columns, from 0.02 to 1 mm; for a huge stock more
+  Length resolution;     // column pitch; 0 chooses one: of left-over stock its own, else about 2.5
+                         // million columns, from 0.02 to 1 mm; for a huge stock more
   unsigned threads = 0;  // 0: as many as the machine has. The result is the same for any number.
   std::size_t max_columns = 400'000'000;  // more is an error that says which resolution would do
   Length hazard_depth = mm(0.001);        // contacts shallower than this are no hazard

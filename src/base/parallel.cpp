@@ -57,9 +57,15 @@ void Team::begin(std::function<void()> round) {
   rounds_.notify_all();
 }
 
+void Team::keep(std::exception_ptr error) {
+  const std::lock_guard lock(error_mutex_);
+  if (!error_) error_ = std::move(error);
+}
+
 void Team::finish() {
   for (std::uint32_t left = working_; left != 0; left = working_.load(std::memory_order_acquire))
     wait_while(working_, left);
+  if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
 }
 
 void Team::help() {

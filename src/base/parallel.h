@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <exception>
 #include <functional>
+#include <mutex>
 #include <thread>
 #include <vector>
 
@@ -32,21 +34,29 @@ class Team {
 
   /// Calls work(i) once for each i below `count`, in no fixed order. The calling thread takes part and asks
   /// stop() between pieces; after that returned true no further piece is begun. Returns when all are done.
+  /// Throws what any piece threw first (memory may run out), after which none is begun either.
   template <class Work, class Stop>
   void run(std::size_t count, const Work& work, const Stop& stop) {
     std::atomic<std::size_t> next{0};
-    begin([&] {
-      for (std::size_t i = next++; i < count; i = next++) work(i);
-    });
-    for (std::size_t i = next++; i < count; i = next++) {
-      work(i);
-      if (stop()) next = count;
-    }
+    const auto take_part = [&](const auto& is_enough) {
+      try {
+        for (std::size_t i = next++; i < count; i = next++) {
+          work(i);
+          if (is_enough()) next = count;
+        }
+      } catch (...) {
+        next = count;
+        keep(std::current_exception());
+      }
+    };
+    begin([&] { take_part([] { return false; }); });
+    take_part(stop);
     finish();
   }
 
  private:
   void begin(std::function<void()> round);
+  void keep(std::exception_ptr error);
   void finish();
   void help();
 
@@ -54,6 +64,8 @@ class Team {
   std::function<void()> round_;            // what the helpers do; empty: go home
   std::atomic<std::uint32_t> rounds_{0};   // begun
   std::atomic<std::uint32_t> working_{0};  // helpers that have not done with the last round
+  std::mutex error_mutex_;
+  std::exception_ptr error_;  // the first of the round
 };
 
 /// One round of a team that has come for it.

@@ -20,7 +20,7 @@ namespace {
 constexpr double kLargestStock = 1e5;                            // mm
 constexpr double kFarthestMotion = 1e7;                          // mm from the stock
 constexpr double kFinestPitch = 1e-4;                            // mm
-constexpr double kDefaultColumns = 4e6;                          // of the automatic resolution
+constexpr double kDefaultColumns = 2.5e6;                        // of the automatic resolution
 constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
 constexpr double kMostDefaultColumns = 5e7;                      // a coarser one rather than more
 /// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.

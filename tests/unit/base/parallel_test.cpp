@@ -2,6 +2,7 @@
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
+#include <new>
 #include <set>
 #include <vector>
 
@@ -66,6 +67,22 @@ TEST(Parallel, AStoppedRoundEndsAndTheNextIsWhole) {
   team.run(
       100, [&](std::size_t) { ++done; }, kNeverStop);
   EXPECT_EQ(done, 100u);
+}
+
+TEST(Parallel, WhatAPieceThrowsComesOut) {
+  for (const unsigned threads : {1u, 2u, 5u}) {
+    Team team(threads);
+    for (const std::size_t bad : {0u, 37u, 999u}) {
+      const auto work = [&](std::size_t i) {
+        if (i == bad) throw std::bad_alloc();
+      };
+      EXPECT_THROW(team.run(1000, work, kNeverStop), std::bad_alloc) << threads << " threads, piece " << bad;
+    }
+    std::atomic<std::size_t> done{0};
+    team.run(
+        100, [&](std::size_t) { ++done; }, kNeverStop);
+    EXPECT_EQ(done, 100u) << "after an error";
+  }
 }
 
 }  // namespace
