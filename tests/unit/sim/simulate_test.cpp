@@ -1,4 +1,5 @@
 // The simulation as a whole: volumes, who cut what, threads, unknown places, refusals.
+#include <cmath>
 #include <gtest/gtest.h>
 #include <random>
 
@@ -336,7 +337,7 @@ TEST(Refusals, AutomaticResolution) {
   const auto result =
       run(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {100, 100, 0}), 0, diagnostics);
   ASSERT_TRUE(result);
-  EXPECT_NEAR(result->workpiece.pitch().mm(), 0.05, 1e-9);
+  EXPECT_NEAR(result->workpiece.pitch().mm(), 100 / std::sqrt(2.5e6), 1e-9);
 }
 
 TEST(Refusals, AbsurdMotions) {
