@@ -27,7 +27,7 @@ constexpr std::size_t kChunk = std::size_t{3} << 14;  // indices
 /// won.
 constexpr std::size_t kMostShares = 4;
 /// Of a vertex's number one bit is left for the way in which a side goes; sides are counted in 32 bits.
-constexpr std::size_t kMostVertices = std::size_t{1} << 31, kMostSides = (std::size_t{1} << 32) - 1;
+constexpr std::size_t kMostVertices = std::size_t{1} << 31, kMostSides = 0xffffffffu;
 
 bool never() { return false; }
 
