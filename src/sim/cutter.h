@@ -1,6 +1,7 @@
 // Sends the tiles of a batch of sweeps to the kernels.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -56,8 +57,9 @@ template <class Cut, class AddUp, class AtRest, class Stop>
 void cut_batches(Feeder& feeder, unsigned threads, const Cut& cut, const AddUp& add_up, const AtRest& at_rest,
                  const Stop& stop) {
   CutBatch now, other;
-  Team team(threads);
   feeder.fill(now);
+  const auto pieces = static_cast<unsigned>(now.busy.size() + 1);
+  Team team(now.is_last ? std::min(threads, pieces) : threads);
   for (bool more = true; more && !stop(); std::swap(now, other)) {
     more = !now.is_last;
     now.removed.assign(now.list.size(), 0.0);
