@@ -2,6 +2,9 @@
 // about half a pitch, the toolpath says where they are exactly.
 #pragma once
 
+#include <optional>
+
+#include "kerf/diagnostics.h"
 #include "kerf/progress.h"
 #include "kerf/simulate.h"
 
@@ -21,6 +24,14 @@ struct SharpenOptions {
 /// have them. False if stopped; the mesh then is as it was. See docs/decisions/0006-mesh.md.
 bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, const ToolTable& tools,
                   const Stock& stock, const SharpenOptions& options = {}, Progress* progress = nullptr);
+
+/// extract_mesh and then sharpen_mesh. Where the result is not sound, as with cuts along the side of a block
+/// of a few coarse columns, the mesh is as the columns have it, relabelled, with a warning. `columns` are
+/// those of the workpiece. Nothing if stopped.
+std::optional<Mesh> extract_exact_mesh(const MeshColumns& columns, const MeshOptions& options,
+                                       const Workpiece& workpiece, const Toolpath& path,
+                                       const ToolTable& tools, const Stock& stock, Diagnostics& diagnostics,
+                                       Progress* progress = nullptr);
 
 /// For a mesh that is not sharpened: between the stock's surface and a steep cut there is a strip as wide as
 /// a column, whose triangles are the one's and the other's in turns. All of them become the cut's, as in a

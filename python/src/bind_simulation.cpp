@@ -48,20 +48,15 @@ py::tuple mesh_arrays(const Result& result, bool sharp) {
   {
     const py::gil_scoped_release release;
     const MeshColumns columns(result.simulation.workpiece);
-    const VolumeRange volume = mesh_volume(columns, {.tolerance = SharpenOptions().tolerance});
-    mesh = extract_mesh(columns, {}, &progress);
     if (sharp) {
-      sharpen_mesh(mesh, result.simulation.workpiece, *result.path, *result.tools, result.stock, {},
-                   &progress);
-      Diagnostics fault;
-      if (!progress.stop_requested() && !verify_mesh(mesh, volume, fault)) {
-        diagnostics.warning(
-            Code::mesh_unsound, {},
-            "edges and walls are only as exact as the columns: with exact ones the mesh is not sound");
-        mesh = extract_mesh(columns, {}, &progress);
-      }
+      mesh = extract_exact_mesh(columns, {}, result.simulation.workpiece, *result.path, *result.tools,
+                                result.stock, diagnostics, &progress)
+                 .value_or(Mesh());
+    } else {
+      mesh = extract_mesh(columns, {}, &progress);
     }
-    if (!progress.stop_requested()) verify_mesh(mesh, volume, diagnostics);
+    if (!progress.stop_requested())
+      verify_mesh(mesh, mesh_volume(columns, {.tolerance = SharpenOptions().tolerance}), diagnostics);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);

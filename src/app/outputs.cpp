@@ -335,14 +335,6 @@ bool shows_columns(const std::vector<OutputFile>& surfaces, const Workpiece& wor
   return workpiece.pitch().mm() * std::min(view.width, view.height) > std::max(size.x, size.y);
 }
 
-/// A block of a few coarse columns has cuts along its sides that only exact edges show.
-void tell_rough(const std::string& source, Diagnostics& diagnostics) {
-  diagnostics
-      .warning(Code::mesh_unsound, TextSpot{source, 0, 0},
-               "edges and walls are only as exact as the columns: with exact ones the mesh is not sound")
-      .hint = "a finer --resolution may help";
-}
-
 }  // namespace
 
 bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const Simulation& simulation,
@@ -361,22 +353,17 @@ bool write_outputs(const std::vector<OutputFile>& files, const Job& job, const S
   const auto step_colours = colour_groups(job.program.path, hazards);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = step_colours};
   const MeshColumns columns(simulation.workpiece);
-  Mesh mesh = extract_mesh(columns, options, &progress);
-  if (progress.stop_requested()) return false;
-  const VolumeRange volume = mesh_volume(columns, {.tolerance = kMeshTolerance + SharpenOptions().tolerance});
-  bool is_exact = shows_columns(surfaces, simulation.workpiece, view);
-  if (is_exact) {
-    if (!sharpen_mesh(mesh, simulation.workpiece, job.program.path, job.tools, *job.stock, {}, &progress))
-      return false;
-    Diagnostics fault;
-    is_exact = verify_mesh(mesh, volume, fault);
-    if (!is_exact) {
-      tell_rough(job.program.source, diagnostics);
-      mesh = extract_mesh(columns, options, &progress);
-    }
+  std::optional<Mesh> mesh;
+  if (shows_columns(surfaces, simulation.workpiece, view)) {
+    mesh = extract_exact_mesh(columns, options, simulation.workpiece, job.program.path, job.tools, *job.stock,
+                              diagnostics, &progress);
+  } else {
+    mesh = extract_mesh(columns, options, &progress);
+    relabel_mesh(*mesh, simulation.workpiece);
   }
-  if (!is_exact) relabel_mesh(mesh, simulation.workpiece);
-  return write_surface(surfaces, job.program, mesh, volume, hazards, view, set, diagnostics, progress);
+  if (!mesh || progress.stop_requested()) return false;
+  const VolumeRange volume = mesh_volume(columns, {.tolerance = kMeshTolerance + SharpenOptions().tolerance});
+  return write_surface(surfaces, job.program, *mesh, volume, hazards, view, set, diagnostics, progress);
 }
 
 }  // namespace kerf::app

@@ -180,6 +180,28 @@ bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, 
   return true;
 }
 
+std::optional<Mesh> extract_exact_mesh(const MeshColumns& columns, const MeshOptions& options,
+                                       const Workpiece& workpiece, const Toolpath& path,
+                                       const ToolTable& tools, const Stock& stock, Diagnostics& diagnostics,
+                                       Progress* progress) {
+  const SharpenOptions sharp;
+  Mesh mesh = extract_mesh(columns, options, progress);
+  if (stop_requested(progress) || !sharpen_mesh(mesh, workpiece, path, tools, stock, sharp, progress))
+    return std::nullopt;
+  Diagnostics fault;
+  MeshOptions allowed = options;
+  allowed.tolerance = options.tolerance + sharp.tolerance;
+  if (verify_mesh(mesh, mesh_volume(columns, allowed), fault)) return mesh;
+  diagnostics
+      .warning(Code::mesh_unsound, {},
+               "edges and walls are only as exact as the columns: with exact ones the mesh is not sound")
+      .hint = "a finer --resolution may help";
+  mesh = extract_mesh(columns, options, progress);
+  relabel_mesh(mesh, workpiece);
+  if (stop_requested(progress)) return std::nullopt;
+  return mesh;
+}
+
 void relabel_mesh(Mesh& mesh, const Workpiece& workpiece) {
   const Workpiece::Body& body = workpiece.body();
   if (!body.start) sim::relabel_triangles(mesh, body.bounds);  // else its surface may lie anywhere

@@ -46,10 +46,9 @@ HWY_INLINE Vector load(const Real* lanes) {
   return v;
 }
 HWY_INLINE Vector load(const Lanes& lanes) { return load(lanes.v); }
-HWY_INLINE void store(Vector v, Real* lanes) {
-  for (int p = 0; p < kParts; ++p) hn::StoreU(v.part[p], RealTag(), lanes + p * kWidth);
+HWY_INLINE void store(Vector v, Lanes& lanes) {
+  for (int p = 0; p < kParts; ++p) hn::StoreU(v.part[p], RealTag(), lanes.v + p * kWidth);
 }
-HWY_INLINE void store(Vector v, Lanes& lanes) { store(v, lanes.v); }
 HWY_INLINE Ids all_ids(std::uint32_t id) {
   Ids v;
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::Set(IdTag(), id);

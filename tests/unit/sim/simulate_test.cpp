@@ -359,6 +359,33 @@ TEST(Warnings, WhatIsNotSimulatedIsSaid) {
   EXPECT_TRUE(said.says(Code::extrusion_not_simulated));
 }
 
+TEST(Warnings, LongPathsAreSurveyedInPartsAndSayThingsOnce) {
+  Path path;
+  const auto cut_across = [&](int tool, double y) {
+    path.tool(tool).rapid({2, y, 5}).cut({2, y, -2}).cut({40, y, -2});
+  };
+  cut_across(1, 8);
+  for (int k = 0; k < 70000; ++k) path.rapid({40, 8, 5.0 + k % 2});
+  cut_across(3, 20);
+  const Refusal quiet = attempt(path.path(), square_and_keyhole());
+  EXPECT_TRUE(quiet.ran);
+  EXPECT_TRUE(quiet.diagnostics.list().empty());
+  for (int k = 0; k < 70000; ++k) path.rapid({40, 8, 5.0 + k % 2});
+  cut_across(2, 32);
+  for (const std::size_t step : {std::size_t{5}, std::size_t{70010}, path.path().size() - 1})
+    path.path().set_extra(step, {.abc = std::array<double, 3>{10, 0, 0}, .z_correction = ""});
+  for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+    Diagnostics said;
+    const auto result =
+        run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, said, threads);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(said.list().size(), 1u) << threads << " threads";
+    EXPECT_EQ(said.list()[0].code, Code::rotary_not_simulated);
+    for (const std::size_t step : {std::size_t{3}, std::size_t{70007}, path.path().size() - 1})
+      EXPECT_GT(result->removed_by_step[step], 1.0f) << "step " << step;
+  }
+}
+
 TEST(Warnings, CoarseArcAndUnknownPlace) {
   Path path;
   path.tool(1).rapid({5, 5, 2}).cut({5, 5, -1});
