@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 #include <iterator>
 
+#include "test_paths.h"
+
 #include "kerf/gcode.h"
 
 namespace kerf {

@@ -6,6 +6,8 @@
 
 #include "notation.h"
 
+#include "test_paths.h"
+
 #include "kerf/gcode.h"
 
 namespace kerf {

@@ -9,6 +9,8 @@
 
 #include "notation.h"
 
+#include "test_paths.h"
+
 #include "kerf/gcode.h"
 #include "kerf/geometry.h"
 

@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "test_paths.h"
+
 #include "kerf/tool_files.h"
 
 namespace kerf {
