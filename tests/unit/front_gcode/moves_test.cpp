@@ -5,7 +5,6 @@
 #include <sstream>
 
 #include "notation.h"
-
 #include "test_paths.h"
 
 #include "kerf/gcode.h"

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "notation.h"
-
 #include "test_paths.h"
 
 #include "kerf/gcode.h"
