@@ -12,7 +12,17 @@ PATH = {"path", "tool", "stock"} | GEOMETRY
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png", "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
 BACK = {"back_drawing", "back_gcmc", "back_gcode"}
-# What each module may include besides itself. There is no ring, as each line uses only lines above it.
+
+
+def rooms(module, uses, order):
+    """Rows for the rooms of a module, folders inside its folder: each uses what the module uses, and of the
+    rooms before it those that `order` names."""
+    return {f"{module}_{room}": uses | {f"{module}_{other}" for other in others}
+            for room, others in order.items()}
+
+
+# What each module may include besides itself. There is no ring, as each line uses only lines above it. A
+# module may include its own rooms, and whoever may include a module may include its rooms.
 ALLOWED = {
     "base": set(),
     "geom": {"base"},
@@ -22,6 +32,13 @@ ALLOWED = {
     **{codec: {"base"} for codec in CODEC},
     "codec_mesh": {"codec_zip", "base"},  # 3MF is a zip
     **{front: PATH | CODEC for front in FRONT},
+    **rooms("front_gcmc", PATH | CODEC, {
+        "value": [],
+        "text": ["value"],
+        "code": ["text", "value"],
+        "run": ["code", "text", "value"],
+        "out": ["run", "code", "text", "value"],
+    }),
     **{back: PATH | CODEC for back in BACK},
     "sim": PATH,
     "app": PATH | CODEC | FRONT | BACK | {"sim"},
@@ -38,6 +55,7 @@ PUBLIC = {
     "sim": ["simulate.h", "exact_mesh.h", "live.h", "fixtures.h", "compare.h", "rotary.h", "print.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
+    "front_gcmc_value": ["gcmc_options.h"],
     "back_gcmc": ["gcmc_drawing.h"],
     "back_gcode": ["post.h"],
     "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
@@ -50,19 +68,24 @@ PUBLIC = {
     "codec_png": ["image_files.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
-GROUPS = {"codec", "front", "back"}  # folders whose folders are the modules
 
 
 def module_of(path):
-    """The module of a file of the library, app or python; None for files outside of them."""
+    """The module of a file of the library, app or python: its folder's names below src, joined by "_". None for
+    files outside of them."""
     parts = path.split("/")
     if path.startswith("include/"):
         return HEADER_MODULE.get(path, "?")
     if parts[0] == "python":
         return "python"
     if parts[0] == "src" and len(parts) > 2:
-        return "_".join(parts[1:3]) if parts[1] in GROUPS else parts[1]
+        return "_".join(parts[1:-1])
     return None
+
+
+def within(module, modules):
+    """Whether a module, or one that it is a room of, is among `modules`."""
+    return module in modules or ("_" in module and within(module.rsplit("_", 1)[0], modules))
 
 
 def allowed_for(path):
@@ -126,7 +149,7 @@ def check(texts):
                 continue
             graph.setdefault(path, []).append(target)
             module = module_of(target)
-            if module is not None and module not in allowed:
+            if module is not None and not within(module, allowed):
                 problems.append(
                     f"{path}:{number}: wrong arrow: may not include {match.group(1)} of module {module}")
     return problems + rings(graph)
@@ -138,7 +161,8 @@ def check_links(texts):
     for path, text in sorted(texts.items()):
         for name, arguments in re.findall(r"kerf_module\((\w+)([^)]*)\)", text):
             depends = re.search(r"DEPENDS\s+((?:(?!LIBRARIES)\w+\s*)*)", arguments)
-            wrong = set(depends.group(1).split()) - ALLOWED.get(name, set()) if depends else set()
+            linked = set(depends.group(1).split()) if depends else set()
+            wrong = {other for other in linked if not within(other, ALLOWED.get(name, set()) | {name})}
             if name not in ALLOWED:
                 problems.append(f"{path}: module {name} is not in the tables of tests/tidy/arrows.py")
             for other in sorted(wrong):

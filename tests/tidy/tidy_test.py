@@ -45,6 +45,21 @@ class Arrows(unittest.TestCase):
         self.assertEqual(arrow_problems("tests/unit/sim/x_test.cpp", '#include "kerf/simulate.h"\n'), [])
         self.assertTrue(arrow_problems("tests/unit/geom/x_test.cpp", '#include "kerf/simulate.h"\n'))
 
+    def test_rooms_of_a_module(self):
+        inner = {"src/front/gcmc/value/v.h": "", "src/front/gcmc/run/r.h": ""}
+        self.assertEqual(arrows.module_of("src/front/gcmc/run/r.h"), "front_gcmc_run")
+        for path, name in (("src/front/gcmc/run/x.cpp", "front/gcmc/value/v.h"),
+                           ("src/front/gcmc/program.cpp", "front/gcmc/run/r.h"),
+                           ("tests/unit/front_gcmc_value/x_test.cpp", "front/gcmc/value/v.h"),
+                           ("src/app/x.cpp", "front/gcmc/run/r.h")):
+            self.assertEqual(arrows.check({**inner, path: f'#include "{name}"\n'}), [], path)
+        for path in ("src/front/gcmc/value/x.cpp", "tests/unit/front_gcmc_value/x_test.cpp",
+                     "src/front/gcode/x.cpp"):
+            self.assertIn("wrong arrow", arrows.check({**inner, path: '#include "front/gcmc/run/r.h"\n'})[0])
+        self.assertIn("no known module", arrows.check({"src/front/gcmc/unknown/x.cpp": ""})[0])
+        self.assertEqual(arrows.check_links({"a": "kerf_module(front_gcmc DEPENDS front_gcmc_run base)"}), [])
+        self.assertTrue(arrows.check_links({"a": "kerf_module(front_gcmc_value DEPENDS front_gcmc_run)"}))
+
     def test_rings_and_unknown_headers_are_found(self):
         texts = {**HEADERS, "src/sim/a.h": '#include "b.h"\n', "src/sim/b.h": '#include "a.h"\n'}
         self.assertIn("ring", arrows.check(texts)[0])

@@ -1,0 +1,206 @@
+// A whole run: sources, parsing, compiling, running, sinks.
+#include <algorithm>
+#include <deque>
+#include <filesystem>
+#include <fmt/format.h>
+#include <optional>
+#include <utility>
+
+#include "embedded_gcmc_library.h"
+#include "front/gcmc/code/compiler.h"
+#include "front/gcmc/out/path_sink.h"
+#include "front/gcmc/out/text_sink.h"
+#include "front/gcmc/run/builtins.h"
+#include "front/gcmc/run/vm.h"
+#include "front/gcmc/text/parser.h"
+
+#include "kerf/files.h"
+#include "kerf/gcmc.h"
+
+namespace kerf {
+namespace gcmc {
+namespace {
+
+constexpr std::size_t kLargestSource = std::size_t{256} << 20;
+
+/// Passes on what lexer and parser say, and counts it.
+class Reporter final : public SourceReport {
+ public:
+  Reporter(const std::deque<Source>& sources, GcmcOutput& output, Diagnostics& diagnostics)
+      : sources_(sources), output_(output), diagnostics_(diagnostics) {}
+  void error(Place at, Code code, std::string message, std::string hint) override {
+    say(GcmcSaid::error, at, code, std::move(message), std::move(hint));
+    ++errors;
+  }
+  void warning(Place at, Code code, std::string message) override {
+    say(GcmcSaid::warning, at, code, std::move(message), {});
+    ++warnings;
+  }
+  void fatal(Place at, Code code, std::string message) override {
+    say(GcmcSaid::fatal, at, code, std::move(message), {});
+    ++errors;
+    over_ = true;  // what follows is only the consequence
+  }
+  std::size_t errors = 0, warnings = 0;
+
+ private:
+  void say(GcmcSaid said, Place at, Code code, std::string text, std::string hint) {
+    if (over_) return;
+    GcmcMessage m;
+    m.said = said;
+    m.code = code;
+    m.where = {sources_[at.file].name, at.line, at.column};
+    m.text = std::move(text);
+    m.hint = std::move(hint);
+    output_.message(m);
+    Diagnostic d;
+    d.severity = said == GcmcSaid::warning ? Severity::warning : Severity::error;
+    d.code = code;
+    d.where = m.where;
+    d.message = m.text;
+    d.hint = m.hint;
+    diagnostics_.add(std::move(d));
+  }
+  const std::deque<Source>& sources_;
+  GcmcOutput& output_;
+  Diagnostics& diagnostics_;
+  bool over_ = false;
+};
+
+/// The text of a file. Where there is one that cannot be read, `obstacle` tells why, unless it told before.
+std::optional<std::string> file_text(const std::string& path, std::string& obstacle) {
+  std::error_code failed;
+  const std::filesystem::file_status status = std::filesystem::status(path, failed);
+  if (!std::filesystem::exists(status)) return std::nullopt;
+  Diagnostics diagnostics;
+  std::optional<InputFile> file;
+  // A device may have no end.
+  if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
+    diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0}, "it is a device, not an ordinary file");
+  else
+    file = InputFile::open(path, diagnostics, kLargestSource);
+  if (file) return std::string(file->bytes());
+  if (obstacle.empty()) obstacle = diagnostics.list().front().message;
+  return std::nullopt;
+}
+
+/// Where included files are: the folder the user stands in, the given paths, Kerf's own library.
+bool find_include(const GcmcOptions& options, const std::string& name, Source& found, std::string& obstacle) {
+  if (name.empty() || name == "-" || name.find('\0') != std::string::npos) return false;
+  std::vector<std::string> places{name};
+  if (name[0] != '/')
+    for (const std::string& folder : options.include_paths)
+      places.push_back(folder + (!folder.empty() && folder.back() == '/' ? "" : "/") + name);
+  for (const std::string& path : places) {
+    if (auto text = file_text(path, obstacle)) {
+      found = {path, std::move(*text)};
+      return true;
+    }
+  }
+  for (std::size_t i = 0; i < embedded::gcmc_library_count; ++i) {
+    if (embedded::gcmc_library[i].name != name) continue;
+    found = {"<kerf>/" + name, std::string(embedded::gcmc_library[i].bytes)};
+    return true;
+  }
+  return false;
+}
+
+/// Parses the defines, then the program. False after an error.
+bool parse_all(std::string_view text, const GcmcOptions& options, Tree& tree, std::deque<Source>& sources,
+               Reporter& report) {
+  std::string defines;
+  for (const std::string& d : options.defines) defines += d + ";\n";
+  sources.push_back({"<cmd-line defines>", std::move(defines)});
+  sources.push_back({options.file_name, std::string(text)});
+  const Includer includer = [&](const std::string& name, Source& found, std::string& obstacle) {
+    return find_include(options, name, found, obstacle);
+  };
+  const IsBuiltin is_builtin = [](std::string_view name) { return builtin_index(name) >= 0; };
+  Parser parser(tree, sources, report, includer, is_builtin);
+  parser.parse(0);
+  parser.parse(1);
+  return report.errors == 0;
+}
+
+std::vector<NameId> declare_constants(Tree& tree, const std::vector<LanguageConstant>& constants) {
+  std::vector<NameId> names;
+  for (const LanguageConstant& c : constants) names.push_back(tree.intern(c.name));
+  return names;
+}
+
+int exit_status(const Vm& vm, int returned) { return vm.script_failed() ? 1 : returned & 255; }
+
+void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code,
+              const std::vector<NameId>& names, const GcmcOptions& options, GcmcOutput& output,
+              Diagnostics& diagnostics, Progress* progress, GcmcRun& run) {
+  Vm vm(tree, sources, code, options, output, diagnostics, progress);
+  std::vector<LanguageConstant> constants = language_constants(vm.meter);
+  for (std::size_t i = 0; i < names.size(); ++i) vm.define_constant(names[i], std::move(constants[i].value));
+  TextSink text(vm, output);
+  PathSink path(run.path, vm);
+  if (options.want_text) vm.machine().sinks.push_back(&text);
+  if (options.want_path) vm.machine().sinks.push_back(&path);
+  try {
+    if (options.want_text) text.begin();
+    run.status = exit_status(vm, vm.run());
+    if (options.want_path) path.finish();
+    if (options.want_text) text.end();
+    run.completed = true;
+  } catch (const Stop&) {
+    run.status = 1;
+    run.stopped = vm.was_stopped();
+    text.break_off();
+  }
+  run.warnings += vm.warnings();
+  run.layers = vm.machine().layers;
+}
+
+}  // namespace
+}  // namespace gcmc
+
+std::string to_line(const GcmcMessage& m) {
+  static constexpr std::string_view kWords[] = {
+      "Runtime message(): ", "Runtime warning(): ", "Runtime error(): ", "warning: ", "error: ", "fatal: "};
+  return fmt::format("{}:{}:{}: {}{}", m.where.file, m.where.line, m.where.column,
+                     kWords[static_cast<std::size_t>(m.said)], m.text);
+}
+
+GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
+                 Diagnostics& diagnostics, Progress* progress) {
+  using namespace gcmc;
+  GcmcRun run;
+  Tree tree;
+  std::deque<Source> sources;
+  Reporter report(sources, output, diagnostics);
+  if (!parse_all(text, options, tree, sources, report)) {
+    run.status = 1;
+  } else {
+    Meter meter;
+    meter.limit = options.max_memory;
+    const std::vector<NameId> names = declare_constants(tree, language_constants(meter));
+    try {
+      Program code = compile(tree, names, builtin_index, meter);
+      run_code(tree, sources, code, names, options, output, diagnostics, progress, run);
+    } catch (const TooManySlots&) {
+      report.error({1, 1, 1}, Code::gcmc_limit,
+                   "The program is too large: too many variables or instructions", {});
+      run.status = 1;
+    } catch (const OutOfMemory&) {
+      report.error({1, 1, 1}, Code::gcmc_limit, "The program's constants do not fit into memory", {});
+      run.status = 1;
+    }
+  }
+  run.warnings += report.warnings;
+  for (Source& s : sources) run.sources.emplace_back(std::move(s.name), std::move(s.bytes));
+  return run;
+}
+
+bool check_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
+                Diagnostics& diagnostics) {
+  gcmc::Tree tree;
+  std::deque<gcmc::Source> sources;
+  gcmc::Reporter report(sources, output, diagnostics);
+  return gcmc::parse_all(text, options, tree, sources, report);
+}
+
+}  // namespace kerf

@@ -1,0 +1,53 @@
+// The machine as a program sees it: position, offsets, plane, stored positions, layers. What moves it goes to
+// sinks.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "front/gcmc/run/sink.h"
+#include "front/gcmc/value/value.h"
+
+#include "kerf/geometry.h"
+
+namespace kerf::gcmc {
+
+class Machine {
+ public:
+  std::vector<Sink*> sinks;
+  Axes position{};      // native units, degrees; without offsets
+  Axes told{};          // the same with offsets: where the sinks were told that the machine is
+  Axes fixed_offset{};  // of the command line
+  Axes relocation{};    // of relocate()
+  Plane plane = Plane::xy;
+  struct Stored {
+    bool known = false;
+    Axes position{};
+  };
+  std::array<Stored, 2> stored{};
+  std::vector<std::string> layers;
+  int layer = -1;
+
+  double with_offset(std::size_t axis, double v) const { return v + (fixed_offset[axis] + relocation[axis]); }
+  Axes with_offset(const Axes& p) const {
+    Axes out{};
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] = with_offset(i, p[i]);
+    return out;
+  }
+  void set_position(const Axes& p) {
+    position = p;
+    told = with_offset(p);
+  }
+  void set_axis(std::size_t axis, double v) {
+    position[axis] = v;
+    told[axis] = with_offset(axis, v);
+  }
+  template <class Tell>
+  void tell(Tell tell) {
+    for (Sink* sink : sinks) tell(*sink);
+  }
+};
+
+}  // namespace kerf::gcmc
