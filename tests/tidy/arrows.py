@@ -71,8 +71,8 @@ HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.
 
 
 def module_of(path):
-    """The module of a file of the library, app or python: its folder's names below src, joined by "_". None for
-    files outside of them."""
+    """The module of a file of the library, app or python: the names of its folders below src, joined by "_".
+    None for files outside of them."""
     parts = path.split("/")
     if path.startswith("include/"):
         return HEADER_MODULE.get(path, "?")
