@@ -8,6 +8,7 @@ import arrows  # noqa: E402
 import codes  # noqa: E402
 import function_length  # noqa: E402
 import text_rules  # noqa: E402
+import words  # noqa: E402
 
 HEADERS = {
     "include/kerf/units.h": "",
@@ -135,6 +136,56 @@ class Codes(unittest.TestCase):
         self.assertTrue(any("twice" in p for p in codes.check(rows + [(1001, "other", '"X."')], both)))
         self.assertTrue(any("no area" in p for p in codes.check([(99, "other", '"X."')], both)))
         self.assertTrue(any("stands after" in p for p in codes.check(list(reversed(rows)), both)))
+
+
+class Words(unittest.TestCase):
+    def found(self, path, text):
+        return [word for _, word, _ in words.offences(path, text)]
+
+    def test_comments_strings_and_documents_are_checked(self):
+        self.assertEqual(self.found("src/a.cpp", "// nobody knows\nint x;\n"), ["nobody"])
+        self.assertEqual(self.found("src/a.cpp", 'f("is told\\"");\n'), ["told"])
+        self.assertEqual(self.found("src/a.cpp", 'f(R"x(tells)x");\n'), ["tells"])
+        self.assertEqual(self.found("a.py", '"""It begins\nat 0."""\n'), ["begins"])
+        self.assertEqual(self.found("docs/a.md", "Reckoned anew."), ["Reckoned", "anew"])
+        self.assertEqual(self.found("dev", "# passed over"), ["passed over"])
+
+    def test_names_are_checked_word_by_word(self):
+        self.assertEqual(self.found("a.h", "int kMostSteps = tell_gouge(told_, line_begin);"),
+                         ["kMostSteps", "tell_gouge", "told_", "line_begin"])
+        self.assertEqual(self.found("a.md", "`kMostSteps` and `most_steps`"), ["kMostSteps", "most_steps"])
+        self.assertEqual(self.found("a.h", "std::shared_ptr<A> shared_edge; Operator::at_most; almost;"), [])
+
+    def test_begin_of_a_range_passes(self):
+        for text in ("std::sort(a.begin(), b->end());", "auto x = std::begin(a);",
+                     "const_iterator begin() const;",
+                     "void f(std::size_t begin, std::size_t end);"):
+            self.assertEqual(self.found("a.cpp", text), [], text)
+        self.assertEqual(self.found("a.cpp", "const Point2 begin = arc.begin;"), ["begin", "begin"])
+
+    def test_correct_english_passes(self):
+        for text in ("It cannot be told apart.", "They share an edge.", "Files appear in place.",
+                     "Two decimal places.",
+                     "It takes place once.", "A stand-in.",
+                     "At most 40 lines.", "This is part of it.",
+                     "Triangles shared by two tiles"):
+            self.assertEqual(self.found("a.md", text), [], text)
+
+    def test_what_is_fixed_passes(self):
+        self.assertEqual(words.offences("a.py", 'x["mesh_unsound"]', words.codes_of(words.root_of([]))), [])
+        self.assertEqual(self.found("a.py", 'x["road_mm"]'), [])
+        self.assertEqual(self.found("CHANGELOG.md", "nobody"), [])
+        self.assertEqual(self.found("tests/data/a.nc", "(nobody)"), [])
+
+    def test_lines_are_counted_from_one(self):
+        self.assertEqual(words.offences("a.md", "x\nnobody")[0][0], 2)
+
+    def test_a_file_may_have_what_the_list_allows(self):
+        allowed = words.read_ratchet("# x\n2 a.cpp\n")
+        self.assertEqual(words.compare({"a.cpp": 2}, allowed), [])
+        self.assertEqual(words.compare({"a.cpp": 1}, allowed), [])
+        self.assertIn("3 banned words, allowed are 2", words.compare({"a.cpp": 3}, allowed)[0])
+        self.assertIn("allowed are 0", words.compare({"b.cpp": 1}, allowed)[0])
 
 
 if __name__ == "__main__":
