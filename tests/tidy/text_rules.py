@@ -1,4 +1,5 @@
-"""Rules for every text: line length, opening comment, nothing stray in the root, no place of one machine."""
+"""Every text: line length, opening comment, links, no stray file in the root, no absolute paths."""
+import posixpath
 import re
 import sys
 
@@ -16,6 +17,10 @@ FOLDERS_IN_ROOT = {
 }
 # Paths of one machine have no place in what others read. (Written so that this file does not contain them.)
 FORBIDDEN = re.compile(r"(?<![\w.])/" + "(work/|root/|home/[a-z]|Users/[a-z])")
+# A decision fits on about a screen; what is longer belongs in docs/benchlog.
+DECISION_LINES = 80
+LINK = re.compile(r"\]\(([^)#:\s]+)(?:#[^)]*)?\)")
+NAMED_DOCUMENT = re.compile(r"\bdocs/[\w/-]+\.md\b")
 BINARY = {".png", ".stl", ".glb", ".3mf", ".gz", ".zip"}
 
 
@@ -34,6 +39,29 @@ def check_text(path, text):
     return problems
 
 
+def check_links(path, text, exists):
+    """Problems of a file's references to documents; `exists` says whether a path of the repository does."""
+    if path == "tests/tidy/tidy_test.py":  # its documents are invented
+        return []
+    named = {(match.group(), match.group(), match.start()) for match in NAMED_DOCUMENT.finditer(text)}
+    if path.endswith(".md"):
+        folder = posixpath.dirname(path)
+        named |= {(match.group(1), posixpath.normpath(posixpath.join(folder, match.group(1))), match.start())
+                  for match in LINK.finditer(text)}
+    return [f"{path}:{text.count(chr(10), 0, at) + 1}: no such document: {shown}"
+            for shown, target, at in sorted(named, key=lambda n: n[2]) if not exists(target)]
+
+
+def check_decision(path, text, index):
+    """Problems of a page of docs/decisions; `index` is the text of its README."""
+    problems = []
+    if text.count("\n") > DECISION_LINES:
+        problems.append(f"{path}: {text.count(chr(10))} lines, the limit is {DECISION_LINES}")
+    if path.rsplit("/", 1)[-1] not in index:
+        problems.append(f"{path}: not listed in docs/decisions/README.md")
+    return problems
+
+
 def stray(names, folders):
     """Problems of the root: names of files and folders that are not known there."""
     problems = [f"{name}: stray file in the root" for name in sorted(set(names) - IN_ROOT)]
@@ -48,10 +76,15 @@ def main():
     # In a working tree of git, what is git's own or ignored is nobody's stray file.
     names = {n for n in names if n != ".git" and git(root, "check-ignore", n) is None}
     problems = stray(names, {p.parts[0] for p in every if len(p.parts) > 1})
+    decisions = (root / "docs/decisions/README.md").read_text()
     for path in every:
         if path.suffix in BINARY or path.parts[:2] == ("fuzz", "corpus") or path.name == ".git":
             continue
-        problems += check_text(path.as_posix(), (root / path).read_text(errors="replace"))
+        text = (root / path).read_text(errors="replace")
+        problems += check_text(path.as_posix(), text)
+        problems += check_links(path.as_posix(), text, lambda target: (root / target).exists())
+        if path.parts[:2] == ("docs", "decisions"):
+            problems += check_decision(path.as_posix(), text, decisions)
     finish("text_rules", problems)
 
 

@@ -115,6 +115,17 @@ class TextRules(unittest.TestCase):
         self.assertIn("machine", text_rules.check_text("docs/a.md", "see /" + "work/x\n")[0])
         self.assertEqual(text_rules.check_text("docs/a.md", "a frame/" + "work/x and src/work/y\n"), [])
 
+    def test_links_and_named_documents_exist(self):
+        def problems(path, text):
+            return text_rules.check_links(path, text, {"docs/a.md", "docs/manual/b.md"}.__contains__)
+        self.assertEqual(problems("docs/manual/b.md", "[a](../a.md), [b](b.md#x), [w](https://a.md)"), [])
+        self.assertIn("b.md:2: no such document: a.md", problems("docs/manual/b.md", "\n[a](a.md)")[0])
+        self.assertEqual(len(problems("src/a.cpp", "// docs/a.md and docs/c.md")), 1)
+
+    def test_a_decision_is_short_and_listed(self):
+        self.assertEqual(text_rules.check_decision("docs/decisions/1-a.md", "x\n" * 80, "(1-a.md)"), [])
+        self.assertEqual(len(text_rules.check_decision("docs/decisions/1-a.md", "x\n" * 81, "")), 2)
+
     def test_the_root_holds_only_what_is_known(self):
         self.assertEqual(text_rules.stray({"README.md", "dev"}, {"src"}), [])
         self.assertEqual(len(text_rules.stray({"NOTES.md"}, {"scratch"})), 2)
