@@ -12,6 +12,16 @@ namespace kerf {
 std::string fold_name(std::string_view name);
 /// "a, b or c": a list of words for messages; `last` stands before the last one.
 std::string list_text(const std::vector<std::string>& words, std::string_view last = "or");
+/// "a, b, c": any words with a separator between them.
+template <class Words>
+std::string joined(const Words& words, std::string_view separator) {
+  std::string text;
+  for (const auto& word : words) {
+    if (!text.empty()) text += separator;
+    text += word;
+  }
+  return text;
+}
 /// `text` without white space (any character up to the blank) at both ends.
 std::string_view trim(std::string_view text);
 

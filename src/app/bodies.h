@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/command.h"
 #include "app/findings.h"
+#include "app/options/command.h"
 
 #include "kerf/fixtures.h"
 #include "kerf/round_bar.h"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "app/console.h"
-#include "app/json.h"
+#include "app/report/console.h"
+#include "app/report/json.h"
 
 #include "kerf/check.h"
 #include "kerf/simulate.h"

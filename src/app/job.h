@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "app/bodies.h"
-#include "app/command.h"
-#include "app/input.h"
-#include "app/reading.h"
+#include "app/options/command.h"
+#include "app/options/reading.h"
 
+#include "kerf/program.h"
 #include "kerf/report.h"
 #include "kerf/stock.h"
 #include "kerf/tool.h"

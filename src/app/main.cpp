@@ -7,11 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "app/command.h"
-#include "app/gcmc_command.h"
-#include "app/input.h"
-#include "app/terminal_progress.h"
-#include "app/usage.h"
+#include "app/commands/gcmc.h"
+#include "app/options/command.h"
+#include "app/options/usage.h"
+#include "app/report/terminal_progress.h"
+
+#include "kerf/program.h"
 
 namespace kerf::app {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "app/job.h"
-#include "app/terminal_progress.h"
+#include "app/report/terminal_progress.h"
 
 #include "kerf/files.h"
 #include "kerf/mesh_files.h"

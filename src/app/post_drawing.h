@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/input.h"
-
+#include "kerf/program.h"
 #include "kerf/tool.h"
 #include "kerf/toolpath_drawing.h"
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "app/terminal_progress.h"
+#include "app/report/terminal_progress.h"
 
 #include "kerf/number.h"
 

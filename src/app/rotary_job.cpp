@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "app/terminal_progress.h"
+#include "app/report/terminal_progress.h"
 
 #include "kerf/number.h"
 

@@ -12,6 +12,7 @@ PATH = {"path", "tool", "stock"} | GEOMETRY
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png", "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
 BACK = {"back_drawing", "back_gcmc", "back_gcode"}
+BELOW_JOB = PATH | CODEC | FRONT | BACK | {"sim"}
 
 
 def rooms(module, uses, order):
@@ -41,10 +42,11 @@ ALLOWED = {
     }),
     **{back: PATH | CODEC for back in BACK},
     "sim": PATH,
-    "app": PATH | CODEC | FRONT | BACK | {"sim"},
-    "python": PATH | CODEC | FRONT | BACK | {"sim"},
+    "job": BELOW_JOB,
+    "app": BELOW_JOB | {"job"},
+    "python": BELOW_JOB | {"job"},
 }
-OUTSIDE = PATH | CODEC | FRONT | BACK | {"sim"}  # benchmarks, fuzz targets and the WebAssembly smoke test
+OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly smoke test
 PUBLIC = {
     "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
              "codes.def"],
@@ -66,6 +68,7 @@ PUBLIC = {
     "codec_drawing": ["drawing_files.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_png": ["image_files.h"],
+    "job": ["program.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

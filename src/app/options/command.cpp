@@ -1,12 +1,12 @@
 // What the subcommands share in setting up their options.
-#include "app/command.h"
+#include "app/options/command.h"
 
 #include <fmt/format.h>
 
-#include "app/input.h"
-#include "app/json.h"
+#include "app/report/json.h"
 
 #include "kerf/number.h"
+#include "kerf/program.h"
 
 namespace kerf::app {
 

@@ -2,13 +2,13 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/command.h"
 #include "app/job.h"
-#include "app/json.h"
-#include "app/sketch.h"
-#include "app/text.h"
+#include "app/options/command.h"
+#include "app/report/json.h"
+#include "app/report/sketch.h"
 
 #include "kerf/files.h"
+#include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool_files.h"
 

@@ -1,10 +1,9 @@
 // The options of reading.
-#include "app/reading.h"
+#include "app/options/reading.h"
 
 #include <fmt/format.h>
 
-#include "app/text.h"
-
+#include "kerf/names.h"
 #include "kerf/number.h"
 
 namespace kerf::app {

@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/command.h"
-#include "app/json.h"
-#include "app/text.h"
+#include "app/options/command.h"
+#include "app/report/json.h"
 
+#include "kerf/names.h"
 #include "kerf/tool_files.h"
 
 namespace kerf::app {

@@ -18,7 +18,7 @@
 #include "kerf/tool.h"
 #include "kerf/toolpath.h"
 
-namespace kerf::app {
+namespace kerf {
 
 enum class InputUnits { mm, inch };
 
@@ -64,4 +64,4 @@ std::string folder_of(const std::string& file);
 /// ".nc .ngc ..." of every front end, for the help.
 std::string known_endings();
 
-}  // namespace kerf::app
+}  // namespace kerf

@@ -1,11 +1,10 @@
 // Messages of wrong usage.
-#include "app/usage.h"
+#include "app/options/usage.h"
 
 #include <fmt/format.h>
 #include <vector>
 
-#include "app/text.h"
-
+#include "kerf/names.h"
 #include "kerf/number.h"
 
 namespace kerf::app {

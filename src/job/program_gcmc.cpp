@@ -3,11 +3,10 @@
 #include <string>
 #include <utility>
 
-#include "app/input.h"
-
 #include "kerf/gcmc.h"
+#include "kerf/program.h"
 
-namespace kerf::app {
+namespace kerf {
 namespace {
 
 /// What a program says with message() has no place in a report; warnings and errors are in the diagnostics.
@@ -49,4 +48,4 @@ LoadedProgram read(const InputFile& file, const InputOptions&, Diagnostics& diag
 
 FrontEnd gcmc_front_end() { return {"gcmc", {".gcmc"}, looks_like_gcmc, read}; }
 
-}  // namespace kerf::app
+}  // namespace kerf

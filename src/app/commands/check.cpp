@@ -5,10 +5,10 @@
 #include <map>
 #include <memory>
 
-#include "app/command.h"
 #include "app/findings.h"
 #include "app/job.h"
-#include "app/terminal_progress.h"
+#include "app/options/command.h"
+#include "app/report/terminal_progress.h"
 
 #include "kerf/material_files.h"
 #include "kerf/number.h"

@@ -1,21 +1,22 @@
 // kerf post: a program written for a controller, or drawn.
+#include "kerf/post.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/command.h"
-#include "app/input.h"
 #include "app/job.h"
-#include "app/json.h"
+#include "app/options/command.h"
+#include "app/options/reading.h"
 #include "app/post_drawing.h"
-#include "app/reading.h"
-#include "app/terminal_progress.h"
+#include "app/report/json.h"
+#include "app/report/terminal_progress.h"
 
 #include "kerf/files.h"
 #include "kerf/number.h"
 #include "kerf/passes.h"
-#include "kerf/post.h"
+#include "kerf/program.h"
 #include "kerf/tool_files.h"
 
 namespace kerf::app {

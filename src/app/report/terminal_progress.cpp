@@ -1,5 +1,5 @@
 // The progress bar and the interrupt flag.
-#include "app/terminal_progress.h"
+#include "app/report/terminal_progress.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <string>
 
-#include "app/console.h"
+#include "app/report/console.h"
 
 #include "kerf/progress.h"
 

@@ -1,5 +1,5 @@
 // Running Python: which one, with which path, and how it ended.
-#include "app/python_script.h"
+#include "job/python_script.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace kerf::app {
+namespace kerf {
 namespace {
 
 std::string variable(const char* name) {
@@ -83,4 +83,4 @@ int run_python(const std::string& script, const std::vector<std::pair<std::strin
   return WEXITSTATUS(status);
 }
 
-}  // namespace kerf::app
+}  // namespace kerf

@@ -5,9 +5,9 @@
 #include <memory>
 #include <unistd.h>
 
-#include "app/command.h"
-#include "app/json.h"
-#include "app/python_script.h"
+#include "app/options/command.h"
+#include "app/report/json.h"
+#include "job/python_script.h"
 
 #include "kerf/drawing_files.h"
 #include "kerf/files.h"

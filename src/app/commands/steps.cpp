@@ -1,12 +1,13 @@
 // kerf steps: a program's toolpath as JSON lines, for other programs to read.
 #include <memory>
 
-#include "app/command.h"
-#include "app/input.h"
 #include "app/job.h"
-#include "app/json.h"
-#include "app/reading.h"
-#include "app/terminal_progress.h"
+#include "app/options/command.h"
+#include "app/options/reading.h"
+#include "app/report/json.h"
+#include "app/report/terminal_progress.h"
+
+#include "kerf/program.h"
 
 namespace kerf::app {
 namespace {

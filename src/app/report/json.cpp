@@ -1,5 +1,5 @@
 // Kerf's values as JSON.
-#include "app/json.h"
+#include "app/report/json.h"
 
 #include <cmath>
 #include <cstdint>

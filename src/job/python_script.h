@@ -7,7 +7,7 @@
 
 #include "kerf/diagnostics.h"
 
-namespace kerf::app {
+namespace kerf {
 
 /// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3. Kerf's modules are
 /// on its path, `environment` is added to its environment, and what it prints goes to stderr. Returns its
@@ -15,4 +15,4 @@ namespace kerf::app {
 int run_python(const std::string& script, const std::vector<std::pair<std::string, std::string>>& environment,
                Diagnostics& diagnostics);
 
-}  // namespace kerf::app
+}  // namespace kerf

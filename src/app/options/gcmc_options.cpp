@@ -1,5 +1,5 @@
 // The options of `kerf gcmc`.
-#include "app/gcmc_options.h"
+#include "app/options/gcmc_options.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,11 +4,10 @@
 #include <string>
 #include <utility>
 
-#include "app/input.h"
-
 #include "kerf/gcode.h"
+#include "kerf/program.h"
 
-namespace kerf::app {
+namespace kerf {
 namespace {
 
 /// Text in which a line begins with a word such as G0, M3, T1, N10 or X5, or with % or a comment and then
@@ -69,4 +68,4 @@ FrontEnd gcode_front_end() {
   return {"G-code", {".nc", ".ngc", ".gcode", ".tap", ".gc", ".cnc", ".txt"}, looks_like_gcode, read};
 }
 
-}  // namespace kerf::app
+}  // namespace kerf

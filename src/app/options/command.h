@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "app/console.h"
+#include "app/report/console.h"
 
 namespace kerf::app {
 

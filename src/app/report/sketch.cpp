@@ -1,5 +1,5 @@
 // Draws a silhouette: each line of text stands for a slice of height, twice as high as a character is wide.
-#include "app/sketch.h"
+#include "app/report/sketch.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // `kerf gcmc`.
-#include "app/gcmc_command.h"
+#include "app/commands/gcmc.h"
 
 #include <cstdio>
 #include <ctime>
@@ -14,7 +14,7 @@
 #include <unistd.h>
 #endif
 
-#include "app/gcmc_options.h"
+#include "app/options/gcmc_options.h"
 
 #include "kerf/files.h"
 #include "kerf/gcmc.h"

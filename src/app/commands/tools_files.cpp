@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/command.h"
-#include "app/json.h"
+#include "app/options/command.h"
+#include "app/report/json.h"
 
 #include "kerf/files.h"
 #include "kerf/tool_files.h"

@@ -4,8 +4,9 @@
 
 #include <string>
 
-#include "app/command.h"
-#include "app/input.h"
+#include "app/options/command.h"
+
+#include "kerf/program.h"
 
 namespace kerf::app {
 

@@ -1,14 +1,15 @@
 // kerf compare: how a cut part differs from the mesh that it was to become.
+#include "kerf/compare.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/command.h"
+#include "app/options/command.h"
 #include "app/outputs.h"
-#include "app/terminal_progress.h"
+#include "app/report/terminal_progress.h"
 
-#include "kerf/compare.h"
 #include "kerf/image_files.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"

@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
-#include "app/command.h"
 #include "app/findings.h"
 #include "app/job.h"
-#include "app/json.h"
-#include "app/terminal_progress.h"
+#include "app/options/command.h"
+#include "app/report/json.h"
+#include "app/report/terminal_progress.h"
 
 #include "kerf/estimate.h"
 #include "kerf/number.h"

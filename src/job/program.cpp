@@ -1,13 +1,13 @@
 // Chooses the front end of a file.
-#include "app/input.h"
+#include "kerf/program.h"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
 
-#include "app/text.h"
+#include "kerf/names.h"
 
-namespace kerf::app {
+namespace kerf {
 namespace {
 
 constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
@@ -81,4 +81,4 @@ std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& 
   return program;
 }
 
-}  // namespace kerf::app
+}  // namespace kerf

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/command.h"
 #include "app/findings.h"
+#include "app/options/command.h"
 #include "app/outputs.h"
 #include "app/print_job.h"
+#include "app/report/terminal_progress.h"
 #include "app/rotary_job.h"
-#include "app/terminal_progress.h"
 
 #include "kerf/number.h"
 

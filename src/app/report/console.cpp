@@ -1,5 +1,5 @@
 // Printing: plain stdio, so that nothing is buffered twice and a failed write is seen.
-#include "app/console.h"
+#include "app/report/console.h"
 
 #include <cstdio>
 #include <cstdlib>
