@@ -62,29 +62,29 @@ std::optional<Stock> load_stock(const std::string& path, Diagnostics& diagnostic
   return file ? read_stock_file(file->bytes(), path, diagnostics) : std::nullopt;
 }
 
-void add_body_options(CLI::App& app, BodyOptions& options) {
-  CLI::Option* mesh = app.add_option("--stock-mesh", options.mesh, "The stock as a closed mesh (see below)");
-  CLI::Option* left =
-      app.add_option("--stock-left", options.left, "The stock that an earlier job left (.kstock)");
-  mesh->type_name("PATH");
-  left->type_name("PATH")->excludes(mesh);
-  if (CLI::Option* block = app.get_option_no_throw("--stock")) {
-    mesh->excludes(block);
-    left->excludes(block);
+void add_body_options(CommandParser& parser, BodyOptions& options) {
+  Option mesh = parser.add_text("--stock-mesh", options.mesh, "The stock as a closed mesh (see below)");
+  Option left = parser.add_text("--stock-left", options.left, "The stock that an earlier job left (.kstock)");
+  mesh.value_name("PATH");
+  left.value_name("PATH").excludes(mesh);
+  if (const auto block = parser.find_option("--stock")) {
+    mesh.excludes(*block);
+    left.excludes(*block);
   }
-  app.add_option("--flip", options.flip, "Turn the stock over: x or y [y=..|x=..] [z=..] (see below)")
-      ->type_name("SPEC");
-  app.add_option("--shift", options.shift, "Move the stock by X,Y,Z mm, after a flip")->type_name("X,Y,Z");
-  add_repeated(app, "--fixture", options.fixtures, "SPEC",
+  parser.add_text("--flip", options.flip, "Turn the stock over: x or y [y=..|x=..] [z=..] (see below)")
+      .value_name("SPEC");
+  parser.add_text("--shift", options.shift, "Move the stock by X,Y,Z mm, after a flip").value_name("X,Y,Z");
+  add_repeated(parser, "--fixture", options.fixtures, "SPEC",
                "What the tool may not touch: LOW to HIGH, or a mesh");
 }
 
-void add_rotary_option(CLI::App& app, BodyOptions& options) {
-  CLI::Option* rotary = app.add_option("--rotary", options.rotary,
-                                       "A round bar that A turns: d=.. length=.. [x=..] [y=..] [z=..]")
-                            ->type_name("SPEC");
+void add_rotary_option(CommandParser& parser, BodyOptions& options) {
+  Option rotary = parser
+                      .add_text("--rotary", options.rotary,
+                                "A round bar that A turns: d=.. length=.. [x=..] [y=..] [z=..]")
+                      .value_name("SPEC");
   for (const char* other : {"--stock", "--stock-mesh", "--stock-left", "--flip", "--shift"})
-    rotary->excludes(app.get_option(other));
+    rotary.excludes(parser.option(other));
 }
 
 BodySettings read_body_options(const BodyOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {

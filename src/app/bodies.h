@@ -23,9 +23,9 @@ struct BodyOptions {
   std::vector<std::string> fixtures;  // --fixture SPEC or FILE
   std::optional<std::string> rotary;  // --rotary SPEC
 };
-void add_body_options(CLI::App& app, BodyOptions& options);
+void add_body_options(CommandParser& parser, BodyOptions& options);
 /// --rotary, for the commands that know a fourth axis; after add_body_options.
-void add_rotary_option(CLI::App& app, BodyOptions& options);
+void add_rotary_option(CommandParser& parser, BodyOptions& options);
 extern const char* const kBodyHelp;
 extern const char* const kRotaryHelp;
 

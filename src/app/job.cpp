@@ -314,18 +314,18 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
 
 }  // namespace
 
-void add_tool_options(CLI::App& app, ToolOptions& options) {
-  add_repeated(app, "-t,--tool", options.specs, "SPEC",
+void add_tool_options(CommandParser& parser, ToolOptions& options) {
+  add_repeated(parser, "-t,--tool", options.specs, "SPEC",
                "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
-  add_repeated(app, "--tools", options.files, "PATH", "A file of tools (TOML)");
+  add_repeated(parser, "--tools", options.files, "PATH", "A file of tools (TOML)");
 }
 
-void add_job_options(CLI::App& app, JobOptions& options) {
-  add_program(app, options.file);
-  add_tool_options(app, options.tools);
-  app.add_option("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
-      ->type_name("SPEC");
-  add_reading_options(app, options.reading);
+void add_job_options(CommandParser& parser, JobOptions& options) {
+  add_program(parser, options.file);
+  add_tool_options(parser, options.tools);
+  parser.add_text("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
+      .value_name("SPEC");
+  add_reading_options(parser, options.reading);
 }
 
 std::vector<std::string> input_files(const JobOptions& options) {
@@ -334,9 +334,9 @@ std::vector<std::string> input_files(const JobOptions& options) {
   return files;
 }
 
-void add_machine_option(CLI::App& app, JobOptions& options) {
-  app.add_option("--machine", options.machine, "The machine: a profile (TOML) or what GRBL answers to $$")
-      ->type_name("PATH");
+void add_machine_option(CommandParser& parser, JobOptions& options) {
+  parser.add_text("--machine", options.machine, "The machine: a profile (TOML) or what GRBL answers to $$")
+      .value_name("PATH");
 }
 
 ToolSettings read_tool_options(const ToolOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {

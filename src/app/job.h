@@ -31,13 +31,13 @@ struct JobOptions {
   BodyOptions bodies;
   ReadingOptions reading;  // --dialect, --strict
 };
-void add_job_options(CLI::App& app, JobOptions& options);
+void add_job_options(CommandParser& parser, JobOptions& options);
 /// --tool and --tools alone, for the commands that need no stock.
-void add_tool_options(CLI::App& app, ToolOptions& options);
+void add_tool_options(CommandParser& parser, ToolOptions& options);
 /// The program and the files of stock and fixtures, which no output may replace.
 std::vector<std::string> input_files(const JobOptions& options);
 /// --machine, for the commands that make use of one.
-void add_machine_option(CLI::App& app, JobOptions& options);
+void add_machine_option(CommandParser& parser, JobOptions& options);
 /// Text for the help of the commands that take --tool, and of those that take --stock.
 extern const char* const kToolHelp;
 extern const char* const kStockHelp;

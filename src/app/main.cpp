@@ -9,7 +9,6 @@
 
 #include "app/commands/gcmc.h"
 #include "app/options/command.h"
-#include "app/options/usage.h"
 #include "app/report/terminal_progress.h"
 
 #include "kerf/program.h"
@@ -37,49 +36,25 @@ Examples:
   kerf tools shapes                    the shapes, and all keys for such words
 )";
 
-std::vector<Command> add_commands(CLI::App& root) {
+std::vector<Command> add_commands(CommandParser& root) {
   std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root)};
-  CLI::App* tools =
-      root.add_subcommand("tools", "The tools that Kerf knows: list, show, shapes, import, export");
-  tools->require_subcommand(1);
-  tools->footer(kToolsExamples);
-  commands.push_back(add_tools_list(*tools));
-  commands.push_back(add_tools_show(*tools));
-  commands.push_back(add_tools_shapes(*tools));
-  commands.push_back(add_tools_import(*tools));
-  commands.push_back(add_tools_export(*tools));
-  root.add_subcommand("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");
+  CommandParser tools =
+      root.add_command("tools", "The tools that Kerf knows: list, show, shapes, import, export");
+  tools.require_command();
+  tools.set_footer(kToolsExamples);
+  commands.push_back(add_tools_list(tools));
+  commands.push_back(add_tools_show(tools));
+  commands.push_back(add_tools_shapes(tools));
+  commands.push_back(add_tools_import(tools));
+  commands.push_back(add_tools_export(tools));
+  root.add_command("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");
   return commands;
-}
-
-/// What `kerf help simulate` stands for: `kerf simulate --help`. A word that is no command ends it without
-/// --help, so that the parser says what is wrong; words behind a whole command are passed over.
-std::vector<std::string> help_words(const CLI::App& root, const std::vector<std::string>& asked) {
-  std::vector<std::string> words;
-  const CLI::App* app = &root;
-  for (const std::string& word : asked) {
-    if (app->get_subcommands([](const CLI::App*) { return true; }).empty()) break;
-    const auto named = app->get_subcommands([&](const CLI::App* c) { return c->get_name() == word; });
-    words.push_back(word);
-    if (named.empty()) return words;
-    app = named.front();
-  }
-  words.push_back("--help");
-  return words;
-}
-
-/// The words of the command line; `kerf help` and no argument at all are `kerf --help`.
-std::vector<std::string> arguments_of(int argc, char** argv, const CLI::App& root) {
-  std::vector<std::string> words(argv + 1, argv + argc);
-  if (words.empty()) words = {"help"};
-  if (words.front() == "help") words = help_words(root, {words.begin() + 1, words.end()});
-  return {words.rbegin(), words.rend()};  // the order in which CLI11 takes them
 }
 
 Status run_asked(const std::vector<Command>& commands) {
   for (const Command& command : commands) {
-    if (!command.app->parsed()) continue;
+    if (!command.parser.is_given()) continue;
     catch_interrupts();
     Console console(*command.output);
     const Status status = command.run(console);
@@ -103,28 +78,18 @@ std::optional<int> run_drop_in(int argc, char** argv) {
 
 int run(int argc, char** argv) {
   if (const auto status = run_drop_in(argc, argv)) return *status;
-  CLI::App root(
-      "Kerf: describe what a router, mill, laser or printer shall make; see it cut before it is cut.",
-      "kerf");
-  root.set_version_flag("--version", "kerf " KERF_VERSION, "Print the version");
-  root.footer(kExamples);
-  root.require_subcommand(1);
+  CommandLine root(
+      "kerf", "Kerf: describe what a router, mill, laser or printer shall make; see it cut before it is cut.",
+      "kerf " KERF_VERSION);
+  root.set_footer(kExamples);
+  root.require_command();
   const std::vector<Command> commands = add_commands(root);
-  try {
-    root.parse(arguments_of(argc, argv, root));
-  } catch (const CLI::Success& asked) {  // --help, --version
-    return root.exit(asked);
-  } catch (const CLI::ParseError& error) {
-    Console({}).complain(usage_message(root, error));
-    const CLI::App& app = reached(root);
-    const std::string name =
-        &app == &root
-            ? ""
-            : (app.get_parent() == &root ? "" : app.get_parent()->get_name() + " ") + app.get_name() + " ";
-    fmt::print(stderr, "try: kerf {}--help\n", name);
-    return static_cast<int>(Status::wrong_usage);
-  }
-  return static_cast<int>(run_asked(commands));
+  const CommandLine::Result result = root.parse({argv + 1, argv + argc});
+  if (result.outcome == CommandLine::Outcome::answered) return static_cast<int>(Status::done);
+  if (result.outcome == CommandLine::Outcome::parsed) return static_cast<int>(run_asked(commands));
+  Console({}).complain(result.problem);
+  fmt::print(stderr, "try: kerf {}{}--help\n", result.command, result.command.empty() ? "" : " ");
+  return static_cast<int>(Status::wrong_usage);
 }
 
 }  // namespace

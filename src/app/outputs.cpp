@@ -243,11 +243,11 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
   return out;
 }
 
-CLI::Option* add_section(CLI::App& app, PictureOptions& options) {
-  return app
-      .add_option("--section", options.section,
-                  "Picture of the part cut open at x=25, y=-3.5 or z=1in: without the viewer's side of that")
-      ->type_name("PLANE");
+Option add_section(CommandParser& parser, PictureOptions& options) {
+  return parser
+      .add_text("--section", options.section,
+                "Picture of the part cut open at x=25, y=-3.5 or z=1in: without the viewer's side of that")
+      .value_name("PLANE");
 }
 
 bool section_meets(const Mesh& mesh, const View& view, Diagnostics& diagnostics) {

@@ -44,7 +44,7 @@ struct PictureOptions {
   std::string size = "1600x1000";  // pixels
   std::string section = "";        // "x=25"; empty: the part is not cut open
 };
-CLI::Option* add_section(CLI::App& app, PictureOptions& options);
+Option add_section(CommandParser& parser, PictureOptions& options);
 /// Reads them. The text of what is wrong is put in `problem`.
 std::optional<View> read_view(const PictureOptions& options, std::string& problem);
 /// False, with an error, where the section of a picture does not go through what is drawn.

@@ -240,22 +240,23 @@ Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 
 }  // namespace
 
-Command add_check(CLI::App& root) {
+Command add_check(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app =
+  CommandParser parser =
       new_command(root, "check", "Look for hazards in a program, without writing files; status 3 if any",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
-  add_job_options(*app, options->job);
-  add_body_options(*app, options->job.bodies);
-  add_rotary_option(*app, options->job.bodies);
-  add_machine_option(*app, options->job);
-  app->add_option("--material", options->material,
-                  "The stock's material, for the chip load: plywood, aluminium ...")
-      ->type_name("NAME");
-  add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_job_options(parser, options->job);
+  add_body_options(parser, options->job.bodies);
+  add_rotary_option(parser, options->job.bodies);
+  add_machine_option(parser, options->job);
+  parser
+      .add_text("--material", options->material,
+                "The stock's material, for the chip load: plywood, aluminium ...")
+      .value_name("NAME");
+  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.01in (default: coarse, by the stock's size)");
-  add_threads(*app, options->threads);
-  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+  add_threads(parser, options->threads);
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
 }  // namespace kerf::app

@@ -244,30 +244,31 @@ The target is a closed mesh in the program's work coordinates. Depths are distan
 
 }  // namespace
 
-Command add_compare(CLI::App& root) {
+Command add_compare(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "compare", "Compare the cut part with a target mesh: gouges and rests",
-                              kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp, options->output);
-  add_job_options(*app, options->job);
-  app->add_option("TARGET", options->target, "What the part is to be: a mesh, .stl .3mf .glb .obj")
-      ->required();
-  add_body_options(*app, options->job.bodies);
-  app->add_option("--target-shift", options->target_shift, "Move the target by X,Y,Z mm")->type_name("X,Y,Z");
-  add_repeated(*app, "-o,--output", options->outputs, "PATH", "Write a picture: .png, the map from above");
-  add_length(*app, "--tolerance", options->tolerance, kLeastTolerance, kMostTolerance,
+  CommandParser parser =
+      new_command(root, "compare", "Compare the cut part with a target mesh: gouges and rests",
+                  kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp, options->output);
+  add_job_options(parser, options->job);
+  parser.add_text("TARGET", options->target, "What the part is to be: a mesh, .stl .3mf .glb .obj")
+      .required();
+  add_body_options(parser, options->job.bodies);
+  parser.add_text("--target-shift", options->target_shift, "Move the target by X,Y,Z mm").value_name("X,Y,Z");
+  add_repeated(parser, "-o,--output", options->outputs, "PATH", "Write a picture: .png, the map from above");
+  add_length(parser, "--tolerance", options->tolerance, kLeastTolerance, kMostTolerance,
              "Differences no deeper than this are none, mm or 0.002in (default: 0.05)");
-  add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
-  CLI::Option* view = app->add_option("--view", options->picture.view,
-                                      "Draw the part in the map's colours instead, from: top, iso ...");
-  view->type_name("VIEW");
-  app->add_option("--size", options->picture.size,
-                  "That picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
-      ->type_name("WxH")
-      ->needs(view);
-  add_section(*app, options->picture)->needs(view);
-  add_threads(*app, options->threads);
-  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+  Option view = parser.add_text("--view", options->picture.view,
+                                "Draw the part in the map's colours instead, from: top, iso ...");
+  view.value_name("VIEW");
+  parser
+      .add_text("--size", options->picture.size, "That picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+      .value_name("WxH")
+      .needs(view);
+  add_section(parser, options->picture).needs(view);
+  add_threads(parser, options->threads);
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
 }  // namespace kerf::app

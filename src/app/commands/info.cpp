@@ -275,13 +275,13 @@ const char* const kExamples =
 
 }  // namespace
 
-Command add_info(CLI::App& root) {
+Command add_info(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "info", "Tell a program's size, time, tools, feeds and stock",
-                              kExamples + std::string(kToolHelp) + kStockHelp, options->output);
-  add_job_options(*app, options->job);
-  add_machine_option(*app, options->job);
-  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+  CommandParser parser = new_command(root, "info", "Tell a program's size, time, tools, feeds and stock",
+                                     kExamples + std::string(kToolHelp) + kStockHelp, options->output);
+  add_job_options(parser, options->job);
+  add_machine_option(parser, options->job);
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
 }  // namespace kerf::app

@@ -173,19 +173,20 @@ changed corner. A corner that cannot be cut stays sharp, with a warning that say
 
 }  // namespace
 
-Command add_outline(CLI::App& root) {
+Command add_outline(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "outline", "Make the corners of outlines millable, and draw what changed",
-                              kExamples, options->output);
-  app->add_option("FILE", options->file, "Outlines as JSON, or a Python script (.py) that cuts outlines")
-      ->required()
-      ->type_name("");
-  app->add_option("--svg", options->svg, "Write the picture of the corners")->type_name("PATH");
-  app->add_option("--dxf", options->dxf, "Write the cut outlines as polylines with arcs")->type_name("PATH");
-  app->add_flag(
+  CommandParser parser =
+      new_command(root, "outline", "Make the corners of outlines millable, and draw what changed", kExamples,
+                  options->output);
+  parser.add_text("FILE", options->file, "Outlines as JSON, or a Python script (.py) that cuts outlines")
+      .required()
+      .value_name("");
+  parser.add_text("--svg", options->svg, "Write the picture of the corners").value_name("PATH");
+  parser.add_text("--dxf", options->dxf, "Write the cut outlines as polylines with arcs").value_name("PATH");
+  parser.add_flag(
       "--fair", options->fair,
       "Share an edge that is too short for both of its corners evenly, instead of first come first served");
-  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
 }  // namespace kerf::app

@@ -244,42 +244,43 @@ const char* const kExamples =
 The controller's rules are checked on what is written; nothing is written where one is broken.
 )";
 
-void add_pass_options(CLI::App& app, Options& options) {
-  add_number(app, "--fit-arcs", options.fit_arcs, 1e-4, 1, "MM",
+void add_pass_options(CommandParser& parser, Options& options) {
+  add_number(parser, "--fit-arcs", options.fit_arcs, 1e-4, 1, "MM",
              "Turn chains of chords into arcs that stray no more than MM");
-  add_number(app, "--join", options.join, 1e-6, 1, "MM",
+  add_number(parser, "--join", options.join, 1e-6, 1, "MM",
              "Join straight cuts whose corners stray no more than MM");
-  app.add_flag("--shorten-rapids", options.shorten, "Leave out rapids that come back to where they began");
+  parser.add_flag("--shorten-rapids", options.shorten, "Leave out rapids that come back to where they began");
 }
 
-void add_drawing_options(CLI::App& app, Options& options) {
-  app.add_option("--dxf-version", options.dxf_version, "r2000 or r12, for --to dxf")->type_name("VERSION");
-  app.add_flag("--rapids", options.rapids, "Draw rapids too, for --to dxf and svg");
+void add_drawing_options(CommandParser& parser, Options& options) {
+  parser.add_text("--dxf-version", options.dxf_version, "r2000 or r12, for --to dxf").value_name("VERSION");
+  parser.add_flag("--rapids", options.rapids, "Draw rapids too, for --to dxf and svg");
 }
 
 }  // namespace
 
-Command add_post(CLI::App& root) {
+Command add_post(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "post", "Write a program for a controller",
-                              kExamples + std::string(kToolHelp), options->output);
-  add_program(*app, options->file)->required(false);
-  app->add_option("--to", options->to, "The controller: a name of --list")->type_name("POST");
-  app->add_option("--post", options->post_file, "A post file of one's own instead")->type_name("FILE");
-  app->add_flag("--list", options->list, "Show the posts that Kerf knows");
-  app->add_option("-o,--output", options->out, "Where to write (default: standard output)")
-      ->type_name("PATH");
-  auto* inch = app->add_flag("--inch", options->inch, "Write in inches");
-  app->add_flag("--mm", options->mm, "Write in mm")->excludes(inch);
-  app->add_option("--tool-change", options->tool_change,
-                  "command, pause, files or ignore (default: the post's)")
-      ->type_name("HOW");
-  add_number(*app, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "For cutting moves that have no feed");
-  add_pass_options(*app, *options);
-  add_drawing_options(*app, *options);
-  add_tool_options(*app, options->tools);
-  add_reading_options(*app, options->reading);
-  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+  CommandParser parser = new_command(root, "post", "Write a program for a controller",
+                                     kExamples + std::string(kToolHelp), options->output);
+  add_program(parser, options->file).optional();
+  parser.add_text("--to", options->to, "The controller: a name of --list").value_name("POST");
+  parser.add_text("--post", options->post_file, "A post file of one's own instead").value_name("FILE");
+  parser.add_flag("--list", options->list, "Show the posts that Kerf knows");
+  parser.add_text("-o,--output", options->out, "Where to write (default: standard output)")
+      .value_name("PATH");
+  const Option inch = parser.add_flag("--inch", options->inch, "Write in inches");
+  parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch);
+  parser
+      .add_text("--tool-change", options->tool_change,
+                "command, pause, files or ignore (default: the post's)")
+      .value_name("HOW");
+  add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "For cutting moves that have no feed");
+  add_pass_options(parser, *options);
+  add_drawing_options(parser, *options);
+  add_tool_options(parser, options->tools);
+  add_reading_options(parser, options->reading);
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
 }  // namespace kerf::app

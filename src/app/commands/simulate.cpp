@@ -28,9 +28,9 @@ struct Options {
   PictureOptions picture;
   double layer_height = 0.0;
   bool grooves = false;
-  std::vector<const CLI::Option*> picture_options;   // those that only pictures use
-  std::vector<const CLI::Option*> cutting_options;   // those that say nothing of a print
-  std::vector<const CLI::Option*> printing_options;  // those that only prints use
+  std::vector<Option> picture_options;   // those that only pictures use
+  std::vector<Option> cutting_options;   // those that say nothing of a print
+  std::vector<Option> printing_options;  // those that only prints use
 };
 
 /// All that a finished simulation has to tell.
@@ -129,11 +129,11 @@ std::vector<Finding> findings_of_simulation(const Job& job, const Simulation& si
   return findings;
 }
 
-void tell_unused(const std::vector<const CLI::Option*>& options, const std::string& why,
-                 const std::string& hint, Diagnostics& diagnostics) {
-  for (const CLI::Option* option : options)
-    if (option->count() > 0)
-      diagnostics.warning(Code::option_unused, CallSpot{"", 0, option->get_name()}, why).hint = hint;
+void tell_unused(const std::vector<Option>& options, const std::string& why, const std::string& hint,
+                 Diagnostics& diagnostics) {
+  for (const Option& option : options)
+    if (option.is_given())
+      diagnostics.warning(Code::option_unused, CallSpot{"", 0, option.name()}, why).hint = hint;
 }
 
 Status print_program(Console& console, const Options& options, const LoadedProgram& program,
@@ -219,36 +219,38 @@ const char* const kExamples =
 
 }  // namespace
 
-Command add_simulate(CLI::App& root) {
+Command add_simulate(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app =
+  CommandParser parser =
       new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
-  add_job_options(*app, options->job);
-  add_body_options(*app, options->job.bodies);
-  add_rotary_option(*app, options->job.bodies);
-  add_repeated(*app, "-o,--output", options->outputs, "PATH",
+  add_job_options(parser, options->job);
+  add_body_options(parser, options->job.bodies);
+  add_rotary_option(parser, options->job.bodies);
+  add_repeated(parser, "-o,--output", options->outputs, "PATH",
                "Write the part: .stl .3mf .glb .obj, a picture: .png, the stock of the next job: .kstock");
-  add_length(*app, "--resolution", options->resolution, kFinest, kCoarsest,
+  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
-  options->picture_options = {app->add_option("--view", options->picture.view,
-                                              "Picture from: top, bottom, front, back, left, right, iso, or "
-                                              "AZIMUTH,ELEVATION (default: -35,50)")
-                                  ->type_name("VIEW"),
-                              app->add_option("--size", options->picture.size,
-                                              "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
-                                  ->type_name("WxH"),
-                              add_section(*app, options->picture)};
+  options->picture_options = {
+      parser
+          .add_text("--view", options->picture.view,
+                    "Picture from: top, bottom, front, back, left, right, iso, or "
+                    "AZIMUTH,ELEVATION (default: -35,50)")
+          .value_name("VIEW"),
+      parser
+          .add_text("--size", options->picture.size, "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+          .value_name("WxH"),
+      add_section(parser, options->picture)};
   options->printing_options = {
-      add_length(*app, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,
+      add_length(parser, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,
                  "Of a print: the layers' height, mm (default: the program's comments, else its steps in Z)"),
-      app->add_flag("--grooves", options->grooves,
-                    "Of a print: keep the grooves between roads in meshes and pictures, which get large")};
+      parser.add_flag("--grooves", options->grooves,
+                      "Of a print: keep the grooves between roads in meshes and pictures, which get large")};
   for (const char* name : {"--tool", "--tools", "--stock", "--stock-mesh", "--stock-left", "--flip",
                            "--shift", "--fixture", "--rotary"})
-    options->cutting_options.push_back(app->get_option(name));
-  add_threads(*app, options->threads);
-  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+    options->cutting_options.push_back(parser.option(name));
+  add_threads(parser, options->threads);
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
 }  // namespace kerf::app

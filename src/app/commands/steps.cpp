@@ -64,16 +64,16 @@ program with errors.
 
 }  // namespace
 
-Command add_steps(CLI::App& root) {
+Command add_steps(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(root, "steps", "Print a program's toolpath as JSON lines",
-                              kExamples + std::string(kToolHelp), options->output);
-  app->get_option("--json")->description("Changes nothing here: each step is a JSON object in any case");
-  app->get_option("--quiet")->description("No progress bar or notes; warnings and errors stay");
-  add_program(*app, options->file);
-  add_tool_options(*app, options->tools);
-  add_reading_options(*app, options->reading);
-  return {app, &options->output, [options](Console& console) { return run(console, *options); }};
+  CommandParser parser = new_command(root, "steps", "Print a program's toolpath as JSON lines",
+                                     kExamples + std::string(kToolHelp), options->output);
+  parser.option("--json").description("Changes nothing here: each step is a JSON object in any case");
+  parser.option("--quiet").description("No progress bar or notes; warnings and errors stay");
+  add_program(parser, options->file);
+  add_tool_options(parser, options->tools);
+  add_reading_options(parser, options->reading);
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 
 }  // namespace kerf::app

@@ -159,24 +159,25 @@ const char* const kShowExamples = R"(  kerf tools show 102
 
 }  // namespace
 
-Command add_tools_list(CLI::App& tools) {
+Command add_tools_list(CommandParser& tools) {
   auto options = std::make_shared<Options>();
-  CLI::App* app =
+  CommandParser parser =
       new_command(tools, "list", "List the tools that Kerf knows", kListExamples, options->output);
-  add_repeated(*app, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
-  return {app, &options->output, [options](Console& console) { return run_list(console, *options); }};
+  add_repeated(parser, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
+  return {parser, &options->output, [options](Console& console) { return run_list(console, *options); }};
 }
 
-Command add_tools_show(CLI::App& tools) {
+Command add_tools_show(CommandParser& tools) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(tools, "show", "Show one tool: its measures, its profile, a sketch",
-                              kShowExamples, options->output);
-  app->add_option("TOOL", options->asked,
-                  "A number or a vendor's name of the list, or a shape: \"square d=3.175\"")
-      ->required()
-      ->type_name("");
-  add_repeated(*app, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
-  return {app, &options->output, [options](Console& console) { return run_show(console, *options); }};
+  CommandParser parser = new_command(tools, "show", "Show one tool: its measures, its profile, a sketch",
+                                     kShowExamples, options->output);
+  parser
+      .add_text("TOOL", options->asked,
+                "A number or a vendor's name of the list, or a shape: \"square d=3.175\"")
+      .required()
+      .value_name("");
+  add_repeated(parser, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
+  return {parser, &options->output, [options](Console& console) { return run_show(console, *options); }};
 }
 
 }  // namespace kerf::app

@@ -101,13 +101,14 @@ Status run_export(Console& console, const Options& options) {
   return write(console, options.files.empty() ? built_in_tools() : table, options, diagnostics);
 }
 
-void add_target(CLI::App& app, Options& options) {
-  app.add_option("-o,--output", options.target,
-                 "The file to write: .toml or .tbl (default: a tool file to standard output)")
-      ->type_name("PATH");
-  app.add_option("--unit", options.unit, "Unit of a tool.tbl: mm or inch")
-      ->check(CLI::IsMember({"mm", "inch"}))
-      ->type_name("UNIT");
+void add_target(CommandParser& parser, Options& options) {
+  parser
+      .add_text("-o,--output", options.target,
+                "The file to write: .toml or .tbl (default: a tool file to standard output)")
+      .value_name("PATH");
+  parser.add_text("--unit", options.unit, "Unit of a tool.tbl: mm or inch")
+      .one_of({"mm", "inch"})
+      .value_name("UNIT");
 }
 
 const char* const kImportExamples = R"(  kerf tools import library.json -o tools.toml
@@ -123,26 +124,26 @@ const char* const kExportExamples = R"(  kerf tools export -o tool.tbl --unit in
 
 }  // namespace
 
-Command add_tools_import(CLI::App& tools) {
+Command add_tools_import(CommandParser& tools) {
   auto options = std::make_shared<Options>();
-  CLI::App* app = new_command(tools, "import", "Make a tool file of another program's tool library",
-                              kImportExamples, options->output);
-  app->add_option("FILE", options->files, "Tool libraries")->required()->type_name("");
-  add_target(*app, *options);
-  add_number(*app, "--first", options->first, 0, kHighestNumber, "N",
+  CommandParser parser = new_command(tools, "import", "Make a tool file of another program's tool library",
+                                     kImportExamples, options->output);
+  parser.add_texts("FILE", options->files, "Tool libraries").required().value_name("");
+  add_target(parser, *options);
+  add_number(parser, "--first", options->first, 0, kHighestNumber, "N",
              "Number of the first tool that has none of its own (default 1)");
-  return {app, &options->output, [options](Console& console) { return run_import(console, *options); }};
+  return {parser, &options->output, [options](Console& console) { return run_import(console, *options); }};
 }
 
-Command add_tools_export(CLI::App& tools) {
+Command add_tools_export(CommandParser& tools) {
   auto options = std::make_shared<Options>();
-  CLI::App* app =
+  CommandParser parser =
       new_command(tools, "export", "Write the built-in tools or those of files for other programs",
                   kExportExamples, options->output);
-  add_repeated(*app, "--tools", options->files, "PATH",
+  add_repeated(parser, "--tools", options->files, "PATH",
                "A file of tools (TOML) instead of the built-in ones");
-  add_target(*app, *options);
-  return {app, &options->output, [options](Console& console) { return run_export(console, *options); }};
+  add_target(parser, *options);
+  return {parser, &options->output, [options](Console& console) { return run_export(console, *options); }};
 }
 
 }  // namespace kerf::app

@@ -64,11 +64,11 @@ const char* const kExamples = R"(  kerf tools shapes
 
 }  // namespace
 
-Command add_tools_shapes(CLI::App& tools) {
+Command add_tools_shapes(CommandParser& tools) {
   auto output = std::make_shared<OutputOptions>();
-  CLI::App* app = new_command(tools, "shapes", "List the shapes of tools, and the keys that tell one",
-                              kExamples, *output);
-  return {app, output.get(), [output](Console& console) {
+  CommandParser parser = new_command(tools, "shapes", "List the shapes of tools, and the keys that tell one",
+                                     kExamples, *output);
+  return {parser, output.get(), [output](Console& console) {
             if (console.json())
               console.print_json(text_of(shapes_json(), Layout::indented));
             else

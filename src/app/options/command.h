@@ -2,11 +2,11 @@
 // (cmd_*.cpp); a new one is a function declared here and a line in main.cpp.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <optional>
 #include <string>
 
+#include "app/options/parser.h"
 #include "app/report/console.h"
 
 namespace kerf::app {
@@ -15,28 +15,28 @@ namespace kerf::app {
 enum class Status : int { done = 0, input_errors = 1, wrong_usage = 2, hazards = 3, interrupted = 130 };
 
 struct Command {
-  CLI::App* app = nullptr;  // says whether it was asked for, and keeps its options
+  CommandParser parser;  // knows whether it is asked for
   OutputOptions* output = nullptr;
   std::function<Status(Console&)> run;
 };
 
-Command add_simulate(CLI::App& root);
-Command add_info(CLI::App& root);
-Command add_check(CLI::App& root);
-Command add_compare(CLI::App& root);
-Command add_steps(CLI::App& root);
-Command add_outline(CLI::App& root);
-Command add_post(CLI::App& root);
-Command add_tools_list(CLI::App& tools);
-Command add_tools_show(CLI::App& tools);
-Command add_tools_shapes(CLI::App& tools);
-Command add_tools_import(CLI::App& tools);
-Command add_tools_export(CLI::App& tools);
+Command add_simulate(CommandParser& root);
+Command add_info(CommandParser& root);
+Command add_check(CommandParser& root);
+Command add_compare(CommandParser& root);
+Command add_steps(CommandParser& root);
+Command add_outline(CommandParser& root);
+Command add_post(CommandParser& root);
+Command add_tools_list(CommandParser& tools);
+Command add_tools_show(CommandParser& tools);
+Command add_tools_shapes(CommandParser& tools);
+Command add_tools_import(CommandParser& tools);
+Command add_tools_export(CommandParser& tools);
 
 /// Makes a subcommand with its examples below the options in the help, and the options all have (--json,
 /// --quiet).
-CLI::App* new_command(CLI::App& parent, const std::string& name, const std::string& summary,
-                      const std::string& examples, OutputOptions& output);
+CommandParser new_command(CommandParser& parent, const std::string& name, const std::string& summary,
+                          const std::string& examples, OutputOptions& output);
 
 /// Ends a run without a result: the messages as text, or with --json as an object that holds nothing else.
 Status fail(Console& console, const Diagnostics& diagnostics, Status status);
@@ -44,17 +44,17 @@ Status fail(Console& console, const Diagnostics& diagnostics, Status status);
 Status tell_stopped(Console& console);
 
 /// An option whose value is a finite number from `low` to `high`; anything else is wrong usage.
-CLI::Option* add_number(CLI::App& app, const std::string& name, double& value, double low, double high,
-                        const std::string& unit, const std::string& summary);
+Option add_number(CommandParser& parser, const std::string& name, double& value, double low, double high,
+                  const std::string& unit, const std::string& summary);
 /// An option whose value is a length from `low` to `high` mm, told in mm or with its unit ("0.01in").
-CLI::Option* add_length(CLI::App& app, const std::string& name, double& mm, double low, double high,
-                        const std::string& summary);
+Option add_length(CommandParser& parser, const std::string& name, double& mm, double low, double high,
+                  const std::string& summary);
 /// The option --threads; 0 stands for all.
-CLI::Option* add_threads(CLI::App& app, double& threads);
+Option add_threads(CommandParser& parser, double& threads);
 /// The positional FILE of the commands that read a program.
-CLI::Option* add_program(CLI::App& app, std::string& file);
+Option add_program(CommandParser& parser, std::string& file);
 /// An option that may be given several times, one value each time.
-CLI::Option* add_repeated(CLI::App& app, const std::string& name, std::vector<std::string>& values,
-                          const std::string& kind, const std::string& summary);
+Option add_repeated(CommandParser& parser, const std::string& name, std::vector<std::string>& values,
+                    const std::string& kind, const std::string& summary);
 
 }  // namespace kerf::app

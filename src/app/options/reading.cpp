@@ -13,23 +13,24 @@ constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
 
 }  // namespace
 
-void add_reading_options(CLI::App& app, ReadingOptions& options) {
+void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   const auto known = [](const std::string& name) {
     if (dialect_named(name)) return std::string();
     const auto meant = did_you_mean(name, dialect_names());
     return fmt::format("\"{}\" is no controller that is known; {}expected {}", name,
                        meant ? fmt::format("did you mean {}? ", *meant) : "", joined(dialect_names(), ", "));
   };
-  app.add_option("--dialect", options.dialect,
-                 "The controller a G-code program is for (default: told by its text): " +
-                     joined(dialect_names(), ", "))
-      ->type_name("NAME")
-      ->check(CLI::Validator(known, ""));
-  app.add_flag("--read-on", options.read_on,
-               "Read a G-code file to its end, the programs behind M2 and M30 too, as senders do");
-  add_length(app, "--filament", options.filament, kThinnestFilament, kThickestFilament,
+  parser
+      .add_text("--dialect", options.dialect,
+                "The controller a G-code program is for (default: told by its text): " +
+                    joined(dialect_names(), ", "))
+      .value_name("NAME")
+      .check(known);
+  parser.add_flag("--read-on", options.read_on,
+                  "Read a G-code file to its end, the programs behind M2 and M30 too, as senders do");
+  add_length(parser, "--filament", options.filament, kThinnestFilament, kThickestFilament,
              "Diameter of a printer's filament, mm (default: told by the program, else 1.75)");
-  app.add_flag("--strict", options.strict, "Take what is unusual in a G-code program as an error");
+  parser.add_flag("--strict", options.strict, "Take what is unusual in a G-code program as an error");
 }
 
 void apply(const ReadingOptions& options, InputOptions& input) {

@@ -15,7 +15,7 @@ struct ReadingOptions {
   bool read_on = false, strict = false;
   double filament = 0.0;  // mm; 0: told by the program
 };
-void add_reading_options(CLI::App& app, ReadingOptions& options);
+void add_reading_options(CommandParser& parser, ReadingOptions& options);
 void apply(const ReadingOptions& options, InputOptions& input);
 
 }  // namespace kerf::app

@@ -1,0 +1,204 @@
+// The command line by CLI11, and what is said of words that it does not understand.
+#include "app/options/parser.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <utility>
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+std::vector<std::string> command_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
+
+std::string with_guess(std::string message, const std::string& word, const std::vector<std::string>& known) {
+  if (const auto close = did_you_mean(word, known)) message += fmt::format("; did you mean {}?", *close);
+  return message;
+}
+
+/// A word that was left over: an option that does not exist, a command that does not, or a file too many.
+std::string about_extra(const CLI::App& app, const std::string& word) {
+  const std::string shown = word.substr(0, 80);
+  if (word.size() > 1 && word[0] == '-') {
+    const std::string name = word.substr(0, word.find('='));
+    return with_guess(fmt::format("unknown option {}", shown), name, option_names(app));
+  }
+  const std::vector<std::string> commands = command_names(app);
+  if (!commands.empty()) return with_guess(fmt::format("unknown command \"{}\"", shown), word, commands);
+  return fmt::format("\"{}\" is one argument too many", shown);
+}
+
+/// The subcommand that the words on the command line reached before something was wrong.
+const CLI::App& reached(const CLI::App& root) {
+  const std::vector<CLI::App*> parsed = root.get_subcommands();
+  return parsed.empty() ? root : reached(*parsed.front());
+}
+
+std::string usage_message(const CLI::App& root, const CLI::ParseError& error) {
+  const CLI::App& app = reached(root);
+  const std::vector<std::string> left = root.remaining(true);
+  if (!left.empty()) return about_extra(app, left.front());
+  const std::vector<std::string> commands = command_names(app);
+  if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
+    return "a command is needed: " + joined(commands, ", ");
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return error.what();
+  const std::string what = error.what();  // "--output: 1 required PATH missing", and the like
+  return what.substr(0, what.find(':')) + " needs one value";
+}
+
+/// "tools list" of the command `list` of `tools`; empty for the root.
+std::string full_name(const CLI::App& root, const CLI::App& app) {
+  if (&app == &root) return {};
+  const std::string parent = full_name(root, *app.get_parent());
+  return parent.empty() ? app.get_name() : parent + " " + app.get_name();
+}
+
+/// What `kerf help simulate` stands for: `kerf simulate --help`. A word that is no command ends it without
+/// --help, so that the parser says what is wrong; words behind a whole command are skipped.
+std::vector<std::string> help_words(const CLI::App& root, const std::vector<std::string>& asked) {
+  std::vector<std::string> words;
+  const CLI::App* app = &root;
+  for (const std::string& word : asked) {
+    if (app->get_subcommands([](const CLI::App*) { return true; }).empty()) break;
+    const auto named = app->get_subcommands([&](const CLI::App* c) { return c->get_name() == word; });
+    words.push_back(word);
+    if (named.empty()) return words;
+    app = named.front();
+  }
+  words.push_back("--help");
+  return words;
+}
+
+}  // namespace
+
+Option& Option::value_name(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+
+Option& Option::description(const std::string& text) {
+  option_->description(text);
+  return *this;
+}
+
+Option& Option::required() {
+  option_->required();
+  return *this;
+}
+
+Option& Option::optional() {
+  option_->required(false);
+  return *this;
+}
+
+Option& Option::excludes(const Option& other) {
+  option_->excludes(other.option_);
+  return *this;
+}
+
+Option& Option::needs(const Option& other) {
+  option_->needs(other.option_);
+  return *this;
+}
+
+Option& Option::one_of(const std::vector<std::string>& values) {
+  option_->check(CLI::IsMember(values));
+  return *this;
+}
+
+Option& Option::check(std::function<std::string(const std::string&)> problem_of) {
+  option_->check(
+      CLI::Validator([problem = std::move(problem_of)](std::string& text) { return problem(text); }, ""));
+  return *this;
+}
+
+bool Option::is_given() const { return option_->count() > 0; }
+
+std::string Option::name() const { return option_->get_name(); }
+
+CommandParser CommandParser::add_command(const std::string& name, const std::string& summary) {
+  return CommandParser(app_->add_subcommand(name, summary));
+}
+
+void CommandParser::set_footer(const std::string& text) { app_->footer(text); }
+
+void CommandParser::require_command() { app_->require_subcommand(1); }
+
+Option CommandParser::add_text(const std::string& name, std::string& value, const std::string& summary) {
+  return Option(app_->add_option(name, value, summary));
+}
+
+Option CommandParser::add_text(const std::string& name, std::optional<std::string>& value,
+                               const std::string& summary) {
+  return Option(app_->add_option(name, value, summary));
+}
+
+Option CommandParser::add_texts(const std::string& name, std::vector<std::string>& values,
+                                const std::string& summary) {
+  return Option(app_->add_option(name, values, summary));
+}
+
+Option CommandParser::add_repeated(const std::string& name, std::vector<std::string>& values,
+                                   const std::string& summary) {
+  CLI::Option* option = app_->add_option(name, values, summary);
+  return Option(option->type_size(1)->expected(1)->take_all()->allow_extra_args(false));
+}
+
+Option CommandParser::add_flag(const std::string& name, bool& value, const std::string& summary) {
+  return Option(app_->add_flag(name, value, summary));
+}
+
+Option CommandParser::add_parsed(const std::string& name, std::function<std::string(const std::string&)> read,
+                                 const std::string& summary) {
+  const auto take = [name, read = std::move(read)](const std::string& text) {
+    if (const std::string problem = read(text); !problem.empty()) throw CLI::ValidationError(name, problem);
+  };
+  return Option(app_->add_option_function<std::string>(name, take, summary));
+}
+
+Option CommandParser::option(const std::string& name) const { return Option(app_->get_option(name)); }
+
+std::optional<Option> CommandParser::find_option(const std::string& name) const {
+  CLI::Option* option = app_->get_option_no_throw(name);
+  return option == nullptr ? std::nullopt : std::optional(Option(option));
+}
+
+bool CommandParser::is_given() const { return app_->parsed(); }
+
+CommandLine::CommandLine(const std::string& name, const std::string& description, const std::string& version)
+    : CommandParser(nullptr), owned_(std::make_unique<CLI::App>(description, name)) {
+  app_ = owned_.get();
+  app_->set_version_flag("--version", version, "Print the version");
+}
+
+CommandLine::~CommandLine() = default;
+
+CommandLine::Result CommandLine::parse(const std::vector<std::string>& words) {
+  const std::vector<std::string> asked = words.empty() ? std::vector<std::string>{"help"} : words;
+  std::vector<std::string> all =
+      asked.front() == "help" ? help_words(*app_, {asked.begin() + 1, asked.end()}) : asked;
+  try {
+    app_->parse(std::vector<std::string>(all.rbegin(), all.rend()));  // the order in which CLI11 takes them
+  } catch (const CLI::Success& answer) {                              // --help, --version
+    app_->exit(answer);
+    return {Outcome::answered, {}, {}};
+  } catch (const CLI::ParseError& error) {
+    return {Outcome::wrong, usage_message(*app_, error), full_name(*app_, reached(*app_))};
+  }
+  return {};
+}
+
+}  // namespace kerf::app
