@@ -44,6 +44,11 @@ ALLOWED = {
     "sim": PATH,
     "job": BELOW_JOB,
     "app": BELOW_JOB | {"job"},
+    **rooms("app", BELOW_JOB | {"job", "app"}, {
+        "report": [],
+        "options": ["report"],
+        "commands": ["options", "report"],
+    }),
     "python": BELOW_JOB | {"job"},
 }
 OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly smoke test
