@@ -9,10 +9,11 @@ from sources import CPP, files, finish, root_of
 
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
+OP = {"op"} | PATH
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png", "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
 BACK = {"back_drawing", "back_gcmc", "back_gcode"}
-BELOW_JOB = PATH | CODEC | FRONT | BACK | {"sim"}
+BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim"}
 
 
 def rooms(module, uses, order):
@@ -30,10 +31,11 @@ ALLOWED = {
     "tool": GEOMETRY,
     "stock": GEOMETRY,
     "path": {"tool", "stock"} | GEOMETRY,
+    "op": PATH,
     **{codec: {"base"} for codec in CODEC},
     "codec_mesh": {"codec_zip", "base"},  # 3MF is a zip
-    **{front: PATH | CODEC for front in FRONT},
-    **rooms("front_gcmc", PATH | CODEC, {
+    **{front: OP | CODEC for front in FRONT},
+    **rooms("front_gcmc", OP | CODEC, {
         "value": [],
         "text": ["value"],
         "code": ["text", "value"],
@@ -59,6 +61,7 @@ PUBLIC = {
     "tool": ["tool.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
+    "op": ["drill.h"],
     "sim": ["simulate.h", "exact_mesh.h", "live.h", "fixtures.h", "compare.h", "rotary.h", "print.h"],
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],

@@ -1,5 +1,4 @@
-// Canned cycles G73, G74 and G81 to G89 as the rapids, cuts and dwells they stand for, in the order and with
-// the clearances that LinuxCNC's interpreter gives them.
+// The words of canned cycles G73, G74 and G81 to G89; kerf/drill.h makes their motions.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -8,9 +7,23 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kPeckClearance = 0.254;  // mm (0.010 in) above the depth reached, where a peck slows to feed
-constexpr double kMostPecks = 100'000;    // in one hole
 constexpr int kMostRepeats = 10'000;
+
+DrillKind kind_of(Tenths cycle) {
+  switch (cycle) {
+    case 730: return DrillKind::chip_break;
+    case 740: return DrillKind::left_tap;
+    case 820: return DrillKind::dwell;
+    case 830: return DrillKind::peck;
+    case 840: return DrillKind::tap;
+    case 850: return DrillKind::bore;
+    case 860: return DrillKind::stopped_bore;
+    case 870: return DrillKind::back_bore;
+    case 880: return DrillKind::manual_bore;
+    case 890: return DrillKind::dwell_bore;
+    default: return DrillKind::plain;
+  }
+}
 
 /// What a cycle needs besides R and the bottom.
 bool needs_dwell(Tenths cycle) { return cycle == 820 || cycle == 860 || cycle == 880 || cycle == 890; }
@@ -18,15 +31,34 @@ bool needs_peck(Tenths cycle) { return cycle == 730 || cycle == 830; }
 
 }  // namespace
 
-/// One hole: where it is in the plane, and its levels along the third axis in mm.
-struct Interpreter::Hole {
-  Place place;     // the third axis is set by each move
-  int axis = 2;    // index of the third axis
-  double r = 0.0;  // from here on at feed
-  double bottom = 0.0;
-  double travel = 0.0;  // level of the way to the hole
-  double clear = 0.0;   // level after the hole
-  Point3 increment;     // to the next repeat, in the plane
+/// Adds the motions of a cycle to the program's path.
+class Interpreter::CycleSink final : public DrillSink {
+ public:
+  /// `there` has the axes that are unknown at the holes.
+  CycleSink(Interpreter& interpreter, const DrillCycle& cycle, const Place& there, double feed)
+      : interpreter_(interpreter), place_(there), unknown_(there.unknown), feed_(feed) {
+    if (!rises_first(cycle)) return;
+    place_.unknown = interpreter.here_.unknown;
+    if (interpreter.modes_.absolute) place_.unknown &= ~(1u << axes_of(cycle.plane).w);
+  }
+  void rapid(Point3 to) override { interpreter_.rapid(place(to)); }
+  void cut(Point3 to) override { interpreter_.cut(place(to), feed_); }
+  void dwell(Duration time) override { interpreter_.add(step::Dwell{time}); }
+  void spindle(SpindleTurn turn) override { interpreter_.spin(turn); }
+  void pause() override { interpreter_.add(step::Verbatim{"M0"}); }
+  bool is_full() const override { return interpreter_.full_; }
+
+ private:
+  Place place(Point3 to) {
+    Place next = place_;
+    next.at = to;
+    place_.unknown = unknown_;
+    return next;
+  }
+  Interpreter& interpreter_;
+  Place place_;
+  unsigned unknown_;  // after the first motion
+  double feed_;       // mm/min
 };
 
 void Interpreter::cycle(Tenths motion) {
@@ -41,24 +73,14 @@ void Interpreter::cycle(Tenths motion) {
     line_.use((1u << 26) - 1);
     return;
   }
-  const int count = repeats();
-  std::optional<Hole> hole = plan_hole();
-  if (!hole || !room_for(count * steps_of(motion, *hole)) || !approach(*hole)) return;
-  for (int i = 0; i < count && !full_; ++i) {
-    hole->place.at = hole->place.at + hole->increment;
-    if (!reachable(hole->place.at)) return;
-    cycle_rapid(*hole, hole->travel);
-    if (hole->travel != hole->r) cycle_rapid(*hole, hole->r);
-    drill(motion, *hole);
-    hole->travel = hole->clear;
-  }
-}
-
-/// How many steps a hole takes, at least: known before any of them is made.
-double Interpreter::steps_of(Tenths motion, const Hole& hole) const {
-  if (!needs_peck(motion)) return 1.0;
-  const double pecks = (hole.r - hole.bottom) / *cycle_.peck;
-  return pecks > kMostPecks ? 1.0 : pecks * (motion == 830 ? 3.0 : 2.0);
+  const int holes = repeats();
+  Place to;
+  std::optional<DrillCycle> cycle = plan_cycle(motion, to);
+  if (!cycle) return;
+  cycle->holes = reachable_holes(*cycle, holes);
+  if (cycle->holes == 0 || !room_for(min_steps(*cycle))) return;
+  CycleSink sink(*this, *cycle, to, cycle_feed());
+  expand(*cycle, here_.at, sink);
 }
 
 /// Takes R, the bottom, P and Q, which hold until they are given anew.
@@ -83,7 +105,7 @@ bool Interpreter::take_cycle_words(Tenths motion) {
         fmt::format("{} needs {} ({}); the line is left out", code_text('G', motion), letter, what));
     return false;
   };
-  if (!cycle_.r) return missing('R', "the clearance plane");
+  if (!cycle_.r) return missing('R', "the retract plane");
   if (!cycle_.bottom) return missing(bottom_letter, "the bottom of the hole");
   if (needs_peck(motion) && !(cycle_.peck.value_or(0.0) > 0.0))
     return missing('Q', "the depth of a peck, above 0");
@@ -113,148 +135,70 @@ int Interpreter::repeats() {
   return 1;
 }
 
-std::optional<Interpreter::Hole> Interpreter::plan_hole() {
-  const PlaneAxes axes = axes_of(modes_.plane);
-  Hole hole;
-  hole.axis = axes.w;
-  const double level = cycle_.start_level.value_or(here_.at[axes.w]);
-  const std::optional<Place> to = target();  // the third axis' word is taken already
+/// The cycle of a line, and the target of its words; nothing (said) where it has none.
+std::optional<DrillCycle> Interpreter::plan_cycle(Tenths motion, Place& place) {
+  const int axis = axes_of(modes_.plane).w;
+  const double level = cycle_.start_level.value_or(here_.at[axis]);
+  const std::optional<Place> to = target();  // the word of the third axis is taken already
   if (!to) return std::nullopt;
-  hole.place = *to;
-  hole.r = modes_.absolute ? *cycle_.r + placement_.shift[axes.w] : level + *cycle_.r;
-  hole.bottom = modes_.absolute ? *cycle_.bottom + placement_.shift[axes.w] : hole.r + *cycle_.bottom;
-  if (hole.r < hole.bottom) {
+  place = *to;
+  DrillCycle cycle;
+  cycle.kind = kind_of(motion);
+  cycle.plane = modes_.plane;
+  cycle.at = to->at;
+  cycle.retract_plane = modes_.absolute ? *cycle_.r + placement_.shift[axis] : level + *cycle_.r;
+  cycle.bottom =
+      modes_.absolute ? *cycle_.bottom + placement_.shift[axis] : cycle.retract_plane + *cycle_.bottom;
+  cycle.retract = modes_.retract_to_start ? DrillRetract::start : DrillRetract::plane;
+  cycle.start_level = level;
+  cycle.peck = mm(cycle_.peck.value_or(0.0));
+  cycle.dwell = seconds(cycle_.dwell.value_or(0.0));
+  cycle.turn = modes_.spindle;
+  if (cycle.kind == DrillKind::back_bore) plan_back_bore(cycle);
+  if (const std::optional<DrillFault> fault = fault_of(cycle)) {
+    const bool is_readable = fault->code != Code::cycle_upside_down;
     talker_.error(
-        Code::cycle_upside_down, line_.column(),
-        fmt::format("the clearance plane R lies {:.4g} mm below the bottom of the hole; the line is left out",
-                    hole.bottom - hole.r));
-    return std::nullopt;
+        fault->code, line_.column(),
+        fmt::format("{}; {}", fault->message, is_readable ? "drilled without pecks" : "the line is skipped"));
+    if (!is_readable) return std::nullopt;
+    cycle.kind = DrillKind::plain;
   }
-  Point3 levels;
-  levels[0] = hole.r;
-  levels[1] = hole.bottom;
-  if (!reachable(levels)) return std::nullopt;
-  if (modes_.absolute) hole.place.unknown &= ~(1u << axes.w);
+  if (!reachable({cycle.retract_plane, cycle.bottom, cycle.back_level})) return std::nullopt;
+  if (modes_.absolute) place.unknown &= ~(1u << axis);
   if (!modes_.absolute) {  // each repeat goes on by the words of the line
-    hole.increment = to->at - here_.at;
-    hole.place.at = here_.at;
+    cycle.increment = to->at - here_.at;
+    cycle.at = here_.at + cycle.increment;
   }
   cycle_.start_level = level;
-  const double begin = std::max(level, hole.r);
-  hole.clear = modes_.retract_to_start ? begin : hole.r;
-  const double now = level < hole.r ? hole.r : here_.at[axes.w];  // after the approach
-  hole.travel = std::max(now, hole.clear);
-  return hole;
+  return cycle;
 }
 
-/// A tool that stands below the clearance plane rises to it first.
-bool Interpreter::approach(const Hole& hole) {
-  if (!(*cycle_.start_level < hole.r)) return true;
-  Place up = here_;
-  up.at[hole.axis] = hole.r;
-  if (modes_.absolute) up.unknown &= ~(1u << hole.axis);
-  rapid(up);
-  return !full_;
-}
-
-/// From the clearance plane to the bottom and back to the level that is clear.
-void Interpreter::drill(Tenths motion, const Hole& hole) {
-  if (needs_peck(motion)) return peck(motion, hole);
-  if (motion == 740) return tap(hole, SpindleTurn::ccw);
-  if (motion == 840) return tap(hole, SpindleTurn::cw);
-  if (motion == 870) return back_bore(hole);
-  cycle_cut(hole, hole.bottom);
-  if (needs_dwell(motion)) cycle_dwell();
-  const SpindleTurn turn = modes_.spindle;
-  switch (motion) {
-    case 850: cycle_cut(hole, hole.r); return cycle_rapid(hole, hole.clear);
-    case 860:
-      spin(SpindleTurn::off);
-      cycle_rapid(hole, hole.clear);
-      return spin(turn);
-    case 880:  // the operator retracts by hand; the rapid stands for that
-      spin(SpindleTurn::off);
-      add(step::Verbatim{"M0"});
-      cycle_rapid(hole, hole.clear);
-      return spin(turn);
-    case 890: return cycle_cut(hole, hole.clear);
-    default: return cycle_rapid(hole, hole.clear);
-  }
-}
-
-/// G83 clears the hole after each peck, G73 only breaks the chip.
-void Interpreter::peck(Tenths motion, const Hole& hole) {
-  const double depth = *cycle_.peck;
-  if ((hole.r - hole.bottom) / depth > kMostPecks) {
-    talker_.error(
-        Code::word_out_of_range, line_.column(),
-        fmt::format("pecks of {:g} mm make more than {:g} in one hole; read as one", depth, kMostPecks));
-    cycle_cut(hole, hole.bottom);
-    return cycle_rapid(hole, hole.clear);
-  }
-  for (double level = hole.r - depth; level > hole.bottom && !full_; level -= depth) {
-    cycle_cut(hole, level);
-    if (motion == 830) cycle_rapid(hole, hole.r);
-    cycle_rapid(hole, level + kPeckClearance);
-  }
-  cycle_cut(hole, hole.bottom);
-  cycle_rapid(hole, hole.clear);
-}
-
-/// The spindle turns back on the way out.
-void Interpreter::tap(const Hole& hole, SpindleTurn forward) {
-  const SpindleTurn back = forward == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw;
-  cycle_cut(hole, hole.bottom);
-  spin(back);
-  cycle_dwell();
-  cycle_cut(hole, hole.clear);
-  spin(forward);
-}
-
-/// In beside the hole with the spindle stopped, then bored upwards.
-void Interpreter::back_bore(const Hole& hole) {
+void Interpreter::plan_back_bore(DrillCycle& cycle) const {
   const PlaneAxes axes = axes_of(modes_.plane);
-  const double back_level =
-      modes_.absolute ? *cycle_.back_level + placement_.shift[axes.w] : hole.bottom + *cycle_.back_level;
-  Hole aside = hole;
-  aside.place.at[axes.u] += cycle_.aside_u.value_or(0.0);
-  aside.place.at[axes.v] += cycle_.aside_v.value_or(0.0);
-  if (!reachable(aside.place.at) || !reachable({back_level, 0.0, 0.0})) return;
-  const SpindleTurn turn = modes_.spindle;
-  cycle_rapid(aside, hole.r);
-  spin(SpindleTurn::off);
-  cycle_rapid(aside, hole.bottom);
-  cycle_rapid(hole, hole.bottom);
-  spin(turn);
-  cycle_cut(hole, back_level);
-  cycle_cut(hole, hole.bottom);
-  spin(SpindleTurn::off);
-  cycle_rapid(aside, hole.bottom);
-  cycle_rapid(aside, hole.clear);
-  cycle_rapid(hole, hole.clear);
-  spin(turn);
+  cycle.back_level =
+      modes_.absolute ? *cycle_.back_level + placement_.shift[axes.w] : cycle.bottom + *cycle_.back_level;
+  cycle.aside[axes.u] = cycle_.aside_u.value_or(0.0);
+  cycle.aside[axes.v] = cycle_.aside_v.value_or(0.0);
 }
 
-void Interpreter::cycle_rapid(const Hole& hole, double level) {
-  Place to = hole.place;
-  to.at[hole.axis] = level;
-  rapid(to);
+/// How many of the holes lie within reach; an error where not all do.
+int Interpreter::reachable_holes(const DrillCycle& cycle, int holes) {
+  Point3 at = cycle.at;
+  for (int i = 0; i < holes; ++i) {
+    if (!reachable(at) || !reachable(at + cycle.aside)) return i;
+    at = at + cycle.increment;
+  }
+  return holes;
 }
 
-void Interpreter::cycle_cut(const Hole& hole, double level) {
-  Place to = hole.place;
-  to.at[hole.axis] = level;
-  const bool inverse_time = modes_.feed_mode == FeedMode::inverse_time;
-  if (inverse_time && !no_feed_said_)
+/// Feed of a cycle in mm/min; 0 where there is none.
+double Interpreter::cycle_feed() {
+  if (modes_.feed_mode != FeedMode::inverse_time) return feed_for(0.0);
+  if (!no_feed_said_)
     talker_.unusual(Code::no_feed, line_.column(),
                     "inverse time feeds mean nothing in a canned cycle; it has no feed");
-  if (inverse_time) no_feed_said_ = true;
-  cut(to, inverse_time ? 0.0 : feed_for(0.0));
-}
-
-void Interpreter::cycle_dwell() {
-  const double time = cycle_.dwell.value_or(0.0);
-  if (time > 0.0) add(step::Dwell{seconds(time)});
+  no_feed_said_ = true;
+  return 0.0;
 }
 
 }  // namespace kerf::gcode

@@ -1,7 +1,7 @@
 // What the words mean: the modal state of a controller, and the steps that a line makes in that state.
 //
 // The order in which a line's words take effect, and what each does, is that of LinuxCNC's interpreter; where
-// it refuses a line that other controllers read, the line is read as those do and the difference is said.
+// it refuses a line that other controllers read, the line is read as those do and the difference is reported.
 #pragma once
 
 #include <array>
@@ -20,6 +20,7 @@
 #include "front/gcode/line.h"
 #include "front/gcode/parameters.h"
 
+#include "kerf/drill.h"
 #include "kerf/gcode.h"
 #include "kerf/geometry.h"
 #include "kerf/progress.h"
@@ -96,7 +97,7 @@ struct CycleMemory {
   Tenths motion = kNoMotion;  // the cycle these belong to
   std::optional<double> r, bottom, dwell, peck;
   std::optional<double> aside_u, aside_v, back_level;  // I J K of a back boring cycle
-  std::optional<double> start_level;                   // where the series of cycles began
+  std::optional<double> start_level;                   // before the series of cycles
 };
 
 /// What G41 and G42 keep. Points lie in the plane's right-handed frame.
@@ -105,7 +106,7 @@ struct Compensation {
   double radius = 0.0;        // mm
   bool entered = false;       // the first move is made: the tool is beside the path
   bool leaving = false;       // G40 was read, and the tool has not come back to the path
-  Point2 tool;                // where its axis stands
+  Point2 tool;                // position of its axis
   Point2 direction;           // of the program's path, where its last piece ends
   Piece last;                 // of the axis
   std::size_t last_step = 0;  // that makes it
@@ -274,20 +275,14 @@ class Interpreter : public SystemValues {
   int extra_turns();
 
   // cycles.cpp
-  struct Hole;
-  double steps_of(Tenths motion, const Hole& hole) const;
+  class CycleSink;
   void cycle(Tenths motion);
   bool take_cycle_words(Tenths motion);
-  std::optional<Hole> plan_hole();
+  std::optional<DrillCycle> plan_cycle(Tenths motion, Place& place);
+  void plan_back_bore(DrillCycle& cycle) const;
   int repeats();
-  bool approach(const Hole& hole);
-  void drill(Tenths motion, const Hole& hole);
-  void peck(Tenths motion, const Hole& hole);
-  void tap(const Hole& hole, SpindleTurn forward);
-  void back_bore(const Hole& hole);
-  void cycle_rapid(const Hole& hole, double level);
-  void cycle_cut(const Hole& hole, double level);
-  void cycle_dwell();
+  int reachable_holes(const DrillCycle& cycle, int holes);
+  double cycle_feed();
 
   // steps
   bool room_for(double steps);

@@ -73,6 +73,13 @@ TEST(GcmcText, BriefLeavesOutWhatIsInForce) {
       "F10.000\nG0 X1.000 Y2.000 Z3.000\nZ4.000\nG1\nX2.000\nG2 X4.000 Y2.000 I1.000 J0.000\nG1 Y3.000\n");
 }
 
+TEST(GcmcText, BriefKnowsWhatRelocationLeavesBehind) {
+  const GcmcOptions options = with([](GcmcOptions& o) { o.brief = true; });
+  // After relocate() the machine is still at X1; the first line names Y only, so X has to be written later.
+  EXPECT_EQ(run("goto([1, 1]); relocate([2, 2]); goto([-, 3]); goto([1, 3]);", options).text,
+            "G0 X1.000 Y1.000\nY5.000\nX3.000\n");
+}
+
 TEST(GcmcText, NumbersKeepTheirSignAndRounding) {
   const GcmcOptions options = with([](GcmcOptions& o) { o.precision = 8; });
   EXPECT_EQ(run("move([-0.000000001, -0.0, 123456.789012345]);", options).text,
@@ -151,6 +158,26 @@ TEST(GcmcPath, DrillIsMadeOfItsMoves) {
   EXPECT_EQ(p[5].to(), (Point3{1, 2, -2.5}));
   EXPECT_TRUE(p[5].is_cutting());
   EXPECT_EQ(p[6].to(), (Point3{1, 2, 5}));
+}
+
+TEST(GcmcPath, AnAxisThatIsNotNamedStays) {
+  const auto ran = run("goto([1, 1, 1, 10]); relocate([2, 2, 2, 2]); goto([-, 3]); move([-, -, 1]);");
+  const Toolpath& p = ran.run.path;
+  EXPECT_EQ(ran.text, "G0 X1.000 Y1.000 Z1.000 A10.000\nG0 Y5.000\nG1 Z3.000\n");
+  ASSERT_EQ(p.size(), 3u);
+  EXPECT_EQ(p[1].to(), (Point3{1, 5, 1}));
+  EXPECT_EQ(p[2].to(), (Point3{1, 5, 3}));
+  EXPECT_EQ(p.extra(2)->abc->at(0), 10);
+}
+
+TEST(GcmcPath, DrillRisesToTheRetractPlaneFirst) {
+  const auto ran = run("goto([0, 0, 1]); drill([3, 0, -1], 5, 4, 2);");
+  const Toolpath& p = ran.run.path;
+  EXPECT_EQ(ran.text, "G0 X0.000 Y0.000 Z1.000\nG73 X3.000 Y0.000 Z-1.000 R5.000 Q4.000 L2\n");
+  const Point3 wanted[] = {{0, 0, 1}, {0, 0, 5}, {3, 0, 5}, {3, 0, 1},     {3, 0, 1.254}, {3, 0, -1},
+                           {3, 0, 5}, {3, 0, 5}, {3, 0, 1}, {3, 0, 1.254}, {3, 0, -1},    {3, 0, 5}};
+  ASSERT_EQ(p.size(), std::size(wanted));
+  for (std::size_t i = 0; i < p.size(); ++i) EXPECT_EQ(p[i].to(), wanted[i]) << i;
 }
 
 TEST(GcmcPath, OriginsNameLineAndCalls) {

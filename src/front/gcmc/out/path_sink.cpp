@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 #include "front/gcmc/code/operators.h"
 
@@ -62,24 +63,36 @@ Feed PathSink::feed(double per_minute) const {
   return feed_mode_ == 1 && per_minute > 0.0 ? mm_per_min(per_minute * scale_) : Feed{};
 }
 
-void PathSink::after_motion(std::size_t step, const Axes& to, unsigned named) {
-  unknown_ &= ~named;
+/// Moves the named axes to where the text leads them. An axis that a motion does not name stays where it is,
+/// although relocate() may have changed its coordinate; relative text has the difference from the coordinate
+/// that was in force before.
+void PathSink::go(const Axes& to, unsigned named) {
+  const bool relative = vm_.options().relative;
+  for (std::size_t i = 0; i < to.size(); ++i)
+    if (named & 1u << i) at_[i] = relative ? at_[i] + (to[i] - commanded_[i]) : to[i];
+  commanded_ = to;
+}
+
+void PathSink::note_motion(std::size_t step, unsigned named) {
+  if (!vm_.options().relative) unknown_ &= ~named;
+  rotary_used_ = rotary_used_ || (named & 56u) != 0;
   path_.set_unknown_axes(step, unknown_ & 7u);
   path_.set_named_axes(step, named & 63u);
-  if (to[3] != 0.0 || to[4] != 0.0 || to[5] != 0.0 || (named & 56u)) {
-    MotionExtra extra;
-    extra.abc = std::array<double, 3>{to[3], to[4], to[5]};
-    path_.set_extra(step, std::move(extra));
-  }
-  last_ = to;
+  if (!rotary_used_) return;
+  MotionExtra extra;
+  extra.abc = std::array<double, 3>{at_[3], at_[4], at_[5]};
+  path_.set_extra(step, std::move(extra));
 }
+
+Point3 PathSink::position() const { return {at_[0] * scale_, at_[1] * scale_, at_[2] * scale_}; }
 
 void PathSink::motion(bool rapid, const Axes& to, unsigned named, double per_minute, OriginId where) {
   check_size();
-  const Point3 end{to[0] * scale_, to[1] * scale_, to[2] * scale_};
-  const std::size_t step =
-      rapid ? path_.add(step::Rapid{end}, where) : path_.add(step::Cut{end, feed(per_minute)}, where);
-  after_motion(step, to, named);
+  series_start_.reset();
+  go(to, named);
+  note_motion(rapid ? path_.add(step::Rapid{position()}, where)
+                    : path_.add(step::Cut{position(), feed(per_minute)}, where),
+              named);
 }
 
 void PathSink::move(const Move& m) {
@@ -90,49 +103,93 @@ void PathSink::move(const Move& m) {
 void PathSink::arc(const ArcMove& m) {
   static constexpr std::size_t kPlaneAxes[][2] = {{0, 1}, {0, 2}, {1, 2}};
   check_size();
+  series_start_.reset();
   const auto& plane = kPlaneAxes[static_cast<std::size_t>(m.plane)];
   step::Arc out;
-  out.to = {m.to[0] * scale_, m.to[1] * scale_, m.to[2] * scale_};
-  // The offset counts from where the program stands; relocation may have moved the text's begin since.
-  out.centre = {(last_[plane[0]] + m.offset.x) * scale_, (last_[plane[1]] + m.offset.y) * scale_};
+  out.centre = {(at_[plane[0]] + m.offset.x) * scale_, (at_[plane[1]] + m.offset.y) * scale_};
+  go(m.to, m.named);
+  out.to = position();
   out.plane = m.plane;
   out.turn = m.turn;
   out.extra_turns = std::max(m.turns - 1, 0);
   out.feed = feed(feed_);
-  after_motion(path_.add(out, origin()), m.to, m.named);
+  note_motion(path_.add(out, origin()), m.named);
 }
 
-/// The moves that the controller's cycle makes: down peck by peck, with a small retreat that breaks the chip.
-void PathSink::drill(const DrillCycle& m) {
-  constexpr double kChipRetreat = 0.254;  // mm, as LinuxCNC's G73 does
-  constexpr double kMostPecks = 100'000;
-  const OriginId where = origin();
-  Axes at = last_;
-  for (std::size_t i : {0u, 1u}) at[i] = m.to[i];
-  motion(true, at, m.named & 3u, feed_, where);
-  at[2] = m.retract;
-  motion(true, at, 4u, feed_, where);
-  const double depth = m.to[2];
-  if ((m.retract - depth) / m.delta > kMostPecks) vm_.fail(Code::gcmc_limit, "drill() makes too many pecks");
-  double level = m.retract;
-  while (level > depth) {
-    level = std::max(level - m.delta, depth);
-    at[2] = level;
-    motion(false, at, 4u, feed_, where);
-    if (level <= depth) break;
-    at[2] = level + kChipRetreat / scale_;
-    motion(true, at, 4u, feed_, where);
+/// Adds the motions of a canned cycle, each with the axes that it moves.
+class PathSink::CycleSink final : public DrillSink {
+ public:
+  /// `named`: the axes of the text's line.
+  CycleSink(PathSink& sink, const DrillCycle& cycle, unsigned named, OriginId where)
+      : sink_(sink),
+        axis_(1u << axes_of(cycle.plane).w),
+        next_(rises_first(cycle) ? axis_ : named),
+        after_next_(rises_first(cycle) ? named : axis_),
+        where_(where) {}
+  void rapid(Point3 to) override { add(step::Rapid{to}, to); }
+  void cut(Point3 to) override { add(step::Cut{to, sink_.feed(sink_.feed_)}, to); }
+  void dwell(Duration) override {}
+  void spindle(SpindleTurn) override {}
+  void pause() override {}
+
+ private:
+  template <class S>
+  void add(const S& step, Point3 to) {
+    sink_.check_size();
+    const Point3 from = sink_.position();
+    unsigned named = std::exchange(next_, std::exchange(after_next_, axis_));
+    for (int i = 0; i < 3; ++i) {
+      if (to[i] != from[i]) named |= 1u << i;
+      sink_.at_[static_cast<std::size_t>(i)] = to[i] / sink_.scale_;
+    }
+    sink_.note_motion(sink_.path_.add(step, where_), named);
   }
-  at[2] = m.retract;
-  motion(true, at, 4u, feed_, where);
+  PathSink& sink_;
+  unsigned axis_;               // of the hole, as a bit
+  unsigned next_, after_next_;  // axes of the next two motions; all others name the axis of the hole
+  OriginId where_;
+};
+
+/// The motions of the G73 of the text, which is read with G99 in force.
+void PathSink::drill(const DrillMove& m) {
+  constexpr int kMaxRepeats = 10'000;  // as in G-code
+  const bool relative = vm_.options().relative;
+  DrillCycle cycle;
+  cycle.kind = DrillKind::chip_break;
+  cycle.plane = vm_.machine().plane;
+  const auto axis = static_cast<std::size_t>(axes_of(cycle.plane).w);
+  if ((m.named & 1u << axis) == 0)
+    vm_.fail(Code::gcmc_geometry, fmt::format("drill() needs {}, the bottom of the hole", "XYZ"[axis]));
+  if (m.repeat > kMaxRepeats)
+    vm_.fail(Code::gcmc_limit, fmt::format("drill() repeats a hole more than {} times", kMaxRepeats));
+  const double start = series_start_.value_or(at_[axis]);
+  const double retract = relative ? start + (m.retract - commanded_[2]) : m.retract;
+  cycle.start_level = start * scale_;
+  cycle.retract_plane = retract * scale_;
+  cycle.bottom = (relative ? retract + (m.to[axis] - commanded_[axis]) : m.to[axis]) * scale_;
+  const Point3 from = position();
+  const Axes before = at_;
+  go(m.to, m.named & 7u & ~(1u << axis));
+  cycle.at = position();
+  if (relative) cycle.increment = cycle.at - from;
+  at_ = before;
+  commanded_[2] = m.retract;
+  cycle.holes = std::max(m.repeat, 1);
+  cycle.peck = mm(m.delta * scale_);
+  if (const std::optional<DrillFault> fault = fault_of(cycle))
+    vm_.fail(fault->code == Code::cycle_upside_down ? Code::gcmc_geometry : Code::gcmc_limit,
+             fmt::format("drill(): {}", fault->message));
+  series_start_ = start;
+  CycleSink sink(*this, cycle, m.named & 7u, origin());
+  expand(cycle, from, sink);
 }
 
 // ---- state
 
 void PathSink::feed_mode(int mode) {
   static constexpr const char* kModes[] = {"G93\n", "G94\n", "G95\n"};
+  if (mode != feed_mode_) feed_ = 0.0;  // a feed of one mode means nothing in another
   feed_mode_ = mode;
-  feed_ = 0.0;
   path_.add(step::Verbatim{kModes[mode]}, origin());
 }
 
@@ -144,12 +201,17 @@ void PathSink::spindle(double speed) {
 
 void PathSink::spindle_speed(double speed) {
   speed_ = speed;
-  path_.add(step::Spindle{rpm(speed), turn_}, origin());
+  path_.add(step::Spindle{rpm(speed), speed == 0.0 ? SpindleTurn::off : turn_}, origin());
 }
 
 void PathSink::coolant(int bits) { path_.add(step::Coolant{(bits & 1) != 0, (bits & 2) != 0}, origin()); }
 
-void PathSink::tool_change(int tool, bool) { path_.add(step::ToolChange{tool}, origin()); }
+/// M6 stops the spindle.
+void PathSink::tool_change(int tool, bool) {
+  if (turn_ != SpindleTurn::off) path_.add(step::Spindle{rpm(0), SpindleTurn::off}, origin());
+  turn_ = SpindleTurn::off;
+  path_.add(step::ToolChange{tool}, origin());
+}
 
 void PathSink::dwell(double time) { path_.add(step::Dwell{seconds(time)}, origin()); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "front/gcmc/run/sink.h"
 #include "front/gcmc/run/vm.h"
 
+#include "kerf/drill.h"
 #include "kerf/toolpath.h"
 
 namespace kerf::gcmc {
@@ -20,7 +22,7 @@ class PathSink final : public Sink {
 
   void move(const Move& m) override;
   void arc(const ArcMove& m) override;
-  void drill(const DrillCycle& m) override;
+  void drill(const DrillMove& m) override;
   void broken_move(bool) override {}
   void feed_rate(double feed) override { feed_ = feed; }
   void feed_mode(int mode) override;
@@ -44,7 +46,10 @@ class PathSink final : public Sink {
  private:
   OriginId origin();
   void motion(bool rapid, const Axes& to, unsigned named, double feed, OriginId where);
-  void after_motion(std::size_t step, const Axes& to, unsigned named);
+  class CycleSink;
+  void go(const Axes& to, unsigned named);
+  void note_motion(std::size_t step, unsigned named);
+  Point3 position() const;
   Feed feed(double per_minute) const;
   void check_size();
   void count_text(std::size_t bytes);
@@ -56,8 +61,11 @@ class PathSink final : public Sink {
   int feed_mode_ = 1;
   double speed_ = 0.0;
   SpindleTurn turn_ = SpindleTurn::off;
-  Axes last_{};           // native, with offsets
+  Axes at_{};             // where the motions so far lead; native, with offsets
+  Axes commanded_{};      // the same in the coordinates of the program
   unsigned unknown_ = 7;  // axes never commanded
+  bool rotary_used_ = false;
+  std::optional<double> series_start_;  // level before the first of the canned cycles; native
   std::size_t text_bytes_ = 0;
   std::string pending_;  // literal text before its end of line
   struct Key {

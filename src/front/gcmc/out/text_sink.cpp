@@ -137,12 +137,14 @@ void TextSink::begin_motion(std::string_view motion, bool modal) {
   mode_ = modal ? motion : std::string_view();
 }
 
-void TextSink::axes(const Axes& to, unsigned named) {
+void TextSink::axes(const Axes& to, unsigned named, Words words) {
   const unsigned written = named & ((1u << (options_.uvw ? 9 : 6)) - 1u);
   for (unsigned left = written; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    const bool known = options_.relative || (known_ & 1u << i) != 0;
-    if (options_.brief && known && to[i] == last_[i]) continue;
+    const bool stays =
+        options_.relative ? to[i] == last_[i] : (known_ & 1u << i) != 0 && to[i] == written_[i];
+    if (words == Words::unless_repeated && options_.brief && stays) continue;
+    written_[i] = to[i];
     word(kLetters[i], options_.relative ? to[i] - last_[i] : to[i]);
   }
   known_ |= written;
@@ -164,8 +166,7 @@ void TextSink::move(const Move& m) {
 void TextSink::arc(const ArcMove& m) {
   static constexpr std::size_t kPlaneAxes[][2] = {{0, 1}, {0, 2}, {1, 2}};
   begin_motion(m.turn == Turn::cw ? "G2" : "G3", false);
-  if (options_.brief) known_ = 0;  // an arc's words are all written
-  axes(m.to, m.named);
+  axes(m.to, m.named, Words::all);
   const auto& plane = kPlaneAxes[static_cast<std::size_t>(m.plane)];
   word(kOffsets[plane[0]], m.offset.x);
   word(kOffsets[plane[1]], m.offset.y);
@@ -174,11 +175,10 @@ void TextSink::arc(const ArcMove& m) {
   end_line();
 }
 
-void TextSink::drill(const DrillCycle& m) {
+void TextSink::drill(const DrillMove& m) {
   begin_motion("G73", false);
-  if (options_.brief) known_ = 0;
   const Axes before = last_;
-  axes(m.to, m.named & 7u);
+  axes(m.to, m.named & 7u, Words::all);
   word('R', options_.relative ? m.retract - before[2] : m.retract);
   word('Q', m.delta);
   if (m.repeat > 0) at_ = fmt::format_to(at_, " L{}", m.repeat);
@@ -275,8 +275,7 @@ void TextSink::store_position(bool second) { line(second ? "G30.1" : "G28.1"); }
 
 void TextSink::restore_position(bool second, const Axes& via, unsigned named, const Axes& end) {
   put(second ? "G30" : "G28");
-  if (options_.brief) known_ = 0;
-  axes(via, named);
+  axes(via, named, Words::all);
   last_ = end;
   forget();
   end_line();

@@ -21,7 +21,7 @@ class TextSink final : public Sink {
 
   void move(const Move& m) override;
   void arc(const ArcMove& m) override;
-  void drill(const DrillCycle& m) override;
+  void drill(const DrillMove& m) override;
   void broken_move(bool rapid) override;
   void feed_rate(double feed) override;
   void feed_mode(int mode) override;
@@ -49,7 +49,11 @@ class TextSink final : public Sink {
   void line(std::string_view text);
   enum class Begins : std::uint8_t { no, yes };
   void word(char letter, double value, Begins begins = Begins::no);
-  void axes(const Axes& to, unsigned named);
+  enum class Words : std::uint8_t {
+    all,
+    unless_repeated
+  };  // brief text omits those that repeat a coordinate
+  void axes(const Axes& to, unsigned named, Words words = Words::unless_repeated);
   void begin_motion(std::string_view word, bool modal);
   void end_line() { *at_++ = '\n'; }
   void forget();
@@ -60,7 +64,8 @@ class TextSink final : public Sink {
   std::unique_ptr<char[]> buffer_;
   char* at_;               // where the next character goes
   Axes last_{};            // of the machine, offsets included
-  unsigned known_ = 0;     // axes whose place the reader of the text knows (brief only)
+  unsigned known_ = 0;     // axes whose position the reader of the text knows (brief only)
+  Axes written_{};         // what it knows of them
   std::string_view mode_;  // the motion word in force (brief only)
   double feed_ = -1.0;
 };

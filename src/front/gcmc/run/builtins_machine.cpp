@@ -283,7 +283,7 @@ Value drill(const Call& call) {
   if (!call[0].is_vector() || !call[0].coordinate_or_undef(2).defined())
     call.fail(Code::gcmc_geometry, "Drill-cycle must have a scalar Z-coordinate in first argument");
   Machine& m = call.vm.machine();
-  DrillCycle out;
+  DrillMove out;
   const Axes to = target_of(call, call[0], From::zero, out.named);
   const double retract = call.length(1);
   out.delta = call.length(2);

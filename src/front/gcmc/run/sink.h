@@ -32,7 +32,7 @@ struct ArcMove {
   int turns = 0;  // as the program told; 0 = not told
 };
 
-struct DrillCycle {
+struct DrillMove {
   Axes to{};
   unsigned named = 0;
   double retract = 0.0;
@@ -45,7 +45,7 @@ class Sink {
   virtual ~Sink() = default;
   virtual void move(const Move& m) = 0;
   virtual void arc(const ArcMove& m) = 0;
-  virtual void drill(const DrillCycle& m) = 0;
+  virtual void drill(const DrillMove& m) = 0;
   /// The goto or move that was begun and then refused: its first word is out already.
   virtual void broken_move(bool rapid) = 0;
   virtual void feed_rate(double feed) = 0;
