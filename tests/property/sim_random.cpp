@@ -13,7 +13,7 @@
 #include <numbers>
 #include <random>
 
-#include "../unit/sim/jobs.h"
+#include "../unit/sim_cut/cut_jobs.h"
 
 #include "kerf/exact_mesh.h"
 

@@ -25,7 +25,8 @@ def arrow_problems(path, text):
 
 class Arrows(unittest.TestCase):
     def test_right_arrows_pass(self):
-        self.assertEqual(arrow_problems("src/sim/x.cpp", '#include "kerf/toolpath.h"\n#include <map>\n'), [])
+        text = '#include "kerf/toolpath.h"\n#include <map>\n'
+        self.assertEqual(arrow_problems("src/sim/cut/x.cpp", text), [])
         self.assertEqual(arrow_problems("src/app/main.cpp", '#include "kerf/simulate.h"\n'), [])
 
     def test_a_wrong_include_is_found_with_its_line(self):
@@ -34,16 +35,23 @@ class Arrows(unittest.TestCase):
         self.assertIn("src/geom/arc.cpp:2: wrong arrow", problems[0])
 
     def test_simulator_may_not_see_a_front_end(self):
-        self.assertTrue(arrow_problems("src/sim/x.cpp", '#include "kerf/gcode.h"\n'))
+        self.assertTrue(arrow_problems("src/sim/cut/x.cpp", '#include "kerf/gcode.h"\n'))
+
+    def test_rooms_of_the_simulator_have_arrows_of_their_own(self):
+        kernels = '#include "sim/kernel/kernels.h"\n'
+        texts = {**HEADERS, "src/sim/kernel/kernels.h": ""}
+        self.assertEqual(arrows.check({**texts, "src/sim/cut/x.cpp": kernels}), [])
+        self.assertIn("wrong arrow", arrows.check({**texts, "src/sim/mesh/x.cpp": kernels})[0])
+        self.assertTrue(arrow_problems("src/sim/x.cpp", ""))
 
     def test_internal_headers_count_too(self):
         texts = {**HEADERS, "src/path/inner.h": "", "src/codec/gcode/words.cpp": '#include "path/inner.h"\n'}
         self.assertIn("wrong arrow", arrows.check(texts)[0])
-        texts = {**HEADERS, "src/sim/inner.h": "", "src/sim/other.cpp": '#include "inner.h"\n'}
+        texts = {**HEADERS, "src/sim/cut/inner.h": "", "src/sim/cut/other.cpp": '#include "inner.h"\n'}
         self.assertEqual(arrows.check(texts), [])
 
     def test_a_unit_test_sees_what_its_module_sees(self):
-        self.assertEqual(arrow_problems("tests/unit/sim/x_test.cpp", '#include "kerf/simulate.h"\n'), [])
+        self.assertEqual(arrow_problems("tests/unit/sim_cut/x_test.cpp", '#include "kerf/simulate.h"\n'), [])
         self.assertTrue(arrow_problems("tests/unit/geom/x_test.cpp", '#include "kerf/simulate.h"\n'))
 
     def test_rooms_of_a_module(self):
@@ -62,10 +70,10 @@ class Arrows(unittest.TestCase):
         self.assertTrue(arrows.check_links({"a": "kerf_module(front_gcmc_value DEPENDS front_gcmc_run)"}))
 
     def test_rings_and_unknown_headers_are_found(self):
-        texts = {**HEADERS, "src/sim/a.h": '#include "b.h"\n', "src/sim/b.h": '#include "a.h"\n'}
+        texts = {**HEADERS, "src/sim/cut/a.h": '#include "b.h"\n', "src/sim/cut/b.h": '#include "a.h"\n'}
         self.assertIn("ring", arrows.check(texts)[0])
         self.assertTrue(arrow_problems("include/kerf/surprise.h", ""))
-        self.assertTrue(arrow_problems("src/sim/x.cpp", '#include "kerf/no_such.h"\n'))
+        self.assertTrue(arrow_problems("src/sim/cut/x.cpp", '#include "kerf/no_such.h"\n'))
 
     def test_links_are_arrows(self):
         self.assertEqual(arrows.check_links({"a": "kerf_module(geom DEPENDS base LIBRARIES fmt::fmt)"}), [])

@@ -12,7 +12,7 @@
 #ifdef KERF_HAS_FRONT_GCODE
 #include "kerf/gcode.h"
 #endif
-#ifdef KERF_HAS_SIM
+#ifdef KERF_HAS_SIM_CUT
 #include "kerf/simulate.h"
 #endif
 #ifdef KERF_HAS_CODEC_MESH
@@ -62,7 +62,7 @@ void check_gcode() {
 }
 #endif
 
-#if defined(KERF_HAS_FRONT_GCODE) && defined(KERF_HAS_SIM)
+#if defined(KERF_HAS_FRONT_GCODE) && defined(KERF_HAS_SIM_CUT)
 ToolTable one_square_mill(Diagnostics& diagnostics) {
   ToolTable tools;
   if (auto tool = make_tool(1, shape::Square{mm(4), mm(12)}, {}, {}, diagnostics)) tools.set(1, *tool);
@@ -104,7 +104,7 @@ int main() {
 #ifdef KERF_HAS_FRONT_GCODE
   kerf::check_gcode();
 #endif
-#if defined(KERF_HAS_FRONT_GCODE) && defined(KERF_HAS_SIM)
+#if defined(KERF_HAS_FRONT_GCODE) && defined(KERF_HAS_SIM_CUT)
   kerf::check_simulator();
 #endif
   std::printf(kerf::failures == 0 ? "WebAssembly smoke: passed\n" : "WebAssembly smoke: failed\n");

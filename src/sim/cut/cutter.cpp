@@ -1,0 +1,91 @@
+// The run's arrays for the kernels, and what the kernels give back.
+#include "sim/cut/cutter.h"
+
+#include <algorithm>
+
+namespace kerf::sim {
+
+void Cutter::ColumnPlaces::add(double column_share, double column_place, int number, double pitch) {
+  const int first = number / kTileColumns * kTileColumns;
+  share.push_back(static_cast<Real>(column_share));
+  place.push_back(static_cast<Real>(column_place - (first + 0.5) * pitch));
+}
+
+Cutter::Cutter(Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth)
+    : body_(body) {
+  for (const ToolSolids& solids : tools) tools_.emplace_back(solids);
+  constexpr double kNarrower = 1e-6;  // less is rounding
+  narrow_x_ = body_.share_x(body_.nx - 1) < 1.0 - kNarrower;
+  narrow_y_ = body_.share_y(body_.ny - 1) < 1.0 - kNarrower;
+  field_.pitch = body_.pitch;
+  field_.height = body_.height;
+  field_.same_height = body_.same_height;
+  field_.hazard_depth = static_cast<Real>(hazard_depth.mm());
+  for (int i = 0; i < kTileColumns; ++i) field_.step[i] = static_cast<Real>(i * body_.pitch);
+  for (int i = 0; i < body_.tiles_x * kTileColumns; ++i)
+    along_x_.add(body_.share_x(i), body_.place_x(std::min(i, body_.nx - 1)), i, body_.pitch);
+  for (int j = 0; j < body_.tiles_y * kTileColumns; ++j)
+    along_y_.add(body_.share_y(j), body_.place_y(std::min(j, body_.ny - 1)), j, body_.pitch);
+}
+
+/// Tells the kernels where the columns of a tile are.
+void Cutter::place_columns(std::size_t tile, TileJob& job) const {
+  const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
+  const auto column = static_cast<int>(tile % tiles_x) * kTileColumns;
+  const auto row = static_cast<int>(tile / tiles_x) * kTileColumns;
+  job.field = &field_;
+  job.x = (column + 0.5) * body_.pitch;
+  job.y = (row + 0.5) * body_.pitch;
+  if ((narrow_x_ && column + kTileColumns >= body_.nx) || (narrow_y_ && row + kTileColumns >= body_.ny)) {
+    job.place_x = along_x_.place.data() + column;
+    job.place_y = along_y_.place.data() + row;
+    job.share_x = along_x_.share.data() + column;
+    job.share_y = along_y_.share.data() + row;
+  }
+}
+
+TileColumns Cutter::columns_of(std::size_t tile) const {
+  TileJob job;
+  place_columns(tile, job);
+  TileColumns columns;
+  for (int i = 0; i < kTileColumns; ++i) {
+    columns.x[i] = job.place_x != nullptr ? job.place_x[i] : even_place(field_, i);
+    columns.y[i] = job.place_y != nullptr ? job.place_y[i] : even_place(field_, i);
+    columns.share_x[i] = job.share_x != nullptr ? job.share_x[i] : 1.0f;
+    columns.share_y[i] = job.share_y != nullptr ? job.share_y[i] : 1.0f;
+  }
+  return columns;
+}
+
+TileJob Cutter::job(CutBatch& batch, std::size_t k) const {
+  TileJob job;
+  place_columns(batch.busy[k], job);
+  job.tools = &tools_;
+  job.sweeps = batch.sweeps.data();
+  job.list = batch.list.data() + batch.start[k];
+  job.count = batch.start[k + 1] - batch.start[k];
+  job.removed = batch.removed.data() + batch.start[k];
+  job.contacts = &batch.contacts_of[k];
+  return job;
+}
+
+void ContactList::add(const Contact& contact) {
+  const auto [it, is_new] = contacts_.try_emplace({contact.step, contact.kind}, contact);
+  if (is_new) return;
+  Contact& all = it->second;
+  if (contact.share < all.share) {
+    all.share = contact.share;
+    all.at = contact.at;
+  }
+  all.depth = std::max(all.depth, contact.depth);
+  all.removed += contact.removed;
+}
+
+std::vector<Hazard> ContactList::hazards(Point3 low) const {
+  std::vector<Hazard> list;
+  for (const auto& [key, contact] : contacts_)
+    list.push_back({key.second, key.first, contact.at + low, mm(contact.depth), mm3(contact.removed)});
+  return list;
+}
+
+}  // namespace kerf::sim

@@ -1,0 +1,230 @@
+// The driver: sends the planner's batches through the kernels and gathers what they found.
+#include "kerf/simulate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "base/parallel.h"
+#include "sim/cut/block_contact.h"
+#include "sim/cut/cutter.h"
+#include "sim/cut/step_sums.h"
+#include "sim/cut/walls.h"
+#include "sim/dexel/initial_columns.h"
+#include "sim/sweep/batch_source.h"
+
+namespace kerf {
+
+std::string_view to_string(HazardKind kind) {
+  switch (kind) {
+    case HazardKind::rapid_in_stock: return "rapid_in_stock";
+    case HazardKind::neck_contact: return "neck_contact";
+    case HazardKind::shank_contact: return "shank_contact";
+    case HazardKind::holder_contact: return "holder_contact";
+    case HazardKind::over_flute: return "over_flute";
+    case HazardKind::below_floor: return "below_floor";
+    case HazardKind::spindle_off: break;
+  }
+  return "spindle_off";
+}
+
+namespace sim {
+namespace {
+
+/// Walls between columns that can change the volume by less than this much of what was removed are not
+/// counted anew.
+constexpr double kNegligible = 1e-6;
+
+class Run {
+ public:
+  Run(Workpiece& workpiece, const Toolpath& path, Survey survey, const SimulationOptions& options,
+      Progress* progress)
+      : body_(workpiece.body()),
+        path_(path),
+        survey_(std::move(survey)),
+        hazard_depth_(options.hazard_depth),
+        is_no_go_(options.role == SolidRole::no_go),
+        threads_(thread_count(options.threads)),
+        progress_(progress),
+        removed_(body_.pitch * body_.pitch, path.size()),
+        cutter_(body_, survey_.solids, hazard_depth_) {}
+
+  void cut_all() {
+    if (progress_ != nullptr) progress_->phase("cutting");
+    in_tile_.assign(body_.tiles.size(), {});
+    sweeps_in_tile_.assign(body_.tiles.size(), 0);
+    send_all(nullptr);
+    report(progress_, 1.0);
+  }
+
+  /// Counts the columns at walls anew, see walls.h. Where there are none that matter, or if stopped, the
+  /// columns' centres alone tell the volumes.
+  void refine_walls();
+
+  bool stopped() const { return stopped_; }
+  void tell_removed(Simulation& result);
+  std::vector<Hazard> hazards() const { return contacts_.hazards(body_.bounds.low); }
+
+ private:
+  std::vector<StepRange> steps_in(const std::vector<bool>& tiles) const;
+  void send_all(const std::vector<bool>* tiles);
+  void cut_tile_number(CutBatch& batch, std::size_t k);
+  void meet_tile(std::size_t tile, TileJob job);
+  void note_block_contacts(const Batch& batch);
+  void take_over(const CutBatch& batch);
+
+  Workpiece::Body& body_;
+  const Toolpath& path_;
+  Survey survey_;
+  Length hazard_depth_;
+  bool is_no_go_;
+  unsigned threads_;
+  Progress* progress_;
+  StepSums removed_;                // by the columns' centres
+  std::optional<StepSums> more_;    // and what the walls between them add
+  WallGroup* walls_ = nullptr;      // what is cut instead of the workpiece, if any
+  std::vector<StepRange> in_tile_;  // which steps each tile has seen
+  std::vector<std::size_t> sweeps_in_tile_;
+  bool stopped_ = false;
+  Cutter cutter_;
+  ContactList contacts_;
+};
+
+/// Plans all motions and cuts them, in batches; given tiles, only what goes there.
+void Run::send_all(const std::vector<bool>* tiles) {
+  const PlanScope scope{.margin = body_.pitch, .tiles = tiles};
+  Feeder feeder(body_, path_, survey_,
+                {.plan = scope,
+                 .steps = tiles == nullptr ? std::vector{StepRange{0, path_.size()}} : steps_in(*tiles),
+                 .hazard_depth = hazard_depth_,
+                 .is_no_go = is_no_go_});
+  const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
+  const double steps = static_cast<double>(std::max<std::size_t>(path_.size(), 1));
+  cut_batches(
+      feeder, threads_, [&](CutBatch& batch, std::size_t k) { cut_tile_number(batch, k); },
+      [&](const CutBatch& batch) { take_over(batch); },
+      [&](const CutBatch& batch) { report(progress_, static_cast<double>(batch.steps_done) / steps); }, stop);
+}
+
+void Run::cut_tile_number(CutBatch& batch, std::size_t k) {
+  const std::size_t tile = batch.busy[k];
+  TileJob job = cutter_.job(batch, k);
+  if (walls_ != nullptr) return walls_->cut(tile, job);
+  job.tile = &body_.touch(tile);
+  if (is_no_go_) return meet_tile(tile, job);
+  cut_tile(job);
+}
+
+/// Of what is not to be cut each step meets all that was there: a clamp stays a clamp.
+void Run::meet_tile(std::size_t tile, TileJob job) {
+  for (std::size_t rest = job.count; rest > 0; rest -= job.count) {
+    const std::uint32_t step = job.sweeps[*job.list].step;
+    for (job.count = 1; job.count < rest && job.sweeps[job.list[job.count]].step == step;) ++job.count;
+    cut_tile(job);
+    if (std::any_of(job.removed, job.removed + job.count, [](double length) { return length > 0.0; }))
+      body_.restore(tile);
+    job.list += job.count;
+    job.removed += job.count;
+  }
+}
+
+/// Contacts that are too narrow for the columns.
+void Run::note_block_contacts(const Batch& batch) {
+  if (body_.start) return;  // not a block
+  std::vector<Contact> contacts;
+  for (const Sweep& sweep : batch.sweeps)
+    sim::note_block_contacts(sweep, survey_.solids[sweep.tool], body_.bounds.size(), hazard_depth_.mm(),
+                             contacts);
+  for (const Contact& contact : contacts) contacts_.add(contact);
+}
+
+std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
+  std::vector<StepRange> all;
+  for (std::size_t tile = 0; tile < tiles.size(); ++tile)
+    if (tiles[tile] && in_tile_[tile].first <= in_tile_[tile].last) all.push_back(in_tile_[tile]);
+  return apart(std::move(all));
+}
+
+void Run::refine_walls() {
+  if (stopped_) return;
+  const std::vector<WallSquares> found = find_walls(body_, threads_);
+  double most = 0.0;
+  std::size_t squares = 0;
+  for (const WallSquares& walls : found) {
+    most += walls.most_error;
+    squares += walls.squares.size();
+  }
+  if (found.empty() || most * body_.pitch * body_.pitch <= kNegligible * removed_.total()) return;
+  if (progress_ != nullptr) progress_->phase("measuring walls");
+  more_.emplace(body_.pitch * body_.pitch, path_.size());
+  for (std::size_t next = 0; next < found.size() && !stopped_;) {
+    WallGroup group(body_, cutter_, found, squares, next, sweeps_in_tile_);
+    walls_ = &group;
+    send_all(&group.tiles());
+    walls_ = nullptr;
+  }
+  report(progress_, 1.0);
+  if (stopped_) more_.reset();
+}
+
+void Run::tell_removed(Simulation& result) {
+  const double more = more_ ? more_->total() : 0.0;
+  result.removed = mm3(removed_.total() + more);
+  result.workpiece.body().wall_volume = -more;
+  result.removed_by_step = removed_.take_volumes();
+  if (!more_) return;
+  const std::vector<float> walls = more_->take_volumes();
+  std::transform(walls.begin(), walls.end(), result.removed_by_step.begin(), result.removed_by_step.begin(),
+                 std::plus<>());
+}
+
+void Run::take_over(const CutBatch& batch) {
+  (walls_ == nullptr ? removed_ : *more_).add(batch);
+  if (walls_ == nullptr) {
+    if (is_no_go_) note_block_contacts(batch);
+    for (const Contact& contact : batch.contacts) contacts_.add(contact);
+    for (const std::vector<Contact>& of_tile : batch.contacts_of)
+      for (const Contact& contact : of_tile) contacts_.add(contact);
+    for (std::size_t k = 0; k < batch.busy.size(); ++k) {
+      sweeps_in_tile_[batch.busy[k]] += batch.start[k + 1] - batch.start[k];
+      in_tile_[batch.busy[k]].add({batch.sweeps[batch.list[batch.start[k]]].step,
+                                   batch.sweeps[batch.list[batch.start[k + 1] - 1]].step});
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sim
+
+std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools, const Stock& stock,
+                                   const SimulationOptions& options, Diagnostics& diagnostics,
+                                   Progress* progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  std::optional<sim::Setup> setup = sim::set_up(path, tools, stock, options, diagnostics);
+  if (!setup) return std::nullopt;
+  Simulation result{.workpiece = Workpiece(stock, setup->pitch),
+                    .stock = {},
+                    .removed = {},
+                    .hazards = {},
+                    .removed_by_step = {}};
+  const Point3 size = stock.block.size();
+  result.stock = mm3(size.x * size.y * size.z);
+  if (stock.body) {
+    if (!sim::fill_from_body(result.workpiece.body(), *stock.body, diagnostics, progress))
+      return std::nullopt;
+    result.stock = result.workpiece.volume();
+  }
+  sim::Run run(result.workpiece, path, std::move(setup->survey), options, progress);
+  run.cut_all();
+  if (options.role == SolidRole::stock) run.refine_walls();
+  run.tell_removed(result);
+  result.hazards = run.hazards();
+  result.stopped = run.stopped();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace kerf

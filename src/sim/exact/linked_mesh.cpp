@@ -1,0 +1,306 @@
+// Who is beside whom, and the three changes: a side is turned, sides are parted, folds are taken out.
+#include "sim/exact/linked_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+
+namespace kerf::sim {
+namespace {
+
+/// A flip can fold another triangle, which is looked at again; not for ever.
+constexpr int kMostUnfolds = 8;
+
+}  // namespace
+
+LinkedMesh::LinkedMesh(Mesh& mesh, Point3 low, unsigned threads) : mesh_(mesh), low_(low) {
+  link(threads);
+  find_normals(threads);
+  marked_.assign(mesh.triangles.size(), 0);
+  parted_.assign(mesh.step.size(), kNone);
+}
+
+/// Sides are sorted by the lower number of their vertices; few are left to compare.
+void LinkedMesh::link(unsigned threads) {
+  const std::size_t corners = mesh_.triangles.size(), count = mesh_.positions.size() / 3;
+  const std::uint32_t* of = mesh_.triangles.data();
+  std::vector<std::uint32_t> begin(count + 1, 0), sides(corners);
+  first_.assign(count, kNone);
+  across_.assign(corners, kNone);
+  for (std::uint32_t c = 0; c < corners; ++c) {
+    ++begin[std::min(of[c], of[next(c)]) + std::size_t{1}];
+    first_[of[c]] = c;
+  }
+  for (std::size_t v = 0; v < count; ++v) begin[v + 1] += begin[v];
+  for (std::uint32_t c = 0; c < corners; ++c) sides[begin[std::min(of[c], of[next(c)])]++] = c;
+  // Each begin has moved to the end, which is the begin of the next one.
+  constexpr std::size_t kAtATime = 1 << 14;
+  const auto work = [&](std::size_t piece) {
+    for (std::size_t v = piece * kAtATime; v < std::min(count, (piece + 1) * kAtATime); ++v)
+      for (std::uint32_t k = v == 0 ? 0 : begin[v - 1]; k < begin[v]; ++k)
+        for (std::uint32_t n = k + 1; n < begin[v] && across_[sides[k]] == kNone; ++n) {
+          const std::uint32_t one = sides[k], other = sides[n];
+          if (across_[other] != kNone || of[one] != of[next(other)] || of[other] != of[next(one)]) continue;
+          across_[one] = other;
+          across_[other] = one;
+        }
+  };
+  parallel_for(threads, (count + kAtATime - 1) / kAtATime, work, [] { return false; });
+}
+
+void LinkedMesh::find_normals(unsigned threads) {
+  constexpr std::size_t kAtATime = 1 << 14;
+  const std::size_t count = mesh_.step.size();
+  normal_.resize(3 * count);
+  const auto work = [&](std::size_t piece) {
+    for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t)
+      find_normal(static_cast<std::uint32_t>(t));
+  };
+  parallel_for(threads, (count + kAtATime - 1) / kAtATime, work, [] { return false; });
+}
+
+Point3 LinkedMesh::facing(std::uint32_t triangle) const {
+  const std::uint32_t* c = mesh_.triangles.data() + std::size_t{3} * triangle;
+  const Point3 a = point(c[0]);
+  return cross(point(c[1]) - a, point(c[2]) - a);
+}
+
+void LinkedMesh::find_normal(std::uint32_t triangle) {
+  const Point3 n = facing(triangle);
+  const double size = length(n), per_size = size > 0.0 ? 1.0 / size : 0.0;
+  for (int axis = 0; axis < 3; ++axis)
+    normal_[std::size_t{3} * triangle + static_cast<std::size_t>(axis)] =
+        static_cast<float>(per_size * n[axis]);
+}
+
+Point3 LinkedMesh::middle(std::uint32_t triangle) const {
+  const std::uint32_t* c = mesh_.triangles.data() + std::size_t{3} * triangle;
+  return (1.0 / 3.0) * (point(c[0]) + point(c[1]) + point(c[2]));
+}
+
+std::uint32_t LinkedMesh::find(std::uint32_t a, std::uint32_t b) const {
+  std::uint32_t found = kNone;
+  corners_around(a, [&](std::uint32_t corner) {
+    if (vertex(next(corner)) == b) found = corner;
+    if (found == kNone && vertex(before(corner)) == b) found = before(corner);
+  });
+  return found;
+}
+
+void LinkedMesh::mark(std::uint32_t corner) {
+  marked_[corner] = 1;
+  if (across_[corner] != kNone) marked_[across_[corner]] = 1;
+}
+
+void LinkedMesh::move(std::uint32_t vertex, Point3 place) {
+  const Point3 at = place + low_;
+  for (int axis = 0; axis < 3; ++axis)
+    mesh_.positions[std::size_t{3} * vertex + static_cast<std::size_t>(axis)] = static_cast<float>(at[axis]);
+}
+
+std::uint32_t LinkedMesh::add_vertex(Point3 place) {
+  mesh_.positions.resize(mesh_.positions.size() + 3);
+  first_.push_back(kNone);
+  const auto vertex = static_cast<std::uint32_t>(first_.size() - 1);
+  move(vertex, place);
+  return vertex;
+}
+
+// ---- turning
+
+void LinkedMesh::turn(std::uint32_t corner) {
+  const std::uint32_t other = across_[corner], t = 3 * (corner / 3), u = 3 * (other / 3);
+  const std::array<std::uint32_t, 4> sides{next(corner), before(corner), next(other), before(other)};
+  std::array<std::uint32_t, 4> beyond{};  // of the sides bc, ca, ad, db
+  std::array<std::uint8_t, 4> marks{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    beyond[k] = across_[sides[k]];
+    marks[k] = marked_[sides[k]];
+  }
+  const std::uint32_t a = vertex(corner), b = vertex(other);
+  const std::uint32_t c = vertex(sides[1]), d = vertex(sides[3]);
+  std::uint32_t* const corners = mesh_.triangles.data();
+  std::copy_n(std::array{a, d, c}.data(), 3, corners + t);
+  std::copy_n(std::array{d, b, c}.data(), 3, corners + u);
+  const std::array<std::uint32_t, 4> now{u + 1, t + 2, t, u};
+  for (std::size_t k = 0; k < 4; ++k) {
+    join(now[k], beyond[k]);
+    marked_[now[k]] = marks[k];
+  }
+  join(t + 1, u + 2);
+  marked_[t + 1] = marked_[u + 2] = 0;
+  first_[a] = t;
+  first_[d] = u;
+  first_[b] = u + 1;
+  first_[c] = u + 2;
+}
+
+// ---- parting
+
+/// A triangle that is parted: the new vertices on its sides (kNone: none), and what has become of each side,
+/// one or two parts in order.
+struct LinkedMesh::Parted {
+  std::uint32_t triangle = 0;
+  std::array<std::uint32_t, 3> middles{kNone, kNone, kNone};
+  std::array<std::uint32_t, 3> beyond{};  // sides, before
+  std::array<std::array<std::uint32_t, 2>, 3> parts{};
+  std::array<std::uint8_t, 3> marks{};
+  std::array<std::uint32_t, 4> made{};
+  std::size_t count = 0;  // of triangles made
+};
+
+std::uint32_t LinkedMesh::new_triangle(std::uint32_t like) {
+  const auto triangle = static_cast<std::uint32_t>(mesh_.step.size());
+  mesh_.triangles.resize(mesh_.triangles.size() + 3);
+  mesh_.step.push_back(mesh_.step[like]);
+  across_.resize(mesh_.triangles.size(), kNone);
+  marked_.resize(mesh_.triangles.size(), 0);
+  parted_.push_back(kNone);
+  for (std::size_t k = 0; k < 3; ++k) normal_.push_back(normal_[std::size_t{3} * like + k]);
+  return triangle;
+}
+
+/// Replaces a triangle by those between its corners and the new vertices on its sides.
+void LinkedMesh::part_triangle(Parted& parted) {
+  std::array<std::uint32_t, 6> ring{};  // corners and new vertices in order
+  std::array<std::uint8_t, 6> side{};   // what goes on from there: the side, and 4 for its second part
+  std::size_t count = 0, first_new = 0;
+  for (std::uint8_t k = 0; k < 3; ++k) {
+    const std::uint32_t corner = 3 * parted.triangle + k;
+    parted.beyond[k] = across_[corner];
+    parted.marks[k] = marked_[corner];
+    side[count] = k;
+    ring[count++] = vertex(corner);
+    if (parted.middles[k] == kNone) continue;
+    first_new = count;
+    side[count] = k + 4;
+    ring[count++] = parted.middles[k];
+  }
+  // Sides between parts, from the ring's place to the ring's place, wait for their other triangle.
+  std::array<std::array<std::uint32_t, 6>, 6> inner{};
+  for (auto& row : inner) row.fill(kNone);
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    const std::uint32_t triangle = parted.count == 0 ? parted.triangle : new_triangle(parted.triangle);
+    parted.made[parted.count++] = triangle;
+    const std::array<std::size_t, 3> at{a, b, c};
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::size_t from = at[k], to = at[(k + 1) % 3];
+      const std::uint32_t corner = 3 * triangle + k;
+      mesh_.triangles[corner] = ring[from];
+      first_[ring[from]] = corner;
+      marked_[corner] = 0;
+      if (to == (from + 1) % count) {
+        parted.parts[side[from] % 4][side[from] / 4] = corner;
+      } else if (inner[to][from] != kNone) {
+        join(corner, inner[to][from]);
+      } else {
+        inner[from][to] = corner;
+      }
+    }
+  };
+  if (count == 6) {
+    for (std::size_t k = 0; k < 3; ++k) add(2 * k, 2 * k + 1, (2 * k + 5) % 6);
+    return add(1, 3, 5);
+  }
+  // From one new vertex all others are seen.
+  for (std::size_t k = 1; k + 1 < count; ++k)
+    add(first_new, (first_new + k) % count, (first_new + k + 1) % count);
+}
+
+/// Joins the outer sides of a parted triangle to what is beyond, which may be parted too.
+void LinkedMesh::join_parts(const Parted& parted, const std::vector<Parted>& all) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const bool halves = parted.middles[k] != kNone;
+    const std::uint32_t beyond = parted.beyond[k];
+    const std::uint32_t number = beyond == kNone ? kNone : parted_[beyond / 3];
+    if (number == kNone) {
+      join(parted.parts[k][0], beyond);
+      if (halves) across_[parted.parts[k][1]] = kNone;
+    } else {
+      const auto& parts = all[number].parts[beyond % 3];
+      across_[parted.parts[k][0]] = parts[halves ? 1 : 0];
+      if (halves) across_[parted.parts[k][1]] = parts[0];
+    }
+    if (!halves) marked_[parted.parts[k][0]] = parted.marks[k];
+  }
+}
+
+std::vector<std::uint32_t> LinkedMesh::part(const std::vector<Parting>& partings) {
+  std::vector<Parted> all;
+  const auto take = [&](std::uint32_t corner, std::uint32_t vertex) {
+    std::uint32_t& number = parted_[corner / 3];
+    if (number == kNone) {
+      number = static_cast<std::uint32_t>(all.size());
+      all.emplace_back().triangle = corner / 3;
+    }
+    all[number].middles[corner % 3] = vertex;
+  };
+  for (const Parting& each : partings) {
+    take(each.corner, each.vertex);
+    if (across_[each.corner] != kNone) take(across_[each.corner], each.vertex);
+  }
+  for (Parted& parted : all) part_triangle(parted);
+  for (const Parted& parted : all) join_parts(parted, all);
+  std::vector<std::uint32_t> made;
+  for (const Parted& parted : all) {
+    parted_[parted.triangle] = kNone;
+    made.insert(made.end(), parted.made.begin(),
+                parted.made.begin() + static_cast<std::ptrdiff_t>(parted.count));
+  }
+  return made;
+}
+
+// ---- folds
+
+bool LinkedMesh::faces(std::uint32_t a, std::uint32_t b, std::uint32_t c, Point3 outwards) const {
+  const Point3 p = point(a);
+  return dot(cross(point(b) - p, point(c) - p), outwards) >= 0.0;
+}
+
+/// Turns the longest side of a triangle, if both that come of it face the right way.
+bool LinkedMesh::unfold(std::uint32_t triangle, std::vector<std::uint32_t>& changed) {
+  std::uint32_t side = 3 * triangle;
+  double most = -1.0;
+  for (std::uint32_t c = 3 * triangle; c < 3 * triangle + 3; ++c) {
+    const double size = distance(point(vertex(c)), point(vertex(next(c))));
+    if (size <= most) continue;
+    most = size;
+    side = c;
+  }
+  const std::uint32_t beyond = across_[side];
+  if (beyond == kNone || beyond / 3 == triangle) return false;
+  const std::uint32_t neighbour = beyond / 3;
+  const std::uint32_t a = vertex(side), b = vertex(beyond), c = vertex(before(side)),
+                      d = vertex(before(beyond));
+  if (c == d || find(c, d) != kNone || has_no_area(a, d, c) || has_no_area(d, b, c)) return false;
+  const Point3 outwards = normal(neighbour);
+  if (!faces(a, d, c, outwards) || !faces(d, b, c, outwards)) return false;
+  turn(side);
+  std::copy_n(normal_.begin() + static_cast<std::ptrdiff_t>(std::size_t{3} * neighbour), 3,
+              normal_.begin() + static_cast<std::ptrdiff_t>(std::size_t{3} * triangle));
+  mesh_.step[triangle] = mesh_.step[neighbour];
+  changed.push_back(neighbour);
+  return true;
+}
+
+void LinkedMesh::unfold_all(std::vector<std::uint32_t>& changed) {
+  std::vector<std::uint32_t> folded;
+  for (const std::uint32_t t : changed)
+    if (is_folded(t)) folded.push_back(t);
+  for (int round = 0; round < kMostUnfolds && !folded.empty(); ++round) {
+    bool any = false;
+    std::vector<std::uint32_t> again;
+    for (const std::uint32_t t : folded) {
+      if (!is_folded(t)) continue;
+      any = unfold(t, changed) || any;
+      if (is_folded(t)) again.push_back(t);
+    }
+    if (!any) break;
+    folded = std::move(again);
+  }
+  std::sort(changed.begin(), changed.end());
+  changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+}
+
+}  // namespace kerf::sim

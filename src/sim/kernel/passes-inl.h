@@ -1,0 +1,142 @@
+// One sweep on one tile, with whatever it is tested for: level arcs, rapids, shanks and holders near
+// material. All else goes the quicker way of groups-inl.h.
+#if defined(KERF_SIM_PASSES_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef KERF_SIM_PASSES_INL_H
+#undef KERF_SIM_PASSES_INL_H
+#else
+#define KERF_SIM_PASSES_INL_H
+#endif
+
+#include "sim/kernel/cull-inl.h"
+#include "sim/kernel/hazard_passes.h"
+#include "sim/kernel/take-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace kerf::sim::HWY_NAMESPACE {
+
+/// Places of the columns of a micro from the tile's first column.
+struct MicroPlaces {
+  Vector x, y;
+};
+HWY_INLINE MicroPlaces places_of(const TileJob& job, int micro) {
+  if (job.points != nullptr) {
+    const PointMicro& points = job.points->micros[static_cast<std::size_t>(micro)];
+    return {load(points.x), load(points.y)};
+  }
+  const Field& field = *job.field;
+  const int column = column_of(micro), row = row_of(micro);
+  if (job.place_x == nullptr)
+    return {field.step[column] + load(kColumn) * field.step[1], field.step[row] + load(kRow) * field.step[1]};
+  Lanes x, y;
+  for (int i = 0; i < kLanes; ++i) {
+    x[i] = job.place_x[column + i % 4];
+    y[i] = job.place_y[row + i / 4];
+  }
+  return {load(x), load(y)};
+}
+
+HWY_INLINE MicroView look_at(const View& w, const MicroPlaces& places) {
+  MicroView m{w.x + places.x, w.y + places.y, {}, {}};
+  if (w.slope == 0) {
+    m.v2 = path_distance2(w, m.x, m.y);
+  } else {
+    m.u = m.x * w.cx + m.y * w.cy;
+    m.v2 = square(m.y * w.cx - m.x * w.cy);
+  }
+  return m;
+}
+
+HWY_INLINE Vector weights_of(const TileJob& job, int micro) {
+  if (job.points != nullptr) return load(job.points->micros[static_cast<std::size_t>(micro)].weight);
+  if (job.share_x == nullptr) return 1;
+  const int column = column_of(micro), row = row_of(micro);
+  Lanes weight;
+  for (int i = 0; i < kLanes; ++i) weight[i] = job.share_x[column + i % 4] * job.share_y[row + i / 4];
+  return load(weight);
+}
+
+/// One sweep's pass over a tile.
+struct PassWork {
+  const TileJob& job;
+  const Sweep& sweep;
+  const Pass& pass;
+  View view;
+  bool open = false;  // the solid reaches above the block all along
+  double taken = 0.0;
+  Contact contact = {};
+};
+
+/// Finds contacts and leaves in `low` and `high` what is to be taken away.
+HWY_NOINLINE void note_micro(PassWork& work, int micro, const MicroView& m, Vector& low, Vector& high) {
+  MicroContact columns;
+  columns.micro = micro;
+  store(m.x, columns.x);
+  store(m.y, columns.y);
+  store(weights_of(work.job, micro), columns.weight);
+  store(low, columns.low);
+  store(high, columns.high);
+  note_contacts(work.job, work.sweep, work.view, work.pass, columns, work.contact);
+  low = load(columns.low);
+  high = load(columns.high);
+}
+
+HWY_NOINLINE void cut_micro(PassWork& work, int micro) {
+  const TileJob& job = work.job;
+  const Field& field = *job.field;
+  const LaneSolid& solid = *work.pass.solid;
+  const MicroView m = look_at(work.view, places_of(job, micro));
+  const std::size_t groups = solid.one_envelope ? 1 : solid.pieces.size();
+  for (std::size_t g = 0; g < groups; ++g) {
+    Swept swept;
+    sweep_over(solid, g, work.open, field.height + 1, work.view, m, swept);
+    Vector low = load(swept.low), high = load(swept.high);
+    if (work.pass.is_hazard) note_micro(work, micro, m, low, high);
+    const Vector taken = take(*job.tile, micro, low, high, all_ids(work.sweep.step), field.same_height);
+    work.taken += static_cast<double>(sum_of(taken * weights_of(job, micro)));
+  }
+}
+
+/// Finds the highest and lowest material of a super again.
+HWY_INLINE void update_super(Tile& tile, int super) {
+  tile.super_top[super] = highest_of(load(tile.micro_top + super * kSupers));
+  tile.super_bottom[super] = lowest_of(load(tile.micro_bottom + super * kSupers));
+}
+
+HWY_NOINLINE void run_pass(PassWork& work) {
+  const LaneSolid& solid = *work.pass.solid;
+  if (solid.pieces.empty()) return;
+  Tile& tile = *work.job.tile;
+  prepare_for(work.view, work.sweep, solid, work.pass.is_hazard ? Follow::no : Follow::yes, work.open);
+  unsigned supers = cull(work.view, solid, supers_of(work.job), tile.super_top, tile.super_bottom);
+  for (; supers != 0; supers &= supers - 1) {
+    const int super = __builtin_ctz(supers);
+    const int first = super * kSupers;
+    unsigned micros =
+        cull(work.view, solid, micros_of(work.job, super), tile.micro_top + first, tile.micro_bottom + first);
+    if (micros == 0) continue;
+    for (; micros != 0; micros &= micros - 1) cut_micro(work, first + __builtin_ctz(micros));
+    update_super(tile, super);
+  }
+}
+
+/// All passes of a sweep. Returns the length of column taken.
+HWY_NOINLINE double cut_sweep(const TileJob& job, const Sweep& sweep) {
+  View view;
+  set_view(sweep, job, view);
+  const PassList list = list_passes(sweep, (*job.tools)[sweep.tool], job.field->hazard_depth);
+  double taken = 0.0;
+  for (int k = 0; k < list.count; ++k) {
+    const Pass& pass = list.pass[k];
+    PassWork work{job, sweep, pass, view, view.z_low + pass.solid->top >= job.field->height};
+    work.contact.step = sweep.step;
+    work.contact.kind = pass.kind;
+    run_pass(work);
+    if (pass.is_hazard) keep_contact(job, pass, work.contact);
+    taken += work.taken;
+  }
+  return taken;
+}
+
+}  // namespace kerf::sim::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+#endif

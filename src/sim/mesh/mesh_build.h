@@ -1,0 +1,253 @@
+// The parts that make triangles: the mesh under construction, walls, flat-merging caps, and the final split
+// of edges that more than two triangles share. docs/decisions/0006-mesh.md tells the whole method.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "base/parallel.h"
+#include "sim/dexel/blocks.h"
+#include "sim/mesh/mesh_corners.h"
+
+#include "kerf/geometry.h"
+
+namespace kerf::meshing {
+
+/// One number for an edge, whichever way it is walked.
+inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
+
+/// A triangle of less height than this over its longest side has no area: below what single precision tells
+/// apart, mm.
+inline constexpr double kNoHeight = 1e-6;
+inline bool has_no_area(Point3 a, Point3 b, Point3 c) {
+  const Point3 twice = cross(b - a, c - a);
+  const double longest2 = std::max({dot(b - a, b - a), dot(c - b, c - b), dot(a - c, a - c)});
+  return dot(twice, twice) <= kNoHeight * kNoHeight * longest2;
+}
+
+/// A mesh that grows, of a band of rows. Vertices whose edges may be shared by four triangles are remembered
+/// for `split_shared_edges`.
+struct Builder {
+  const Columns& columns;
+  const MeshOptions& options;
+  Mesh mesh;
+  std::vector<std::uint32_t> suspects;
+
+  std::uint32_t add_vertex(double x, double y, double z);
+  /// The vertex of a sheet, made now if no triangle has needed it yet.
+  std::uint32_t vertex(Sheet& sheet);
+  /// Adds a triangle unless two of its vertices are one.
+  void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t step);
+};
+
+/// One side of a face between two columns: a corner and which of its quadrants the two columns are.
+struct FaceLine {
+  CornerRow& row;
+  const Corner& corner;
+  int quadrant_a, quadrant_b;
+};
+
+/// Fills the face between column A and column B, seen from B with `left` at the left hand, where one of them
+/// has material and the other has none.
+class WallFiller {
+ public:
+  explicit WallFiller(Builder& builder) : builder_(builder) {}
+  struct ColumnAt {
+    int i, j;
+  };
+  void fill(ColumnAt a, ColumnAt b, FaceLine left, FaceLine right);
+
+ private:
+  struct Edge {
+    int left, right;  // ranks on the two lines
+    int change;       // to (material in A) - (material in B) when passing upwards
+    int end;
+    bool of_a;
+  };
+  bool all_joined(const FaceLine& left, const FaceLine& right) const;
+  bool gather(const FaceLine& left, const FaceLine& right);
+  std::uint32_t step_of(ColumnAt column, bool is_a, std::size_t above) const;
+  void ladder(const Edge& low, const Edge& high, int times, std::uint32_t step, FaceLine left, FaceLine right,
+              bool suspect);
+
+  Builder& builder_;
+  std::vector<Edge> edges_;
+};
+
+/// What a cap keeps of the corners of a square, those on its two high sides left out. Only squares where
+/// something happens have one. It is small: that each corner has an entry of its own, needed or not, takes
+/// longer to clear than the rest to fill.
+struct CapBlock {
+  CapBlock() { needed.fill(0); }
+  /// Place in the band's entries, of a needed corner.
+  std::size_t place(std::size_t cell) const { return before[cell / kSquare] + needed[cell] - std::size_t{1}; }
+  /// Corners that must be vertices: not 0. Once all are known, their numbers in their rows, from 1.
+  std::array<std::uint8_t, kSquareColumns> needed;
+  std::array<std::uint32_t, kSquare> before;  // needed corners of the band before each row
+};
+
+/// The caps of all columns on one side, the tops of their highest intervals or the bottoms of their lowest,
+/// with level areas of one step merged: a right-triangulated irregular network over the corners, without
+/// T-junctions. The whole squares of Columns are the largest triangles' squares; a row of them is a band, and
+/// different threads may work on different bands.
+///
+/// The entry of a corner is a vertex of its band's walls, or kNew + a vertex of the band, or kMany + the
+/// number of a corner whose quadrants have vertices of their own, or kNone.
+class CapSheet {
+ public:
+  enum class Side : std::uint8_t { top, bottom };
+  CapSheet(const Columns& columns, const MeshOptions& options, const CornerPlane& plane, Side side);
+  /// One more than there are rows of squares: the highest corners are in a band of their own.
+  int bands() const { return blocks_y_; }
+  bool simplifies() const { return options_.tolerance > Length(); }
+
+  /// Notes that a corner is needed; those of whole squares always are.
+  void need(int i, int j);
+  /// Takes over those corners of a row that are not simple, and what walls made of simple ones; to be called
+  /// once no wall touches the row any more. `walls` makes the vertices of the row's band.
+  void take(Builder& walls, CornerRow& row, int j);
+  /// Finds the corners of a row of squares without which the cap would be further off than the tolerance.
+  void find_errors(int band);
+  /// Finds the corners that needed corners need, in their own band; `propagate_across` finds the rest.
+  void propagate(int band);
+  void propagate_across();
+  /// Finds the vertices of a band that there are not yet, and makes ready for its triangles.
+  void place_vertices(int band);
+  /// Gives the vertices and the triangles places in the mesh: after the first `place.vertices` vertices, and
+  /// from `place.triangles` on, as many as there may be. Adds their numbers to `place`.
+  struct Place {
+    std::size_t vertices = 0, triangles = 0;
+  };
+  void find_places(Place& place);
+  /// `wall_vertices`: of each band, the vertices in the mesh of its walls' vertices.
+  void fill(int band, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh);
+  /// Moves the triangles down to `end`, leaving none out, and appends those that have a vertex of a wall.
+  void close_gaps(Mesh& mesh, std::size_t& end, std::vector<std::size_t>& at_walls) const;
+
+ private:
+  struct Node {
+    int x, y;
+  };
+  /// The height of a corner that is not simple.
+  struct Given {
+    std::uint16_t cell;
+    float z;
+  };
+  struct Band {
+    std::vector<float> positions;
+    std::vector<std::array<std::uint32_t, 4>> parts;    // vertices by quadrant where the cap is torn
+    std::vector<std::pair<Node, std::uint32_t>> taken;  // corners whose entries are known from the start
+    std::vector<std::uint32_t> entries;  // of the needed corners, those of whole squares left out
+    std::vector<Node> beyond;            // needed corners of other bands
+    std::vector<int> above;              // x of the corners on the band's high side that errors need
+    std::size_t first_vertex = 0, first_triangle = 0, triangles = 0;
+    std::size_t most_triangles = 0, below = 0;  // of its own squares; more of those of the band below
+    std::vector<std::size_t> at_walls;          // triangles
+  };
+  class Patch;
+  class Cover;
+
+  std::size_t block_number(int i, int j) const {
+    return static_cast<std::size_t>(j / kSquare) * static_cast<std::size_t>(blocks_x_) +
+           static_cast<std::size_t>(i / kSquare);
+  }
+  CapBlock& block(int i, int j);
+  static bool is_whole(int i, int j) { return i % kSquare == 0 && j % kSquare == 0; }
+  void take_entry(int i, int j, std::uint32_t entry);
+  std::uint32_t& entry(int i, int j);
+  void number_corners(Band& band, int number);
+  const Ends& ends_of(const Square& square) const {
+    return side_ == Side::bottom ? *square.low : *square.high;
+  }
+  int end_of(int i, int j) const { return side_ == Side::bottom ? 0 : columns_.ends(i, j) - 1; }
+  void give(int i, int j, double z);
+  void take_corner(Builder& walls, CornerRow& row, const Corner& corner, int i, int j);
+  void take_whole(Builder& walls, Sheet& sheet, int i, int j);
+  bool level(int i, int j) const;
+  bool of_one_group(int i, int j) const;
+  bool is_plain(int square_x, int square_y) const;
+  static std::array<Node, 2> parents(Node n);
+  template <class Beyond>
+  void need_parents(Node n, int band, std::vector<Node>& work, const Beyond& beyond);
+  template <class Work>
+  void for_needed(int band, const Work& work) const;
+  bool is_new_vertex(int i, int j) const;
+  void place_vertex(Band& band, int i, int j);
+
+  const Columns& columns_;
+  const MeshOptions& options_;
+  const CornerPlane& plane_;
+  Side side_;
+  int blocks_x_, blocks_y_;
+  sim::BlockStore<CapBlock> store_;
+  std::vector<sim::BlockStore<CapBlock>::Pointer> blocks_;
+  std::vector<std::uint32_t> whole_;       // entries of the corners of whole squares
+  std::vector<std::vector<Given>> given_;  // by block
+  std::vector<Band> bands_;
+};
+
+/// Calls work(i, j) for the needed corners of a band, whole squares' corners left out.
+template <class Work>
+void CapSheet::for_needed(int band, const Work& work) const {
+  for (int x = 0; x < blocks_x_; ++x) {
+    const CapBlock* const known = blocks_[block_number(x * kSquare, band * kSquare)].get();
+    if (known == nullptr) continue;
+    for (std::size_t k = 0; k < kSquareColumns; k += sizeof(std::uint64_t)) {
+      std::uint64_t eight = 0;
+      std::memcpy(&eight, known->needed.data() + k, sizeof eight);
+      for (std::size_t c = k; eight != 0 && c < k + sizeof eight; ++c) {
+        if (known->needed[c] != 0)
+          work(x * kSquare + static_cast<int>(c) % kSquare, band * kSquare + static_cast<int>(c) / kSquare);
+      }
+    }
+  }
+}
+
+/// What the steps of a corner's columns are compared by: the group of a step, see MeshOptions::step_groups.
+/// No toolpath has so many steps that one of them has a group's number.
+inline std::uint32_t group_key(const MeshOptions& options, std::uint32_t step) {
+  constexpr std::uint32_t kGroups = 0xffff0000u;
+  return step < options.step_groups.size() ? kGroups + options.step_groups[step] : step;
+}
+
+/// Finds the simple corners of a band of rows and tells both sheets of those that they need.
+void scan_corners(const Columns& columns, const MeshOptions& options, int band, CornerPlane& plane,
+                  CapSheet& top, CapSheet& bottom);
+
+/// Numbers below `count` for which test(number) holds, in order, looked for on several threads.
+template <class Test>
+std::vector<std::size_t> numbers_where(unsigned threads, std::size_t count, const Test& test) {
+  constexpr std::size_t kEach = 1 << 14;
+  std::vector<std::vector<std::size_t>> found(count / kEach + 1);
+  parallel_for(
+      threads, found.size(),
+      [&](std::size_t n) {
+        for (std::size_t k = n * kEach; k < std::min((n + 1) * kEach, count); ++k)
+          if (test(k)) found[n].push_back(k);
+      },
+      [] { return false; });
+  std::vector<std::size_t> all;
+  for (const std::vector<std::size_t>& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+/// Makes every edge the edge of exactly two triangles and every vertex the tip of one fan, by parting
+/// vertices (and, where that does not part an edge, by halving it). All edges must already have as many
+/// triangles on one side as on the other. `near`: all triangles that have a suspect, maybe more; those that
+/// are made are added.
+void split_shared_edges(Mesh& mesh, unsigned threads, const std::vector<std::uint32_t>& suspects,
+                        std::vector<std::size_t>& near);
+
+/// Takes out triangles without area, after which the mesh is as closed as before. A few may stay where taking
+/// them out would leave an edge to more than two triangles. `among`: all that may be without area, in order.
+void mend_flat_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among);
+void mend_flat_triangles(Mesh& mesh, unsigned threads);
+
+}  // namespace kerf::meshing

@@ -1,0 +1,492 @@
+// simulate_print: surveys the roads, chooses the columns, lays the roads tile by tile, adds up.
+//
+// Three passes over the roads: the survey; roads and the wedges of corners in time order; the free ends, last
+// so that they take only what no road takes. Within a tile pieces are laid in time order; sums are added in
+// the order of tiles, so that threads change nothing.
+#include "kerf/print.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "base/parallel.h"
+#include "sim/print/print_hollow.h"
+#include "sim/print/print_support.h"
+#include "sim/print/print_survey.h"
+#include "sim/print/print_tile.h"
+
+#include "kerf/number.h"
+
+namespace kerf {
+namespace printing {
+namespace {
+
+constexpr std::size_t kBatchPairs = 1'000'000;     // of piece and tile, laid at once
+constexpr std::size_t kBatchColumns = 30'000'000;  // likewise, of all pieces: bounds what a batch can add
+constexpr double kStraight = 1e-6;                 // sine of the angle below which a corner has no wedge
+
+// ---- laying
+
+/// What a layer adds up; heights of columns in mm, to be multiplied by a column's area.
+struct LayerSums {
+  double volume = 0.0, length = 0.0, bare = 0.0;  // of roads: mm3, mm
+  double height = 0.0;                            // the thickest road, mm
+  std::size_t roads = 0;
+  double full = 0.0, covered = 0.0;  // of roads
+  double filled_corners = 0.0, filled_ends = 0.0;
+};
+
+struct Batch {
+  std::vector<Piece> pieces;
+  std::vector<Road> roads;
+  struct Pair {
+    std::uint32_t tile, piece;
+  };
+  std::vector<Pair> pairs;
+  std::size_t columns = 0;  // that the pieces may touch
+
+  bool full() const { return pairs.size() >= kBatchPairs || columns >= kBatchColumns; }
+  void clear() {
+    pieces.clear();
+    roads.clear();
+    pairs.clear();
+    columns = 0;
+  }
+};
+
+class Printer final : public RoadSink {
+ public:
+  Printer(const Toolpath& path, const PrintOptions& options, const Frame& frame, const Survey& survey,
+          Diagnostics& diagnostics, Progress* progress)
+      : path_(path),
+        options_(options),
+        frame_(frame),
+        survey_(survey),
+        diagnostics_(diagnostics),
+        progress_(progress),
+        threads_(thread_count(options.threads)),
+        tiles_x_((frame.nx + kTileSide - 1) / kTileSide),
+        tiles_y_((frame.ny + kTileSide - 1) / kTileSide),
+        tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)),
+        layers_(survey.levels.size()),
+        stretches_(hazards_) {}
+
+  /// False where it was stopped or the print is too large, which is then said.
+  bool print() {
+    if (progress_ != nullptr) progress_->phase("printing");
+    for_each_road(path_, options_, *this, nullptr);
+    flush();
+    stretches_.close();
+    laying_ends_ = true;
+    for_each_road(path_, options_, *this, nullptr);
+    flush();
+    report(progress_, 1.0);
+    return !ended_;
+  }
+  bool stopped() const { return stopped_; }
+  PrintSimulation result();
+
+  void road(const Road& r) override;
+  void corner(const Road& before, const Road& next) override;
+  void free_begin(const Road& r) override {
+    if (laying_ends_) add_wedge(r, r.from, {}, r.along, r.section);
+  }
+  void free_end(const Road& r) override {
+    if (laying_ends_) add_wedge(r, r.to, r.along, {}, r.section);
+  }
+  void travel(std::uint32_t step, Point3 from, Point3 to) override;
+  void blob(std::uint32_t step, Point3 at, double volume) override;
+  bool goes_on() override { return !ended_; }
+
+ private:
+  Point2 in_frame(Point3 p) const { return {p.x - frame_.x, p.y - frame_.y}; }
+  void add_wedge(const Road& road, Point3 at, Point2 after, Point2 before, const Section& section);
+  void add(const Piece& piece);
+  void meet_bed(const Piece& piece);
+  void meet(const Contact& contact);
+  bool passes(const Piece& piece, double reach, int tile_y, int& first_x, int& last_x) const;
+  void flush();
+  void lay_batch();
+  void merge();
+  void check_size();
+  ColumnGrid grid() const;
+
+  const Toolpath& path_;
+  const PrintOptions& options_;
+  Frame frame_;
+  const Survey& survey_;
+  Diagnostics& diagnostics_;
+  Progress* progress_;
+  unsigned threads_;
+  int tiles_x_, tiles_y_;
+  std::vector<std::unique_ptr<Tile>> tiles_;
+  Batch batch_;
+  std::vector<Sums> sums_;  // one a pair of the batch
+  std::vector<LayerSums> layers_;
+  std::vector<PrintHazard> hazards_;
+  std::map<std::uint32_t, Contact> contacts_;  // by step
+  Stretches stretches_;
+  double blobs_ = 0.0;
+  std::uint32_t chain_begin_ = 0;
+  std::uint32_t travel_step_ = std::numeric_limits<std::uint32_t>::max();
+  double travelled_ = 0.0;  // of this step
+  bool laying_ends_ = false, stopped_ = false, ended_ = false;
+};
+
+Piece piece_of(const Section& section) {
+  Piece piece;
+  piece.round = 0.5 * section.height;
+  piece.flat = std::max(0.0, 0.5 * section.width - piece.round);
+  return piece;
+}
+
+void Printer::road(const Road& r) {
+  if (laying_ends_) return;
+  if (!r.goes_on) chain_begin_ = r.step;
+  Piece piece = piece_of(r.section);
+  piece.step = r.step;
+  piece.layer = survey_.layer_of(r.level);
+  piece.road = static_cast<std::uint32_t>(batch_.roads.size());
+  piece.chain_begin = chain_begin_;
+  piece.from = in_frame(r.from);
+  piece.along = r.along;
+  piece.length = r.length;
+  piece.z = r.from.z - frame_.bed;
+  piece.slope = r.slope();
+  batch_.roads.push_back(r);
+  LayerSums& layer = layers_[piece.layer];
+  layer.volume += r.volume;
+  layer.length += r.length;
+  layer.height = std::max(layer.height, r.section.height);
+  ++layer.roads;
+  add(piece);
+}
+
+void Printer::corner(const Road& before, const Road& next) {
+  if (laying_ends_) return;
+  if (std::abs(cross(before.along, next.along)) < kStraight && dot(before.along, next.along) > 0.0) return;
+  const Section section{std::min(before.section.width, next.section.width),
+                        std::min(before.section.height, next.section.height)};
+  add_wedge(next, next.from, before.along, next.along, section);
+}
+
+void Printer::add_wedge(const Road& road, Point3 at, Point2 after, Point2 before, const Section& section) {
+  Piece piece = piece_of(section);
+  piece.kind = PieceKind::wedge;
+  piece.step = road.step;
+  piece.layer = survey_.layer_of(road.level);
+  piece.from = in_frame(at);
+  piece.z = at.z - frame_.bed;
+  piece.after = after;
+  piece.before = before;
+  add(piece);
+}
+
+void Printer::travel(std::uint32_t step, Point3 from, Point3 to) {
+  if (laying_ends_) return;
+  const Point2 way = to.xy() - from.xy();
+  Piece piece;
+  piece.length = length(way);
+  if (!(piece.length > 0.0)) return;
+  if (travel_step_ != step) travelled_ = 0.0;
+  travel_step_ = step;
+  piece.kind = PieceKind::travel;
+  piece.step = step;
+  piece.from = in_frame(from);
+  piece.along = 1.0 / piece.length * way;
+  piece.begin = travelled_;
+  piece.z = from.z - frame_.bed;
+  piece.slope = (to.z - from.z) / piece.length;
+  travelled_ += piece.length;
+  add(piece);
+}
+
+void Printer::blob(std::uint32_t step, Point3 at, double volume) {
+  if (laying_ends_) return;
+  blobs_ += volume;
+  if (volume < options_.least_blob.mm3()) return;
+  hazards_.push_back({PrintHazardKind::blob, step, 1, at, {}, {}, mm3(volume)});
+}
+
+/// The tiles of a row that a piece reaches; false for none.
+bool Printer::passes(const Piece& p, double reach, int tile_y, int& first_x, int& last_x) const {
+  const double side = kTileSide * frame_.pitch;
+  const double low = tile_y * side - reach - frame_.pitch, high = (tile_y + 1) * side + reach;
+  double a = 0.0, b = p.length;  // where the middle line is that high, along it
+  const double rise = p.along.y;
+  if (std::abs(rise) * p.length > frame_.pitch) {
+    const double at_low = (low - p.from.y) / rise, at_high = (high - p.from.y) / rise;
+    a = std::max(a, std::min(at_low, at_high));
+    b = std::min(b, std::max(at_low, at_high));
+  }
+  if (a > b) return false;
+  const double xa = p.from.x + a * p.along.x, xb = p.from.x + b * p.along.x;
+  const auto tile_at = [&](double x) { return std::floor(x / side); };
+  const double first = tile_at(std::min(xa, xb) - reach - frame_.pitch);
+  const double last = tile_at(std::max(xa, xb) + reach + frame_.pitch);
+  if (last < 0.0 || first >= tiles_x_) return false;
+  first_x = static_cast<int>(std::max(first, 0.0));
+  last_x = static_cast<int>(std::min(last, tiles_x_ - 1.0));
+  return true;
+}
+
+/// The bed reaches beyond the columns.
+void Printer::meet_bed(const Piece& p) {
+  const double deepest = -std::min(p.z, p.z + p.length * p.slope), least = options_.contact_depth.mm();
+  if (deepest <= least) return;
+  const double u = p.z < -least ? 0.0 : (-least - p.z) / p.slope;
+  meet({p.step,
+        p.begin + u,
+        {p.from.x + u * p.along.x, p.from.y + u * p.along.y, p.z + u * p.slope},
+        deepest});
+}
+
+void Printer::add(const Piece& piece) {
+  if (ended_) return;
+  if (piece.kind != PieceKind::wedge) meet_bed(piece);
+  const double reach = piece.kind == PieceKind::travel ? frame_.pitch : piece.reach();
+  const double side = kTileSide * frame_.pitch, end = piece.from.y + piece.length * piece.along.y;
+  const double first = std::floor((std::min(piece.from.y, end) - reach) / side);
+  const double last = std::floor((std::max(piece.from.y, end) + reach) / side + 1.0 / kTileSide);
+  const auto number = static_cast<std::uint32_t>(batch_.pieces.size());
+  batch_.pieces.push_back(piece);
+  if (last >= 0.0 && first < tiles_y_) {
+    const int last_y = static_cast<int>(std::min(last, tiles_y_ - 1.0));
+    for (int y = static_cast<int>(std::max(first, 0.0)); y <= last_y; ++y) {
+      int first_x = 0, last_x = -1;
+      if (!passes(piece, reach, y, first_x, last_x)) continue;
+      for (int x = first_x; x <= last_x; ++x)
+        batch_.pairs.push_back({static_cast<std::uint32_t>(y * tiles_x_ + x), number});
+    }
+  }
+  const double columns = (piece.length / frame_.pitch + 2.0) * (2.0 * reach / frame_.pitch + 2.0);
+  batch_.columns += static_cast<std::size_t>(
+      std::min(columns, static_cast<double>(frame_.nx) * static_cast<double>(frame_.ny)));
+  if (batch_.full() || batch_.pieces.size() >= kBatchPairs) flush();
+}
+
+void Printer::flush() {
+  if (ended_) return;
+  lay_batch();
+  ended_ = stopped_;
+  if (!ended_) merge();
+  if (!ended_) check_size();
+  if (!batch_.pieces.empty() && path_.size() > 0)
+    report(progress_, static_cast<double>(batch_.pieces.back().step) / static_cast<double>(path_.size()));
+  batch_.clear();
+}
+
+void Printer::lay_batch() {
+  // By tile; in a tile in order of time.
+  std::stable_sort(batch_.pairs.begin(), batch_.pairs.end(),
+                   [](const Batch::Pair& a, const Batch::Pair& b) { return a.tile < b.tile; });
+  std::vector<std::size_t> begins;
+  for (std::size_t k = 0; k < batch_.pairs.size(); ++k)
+    if (k == 0 || batch_.pairs[k].tile != batch_.pairs[k - 1].tile) begins.push_back(k);
+  begins.push_back(batch_.pairs.size());
+  sums_.assign(batch_.pairs.size(), {});
+  std::vector<std::vector<Contact>> contacts(begins.size());
+  const double depth = options_.contact_depth.mm();
+  const auto lay_tile = [&](std::size_t n) {
+    const std::uint32_t number = batch_.pairs[begins[n]].tile;
+    std::unique_ptr<Tile>& tile = tiles_[number];
+    if (!tile)
+      tile = std::make_unique<Tile>(frame_, static_cast<int>(number) % tiles_x_,
+                                    static_cast<int>(number) / tiles_x_);
+    for (std::size_t k = begins[n]; k < begins[n + 1]; ++k)
+      tile->add(batch_.pieces[batch_.pairs[k].piece], depth, sums_[k], contacts[n]);
+  };
+  parallel_for(threads_, begins.size() - 1, lay_tile,
+               [&] { return stopped_ = stopped_ || stop_requested(progress_); });
+  stopped_ = stopped_ || stop_requested(progress_);
+  if (stopped_) return;
+  for (const std::vector<Contact>& of_tile : contacts)
+    for (const Contact& contact : of_tile) meet(contact);
+}
+
+void Printer::meet(const Contact& contact) {
+  const auto [it, is_new] = contacts_.try_emplace(contact.step, contact);
+  if (is_new) return;
+  Contact& all = it->second;
+  all.depth = std::max(all.depth, contact.depth);
+  if (contact.way >= all.way) return;
+  all.way = contact.way;
+  all.at = contact.at;
+}
+
+/// Adds the batch's sums to the layers, in the order of tiles, and looks at its roads in the order of time.
+void Printer::merge() {
+  std::vector<Sums> of_road(batch_.roads.size());
+  for (std::size_t k = 0; k < batch_.pairs.size(); ++k) {
+    const Piece& piece = batch_.pieces[batch_.pairs[k].piece];
+    if (piece.kind == PieceKind::travel) continue;
+    const Sums& sums = sums_[k];
+    LayerSums& layer = layers_[piece.layer];
+    if (piece.kind == PieceKind::wedge) {
+      (laying_ends_ ? layer.filled_ends : layer.filled_corners) += sums.full - sums.covered;
+      continue;
+    }
+    layer.full += sums.full;
+    layer.covered += sums.covered;
+    Sums& road = of_road[piece.road];
+    road.full += sums.full;
+    road.middle += sums.middle;
+    road.bare += sums.bare;
+    road.held = road.held || sums.held;
+  }
+  for (std::size_t r = 0; r < batch_.roads.size(); ++r)
+    layers_[survey_.layer_of(batch_.roads[r].level)].bare += stretches_.add(batch_.roads[r], of_road[r]);
+}
+
+void Printer::check_size() {
+  std::size_t runs = 0;
+  bool too_deep = false;
+  for (const auto& tile : tiles_) {
+    if (!tile) continue;
+    runs += tile->runs();
+    too_deep = too_deep || tile->too_deep();
+  }
+  if (!too_deep && runs <= options_.max_intervals) return;
+  ended_ = true;
+  if (too_deep) {
+    diagnostics_.error(Code::print_too_large, {},
+                       fmt::format("more than {} roads lie above one place without touching", kMostRuns));
+    return;
+  }
+  diagnostics_
+      .error(Code::print_too_large, {},
+             fmt::format("the print's columns have more than {} runs of material", options_.max_intervals))
+      .hint = fmt::format("ask for columns farther apart than {} mm", number_text(frame_.pitch, 4));
+}
+
+ColumnGrid Printer::grid() const {
+  ColumnGrid grid;
+  const double high = std::max(survey_.box.high.z - frame_.bed, frame_.pitch);
+  grid.bounds.low = {frame_.x - 0.5 * frame_.pitch, frame_.y - 0.5 * frame_.pitch, frame_.bed};
+  grid.bounds.high = grid.bounds.low + Point3{frame_.nx * frame_.pitch, frame_.ny * frame_.pitch, high};
+  grid.pitch = frame_.pitch;
+  grid.nx = frame_.nx;
+  grid.ny = frame_.ny;
+  std::size_t runs = 0;
+  for (const auto& tile : tiles_) runs += tile ? tile->runs() : 0;
+  grid.intervals.reserve(runs);
+  grid.first.reserve(static_cast<std::size_t>(frame_.nx) * static_cast<std::size_t>(frame_.ny) + 1);
+  for (int j = 0; j < frame_.ny; ++j) {
+    for (int i = 0; i < frame_.nx; ++i) {
+      grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
+      const auto number = static_cast<std::size_t>(j / kTileSide * tiles_x_ + i / kTileSide);
+      if (tiles_[number])
+        tiles_[number]->intervals(j % kTileSide * kTileSide + i % kTileSide, grid.intervals);
+    }
+  }
+  grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
+  return grid;
+}
+
+/// The figures of a layer from what its columns counted; see print.h.
+PrintVolumes volumes_of(const LayerSums& sums, double column_area) {
+  PrintVolumes volumes;
+  volumes.extruded = mm3(sums.volume);
+  const double share = sums.full > 0.0 ? (sums.covered - sums.filled_corners) / sums.full : 0.0;
+  volumes.overlap = std::clamp(share, 0.0, 1.0) * volumes.extruded;
+  volumes.ends = mm3(sums.filled_ends * column_area);
+  volumes.laid = volumes.extruded - volumes.overlap + volumes.ends;
+  volumes.road_length = mm(sums.length);
+  volumes.unsupported = mm(sums.bare);
+  return volumes;
+}
+
+void add_up(PrintVolumes& all, const PrintVolumes& more) {
+  all.extruded = all.extruded + more.extruded;
+  all.laid = all.laid + more.laid;
+  all.overlap = all.overlap + more.overlap;
+  all.ends = all.ends + more.ends;
+  all.road_length = all.road_length + more.road_length;
+  all.unsupported = all.unsupported + more.unsupported;
+}
+
+PrintSimulation Printer::result() {
+  PrintSimulation out;
+  out.roads = survey_.roads;
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    const PrintVolumes volumes = volumes_of(layers_[i], frame_.pitch * frame_.pitch);
+    out.layers.push_back({mm(survey_.levels[i]), mm(layers_[i].height), layers_[i].roads, volumes});
+    add_up(out.total, volumes);
+  }
+  out.total.blobs = mm3(blobs_);
+  out.total.extruded = out.total.extruded + out.total.blobs;
+  for (const auto& [step, contact] : contacts_) {
+    const Point3 at = contact.at + Point3{frame_.x, frame_.y, frame_.bed};
+    hazards_.push_back({PrintHazardKind::nozzle_contact, step, 1, at, mm(contact.depth), {}, {}});
+  }
+  out.hazards = std::move(hazards_);
+  std::stable_sort(out.hazards.begin(), out.hazards.end(), [](const PrintHazard& a, const PrintHazard& b) {
+    return std::pair(a.step, a.kind) < std::pair(b.step, b.kind);
+  });
+  out.columns = grid();
+  tiles_.clear();
+  out.stopped = stopped_;
+  if (!stopped_)
+    out.stopped =
+        !measure_hollow(out.columns, static_cast<double>(frame_.touch), out.layers, out.total, progress_);
+  return out;
+}
+
+}  // namespace
+}  // namespace printing
+
+std::string_view to_string(PrintHazardKind kind) {
+  switch (kind) {
+    case PrintHazardKind::nozzle_contact: return "nozzle_contact";
+    case PrintHazardKind::in_air: return "in_air";
+    case PrintHazardKind::unsupported: return "unsupported";
+    case PrintHazardKind::blob: break;
+  }
+  return "blob";
+}
+
+bool is_print(const Toolpath& path) {
+  bool lays = false;
+  Point3 at;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    const Step& step = path[i];
+    if (step.kind() == StepKind::spindle && step.spindle().turn != SpindleTurn::off) return false;
+    if (!step.is_motion()) continue;
+    if (step.kind() == StepKind::extrude && !(step.to() == at))
+      lays = lays || path.extrude(i).volume.mm3() > 0.0;
+    at = step.to();
+  }
+  return lays;
+}
+
+std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintOptions& options,
+                                              Diagnostics& diagnostics, Progress* progress) {
+  const auto begin = std::chrono::steady_clock::now();
+  printing::Survey survey(progress);
+  printing::for_each_road(path, options, survey, &diagnostics);
+  if (survey.stopped) {
+    PrintSimulation nothing;
+    nothing.stopped = true;
+    return nothing;
+  }
+  if (survey.roads == 0) {
+    diagnostics.error(Code::nothing_printed, {}, "no move of the program lays a road").hint =
+        "a printing program moves with E words, the filament pushed";
+    return std::nullopt;
+  }
+  survey.sort_levels();
+  const auto frame = printing::make_frame(survey, options, diagnostics);
+  if (!frame) return std::nullopt;
+  printing::Printer printer(path, options, *frame, survey, diagnostics, progress);
+  if (!printer.print() && !printer.stopped()) return std::nullopt;
+  PrintSimulation result = printer.result();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return result;
+}
+
+}  // namespace kerf

@@ -1,0 +1,114 @@
+// The survey of a print and its columns.
+#include "sim/print/print_survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+#include "kerf/number.h"
+
+namespace kerf::printing {
+namespace {
+
+constexpr double kFinestPitch = 0.02;     // mm, of those that are chosen
+constexpr double kColumnsPerWidth = 5.0;  // of the usual road
+constexpr double kChosenColumns = 4e6;    // where no pitch is told
+constexpr double kChosenIntervals = 2e7;  // likewise; every column of every road may keep one
+constexpr double kPitchDigits = 1000.0;   // a chosen pitch is whole in this part of a mm
+constexpr double kCoarse = 0.5;           // of the usual road's width
+constexpr double kLargestPrint = 1e5;     // mm along an edge, as simulate has it
+constexpr int kMargin = 2;                // columns without material around the print
+constexpr double kTouch = 1e-4;           // mm, and in units of the height's last place:
+constexpr double kTouchUlps = 4.0;
+
+double choose_pitch(const Survey& survey, const PrintOptions& options) {
+  if (options.resolution.mm() > 0.0) return options.resolution.mm();
+  const Point3 size = survey.box.size();
+  double pitch = std::max(kFinestPitch, survey.usual_width() / kColumnsPerWidth);
+  pitch = std::max(pitch, std::sqrt(size.x * size.y / kChosenColumns));
+  pitch = std::max(pitch, std::sqrt(survey.area / kChosenIntervals));
+  return std::ceil(pitch * kPitchDigits) / kPitchDigits;
+}
+
+}  // namespace
+
+void Survey::road(const Road& r) {
+  const double reach = r.section.width / 2.0;
+  for (const Point3 p : {r.from, r.to}) {
+    box.add(p + Point3{-reach, -reach, -r.section.height});
+    box.add(p + Point3{reach, reach, 0.0});
+  }
+  ++roads;
+  length += r.length;
+  area += r.length * r.section.width;
+  if (levels.empty() || levels.back() != r.level) levels.push_back(r.level);
+  if (levels.size() > 2 * sorted) sort_levels();
+}
+
+bool Survey::goes_on() {
+  constexpr std::size_t kBetween = 4096;  // motions, between two questions
+  stopped = stopped || (++motions % kBetween == 0 && stop_requested(progress));
+  return !stopped;
+}
+
+void Survey::sort_levels() {
+  constexpr std::size_t kFew = 1024;  // levels are not sorted for less
+  std::sort(levels.begin(), levels.end());
+  std::size_t kept = 0;
+  for (const double z : levels)
+    if (kept == 0 || z > levels[kept - 1] + kSameLevel) levels[kept++] = z;
+  levels.resize(kept);
+  sorted = std::max(kept, kFew);
+}
+
+std::uint32_t Survey::layer_of(double level) const {
+  const auto it = std::upper_bound(levels.begin(), levels.end(), level);
+  return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(it - levels.begin() - 1, 0));
+}
+
+std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& options, Diagnostics& diagnostics) {
+  const double told = options.resolution.mm();
+  if (!(told >= 0.0) || !std::isfinite(told)) {
+    diagnostics.error(Code::bad_resolution, {},
+                      "the resolution must be a length above 0, or 0 to choose one");
+    return std::nullopt;
+  }
+  const Point3 size = survey.box.size();
+  const double high = survey.box.high.z - options.bed.mm();
+  if (!(size.x < kLargestPrint && size.y < kLargestPrint && std::abs(high) < kLargestPrint)) {
+    diagnostics.error(Code::print_too_large, {},
+                      fmt::format("the print is {} x {} x {} mm, which cannot be meant",
+                                  number_text(size.x, 0), number_text(size.y, 0), number_text(high, 0)));
+    return std::nullopt;
+  }
+  const double pitch = choose_pitch(survey, options);
+  const double nx = std::ceil(size.x / pitch) + 1 + 2 * kMargin,
+               ny = std::ceil(size.y / pitch) + 1 + 2 * kMargin;
+  if (nx * ny > static_cast<double>(options.max_columns)) {
+    const double least = std::sqrt(size.x * size.y / static_cast<double>(options.max_columns));
+    diagnostics
+        .error(Code::print_too_large, {},
+               fmt::format("columns {} mm apart are {:.0f} for this print, more than {}",
+                           number_text(pitch, 4), nx * ny, options.max_columns))
+        .hint = fmt::format("ask for columns {} mm apart or more", number_text(1.1 * least, 3));
+    return std::nullopt;
+  }
+  if (pitch > kCoarse * survey.usual_width())
+    diagnostics.warning(Code::print_coarse, {},
+                        fmt::format("columns {} mm apart are coarse for roads {} mm wide; figures are rough",
+                                    number_text(pitch, 3), number_text(survey.usual_width(), 3)));
+  Frame frame;
+  frame.pitch = pitch;
+  frame.nx = static_cast<int>(nx);
+  frame.ny = static_cast<int>(ny);
+  frame.x = (std::floor(survey.box.low.x / pitch) - kMargin + kShift) * pitch;
+  frame.y = (std::floor(survey.box.low.y / pitch) - kMargin + kShift) * pitch;
+  frame.bed = options.bed.mm();
+  const auto height = static_cast<float>(std::max(high, 1.0));
+  const float last_place = std::nextafter(height, std::numeric_limits<float>::max()) - height;
+  frame.touch = static_cast<float>(std::max(kTouch, kTouchUlps * static_cast<double>(last_place)));
+  return frame;
+}
+
+}  // namespace kerf::printing

@@ -1,0 +1,242 @@
+// Laying pieces column by column.
+#include "sim/print/print_tile.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace kerf::printing {
+namespace {
+
+/// A vector's component below this bounds nothing along its axis.
+constexpr double kLevel = 1e-12;
+
+struct Span {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+
+  /// Leaves the x for which low_bound <= a * x + b <= high_bound.
+  void clip(double a, double b, double low_bound, double high_bound) {
+    if (std::abs(a) < kLevel) {
+      if (b < low_bound || b > high_bound) high = -std::numeric_limits<double>::infinity();
+      return;
+    }
+    const double p = (low_bound - b) / a, q = (high_bound - b) / a;
+    low = std::max(low, std::min(p, q));
+    high = std::min(high, std::max(p, q));
+  }
+};
+
+/// First and last column number of a span, within a tile.
+struct Columns {
+  int first, last;
+  Columns(double low, double high, double pitch, int tile_first, int count) {
+    const double begin = std::max(std::ceil(low / pitch), static_cast<double>(tile_first));
+    const double end = std::min(std::floor(high / pitch), static_cast<double>(tile_first + count - 1));
+    first = begin <= end ? static_cast<int>(begin) : 0;
+    last = begin <= end ? static_cast<int>(end) : -1;
+  }
+};
+
+}  // namespace
+
+Tile::Tile(const Frame& frame, int tile_x, int tile_y)
+    : pitch_(frame.pitch),
+      touch_(frame.touch),
+      first_x_(tile_x * kTileSide),
+      first_y_(tile_y * kTileSide),
+      columns_x_(std::min(kTileSide, frame.nx - first_x_)),
+      columns_y_(std::min(kTileSide, frame.ny - first_y_)),
+      heads_(std::size_t{kTileSide} * kTileSide, kNoNode) {}
+
+/// visit(column, u, v) for the columns within `reach` of the middle line: u along it, v across. Half open, so
+/// that of two roads in line each column belongs to one.
+template <class Visit>
+void Tile::for_each_column(const Piece& p, double reach, const Visit& visit) const {
+  const double end_y = p.from.y + p.length * p.along.y;
+  const Columns rows(std::min(p.from.y, end_y) - reach, std::max(p.from.y, end_y) + reach, pitch_, first_y_,
+                     columns_y_);
+  for (int j = rows.first; j <= rows.last; ++j) {
+    const double y = j * pitch_ - p.from.y;
+    Span span;
+    span.clip(p.along.x, y * p.along.y, 0.0, p.length);
+    span.clip(-p.along.y, y * p.along.x, -reach, reach);
+    const Columns columns(span.low + p.from.x, span.high + p.from.x, pitch_, first_x_, columns_x_);
+    for (int i = columns.first; i <= columns.last; ++i) {
+      const double x = i * pitch_ - p.from.x;
+      const double u = x * p.along.x + y * p.along.y, v = y * p.along.x - x * p.along.y;
+      if (u < 0.0 || u >= p.length || std::abs(v) > reach) continue;
+      visit((j - first_y_) * kTileSide + i - first_x_, u, std::abs(v));
+    }
+  }
+}
+
+/// visit(column, distance from the wedge's middle).
+template <class Visit>
+void Tile::for_each_wedge_column(const Piece& p, const Visit& visit) const {
+  const double reach = p.reach();
+  const Columns rows(p.from.y - reach, p.from.y + reach, pitch_, first_y_, columns_y_);
+  const Columns columns(p.from.x - reach, p.from.x + reach, pitch_, first_x_, columns_x_);
+  for (int j = rows.first; j <= rows.last; ++j) {
+    for (int i = columns.first; i <= columns.last; ++i) {
+      const Point2 at{i * pitch_ - p.from.x, j * pitch_ - p.from.y};
+      if (dot(at, at) > reach * reach || dot(at, p.after) < 0.0 || dot(at, p.before) > 0.0) continue;
+      visit((j - first_y_) * kTileSide + i - first_x_, length(at));
+    }
+  }
+}
+
+void Tile::add(const Piece& piece, double contact_depth, Sums& sums, std::vector<Contact>& contacts) {
+  switch (piece.kind) {
+    case PieceKind::road: return lay_road(piece, contact_depth, sums, contacts);
+    case PieceKind::wedge: return lay_wedge(piece, sums);
+    case PieceKind::travel: return travel(piece, contact_depth, contacts);
+  }
+}
+
+namespace {
+
+/// Half the height of a section so far from its middle line.
+double half_height(const Piece& p, double v) {
+  if (v <= p.flat) return p.round;
+  const double aside = v - p.flat;
+  return std::sqrt(std::max(0.0, p.round * p.round - aside * aside));
+}
+
+/// The columns that the middle line runs through, about: half a column's width across the line.
+double middle_reach(const Piece& p, double pitch) {
+  return 0.5 * pitch * (std::abs(p.along.x) + std::abs(p.along.y));
+}
+
+/// Makes a contact of a column the nozzle goes through at u, or deepens the move's contact.
+void meet(const Piece& p, double u, double depth, std::vector<Contact>& contacts) {
+  const Point3 at{p.from.x + u * p.along.x, p.from.y + u * p.along.y, p.z + u * p.slope};
+  if (contacts.empty() || contacts.back().step != p.step) {
+    contacts.push_back({p.step, p.begin + u, at, depth});
+    return;
+  }
+  Contact& contact = contacts.back();
+  contact.depth = std::max(contact.depth, depth);
+  if (p.begin + u >= contact.way) return;
+  contact.way = p.begin + u;
+  contact.at = at;
+}
+
+}  // namespace
+
+void Tile::lay_road(const Piece& p, double contact_depth, Sums& sums, std::vector<Contact>& contacts) {
+  const double middle = middle_reach(p, pitch_);
+  for_each_column(p, p.reach(), [&](int column, double u, double v) {
+    const double nozzle = p.z + u * p.slope;
+    const bool in_middle = v <= middle;
+    if (in_middle) {
+      ++sums.middle;
+      const double depth = height_over(column) - nozzle;
+      if (depth > contact_depth) meet(p, u, depth, contacts);
+    }
+    const Laid laid = lay_section(p, column, nozzle, v, sums);
+    sums.bare += in_middle && !laid.rests ? 1 : 0;
+    sums.held = sums.held || laid.rests || laid.oldest < p.chain_begin;
+  });
+}
+
+void Tile::lay_wedge(const Piece& p, Sums& sums) {
+  for_each_wedge_column(p, [&](int column, double distance) { lay_section(p, column, p.z, distance, sums); });
+}
+
+/// Lays what a section whose top is at `nozzle` has at this distance from its middle line.
+Tile::Laid Tile::lay_section(const Piece& p, int column, double nozzle, double aside, Sums& sums) {
+  const double half = half_height(p, aside), centre = nozzle - p.round;
+  const auto low = static_cast<float>(centre - half), high = static_cast<float>(centre + half);
+  const double bottom = centre - p.round;
+  const Laid laid =
+      lay(column, low, high, p.step, {static_cast<float>(bottom), static_cast<float>(bottom - p.round)});
+  sums.full += static_cast<double>(high - low);
+  sums.covered += static_cast<double>(laid.covered);
+  return laid;
+}
+
+void Tile::travel(const Piece& p, double contact_depth, std::vector<Contact>& contacts) {
+  const double lowest = std::min(p.z, p.z + p.length * p.slope);
+  if (top_ - lowest <= contact_depth) return;
+  for_each_column(p, middle_reach(p, pitch_), [&](int column, double u, double) {
+    const double depth = height_over(column) - (p.z + u * p.slope);
+    if (depth > contact_depth) meet(p, u, depth, contacts);
+  });
+}
+
+/// The lowest node that stays clear above `height`; kNoNode where none does.
+std::uint32_t Tile::find_above(int column, float height) {
+  std::uint32_t above = kNoNode;
+  int walked = 0;
+  for (std::uint32_t n = link(kNoNode, column); n != kNoNode && nodes_[n].low > height; n = nodes_[n].below) {
+    above = n;
+    if (++walked <= kMostRuns) continue;
+    too_deep_ = true;
+    break;
+  }
+  return above;
+}
+
+/// Adds a run to a column. It rests on what goes below the road's bottom and comes up to `under.reach`.
+Tile::Laid Tile::lay(int column, float low, float high, std::uint32_t step, Support under) {
+  Laid laid;
+  laid.rests = under.reach <= 0.0f;
+  if (low < 0.0f) {  // the bed is there already
+    laid.covered = std::min(high, 0.0f) - low;
+    low = 0.0f;
+  }
+  if (!(high > low) || too_deep_) return laid;
+  const std::uint32_t above = find_above(column, high + touch_);
+  Node joined{low, high, step, step, kNoNode};
+  std::uint32_t next = link(above, column);
+  while (next != kNoNode && nodes_[next].high >= low - touch_) {
+    const Node node = nodes_[next];
+    laid.covered += std::max(0.0f, std::min(high, node.high) - std::max(low, node.low));
+    laid.rests = laid.rests || node.low < under.bottom - touch_;
+    laid.oldest = std::min({laid.oldest, node.low_step, node.high_step});
+    if (node.high >= joined.high - touch_) {
+      joined.high_step = node.high_step;
+      joined.high = std::max(joined.high, node.high);
+    }
+    if (node.low <= joined.low + touch_) {
+      joined.low_step = node.low_step;
+      joined.low = std::min(joined.low, node.low);
+    }
+    take_out(above, column, next);
+    next = link(above, column);
+  }
+  laid.rests = laid.rests || (next != kNoNode && nodes_[next].high >= under.reach);
+  insert(above, column, joined);
+  top_ = std::max(top_, static_cast<double>(joined.high));
+  return laid;
+}
+
+void Tile::insert(std::uint32_t above, int column, const Node& node) {
+  std::uint32_t number = free_;
+  if (number == kNoNode) {
+    number = static_cast<std::uint32_t>(nodes_.size());
+    nodes_.push_back(node);
+  } else {
+    free_ = nodes_[number].below;
+    nodes_[number] = node;
+  }
+  std::uint32_t& place = link(above, column);
+  nodes_[number].below = place;
+  place = number;
+  ++used_;
+}
+
+void Tile::take_out(std::uint32_t above, int column, std::uint32_t node) {
+  link(above, column) = nodes_[node].below;
+  nodes_[node].below = free_;
+  free_ = node;
+  --used_;
+}
+
+void Tile::intervals(int column, std::vector<Interval>& out) const {
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  for (std::uint32_t n = heads_[static_cast<std::size_t>(column)]; n != kNoNode; n = nodes_[n].below)
+    out.push_back({nodes_[n].low, nodes_[n].high, nodes_[n].low_step, nodes_[n].high_step});
+  std::reverse(out.begin() + begin, out.end());
+}
+
+}  // namespace kerf::printing

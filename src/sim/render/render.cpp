@@ -1,0 +1,491 @@
+// The proof picture: a mesh drawn without a display. Depth first, then light a sample at a time: a key light
+// with shadows, a fill light, sky light dimmed in pockets, thin lines at outlines and creases, on a light
+// ground.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "sim/render/render_raster.h"
+
+namespace kerf {
+namespace rendering {
+namespace {
+
+using Colour = Point3;  // linear light, 0 to 1
+
+constexpr int kLargest = 8192;             // pixels a side
+constexpr double kMargin = 0.06;           // share of the picture around the part
+constexpr double kViewDistance = 3.6;      // of the viewer, in radii of the part
+constexpr int kShadowSize = 3072;          // samples a side of the shadow map
+constexpr double kOcclusionRadius = 0.05;  // of the part's size: how far pockets darken themselves
+constexpr double kSmoothCosine = 0.82;     // faces that turn by less (35 degrees) are shaded as one surface
+constexpr double kCreaseCosine = 0.6;      // sharper turns get a line
+constexpr Colour kMissingColour{0.45, 0.45, 0.45};  // of triangles without one
+constexpr std::array<std::uint8_t, 3> kSkyTop{250, 251, 252}, kSkyLow{222, 226, 230};  // background, sRGB
+
+double linear(std::uint8_t value) {
+  const double s = value / 255.0;
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+Colour linear(const std::array<std::uint8_t, 3>& c) { return {linear(c[0]), linear(c[1]), linear(c[2])}; }
+
+std::uint8_t encoded(double value) {
+  const double v = std::clamp(value, 0.0, 1.0);
+  const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
+  return static_cast<std::uint8_t>(std::lround(255.0 * s));
+}
+
+/// Away from the viewer.
+Point3 looking(const View& view) {
+  const double a = view.azimuth.rad(),
+               e = std::clamp(view.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
+  return {-std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), -std::sin(e)};
+}
+
+/// A section stands so far behind where it is asked for, mm: floors and walls at that very place are not half
+/// in the picture and half out of it. More than meshes stray, less than anybody sees.
+constexpr double kBehindSurfaces = 0.01;
+
+/// The direction of the axis that a section stands across.
+Point3 across(const Section& section) {
+  switch (section.plane) {
+    case Plane::xy: return {0, 0, 1};
+    case Plane::xz: return {0, 1, 0};
+    case Plane::yz: break;
+  }
+  return {1, 0, 0};
+}
+
+Point3 unit(Point3 a) {
+  const double n = length(a);
+  return n > 0.0 ? (1.0 / n) * a : Point3{0, 0, 1};
+}
+
+Colour times(Colour a, Colour b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+
+/// A unit vector in six bytes.
+struct PackedNormal {
+  std::array<std::int16_t, 3> n{};
+  static PackedNormal of(Point3 v) {
+    const auto pack = [](double c) {
+      return static_cast<std::int16_t>(std::lround(32767.0 * std::clamp(c, -1.0, 1.0)));
+    };
+    return {{pack(v.x), pack(v.y), pack(v.z)}};
+  }
+  Point3 get() const { return {n[0] / 32767.0, n[1] / 32767.0, n[2] / 32767.0}; }
+};
+
+class Painter {
+ public:
+  Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
+  Image paint();
+
+ private:
+  static constexpr int kDirections = 8, kSteps = 5;  // of the occlusion's looks around
+  struct Offset {
+    int x, y;
+  };
+  using Ray = std::array<Offset, kSteps>;
+  struct Place {
+    float x, y, z;
+  };
+
+  void aim(const View& view, double radius);
+  void place_section(const Section& section);
+  std::optional<Cut> cut_in(const Projection& projection) const {
+    return section_ ? std::optional<Cut>(Cut(*section_, projection)) : std::nullopt;
+  }
+  void draw_shadows();
+  void smooth_normals();
+  void lay_ground_and_normals();
+  Point3 normal_at(std::uint32_t triangle, double x, double y) const;
+  std::size_t pixel(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
+  }
+  void place_pixels();
+  std::vector<Ray> rays_of(int cell) const;
+  float occlusion_at(int x, int y, const std::vector<Ray>& rays) const;
+  void occlude();
+  void blur_occlusion();
+  double lit_share(Point3 p, Point3 normal) const;
+  double line_at(int x, int y) const;
+  Colour shade(int x, int y) const;
+  Colour background(int y) const;
+
+  const Mesh& mesh_;
+  std::span<const std::array<std::uint8_t, 3>> colours_;
+  int width_, height_, fine_;  // pixels, and samples a pixel's side
+  Box3 box_;
+  double size_ = 1.0;
+  bool ground_ = false;
+  Projection eye_, sun_;
+  Point3 fill_;
+  std::optional<CutPlane> section_;
+  Target seen_, shadow_;
+  std::vector<Spot> spots_;
+  std::vector<std::array<float, 3>> vertex_normals_;
+  std::vector<PackedNormal> normals_;
+  std::vector<Place> places_;     // one a pixel, viewer's frame, mm
+  std::vector<float> occlusion_;  // one a pixel, 0 open to 1 closed
+};
+
+Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view)
+    : mesh_(mesh),
+      colours_(colours),
+      width_(std::clamp(view.width, 1, kLargest)),
+      height_(std::clamp(view.height, 1, kLargest)),
+      fine_(static_cast<std::int64_t>(width_) * height_ > 4096 * 4096 ? 1 : 2) {
+  for (std::size_t v = 0; 3 * v + 2 < mesh.positions.size(); ++v)
+    box_.add(vertex(mesh, static_cast<std::uint32_t>(v)));
+  if (box_.empty()) return;
+  size_ = length(box_.size());
+  aim(view, size_ / 2);
+}
+
+/// Sets up the viewer and the lights. Looking straight along an axis the picture is parallel, so that it
+/// measures true.
+void Painter::aim(const View& view, double radius) {
+  const double a = view.azimuth.rad(),
+               e = std::clamp(view.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
+  const Point3 ahead{-std::sin(a), std::cos(a), 0};
+  eye_.centre = 0.5 * (box_.low + box_.high);
+  eye_.right = {std::cos(a), std::sin(a), 0};
+  eye_.into = looking(view);
+  eye_.up = cross(eye_.right, eye_.into);
+  const bool square_on = std::abs(std::cos(e)) < 1e-6 || std::abs(std::sin(e)) < 1e-6;
+  eye_.nearness = square_on || radius <= 0.0 ? 0.0 : 1.0 / (kViewDistance * radius);
+  if (view.section && faces(view, *view.section)) place_section(*view.section);
+  eye_.fit(mesh_, section_, width_ * fine_, height_ * fine_, kMargin);
+  ground_ = std::sin(e) > 0.1;
+
+  // From the left; from the front for a viewer beside the part, from behind for one above it, as drawings are
+  // lit: a pocket lit from below looks like a boss.
+  const double above = std::clamp((std::sin(e) - 0.8) / 0.15, 0.0, 1.0);
+  const Point3 light = unit(-0.62 * eye_.right + (0.95 * above - 0.42) * ahead + Point3{0, 0, 0.95});
+  fill_ = unit(0.75 * eye_.right - 0.45 * ahead + Point3{0, 0, 0.35});
+  sun_.centre = eye_.centre;
+  sun_.into = -1.0 * light;
+  sun_.right = unit(cross(sun_.into, std::abs(light.z) > 0.9 ? Point3{0, 1, 0} : Point3{0, 0, 1}));
+  sun_.up = cross(sun_.right, sun_.into);
+  sun_.fit(mesh_, section_, kShadowSize, kShadowSize, 0.01);
+}
+
+/// Leaves out the viewer's side of the plane.
+void Painter::place_section(const Section& section) {
+  CutPlane plane{across(section), section.at};
+  if (!Cut(plane, eye_).is_before()) plane = {-1.0 * plane.normal, -plane.at};
+  plane.at -= kBehindSurfaces;
+  section_ = plane;
+}
+
+void Painter::draw_shadows() {
+  shadow_.width = shadow_.height = kShadowSize;
+  shadow_.depth.assign(std::size_t{kShadowSize} * kShadowSize, kFarDepth);
+  draw(mesh_, project_all(mesh_, sun_), cut_in(sun_), shadow_);
+}
+
+/// One normal a vertex, the mean of its faces weighted by area.
+void Painter::smooth_normals() {
+  vertex_normals_.assign(mesh_.positions.size() / 3, {});
+  for (std::size_t t = 0; t + 2 < mesh_.triangles.size(); t += 3) {
+    const Point3 a = vertex(mesh_, mesh_.triangles[t]);
+    const Point3 n =
+        cross(vertex(mesh_, mesh_.triangles[t + 1]) - a, vertex(mesh_, mesh_.triangles[t + 2]) - a);
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto& sum = vertex_normals_[mesh_.triangles[t + k]];
+      for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<float>(n[static_cast<int>(axis)]);
+    }
+  }
+}
+
+/// The surface's direction at a sample: between the vertices' where those are close to the face's.
+Point3 Painter::normal_at(std::uint32_t triangle, double x, double y) const {
+  const std::uint32_t* v = mesh_.triangles.data() + std::size_t{3} * triangle;
+  const Point3 a = vertex(mesh_, v[0]);
+  const Point3 face = unit(cross(vertex(mesh_, v[1]) - a, vertex(mesh_, v[2]) - a));
+  const Spot &p = spots_[v[0]], &q = spots_[v[1]], &r = spots_[v[2]];
+  const double area = (static_cast<double>(q.x) - p.x) * (static_cast<double>(r.y) - p.y) -
+                      (static_cast<double>(q.y) - p.y) * (static_cast<double>(r.x) - p.x);
+  if (area == 0.0) return face;
+  const double wr = ((q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)) / area;
+  const double wq = ((x - p.x) * (r.y - p.y) - (y - p.y) * (r.x - p.x)) / area;
+  const std::array<double, 3> share{1.0 - wr - wq, wq, wr};
+  Point3 sum{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& n = vertex_normals_[v[k]];
+    const Point3 smooth = unit({n[0], n[1], n[2]});
+    sum = sum + share[k] * (dot(smooth, face) > kSmoothCosine ? smooth : face);
+  }
+  return unit(sum);
+}
+
+void Painter::lay_ground_and_normals() {
+  normals_.resize(seen_.depth.size());
+  const double floor = box_.low.z;
+  in_bands(seen_.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < seen_.width; ++x) {
+        const std::size_t at = seen_.index(x, y);
+        if (seen_.triangle[at] == kCutFace) {
+          normals_[at] = PackedNormal::of(section_->normal);
+          continue;
+        }
+        if (seen_.triangle[at] != kNothing) {
+          normals_[at] = PackedNormal::of(normal_at(seen_.triangle[at], x + 0.5, y + 0.5));
+          continue;
+        }
+        normals_[at] = PackedNormal::of({0, 0, 1});
+        if (!ground_) continue;
+        const Point3 near = eye_.point(x + 0.5, y + 0.5, -size_), far = eye_.point(x + 0.5, y + 0.5, 0.0);
+        const double fall = near.z - far.z;
+        if (fall <= 1e-9 * size_) continue;
+        const Point3 hit = near + (near.z - floor) / fall * (far - near);
+        if (length(hit - eye_.centre) > 4 * size_) continue;
+        seen_.depth[at] = static_cast<float>(eye_.project(hit).z);
+      }
+    }
+  });
+}
+
+/// Where each pixel's surface lies in the viewer's frame: right, up, into.
+void Painter::place_pixels() {
+  places_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  in_bands(height_, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
+        Place& place = places_[pixel(x, y)];
+        place.z = kFarDepth;
+        if (depth >= kFarDepth) continue;
+        const double far = depth / (1.0 - eye_.nearness * depth),
+                     w = (1.0 + eye_.nearness * far) / eye_.scale;
+        place = {static_cast<float>((x * fine_ + 0.5 - eye_.x0) * w),
+                 static_cast<float>((eye_.y0 - y * fine_ - 0.5) * w), static_cast<float>(far)};
+      }
+    }
+  });
+}
+
+/// The pixels around one to look at: a pattern of 4 x 4 turns and lengths, averaged by the blur afterwards.
+std::vector<Painter::Ray> Painter::rays_of(int cell) const {
+  const double reach = kOcclusionRadius * size_ * eye_.scale / fine_;
+  const double turn = (cell * 7 % 16) / 16.0, stretch = (cell * 11 % 16 + 0.5) / 16.0;
+  std::vector<Ray> rays(kDirections);
+  for (int d = 0; d < kDirections; ++d) {
+    const double angle = 2 * std::numbers::pi * (d + turn) / kDirections;
+    for (int s = 0; s < kSteps; ++s) {
+      const double share = (s + stretch) / kSteps, far = std::max(reach * share * share, 1.0 + s);
+      rays[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)] = {
+          static_cast<int>(std::lround(std::cos(angle) * far)),
+          static_cast<int>(std::lround(std::sin(angle) * far))};
+    }
+  }
+  return rays;
+}
+
+/// How much of the sky around a pixel's surface is hidden by what stands within the occlusion radius.
+float Painter::occlusion_at(int x, int y, const std::vector<Ray>& rays) const {
+  const Place& p = places_[pixel(x, y)];
+  if (p.z >= kFarDepth) return 0.0f;
+  const Point3 normal = normals_[seen_.index(x * fine_, y * fine_)].get();
+  const Place n{static_cast<float>(dot(normal, eye_.right)), static_cast<float>(dot(normal, eye_.up)),
+                static_cast<float>(dot(normal, eye_.into))};
+  const auto radius = static_cast<float>(kOcclusionRadius * size_);
+  constexpr float kSlant = 0.08f;  // lower horizons are the surface's own unevenness
+  float sum = 0.0f;
+  for (const Ray& ray : rays) {
+    float most = 0.0f;
+    for (const Offset& offset : ray) {
+      const int qx = x + offset.x, qy = y + offset.y;
+      if (qx < 0 || qy < 0 || qx >= width_ || qy >= height_) break;
+      const Place& q = places_[pixel(qx, qy)];
+      const float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
+      const float height = n.x * dx + n.y * dy + n.z * dz, square = dx * dx + dy * dy + dz * dz;
+      if (height <= 0.0f || square >= radius * radius) continue;
+      most = std::max(most, (height / std::sqrt(square) - kSlant) * (1.0f - square / (radius * radius)));
+    }
+    sum += most;
+  }
+  return std::min(1.0f, sum / kDirections);
+}
+
+void Painter::occlude() {
+  place_pixels();
+  std::vector<std::vector<Ray>> rays;
+  for (int cell = 0; cell < 16; ++cell) rays.push_back(rays_of(cell));
+  in_bands(height_, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < width_; ++x)
+        occlusion_[pixel(x, y)] = occlusion_at(x, y, rays[static_cast<std::size_t>((x & 3) + 4 * (y & 3))]);
+  });
+  blur_occlusion();
+}
+
+/// Averages over 4 x 4 pixels of about the same depth, which takes the pattern out.
+void Painter::blur_occlusion() {
+  std::vector<float> blurred(occlusion_.size());
+  const double near = 0.01 * size_;
+  in_bands(height_, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
+        double sum = 0.0;
+        int count = 0;
+        for (int py = std::max(0, y - 2); py < std::min(height_, y + 2); ++py) {
+          for (int px = std::max(0, x - 2); px < std::min(width_, x + 2); ++px) {
+            if (std::abs(seen_.depth[seen_.index(px * fine_, py * fine_)] - depth) > near) continue;
+            sum += occlusion_[pixel(px, py)];
+            ++count;
+          }
+        }
+        blurred[pixel(x, y)] = count == 0 ? occlusion_[pixel(x, y)] : static_cast<float>(sum / count);
+      }
+    }
+  });
+  occlusion_ = std::move(blurred);
+}
+
+/// Share of the key light that reaches a point, from 5 x 5 samples of the shadow map around it.
+double Painter::lit_share(Point3 p, Point3 normal) const {
+  const double texel = 1.0 / sun_.scale;
+  const Point3 q = sun_.project(p + 2.5 * texel * normal);
+  const int cx = static_cast<int>(std::floor(q.x)), cy = static_cast<int>(std::floor(q.y));
+  const auto lit = [&](int x, int y) {
+    return x < 0 || y < 0 || x >= kShadowSize || y >= kShadowSize ||
+                   shadow_.depth[shadow_.index(x, y)] > q.z - texel
+               ? 1
+               : 0;
+  };
+  const int outer =
+      lit(cx - 2, cy - 2) + lit(cx + 2, cy - 2) + lit(cx - 2, cy + 2) + lit(cx + 2, cy + 2) + lit(cx, cy);
+  if (outer == 0 || outer == 5) return outer / 5.0;  // not at a shadow's edge
+  int sum = 0;
+  for (int y = cy - 2; y <= cy + 2; ++y)
+    for (int x = cx - 2; x <= cx + 2; ++x) sum += lit(x, y);
+  return sum / 25.0;
+}
+
+/// 1 where no line is, less at outlines and creases: where the next sample to the right or below is another
+/// thing.
+double Painter::line_at(int x, int y) const {
+  const std::size_t at = seen_.index(x, y);
+  if (seen_.triangle[at] == kNothing) return 1.0;
+  const Point3 n = normals_[at].get();
+  const Point3 p = eye_.point(x + 0.5, y + 0.5, seen_.depth[at]);
+  double line = 1.0;
+  for (const auto& [dx, dy] : {std::pair{1, 0}, {0, 1}, {-1, 0}, {0, -1}}) {
+    const int qx = x + dx, qy = y + dy;
+    if (qx < 0 || qy < 0 || qx >= seen_.width || qy >= seen_.height) continue;
+    const std::size_t other = seen_.index(qx, qy);
+    if (seen_.triangle[other] == kNothing) {
+      line = std::min(line, 0.45);
+      continue;
+    }
+    if ((seen_.triangle[other] == kCutFace) != (seen_.triangle[at] == kCutFace)) line = std::min(line, 0.6);
+    const Point3 way = eye_.point(qx + 0.5, qy + 0.5, seen_.depth[other]) - p;
+    const double jump = std::abs(dot(way, eye_.into));
+    // Lines are drawn on the nearer side of a jump that is more than a steep slope.
+    if (jump > 0.012 * size_ && seen_.depth[other] > seen_.depth[at]) line = std::min(line, 0.6);
+    if ((dx > 0 || dy > 0) && dot(n, normals_[other].get()) < kCreaseCosine) line = std::min(line, 0.8);
+  }
+  return line;
+}
+
+Colour Painter::background(int y) const {
+  const double t = static_cast<double>(y) / std::max(1, seen_.height - 1);
+  return (1.0 - t) * linear(kSkyTop) + t * linear(kSkyLow);
+}
+
+Colour Painter::shade(int x, int y) const {
+  const std::size_t at = seen_.index(x, y);
+  const std::uint32_t triangle = seen_.triangle[at];
+  if (triangle == kNothing && seen_.depth[at] >= kFarDepth) return background(y);
+  if (triangle == kCutFace) return line_at(x, y) * linear(kSectionColour);
+  const Point3 p = eye_.point(x + 0.5, y + 0.5, seen_.depth[at]);
+  const Point3 n = normals_[at].get();
+  const double closed = std::min(1.0, 1.35 * occlusion_[pixel(x / fine_, y / fine_)]);
+  const double open = 1.0 - 0.9 * closed;
+  const double lit = lit_share(p, n);
+  if (triangle == kNothing) return (1.0 - (0.28 * (1.0 - lit) + 0.3 * closed)) * background(y);
+
+  const Colour albedo = triangle < colours_.size() ? linear(colours_[triangle]) : kMissingColour;
+  const Point3 light = -1.0 * sun_.into;
+  const double key = 0.85 * std::max(0.0, dot(n, light)) * lit * (1.0 - 0.25 * closed);
+  const double fill = 0.16 * std::max(0.0, dot(n, fill_)) * open;
+  const double up = 0.5 + 0.5 * n.z;
+  const Colour sky = (0.36 * up * open) * Colour{0.97, 1.0, 1.04};
+  const Colour bounce = (0.16 * (1.0 - up) * open) * Colour{1.05, 1.0, 0.94};
+  const Colour direct = key * Colour{1.03, 1.0, 0.95} + fill * Colour{0.95, 0.98, 1.05};
+  const Point3 half = unit(light - eye_.into);
+  const double mirror = dot(n, half);
+  const double shine = lit > 0.0 && mirror > 0.7 ? 0.08 * lit * std::pow(mirror, 28.0) : 0.0;
+  const Colour colour = times(albedo, direct + sky + bounce) + Colour{shine, shine, shine};
+  return line_at(x, y) * colour;
+}
+
+Image Painter::paint() {
+  seen_.width = width_ * fine_;
+  seen_.height = height_ * fine_;
+  const std::size_t samples = static_cast<std::size_t>(seen_.width) * static_cast<std::size_t>(seen_.height);
+  seen_.depth.assign(samples, kFarDepth);
+  seen_.triangle.assign(samples, kNothing);
+  occlusion_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0f);
+  if (!box_.empty() && finite(box_.low) && finite(box_.high)) {
+    spots_ = project_all(mesh_, eye_);
+    draw(mesh_, spots_, cut_in(eye_), seen_);
+    draw_shadows();
+    smooth_normals();
+    lay_ground_and_normals();
+    occlude();
+  }
+  Image image{width_, height_, {}};
+  image.rgba.resize(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  in_bands(height_, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        Colour sum{};
+        for (int s = 0; s < fine_ * fine_; ++s)
+          sum = sum + shade(x * fine_ + s % fine_, y * fine_ + s / fine_);
+        sum = (1.0 / (fine_ * fine_)) * sum;
+        std::uint8_t* out = image.rgba.data() + 4 * pixel(x, y);
+        out[0] = encoded(sum.x);
+        out[1] = encoded(sum.y);
+        out[2] = encoded(sum.z);
+        out[3] = 255;
+      }
+    }
+  });
+  return image;
+}
+
+}  // namespace
+}  // namespace rendering
+
+std::optional<View> named_view(std::string_view name) {
+  View view;
+  const auto look = [&](double azimuth, double elevation) {
+    view.azimuth = degrees(azimuth);
+    view.elevation = degrees(elevation);
+    return view;
+  };
+  if (name == "top") return look(0, 90);
+  if (name == "bottom") return look(0, -90);
+  if (name == "front") return look(0, 0);
+  if (name == "back") return look(180, 0);
+  if (name == "left") return look(-90, 0);
+  if (name == "right") return look(90, 0);
+  if (name == "iso") return view;
+  return std::nullopt;
+}
+
+bool faces(const View& view, const Section& section) {
+  constexpr double kSlightest = 0.02;  // sine of the angle between the view and the plane: about a degree
+  return std::abs(dot(rendering::across(section), rendering::looking(view))) > kSlightest;
+}
+
+Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view) {
+  return rendering::Painter(mesh, colours, view).paint();
+}
+
+}  // namespace kerf

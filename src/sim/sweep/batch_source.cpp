@@ -1,0 +1,87 @@
+// Which motions of a toolpath become sweeps, and of what.
+#include "sim/sweep/batch_source.h"
+
+#include <algorithm>
+
+namespace kerf::sim {
+
+std::vector<StepRange> apart(std::vector<StepRange> ranges) {
+  std::sort(ranges.begin(), ranges.end(),
+            [](const StepRange& a, const StepRange& b) { return a.first < b.first; });
+  std::vector<StepRange> out;
+  for (const StepRange& next : ranges) {
+    if (out.empty() || out.back().last < next.first) {
+      out.push_back(next);
+    } else {
+      out.back().add(next);
+    }
+  }
+  return out;
+}
+
+bool Feeder::is_wanted(std::size_t step) {
+  const std::vector<StepRange>& steps = scope_.steps;
+  while (next_range_ < steps.size() && steps[next_range_].last < step) ++next_range_;
+  return next_range_ < steps.size() && steps[next_range_].first <= step;
+}
+
+bool Feeder::find_tool(int number) {
+  if (number == tool_number_) return true;
+  const auto tool = survey_.index.find(number);
+  if (tool == survey_.index.end()) return false;
+  tool_number_ = number;
+  tool_ = tool->second;
+  return true;
+}
+
+/// Adds the motion that was read.
+void Feeder::add(Batch& batch) {
+  const Step& step = motion_.step();
+  const MotionContext& context = motion_.context();
+  if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_.interrupt();
+  const std::optional<int> number = survey_.tool_of(context);
+  if (!number || !find_tool(*number)) return planner_.interrupt();  // a rapid before the first tool
+  if (!is_wanted(context.index)) return planner_.pass_over(step, context, tool_);
+  const bool spindle_off = scope_.is_no_go || survey_.spindle_off(context);
+  planner_.add(step, context, tool_, spindle_off, batch);
+}
+
+/// Whether a batch is to end before the motion that was read.
+bool Feeder::reached_pause() {
+  const std::size_t before = next_pause_;
+  while (next_pause_ < scope_.pauses.size() && scope_.pauses[next_pause_] <= motion_.context().index)
+    ++next_pause_;
+  return next_pause_ != before;
+}
+
+/// Goes on to the motion before the range of steps that is wanted next, if that is further on: it is not
+/// wanted, but the next one may follow it.
+bool Feeder::skip() {
+  if (next_range_ < skipped_to_) return false;
+  skipped_to_ = next_range_ + 1;
+  const std::optional<std::size_t> before = path_.motion_before(scope_.steps[next_range_].first);
+  if (!before || *before <= motion_.context().index) return false;
+  motion_ = MotionReader(path_, *before);
+  return motion_.next();
+}
+
+bool Feeder::next_motion() { return skip() || motion_.next(); }
+
+void Feeder::fill(Batch& batch) {
+  batch.clear();
+  planner_.go_on(batch);
+  while (!batch.full() && !is_done() && (waiting_ || next_motion())) {
+    if (!waiting_ && (waiting_ = reached_pause())) break;
+    waiting_ = false;
+    add(batch);
+  }
+  batch.is_last = !batch.full() && !waiting_;
+  batch.steps_done = batch.is_last ? path_.size() : motion_.context().index;
+  if (scope_.numbers != nullptr) {
+    for (Sweep& sweep : batch.sweeps) sweep.step = (*scope_.numbers)[sweep.step];
+    for (Contact& contact : batch.contacts) contact.step = (*scope_.numbers)[contact.step];
+  }
+  batch.sort(tiles_);
+}
+
+}  // namespace kerf::sim

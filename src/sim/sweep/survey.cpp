@@ -1,0 +1,258 @@
+// Looks at what is to be simulated before anything is cut: the stock's size, the columns, the tools, what of
+// the program the simulator passes over.
+#include "sim/sweep/survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <utility>
+
+#include "base/parallel.h"
+#include "sim/sweep/plan.h"
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf::sim {
+namespace {
+
+// What is accepted. Beyond it single precision or patience ends, and the input is a slip in any case.
+constexpr double kLargestStock = 1e5;                            // mm
+constexpr double kFarthestMotion = 1e7;                          // mm from the stock
+constexpr double kFinestPitch = 1e-4;                            // mm
+constexpr double kDefaultColumns = 2.5e6;                        // of the automatic resolution
+constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
+constexpr double kMostDefaultColumns = 5e7;                      // a coarser one rather than more
+/// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.
+constexpr double kLeastClearance = 1e-4;
+
+bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
+  const Box3& block = stock.block;
+  const Point3 size = block.size();
+  if (!finite(block.low) || !finite(block.high) || !(size.x > 0.0) || !(size.y > 0.0) || !(size.z > 0.0)) {
+    diagnostics.error(Code::stock_empty, {},
+                      "the stock is empty: its length, width and height must be above 0");
+    return false;
+  }
+  const double largest = std::max({size.x, size.y, size.z});
+  const double reach =
+      std::max(std::max(length(block.low), length(block.high)) / kFarthestMotion, largest / kLargestStock);
+  if (reach <= 1.0) return true;
+  diagnostics.error(Code::stock_empty, {},
+                    fmt::format("the stock measures {} x {} x {} mm; at most {} mm can be simulated",
+                                number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
+                                number_text(kLargestStock, 0)));
+  return false;
+}
+
+/// The column pitch to use, or nothing with an error.
+std::optional<double> choose_pitch(const SimulationOptions& options, const Stock& stock,
+                                   Diagnostics& diagnostics) {
+  const Point3 size = stock.block.size();
+  double pitch = options.resolution.mm();
+  if (pitch == 0.0 && stock.body) pitch = stock.body->pitch().value_or(Length()).mm();
+  if (pitch == 0.0) {
+    const double area = size.x * size.y;
+    pitch = std::clamp(std::sqrt(area / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
+    pitch = std::max(pitch, std::sqrt(area / kMostDefaultColumns));
+  }
+  if (!std::isfinite(pitch) || pitch < kFinestPitch) {
+    diagnostics.error(
+        Code::bad_resolution, {},
+        fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 to have one chosen",
+                    number_text(pitch, 9), number_text(kFinestPitch, 4)));
+    return std::nullopt;
+  }
+  pitch = std::min(pitch, std::max(size.x, size.y));  // never less than one column
+  const double columns = std::ceil(size.x / pitch) * std::ceil(size.y / pitch);
+  const auto most = static_cast<double>(std::min(options.max_columns, std::size_t{0xfffffff0}));
+  if (columns <= most) return pitch;
+  // The finest that does for certain: (x / p + 1) (y / p + 1) = most, for the last column may be a part of
+  // one.
+  const double area = size.x * size.y, edges = size.x + size.y, longest = std::max(size.x, size.y);
+  const double root = std::sqrt(edges * edges + 4.0 * area * std::max(most - 1.0, 0.0));
+  const double would_do = root > edges ? std::min(2.0 * area / (root - edges), longest) : longest;
+  Diagnostic& error =
+      diagnostics.error(Code::too_many_columns, {},
+                        fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed",
+                                    number_text(pitch, 6), columns, most));
+  error.hint = fmt::format("a resolution of {} mm would do", number_text(std::ceil(would_do * 1e4) / 1e4, 4));
+  return std::nullopt;
+}
+
+class Surveyor {
+ public:
+  Surveyor(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance,
+           Diagnostics& diagnostics)
+      : path_(path),
+        tools_(tools),
+        centre_(0.5 * (stock.block.low + stock.block.high)),
+        clearance_(clearance),
+        diagnostics_(diagnostics) {}
+
+  /// The motions from step `first` to the one before `last`.
+  Survey run(std::size_t first, std::size_t last) {
+    if (tools_.tools().size() == 1) survey_.only_tool = tools_.tools().begin()->first;
+    survey_.judges_spindle = path_.has(StepKind::spindle) && !path_.has(StepKind::laser_power);
+    for (MotionReader motion(path_, first); motion.next() && motion.context().index < last;)
+      look_at(motion.step(), motion.context());
+    return std::move(survey_);
+  }
+
+ private:
+  void look_at(const Step& step, const MotionContext& context) {
+    check_place(step, context);
+    check_extras(step, context);
+    const std::optional<int> number = survey_.tool_of(context);
+    const bool is_known = number && (number == known_tool_ || find_tool(*number));
+    if (!step.is_cutting()) return;
+    if (!number) return no_tool(context);
+    if (!is_known) no_such_tool(*number, context);
+    if (step.kind() == StepKind::arc && is_walked(context) &&
+        chord_count(walk_of(step, context.from)).too_coarse)
+      diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
+                           "the arc is so long that it is simulated with chords coarser than usual");
+    constexpr unsigned kXY = 3;
+    const unsigned arc_begin = step.kind() == StepKind::arc ? context.unknown_from & kXY : 0u;
+    if ((step.unknown_axes() | arc_begin) != 0) warn_unknown_place(step.unknown_axes() | arc_begin, context);
+  }
+
+  /// Makes the solids of a tool that is met for the first time. False if its shape is not known.
+  bool find_tool(int number) {
+    if (survey_.index.count(number) == 0) {
+      const Tool* tool = tools_.find(number);
+      if (tool == nullptr) return false;
+      survey_.index[number] = static_cast<std::uint32_t>(survey_.solids.size());
+      survey_.solids.push_back(make_tool_solids(tool->silhouette, mm(clearance_)));
+    }
+    known_tool_ = number;
+    return true;
+  }
+
+  void check_place(const Step& step, const MotionContext& context) {
+    Point3 arc_centre = centre_;
+    if (step.kind() == StepKind::arc) {
+      const Point2 c = step.arc().centre;
+      arc_centre = centre_ + Point3{c.x, c.y, 0.0};
+    }
+    if (is_near(step.to()) && is_near(arc_centre)) return;
+    diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
+                       fmt::format("the motion goes further than {} km from the stock",
+                                   number_text(kFarthestMotion * 1e-6, 0)));
+  }
+
+  bool is_near(Point3 place) const {
+    const Point3 way = place - centre_;
+    return dot(way, way) < kFarthestMotion * kFarthestMotion;
+  }
+
+  void check_extras(const Step& step, const MotionContext& context) {
+    if (step.kind() == StepKind::extrude)
+      once(Code::extrusion_not_simulated, context,
+           "a program that cuts is simulated as one; its extruding moves are passed over");
+    const MotionExtra* extra = path_.extra(context.index);
+    if (extra == nullptr) return;
+    if (extra->abc)
+      once(Code::rotary_not_simulated, context,
+           "rotary axes are not simulated here; the tool is taken as upright throughout, see --rotary");
+    if (!extra->z_correction.empty())
+      once(Code::z_correction_not_simulated, context,
+           "corrections of Z by measured points are not simulated");
+  }
+
+  void no_such_tool(int number, const MotionContext& context) {
+    if (std::find(missing_.begin(), missing_.end(), number) != missing_.end()) return;
+    missing_.push_back(number);
+    Diagnostic& error =
+        diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
+                           fmt::format("tool {} cuts here, but its shape is not known", number));
+    error.hint = fmt::format("give a tool {}, for example \"square d=3.175 flute=12.7\"", number);
+  }
+
+  void no_tool(const MotionContext& context) {
+    if (std::exchange(said_no_tool_, true)) return;
+    Diagnostic& error = diagnostics_.error(Code::no_tool_chosen, path_.origin_of(context.index),
+                                           "the program cuts here before it has chosen a tool");
+    error.hint = "give exactly one tool, which is then used until the program chooses another";
+  }
+
+  void warn_unknown_place(unsigned axes, const MotionContext& context) {
+    constexpr unsigned kAxisZ = 4;
+    std::vector<std::string> unknown, taken;
+    for (unsigned axis = 0; axis < 3; ++axis) {
+      if ((axes >> axis & 1u) == 0) continue;
+      unknown.emplace_back(1, "XYZ"[axis]);
+      if (axis < 2) taken.push_back(fmt::format("{}0", "XYZ"[axis]));
+    }
+    std::string message = fmt::format("the program cuts here before it has said where {} {}; ",
+                                      list_text(unknown, "and"), unknown.size() == 1 ? "is" : "are");
+    if (!taken.empty())
+      message += fmt::format("{} {} taken", list_text(taken, "and"), taken.size() == 1 ? "is" : "are");
+    if ((axes & kAxisZ) != 0)
+      message += taken.empty() ? "without it nothing is cut" : ", and without a Z nothing is cut";
+    once(Code::cut_at_unknown_place, context, std::move(message));
+  }
+
+  void once(Code code, const MotionContext& context, std::string message) {
+    if (std::find(said_.begin(), said_.end(), code) != said_.end()) return;
+    said_.push_back(code);
+    diagnostics_.warning(code, path_.origin_of(context.index), std::move(message));
+  }
+
+  const Toolpath& path_;
+  const ToolTable& tools_;
+  Point3 centre_;
+  double clearance_;
+  Diagnostics& diagnostics_;
+  Survey survey_;
+  std::optional<int> known_tool_;  // of the motion before
+  std::vector<int> missing_;
+  std::vector<Code> said_;
+  bool said_no_tool_ = false;
+};
+
+/// Adds the tools of a later part of the path.
+void add_tools(Survey& survey, Survey&& part) {
+  std::vector<const std::pair<const int, std::uint32_t>*> in_order(part.solids.size());
+  for (const auto& tool : part.index) in_order[tool.second] = &tool;
+  for (const auto* tool : in_order)
+    if (survey.index.try_emplace(tool->first, static_cast<std::uint32_t>(survey.solids.size())).second)
+      survey.solids.push_back(std::move(part.solids[tool->second]));
+}
+
+/// Long paths are looked at in parts; only if there is something to be said, once more from begin to end.
+Survey survey_of(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance,
+                 unsigned threads, Diagnostics& diagnostics) {
+  constexpr std::size_t kPart = 1 << 16;  // steps
+  const std::size_t count = path.size() / kPart + 1;
+  std::vector<Diagnostics> said(count);
+  std::vector<Survey> found(count);
+  const auto look = [&](std::size_t n) {
+    found[n] = Surveyor(path, tools, stock, clearance, said[n]).run(n * kPart, (n + 1) * kPart);
+  };
+  parallel_for(threads, count, look, [] { return false; });
+  const bool is_quiet = std::all_of(said.begin(), said.end(), [](const auto& d) { return d.list().empty(); });
+  if (!is_quiet) return Surveyor(path, tools, stock, clearance, diagnostics).run(0, path.size());
+  for (std::size_t n = 1; n < count; ++n) add_tools(found[0], std::move(found[n]));
+  return std::move(found[0]);
+}
+
+}  // namespace
+
+std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const Stock& stock,
+                            const SimulationOptions& options, Diagnostics& diagnostics) {
+  if (!stock_is_sound(stock, diagnostics)) return std::nullopt;
+  const std::optional<double> pitch = choose_pitch(options, stock, diagnostics);
+  if (!pitch) return std::nullopt;
+  const std::size_t errors_before = diagnostics.errors();
+  const double clearance = std::max(options.hazard_depth.mm(), kLeastClearance);
+  Setup setup{mm(*pitch),
+              survey_of(path, tools, stock, clearance, thread_count(options.threads), diagnostics)};
+  if (diagnostics.errors() != errors_before) return std::nullopt;
+  // What is above short flutes goes into a solid that is not to be touched as neck, shank or holder.
+  if (options.role == SolidRole::no_go)
+    for (ToolSolids& solids : setup.survey.solids) solids.over_flute = {};
+  return setup;
+}
+
+}  // namespace kerf::sim

@@ -1,0 +1,375 @@
+// The simulation as a whole: volumes, who cut what, threads, unknown places, refusals.
+#include <cmath>
+#include <gtest/gtest.h>
+
+#include "cut_jobs.h"
+
+namespace kerf::test {
+namespace {
+
+TEST(Simulate, VolumesAddUp) {
+  Diagnostics diagnostics;
+  const Stock stock = block({0, 0, -10}, {50, 40.03, 0});  // the pitch does not divide it
+  const auto result = run(random_job(1, 300), square_and_keyhole(), stock, 0.17, diagnostics);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->stock.mm3(), 50 * 40.03 * 10, 1e-6);
+  EXPECT_NEAR(result->stock.mm3() - result->removed.mm3(), result->workpiece.volume().mm3(), 0.05);
+  double sum = 0.0;
+  for (const float v : result->removed_by_step) sum += static_cast<double>(v);
+  EXPECT_NEAR(sum, result->removed.mm3(), 1e-4 * result->removed.mm3());
+  EXPECT_GT(result->removed.mm3(), 5000.0);
+}
+
+TEST(Simulate, UntouchedStockHasItsVolume) {
+  const Workpiece workpiece(block({1, 2, 3}, {8.3, 7.1, 5}), mm(0.7));
+  EXPECT_NEAR(workpiece.volume().mm3(), 7.3 * 5.1 * 2, 1e-4);
+  EXPECT_EQ(workpiece.columns_x(), 11);
+  EXPECT_EQ(workpiece.columns_y(), 8);
+}
+
+TEST(Simulate, SameForAnyNumberOfThreads) {
+  const Toolpath path = random_job(2, 400);
+  const Stock stock = block({0, 0, -10}, {50, 40, 0});
+  std::optional<Simulation> first;
+  for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+    Diagnostics diagnostics;
+    auto result = run(path, square_and_keyhole(), stock, 0.13, diagnostics, threads);
+    ASSERT_TRUE(result);
+    if (!first) {
+      first = std::move(result);
+      continue;
+    }
+    EXPECT_EQ(first->removed, result->removed);
+    EXPECT_EQ(first->removed_by_step, result->removed_by_step);
+    ASSERT_EQ(first->hazards.size(), result->hazards.size());
+    for (std::size_t k = 0; k < result->hazards.size(); ++k) {
+      EXPECT_EQ(first->hazards[k].at, result->hazards[k].at);
+      EXPECT_EQ(first->hazards[k].removed, result->hazards[k].removed);
+    }
+    const ColumnGrid a = first->workpiece.grid(), b = result->workpiece.grid();
+    ASSERT_EQ(a.first, b.first);
+    for (std::size_t k = 0; k < a.intervals.size(); ++k) {
+      ASSERT_EQ(a.intervals[k].low, b.intervals[k].low);
+      ASSERT_EQ(a.intervals[k].high, b.intervals[k].high);
+      ASSERT_EQ(a.intervals[k].low_step, b.intervals[k].low_step);
+      ASSERT_EQ(a.intervals[k].high_step, b.intervals[k].high_step);
+    }
+  }
+}
+
+TEST(Simulate, GridAndColumnsAgree) {
+  Diagnostics diagnostics;
+  const auto result =
+      run(random_job(3, 200), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics);
+  ASSERT_TRUE(result);
+  const ColumnGrid grid = result->workpiece.grid();
+  ASSERT_EQ(grid.first.size(), static_cast<std::size_t>(grid.nx * grid.ny + 1));
+  for (int j = 0; j < grid.ny; ++j) {
+    for (int i = 0; i < grid.nx; ++i) {
+      const auto number = static_cast<std::size_t>(j * grid.nx + i);
+      const auto column = result->workpiece.column(i, j);
+      ASSERT_EQ(column.size(), grid.first[number + 1] - grid.first[number]);
+      float above = 0.0f;
+      for (const Interval& run : column) {
+        ASSERT_LT(run.low, run.high);
+        ASSERT_GE(run.low, above);
+        above = run.high;
+      }
+    }
+  }
+}
+
+TEST(Simulate, ColumnsCutThroughKnowWhoTookTheLast) {
+  Path path;  // 2 plunge, 3 slot through, 6 keyhole beside it, 7 deeper where nothing is left
+  path.tool(1).rapid({10, 20, 2}).cut({10, 20, -2}).cut({10, 20, -11}).cut({30, 20, -11});
+  path.tool(2).rapid({40, 20, 2}).cut({40, 20, -12}).cut({40, 20, -13});
+  Diagnostics diagnostics;
+  const auto result =
+      run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics);
+  ASSERT_TRUE(result);
+  const ColumnGrid grid = result->workpiece.grid();
+  ASSERT_EQ(grid.cut_through.size(), static_cast<std::size_t>(grid.nx * grid.ny));
+  const auto at = [&](double x, double y) {
+    return grid.cut_through[static_cast<std::size_t>(static_cast<int>(y / 0.5) * grid.nx) +
+                            static_cast<std::size_t>(x / 0.5)];
+  };
+  EXPECT_EQ(at(10, 20), 3u);
+  EXPECT_EQ(at(25, 20), 4u);
+  EXPECT_EQ(at(40, 20), 7u);    // in the neck
+  EXPECT_EQ(at(43.2, 20), 7u);  // the head has passed all of it from above
+  EXPECT_EQ(at(2, 2), kStockSurface);
+}
+
+TEST(Simulate, EveryEndKnowsTheStepThatMadeIt) {
+  Path path;  // 0 tool, 1 rapid, 2 plunge, 3 slot, 4 tool, 5 rapid, 6 beside, 7 undercut through the slot's
+              // end
+  path.tool(1).rapid({10, 20, 2}).cut({10, 20, -2}).cut({30, 20, -2});
+  path.tool(2).rapid({-6, 20, 2}).cut({-6, 20, -8}).cut({20, 20, -8});
+  Diagnostics diagnostics;
+  const auto result =
+      run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics);
+  ASSERT_TRUE(result);
+  const auto at = [&](double x, double y) {
+    return result->workpiece.column(static_cast<int>(x / 0.5), static_cast<int>(y / 0.5));
+  };
+  EXPECT_EQ(at(45, 5).at(0).high_step, kStockSurface);
+  EXPECT_EQ(at(28, 20).at(0).high_step, 3u);
+  EXPECT_EQ(at(9, 20).at(0).high_step, 7u);  // the neck is in the column: nothing stands above the head
+  const auto roofed = at(5, 23.2);           // beyond the neck, within the head
+  ASSERT_EQ(roofed.size(), 2u);
+  EXPECT_EQ(roofed[0].high_step, 7u);
+  EXPECT_EQ(roofed[0].low_step, kStockSurface);
+  EXPECT_EQ(roofed[1].low_step, 7u);
+  EXPECT_EQ(roofed[1].high_step, kStockSurface);
+  EXPECT_NEAR(roofed[0].high, 2.0, 1e-4);
+  EXPECT_NEAR(roofed[1].low, 4.5, 1e-4);
+}
+
+TEST(Simulate, AColumnMayHaveManyIntervals) {
+  ToolTable tools;
+  tools.set(1, make_drawn(1, profile({{0, 0, 0}, {5, 0, 0}, {5, 0.5, 0}, {1, 0.5, 0}, {1, 40, 0}})));
+  Path path;
+  path.tool(1);
+  for (int k = 1; k <= 9; ++k)
+    path.rapid({-8, 10, 5}).cut({-8, 10, -2.0 * k}).cut({10, 10, -2.0 * k}).cut({-8, 10, -2.0 * k});
+  Diagnostics diagnostics;
+  const auto result = run(path.path(), tools, block({0, 0, -20}, {30, 20, 0}), 0.5, diagnostics);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->workpiece.column(10, 26).size(), 10u);
+  EXPECT_NEAR(result->stock.mm3() - result->removed.mm3(), result->workpiece.volume().mm3(), 0.01);
+}
+
+// ---- where a motion begins is not known
+
+TEST(UnknownPlaces, AProgramThatOnlyRetractsCutsNothing) {
+  Path path;
+  path.tool(1).rapid({0, 0, 5});
+  path.path().set_unknown_axes(1, 3);
+  path.rapid({20, 20, 5}).rapid({20, 20, -2});
+  path.path().set_unknown_axes(2, 0);
+  Diagnostics diagnostics;
+  Toolpath retract;
+  const auto here = retract.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+  retract.add(step::ToolChange{1}, here);
+  retract.set_unknown_axes(retract.add(step::Rapid{{0, 0, 5}}, here), 3);
+  const auto result =
+      run(retract, square_and_keyhole(), block({-10, -10, -10}, {10, 10, 0}), 0.5, diagnostics);
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->removed.mm3(), 0.0);
+  EXPECT_TRUE(result->hazards.empty());
+}
+
+TEST(UnknownPlaces, ARapidFromAnUnknownPlaceIsSweptAtItsEndOnly) {
+  Toolpath path;
+  const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+  path.add(step::ToolChange{1}, here);
+  path.set_unknown_axes(path.add(step::Rapid{{0, 0, -2}}, here), 3);
+  path.add(step::Rapid{{25, 20, -2}}, here);
+  Diagnostics diagnostics;
+  const auto result = run(path, square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.1, diagnostics);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->hazards.size(), 1u);
+  EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * 9 * 2, 1.0);
+}
+
+TEST(UnknownPlaces, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
+  for (const unsigned unknown : {0u, 3u}) {
+    Toolpath path;
+    const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+    path.add(step::ToolChange{1}, here);
+    path.set_unknown_axes(path.add(step::Rapid{{0, 0, 5}}, here), unknown);
+    path.set_unknown_axes(path.add(step::Cut{{0, 0, -1}, mm_per_min(100)}, here), unknown);
+    path.set_unknown_axes(
+        path.add(step::Arc{.to = {0, 0, -1}, .centre = {10, 0}, .feed = mm_per_min(100)}, here), unknown);
+    Diagnostics diagnostics;
+    const auto result = run(path, square_and_keyhole(), block({-10, -20, -5}, {30, 20, 0}), 0.1, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_EQ(diagnostics.warnings(), unknown == 0 ? 0u : 1u);
+    EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * (13 * 13 - 7 * 7), 2.0);
+  }
+}
+
+TEST(UnknownPlaces, ACutFromAnUnknownHeightComesFromAbove) {
+  Toolpath path;
+  const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+  path.add(step::ToolChange{1}, here);
+  path.set_unknown_axes(path.add(step::Rapid{{25, 20, 0}}, here), 4);
+  path.add(step::Cut{{25, 20, -3}, mm_per_min(100)}, here);
+  Diagnostics diagnostics;
+  const auto result = run(path, square_and_keyhole(), block({0, 0, -10}, {50, 40, 2}), 0.1, diagnostics);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * 9 * 5, 2.5);
+}
+
+// ---- refusals and warnings
+
+struct Refusal {
+  Diagnostics diagnostics;
+  bool ran = false;
+  bool says(Code code) const {
+    for (const Diagnostic& d : diagnostics.list())
+      if (d.code == code) return true;
+    return false;
+  }
+};
+Refusal attempt(const Toolpath& path, const ToolTable& tools, Stock stock = block({0, 0, -10}, {50, 40, 0}),
+                double pitch = 0.5) {
+  Refusal refusal;
+  refusal.ran = run(path, tools, stock, pitch, refusal.diagnostics).has_value();
+  return refusal;
+}
+Toolpath plain_cut(int tool) {
+  Path path;
+  return path.tool(tool).rapid({5, 5, 2}).cut({5, 5, -1}).path();
+}
+
+TEST(Refusals, UnknownTool) {
+  const Refusal refusal = attempt(plain_cut(77), square_and_keyhole());
+  EXPECT_FALSE(refusal.ran);
+  ASSERT_TRUE(refusal.says(Code::no_such_tool));
+  EXPECT_NE(refusal.diagnostics.list()[0].hint.find("\"square d="), std::string::npos);
+  EXPECT_NE(to_string(refusal.diagnostics.list()[0].where), "");
+}
+
+TEST(Refusals, NoToolChosen) {
+  Path path;
+  path.rapid({5, 5, 2}).cut({5, 5, -1});
+  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::no_tool_chosen));
+  ToolTable one;
+  one.set(9, make_drawn(9, profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}})));
+  EXPECT_TRUE(attempt(path.path(), one).ran);
+}
+
+TEST(Refusals, ResolutionAndStock) {
+  const double nan = std::nan("");
+  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), nan)
+                  .says(Code::bad_resolution));
+  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), -1)
+                  .says(Code::bad_resolution));
+  const Refusal fine =
+      attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {5000, 4000, 0}), 0.001);
+  ASSERT_TRUE(fine.says(Code::too_many_columns));
+  EXPECT_NE(fine.diagnostics.list()[0].hint.find("would do"), std::string::npos);
+  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), Stock{}).says(Code::stock_empty));
+  EXPECT_TRUE(
+      attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, nan, 0})).says(Code::stock_empty));
+  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {1e300, 40, 0}))
+                  .says(Code::stock_empty));
+}
+
+TEST(Refusals, TheResolutionSaidToDoDoes) {
+  const Stock stock = block({0, 0, -10}, {500, 400, 0});
+  Diagnostics diagnostics;
+  SimulationOptions options;
+  options.max_columns = 10'000;
+  options.resolution = mm(0.1);
+  ASSERT_FALSE(simulate(plain_cut(1), square_and_keyhole(), stock, options, diagnostics));
+  const std::string hint = diagnostics.list().at(0).hint;
+  options.resolution = mm(std::stod(hint.substr(hint.find_first_of("0123456789"))));
+  EXPECT_TRUE(simulate(plain_cut(1), square_and_keyhole(), stock, options, diagnostics));
+}
+
+TEST(Refusals, AutomaticResolution) {
+  Diagnostics diagnostics;
+  const auto result =
+      run(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {100, 100, 0}), 0, diagnostics);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(result->workpiece.pitch().mm(), 100 / std::sqrt(2.5e6), 1e-9);
+}
+
+TEST(Refusals, AbsurdMotions) {
+  Path path;
+  path.tool(1).rapid({5, 5, 2}).cut({1e300, 5, -1});
+  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::motion_out_of_range));
+}
+
+TEST(Warnings, WhatIsNotSimulatedIsSaid) {
+  Path path;
+  path.tool(1).rapid({5, 5, 2}).cut({5, 5, -1});
+  Toolpath& steps = path.path();
+  steps.set_extra(2, {.abc = std::array<double, 3>{10, 0, 0}, .z_correction = "#100"});
+  steps.add(step::Extrude{{6, 6, -1}, mm3(1), mm(0.4), mm(0.2), mm_per_min(900)}, path.origin());
+  const Refusal said = attempt(steps, square_and_keyhole());
+  EXPECT_TRUE(said.ran);
+  EXPECT_TRUE(said.says(Code::rotary_not_simulated));
+  EXPECT_TRUE(said.says(Code::z_correction_not_simulated));
+  EXPECT_TRUE(said.says(Code::extrusion_not_simulated));
+}
+
+TEST(Warnings, LongPathsAreSurveyedInPartsAndSayThingsOnce) {
+  Path path;
+  const auto cut_across = [&](int tool, double y) {
+    path.tool(tool).rapid({2, y, 5}).cut({2, y, -2}).cut({40, y, -2});
+  };
+  cut_across(1, 8);
+  for (int k = 0; k < 70000; ++k) path.rapid({40, 8, 5.0 + k % 2});
+  cut_across(3, 20);
+  const Refusal quiet = attempt(path.path(), square_and_keyhole());
+  EXPECT_TRUE(quiet.ran);
+  EXPECT_TRUE(quiet.diagnostics.list().empty());
+  for (int k = 0; k < 70000; ++k) path.rapid({40, 8, 5.0 + k % 2});
+  cut_across(2, 32);
+  for (const std::size_t step : {std::size_t{5}, std::size_t{70010}, path.path().size() - 1})
+    path.path().set_extra(step, {.abc = std::array<double, 3>{10, 0, 0}, .z_correction = ""});
+  for (const unsigned threads : {1u, 2u, 3u, 7u}) {
+    Diagnostics said;
+    const auto result =
+        run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, said, threads);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(said.list().size(), 1u) << threads << " threads";
+    EXPECT_EQ(said.list()[0].code, Code::rotary_not_simulated);
+    for (const std::size_t step : {std::size_t{3}, std::size_t{70007}, path.path().size() - 1})
+      EXPECT_GT(result->removed_by_step[step], 1.0f) << "step " << step;
+  }
+}
+
+TEST(Warnings, CoarseArcAndUnknownPlace) {
+  Path path;
+  path.tool(1).rapid({5, 5, 2}).cut({5, 5, -1});
+  path.arc({.to = {5, 5, -2}, .centre = {1e6, 5}, .extra_turns = 50, .feed = mm_per_min(9)});
+  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::coarse_arc));
+  Path unknown;
+  unknown.tool(1).cut({0, 0, -1});
+  unknown.path().set_unknown_axes(1, 3);
+  EXPECT_TRUE(attempt(unknown.path(), square_and_keyhole()).says(Code::cut_at_unknown_place));
+}
+
+TEST(Warnings, OnlyTheUnknownAxesAreNamed) {
+  const std::pair<unsigned, std::string_view> cases[] = {
+      {7, "said where X, Y and Z are; X0 and Y0 are taken, and without a Z nothing is cut"},
+      {2, "said where Y is; Y0 is taken"},
+      {4, "said where Z is; without it nothing is cut"}};
+  for (const auto& [axes, words] : cases) {
+    Path unknown;
+    unknown.tool(1).cut({0, 0, -1});
+    unknown.path().set_unknown_axes(1, axes);
+    const Refusal said = attempt(unknown.path(), square_and_keyhole());
+    ASSERT_TRUE(said.says(Code::cut_at_unknown_place));
+    const std::string& message = said.diagnostics.list().front().message;
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  }
+}
+
+class Stopper : public Progress {
+ public:
+  void phase(std::string_view what) override { phase_ = what; }
+  void report(double share) override { share_ = share; }
+  bool stop_requested() override { return true; }
+  std::string phase_;
+  double share_ = -1;
+};
+
+TEST(Simulate, StopsWhenAsked) {
+  Stopper stopper;
+  Diagnostics diagnostics;
+  SimulationOptions options;
+  options.resolution = mm(0.5);
+  const auto result = simulate(random_job(4, 50), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}),
+                               options, diagnostics, &stopper);
+  ASSERT_TRUE(result);
+  EXPECT_TRUE(result->stopped);
+  EXPECT_EQ(stopper.phase_, "cutting");
+}
+
+}  // namespace
+}  // namespace kerf::test

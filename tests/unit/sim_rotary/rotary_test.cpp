@@ -1,0 +1,321 @@
+// The rotary simulator against solids whose volume is known.
+#include "kerf/rotary.h"
+
+#include <gtest/gtest.h>
+
+#include "../path/jobs.h"
+
+namespace kerf::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// Toolpaths with an A.
+class RotaryPath {
+ public:
+  RotaryPath& tool(int number) { return path_.add(step::ToolChange{number}, here_), *this; }
+  RotaryPath& spindle(SpindleTurn turn) { return path_.add(step::Spindle{rpm(9000), turn}, here_), *this; }
+  RotaryPath& rapid(Point3 to, double a = 0.0) { return turned(path_.add(step::Rapid{to}, here_), a); }
+  RotaryPath& cut(Point3 to, double a = 0.0) {
+    return turned(path_.add(step::Cut{to, mm_per_min(500)}, here_), a);
+  }
+  RotaryPath& arc(Point3 to, Point2 centre) {
+    return turned(path_.add(step::Arc{.to = to, .centre = centre, .feed = mm_per_min(500)}, here_), 0.0);
+  }
+  /// Where X and Y are is not known from the first motion on.
+  RotaryPath& lost() {
+    for (std::size_t i = 0; i < path_.size(); ++i)
+      if (path_[i].is_motion()) path_.set_unknown_axes(i, 3);
+    return *this;
+  }
+  const Toolpath& path() const { return path_; }
+
+ private:
+  RotaryPath& turned(std::size_t i, double a) {
+    path_.set_extra(i, {std::array{a, 0.0, 0.0}, {}});
+    return *this;
+  }
+  Toolpath path_;
+  OriginId here_ = OriginId::none;
+};
+
+ToolTable one_tool(Profile cutting) {
+  ToolTable tools;
+  tools.set(1, make_drawn(1, std::move(cutting)));
+  return tools;
+}
+ToolTable square(double radius) { return one_tool(profile({{0, 0, 0}, {radius, 0, 0}, {radius, 60, 0}})); }
+
+const RoundBar kBar{20, 0, 30, 0, 0};
+
+std::optional<RotarySimulation> run(const RotaryPath& path, const ToolTable& tools, double pitch,
+                                    Diagnostics& diagnostics, unsigned threads = 1) {
+  SimulationOptions options;
+  options.resolution = mm(pitch);
+  options.threads = threads;
+  return simulate_rotary(path.path(), tools, kBar, options, diagnostics);
+}
+
+/// Area of the part of a disc beyond a chord that is `h` from its middle.
+double cap_area(double r, double h) { return r * r * std::acos(h / r) - h * std::sqrt(r * r - h * h); }
+
+TEST(Rotary, AnUntouchedBar) {
+  RotaryPath path;
+  path.tool(1).rapid({0, 0, 20}).rapid({30, 0, 20}, 400);
+  Diagnostics diagnostics;
+  const auto result = run(path, square(3), 0.2, diagnostics);
+  ASSERT_TRUE(result && diagnostics.list().empty());
+  EXPECT_NEAR(result->stock.mm3(), kPi * 100 * 30, 1e-2);
+  EXPECT_EQ(result->removed.mm3(), 0.0);
+  EXPECT_TRUE(result->hazards.empty());
+}
+
+TEST(Rotary, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
+  double removed[2] = {};
+  for (const bool lost : {false, true}) {
+    RotaryPath path;
+    path.tool(1).rapid({0, 0, 20}).cut({0, 0, 9}).arc({0, 0, 9}, {8, 0});
+    if (lost) path.lost();
+    Diagnostics diagnostics;
+    const auto result = run(path, square(3), 0.2, diagnostics);
+    ASSERT_TRUE(result);
+    removed[lost ? 1 : 0] = result->removed.mm3();
+  }
+  EXPECT_GT(removed[0], 50.0);
+  EXPECT_EQ(removed[1], removed[0]);
+}
+
+TEST(Rotary, AFlatByIndexing) {
+  // A wide tool levels one side at Z7; then the bar turns half round, and the other side.
+  RotaryPath path;
+  path.tool(1)
+      .rapid({-20, 0, 20})
+      .rapid({-20, 0, 7})
+      .cut({50, 0, 7})
+      .rapid({50, 0, 20})
+      .rapid({50, 0, 20}, 180);
+  path.rapid({50, 0, 7}, 180).cut({-20, 0, 7}, 180);
+  Diagnostics diagnostics;
+  const auto result = run(path, square(15), 0.1, diagnostics);
+  ASSERT_TRUE(result && diagnostics.list().empty());
+  const double exact = 2 * cap_area(10, 7) * 30;
+  EXPECT_NEAR(result->removed.mm3(), exact, 2e-3 * exact);
+  EXPECT_NEAR(result->workpiece.volume().mm3(), result->stock.mm3() - result->removed.mm3(), 1e-2);
+  EXPECT_TRUE(result->hazards.empty());
+  const auto& up = result->workpiece.rays[result->workpiece.along / 2];  // nearly A0
+  ASSERT_EQ(up.size(), 1u);
+  EXPECT_NEAR(static_cast<double>(up[0].high), 7.0, 0.01);
+  EXPECT_EQ(up[0].high_step, 3u);
+}
+
+TEST(Rotary, IndexedHolesComeFromTheirSides) {
+  RotaryPath path;
+  path.tool(1).rapid({10, 0, 20});
+  for (const double a : {0.0, 90.0})
+    path.rapid({10 + a / 10, 0, 20}, a).cut({10 + a / 10, 0, 4}, a).rapid({10 + a / 10, 0, 20}, a);
+  Diagnostics diagnostics;
+  const auto result = run(path, square(2), 0.05, diagnostics);
+  ASSERT_TRUE(result);
+  // Each hole reaches from the surface sqrt(100 - y^2) down to 4.
+  double exact = 0.0;
+  for (int k = 0; k < 2000; ++k) {
+    const double y = -2 + 4 * (k + 0.5) / 2000;
+    exact += 2 * 2 * std::sqrt(4 - y * y) * (std::sqrt(100 - y * y) - 4) * 4 / 2000;
+  }
+  EXPECT_NEAR(result->removed.mm3(), exact, 5e-3 * exact);
+  // A90 takes the tool from Z+ to Y-, which is ray number around / 4.
+  const auto& side = result->workpiece.rays[static_cast<std::size_t>(result->workpiece.around / 4) *
+                                                static_cast<std::size_t>(result->workpiece.along) +
+                                            static_cast<std::size_t>(19 / result->workpiece.dx)];
+  EXPECT_NEAR(static_cast<double>(side.back().high), 4.0, 0.02);
+}
+
+TEST(Rotary, TurningWhileCuttingMakesAGroove) {
+  // A square tool of 4 mm that stands still at Z8 while the bar turns once: a groove. Its floor is round;
+  // under a tool of that width it is a polygon's envelope, for the tool reaches beyond the axis line.
+  RotaryPath path;
+  path.tool(1).rapid({15, 0, 20}).cut({15, 0, 8}).cut({15, 0, 8}, 360);
+  Diagnostics diagnostics;
+  const auto result = run(path, square(2), 0.1, diagnostics);
+  ASSERT_TRUE(result && diagnostics.list().empty());
+  // At distance dx from the middle the tool is 2 sqrt(4 - dx^2) wide, and its bottom is nearest to the axis
+  // in its middle: 8. So every ray within 2 mm is cut to 8.
+  const double exact = kPi * (100 - 64) * 4;
+  EXPECT_NEAR(result->removed.mm3(), exact, 5e-3 * exact);
+  double lowest = 100, highest = 0;
+  for (int j = 0; j < result->workpiece.around; ++j) {
+    const auto& ray =
+        result->workpiece
+            .rays[static_cast<std::size_t>(j) * static_cast<std::size_t>(result->workpiece.along) +
+                  static_cast<std::size_t>(15 / result->workpiece.dx)];
+    lowest = std::min(lowest, static_cast<double>(ray.back().high));
+    highest = std::max(highest, static_cast<double>(ray.back().high));
+  }
+  EXPECT_NEAR(lowest, 8.0, 1e-3);
+  EXPECT_NEAR(highest, 8.0, 2e-3);
+}
+
+TEST(Rotary, ABallFollowsAHelix) {
+  RotaryPath path;
+  path.tool(1).rapid({5, 0, 20}).cut({5, 0, 9}).cut({25, 0, 9}, 720);
+  Diagnostics diagnostics;
+  const ToolTable ball = one_tool(profile({{0, 0, kQuarter}, {1.5, 1.5, 0}, {1.5, 12, 0}}));
+  const auto coarse = run(path, ball, 0.1, diagnostics), fine = run(path, ball, 0.05, diagnostics);
+  ASSERT_TRUE(coarse && fine);
+  EXPECT_NEAR(coarse->removed.mm3(), fine->removed.mm3(), 5e-3 * fine->removed.mm3());
+  // A groove 1 mm deep of a ball of 1.5: area of a segment times the way of its centroid, nearly.
+  const double segment = cap_area(1.5, 0.5), way = std::hypot(20.0, 4 * kPi * 9.4);
+  EXPECT_NEAR(fine->removed.mm3(), segment * way, 0.05 * segment * way);
+}
+
+TEST(Rotary, HazardsAreTold) {
+  ToolTable tools = square(2);
+  Tool tool = make_drawn(1, profile({{0, 0, 0}, {2, 0, 0}, {2, 3, 0}}));
+  tool.silhouette.shank = profile({{4, 3, 0}, {4, 40, 0}});
+  tools.set(1, tool);
+  RotaryPath path;
+  path.tool(1).rapid({15, 0, 20}).rapid({15, 0, 9}).rapid({15, 0, 20});  // 1 mm into the bar
+  path.rapid({5, 0, 20}).cut({5, 0, 5});                                 // 5 deep with a flute of 3
+  Diagnostics diagnostics;
+  const auto result = run(path, tools, 0.1, diagnostics);
+  ASSERT_TRUE(result);
+  std::vector<std::pair<HazardKind, std::uint32_t>> found;
+  for (const Hazard& h : result->hazards) found.emplace_back(h.kind, h.step);
+  const std::vector<std::pair<HazardKind, std::uint32_t>> expected{{HazardKind::rapid_in_stock, 2},
+                                                                   {HazardKind::shank_contact, 5}};
+  EXPECT_EQ(found, expected);
+  EXPECT_NEAR(result->hazards[0].depth.mm(), 1.0, 0.02);
+  EXPECT_NEAR(result->hazards[0].at.z, 10.0, 0.05);
+  EXPECT_NEAR(result->hazards[1].depth.mm(), 2.0, 0.02);
+}
+
+TEST(Rotary, RapidsThroughTheBarAreTold) {
+  // Above, at and below the axis, and with the flutes below the bar; a tool of 4 mm with a flute of 5.
+  const ToolTable tools = one_tool(profile({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}}));
+  for (const double z : {9.0, 1.0, 0.0, -3.0, -10.0, -40.0}) {
+    RotaryPath path;
+    path.tool(1).rapid({15, -30, z}).rapid({15, 30, z});
+    Diagnostics diagnostics;
+    const auto result = run(path, tools, 0.2, diagnostics);
+    ASSERT_TRUE(result);
+    ASSERT_EQ(result->hazards.size(), 1u) << z;
+    EXPECT_EQ(result->hazards[0].kind, HazardKind::rapid_in_stock);
+    EXPECT_EQ(result->hazards[0].step, 2u);
+    EXPECT_NEAR(result->hazards[0].depth.mm(), std::min(10.0 - z, 10.0), 0.03) << z;
+    const double exact = 4 * (z <= -10 ? kPi * 100 : cap_area(10, z));
+    EXPECT_NEAR(result->removed.mm3(), exact, 0.03 * exact) << z;
+  }
+}
+
+TEST(Rotary, NearMissesAndGrazes) {
+  // A hundredth over and into the bar's top, and a ray's distance beside and into its side.
+  struct Limit {
+    const char* name;
+    double y, z;  // of the tip at the limit
+    double step;
+    bool is_rapid;
+  };
+  const ToolTable tools = one_tool(profile({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}}));
+  for (const Limit& limit :
+       {Limit{"rapid over it", 0, 10, 0.01, true}, Limit{"rapid beside it", 12, -4, 0.1, true},
+        Limit{"rapid beside it, above the flutes", 12, -30, 0.1, true},
+        Limit{"spindle off, over it", 0, 10, 0.01, false}}) {
+    for (const double beyond : {-limit.step, 0.0, limit.step}) {
+      SCOPED_TRACE(testing::Message() << limit.name << " " << beyond);
+      const bool over = limit.y == 0;
+      const Point3 from{-10, limit.y - (over ? 0 : beyond), limit.z - (over ? beyond : 0)};
+      const Point3 to{40, from.y, from.z};
+      RotaryPath path;
+      path.tool(1).spindle(limit.is_rapid ? SpindleTurn::cw : SpindleTurn::off).rapid({-10, 0, 40});
+      path.rapid(from);
+      limit.is_rapid ? path.rapid(to) : path.cut(to);
+      Diagnostics diagnostics;
+      const auto result = run(path, tools, 0.1, diagnostics);
+      ASSERT_TRUE(result);
+      ASSERT_EQ(result->hazards.size(), beyond > 0 ? 1u : 0u);
+      if (beyond <= 0) continue;
+      EXPECT_EQ(result->hazards[0].kind,
+                limit.is_rapid ? HazardKind::rapid_in_stock : HazardKind::spindle_off);
+      if (over) {
+        EXPECT_NEAR(result->hazards[0].depth.mm(), 0.01, 1e-3);
+      }
+    }
+  }
+}
+
+TEST(Rotary, ACutAboveTheFlutesIsTold) {
+  RotaryPath path;
+  path.tool(1).rapid({-5, 0, 20}).rapid({-5, 0, 5}).cut({10, 0, 5});
+  Diagnostics diagnostics;
+  const auto result = run(path, one_tool(profile({{0, 0, 0}, {2, 0, 0}, {2, 3, 0}})), 0.1, diagnostics);
+  ASSERT_TRUE(result);
+  ASSERT_EQ(result->hazards.size(), 1u);
+  EXPECT_EQ(result->hazards[0].kind, HazardKind::over_flute);
+  EXPECT_NEAR(result->hazards[0].depth.mm(), 2.0, 0.03);
+}
+
+TEST(Rotary, TheSameWithAnyNumberOfThreads) {
+  RotaryPath path;
+  path.tool(1).rapid({5, 0, 20}).cut({5, 1, 9}).cut({25, -3, 6}, 720).rapid({5, 0, 7}, 400);
+  Diagnostics diagnostics;
+  const auto a = run(path, square(2), 0.2, diagnostics, 1), b = run(path, square(2), 0.2, diagnostics, 3);
+  ASSERT_TRUE(a && b);
+  EXPECT_EQ(a->removed.mm3(), b->removed.mm3());
+  EXPECT_EQ(a->removed_by_step, b->removed_by_step);
+  ASSERT_EQ(a->hazards.size(), b->hazards.size());
+}
+
+TEST(Rotary, TheMeshIsClosedAndHoldsTheVolume) {
+  RotaryPath path;
+  path.tool(1)
+      .rapid({5, 0, 20})
+      .cut({5, 0, 9})
+      .cut({25, 0, 7}, 720)
+      .rapid({15, 0, 20}, 720)
+      .cut({15, 0, -20}, 765);
+  Diagnostics diagnostics;
+  const auto result = run(path, square(2), 0.15, diagnostics);
+  ASSERT_TRUE(result);
+  const MeshCheck check = check_mesh(extract_mesh(result->workpiece));
+  EXPECT_EQ(check.bad_edges, 0u);
+  EXPECT_NEAR(check.volume.mm3(), result->workpiece.volume().mm3(), 5e-3 * check.volume.mm3());
+  const VolumeRange range = mesh_volume(result->workpiece);
+  EXPECT_NEAR(range.expected.mm3(), result->workpiece.volume().mm3(), 1e-6 * check.volume.mm3());
+  EXPECT_NEAR(check.volume.mm3(), range.expected.mm3(), range.tolerance.mm3());
+  EXPECT_LT(range.tolerance.mm3(), 0.2 * check.volume.mm3());
+}
+
+TEST(Rotary, TheDistanceThatIsChosenFollowsTheBar) {
+  struct Case {
+    RoundBar bar;
+    double distance;
+  };
+  // sqrt(length * girth / 100,000), but from 0.02 to 1 mm.
+  for (const Case& c : {Case{{10, 0, 60, 0, 0}, 0.1373}, Case{{40, 0, 100, 0, 0}, 0.3545},
+                        Case{{1, 0, 5, 0, 0}, 0.02}, Case{{300, 0, 2000, 0, 0}, 1.0}}) {
+    RotaryPath path;
+    path.tool(1).rapid({0, 0, 1000});
+    Diagnostics diagnostics;
+    const auto result = simulate_rotary(path.path(), square(3), c.bar, {}, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->workpiece.dx, c.distance, 0.01 * c.distance);
+    EXPECT_NEAR(kPi * c.bar.diameter / result->workpiece.around, c.distance, 0.01 * c.distance);
+  }
+}
+
+TEST(Rotary, WhatCannotBeDoneIsTold) {
+  RotaryPath path;
+  path.tool(1).rapid({5, 0, 20}).cut({5, 0, 9}, 3.6e9);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(run(path, square(2), 0.1, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::rotary_limit);
+  RotaryPath no_tool;
+  no_tool.tool(7).cut({5, 0, 9});
+  EXPECT_FALSE(run(no_tool, square(2), 0.1, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::no_such_tool);
+  EXPECT_FALSE(simulate_rotary(path.path(), square(2), {0, 0, 10, 0, 0}, {}, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::stock_empty);
+}
+
+}  // namespace
+}  // namespace kerf::test
