@@ -11,7 +11,11 @@
 #include <optional>
 #include <vector>
 
-#include "kerf/simulate.h"
+#include "kerf/diagnostics.h"
+#include "kerf/progress.h"
+#include "kerf/render.h"
+#include "kerf/stock_body.h"
+#include "kerf/workpiece.h"
 
 namespace kerf {
 

@@ -5,8 +5,12 @@
 #include <optional>
 
 #include "kerf/diagnostics.h"
+#include "kerf/mesh.h"
 #include "kerf/progress.h"
-#include "kerf/simulate.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
+#include "kerf/workpiece.h"
 
 namespace kerf {
 

@@ -8,7 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "kerf/simulate.h"
+#include "kerf/diagnostics.h"
+#include "kerf/progress.h"
+#include "kerf/simulation_options.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
 
 namespace kerf {
 

@@ -13,7 +13,14 @@
 #include <optional>
 #include <vector>
 
-#include "kerf/simulate.h"
+#include "kerf/diagnostics.h"
+#include "kerf/hazard.h"
+#include "kerf/progress.h"
+#include "kerf/simulation_options.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
+#include "kerf/workpiece.h"
 
 namespace kerf {
 

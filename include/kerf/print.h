@@ -17,7 +17,7 @@
 // Filament that is pushed while the nozzle stands first makes good what was drawn back; more of it is a
 // *blob*, which is told and not laid, since nothing tells its shape. So is a "road" wider than kWidestRoad.
 //
-// Material is columns of intervals, as in simulate.h; they stand on the bed and grow by union. Each interval
+// Material is columns of intervals, as in workpiece.h; they stand on the bed and grow by union. Each interval
 // end has the step that made it, the earlier one where two made it. Lengths in mm, work coordinates.
 //
 //   extruded = laid - ends + overlap + blobs
@@ -33,10 +33,11 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/mesh.h"
 #include "kerf/progress.h"
-#include "kerf/simulate.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
+#include "kerf/workpiece.h"
 
 namespace kerf {
 

@@ -18,8 +18,15 @@
 #include <optional>
 #include <vector>
 
+#include "kerf/diagnostics.h"
+#include "kerf/hazard.h"
+#include "kerf/mesh.h"
+#include "kerf/progress.h"
 #include "kerf/round_bar.h"
-#include "kerf/simulate.h"
+#include "kerf/simulation_options.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
+#include "kerf/workpiece.h"
 
 namespace kerf {
 

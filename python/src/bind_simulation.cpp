@@ -10,6 +10,7 @@
 #include "kerf/image_files.h"
 #include "kerf/mesh_files.h"
 #include "kerf/number.h"
+#include "kerf/render.h"
 #include "kerf/simulate.h"
 #include "kerf/tool_files.h"
 

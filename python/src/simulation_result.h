@@ -6,6 +6,7 @@
 
 #include "bindings.h"
 
+#include "kerf/mesh.h"
 #include "kerf/simulate.h"
 
 namespace kerf::python {

@@ -11,6 +11,7 @@
 #include "kerf/files.h"
 #include "kerf/mesh_files.h"
 #include "kerf/progress.h"
+#include "kerf/render.h"
 #include "kerf/simulate.h"
 
 namespace kerf::app {

@@ -16,6 +16,7 @@
 #include "kerf/simulate.h"
 #endif
 #ifdef KERF_HAS_CODEC_MESH
+#include "kerf/mesh.h"
 #include "kerf/mesh_files.h"
 #endif
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kerf/simulate.h"
+
 namespace kerf {
 namespace {
 

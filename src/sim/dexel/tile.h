@@ -13,7 +13,7 @@
 #include "sim/dexel/blocks.h"
 #include "sim/dexel/slots.h"
 
-#include "kerf/simulate.h"
+#include "kerf/workpiece.h"
 
 namespace kerf::sim {
 

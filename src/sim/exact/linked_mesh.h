@@ -11,7 +11,7 @@
 #include "sim/mesh/mesh_build.h"
 
 #include "kerf/geometry.h"
-#include "kerf/simulate.h"
+#include "kerf/mesh.h"
 
 namespace kerf::sim {
 

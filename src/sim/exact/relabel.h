@@ -1,7 +1,7 @@
 // Whose the triangles of a sharpened mesh are.
 #pragma once
 
-#include "kerf/simulate.h"
+#include "kerf/mesh.h"
 
 namespace kerf::sim {
 

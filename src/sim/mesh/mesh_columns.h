@@ -11,7 +11,7 @@
 
 #include "sim/dexel/blocks.h"
 
-#include "kerf/simulate.h"
+#include "kerf/mesh.h"
 
 namespace kerf::meshing {
 

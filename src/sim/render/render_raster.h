@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "kerf/geometry.h"
-#include "kerf/simulate.h"
+#include "kerf/render.h"
 
 namespace kerf::rendering {
 

@@ -8,7 +8,10 @@
 
 #include "sim/sweep/sweep.h"
 
-#include "kerf/simulate.h"
+#include "kerf/diagnostics.h"
+#include "kerf/simulation_options.h"
+#include "kerf/stock.h"
+#include "kerf/tool.h"
 #include "kerf/toolpath.h"
 
 namespace kerf::sim {

@@ -7,7 +7,7 @@
 
 #include "sim/sweep/solid.h"
 
-#include "kerf/simulate.h"
+#include "kerf/hazard.h"
 #include "kerf/tool.h"
 
 namespace kerf::sim {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <random>
 
+#include "kerf/simulate.h"
+
 namespace kerf {
 namespace {
 

@@ -4,6 +4,7 @@
 #include "../sim_cut/cut_jobs.h"
 #include "../stock/solids.h"
 
+#include "kerf/mesh.h"
 #include "kerf/stock_body.h"
 
 namespace kerf::test {

@@ -1,5 +1,7 @@
 // The columns' surface: closed for every configuration, right in volume and place, with the steps that made
 // it.
+#include "kerf/mesh.h"
+
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -11,8 +13,6 @@
 #include <optional>
 #include <random>
 #include <set>
-
-#include "kerf/simulate.h"
 
 namespace kerf {
 namespace {

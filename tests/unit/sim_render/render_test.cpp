@@ -1,10 +1,10 @@
 // Proof pictures: views by name, where the part lies in the picture, light on its faces, and the same picture
 // twice.
+#include "kerf/render.h"
+
 #include <array>
 #include <cstdlib>
 #include <gtest/gtest.h>
-
-#include "kerf/simulate.h"
 
 namespace kerf {
 namespace {

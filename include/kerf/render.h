@@ -1,0 +1,45 @@
+// Pictures of meshes.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "kerf/geometry.h"
+#include "kerf/mesh.h"
+#include "kerf/units.h"
+
+namespace kerf {
+
+/// A section of the part in a picture: what is on the viewer's side of a plane is left out, and where the
+/// plane goes through material its face is drawn in kSectionColour, without shading.
+struct Section {
+  Plane plane = Plane::yz;  // parallel to it
+  double at = 0.0;          // mm along the third axis, work coordinates
+};
+inline constexpr std::array<std::uint8_t, 3> kSectionColour{247, 226, 92};  // sRGB
+
+/// The direction from which a picture is taken, its size, and its section.
+struct View {
+  Angle azimuth = degrees(-35);     // about Z; 0: from the front, along +Y
+  Angle elevation = degrees(50);    // above the horizon; 90: from above
+  int width = 1600, height = 1000;  // pixels
+  std::optional<Section> section = {};
+};
+/// Whether the face of a section is visible; in a view along the plane only its edge is.
+bool faces(const View& view, const Section& section);
+/// Of "top", "bottom", "front", "back", "left", "right" or "iso"; of any other name nothing.
+std::optional<View> named_view(std::string_view name);
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgba;  // rows from the top
+};
+/// Draws a mesh with shading, fitted to the picture; `colours` has one sRGB colour per triangle (missing ones
+/// are drawn grey). Sizes are limited to 1 to 8192 pixels per side.
+Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
+
+}  // namespace kerf

@@ -1,0 +1,24 @@
+// What a simulation can be asked for, the same for three axes, four axes and fixtures.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "kerf/units.h"
+
+namespace kerf {
+
+/// What the solid is for: to be cut, or (fixtures.h) not to be touched at all. A no-go solid is never cut,
+/// and every cut into it is reported as HazardKind::spindle_off, as if the spindle were stopped.
+enum class SolidRole : std::uint8_t { stock, no_go };
+
+struct SimulationOptions {
+  Length resolution;     // column pitch; 0 chooses one: that of left-over stock, else about 2.5
+                         // million columns, from 0.02 to 1 mm; for a huge stock more
+  unsigned threads = 0;  // 0: as many as the machine has. The result is the same for any number.
+  std::size_t max_columns = 400'000'000;  // more is an error that names a possible resolution
+  Length hazard_depth = mm(0.001);        // contacts shallower than this are not hazards
+  SolidRole role = SolidRole::stock;
+};
+
+}  // namespace kerf
