@@ -23,6 +23,10 @@
 
 namespace kerf {
 
+/// Names of texts that are no files: the defines, and the files of Kerf's own library ("<kerf>/NAME").
+inline constexpr std::string_view kGcmcDefinesName = "<cmd-line defines>";
+inline constexpr std::string_view kGcmcLibraryPrefix = "<kerf>/";
+
 struct GcmcRun {
   Toolpath path;
   /// The real program's exit status: 0, 1 after errors, or what the program returned.

@@ -1,17 +1,17 @@
 // The kerf command: finds the subcommand, runs it, and turns what it says into an exit status.
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <fmt/format.h>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/commands/commands.h"
 #include "app/commands/gcmc.h"
-#include "app/options/command.h"
+#include "app/options/common.h"
 #include "app/report/terminal_progress.h"
-
-#include "kerf/program.h"
 
 namespace kerf::app {
 namespace {
@@ -69,7 +69,7 @@ Status run_asked(const std::vector<Command>& commands) {
 /// understands. A link to kerf with that program's name is that program.
 std::optional<int> run_drop_in(int argc, char** argv) {
   const std::string called = argc > 0 ? argv[0] : "";
-  const bool is_link = called.substr(folder_of(called).size()) == "gcmc";
+  const bool is_link = std::filesystem::path(called).filename() == "gcmc";
   if (!is_link && (argc < 2 || std::string_view(argv[1]) != "gcmc")) return std::nullopt;
   catch_interrupts();
   InterruptOnly progress;

@@ -1,9 +1,11 @@
-// Chooses the front end of a file.
+// Selects the front end of a file.
 #include "kerf/program.h"
 
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
+
+#include "job/front_ends.h"
 
 #include "kerf/names.h"
 
@@ -11,12 +13,7 @@ namespace kerf {
 namespace {
 
 constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
-constexpr std::size_t kBeginning = 4096;  // bytes looked at where the ending says nothing
-
-const std::vector<FrontEnd>& front_ends() {
-  static const std::vector<FrontEnd> all{gcode_front_end(), gcmc_front_end()};
-  return all;
-}
+constexpr std::size_t kFirstBytes = 4096;                      // examined where the ending is unknown
 
 std::string ending_of(std::string_view path) {
   const std::size_t slash = path.find_last_of("/\\");
@@ -33,10 +30,10 @@ const FrontEnd* by_ending(std::string_view ending) {
   return nullptr;
 }
 
-/// For a file whose ending says nothing: by its text, and the user is told.
+/// For a file with an unknown ending: by its text, with a note.
 const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   for (const FrontEnd& f : front_ends()) {
-    if (!f.looks_like(file.bytes().substr(0, kBeginning))) continue;
+    if (!f.looks_like(file.bytes().substr(0, kFirstBytes))) continue;
     diagnostics.note(Code::input_kind_guessed, TextSpot{file.path(), 0, 0},
                      fmt::format("the file's ending is not known; it looks like {} and is read so", f.name));
     return &f;
@@ -55,6 +52,11 @@ std::string folder_of(const std::string& file) {
   return slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
 }
 
+const std::vector<FrontEnd>& front_ends() {
+  static const std::vector<FrontEnd> all{gcode_front_end(), gcmc_front_end()};
+  return all;
+}
+
 std::string known_endings() {
   std::string text;
   for (const FrontEnd& f : front_ends()) {
@@ -64,17 +66,18 @@ std::string known_endings() {
   return text;
 }
 
-std::optional<LoadedProgram> load_program(const std::string& path, Diagnostics& diagnostics,
-                                          Progress* progress, const InputOptions& options) {
+std::optional<Program> load_program(const std::string& path, const ProgramOptions& options,
+                                    Diagnostics& diagnostics, Progress* progress) {
   if (progress != nullptr) progress->phase("reading");
   const std::optional<InputFile> file = InputFile::open(path, diagnostics, kLargestProgram, progress);
   if (!file) return std::nullopt;
   const FrontEnd* front_end = path == "-" ? &front_ends().front() : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);
   if (front_end == nullptr) return std::nullopt;
-  LoadedProgram program = front_end->read(*file, options, diagnostics, progress);
+  Program program = front_end->read(*file, options, diagnostics, progress);
   program.source = file->path();
   program.front_end = front_end->name;
+  program.files.insert(program.files.begin(), file->path());
   if (program.path.size() == 0 && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextSpot{program.source, 0, 0},
                       "the program is empty: nothing in it makes a step");

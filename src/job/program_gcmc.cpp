@@ -3,20 +3,21 @@
 #include <string>
 #include <utility>
 
+#include "job/front_ends.h"
+
 #include "kerf/gcmc.h"
-#include "kerf/program.h"
 
 namespace kerf {
 namespace {
 
-/// What a program says with message() has no place in a report; warnings and errors are in the diagnostics.
-class Unheard final : public GcmcOutput {
+/// Drops the texts of message(); warnings and errors are in the diagnostics.
+class NoOutput final : public GcmcOutput {
  public:
   void message(const GcmcMessage&) override {}
   void text(std::string_view) override {}
 };
 
-/// Statements such as include("..."), goto([...]) or feedrate(...) at the begin of a line.
+/// Statements such as include("..."), goto([...]) or feedrate(...) at the start of a line.
 bool looks_like_gcmc(std::string_view text) {
   for (const std::string_view word : {"include(\"", "goto([", "move([", "feedrate("})
     if (text.substr(0, word.size()) == word || text.find("\n" + std::string(word)) != std::string_view::npos)
@@ -32,16 +33,30 @@ std::optional<Stock> stock_of(const Toolpath& path, Diagnostics& diagnostics) {
   return comments.stock();
 }
 
-LoadedProgram read(const InputFile& file, const InputOptions&, Diagnostics& diagnostics, Progress* progress) {
+/// The files among the texts of a run: not the defines, nor Kerf's own library.
+std::vector<std::string> files_of(const GcmcRun& run, const std::string& program) {
+  std::vector<std::string> files;
+  for (const auto& [name, text] : run.sources)
+    if (name != program && name != kGcmcDefinesName && name.rfind(kGcmcLibraryPrefix, 0) != 0)
+      files.push_back(name);
+  return files;
+}
+
+Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& diagnostics,
+             Progress* progress) {
   GcmcOptions options;
   options.file_name = file.path();
+  options.defines = input.defines;
   if (std::string folder = folder_of(file.path()); !folder.empty()) options.include_paths.push_back(folder);
-  Unheard output;
+  options.include_paths.insert(options.include_paths.end(), input.include_paths.begin(),
+                               input.include_paths.end());
+  NoOutput output;
   GcmcRun run = run_gcmc(file.bytes(), options, output, diagnostics, progress);
-  LoadedProgram loaded;
-  loaded.stock = stock_of(run.path, diagnostics);
-  loaded.path = std::move(run.path);
-  return loaded;
+  Program program;
+  program.stock = stock_of(run.path, diagnostics);
+  program.files = files_of(run, options.file_name);
+  program.path = std::move(run.path);
+  return program;
 }
 
 }  // namespace

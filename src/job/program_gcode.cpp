@@ -1,16 +1,19 @@
 // G-code as a way in.
+#include <algorithm>
 #include <cctype>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "job/front_ends.h"
 
 #include "kerf/gcode.h"
-#include "kerf/program.h"
 
 namespace kerf {
 namespace {
 
-/// Text in which a line begins with a word such as G0, M3, T1, N10 or X5, or with % or a comment and then
+/// Text in which a line starts with a word such as G0, M3, T1, N10 or X5, or with % or a comment and then
 /// such a line.
 bool looks_like_gcode(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) return false;
@@ -31,16 +34,19 @@ bool looks_like_gcode(std::string_view text) {
 }
 
 /// Text of a subroutine's file beside the program; nothing where there is none.
-std::optional<std::string> read_beside(const std::string& program, const std::string& name) {
+std::optional<std::string> read_beside(const std::string& program, const std::string& name,
+                                       std::vector<std::string>& files) {
   constexpr std::size_t kLargestSub = std::size_t{64} << 20;
-  Diagnostics unheard;  // the call itself is reported
-  const auto file = InputFile::open(folder_of(program) + name, unheard, kLargestSub);
+  Diagnostics ignored;  // the call itself is reported
+  const auto file = InputFile::open(folder_of(program) + name, ignored, kLargestSub);
   if (!file) return std::nullopt;
+  if (std::find(files.begin(), files.end(), file->path()) == files.end()) files.push_back(file->path());
   return std::string(file->bytes());
 }
 
-LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics& diagnostics,
-                   Progress* progress) {
+Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& diagnostics,
+             Progress* progress) {
+  Program program;
   GcodeReadOptions options;
   const bool streamed = input.machine && input.machine->controller == Controller::grbl;
   if (input.read_on || streamed) options.after_end = AfterEnd::read_on;
@@ -49,17 +55,14 @@ LoadedProgram read(const InputFile& file, const InputOptions& input, Diagnostics
   options.filament_diameter = input.filament_diameter;
   options.tool_diameter = input.tool_diameter;
   options.file_name = file.path();
-  options.read_file = [&file](const std::string& name) { return read_beside(file.path(), name); };
-  GcodeProgram program = read_gcode(file.bytes(), options, diagnostics, progress);
-  LoadedProgram loaded;
-  loaded.path = std::move(program.path);
-  loaded.units = program.inch ? InputUnits::inch : InputUnits::mm;
-  loaded.tools = std::move(program.tools);
-  loaded.stock = program.stock;
-  loaded.end = program.cut_short ? ProgramEnd::not_asked
-               : program.ended   ? ProgramEnd::seen
-                                 : ProgramEnd::missing;
-  return loaded;
+  options.read_file = [&](const std::string& name) { return read_beside(file.path(), name, program.files); };
+  GcodeProgram read = read_gcode(file.bytes(), options, diagnostics, progress);
+  program.path = std::move(read.path);
+  program.units = read.inch ? ProgramUnits::inch : ProgramUnits::mm;
+  program.tools = std::move(read.tools);
+  program.stock = read.stock;
+  program.end = read.cut_short ? ProgramEnd::not_asked : read.ended ? ProgramEnd::seen : ProgramEnd::missing;
+  return program;
 }
 
 }  // namespace

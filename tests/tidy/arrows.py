@@ -57,7 +57,7 @@ ALLOWED = {
     }),
     "job": BELOW_JOB,
     "app": BELOW_JOB | {"job"},
-    **rooms("app", BELOW_JOB | {"job", "app"}, {
+    **rooms("app", BELOW_JOB | {"job"}, {
         "report": [],
         "options": ["report"],
         "commands": ["options", "report"],
@@ -95,7 +95,7 @@ PUBLIC = {
     "codec_drawing": ["drawing_files.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_png": ["image_files.h"],
-    "job": ["program.h"],
+    "job": ["program.h", "job.h", "findings.h", "outputs.h", "posting.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

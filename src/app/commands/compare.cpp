@@ -6,11 +6,12 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/options/command.h"
-#include "app/outputs.h"
+#include "app/commands/commands.h"
+#include "app/options/common.h"
+#include "app/options/job_options.h"
+#include "app/options/output_options.h"
 #include "app/report/terminal_progress.h"
 
-#include "kerf/image_files.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
 
@@ -21,7 +22,6 @@ constexpr double kColumns = 1e6;                                  // of the usua
 constexpr double kFinest = 0.0005, kCoarsest = 50.0;              // mm, --resolution
 constexpr double kLeastTolerance = 1e-4, kMostTolerance = 100.0;  // mm
 constexpr double kFullColour = 5.0;                               // times the tolerance
-constexpr int kMapPixels = 1600;                                  // a side
 constexpr std::size_t kMostLines = 12;                            // of regions as text
 
 struct Options {
@@ -40,7 +40,7 @@ struct Result {
   const Job& job;
   const Simulation& simulation;
   const Comparison& comparison;
-  const std::vector<OutputFile>& outputs;
+  const std::vector<PartFile>& outputs;
 };
 
 Length full_colour(const Options& options) { return mm(kFullColour * options.tolerance); }
@@ -109,48 +109,15 @@ void show_summary(Console& console, const Result& result) {
   if (c.region_count == 0) console.summary("the part is its target, within the tolerance");
 }
 
-/// The part's surface in the colours of the map.
-std::string solid_picture(const Result& result, const Mesh& mesh, const View& view) {
-  const Comparison& c = result.comparison;
-  const Box3& block = result.simulation.workpiece.bounds();
-  const double pitch = result.simulation.workpiece.pitch().mm();
-  const auto column = [pitch](double v, double low, int count) {
-    return static_cast<std::size_t>(std::clamp(static_cast<int>((v - low) / pitch), 0, count - 1));
-  };
-  std::vector<std::array<std::uint8_t, 3>> colours;
-  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
-    double x = 0.0, y = 0.0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      x += static_cast<double>(mesh.positions[std::size_t{3} * mesh.triangles[t + k]]) / 3.0;
-      y += static_cast<double>(mesh.positions[std::size_t{3} * mesh.triangles[t + k] + 1]) / 3.0;
-    }
-    const std::size_t n =
-        column(y, block.low.y, c.ny) * static_cast<std::size_t>(c.nx) + column(x, block.low.x, c.nx);
-    const auto depth = static_cast<double>(c.map[n]);
-    colours.push_back(depth == 0.0 ? std::array<std::uint8_t, 3>{176, 206, 160}
-                                   : difference_colour(depth, full_colour(result.options)));
-  }
-  const Image image = render(mesh, colours, view);
-  return write_png({image.width, image.height, image.rgba});
-}
-
-bool write_pictures(const Result& result, const std::optional<View>& view, OutputSet& files,
+/// All pictures are of one view, so that they are drawn once.
+bool write_pictures(const Result& result, const std::optional<View>& view, OutputSet& set,
                     Diagnostics& diagnostics, Progress& progress) {
-  Mesh mesh;
-  if (view && !result.outputs.empty()) {
-    mesh = extract_mesh(MeshColumns(result.simulation.workpiece), {}, &progress);
-    if (progress.stop_requested() || !section_meets(mesh, *view, diagnostics)) return false;
-  }
-  for (const OutputFile& file : result.outputs) {
-    std::string bytes;
-    if (view) {
-      bytes = solid_picture(result, mesh, *view);
-    } else {
-      const Image map = draw_map(result.comparison, full_colour(result.options), kMapPixels);
-      bytes = write_png({map.width, map.height, map.rgba});
-    }
-    if (progress.stop_requested() || !files.write(file.path, bytes, diagnostics)) return false;
-  }
+  if (result.outputs.empty()) return true;
+  const auto png = comparison_picture(result.simulation, result.comparison, full_colour(result.options), view,
+                                      diagnostics, &progress);
+  if (!png) return false;
+  for (const PartFile& file : result.outputs)
+    if (progress.stop_requested() || !set.write(file.path, *png, diagnostics)) return false;
   return true;
 }
 
@@ -170,13 +137,13 @@ std::optional<Stock> load_target(const Options& options, Diagnostics& usage, Dia
   return moved(*target, move);
 }
 
-Status compare_job(Console& console, const Options& options, const JobSettings& settings, const Stock& target,
-                   const std::vector<OutputFile>& outputs, const std::optional<View>& view,
+Status compare_job(Console& console, const Options& options, const JobInputs& inputs, const Stock& target,
+                   const std::vector<PartFile>& outputs, const std::optional<View>& view,
                    Diagnostics& diagnostics) {
   TerminalProgress progress(console);
-  auto program = load_program(options.job.file, diagnostics, &progress);
+  auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::error, diagnostics);
+  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::error, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
                       "the program cuts nothing and tells no stock, so there is nothing to compare");
@@ -206,8 +173,8 @@ Status compare_job(Console& console, const Options& options, const JobSettings& 
 }
 
 /// Only pictures are written; the part itself is kerf simulate's.
-void refuse_meshes(const std::vector<OutputFile>& outputs, Diagnostics& usage) {
-  for (const OutputFile& file : outputs)
+void refuse_meshes(const std::vector<PartFile>& outputs, Diagnostics& usage) {
+  for (const PartFile& file : outputs)
     if (!file.is_picture())
       usage
           .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
@@ -217,10 +184,10 @@ void refuse_meshes(const std::vector<OutputFile>& outputs, Diagnostics& usage) {
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  const JobSettings settings = read_job_options(options.job, usage, diagnostics);
-  std::vector<std::string> inputs = input_files(options.job);
-  inputs.push_back(options.target);
-  const auto outputs = read_outputs(options.outputs, inputs, usage, diagnostics);
+  const JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  std::vector<std::string> files = input_files(options.job);
+  files.push_back(options.target);
+  const auto outputs = read_outputs(options.outputs, files, usage, diagnostics);
   refuse_meshes(outputs, usage);
   const auto target = load_target(options, usage, diagnostics);
   std::string problem;
@@ -230,7 +197,7 @@ Status run(Console& console, const Options& options) {
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!problem.empty()) return Status::wrong_usage;
   if (!target || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  return compare_job(console, options, settings, *target, outputs, view, diagnostics);
+  return compare_job(console, options, inputs, *target, outputs, view, diagnostics);
 }
 
 const char* const kExamples =

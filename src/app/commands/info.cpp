@@ -4,13 +4,13 @@
 #include <memory>
 #include <vector>
 
-#include "app/findings.h"
-#include "app/job.h"
-#include "app/options/command.h"
+#include "app/commands/commands.h"
+#include "app/options/common.h"
+#include "app/options/job_options.h"
+#include "app/report/findings.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
-#include "kerf/estimate.h"
 #include "kerf/number.h"
 
 namespace kerf::app {
@@ -25,43 +25,6 @@ struct Options {
   OutputOptions output;
   JobOptions job;
 };
-
-/// Times as planned by the machine's controller, or plain ones where no machine is told.
-struct Times {
-  TimeEstimate estimate;
-  std::string machine;  // its name; empty: plain
-  bool planned() const { return !machine.empty(); }
-};
-
-TimeFigures plain_times(const MotionFigures& f) {
-  TimeFigures out;
-  out.motion = f.cutting + f.rapid;
-  out.rapid = f.rapid;
-  out.dwell = f.dwell;
-  return out;
-}
-
-Times times_of(const Job& job, const std::optional<Machine>& machine) {
-  if (machine) return {estimate_time(job.program.path, *machine), machine->name};
-  Times out;
-  out.estimate.all = plain_times(job.report.all);
-  for (const ToolFigures& t : job.report.tools)
-    out.estimate.tools.push_back({t.tool, plain_times(t.figures)});
-  return out;
-}
-
-const TimeFigures& time_of(const Times& times, std::optional<int> tool) {
-  for (const ToolTime& t : times.estimate.tools)
-    if (t.tool == tool) return t.time;
-  static const TimeFigures none;
-  return none;
-}
-
-/// Flute shorter than the deepest cut below the stock's top: something to look at.
-bool deeper_than_flute(const Job& job, const ToolFigures& t, const Tool* tool) {
-  if (tool == nullptr || !t.deepest || !job.stock) return false;
-  return job.stock->block.high.z - *t.deepest > tool->flute.mm();
-}
 
 // ---- JSON
 
@@ -86,7 +49,7 @@ Json figures_json(const TimeFigures& time) {
           {"stops", time.stops}};
 }
 
-Json time_json(const Times& times) {
+Json time_json(const JobTimes& times) {
   const TimeEstimate& estimate = times.estimate;
   Json out = figures_json(estimate.all);
   out["method"] = times.planned() ? kPlannedMethod : kPlainMethod;
@@ -118,7 +81,7 @@ Json tool_json(const Job& job, const ToolFigures& t) {
   out["deepest_mm"] = t.deepest ? json_of(*t.deepest) : Json(nullptr);
   out["flute_mm"] = tool != nullptr ? json_of(tool->flute.mm()) : Json(nullptr);
   out["flute_assumed"] = tool != nullptr && tool->flute_assumed;
-  out["deeper_than_flute"] = deeper_than_flute(job, t, tool);
+  out["deeper_than_flute"] = deeper_than_flute(job, t);
   if (tool != nullptr) {
     out["shape"] = name_of(tool->shape);
     out["diameter_mm"] = json_of(tool->diameter.mm());
@@ -129,12 +92,12 @@ Json tool_json(const Job& job, const ToolFigures& t) {
   return out;
 }
 
-Json info_json(const Job& job, const Times& times, const Diagnostics& diagnostics) {
+Json info_json(const Job& job, const JobTimes& times, const Diagnostics& diagnostics) {
   const PathReport& report = job.report;
   Json out;
   out["source"] = job.program.source;
   out["front_end"] = job.program.front_end;
-  out["units"] = job.program.units == InputUnits::inch ? "inch" : "mm";
+  out["units"] = job.program.units == ProgramUnits::inch ? "inch" : "mm";
   out["steps"] = job.program.path.size();
   if (job.program.end != ProgramEnd::not_asked) out["ended"] = job.program.end == ProgramEnd::seen;
   out["motion"] = motion_json(report.all);
@@ -173,11 +136,11 @@ std::string flute_text(const Tool& tool) {
   return tool.flute_assumed ? fmt::format("{} assumed ({})", text, reason_of_flute(tool)) : text;
 }
 
-void print_tools(Console& console, const Job& job, const Times& times) {
+void print_tools(Console& console, const Job& job, const JobTimes& times) {
   if (job.report.tools.empty()) return;
   console.print("\nTools\n");
   for (const ToolFigures& t : job.report.tools) {
-    const double seconds = time_of(times, t.tool).total().seconds();
+    const double seconds = times.of_tool(t.tool).total().seconds();
     if (!t.tool && t.figures.cut_mm == 0.0 && seconds < kNoTime) continue;  // only on the way to the first
     const Tool* tool = t.tool ? job.tools.find(*t.tool) : nullptr;
     std::string line = t.tool ? fmt::format("  T{:<6}", *t.tool) : std::string("  none   ");
@@ -187,13 +150,13 @@ void print_tools(Console& console, const Job& job, const Times& times) {
     line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1), clock_text(seconds));
     if (t.deepest) line += fmt::format(", deepest Z {}", number_text(*t.deepest, 3));
     if (tool != nullptr) line += ", " + flute_text(*tool);
-    if (deeper_than_flute(job, t, tool)) line += "  <- deeper than its flute";
+    if (deeper_than_flute(job, t)) line += "  <- deeper than its flute";
     if (tool != nullptr) line += fmt::format("  ({})", to_string(job.tool_sources.at(*t.tool)));
     console.print(line + "\n");
   }
 }
 
-void print_time(Console& console, const Times& times) {
+void print_time(Console& console, const JobTimes& times) {
   const TimeFigures& all = times.estimate.all;
   std::string parts = fmt::format("{} cutting, {} rapid, {} waiting", clock_text(all.cutting().seconds()),
                                   clock_text(all.rapid.seconds()), clock_text(all.dwell.seconds()));
@@ -206,7 +169,7 @@ void print_time(Console& console, const Times& times) {
                     : fmt::format("          {}; --machine tells how yours takes it\n", kPlainMethod));
 }
 
-void print_operations(Console& console, const Times& times) {
+void print_operations(Console& console, const JobTimes& times) {
   std::vector<const OperationTime*> shown;
   for (const OperationTime& o : times.estimate.operations)
     if (o.tool || !o.name.empty() || o.time.total().seconds() >= kNoTime) shown.push_back(&o);
@@ -223,10 +186,10 @@ void print_operations(Console& console, const Times& times) {
     console.print(fmt::format("  ... and {} more (--json lists them)\n", shown.size() - kMostOperations));
 }
 
-void print_info(Console& console, const Job& job, const Times& times) {
+void print_info(Console& console, const Job& job, const JobTimes& times) {
   const MotionFigures& all = job.report.all;
   console.print(fmt::format("{}: {}, {}, {} steps\n\n", job.program.source, job.program.front_end,
-                            job.program.units == InputUnits::inch ? "inches" : "mm",
+                            job.program.units == ProgramUnits::inch ? "inches" : "mm",
                             job.program.path.size()));
   console.print(fmt::format("Moves     {} lines, {} arcs, {} rapids\n", all.lines, all.arcs, all.rapids));
   console.print(fmt::format("Length    {} mm cut, {} mm rapid\n", number_text(all.cut_mm, 1),
@@ -244,19 +207,21 @@ void print_info(Console& console, const Job& job, const Times& times) {
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  const JobSettings settings = read_job_options(options.job, usage, diagnostics);
+  const JobInputs inputs = read_job_options(options.job, usage, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
-  auto program = load_program(options.job.file, diagnostics, &progress, settings.input);
+  auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
   progress.clear();
-  if (interrupted()) return tell_stopped(console);
+  if (interrupted()) return report_stopped(console);
   if (!program) return fail(console, diagnostics, Status::input_errors);
-  const Job job = make_job(std::move(*program), settings, {}, UnknownTool::warning, diagnostics);
-  const Times times = times_of(job, settings.input.machine);
-  if (const auto downwards = find_z_downwards(job.program.path))
-    diagnostics.warning(downwards->code, job.program.path.origin_of(downwards->step), downwards->message)
-        .hint = downwards->hint;
+  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::warning, diagnostics);
+  const JobTimes times = times_of(job, inputs.program.machine ? &*inputs.program.machine : nullptr);
+  if (job.z_downwards)
+    diagnostics
+        .warning(job.z_downwards->code, job.program.path.origin_of(job.z_downwards->step),
+                 job.z_downwards->message)
+        .hint = job.z_downwards->hint;
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));

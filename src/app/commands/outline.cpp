@@ -1,18 +1,16 @@
 // kerf outline: cuts the corners of outlines from a JSON file or a Python script, and draws what changed.
-#include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
-#include <unistd.h>
 
-#include "app/options/command.h"
+#include "app/commands/commands.h"
+#include "app/options/common.h"
 #include "app/report/json.h"
-#include "job/python_script.h"
 
 #include "kerf/drawing_files.h"
 #include "kerf/files.h"
 #include "kerf/outline_drawing.h"
-#include "kerf/outline_files.h"
+#include "kerf/program.h"
 
 namespace kerf::app {
 namespace {
@@ -22,52 +20,6 @@ struct Options {
   std::string file, svg, dxf;
   bool fair = false;
 };
-
-/// A file name that does not exist yet, removed again in the end.
-class TemporaryFile {
- public:
-  TemporaryFile() {
-    std::string name = (std::filesystem::temp_directory_path() / "kerf-outlines-XXXXXX").string();
-    const int handle = mkstemp(name.data());
-    if (handle < 0) return;
-    close(handle);
-    path_ = name;
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove(path_, ignored);
-  }
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
-
-/// Runs a script and takes the outlines that it cuts with cnc25d_api.
-std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnostics& diagnostics) {
-  const TemporaryFile noted;
-  const auto fail = [&](const std::string& message) {
-    diagnostics.error(Code::script_failed, TextSpot{script, 0, 0}, message);
-    return std::vector<NamedOutline>();
-  };
-  if (noted.path().empty()) return fail("no temporary file can be made");
-  if (!InputFile::open(script, diagnostics)) return {};
-  const int status = run_python(script, {{"KERF_OUTLINES", noted.path()}}, diagnostics);
-  if (status < 0) return {};
-  if (status != 0) return fail(fmt::format("the script ended with status {}", status));
-  const auto file = InputFile::open(noted.path(), diagnostics);
-  if (!file) return {};
-  if (file->bytes().empty()) return fail("the script cut no outline with cnc25d_api.cnc_cut_outline()");
-  return read_outline_file(file->bytes(), script, diagnostics);
-}
-
-std::vector<NamedOutline> read_outlines(const std::string& name, Diagnostics& diagnostics) {
-  if (name.ends_with(".py")) return outlines_of_script(name, diagnostics);
-  const auto file = InputFile::open(name, diagnostics);
-  return file ? read_outline_file(file->bytes(), name, diagnostics) : std::vector<NamedOutline>();
-}
 
 struct Result {
   std::vector<std::string> names;
@@ -156,7 +108,7 @@ void write_files(const Options& options, const Result& result, Diagnostics& diag
 
 Status run(Console& console, const Options& options) {
   Diagnostics diagnostics;
-  const std::vector<NamedOutline> outlines = read_outlines(options.file, diagnostics);
+  const std::vector<NamedOutline> outlines = load_outlines(options.file, diagnostics);
   const Result result = cut_all(outlines, options, diagnostics);
   if (!diagnostics.has_errors()) write_files(options, result, diagnostics);
   show_result(console, options, result, diagnostics);

@@ -1,23 +1,18 @@
 // kerf post: a program written for a controller, or drawn.
-#include "kerf/post.h"
-
 #include <algorithm>
-#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/job.h"
-#include "app/options/command.h"
-#include "app/options/reading.h"
-#include "app/post_drawing.h"
+#include "app/commands/commands.h"
+#include "app/options/common.h"
+#include "app/options/job_options.h"
+#include "app/options/output_options.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
 #include "kerf/files.h"
 #include "kerf/number.h"
-#include "kerf/passes.h"
-#include "kerf/program.h"
-#include "kerf/tool_files.h"
+#include "kerf/posting.h"
 
 namespace kerf::app {
 namespace {
@@ -47,90 +42,35 @@ Status show_list(Console& console) {
   return Status::done;
 }
 
-std::vector<std::string> post_names() {
-  std::vector<std::string> names;
-  for (const PostProfile& p : built_in_posts()) names.push_back(p.name);
-  for (const DrawingFormat& d : drawing_formats()) names.emplace_back(d.name);
-  return names;
-}
-
-std::optional<PostProfile> choose_profile(const Options& options, Diagnostics& usage,
-                                          Diagnostics& diagnostics) {
-  if (!options.post_file.empty()) {
-    const auto file = InputFile::open(options.post_file, diagnostics);
-    return file ? read_post_profile(file->bytes(), options.post_file, diagnostics) : std::nullopt;
-  }
-  if (const PostProfile* profile = find_post(options.to)) return *profile;
+std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usage,
+                                        Diagnostics& diagnostics) {
+  if (!options.post_file.empty()) return load_post_target(options.post_file, diagnostics);
+  if (auto target = find_post_target(options.to)) return target;
   Diagnostic& d =
       usage.error(Code::post_unknown, CallSpot{"", 0, "--to"},
                   options.to.empty() ? "say with --to for which controller"
                                      : fmt::format("no post is called \"{}\"", options.to.substr(0, 60)));
-  const auto meant = did_you_mean(options.to, post_names());
+  const auto meant = did_you_mean(options.to, post_target_names());
   d.hint = meant ? fmt::format("did you mean \"{}\"?", *meant) : "kerf post --list shows them";
   return std::nullopt;
 }
 
-std::optional<ToolChangePolicy> read_policy(const std::string& text) {
-  if (text == "command") return ToolChangePolicy::command;
-  if (text == "pause") return ToolChangePolicy::pause;
-  if (text == "files") return ToolChangePolicy::files;
-  if (text == "ignore") return ToolChangePolicy::ignore;
-  return std::nullopt;
-}
-
-std::string title_of(const LoadedProgram& program) {
-  return program.source == "-" ? "" : std::filesystem::path(program.source).stem().string();
-}
-
-PostOptions post_options(const Options& options, const LoadedProgram& program,
-                         const std::map<int, Tool>& tools, LengthUnit unit) {
-  PostOptions out;
-  out.program_name = title_of(program);
-  out.unit = unit;
-  out.tool_change = read_policy(options.tool_change);
-  out.missing_feed = mm_per_min(options.feed);
-  for (const auto& [number, tool] : tools) {
-    out.tool_names[number] = short_name(tool);
-    // Such comments are in the program's units; their rounding is for mm.
-    if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
-      out.tool_comments[number] = *text;
-  }
-  return out;
-}
-
-/// Applies the passes asked for; what each saved is added to `savings`.
-Toolpath improved(Toolpath path, const Options& options, Json& savings, Console& console) {
-  const auto keep = [&](const char* name, PassResult result) {
-    savings.push_back(Json{{"pass", name},
-                           {"steps_before", result.before.steps},
-                           {"steps_after", result.after.steps},
-                           {"rapid_mm_before", result.before.rapid_mm},
-                           {"rapid_mm_after", result.after.rapid_mm}});
+/// Applies the passes and reports what each has saved.
+Json improved(Toolpath& path, const Options& options, Console& console) {
+  Json savings = Json::array();
+  const PassChoices passes{mm(options.fit_arcs), mm(options.join), options.shorten};
+  for (const PassSaving& saving : improve(path, passes)) {
+    savings.push_back(Json{{"pass", saving.name},
+                           {"steps_before", saving.before.steps},
+                           {"steps_after", saving.after.steps},
+                           {"rapid_mm_before", saving.before.rapid_mm},
+                           {"rapid_mm_after", saving.after.rapid_mm}});
     if (!console.json() && !options.out.empty())
-      console.summary(fmt::format("{:<9}{} steps -> {}, rapids {:.0f} -> {:.0f} mm", name,
-                                  result.before.steps, result.after.steps, result.before.rapid_mm,
-                                  result.after.rapid_mm));
-    return std::move(result.path);
-  };
-  if (options.fit_arcs > 0.0) path = keep("arcs", fit_arcs(path, {.tolerance = mm(options.fit_arcs)}));
-  if (options.join > 0.0) path = keep("join", join_straight(path, mm(options.join)));
-  if (options.shorten) path = keep("rapids", shorten_rapids(path));
-  return path;
-}
-
-/// "part.nc" for tool 201 is "part-T201.nc"; where that tool comes again, "part-T201-2.nc".
-std::vector<std::string> names_for(const std::string& out, const std::vector<PostedFile>& files) {
-  const std::filesystem::path path(out);
-  std::vector<std::string> names;
-  std::map<int, int> used;
-  for (const PostedFile& file : files) {
-    const int tool = file.tool.value_or(0), time = ++used[tool];
-    std::string name = fmt::format("{}-T{}", path.stem().string(), tool);
-    if (time > 1) name += fmt::format("-{}", time);
-    names.push_back((path.parent_path() / (name + path.extension().string())).string());
+      console.summary(fmt::format("{:<9}{} steps -> {}, rapids {:.0f} -> {:.0f} mm", saving.name,
+                                  saving.before.steps, saving.after.steps, saving.before.rapid_mm,
+                                  saving.after.rapid_mm));
   }
-  if (files.size() == 1) names = {out};
-  return names;
+  return savings;
 }
 
 Status write(Console& console, const Options& options, const std::vector<PostedFile>& files, Json result,
@@ -140,7 +80,7 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
     for (const PostedFile& file : files) console.print_json(file.text);
     return Status::done;
   }
-  const std::vector<std::string> names = names_for(options.out, files);
+  const std::vector<std::string> names = posted_file_names(options.out, files);
   OutputSet set;
   for (std::size_t i = 0; i < files.size(); ++i)
     if (!set.write(names[i], files[i].text, diagnostics))
@@ -158,71 +98,55 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
 void check_usage(const Options& options, Diagnostics& usage) {
   if (options.file.empty())
     usage.error(Code::file_unreadable, CallSpot{"", 0, "FILE"}, "say which program to write");
-  if (!options.out.empty() && options.out == options.file)
+  if (!options.out.empty() && is_same_file(options.out, options.file))
     usage.error(Code::output_is_input, CallSpot{"", 0, "-o"}, "the output would replace the input");
-  if (!options.tool_change.empty() && !read_policy(options.tool_change))
+  if (!options.tool_change.empty() && !tool_change_policy_named(options.tool_change))
     usage.error(Code::post_value_bad, CallSpot{"", 0, "--tool-change"},
                 "say command, pause, files or ignore");
-  if (!read_dxf_version(options.dxf_version))
+  if (!dxf_version_named(options.dxf_version))
     usage.error(Code::post_value_bad, CallSpot{"", 0, "--dxf-version"}, "say r2000 or r12");
 }
 
-/// What is to be written: one of the two.
-struct Target {
-  std::optional<PostProfile> profile;
-  const DrawingFormat* drawing = nullptr;
-};
+/// An error where the output would replace a file that the program includes.
+void refuse_input(const Options& options, const Program& program, Diagnostics& usage) {
+  if (options.out.empty()) return;
+  if (std::any_of(program.files.begin(), program.files.end(),
+                  [&](const std::string& file) { return is_same_file(options.out, file); }))
+    usage.error(Code::output_is_input, CallSpot{"", 0, "-o"}, "the output would replace an included file");
+}
 
-std::vector<PostedFile> written(const Target& target, const Options& options, const LoadedProgram& program,
-                                const std::map<int, Tool>& tools, Diagnostics& diagnostics,
-                                Progress& progress) {
-  if (target.drawing == nullptr) {
-    const LengthUnit unit = options.inch ? LengthUnit::inch
-                            : options.mm ? LengthUnit::mm
-                                         : target.profile->unit;
-    auto files = post(program.path, *target.profile, post_options(options, program, tools, unit), diagnostics,
-                      &progress);
-    for (const PostedFile& file : files) lint_gcode(file.text, *target.profile, "output", diagnostics);
-    return files;
-  }
-  DrawingRequest request;
-  request.unit = options.inch ? DrawingUnit::inch : DrawingUnit::mm;
-  request.rapids = options.rapids ? RapidLines::drawn : RapidLines::left_out;
-  request.version = *read_dxf_version(options.dxf_version);
-  request.title = title_of(program);
-  request.tools = tools;
-  PostedFile file;
-  file.text = draw_program(program, *target.drawing, request);
-  file.lines = static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
-  return {std::move(file)};
+PostingOptions posting_options(const Options& options, std::map<int, Tool> tools) {
+  PostingOptions out;
+  if (options.inch || options.mm) out.unit = options.inch ? LengthUnit::inch : LengthUnit::mm;
+  out.tool_change = tool_change_policy_named(options.tool_change);
+  out.missing_feed = mm_per_min(options.feed);
+  out.tools = std::move(tools);
+  out.rapids = options.rapids ? RapidLines::drawn : RapidLines::left_out;
+  out.dxf_version = *dxf_version_named(options.dxf_version);
+  return out;
 }
 
 Status run(Console& console, const Options& options) {
   if (options.list) return show_list(console);
   Diagnostics usage, diagnostics;
-  Target target;
-  if (options.post_file.empty()) target.drawing = find_drawing_format(options.to);
-  if (target.drawing == nullptr) target.profile = choose_profile(options, usage, diagnostics);
+  const auto target = choose_target(options, usage, diagnostics);
   check_usage(options, usage);
-  const ToolSettings tools = read_tool_options(options.tools, usage, diagnostics);
+  const ToolChoices tools = read_tool_options(options.tools, usage, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (diagnostics.has_errors() || (target.drawing == nullptr && !target.profile))
-    return fail(console, diagnostics, Status::input_errors);
+  if (diagnostics.has_errors() || !target) return fail(console, diagnostics, Status::input_errors);
 
   TerminalProgress progress(console);
-  InputOptions input;
-  apply(options.reading, input);
-  input.tool_diameter = diameters_of(tools);
-  auto program = load_program(options.file, diagnostics, &progress, input);
-  if (interrupted()) return tell_stopped(console);
+  auto program = load_program(options.file, program_options(options.reading, tools), diagnostics, &progress);
+  if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  const std::string name(target.profile ? target.profile->name : target.drawing->name);
-  Json result{{"source", program->source}, {"post", name}};
-  program->path = improved(std::move(program->path), options, result["passes"] = Json::array(), console);
-  progress.phase("writing");
-  const auto files = written(target, options, *program, used_tools(*program, tools), diagnostics, progress);
+  refuse_input(options, *program, usage);
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  Json result{{"source", program->source}, {"post", target->name()}};
+  result["passes"] = improved(program->path, options, console);
+  const auto files = post_program(*program, *target, posting_options(options, used_tools(*program, tools)),
+                                  diagnostics, &progress);
   progress.clear();
-  if (interrupted()) return tell_stopped(console);
+  if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   if (options.out.empty() && files.size() > 1) {
     usage.error(Code::file_unwritable, CallSpot{"", 0, "-o"},

@@ -1,9 +1,10 @@
 // kerf steps: a program's toolpath as JSON lines, for other programs to read.
 #include <memory>
 
-#include "app/job.h"
-#include "app/options/command.h"
-#include "app/options/reading.h"
+#include "app/commands/commands.h"
+#include "app/options/common.h"
+#include "app/options/job_options.h"
+#include "app/options/program_options.h"
 #include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
@@ -24,16 +25,14 @@ struct Options {
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  const ToolSettings tools = read_tool_options(options.tools, usage, diagnostics);
+  const ToolChoices tools = read_tool_options(options.tools, usage, diagnostics);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
-  InputOptions input;
-  apply(options.reading, input);
-  input.tool_diameter = diameters_of(tools);
-  const auto program = load_program(options.file, diagnostics, &progress, input);
+  const auto program =
+      load_program(options.file, program_options(options.reading, tools), diagnostics, &progress);
   progress.clear();
-  if (interrupted()) return tell_stopped(console);
+  if (interrupted()) return report_stopped(console);
   console.show(diagnostics, Console::Channel::always_text);  // the lines are for another program
   if (!program || diagnostics.has_errors()) return Status::input_errors;
 
@@ -43,7 +42,7 @@ Status run(Console& console, const Options& options) {
   for (std::size_t i = 0; i < program->path.size(); ++i) {
     if (program->path[i].kind() == StepKind::tool_change) tool = program->path[i].tool_change().tool;
     buffer += text_of(step_json(program->path, i, tool), Layout::line);
-    if (i % kStepsBetweenLooks == 0 && interrupted()) return tell_stopped(console);
+    if (i % kStepsBetweenLooks == 0 && interrupted()) return report_stopped(console);
     if (buffer.size() < kBufferBytes) continue;
     console.print_json(buffer);
     buffer.clear();

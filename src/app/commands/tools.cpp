@@ -2,8 +2,9 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/job.h"
-#include "app/options/command.h"
+#include "app/commands/commands.h"
+#include "app/options/common.h"
+#include "app/options/job_options.h"
 #include "app/report/json.h"
 #include "app/report/sketch.h"
 

@@ -2,7 +2,8 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "app/options/command.h"
+#include "app/commands/commands.h"
+#include "app/options/common.h"
 #include "app/report/json.h"
 
 #include "kerf/names.h"

@@ -99,7 +99,7 @@ bool find_include(const GcmcOptions& options, const std::string& name, Source& f
   }
   for (std::size_t i = 0; i < embedded::gcmc_library_count; ++i) {
     if (embedded::gcmc_library[i].name != name) continue;
-    found = {"<kerf>/" + name, std::string(embedded::gcmc_library[i].bytes)};
+    found = {std::string(kGcmcLibraryPrefix) + name, std::string(embedded::gcmc_library[i].bytes)};
     return true;
   }
   return false;
@@ -110,7 +110,7 @@ bool parse_all(std::string_view text, const GcmcOptions& options, Tree& tree, st
                Reporter& report) {
   std::string defines;
   for (const std::string& d : options.defines) defines += d + ";\n";
-  sources.push_back({"<cmd-line defines>", std::move(defines)});
+  sources.push_back({std::string(kGcmcDefinesName), std::move(defines)});
   sources.push_back({options.file_name, std::string(text)});
   const Includer includer = [&](const std::string& name, Source& found, std::string& obstacle) {
     return find_include(options, name, found, obstacle);

@@ -1,9 +1,9 @@
-// The fourth axis for kerf simulate: the same figures as for a block.
-#include "app/rotary_job.h"
-
+// A job on a fourth axis, simulated: the same figures as for a block.
 #include <fmt/format.h>
 
-#include "app/report/terminal_progress.h"
+#include "app/report/findings.h"
+#include "app/report/simulation.h"
+#include "app/report/status.h"
 
 #include "kerf/number.h"
 
@@ -19,7 +19,7 @@ Json json_of_bar(const RoundBar& bar) {
 }
 
 Json json_of_result(const Job& job, const RotarySimulation& s, const std::vector<Finding>& findings,
-                    const std::vector<OutputFile>& outputs, const Diagnostics& diagnostics) {
+                    const std::vector<PartFile>& outputs, const Diagnostics& diagnostics) {
   Json out;
   out["source"] = job.program.source;
   out["stock_mm3"] = json_of(s.stock.mm3());
@@ -36,7 +36,7 @@ Json json_of_result(const Job& job, const RotarySimulation& s, const std::vector
 }
 
 void show_summary(Console& console, const Job& job, const RotarySimulation& s,
-                  const std::vector<Finding>& findings, const std::vector<OutputFile>& outputs) {
+                  const std::vector<Finding>& findings, const std::vector<PartFile>& outputs) {
   console.summary(fmt::format("{}: {} steps", job.program.source, job.program.path.size()));
   console.summary(fmt::format("bar      {} mm across, {} mm long, {} mm3", number_text(job.bar->diameter, 3),
                               number_text(job.bar->x_high - job.bar->x_low, 3),
@@ -51,31 +51,16 @@ void show_summary(Console& console, const Job& job, const RotarySimulation& s,
 
 }  // namespace
 
-Status simulate_bar(Console& console, const Job& job, const SimulationOptions& how,
-                    const std::vector<OutputFile>& outputs, const View& view, Diagnostics& diagnostics) {
-  refuse_left(outputs, "what is left of a bar", diagnostics);
-  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  TerminalProgress progress(console);
-  const auto s = simulate_rotary(job.program.path, job.tools, *job.bar, how, diagnostics, &progress);
-  OutputSet files;
-  bool written = s && !s->stopped && !diagnostics.has_errors();
-  if (written && !outputs.empty()) {
-    const Mesh mesh = extract_mesh(s->workpiece, &progress);
-    written =
-        !progress.stop_requested() && write_surface(outputs, job.program, mesh, mesh_volume(s->workpiece),
-                                                    steps_of(s->hazards), view, files, diagnostics, progress);
-  }
-  if (const auto end = finish_outputs(console, progress, written, files, diagnostics)) return *end;
-  std::vector<Finding> findings = findings_of(s->hazards, job.program.path);
-  tell_assumed_flutes(findings, job.program.path, job.tools, diagnostics);
-  console.show(diagnostics);
+void report_rotary(Console& console, const SimulationReport& report) {
+  const RotarySimulation& s = report.run.rotary();
   if (console.json()) {
-    console.print_json(text_of(json_of_result(job, *s, findings, outputs, diagnostics), Layout::indented));
-    return Status::done;
+    console.print_json(
+        text_of(json_of_result(report.job, s, report.run.findings, report.files, report.diagnostics),
+                Layout::indented));
+    return;
   }
-  show_summary(console, job, *s, findings, outputs);
-  show(console, findings);
-  return Status::done;
+  show_summary(console, report.job, s, report.run.findings, report.files);
+  show(console, report.run.findings);
 }
 
 }  // namespace kerf::app

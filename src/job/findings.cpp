@@ -1,17 +1,17 @@
-// Hazards as text and as JSON.
-#include "app/findings.h"
+// The hazards of toolpath, material, fixtures and prints in one form.
+#include "kerf/findings.h"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
 
+#include "job/fixture_findings.h"
+
 #include "kerf/number.h"
 
-namespace kerf::app {
+namespace kerf {
 namespace {
-
-constexpr std::size_t kMostLines = 30;  // of hazards as text; JSON has them all
 
 std::string message_of(const Hazard& hazard) {
   const std::string depth = number_text(hazard.depth.mm(), 3);
@@ -45,47 +45,38 @@ std::string_view hint_of(HazardKind kind) {
   return "start the spindle (S10000 M3) before the cut";
 }
 
+std::string message_of(const PrintHazard& hazard) {
+  const std::string length = number_text(hazard.length.mm(), 2);
+  switch (hazard.kind) {
+    case PrintHazardKind::nozzle_contact:
+      return fmt::format("the nozzle goes {} mm deep through printed material or the bed",
+                         number_text(hazard.depth.mm(), 3));
+    case PrintHazardKind::in_air: return fmt::format("{} mm of road are printed in the air", length);
+    case PrintHazardKind::unsupported: return fmt::format("{} mm of road have nothing below", length);
+    case PrintHazardKind::blob: break;
+  }
+  return fmt::format("{} mm3 of filament are pushed on the spot", number_text(hazard.volume.mm3(), 3));
+}
+
+/// What meets the fixture; empty for a tool as a whole, at rapid speed.
+std::string part_name(const FixtureContact& contact) {
+  if (contact.part == ToolPart::cutting) return "cutting edge";
+  return contact.part ? std::string(to_string(*contact.part)) : std::string();
+}
+
+std::string message_of(const FixtureContact& contact, const Fixture& fixture) {
+  const std::string part = part_name(contact);
+  const std::string where = fmt::format("{} mm deep into the fixture \"{}\"",
+                                        number_text(contact.depth.mm(), 3), fixture.name.substr(0, 60));
+  if (part.empty()) return "a rapid move goes " + where;
+  return fmt::format("the tool's {} goes {}", part, where);
+}
+
 /// Whether a finding goes on with a line's: its step is the next one, or it says that the spindle stands
 /// still, which is one slip however many cuts follow.
 bool goes_on(const Finding& line, const Finding& f) {
   return line.step + line.steps >= f.step ||
          (f.kind == to_string(HazardKind::spindle_off) && f.message == line.message);
-}
-
-/// Neighbouring steps with the same kind and subject become one line; the deepest contact tells.
-std::vector<Finding> grouped(const std::vector<Finding>& findings) {
-  std::vector<Finding> lines;
-  std::map<std::pair<std::string, std::string>, std::size_t> open;
-  for (const Finding& f : findings) {
-    const auto it = open.find({f.kind, f.about});
-    if (it != open.end() && goes_on(lines[it->second], f)) {
-      Finding& line = lines[it->second];
-      line.steps += f.steps;
-      line.removed_mm3 += f.removed_mm3;
-      if (f.depth_mm > line.depth_mm) {
-        line.depth_mm = f.depth_mm;
-        line.message = f.message;
-      }
-      continue;
-    }
-    open[{f.kind, f.about}] = lines.size();
-    lines.push_back(f);
-  }
-  return lines;
-}
-
-std::string line_of(const Finding& f) {
-  std::string line = to_string(f.origin);
-  if (!line.empty()) line += ": ";
-  line += f.message;
-  if (f.steps > 1) line += fmt::format(", in {} moves from here", f.steps);
-  line +=
-      fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
-  if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
-  line += fmt::format(") [{}]\n", f.kind);
-  if (!f.hint.empty()) line += "    hint: " + f.hint + "\n";
-  for (const Origin& caller : f.callers) line += fmt::format("  called from {}\n", to_string(caller));
-  return line;
 }
 
 std::string hint_for_flute(const Tool& tool) {
@@ -142,6 +133,40 @@ std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolp
   return out;
 }
 
+std::vector<Finding> findings_of(const std::vector<PrintHazard>& hazards, const Toolpath& path) {
+  std::vector<Finding> out;
+  for (const PrintHazard& h : hazards) {
+    Finding finding;
+    finding.kind = to_string(h.kind);
+    finding.step = h.step;
+    finding.steps = h.steps;
+    finding.at = h.at;
+    finding.depth_mm = h.depth.mm();
+    finding.origin = path.origin_of(h.step);
+    finding.message = message_of(h);
+    out.push_back(std::move(finding));
+  }
+  return out;
+}
+
+std::vector<Finding> findings_of(const std::vector<FixtureContact>& contacts,
+                                 const std::vector<Fixture>& fixtures, const Toolpath& path) {
+  std::vector<Finding> out;
+  for (const FixtureContact& c : contacts)
+    out.push_back({.kind = "fixture_contact",
+                   .step = c.step,
+                   .steps = 1,
+                   .at = c.at,
+                   .depth_mm = c.depth.mm(),
+                   .removed_mm3 = c.met.mm3(),
+                   .origin = path.origin_of(c.step),
+                   .message = message_of(c, fixtures[c.fixture]),
+                   .callers = path.origins().callers(path[c.step].origin()),
+                   .hint = {},
+                   .about = fmt::format("{} {}", c.fixture, part_name(c))});
+  return out;
+}
+
 std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> of_material) {
   for (Finding& f : of_material)
     if (f.kind != to_string(HazardKind::spindle_off)) of_path.push_back(std::move(f));
@@ -150,7 +175,28 @@ std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> o
   return of_path;
 }
 
-void tell_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, const ToolTable& tools,
+std::vector<Finding> grouped(const std::vector<Finding>& findings) {
+  std::vector<Finding> lines;
+  std::map<std::pair<std::string, std::string>, std::size_t> open;
+  for (const Finding& f : findings) {
+    const auto it = open.find({f.kind, f.about});
+    if (it != open.end() && goes_on(lines[it->second], f)) {
+      Finding& line = lines[it->second];
+      line.steps += f.steps;
+      line.removed_mm3 += f.removed_mm3;
+      if (f.depth_mm > line.depth_mm) {
+        line.depth_mm = f.depth_mm;
+        line.message = f.message;
+      }
+      continue;
+    }
+    open[{f.kind, f.about}] = lines.size();
+    lines.push_back(f);
+  }
+  return lines;
+}
+
+void warn_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, const ToolTable& tools,
                          Diagnostics& diagnostics) {
   const std::vector<const Tool*> tool_of = tools_of(findings, path, tools);
   std::map<int, std::pair<const Tool*, Finding>> deepest;
@@ -175,41 +221,12 @@ void tell_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, c
   for (const auto& [number, of_tool] : deepest) warn_of_flute(of_tool.second, *of_tool.first, diagnostics);
 }
 
-Json json_of(const Finding& f) {
-  Json out{{"kind", f.kind},
-           {"at", json_of(f.at)},
-           {"depth_mm", json_of(f.depth_mm)},
-           {"removed_mm3", json_of(f.removed_mm3)},
-           {"step", f.step},
-           {"steps", f.steps},
-           {"message", f.message},
-           {"hint", f.hint},
-           {"origin", json_of(f.origin)}};
-  for (const Origin& caller : f.callers) out["callers"].push_back(json_of(caller));
-  return out;
+std::vector<Finding> findings_at_fixtures(const Toolpath& path, const Job& job, const SimulationOptions& how,
+                                          Diagnostics& diagnostics, Progress* progress) {
+  if (job.fixtures.empty()) return {};
+  if (progress != nullptr) progress->phase("looking at fixtures");
+  const auto contacts = find_fixture_contacts(path, job.tools, job.fixtures, how, diagnostics, progress);
+  return contacts ? findings_of(*contacts, job.fixtures, path) : std::vector<Finding>{};
 }
 
-Json json_of(const std::vector<Finding>& findings) {
-  Json list = Json::array();
-  for (const Finding& f : findings) list.push_back(json_of(f));
-  return list;
-}
-
-std::string count_text(const std::vector<Finding>& findings) {
-  const std::vector<Finding> lines = grouped(findings);
-  if (lines.empty()) return "none";
-  std::size_t moves = 0;
-  for (const Finding& line : lines) moves += line.steps;
-  if (moves == lines.size()) return std::to_string(moves);
-  return fmt::format("{} in {} moves", lines.size(), moves);
-}
-
-void show(Console& console, const std::vector<Finding>& findings) {
-  const std::vector<Finding> lines = grouped(findings);
-  for (std::size_t i = 0; i < std::min(lines.size(), kMostLines); ++i) console.print(line_of(lines[i]));
-  if (lines.size() > kMostLines)
-    console.print(
-        fmt::format("... and {} more hazards (--json lists them all)\n", lines.size() - kMostLines));
-}
-
-}  // namespace kerf::app
+}  // namespace kerf

@@ -1,7 +1,9 @@
-// The options of reading.
-#include "app/options/reading.h"
+// The options of reading a program.
+#include "app/options/program_options.h"
 
 #include <fmt/format.h>
+
+#include "app/options/common.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -31,13 +33,21 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   add_length(parser, "--filament", options.filament, kThinnestFilament, kThickestFilament,
              "Diameter of a printer's filament, mm (default: told by the program, else 1.75)");
   parser.add_flag("--strict", options.strict, "Take what is unusual in a G-code program as an error");
+  add_repeated(parser, "-D,--define", options.defines, "STMT",
+               "A statement that a gcmc program runs first, such as depth=5mm");
+  add_repeated(parser, "-I,--include", options.include_paths, "PATH",
+               "A folder to search for the files that a gcmc program includes");
 }
 
-void apply(const ReadingOptions& options, InputOptions& input) {
-  input.dialect = dialect_named(options.dialect);
-  input.read_on = options.read_on;
-  input.strict = options.strict;
-  if (options.filament > 0.0) input.filament_diameter = options.filament;
+ProgramOptions read_reading_options(const ReadingOptions& options) {
+  ProgramOptions out;
+  out.dialect = dialect_named(options.dialect);
+  out.read_on = options.read_on;
+  out.strict = options.strict;
+  if (options.filament > 0.0) out.filament_diameter = options.filament;
+  out.defines = options.defines;
+  out.include_paths = options.include_paths;
+  return out;
 }
 
 }  // namespace kerf::app

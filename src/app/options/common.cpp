@@ -1,9 +1,7 @@
-// What the subcommands share in setting up their options.
-#include "app/options/command.h"
+// Options that several commands have.
+#include "app/options/common.h"
 
 #include <fmt/format.h>
-
-#include "app/report/json.h"
 
 #include "kerf/number.h"
 #include "kerf/program.h"
@@ -20,23 +18,9 @@ CommandParser new_command(CommandParser& parent, const std::string& name, const 
   return parser;
 }
 
-Status fail(Console& console, const Diagnostics& diagnostics, Status status) {
-  console.show(diagnostics);
-  if (console.json())
-    console.print_json(text_of(Json{{"diagnostics", json_of(diagnostics)}}, Layout::indented));
-  return status;
-}
-
-Status tell_stopped(Console& console) {
-  Diagnostics diagnostics;
-  diagnostics.error(Code::stopped, {}, "interrupted; nothing was written");
-  console.show(diagnostics, Console::Channel::always_text);
-  return Status::interrupted;
-}
-
 namespace {
 
-/// An option whose text `parse` makes a number; what is expected is told as "a `kind` from .. to ..".
+/// An option whose text `parse` makes a number; the error of another text names `kind` and the range.
 template <class Parse>
 Option add_parsed(CommandParser& parser, const std::string& name, double& value, double low, double high,
                   const std::string& kind, const std::string& summary, Parse parse) {
@@ -66,8 +50,8 @@ Option add_length(CommandParser& parser, const std::string& name, double& mm, do
 }
 
 Option add_threads(CommandParser& parser, double& threads) {
-  constexpr double kMost = 1024;
-  return add_number(parser, "--threads", threads, 0, kMost, "N",
+  constexpr double kMaxThreads = 1024;
+  return add_number(parser, "--threads", threads, 0, kMaxThreads, "N",
                     "Threads to use (default: all; same result)");
 }
 

@@ -1,0 +1,144 @@
+// A job: a program with the tools and the stock that it is made with, and carrying it out.
+//
+//   Diagnostics diagnostics;
+//   std::optional<Program> program = load_program("part.nc", {}, diagnostics);
+//   Job job = make_job(std::move(*program), {}, UnknownTool::error, diagnostics);
+//   if (!diagnostics.has_errors())
+//     std::optional<JobRun> run = run_job(job, {.resolution = mm(0.1)}, diagnostics);
+//
+// Tools and stock come from the caller, from files, from the program's own comments and from the built-in
+// table, in this order; a stock given by none of them is a block assumed around the cuts. The job says which
+// it was.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "kerf/estimate.h"
+#include "kerf/findings.h"
+#include "kerf/fixtures.h"
+#include "kerf/print.h"
+#include "kerf/program.h"
+#include "kerf/report.h"
+#include "kerf/rotary.h"
+#include "kerf/round_bar.h"
+#include "kerf/simulate.h"
+#include "kerf/stock.h"
+#include "kerf/stock_body.h"
+#include "kerf/tool.h"
+#include "kerf/tool_files.h"
+
+namespace kerf {
+
+// ---- what the caller chooses
+
+struct ToolChoices {
+  std::map<int, Tool> numbered;          // for one number each; precede all others
+  std::optional<Tool> any_number;        // for every number not in `numbered`
+  ToolTable table = built_in_tools();    // and tool files
+  std::map<int, std::string> from_file;  // the numbers of `table` that came from a file, and its name
+};
+/// Adds a tool given as "[N=]SPEC": "square d=3.175 flute=12.7" for every number, "2=V d=12.7 angle=90" for
+/// tool 2, "2=301" for the built-in tool 301. Errors have the origin `where`.
+void add_tool(const std::string& text, const Origin& where, ToolChoices& choices, Diagnostics& diagnostics);
+/// Adds the tools of a file (kerf/tool_files.h) to the table.
+void add_tool_file(const std::string& file, ToolChoices& choices, Diagnostics& diagnostics);
+/// The tools' diameters for cutter compensation, as ProgramOptions::tool_diameter takes them.
+decltype(ProgramOptions::tool_diameter) diameters_of(const ToolChoices& choices);
+
+struct JobSettings {
+  ToolChoices tools;
+  std::optional<Stock> stock;
+  std::optional<Stock> stock_file;  // read from a file; precedes `stock`
+  std::optional<StockMove> move;    // of the stock, wherever it comes from
+  std::vector<Fixture> fixtures;
+  std::optional<RoundBar> bar;  // instead of the stock: turned by a fourth axis
+};
+/// A stock as a mesh or as left by an earlier job; nothing with an error in `diagnostics`.
+std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostics);
+
+// ---- the job
+
+enum class ToolSource { unknown, option, comment, file, built_in };
+std::string_view to_string(ToolSource source);
+enum class StockSource { unknown, option, file, program, assumed };
+std::string_view to_string(StockSource source);
+
+/// What a job makes: material is cut from a block or a mesh, cut from a turned bar, or added.
+enum class JobKind { milling, rotary, print };
+
+struct Job {
+  JobKind kind = JobKind::milling;
+  Program program;  // its path starts with a tool change where the caller's choice had to supply one
+  PathReport report;
+  ToolTable tools;                         // those used and known
+  std::map<int, ToolSource> tool_sources;  // of every number used
+  std::optional<Stock> stock;
+  StockSource stock_source = StockSource::unknown;
+  std::vector<Fixture> fixtures;
+  std::optional<RoundBar> bar;  // instead of the stock
+  std::optional<PathHazard>
+      z_downwards;  // set where Z seems to count downwards, so that all else is doubtful
+};
+
+/// How an unknown tool is reported: as a warning, as an error, or not, because check_job has a finding for
+/// it.
+enum class UnknownTool { warning, error, unreported };
+/// Puts a job together. Unknown tools and an assumed stock are reported in `diagnostics`; where there is no
+/// stock and no cut to assume one around, `stock` stays empty without a message.
+Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics);
+/// A job of a program that prints (is_print): it has neither tools nor stock.
+Job make_print_job(Program program);
+
+/// The tools that a program changes to or describes, by number, as far as they are known.
+std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
+/// What to do about a tool of unknown shape, for hints.
+std::string hint_for_unknown(int tool);
+/// A tool in a few words: "square 3.175 mm".
+std::string short_name(const Tool& tool);
+
+// ---- carrying it out
+
+struct RunOptions {
+  Length resolution;     // of the columns; 0: by the size of stock or print
+  unsigned threads = 0;  // 0: all; the result does not depend on it
+  std::optional<Length>
+      layer_height;  // of a print; nothing: from the program's comments, else its steps in Z
+};
+
+struct JobRun {
+  std::variant<Simulation, RotarySimulation, PrintSimulation> result;  // by Job::kind
+  std::vector<Finding> findings;                                       // hazards met, and at the fixtures
+
+  const Simulation& milling() const { return std::get<Simulation>(result); }
+  const RotarySimulation& rotary() const { return std::get<RotarySimulation>(result); }
+  const PrintSimulation& print() const { return std::get<PrintSimulation>(result); }
+};
+/// Cuts or prints the job. Nothing where that is impossible (`diagnostics` has the error) or it is stopped.
+std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnostics& diagnostics,
+                              Progress* progress = nullptr);
+
+/// Warns if a job that cuts removes nothing from a stock that was given: a wrong zero, unit or corner.
+void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics);
+
+// ---- time
+
+/// Times as planned by the machine's controller, or, without a machine, from feeds and rapid rates alone.
+struct JobTimes {
+  TimeEstimate estimate;
+  std::string machine;  // its name; empty: not planned
+  bool planned() const { return !machine.empty(); }
+  /// Those of a tool, or of what comes before the first tool change.
+  const TimeFigures& of_tool(std::optional<int> tool) const;
+};
+JobTimes times_of(const Job& job, const Machine* machine);
+
+/// Whether a tool's deepest cut below the top of the stock is deeper than its flute is long.
+bool deeper_than_flute(const Job& job, const ToolFigures& figures);
+
+}  // namespace kerf

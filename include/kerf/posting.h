@@ -1,0 +1,80 @@
+// Programs written for a controller (kerf/post.h) or drawn from above (kerf/toolpath_drawing.h), with the
+// passes that improve them (kerf/passes.h) before.
+//
+//   std::optional<PostTarget> target = find_post_target("grbl");
+//   improve(program->path, {.fit_arcs = mm(0.005)});
+//   std::vector<PostedFile> files = post_program(*program, *target, {}, diagnostics);
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/drawing_files.h"
+#include "kerf/passes.h"
+#include "kerf/post.h"
+#include "kerf/program.h"
+#include "kerf/progress.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath_drawing.h"
+
+namespace kerf {
+
+struct DrawingFormat {
+  std::string_view name, title, file_ending;
+};
+const std::vector<DrawingFormat>& drawing_formats();
+
+/// What a program is written as: for a controller, or as a drawing.
+struct PostTarget {
+  std::optional<PostProfile> profile;
+  const DrawingFormat* drawing = nullptr;  // instead of `profile`
+  std::string name() const;
+};
+/// A drawing format or a built-in post by its name; nothing for other names.
+std::optional<PostTarget> find_post_target(std::string_view name);
+/// The names that find_post_target knows.
+std::vector<std::string> post_target_names();
+/// A post file of the user's own; nothing with an error in `diagnostics`.
+std::optional<PostTarget> load_post_target(const std::string& file, Diagnostics& diagnostics);
+
+/// "command", "pause", "files" or "ignore".
+std::optional<ToolChangePolicy> tool_change_policy_named(std::string_view name);
+/// "r2000" or "r12".
+std::optional<DxfVersion> dxf_version_named(std::string_view name);
+
+/// The passes to apply; 0 and false leave one out.
+struct PassChoices {
+  Length fit_arcs;  // tolerance of arcs that replace chains of chords
+  Length join;      // tolerance of straight cuts that are joined
+  bool shorten_rapids = false;
+};
+struct PassSaving {
+  std::string name;  // "arcs", "join", "rapids"
+  PassFigures before, after;
+};
+/// Applies the passes to a toolpath, and returns what each has saved.
+std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes);
+
+struct PostingOptions {
+  std::optional<LengthUnit> unit;  // nothing: the profile's; mm in a drawing
+  std::optional<ToolChangePolicy> tool_change;
+  Feed missing_feed;                         // for cutting moves without one; 0: an error
+  std::map<int, Tool> tools;                 // by number: for names in comments, and sizes of drilled holes
+  RapidLines rapids = RapidLines::left_out;  // of a drawing
+  DxfVersion dxf_version = DxfVersion::r2000;
+};
+/// The text of a program for its target, checked by the target's rules (lint_gcode). With an error in
+/// `diagnostics` it must not be used. A stopped run returns nothing.
+std::vector<PostedFile> post_program(const Program& program, const PostTarget& target,
+                                     const PostingOptions& options, Diagnostics& diagnostics,
+                                     Progress* progress = nullptr);
+
+/// The names of the files of post_program: "part.nc"; where each tool has a file of its own "part-T201.nc",
+/// and "part-T201-2.nc" where that tool comes again.
+std::vector<std::string> posted_file_names(const std::string& name, const std::vector<PostedFile>& files);
+
+}  // namespace kerf

@@ -1,0 +1,31 @@
+// The subcommands of `kerf`, one file each. A new one is a function declared here and a line in main.cpp.
+#pragma once
+
+#include <functional>
+
+#include "app/options/parser.h"
+#include "app/report/console.h"
+#include "app/report/status.h"
+
+namespace kerf::app {
+
+struct Command {
+  CommandParser parser;  // knows whether it is given
+  OutputOptions* output = nullptr;
+  std::function<Status(Console&)> run;
+};
+
+Command add_simulate(CommandParser& root);
+Command add_info(CommandParser& root);
+Command add_check(CommandParser& root);
+Command add_compare(CommandParser& root);
+Command add_steps(CommandParser& root);
+Command add_outline(CommandParser& root);
+Command add_post(CommandParser& root);
+Command add_tools_list(CommandParser& tools);
+Command add_tools_show(CommandParser& tools);
+Command add_tools_shapes(CommandParser& tools);
+Command add_tools_import(CommandParser& tools);
+Command add_tools_export(CommandParser& tools);
+
+}  // namespace kerf::app

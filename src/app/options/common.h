@@ -1,0 +1,31 @@
+// Options that several commands have, and the commands' common form.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options/parser.h"
+#include "app/report/console.h"
+
+namespace kerf::app {
+
+/// Makes a subcommand with its examples below the options in the help, and the options all have (--json,
+/// --quiet).
+CommandParser new_command(CommandParser& parent, const std::string& name, const std::string& summary,
+                          const std::string& examples, OutputOptions& output);
+
+/// An option whose value is a finite number from `low` to `high`; anything else is wrong usage.
+Option add_number(CommandParser& parser, const std::string& name, double& value, double low, double high,
+                  const std::string& unit, const std::string& summary);
+/// An option whose value is a length from `low` to `high` mm, in mm or with its unit ("0.01in").
+Option add_length(CommandParser& parser, const std::string& name, double& mm, double low, double high,
+                  const std::string& summary);
+/// The option --threads; 0 stands for all.
+Option add_threads(CommandParser& parser, double& threads);
+/// The positional FILE of the commands that read a program.
+Option add_program(CommandParser& parser, std::string& file);
+/// An option that may be given several times, one value each time.
+Option add_repeated(CommandParser& parser, const std::string& name, std::vector<std::string>& values,
+                    const std::string& kind, const std::string& summary);
+
+}  // namespace kerf::app

@@ -1,0 +1,142 @@
+// The options of what is written.
+#include "app/options/output_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
+#include <utility>
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr int kMaxPixels = 16384;  // a side of a picture
+
+/// Reports before a long simulation what would otherwise be reported after it.
+void test_folder(const std::string& path, Diagnostics& diagnostics) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0}, "cannot write the file: it is a folder");
+    return;
+  }
+  std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  if (!std::filesystem::is_directory(folder, ignored)) {
+    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
+                      fmt::format("cannot write the file: there is no folder {}", folder.string()));
+  } else if (access(folder.c_str(), W_OK) != 0) {
+    diagnostics.error(
+        Code::file_unwritable, TextSpot{path, 0, 0},
+        fmt::format("cannot write the file: the folder {} may not be written to", folder.string()));
+  }
+}
+
+std::optional<std::pair<double, double>> split_pair(const std::string& text, char separator) {
+  const std::size_t at = text.find(separator);
+  if (at == std::string::npos) return std::nullopt;
+  const auto a = parse_number(std::string_view(text).substr(0, at));
+  const auto b = parse_number(std::string_view(text).substr(at + 1));
+  if (!a || !b) return std::nullopt;
+  return {{*a, *b}};
+}
+
+bool read_section(const std::string& text, View& view, std::string& problem) {
+  view.section = parse_section(text);
+  if (!view.section) {
+    problem = fmt::format(
+        "--section: \"{}\" is no plane; expected an axis and a place on it in mm or with \"in\", as x=25, "
+        "y=-3.5 or z=0.25in",
+        text.substr(0, 40));
+    return false;
+  }
+  if (faces(view, *view.section)) return true;
+  problem = fmt::format("--section: this view sees no more of {} than its edge; choose another --view",
+                        to_string(*view.section));
+  return false;
+}
+
+}  // namespace
+
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
+}
+
+std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
+                                   const std::vector<std::string>& inputs, Diagnostics& usage,
+                                   Diagnostics& diagnostics) {
+  std::vector<PartFile> files;
+  for (const std::string& name : names) {
+    const std::optional<PartFile> file = part_file(name);
+    if (!file) {
+      usage
+          .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+                 fmt::format("\"{}\" ends in no format that can be written", name))
+          .hint =
+          "known endings: .stl .3mf .glb .obj for the part's surface, .png for a picture, .kstock for the "
+          "next job";
+      continue;
+    }
+    const auto is_name = [&name](const std::string& input) {
+      return !input.empty() && is_same_file(input, name);
+    };
+    const auto again = [&name](const PartFile& other) { return is_same_file(other.path, name); };
+    if (std::any_of(inputs.begin(), inputs.end(), is_name) ||
+        std::any_of(files.begin(), files.end(), again)) {
+      usage.error(Code::output_is_input, CallSpot{"", 0, "-o"},
+                  fmt::format("\"{}\" is an input, or stands twice among the outputs", name));
+      continue;
+    }
+    test_folder(name, diagnostics);
+    files.push_back(*file);
+  }
+  return files;
+}
+
+std::optional<View> read_view(const PictureOptions& options, std::string& problem) {
+  View out;
+  if (const auto named = named_view(options.view)) {
+    out = *named;
+  } else if (const auto angles = split_pair(options.view, ',')) {
+    if (std::abs(angles->first) > 360.0 || std::abs(angles->second) > 90.0) {
+      problem = "--view: the azimuth goes from -360 to 360 degrees and the elevation from -90 to 90";
+      return std::nullopt;
+    }
+    out.azimuth = degrees(angles->first);
+    out.elevation = degrees(angles->second);
+  } else {
+    problem = fmt::format(
+        "--view: \"{}\" is neither top, bottom, front, back, left, right or iso nor AZIMUTH,ELEVATION",
+        options.view.substr(0, 40));
+    if (const auto close =
+            did_you_mean(options.view, {"top", "bottom", "front", "back", "left", "right", "iso"}))
+      problem += fmt::format("; did you mean {}?", *close);
+    return std::nullopt;
+  }
+  const auto pixels = split_pair(options.size, 'x');
+  const auto good = [](double v) {
+    return v >= 16 && v <= kMaxPixels && v == static_cast<double>(static_cast<int>(v));
+  };
+  if (!pixels || !good(pixels->first) || !good(pixels->second)) {
+    problem = fmt::format("--size: \"{}\" is no WIDTHxHEIGHT in pixels, each from 16 to {}",
+                          options.size.substr(0, 40), kMaxPixels);
+    return std::nullopt;
+  }
+  out.width = static_cast<int>(pixels->first);
+  out.height = static_cast<int>(pixels->second);
+  if (!options.section.empty() && !read_section(options.section, out, problem)) return std::nullopt;
+  return out;
+}
+
+Option add_section(CommandParser& parser, PictureOptions& options) {
+  return parser
+      .add_text("--section", options.section,
+                "Picture of the part cut open at x=25, y=-3.5 or z=1in: without the viewer's side of that")
+      .value_name("PLANE");
+}
+
+}  // namespace kerf::app

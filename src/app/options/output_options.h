@@ -1,0 +1,32 @@
+// The options of what is written: -o, --view, --size and --section.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options/parser.h"
+
+#include "kerf/outputs.h"
+
+namespace kerf::app {
+
+/// Reads the names of -o. Errors (an unknown ending, a name twice, the name of an input) go to `usage`; a
+/// folder that is missing or not writable goes to `diagnostics`, before any work is done.
+std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
+                                   const std::vector<std::string>& inputs, Diagnostics& usage,
+                                   Diagnostics& diagnostics);
+/// Whether two names mean one file.
+bool is_same_file(const std::string& a, const std::string& b);
+
+/// The view of a picture, as given.
+struct PictureOptions {
+  std::string view = "-35,50";     // "top", "iso" ... or "AZIMUTH,ELEVATION" in degrees
+  std::string size = "1600x1000";  // pixels
+  std::string section = "";        // "x=25"; empty: the part is not cut open
+};
+Option add_section(CommandParser& parser, PictureOptions& options);
+/// Nothing, with the text of what is wrong in `problem`, where they are not understood.
+std::optional<View> read_view(const PictureOptions& options, std::string& problem);
+
+}  // namespace kerf::app

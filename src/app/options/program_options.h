@@ -1,0 +1,22 @@
+// The options of reading a program, which every command that reads one takes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options/parser.h"
+
+#include "kerf/program.h"
+
+namespace kerf::app {
+
+struct ReadingOptions {
+  std::string dialect;  // empty: determined from the text
+  bool read_on = false, strict = false;
+  double filament = 0.0;  // mm; 0: from the program
+  std::vector<std::string> defines, include_paths;
+};
+void add_reading_options(CommandParser& parser, ReadingOptions& options);
+ProgramOptions read_reading_options(const ReadingOptions& options);
+
+}  // namespace kerf::app

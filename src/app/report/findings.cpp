@@ -1,0 +1,66 @@
+// Hazards as text and as JSON.
+#include "app/report/findings.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr std::size_t kMaxLines = 30;  // of hazards as text; JSON has them all
+
+std::string line_of(const Finding& f) {
+  std::string line = to_string(f.origin);
+  if (!line.empty()) line += ": ";
+  line += f.message;
+  if (f.steps > 1) line += fmt::format(", in {} moves from here", f.steps);
+  line +=
+      fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
+  if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
+  line += fmt::format(") [{}]\n", f.kind);
+  if (!f.hint.empty()) line += "    hint: " + f.hint + "\n";
+  for (const Origin& caller : f.callers) line += fmt::format("  called from {}\n", to_string(caller));
+  return line;
+}
+
+}  // namespace
+
+Json json_of(const Finding& f) {
+  Json out{{"kind", f.kind},
+           {"at", json_of(f.at)},
+           {"depth_mm", json_of(f.depth_mm)},
+           {"removed_mm3", json_of(f.removed_mm3)},
+           {"step", f.step},
+           {"steps", f.steps},
+           {"message", f.message},
+           {"hint", f.hint},
+           {"origin", json_of(f.origin)}};
+  for (const Origin& caller : f.callers) out["callers"].push_back(json_of(caller));
+  return out;
+}
+
+Json json_of(const std::vector<Finding>& findings) {
+  Json list = Json::array();
+  for (const Finding& f : findings) list.push_back(json_of(f));
+  return list;
+}
+
+std::string count_text(const std::vector<Finding>& findings) {
+  const std::vector<Finding> lines = grouped(findings);
+  if (lines.empty()) return "none";
+  std::size_t moves = 0;
+  for (const Finding& line : lines) moves += line.steps;
+  if (moves == lines.size()) return std::to_string(moves);
+  return fmt::format("{} in {} moves", lines.size(), moves);
+}
+
+void show(Console& console, const std::vector<Finding>& findings) {
+  const std::vector<Finding> lines = grouped(findings);
+  for (std::size_t i = 0; i < std::min(lines.size(), kMaxLines); ++i) console.print(line_of(lines[i]));
+  if (lines.size() > kMaxLines)
+    console.print(fmt::format("... and {} more hazards (--json lists them all)\n", lines.size() - kMaxLines));
+}
+
+}  // namespace kerf::app

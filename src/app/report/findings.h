@@ -1,0 +1,22 @@
+// Hazards as text and as JSON.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/report/console.h"
+#include "app/report/json.h"
+
+#include "kerf/findings.h"
+
+namespace kerf::app {
+
+Json json_of(const Finding& finding);
+Json json_of(const std::vector<Finding>& findings);
+
+/// How many there are, as text: "none", "3", "2 in 57 moves". Counts the lines that show() prints.
+std::string count_text(const std::vector<Finding>& findings);
+/// One line a hazard, adjacent moves with the same hazard as one, to stdout.
+void show(Console& console, const std::vector<Finding>& findings);
+
+}  // namespace kerf::app

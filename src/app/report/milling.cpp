@@ -1,0 +1,100 @@
+// A job of milling, simulated: what was removed by which tool, and hazards.
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+
+#include "app/report/findings.h"
+#include "app/report/simulation.h"
+#include "app/report/status.h"
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+/// mm3 removed and seconds, by the tool in force; key nothing: before any tool change.
+std::map<std::optional<int>, double> removed_by_tool(const Job& job, const Simulation& simulation) {
+  std::map<std::optional<int>, double> removed;
+  std::optional<int> tool;
+  for (std::size_t i = 0; i < job.program.path.size(); ++i) {
+    if (job.program.path[i].kind() == StepKind::tool_change) tool = job.program.path[i].tool_change().tool;
+    removed[tool] += static_cast<double>(simulation.removed_by_step[i]);
+  }
+  return removed;
+}
+
+double seconds_of(const MotionFigures& f) { return (f.cutting + f.rapid + f.dwell).seconds(); }
+
+Json tools_json(const SimulationReport& result) {
+  const auto removed = removed_by_tool(result.job, result.run.milling());
+  Json list = Json::array();
+  for (const ToolFigures& t : result.job.report.tools) {
+    const auto it = removed.find(t.tool);
+    Json entry;
+    entry["number"] = t.tool ? Json(*t.tool) : Json(nullptr);
+    const Tool* tool = t.tool ? result.job.tools.find(*t.tool) : nullptr;
+    entry["name"] = tool != nullptr ? Json(short_name(*tool)) : Json(nullptr);
+    if (t.tool) entry["source"] = to_string(result.job.tool_sources.at(*t.tool));
+    entry["removed_mm3"] = json_of(it == removed.end() ? 0.0 : it->second);
+    entry["time_s"] = json_of(seconds_of(t.figures));
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json json_of_result(const SimulationReport& result) {
+  const Simulation& s = result.run.milling();
+  Json out;
+  out["source"] = result.job.program.source;
+  out["stock_mm3"] = json_of(s.stock.mm3());
+  out["removed_mm3"] = json_of(s.removed.mm3());
+  out["left_mm3"] = json_of(s.stock.mm3() - s.removed.mm3());
+  out["resolution_mm"] = json_of(s.workpiece.pitch().mm());
+  out["steps"] = result.job.program.path.size();
+  out["seconds"] = json_of(s.seconds);
+  out["stock"] =
+      Json{{"block_mm", json_of(result.job.stock->block)}, {"source", to_string(result.job.stock_source)}};
+  out["hazards"] = json_of(result.run.findings);
+  out["tools"] = tools_json(result);
+  out["outputs"] = json_of(result.files);
+  out["diagnostics"] = json_of(result.diagnostics);
+  return out;
+}
+
+void show_summary(Console& console, const SimulationReport& result) {
+  const Simulation& s = result.run.milling();
+  const Point3 size = result.job.stock->block.size();
+  console.summary(fmt::format("{}: {} steps", result.job.program.source, result.job.program.path.size()));
+  console.summary(fmt::format("stock    {} x {} x {} mm ({}), {} mm3", number_text(size.x, 3),
+                              number_text(size.y, 3), number_text(size.z, 3),
+                              to_string(result.job.stock_source), number_text(s.stock.mm3(), 1)));
+  const double share = s.stock.mm3() > 0.0 ? 100.0 * s.removed.mm3() / s.stock.mm3() : 0.0;
+  console.summary(fmt::format("removed  {} mm3 ({}%), left {} mm3", number_text(s.removed.mm3(), 1),
+                              number_text(share, 1), number_text(s.stock.mm3() - s.removed.mm3(), 1)));
+  const auto removed = removed_by_tool(result.job, s);
+  for (const ToolFigures& t : result.job.report.tools) {
+    if (!t.tool || t.figures.cut_bounds.empty()) continue;
+    const Tool* tool = result.job.tools.find(*t.tool);
+    const auto it = removed.find(t.tool);
+    console.summary(fmt::format(
+        "tool {:<4}{}: {} mm3 in about {}", *t.tool, tool != nullptr ? short_name(*tool) : "unknown",
+        number_text(it == removed.end() ? 0.0 : it->second, 1), clock_text(seconds_of(t.figures))));
+  }
+  console.summary(fmt::format("columns  {} mm apart, simulated in {} s",
+                              number_text(s.workpiece.pitch().mm(), 4), number_text(s.seconds, 3)));
+  show_written(console, result.files);
+  console.summary(fmt::format("hazards  {}", count_text(result.run.findings)));
+}
+
+}  // namespace
+
+void report_milling(Console& console, const SimulationReport& report) {
+  if (console.json()) {
+    console.print_json(text_of(json_of_result(report), Layout::indented));
+    return;
+  }
+  show_summary(console, report);
+  show(console, report.run.findings);
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,107 @@
+// A print, simulated: volumes by layer, and hazards.
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "app/report/findings.h"
+#include "app/report/simulation.h"
+#include "app/report/status.h"
+
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+/// What breaks something comes before what only looks bad.
+std::vector<Finding> worst_first(std::vector<PrintHazard> hazards, const Toolpath& path) {
+  std::stable_sort(hazards.begin(), hazards.end(),
+                   [](const PrintHazard& a, const PrintHazard& b) { return a.kind < b.kind; });
+  return findings_of(hazards, path);
+}
+
+void add_volumes(Json& out, const PrintVolumes& v) {
+  out["extruded_mm3"] = json_of(v.extruded.mm3());
+  out["laid_mm3"] = json_of(v.laid.mm3());
+  out["overlap_mm3"] = json_of(v.overlap.mm3());
+  out["ends_mm3"] = json_of(v.ends.mm3());
+  out["hollow_mm3"] = json_of(v.hollow.mm3());
+  out["enclosed_mm3"] = json_of(v.enclosed.mm3());
+  out["road_mm"] = json_of(v.road_length.mm());
+  out["unsupported_mm"] = json_of(v.unsupported.mm());
+}
+
+Json layers_json(const std::vector<PrintLayer>& layers) {
+  Json list = Json::array();
+  for (const PrintLayer& layer : layers) {
+    Json entry{
+        {"z_mm", json_of(layer.z.mm())}, {"height_mm", json_of(layer.height.mm())}, {"roads", layer.roads}};
+    add_volumes(entry, layer.volumes);
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+Json hazards_json(const std::vector<PrintHazard>& hazards, const Toolpath& path) {
+  Json list = json_of(findings_of(hazards, path));
+  for (std::size_t i = 0; i < hazards.size(); ++i) {
+    list[i]["length_mm"] = json_of(hazards[i].length.mm());
+    list[i]["volume_mm3"] = json_of(hazards[i].volume.mm3());
+  }
+  return list;
+}
+
+Json json_of_result(const Program& program, const PrintSimulation& s, const std::vector<PartFile>& outputs,
+                    const Diagnostics& diagnostics) {
+  Json out;
+  out["source"] = program.source;
+  out["kind"] = "print";
+  add_volumes(out, s.total);
+  out["blobs_mm3"] = json_of(s.total.blobs.mm3());
+  out["roads"] = s.roads;
+  out["layers"] = layers_json(s.layers);
+  out["resolution_mm"] = json_of(s.columns.pitch);
+  out["steps"] = program.path.size();
+  out["seconds"] = json_of(s.seconds);
+  out["hazards"] = hazards_json(s.hazards, program.path);
+  out["outputs"] = json_of(outputs);
+  out["diagnostics"] = json_of(diagnostics);
+  return out;
+}
+
+void show_summary(Console& console, const Program& program, const PrintSimulation& s,
+                  const std::vector<PartFile>& outputs, const std::vector<Finding>& findings) {
+  const auto text = [](Volume v) { return number_text(v.mm3(), 1); };
+  const PrintVolumes& t = s.total;
+  const double share = 100.0 * (t.overlap / t.extruded);
+  console.summary(fmt::format("{}: {} steps, a print", program.source, program.path.size()));
+  console.summary(fmt::format("roads    {} in {} layers, {} mm long", s.roads, s.layers.size(),
+                              number_text(t.road_length.mm(), 1)));
+  console.summary(fmt::format("extruded {} mm3, {} of it ({}%) where material is already", text(t.extruded),
+                              text(t.overlap), number_text(share, 1)));
+  console.summary(fmt::format("laid     {} mm3 of material", text(t.laid)));
+  console.summary(
+      fmt::format("hollow   {} mm3 below material, {} of it enclosed", text(t.hollow), text(t.enclosed)));
+  console.summary(
+      fmt::format("bridges  {} mm of road have nothing below", number_text(t.unsupported.mm(), 1)));
+  if (t.blobs.mm3() > 0.0) console.summary(fmt::format("blobs    {} mm3 pushed on the spot", text(t.blobs)));
+  console.summary(fmt::format("columns  {} mm apart, simulated in {} s", number_text(s.columns.pitch, 4),
+                              number_text(s.seconds, 3)));
+  show_written(console, outputs);
+  console.summary(fmt::format("hazards  {}", count_text(findings)));
+}
+
+}  // namespace
+
+void report_print(Console& console, const SimulationReport& report) {
+  const Program& program = report.job.program;
+  const PrintSimulation& s = report.run.print();
+  if (console.json()) {
+    console.print_json(
+        text_of(json_of_result(program, s, report.files, report.diagnostics), Layout::indented));
+    return;
+  }
+  const std::vector<Finding> findings = worst_first(s.hazards, program.path);
+  show_summary(console, program, s, report.files, findings);
+  show(console, findings);
+}
+
+}  // namespace kerf::app

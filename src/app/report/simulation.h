@@ -1,0 +1,24 @@
+// What `kerf simulate` prints, by the kind of job.
+#pragma once
+
+#include <vector>
+
+#include "app/report/console.h"
+
+#include "kerf/outputs.h"
+
+namespace kerf::app {
+
+/// A finished simulation and the files written.
+struct SimulationReport {
+  const Job& job;
+  const JobRun& run;
+  const std::vector<PartFile>& files;
+  const Diagnostics& diagnostics;
+};
+/// The result as JSON or as text, without the diagnostics in the latter.
+void report_milling(Console& console, const SimulationReport& report);
+void report_rotary(Console& console, const SimulationReport& report);
+void report_print(Console& console, const SimulationReport& report);
+
+}  // namespace kerf::app

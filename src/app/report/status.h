@@ -1,0 +1,32 @@
+// How a command ends: its exit status, and what is printed with it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/report/console.h"
+#include "app/report/json.h"
+#include "app/report/terminal_progress.h"
+
+#include "kerf/diagnostics.h"
+#include "kerf/outputs.h"
+
+namespace kerf::app {
+
+/// The exit statuses of every subcommand; scripts and `kerf check` in CI rely on them.
+enum class Status : int { done = 0, input_errors = 1, wrong_usage = 2, hazards = 3, interrupted = 130 };
+
+/// Ends a run without a result: the messages as text, or with --json as an object that holds nothing else.
+Status fail(Console& console, const Diagnostics& diagnostics, Status status);
+/// Reports that the user stopped the work.
+Status report_stopped(Console& console);
+/// Puts the files into place once all are written. Nothing where that is done; else how the command ends.
+std::optional<Status> finish_outputs(Console& console, TerminalProgress& progress, bool written,
+                                     OutputSet& set, Diagnostics& diagnostics);
+
+/// The files' paths, for --json and for the summary.
+Json json_of(const std::vector<PartFile>& files);
+void show_written(Console& console, const std::vector<PartFile>& files);
+
+}  // namespace kerf::app

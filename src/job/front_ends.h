@@ -1,0 +1,16 @@
+// The front ends that program.cpp chooses from, and what they share.
+#pragma once
+
+#include <string>
+
+#include "kerf/program.h"
+
+namespace kerf {
+
+FrontEnd gcode_front_end();
+FrontEnd gcmc_front_end();
+
+/// The folder of a file with its last slash; empty for the current one.
+std::string folder_of(const std::string& file);
+
+}  // namespace kerf

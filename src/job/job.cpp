@@ -1,0 +1,97 @@
+// Puts a job together and carries it out.
+#include "kerf/job.h"
+
+#include <utility>
+
+#include "job/choices.h"
+#include "job/fixture_findings.h"
+
+namespace kerf {
+namespace {
+
+/// What went wrong in the material and at the fixtures. Of a program whose Z counts downwards only that is
+/// reported, as all else follows from it.
+std::vector<Finding> findings_of_milling(const Job& job, const Simulation& simulation,
+                                         const SimulationOptions& how, Diagnostics& diagnostics,
+                                         Progress* progress) {
+  const Toolpath& path = job.program.path;
+  if (job.z_downwards) return findings_of({*job.z_downwards}, path);
+  std::vector<Finding> findings = merged(findings_of(simulation.hazards, path),
+                                         findings_at_fixtures(path, job, how, diagnostics, progress));
+  warn_assumed_flutes(findings, path, job.tools, diagnostics);
+  return findings;
+}
+
+std::optional<JobRun> run_milling(const Job& job, const SimulationOptions& how, Diagnostics& diagnostics,
+                                  Progress* progress) {
+  if (progress != nullptr) progress->phase("cutting");
+  auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, progress);
+  if (!simulation || simulation->stopped) return std::nullopt;
+  warn_untouched(job, simulation->removed, diagnostics);
+  auto findings = findings_of_milling(job, *simulation, how, diagnostics, progress);
+  return JobRun{std::move(*simulation), std::move(findings)};
+}
+
+std::optional<JobRun> run_rotary(const Job& job, const SimulationOptions& how, Diagnostics& diagnostics,
+                                 Progress* progress) {
+  auto simulation = simulate_rotary(job.program.path, job.tools, *job.bar, how, diagnostics, progress);
+  if (!simulation || simulation->stopped) return std::nullopt;
+  std::vector<Finding> findings = findings_of(simulation->hazards, job.program.path);
+  warn_assumed_flutes(findings, job.program.path, job.tools, diagnostics);
+  return JobRun{std::move(*simulation), std::move(findings)};
+}
+
+std::optional<JobRun> run_print(const Job& job, const RunOptions& options, Diagnostics& diagnostics,
+                                Progress* progress) {
+  PrintOptions how;
+  how.resolution = options.resolution;
+  how.threads = options.threads;
+  how.layer_height = options.layer_height;
+  auto simulation = simulate_print(job.program.path, how, diagnostics, progress);
+  if (!simulation || simulation->stopped) return std::nullopt;
+  std::vector<Finding> findings = findings_of(simulation->hazards, job.program.path);
+  return JobRun{std::move(*simulation), std::move(findings)};
+}
+
+}  // namespace
+
+Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
+  Job job;
+  job.program = std::move(program);
+  choose_tools(job, settings, unknown, diagnostics);
+  job.report = report_on(job.program.path, {});
+  job.z_downwards = find_z_downwards(job.program.path);
+  choose_stock(job, settings, diagnostics);
+  return job;
+}
+
+Job make_print_job(Program program) {
+  Job job;
+  job.kind = JobKind::print;
+  job.program = std::move(program);
+  job.report = report_on(job.program.path, {});
+  return job;
+}
+
+std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnostics& diagnostics,
+                              Progress* progress) {
+  SimulationOptions how;
+  how.resolution = options.resolution;
+  how.threads = options.threads;
+  std::optional<JobRun> run;
+  switch (job.kind) {
+    case JobKind::print: run = run_print(job, options, diagnostics, progress); break;
+    case JobKind::rotary: run = run_rotary(job, how, diagnostics, progress); break;
+    case JobKind::milling:
+      if (job.stock) {
+        run = run_milling(job, how, diagnostics, progress);
+      } else {
+        diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
+                          "the program cuts nothing and tells no stock, so there is nothing to simulate");
+      }
+  }
+  if (diagnostics.has_errors() || (progress != nullptr && progress->stop_requested())) return std::nullopt;
+  return run;
+}
+
+}  // namespace kerf

@@ -1,0 +1,62 @@
+// Outlines from JSON files and from Python scripts.
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "job/python_script.h"
+
+#include "kerf/program.h"
+
+namespace kerf {
+namespace {
+
+/// A file name that does not exist yet, removed again in the end.
+class TemporaryFile {
+ public:
+  TemporaryFile() {
+    std::string name = (std::filesystem::temp_directory_path() / "kerf-outlines-XXXXXX").string();
+    const int handle = mkstemp(name.data());
+    if (handle < 0) return;
+    close(handle);
+    path_ = name;
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove(path_, ignored);
+  }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// Runs a script and takes the outlines that it cuts with cnc25d_api.
+std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnostics& diagnostics) {
+  const TemporaryFile noted;
+  const auto fail = [&](const std::string& message) {
+    diagnostics.error(Code::script_failed, TextSpot{script, 0, 0}, message);
+    return std::vector<NamedOutline>();
+  };
+  if (noted.path().empty()) return fail("no temporary file can be made");
+  if (!InputFile::open(script, diagnostics)) return {};
+  const int status = run_python(script, {{"KERF_OUTLINES", noted.path()}}, diagnostics);
+  if (status < 0) return {};
+  if (status != 0) return fail(fmt::format("the script ended with status {}", status));
+  const auto file = InputFile::open(noted.path(), diagnostics);
+  if (!file) return {};
+  if (file->bytes().empty()) return fail("the script cut no outline with cnc25d_api.cnc_cut_outline()");
+  return read_outline_file(file->bytes(), script, diagnostics);
+}
+
+}  // namespace
+
+std::vector<NamedOutline> load_outlines(const std::string& name, Diagnostics& diagnostics) {
+  if (name.ends_with(".py")) return outlines_of_script(name, diagnostics);
+  const auto file = InputFile::open(name, diagnostics);
+  return file ? read_outline_file(file->bytes(), name, diagnostics) : std::vector<NamedOutline>();
+}
+
+}  // namespace kerf

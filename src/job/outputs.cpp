@@ -1,0 +1,330 @@
+// Meshes, pictures and the left-over stock of a job.
+#include "kerf/outputs.h"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fmt/format.h>
+#include <limits>
+#include <utility>
+
+#include "kerf/exact_mesh.h"
+#include "kerf/image_files.h"
+#include "kerf/number.h"
+#include "kerf/stock_files.h"
+
+namespace kerf {
+namespace {
+
+using Colour = std::array<std::uint8_t, 3>;
+
+// Index 0 is the stock's own surface, 1 a surface made by a hazard, the rest one a tool (and round again).
+constexpr std::array<Colour, 12> kPalette{{{222, 196, 156},
+                                           {214, 40, 40},
+                                           {86, 140, 190},
+                                           {106, 168, 110},
+                                           {232, 160, 64},
+                                           {146, 112, 180},
+                                           {72, 170, 170},
+                                           {204, 130, 160},
+                                           {150, 150, 70},
+                                           {120, 130, 150},
+                                           {176, 112, 80},
+                                           {60, 110, 130}}};
+constexpr std::uint8_t kStockColour = 0;
+constexpr std::uint8_t kHazardColour = 1;
+constexpr std::size_t kFirstToolColour = 2;
+constexpr int kMapPixels = 1600;  // a side of a comparison's map
+
+constexpr std::string_view kAxes = "xyz";
+constexpr std::array<Plane, 3> kAcross{Plane::yz, Plane::xz, Plane::xy};  // by the axis
+
+bool is_png(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".png";
+}
+
+/// Indices into the palette, and what they stand for.
+struct StepColours {
+  std::vector<std::uint8_t> of_step;  // of the tool in force, or of a hazard
+  std::vector<std::string> names;     // of the palette, as far as it is used
+};
+
+StepColours colour_steps(const Toolpath& path, const std::vector<std::uint32_t>& hazard_steps) {
+  StepColours out;
+  out.names = {"stock", "hazard"};
+  out.of_step.assign(path.size(), kFirstToolColour);
+  std::vector<int> seen;
+  std::uint8_t now = kFirstToolColour;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].kind() == StepKind::tool_change) {
+      const int tool = path[i].tool_change().tool;
+      const auto it = std::find(seen.begin(), seen.end(), tool);
+      const auto index = static_cast<std::size_t>(it - seen.begin());
+      now = static_cast<std::uint8_t>(kFirstToolColour + index % (kPalette.size() - kFirstToolColour));
+      if (it == seen.end()) {
+        seen.push_back(tool);
+        if (now == out.names.size()) out.names.emplace_back();
+        out.names[now] += fmt::format("{}tool {}", out.names[now].empty() ? "" : ", ", tool);
+      }
+    }
+    out.of_step[i] = now;
+  }
+  for (const std::uint32_t step : hazard_steps) out.of_step[step] = kHazardColour;
+  if (out.names.size() == kFirstToolColour) out.names.emplace_back("part");
+  return out;
+}
+
+std::vector<std::uint8_t> colour_triangles(const Mesh& mesh, const StepColours& colours) {
+  std::vector<std::uint8_t> out;
+  out.reserve(mesh.step.size());
+  for (const std::uint32_t step : mesh.step)
+    out.push_back(step < colours.of_step.size() ? colours.of_step[step] : kStockColour);
+  return out;
+}
+
+template <class Hazards>
+std::vector<std::uint32_t> steps_of(const Hazards& hazards) {
+  std::vector<std::uint32_t> steps;
+  for (const auto& hazard : hazards) steps.push_back(hazard.step);
+  return steps;
+}
+
+/// The steps whose surface is red. Of a print those that break something; bridges are as they should be.
+std::vector<std::uint32_t> red_steps(const Simulation& s) { return steps_of(s.hazards); }
+std::vector<std::uint32_t> red_steps(const RotarySimulation& s) { return steps_of(s.hazards); }
+std::vector<std::uint32_t> red_steps(const PrintSimulation& s) {
+  std::vector<std::uint32_t> steps;
+  for (const PrintHazard& h : s.hazards)
+    if (h.kind == PrintHazardKind::nozzle_contact || h.kind == PrintHazardKind::in_air)
+      steps.push_back(h.step);
+  return steps;
+}
+
+/// A mesh and what a sound one of its material holds.
+struct MeshOfRun {
+  Mesh mesh;
+  VolumeRange volume;
+};
+
+std::optional<MeshOfRun> mesh_of(const Simulation& s, const Job& job, const MeshOptions& options,
+                                 const SurfaceOptions& how, Diagnostics& diagnostics, Progress* progress) {
+  const MeshColumns columns(s.workpiece);
+  std::optional<Mesh> mesh;
+  if (how.detail == SurfaceDetail::exact) {
+    mesh = extract_exact_mesh(columns, options, s.workpiece, job.program.path, job.tools, *job.stock,
+                              diagnostics, progress);
+    if (!mesh) return std::nullopt;
+  } else {
+    mesh = extract_mesh(columns, options, progress);
+    relabel_mesh(*mesh, s.workpiece);
+  }
+  const Length stray = options.tolerance + SharpenOptions().tolerance;
+  return MeshOfRun{std::move(*mesh), mesh_volume(columns, {.tolerance = stray})};
+}
+
+std::optional<MeshOfRun> mesh_of(const RotarySimulation& s, const Job&, const MeshOptions&,
+                                 const SurfaceOptions&, Diagnostics&, Progress* progress) {
+  return MeshOfRun{extract_mesh(s.workpiece, progress), mesh_volume(s.workpiece)};
+}
+
+std::optional<MeshOfRun> mesh_of(const PrintSimulation& s, const Job&, const MeshOptions& options,
+                                 const SurfaceOptions& how, Diagnostics&, Progress* progress) {
+  Length layer;
+  for (const PrintLayer& l : s.layers) layer = std::max(layer, l.height);
+  const bool kept = how.grooves == Grooves::kept;
+  const ColumnGrid closed = kept ? ColumnGrid{} : without_grooves(s.columns, layer);
+  const ColumnGrid& columns = kept ? s.columns : closed;
+  return MeshOfRun{extract_print_mesh(columns, options, progress), mesh_volume(columns, options)};
+}
+
+std::string mesh_bytes(const PartSurface& surface, MeshFormat format, std::string_view name) {
+  MeshView view;
+  view.positions = surface.mesh.positions;
+  view.triangles = surface.mesh.triangles;
+  view.colour_index = surface.colours;
+  view.palette = kPalette;
+  view.palette_names = surface.colour_names;
+  view.step = surface.mesh.step;
+  view.name = name;
+  return write_mesh(view, format);
+}
+
+/// Whether the columns would show: in a mesh, and in a picture where they are larger than its pixels.
+bool shows_columns(const std::vector<PartFile>& files, const Workpiece& workpiece, const View& view) {
+  const auto is_mesh = [](const PartFile& file) { return file.mesh.has_value(); };
+  if (std::any_of(files.begin(), files.end(), is_mesh)) return true;
+  const Point3 size = workpiece.bounds().size();
+  return workpiece.pitch().mm() * std::min(view.width, view.height) > std::max(size.x, size.y);
+}
+
+std::vector<PartFile> without_left(const std::vector<PartFile>& files) {
+  std::vector<PartFile> out;
+  std::copy_if(files.begin(), files.end(), std::back_inserter(out),
+               [](const PartFile& file) { return !file.is_left; });
+  return out;
+}
+
+/// False, with an error, where the section of a picture does not go through what is drawn.
+bool section_meets(const Mesh& mesh, const View& view, Diagnostics& diagnostics) {
+  if (!view.section) return true;
+  const auto axis = static_cast<std::size_t>(axes_of(view.section->plane).w);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::size_t k = axis; k < mesh.positions.size(); k += 3) {
+    low = std::min<double>(low, mesh.positions[k]);
+    high = std::max<double>(high, mesh.positions[k]);
+  }
+  if (view.section->at > low && view.section->at < high) return true;
+  const std::string part = low < high ? fmt::format("the part, which lies from {}={} to {}", kAxes[axis],
+                                                    number_text(low, 3), number_text(high, 3))
+                                      : "anything: nothing is left";
+  diagnostics.error(Code::section_outside, CallSpot{"", 0, "--section"},
+                    fmt::format("{} does not go through {}", to_string(*view.section), part));
+  return false;
+}
+
+/// The part's surface in the colours of the comparison's map.
+std::vector<Colour> comparison_colours(const Mesh& mesh, const Simulation& simulation, const Comparison& c,
+                                       Length full) {
+  constexpr Colour kOnTarget{176, 206, 160};
+  const Box3& block = simulation.workpiece.bounds();
+  const double pitch = simulation.workpiece.pitch().mm();
+  const auto column = [pitch](double v, double low, int count) {
+    return static_cast<std::size_t>(std::clamp(static_cast<int>((v - low) / pitch), 0, count - 1));
+  };
+  std::vector<Colour> colours;
+  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3) {
+    double x = 0.0, y = 0.0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      x += static_cast<double>(mesh.positions[std::size_t{3} * mesh.triangles[t + k]]) / 3.0;
+      y += static_cast<double>(mesh.positions[std::size_t{3} * mesh.triangles[t + k] + 1]) / 3.0;
+    }
+    const std::size_t n =
+        column(y, block.low.y, c.ny) * static_cast<std::size_t>(c.nx) + column(x, block.low.x, c.nx);
+    const auto depth = static_cast<double>(c.map[n]);
+    colours.push_back(depth == 0.0 ? kOnTarget : difference_colour(depth, full));
+  }
+  return colours;
+}
+
+std::string png_of(const Image& image) { return write_png({image.width, image.height, image.rgba}); }
+
+}  // namespace
+
+std::optional<Section> parse_section(std::string_view text) {
+  const std::size_t axis =
+      text.empty() ? std::string_view::npos
+                   : kAxes.find(static_cast<char>(std::tolower(static_cast<unsigned char>(text[0]))));
+  if (axis == std::string_view::npos || text.size() < 3 || text[1] != '=') return std::nullopt;
+  const auto at = parse_length(text.substr(2), 1.0);
+  if (!at) return std::nullopt;
+  return Section{kAcross[axis], *at};
+}
+
+std::string to_string(const Section& section) {
+  return fmt::format("{}={}", kAxes[static_cast<std::size_t>(axes_of(section.plane).w)],
+                     exact_text(section.at));
+}
+
+std::span<const std::array<std::uint8_t, 3>> part_palette() { return kPalette; }
+
+std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const SurfaceOptions& how,
+                                        Diagnostics& diagnostics, Progress* progress) {
+  if (progress != nullptr) progress->phase("making the surface");
+  StepColours colours = std::visit(
+      [&](const auto& result) { return colour_steps(job.program.path, red_steps(result)); }, run.result);
+  const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = colours.of_step};
+  std::optional<MeshOfRun> made = std::visit(
+      [&](const auto& result) { return mesh_of(result, job, options, how, diagnostics, progress); },
+      run.result);
+  if (!made || (progress != nullptr && progress->stop_requested())) return std::nullopt;
+  PartSurface surface{std::move(made->mesh), made->volume, {}, std::move(colours.names)};
+  surface.colours = colour_triangles(surface.mesh, colours);
+  if (surface.mesh.triangles.empty())
+    diagnostics
+        .warning(Code::nothing_left, TextSpot{job.program.source, 0, 0},
+                 "nothing of the stock is left, so that meshes and pictures are empty")
+        .hint = "look at the stock's size and place, and at the program's units";
+  return surface;
+}
+
+std::optional<std::string> mesh_file(const PartSurface& surface, MeshFormat format, std::string_view name,
+                                     Diagnostics& diagnostics) {
+  if (!verify_mesh(surface.mesh, surface.volume, diagnostics)) return std::nullopt;
+  return mesh_bytes(surface, format, name);
+}
+
+std::optional<std::string> picture_file(const PartSurface& surface, const View& view,
+                                        Diagnostics& diagnostics) {
+  if (!section_meets(surface.mesh, view, diagnostics)) return std::nullopt;
+  std::vector<Colour> rgb;
+  rgb.reserve(surface.colours.size());
+  for (const std::uint8_t c : surface.colours) rgb.push_back(kPalette[c]);
+  return png_of(render(surface.mesh, rgb, view));
+}
+
+std::optional<std::string> comparison_picture(const Simulation& simulation, const Comparison& comparison,
+                                              Length full, const std::optional<View>& view,
+                                              Diagnostics& diagnostics, Progress* progress) {
+  if (!view) return png_of(draw_map(comparison, full, kMapPixels));
+  const Mesh mesh = extract_mesh(MeshColumns(simulation.workpiece), {}, progress);
+  if (progress != nullptr && progress->stop_requested()) return std::nullopt;
+  if (!section_meets(mesh, *view, diagnostics)) return std::nullopt;
+  return png_of(render(mesh, comparison_colours(mesh, simulation, comparison, full), *view));
+}
+
+std::optional<PartFile> part_file(const std::string& path) {
+  PartFile file{path, mesh_format_of(path), is_left_file(path)};
+  if (!file.mesh && !file.is_left && !is_png(path)) return std::nullopt;
+  return file;
+}
+
+bool can_write(const std::vector<PartFile>& files, JobKind kind, Diagnostics& diagnostics) {
+  if (kind == JobKind::milling) return true;
+  bool can = true;
+  for (const PartFile& file : files) {
+    if (!file.is_left) continue;
+    can = false;
+    diagnostics
+        .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+               fmt::format("\"{}\": {} cannot be the stock of a next job yet", file.path,
+                           kind == JobKind::print ? "a print" : "what is left of a bar"))
+        .hint = "write it as a mesh, and take that as --stock-mesh";
+  }
+  return can;
+}
+
+bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun& run,
+                const PartFileOptions& options, OutputSet& set, Diagnostics& diagnostics,
+                Progress* progress) {
+  if (!can_write(files, job.kind, diagnostics)) return false;
+  const auto* cut = std::get_if<Simulation>(&run.result);
+  for (const PartFile& file : files)
+    if (file.is_left && !set.write(file.path, write_left_file(left_columns(cut->workpiece)), diagnostics))
+      return false;
+  const std::vector<PartFile> surfaces = without_left(files);
+  if (surfaces.empty()) return true;
+  const bool exact = cut == nullptr || shows_columns(surfaces, cut->workpiece, options.view);
+  const auto surface =
+      make_surface(job, run, {exact ? SurfaceDetail::exact : SurfaceDetail::columns, options.grooves},
+                   diagnostics, progress);
+  if (!surface) return false;
+  const auto is_mesh = [](const PartFile& file) { return file.mesh.has_value(); };
+  if (std::any_of(surfaces.begin(), surfaces.end(), is_mesh) &&
+      !verify_mesh(surface->mesh, surface->volume, diagnostics))
+    return false;
+  const std::string name = std::filesystem::path(job.program.source).stem().string();
+  if (progress != nullptr) progress->phase("writing");
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    if (progress != nullptr) progress->report(static_cast<double>(i) / static_cast<double>(surfaces.size()));
+    const std::optional<std::string> bytes =
+        surfaces[i].mesh ? std::optional(mesh_bytes(*surface, *surfaces[i].mesh, name))
+                         : picture_file(*surface, options.view, diagnostics);
+    if (!bytes || !set.write(surfaces[i].path, *bytes, diagnostics)) return false;
+    if (progress != nullptr && progress->stop_requested()) return false;
+  }
+  return true;
+}
+
+}  // namespace kerf

@@ -1,0 +1,144 @@
+// Programs for controllers and as drawings.
+#include "kerf/posting.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+#include <utility>
+
+#include "kerf/job.h"
+#include "kerf/names.h"
+#include "kerf/tool_files.h"
+
+namespace kerf {
+namespace {
+
+std::string title_of(const Program& program) {
+  return program.source == "-" ? "" : std::filesystem::path(program.source).stem().string();
+}
+
+PostOptions post_options(const Program& program, const PostingOptions& options, LengthUnit unit) {
+  PostOptions out;
+  out.program_name = title_of(program);
+  out.unit = unit;
+  out.tool_change = options.tool_change;
+  out.missing_feed = options.missing_feed;
+  for (const auto& [number, tool] : options.tools) {
+    out.tool_names[number] = short_name(tool);
+    // Such comments are in the program's units; their rounding is for mm.
+    if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
+      out.tool_comments[number] = *text;
+  }
+  return out;
+}
+
+std::vector<PostedFile> post_gcode(const Program& program, const PostProfile& profile,
+                                   const PostingOptions& options, Diagnostics& diagnostics,
+                                   Progress* progress) {
+  const LengthUnit unit = options.unit.value_or(profile.unit);
+  auto files = post(program.path, profile, post_options(program, options, unit), diagnostics, progress);
+  for (const PostedFile& file : files) lint_gcode(file.text, profile, "output", diagnostics);
+  return files;
+}
+
+std::vector<PostedFile> draw(const Program& program, const DrawingFormat& format,
+                             const PostingOptions& options) {
+  ToolpathDrawingOptions how;
+  how.unit = options.unit == LengthUnit::inch ? DrawingUnit::inch : DrawingUnit::mm;
+  how.rapids = options.rapids;
+  how.title = title_of(program);
+  for (const auto& [number, tool] : options.tools) {
+    how.tool_names[number] = short_name(tool);
+    how.tool_diameters[number] = tool.diameter;
+  }
+  const Drawing drawing = toolpath_drawing(program.path, how);
+  PostedFile file;
+  file.text = format.name == "svg" ? write_svg(drawing) : write_dxf(drawing, options.dxf_version);
+  file.lines = static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
+  return {std::move(file)};
+}
+
+}  // namespace
+
+const std::vector<DrawingFormat>& drawing_formats() {
+  static const std::vector<DrawingFormat> all{{"dxf", "DXF drawing from above", ".dxf"},
+                                              {"svg", "SVG drawing from above", ".svg"}};
+  return all;
+}
+
+std::string PostTarget::name() const {
+  return drawing != nullptr ? std::string(drawing->name) : profile ? profile->name : std::string();
+}
+
+std::optional<PostTarget> find_post_target(std::string_view name) {
+  const std::string folded = fold_name(name);
+  for (const DrawingFormat& format : drawing_formats())
+    if (format.name == folded) return PostTarget{std::nullopt, &format};
+  if (const PostProfile* profile = find_post(name)) return PostTarget{*profile};
+  return std::nullopt;
+}
+
+std::vector<std::string> post_target_names() {
+  std::vector<std::string> names;
+  for (const PostProfile& p : built_in_posts()) names.push_back(p.name);
+  for (const DrawingFormat& d : drawing_formats()) names.emplace_back(d.name);
+  return names;
+}
+
+std::optional<PostTarget> load_post_target(const std::string& name, Diagnostics& diagnostics) {
+  const auto file = InputFile::open(name, diagnostics);
+  if (!file) return std::nullopt;
+  auto profile = read_post_profile(file->bytes(), name, diagnostics);
+  return profile ? std::optional(PostTarget{std::move(profile)}) : std::nullopt;
+}
+
+std::optional<ToolChangePolicy> tool_change_policy_named(std::string_view name) {
+  if (name == "command") return ToolChangePolicy::command;
+  if (name == "pause") return ToolChangePolicy::pause;
+  if (name == "files") return ToolChangePolicy::files;
+  if (name == "ignore") return ToolChangePolicy::ignore;
+  return std::nullopt;
+}
+
+std::optional<DxfVersion> dxf_version_named(std::string_view name) {
+  const std::string folded = fold_name(name);
+  if (folded == "r2000") return DxfVersion::r2000;
+  if (folded == "r12") return DxfVersion::r12;
+  return std::nullopt;
+}
+
+std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes) {
+  std::vector<PassSaving> savings;
+  const auto keep = [&](const char* name, PassResult result) {
+    savings.push_back({name, result.before, result.after});
+    path = std::move(result.path);
+  };
+  if (passes.fit_arcs > Length()) keep("arcs", fit_arcs(path, {.tolerance = passes.fit_arcs}));
+  if (passes.join > Length()) keep("join", join_straight(path, passes.join));
+  if (passes.shorten_rapids) keep("rapids", shorten_rapids(path));
+  return savings;
+}
+
+std::vector<PostedFile> post_program(const Program& program, const PostTarget& target,
+                                     const PostingOptions& options, Diagnostics& diagnostics,
+                                     Progress* progress) {
+  if (progress != nullptr) progress->phase("writing");
+  if (target.drawing != nullptr) return draw(program, *target.drawing, options);
+  return post_gcode(program, *target.profile, options, diagnostics, progress);
+}
+
+std::vector<std::string> posted_file_names(const std::string& name, const std::vector<PostedFile>& files) {
+  const std::filesystem::path path(name);
+  std::vector<std::string> names;
+  std::map<int, int> used;
+  for (const PostedFile& file : files) {
+    const int tool = file.tool.value_or(0), time = ++used[tool];
+    std::string file_name = fmt::format("{}-T{}", path.stem().string(), tool);
+    if (time > 1) file_name += fmt::format("-{}", time);
+    names.push_back((path.parent_path() / (file_name + path.extension().string())).string());
+  }
+  if (files.size() == 1) names = {name};
+  return names;
+}
+
+}  // namespace kerf

@@ -1,0 +1,131 @@
+// The stock of a job: given, described by the program, or assumed around its cuts.
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "job/choices.h"
+
+#include "kerf/assumed_stock.h"
+#include "kerf/number.h"
+#include "kerf/stock_files.h"
+
+namespace kerf {
+namespace {
+
+const Length kStockMargin = mm(2);  // of an assumed block, beyond the largest tool's radius
+const Length kStockFloor = mm(1);   // of an assumed block, below the deepest cut
+
+std::string_view reason_of(AssumedTop top) {
+  switch (top) {
+    case AssumedTop::passes: return "a pass above the highest one";
+    case AssumedTop::plunge: return "where the plunges begin";
+    case AssumedTop::cuts: return "at the highest cut";
+    case AssumedTop::zero: break;
+  }
+  return "at Z0";
+}
+
+/// Says which block is taken, and why its top is where it is. That is all but sure with Z0 on top; else the
+/// user should look at it.
+void report_assumed_stock(const AssumedStock& assumed, const Job& job, Diagnostics& diagnostics) {
+  const Box3& b = assumed.stock.block;
+  const Point3 size = b.size();
+  const auto text = [](Point3 p, std::string_view form) {
+    return fmt::format(fmt::runtime(form), number_text(p.x, 3), number_text(p.y, 3), number_text(p.z, 3));
+  };
+  const std::string block =
+      fmt::format("assumed {} around the cuts, from {} to {}", text(size, "{} x {} x {} mm"),
+                  text(b.low, "X{} Y{} Z{}"), text(b.high, "X{} Y{} Z{}"));
+  const Origin where = TextSpot{job.program.source, 0, 0};
+  const Box3& cuts = job.report.all.cut_bounds;
+  Diagnostic* reported = nullptr;
+  if (job.z_downwards)
+    reported = &diagnostics.note(Code::stock_assumed, where,
+                                 fmt::format("the program does not tell its stock; {}", block));
+  else if (assumed.top != AssumedTop::zero)
+    reported = &diagnostics.warning(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock, and Z0 seems not to be its top; {}, its top {}",
+                    block, reason_of(assumed.top)));
+  else if (cuts.low.z >= b.high.z)
+    reported = &diagnostics.warning(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock, and cuts nothing below Z0; {}, of which it removes "
+                    "nothing",
+                    block));
+  else
+    reported = &diagnostics.note(
+        Code::stock_assumed, where,
+        fmt::format("the program does not tell its stock; {}, its top {}", block, reason_of(assumed.top)));
+  reported->hint =
+      fmt::format("tell it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
+}
+
+void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+  job.stock = settings.stock_file;
+  job.stock_source = StockSource::file;
+  if (job.stock) return;
+  job.stock = settings.stock;
+  job.stock_source = StockSource::option;
+  if (job.stock) return;
+  job.stock = job.program.stock;
+  job.stock_source = StockSource::program;
+  if (job.stock) return;
+  job.stock_source = StockSource::unknown;
+  double radius = 0.0;
+  for (const auto& [number, tool] : job.tools.tools()) radius = std::max(radius, tool.diameter.mm() / 2.0);
+  const auto assumed = assume_stock(job.program.path, mm(radius) + kStockMargin, kStockFloor);
+  if (!assumed) return;
+  job.stock = assumed->stock;
+  job.stock_source = StockSource::assumed;
+  report_assumed_stock(*assumed, job, diagnostics);
+}
+
+}  // namespace
+
+std::optional<Stock> load_stock(const std::string& path, Diagnostics& diagnostics) {
+  const auto file = InputFile::open(path, diagnostics);
+  return file ? read_stock_file(file->bytes(), path, diagnostics) : std::nullopt;
+}
+
+void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
+  job.bar = settings.bar;
+  if (job.bar) {
+    job.kind = JobKind::rotary;
+    return;
+  }
+  find_stock(job, settings, diagnostics);
+  if (job.stock && settings.move) job.stock = moved(*job.stock, *settings.move);
+  job.fixtures = settings.fixtures;
+}
+
+void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
+  const Box3& cuts = job.report.all.cut_bounds;
+  if (removed > Volume() || cuts.empty() || !job.stock || job.stock_source == StockSource::assumed) return;
+  const auto text = [](const Box3& box) {
+    return fmt::format("X{} Y{} Z{} to X{} Y{} Z{}", number_text(box.low.x, 3), number_text(box.low.y, 3),
+                       number_text(box.low.z, 3), number_text(box.high.x, 3), number_text(box.high.y, 3),
+                       number_text(box.high.z, 3));
+  };
+  const Box3& block = job.stock->block;
+  const bool are_apart = cuts.low.x > block.high.x || cuts.high.x < block.low.x ||
+                         cuts.low.y > block.high.y || cuts.high.y < block.low.y || cuts.low.z >= block.high.z;
+  diagnostics
+      .warning(Code::stock_untouched, TextSpot{job.program.source, 0, 0},
+               fmt::format("the program cuts nothing of the stock: it cuts from {}, the stock lies from {}",
+                           text(cuts), text(block)))
+      .hint = are_apart ? "look at the program's zero, its units, and the stock's place"
+                        : "its cuts may be narrower than the columns are apart: try a finer --resolution";
+}
+
+std::string_view to_string(StockSource source) {
+  switch (source) {
+    case StockSource::option: return "option";
+    case StockSource::file: return "file";
+    case StockSource::program: return "program";
+    case StockSource::assumed: return "assumed";
+    case StockSource::unknown: break;
+  }
+  return "unknown";
+}
+
+}  // namespace kerf
