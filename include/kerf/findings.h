@@ -55,8 +55,8 @@ void warn_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, c
 std::string_view reason_of_flute(const Tool& tool);
 
 struct JobCheckOptions {
-  Length resolution;     // of the material; 0: coarse, by the stock's size
-  unsigned threads = 0;  // 0: all
+  Length resolution = {};  // of the material; 0: coarse, by the stock's size
+  unsigned threads = 0;    // 0: all
   const Machine* machine = nullptr;
   const Material* material = nullptr;  // of the stock, for the chip load
 };

@@ -105,10 +105,10 @@ std::string short_name(const Tool& tool);
 // ---- carrying it out
 
 struct RunOptions {
-  Length resolution;     // of the columns; 0: by the size of stock or print
-  unsigned threads = 0;  // 0: all; the result does not depend on it
-  std::optional<Length>
-      layer_height;  // of a print; nothing: from the program's comments, else its steps in Z
+  Length resolution = {};  // of the columns; 0: by the size of stock or print
+  unsigned threads = 0;    // 0: all; the result does not depend on it
+  /// Of a print; nothing: from the program's comments, else its steps in Z.
+  std::optional<Length> layer_height = {};
 };
 
 struct JobRun {

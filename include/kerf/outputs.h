@@ -86,7 +86,7 @@ std::optional<PartFile> part_file(const std::string& path);
 bool can_write(const std::vector<PartFile>& files, JobKind kind, Diagnostics& diagnostics);
 
 struct PartFileOptions {
-  View view;  // of pictures
+  View view = {};  // of pictures
   Grooves grooves = Grooves::closed;
 };
 /// Writes the files into `set`, which is not committed. Meshes are verified before. False, with an error,

@@ -48,8 +48,8 @@ std::optional<DxfVersion> dxf_version_named(std::string_view name);
 
 /// The passes to apply; 0 and false leave one out.
 struct PassChoices {
-  Length fit_arcs;  // tolerance of arcs that replace chains of chords
-  Length join;      // tolerance of straight cuts that are joined
+  Length fit_arcs = {};  // tolerance of arcs that replace chains of chords
+  Length join = {};      // tolerance of straight cuts that are joined
   bool shorten_rapids = false;
 };
 struct PassSaving {
@@ -60,10 +60,10 @@ struct PassSaving {
 std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes);
 
 struct PostingOptions {
-  std::optional<LengthUnit> unit;  // nothing: the profile's; mm in a drawing
-  std::optional<ToolChangePolicy> tool_change;
-  Feed missing_feed;                         // for cutting moves without one; 0: an error
-  std::map<int, Tool> tools;                 // by number: for names in comments, and sizes of drilled holes
+  std::optional<LengthUnit> unit = {};  // nothing: the profile's; mm in a drawing
+  std::optional<ToolChangePolicy> tool_change = {};
+  Feed missing_feed = {};                    // for cutting moves without one; 0: an error
+  std::map<int, Tool> tools = {};            // by number: for names in comments, and sizes of drilled holes
   RapidLines rapids = RapidLines::left_out;  // of a drawing
   DxfVersion dxf_version = DxfVersion::r2000;
 };

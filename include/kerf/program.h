@@ -42,14 +42,14 @@ struct Program {
 
 /// How a program is read. Options that a front end has no use for are ignored.
 struct ProgramOptions {
-  std::optional<Machine> machine;                           // the one that is to run the program, if known
-  std::optional<GcodeDialect> dialect;                      // of G-code; nothing: determined from the text
-  bool read_on = false;                                     // past the end of a G-code program
-  bool strict = false;                                      // unusual G-code words are errors
-  std::optional<double> filament_diameter;                  // mm, of a printer; nothing: from the program
-  decltype(GcodeReadOptions::tool_diameter) tool_diameter;  // for cutter compensation
-  std::vector<std::string> defines;                         // gcmc statements that run first: "depth=5mm"
-  std::vector<std::string> include_paths;  // folders searched for included files after the program's own
+  std::optional<Machine> machine = {};           // the one that is to run the program, if known
+  std::optional<GcodeDialect> dialect = {};      // of G-code; nothing: determined from the text
+  bool read_on = false;                          // past the end of a G-code program
+  bool strict = false;                           // unusual G-code words are errors
+  std::optional<double> filament_diameter = {};  // mm, of a printer; nothing: from the program
+  decltype(GcodeReadOptions::tool_diameter) tool_diameter = {};  // for cutter compensation
+  std::vector<std::string> defines = {};        // gcmc statements that run first: "depth=5mm"
+  std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
 };
 
 /// A way to read files. `endings` are in lower case with their dot.
