@@ -13,10 +13,10 @@
 #include "kerf/check.h"
 #include "kerf/diagnostics.h"
 #include "kerf/fixtures.h"
+#include "kerf/hazard.h"
 #include "kerf/material.h"
 #include "kerf/print.h"
 #include "kerf/progress.h"
-#include "kerf/simulate.h"
 #include "kerf/tool.h"
 
 namespace kerf {

@@ -20,8 +20,10 @@
 #include "kerf/diagnostics.h"
 #include "kerf/files.h"
 #include "kerf/job.h"
+#include "kerf/mesh.h"
 #include "kerf/mesh_files.h"
 #include "kerf/progress.h"
+#include "kerf/render.h"
 #include "kerf/simulate.h"
 
 namespace kerf {
