@@ -37,9 +37,12 @@ enum class LaserMode : std::uint8_t { off, constant, dynamic };
 /// Probing: what ends the motion (contact made or contact lost) and whether missing it is an error
 /// (G38.2-G38.5).
 enum class ProbeKind : std::uint8_t { contact_or_error, contact, release_or_error, release };
-/// What a motion's position is told in: work coordinates, machine coordinates (G53), or as the place that the
-/// controller keeps as its home (G28, G30).
-enum class Reference : std::uint8_t { work, machine, home, second_home };
+/// Where a pause (M0, M1, M60) waits: always, only if the operator's switch is set, or with a change of
+/// pallets.
+enum class PauseKind : std::uint8_t { always, optional, pallet_change };
+/// What a motion's position is given in: work coordinates, machine coordinates (G53), as the position that
+/// the controller stores as its home (G28, G30), or as the end switches of the axes (a printer's G28).
+enum class Reference : std::uint8_t { work, machine, home, second_home, end_switches };
 
 namespace step {
 
@@ -114,7 +117,25 @@ struct Layer {
 struct Note {
   std::string text;
 };
-/// Text that a front end hands to the controller as it is (and the pauses and program ends M0, M1, M2, M30).
+/// The machine waits for the operator (M0, M1, M60).
+struct Pause {
+  PauseKind kind = PauseKind::always;
+};
+/// The program ends (M2); `rewind`: and is ready to run again (M30).
+struct End {
+  bool rewind = false;
+};
+/// The drawn contour returns to its start point. It matters to drawings only: the tool does not
+/// move.
+struct ClosePath {};
+/// The controller stores the present position as its home or second home (G28.1, G30.1), where later motions
+/// with that reference lead.
+struct StoreHome {
+  Reference home = Reference::home;
+};
+/// A line for the controller that Kerf passes on as it is, such as a macro's call or a message on a display.
+/// It neither moves the machine nor changes how other lines are read: whoever makes the step vouches for
+/// that.
 struct Verbatim {
   std::string text;
 };
@@ -138,6 +159,10 @@ enum class StepKind : std::uint8_t {
   layer,
   note,
   verbatim,
+  pause,
+  end,
+  close_path,
+  store_home,
 };
 /// The name used in `kerf steps`: "rapid", "cut", "tool", "pathmode" and so on.
 std::string_view name_of(StepKind kind);
@@ -161,8 +186,8 @@ class Step {
   /// Bits 1, 2, 4: at this motion's end X, Y, Z is not known in work coordinates (never commanded yet, or
   /// commanded in machine coordinates). `to()` then holds what an interpreter with zero offsets takes.
   unsigned unknown_axes() const { return frame_ & 7u; }
-  /// What the axes of `reference_axes()` (bits as above) are told in. Those axes are unknown ones.
-  Reference reference() const { return static_cast<Reference>(frame_ >> 6); }
+  /// What the axes of `reference_axes()` (bits as above) are given in. Those axes are unknown ones.
+  Reference reference() const { return static_cast<Reference>(reference_); }
   unsigned reference_axes() const { return (frame_ >> 3) & 7u; }
   /// Bits 1, 2, 4, 8, 16, 32: the program named X, Y, Z, A, B, C for this motion; 0 = that is not told.
   /// `to()` is complete either way. A post that prints words as the user gave them may use it; nothing else
@@ -183,6 +208,9 @@ class Step {
   step::Temperature temperature() const;
   step::Fan fan() const;
   step::LaserPower laser_power() const;
+  step::Pause pause() const;
+  step::End end() const;
+  step::StoreHome store_home() const;
 
  private:
   friend class Toolpath;
@@ -191,11 +219,12 @@ class Step {
   OriginId origin_ = OriginId::none;
   std::uint32_t extra_ = 0;  // index into the toolpath's extras, 0 = none
   StepKind kind_ = StepKind::rapid;
-  std::uint8_t plane_ : 7 = 0;  // Plane, or the kind's own small enumeration
+  std::uint8_t plane_ : 3 = 0;  // Plane, or the kind's own small enumeration
+  std::uint8_t reference_ : 3 = 0;
   bool rests_before_ : 1 = false;
   std::uint8_t turn_ : 2 = 0;  // Turn or SpindleTurn, or two flags
   std::uint8_t named_axes_ : 6 = 0;
-  std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference axes, 2 bits Reference
+  std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference axes
 };
 static_assert(sizeof(Step) == 64, "a million steps are to fit in 64 MB");
 
@@ -237,6 +266,10 @@ class Toolpath {
   std::size_t add(const step::Layer& s, OriginId origin);
   std::size_t add(const step::Note& s, OriginId origin);
   std::size_t add(const step::Verbatim& s, OriginId origin);
+  std::size_t add(const step::Pause& s, OriginId origin);
+  std::size_t add(const step::End& s, OriginId origin);
+  std::size_t add(const step::ClosePath& s, OriginId origin);
+  std::size_t add(const step::StoreHome& s, OriginId origin);
   /// Copies step `i` of another toolpath (made from the same sources), texts, extras and origin included.
   std::size_t add_copy(const Toolpath& other, std::size_t i);
   /// Copies the origin of step `i` of another toolpath, callers included, for a step that stands for that

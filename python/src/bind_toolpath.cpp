@@ -70,6 +70,17 @@ py::dict describe(const Toolpath& path, std::size_t i) {
     }
     case StepKind::note:
     case StepKind::verbatim: d["text"] = std::string(path.text(i)); break;
+    case StepKind::pause: {
+      const PauseKind kind = s.pause().kind;
+      d["pause"] = kind == PauseKind::always     ? "always"
+                   : kind == PauseKind::optional ? "optional"
+                                                 : "pallet_change";
+      break;
+    }
+    case StepKind::end: d["rewind"] = s.end().rewind; break;
+    case StepKind::store_home:
+      d["home"] = s.store_home().home == Reference::home ? "home" : "second_home";
+      break;
     case StepKind::layer: d["name"] = path.layer(i).name; break;
     default: break;
   }

@@ -130,7 +130,7 @@ class ToolpathSink final : public DrillSink {
   void spindle(SpindleTurn turn) override {
     path_.add(step::Spindle{turn == SpindleTurn::off ? rpm(0) : rates_.speed, turn}, origin_);
   }
-  void pause() override { path_.add(step::Verbatim{"M0"}, origin_); }
+  void pause() override { path_.add(step::Pause{}, origin_); }
 
  private:
   Toolpath& path_;

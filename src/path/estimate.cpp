@@ -24,10 +24,6 @@ std::size_t chords_of(const ArcWalk& walk, double tolerance) {
   return static_cast<std::size_t>(std::clamp(n, 1.0, static_cast<double>(kMostChords)));
 }
 
-bool is_pause(std::string_view text) {
-  return text == "M0" || text == "M2" || text == "M30" || text == "M60";
-}
-
 class Walker {
  public:
   Walker(const Toolpath& path, const Machine& machine)
@@ -59,12 +55,13 @@ class Walker {
   void move(std::size_t i) {
     const Step& s = path_[i];
     const bool probes = s.kind() == StepKind::probe;
-    if (s.rests_before() || probes) stop(i);
+    const bool homes = s.reference() == Reference::end_switches;  // takes an unknown time
+    if (s.rests_before() || probes || homes) stop(i);
     const double feed =
         s.kind() == StepKind::rapid ? std::numeric_limits<double>::infinity() : s.feed().mm_per_min() / 60.0;
     const bool turns_only = s.to() == here_ && s.kind() != StepKind::arc && path_.extra(i) != nullptr;
-    if (!(feed > 0.0) || turns_only) {
-      ++not_timed_;
+    if (!(feed > 0.0) || turns_only || homes) {
+      if (!homes) ++not_timed_;
       planner_.place(s.to());
     } else if (s.kind() == StepKind::arc) {
       arc(i, feed);
@@ -90,8 +87,9 @@ class Walker {
     const Step& s = path_[i];
     switch (s.kind()) {
       case StepKind::dwell:
-      case StepKind::tool_change: return true;
-      case StepKind::verbatim: return is_pause(path_.text(i));
+      case StepKind::tool_change:
+      case StepKind::end: return true;
+      case StepKind::pause: return s.pause().kind != PauseKind::optional;
       case StepKind::temperature: return s.temperature().wait;
       case StepKind::path_mode: exact_stop_ = s.path_mode().kind == PathModeKind::exact_stop; return false;
       case StepKind::coolant: return coolant_changes(s.coolant());

@@ -111,6 +111,10 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
     if (s.kind() == StepKind::dwell) figures.dwell = figures.dwell + s.dwell().time;
     if (turns) figures.speed.add(s.spindle().speed.rpm());
     if (!s.is_motion()) continue;
+    if (s.reference() == Reference::end_switches) {  // how far that is depends on the machine
+      at = s.to();
+      continue;
+    }
     const Motion motion = measure(s, at);
     add(figures, motion, options);
     if (s.is_cutting())

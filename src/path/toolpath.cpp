@@ -9,8 +9,9 @@ namespace kerf {
 
 std::string_view name_of(StepKind kind) {
   static constexpr std::string_view kNames[] = {
-      "rapid", "cut",     "arc",         "dwell", "tool",  "spindle", "coolant", "pathmode",
-      "probe", "extrude", "temperature", "fan",   "laser", "layer",   "note",    "verbatim",
+      "rapid",    "cut",      "arc",     "dwell",       "tool",      "spindle",   "coolant",
+      "pathmode", "probe",    "extrude", "temperature", "fan",       "laser",     "layer",
+      "note",     "verbatim", "pause",   "end",         "closepath", "storehome",
   };
   return kNames[static_cast<std::size_t>(kind)];
 }
@@ -67,6 +68,19 @@ step::LaserPower Step::laser_power() const {
   return {static_cast<LaserMode>(plane_), values_[0]};
 }
 
+step::Pause Step::pause() const {
+  assert(kind_ == StepKind::pause);
+  return {static_cast<PauseKind>(plane_)};
+}
+step::End Step::end() const {
+  assert(kind_ == StepKind::end);
+  return {turn_ != 0};
+}
+step::StoreHome Step::store_home() const {
+  assert(kind_ == StepKind::store_home);
+  return {static_cast<Reference>(plane_)};
+}
+
 // ---- adding steps
 
 Step& Toolpath::append(StepKind kind, OriginId origin) {
@@ -106,7 +120,7 @@ std::size_t Toolpath::add(const step::Arc& s, OriginId origin) {
   out.values_[3] = s.feed.raw();
   out.values_[4] = s.centre.x;
   out.values_[5] = s.centre.y;
-  out.plane_ = static_cast<std::uint8_t>(s.plane) & 0x7f;
+  out.plane_ = static_cast<std::uint8_t>(s.plane) & 7;
   out.turn_ = static_cast<std::uint8_t>(s.turn) & 3;
   out.count_ = s.extra_turns;
   return steps_.size() - 1;
@@ -132,14 +146,14 @@ std::size_t Toolpath::add(const step::Coolant& s, OriginId origin) {
 }
 std::size_t Toolpath::add(const step::PathMode& s, OriginId origin) {
   Step& out = append(StepKind::path_mode, origin);
-  out.plane_ = static_cast<std::uint8_t>(s.kind) & 0x7f;
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
   out.values_[0] = s.tolerance.raw();
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Probe& s, OriginId origin) {
   Step& out = append_motion(StepKind::probe, s.to, origin);
   out.values_[3] = s.feed.raw();
-  out.plane_ = static_cast<std::uint8_t>(s.kind) & 0x7f;
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Extrude& s, OriginId origin) {
@@ -153,7 +167,7 @@ std::size_t Toolpath::add(const step::Extrude& s, OriginId origin) {
 }
 std::size_t Toolpath::add(const step::Temperature& s, OriginId origin) {
   Step& out = append(StepKind::temperature, origin);
-  out.plane_ = static_cast<std::uint8_t>(s.heater) & 0x7f;
+  out.plane_ = static_cast<std::uint8_t>(s.heater) & 7;
   out.values_[0] = s.celsius;
   out.turn_ = s.wait ? 1 : 0;
   return steps_.size() - 1;
@@ -166,7 +180,7 @@ std::size_t Toolpath::add(const step::Fan& s, OriginId origin) {
 }
 std::size_t Toolpath::add(const step::LaserPower& s, OriginId origin) {
   Step& out = append(StepKind::laser_power, origin);
-  out.plane_ = static_cast<std::uint8_t>(s.mode) & 0x7f;
+  out.plane_ = static_cast<std::uint8_t>(s.mode) & 7;
   out.values_[0] = s.power;
   return steps_.size() - 1;
 }
@@ -182,6 +196,23 @@ std::size_t Toolpath::add(const step::Note& s, OriginId origin) {
 }
 std::size_t Toolpath::add(const step::Verbatim& s, OriginId origin) {
   append(StepKind::verbatim, origin).count_ = intern(s.text);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Pause& s, OriginId origin) {
+  append(StepKind::pause, origin).plane_ = static_cast<std::uint8_t>(s.kind) & 7;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::End& s, OriginId origin) {
+  append(StepKind::end, origin).turn_ = s.rewind ? 1 : 0;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::ClosePath&, OriginId origin) {
+  append(StepKind::close_path, origin);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::StoreHome& s, OriginId origin) {
+  assert(s.home == Reference::home || s.home == Reference::second_home);
+  append(StepKind::store_home, origin).plane_ = static_cast<std::uint8_t>(s.home) & 7;
   return steps_.size() - 1;
 }
 
@@ -213,6 +244,7 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
   }
   if (const MotionExtra* extra = other.extra(i)) set_extra(steps_.size() - 1, *extra);
   steps_.back().frame_ = other.steps_[i].frame_;
+  steps_.back().reference_ = other.steps_[i].reference_;
   steps_.back().rests_before_ = other.steps_[i].rests_before_;
   steps_.back().named_axes_ = other.steps_[i].named_axes_;
   return steps_.size() - 1;
@@ -230,8 +262,8 @@ void Toolpath::set_unknown_axes(std::size_t i, unsigned bits) {
 
 void Toolpath::set_reference(std::size_t i, Reference reference, unsigned axes) {
   assert((axes & ~steps_[i].unknown_axes()) == 0);
-  const unsigned packed = (static_cast<unsigned>(reference) << 6) | (axes << 3) | steps_[i].unknown_axes();
-  steps_[i].frame_ = static_cast<std::uint8_t>(packed);
+  steps_[i].frame_ = static_cast<std::uint8_t>((axes << 3) | steps_[i].unknown_axes());
+  steps_[i].reference_ = static_cast<std::uint8_t>(reference) & 7;
 }
 
 void Toolpath::set_rests_before(std::size_t i) {

@@ -216,7 +216,7 @@ def test_gcmc_is_a_way_in(kerf, program):
             "goto([-, -, 5]);\n", "p.gcmc")
     steps = [json.loads(line) for line in kerf("steps", "p.gcmc").out.splitlines()]
     kinds = [s["step"] for s in steps[1:]]
-    assert kinds == ["tool", "spindle", "rapid", "cut", "cut", "rapid"]
+    assert kinds == ["tool", "spindle", "rapid", "cut", "cut", "rapid", "spindle", "end"]  # M30 stops it
     assert steps[5]["to"] == [10, 0, -1] and steps[5]["feed"] == 400
     assert steps[5]["origin"]["line"] == 1
     assert kerf("info", "--json", "p.gcmc").json["motion"]["lines"] == 2

@@ -55,7 +55,7 @@ std::vector<std::string> essence_of(const Toolpath& path, Resting resting) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
     if (s.kind() == StepKind::dwell) all.push_back(fmt::format("dwell {:g}", s.dwell().time.seconds()));
-    if (s.kind() == StepKind::verbatim && path.text(i) == "M0") all.push_back("pause");
+    if (s.kind() == StepKind::pause) all.push_back("pause");
     if (!s.is_motion()) continue;
     const MotionContext& c = motions.context();
     const bool turns = more && c.spindle.turn != SpindleTurn::off;

@@ -37,6 +37,19 @@ std::string_view word(Heater heater) {
 std::string_view word(LaserMode mode) {
   return mode == LaserMode::off ? "off" : mode == LaserMode::constant ? "constant" : "dynamic";
 }
+std::string_view word(PauseKind kind) {
+  return kind == PauseKind::always ? "always" : kind == PauseKind::optional ? "optional" : "pallet_change";
+}
+std::string_view word(Reference reference) {
+  switch (reference) {
+    case Reference::work: return "work";
+    case Reference::machine: return "machine";
+    case Reference::home: return "home";
+    case Reference::second_home: return "second_home";
+    case Reference::end_switches: break;
+  }
+  return "end_switches";
+}
 std::string_view word(ProbeKind kind) {
   switch (kind) {
     case ProbeKind::contact_or_error: return "contact_or_error";
@@ -59,6 +72,7 @@ void add_motion(Json& out, const Toolpath& path, std::size_t i) {
   Json& axes = out["unknown_axes"] = Json::array();
   for (unsigned axis = 0; axis < 3; ++axis)
     if ((s.unknown_axes() >> axis & 1u) != 0) axes.push_back(std::string(1, "XYZ"[axis]));
+  if (s.reference_axes() != 0) out["reference"] = word(s.reference());
 }
 
 void add_arc(Json& out, const step::Arc& arc) {
@@ -110,6 +124,9 @@ void add_setting(Json& out, const Toolpath& path, std::size_t i) {
       break;
     case StepKind::note:
     case StepKind::verbatim: out["text"] = path.text(i); break;
+    case StepKind::pause: out["pause"] = word(s.pause().kind); break;
+    case StepKind::end: out["rewind"] = s.end().rewind; break;
+    case StepKind::store_home: out["home"] = word(s.store_home().home); break;
     default: break;
   }
 }

@@ -24,7 +24,7 @@ class Drawer {
       const Step& s = path_[i];
       if (s.kind() == StepKind::layer)
         set_layer(path_.layer(i).name);
-      else if (s.kind() == StepKind::verbatim && path_.text(i) == "(close path)")
+      else if (s.kind() == StepKind::close_path)
         close();
       else if (s.kind() == StepKind::arc)
         arc(s);

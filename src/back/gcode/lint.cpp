@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "codec/gcode/block.h"
+#include "codec/gcode/lasting_effect.h"
 
 #include "kerf/number.h"
 
@@ -59,8 +60,11 @@ constexpr int kMotionGroup = 0, kSpecialGroup = 1;
 class Linter {
  public:
   Linter(const PostProfile& profile, const std::string& file, LintStart start, Diagnostics& diagnostics)
-      : profile_(profile), file_(file), diagnostics_(diagnostics) {
-    feed_known_ = start == LintStart::in_program;
+      : profile_(profile),
+        file_(file),
+        diagnostics_(diagnostics),
+        foreign_(start == LintStart::foreign_line) {
+    feed_known_ = foreign_;
     place_known_ = start == LintStart::of_program;
   }
 
@@ -71,6 +75,7 @@ class Linter {
   void check_command(std::string_view command);
   void check_comments(const Block& block);
   void check_length(const Block& block);
+  void check_foreign(const Block& block);
   bool take_words(const Block& block);
   bool take_code(const Word& word);
   bool take_value(const Word& word);
@@ -97,6 +102,7 @@ class Linter {
   const PostProfile& profile_;
   const std::string& file_;
   Diagnostics& diagnostics_;
+  bool foreign_;
 
   // of the line
   std::uint32_t line_ = 0, column_ = 1;
@@ -122,6 +128,7 @@ void Linter::check(const Block& block) {
   refused_ = false;
   check_comments(block);
   if (block.faulty) return;  // said by the reader of blocks
+  if (foreign_) check_foreign(block);
   if (!check_form(block)) return;
   check_length(block);
   if (!block.command.empty()) return check_command(block.command);
@@ -170,6 +177,19 @@ void Linter::check_comments(const Block& block) {
       break;
     }
   }
+  column_ = 1;
+}
+
+/// A printer's M codes take words of their own, such as the S of a temperature.
+void Linter::check_foreign(const Block& block) {
+  constexpr double kFirstPrinterCode = 100.0;
+  if (profile_.syntax == LineSyntax::commands && !block.words.empty() && block.words[0].letter == 'M' &&
+      block.words[0].value >= kFirstPrinterCode)
+    return;
+  const LastingEffect lasting = lasting_effect(block);
+  if (lasting.effect.empty()) return;
+  column_ = lasting.column;
+  refuse(Code::lint_mode, fmt::format("{} changes {}", lasting.word, lasting.effect));
   column_ = 1;
 }
 

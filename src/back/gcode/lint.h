@@ -9,8 +9,9 @@
 
 namespace kerf::gcode {
 
-/// At a program's begin nothing is known; within one, a feed and a position are.
-enum class LintStart : std::uint8_t { of_program, in_program };
+/// What comes before the text: nothing, or an unknown part of a program, of which the text is a line that was
+/// not made for it. Such a line may neither move the machine nor change a mode.
+enum class LintStart : std::uint8_t { of_program, foreign_line };
 
 /// True if nothing was found; see lint_gcode().
 bool lint(std::string_view text, const PostProfile& profile, const std::string& file_name, LintStart start,

@@ -65,7 +65,9 @@ void Poster::write_step(std::size_t i) {
     case StepKind::layer: return comment(path_.layer(i).name);
     case StepKind::note: return comment(path_.text(i));
     case StepKind::verbatim: return verbatim(i);
-    default: return;
+    case StepKind::pause: return pause(i);
+    case StepKind::store_home: return store_home(i);
+    default: return;  // the end of the program is written with the end of the file
   }
 }
 
@@ -315,6 +317,7 @@ void Poster::extrude(std::size_t i) {
 void Poster::to_reference(int g, std::size_t i) {
   const Step& s = path_[i];
   const Counts to = grid_.counts(s.to());
+  if (s.reference() == Reference::end_switches) return to_end_switches(i);
   const bool machine = s.reference() == Reference::machine;
   const int tenths = machine ? 530 : s.reference() == Reference::home ? 280 : 300;
   if (!profile_.has_g(tenths) || profile_.syntax == LineSyntax::commands) {
@@ -340,6 +343,19 @@ void Poster::to_reference(int g, std::size_t i) {
   }
   motion_ = -1;
   arrive(i, to);
+}
+
+/// A printer's G28; the axis words are flags.
+void Poster::to_end_switches(std::size_t i) {
+  const Step& s = path_[i];
+  if (!profile_.has_g(280) || profile_.syntax != LineSyntax::commands)
+    return left_out(i, "the controller has no G28 that runs the axes to their end switches; homing");
+  begin();
+  code('G', 280);
+  if (s.reference_axes() != kAllAxes) put_axes(Counts{}, s.reference_axes());
+  end(i);
+  motion_ = -1;
+  arrive(i, grid_.counts(s.to()));
 }
 
 // ---- lines

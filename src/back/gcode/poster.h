@@ -38,6 +38,7 @@ class Poster {
   void probe(std::size_t i);
   void extrude(std::size_t i);
   void to_reference(int g, std::size_t i);
+  void to_end_switches(std::size_t i);
   bool fits(std::size_t i);
   unsigned axes_to_write(std::size_t i, const Counts& to);
   bool add_rotary(std::size_t i);
@@ -59,6 +60,7 @@ class Poster {
   void tool_change(std::size_t i);
   void change_file(std::size_t i);
   void pause(std::size_t i);
+  void store_home(std::size_t i);
   void verbatim(std::size_t i);
   void restore(std::size_t i);
   void stop_spindle();

@@ -11,16 +11,8 @@ namespace kerf::gcode {
 namespace {
 
 constexpr std::size_t kMostFiles = 1000;
-constexpr int kM0 = 0, kM1 = 10, kM60 = 600, kM2 = 20, kM30 = 300;
 
 std::int64_t counts_of(double value, int decimals) { return std::llround(value * std::pow(10.0, decimals)); }
-
-/// The M code of a text such as "M30" that has nothing else, or -1.
-int lone_m_code(std::string_view text) {
-  for (const int tenths : {kM0, kM1, kM2, kM30, kM60})
-    if (text == fmt::format("M{}", tenths / 10)) return tenths;
-  return -1;
-}
 
 }  // namespace
 
@@ -185,8 +177,12 @@ void Poster::tool_change(std::size_t i) {
   templates(profile_.section);
 }
 
-/// A stop until a person goes on, in the controller's own way where that has no M0.
+/// A pause in the controller's own way where it has no such M code.
 void Poster::pause(std::size_t i) {
+  const PauseKind kind = path_[i].pause().kind;
+  const int m = kind == PauseKind::always ? 0 : kind == PauseKind::optional ? 10 : 600;
+  if (profile_.has_m(m)) return m_line(i, m);
+  if (kind == PauseKind::optional) return left_out(i, "the controller has no M1; the optional pause");
   std::vector<std::string> lines = profile_.pause_lines;
   lines.erase(std::remove_if(lines.begin(), lines.end(), is_comment), lines.end());
   if (lines.empty()) return cannot(i, "the controller has no way to pause");
@@ -205,20 +201,22 @@ void Poster::change_file(std::size_t i) {
   restore_ = true;
 }
 
+void Poster::store_home(std::size_t i) {
+  const int tenths = path_[i].store_home().home == Reference::home ? 281 : 301;
+  if (!profile_.has_g(tenths))
+    return left_out(i, fmt::format("the controller has no G{}.1; storing the position", tenths / 10));
+  begin();
+  code('G', tenths);
+  end(i);
+}
+
 void Poster::verbatim(std::size_t i) {
   const std::string_view text = path_.text(i);
-  const int m = lone_m_code(text);
-  if (m == kM2 || m == kM30) return;  // the footer ends the program
-  if (m >= 0) {
-    if (profile_.has_m(m)) return m_line(i, m);
-    if (m == kM1) return left_out(i, "the controller has no M1; the optional pause");
-    return pause(i);
-  }
   if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > profile_.longest_line)
     return cannot(i, "a text handed through to the controller is longer than one of its lines");
   const std::string line(text);
   Diagnostics found;
-  if (!lint(line, profile_, "", LintStart::in_program, found)) {
+  if (!lint(line, profile_, "", LintStart::foreign_line, found)) {
     Diagnostic& d = diagnostics_.error(Code::post_cannot, path_.origin_of(i),
                                        fmt::format("the controller does not take \"{}\"", line));
     for (const Diagnostic& f : found.list()) d.notes.push_back({{}, f.message});

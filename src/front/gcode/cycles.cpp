@@ -45,7 +45,7 @@ class Interpreter::CycleSink final : public DrillSink {
   void cut(Point3 to) override { interpreter_.cut(place(to), feed_); }
   void dwell(Duration time) override { interpreter_.add(step::Dwell{time}); }
   void spindle(SpindleTurn turn) override { interpreter_.spin(turn); }
-  void pause() override { interpreter_.add(step::Verbatim{"M0"}); }
+  void pause() override { interpreter_.add(step::Pause{}); }
   bool is_full() const override { return interpreter_.full_; }
 
  private:

@@ -19,6 +19,7 @@
 #include "front/gcode/flow.h"
 #include "front/gcode/line.h"
 #include "front/gcode/parameters.h"
+#include "path/feed_mode.h"
 
 #include "kerf/drill.h"
 #include "kerf/gcode.h"
@@ -26,8 +27,6 @@
 #include "kerf/progress.h"
 
 namespace kerf::gcode {
-
-enum class FeedMode : std::uint8_t { per_minute, inverse_time, per_turn };
 
 inline constexpr unsigned kAllAxes = 7;
 inline constexpr double kNoWay = 1e-9;                // mm; a move of less is none in its plane
@@ -207,6 +206,7 @@ class Interpreter : public SystemValues {
   // printer.cpp
   void printer_code();
   void printer_reference();
+  void run_to_end_switches();
   void set_filament(std::string_view text);
   void set_volumetric();
   bool filament_is_relative() const;

@@ -8,8 +8,6 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kSlowestInverse =
-    0.1;  // mm/min; what LinuxCNC takes for a move of no length in inverse time
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kPolarZero = 1e-9;  // mm
 constexpr std::uint32_t kArcLetters = Line::bit('I') | Line::bit('J') | Line::bit('K') | Line::bit('R');
@@ -190,8 +188,8 @@ double Interpreter::straight_length(const Place& to) const {
 /// Feed in mm/min of a move of `length` mm; 0, said once, where the program gives none.
 double Interpreter::feed_for(double length) {
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
-  double feed = inverse && !line_.has('F') ? 0.0 : modes_.feed;  // in inverse time F is not modal
-  if (modes_.feed_mode == FeedMode::per_turn) feed *= modes_.speed;
+  const double given = inverse && !line_.has('F') ? 0.0 : modes_.feed;  // in inverse time F is not modal
+  const double feed = feed_per_minute(modes_.feed_mode, given, length, modes_.speed);
   if (!(feed > 0.0)) {
     if (!no_feed_said_)
       talker_.unusual(Code::no_feed, line_.column(),
@@ -203,8 +201,7 @@ double Interpreter::feed_for(double length) {
     return 0.0;
   }
   no_feed_said_ = false;
-  if (!inverse) return feed;
-  return std::max(feed * length, kSlowestInverse);
+  return feed;
 }
 
 // ---- codes that use the axis words themselves

@@ -229,6 +229,7 @@ void Interpreter::shift_zero() {
 /// G28.1, G30.1: the place where the tool stands.
 void Interpreter::set_home(int first, Place& home) {
   home = here_;
+  add(step::StoreHome{first == kHome28 ? Reference::home : Reference::second_home});
   for (int axis = 0; axis < 3; ++axis) parameters_.slot(first + axis) = here_.at[axis];
 }
 

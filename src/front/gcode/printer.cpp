@@ -76,17 +76,22 @@ void Interpreter::printer_reference() {
     if (line_.has_unused(kAxisLetters)) shift_zero();
     return;
   }
-  if (code == 280) {
-    add(step::Verbatim{"G28"});
-    const bool all = !line_.has_any(kAxisLetters);
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto letter = static_cast<char>('X' + axis);
-      if (!all && !line_.has(letter)) continue;
-      here_.at[axis] = 0.0;
-      here_.unknown |= 1u << axis;
-    }
-  }
+  if (code == 280) run_to_end_switches();
   line_.use(kAllLetters);
+}
+
+/// The axes named, or all, run to their end switches.
+void Interpreter::run_to_end_switches() {
+  const bool all = !line_.has_any(kAxisLetters);
+  auto to = here_;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!all && !line_.has(static_cast<char>('X' + axis))) continue;
+    to.at[axis] = 0.0;
+    to.unknown |= 1u << axis;
+    to.reference_axes |= 1u << axis;
+  }
+  to.reference = Reference::end_switches;
+  rapid(to);
 }
 
 /// How thick the filament is: as told by the caller, by the program's remarks, as usual.

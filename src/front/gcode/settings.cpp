@@ -280,9 +280,14 @@ void Interpreter::use_words_of_other_codes() {
 
 void Interpreter::end_or_pause() {
   const Tenths code = line_.code(Group::stop);
-  const bool ends = code == 20 || code == 300;
-  if (ends) end_program();
-  add(step::Verbatim{code_text('M', code)});
+  if (code == 20 || code == 300) {
+    end_program();
+    add(step::End{code == 300});
+  } else {
+    add(step::Pause{code == 0    ? PauseKind::always
+                    : code == 10 ? PauseKind::optional
+                                 : PauseKind::pallet_change});
+  }
 }
 
 /// M2 and M30 set the modes back (LinuxCNC's page "M2, M30"; GRBL does the same). Units, position and tool

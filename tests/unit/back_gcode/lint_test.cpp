@@ -1,4 +1,6 @@
 // The linter against the lines that GRBL takes and refuses, and each of its codes.
+#include "back/gcode/lint.h"
+
 #include <algorithm>
 #include <gtest/gtest.h>
 #include <string>
@@ -72,6 +74,19 @@ TEST(Lint, says_what_is_wrong) {
     EXPECT_EQ(diagnostics.list().front().code, c.code)
         << c.text << ": " << diagnostics.list().front().message;
   }
+}
+
+TEST(Lint, a_foreign_line_neither_moves_nor_changes_a_mode) {
+  const auto code_of = [](std::string_view post, std::string_view line) {
+    Diagnostics diagnostics;
+    gcode::lint(line, *find_post(post), "", gcode::LintStart::foreign_line, diagnostics);
+    return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
+  };
+  EXPECT_EQ(code_of("linuxcnc", "G91"), Code::lint_mode);
+  EXPECT_EQ(code_of("linuxcnc", "M64 P1 S100"), Code::lint_mode);
+  EXPECT_EQ(code_of("linuxcnc", "M64 P1 (pump)"), Code{});
+  EXPECT_EQ(code_of("marlin", "M204 S500"), Code{});
+  EXPECT_EQ(code_of("marlin", "G91"), Code::lint_mode);
 }
 
 TEST(Lint, takes_commands_in_words_where_there_are_some) {

@@ -25,7 +25,7 @@ struct Posted {
   std::vector<PostedFile> files;
   Diagnostics diagnostics;
   std::string text() const { return files.empty() ? "" : files.front().text; }
-  bool said(Code code) const {
+  bool reports(Code code) const {
     const auto& list = diagnostics.list();
     return std::any_of(list.begin(), list.end(), [code](const Diagnostic& d) { return d.code == code; });
   }
@@ -124,7 +124,7 @@ TEST(Post, an_uneven_arc_becomes_chords_and_is_said) {
   Toolpath path = at_origin();
   path.add(step::Arc{.to = {11, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
   const Posted out = posted(path, bare("grbl"));
-  EXPECT_TRUE(out.said(Code::post_arc_uneven));
+  EXPECT_TRUE(out.reports(Code::post_arc_uneven));
   EXPECT_EQ(out.text().find("G2"), std::string::npos);
 }
 
@@ -196,7 +196,7 @@ TEST(Post, printers_get_one_command_a_line) {
   const std::size_t home = path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
   path.set_unknown_axes(home, 7);
   path.set_reference(home, Reference::home, 7);
-  EXPECT_TRUE(posted(path, bare("marlin")).said(Code::post_left_out));  // G28 would run to the switches
+  EXPECT_TRUE(posted(path, bare("marlin")).reports(Code::post_left_out));  // G28 would run to the switches
 }
 
 TEST(Post, beads_for_printers_only) {
@@ -206,7 +206,7 @@ TEST(Post, beads_for_printers_only) {
   path.add(step::Temperature{Heater::nozzle, 210, true}, OriginId::none);
   path.add(step::Fan{0, 0.5}, OriginId::none);
   EXPECT_EQ(posted(path, bare("marlin")).text(), "G0 X0 Y0 Z5\nG1 X10 E1 F600\nM109 S210\nM106 S128\n");
-  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_cannot));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));
 }
 
 TEST(Post, machine_places_stay_machine_places) {
@@ -222,6 +222,45 @@ TEST(Post, machine_places_stay_machine_places) {
             "G0 X0 Y0 Z5\nG53 G0 Z-3\nG91 G28 X0 Y0 Z0\nG90\nG0 X0 Y0 Z0\n");
 }
 
+TEST(Post, foreign_lines_change_nothing_that_others_rely_on) {
+  for (const char* line : {"G91",   "G20",    "G18",           "G41 D1", "G55",     "G93",       "G99",
+                           "G0 X1", "X1",     "G81 X1 Z-1 R1", "F100",   "S100",    "T2",        "M5",
+                           "M30",   "G92 X0", "G53 G0 Z0",     "#1=2",   "/M64 P1", "o<a> call", "%"}) {
+    Toolpath path = at_origin();
+    path.add(step::Verbatim{line}, OriginId::none);
+    const auto result = posted(path, bare("linuxcnc"));
+    EXPECT_TRUE(result.reports(Code::post_cannot)) << line;
+    ASSERT_EQ(result.diagnostics.list().size(), 1u) << line;
+    EXPECT_NE(result.diagnostics.list()[0].notes.at(0).text.find("changes"), std::string::npos) << line;
+  }
+  Toolpath path = at_origin();
+  path.add(step::Verbatim{"M64 P1"}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("linuxcnc")).text(), "G0 X0 Y0 Z5\nM64 P1\n");
+  Toolpath print = at_origin();
+  print.add(step::Verbatim{"M204 S500"}, OriginId::none);  // a printer's S is a parameter
+  EXPECT_EQ(posted(print, bare("marlin")).text(), "G0 X0 Y0 Z5\nM204 S500\n");
+}
+
+TEST(Post, a_home_is_stored_where_the_controller_can) {
+  Toolpath path = at_origin();
+  path.add(step::StoreHome{Reference::home}, OriginId::none);
+  path.add(step::StoreHome{Reference::second_home}, OriginId::none);
+  path.add(step::End{}, OriginId::none);  // the end of the file ends the program
+  EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG28.1\nG30.1\n");
+  EXPECT_TRUE(posted(path, bare("marlin")).reports(Code::post_left_out));
+}
+
+TEST(Post, printers_run_to_their_end_switches) {
+  Toolpath path = at_origin();
+  path.set_unknown_axes(path.add(step::Rapid{{0, 0, 5}}, OriginId::none), 3);
+  path.set_reference(path.size() - 1, Reference::end_switches, 3);
+  path.set_unknown_axes(path.add(step::Rapid{{0, 0, 0}}, OriginId::none), 7);
+  path.set_reference(path.size() - 1, Reference::end_switches, 7);
+  path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("marlin")).text(), "G0 X0 Y0 Z5\nG28 X0 Y0\nG28\nG0 X0 Y0 Z0\n");
+  EXPECT_TRUE(posted(path, bare("linuxcnc")).reports(Code::post_left_out));  // G28 leads elsewhere there
+}
+
 TEST(Post, an_arc_needs_a_known_begin) {
   Toolpath path = at_origin();
   const step::Arc arc{.to = {10, 0, 5}, .centre = {5, 0}, .feed = kFeed};
@@ -231,7 +270,7 @@ TEST(Post, an_arc_needs_a_known_begin) {
   path.set_unknown_axes(home, 7);
   path.set_reference(home, Reference::home, 7);
   path.add(arc, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_place_unknown));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_place_unknown));
 }
 
 TEST(Post, after_a_probe_every_axis_is_told) {
@@ -241,7 +280,7 @@ TEST(Post, after_a_probe_every_axis_is_told) {
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG38.3 Z-5 F600\nG0 X0 Y0 Z-5\n");
   path.add(step::Note{"after which all axes are told again"}, OriginId::none);
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_cannot));  // goes nowhere
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));  // goes nowhere
 }
 
 TEST(Post, comments_hold_nothing_that_acts) {
@@ -253,38 +292,42 @@ TEST(Post, comments_hold_nothing_that_acts) {
 
 TEST(Post, pauses_in_the_controllers_own_way) {
   Toolpath path;
-  path.add(step::Verbatim{"M0"}, OriginId::none);
+  path.add(step::Pause{}, OriginId::none);
   EXPECT_EQ(posted(path, bare("grbl")).text(), "M0\n");
   EXPECT_EQ(posted(path, bare("klipper")).text(), "PAUSE\n");
+  Toolpath optional;
+  optional.add(step::Pause{PauseKind::optional}, OriginId::none);
+  EXPECT_EQ(posted(optional, bare("linuxcnc")).text(), "M1\n");
+  EXPECT_TRUE(posted(optional, bare("klipper")).reports(Code::post_left_out));
   PostProfile endless = bare("klipper");
   endless.pause_lines = {"; wait"};
-  EXPECT_TRUE(posted(path, endless).said(Code::post_cannot));
+  EXPECT_TRUE(posted(path, endless).reports(Code::post_cannot));
 }
 
 TEST(Post, says_what_a_controller_lacks) {
   Toolpath path;
   path.add(step::Coolant{true, false}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_left_out));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_left_out));
   path.add(step::Cut{{1, 0, 0}, {}}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_no_feed));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_no_feed));
   PostOptions options;
   options.missing_feed = kFeed;
-  EXPECT_FALSE(posted(path, bare("grbl"), options).said(Code::post_no_feed));
+  EXPECT_FALSE(posted(path, bare("grbl"), options).reports(Code::post_no_feed));
   path.add(step::Rapid{{1e300, 0, 0}}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_number_large));
-  path.add(step::Verbatim{"G81 X1 Z-1 R1"}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).said(Code::post_cannot));
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_number_large));
+  path.add(step::Verbatim{"M101 P1"}, OriginId::none);
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));
   Toolpath lost;
   lost.set_unknown_axes(lost.add(step::Rapid{{1, 0, 0}}, OriginId::none), 7);
-  EXPECT_TRUE(posted(lost, bare("grbl")).said(Code::post_place_unknown));
+  EXPECT_TRUE(posted(lost, bare("grbl")).reports(Code::post_place_unknown));
   PostProfile narrow = bare("grbl");
   narrow.longest_line = 20;
   Toolpath far;
   far.add(step::Rapid{{12345.678, 12345.678, 12345.678}}, OriginId::none);
-  EXPECT_TRUE(posted(far, narrow).said(Code::post_line_long));
+  EXPECT_TRUE(posted(far, narrow).reports(Code::post_line_long));
   narrow = bare("grbl");
   narrow.header = {"({nmae})"};
-  EXPECT_TRUE(posted(far, narrow).said(Code::post_placeholder));
+  EXPECT_TRUE(posted(far, narrow).reports(Code::post_placeholder));
 }
 
 TEST(Post, a_long_program_is_not_pushed_into_memory_by_one_arc) {

@@ -228,9 +228,11 @@ struct Written {
 };
 class Text : public testing::TestWithParam<Written> {};
 TEST_P(Text, IsWordForWord) {
-  const auto ran = run(GetParam().program);
+  GcmcOptions options = bare();
+  options.want_path = false;  // literal() here prints values, which no toolpath takes
+  const auto ran = run(GetParam().program, options);
   EXPECT_EQ(ran.text, GetParam().text);
-  EXPECT_EQ(ran.run.status, 0) << (ran.said.empty() ? "" : ran.said.front());
+  EXPECT_EQ(ran.run.status, 0) << (ran.lines.empty() ? "" : ran.lines.front());
 }
 
 const std::vector<Written> kMoves{
@@ -289,8 +291,8 @@ const std::vector<Written> kState{
 };
 INSTANTIATE_TEST_SUITE_P(State, Text, testing::ValuesIn(kState));
 
-class Refusal : public SaysTest {};
-TEST_P(Refusal, SaysWhy) { expect_said(); }
+class Refusal : public MessageTest {};
+TEST_P(Refusal, SaysWhy) { expect_messages(); }
 
 const std::vector<Case> kMachine{
     {"goto([-, -]);", "error: All coordinates in goto() undefined"},
@@ -347,9 +349,9 @@ INSTANTIATE_TEST_SUITE_P(Machine, Refusal, testing::ValuesIn(kMachine));
 TEST(GcmcBuiltins, ADrawingHasOnePlane) {
   GcmcOptions options = bare();
   options.target = GcmcTarget::dxf;
-  EXPECT_EQ(said_by("plane(PLANE_XZ);", options),
+  EXPECT_EQ(messages_of("plane(PLANE_XZ);", options),
             "warning: plane() other than PLANE_XY has no meaning in a drawing");
-  EXPECT_EQ(said_by("spindlespeed(100);", options), "");
+  EXPECT_EQ(messages_of("spindlespeed(100);", options), "");
 }
 
 // ---- typeset
@@ -377,8 +379,8 @@ TEST(GcmcTypeset, CapitalsAreOneHighInEveryFont) {
     const std::string program = std::string("top = 0.0; foreach(typeset(\"X\", ") + font +
                                 "); v) { if(!isundef(v.y) && v.y > top) { top = v.y; } } message(top);";
     const auto ran = run(program);
-    ASSERT_EQ(ran.said.size(), 1u) << font;
-    EXPECT_EQ(ran.said[0], "Runtime message(): 1.000") << font;
+    ASSERT_EQ(ran.lines.size(), 1u) << font;
+    EXPECT_EQ(ran.lines[0], "Runtime message(): 1.000") << font;
   }
 }
 

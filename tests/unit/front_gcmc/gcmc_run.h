@@ -10,8 +10,8 @@
 namespace kerf::test {
 
 struct Ran {
-  std::string text;               // what was written
-  std::vector<std::string> said;  // message lines without "file:line:col: "
+  std::string text;                // what was written
+  std::vector<std::string> lines;  // message lines without "file:line:col: "
   std::vector<GcmcMessage> messages;
   GcmcRun run;
   Diagnostics diagnostics;
@@ -24,7 +24,7 @@ class Collector final : public GcmcOutput {
     const std::string line = to_line(m);
     const std::string place =
         m.where.file + ":" + std::to_string(m.where.line) + ":" + std::to_string(m.where.column) + ": ";
-    ran_.said.push_back(line.substr(place.size()));
+    ran_.lines.push_back(line.substr(place.size()));
     ran_.messages.push_back(m);
   }
   void text(std::string_view piece) override { ran_.text += piece; }
@@ -55,7 +55,7 @@ inline std::string spoken_by(const std::string& program, const GcmcOptions& opti
   const std::string head = "Runtime message(): ";
   const Ran ran = run(program, options);
   std::string all;
-  for (const std::string& line : ran.said) {
+  for (const std::string& line : ran.lines) {
     if (!all.empty()) all += "|";
     all += line.compare(0, head.size(), head) == 0 ? line.substr(head.size()) : line;
   }
@@ -67,10 +67,10 @@ inline std::string value_of(const std::string& expression, const GcmcOptions& op
 }
 
 /// All that a program said, joined by '|'.
-inline std::string said_by(const std::string& program, const GcmcOptions& options = bare()) {
+inline std::string messages_of(const std::string& program, const GcmcOptions& options = bare()) {
   const Ran ran = run(program, options);
   std::string all;
-  for (const std::string& line : ran.said) all += (all.empty() ? "" : "|") + line;
+  for (const std::string& line : ran.lines) all += (all.empty() ? "" : "|") + line;
   return all;
 }
 
@@ -83,9 +83,9 @@ class ValueTest : public testing::TestWithParam<Case> {
  protected:
   void expect_value() const { EXPECT_EQ(value_of(GetParam().given), GetParam().wanted); }
 };
-class SaysTest : public testing::TestWithParam<Case> {
+class MessageTest : public testing::TestWithParam<Case> {
  protected:
-  void expect_said() const { EXPECT_EQ(said_by(GetParam().given), GetParam().wanted); }
+  void expect_messages() const { EXPECT_EQ(messages_of(GetParam().given), GetParam().wanted); }
 };
 
 }  // namespace kerf::test

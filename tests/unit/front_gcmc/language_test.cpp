@@ -454,7 +454,7 @@ TEST(GcmcLanguage, AnErrorOfSyntaxRunsNothing) {
 
 TEST(GcmcLanguage, AllErrorsAreToldInOneRun) {
   const auto ran = run("x = ;\ny = 3\nfunction f( {}\nfoo bar;\n");
-  EXPECT_GE(ran.said.size(), 4u);
+  EXPECT_GE(ran.lines.size(), 4u);
   EXPECT_EQ(ran.messages[1].where.line, 3u);
 }
 
@@ -553,17 +553,18 @@ TEST(GcmcErrors, AStringWithoutEndHidesNothing) {
 // ---- limits
 
 TEST(GcmcLimits, EndlessRecursionEnds) {
-  EXPECT_EQ(said_by("function f() { f(); } f();").substr(0, 34), "error: Calls are nested too deeply");
+  EXPECT_EQ(messages_of("function f() { f(); } f();").substr(0, 34), "error: Calls are nested too deeply");
   EXPECT_EQ(run("function f() { f(); } f();").messages.at(0).code, Code::gcmc_limit);
 }
 
 TEST(GcmcLimits, EndlessLoopsEnd) {
   GcmcOptions options = bare();
   options.max_quiet_steps = 100'000;
-  EXPECT_NE(said_by("while(1) {}", options).find("an endless loop?"), std::string::npos);
-  EXPECT_NE(said_by("function f() { return f; } f = 0; for(;1;) { f(); }", options).find("an endless loop?"),
-            std::string::npos);
-  EXPECT_EQ(said_by("repeat(1000000; i) { move([i]); }", options), "");  // who writes is not lost
+  EXPECT_NE(messages_of("while(1) {}", options).find("an endless loop?"), std::string::npos);
+  EXPECT_NE(
+      messages_of("function f() { return f; } f = 0; for(;1;) { f(); }", options).find("an endless loop?"),
+      std::string::npos);
+  EXPECT_EQ(messages_of("repeat(1000000; i) { move([i]); }", options), "");  // who writes is not lost
 }
 
 TEST(GcmcLimits, OutputIsBounded) {
@@ -573,7 +574,7 @@ TEST(GcmcLimits, OutputIsBounded) {
        {"\nwhile(1) { move([1, 2]); }", "\nwhile(1) { literal(\"\"); }", "\nwhile(1) { comment(\"x\"); }"}) {
     options.want_path = false;
     const Ran ran = run(program, options);
-    EXPECT_EQ(ran.said,
+    EXPECT_EQ(ran.lines,
               std::vector<std::string>{"error: More than 1 MB of output and messages: an endless loop?"});
     EXPECT_EQ(ran.messages.at(0).where.line, 2u);
     EXPECT_EQ(ran.messages.at(0).code, Code::gcmc_limit);
@@ -584,15 +585,15 @@ TEST(GcmcLimits, OutputIsBounded) {
   for (const char* program : {"while(1) { message(\"0123456789\"); }", "while(1) { warning(1); }",
                               "while(1) { error(1); }", "while(1) { x = 1mm + 1deg; }"}) {
     const Ran ran = run(program, options);
-    EXPECT_NE(ran.said.back().find("an endless loop?"), std::string::npos) << program;
-    EXPECT_LT(ran.said.size(), 10'002u) << program;
+    EXPECT_NE(ran.lines.back().find("an endless loop?"), std::string::npos) << program;
+    EXPECT_LT(ran.lines.size(), 10'002u) << program;
   }
 }
 
 TEST(GcmcLimits, StepsAreBoundedAlsoWithOutput) {
   GcmcOptions options = bare();
   options.max_steps = 100'000;
-  EXPECT_EQ(said_by("while(1) { move([1]); repeat(10000) {} }", options),
+  EXPECT_EQ(messages_of("while(1) { move([1]); repeat(10000) {} }", options),
             "error: The program takes more than 100000 loop steps");
 }
 
@@ -603,7 +604,7 @@ TEST(GcmcLimits, MemoryIsBounded) {
                               "l = {[1]}; while(1) { l += l; }", "v = []; i = 0; while(1) { v[i++] = 1; }",
                               "v = []; v[40000000] = 1;", "x = {[1]} >> 40000000;",
                               "s = \"abcdefgh\"; repeat(12) { s += s; } x = typeset(s, 1);"})
-    EXPECT_EQ(said_by(program, options),
+    EXPECT_EQ(messages_of(program, options),
               "error: The program uses more than 1 MB for vectors, lists and strings")
         << program;
 }
@@ -612,11 +613,11 @@ TEST(GcmcLimits, MemoryIsBounded) {
 class FullDisk final : public GcmcOutput {
  public:
   explicit FullDisk(int room) : room_(room) {}
-  void message(const GcmcMessage& m) override { said += to_line(m); }
+  void message(const GcmcMessage& m) override { spoken += to_line(m); }
   void text(std::string_view) override { ++pieces; }
   bool is_broken() const override { return pieces > room_; }
   int pieces = 0;
-  std::string said;
+  std::string spoken;
 
  private:
   int room_;
@@ -629,7 +630,7 @@ TEST(GcmcLimits, AProgramEndsWhereItsTextCannotBeTaken) {
     Diagnostics diagnostics;
     const GcmcRun ran = run_gcmc(program, bare(), disk, diagnostics);
     EXPECT_EQ(disk.pieces, 4) << program;  // the one that fails is the last
-    EXPECT_EQ(disk.said, "");
+    EXPECT_EQ(disk.spoken, "");
     EXPECT_EQ(ran.status, 1);
     EXPECT_FALSE(ran.completed);
   }
@@ -638,7 +639,7 @@ TEST(GcmcLimits, AProgramEndsWhereItsTextCannotBeTaken) {
   FullDisk disk(0);
   Diagnostics diagnostics;
   EXPECT_EQ(run_gcmc("message(1);", options, disk, diagnostics).status, 1);
-  EXPECT_EQ(disk.said, "");
+  EXPECT_EQ(disk.spoken, "");
 }
 
 // What a function held is let go when it ends: a copy of the list would otherwise be kept, and made again.
@@ -649,7 +650,8 @@ TEST(GcmcLimits, FunctionsLetGoWhatTheyHeld) {
   for (const char* use : {"function f() { local k = l; } f(); l += {[1]}; repeat(3) { f(); l += {[1]}; }",
                           "function f(k) { foreach(k; v) { return v; } } repeat(3) { l += {f(l)}; }",
                           "function f() { l += {[1]}; } repeat(3) { f(); k = l; }"})
-    EXPECT_EQ(said_by(list + use + " message(count(l) > 20000);", options), "Runtime message(): 1") << use;
+    EXPECT_EQ(messages_of(list + use + " message(count(l) > 20000);", options), "Runtime message(): 1")
+        << use;
 }
 
 TEST(GcmcLimits, TextsOfTheToolpathAreBounded) {
@@ -657,27 +659,27 @@ TEST(GcmcLimits, TextsOfTheToolpathAreBounded) {
   options.max_memory = 1 << 20;
   for (const char* program :
        {"i = 0; while(1) { comment(\"number \", i++); }", "while(1) { literal(\"a\"); }"})
-    EXPECT_NE(said_by(program, options).find("more than 1 MB"), std::string::npos) << program;
+    EXPECT_NE(messages_of(program, options).find("more than 1 MB"), std::string::npos) << program;
   options.max_path_steps = 100;
-  EXPECT_NE(said_by("while(1) { coolant(1); }", options).find("more than 100 steps"), std::string::npos);
+  EXPECT_NE(messages_of("while(1) { coolant(1); }", options).find("more than 100 steps"), std::string::npos);
 }
 
 TEST(GcmcLimits, NestingIsBounded) {
-  EXPECT_NE(
-      said_by("x = " + std::string(5000, '(') + "1" + std::string(5000, ')') + ";").find("nested too deeply"),
-      std::string::npos);
+  EXPECT_NE(messages_of("x = " + std::string(5000, '(') + "1" + std::string(5000, ')') + ";")
+                .find("nested too deeply"),
+            std::string::npos);
   std::string sum = "x = 1";
   for (int i = 0; i < 100'000; ++i) sum += "+y";
-  EXPECT_NE(said_by(sum + ";").find("nested too deeply"), std::string::npos);
+  EXPECT_NE(messages_of(sum + ";").find("nested too deeply"), std::string::npos);
   std::string blocks;
   for (int i = 0; i < 2000; ++i) blocks += "if(1) {";
-  EXPECT_NE(said_by(blocks).find("nested too deeply"), std::string::npos);
+  EXPECT_NE(messages_of(blocks).find("nested too deeply"), std::string::npos);
   std::string elifs = "if(0) {}";
   for (int i = 0; i < 20'000; ++i)
     elifs += " elif(x == " + std::to_string(i) + ") { y = " + std::to_string(i) + "; }";
-  EXPECT_EQ(said_by("x = 19999; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): 19999");
-  EXPECT_EQ(said_by("x = -7; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): -1");
-  EXPECT_NE(said_by("function f(a = f()) {} f();").find("too large"), std::string::npos);
+  EXPECT_EQ(messages_of("x = 19999; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): 19999");
+  EXPECT_EQ(messages_of("x = -7; " + elifs + " else { y = -1; } message(y);"), "Runtime message(): -1");
+  EXPECT_NE(messages_of("function f(a = f()) {} f();").find("too large"), std::string::npos);
 }
 
 class StopAtOnce final : public Progress {
@@ -692,7 +694,7 @@ TEST(GcmcLimits, AnEndlessLoopCanBeInterrupted) {
   const auto ran = run("while(1) {}", bare(), &progress);
   EXPECT_TRUE(ran.run.stopped);
   EXPECT_FALSE(ran.run.completed);
-  EXPECT_EQ(ran.said.at(0), "error: Interrupted");
+  EXPECT_EQ(ran.lines.at(0), "error: Interrupted");
 }
 
 }  // namespace

@@ -127,26 +127,139 @@ TEST(GcmcPath, ArcsHaveAbsoluteCentres) {
 TEST(GcmcPath, EverythingElseHasItsStep) {
   const auto ran =
       run("spindle(-100); spindlespeed(50); coolant(3); pathmode(1); pathmode(0.5, 1); pause(1);"
-          "comment(\"c\"); literal(\"G4\", \" P1\\nM9\"); layerstack(\"a\"); layer(\"a\"); feedmode(2); "
+          "comment(\"c\"); literal(\"G4\", \" P1\\n\"); layerstack(\"a\"); layer(\"a\"); feedmode(2); "
           "move([1], 2);"
-          "svg_closepath(); fixpos_store(1); goto([1,2,3,0,0,90]); fixpos_restore(1);");
+          "svg_closepath(); fixpos_store(1); goto([1,2,3,0,0,90]); literal(\"M9\");");
   const Toolpath& p = ran.run.path;
-  ASSERT_EQ(p.size(), 16u);
+  ASSERT_EQ(p.size(), 14u) << ran.lines.front();
   EXPECT_EQ(p[0].spindle().turn, SpindleTurn::ccw);
   EXPECT_DOUBLE_EQ(p[1].spindle().speed.rpm(), 50);
   EXPECT_EQ(p[1].spindle().turn, SpindleTurn::ccw);
   EXPECT_TRUE(p[2].coolant().mist && p[2].coolant().flood);
   EXPECT_EQ(p[3].path_mode().kind, PathModeKind::exact_path);
   EXPECT_DOUBLE_EQ(p[4].path_mode().tolerance.mm(), 0.5);
-  EXPECT_EQ(p.text(5), "M1");
+  EXPECT_EQ(p[5].pause().kind, PauseKind::optional);
   EXPECT_EQ(p.text(6), "c");
-  EXPECT_EQ(p.text(7), "G4 P1");
+  EXPECT_DOUBLE_EQ(p[7].dwell().time.seconds(), 1.0);
   EXPECT_EQ(p.layer(8).name, "a");
-  EXPECT_EQ(p.text(9), "G95\n");
-  EXPECT_DOUBLE_EQ(p[10].feed().mm_per_min(), 100);  // 2 mm a turn at 50 turns
-  EXPECT_EQ((*p.extra(13)->abc)[2], 90);
-  EXPECT_EQ(p[14].kind(), StepKind::rapid);
-  EXPECT_EQ(p.text(15), "M9");
+  EXPECT_DOUBLE_EQ(p[9].feed().mm_per_min(), 100);  // 2 mm a turn at 50 turns
+  EXPECT_EQ(p[10].kind(), StepKind::close_path);
+  EXPECT_EQ(p[11].store_home().home, Reference::second_home);
+  EXPECT_EQ((*p.extra(12)->abc)[2], 90);
+  EXPECT_EQ(p[13].kind(), StepKind::coolant);
+  EXPECT_FALSE(p[13].coolant().mist || p[13].coolant().flood);
+}
+
+double feed_at(const Ran& ran, std::size_t i) { return ran.run.path[i].feed().mm_per_min(); }
+
+TEST(GcmcPath, FeedModesBecomeFeedsPerMinute) {
+  // Inverse time: a feed counts for its own move only, times its length. A new mode forgets the feed.
+  const auto inverse =
+      run("feedrate(100); goto([0, 0, 0]); feedmode(0); move([30, 40], 2); move([60, 80]);"
+          "feedrate(3); move([0, 0]); feedmode(1); move([1]); feedmode(1); feedrate(50); move([2]);");
+  EXPECT_DOUBLE_EQ(feed_at(inverse, 1), 100);  // 50 mm in half a minute
+  EXPECT_EQ(feed_at(inverse, 2), 0);
+  EXPECT_EQ(feed_at(inverse, 3), 0);
+  EXPECT_EQ(feed_at(inverse, 4), 0);
+  EXPECT_DOUBLE_EQ(feed_at(inverse, 5), 50);
+  // Per turn: without a speed there is none.
+  const auto turns = run("feedmode(2); feedrate(0.1); move([1]); spindle(-1000); move([2]); arc_cw([4], 1);");
+  EXPECT_EQ(feed_at(turns, 0), 0);
+  EXPECT_DOUBLE_EQ(feed_at(turns, 2), 100);
+  EXPECT_DOUBLE_EQ(feed_at(turns, 3), 100);
+  EXPECT_EQ(messages_of("feedrate(-1);"), "error: A feed cannot be negative (-1)");
+}
+
+TEST(GcmcPath, AxesThatACallDoesNotNameStay) {
+  // As the text has it: the words X2 Y0 leave Z alone, wherever relocate() has put the program.
+  const auto ran =
+      run("goto([0, 0, 5]); relocate([0, 0, 10]); goto([2, 0]); goto([3, 0, 1]); circle_cw([1, 0]);");
+  EXPECT_EQ(ran.run.path[1].to(), (Point3{2, 0, 5}));
+  EXPECT_EQ(ran.run.path[2].to(), (Point3{3, 0, 11}));
+}
+
+TEST(GcmcPath, StoredPositions) {
+  // Only the named axes go home. A home that the program has not stored is not known.
+  const auto ran =
+      run("goto([1, 2, 3]); fixpos_store(0); goto([9, 9, 9]); fixpos_restore(0, [5]);"
+          "fixpos_restore(0); fixpos_set(1, [7, 7, 7]); fixpos_restore(1); goto([4]);");
+  const Toolpath& p = ran.run.path;
+  ASSERT_EQ(p.size(), 10u);
+  EXPECT_EQ(p[3].to(), (Point3{5, 9, 9}));
+  EXPECT_EQ(p[4].to(), (Point3{1, 9, 9}));
+  EXPECT_EQ(p[6].to(), (Point3{1, 2, 3}));
+  EXPECT_EQ(p[6].unknown_axes(), 0u);
+  EXPECT_EQ(p[8].reference(), Reference::second_home);
+  EXPECT_EQ(p[8].unknown_axes(), 7u);
+  EXPECT_EQ(p[9].unknown_axes(), 6u);
+}
+
+TEST(GcmcPath, ToolChangesStopTheSpindleAndCoolantAddsUp) {
+  const auto ran = run("spindle(100); toolchange(2); coolant(1); coolant(2); coolant(0);");
+  const Toolpath& p = ran.run.path;
+  ASSERT_EQ(p.size(), 6u);
+  EXPECT_EQ(p[1].spindle().turn, SpindleTurn::off);
+  EXPECT_EQ(p[2].tool_change().tool, 2);
+  EXPECT_TRUE(p[4].coolant().mist && p[4].coolant().flood);
+  EXPECT_FALSE(p[5].coolant().mist || p[5].coolant().flood);
+}
+
+std::string kinds_of(const std::string& program, const GcmcOptions& options = bare()) {
+  const auto ran = run(program, options);
+  if (!ran.lines.empty()) return ran.lines.front();
+  std::string text;
+  for (const Step& s : ran.run.path.steps())
+    text += (text.empty() ? "" : " ") + std::string(name_of(s.kind()));
+  return text;
+}
+
+TEST(GcmcPath, TheUsualFrameEndsTheProgram) {
+  GcmcOptions options = bare();
+  options.frame = GcmcFrame::usual;
+  EXPECT_EQ(kinds_of("move([1]);", options), "cut end");
+  EXPECT_EQ(kinds_of("spindle(100); coolant(1);", options), "spindle coolant spindle coolant end");
+  EXPECT_EQ(kinds_of("literal(\"M2\\n\"); move([1]); layer(\"a\");", options),
+            "warning: layer() layer 'a' not found, added to the stack");
+  EXPECT_EQ(kinds_of("literal(\"M2\\n\"); move([1]); svg_closepath(); comment(\"x\");", options), "end");
+}
+
+TEST(GcmcPath, LiteralLinesBecomeSteps) {
+  EXPECT_EQ(kinds_of("literal(\"(hello)\\n\\n   \\nM3 S1000 (fast)\\n\"); literal(\"T4\", \" M6\\nM8\\n\");"),
+            "note note spindle spindle tool coolant");
+  EXPECT_EQ(kinds_of("literal(\"G61.1\\nG64 P0.1 Q0.2\\nM0\\nM1\\nM60\\nM64 P1\\nM101\\nG4 P2\\nM5\\n\");"),
+            "pathmode pathmode pause pause pause verbatim verbatim dwell spindle");
+  EXPECT_EQ(kinds_of("literal(\"  \"); goto([1]);"), "rapid");
+  EXPECT_EQ(kinds_of("literal(\"M7 \"); comment(\"x\"); comment(\"a\\nM8\");"),
+            "error: The line \"M8)\" cannot be part of a toolpath: ')' cannot stand here, expected a letter");
+  EXPECT_EQ(kinds_of("comment(\"a) M8 (b\");"), "note note coolant");
+  const auto ran = run("literal(\"T7\\n\"); literal(\"M6\\n\"); literal(\"S50\\nM4\\n\");");
+  EXPECT_EQ(ran.run.path[0].tool_change().tool, 7);
+  EXPECT_DOUBLE_EQ(ran.run.path[1].spindle().speed.rpm(), 50);
+}
+
+TEST(GcmcPath, LiteralLinesThatMoveOrChangeModesAreRefused) {
+  for (const char* line :
+       {"G91",    "G20",     "G92 X0", "G1 Z-20 F100", "G0",     "G18",       "G41 D1", "G55",          "G93",
+        "G99",    "G81 Z-1", "G28",    "G28.1",        "G43 H1", "G38.2 Z-1", "F100",   "X5",           "A90",
+        "M61 Q1", "M98 P1",  "M70",    "#1=5",         "G4 P#1", "o100 call", "%",      "/M8",          "G4",
+        "M3 M64", "M3 P1",   "hello",  "M6",           "T1.5",   "S-1",       "M3 M4",  "G5.1 X1 Y1 I1"}) {
+    const auto ran = run(std::string("goto([1]);\n literal(\"") + line + "\\n\"); goto([2]);");
+    ASSERT_EQ(ran.messages.size(), 1u) << line;
+    EXPECT_EQ(ran.messages[0].code, Code::gcmc_literal) << line;
+    EXPECT_EQ(ran.messages[0].where.line, 2u) << line;
+    EXPECT_EQ(ran.run.path.size(), 1u) << line;
+    EXPECT_NE(ran.messages[0].text.find(line), std::string::npos) << ran.messages[0].text;
+  }
+  EXPECT_EQ(messages_of("literal(\"G91\\n\");"),
+            "error: The line \"G91\" cannot be part of a toolpath: G91 changes the distance mode");
+  EXPECT_EQ(messages_of("literal(\"M8\"); goto([1]);"),
+            "error: The line \"M8\" of literal() is not ended: the words of this call would follow on it");
+  GcmcOptions text = bare();
+  text.want_path = false;
+  EXPECT_EQ(run("literal(\"G91\\n\"); literal(\"X1 \"); goto([1]);", text).text, "G91\nX1 G0 X1.000\n");
+  GcmcOptions drawing = bare();
+  drawing.target = GcmcTarget::svg;
+  EXPECT_EQ(kinds_of("literal(\"G91\\n\"); literal(\"X1 \"); goto([1]);", drawing), "rapid");
 }
 
 TEST(GcmcPath, DrillIsMadeOfItsMoves) {
@@ -202,7 +315,7 @@ TEST(GcmcPath, OriginsReachThroughTheLibrary) {
 TEST(GcmcPath, TheNumberOfStepsIsLimited) {
   GcmcOptions options = bare();
   options.max_path_steps = 100;
-  EXPECT_EQ(said_by("repeat(1000; i) { move([i]); }", options),
+  EXPECT_EQ(messages_of("repeat(1000; i) { move([i]); }", options),
             "error: The toolpath has more than 100 steps");
 }
 
@@ -217,20 +330,20 @@ TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
   const auto ran = run("include(\"kerf_gcmc_included.gcmc\");", options);
   EXPECT_EQ(to_string(ran.messages.at(0).where), file + ":2:13");
   std::ofstream(file) << "include(\"kerf_gcmc_included.gcmc\");\n";
-  EXPECT_NE(said_by("include(\"kerf_gcmc_included.gcmc\");", options).find("nested too deeply"),
+  EXPECT_NE(messages_of("include(\"kerf_gcmc_included.gcmc\");", options).find("nested too deeply"),
             std::string::npos);
   std::remove(file.c_str());
 }
 
 TEST(GcmcInclude, WhatCannotBeReadIsToldWhatItIs) {
-  EXPECT_EQ(said_by("include(\"/\");"), "error: Include file '/': cannot read the file: it is a folder");
+  EXPECT_EQ(messages_of("include(\"/\");"), "error: Include file '/': cannot read the file: it is a folder");
   EXPECT_EQ(run("include(\"/\");").messages.at(0).code, Code::file_unreadable);
-  EXPECT_EQ(said_by("include(\"/dev/zero\");"),
+  EXPECT_EQ(messages_of("include(\"/dev/zero\");"),
             "error: Include file '/dev/zero': it is a device, not an ordinary file");
   const std::filesystem::path large = std::filesystem::path(testing::TempDir()) / "kerf_large.gcmc";
   std::ofstream(large) << ";";
   std::filesystem::resize_file(large, std::uintmax_t{1} << 30);  // a hole, which takes no room
-  const std::string said = said_by("include(\"" + large.string() + "\");");
+  const std::string said = messages_of("include(\"" + large.string() + "\");");
   EXPECT_NE(said.find("kerf_large.gcmc': the file is larger than 268435456 bytes"), std::string::npos)
       << said;
   std::filesystem::remove(large);
@@ -239,7 +352,7 @@ TEST(GcmcInclude, WhatCannotBeReadIsToldWhatItIs) {
   std::filesystem::create_directories(folder / "varcs.inc.gcmc");
   GcmcOptions options = bare();
   options.include_paths = {folder.string()};
-  EXPECT_EQ(said_by("include(\"varcs.inc.gcmc\");", options), "");
+  EXPECT_EQ(messages_of("include(\"varcs.inc.gcmc\");", options), "");
   std::filesystem::remove_all(folder);
 }
 
@@ -265,14 +378,14 @@ TEST(GcmcLibrary, PeckCycle) {
 }
 
 TEST(GcmcLibrary, DrillRefusals) {
-  EXPECT_EQ(said_by(kDrill + "canned_drill({[1,1]}, 5mm, -1, 0);"),
+  EXPECT_EQ(messages_of(kDrill + "canned_drill({[1,1]}, 5mm, -1, 0);"),
             "Runtime error(): canned_drill(): Argument 1 'holelist[0]' has no Z-coordinate");
   EXPECT_EQ(
-      said_by(kDrill + "canned_drill({}, 5mm, -1, 0);"),
+      messages_of(kDrill + "canned_drill({}, 5mm, -1, 0);"),
       "Runtime warning(): canned_drill(): Argument 1 'holelist' has no entries, canned cycle not performed");
-  EXPECT_EQ(said_by(kDrill + "canned_drill_peck({[1,1,-6]}, 5mm, 0mm, 0);"),
+  EXPECT_EQ(messages_of(kDrill + "canned_drill_peck({[1,1,-6]}, 5mm, 0mm, 0);"),
             "Runtime error(): canned_drill_peck(): Argument 3 'delta' must > 0.0");
-  EXPECT_EQ(said_by(kDrill + "canned_drill({[1,1,6]}, 5mm, -1, 0);"),
+  EXPECT_EQ(messages_of(kDrill + "canned_drill({[1,1,6]}, 5mm, -1, 0);"),
             "Runtime warning(): canned_drill(): drilling at [1,1] to depth 6mm is higher than retract-plane "
             "(5.000mm), "
             "skipping");
@@ -290,14 +403,14 @@ TEST(GcmcLibrary, Tracepath) {
 TEST(GcmcLibrary, Engrave) {
   EXPECT_EQ(run("include(\"engrave.inc.gcmc\"); engrave({[-,-,1],[2,2,-],[-,-,0],[3,3,-]}, 1, -1);").text,
             "G0 Z1.000\nG0 X2.000 Y2.000\nG1 Z-1.000\nG1 X3.000 Y3.000\n");
-  EXPECT_EQ(said_by("include(\"engrave.inc.gcmc\"); engrave({}, 1deg, -1);"),
+  EXPECT_EQ(messages_of("include(\"engrave.inc.gcmc\"); engrave({}, 1deg, -1);"),
             "Runtime warning(): engrave(): Argument 2, 'zup', must be distance");
 }
 
 TEST(GcmcLibrary, ArcsAsPoints) {
   const std::string varcs = "include(\"varcs.inc.gcmc\"); ";
   const auto points = [&](const std::string& expression) {
-    return said_by(varcs + "message(" + expression + ");");
+    return messages_of(varcs + "message(" + expression + ");");
   };
   EXPECT_EQ(points("varc_cw([10mm,0mm],5mm,0,5mm,45deg)"),
             "Runtime message(): {[1.464mm,3.536mm],[5.000mm,5.000mm],[8.536mm,3.536mm],[10mm,0mm]}");
@@ -325,20 +438,21 @@ TEST(GcmcLibrary, ArcsAsPoints) {
 
 TEST(GcmcLibrary, ListsCanBeTurned) {
   const auto ran = run("include(\"vlistrotate.inc.gcmc\"); message(vlistrotate({[1],[2],[3]}, 1));");
-  ASSERT_EQ(ran.said.size(), 2u);
-  EXPECT_NE(ran.said[0].find("deprecated"), std::string::npos);
-  EXPECT_EQ(ran.said[1], "Runtime message(): {[3],[1],[2]}");
+  ASSERT_EQ(ran.lines.size(), 2u);
+  EXPECT_NE(ran.lines[0].find("deprecated"), std::string::npos);
+  EXPECT_EQ(ran.lines[1], "Runtime message(): {[3],[1],[2]}");
 }
 
 TEST(GcmcLibrary, BezierCurves) {
   const std::string bezier = "include(\"vbezier.inc.gcmc\"); ";
-  EXPECT_EQ(said_by(bezier + "message(vbezier3([0mm,0mm],[0mm,10mm],[10mm,10mm],[10mm,0mm],1.0,5mm));"),
+  EXPECT_EQ(messages_of(bezier + "message(vbezier3([0mm,0mm],[0mm,10mm],[10mm,10mm],[10mm,0mm],1.0,5mm));"),
             "Runtime message(): {[5.000mm,7.500mm],[10mm,0mm]}");
-  EXPECT_EQ(said_by(bezier + "message(count(vbezier3([0mm,0mm],[0mm,10mm],[10mm,10mm],[10mm,0mm])), \" \", "
-                             "count(vbezier2([0mm,0mm],[5mm,10mm],[10mm,0mm])));"),
-            "Runtime message(): 326 168");
   EXPECT_EQ(
-      said_by(bezier + "message(vbezier3([0,0],[1,0],[2,0],[3,0],-1));"),
+      messages_of(bezier + "message(count(vbezier3([0mm,0mm],[0mm,10mm],[10mm,10mm],[10mm,0mm])), \" \", "
+                           "count(vbezier2([0mm,0mm],[5mm,10mm],[10mm,0mm])));"),
+      "Runtime message(): 326 168");
+  EXPECT_EQ(
+      messages_of(bezier + "message(vbezier3([0,0],[1,0],[2,0],[3,0],-1));"),
       "Runtime error(): vbezier3(): Argument 'flatness' must be larger than zero|Runtime message(): {}");
 }
 
@@ -353,10 +467,10 @@ TEST(GcmcLibrary, CompensatedTrace) {
       "J0.000\n"
       "G1 X10.000 Y11.000\nG2 X11.000 Y10.000 I0.000 J-1.000\nG1 X11.000 Y0.000\n"
       "G3 X12.000 Y-1.000 I1.000 J0.000\nG0 Z5.000\n(-- tracepath_comp end --)\n");
-  EXPECT_EQ(said_by("include(\"tracepath_comp.inc.gcmc\"); "
-                    "tracepath_comp({[0,0,-1],[0,10],[0.5,10],[0.5,0],[10,0]}*1mm, 1mm, TPC_RIGHT);"),
+  EXPECT_EQ(messages_of("include(\"tracepath_comp.inc.gcmc\"); "
+                        "tracepath_comp({[0,0,-1],[0,10],[0.5,10],[0.5,0],[10,0]}*1mm, 1mm, TPC_RIGHT);"),
             "Runtime warning(): Removed 1 unreachable internal corner(s)");
-  EXPECT_EQ(said_by("include(\"tracepath_comp.inc.gcmc\"); tracepath_comp({[0,0]}, 1mm, TPC_RIGHT);"),
+  EXPECT_EQ(messages_of("include(\"tracepath_comp.inc.gcmc\"); tracepath_comp({[0,0]}, 1mm, TPC_RIGHT);"),
             "Runtime error(): tracepath_comp(): Argument 1 'path' has fewer than 2 points");
 }
 

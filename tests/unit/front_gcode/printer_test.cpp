@@ -23,6 +23,23 @@ std::vector<step::Extrude> beads(const std::string& text, GcodeReadOptions optio
   return out;
 }
 
+TEST(Printer, HomingLeavesItsAxesUnknown) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = GcodeDialect::marlin;
+  const auto program = read_gcode("G1 X10 Y20 Z5 F600\nG28 X0 Y0\nG28\n", options, diagnostics);
+  ASSERT_EQ(program.path.size(), 3u);
+  const auto homing = [&](std::size_t i, unsigned axes) {
+    const Step& s = program.path[i];
+    EXPECT_EQ(s.kind(), StepKind::rapid);
+    EXPECT_EQ(s.reference(), Reference::end_switches);
+    EXPECT_EQ(s.reference_axes(), axes);
+    EXPECT_EQ(s.unknown_axes(), axes);
+  };
+  homing(1, 3);
+  homing(2, 7);
+}
+
 TEST(Printer, FilamentIsDrawnBackWhileMovingToo) {
   const auto b = beads(kHead + "M83\nG1 X10 E1\nG1 X5 E-0.5\nG1 E-0.25\nG1 X5\n");
   ASSERT_EQ(b.size(), 3u);

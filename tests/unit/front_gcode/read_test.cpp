@@ -34,8 +34,8 @@ TEST(ReadGcode, SettingsBecomeStepsInTheOrderOfTheirEffect) {
       read("G21\nM8 M3 M6 T102 S16000 G61.1 X1 G0\nG64 P0.02\nM7\nM9\nS9000\nM4\nM5\nM0\nG4 P1.5\nM30\n");
   EXPECT_TRUE(r.diagnostics.list().empty()) << to_string(r.diagnostics.list().front());
   ASSERT_EQ(kinds(r.program.path),
-            "tool spindle coolant pathmode rapid pathmode coolant coolant spindle spindle spindle verbatim "
-            "dwell verbatim");
+            "tool spindle coolant pathmode rapid pathmode coolant coolant spindle spindle spindle pause "
+            "dwell end");
   EXPECT_EQ(r[0].tool_change().tool, 102);
   EXPECT_EQ(r[1].spindle().speed, rpm(16000));
   EXPECT_EQ(r[1].spindle().turn, SpindleTurn::cw);
@@ -47,9 +47,9 @@ TEST(ReadGcode, SettingsBecomeStepsInTheOrderOfTheirEffect) {
   EXPECT_EQ(r[8].spindle().speed, rpm(9000));
   EXPECT_EQ(r[9].spindle().turn, SpindleTurn::ccw);
   EXPECT_EQ(r[10].spindle().turn, SpindleTurn::off);
-  EXPECT_EQ(r.program.path.text(11), "M0");
+  EXPECT_EQ(r[11].pause().kind, PauseKind::always);
   EXPECT_NEAR(r[12].dwell().time.seconds(), 1.5, 1e-12);
-  EXPECT_EQ(r.program.path.text(13), "M30");
+  EXPECT_TRUE(r[13].end().rewind);
   EXPECT_TRUE(r.program.ended);
 }
 
@@ -133,33 +133,43 @@ TEST(ReadGcode, ToolsAndStockOfComments) {
 TEST(ReadGcode, TheHandRetractionOfG88IsARapid) {
   const Reading r = read("M3 S100\nG0 Z5\nG88 X10 Z-3 R2 P0.5 F9\nM2");
   ASSERT_EQ(kinds(r.program.path),
-            "spindle rapid rapid rapid cut dwell spindle verbatim rapid spindle spindle verbatim");
-  EXPECT_EQ(r.program.path.text(7), "M0");
+            "spindle rapid rapid rapid cut dwell spindle pause rapid spindle spindle end");
+  EXPECT_EQ(r[7].pause().kind, PauseKind::always);
   EXPECT_EQ(r[8].to(), (Point3{10, 0, 2}));
 }
 
 TEST(ReadGcode, MotionCodesAloneSetTheModeInAHeader) {
   const Reading r = read("G1 G17\nG20\nX1 F1\nG1\nM2");
-  ASSERT_EQ(kinds(r.program.path), "cut cut verbatim");  // the second is of length 0
+  ASSERT_EQ(kinds(r.program.path), "cut cut end");  // the second is of length 0
   EXPECT_TRUE(r.program.inch);
   EXPECT_TRUE(r.diagnostics.list().empty()) << to_string(r.diagnostics.list().front());
 }
 
 TEST(ReadGcode, MessagesForTheOperatorAreKept) {
   const Reading r = read("(MSG, turn the part)\n(just a comment)\nG0 X1\nM2");
-  ASSERT_EQ(kinds(r.program.path), "note rapid verbatim");
+  ASSERT_EQ(kinds(r.program.path), "note rapid end");
   EXPECT_EQ(r.program.path.text(0), "turn the part");
 }
 
 TEST(ReadGcode, TheEndStopsOrNot) {
   const std::string text = "G18 G91 M3 S100\nG0 X1\nM30\n%\nX5 Z5\nM2";
   const Reading stop = read(text);
-  EXPECT_EQ(kinds(stop.program.path), "spindle rapid spindle verbatim");
+  EXPECT_EQ(kinds(stop.program.path), "spindle rapid spindle end");
   EXPECT_TRUE(stop.program.ended);
   const Reading on = read(text, {.after_end = AfterEnd::read_on});
-  ASSERT_EQ(kinds(on.program.path), "spindle rapid spindle verbatim cut verbatim");
+  ASSERT_EQ(kinds(on.program.path), "spindle rapid spindle end cut end");
   EXPECT_EQ(on[4].to(), (Point3{5, 0, 5}));  // the end set G90 and G1
   EXPECT_EQ(on.diagnostics.list()[0].code, Code::lone_percent);
+}
+
+TEST(ReadGcode, StoppingAndStoringHaveStepsOfTheirOwn) {
+  const Reading r = read("G0 X1 Y2 Z3\nM1\nM60\nG28.1\nG30.1\nM30");
+  ASSERT_EQ(kinds(r.program.path), "rapid pause pause storehome storehome end");
+  EXPECT_EQ(r[1].pause().kind, PauseKind::optional);
+  EXPECT_EQ(r[2].pause().kind, PauseKind::pallet_change);
+  EXPECT_EQ(r[3].store_home().home, Reference::home);
+  EXPECT_EQ(r[4].store_home().home, Reference::second_home);
+  EXPECT_TRUE(r[5].end().rewind);
 }
 
 TEST(ReadGcode, PlainLinesAreReadAsAllOthers) {

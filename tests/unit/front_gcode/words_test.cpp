@@ -73,8 +73,8 @@ std::string text_of(const step::PathMode& p) {
   return "P blend" + numbers({p.tolerance.mm()});
 }
 
-std::string stop_text(std::string_view verbatim) {
-  return verbatim == "M2" || verbatim == "M30" ? "end" : std::string(verbatim);
+std::string text_of(const step::Pause& p) {
+  return p.kind == PauseKind::always ? "M0" : p.kind == PauseKind::optional ? "M1" : "M60";
 }
 
 /// A move, without the chords of curves, which are N.
@@ -104,7 +104,9 @@ std::string event_text(const Toolpath& path, std::size_t i) {
     case StepKind::spindle: return text_of(s.spindle());
     case StepKind::coolant: return text_of(s.coolant());
     case StepKind::path_mode: return text_of(s.path_mode());
-    case StepKind::verbatim: return stop_text(path.text(i));
+    case StepKind::pause: return text_of(s.pause());
+    case StepKind::end: return "end";
+    case StepKind::store_home:
     case StepKind::note: return {};
     default: return move_text(path, i);
   }

@@ -73,8 +73,11 @@ TEST(EstimateTime, WhatChangesSomethingStops) {
   EXPECT_NEAR(with(step::Spindle{rpm(500), SpindleTurn::cw}).motion(), stopped, kExact);
   EXPECT_NEAR(with(step::Spindle{}).motion(), whole, kExact);
   EXPECT_NEAR(with(step::ToolChange{2}).motion(), stopped, kExact);
-  EXPECT_NEAR(with(step::Verbatim{"M0"}).motion(), stopped, kExact);
-  EXPECT_NEAR(with(step::Verbatim{"M1"}).motion(), whole, kExact);
+  EXPECT_NEAR(with(step::Pause{}).motion(), stopped, kExact);
+  EXPECT_NEAR(with(step::Pause{PauseKind::pallet_change}).motion(), stopped, kExact);
+  EXPECT_NEAR(with(step::Pause{PauseKind::optional}).motion(), whole, kExact);
+  EXPECT_NEAR(with(step::End{}).motion(), stopped, kExact);
+  EXPECT_NEAR(with(step::Verbatim{"M0"}).motion(), whole, kExact);  // text has no meaning
   EXPECT_NEAR(with(step::Note{"M0"}).motion(), whole, kExact);
   EXPECT_NEAR(with(step::PathMode{PathModeKind::exact_stop, {}}).motion(), whole, kExact);  // only after it
   Job shifted = Job().cut({10, 0, 0}, 1000).cut({20, 0, 0}, 1000);

@@ -25,7 +25,13 @@ TEST(Toolpath, KeepsEveryKindOfStep) {
   path.add(step::LaserPower{LaserMode::dynamic, 255}, here);
   path.add(step::Layer{"cut 3 mm", 5}, here);
   path.add(step::Note{"hello"}, here);
-  path.add(step::Verbatim{"M30"}, here);
+  path.add(step::Verbatim{"M101 P1"}, here);
+  path.add(step::Pause{PauseKind::pallet_change}, here);
+  path.add(step::End{true}, here);
+  path.add(step::ClosePath{}, here);
+  path.add(step::StoreHome{Reference::second_home}, here);
+  path.set_unknown_axes(path.add(step::Rapid{{0, 0, 0}}, here), 6);
+  path.set_reference(20, Reference::end_switches, 4);
 
   EXPECT_EQ(path[0].to(), (Point3{1, 2, 3}));
   EXPECT_EQ(path[1].cut().feed, mm_per_min(400));
@@ -50,13 +56,22 @@ TEST(Toolpath, KeepsEveryKindOfStep) {
   EXPECT_EQ(path.layer(13).name, "cut 3 mm");
   EXPECT_EQ(path.layer(13).colour, 5);
   EXPECT_EQ(path.text(14), "hello");
-  EXPECT_EQ(path.text(15), "M30");
+  EXPECT_EQ(path.text(15), "M101 P1");
+  EXPECT_EQ(path[16].pause().kind, PauseKind::pallet_change);
+  EXPECT_TRUE(path[17].end().rewind);
+  EXPECT_EQ(name_of(path[18].kind()), "closepath");
+  EXPECT_EQ(path[19].store_home().home, Reference::second_home);
   EXPECT_EQ(to_string(path.origin_of(15)), "a.nc:3:1");
 
   Toolpath copy;
   for (std::size_t i = 0; i < path.size(); ++i) copy.add_copy(path, i);
   ASSERT_EQ(copy.size(), path.size());
-  EXPECT_EQ(copy.text(15), "M30");
+  EXPECT_EQ(copy.text(15), "M101 P1");
+  EXPECT_EQ(copy[16].pause().kind, PauseKind::pallet_change);
+  EXPECT_EQ(copy[19].store_home().home, Reference::second_home);
+  EXPECT_EQ(copy[20].unknown_axes(), 6u);
+  EXPECT_EQ(copy[20].reference_axes(), 4u);
+  EXPECT_EQ(copy[20].reference(), Reference::end_switches);
   EXPECT_EQ(copy.extrude(9).width, mm(0.6));
   EXPECT_EQ(to_string(copy.origin_of(2)), "a.nc:3:1");
 }

@@ -2,15 +2,36 @@
 #include "front/gcmc/out/path_sink.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <utility>
 
 #include "front/gcmc/code/operators.h"
+#include "front/gcmc/out/written_line.h"
 
 namespace kerf::gcmc {
+namespace {
+
+constexpr unsigned kLinear = 7, kLinearAndRotary = 63, kEveryAxis = 511;  // bits of axes
+constexpr double kFarthest = 1e7;                                         // mm; beyond no position is meant
+
+bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r") == std::string_view::npos; }
+
+/// Text as a message quotes it.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  while (!text.empty() && is_blank(text.substr(text.size() - 1))) text.remove_suffix(1);
+  if (text.size() <= kLongest) return fmt::format("\"{}\"", text);
+  return fmt::format("\"{}...\"", text.substr(0, kLongest));
+}
+
+}  // namespace
 
 PathSink::PathSink(Toolpath& path, Vm& vm)
-    : path_(path), vm_(vm), scale_(vm.native == Unit::inch ? kMmPerInch : 1.0) {}
+    : path_(path),
+      vm_(vm),
+      scale_(vm.native == Unit::inch ? kMmPerInch : 1.0),
+      draws_(vm.options().target != GcmcTarget::gcode) {}
 
 // ---- origins
 
@@ -56,51 +77,81 @@ void PathSink::check_size() {
            fmt::format("The toolpath has more than {} steps", vm_.options().max_path_steps));
 }
 
-/// Inverse time and per-revolution feeds are not feeds per minute: such motions have none, and the check says
-/// so.
-Feed PathSink::feed(double per_minute) const {
-  if (feed_mode_ == 2 && speed_ != 0.0) return mm_per_min(per_minute * scale_ * speed_);
-  return feed_mode_ == 1 && per_minute > 0.0 ? mm_per_min(per_minute * scale_) : Feed{};
+/// Whether what follows belongs to the toolpath; with text of literal() before it on its line, an error.
+bool PathSink::look() {
+  if (ended_) return false;
+  if (!is_blank(pending_)) {
+    vm_.fail(Code::gcmc_literal,
+             fmt::format("The line {} of literal() is not ended: the words of this call would follow on it",
+                         quoted(pending_)),
+             "end the text of literal() with \\n");
+  }
+  pending_.clear();
+  attention_ = false;
+  return true;
+}
+
+/// The feed of a straight move, mm/min. In inverse time only a feed `given` with the move counts.
+double PathSink::straight_feed(double given, Point3 from, Point3 to) const {
+  if (feed_mode_ != FeedMode::inverse_time) return modal_feed();
+  return feed_per_minute(feed_mode_, given, distance(from, to), 0.0);
+}
+
+/// The feed of a motion without an F word of its own, mm/min.
+double PathSink::modal_feed() const {
+  if (feed_mode_ == FeedMode::inverse_time) return 0.0;
+  return feed_per_minute(feed_mode_, feed_ * scale_, 0.0, speed_.value_or(0.0));
 }
 
 /// Moves the named axes to where the text leads them. An axis that a motion does not name stays where it is,
 /// although relocate() may have changed its coordinate; relative text has the difference from the coordinate
-/// that was in force before.
+/// that was in force before. Drawings follow the program's own position.
 void PathSink::go(const Axes& to, unsigned named) {
-  const bool relative = vm_.options().relative;
+  const bool relative = vm_.options().relative && !draws_;
+  if (draws_) named = kEveryAxis;
   for (std::size_t i = 0; i < to.size(); ++i)
     if (named & 1u << i) at_[i] = relative ? at_[i] + (to[i] - commanded_[i]) : to[i];
   commanded_ = to;
+  const Point3 here = position();
+  if (!draws_ && !(std::max({std::abs(here.x), std::abs(here.y), std::abs(here.z)}) <= kFarthest))
+    vm_.fail(Code::gcmc_geometry, fmt::format("A position is more than {:g} mm from zero", kFarthest));
 }
 
 void PathSink::note_motion(std::size_t step, unsigned named) {
   if (!vm_.options().relative) unknown_ &= ~named;
-  rotary_used_ = rotary_used_ || (named & 56u) != 0;
-  path_.set_unknown_axes(step, unknown_ & 7u);
-  path_.set_named_axes(step, named & 63u);
+  rotary_used_ = rotary_used_ || (named & kLinearAndRotary & ~kLinear) != 0;
+  moved_ = true;
+  path_.set_unknown_axes(step, unknown_ & kLinear);
+  path_.set_named_axes(step, named & kLinearAndRotary);
   if (!rotary_used_) return;
   MotionExtra extra;
   extra.abc = std::array<double, 3>{at_[3], at_[4], at_[5]};
   path_.set_extra(step, std::move(extra));
 }
 
-Point3 PathSink::position() const { return {at_[0] * scale_, at_[1] * scale_, at_[2] * scale_}; }
-
-void PathSink::motion(bool rapid, const Axes& to, unsigned named, double per_minute, OriginId where) {
+void PathSink::rapid(const Axes& to, unsigned named, OriginId where) {
   check_size();
-  series_start_.reset();
   go(to, named);
-  note_motion(rapid ? path_.add(step::Rapid{position()}, where)
-                    : path_.add(step::Cut{position(), feed(per_minute)}, where),
-              named);
+  note_motion(path_.add(step::Rapid{position()}, where), named);
 }
 
 void PathSink::move(const Move& m) {
+  if (!goes_on()) return;
   if (m.feed > 0.0) feed_ = m.feed;
-  motion(m.rapid, m.to, m.named, feed_, origin());
+  // A motion word alone moves nothing, and is a step only where the controller makes a motion of it.
+  const bool empty = (m.named & kLinearAndRotary) == 0;
+  if (empty && (!moved_ || !(m.rapid || feed_ > 0.0))) return;
+  const OriginId where = origin();
+  series_start_.reset();
+  if (m.rapid) return rapid(m.to, m.named, where);
+  const Point3 from = position();
+  go(m.to, m.named);
+  const Feed feed = mm_per_min(straight_feed(m.feed, from, position()));
+  note_motion(path_.add(step::Cut{position(), feed}, where), m.named);
 }
 
 void PathSink::arc(const ArcMove& m) {
+  if (!goes_on()) return;
   static constexpr std::size_t kPlaneAxes[][2] = {{0, 1}, {0, 2}, {1, 2}};
   check_size();
   series_start_.reset();
@@ -112,7 +163,7 @@ void PathSink::arc(const ArcMove& m) {
   out.plane = m.plane;
   out.turn = m.turn;
   out.extra_turns = std::max(m.turns - 1, 0);
-  out.feed = feed(feed_);
+  out.feed = mm_per_min(modal_feed());
   note_motion(path_.add(out, origin()), m.named);
 }
 
@@ -127,7 +178,7 @@ class PathSink::CycleSink final : public DrillSink {
         after_next_(rises_first(cycle) ? named : axis_),
         where_(where) {}
   void rapid(Point3 to) override { add(step::Rapid{to}, to); }
-  void cut(Point3 to) override { add(step::Cut{to, sink_.feed(sink_.feed_)}, to); }
+  void cut(Point3 to) override { add(step::Cut{to, mm_per_min(sink_.modal_feed())}, to); }
   void dwell(Duration) override {}
   void spindle(SpindleTurn) override {}
   void pause() override {}
@@ -152,6 +203,7 @@ class PathSink::CycleSink final : public DrillSink {
 
 /// The motions of the G73 of the text, which is read with G99 in force.
 void PathSink::drill(const DrillMove& m) {
+  if (!goes_on()) return;
   constexpr int kMaxRepeats = 10'000;  // as in G-code
   const bool relative = vm_.options().relative;
   DrillCycle cycle;
@@ -186,77 +238,201 @@ void PathSink::drill(const DrillMove& m) {
 
 // ---- state
 
+void PathSink::feed_rate(double feed) {
+  if (!goes_on()) return;
+  if (feed < 0.0 && !draws_)
+    vm_.fail(Code::gcmc_range, fmt::format("A feed cannot be negative ({:g})", feed));
+  feed_ = feed;
+}
+
 void PathSink::feed_mode(int mode) {
-  static constexpr const char* kModes[] = {"G93\n", "G94\n", "G95\n"};
-  if (mode != feed_mode_) feed_ = 0.0;  // a feed of one mode means nothing in another
-  feed_mode_ = mode;
-  path_.add(step::Verbatim{kModes[mode]}, origin());
+  if (!goes_on()) return;
+  static constexpr FeedMode kModes[] = {FeedMode::inverse_time, FeedMode::per_minute, FeedMode::per_turn};
+  if (feed_mode_ != kModes[mode]) feed_ = 0.0;  // a feed of one mode means nothing in another
+  feed_mode_ = kModes[mode];
+}
+
+/// A spindle does not turn at a speed of 0, where the program gives that speed.
+void PathSink::turn_spindle(SpindleTurn turn, OriginId where) {
+  turn_ = turn;
+  const bool still = turn == SpindleTurn::off || (speed_ && !(*speed_ > 0.0));
+  path_.add(step::Spindle{still ? rpm(0) : rpm(speed_.value_or(0.0)), still ? SpindleTurn::off : turn},
+            where);
+}
+
+void PathSink::set_speed(double speed, OriginId where) {
+  const bool is_news = turn_ != SpindleTurn::off && speed_ != speed;
+  speed_ = speed;
+  if (is_news) turn_spindle(turn_, where);
 }
 
 void PathSink::spindle(double speed) {
+  if (!goes_on()) return;
   if (speed != 0.0) speed_ = std::abs(speed);
-  turn_ = speed == 0.0 ? SpindleTurn::off : speed > 0.0 ? SpindleTurn::cw : SpindleTurn::ccw;
-  path_.add(step::Spindle{rpm(std::abs(speed)), turn_}, origin());
+  turn_spindle(speed == 0.0 ? SpindleTurn::off : speed > 0.0 ? SpindleTurn::cw : SpindleTurn::ccw, origin());
 }
 
 void PathSink::spindle_speed(double speed) {
-  speed_ = speed;
-  path_.add(step::Spindle{rpm(speed), speed == 0.0 ? SpindleTurn::off : turn_}, origin());
+  if (goes_on()) set_speed(speed, origin());
 }
 
-void PathSink::coolant(int bits) { path_.add(step::Coolant{(bits & 1) != 0, (bits & 2) != 0}, origin()); }
+void PathSink::coolant(int bits) {
+  if (!goes_on()) return;
+  coolant_ =
+      bits == 0 ? step::Coolant{} : step::Coolant{coolant_.mist || (bits & 1), coolant_.flood || (bits & 2)};
+  path_.add(coolant_, origin());
+}
 
-/// M6 stops the spindle.
+void PathSink::change_tool(int tool, OriginId where) {
+  if (turn_ != SpindleTurn::off) turn_spindle(SpindleTurn::off, where);
+  path_.add(step::ToolChange{tool}, where);
+}
+
 void PathSink::tool_change(int tool, bool) {
-  if (turn_ != SpindleTurn::off) path_.add(step::Spindle{rpm(0), SpindleTurn::off}, origin());
-  turn_ = SpindleTurn::off;
-  path_.add(step::ToolChange{tool}, origin());
+  if (!goes_on()) return;
+  selected_tool_ = tool;
+  change_tool(tool, origin());
 }
 
-void PathSink::dwell(double time) { path_.add(step::Dwell{seconds(time)}, origin()); }
+void PathSink::dwell(double time) {
+  if (goes_on()) path_.add(step::Dwell{seconds(time)}, origin());
+}
 
 void PathSink::path_mode(bool exact, std::optional<double> p, std::optional<double>) {
+  if (!goes_on()) return;
   step::PathMode mode;
   mode.kind = exact ? PathModeKind::exact_path : PathModeKind::blend;
   mode.tolerance = mm(p.value_or(0.0) * scale_);
   path_.add(mode, origin());
 }
 
-void PathSink::pause(bool optional) { path_.add(step::Verbatim{optional ? "M1" : "M0"}, origin()); }
+void PathSink::pause(bool optional) {
+  if (goes_on()) path_.add(step::Pause{optional ? PauseKind::optional : PauseKind::always}, origin());
+}
+
+void PathSink::layer(const std::string& name) {
+  if (!ended_) path_.add(step::Layer{name, 256}, origin());
+}
+
+void PathSink::close_path() {
+  if (!ended_) path_.add(step::ClosePath{}, origin());
+}
+
+// ---- stored positions
+
+void PathSink::store_position(bool second) {
+  if (!goes_on()) return;
+  homes_[second ? 1 : 0] = {position(), unknown_ & kLinear};
+  path_.add(step::StoreHome{second ? Reference::second_home : Reference::home}, origin());
+}
+
+/// By way of `via` to the home that the controller stores; only the axes that are named, X, Y and Z where
+/// none is. Where the program itself stored it, that is a known position.
+void PathSink::restore_position(bool second, const Axes& via, unsigned named, const Axes& end) {
+  if (!goes_on()) return;
+  const OriginId where = origin();
+  if (draws_) {
+    if (named != 0) rapid(via, named, where);
+    return rapid(end, kLinear, where);
+  }
+  rapid(via, named, where);
+  const Home& home = homes_[second ? 1 : 0];
+  const unsigned axes = (named & kLinear) != 0 ? named & kLinear : kLinear;
+  for (int axis = 0; axis < 3; ++axis) {
+    const unsigned bit = 1u << axis;
+    if ((axes & bit) == 0) continue;
+    at_[static_cast<std::size_t>(axis)] = home.at[axis] / scale_;
+    unknown_ = (unknown_ & ~bit) | (home.unknown & bit);
+  }
+  commanded_ = end;
+  check_size();
+  const std::size_t step = path_.add(step::Rapid{position()}, where);
+  note_motion(step, 0);
+  if ((axes & unknown_) != 0)
+    path_.set_reference(step, second ? Reference::second_home : Reference::home, axes & unknown_);
+}
+
+// ---- text
 
 void PathSink::comment(std::string_view text) {
+  if (ended_) return;
   count_text(text.size());
-  path_.add(step::Note{std::string(text)}, origin());
+  const bool plain = pending_.empty() && text.find_first_of("()\r\n") == std::string_view::npos;
+  if (draws_ || plain)
+    path_.add(step::Note{std::string(text)}, origin());
+  else
+    written_text(fmt::format("({})\n", text));
 }
 
 void PathSink::literal(std::string_view text) {
+  if (ended_ || draws_) return;
   count_text(text.size());
+  written_text(text);
+}
+
+void PathSink::written_text(std::string_view text) {
   for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n')) {
     pending_ += text.substr(0, end);
     text.remove_prefix(end + 1);
-    if (!pending_.empty()) path_.add(step::Verbatim{pending_}, origin());
+    written_line(pending_);
     pending_.clear();
+    if (ended_) return;
   }
   pending_ += text;
+  attention_ = attention_ || !pending_.empty();
+}
+
+/// A line that the program wrote itself, as the steps that it makes.
+void PathSink::written_line(std::string_view text) {
+  std::string obstacle;
+  const std::optional<WrittenLine> line = read_written_line(text, obstacle);
+  if (!line) {
+    vm_.fail(Code::gcmc_literal,
+             fmt::format("The line {} cannot be part of a toolpath: {}", quoted(text), obstacle),
+             "use the functions of the language, or write G-code with kerf gcmc and use that");
+  }
+  const OriginId where = origin();
+  for (const std::string& note : line->notes) path_.add(step::Note{note}, where);
+  if (line->speed && !line->turn && !line->changes_tool) set_speed(*line->speed, where);
+  if (line->speed) speed_ = line->speed;
+  if (line->selected) selected_tool_ = line->selected;
+  if (line->changes_tool) {
+    if (!selected_tool_) {
+      vm_.fail(
+          Code::gcmc_literal,
+          fmt::format("The line {} cannot be part of a toolpath: no T word selects the tool", quoted(text)));
+    }
+    change_tool(*selected_tool_, where);
+  }
+  if (line->turn) turn_spindle(*line->turn, where);
+  if (line->no_coolant) coolant_ = {};
+  coolant_ =
+      line->no_coolant ? coolant_ : step::Coolant{coolant_.mist || line->mist, coolant_.flood || line->flood};
+  if (line->no_coolant || line->mist || line->flood) path_.add(coolant_, where);
+  if (line->dwell) path_.add(*line->dwell, where);
+  if (line->path_mode) {
+    step::PathMode mode = *line->path_mode;
+    mode.tolerance = scale_ * mode.tolerance;
+    path_.add(mode, where);
+  }
+  if (!line->verbatim.empty()) path_.add(step::Verbatim{line->verbatim}, where);
+  if (line->pause) path_.add(*line->pause, where);
+  if (line->end) end(*line->end, where);
+}
+
+/// The program's end stops spindle and coolant. What a program makes after that is not part of the toolpath.
+void PathSink::end(step::End how, OriginId where) {
+  if (turn_ != SpindleTurn::off) turn_spindle(SpindleTurn::off, where);
+  if (coolant_.mist || coolant_.flood) path_.add(coolant_ = {}, where);
+  path_.add(how, where);
+  ended_ = attention_ = true;
 }
 
 void PathSink::finish() {
-  if (!pending_.empty()) path_.add(step::Verbatim{pending_}, origin());
-  pending_.clear();
+  const GcmcOptions& options = vm_.options();
+  if (draws_ || ended_) return;
+  if (!is_blank(pending_)) written_line(pending_);  // what the text ends with is a comment
+  if (options.frame == GcmcFrame::usual && options.epilogue.empty() && !ended_) end({true}, origin());
 }
-
-void PathSink::store_position(bool second) {
-  path_.add(step::Verbatim{second ? "G30.1" : "G28.1"}, origin());
-}
-
-void PathSink::restore_position(bool, const Axes& via, unsigned named, const Axes& end) {
-  const OriginId where = origin();
-  if (named != 0) motion(true, via, named, feed_, where);
-  motion(true, end, 7u, feed_, where);
-}
-
-void PathSink::layer(const std::string& name) { path_.add(step::Layer{name, 256}, origin()); }
-
-void PathSink::close_path() { path_.add(step::Verbatim{"(close path)"}, origin()); }
 
 }  // namespace kerf::gcmc

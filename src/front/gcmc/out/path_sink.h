@@ -1,7 +1,12 @@
 // The toolpath of a running program: every motion complete, in mm, with the line and the calls that caused
 // it.
+//
+// It does what a controller does with the words that the text form of the same call has, so that the toolpath
+// is that of the G-code: axes that a call does not name stay where they are, in inverse time a feed counts
+// for its own motion.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +15,7 @@
 
 #include "front/gcmc/run/sink.h"
 #include "front/gcmc/run/vm.h"
+#include "path/feed_mode.h"
 
 #include "kerf/drill.h"
 #include "kerf/toolpath.h"
@@ -24,7 +30,7 @@ class PathSink final : public Sink {
   void arc(const ArcMove& m) override;
   void drill(const DrillMove& m) override;
   void broken_move(bool) override {}
-  void feed_rate(double feed) override { feed_ = feed; }
+  void feed_rate(double feed) override;
   void feed_mode(int mode) override;
   void spindle(double speed) override;
   void spindle_speed(double speed) override;
@@ -40,34 +46,54 @@ class PathSink final : public Sink {
   void restore_position(bool second, const Axes& via, unsigned named, const Axes& end) override;
   void layer(const std::string& name) override;
   void close_path() override;
-  /// Text handed through that is not a whole line yet becomes one.
+  /// To be called when the program has ended.
   void finish();
 
  private:
+  /// False after the program's end; an error where a line of literal() has no end.
+  bool goes_on() { return !attention_ || look(); }
+  bool look();
   OriginId origin();
-  void motion(bool rapid, const Axes& to, unsigned named, double feed, OriginId where);
   class CycleSink;
   void go(const Axes& to, unsigned named);
   void note_motion(std::size_t step, unsigned named);
-  Point3 position() const;
-  Feed feed(double per_minute) const;
+  void rapid(const Axes& to, unsigned named, OriginId where);
+  Point3 position() const { return {at_[0] * scale_, at_[1] * scale_, at_[2] * scale_}; }
+  double straight_feed(double given, Point3 from, Point3 to) const;
+  double modal_feed() const;
+  void turn_spindle(SpindleTurn turn, OriginId where);
+  void set_speed(double speed, OriginId where);
+  void change_tool(int tool, OriginId where);
+  void end(step::End how, OriginId where);
+  void written_text(std::string_view text);
+  void written_line(std::string_view text);
   void check_size();
   void count_text(std::size_t bytes);
 
   Toolpath& path_;
   Vm& vm_;
   double scale_;       // native length to mm
-  double feed_ = 0.0;  // native per minute
-  int feed_mode_ = 1;
-  double speed_ = 0.0;
+  bool draws_;         // SVG or DXF, for which no G-code is written
+  double feed_ = 0.0;  // as the feed mode has it; native lengths
+  FeedMode feed_mode_ = FeedMode::per_minute;
+  std::optional<double> speed_;  // rpm
   SpindleTurn turn_ = SpindleTurn::off;
-  Axes at_{};             // where the motions so far lead; native, with offsets
-  Axes commanded_{};      // the same in the coordinates of the program
-  unsigned unknown_ = 7;  // axes never commanded
-  bool rotary_used_ = false;
+  step::Coolant coolant_;
+  std::optional<int> selected_tool_;  // by a T word of its own
+  Axes at_{};                         // where the motions so far lead; native, with offsets
+  Axes commanded_{};                  // the same in the coordinates of the program
+  unsigned unknown_ = 7;              // axes never commanded
+  bool moved_ = false, rotary_used_ = false;
   std::optional<double> series_start_;  // level before the first of the canned cycles; native
+  struct Home {
+    Point3 at;  // mm
+    unsigned unknown = 7;
+  };
+  std::array<Home, 2> homes_;
   std::size_t text_bytes_ = 0;
-  std::string pending_;  // literal text before its end of line
+  std::string pending_;     // text of a line that is not ended yet
+  bool attention_ = false;  // there is such text, or the program has ended
+  bool ended_ = false;
   struct Key {
     std::uint64_t site;
     OriginId caller;
