@@ -7,15 +7,13 @@
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <random>
 #include <string>
 #include <utility>
 #include <vector>
-#if defined(__GLIBC__)
-#include <malloc.h>
-#endif
+
+#include "memory.h"
 
 #include "kerf/exact_mesh.h"
 #include "kerf/live.h"
@@ -118,32 +116,6 @@ Toolpath roughing() {
   }
   return std::move(job.path);
 }
-
-/// A number of kilobytes from /proc/self/status, as MB; 0 where there is no such file.
-double status_mb(const std::string& name) {
-  std::ifstream status("/proc/self/status");
-  for (std::string word; status >> word;) {
-    double kilobytes = 0.0;
-    if (word == name + ":" && status >> kilobytes) return kilobytes / 1024;
-  }
-  return 0.0;
-}
-
-/// How much more memory than at its begin the process has held at most.
-class PeakMemory {
- public:
-  PeakMemory() {
-#if defined(__GLIBC__)
-    malloc_trim(0);  // what other jobs have left
-#endif
-    std::ofstream("/proc/self/clear_refs") << 5;  // the peak begins anew
-    begin_mb_ = status_mb("VmRSS");
-  }
-  double mb() const { return status_mb("VmHWM") - begin_mb_; }
-
- private:
-  double begin_mb_ = 0.0;
-};
 
 void run(benchmark::State& state, const Toolpath& path) {
   const ToolTable tools = table();

@@ -55,6 +55,59 @@ inline char* put_whole(char* out, std::uint64_t value) {
   return out + (kBlock - zeros);
 }
 
+constexpr double kExactTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+__extension__ typedef unsigned __int128 Wide;
+
+/// digits / 10^decimals rounded to the nearest double, ties to even; 1 <= decimals <= 19. Nothing where the
+/// quotient has too few bits for that.
+std::optional<double> rounded_quotient(std::uint64_t digits, int decimals) {
+  constexpr int kMantissa = 53;
+  std::uint64_t power = 1;
+  for (int i = 0; i < decimals; ++i) power *= 10;
+  const Wide scaled = static_cast<Wide>(digits) << 64;
+  const Wide quotient = scaled / power;
+  const bool inexact = quotient * power != scaled;
+  const auto high = static_cast<std::uint64_t>(quotient >> 64), low = static_cast<std::uint64_t>(quotient);
+  const int bits = high != 0 ? 128 - std::countl_zero(high) : 64 - std::countl_zero(low);
+  const int dropped = bits - kMantissa;
+  if (dropped < 1) return std::nullopt;
+  auto kept = static_cast<std::uint64_t>(quotient >> dropped);
+  const Wide rest = quotient & ((static_cast<Wide>(1) << dropped) - 1);
+  const Wide half = static_cast<Wide>(1) << (dropped - 1);
+  if (rest > half || (rest == half && (inexact || (kept & 1) != 0))) ++kept;
+  return std::ldexp(static_cast<double>(kept), dropped - 64);
+}
+
+/// Numbers of at most 19 digits without an exponent, which are nearly all; nothing for the others,
+/// well-formed or not.
+std::optional<double> parse_short(std::string_view text) {
+  constexpr std::uint64_t kExact = std::uint64_t{1} << 53;  // whole numbers up to this are doubles
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  const bool negative = *p == '-';
+  if (negative || *p == '+') ++p;
+  std::uint64_t digits = 0;
+  const char* const first = p;
+  for (; p != end && *p >= '0' && *p <= '9'; ++p) digits = 10 * digits + static_cast<unsigned>(*p - '0');
+  auto count = p - first;
+  int decimals = 0;
+  if (p != end && *p == '.') {
+    const char* const point = p++;
+    for (; p != end && *p >= '0' && *p <= '9'; ++p) digits = 10 * digits + static_cast<unsigned>(*p - '0');
+    decimals = static_cast<int>(p - point) - 1;
+    count += decimals;
+  }
+  if (p != end || count == 0 || count > 19) return std::nullopt;
+  std::optional<double> value;
+  if (digits <= kExact)
+    value = static_cast<double>(digits) / kExactTens[decimals];
+  else if (decimals > 0)
+    value = rounded_quotient(digits, decimals);
+  if (value && negative) value = -*value;
+  return value;
+}
+
 /// Distance of two words in insertions, deletions, replacements and swaps of neighbours, case left out.
 std::size_t slips_between(std::string_view a, std::string_view b) {
   auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
@@ -144,6 +197,7 @@ std::string exact_text(double value) { return fmt::format("{}", value == 0.0 ? 0
 std::optional<double> parse_number(std::string_view text) {
   constexpr std::size_t kLongest = 512;  // digits past this change nothing that a double can hold
   if (text.empty() || text.size() > kLongest) return std::nullopt;
+  if (const auto value = parse_short(text)) return value;
   if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;
   const std::string copy(text);  // strtod wants an end; the C locale is never changed by Kerf
   char* end = nullptr;

@@ -92,7 +92,7 @@ PUBLIC = {
     "front_stock": ["stock_files.h"],
     "front_outline": ["outline_files.h"],
     "back_drawing": ["outline_drawing.h", "toolpath_drawing.h"],
-    "codec_drawing": ["drawing_files.h"],
+    "codec_drawing": ["drawing_files.h", "dxf.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_png": ["image_files.h"],
     "job": ["program.h", "job.h", "findings.h", "outputs.h", "posting.h"],

@@ -50,6 +50,32 @@ TEST(Number, ReadsOnlyWholeFiniteNumbers) {
   EXPECT_FALSE(parse_number("1 "));
 }
 
+TEST(Number, DecimalsOfAnyLengthAreRoundedAsTheCLibraryRoundsThem) {
+  std::uint64_t state = 1;
+  const auto random = [&] {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return state >> 33;
+  };
+  for (int i = 0; i < 200000; ++i) {
+    std::string text = random() % 2 == 0 ? "-" : "";
+    const auto before = random() % 20, after = random() % 20;
+    if (before + after == 0) continue;
+    for (std::uint64_t k = 0; k < before; ++k) text += static_cast<char>('0' + random() % 10);
+    if (after > 0) text += '.';
+    for (std::uint64_t k = 0; k < after; ++k) text += static_cast<char>('0' + random() % 10);
+    ASSERT_EQ(parse_number(text), std::strtod(text.c_str(), nullptr)) << text;
+  }
+  // Halfway between two doubles, and one digit beside it.
+  for (const char* text :
+       {"9007199254740993", "9007199254740992.5", "9007199254740993.0", "9007199254740995.",
+        "4503599627370496.5", "4503599627370497.5", "4503599627370497.501", "0.5", "-0",
+        "1152921504606846977.", "0000000000000000001", "0.0000000000000000001", "1."})
+    EXPECT_EQ(parse_number(text), std::strtod(text, nullptr)) << text;
+  EXPECT_TRUE(std::signbit(*parse_number("-0.0")));
+  for (const char* text : {".", "-", "+", "-.", "1.2.3", "1-2", "--1"})
+    EXPECT_FALSE(parse_number(text)) << text;
+}
+
 TEST(Number, LengthsWithTheirUnit) {
   EXPECT_EQ(parse_length("6.35", 1.0), 6.35);
   EXPECT_EQ(parse_length("0.25in", 1.0), 6.35);
