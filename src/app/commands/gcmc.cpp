@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
 
@@ -15,6 +14,7 @@
 #endif
 
 #include "app/options/gcmc_options.h"
+#include "app/report/json.h"
 
 #include "kerf/files.h"
 #include "kerf/gcmc.h"
@@ -158,21 +158,19 @@ int check(const GcmcCommandLine& line, std::string_view text, Listener& listener
   listener.silent = line.json;
   const bool good = check_gcmc(text, line.run, listener, diagnostics);
   if (line.json) {
-    auto list = nlohmann::json::array();
+    Json list = Json::array();
     for (const Diagnostic& d : diagnostics.list()) {
       const auto* spot = std::get_if<TextSpot>(&d.where);
-      list.push_back({{"severity", to_string(d.severity)},
-                      {"code", static_cast<int>(d.code)},
-                      {"name", name_of(d.code)},
-                      {"file", spot != nullptr ? spot->file : ""},
-                      {"line", spot != nullptr ? spot->line : 0},
+      list.push_back({{"code", static_cast<int>(d.code)},
                       {"column", spot != nullptr ? spot->column : 0},
+                      {"file", spot != nullptr ? spot->file : ""},
+                      {"hint", d.hint},
+                      {"line", spot != nullptr ? spot->line : 0},
                       {"message", d.message},
-                      {"hint", d.hint}});
+                      {"name", name_of(d.code)},
+                      {"severity", to_string(d.severity)}});
     }
-    using Json = nlohmann::json;
-    const std::string out =
-        Json{{"diagnostics", list}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    const std::string out = text_of(Json{{"diagnostics", list}}, Layout::indented);
     std::fwrite(out.data(), 1, out.size(), stdout);
   }
   return good ? 0 : 1;

@@ -205,9 +205,6 @@ Json step_json(const Toolpath& path, std::size_t i, std::optional<int> tool) {
   return out;
 }
 
-std::string text_of(const Json& json, Layout layout) {
-  // Bytes that are no UTF-8 (an old file's comment) come out as the replacement character.
-  return json.dump(layout == Layout::line ? -1 : 2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string text_of(const Json& json, Layout layout) { return json.text(layout) + "\n"; }
 
 }  // namespace kerf::app

@@ -3,9 +3,10 @@
 // there is none).
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+
+#include "app/report/json_value.h"
 
 #include "kerf/diagnostics.h"
 #include "kerf/report.h"
@@ -14,8 +15,6 @@
 #include "kerf/toolpath.h"
 
 namespace kerf::app {
-
-using Json = nlohmann::ordered_json;
 
 Json json_of(double value);
 Json json_of(Point3 p);
@@ -34,8 +33,8 @@ Json json_of(const Profile& profile);
 /// Step `i` as one line of `kerf steps`; `tool` is the one in force.
 Json step_json(const Toolpath& path, std::size_t i, std::optional<int> tool);
 
-/// The object as text with a line end: one line, or indented for a person.
-enum class Layout { line, indented };
+using Layout = Json::Layout;
+/// The object as text with a line end.
 std::string text_of(const Json& json, Layout layout);
 
 }  // namespace kerf::app
