@@ -20,6 +20,7 @@
 #include "kerf/geometry.h"
 #include "kerf/machine.h"
 #include "kerf/material.h"
+#include "kerf/tolerance.h"
 #include "kerf/tool.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
@@ -30,11 +31,7 @@ namespace kerf {
 enum class ProgramEnd : std::uint8_t { not_asked, seen, missing };
 
 struct CheckOptions {
-  /// GRBL 1.1 refuses an arc whose two radii differ by more than `arc_radii_apart` and by more than the share
-  /// `arc_radii_share` of the radius, or by more than `arc_radii_limit` whatever its radius.
-  Length arc_radii_apart = mm(0.005);
-  double arc_radii_share = 0.001;
-  Length arc_radii_limit = mm(0.5);
+  ArcMismatch arc_radii = {};
   ProgramEnd end = ProgramEnd::not_asked;
   // What is not told (nullptr, nothing) is not looked at. They must outlive the check.
   const Machine* machine = nullptr;          // travel and spindle
@@ -60,9 +57,6 @@ std::string_view kind_of(const PathHazard& hazard);
 /// to place runs at or below the lowest cut, where Z upwards has the stock. Of the material nothing can be
 /// told then. Nothing for other programs; check_path includes it.
 std::optional<PathHazard> find_z_downwards(const Toolpath& path);
-
-/// Whether controllers take an arc that begins and ends so far from its centre, mm.
-bool radii_agree(double start, double end, const CheckOptions& options);
 
 /// Looks through a whole toolpath; what it finds is in the order of steps. Neither spindle nor tool is
 /// asked for in programs that switch a laser or lay down beads. A spindle that turns at 0 rpm is one whose

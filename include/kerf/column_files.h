@@ -14,20 +14,21 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/limits.h"
 
 namespace kerf {
 
 struct ColumnData {
   std::array<double, 3> low{}, high{};     // mm, the block's corners
-  double x = 0.0, y = 0.0, pitch = 1.0;    // mm, the first column's middle
+  double x = 0.0, y = 0.0, pitch = 1.0;    // mm, the centre of the first column
   std::uint32_t nx = 0, ny = 0;            // columns
   std::vector<std::uint32_t> first;        // column n has the runs first[n] to first[n + 1] - 1
   std::vector<std::array<float, 2>> runs;  // low and high, mm above the floor
 };
 
 struct ColumnLimits {
-  std::size_t columns = 100'000'000;
-  std::size_t runs = 200'000'000;
+  std::size_t columns = limits::kMaxLeftOverColumns;
+  std::size_t runs = limits::kMaxLeftOverIntervals;
 };
 
 std::string write_columns(const ColumnData& columns);

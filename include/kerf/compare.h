@@ -15,6 +15,7 @@
 #include "kerf/progress.h"
 #include "kerf/render.h"
 #include "kerf/stock_body.h"
+#include "kerf/tolerance.h"
 #include "kerf/workpiece.h"
 
 namespace kerf {
@@ -23,8 +24,8 @@ enum class DifferenceKind : std::uint8_t { gouge, rest };
 std::string_view to_string(DifferenceKind kind);
 
 struct CompareOptions {
-  Length tolerance = mm(0.05);    // differences no deeper than this are none
-  std::size_t most_regions = 50;  // the deepest are told
+  Length tolerance = default_tolerance::kComparison;  // smaller differences are not reported
+  std::size_t most_regions = 50;                      // the deepest are told
 };
 
 /// Neighbouring columns with the same kind of difference.

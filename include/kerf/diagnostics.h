@@ -1,7 +1,7 @@
-// What is wrong with the user's input, said with a place, a stable code and a hint.
+// Diagnostics: what is wrong with the user's input, with origin, stable code and hint.
 //
 // A function that can fail on user input returns its value and appends to a `Diagnostics` passed in. Nothing
-// in the library prints, exits or throws across a public header. The codes stand in one table, `codes.def`.
+// in the library prints, exits or throws across a public header. All codes are in one table, `codes.def`.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "kerf/limits.h"
 #include "kerf/origin.h"
 
 namespace kerf {
@@ -53,7 +54,8 @@ std::string to_string(const Diagnostic& diagnostic);
 /// rest counted, so that a broken file of a million lines costs bounded memory.
 class Diagnostics {
  public:
-  explicit Diagnostics(std::size_t limit_per_code = 50) : limit_per_code_(limit_per_code) {}
+  explicit Diagnostics(std::size_t limit_per_code = limits::kMaxMessagesPerCode)
+      : limit_per_code_(limit_per_code) {}
 
   /// Appends; the returned reference (valid until the next call) takes notes and a hint.
   Diagnostic& error(Code code, Origin where, std::string message);

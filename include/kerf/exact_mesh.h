@@ -8,6 +8,7 @@
 #include "kerf/mesh.h"
 #include "kerf/progress.h"
 #include "kerf/stock.h"
+#include "kerf/tolerance.h"
 #include "kerf/tool.h"
 #include "kerf/toolpath.h"
 #include "kerf/workpiece.h"
@@ -16,7 +17,7 @@ namespace kerf {
 
 struct SharpenOptions {
   /// Where the middle of an edge is further than this from the surface the edge gets another vertex.
-  Length tolerance = mm(0.002);
+  Length tolerance = default_tolerance::kExactMesh;
   unsigned threads = 0;  // 0: as many as the machine has. The mesh is the same for any number.
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kerf/outline.h"
+#include "kerf/tolerance.h"
 
 namespace kerf {
 

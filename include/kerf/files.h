@@ -10,20 +10,20 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/limits.h"
 #include "kerf/progress.h"
 
 namespace kerf {
 
-/// A file's bytes, mapped into memory where the system can, else read. Moves, does not copy.
+/// A file's bytes, mapped into memory where possible, otherwise read. Movable, not copyable.
 class InputFile {
  public:
   /// Opens `path`; "-" is standard input. Appends an error (no such file, a folder, not readable, larger than
-  /// `limit_bytes`, stopped by `progress`) and returns nothing where it cannot be had. What cannot be mapped
-  /// (pipes, devices, standard input) is held in memory, so that of it at most kLargestStream bytes are read.
+  /// `limit_bytes`, stopped by `progress`) and returns nothing on failure. Input that cannot be mapped
+  /// (pipes, devices, standard input) is held in memory and limited to limits::kMaxStreamBytes.
   static std::optional<InputFile> open(const std::string& path, Diagnostics& diagnostics,
-                                       std::size_t limit_bytes = std::size_t{4} << 30,
+                                       std::size_t limit_bytes = limits::kMaxProgramBytes,
                                        Progress* progress = nullptr);
-  static constexpr std::size_t kLargestStream = std::size_t{256} << 20;
   std::string_view bytes() const;
   const std::string& path() const { return path_; }
 

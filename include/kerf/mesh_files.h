@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/limits.h"
 
 namespace kerf {
 
@@ -43,10 +44,10 @@ struct MeshData {
   std::vector<std::uint32_t> triangles;
 };
 
-/// What is read at most; more is an error.
+/// Exceeding one is an error.
 struct MeshLimits {
-  std::size_t triangles = 50'000'000;
-  std::size_t text_bytes = std::size_t{4} << 30;  // of an unpacked 3MF
+  std::size_t triangles = limits::kMaxTriangles;
+  std::size_t text_bytes = limits::kMaxUnpackedBytes;  // of an unpacked 3MF
 };
 
 /// Reads a mesh. STL (text and binary) and OBJ have no unit: a number is a mm. 3MF tells its unit, GLB is in

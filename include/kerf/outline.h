@@ -30,6 +30,7 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
+#include "kerf/tolerance.h"
 #include "kerf/units.h"
 
 namespace kerf {

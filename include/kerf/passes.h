@@ -10,6 +10,7 @@
 
 #include <cstddef>
 
+#include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
 
@@ -29,9 +30,9 @@ struct PassResult {
 PassResult arcs_to_chords(const Toolpath& path, Length chord);
 
 struct ArcFitOptions {
-  Length tolerance = mm(0.005);     // how far a chord's ends and middle may lie from the arc
-  Length largest_radius = mm(500);  // flatter chains stay straight
-  std::size_t fewest = 3;           // chords that an arc stands for
+  Length tolerance = default_tolerance::kArcFitting;  // of a chord's ends and midpoint from the arc
+  Length largest_radius = mm(500);                    // flatter chains stay straight
+  std::size_t fewest = 3;                             // chords that an arc stands for
 };
 /// Chains of straight cuts in a plane of the machine become arcs (also helices about Z) where every point of
 /// the chain lies within the tolerance. Corners stay.

@@ -22,6 +22,7 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/progress.h"
+#include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
 
@@ -84,9 +85,9 @@ struct PostProfile {
 
   ArcPolicy arcs = ArcPolicy::centre;
   std::vector<Plane> arc_planes{Plane::xy, Plane::xz, Plane::yz};
-  Length largest_radius = mm(10'000);  // above it, chords
-  Length shortest_arc = mm(0.002);     // below it, a straight cut
-  Length chord = mm(0.002);            // how far chords may stray from an arc
+  Length largest_radius = mm(10'000);            // above it, chords
+  Length shortest_arc = mm(0.002);               // below it, a straight cut
+  Length chord = default_tolerance::kPostChord;  // of chords from their arc
 
   ToolChangePolicy tool_change = ToolChangePolicy::command;
   DwellUnit dwell_unit = DwellUnit::seconds;

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "kerf/drawing_files.h"
+#include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
 
@@ -20,12 +21,12 @@ namespace kerf {
 enum class RapidLines : std::uint8_t { left_out, drawn };
 
 struct ToolpathDrawingOptions {
-  DrawingUnit unit = DrawingUnit::mm;          // the coordinates are told in it
-  RapidLines rapids = RapidLines::left_out;    // drawn: dashed, on a layer of their own
-  Length chord = mm(0.01);                     // how far chords may stray from arcs that do not lie in XY
-  std::string title = {};                      // of the SVG
-  std::map<int, std::string> tool_names = {};  // for the layers' names
-  std::map<int, Length> tool_diameters = {};   // for drilled holes; 1 mm where a tool has none
+  DrawingUnit unit = DrawingUnit::mm;               // the coordinates are told in it
+  RapidLines rapids = RapidLines::left_out;         // drawn: dashed, on a layer of their own
+  Length chord = default_tolerance::kDrawingChord;  // of chords from arcs that do not lie in XY
+  std::string title = {};                           // of the SVG
+  std::map<int, std::string> tool_names = {};       // for the layers' names
+  std::map<int, Length> tool_diameters = {};        // for drilled holes; 1 mm where a tool has none
 };
 
 /// Moves whose place in X and Y is not known in work coordinates are left out.

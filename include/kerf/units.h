@@ -1,14 +1,16 @@
-// Units as types, so that a feed cannot be passed where a length is meant, and the two tolerances.
+// Units as types, so that a feed cannot be passed as a length.
 //
-// Kerf computes in mm, minutes and radians. These types stand at the borders (options, steps, reports);
-// kernels take the plain number out once (`.mm()`, `.mm_per_min()`) and put it back at the end. Points are
-// plain coordinates in mm of a documented frame (geometry.h) and need no unit type.
+// Kerf computes in mm, minutes and radians. Interfaces (options, steps, reports) use these types; kernels
+// take the number out once (`.mm()`, `.mm_per_min()`) and wrap the result. Points are plain coordinates in mm
+// of a documented frame (geometry.h) and need no unit type.
 #pragma once
 
 #include <compare>
 #include <numbers>
 
 namespace kerf {
+
+inline constexpr double kMmPerInch = 25.4;
 
 /// A quantity with the dimension length^L * time^T. Holds mm and minutes; never converts by itself.
 template <int L, int T>
@@ -20,7 +22,7 @@ class Quantity {
   constexpr double raw() const { return value_; }
 
   constexpr double mm() const requires(L == 1 && T == 0) { return value_; }
-  constexpr double inch() const requires(L == 1 && T == 0) { return value_ / 25.4; }
+  constexpr double inch() const requires(L == 1 && T == 0) { return value_ / kMmPerInch; }
   constexpr double mm_per_min() const requires(L == 1 && T == -1) { return value_; }
   constexpr double minutes() const requires(L == 0 && T == 1) { return value_; }
   constexpr double seconds() const requires(L == 0 && T == 1) { return value_ * 60.0; }
@@ -60,12 +62,12 @@ using Feed = Quantity<1, -1>;
 using SpindleSpeed = Quantity<0, -1>;
 
 constexpr Length mm(double v) { return Length::raw(v); }
-constexpr Length inch(double v) { return Length::raw(25.4 * v); }
+constexpr Length inch(double v) { return Length::raw(kMmPerInch * v); }
 constexpr Volume mm3(double v) { return Volume::raw(v); }
 constexpr Duration minutes(double v) { return Duration::raw(v); }
 constexpr Duration seconds(double v) { return Duration::raw(v / 60.0); }
 constexpr Feed mm_per_min(double v) { return Feed::raw(v); }
-constexpr Feed inch_per_min(double v) { return Feed::raw(25.4 * v); }
+constexpr Feed inch_per_min(double v) { return Feed::raw(kMmPerInch * v); }
 constexpr SpindleSpeed rpm(double v) { return SpindleSpeed::raw(v); }
 
 /// An angle; radians inside, made by `degrees()` or `radians()` only.
@@ -85,11 +87,5 @@ class Angle {
 };
 constexpr Angle radians(double v) { return Angle(v); }
 constexpr Angle degrees(double v) { return Angle(v * std::numbers::pi / 180.0); }
-
-/// The two tolerances of a job. They belong to the job and are passed in; geometry never carries one.
-struct Tolerance {
-  Length chord = mm(0.001);  ///< how far a polyline or a fitted arc may stray from the true curve
-  Length weld = mm(1e-6);    ///< points closer than this are one point
-};
 
 }  // namespace kerf

@@ -23,10 +23,10 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
   if (finite_number(resolution, "resolution") < 0.0)
     throw py::value_error("resolution must be 0 (automatic) or above, mm");
   options.resolution = mm(resolution);
-  options.threads = static_cast<unsigned>(whole_within(threads, 0, kMostThreads, "threads"));
+  options.threads = static_cast<unsigned>(whole_within(threads, 0, limits::kMaxThreads, "threads"));
   if (layer_height)
     options.layer_height = mm(number_within(*layer_height, 0.02, kWidestRoad.mm(), "layer_height", "mm"));
-  options.bed = mm(number_within(bed, -kLargestStock, kLargestStock, "bed", "mm"));
+  options.bed = mm(number_within(bed, -limits::kMaxStockSize, limits::kMaxStockSize, "bed", "mm"));
   Diagnostics diagnostics;
   SignalProgress progress;
   auto kept = std::make_shared<const Toolpath>(path);

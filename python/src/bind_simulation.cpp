@@ -27,7 +27,7 @@ Result run(const Toolpath& path, const Stock* stock, const std::optional<ToolTab
     throw py::value_error("resolution must be 0 (automatic) or above, mm");
   SimulationOptions options;
   options.resolution = mm(resolution);
-  options.threads = static_cast<unsigned>(whole_within(threads, 0, kMostThreads, "threads"));
+  options.threads = static_cast<unsigned>(whole_within(threads, 0, limits::kMaxThreads, "threads"));
   Diagnostics diagnostics;
   SignalProgress progress;
   auto kept = std::make_shared<const Toolpath>(path);

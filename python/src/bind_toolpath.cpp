@@ -7,9 +7,11 @@
 #include "kerf/check.h"
 #include "kerf/files.h"
 #include "kerf/gcode.h"
+#include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
 #include "kerf/report.h"
+#include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
 
 namespace kerf::python {
@@ -17,7 +19,6 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr double kMostExtruded = 1e9;                                // mm3 in a move
 constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
 
 Turn to_turn(const std::string& name) {
@@ -97,7 +98,7 @@ std::size_t checked_index(const Toolpath& path, py::ssize_t i) {
 
 Feed positive_feed(double value) {
   if (finite_number(value, "feed") <= 0.0) throw py::value_error("feed must be above 0 mm/min");
-  return mm_per_min(number_within(value, 0.0, kFastest, "feed", "mm/min"));
+  return mm_per_min(number_within(value, 0.0, limits::kMaxSpeed, "feed", "mm/min"));
 }
 
 SpindleTurn to_spindle_turn(const std::string& name) {
@@ -114,7 +115,7 @@ void check_radii(const Toolpath& path, const step::Arc& arc) {
   while (i > 0 && !path[i - 1].is_motion()) --i;
   if (i == 0) return;
   const ArcWalk walk = walk_arc(path[i - 1].to(), arc.to, arc.centre, arc.plane, arc.turn, 0);
-  if (radii_agree(walk.start_radius, walk.end_radius, {})) return;
+  if (ArcMismatch().permits(walk.start_radius, walk.end_radius)) return;
   throw py::value_error("the arc begins " + number_text(walk.start_radius, 4) +
                         " mm from its centre and ends " + number_text(walk.end_radius, 4) + " mm from it");
 }
@@ -158,7 +159,7 @@ feed : float
         arc.turn = to_turn(turn);
         arc.plane = to_plane(plane);
         arc.feed = positive_feed(feed);
-        arc.extra_turns = whole_within(extra_turns, 0, kMostTurns, "extra_turns");
+        arc.extra_turns = whole_within(extra_turns, 0, limits::kMaxTurns, "extra_turns");
         check_radii(path, arc);
         path.add(arc, path.origins().add(script_spot("arc")));
       },
@@ -201,7 +202,8 @@ void bind_extrude(py::class_<Toolpath>& c) {
         bead.feed = positive_feed(feed);
         bead.width = mm(number_within(width, 0.0, kWidestRoad.mm(), "width", "mm"));
         bead.height = mm(number_within(height, 0.0, kWidestRoad.mm(), "height", "mm"));
-        bead.volume = mm3(volume ? number_within(*volume, -kMostExtruded, kMostExtruded, "volume", "mm3")
+        bead.volume = mm3(volume ? number_within(*volume, -limits::kMaxExtrudedVolume,
+                                                 limits::kMaxExtrudedVolume, "volume", "mm3")
                                  : volume_of_road(path, bead.to, width, height));
         path.add(bead, path.origins().add(script_spot("extrude")));
       },
@@ -225,14 +227,14 @@ void bind_other_steps(py::class_<Toolpath>& c) {
   c.def(
       "tool",
       [](Toolpath& path, long long number) {
-        path.add(step::ToolChange{whole_within(number, 0, kHighestTool, "number")},
+        path.add(step::ToolChange{whole_within(number, 0, limits::kMaxToolNumber, "number")},
                  path.origins().add(script_spot("tool")));
       },
       py::arg("number"), "Append a tool change to the tool of this number.");
   c.def(
       "spindle",
       [](Toolpath& path, double rpm_value, const std::string& turn) {
-        number_within(rpm_value, 0.0, kFastest, "rpm", "rpm");
+        number_within(rpm_value, 0.0, limits::kMaxSpeed, "rpm", "rpm");
         const SpindleTurn sense = to_spindle_turn(turn);
         path.add(step::Spindle{rpm(rpm_value), sense}, path.origins().add(script_spot("spindle")));
       },
@@ -240,7 +242,7 @@ void bind_other_steps(py::class_<Toolpath>& c) {
   c.def(
       "dwell",
       [](Toolpath& path, double value) {
-        number_within(value, 0.0, kLongestDwell, "seconds", "s");
+        number_within(value, 0.0, limits::kMaxDwellSeconds, "seconds", "s");
         path.add(step::Dwell{seconds(value)}, path.origins().add(script_spot("dwell")));
       },
       py::arg("seconds"), "Append a pause of the given length in seconds.");

@@ -30,7 +30,7 @@ std::string option_text(const std::string& shape_name, const py::kwargs& sizes) 
 }
 
 Tool tool_from_text(const std::string& text, long long told_number) {
-  const int number = whole_within(told_number, 0, kHighestTool, "number");
+  const int number = whole_within(told_number, 0, limits::kMaxToolNumber, "number");
   Diagnostics diagnostics;
   std::optional<Tool> tool = read_tool_option(text, script_spot("Tool"), diagnostics);
   raise_or_warn(diagnostics);
@@ -45,8 +45,8 @@ Tool tool_from_spec(const py::object& spec, long long number) {
     throw py::type_error("spec must be a str such as 'square d=3.175 flute=12' or a tool's number");
   int overflow = 0;
   const long long told = PyLong_AsLongLongAndOverflow(spec.ptr(), &overflow);
-  return tool_from_text(std::to_string(whole_within(overflow == 0 ? told : -1, 0, kHighestTool, "spec")),
-                        number);
+  return tool_from_text(
+      std::to_string(whole_within(overflow == 0 ? told : -1, 0, limits::kMaxToolNumber, "spec")), number);
 }
 
 py::list knots_of(const Profile& profile) {
@@ -56,7 +56,7 @@ py::list knots_of(const Profile& profile) {
 }
 
 Tool drawn_tool(const py::sequence& knots, long long told_number) {
-  const int number = whole_within(told_number, 0, kHighestTool, "number");
+  const int number = whole_within(told_number, 0, limits::kMaxToolNumber, "number");
   shape::Drawn drawn;
   for (const py::handle knot : knots) {
     const Point3 k = to_point3(knot, "a knot (r, z, bulge)");
@@ -72,7 +72,7 @@ Stock block_of(const py::object& size, const std::string& zero, const std::strin
   const Point3 edges = to_point3(size, "size");
   if (edges.x <= 0.0 || edges.y <= 0.0 || edges.z <= 0.0)
     throw py::value_error("size must be above 0 mm in every axis");
-  number_within(std::max({edges.x, edges.y, edges.z}), 0.0, kLargestStock, "size", "mm");
+  number_within(std::max({edges.x, edges.y, edges.z}), 0.0, limits::kMaxStockSize, "size", "mm");
   const std::optional<ZeroCorner> corner = parse_zero_corner(zero);
   if (!corner)
     throw py::value_error("unknown place of zero '" + zero +
@@ -138,7 +138,7 @@ void bind_tool_table(py::module_& m) {
            })
       .def("__setitem__",
            [](ToolTable& table, long long number, const Tool& tool) {
-             table.set(whole_within(number, 0, kHighestTool, "number"), tool);
+             table.set(whole_within(number, 0, limits::kMaxToolNumber, "number"), tool);
            })
       .def("__getitem__",
            [](const ToolTable& table, int number) {

@@ -7,6 +7,7 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
+#include "kerf/limits.h"
 #include "kerf/progress.h"
 
 namespace kerf::python {
@@ -23,15 +24,6 @@ Point2 to_point2(const pybind11::handle& value, const char* argument);
 pybind11::tuple to_tuple(Point3 p);
 /// A finite number; raises ValueError naming the argument.
 double finite_number(double value, const char* argument);
-
-// What is accepted; beyond it a number is a slip, and computing with it is not safe.
-inline constexpr double kFarthest = 1e7;      // mm, a coordinate, as in the G-code reader
-inline constexpr double kLargestStock = 1e5;  // mm, an edge, as the simulator has it
-inline constexpr double kFastest = 1e6;       // mm/min and rpm
-inline constexpr double kLongestDwell = 1e6;  // seconds
-inline constexpr int kMostTurns = 10'000;     // of an arc, as in the G-code reader
-inline constexpr long long kHighestTool = 999'999'999;
-inline constexpr int kMostThreads = 1024;
 
 /// A number from `low` to `high`; raises ValueError that names the argument and its unit.
 double number_within(double value, double low, double high, const char* argument, const char* unit);

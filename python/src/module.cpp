@@ -112,7 +112,7 @@ void read_numbers(const py::handle& value, const char* argument, double* out, st
       throw py::type_error(expected);
     }
     if (!std::isfinite(out[i])) throw py::value_error(expected);
-    number_within(out[i], -kFarthest, kFarthest, argument, "mm");
+    number_within(out[i], -limits::kMaxCoordinate, limits::kMaxCoordinate, argument, "mm");
   }
 }
 

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <utility>
 
+#include "kerf/limits.h"
+
 #if defined(__unix__) || defined(__APPLE__)
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -54,7 +56,7 @@ void unreadable(const std::string& path, std::string_view why, Diagnostics& diag
 /// fails, takes more than `limit` bytes, or is stopped.
 std::optional<std::string> read_stream(std::FILE* stream, const std::string& path, std::size_t limit,
                                        Diagnostics& diagnostics, Progress* progress) {
-  limit = std::min(limit, InputFile::kLargestStream);
+  limit = std::min(limit, limits::kMaxStreamBytes);
   std::string bytes, chunk(kChunk, '\0');
   for (;;) {
     const std::size_t got = std::fread(chunk.data(), 1, kChunk, stream);
@@ -136,10 +138,10 @@ namespace {
 
 /// Where links lead to, also to what does not exist yet, so that a link stays and its target is replaced.
 std::string followed(const std::string& path) {
-  constexpr int kMostLinks = 40;
+  constexpr int kMaxLinks = 40;  // as Linux follows them
   std::filesystem::path at = path;
   std::error_code failed;
-  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(at, failed); ++i)
+  for (int i = 0; i < kMaxLinks && std::filesystem::is_symlink(at, failed); ++i)
     at = at.parent_path() / std::filesystem::read_symlink(at, failed);
   return at.string();
 }

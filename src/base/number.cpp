@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "kerf/names.h"
+#include "kerf/units.h"
 
 namespace kerf {
 namespace {
@@ -130,15 +131,15 @@ std::size_t slips_between(std::string_view a, std::string_view b) {
 }  // namespace
 
 char* write_fixed(char* out, double value, int decimals) {
-  constexpr int kMostDecimals = 15;
-  static constexpr double kPowers[kMostDecimals + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                        1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
-  constexpr double kLargest =
+  constexpr int kMaxDecimals = 15;
+  static constexpr double kPowers[kMaxDecimals + 1] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                       1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  constexpr double kMaxScaled =
       1125899906842624.0;             // 2^50: the scaled number and its fraction are then still exact enough
   constexpr double kDoubt = 0x1p-51;  // more than the relative error of one multiplication
-  if (decimals < 0 || decimals > kMostDecimals) return nullptr;
+  if (decimals < 0 || decimals > kMaxDecimals) return nullptr;
   const double scaled = std::fabs(value) * kPowers[decimals];
-  if (!(scaled < kLargest)) return nullptr;
+  if (!(scaled < kMaxScaled)) return nullptr;
   auto digits = static_cast<std::uint64_t>(scaled);
   const double fraction = scaled - static_cast<double>(digits);
   // At a half the exact value decides, and that is not known here.
@@ -195,8 +196,8 @@ std::string fixed_text(double value, int decimals) {
 std::string exact_text(double value) { return fmt::format("{}", value == 0.0 ? 0.0 : value); }
 
 std::optional<double> parse_number(std::string_view text) {
-  constexpr std::size_t kLongest = 512;  // digits past this change nothing that a double can hold
-  if (text.empty() || text.size() > kLongest) return std::nullopt;
+  constexpr std::size_t kMaxDigits = 512;  // digits past this change nothing that a double can hold
+  if (text.empty() || text.size() > kMaxDigits) return std::nullopt;
   if (const auto value = parse_short(text)) return value;
   if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;
   const std::string copy(text);  // strtod wants an end; the C locale is never changed by Kerf
@@ -209,7 +210,7 @@ std::optional<double> parse_number(std::string_view text) {
 std::optional<double> mm_per_unit(std::string_view name) {
   const std::string folded = fold_name(name);
   if (folded == "mm") return 1.0;
-  if (folded == "in" || folded == "inch" || folded == "inches" || folded == "\"") return 25.4;
+  if (folded == "in" || folded == "inch" || folded == "inches" || folded == "\"") return kMmPerInch;
   return std::nullopt;
 }
 

@@ -29,9 +29,9 @@ void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
 }  // namespace
 
 unsigned thread_count(unsigned wanted) {
-  constexpr unsigned kMost = 256;
+  constexpr unsigned kMaxWorkers = 256;
   if (!kHasThreads) return 1;
-  return std::clamp(wanted != 0 ? wanted : std::thread::hardware_concurrency(), 1u, kMost);
+  return std::clamp(wanted != 0 ? wanted : std::thread::hardware_concurrency(), 1u, kMaxWorkers);
 }
 
 Team::Team(unsigned threads) {

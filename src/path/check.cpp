@@ -99,8 +99,8 @@ Message spindle_off(const Step& s, const MotionContext& context, Setting& settin
 Message arc_radii(const Step& s, const MotionContext& context, Setting& setting) {
   if (s.kind() != StepKind::arc) return std::nullopt;
   const ArcWalk walk = walk_of(s, context.from);
-  if (radii_agree(walk.start_radius, walk.end_radius, setting.options)) return std::nullopt;
-  return fmt::format("an arc that begins {} mm from its centre and ends {} mm from it: controllers refuse it",
+  if (setting.options.arc_radii.permits(walk.start_radius, walk.end_radius)) return std::nullopt;
+  return fmt::format("an arc that starts {} mm from its centre and ends {} mm from it: controllers refuse it",
                      number_text(walk.start_radius, kShownDecimals),
                      number_text(walk.end_radius, kShownDecimals));
 }
@@ -330,13 +330,6 @@ bool ends_runs(const Step& s) { return needs_feed(s); }
 std::string_view kind_of(const PathHazard& hazard) {
   constexpr std::string_view kPrefix = "path_";  // sets these codes apart from what readers say of their text
   return name_of(hazard.code).substr(kPrefix.size());
-}
-
-bool radii_agree(double start, double end, const CheckOptions& options) {
-  const double share = options.arc_radii_share * std::max(start, end);
-  const double allowed =
-      std::min(std::max(options.arc_radii_apart.mm(), share), options.arc_radii_limit.mm());
-  return std::abs(end - start) <= allowed;
 }
 
 std::optional<PathHazard> find_z_downwards(const Toolpath& path) {

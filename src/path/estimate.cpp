@@ -10,8 +10,8 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kMostOperations = 1000;
-constexpr std::size_t kMostChords = 65'535;        // of an arc, as a controller counts them
+constexpr std::size_t kMaxOperations = 1000;       // listed one by one, as estimate.h says
+constexpr std::size_t kMaxChords = 65'535;         // of an arc; GRBL counts them in 16 bits
 constexpr std::size_t kChordBudget = 100'000'000;  // of all arcs; then each gets few
 constexpr std::size_t kFewChords = 64;
 
@@ -21,7 +21,7 @@ std::size_t chords_of(const ArcWalk& walk, double tolerance) {
   const double half_chord2 = tolerance * (2.0 * r - tolerance);
   if (!(half_chord2 > 0.0)) return 1;
   const double n = std::floor(0.5 * std::abs(walk.sweep) * r / std::sqrt(half_chord2));
-  return static_cast<std::size_t>(std::clamp(n, 1.0, static_cast<double>(kMostChords)));
+  return static_cast<std::size_t>(std::clamp(n, 1.0, static_cast<double>(kMaxChords)));
 }
 
 class Walker {
@@ -183,7 +183,7 @@ class Sums {
       case StepKind::note: name_ = path_.text(i); break;
       default: return;
     }
-    if (out_.operations.size() < kMostOperations) operation_open_ = false;
+    if (out_.operations.size() < kMaxOperations) operation_open_ = false;
   }
 
   void open_operation(std::size_t i) {

@@ -12,9 +12,9 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLongestChain = 4096;               // chords of one arc
-constexpr double kLargestStep = 0.8;                      // radians that one chord may span; more is a corner
-constexpr double kLargestSweep = 1.9 * std::numbers::pi;  // an arc that nearly closes is ill defined
+constexpr std::size_t kMaxChain = 4096;               // chords of one arc
+constexpr double kMaxStep = 0.8;                      // radians that one chord may span; more is a corner
+constexpr double kMaxSweep = 1.9 * std::numbers::pi;  // an arc that nearly closes is ill defined
 
 struct Fit {
   Point2 centre;
@@ -63,12 +63,12 @@ bool Fitter::holds(const Fit& fit, Point3 from, std::size_t first, std::size_t l
     const Point3 end = path_[i].to();
     const Point2 a = begin.xy() - fit.centre, b = end.xy() - fit.centre;
     const double step = sign * std::atan2(cross(a, b), dot(a, b));
-    if (!(step > 0.0) || step > kLargestStep) return false;
+    if (!(step > 0.0) || step > kMaxStep) return false;
     if (std::abs(length(0.5 * (a + b)) - fit.radius) > tolerance) return false;
     swept += step;
     begin = end;
   }
-  if (swept > kLargestSweep) return false;
+  if (swept > kMaxSweep) return false;
   // A helix rises evenly; how far a point lies aside and above count together.
   const double rise = path_[last].to().z - from.z;
   double turned = 0.0;
@@ -85,7 +85,7 @@ bool Fitter::holds(const Fit& fit, Point3 from, std::size_t first, std::size_t l
 
 std::optional<Fit> Fitter::longest(Point3 from, std::size_t first, std::size_t& last) const {
   std::size_t end = first;  // of the run of steps that may be put together
-  while (end - first < kLongestChain && detail::chains(path_, end + 1, first)) ++end;
+  while (end - first < kMaxChain && detail::chains(path_, end + 1, first)) ++end;
   const std::size_t fewest = std::max<std::size_t>(options_.fewest, 3);
   if (end + 1 - first < fewest) return std::nullopt;
   std::size_t good = first + fewest - 1;

@@ -85,7 +85,7 @@ bool is_straight(const Toolpath& path, Point3 from, std::size_t first, std::size
 }
 
 /// Chains are looked at this far back, so that a long straight line costs no more than its length times this.
-constexpr std::size_t kLongestChain = 256;
+constexpr std::size_t kMaxChain = 256;  // bounds the time, which grows with its square
 
 }  // namespace
 
@@ -96,7 +96,7 @@ PassResult join_straight(const Toolpath& path, Length tolerance) {
     const bool straight = path[i].kind() == StepKind::cut || path[i].kind() == StepKind::rapid;
     std::size_t last = i;
     if (straight && detail::is_plain(path, i) && begin.known())
-      while (last - i < kLongestChain && detail::chains(path, last + 1, i) &&
+      while (last - i < kMaxChain && detail::chains(path, last + 1, i) &&
              is_straight(path, begin.at, i, last + 1, tolerance.mm()))
         ++last;
     if (last == i) {

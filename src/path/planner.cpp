@@ -8,7 +8,7 @@
 namespace kerf::detail {
 namespace {
 
-constexpr std::size_t kLongestRing = 10'000;
+constexpr std::size_t kMaxRing = 10'000;  // motions; more look-ahead changes no time
 // Nearer than this to straight on or to a reversal, the cosine has no digits left for the corner's circle.
 constexpr double kStraight = 0.999999;
 
@@ -28,8 +28,7 @@ Planner::Planner(const Machine& machine, std::vector<float>& seconds)
       steps_per_mm_(machine.steps_per_mm),
       deviation_(machine.junction_deviation.mm()),
       slowest_(machine.slowest_feed.mm_per_min() / 60.0),
-      ring_(std::clamp<std::size_t>(static_cast<std::size_t>(std::max(machine.look_ahead, 1)), 1,
-                                    kLongestRing)) {
+      ring_(std::clamp<std::size_t>(static_cast<std::size_t>(std::max(machine.look_ahead, 1)), 1, kMaxRing)) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     rates_[axis] = machine.rates[axis].mm_per_min() / 60.0;
     accelerations_[axis] = in_mm_per_s2(machine.accelerations[axis]);

@@ -7,13 +7,13 @@
 
 #include "stock/body.h"
 
+#include "kerf/limits.h"
+
 namespace kerf::solid {
 namespace {
 
 __extension__ typedef __int128 Wide;  // of products of differences on the lattice
 
-/// Crossings kept at a time; more, of a mesh that is not meant, would take memory without bound.
-constexpr std::size_t kMostCrossings = 200'000'000;
 constexpr int kBand = 64;  // rows of columns that are looked at together
 
 struct Plan {
@@ -172,7 +172,7 @@ bool Caster::cast_band(int band) {
   start_.assign(count + 1, 0);
   each([&](int i, int j, const Crossing&) { ++start_[number(i, j) + 1]; });
   for (std::size_t k = 0; k < count; ++k) start_[k + 1] += start_[k];
-  if (start_.back() + result_.runs.size() > kMostCrossings) return false;
+  if (start_.back() + result_.runs.size() > limits::kMaxStockCrossings) return false;
   crossings_.resize(start_.back());
   std::vector<std::size_t> next(start_.begin(), start_.end() - 1);
   each([&](int i, int j, const Crossing& crossing) { crossings_[next[number(i, j)]++] = crossing; });

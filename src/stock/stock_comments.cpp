@@ -6,11 +6,12 @@
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stock.h"
+#include "kerf/units.h"
 
 namespace kerf {
 namespace {
 
-constexpr double kFarthest = 1e6;  // mm; a stock beyond a kilometre is a slip
+constexpr double kMaxReach = 1e6;  // mm; a stock beyond a kilometre is a typing error
 constexpr double kPrinted = 0.05;  // mm: what two comments may differ by from printing
 
 /// Takes the word in front of the numbers and what separates it from them: "stockmin", "stock/block".
@@ -34,11 +35,11 @@ std::optional<double> coordinate(std::string_view field, double scale) {
     scale = 1.0;
     field = trim(field.substr(0, field.size() - 2));
   } else if (ends_in("in")) {
-    scale = 25.4;
+    scale = kMmPerInch;
     field = trim(field.substr(0, field.size() - 2));
   }
   const std::optional<double> value = parse_number(field);
-  if (!value || std::abs(*value * scale) > kFarthest) return std::nullopt;
+  if (!value || std::abs(*value * scale) > kMaxReach) return std::nullopt;
   return *value * scale;
 }
 

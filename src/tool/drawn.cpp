@@ -6,18 +6,19 @@
 #include "tool/arc.h"
 #include "tool/silhouette.h"
 
+#include "kerf/limits.h"
+
 namespace kerf::detail {
 namespace {
 
-constexpr std::size_t kMostKnots = 10000;  // far beyond any tool; bounds the work per move
-constexpr double kFarthest = 10000.0;      // mm
-constexpr double kHeading = 1e-9;          // radians: rounding of an arc's heading at its ends
+constexpr double kHeading = 1e-9;  // radians: rounding of an arc's heading at its ends
 
 std::string knot_fault(const Knot& knot) {
   if (!std::isfinite(knot.r) || !std::isfinite(knot.z) || !std::isfinite(knot.bulge))
     return "is not a finite number";
   if (knot.r < 0.0) return "lies left of the axis (r below 0)";
-  if (knot.r > kFarthest || std::abs(knot.z) > kFarthest) return "is farther than 10 m away";
+  if (knot.r > limits::kMaxToolSize || std::abs(knot.z) > limits::kMaxToolSize)
+    return "is farther than 10 m away";
   if (std::abs(knot.bulge) > 1.0) return "has a bulge beyond a half circle (-1 to 1)";
   return "";
 }
@@ -46,7 +47,8 @@ std::string segment_fault(const Knot& a, const Knot& b) {
 std::string fault_of(const Profile& profile) {
   const std::vector<Knot>& knots = profile.knots;
   if (knots.size() < 2) return "a drawn profile needs at least two points";
-  if (knots.size() > kMostKnots) return fmt::format("a drawn profile has at most {} points", kMostKnots);
+  if (knots.size() > limits::kMaxProfilePoints)
+    return fmt::format("a drawn profile has at most {} points", limits::kMaxProfilePoints);
   for (std::size_t i = 0; i < knots.size(); ++i) {
     std::string fault = knot_fault(knots[i]);
     if (fault.empty() && i + 1 < knots.size()) fault = segment_fault(knots[i], knots[i + 1]);

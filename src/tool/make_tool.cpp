@@ -5,6 +5,7 @@
 
 #include "tool/silhouette.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool.h"
@@ -12,9 +13,9 @@
 namespace kerf {
 namespace {
 
-constexpr double kLongest = 10000.0;  // mm; nothing on a machine is longer, and nothing overflows
-constexpr double kSmallestAngle = 0.01;
-constexpr double kLargestAngle = 179.0;
+// Degrees of a cone: beyond them it is a disc or a line.
+constexpr double kMinAngle = 0.01;
+constexpr double kMaxAngle = 179.0;
 
 /// Why a measure cannot be; empty if it can.
 std::string measure_fault(double value, ShapeParameter::Kind kind, ShapeParameter::Need need) {
@@ -22,13 +23,13 @@ std::string measure_fault(double value, ShapeParameter::Kind kind, ShapeParamete
   if (value < 0.0) return fmt::format("is {}, but must not be negative", number_text(value, 6));
   if (value == 0.0) return need == ShapeParameter::Need::required ? "is missing or 0" : "";
   if (kind == ShapeParameter::Kind::length) {
-    return value > kLongest ? "is longer than 10 m"
-           : value < 1e-6   ? "is smaller than a millionth of a millimetre"
-                            : "";
+    return value > limits::kMaxToolSize ? "is longer than 10 m"
+           : value < 1e-6               ? "is smaller than a millionth of a millimetre"
+                                        : "";
   }
-  if (value < kSmallestAngle || value > kLargestAngle) {
-    return fmt::format("is {} degrees, but must be between {} and {}", number_text(value, 6), kSmallestAngle,
-                       kLargestAngle);
+  if (value < kMinAngle || value > kMaxAngle) {
+    return fmt::format("is {} degrees, but must be between {} and {}", number_text(value, 6), kMinAngle,
+                       kMaxAngle);
   }
   return "";
 }

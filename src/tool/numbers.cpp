@@ -6,6 +6,7 @@
 
 #include "kerf/number.h"
 #include "kerf/tool.h"
+#include "kerf/units.h"
 
 namespace kerf {
 namespace {
@@ -164,7 +165,7 @@ std::optional<double> Decoder::flute(std::optional<double> from_shape, Length ot
     if (from_shape) return from_shape;
     return no(fmt::format("has flute code {}, which a tool of this kind does not have", flute_));
   }
-  constexpr double kLongFlute = 25.4;
+  constexpr double kLongFlute = kMmPerInch;
   return flute_ == 8 ? std::max(kLongFlute, otherwise.mm()) : otherwise.mm();
 }
 

@@ -15,7 +15,7 @@ namespace kerf {
 namespace {
 
 constexpr double kPrinted = 0.01;           // mm: half of "3.17" is printed as "1.59"
-constexpr double kLargestRoundedTip = 0.2;  // mm: programs write a pointed V as a ball of 0.10 mm on a cone
+constexpr double kMaxRoundedTip = 0.2;      // mm: programs write a pointed V as a ball of 0.10 mm on a cone
 constexpr double kUsualVeeDiameter = 12.7;  // mm: where neither height nor diameter of a V is told
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
@@ -140,7 +140,7 @@ std::optional<ToolShape> CommentReader::tapered_mill(double diameter, double cor
   const Length widest = mm(2.0 * (tangent_r + (height - tangent_z) * std::tan(taper)));
   const Angle included = radians(2.0 * taper);
   if (corner == 0.0) return shape::Vee{widest, mm(height), included, mm(diameter), Length()};
-  if (ball && diameter <= kLargestRoundedTip)
+  if (ball && diameter <= kMaxRoundedTip)
     return shape::Vee{widest, mm(height), included, Length(), mm(corner)};
   if (ball) return shape::TaperedBall{widest, mm(height), included, mm(diameter)};
   detail::Outline outline(0.0, 0.0);

@@ -66,8 +66,8 @@ ALLOWED = {
 }
 OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly smoke test
 PUBLIC = {
-    "base": ["units.h", "origin.h", "diagnostics.h", "progress.h", "files.h", "number.h", "names.h",
-             "codes.def"],
+    "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
+             "number.h", "names.h", "codes.def"],
     "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h", "mesh_check.h"],
     "tool": ["tool.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],

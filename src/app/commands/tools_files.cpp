@@ -9,6 +9,7 @@
 #include "kerf/files.h"
 #include "kerf/tool_files.h"
 #include "kerf/tool_libraries.h"
+#include "kerf/units.h"
 
 namespace kerf::app {
 namespace {
@@ -21,10 +22,9 @@ struct Options {
   double first = 1;
 };
 
-constexpr double kMillimetresPerInch = 25.4;
 constexpr double kHighestNumber = 99'999'999;
 
-double unit_mm(const Options& options) { return options.unit == "inch" ? kMillimetresPerInch : 1.0; }
+double unit_mm(const Options& options) { return options.unit == "inch" ? kMmPerInch : 1.0; }
 
 bool ends_with(const std::string& text, std::string_view ending) {
   return text.size() >= ending.size() &&

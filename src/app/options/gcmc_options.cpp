@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "kerf/number.h"
+#include "kerf/units.h"
 
 namespace kerf::app {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 constexpr double kLargestOffset = 1e6;
 constexpr double kBytesPerMegabyte = 1 << 20;
 constexpr double kMostOutput = 1e9;  // MB; beyond any disk, and far from what 64 bits count
-constexpr double kMmPerInch = 25.4;
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
 enum class Id : std::uint8_t {

@@ -12,17 +12,18 @@
 
 #include "back/drawing/shapes.h"
 
+#include "kerf/limits.h"
+#include "kerf/units.h"
+
 namespace kerf {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kMillimetresPerInch = 25.4;
-constexpr double kSamePlace = 1e-5;   // mm between ends that meet
-constexpr double kSameRadius = 1e-3;  // mm between the radii of an arc that is drawn as one
+constexpr double kSamePoint = 1e-5;   // mm; G-code has three or four decimals
+constexpr double kSameRadius = 1e-3;  // mm between the radii of an arc that is drawn as one arc
 constexpr double kParallel = 1e-9;    // mm by which a chord may point aside of the one before it
 constexpr double kRapidWidth = 0.5;   // of a cut's line
 constexpr double kUnknownHole = 1.0;  // mm, diameter
-constexpr int kMostChords = 10'000;   // of one arc
 constexpr int kToolColours[] = {5, 1, 3, 6, 30, 4, 140, 200};  // blue, red, green and so on
 constexpr int kRapidColour = 8, kByLayer = 256, kPlainColour = 7;
 
@@ -64,7 +65,7 @@ class Drawn {
 class Sketcher {
  public:
   Sketcher(const Toolpath& path, const ToolpathDrawingOptions& options) : path_(path), options_(options) {
-    scale_ = options.unit == DrawingUnit::inch ? 1.0 / kMillimetresPerInch : 1.0;
+    scale_ = options.unit == DrawingUnit::inch ? 1.0 / kMmPerInch : 1.0;
   }
   Drawing draw();
 
@@ -86,7 +87,7 @@ class Sketcher {
   bool meets(const std::vector<drawing::Vertex>& chain) const {
     if (chain.size() < 3) return false;
     const auto &a = chain.front(), &b = chain.back();
-    return std::hypot(a.x - b.x, a.y - b.y) <= kSamePlace * scale_;
+    return std::hypot(a.x - b.x, a.y - b.y) <= kSamePoint * scale_;
   }
   bool idle_beam() const { return has_beam_ && !(beam_.mode != LaserMode::off && beam_.power > 0.0); }
 
@@ -191,14 +192,14 @@ void Sketcher::arc(const ArcWalk& walk) {
   if (!full) return;
   flush();
   const double rest = std::fmod(walk.sweep, kTurn);
-  if (std::abs(rest) * walk.start_radius > kSamePlace) bulge_to(std::tan(0.25 * rest), end);
+  if (std::abs(rest) * walk.start_radius > kSamePoint) bulge_to(std::tan(0.25 * rest), end);
   at_ = end;
 }
 
 /// An arc that does not lie in XY, as chords; where it stands upright they are one line from above.
 void Sketcher::upright_arc(const ArcWalk& walk) {
   only_arc_.reset();
-  const int count = walk.chords(options_.chord, kMostChords);
+  const int count = walk.chords(options_.chord, limits::kMaxChords);
   for (int k = 1; k <= count; ++k) {
     const Point3 p = walk.at(static_cast<double>(k) / count);
     const Point3 next = walk.at(static_cast<double>(std::min(k + 1, count)) / count);
@@ -210,7 +211,7 @@ void Sketcher::upright_arc(const ArcWalk& walk) {
 }
 
 void Sketcher::cut(const Step& s) {
-  const bool in_place = std::hypot(s.to().x - at_.x, s.to().y - at_.y) <= kSamePlace;
+  const bool in_place = std::hypot(s.to().x - at_.x, s.to().y - at_.y) <= kSamePoint;
   if (s.kind() == StepKind::arc) {
     const ArcWalk walk = walk_of(s, at_);
     if (walk.plane == Plane::xy && walk.sweep != 0.0) return arc(walk);

@@ -3,14 +3,15 @@
 
 #include <algorithm>
 
+#include "kerf/tolerance.h"
+#include "kerf/units.h"
+
 namespace kerf::gcmc_drawing {
 namespace {
 
-constexpr double kMmPerInch = 25.4;
-constexpr double kSamePlace = 1e-12;  // drawing's unit; closer than this an arc's ends are one point
-constexpr Length kChord = mm(0.01);   // how far chords may stray from an arc that cannot be drawn as one
+constexpr double kSamePoint = 1e-12;  // drawing unit; as the real program compares the ends of an arc
 
-constexpr int kMostChords = 2000;  // of one arc
+constexpr int kMaxChords = 2000;  // of one arc
 
 class Drawer {
  public:
@@ -66,7 +67,7 @@ class Drawer {
     const step::Arc a = s.arc();
     if (a.plane != Plane::xy) {
       const ArcWalk walk = walk_of(s, at_mm_);
-      const int chords = walk.chords(kChord, kMostChords);
+      const int chords = walk.chords(default_tolerance::kDrawingChord, kMaxChords);
       for (int i = 1; i < chords; ++i) straight(walk.at(static_cast<double>(i) / chords), false);
       straight(a.to, false);
       return;
@@ -77,9 +78,9 @@ class Drawer {
     piece.to = scaled(a.to);
     piece.centre = scale_ * a.centre;
     piece.turn = a.turn;
-    piece.full_circle = a.extra_turns > 0 || distance(piece.from.xy(), piece.to.xy()) < kSamePlace;
+    piece.full_circle = a.extra_turns > 0 || distance(piece.from.xy(), piece.to.xy()) < kSamePoint;
     at_mm_ = a.to;
-    if (piece.full_circle && distance(piece.from.xy(), piece.to.xy()) >= kSamePlace) {
+    if (piece.full_circle && distance(piece.from.xy(), piece.to.xy()) >= kSamePoint) {
       Piece circle = piece;
       circle.to = {piece.from.x, piece.from.y, piece.from.z};
       add(circle, false);

@@ -5,6 +5,7 @@
 #include "back/gcmc/strokes.h"
 
 #include "kerf/gcmc_drawing.h"
+#include "kerf/units.h"
 
 namespace kerf {
 namespace {
@@ -13,7 +14,6 @@ using gcmc_drawing::Drawing;
 using gcmc_drawing::Piece;
 
 constexpr double kDotsPerInch = 90.0;
-constexpr double kMmPerInch = 25.4;
 constexpr double kMoveWidth = 0.1;  // dots, of the line that shows a rapid
 
 class Writer {

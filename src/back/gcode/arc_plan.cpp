@@ -6,27 +6,21 @@
 #include <cmath>
 #include <numbers>
 
+#include "kerf/tolerance.h"
+
 namespace kerf::gcode {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kWholeTurn = kTurn - 1e-6;  // radians; an arc past this is a full circle
-// GRBL refuses radii that differ by more than 0.005 mm and 0.1 %, or by 0.5 mm. A little less is used, as
-// GRBL computes with 24 bits.
-constexpr double kRadiiApart = 0.0045;  // mm
-constexpr double kRadiiShare = 0.0009;
-constexpr double kRadiiLimit = 0.45;  // mm
-constexpr double kAngleOff = 0.5;     // radians by which rounding may change a sweep
-constexpr double kArcOff = 4.0;       // counts of arc length likewise
-// An arc that turns less, computed with 24 bits, may come out as none and then as a full circle. It leaves
-// its chord by no more than 2e-9 of its radius.
-constexpr double kLeastSweep = 1e-4;  // radians
-constexpr int kMostPieces = 1 << 20;
-
-bool radii_close(double a, double b) {
-  const double off = std::abs(a - b);
-  return off <= kRadiiLimit && (off <= kRadiiApart || off <= kRadiiShare * std::max(a, b));
-}
+// 90 % of what GRBL permits, because it computes with 24 bits.
+constexpr ArcMismatch kMismatch{.absolute = mm(0.0045), .relative = 0.0009, .limit = mm(0.45)};
+constexpr double kAngleOff = 0.5;  // radians by which rounding may change a sweep
+constexpr double kArcOff = 4.0;    // counts of arc length likewise
+// A smaller sweep, computed with 24 bits, may become 0 and then a full circle. Such an arc is within 2e-9 of
+// its radius from its chord.
+constexpr double kMinSweep = 1e-4;   // radians
+constexpr int kMaxChords = 1 << 20;  // of one arc; a finer tolerance than double precision has
 
 /// As std::hypot, for counts, whose squares neither overflow nor vanish.
 double far(double u, double v) { return std::sqrt(u * u + v * v); }
@@ -81,7 +75,8 @@ bool split_into_arcs(const ArcWalk& walk, const Counts& from, const Counts& to, 
     const double radius = std::max(read.start_radius, read.end_radius);
     const bool same =
         (du != 0.0 || dv != 0.0) && radius >= 1.0 && off <= kAngleOff && off * radius <= kArcOff;
-    if (!same || !radii_close(read.start_radius / grid.counts_per_mm, read.end_radius / grid.counts_per_mm))
+    if (!same ||
+        !kMismatch.permits(read.start_radius / grid.counts_per_mm, read.end_radius / grid.counts_per_mm))
       return false;
     pieces.push_back(piece);
     begin = piece.to;
@@ -91,7 +86,7 @@ bool split_into_arcs(const ArcWalk& walk, const Counts& from, const Counts& to, 
 
 void split_into_chords(const ArcWalk& walk, const Counts& to, const Grid& grid, Length chord,
                        std::vector<ArcPiece>& pieces) {
-  const int count = walk.chords(chord, kMostPieces);
+  const int count = walk.chords(chord, kMaxChords);
   for (int i = 1; i < count; ++i)
     pieces.push_back({grid.counts(walk.at(static_cast<double>(i) / count)), 0, 0});
   pieces.push_back({to, 0, 0});
@@ -109,10 +104,10 @@ bool wants_arcs(const ArcWalk& walk, const PostProfile& profile) {
 void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const Grid& grid,
               const PostProfile& profile, ArcPlan& plan) {
   plan.pieces.clear();
-  plan.uneven = !radii_close(walk.start_radius, walk.end_radius);
+  plan.uneven = !kMismatch.permits(walk.start_radius, walk.end_radius);
   const double swept = std::abs(walk.sweep);
   const double length = swept * std::max(walk.start_radius, walk.end_radius);
-  if (length < profile.shortest_arc.mm() || swept < kLeastSweep) {
+  if (length < profile.shortest_arc.mm() || swept < kMinSweep) {
     plan.form = ArcForm::straight;
     plan.pieces.push_back({to, 0, 0});
     return;
@@ -123,7 +118,7 @@ void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const G
     const bool closes = from[u] == to[u] && from[v] == to[v] && swept > std::numbers::pi;
     const double pieces = swept < kWholeTurn && !closes ? 1.0 : std::ceil(swept / std::numbers::pi - 1e-6);
     plan.form = ArcForm::arcs;
-    if (pieces <= kMostPieces &&
+    if (pieces <= kMaxChords &&
         split_into_arcs(walk, from, to, std::max(static_cast<int>(pieces), closes ? 2 : 1), grid,
                         plan.pieces))
       return;

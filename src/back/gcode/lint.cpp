@@ -14,12 +14,13 @@
 #include "codec/gcode/lasting_effect.h"
 
 #include "kerf/number.h"
+#include "kerf/tolerance.h"
+#include "kerf/units.h"
 
 namespace kerf::gcode {
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
-constexpr double kRadiiApart = 0.005, kRadiiShare = 0.001, kRadiiLimit = 0.5;  // GRBL's, in mm
+constexpr ArcMismatch kMismatch;  // GRBL's
 
 constexpr std::uint32_t bit(char letter) { return 1u << (letter - 'A'); }
 constexpr std::uint32_t kAxes = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') | bit('C');
@@ -304,7 +305,7 @@ void Linter::set_modes() {
       case 170: plane_ = Plane::xy; break;
       case 180: plane_ = Plane::xz; break;
       case 190: plane_ = Plane::yz; break;
-      case 200: scale_ = kMillimetresPerInch; break;
+      case 200: scale_ = kMmPerInch; break;
       case 210: scale_ = 1.0; break;
       case 900: absolute_ = true; break;
       case 910: absolute_ = false; break;
@@ -415,7 +416,7 @@ void Linter::check_arc(Point3 to) {
   if (has('R')) {
     const double chord = length(way);
     if (chord == 0.0) return refuse(Code::lint_missing, "an arc with a radius ends where it begins");
-    if (chord > 2.0 * std::abs(value('R')) * scale_ + kRadiiApart)
+    if (chord > 2.0 * std::abs(value('R')) * scale_ + kMismatch.absolute.mm())
       refuse(Code::lint_arc, "the radius does not reach the arc's end");
     return;
   }
@@ -424,11 +425,10 @@ void Linter::check_arc(Point3 to) {
     return has(letter) ? value(letter) * scale_ : 0.0;
   };
   const Point2 centre{word(axes.u), word(axes.v)};
-  const double begin = length(centre), end = distance(centre, way);
-  const double off = std::abs(begin - end);
-  if (off > kRadiiLimit || (off > kRadiiApart && off > kRadiiShare * begin))
+  const double start = length(centre), end = distance(centre, way);
+  if (!kMismatch.permits(start, end))
     refuse(Code::lint_arc,
-           fmt::format("the arc begins {:.4f} mm and ends {:.4f} mm from its centre", begin, end));
+           fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre", start, end));
 }
 
 void Linter::check_unused() {

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "kerf/units.h"
+
 namespace kerf::gcode {
 namespace {
 
-constexpr double kMillimetresPerInch = 25.4;
-constexpr double kMostCounts = 1e13;  // of a position; more has no exact double
+constexpr double kMaxCounts = 1e13;  // of a position; exact in a double with room for differences
 constexpr std::size_t kStepsBetweenReports = 1 << 16;
 constexpr std::size_t kBytesPerStep = 24;  // of usual programs
 constexpr int kDecimalsExtruded = 5;
@@ -28,7 +29,7 @@ Poster::Poster(const Toolpath& path, const PostProfile& profile, const PostOptio
       tool_policy_(options.tool_change.value_or(profile.tool_change)),
       decimals_(unit_ == LengthUnit::mm ? profile.decimals_mm : profile.decimals_inch),
       fraction_(profile.zeros == Zeros::kept ? Fraction::full : Fraction::shortest) {
-  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMillimetresPerInch;
+  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
   grid_.counts_per_mm = power_of_ten(decimals_) / unit_mm;
   counts_per_feed_ = power_of_ten(profile.decimals_feed) / unit_mm;
 }
@@ -101,7 +102,7 @@ bool Poster::fits(std::size_t i) {
     const Point2 centre = s.arc().centre;
     farthest = std::max({farthest, std::abs(centre.x), std::abs(centre.y)});
   }
-  if (!(farthest * grid_.counts_per_mm < kMostCounts)) {
+  if (!(farthest * grid_.counts_per_mm < kMaxCounts)) {
     diagnostics_.error(Code::post_number_large, path_.origin_of(i),
                        "a position or feed is too large to be written");
     return false;
@@ -297,7 +298,7 @@ void Poster::extrude(std::size_t i) {
   const double radius = 0.5 * profile_.filament.mm();
   const double area = std::acos(-1.0) * radius * radius;
   extruded_ += path_.extrude(i).volume.mm3() / area;
-  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMillimetresPerInch;
+  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
   const std::int64_t whole = std::llround(extruded_ / unit_mm * power_of_ten(kDecimalsExtruded));
   const std::int64_t e = profile_.extruder == ExtruderMode::absolute ? whole : whole - told_extruded_;
   const Counts to = grid_.counts(path_[i].to());

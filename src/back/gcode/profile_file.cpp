@@ -10,15 +10,13 @@
 #include "base/toml.h"
 #include "embedded_post_files.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/post.h"
 
 namespace kerf {
 namespace {
-
-constexpr std::size_t kLargestFile = 1u << 20;  // bytes; the built-in ones have about 2 thousand
-constexpr std::size_t kMostLines = 1000;        // of one template
 
 /// Takes a value; false if it is not of the right kind or out of range.
 using Take = std::function<bool(const toml::node&, PostProfile&)>;
@@ -105,7 +103,7 @@ Take codes(std::vector<int> PostProfile::*member) {
 Take lines(std::vector<std::string> PostProfile::*member) {
   return [member](const toml::node& node, PostProfile& profile) {
     const toml::array* list = node.as_array();
-    if (list == nullptr || list->size() > kMostLines) return false;
+    if (list == nullptr || list->size() > limits::kMaxTemplateLines) return false;
     std::vector<std::string> texts;
     for (const toml::node& element : *list) {
       auto value = element.value_exact<std::string>();
@@ -297,9 +295,10 @@ bool ProfileReader::begin_from(const toml::node& base, const PostProfile* (*find
 std::optional<PostProfile> ProfileReader::read(std::string_view text,
                                                const PostProfile* (*find)(std::string_view)) {
   const std::size_t errors_before = diagnostics_.errors();
-  if (text.size() > kLargestFile) {
-    diagnostics_.error(Code::post_file_syntax, TextSpot{file_, 0, 0},
-                       fmt::format("a post file of more than {} bytes is not read", kLargestFile));
+  if (text.size() > limits::kMaxProfileBytes) {
+    diagnostics_.error(
+        Code::post_file_syntax, TextSpot{file_, 0, 0},
+        fmt::format("a post file of more than {} bytes is not read", limits::kMaxProfileBytes));
     return std::nullopt;
   }
   const toml::parse_result parsed = toml::parse(text, file_);

@@ -7,10 +7,10 @@
 #include "back/gcode/lint.h"
 #include "back/gcode/poster.h"
 
+#include "kerf/limits.h"
+
 namespace kerf::gcode {
 namespace {
-
-constexpr std::size_t kMostFiles = 1000;
 
 std::int64_t counts_of(double value, int decimals) { return std::llround(value * std::pow(10.0, decimals)); }
 
@@ -193,9 +193,10 @@ void Poster::pause(std::size_t i) {
 /// open_file() has looked for.
 void Poster::change_file(std::size_t i) {
   if (!moved_ || file_tool_ == path_[i].tool_change().tool) return;
-  if (files_.size() + 1 == kMostFiles)
-    cannot(i, fmt::format("there are more than {} tool changes, each of which begins a file", kMostFiles));
-  if (files_.size() + 1 >= kMostFiles) return;
+  if (files_.size() + 1 == limits::kMaxPostedFiles)
+    cannot(i, fmt::format("there are more than {} tool changes, each of which starts a file",
+                          limits::kMaxPostedFiles));
+  if (files_.size() + 1 >= limits::kMaxPostedFiles) return;
   close_file();
   open_file(i);
   restore_ = true;

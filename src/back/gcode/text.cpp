@@ -4,14 +4,14 @@
 
 #include "back/gcode/poster.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/report.h"
+#include "kerf/units.h"
 
 namespace kerf::gcode {
 namespace {
-
-constexpr std::size_t kLongestValue = 400;  // bytes of a text that a template names
 
 #ifndef KERF_VERSION
 #define KERF_VERSION "0"
@@ -97,7 +97,7 @@ void Poster::approach(std::size_t i) {
 /// Text that is safe inside a comment: plain characters, no brackets, nothing that acts.
 std::string Poster::sanitised(std::string_view text) const {
   std::string out;
-  for (const char c : text.substr(0, kLongestValue)) {
+  for (const char c : text.substr(0, limits::kMaxTemplateValueBytes)) {
     const auto byte = static_cast<unsigned char>(c);
     if ((byte & 0xC0u) == 0x80u) continue;  // within a character of several bytes
     const bool plain = byte >= 0x20 && byte < 0x7f;
@@ -189,7 +189,7 @@ const MotionFigures& Poster::figures() {
 std::string Poster::bounds_text() {
   const Box3& box = figures().cut_bounds;
   if (box.empty()) return {};
-  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : 25.4;
+  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
   std::string text = "cuts within";
   for (int axis = 0; axis < 3; ++axis)
     text += fmt::format(" {} {} to {}", "XYZ"[axis], number_text(box.low[axis] / unit_mm, 3),

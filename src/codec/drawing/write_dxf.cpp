@@ -50,9 +50,9 @@ std::string symbol(std::string_view name) {
 
 /// R12 has capitals, digits, '$', '-' and '_' in names of up to 31 letters.
 std::string symbol_r12(std::string_view name) {
-  constexpr std::size_t kLongest = 31;
+  constexpr std::size_t kMaxBytes = 31;  // of a layer's name in R12
   std::string made;
-  for (const char c : name.substr(0, kLongest)) {
+  for (const char c : name.substr(0, kMaxBytes)) {
     const bool small = c >= 'a' && c <= 'z';
     const bool fit = (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '$' || c == '-';
     made += small ? static_cast<char>(c - 'a' + 'A') : fit ? c : '_';

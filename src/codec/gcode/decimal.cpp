@@ -9,7 +9,7 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr std::size_t kLongest = 600;  // more than kerf/number.h reads, so that it refuses them
+constexpr std::size_t kMaxDigits = 600;  // more than kerf/number.h reads, so that it refuses them
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
@@ -39,12 +39,12 @@ Decimal detail::read_any_decimal(const char* begin, const char* end) {
     if (!sign && !point && !is_digit(*p)) break;
     point_seen = point_seen || point;
     digit_seen = digit_seen || is_digit(*p);
-    if (digits.size() <= kLongest) digits += *p;
+    if (digits.size() <= kMaxDigits) digits += *p;
     last = p + 1;
   }
   if (!digit_seen) return {0.0, last, DecimalFault::missing};
   const std::optional<double> value = parse_number(digits);
-  if (!value || std::abs(*value) > kLargestNumber) return {0.0, begin, DecimalFault::too_large};
+  if (!value || std::abs(*value) > limits::kMaxNumber) return {0.0, begin, DecimalFault::too_large};
   return checked({*value + 0.0, last, DecimalFault::none}, end);
 }
 

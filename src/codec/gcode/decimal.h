@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kerf/limits.h"
+
 namespace kerf::gcode {
 
 enum class DecimalFault : std::uint8_t { none, missing, malformed, too_large };
@@ -13,9 +15,6 @@ struct Decimal {
   const char* end = nullptr;  // first character after the number, or the one that is wrong
   DecimalFault fault = DecimalFault::none;
 };
-
-/// No number of a program is as large as this; larger ones are refused.
-inline constexpr double kLargestNumber = 1e12;
 
 namespace detail {
 
@@ -53,7 +52,7 @@ inline Decimal read_decimal(const char* begin, const char* end) {
     places = p - point - 1;
     count += places;
   }
-  if (count == 0 || count > detail::kExactDigits || digits > static_cast<std::uint64_t>(kLargestNumber) ||
+  if (count == 0 || count > detail::kExactDigits || digits > static_cast<std::uint64_t>(limits::kMaxNumber) ||
       !detail::ends_plainly(p, end))
     return detail::read_any_decimal(begin, end);
   const double size = static_cast<double>(digits) / detail::kTenTo[places];

@@ -8,12 +8,12 @@
 #include "codec/mesh/writers.h"
 
 #include "kerf/column_files.h"
+#include "kerf/limits.h"
 
 namespace kerf {
 namespace {
 
 constexpr std::string_view kMagic = "KERFSTK1";
-constexpr double kFarthest = 1e7;  // mm, of any coordinate
 
 void append_double(std::string& out, double value) {
   std::uint64_t bits = 0;
@@ -69,11 +69,11 @@ class Bytes {
 
 bool sound_head(const ColumnData& data) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (!(std::abs(data.low[k]) <= kFarthest) || !(std::abs(data.high[k]) <= kFarthest) ||
-        !(data.low[k] < data.high[k]))
+    if (!(std::abs(data.low[k]) <= limits::kMaxCoordinate) ||
+        !(std::abs(data.high[k]) <= limits::kMaxCoordinate) || !(data.low[k] < data.high[k]))
       return false;
-  return std::abs(data.x) <= kFarthest && std::abs(data.y) <= kFarthest && data.pitch > 0.0 &&
-         data.pitch <= kFarthest && data.nx > 0 && data.ny > 0;
+  return std::abs(data.x) <= limits::kMaxCoordinate && std::abs(data.y) <= limits::kMaxCoordinate &&
+         data.pitch > 0.0 && data.pitch <= limits::kMaxCoordinate && data.nx > 0 && data.ny > 0;
 }
 
 /// A column's runs: within the block, in order and apart.

@@ -7,6 +7,8 @@
 
 #include "codec/mesh/readers.h"
 
+#include "kerf/limits.h"
+
 namespace kerf::mesh_format {
 namespace {
 
@@ -14,8 +16,6 @@ using Json = nlohmann::json;
 
 constexpr int kTriangles = 4, kStrip = 5;                               // modes of a primitive
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // component types
-constexpr int kDeepest = 64;                                            // nodes within nodes
-constexpr std::size_t kMostVisits = 100'000;                            // nodes in all
 constexpr double kMillimetres = 1000.0;                                 // of a metre
 
 /// A range of the binary part that holds `count` values `stride` bytes apart.
@@ -86,7 +86,7 @@ Affine place_of(const Json& node) {
 }
 
 bool Scene::visit(std::size_t number, const Affine& parent, int depth) {
-  if (depth > kDeepest || ++visits_ > kMostVisits)
+  if (depth > limits::kMaxSceneDepth || ++visits_ > limits::kMaxSceneNodes)
     return out_.fail("the scene's nodes are nested too deeply, or hold each other");
   const Json& node = json_.at("nodes").at(number);
   const Affine place = parent.after(place_of(node));

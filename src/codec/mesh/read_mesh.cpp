@@ -5,12 +5,12 @@
 
 #include "codec/mesh/readers.h"
 
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace mesh_format {
 namespace {
 
-/// Beyond this no coordinate is meant; what follows can then compute without a thought, mm.
-constexpr double kFarthest = 1e7;
 /// A closed mesh has half as many vertices as triangles; with three each none is shared.
 constexpr std::size_t kVerticesPerTriangle = 3;
 
@@ -30,7 +30,8 @@ bool MeshMaker::too_large(const std::string& what) {
 
 bool MeshMaker::add_vertex(double x, double y, double z, std::uint32_t line) {
   // Written so that what is not a number fails too.
-  const bool good = std::abs(x) <= kFarthest && std::abs(y) <= kFarthest && std::abs(z) <= kFarthest;
+  const bool good = std::abs(x) <= limits::kMaxCoordinate && std::abs(y) <= limits::kMaxCoordinate &&
+                    std::abs(z) <= limits::kMaxCoordinate;
   if (!good) return fail("a vertex is not finite, or farther than 10 km from the origin", line);
   if (vertices() >= kVerticesPerTriangle * limits_.triangles)
     return too_large(

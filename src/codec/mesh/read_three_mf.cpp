@@ -13,15 +13,17 @@
 #include "codec/mesh/readers.h"
 #include "codec/zip/zip.h"
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
+#include "kerf/units.h"
 
 namespace kerf::mesh_format {
 namespace {
 
-constexpr std::size_t kAnyRatio = std::size_t{64} << 20;  // bytes that a small file may unpack to
-constexpr std::size_t kMostRatio = 400;                   // beyond: times its packed size
-constexpr std::size_t kMostParts = 10'000;                // parts, and uses of objects
-constexpr int kDeepest = 32;                              // objects within objects
+// Beyond kAnyRatio bytes an archive may unpack to kMaxRatio times its size: XML of coordinates packs to a
+// tenth, and a bomb to a thousandth.
+constexpr std::size_t kAnyRatio = std::size_t{64} << 20;
+constexpr std::size_t kMaxRatio = 400;
 
 // ---- the XML
 
@@ -77,8 +79,8 @@ std::string part_name(std::string_view path) {
 
 std::optional<double> unit_of(std::string_view name) {
   const std::map<std::string_view, double> units{
-      {"", 1.0},      {"millimeter", 1.0}, {"micron", 0.001}, {"centimeter", 10.0},
-      {"inch", 25.4}, {"foot", 304.8},     {"meter", 1000.0}};
+      {"", 1.0},       {"millimeter", 1.0}, {"micron", 0.001}, {"centimeter", 10.0}, {"inch", kMmPerInch},
+      {"foot", 304.8}, {"meter", 1000.0}};
   const auto it = units.find(name);
   return it == units.end() ? std::nullopt : std::optional(it->second);
 }
@@ -124,13 +126,13 @@ class PartReader {
 
   bool take(std::string_view piece, bool is_last) {
     bytes_ += piece.size();
-    if (bytes_ > out_.limits().text_bytes || bytes_ > most_bytes_)
+    if (bytes_ > out_.limits().text_bytes || bytes_ > max_bytes_)
       return out_.too_large("the model unpacks to more text than is read");
     if (XML_Parse(parser_, piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0) == XML_STATUS_ERROR)
       return fail(fmt::format("the model is no sound XML ({})", XML_ErrorString(XML_GetErrorCode(parser_))));
     return !out_.failed();
   }
-  void set_most_bytes(std::size_t most) { most_bytes_ = most; }
+  void set_max_bytes(std::size_t bytes) { max_bytes_ = bytes; }
   /// Other parts that objects of this one lie in.
   const std::set<std::string>& other_parts() const { return other_parts_; }
 
@@ -154,7 +156,7 @@ class PartReader {
   XML_Parser parser_;
   Object* object_ = nullptr;
   std::set<std::string> other_parts_;
-  std::size_t bytes_ = 0, most_bytes_ = SIZE_MAX;
+  std::size_t bytes_ = 0, max_bytes_ = SIZE_MAX;
 };
 
 void PartReader::begin(std::string_view name, const Attributes& attributes) {
@@ -171,7 +173,7 @@ void PartReader::begin(std::string_view name, const Attributes& attributes) {
 }
 
 void PartReader::begin_object(const Attributes& attributes) {
-  if (model_.objects.size() >= kMostParts) {
+  if (model_.objects.size() >= limits::kMaxMeshParts) {
     out_.too_large("the file has more objects than are read");
     return;
   }
@@ -207,7 +209,7 @@ void PartReader::add_triangle(const Attributes& attributes) {
 }
 
 void PartReader::add_use(const Attributes& attributes, std::vector<Use>& uses) {
-  if (++model_.uses > kMostParts) {
+  if (++model_.uses > limits::kMaxMeshParts) {
     out_.too_large("the file puts together more objects than are read");
     return;
   }
@@ -251,7 +253,7 @@ std::string model_part(zip::Reader& package) {
 /// Adds an object where it is used, and what it is made of.
 bool place_object(const Model& model, const Use& use, const Affine& outer, int depth, std::size_t& visits,
                   MeshMaker& out) {
-  if (depth > kDeepest || ++visits > kMostParts)
+  if (depth > limits::kMaxMeshPartDepth || ++visits > limits::kMaxMeshParts)
     return out.fail("objects are nested too deeply, or hold each other");
   const auto it = model.objects.find(use.object);
   if (it == model.objects.end())
@@ -288,7 +290,7 @@ bool read_three_mf(std::string_view bytes, MeshMaker& out) {
     const std::string part = *open.begin();
     open.erase(open.begin());
     PartReader reader(model, part, done.empty(), out);
-    reader.set_most_bytes(std::max(kAnyRatio, kMostRatio * bytes.size()));
+    reader.set_max_bytes(std::max(kAnyRatio, kMaxRatio * bytes.size()));
     const bool whole = package.unpack(
         part, [&](std::string_view piece, bool is_last) { return reader.take(piece, is_last); });
     if (out.failed()) return false;

@@ -32,7 +32,6 @@ inline constexpr unsigned kAllAxes = 7;
 inline constexpr double kNoWay = 1e-9;                // mm; a move of less is none in its plane
 inline constexpr int kHome28 = 5161, kHome30 = 5181;  // first of the parameters that keep the homes
 inline constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
-inline constexpr double kMillimetresPerInch = 25.4;
 inline constexpr Tenths kNoMotion = 800;      // G80
 inline constexpr Tenths kMotionNotSaid = -1;  // before the first motion code
 inline constexpr Tenths kMotionNotRead = -2;  // after one that is not supported

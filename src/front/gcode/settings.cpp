@@ -26,7 +26,7 @@ void Interpreter::set_feed_mode() {
 }
 
 void Interpreter::set_units() {
-  const double scale = line_.code(Group::units) == 200 ? kMillimetresPerInch : 1.0;
+  const double scale = line_.code(Group::units) == 200 ? kMmPerInch : 1.0;
   if (scale != modes_.scale && line_.has('F'))
     talker_.note(
         Code::feed_with_units, line_.column('F'),

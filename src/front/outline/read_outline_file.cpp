@@ -104,7 +104,7 @@ std::vector<NamedOutline> OutlineFileReader::read(const Json& root) {
   if (!keys(root, {"unit", "outlines"})) return {};
   const Json unit = root.value("unit", Json("mm"));
   if (unit == "inch")
-    scale_ = inch(1.0).mm();
+    scale_ = kMmPerInch;
   else if (unit != "mm")
     return error("\"unit\" must be \"mm\" or \"inch\""), std::vector<NamedOutline>();
   const auto outlines = root.find("outlines");

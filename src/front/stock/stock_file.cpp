@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "kerf/column_files.h"
+#include "kerf/limits.h"
 #include "kerf/mesh_files.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
@@ -12,8 +13,6 @@ namespace kerf {
 namespace {
 
 constexpr std::string_view kLeftEnding = ".kstock";
-constexpr std::size_t kLongest = 200;   // bytes of an option
-constexpr double kLargest = 100'000.0;  // mm
 
 ColumnData data_of(const LeftColumns& left) {
   ColumnData data;
@@ -63,7 +62,7 @@ std::vector<std::string> words_of(std::string_view text) {
 std::optional<double> length_of(std::string_view text) {
   if (text.size() > 2 && text.substr(text.size() - 2) == "mm") text.remove_suffix(2);
   const auto value = parse_number(text);
-  return value && std::abs(*value) <= kLargest ? value : std::nullopt;
+  return value && std::abs(*value) <= limits::kMaxStockSize ? value : std::nullopt;
 }
 
 /// One word of a flip after its axis; false if it means nothing there.
@@ -110,12 +109,12 @@ std::string write_left_file(const LeftColumns& left) { return write_columns(data
 
 std::optional<StockMove> read_flip_option(std::string_view text, const Origin& where,
                                           Diagnostics& diagnostics) {
-  std::vector<std::string> words = words_of(text.substr(0, kLongest));
+  std::vector<std::string> words = words_of(text.substr(0, limits::kMaxStockOptionBytes));
   if (!words.empty() && words[0] == "about") words.erase(words.begin());
   StockMove move;
   if (!words.empty() && words[0] == "x") move.flip = StockMove::Flip::about_x;
   if (!words.empty() && words[0] == "y") move.flip = StockMove::Flip::about_y;
-  bool good = move.flip != StockMove::Flip::none && text.size() <= kLongest;
+  bool good = move.flip != StockMove::Flip::none && text.size() <= limits::kMaxStockOptionBytes;
   for (std::size_t k = 1; k < words.size(); ++k) good = good && read_place(words[k], move);
   if (good) return move;
   diagnostics.error(
@@ -131,8 +130,8 @@ std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& 
                                            Diagnostics& diagnostics) {
   RoundBar bar;
   double size = 0.0;
-  bool good = text.size() <= kLongest;
-  for (const std::string& word : words_of(text.substr(0, kLongest))) {
+  bool good = text.size() <= limits::kMaxStockOptionBytes;
+  for (const std::string& word : words_of(text.substr(0, limits::kMaxStockOptionBytes))) {
     const std::size_t equals = std::min(word.find('='), word.size());
     const std::string key = word.substr(0, equals);
     const auto value = length_of(std::string_view(word).substr(std::min(equals + 1, word.size())));
@@ -157,9 +156,9 @@ std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& 
 
 std::optional<Point3> read_shift_option(std::string_view text, const Origin& where,
                                         Diagnostics& diagnostics) {
-  const std::vector<std::string> words = words_of(text.substr(0, kLongest));
+  const std::vector<std::string> words = words_of(text.substr(0, limits::kMaxStockOptionBytes));
   Point3 shift;
-  bool good = words.size() == 3 && text.size() <= kLongest;
+  bool good = words.size() == 3 && text.size() <= limits::kMaxStockOptionBytes;
   for (int k = 0; k < 3 && good; ++k) {
     const auto value = length_of(words[static_cast<std::size_t>(k)]);
     good = value.has_value();

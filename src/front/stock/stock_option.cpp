@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
@@ -16,8 +17,6 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLongest = 200;   // bytes; a stock takes far less
-constexpr double kLargest = 100'000.0;  // mm; beyond any machine, and safe to compute with
 constexpr std::string_view kExpected =
     "expected \"100x60x12 [at lower-left top]\" or \"0,0,-12 to 100,60,0\", in mm or with \"in\" behind each "
     "length or the last one";
@@ -171,9 +170,13 @@ class Reader {
 /// A stock, or why there is none.
 using Answer = std::variant<Stock, std::string>;
 
-std::string too_far() { return fmt::format("a length is beyond {} mm", number_text(kLargest, 0)); }
+std::string too_far() {
+  return fmt::format("a length is beyond {} mm", number_text(limits::kMaxStockSize, 0));
+}
 
-bool within_reach(Point3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= kLargest; }
+bool within_reach(Point3 p) {
+  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= limits::kMaxStockSize;
+}
 
 Answer read_corners(Reader& reader, const Triple& first) {
   const std::optional<Triple> second = reader.take_triple();
@@ -216,7 +219,7 @@ Answer read_size(Reader& reader, Triple lengths) {
 }
 
 Answer read(std::string_view text) {
-  if (text.size() > kLongest) return std::string("it is too long");
+  if (text.size() > limits::kMaxStockOptionBytes) return std::string("it is too long");
   std::string lower(text);
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::optional<std::vector<Token>> tokens = tokens_of(lower);
@@ -238,8 +241,8 @@ std::optional<Stock> read_stock_option(std::string_view text, const Origin& wher
   if (auto* stock = std::get_if<Stock>(&answer)) return *stock;
   diagnostics
       .error(Code::stock_option, where,
-             fmt::format("cannot understand the stock \"{}\": {}", text.substr(0, kLongest),
-                         std::get<std::string>(answer)))
+             fmt::format("cannot understand the stock \"{}\": {}",
+                         text.substr(0, limits::kMaxStockOptionBytes), std::get<std::string>(answer)))
       .hint = kExpected;
   return std::nullopt;
 }

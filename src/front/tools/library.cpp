@@ -7,6 +7,7 @@
 #include "codec/zip/zip.h"
 #include "front/tools/settings.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool_files.h"
@@ -14,8 +15,6 @@
 namespace kerf {
 namespace detail {
 namespace {
-
-constexpr int kHighestNumber = 99'999'999;
 
 void tell(std::vector<Setting>& settings, const ToolShape& blank, std::string_view key, double value,
           const Origin& where) {
@@ -59,7 +58,7 @@ void LibraryWriter::leave_out(const Origin& where, std::string_view name, std::s
 }
 
 int LibraryWriter::number_for(const LibraryTool& tool) {
-  const bool usable = tool.number && *tool.number >= 0 && *tool.number <= kHighestNumber;
+  const bool usable = tool.number && *tool.number >= 0 && *tool.number <= limits::kMaxTableToolNumber;
   if (usable && given_.count(*tool.number) == 0) return *tool.number;
   while (given_.count(next_) > 0 || table_.find(next_) != nullptr) ++next_;
   diagnostics_.note(Code::tool_library_number, tool.where,
@@ -87,7 +86,6 @@ void LibraryWriter::add(const LibraryTool& told) {
 
 namespace {
 
-constexpr std::size_t kLargestLibrary = 64u << 20;  // bytes
 constexpr std::string_view kZipMark = "PK\x03\x04";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -144,7 +142,7 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   const Origin where = TextSpot{std::string(file_name), 0, 0};
   std::string unpacked;
   if (bytes.substr(0, 4) == kZipMark) {
-    auto inner = zip::Reader(bytes).first(kLargestLibrary);
+    auto inner = zip::Reader(bytes).first(limits::kMaxToolLibraryBytes);
     if (!inner) {
       diagnostics.error(Code::tool_library_unreadable, where, "the zip archive is damaged, or too large");
       return;
@@ -152,7 +150,7 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
     unpacked = std::move(*inner);
     bytes = unpacked;
   }
-  const auto kind = bytes.size() > kLargestLibrary ? std::nullopt : library_kind_of(bytes);
+  const auto kind = bytes.size() > limits::kMaxToolLibraryBytes ? std::nullopt : library_kind_of(bytes);
   if (!kind) {
     diagnostics.error(Code::tool_library_unknown, where, "this is no tool library that Kerf knows").hint =
         "known: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb, CAMotics JSON";

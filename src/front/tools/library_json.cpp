@@ -6,15 +6,16 @@
 #include "front/tools/library.h"
 #include "front/tools/settings.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
+#include "kerf/units.h"
 
 namespace kerf::detail {
 namespace {
 
 using Json = nlohmann::json;
-constexpr std::size_t kLongestText = 200;  // bytes of a name that are kept
-constexpr double kDrillPoint = 118.0;      // degrees, where none is told
+constexpr double kDrillPoint = 118.0;  // degrees, where none is told
 
 const Json* member(const Json& object, std::string_view key) {
   if (!object.is_object()) return nullptr;
@@ -25,7 +26,7 @@ const Json* member(const Json& object, std::string_view key) {
 std::string text_of(const Json& object, std::string_view key) {
   const Json* value = member(object, key);
   if (value == nullptr || !value->is_string()) return {};
-  return std::string(trim(value->get_ref<const std::string&>()).substr(0, kLongestText));
+  return std::string(trim(value->get_ref<const std::string&>()).substr(0, limits::kMaxNameBytes));
 }
 
 double number_of(const Json& object, std::string_view key) {
@@ -82,7 +83,7 @@ void read_fusion_tool(const Json& entry, std::size_t index, LibraryWriter& out) 
   const Json& geometry = told == nullptr ? none : *told;
   const Json* post = member(entry, "post-process");
   const std::string unit = fold_name(text_of(entry, "unit"));
-  const double scale = has(unit, "inch") ? 25.4 : 1.0;
+  const double scale = has(unit, "inch") ? kMmPerInch : 1.0;
   const std::string type = fold_name(text_of(entry, "type"));
   LibraryTool tool;
   tool.where = out.spot(0);
@@ -159,7 +160,7 @@ void read_freecad_bit(const Json& root, LibraryWriter& out) {
 void read_camotics_tool(const std::string& key, const Json& entry, const Json& project, LibraryWriter& out) {
   std::string units = text_of(entry, "units");
   if (units.empty()) units = text_of(project, "units");
-  const double scale = has(fold_name(units), "inch") || has(fold_name(units), "imperial") ? 25.4 : 1.0;
+  const double scale = has(fold_name(units), "inch") || has(fold_name(units), "imperial") ? kMmPerInch : 1.0;
   const std::string shape = fold_name(text_of(entry, "shape"));
   LibraryTool tool;
   tool.where = out.spot(0);

@@ -5,14 +5,15 @@
 
 #include "front/tools/library.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
+#include "kerf/units.h"
 
 namespace kerf::detail {
 namespace {
 
-constexpr std::size_t kLongestText = 200;  // bytes of a name that are kept
-constexpr std::size_t kMostFields = 200;   // of a line
+constexpr std::size_t kMaxFields = 200;  // of a line; the rest is read as one
 
 /// Calls visit(line, number) for each line without its end.
 template <class Visit>
@@ -41,7 +42,7 @@ std::vector<std::string> fields_of(std::string_view line) {
       ++i;
     } else if (quote) {
       quoted = !quoted;
-    } else if (line[i] == ',' && !quoted && fields.size() < kMostFields) {
+    } else if (line[i] == ',' && !quoted && fields.size() < kMaxFields) {
       fields.emplace_back();
     } else {
       fields.back() += line[i];
@@ -57,7 +58,8 @@ class Row {
       : header_(header), fields_(fields) {}
   std::string text(std::string_view name) const {
     for (std::size_t i = 0; i < header_.size() && i < fields_.size(); ++i)
-      if (fold_name(header_[i]) == name) return std::string(trim(fields_[i]).substr(0, kLongestText));
+      if (fold_name(header_[i]) == name)
+        return std::string(trim(fields_[i]).substr(0, limits::kMaxNameBytes));
     return {};
   }
   double number(std::string_view name) const { return parse_number(text(name)).value_or(0.0); }
@@ -86,7 +88,7 @@ std::string carbide_shape(const Row& row) {
 
 void read_carbide_row(const Row& row, const Origin& where, LibraryWriter& out) {
   const std::string metric = fold_name(row.text("metric"));
-  const double scale = metric == "1" || metric == "true" ? 1.0 : 25.4;
+  const double scale = metric == "1" || metric == "true" ? 1.0 : kMmPerInch;
   LibraryTool tool;
   tool.where = where;
   tool.number = whole(row.text("number"));
@@ -129,7 +131,7 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
     tool.where = out.spot(number);
     tool.shape = "square";
     if (remark < line.size())
-      tool.description = std::string(trim(line.substr(remark + 1)).substr(0, kLongestText));
+      tool.description = std::string(trim(line.substr(remark + 1)).substr(0, limits::kMaxNameBytes));
     std::string_view words = trim(line.substr(0, remark));
     if (words.empty()) return;
     while (!words.empty()) {

@@ -5,14 +5,13 @@
 #include "base/toml.h"
 #include "front/tools/machine_settings.h"
 
+#include "kerf/limits.h"
 #include "kerf/machine_files.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
 namespace kerf {
 namespace {
-
-constexpr std::size_t kLargestFile = 1 << 20;  // bytes; real ones have one or two thousand
 
 bool has_grbl_settings(std::string_view text) {
   while (!text.empty()) {
@@ -111,7 +110,7 @@ class ProfileReader {
 std::optional<Machine> read_machine_file(std::string_view text, std::string_view file_name,
                                          Diagnostics& diagnostics) {
   const std::string name(file_name);
-  if (text.size() > kLargestFile) {
+  if (text.size() > limits::kMaxProfileBytes) {
     diagnostics.error(Code::machine_file, TextSpot{name, 0, 0}, "a machine's file is at most 1 MB");
     return std::nullopt;
   }

@@ -6,6 +6,7 @@
 #include "base/toml.h"
 #include "embedded_material_files.h"
 
+#include "kerf/limits.h"
 #include "kerf/material_files.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -13,8 +14,7 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLargestFile = 1 << 20;  // bytes
-constexpr double kWidest = 1000.0;             // mm
+constexpr double kMaxDiameter = 1000.0;  // mm
 
 class MaterialReader {
  public:
@@ -22,7 +22,7 @@ class MaterialReader {
       : file_(file_name), diagnostics_(diagnostics) {}
 
   std::vector<Material> read(std::string_view text) {
-    if (text.size() > kLargestFile) {
+    if (text.size() > limits::kMaxProfileBytes) {
       diagnostics_.error(Code::material_file, TextSpot{file_, 0, 0}, "a file of materials is at most 1 MB");
       return {};
     }
@@ -84,7 +84,7 @@ class MaterialReader {
     for (std::size_t i = 0; i < 2; ++i) {
       const toml::node& value = *pair->get(i);
       values[i] = value.is_number() ? value.value<double>().value_or(0.0) : 0.0;
-      if (!(values[i] > 0.0 && values[i] <= kWidest)) return std::nullopt;
+      if (!(values[i] > 0.0 && values[i] <= kMaxDiameter)) return std::nullopt;
     }
     return ChipLoad{mm(values[0]), mm(values[1])};
   }

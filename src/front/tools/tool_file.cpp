@@ -8,16 +8,13 @@
 #include "embedded_tool_files.h"
 #include "front/tools/settings.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool_files.h"
 
 namespace kerf {
 namespace {
-
-constexpr std::size_t kLargestFile = 16u << 20;  // bytes; the built-in table has about 12 thousand
-constexpr std::int64_t kHighestNumber = 99'999'999;
-constexpr std::size_t kMostNumbers = 100;  // of one tool
 
 class FileReader {
  public:
@@ -70,7 +67,8 @@ std::optional<double> FileReader::read_unit(const toml::table& table, double oth
 
 void FileReader::read_number(const toml::node& node, std::vector<int>& numbers) {
   const auto value = node.value_exact<std::int64_t>();
-  if (!value || *value < 0 || *value > kHighestNumber || numbers.size() >= kMostNumbers) {
+  if (!value || *value < 0 || *value > limits::kMaxTableToolNumber ||
+      numbers.size() >= limits::kMaxToolAliases) {
     return error(Code::tool_value_type, spot(node),
                  "a tool's number must be a whole number from 0 to 99999999, and there may be 100 of them");
   }
@@ -226,7 +224,7 @@ void FileReader::read_root(const toml::table& root) {
 }
 
 void FileReader::read(std::string_view text) {
-  if (text.size() > kLargestFile) {
+  if (text.size() > limits::kMaxToolFileBytes) {
     return error(Code::file_too_large, TextSpot{file_, 0, 0}, "a tool file is at most 16 MB long");
   }
   const toml::parse_result parsed = toml::parse(text, std::string_view(file_));

@@ -3,6 +3,7 @@
 
 #include "front/tools/settings.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool_files.h"
@@ -10,8 +11,7 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLongestOption = 4096;
-constexpr std::size_t kMostDigits = 9;  // of a tool's number
+constexpr std::size_t kMaxDigits = 9;  // of limits::kMaxToolNumber
 
 /// Words between blanks or commas; "=" binds to both sides even where blanks stand around it.
 std::vector<std::string_view> words_of(std::string_view text) {
@@ -41,7 +41,7 @@ bool is_digits(std::string_view text) {
 }
 
 std::optional<int> whole_number(std::string_view text) {
-  if (!is_digits(text) || text.size() > kMostDigits) return std::nullopt;
+  if (!is_digits(text) || text.size() > kMaxDigits) return std::nullopt;
   const auto value = parse_number(text);
   return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
 }
@@ -106,7 +106,7 @@ std::optional<Tool> tool_of_words(const std::vector<std::string_view>& words, co
 }  // namespace
 
 std::optional<Tool> read_tool_option(std::string_view text, const Origin& where, Diagnostics& diagnostics) {
-  if (text.size() > kLongestOption) {
+  if (text.size() > limits::kMaxToolOptionBytes) {
     diagnostics.error(Code::tool_value_type, where, "a tool option is at most 4096 characters long");
     return std::nullopt;
   }
@@ -114,7 +114,7 @@ std::optional<Tool> read_tool_option(std::string_view text, const Origin& where,
   if (is_digits(trim(text))) {
     diagnostics.error(Code::tool_unknown, where,
                       fmt::format("no tool {} is known; numbers have at most {} digits",
-                                  trim(text).substr(0, 40), kMostDigits));
+                                  trim(text).substr(0, 40), kMaxDigits));
     return std::nullopt;
   }
   return tool_of_words(words_of(text), where, diagnostics);

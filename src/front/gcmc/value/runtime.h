@@ -9,6 +9,7 @@
 #include "front/gcmc/value/value.h"
 
 #include "kerf/diagnostics.h"
+#include "kerf/units.h"
 
 namespace kerf::gcmc {
 
@@ -39,7 +40,6 @@ class Runtime {
   virtual void say_error(Code code, std::string text, std::string hint) = 0;
 };
 
-constexpr double kMmPerInch = 25.4;
 /// `value` in unit `to` instead of `from`; both lengths or both angles.
 double convert(double value, Unit from, Unit to);
 /// The scalar in `to`: integers stay integers unless a factor applies.
