@@ -1,5 +1,5 @@
 // gcmc programs: time from text to text (or toolpath). Counter times_real: how many times faster than the
-// real program, whose processor seconds for the same programs stand below (compiled with gcc -O2, output
+// real program, whose processor seconds for the same programs are listed below (compiled with gcc -O2, output
 // written).
 #include "kerf/gcmc.h"
 
@@ -13,7 +13,7 @@
 
 namespace {
 
-/// Writes to a file that has no name.
+/// Writes to an unnamed file.
 class Writer final : public kerf::GcmcOutput {
  public:
   void message(const kerf::GcmcMessage&) override {}
@@ -64,7 +64,7 @@ void add(const Program& p) {
   const std::string path = std::string(KERF_CASES_DIR) + "/gcmc/perf/" + p.file + ".gcmc";
   kerf::Diagnostics diagnostics;
   const auto file = kerf::InputFile::open(path, diagnostics);
-  if (!file) return;  // the given cases are not there
+  if (!file) return;  // the given cases are not available
   const std::string text(file->bytes());
   for (const Wanted wanted : {Wanted::text, Wanted::path}) {
     const std::string name = std::string("gcmc/") + p.file + (wanted == Wanted::text ? "" : "/toolpath");

@@ -16,7 +16,7 @@ using namespace kerf;
 
 constexpr double kInterpreterSecondsPerLine = 6.3e-6;
 
-/// Numbers that look like none, the same every time.
+/// Pseudo-random numbers, the same in every run.
 class Random {
  public:
   unsigned below(unsigned limit) {

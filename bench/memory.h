@@ -1,11 +1,11 @@
-// The memory that a benchmark needs.
+// Peak memory of a benchmark.
 #pragma once
 
 #include <fstream>
 #include <malloc.h>
 #include <string>
 
-/// A number of kilobytes from /proc/self/status, as MB; 0 where there is no such file.
+/// A number of kilobytes from /proc/self/status, as MB; 0 without such a file.
 inline double status_mb(const std::string& name) {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;) {
@@ -15,7 +15,7 @@ inline double status_mb(const std::string& name) {
   return 0.0;
 }
 
-/// The maximum of the process's memory since the start of this object, less what it held then.
+/// Peak memory of the process since construction, above that at construction.
 class PeakMemory {
  public:
   PeakMemory() {

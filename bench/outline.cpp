@@ -1,5 +1,5 @@
-// Corners and curves: ten thousand of each kind, cut through the C++ interface. The Python lists are measured
-// by bench/outline_lists.py.
+// Corners and curves: ten thousand of each kind through the C++ interface. bench/outline_lists.py measures
+// the Python lists.
 #include "kerf/outline.h"
 
 #include <benchmark/benchmark.h>
@@ -14,7 +14,7 @@ constexpr int kCorners = 10000;
 
 enum class Kind { line_line, line_arc, arc_arc };
 
-/// A saw of teeth 20 wide: every corner has a request, and each kind of neighbour is there.
+/// A saw with teeth 20 wide: every corner has a request, with all kinds of neighbours.
 Outline saw(Kind kind, double request) {
   Outline outline;
   for (int i = 1; i <= kCorners + 1; ++i) {
@@ -29,7 +29,7 @@ Outline saw(Kind kind, double request) {
   return outline;
 }
 
-/// What the original needs for the same work, in ms; 0 where nobody measured it.
+/// Time of the original for the same work, ms; 0: not measured.
 void cut(benchmark::State& state, Kind kind, double request, double original) {
   const Outline outline = saw(kind, request);
   for (auto _ : state) {

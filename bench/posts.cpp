@@ -1,4 +1,4 @@
-// Writing a million steps as G-code, straight cuts and arcs, and checking what was written.
+// Writing a million steps as G-code, straight cuts and arcs, and checking the output.
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <cstdint>

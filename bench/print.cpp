@@ -1,4 +1,4 @@
-// Laying a print: a square of infill, layer upon layer, each across the one below.
+// Simulating a print: a square of infill in layers, each perpendicular to the one below.
 #include "kerf/print.h"
 
 #include <benchmark/benchmark.h>
@@ -6,15 +6,15 @@
 namespace kerf {
 namespace {
 
-constexpr double kWidth = 0.45, kHeight = 0.2;  // mm, of a road
-constexpr int kRows = 40;                       // roads a layer
+constexpr double kWidth = 0.45, kHeight = 0.2;  // mm, of a bead
+constexpr int kRows = 40;                       // beads per layer
 
-/// Rows of full infill, each as long as all are wide, with a short road at each turn.
-Toolpath infill(std::int64_t roads) {
+/// Rows of full infill in a square, with a short bead at each turn.
+Toolpath infill(std::int64_t beads) {
   Toolpath path;
   const OriginId here = path.origins().add(CallSpot{.file = "", .line = 0, .call = "bench"});
   const double side = kRows * kWidth;
-  const auto place = [&](int layer, int row, bool far) {
+  const auto position = [&](int layer, int row, bool far) {
     const double across = (row + 0.5) * kWidth, along = far == (row % 2 == 0) ? side : 0.0;
     const double z = (layer + 1) * kHeight;
     return layer % 2 == 0 ? Point3{along, across, z} : Point3{across, along, z};
@@ -26,35 +26,35 @@ Toolpath infill(std::int64_t roads) {
              here);
     at = to;
   };
-  for (std::int64_t laid = 0, layer = 0; laid < roads; ++layer) {
-    at = place(static_cast<int>(layer), 0, false);
+  for (std::int64_t laid = 0, layer = 0; laid < beads; ++layer) {
+    at = position(static_cast<int>(layer), 0, false);
     path.add(step::Rapid{at}, here);
-    for (int row = 0; row < kRows && laid < roads; ++row, laid += 2) {
-      if (row > 0) lay(place(static_cast<int>(layer), row, false));
-      lay(place(static_cast<int>(layer), row, true));
+    for (int row = 0; row < kRows && laid < beads; ++row, laid += 2) {
+      if (row > 0) lay(position(static_cast<int>(layer), row, false));
+      lay(position(static_cast<int>(layer), row, true));
     }
   }
   return path;
 }
 
-/// Roads, the columns' distance in microns, threads.
+/// Beads, resolution in microns, threads.
 void print_infill(benchmark::State& state) {
   const Toolpath path = infill(state.range(0));
   PrintOptions options;
   options.resolution = mm(1e-3 * static_cast<double>(state.range(1)));
   options.threads = static_cast<unsigned>(state.range(2));
-  std::size_t roads = 0;
+  std::size_t beads = 0;
   double laid = 0.0;
   for (auto _ : state) {
     Diagnostics diagnostics;
     const auto print = simulate_print(path, options, diagnostics);
     if (!print) return state.SkipWithError("not printed");
-    roads = print->roads;
+    beads = print->beads;
     laid = print->total.laid.mm3();
   }
-  state.counters["roads/s"] = benchmark::Counter(
-      static_cast<double>(roads) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-  state.counters["roads"] = static_cast<double>(roads);
+  state.counters["beads/s"] = benchmark::Counter(
+      static_cast<double>(beads) * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["beads"] = static_cast<double>(beads);
   state.counters["laid_mm3"] = laid;
 }
 BENCHMARK(print_infill)

@@ -1,4 +1,4 @@
-"""Runs every benchmark program of a build and prints each figure with its ratio to the run before.
+"""Runs every benchmark program of a build and prints each figure with its ratio to the previous run.
 
     bench/report.py BUILD_FOLDER [FILTER]
 
@@ -11,11 +11,11 @@ import subprocess
 import sys
 from pathlib import Path
 
-# Google Benchmark's own counters aside, what a row may hold besides its time.
+# Counters of a row other than those of Google Benchmark.
 RATES = {"items_per_second": "items/s", "bytes_per_second": "B/s"}
 PEERS = "peers"
-PEAK = "peak_MB"  # the memory that a job needs beside its input
-TIMES_REAL = "times_real"  # how many times faster than the program that Kerf stands in for
+PEAK = "peak_MB"  # memory of a job in addition to its input
+TIMES_REAL = "times_real"  # how many times faster than the program that Kerf replaces
 PEER = re.compile(r"([\w.]+?)_(cpu_s|s|ms)$")  # counters that quote another program's time
 OWN = {"real_time", "cpu_time", "items_per_second"}  # of the library, though they end like a quoted time
 SECONDS = {"ns": 1e-9, "us": 1e-6, "ms": 1e-3, "s": 1.0}
@@ -60,7 +60,7 @@ def rate_text(row):
 
 
 def line(name, row, before):
-    """One row: name, time, ratio to the run before (below 1 is faster), rate."""
+    """One row: name, time, ratio to the previous run (below 1 is faster), rate."""
     ratio = f"x{row['seconds'] / before['seconds']:.2f}" if before and before["seconds"] > 0 else "new"
     return f"{name:<48} {time_text(row['seconds']):>10} {ratio:>7} {rate_text(row)}".rstrip()
 

@@ -1,9 +1,8 @@
-// The simulator's speed: jobs made here, moves a second, and beside them what other programs need for the
-// same.
+// Speed of the simulator: synthetic jobs, motions per second, and times of other programs for the same jobs.
 //
-// peak_MB is the memory that a job needs beside its toolpath. The peers' figures were measured on the same
-// kind of machine (two cores) on the same jobs; they are printed as counters: seconds of processor time for
-// the whole job, at the resolution their name says.
+// peak_MB is the memory that a job needs in addition to its toolpath. The other programs were measured on the
+// same kind of machine (two cores) with the same jobs; counters show their processor time for the whole job,
+// s, at the resolution in their name.
 #include <algorithm>
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -47,7 +46,7 @@ ToolTable table() {
   return tools;
 }
 
-/// A toolpath with its tool chosen and the spindle on.
+/// A toolpath with a tool and the spindle on.
 struct Job {
   explicit Job(int tool) : here(path.origins().add(CallSpot{.file = "", .line = 0, .call = "bench"})) {
     path.add(step::ToolChange{tool}, here);
@@ -95,11 +94,11 @@ Toolpath keyhole_slots(int moves) {
 Toolpath random_moves(int moves) {
   Job job(1);
   std::mt19937 random(7);
-  const auto share = [&] { return static_cast<double>(random() % 1000000) * 1e-6; };
+  const auto fraction = [&] { return static_cast<double>(random() % 1000000) * 1e-6; };
   Point3 at{110, 75, 0};
   for (int k = 0; k < moves; ++k) {
-    at = {std::clamp(at.x + 20 * share() - 10, 0.0, 220.0), std::clamp(at.y + 20 * share() - 10, 0.0, 150.0),
-          -6 * share()};
+    at = {std::clamp(at.x + 20 * fraction() - 10, 0.0, 220.0),
+          std::clamp(at.y + 20 * fraction() - 10, 0.0, 150.0), -6 * fraction()};
     job.cut(at);
   }
   return std::move(job.path);
@@ -197,18 +196,18 @@ void ReliefMesh(benchmark::State& state) {
   state.counters["prototype_top_only_s"] = 0.1;
 }
 
-/// What verifying that mesh costs, which every export does before it writes.
+/// Verification of that mesh, as before every export.
 void ReliefMeshVerified(benchmark::State& state) {
   CutJob job(state, relief(1000, 1000), mm(0.005));
   if (!job.result) return state.SkipWithError("not simulated");
   const Mesh mesh = extract_mesh(*job.columns, job.merged);
   for (auto _ : state)
     if (!verify_mesh(mesh, mesh_volume(*job.columns, job.merged), job.diagnostics))
-      return state.SkipWithError("the mesh is not sound");
+      return state.SkipWithError("the mesh is not valid");
   state.counters["triangles"] = static_cast<double>(mesh.step.size());
 }
 
-/// A mesh within 2 microns of what the sweeps leave: extraction and sharpening.
+/// An exact mesh within 2 microns of the sweeps: extraction and sharpening.
 void exact_mesh(benchmark::State& state, Toolpath path) {
   const CutJob job(state, std::move(path), mm(0.002));
   if (!job.result) return state.SkipWithError("not simulated");
@@ -223,7 +222,7 @@ void exact_mesh(benchmark::State& state, Toolpath path) {
 void ReliefExactMesh(benchmark::State& state) { exact_mesh(state, relief(1000, 1000)); }
 void KeyholeExactMesh(benchmark::State& state) { exact_mesh(state, keyhole_slots(100000)); }
 
-/// The million moves with one of them lower, after they were cut as they were.
+/// The million motions with one of them lowered, after the original was cut.
 void LiveEdit(benchmark::State& state) {
   LiveOptions options;
   options.simulation.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
@@ -242,7 +241,7 @@ void LiveEdit(benchmark::State& state) {
     if (!live.update(std::move(edited), diagnostics)) return state.SkipWithError("not simulated");
   }
 }
-/// The part as it was after a part of the million moves, somewhere else each time.
+/// The workpiece at an instant of the million motions, a different one each time.
 void LiveInstant(benchmark::State& state) {
   LiveOptions options;
   options.simulation.resolution = mm(1e-3 * static_cast<double>(state.range(0)));

@@ -1,8 +1,8 @@
 // A small job from end to end: the text of gcodepreview's template (448 moves of 13 tools, the given case) is
-// read, simulated, meshed, verified and made a GLB, for a viewer and, sharpened, for keeping.
+// read, simulated, meshed, verified and written as GLB, for a viewer and as an exact mesh.
 //
-// The peers' figures: the same job's solid by Manifold, quick to slow as its hulls are told, in seconds; by
-// OpenSCAD it takes over half an hour.
+// Other programs: the solid of the same job by Manifold, in seconds, depending on the form of its hulls;
+// OpenSCAD takes over half an hour.
 #include <array>
 #include <benchmark/benchmark.h>
 #include <cstdio>
@@ -22,15 +22,15 @@
 namespace kerf {
 namespace {
 
-/// The recorded moves, one a line, as G-code. Where one does not begin at the end of the one before, the tool
-/// is lifted, as the template set a position without moving there.
+/// The recorded motions, one per line, as G-code. Where one does not start at the end of the previous one,
+/// the tool is lifted, as the template set a position without moving there.
 class Recording {
  public:
   void take(const std::string& line) {
     if (line.find("\"toolchange\"") != std::string::npos)
       text += "M6 T" + number_after(line, "\"number\": ") + "\nM3 S16000\n";
     if (line.find("\"move\"") == std::string::npos) return;
-    const std::string begin = place_after(line, "\"b\": ["), end = place_after(line, "\"e\": [");
+    const std::string begin = text_after(line, "\"b\": ["), end = text_after(line, "\"e\": [");
     if (begin != here_) text += "G0 Z50\nG0 " + begin.substr(0, begin.find('Z')) + "\nG0 " + begin + "\n";
     text += (line.find("\"cut\"") != std::string::npos ? "G1 F1000 " : "G0 ") + end + "\n";
     here_ = end;
@@ -42,7 +42,7 @@ class Recording {
     const std::size_t at = line.find(key) + key.size();
     return line.substr(at, line.find_first_of(",}", at) - at);
   }
-  static std::string place_after(const std::string& line, const std::string& key) {
+  static std::string text_after(const std::string& line, const std::string& key) {
     std::array<double, 3> p{};
     std::sscanf(line.c_str() + line.find(key) + key.size(), "%lf, %lf, %lf", &p[0], &p[1], &p[2]);
     std::array<char, 128> words{};
@@ -52,29 +52,29 @@ class Recording {
   std::string here_;
 };
 
-/// What the parts of the way have taken, by name, in seconds of processor time on all threads.
+/// Processor time of the stages by name, seconds over all threads.
 class Stopwatch {
  public:
   void lap(const std::string& name) {
     const std::clock_t now = std::clock();
-    sums[name] += static_cast<double>(now - begin_) / CLOCKS_PER_SEC;
-    begin_ = now;
+    sums[name] += static_cast<double>(now - start_) / CLOCKS_PER_SEC;
+    start_ = now;
   }
   std::map<std::string, double> sums;
 
  private:
-  std::clock_t begin_ = std::clock();
+  std::clock_t start_ = std::clock();
 };
 
-/// What is made of the job: the mesh that a viewer shows, within 5 microns, or the sharpened one, within 2.
+/// The result: the mesh for a viewer, within 5 microns, or the exact one, within 2.
 enum class Finish { viewed, sharpened };
 
 struct Making {
   Finish finish;
-  Length resolution;  // 0: as the block chooses
+  Length resolution;  // 0: the default of the block
 };
 
-/// The mesh of what was cut, verified; nothing where something fails.
+/// The mesh of what was cut, verified; nothing on failure.
 std::optional<Mesh> made_mesh(const Simulation& result, const Toolpath& path, const Stock& stock,
                               Finish finish, Stopwatch& watch) {
   const bool is_sharp = finish == Finish::sharpened;
@@ -96,7 +96,7 @@ std::optional<Mesh> made_mesh(const Simulation& result, const Toolpath& path, co
   return mesh;
 }
 
-/// The GLB's bytes; empty where something fails.
+/// The GLB's bytes; empty on failure.
 std::string made_glb(const std::string& text, Making making, Stopwatch& watch, std::size_t& triangles) {
   Stock stock;
   stock.block.add(Point3{-110, -75, -8.35});
@@ -136,7 +136,7 @@ void make(benchmark::State& state, const std::string& text, Finish finish) {
   state.counters["Manifold_slow_s"] = 50;
 }
 
-/// Rows by resolution in microns; 0: as the block chooses.
+/// Rows by resolution in microns; 0: the default of the block.
 void add_rows(const std::string& name, const std::string& text, Finish finish) {
   benchmark::RegisterBenchmark(name.c_str(),
                                [text, finish](benchmark::State& state) { make(state, text, finish); })
@@ -154,7 +154,7 @@ const bool registered = [] {
   Recording recording;
   bool any = false;
   for (std::string line; std::getline(file, line); any = true) recording.take(line);
-  if (!any) return false;  // the given cases are not there
+  if (!any) return false;  // the given cases are not available
   add_rows("template_to_glb", recording.text, Finish::viewed);
   add_rows("template_to_sharp_glb", recording.text, Finish::sharpened);
   return true;

@@ -1,4 +1,4 @@
-// The toolpath in memory: making a million steps with their origins, and walking through them.
+// The toolpath in memory: making a million steps with their origins, and iterating over them.
 #include "kerf/toolpath.h"
 
 #include <benchmark/benchmark.h>

@@ -17,8 +17,8 @@ if(KERF_APP)
   find_package(CLI11 REQUIRED)
 endif()
 
-# Python: the virtual environment that ./dev makes, else Debian's own. A Python that stands earlier in PATH
-# would be one for which neither pybind11 nor the headers are installed.
+# Python: the virtual environment that ./dev creates, otherwise Debian's. Another Python earlier in PATH
+# would lack pybind11 and the headers.
 if(KERF_PYTHON OR KERF_TESTS)
   foreach(candidate "${CMAKE_BINARY_DIR}/venv/bin/python" /usr/bin/python3)
     if(NOT Python_EXECUTABLE AND EXISTS "${candidate}")

@@ -1,4 +1,4 @@
-# kerf_embed(TARGET NAME FILE ...): puts files into a module, as bytes that src/base needs no file system for.
+# kerf_embed(TARGET NAME FILE ...): embeds files into a module as bytes, for use without a file system.
 # In C++: `extern const kerf::EmbeddedFile NAME[]; extern const std::size_t NAME_count;` of "embedded_NAME.h".
 
 function(kerf_embed TARGET NAME)

@@ -19,7 +19,7 @@ endif()
 if(KERF_FUZZ)
   target_compile_options(kerf_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
-# Programmer errors stop the program in every build.
+# Assertions are active in every build.
 string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
 string(REPLACE "-DNDEBUG" "" CMAKE_CXX_FLAGS_RELWITHDEBINFO "${CMAKE_CXX_FLAGS_RELWITHDEBINFO}")
 

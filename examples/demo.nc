@@ -8,7 +8,7 @@ M5
 (TOOL/MILL, 3.175, 0.00, 12.70, 0.00)
 M6 T102
 M3 S16000
-(stepped dish with a post in the middle)
+(stepped dish with a post in the centre)
 G0 Z5
 G0 X85.412 Y55
 G0 Z1

@@ -1,12 +1,12 @@
-"""Writes demo.nc, the part that `./dev demo` cuts: dish, drilled holes, lettering, relief, T-slot.
+"""Writes demo.nc, the example of `./dev demo`: dish, drilled holes, lettering, relief, T-slot.
 
     python3 examples/make_demo.py > examples/demo.nc
 
-Millimetres, program zero on the top at the lower left corner of a block of 110 x 80 x 14.
+Millimetres, work zero on the top at the lower left corner of a block of 110 x 80 x 14.
 """
 import math
 
-SAFE = 5.0  # mm, height of rapid moves
+SAFE = 5.0  # mm, safe Z
 BLOCK = (110.0, 80.0, 14.0)
 
 
@@ -36,7 +36,7 @@ class Program:
         self.block("M3", f"S{speed}")
 
     def above(self, x, y):
-        """Rapid to a place at the safe height, then down to just above the stock."""
+        """Rapid to a position at safe Z, then down to just above the stock."""
         self.block("G0", z=SAFE)
         self.block("G0", x=x, y=y)
         self.block("G0", z=1)
@@ -63,7 +63,7 @@ def ring_pocket(p, centre, outer, inner, top, bottom, step_down=1.5, cutter=3.17
 
 
 def dish(p):
-    p.say("stepped dish with a post in the middle")
+    p.say("stepped dish with a post in the centre")
     ring_pocket(p, (70, 55), outer=17, inner=3.5, top=0, bottom=-3)
     ring_pocket(p, (70, 55), outer=11, inner=3.5, top=-3, bottom=-6)
 
@@ -110,12 +110,12 @@ LETTERS = {
 
 
 def stroke(p, points, deep):
-    """A groove that swells from nothing to its depth within 1.5 mm, as a chisel would cut it."""
+    """A groove whose depth ramps from 0 within 1.5 mm at both ends, like a chisel cut."""
     (x0, y0), (x1, y1) = points[0], points[1]
-    share = min(1.5 / math.dist(points[0], points[1]), 0.5)
+    fraction = min(1.5 / math.dist(points[0], points[1]), 0.5)
     p.above(x0, y0)
     p.block("G1", z=0, f=300)
-    p.block("G1", x=x0 + share * (x1 - x0), y=y0 + share * (y1 - y0), z=-deep, f=700)
+    p.block("G1", x=x0 + fraction * (x1 - x0), y=y0 + fraction * (y1 - y0), z=-deep, f=700)
     for x, y in points[1:-1]:
         p.block("G1", x=x, y=y)
     (xa, ya), (xb, yb) = points[-2], points[-1]
@@ -126,11 +126,11 @@ def stroke(p, points, deep):
 
 def lettering(p):
     p.say("lettering")
-    for place, letter in enumerate("KERF"):
-        dx, dy = 14 + 17 * place, 10
+    for index, letter in enumerate("KERF"):
+        dx, dy = 14 + 17 * index, 10
         for points in LETTERS[letter]:
             stroke(p, [(x + dx, y + dy) for x, y in points], 1.3)
-        if letter == "R":  # its bowl is half a circle
+        if letter == "R":  # its bowl is a half circle
             p.above(dx + 5, dy + 14)
             p.block("G1", z=-1.3, f=300)
             p.block("G2", x=dx + 5, y=dy + 7, i=0, j=-3.5, f=700)
@@ -145,13 +145,13 @@ def chamfer(p, width=1.2):
 
 
 def ripple(x, y):
-    """Height of the relief: rings that die away from the middle of a field of 40 x 40."""
+    """Height of the relief: rings that decay from the centre of a field of 40 x 40."""
     r = math.hypot(x - 26, y - 54)
     return -1.9 + 1.6 * math.cos(0.55 * r) * math.exp(-r / 22)
 
 
 def thinned(points, tolerance=0.004):
-    """The points of a raster line (x, z) without those that the others give within the tolerance."""
+    """The points of a raster line (x, z) without those that interpolation gives within the tolerance."""
     (x0, z0), (x1, z1) = points[0], points[-1]
     worst, at = 0.0, 0
     for i, (x, z) in enumerate(points[1:-1], 1):
@@ -169,7 +169,7 @@ def relief(p, radius=1.5875, step_over=0.4, step=0.25):
     ball = [(dx, dy, math.sqrt(radius**2 - dx**2 - dy**2) - radius)
             for dx in reach for dy in reach if dx**2 + dy**2 < radius**2]
 
-    def tip(x, y):  # as deep as the ball can go without cutting below the wanted surface anywhere
+    def tip(x, y):  # as deep as the ball can go without gouging the surface
         return max(ripple(x + dx, y + dy) + lift for dx, dy, lift in ball)
 
     count, rows = round(40 / step), round(40 / step_over)

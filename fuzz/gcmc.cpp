@@ -9,30 +9,30 @@
 
 namespace {
 
-class Nobody final : public kerf::GcmcOutput {
+class NullOutput final : public kerf::GcmcOutput {
  public:
   void message(const kerf::GcmcMessage& m) override {
-    if (++said_ < 100) (void)kerf::to_line(m);
-    stop_ = said_ > kMostMessages;
+    if (++messages_ < 100) (void)kerf::to_line(m);
+    stop_ = messages_ > kMaxMessages;
   }
   void text(std::string_view) override {}
   bool too_talkative() const { return stop_; }
 
  private:
-  static constexpr int kMostMessages = 20'000;
-  int said_ = 0;
+  static constexpr int kMaxMessages = 20'000;
+  int messages_ = 0;
   bool stop_ = false;
 };
 
 class Patience final : public kerf::Progress {
  public:
-  explicit Patience(const Nobody& nobody) : nobody_(nobody) {}
+  explicit Patience(const NullOutput& output) : output_(output) {}
   void phase(std::string_view) override {}
   void report(double) override {}
-  bool stop_requested() override { return ++looks_ > 20 || nobody_.too_talkative(); }
+  bool stop_requested() override { return ++looks_ > 20 || output_.too_talkative(); }
 
  private:
-  const Nobody& nobody_;
+  const NullOutput& output_;
   int looks_ = 0;
 };
 
@@ -44,18 +44,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.max_memory = std::size_t{16} << 20;
   options.max_path_steps = 20'000;
   options.max_calls = 300;
-  if (size > 0) {  // the first byte chooses
+  if (size > 0) {  // the first byte selects the options
     options.imperial = (data[0] & 1) != 0;
     options.relative = (data[0] & 2) != 0;
     options.brief = (data[0] & 4) != 0;
     options.target = (data[0] & 8) != 0 ? kerf::GcmcTarget::svg : kerf::GcmcTarget::gcode;
     ++data, --size;
   }
-  Nobody nobody;
-  Patience patience(nobody);
+  NullOutput output;
+  Patience patience(output);
   kerf::Diagnostics diagnostics;
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  const kerf::GcmcRun run = kerf::run_gcmc(text, options, nobody, diagnostics, &patience);
+  const kerf::GcmcRun run = kerf::run_gcmc(text, options, output, diagnostics, &patience);
   if (options.target == kerf::GcmcTarget::svg) {
     (void)kerf::gcmc_svg(run.path, {});
     (void)kerf::gcmc_dxf(run.path, {});

@@ -1,4 +1,4 @@
-// Any bytes as an outline file: read, cut in both ways of sharing, drawn and given a thickness.
+// Any bytes as an outline file: read, cut in both ways of sharing, drawn and extruded.
 #include <cstdint>
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// Any bytes as a printing program: what is read of it is laid and, where it is small, meshed. No crash, no
-// hang, figures that add up, a mesh that is sound.
+// Any bytes as a printing program: it is simulated and, if small, meshed. No crash, no hang, consistent
+// figures, a valid mesh.
 #include "kerf/print.h"
 
 #include <algorithm>

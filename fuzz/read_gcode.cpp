@@ -14,7 +14,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Looks at all that a step and its origin hold.
+/// Reads every field of a step and its origin.
 void touch(const kerf::Toolpath& path) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const kerf::Step& s = path[i];

@@ -1,4 +1,4 @@
-// Fuzz target: mesh files and left-over stock, and what becomes of them as columns. The first byte picks the
+// Fuzz target: mesh files and left-over stock, and their columns. The first byte selects the
 // format.
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace {
 
-/// Runs of every column must be in order and apart.
+/// Runs of every column must be ordered and separate.
 void check(const kerf::ColumnRuns& columns) {
   for (int j = 0; j < columns.ny; ++j) {
     for (int i = 0; i < columns.nx; ++i) {

@@ -1,4 +1,4 @@
-// Any bytes as a post file: no crash, and what is read can write a small toolpath.
+// Any bytes as a post file: no crash, and a valid profile can write a small toolpath.
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

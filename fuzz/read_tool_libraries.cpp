@@ -1,4 +1,5 @@
-// Fuzz target: tool libraries of other programs, machine files and material files. The first byte picks one.
+// Fuzz target: tool libraries of other programs, machine files and material files. The first byte selects the
+// kind.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -11,7 +12,7 @@
 
 namespace {
 
-/// What was read can be written, and what is written can be read.
+/// Tools that were read can be written and read again.
 void round_trip(const kerf::ToolTable& table) {
   kerf::Diagnostics diagnostics;
   (void)kerf::write_linuxcnc_table(table, 25.4, diagnostics);

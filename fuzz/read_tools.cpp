@@ -1,5 +1,5 @@
-// Fuzz target: tool files, tool options, tool comments, stock comments, tool numbers. The first byte picks
-// one.
+// Fuzz target: tool files, tool options, tool comments, stock comments, tool numbers. The first byte selects
+// the kind.
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -10,12 +10,12 @@
 
 namespace {
 
-/// What was accepted must be a solid that can be asked; asking it must not fail either.
+/// An accepted tool must be a solid that answers queries without failure.
 void use(const kerf::Tool& tool) {
   const double top = tool.silhouette.cutting.top();
   if (!(top > 0.0) || !(tool.diameter.mm() > 0.0)) std::abort();
-  for (const double share : {0.0, 0.3, 1.0}) {
-    const double radius = tool.silhouette.cutting.radius_at(share * top);
+  for (const double fraction : {0.0, 0.3, 1.0}) {
+    const double radius = tool.silhouette.cutting.radius_at(fraction * top);
     if (!(radius >= 0.0) || !(radius <= tool.silhouette.cutting.max_radius() * (1.0 + 1e-6) + 1e-9))
       std::abort();
   }

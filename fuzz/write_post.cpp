@@ -1,5 +1,5 @@
-// Any bytes as a G-code program, written by a post and drawn: no crash, no output without bound, and what is
-// written without an error has nothing that the linter refuses.
+// Any bytes as a G-code program, written by a post and drawn: no crash, no unbounded output, and output
+// without errors passes the linter.
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -26,10 +26,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   kerf::PostOptions options;
   options.program_name = text.substr(0, 40);
   if (size % 2 != 0) options.unit = kerf::LengthUnit::inch;
-  kerf::Diagnostics said(5);
-  for (const kerf::PostedFile& file : kerf::post(program.path, profile, options, said)) {
+  kerf::Diagnostics diagnostics(5);
+  for (const kerf::PostedFile& file : kerf::post(program.path, profile, options, diagnostics)) {
     kerf::Diagnostics found(5);
-    if (said.has_errors() || kerf::lint_gcode(file.text, profile, "written", found)) continue;
+    if (diagnostics.has_errors() || kerf::lint_gcode(file.text, profile, "written", found)) continue;
     for (const kerf::Diagnostic& d : found.list()) std::fprintf(stderr, "%s\n", to_string(d).c_str());
     std::abort();
   }

@@ -21,7 +21,9 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/geometry.h"
+#include "kerf/limits.h"
 #include "kerf/origin.h"
+#include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
 
@@ -71,9 +73,7 @@ struct DrillFault {
   Code code;            // cycle_upside_down, word_missing (peck) or word_out_of_range (too many pecks)
   std::string message;  // without a final period
 };
-/// Pecks in one hole: a limit against a peck that is mistyped.
-inline constexpr double kMaxPecks = 100'000;
-std::optional<DrillFault> fault_of(const DrillCycle& cycle, double max_pecks = kMaxPecks);
+std::optional<DrillFault> fault_of(const DrillCycle& cycle, double max_pecks = limits::kMaxPecks);
 
 /// A lower bound of the number of steps, to be compared with a limit before the steps are made.
 double min_steps(const DrillCycle& cycle);

@@ -15,7 +15,8 @@
 // the corner is round, as a nozzle is; free ends get half a turn of the cross-section, told apart (`ends`).
 //
 // Filament that is pushed while the nozzle stands first makes good what was drawn back; more of it is a
-// *blob*, which is told and not laid, since nothing tells its shape. So is a "road" wider than kWidestRoad.
+// *blob*, which is told and not laid, since nothing tells its shape. So is a "road" wider than
+// limits::kMaxBeadWidth.
 //
 // Material is columns of intervals, as in workpiece.h; they stand on the bed and grow by union. Each interval
 // end has the step that made it, the earlier one where two made it. Lengths in mm, work coordinates.
@@ -33,16 +34,15 @@
 #include <vector>
 
 #include "kerf/diagnostics.h"
+#include "kerf/limits.h"
 #include "kerf/mesh.h"
 #include "kerf/progress.h"
+#include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
 #include "kerf/workpiece.h"
 
 namespace kerf {
-
-/// A road that would be wider counts as a blob.
-inline constexpr Length kWidestRoad = mm(20);
 
 struct PrintOptions {
   Length resolution = mm(0);  // column pitch; 0 chooses one: a fifth of the usual road's width or, for a
@@ -50,10 +50,11 @@ struct PrintOptions {
   unsigned threads = 0;       // 0: as many as the machine has
   std::optional<Length> layer_height = {};  // of roads whose step tells none; nothing: told as said above
   Length bed = mm(0);                       // Z of the bed's face
-  Length contact_depth = mm(0.01);          // the nozzle in material by less than this is no hazard
-  Volume least_blob = mm3(0.01);            // less is no blob
-  std::size_t max_columns = 400'000'000;    // more is an error
-  std::size_t max_intervals = 100'000'000;  // more is an error; 20 bytes each
+  Length contact_depth =
+      default_tolerance::kNozzleDepth;  // the nozzle in material by less than this is no hazard
+  Volume least_blob = mm3(0.01);        // less is no blob
+  std::size_t max_columns = limits::kMaxColumns;
+  std::size_t max_intervals = limits::kMaxPrintIntervals;
 };
 
 enum class PrintHazardKind : std::uint8_t {

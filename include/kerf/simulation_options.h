@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kerf/limits.h"
+#include "kerf/tolerance.h"
 #include "kerf/units.h"
 
 namespace kerf {
@@ -16,8 +18,8 @@ struct SimulationOptions {
   Length resolution;     // column pitch; 0 chooses one: that of left-over stock, else about 2.5
                          // million columns, from 0.02 to 1 mm; for a huge stock more
   unsigned threads = 0;  // 0: as many as the machine has. The result is the same for any number.
-  std::size_t max_columns = 400'000'000;  // more is an error that names a possible resolution
-  Length hazard_depth = mm(0.001);        // contacts shallower than this are not hazards
+  std::size_t max_columns = limits::kMaxColumns;          // more is an error that names a possible resolution
+  Length hazard_depth = default_tolerance::kHazardDepth;  // contacts shallower than this are not hazards
   SolidRole role = SolidRole::stock;
 };
 

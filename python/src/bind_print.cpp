@@ -4,6 +4,7 @@
 #include "bindings.h"
 #include "simulation_result.h"
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
 
@@ -25,7 +26,8 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
   options.resolution = mm(resolution);
   options.threads = static_cast<unsigned>(whole_within(threads, 0, limits::kMaxThreads, "threads"));
   if (layer_height)
-    options.layer_height = mm(number_within(*layer_height, 0.02, kWidestRoad.mm(), "layer_height", "mm"));
+    options.layer_height =
+        mm(number_within(*layer_height, 0.02, limits::kMaxBeadWidth, "layer_height", "mm"));
   options.bed = mm(number_within(bed, -limits::kMaxStockSize, limits::kMaxStockSize, "bed", "mm"));
   Diagnostics diagnostics;
   SignalProgress progress;

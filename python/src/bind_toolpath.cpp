@@ -200,8 +200,8 @@ void bind_extrude(py::class_<Toolpath>& c) {
         step::Extrude bead;
         bead.to = to_point3(to, "to");
         bead.feed = positive_feed(feed);
-        bead.width = mm(number_within(width, 0.0, kWidestRoad.mm(), "width", "mm"));
-        bead.height = mm(number_within(height, 0.0, kWidestRoad.mm(), "height", "mm"));
+        bead.width = mm(number_within(width, 0.0, limits::kMaxBeadWidth, "width", "mm"));
+        bead.height = mm(number_within(height, 0.0, limits::kMaxBeadWidth, "height", "mm"));
         bead.volume = mm3(volume ? number_within(*volume, -limits::kMaxExtrudedVolume,
                                                  limits::kMaxExtrudedVolume, "volume", "mm3")
                                  : volume_of_road(path, bead.to, width, height));

@@ -68,8 +68,8 @@ namespace {
 
 /// A length or angle as the seeds' programs print it: two places at least where it is round or an angle.
 std::string field(double value, int least_places) {
-  constexpr int kMostPlaces = 6;
-  const std::string text = number_text(value, kMostPlaces);
+  constexpr int kMaxDecimals = 6;
+  const std::string text = number_text(value, kMaxDecimals);
   const std::size_t point = text.find('.');
   const auto places = point == std::string::npos ? 0 : static_cast<int>(text.size() - point) - 1;
   return places < least_places ? fixed_text(value, least_places) : text;

@@ -1,4 +1,4 @@
-"""Who includes whom: reads every #include and fails on a wrong arrow or a ring (see ARCHITECTURE.md).
+"""Dependencies of modules: reads every #include and fails on a wrong arrow or a cycle (see ARCHITECTURE.md).
 
 A new module or public header is added to the two tables below, in the same change as to ARCHITECTURE.md.
 """
@@ -23,8 +23,8 @@ def rooms(module, uses, order):
             for room, others in order.items()}
 
 
-# What each module may include besides itself. There is no ring, as each line uses only lines above it. A
-# module may include its own rooms, and whoever may include a module may include its rooms.
+# What each module may include besides itself. There is no cycle, as each line uses only lines above it. A
+# module may include its own rooms; permission for a module covers its rooms.
 ALLOWED = {
     "base": set(),
     "geom": {"base"},
@@ -119,7 +119,7 @@ def within(module, modules):
 
 
 def allowed_for(path):
-    """The modules a file may include, or None where the file or its module is not known."""
+    """The modules a file may include, or None if the file or its module is unknown."""
     module = module_of(path)
     if module is not None:
         return ALLOWED[module] | {module} if module in ALLOWED else None
@@ -140,7 +140,7 @@ def resolve(including, name, known):
 
 
 def rings(graph):
-    """Includes that close a ring, as text."""
+    """Include cycles, as text."""
     done, found = set(), []
 
     def visit(node, trail):
@@ -166,7 +166,7 @@ def check(texts):
             continue
         allowed = allowed_for(path)
         if allowed is None:
-            problems.append(f"{path}: of no known module; add it to the tables of tests/tidy/arrows.py")
+            problems.append(f"{path}: unknown module; add it to the tables of tests/tidy/arrows.py")
             continue
         for number, line in enumerate(text.splitlines(), 1):
             match = re.match(r'\s*#\s*include\s*["<]([^">]+)[">]', line)
@@ -175,7 +175,7 @@ def check(texts):
             target = resolve(path, match.group(1), texts)
             if target is None:
                 if match.group(1).startswith("kerf/"):
-                    problems.append(f"{path}:{number}: there is no {match.group(1)}")
+                    problems.append(f"{path}:{number}: {match.group(1)} does not exist")
                 continue
             graph.setdefault(path, []).append(target)
             module = module_of(target)
@@ -202,8 +202,8 @@ def check_links(texts):
 
 def main():
     root = root_of(sys.argv)
-    places = ("src/", "include/", "python/", "tests/unit/", "tests/wasm/", "bench/", "fuzz/")
-    chosen = [p for p in files(root, CPP | {".def"}) if p.as_posix().startswith(places)]
+    folders = ("src/", "include/", "python/", "tests/unit/", "tests/wasm/", "bench/", "fuzz/")
+    chosen = [p for p in files(root, CPP | {".def"}) if p.as_posix().startswith(folders)]
     texts = {p.as_posix(): (root / p).read_text(errors="replace") for p in chosen}
     lists = [p for p in files(root, {".txt"}) if p.name == "CMakeLists.txt" and p.parts[0] == "src"]
     links = {p.as_posix(): (root / p).read_text() for p in lists}

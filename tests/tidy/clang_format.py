@@ -1,4 +1,4 @@
-"""Every C++ file is in clang-format's shape. `--fix` brings them there.
+"""Every C++ file is formatted by clang-format. `--fix` formats them.
 
 Exit status 77 says that clang-format is not installed.
 """
@@ -8,13 +8,13 @@ import sys
 
 from sources import CPP, files, finish, root_of
 
-PROGRAM = "clang-format-14"  # another version formats otherwise
+PROGRAM = "clang-format-14"  # versions differ
 
 
 def main():
     root = root_of(sys.argv)
     if shutil.which(PROGRAM) is None:
-        print(f"clang_format: left out, {PROGRAM} is not installed (./dev test installs it)")
+        print(f"clang_format: skipped, {PROGRAM} is not installed (./dev test installs it)")
         sys.exit(77)
     sources = [str(root / p) for p in files(root, CPP)]
     if "--fix" in sys.argv:
@@ -22,7 +22,7 @@ def main():
     run = subprocess.run([PROGRAM, "--dry-run", "-Werror", *sources], capture_output=True, text=True)
     problems = [line for line in run.stderr.splitlines() if "error:" in line]
     if problems:
-        problems.append("./dev format mends these")
+        problems.append("./dev format fixes these")
     finish("clang_format", problems or ([run.stderr] if run.returncode else []))
 
 

@@ -5,7 +5,7 @@ import sys
 from sources import files, finish, root_of
 
 TABLE = "include/kerf/codes.def"
-AREAS = range(1, 10)  # thousands that have a meaning; codes.def says which
+AREAS = range(1, 10)  # thousands in use, see codes.def
 
 
 def parse(text):
@@ -20,16 +20,16 @@ def check(rows, tests):
     for number, name, meaning in rows:
         for key in (number, name):
             if key in seen:
-                problems.append(f"{TABLE}: {key} stands twice")
+                problems.append(f"{TABLE}: {key} occurs twice")
             seen.add(key)
         if number // 1000 not in AREAS:
-            problems.append(f"{TABLE}: {number} {name} is in no area")
+            problems.append(f"{TABLE}: {number} {name} is outside of all areas")
         if number < last:
-            problems.append(f"{TABLE}: {number} {name} stands after {last}")
+            problems.append(f"{TABLE}: {number} {name} follows {last}")
         if not re.fullmatch(r"[a-z][a-z0-9_]*", name):
             problems.append(f"{TABLE}: {name} is not snake_case")
         if not meaning.rstrip().endswith('."'):
-            problems.append(f"{TABLE}: {number} {name}: the meaning is a sentence and ends with a full stop")
+            problems.append(f"{TABLE}: {number} {name}: the meaning must be a sentence with a full stop")
         if not re.search(rf"\b({name}|{number})\b", tests):
             problems.append(f"{TABLE}: no test provokes {number} {name}")
         last = max(last, number)
@@ -41,7 +41,7 @@ def main():
     text = (root / TABLE).read_text()
     rows = parse(text)
     whole = len(rows) == len(re.findall(r"^KERF_CODE\(", text, re.M))
-    problems = [] if whole else [f"{TABLE}: a row is misshapen"]
+    problems = [] if whole else [f"{TABLE}: a row is malformed"]
     tests = [p for p in files(root, {".cpp", ".py", ".json", ".nc", ".toml"})
              if p.parts[0] == "tests" and p.parts[1] not in ("tidy", "wasm")]
     finish("codes", problems + check(rows, "\n".join((root / p).read_text(errors="replace") for p in tests)))

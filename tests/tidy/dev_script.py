@@ -1,4 +1,4 @@
-"""The scripts are sound shell, and what README and the presets promise of ./dev exists."""
+"""The scripts are valid shell, and the commands and presets that the documents name exist."""
 import json
 import re
 import subprocess
@@ -16,18 +16,18 @@ def main():
     demo = re.search(r"^demo\(\) \{.*?^\}", (root / "dev").read_text(), re.M | re.S)
     modules = r"build --target kerf kerf_python kerf_outline_python$"
     if demo is None or not re.search(modules, demo.group(), re.M):
-        problems.append("dev: README says that demo builds the Python modules, but it does not")
+        problems.append("dev: demo does not build the Python modules, as README states")
     usage = subprocess.run([str(root / "dev"), "help"], capture_output=True, text=True, check=True).stdout
     known = set(re.findall(r"^  ([a-z]+) ", usage, re.M))
     presets = json.loads((root / "CMakePresets.json").read_text())
     names = {preset["name"] for preset in presets["configurePresets"]}
     for document in ("README.md", "CONTRIBUTING.md", "ARCHITECTURE.md"):
         text = (root / document).read_text()
-        problems += [f"{document}: ./dev {word} is no command"
+        problems += [f"{document}: ./dev {word} is not a command"
                      for word in re.findall(r"\./dev ([a-z]+)", text) if word not in known]
         problems += [f"{document}: preset {word} does not exist"
                      for word in re.findall(r"--preset (\w+)", text) if word not in names]
-        problems += [f"{document}: the link {target} leads nowhere"
+        problems += [f"{document}: the link {target} does not exist"
                      for target in re.findall(r"\]\(([^)#:]+)\)", text) if not (root / target).exists()]
     finish("dev_script", problems)
 

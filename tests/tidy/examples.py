@@ -1,4 +1,4 @@
-"""The bundled examples are what their scripts write."""
+"""The bundled examples equal the output of their scripts."""
 import subprocess
 import sys
 
@@ -10,7 +10,7 @@ def main():
     script = str(root / "examples/make_demo.py")
     run = subprocess.run([sys.executable, script], capture_output=True, text=True)
     same = run.stdout == (root / "examples/demo.nc").read_text()
-    finish("examples", [] if same else ["examples/demo.nc is not what make_demo.py writes" + run.stderr])
+    finish("examples", [] if same else ["demo.nc differs from the output of make_demo.py" + run.stderr])
 
 
 if __name__ == "__main__":

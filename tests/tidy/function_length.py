@@ -1,4 +1,4 @@
-"""No function is longer than 70 lines, save those of function_length.txt, which may only shrink."""
+"""No function is longer than 70 lines, except those in function_length.txt, which may only shrink."""
 import re
 import sys
 
@@ -53,18 +53,18 @@ def compare(longest, ratchet):
     problems = []
     for name, lines in sorted(longest.items()):
         if name not in ratchet:
-            problems.append(f"{name}: {lines} lines, the limit is {LIMIT}: take it apart")
+            problems.append(f"{name}: {lines} lines, the limit is {LIMIT}: split it")
         elif lines > ratchet[name]:
             problems.append(f"{name}: grew from {ratchet[name]} to {lines} lines")
     for name, lines in sorted(ratchet.items()):
         if longest.get(name, 0) < lines:
             now = longest.get(name, f"at most {LIMIT}")
-            problems.append(f"{name}: now {now} lines: lower or drop it in {RATCHET}")
+            problems.append(f"{name}: now {now} lines: lower or remove it in {RATCHET}")
     return problems
 
 
 def before(root):
-    """The ratchet of the last commit with another content, or None where git has none."""
+    """The ratchet of the last commit with different content, or None if git has none."""
     now = (root / RATCHET).read_text()
     for commit in ("HEAD", "HEAD^"):
         then = git(root, "show", f"{commit}:{RATCHET}")

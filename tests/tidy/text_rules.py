@@ -15,7 +15,7 @@ FOLDERS_IN_ROOT = {
     ".ci", "bench", "cmake", "data", "docs", "editors", "examples", "fuzz", "include", "posts", "python",
     "src", "tests", "web",
 }
-# Paths of one machine have no place in what others read. (Written so that this file does not contain them.)
+# Absolute paths of one machine. (Written so that this file does not contain them.)
 FORBIDDEN = re.compile(r"(?<![\w.])/" + "(work/|root/|home/[a-z]|Users/[a-z])")
 # A decision fits on about a screen; what is longer belongs in docs/benchlog.
 DECISION_LINES = 80
@@ -32,10 +32,10 @@ def check_text(path, text):
     for number, line in enumerate(lines, 1):
         if suffix in LENGTH_SUFFIXES and len(line) > COLUMNS:
             problems.append(f"{path}:{number}: {len(line)} columns, the limit is {COLUMNS}")
-        if place := FORBIDDEN.search(line):
-            problems.append(f"{path}:{number}: names a place of one machine: {place.group()}")
+        if match := FORBIDDEN.search(line):
+            problems.append(f"{path}:{number}: names a path of one machine: {match.group()}")
     if suffix in CPP and not (lines and lines[0].startswith("//")):
-        problems.append(f"{path}:1: a file opens with a comment that says what it is for")
+        problems.append(f"{path}:1: a file starts with a comment that states its purpose")
     return problems
 
 
@@ -63,7 +63,7 @@ def check_decision(path, text, index):
 
 
 def stray(names, folders):
-    """Problems of the root: names of files and folders that are not known there."""
+    """Problems of the root: unknown files and folders."""
     problems = [f"{name}: stray file in the root" for name in sorted(set(names) - IN_ROOT)]
     unknown = sorted(set(folders) - FOLDERS_IN_ROOT)
     return problems + [f"{name}/: stray folder in the root" for name in unknown]
@@ -73,7 +73,7 @@ def main():
     root = root_of(sys.argv)
     every = files(root)
     names = {p.parts[0] for p in every if len(p.parts) == 1}
-    # In a working tree of git, what is git's own or ignored is nobody's stray file.
+    # Files of git itself and ignored files are not stray.
     names = {n for n in names if n != ".git" and git(root, "check-ignore", n) is None}
     problems = stray(names, {p.parts[0] for p in every if len(p.parts) > 1})
     decisions = (root / "docs/decisions/README.md").read_text()

@@ -15,19 +15,19 @@ namespace {
 
 /// A step between two columns that exceeds what the slopes beside it explain by less than this much of a
 /// pitch is left to the centres: curved surfaces have such steps everywhere.
-constexpr Real kLeastStep = 0.25f;
+constexpr Real kMinStep = 0.25f;
 /// The same between two level surfaces, where nothing else explains a step.
-constexpr Real kLeastLevelStep = 0.002f;
+constexpr Real kMinLevelStep = 0.002f;
 /// How much of the lower of the steps beside it explains a step, if all three go the same way: a curve's
 /// slope changes from column to column. And of the higher one: ridges and edges of slopes, whose error is
 /// small against a wall's; but no more than so many pitches, as that one may be a wall itself.
 constexpr Real kExplainedByLower = 2.0f;
 constexpr Real kExplainedByHigher = 1.5f;
-constexpr Real kMostExplained = 4.0f;
+constexpr Real kMaxExplained = 4.0f;
 /// Most squares that are counted anew: a share of all and in any case this many; bounds the time.
-constexpr double kMostShare = 0.25;
+constexpr double kMaxShare = 0.25;
 constexpr std::size_t kAlways = 1 << 16;
-constexpr std::size_t kMostSquares = 1 << 22;
+constexpr std::size_t kMaxSquares = 1 << 22;
 
 /// Micros that memory is asked for ahead.
 constexpr int kAhead = 8;
@@ -82,9 +82,9 @@ Window::Window(const Workpiece::Body& body) : body_(body) {
   const auto pitch = static_cast<Real>(body.pitch);
   rules_.explained_by_lower = kExplainedByLower;
   rules_.explained_by_higher = kExplainedByHigher;
-  rules_.most_explained = kMostExplained * pitch;
-  rules_.per_least = 1 / (kLeastStep * pitch);
-  rules_.per_least_level = 1 / std::max(kLeastLevelStep * pitch, body.same_height);
+  rules_.most_explained = kMaxExplained * pitch;
+  rules_.per_least = 1 / (kMinStep * pitch);
+  rules_.per_least_level = 1 / std::max(kMinLevelStep * pitch, body.same_height);
   rules_.same_height = body.same_height;
 }
 
@@ -190,7 +190,7 @@ Candidates Window::look(std::size_t tile) {
 int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, const Workpiece::Body& body) {
   const double all = static_cast<double>(body.nx) * static_cast<double>(body.ny);
   const std::size_t most =
-      std::min(kMostSquares, std::max(kAlways, static_cast<std::size_t>(kMostShare * all)));
+      std::min(kMaxSquares, std::max(kAlways, static_cast<std::size_t>(kMaxShare * all)));
   std::size_t sum = 0;
   int grade = kGrades;
   while (grade > 0 && sum + count[static_cast<std::size_t>(grade - 1)] <= most)
@@ -200,7 +200,7 @@ int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, con
 
 /// No step of a grade is higher than this many pitches.
 double highest_step(int grade) {
-  return std::ldexp(static_cast<double>(kLeastStep), grade + 1) + static_cast<double>(kMostExplained);
+  return std::ldexp(static_cast<double>(kMinStep), grade + 1) + static_cast<double>(kMaxExplained);
 }
 
 /// The squares with steps of at least a grade.

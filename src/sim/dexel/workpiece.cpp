@@ -50,8 +50,8 @@ Tile::Tile(Real height, int micros, std::shared_ptr<SlotPages> memory) : slots(s
 namespace {
 
 /// Unused slots that are kept in any case, and the share of all that is kept.
-constexpr std::int32_t kMostUnused = 16;
-constexpr std::int32_t kMostUnusedShare = 3;
+constexpr std::int32_t kMaxUnused = 16;
+constexpr std::int32_t kMaxUnusedShare = 3;
 
 }  // namespace
 
@@ -100,7 +100,7 @@ void Tile::drop_chain(int micro) {
 void Tile::pack_slots() {
   std::int32_t unused = 0;
   for (std::int32_t k = free_slot; k >= 0; k = slots.next(k)) ++unused;
-  if (unused < kMostUnused || unused < slots.size() / kMostUnusedShare) return;
+  if (unused < kMaxUnused || unused < slots.size() / kMaxUnusedShare) return;
   Slots packed = slots.none();
   for (std::int32_t& first : chain) {
     std::int32_t* link = &first;

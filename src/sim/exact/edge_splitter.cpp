@@ -17,7 +17,7 @@ constexpr double kBetter = 0.5;
 /// Triangles that turning would make thinner than this are not made, mm.
 constexpr double kThinnest = 1e-4;
 /// A new vertex is no further from its edge than this share of the edge.
-constexpr double kMostMoved = 0.35;
+constexpr double kMaxMoved = 0.35;
 
 /// Of the triangles around a vertex those that face within so much (cosine) of a given one are its surface;
 /// a triangle that bridges an edge belongs to both sides.
@@ -199,7 +199,7 @@ void EdgeSplitter::look_at(std::size_t n, Around& around) {
                           : other_stock ? mesh_.normal(triangle)
                                         : mesh_.normal(triangle) + mesh_.normal(other);
   Point3 at = middle, normal;
-  if (!put_on_surface(nearby, kMostMoved * distance(a, b), outwards, fixed, at, normal)) return;
+  if (!put_on_surface(nearby, kMaxMoved * distance(a, b), outwards, fixed, at, normal)) return;
   for (int axis = 0; axis < 3; ++axis)
     if (at[axis] < 0.0 || at[axis] > size_[axis]) return;
   found = {Verdict::parts, at};

@@ -21,7 +21,7 @@ class EdgeSplitter {
   /// Looks for edges that stray, and turns those where that helps.
   template <class Stop>
   void turn(const Stop& stop) {
-    const int most = first_new_ == 0 ? kMostTurns : kMostTurnsLater;
+    const int most = first_new_ == 0 ? kMaxTurns : kMaxTurnsLater;
     for (int round = 0; round <= most; ++round) {
       may_turn_ = round < most;
       find_suspects();
@@ -49,7 +49,7 @@ class EdgeSplitter {
 
  private:
   /// Rounds of turned edges before vertices are added.
-  static constexpr int kMostTurns = 3, kMostTurnsLater = 1;
+  static constexpr int kMaxTurns = 3, kMaxTurnsLater = 1;
 
   enum class Verdict : std::uint8_t {
     unknown,  // it strays, but no surface is found

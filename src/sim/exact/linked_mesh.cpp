@@ -10,7 +10,7 @@ namespace kerf::sim {
 namespace {
 
 /// A flip can fold another triangle, which is looked at again; not for ever.
-constexpr int kMostUnfolds = 8;
+constexpr int kMaxUnfolds = 8;
 
 }  // namespace
 
@@ -288,7 +288,7 @@ void LinkedMesh::unfold_all(std::vector<std::uint32_t>& changed) {
   std::vector<std::uint32_t> folded;
   for (const std::uint32_t t : changed)
     if (is_folded(t)) folded.push_back(t);
-  for (int round = 0; round < kMostUnfolds && !folded.empty(); ++round) {
+  for (int round = 0; round < kMaxUnfolds && !folded.empty(); ++round) {
     bool any = false;
     std::vector<std::uint32_t> again;
     for (const std::uint32_t t : folded) {

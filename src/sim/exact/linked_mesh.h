@@ -124,9 +124,9 @@ class LinkedMesh {
 
 template <class PlaceBefore>
 void LinkedMesh::settle(std::vector<std::uint32_t>& changed, const PlaceBefore& place_before) {
-  constexpr int kMostReturns = 4;
+  constexpr int kMaxReturns = 4;
   unfold_all(changed);
-  for (int round = 0; round < kMostReturns; ++round) {
+  for (int round = 0; round < kMaxReturns; ++round) {
     std::vector<std::uint32_t> back;
     for (const std::uint32_t t : changed)
       if (is_folded(t)) back.push_back(t);

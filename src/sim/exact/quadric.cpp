@@ -9,7 +9,7 @@ namespace kerf::sim {
 namespace {
 
 /// Each sweep of rotations about squares what is left beside the diagonal: these are more than enough.
-constexpr int kMostSweeps = 12;
+constexpr int kMaxSweeps = 12;
 /// What is left there, as a share of all strengths, when it is below what double precision tells.
 constexpr double kNoCoupling = 1e-16;
 
@@ -63,7 +63,7 @@ const Quadric::Axes& Quadric::axes() const {
             {square_[2], square_[4], square_[5]}}};
   Matrix v{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
   const double least = kNoCoupling * (a[0][0] + a[1][1] + a[2][2]);
-  for (int n = 0; n < kMostSweeps; ++n) {
+  for (int n = 0; n < kMaxSweeps; ++n) {
     if (std::max({std::abs(a[0][1]), std::abs(a[0][2]), std::abs(a[1][2])}) <= least) break;
     rotate(a, v, 0, 1);
     rotate(a, v, 0, 2);

@@ -17,7 +17,7 @@ namespace {
 /// Vertices within this of the block's sides are on them, mm; single precision in work coordinates.
 constexpr double kOnBlock = 1e-4;
 /// A triangle that no cut one touches may be reached through others.
-constexpr int kMostRounds = 4;
+constexpr int kMaxRounds = 4;
 
 class Relabeller {
  public:
@@ -89,7 +89,7 @@ bool Relabeller::take_steps(std::vector<std::size_t>& strays) {
 
 void Relabeller::run() {
   std::vector<std::size_t> strays = find_strays();
-  for (int round = 0; round < kMostRounds && !strays.empty(); ++round)
+  for (int round = 0; round < kMaxRounds && !strays.empty(); ++round)
     if (!take_steps(strays)) return;
 }
 

@@ -13,9 +13,9 @@ constexpr double kFirstLook = 0.45;  // from the vertex: within the square of it
 constexpr double kSecondLook = 0.1;  // from its new place: curves are planes there
 constexpr double kHalfSquare = 0.5;
 constexpr double kOnSide = 1e-9;  // of the square or the block: no further out
-constexpr double kMostMoved = 1.2;
-constexpr double kMostSpan = 10.0;
-constexpr double kMostRefined = 0.6;
+constexpr double kMaxMoved = 1.2;
+constexpr double kMaxSpan = 10.0;
+constexpr double kMaxRefined = 0.6;
 constexpr double kMissed = 0.02;  // a new place that is further off all surfaces is none
 
 /// Places closer to a surface are on it, mm: a tenth of what single precision of a mesh tells.
@@ -23,12 +23,12 @@ constexpr double kOnSurface = 1e-7;
 /// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
 constexpr double kIntoMaterial = 1e-5;
 constexpr int kCloserLooks = 3;
-constexpr int kMostSteps = 12;  // of Newton's method; the distance is nearly linear
+constexpr int kMaxSteps = 12;  // of Newton's method; the distance is nearly linear
 /// Share of the most that a place may move by which it goes into the material at a time, if it is deeper than
 /// the other share in what is cut away.
 constexpr double kInwards = 0.15, kShallow = 1e-3;
 /// A surface that the fixed axes leave less of its slope than this (squared) is met too far away.
-constexpr double kLeastGain = 0.05;
+constexpr double kMinGain = 0.05;
 /// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
 constexpr double kSameSide = 0.1;
 /// Triangles around a vertex that face so nearly the same way (cosine, 11 degrees) are one surface.
@@ -41,7 +41,7 @@ constexpr double kOnePlane = 0.9998;
 constexpr double kFlat = 1.0;
 /// A direction in which planes pull by less than this share of the strongest tells nothing: planes that are
 /// less than 6 degrees apart are one curved surface.
-constexpr double kLeastShare = 0.003;
+constexpr double kMinShare = 0.003;
 
 enum class From : std::uint8_t { either_side, material };
 
@@ -55,7 +55,7 @@ Point3 freed(Point3 way, const std::array<bool, 3>& fixed) {
 bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
                   const std::array<bool, 3>& fixed, Point3& place, Point3& normal) {
   Distance distance = nearby.at(place);
-  for (int n = 0; n < kMostSteps; ++n) {
+  for (int n = 0; n < kMaxSteps; ++n) {
     if (std::abs(distance.value) > most) return false;
     if (from == From::material && distance.value < -kShallow * most) {
       place = place + (kInwards * most - distance.value) * freed(inwards, fixed);
@@ -64,7 +64,7 @@ bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
     }
     const Point3 way = freed(distance.gradient, fixed);
     const double gain = dot(way, way);
-    if (gain < kLeastGain) return false;
+    if (gain < kMinGain) return false;
     place = place - (distance.value / gain) * way;
     // A little inside, since an edge of the tool sweeps a surface of its own, which is only told from there.
     distance = nearby.at(place + kIntoMaterial * inwards);
@@ -176,7 +176,7 @@ Point3 Placer::solved(Point3 from, int directions) const {
   Fixed fixed = fixed_;
   Point3 to = from;
   for (int n = 0; n <= 3; ++n) {
-    to = from + quadric_at(from, fixed).step(directions, kLeastShare);
+    to = from + quadric_at(from, fixed).step(directions, kMinShare);
     int worst = -1;
     double most = kOnSide * pitch_;
     for (int axis = 0; axis < 3; ++axis) {
@@ -201,7 +201,7 @@ double Placer::within(int axis, double value) const {
 }
 
 Point3 Placer::best_step(Point3 from) const {
-  for (int directions = quadric_at(from, fixed_).directions(kLeastShare); directions > 0; --directions) {
+  for (int directions = quadric_at(from, fixed_).directions(kMinShare); directions > 0; --directions) {
     const Point3 to = solved(from, directions);
     if (distance(from, to) <= most_moved_ && (directions == 1 || miss_of(to) <= kMissed * pitch_)) return to;
   }
@@ -242,7 +242,7 @@ bool Placer::is_smooth(std::uint32_t vertex, Point3& outwards) const {
 
 Point3 Placer::on_smooth(Point3 from, Point3 outwards) {
   Sample sample{from, {}, {}};
-  return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, fixed_, sample.at, sample.normal)
+  return sim::put_on_surface(*nearby_, kMaxProjected * pitch_, outwards, fixed_, sample.at, sample.normal)
              ? sample.at
              : from;
 }
@@ -265,7 +265,7 @@ double Placer::most_moved(std::uint32_t vertex, Point3 from) const {
   mesh_.around(vertex, [&](std::uint32_t triangle) {
     span = std::max(span, 1.5 * std::abs(mesh_.middle(triangle).z - from.z));
   });
-  return kMostMoved * pitch_ + std::min(span, kMostSpan * pitch_);
+  return kMaxMoved * pitch_ + std::min(span, kMaxSpan * pitch_);
 }
 
 Point3 Placer::on_edge(std::uint32_t vertex, Point3 from, Around& around) {
@@ -277,7 +277,7 @@ Point3 Placer::on_edge(std::uint32_t vertex, Point3 from, Around& around) {
   for (int n = 0; n < kCloserLooks && !is_flat_enough(); ++n) {
     look_closer(to);
     const Point3 better = best_step(to);
-    if (distance(to, better) > kMostRefined * pitch_) break;
+    if (distance(to, better) > kMaxRefined * pitch_) break;
     to = better;
   }
   const double after = miss_at(to);

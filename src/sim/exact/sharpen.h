@@ -39,7 +39,7 @@ class Placer {
   Point3 place(std::uint32_t vertex, Around& around);
 
  private:
-  static constexpr double kMostProjected = 0.8;  // pitches
+  static constexpr double kMaxProjected = 0.8;  // pitches
   using Fixed = std::array<bool, 3>;
   /// A place on a surface near the vertex and the material's normal there, outwards.
   struct Sample {
@@ -49,7 +49,7 @@ class Placer {
   void add_stock_plane(Point3 from, Point3 normal);
   void find_samples(std::uint32_t vertex, Point3 from);
   bool put_on_surface(Sample& sample, Point3 outwards) const {
-    return sim::put_on_surface(*nearby_, kMostProjected * pitch_, outwards, {}, sample.at, sample.normal);
+    return sim::put_on_surface(*nearby_, kMaxProjected * pitch_, outwards, {}, sample.at, sample.normal);
   }
   bool is_smooth(std::uint32_t vertex, Point3& outwards) const;
   bool is_flat_enough() const;

@@ -27,7 +27,7 @@ constexpr double kGoodEnough = 0.5;
 constexpr double kReach = 0.95;
 
 /// Each round turns edges and then halves those that still stray.
-constexpr int kMostRounds = 5;
+constexpr int kMaxRounds = 5;
 
 class Sharpener {
  public:
@@ -139,10 +139,10 @@ void Sharpener::move(const std::vector<Spot>& spots, const std::vector<Point3>& 
 void Sharpener::split_edges() {
   EdgeSplitter splitter(mesh_, body_, sweeps_, std::move(bends_), tolerance_, threads_);
   const auto stop = [&] { return stopped(); };
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMaxRounds; ++round) {
     splitter.turn(stop);
     if (stopped() || !splitter.part(stop)) return;
-    report(progress_, 0.6 + 0.3 * (round + 1) / kMostRounds);
+    report(progress_, 0.6 + 0.3 * (round + 1) / kMaxRounds);
   }
   splitter.turn(stop);
 }

@@ -19,7 +19,7 @@ struct Span {
 /// Looks along the path of a tool that is not convex are this share of its radius apart, and never more than
 /// so many.
 constexpr double kLookShare = 0.25;
-constexpr int kMostLooks = 64;
+constexpr int kMaxLooks = 64;
 /// The search for the nearest point ends when so little can be gained, mm, or with so short a piece of path.
 constexpr double kDistanceTolerance = 1e-9;
 constexpr double kPathTolerance = 1e-7;
@@ -38,7 +38,7 @@ constexpr int kMeetings = 3;
 /// Where the lowest place is further off than was thought, the next look is so many times as far away.
 constexpr double kLongerStride = 8.0;
 /// Nor are looks nearer to each other than this at first, mm.
-constexpr double kLeastStride = 1e-3;
+constexpr double kMinStride = 1e-3;
 
 /// A sweep that is a line, and a place that looks at it.
 class Looker {
@@ -175,7 +175,7 @@ Nearest Looker::lowest(Span span, double guess, double stride, double enough) co
   bool knows_first = false, knows_last = false;
   Nearest best;
   double t = span.clamp(guess);
-  for (int n = 0; n < kMostLooks; ++n) {
+  for (int n = 0; n < kMaxLooks; ++n) {
     const Look look = at(t);
     if (look.distance.value < best.distance.value) best = {look.distance, t};
     if (look.along >= 0.0) {
@@ -228,7 +228,7 @@ Nearest Looker::lowest(Span span, double guess, double stride, double enough) co
 /// Looks that are near enough to each other have at most one lowest place between them.
 Nearest Looker::lowest_of_many(Span span, double enough) const {
   const double wanted = std::ceil(span.width() / look_width());
-  const int pieces = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMostLooks)));
+  const int pieces = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMaxLooks)));
   const auto place = [&](int k) { return span.first + span.width() * k / pieces; };
   Nearest best;
   const auto take = [&](const Nearest& found) {
@@ -296,7 +296,7 @@ Nearest nearest_beside(const Sweep& sweep, const ToolDistance& tool, Point3 plac
   // Of several lowest places another one may be the lowest now.
   if (!tool.is_convex()) return looker.lowest_of_many(span, enough);
   const double guess = known.where + looker.share_along(moved);
-  return looker.lowest(span, guess, std::max(length(moved), kLeastStride), enough);
+  return looker.lowest(span, guess, std::max(length(moved), kMinStride), enough);
 }
 
 DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {

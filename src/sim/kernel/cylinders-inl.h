@@ -23,14 +23,14 @@ HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
 inline constexpr int kBundles = kLanes;  // of a group: one bit of a mask each
-inline constexpr int kMostBundled = 8;   // sweeps of a bundle
-inline constexpr int kMostSweeps = kBundles * kMostBundled;
+inline constexpr int kMaxBundled = 8;    // sweeps of a bundle
+inline constexpr int kMaxSweeps = kBundles * kMaxBundled;
 inline constexpr Real kBundleLength = 3;  // pitches, where sweeps are that short
 /// What is left to rounding where blocks are compared, pitches.
 inline constexpr Real kBlockMargin = 0.01f;
 /// Sweeps of a bundle turn away from its chord by less than the angle with this cosine, or no block counts as
 /// wholly before it or behind it.
-inline constexpr Real kLeastCosine = 0.5f;
+inline constexpr Real kMinCosine = 0.5f;
 
 /// A level sweep from the tile's first column.
 struct DiscSweep {
@@ -57,10 +57,10 @@ struct CylinderGroup {
   const LaneSolid* solid = nullptr;
   int count = 0, each = 1;                 // sweeps, and how many make a bundle
   Real low[kFewPieces], high[kFewPieces];  // what the cylinders take
-  DiscSweep sweep[kMostSweeps];
+  DiscSweep sweep[kMaxSweeps];
   // One more for columns that no sweep meets.
-  std::uint32_t step[kMostSweeps + 1];
-  Lanes taken[kMostSweeps + 1];  // length of column, weighted
+  std::uint32_t step[kMaxSweeps + 1];
+  Lanes taken[kMaxSweeps + 1];  // length of column, weighted
   int bundles = 0;
   Bundle bundle[kBundles];
   BundleBits supers, micros;
@@ -116,7 +116,7 @@ HWY_INLINE BundleChord chord_of(const DiscSweep* sweeps, int count, Real rim) {
     way += s.length;
     all_follow = all_follow && s.follows;
   }
-  if (cosine < kLeastCosine) return {along_x, along_y, length, way, kFar};
+  if (cosine < kMinCosine) return {along_x, along_y, length, way, kFar};
   const Real bulge = sine * way;
   return {along_x, along_y, length, bulge, all_follow ? bulge + sine / cosine * (rim + way) : kFar};
 }
@@ -191,10 +191,10 @@ HWY_INLINE Vector nearest_on_the_way(const DiscSweep& s, Vector x, Vector y, Vec
   return lower_of(distance2, square(x + (s.end_x - s.begin_x)) + square(y + (s.end_y - s.begin_y)));
 }
 
-/// The number of the first sweep over each column; kMostSweeps where there is none.
+/// The number of the first sweep over each column; kMaxSweeps where there is none.
 HWY_INLINE Ids first_over(const CylinderGroup& group, const MicroPlaces& places, unsigned bundles,
                           unsigned passed, Real rim2) {
-  Ids first = all_ids(kMostSweeps);
+  Ids first = all_ids(kMaxSweeps);
   while (bundles != 0) {  // the latest first, so that the others only have to take columns over
     const int b = 31 - __builtin_clz(bundles);
     bundles ^= 1u << b;
@@ -216,7 +216,7 @@ HWY_INLINE Ids first_over(const CylinderGroup& group, const MicroPlaces& places,
 /// Takes a cylinder from the columns of a micro, each by the sweep whose number it has.
 HWY_INLINE void take_by_numbers(CylinderGroup& group, const TileJob& job, int micro, std::size_t piece,
                                 Ids numbers) {
-  const Mask none = numbers == all_ids(kMostSweeps);
+  const Mask none = numbers == all_ids(kMaxSweeps);
   const unsigned met = bits_of(~none);
   if (met == 0) return;
   alignas(64) std::uint32_t number[kLanes];
@@ -234,7 +234,7 @@ HWY_INLINE void take_by_numbers(CylinderGroup& group, const TileJob& job, int mi
 /// The same where only few sweeps come in question: no look at each column.
 HWY_INLINE void take_by_few(CylinderGroup& group, const TileJob& job, int micro, std::size_t piece,
                             Ids numbers) {
-  const Mask none = numbers == all_ids(kMostSweeps);
+  const Mask none = numbers == all_ids(kMaxSweeps);
   alignas(64) std::uint32_t number[kLanes];
   store_ids(numbers, number);
   const unsigned met = bits_of(~none);
@@ -298,8 +298,8 @@ HWY_INLINE int gather_cylinders(CylinderGroup& group, const TileJob& job, std::s
   const Sweep& like = job.sweeps[job.list[first]];
   const double pitch = job.field->pitch, bundle = static_cast<double>(kBundleLength) * pitch;
   group.solid = &(*job.tools)[like.tool].cutting;
-  group.each = like.length * kMostBundled > bundle ? std::max(1, static_cast<int>(bundle / like.length))
-                                                   : kMostBundled;
+  group.each =
+      like.length * kMaxBundled > bundle ? std::max(1, static_cast<int>(bundle / like.length)) : kMaxBundled;
   most = std::min(most, static_cast<std::size_t>(kBundles * group.each));
   int count = 0;
   for (; static_cast<std::size_t>(count) < most; ++count) {
@@ -316,8 +316,8 @@ HWY_INLINE int gather_cylinders(CylinderGroup& group, const TileJob& job, std::s
     group.step[count] = sweep.step;
     store(0, group.taken[count]);
   }
-  group.step[kMostSweeps] = 0;
-  store(0, group.taken[kMostSweeps]);
+  group.step[kMaxSweeps] = 0;
+  store(0, group.taken[kMaxSweeps]);
   return group.count = count;
 }
 

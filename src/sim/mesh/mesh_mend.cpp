@@ -14,7 +14,7 @@ namespace kerf::meshing {
 namespace {
 
 /// A flip can leave another flat triangle, which is looked at again; not for ever.
-constexpr int kMostRounds = 8;
+constexpr int kMaxRounds = 8;
 /// Triangles around a vertex, mostly no more.
 constexpr std::size_t kAround = 8;
 
@@ -260,7 +260,7 @@ void Mender::drop_gone_vertices() {
 
 void Mender::mend_all() {
   find_flat();
-  for (int round = 0; round < kMostRounds && !flat_.empty(); ++round) {
+  for (int round = 0; round < kMaxRounds && !flat_.empty(); ++round) {
     if (!knows_around()) gather_around();
     bool any = false;
     for (const std::size_t t : flat_)

@@ -20,6 +20,7 @@
 #include "sim/print/print_survey.h"
 #include "sim/print/print_tile.h"
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -355,7 +356,8 @@ void Printer::check_size() {
   ended_ = true;
   if (too_deep) {
     diagnostics_.error(Code::print_too_large, {},
-                       fmt::format("more than {} roads lie above one place without touching", kMostRuns));
+                       fmt::format("more than {} roads lie above one place without touching",
+                                   limits::kMaxIntervalsPerColumn));
     return;
   }
   diagnostics_

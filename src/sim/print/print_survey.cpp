@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <limits>
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf::printing {
@@ -17,7 +18,6 @@ constexpr double kChosenColumns = 4e6;    // where no pitch is told
 constexpr double kChosenIntervals = 2e7;  // likewise; every column of every road may keep one
 constexpr double kPitchDigits = 1000.0;   // a chosen pitch is whole in this part of a mm
 constexpr double kCoarse = 0.5;           // of the usual road's width
-constexpr double kLargestPrint = 1e5;     // mm along an edge, as simulate has it
 constexpr int kMargin = 2;                // columns without material around the print
 constexpr double kTouch = 1e-4;           // mm, and in units of the height's last place:
 constexpr double kTouchUlps = 4.0;
@@ -76,7 +76,8 @@ std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& option
   }
   const Point3 size = survey.box.size();
   const double high = survey.box.high.z - options.bed.mm();
-  if (!(size.x < kLargestPrint && size.y < kLargestPrint && std::abs(high) < kLargestPrint)) {
+  if (!(size.x < limits::kMaxStockSize && size.y < limits::kMaxStockSize &&
+        std::abs(high) < limits::kMaxStockSize)) {
     diagnostics.error(Code::print_too_large, {},
                       fmt::format("the print is {} x {} x {} mm, which cannot be meant",
                                   number_text(size.x, 0), number_text(size.y, 0), number_text(high, 0)));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kerf/limits.h"
+
 namespace kerf::printing {
 namespace {
 
@@ -169,7 +171,7 @@ std::uint32_t Tile::find_above(int column, float height) {
   int walked = 0;
   for (std::uint32_t n = link(kNoNode, column); n != kNoNode && nodes_[n].low > height; n = nodes_[n].below) {
     above = n;
-    if (++walked <= kMostRuns) continue;
+    if (++walked <= limits::kMaxIntervalsPerColumn) continue;
     too_deep_ = true;
     break;
   }

@@ -12,10 +12,6 @@ namespace kerf::printing {
 
 inline constexpr int kTileSide = 64;  // columns along a tile's edge
 inline constexpr std::uint32_t kNoNode = 0xffffffffu;
-/// Runs in a column that are walked past at most; a print of so many layers with gaps between all of them is
-/// not held. It bounds the time that a program made for it could take.
-inline constexpr int kMostRuns = 20'000;
-
 /// Columns stand at (k + kShift) * pitch along X and Y: a place that no round number hits, so that no column
 /// stands on the line in which two roads meet.
 inline constexpr double kShift = 0.381966;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf::printing {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kStanding = 1e-6;         // mm in the plan; a move of less lays no road
 constexpr double kUsualLayer = 0.2;        // mm, where nothing tells a height
 constexpr Length kTravelChord = mm(0.05);  // how far a travel's chords may stray from its arc
-constexpr int kMostChords = 10'000;
+constexpr int kMaxChords = 10'000;
 /// A width that the comments tell may be so far (as a share) from what E gives. Rounded E words and slicers
 /// that reckon with rectangles stay below; another filament diameter (2.85 for 1.75) is far above.
 constexpr double kWidthSlack = 0.3;
@@ -76,7 +77,7 @@ class Reader {
     const auto number = static_cast<std::uint32_t>(context.index);
     if (step.kind() != StepKind::arc) return sink_.travel(number, context.from, step.to());
     const ArcWalk walk = walk_of(step, context.from);
-    const int chords = walk.chords(kTravelChord, kMostChords);
+    const int chords = walk.chords(kTravelChord, kMaxChords);
     Point3 from = context.from;
     for (int i = 1; i <= chords; ++i) {
       const Point3 to = i == chords ? step.to() : walk.at(i / static_cast<double>(chords));
@@ -126,7 +127,7 @@ class Reader {
     road.volume = volume;
     road.goes_on = last_.has_value();
     find_section(road);
-    if (!(road.section.width <= kWidestRoad.mm())) {
+    if (!(road.section.width <= limits::kMaxBeadWidth)) {
       finish_chain();
       sink_.blob(road.step, road.from, volume);
       return sink_.travel(road.step, road.from, road.to);

@@ -8,13 +8,14 @@
 
 #include "sim/render/render_raster.h"
 
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace rendering {
 namespace {
 
 using Colour = Point3;  // linear light, 0 to 1
 
-constexpr int kLargest = 8192;             // pixels a side
 constexpr double kMargin = 0.06;           // share of the picture around the part
 constexpr double kViewDistance = 3.6;      // of the viewer, in radii of the part
 constexpr int kShadowSize = 3072;          // samples a side of the shadow map
@@ -133,8 +134,8 @@ class Painter {
 Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view)
     : mesh_(mesh),
       colours_(colours),
-      width_(std::clamp(view.width, 1, kLargest)),
-      height_(std::clamp(view.height, 1, kLargest)),
+      width_(std::clamp(view.width, 1, limits::kMaxPictureSide)),
+      height_(std::clamp(view.height, 1, limits::kMaxPictureSide)),
       fine_(static_cast<std::int64_t>(width_) * height_ > 4096 * 4096 ? 1 : 2) {
   for (std::size_t v = 0; 3 * v + 2 < mesh.positions.size(); ++v)
     box_.add(vertex(mesh, static_cast<std::uint32_t>(v)));

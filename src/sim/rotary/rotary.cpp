@@ -17,6 +17,7 @@
 #include "sim/sweep/solid.h"
 #include "sim/sweep/survey.h"
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -28,10 +29,9 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 /// the third power of the rays' number along a line, for the row of standing tools becomes denser too.
 constexpr double kUsualRays = 1e5;
 constexpr double kFinest = 0.02, kCoarsest = 1.0;  // mm, of the usual distance of rays
-constexpr double kLeast = 1e-3;                    // mm, of any
-constexpr double kMostPoses = 1e8;                 // hours of work
-constexpr double kLargestBar = 1e4;                // mm
-constexpr double kFarthest = 1e6;                  // mm
+constexpr double kMinSpacing = 1e-3;               // mm, of any
+constexpr double kMaxPoses = 1e8;                  // hours of work
+constexpr double kMaxReach = 1e6;                  // mm
 constexpr int kSlabRows = 8;                       // rays along the bar that one thread takes at a time
 const Length kProfileChord = mm(0.001);            // frusta for arcs of a tool
 const Length kPathChord = mm(0.002);               // chords for arcs of the path
@@ -105,11 +105,11 @@ bool Reader::run() {
   judges_spindle_ = has_spindle && !has_laser;
   const std::size_t errors = diagnostics_.errors();
   for_each_motion(path_, [&](const Step& step, const MotionContext& context) { add(step, context); });
-  if (poses_ > kMostPoses)
+  if (poses_ > kMaxPoses)
     diagnostics_
-        .error(Code::rotary_limit, {},
-               fmt::format("the job needs {:.0f} places of the tool; at most {:.0f} are cut", poses_,
-                           kMostPoses))
+        .error(
+            Code::rotary_limit, {},
+            fmt::format("the job needs {:.0f} places of the tool; at most {:.0f} are cut", poses_, kMaxPoses))
         .hint = "a coarser resolution needs fewer";
   return diagnostics_.errors() == errors;
 }
@@ -146,7 +146,7 @@ std::optional<std::uint32_t> Reader::tool_of(const Step& step, const MotionConte
 }
 
 void Reader::push(RotaryMotion motion) {
-  if (!(length(motion.from) < kFarthest) || !(length(motion.to) < kFarthest)) {
+  if (!(length(motion.from) < kMaxReach) || !(length(motion.to) < kMaxReach)) {
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(motion.step),
                        "the motion goes too far away");
     return;
@@ -154,7 +154,7 @@ void Reader::push(RotaryMotion motion) {
   const double turned = std::abs(motion.turn_to - motion.turn_from) * 0.5 * bar_.diameter;
   const double count = std::ceil(std::max(distance(motion.from, motion.to), turned) / spacing_);
   poses_ += count + 1.0;
-  motion.poses = static_cast<int>(std::clamp(count, 1.0, kMostPoses));
+  motion.poses = static_cast<int>(std::clamp(count, 1.0, kMaxPoses));
   motions.push_back(motion);
 }
 
@@ -381,21 +381,22 @@ void merge(const Contacts& from, Contacts& into) {
 std::optional<RotaryWorkpiece> make_bar(const RoundBar& bar, const SimulationOptions& options,
                                         Diagnostics& diagnostics) {
   const double size = bar.x_high - bar.x_low, girth = std::numbers::pi * bar.diameter;
-  if (!(bar.diameter > 0.0) || !(size > 0.0) || !(bar.diameter <= kLargestBar) || !(size <= kLargestBar) ||
-      !(std::abs(bar.x_low) + std::abs(bar.axis_y) + std::abs(bar.axis_z) < kFarthest)) {
+  if (!(bar.diameter > 0.0) || !(size > 0.0) || !(bar.diameter <= limits::kMaxBarSize) ||
+      !(size <= limits::kMaxBarSize) ||
+      !(std::abs(bar.x_low) + std::abs(bar.axis_y) + std::abs(bar.axis_z) < kMaxReach)) {
     diagnostics.error(Code::stock_empty, {}, "the bar has no volume, or is larger than 10 m");
     return std::nullopt;
   }
   double pitch = options.resolution.mm();
   if (pitch == 0.0) pitch = std::clamp(std::sqrt(size * girth / kUsualRays), kFinest, kCoarsest);
-  if (!std::isfinite(pitch) || pitch < kLeast) {
+  if (!std::isfinite(pitch) || pitch < kMinSpacing) {
     diagnostics.error(Code::bad_resolution, {},
                       fmt::format("the resolution is {} mm; expected at least {} mm", number_text(pitch, 9),
-                                  number_text(kLeast, 4)));
+                                  number_text(kMinSpacing, 4)));
     return std::nullopt;
   }
-  constexpr double kLeastAround = 16.0;
-  const double along = std::ceil(size / pitch), around = std::max(std::ceil(girth / pitch), kLeastAround);
+  constexpr double kMinAround = 16.0;
+  const double along = std::ceil(size / pitch), around = std::max(std::ceil(girth / pitch), kMinAround);
   if (along * around > static_cast<double>(options.max_columns)) {
     diagnostics.error(Code::rotary_limit, {},
                       fmt::format("a resolution of {} mm needs {:.0f} rays; at most {} are allowed",

@@ -7,9 +7,9 @@
 namespace kerf::sim {
 namespace {
 
-constexpr double kParallel = 1e-12;   // of a direction's part: the line runs along the other one
-constexpr double kTouching = 1e-9;    // mm; stretches nearer than this are one
-constexpr double kMostChords = 4096;  // of an arc
+constexpr double kParallel = 1e-12;  // of a direction's part: the line runs along the other one
+constexpr double kTouching = 1e-9;   // mm; stretches nearer than this are one
+constexpr double kMaxChords = 4096;  // of an arc
 
 /// The part of [low, high] where a + b * r lies between two values.
 bool clip_between(double a, double b, double least, double most, double& low, double& high) {
@@ -78,7 +78,7 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
     if (std::abs(angle) > 0.0 && span > 0.0) {
       const double radius = 0.5 * span / std::sin(0.5 * std::abs(angle));
       const double turn = 2.0 * std::acos(std::max(1.0 - chord.mm() / radius, 0.0));
-      count = std::clamp(std::ceil(std::abs(angle) / std::max(turn, 1e-6)), 1.0, kMostChords);
+      count = std::clamp(std::ceil(std::abs(angle) / std::max(turn, 1e-6)), 1.0, kMaxChords);
     }
     // Walks the arc by turning the chord's own direction; a straight segment is one step.
     double r = a.r, z = a.z;

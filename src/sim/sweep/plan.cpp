@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kBatchSweeps = 1 << 14;
 constexpr std::size_t kBatchPairs = 1 << 20;
 /// Most chords for one arc. More means a circle of kilometres or thousands of turns.
-constexpr int kMostChords = 1 << 20;
+constexpr int kMaxChords = 1 << 20;
 /// A straight move shorter than this in plan is taken as straight up or down, mm.
 constexpr double kNoLength = 1e-6;
 /// An arc at one height whose radii differ by less than this is taken as a circle about its centre, mm.
@@ -158,8 +158,8 @@ ToolSolids make_tool_solids(const Silhouette& tool, Length side_clearance) {
 }
 
 ChordCount chord_count(const ArcWalk& walk) {
-  const int count = walk.chords(mm(kPathChord), kMostChords);
-  return {count, count >= kMostChords};
+  const int count = walk.chords(mm(kPathChord), kMaxChords);
+  return {count, count >= kMaxChords};
 }
 
 Planner::Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
@@ -400,13 +400,12 @@ void Planner::note_below_floor(const Sweep& s, Batch& batch) const {
   const double reach = solid.reach_below(-deepest);
   // The share of the way that is below the floor, walked in steps small against the tool.
   constexpr double kStep = 0.1;  // mm
-  constexpr double kMostSteps = 4096;
+  constexpr double kMaxSteps = 4096;
   const double slope = s.length > 0.0 ? (s.z_end - s.z) : 0.0;
   double begin = 0.0, end = 1.0;
   if (slope < 0.0) begin = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
   if (slope > 0.0) end = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
-  const int steps =
-      static_cast<int>(std::clamp(std::ceil((end - begin) * s.length / kStep), 1.0, kMostSteps));
+  const int steps = static_cast<int>(std::clamp(std::ceil((end - begin) * s.length / kStep), 1.0, kMaxSteps));
   Contact contact;
   contact.step = s.step;
   contact.kind = HazardKind::below_floor;

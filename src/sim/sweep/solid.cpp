@@ -13,7 +13,7 @@ constexpr double kSameRadius = 1e-9;
 /// Steps in radius at which an underside is sampled to find its convex hull.
 constexpr int kHullSamples = 512;
 /// Most frusta for one hollow arc; with a chord of half a micron enough for a radius of 100 m.
-constexpr int kMostFrusta = 4096;
+constexpr int kMaxFrusta = 4096;
 
 Cap flat_cap(double height, double rim) { return {.flat = rim, .height = height}; }
 
@@ -63,7 +63,7 @@ void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<Piec
   const ArcShape arc = arc_shape(a, b);
   const double sweep = 4.0 * std::atan(a.bulge);
   const double step = 2.0 * std::acos(1.0 - std::min(stray / kBeyond / arc.radius, 1.0));
-  const int count = std::clamp(static_cast<int>(std::ceil(std::abs(sweep) / step)), 1, kMostFrusta);
+  const int count = std::clamp(static_cast<int>(std::ceil(std::abs(sweep) / step)), 1, kMaxFrusta);
   const double radius = arc.radius * (1.0 + kBeyond * (1.0 - std::cos(0.5 * sweep / count)));
   const double start = std::atan2(a.z - arc.z, a.r - arc.r);
   double r0 = a.r, z0 = a.z;

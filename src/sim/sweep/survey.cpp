@@ -10,21 +10,19 @@
 #include "base/parallel.h"
 #include "sim/sweep/plan.h"
 
+#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
 namespace kerf::sim {
 namespace {
 
-// What is accepted. Beyond it single precision or patience ends, and the input is a slip in any case.
-constexpr double kLargestStock = 1e5;                            // mm
-constexpr double kFarthestMotion = 1e7;                          // mm from the stock
-constexpr double kFinestPitch = 1e-4;                            // mm
+constexpr double kMinPitch = 1e-4;                               // mm; finer, single precision ends
 constexpr double kDefaultColumns = 2.5e6;                        // of the automatic resolution
 constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
-constexpr double kMostDefaultColumns = 5e7;                      // a coarser one rather than more
+constexpr double kMaxDefaultColumns = 5e7;                       // a coarser one rather than more
 /// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.
-constexpr double kLeastClearance = 1e-4;
+constexpr double kMinClearance = 1e-4;
 
 bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
   const Box3& block = stock.block;
@@ -35,13 +33,13 @@ bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
     return false;
   }
   const double largest = std::max({size.x, size.y, size.z});
-  const double reach =
-      std::max(std::max(length(block.low), length(block.high)) / kFarthestMotion, largest / kLargestStock);
+  const double reach = std::max(std::max(length(block.low), length(block.high)) / limits::kMaxCoordinate,
+                                largest / limits::kMaxStockSize);
   if (reach <= 1.0) return true;
   diagnostics.error(Code::stock_empty, {},
                     fmt::format("the stock measures {} x {} x {} mm; at most {} mm can be simulated",
                                 number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3),
-                                number_text(kLargestStock, 0)));
+                                number_text(limits::kMaxStockSize, 0)));
   return false;
 }
 
@@ -54,13 +52,13 @@ std::optional<double> choose_pitch(const SimulationOptions& options, const Stock
   if (pitch == 0.0) {
     const double area = size.x * size.y;
     pitch = std::clamp(std::sqrt(area / kDefaultColumns), kDefaultFinest, kDefaultCoarsest);
-    pitch = std::max(pitch, std::sqrt(area / kMostDefaultColumns));
+    pitch = std::max(pitch, std::sqrt(area / kMaxDefaultColumns));
   }
-  if (!std::isfinite(pitch) || pitch < kFinestPitch) {
+  if (!std::isfinite(pitch) || pitch < kMinPitch) {
     diagnostics.error(
         Code::bad_resolution, {},
         fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 to have one chosen",
-                    number_text(pitch, 9), number_text(kFinestPitch, 4)));
+                    number_text(pitch, 9), number_text(kMinPitch, 4)));
     return std::nullopt;
   }
   pitch = std::min(pitch, std::max(size.x, size.y));  // never less than one column
@@ -138,12 +136,12 @@ class Surveyor {
     if (is_near(step.to()) && is_near(arc_centre)) return;
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
                        fmt::format("the motion goes further than {} km from the stock",
-                                   number_text(kFarthestMotion * 1e-6, 0)));
+                                   number_text(limits::kMaxCoordinate * 1e-6, 0)));
   }
 
   bool is_near(Point3 place) const {
     const Point3 way = place - centre_;
-    return dot(way, way) < kFarthestMotion * kFarthestMotion;
+    return dot(way, way) < limits::kMaxCoordinate * limits::kMaxCoordinate;
   }
 
   void check_extras(const Step& step, const MotionContext& context) {
@@ -245,7 +243,7 @@ std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const 
   const std::optional<double> pitch = choose_pitch(options, stock, diagnostics);
   if (!pitch) return std::nullopt;
   const std::size_t errors_before = diagnostics.errors();
-  const double clearance = std::max(options.hazard_depth.mm(), kLeastClearance);
+  const double clearance = std::max(options.hazard_depth.mm(), kMinClearance);
   Setup setup{mm(*pitch),
               survey_of(path, tools, stock, clearance, thread_count(options.threads), diagnostics)};
   if (diagnostics.errors() != errors_before) return std::nullopt;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 /// What the removed volume may be off by, in pitches times the outline's length times the depth.
-constexpr double kMostOff = 0.2;
+constexpr double kMaxOff = 0.2;
 
 /// An end mill number 1 of the given radius.
 ToolTable end_mill(double radius) {
@@ -64,7 +64,7 @@ TEST_P(Walls, SlotsOfManyWidthsPlacesAndAngles) {
     const Simulation result = simulated(path.path(), end_mill(r), block({0, 0, -10}, {30, 30, 0}), pitch);
     const double exact = (2 * r * length + kPi * r * r) * depth;
     const double outline = 2 * length + 2 * kPi * r;
-    EXPECT_NEAR(result.removed.mm3(), exact, kMostOff * pitch * outline * depth)
+    EXPECT_NEAR(result.removed.mm3(), exact, kMaxOff * pitch * outline * depth)
         << "radius " << r << ", " << length << " mm at " << angle << ", depth " << depth;
   }
 }
@@ -89,9 +89,9 @@ TEST_P(Walls, PlungesAndRings) {
     const Stock stock = block({0, 0, -10}, {30, 30, 0});
     const double deep = std::min(depth, 10.0);  // some go through the floor
     EXPECT_NEAR(simulated(plunge.path(), end_mill(r), stock, pitch).removed.mm3(), kPi * r * r * deep,
-                kMostOff * pitch * 2 * kPi * r * deep);
+                kMaxOff * pitch * 2 * kPi * r * deep);
     EXPECT_NEAR(simulated(circle.path(), end_mill(r), stock, pitch).removed.mm3(), 4 * kPi * ring * r * deep,
-                kMostOff * pitch * 4 * kPi * ring * deep);
+                kMaxOff * pitch * 4 * kPi * ring * deep);
   }
 }
 
@@ -105,7 +105,7 @@ TEST_P(Walls, AKeyholeSlotsRoofsCountToo) {
     const Simulation result = simulated(path.path(), tools, block({0, 0, -10}, {30, 30, 0}), pitch);
     const double exact = (8 * 18.013 + 8 * kPi) * 2.5 + (4 * 18.013 + 2 * kPi) * 4.5;
     const double walls = (2 * 18.013 + 4 * kPi) * 2.5 + (2 * 18.013 + 2 * kPi) * 4.5;
-    EXPECT_NEAR(result.removed.mm3(), exact, kMostOff * pitch * walls) << y;
+    EXPECT_NEAR(result.removed.mm3(), exact, kMaxOff * pitch * walls) << y;
   }
 }
 
@@ -115,7 +115,7 @@ TEST_P(Walls, ABorderColumnCountsForItsShare) {
   Path path;
   path.tool(1).rapid({20.013, -5, 5}).rapid({20.013, -5, -3}).cut({20.013, 20, -3});
   const Simulation result = simulated(path.path(), end_mill(2.111), stock, pitch);
-  EXPECT_NEAR(result.removed.mm3(), 2.111 * 15.031 * 3, kMostOff * pitch * 15.031 * 3);
+  EXPECT_NEAR(result.removed.mm3(), 2.111 * 15.031 * 3, kMaxOff * pitch * 15.031 * 3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pitches, Walls, testing::Values(0.05, 0.1, 0.2, 0.5));
