@@ -20,15 +20,15 @@ namespace kerf {
 enum class Severity : std::uint8_t { note, warning, error };
 std::string_view to_string(Severity severity);
 
-/// Stable numbers of everything Kerf can say; the table is codes.def.
+/// Stable numbers of all diagnostics; the table is codes.def.
 enum class Code : std::uint16_t {
 #define KERF_CODE(number, name, meaning) name = number,
 #include "kerf/codes.def"
 #undef KERF_CODE
 };
-/// The code's name as it stands in codes.def, e.g. "no_feed".
+/// The code's name in codes.def, e.g. "no_feed".
 std::string_view name_of(Code code);
-/// One sentence of what the code means, from codes.def.
+/// The meaning of the code, one sentence from codes.def.
 std::string_view meaning_of(Code code);
 /// Every code of the table, for documentation and tests.
 const std::vector<Code>& all_codes();
@@ -50,8 +50,8 @@ struct Diagnostic {
 /// "part.nc:3:7: error: no number after X [2003]" and its notes and hint on lines of their own.
 std::string to_string(const Diagnostic& diagnostic);
 
-/// Collects what a run has to say, in the order found. Of one code at most `limit_per_code` are kept, the
-/// rest counted, so that a broken file of a million lines costs bounded memory.
+/// Collects the diagnostics of a run, in order. At most `limit_per_code` of one code are kept, the rest is
+/// counted, so that a broken file of a million lines costs bounded memory.
 class Diagnostics {
  public:
   explicit Diagnostics(std::size_t limit_per_code = limits::kMaxMessagesPerCode)
@@ -63,15 +63,15 @@ class Diagnostics {
   Diagnostic& note(Code code, Origin where, std::string message);
   Diagnostic& add(Diagnostic diagnostic);
 
-  /// Takes out those for which `test` is true, and with them what was only counted of their codes.
+  /// Removes those for which `test` is true, and the counts of their codes beyond the limit.
   template <class Test>
   void remove_if(Test test);
 
   bool has_errors() const { return errors_ > 0; }
-  std::size_t errors() const { return errors_; }      ///< all of them, kept or only counted
-  std::size_t warnings() const { return warnings_; }  ///< all of them, kept or only counted
+  std::size_t errors() const { return errors_; }      ///< kept and counted ones
+  std::size_t warnings() const { return warnings_; }  ///< kept and counted ones
   const std::vector<Diagnostic>& list() const { return list_; }
-  /// How many of a code were counted but not kept.
+  /// Number of diagnostics of a code that were counted but not kept.
   std::size_t dropped(Code code) const;
   std::vector<Code> dropped_codes() const;
 

@@ -38,18 +38,18 @@ class InputFile {
   std::unique_ptr<Body> body_;
 };
 
-/// An output file that is written piece by piece beside its target and appears whole, by rename, or not at
-/// all. A symbolic link is followed. What is no ordinary file (a device, a pipe) is written at once instead.
+/// An output file that is written piece by piece next to its target and appears whole, by rename, or not at
+/// all. A symbolic link is followed. Anything but a regular file (a device, a pipe) is written directly.
 class OutputFile {
  public:
-  /// Begins the file. Nothing, with an error appended, where that fails.
+  /// Creates the file. Nothing, with an error appended, on failure.
   static std::optional<OutputFile> create(const std::string& path, Diagnostics& diagnostics);
-  /// Writes behind what was written before. False, with an error appended, where that fails.
+  /// Appends bytes. False, with an error appended, on failure.
   bool write(std::string_view bytes, Diagnostics& diagnostics);
-  /// Ends the writing; commit() does it too. False, with an error appended, where that fails.
+  /// Closes the file; commit() does so too. False, with an error appended, on failure.
   bool close(Diagnostics& diagnostics);
-  /// Puts the file into place. False, with an error appended, where that or the writing failed; nothing is
-  /// left behind then.
+  /// Renames the file to its target. False, with an error appended, if that or writing failed; the temporary
+  /// file is then removed.
   bool commit(Diagnostics& diagnostics);
 
   OutputFile(OutputFile&&) noexcept;
@@ -62,23 +62,23 @@ class OutputFile {
   std::unique_ptr<Body> body_;
 };
 
-/// A set of output files that appear together: each is written beside its target under a temporary name, and
-/// `commit()` renames all of them. Without a commit nothing is left behind. Links are followed as by
-/// OutputFile; what is no ordinary file is written to by `commit()`.
+/// A set of output files that appear together: each is written next to its target under a temporary name, and
+/// `commit()` renames all of them. Without a commit no file remains. Links are followed as by OutputFile;
+/// anything but a regular file is written by `commit()`.
 class OutputSet {
  public:
-  /// Writes `bytes` to a temporary file beside `path`. False, with an error appended, where that fails.
+  /// Writes `bytes` to a temporary file next to `path`. False, with an error appended, on failure.
   bool write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics);
-  /// Renames all files into place. False, with an error appended, where a rename fails; those not renamed yet
-  /// are removed.
+  /// Renames all files to their targets. False, with an error appended, if a rename fails; the remaining
+  /// temporary files are removed.
   bool commit(Diagnostics& diagnostics);
 
  private:
   struct Pending {
-    std::optional<OutputFile> file;  // nothing where the target is no ordinary file
+    std::optional<OutputFile> file;  // nothing unless the target is a regular file
     std::string path, bytes;
   };
-  static bool put_in_place(Pending& pending, Diagnostics& diagnostics);
+  static bool rename_to_target(Pending& pending, Diagnostics& diagnostics);
   std::vector<Pending> pending_;
 };
 

@@ -1,4 +1,4 @@
-// What a tool may take from a material: the highest chip load (mm a tooth) by the tool's diameter.
+// Materials: the maximum chip load (mm per tooth) by tool diameter.
 #pragma once
 
 #include <string>
@@ -10,17 +10,17 @@ namespace kerf {
 
 struct ChipLoad {
   Length diameter;
-  Length highest;  // mm a tooth
+  Length highest;  // mm per tooth
 };
 
 struct Material {
   std::string name;
   std::vector<std::string> other_names;
-  std::vector<ChipLoad> chip_loads;  // by rising diameter, at least one
+  std::vector<ChipLoad> chip_loads;  // by increasing diameter, at least one
 };
 
-/// The highest chip load for a tool of `diameter`: between two of the table's in proportion, below the first
-/// in proportion to the diameter, above the last as the last.
+/// The maximum chip load for a tool of `diameter`: interpolated between rows of the table, proportional to
+/// the diameter below the first, and that of the last row above it.
 Length highest_chip_load(const Material& material, Length diameter);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Names that people write in several ways: "Lower-Left", "lower left" and "LOWERLEFT" are one name.
+// Names with several spellings: "Lower-Left", "lower left" and "LOWERLEFT" are one name.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace kerf {
 /// `name` in small letters without spaces, hyphens, underscores; "center" becomes "centre". For comparing
 /// only.
 std::string fold_name(std::string_view name);
-/// "a, b or c": a list of words for messages; `last` stands before the last one.
+/// "a, b or c": a list of words for messages; `last` precedes the last one.
 std::string list_text(const std::vector<std::string>& words, std::string_view last = "or");
 /// "a, b, c": any words with a separator between them.
 template <class Words>
@@ -22,7 +22,7 @@ std::string joined(const Words& words, std::string_view separator) {
   }
   return text;
 }
-/// `text` without white space (any character up to the blank) at both ends.
+/// `text` without white space (characters up to the blank) at both ends.
 std::string_view trim(std::string_view text);
 
 }  // namespace kerf

@@ -1,8 +1,7 @@
-// Where something came from in the user's own work: a place in a text, a spot in a drawing, a call in a
-// script.
+// Origins: the location in the user's text, drawing or script that caused something.
 //
 // Every step of a toolpath and every diagnostic has an origin. Steps store a 4-byte `OriginId`; the table
-// behind it keeps 16 bytes an origin, so that a million G-code lines cost 16 MB.
+// of origins has 16 bytes per origin, 16 MB for a million G-code lines.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace kerf {
 
-/// A place in a text file: line and column count from 1; column 0 means "the whole line".
+/// A location in a text file: line and column count from 1; column 0 means the whole line.
 struct TextSpot {
   std::string file;
   std::uint32_t line = 0;
@@ -22,7 +21,7 @@ struct TextSpot {
   bool operator==(const TextSpot&) const = default;
 };
 
-/// A spot in a drawing: x and y in mm, in the drawing's world coordinates.
+/// A location in a drawing: x and y in mm, in the drawing's world coordinates.
 struct DxfSpot {
   std::string file;
   std::string layer;
@@ -32,7 +31,7 @@ struct DxfSpot {
   bool operator==(const DxfSpot&) const = default;
 };
 
-/// A call of Kerf's interface from a script; file and line are the script's, empty and 0 where unknown.
+/// A call of Kerf's interface from a script; file and line of the script, empty and 0 if unknown.
 struct CallSpot {
   std::string file;
   std::uint32_t line = 0;
@@ -48,24 +47,24 @@ std::string to_string(const Origin& origin);
 /// Index into an OriginTable; 0 is "unknown".
 enum class OriginId : std::uint32_t { none = 0 };
 
-/// Compact store of origins. Grows only; ids stay valid. File names are kept once.
+/// Compact table of origins. It only grows; ids stay valid. File names are stored once.
 class OriginTable {
  public:
   OriginTable();
 
   /// Returns the index of a file name, for `text()`; the same name gives the same index.
   std::uint32_t file(std::string_view name);
-  /// A place in a text; `file` comes from `file()`. Not merged with equal ones: call it once per line or
+  /// A location in a text; `file` comes from `file()`. Equal ones are not merged: call it once per line or
   /// word.
   OriginId text(std::uint32_t file, std::uint32_t line, std::uint32_t column);
   OriginId add(const Origin& origin);
-  /// Says that `inner` happened because of `caller` (an include, a call of a function or sub-path).
+  /// Records that `caller` caused `inner` (an include, a call of a function or sub-path).
   void set_caller(OriginId inner, OriginId caller);
 
   Origin resolve(OriginId id) const;
-  /// The callers of `id`, innermost first; empty for most.
+  /// The callers of `id`, innermost first; usually empty.
   std::vector<Origin> callers(OriginId id) const;
-  /// Line of a text or call origin; 0 where there is none.
+  /// Line of a text or call origin; 0 for others.
   std::uint32_t line(OriginId id) const;
 
   std::size_t size() const { return records_.size(); }

@@ -1,5 +1,5 @@
-// Material that is no full block: a closed mesh, or the columns that an earlier job has left. The simulator
-// asks a body for the material on vertical lines; a comparison asks a mesh how far its surface is.
+// Stock that is not a block: a closed mesh, or the columns of an earlier job. The simulator queries the
+// material on vertical lines; a comparison queries the distance from a mesh's surface.
 //
 //   Diagnostics diagnostics;
 //   auto body = make_mesh_body(positions, triangles, "casting.stl", diagnostics);
@@ -24,33 +24,33 @@
 
 namespace kerf {
 
-/// A grid of vertical lines: column (i, j) stands at x + i * pitch, y + j * pitch. Heights count from z.
+/// A grid of vertical lines: column (i, j) is at x + i * pitch, y + j * pitch. Heights are relative to z.
 struct ColumnPlaces {
   double x = 0.0, y = 0.0, z = 0.0;  // mm
   double pitch = 1.0;                // mm
   int nx = 0, ny = 0;
-  /// Where the last column and row end that are narrower than a pitch, mm: their lines stand in the middle of
-  /// what is left of them. Nothing: they are as wide as all.
+  /// End of the last column and row if they are narrower than a pitch, mm: their lines are at the centre of
+  /// the remaining width. Nothing: they have full width.
   std::optional<double> end_x = std::nullopt, end_y = std::nullopt;
 
-  double x_of(int i) const { return place(x, i, nx, end_x); }
-  double y_of(int j) const { return place(y, j, ny, end_y); }
+  double x_of(int i) const { return position(x, i, nx, end_x); }
+  double y_of(int j) const { return position(y, j, ny, end_y); }
 
  private:
-  double place(double first, int k, int count, const std::optional<double>& end) const {
+  double position(double first, int k, int count, const std::optional<double>& end) const {
     const bool is_narrow = end && k + 1 == count;
     return is_narrow ? 0.5 * (first + (k - 0.5) * pitch + *end) : first + k * pitch;
   }
 };
 
-/// A stretch of material on a vertical line, mm above the z of its ColumnPlaces.
+/// An interval of material on a vertical line, mm above the z of its ColumnPlaces.
 struct Run {
   float low = 0.0f, high = 0.0f;
   bool operator==(const Run&) const = default;
 };
 
 /// The material on the lines: column (i, j) is number j * nx + i and owns the runs first[number] to
-/// first[number + 1] - 1, lowest first and apart.
+/// first[number + 1] - 1, lowest first, separate.
 struct ColumnRuns {
   int nx = 0, ny = 0;
   std::vector<std::uint32_t> first;
@@ -63,20 +63,20 @@ struct ColumnRuns {
   }
 };
 
-/// Columns that an earlier job has left.
+/// Columns left by an earlier job.
 struct LeftColumns {
   Box3 bounds;          // mm, of the block that they were cut from
-  ColumnPlaces places;  // the first one's middle; a last row or column may reach beyond the block
+  ColumnPlaces places;  // from the centre of the first one; a last row or column may extend beyond the block
   ColumnRuns columns;
 };
 
-/// Half a turn of the stock about an axis that is parallel to X or Y, then a shift.
+/// Half a turn of the stock about an axis parallel to X or Y, then a shift.
 struct StockMove {
   enum class Flip : std::uint8_t { none, about_x, about_y };
   Flip flip = Flip::none;
   std::optional<double>
-      across;               // y of an axis along X, x of one along Y, mm; else through the block's middle
-  std::optional<double> z;  // of the axis, mm; else through the block's middle, so that the block stays
+      across;               // y of an axis along X, x of one along Y, mm; default: through the block's centre
+  std::optional<double> z;  // of the axis, mm; default: through the block's centre, so that the block stays
   Point3 shift;             // mm
 };
 
@@ -87,14 +87,14 @@ class StockBody {
   ~StockBody();
 
   const Box3& bounds() const;
-  /// Of a mesh exactly (parts that overlap count twice), of columns by their sum.
+  /// Exact for a mesh (overlapping bodies count twice), the sum for columns.
   Volume volume() const;
-  /// The pitch that the body is known at; nothing for a mesh, which is known at any.
+  /// The pitch of the columns; nothing for a mesh.
   std::optional<Length> pitch() const;
-  /// The material on the lines. Lines through corners and edges of a mesh are told in or out as if they were
-  /// moved by the smallest distance there is, the same for all triangles, so that none leaks. Appends an
-  /// error and returns nothing where a mesh has a hole that a line goes through, and warnings where its parts
-  /// overlap. Nothing, without an error, if stopped.
+  /// The material on the lines. Lines through vertices and edges of a mesh are classified as if moved by an
+  /// infinitesimal distance, the same for all triangles, so that none leaks. Appends an error and returns
+  /// nothing if a line passes through a hole of the mesh, and warnings if bodies overlap. Nothing, without an
+  /// error, if stopped.
   std::optional<ColumnRuns> columns(const ColumnPlaces& places, Diagnostics& diagnostics,
                                     Progress* progress = nullptr) const;
   /// The body after a move. `move` must be complete.
@@ -105,27 +105,26 @@ class StockBody {
   std::unique_ptr<Inside> inside_;
 };
 
-/// Makes a body of triangles (positions x y z, three indices each). They are to enclose it, facing outwards.
-/// Appends an error, and returns nothing, for a mesh without volume; warnings for edges without a partner and
-/// for triangles that face the wrong way (which are turned, or told in and out by counting). `name` is the
-/// file's.
+/// Makes a body of triangles (positions x y z, three indices each), oriented outwards. Appends an error, and
+/// returns nothing, for a mesh without volume; warnings for open edges and for inverted triangles (which are
+/// turned, or the inside is determined by parity). `name` is the file name.
 std::shared_ptr<const StockBody> make_mesh_body(std::span<const double> positions,
                                                 std::span<const std::uint32_t> triangles,
                                                 const std::string& name, Diagnostics& diagnostics);
 std::shared_ptr<const StockBody> make_columns_body(LeftColumns columns);
 
-/// The stock that a body is: its block is the body's bounds.
+/// The stock of a body: its block is the bounds of the body.
 Stock stock_of(std::shared_ptr<const StockBody> body);
-/// The stock after a move, its block with it.
+/// The stock and its block after a move.
 Stock moved(const Stock& stock, StockMove move);
 
-/// How far points are from a mesh's surface.
+/// Distances of points from the surface of a mesh.
 class SurfaceDistance {
  public:
-  /// Of a mesh body, which must outlive this; of columns everything is infinitely far.
+  /// Of a mesh body, which must outlive this; for columns all distances are infinite.
   explicit SurfaceDistance(const StockBody& body);
   ~SurfaceDistance();
-  /// mm; at most `limit`, which makes the search short.
+  /// mm; at most `limit`, which shortens the search.
   double at(Point3 p, double limit) const;
 
  private:

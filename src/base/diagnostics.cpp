@@ -57,8 +57,8 @@ std::string to_string(const Diagnostic& diagnostic) {
       fmt::format("{}{}{}: {} [{}]", where, where.empty() ? "" : ": ", to_string(diagnostic.severity),
                   diagnostic.message, static_cast<unsigned>(diagnostic.code));
   for (const DiagnosticNote& note : diagnostic.notes) {
-    const std::string place = to_string(note.where);
-    text += fmt::format("\n  note: {}{}{}", place, place.empty() ? "" : ": ", note.text);
+    const std::string location = to_string(note.where);
+    text += fmt::format("\n  note: {}{}{}", location, location.empty() ? "" : ": ", note.text);
   }
   if (!diagnostic.hint.empty()) text += fmt::format("\n  hint: {}", diagnostic.hint);
   return text;

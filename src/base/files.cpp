@@ -21,7 +21,7 @@
 
 namespace kerf {
 
-/// Either a mapping or bytes of our own (standard input, pipes, devices).
+/// Either a mapping or owned bytes (standard input, pipes, devices).
 struct InputFile::Body {
   void* mapping = nullptr;
   std::size_t size = 0;
@@ -39,12 +39,11 @@ struct InputFile::Body {
 
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes a read
+constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes per read
 
 Diagnostic& too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
-  return diagnostics.error(
-      Code::file_too_large, TextSpot{path, 0, 0},
-      fmt::format("the file is larger than {} bytes, the most that is read at once", limit));
+  return diagnostics.error(Code::file_too_large, TextSpot{path, 0, 0},
+                           fmt::format("the file is larger than the limit of {} bytes", limit));
 }
 
 void unreadable(const std::string& path, std::string_view why, Diagnostics& diagnostics) {
@@ -52,8 +51,8 @@ void unreadable(const std::string& path, std::string_view why, Diagnostics& diag
                     fmt::format("cannot read the file: {}", why));
 }
 
-/// Reads a stream to its end, of which nobody knows how far off it is. Nothing, with an error, where that
-/// fails, takes more than `limit` bytes, or is stopped.
+/// Reads a stream of unknown length to its end. Nothing, with an error, if that fails, exceeds `limit` bytes,
+/// or is stopped.
 std::optional<std::string> read_stream(std::FILE* stream, const std::string& path, std::size_t limit,
                                        Diagnostics& diagnostics, Progress* progress) {
   limit = std::min(limit, limits::kMaxStreamBytes);
@@ -67,7 +66,7 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
     if (got == 0) break;
     bytes.append(chunk, 0, got);
     if (bytes.size() <= limit) continue;
-    too_large(path, limit, diagnostics).hint = "more than that is read from ordinary files only";
+    too_large(path, limit, diagnostics).hint = "larger inputs must be regular files";
     return std::nullopt;
   }
   if (std::ferror(stream) == 0) return bytes;
@@ -136,7 +135,7 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
 
 namespace {
 
-/// Where links lead to, also to what does not exist yet, so that a link stays and its target is replaced.
+/// The target of links, which need not exist yet, so that a link stays and its target is replaced.
 std::string followed(const std::string& path) {
   constexpr int kMaxLinks = 40;  // as Linux follows them
   std::filesystem::path at = path;
@@ -146,8 +145,8 @@ std::string followed(const std::string& path) {
   return at.string();
 }
 
-/// Pipes and devices are written to where they are: a file must not take their place. So is what the system
-/// shows as files, like /dev/stdout, even where an ordinary file stands behind it.
+/// Pipes and devices are written directly: a file must not replace them. The same holds for paths such as
+/// /dev/stdout, even if they refer to a regular file.
 bool can_be_replaced(const std::string& path) {
   for (const std::string_view folder : {"/dev/std", "/dev/fd/", "/proc/"})
     if (path.compare(0, folder.size(), folder) == 0) return false;
@@ -168,9 +167,9 @@ std::string part_name(const std::string& target) {
 }  // namespace
 
 struct OutputFile::Body {
-  std::string path;       // as the user told it
+  std::string path;       // as given by the user
   std::string target;     // links followed
-  std::string temporary;  // empty where the target is written at once
+  std::string temporary;  // empty if the target is written directly
   std::FILE* stream = nullptr;
   bool good = true;
 
@@ -181,7 +180,7 @@ struct OutputFile::Body {
     if (stream != nullptr) std::fclose(stream);
     if (!temporary.empty()) std::remove(temporary.c_str());
   }
-  /// Tells of the first failure.
+  /// Reports the first failure.
   bool fail(std::string_view what, std::string_view why, Diagnostics& diagnostics) {
     if (good)
       diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0}, fmt::format("{}: {}", what, why));
@@ -227,7 +226,7 @@ bool OutputFile::commit(Diagnostics& diagnostics) {
   if (body_->temporary.empty()) return true;
   std::error_code error;
   std::filesystem::rename(body_->temporary, body_->target, error);
-  if (error) return body_->fail("cannot put the file into place", error.message(), diagnostics);
+  if (error) return body_->fail("cannot rename the file to its target", error.message(), diagnostics);
   body_->temporary.clear();
   return true;
 }
@@ -243,21 +242,21 @@ bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnosti
   return true;
 }
 
-bool OutputSet::put_in_place(Pending& pending, Diagnostics& diagnostics) {
+bool OutputSet::rename_to_target(Pending& pending, Diagnostics& diagnostics) {
   if (!pending.file) pending.file = OutputFile::create(pending.path, diagnostics);
   return pending.file && pending.file->write(pending.bytes, diagnostics) && pending.file->commit(diagnostics);
 }
 
 bool OutputSet::commit(Diagnostics& diagnostics) {
-  // What no renaming can replace is found before the first one, so that all files appear or none.
+  // Targets that a rename cannot replace are found before the first rename, so that all files appear or none.
   for (const Pending& file : pending_) {
     std::error_code error;
     if (!std::filesystem::is_directory(file.path, error)) continue;
-    diagnostics.error(Code::file_unwritable, TextSpot{file.path, 0, 0}, "a folder of this name is there");
+    diagnostics.error(Code::file_unwritable, TextSpot{file.path, 0, 0}, "a folder has this name");
     return false;
   }
   bool good = true;
-  for (Pending& pending : pending_) good = good && put_in_place(pending, diagnostics);
+  for (Pending& pending : pending_) good = good && rename_to_target(pending, diagnostics);
   pending_.clear();
   return good;
 }

@@ -12,7 +12,7 @@
 namespace kerf {
 namespace {
 
-/// The huge pages that lie wholly in some memory.
+/// The huge pages that lie completely in a range of memory.
 struct Pages {
   Pages(void* memory, std::size_t bytes)
       : begin((reinterpret_cast<std::uintptr_t>(memory) + kHugePage - 1) / kHugePage * kHugePage),
@@ -28,7 +28,7 @@ void use_huge_pages(void* memory, std::size_t bytes) {
   if (pages.count() == 0) return;
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
   (void)madvise(reinterpret_cast<void*>(pages.begin), pages.end - pages.begin,
-                MADV_HUGEPAGE);  // refused: small ones do as well
+                MADV_HUGEPAGE);  // if refused, small pages are used
 #endif
 }
 

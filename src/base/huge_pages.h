@@ -1,5 +1,5 @@
-// Memory in huge pages, where the system offers them: touching a hundred megabytes for the first time in
-// small ones takes longer than cutting a small job.
+// Memory in huge pages, if the system provides them: the first touch of a hundred megabytes in small pages
+// takes longer than cutting a small job.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,11 @@ namespace kerf {
 
 inline constexpr std::size_t kHugePage = std::size_t{1} << 21;
 
-/// Asks for huge pages, as far as there are whole ones, for memory that is not yet touched.
+/// Requests huge pages for memory that has not been touched, where whole ones fit.
 void use_huge_pages(void* memory, std::size_t bytes);
 
-/// The same, and has the memory given at once, on several threads: to touch it on one would take longer than
-/// what is then done on all.
+/// The same, and touches the memory on several threads: on one thread this would take longer than the work
+/// that all of them then do.
 void prepare_pages(void* memory, std::size_t bytes, unsigned threads);
 
 }  // namespace kerf

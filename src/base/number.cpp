@@ -19,10 +19,10 @@ namespace {
 bool is_zero_text(std::string_view text) { return text.find_first_of("123456789") == std::string_view::npos; }
 
 constexpr std::uint64_t kTens[] = {1, 10, 100, 1'000, 10'000, 100'000, 1'000'000, 10'000'000, 100'000'000};
-constexpr int kBlock = 8;  // digits that are written at once
+constexpr int kBlock = 8;  // digits written at once
 
-/// The eight digits of a number below 10^8, one a byte, the first in the lowest byte. The parts of the number
-/// are divided side by side in one word.
+/// The eight digits of a number below 10^8, one per byte, the first in the lowest byte. The parts of the
+/// number are divided in parallel in one word.
 inline std::uint64_t eight_digits(std::uint64_t value) {
   std::uint64_t parts = value / 10'000 | value % 10'000 << 32;  // four digits in each half
   std::uint64_t upper = (parts * 10'486 >> 20) & 0x0000'007F'0000'007F;
@@ -38,7 +38,7 @@ inline void put_digits(char* at, std::uint64_t digits) {
 }
 inline void put_eight(char* at, std::uint64_t value) { put_digits(at, eight_digits(value)); }
 
-/// Writes a whole number and returns the end. Up to seven bytes behind it are overwritten.
+/// Writes a whole number and returns the end. Up to seven bytes after it are overwritten.
 inline char* put_whole(char* out, std::uint64_t value) {
   if (value < 10) {
     *out = static_cast<char>('0' + value);
@@ -51,7 +51,7 @@ inline char* put_whole(char* out, std::uint64_t value) {
   }
   const std::uint64_t digits = eight_digits(value);
   const int zeros =
-      std::countr_zero(digits | std::uint64_t{1} << 56) / 8;  // before the first digit that counts
+      std::countr_zero(digits | std::uint64_t{1} << 56) / 8;  // before the first significant digit
   put_digits(out, digits >> 8 * zeros);
   return out + (kBlock - zeros);
 }
@@ -60,7 +60,7 @@ constexpr double kExactTens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7, 
                                  1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
 __extension__ typedef unsigned __int128 Wide;
 
-/// digits / 10^decimals rounded to the nearest double, ties to even; 1 <= decimals <= 19. Nothing where the
+/// digits / 10^decimals rounded to the nearest double, ties to even; 1 <= decimals <= 19. Nothing if the
 /// quotient has too few bits for that.
 std::optional<double> rounded_quotient(std::uint64_t digits, int decimals) {
   constexpr int kMantissa = 53;
@@ -80,8 +80,8 @@ std::optional<double> rounded_quotient(std::uint64_t digits, int decimals) {
   return std::ldexp(static_cast<double>(kept), dropped - 64);
 }
 
-/// Numbers of at most 19 digits without an exponent, which are nearly all; nothing for the others,
-/// well-formed or not.
+/// Numbers of at most 19 digits without an exponent, nearly all in practice; nothing for others, well-formed
+/// or not.
 std::optional<double> parse_short(std::string_view text) {
   constexpr std::uint64_t kExact = std::uint64_t{1} << 53;  // whole numbers up to this are doubles
   const char* p = text.data();
@@ -109,7 +109,7 @@ std::optional<double> parse_short(std::string_view text) {
   return value;
 }
 
-/// Distance of two words in insertions, deletions, replacements and swaps of neighbours, case left out.
+/// Distance of two words in insertions, deletions, replacements and swaps of neighbours, ignoring case.
 std::size_t slips_between(std::string_view a, std::string_view b) {
   auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; };
   std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
@@ -142,13 +142,13 @@ char* write_fixed(char* out, double value, int decimals) {
   if (!(scaled < kMaxScaled)) return nullptr;
   auto digits = static_cast<std::uint64_t>(scaled);
   const double fraction = scaled - static_cast<double>(digits);
-  // At a half the exact value decides, and that is not known here.
+  // At a half the exact value decides, which is unknown here.
   if (std::fabs(fraction - 0.5) <= scaled * kDoubt) return nullptr;
   if (fraction > 0.5) ++digits;
   if (std::signbit(value)) *out++ = '-';
   if (decimals == 0) return put_whole(out, digits);
 
-  // Digits behind the point in blocks of eight. The usual eight are split off by a division by a constant.
+  // Decimals in blocks of eight. The usual eight are split off by a division by a constant.
   const int last = decimals > kBlock ? decimals - kBlock : decimals;  // of the last block
   const std::uint64_t rest = last == kBlock ? digits / kTens[kBlock] : digits / kTens[last];
   const std::uint64_t tail = digits - rest * kTens[last];
@@ -158,7 +158,7 @@ char* write_fixed(char* out, double value, int decimals) {
     put_eight(out, rest % kTens[kBlock]);
     out += kBlock;
   }
-  put_eight(out, tail * kTens[kBlock - last]);  // zeros beyond the last place are written over
+  put_eight(out, tail * kTens[kBlock - last]);  // zeros beyond the last decimal are overwritten
   return out + last;
 }
 
@@ -196,7 +196,7 @@ std::string fixed_text(double value, int decimals) {
 std::string exact_text(double value) { return fmt::format("{}", value == 0.0 ? 0.0 : value); }
 
 std::optional<double> parse_number(std::string_view text) {
-  constexpr std::size_t kMaxDigits = 512;  // digits past this change nothing that a double can hold
+  constexpr std::size_t kMaxDigits = 512;  // further digits do not change the double
   if (text.empty() || text.size() > kMaxDigits) return std::nullopt;
   if (const auto value = parse_short(text)) return value;
   if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;

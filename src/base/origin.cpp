@@ -87,7 +87,7 @@ std::vector<Origin> OriginTable::callers(OriginId id) const {
   for (auto it = callers_.find(static_cast<std::uint32_t>(id)); it != callers_.end();
        it = callers_.find(static_cast<std::uint32_t>(it->second))) {
     chain.push_back(resolve(it->second));
-    if (chain.size() > callers_.size()) break;  // a ring, should one ever be made
+    if (chain.size() > callers_.size()) break;  // a cycle
   }
   return chain;
 }

@@ -8,8 +8,8 @@
 namespace kerf {
 namespace {
 
-/// How often to look again before the system is asked to wake the thread: about as long as waking takes.
-constexpr int kLooks = 2000;
+/// Number of polls before the thread sleeps: about as long as waking takes.
+constexpr int kPolls = 2000;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -19,7 +19,7 @@ void pause() {
 
 /// Returns when `value` is no longer `old`.
 void wait_while(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  for (int look = 0; look < kLooks; ++look) {
+  for (int poll = 0; poll < kPolls; ++poll) {
     if (value.load(std::memory_order_acquire) != old) return;
     pause();
   }
@@ -39,7 +39,7 @@ Team::Team(unsigned threads) {
     try {
       helpers_.emplace_back([this] { help(); });
     } catch (const std::system_error&) {
-      break;  // the machine gives no more threads; those there are do the work
+      break;  // the system refuses more threads; the existing ones do the work
     }
   }
 }

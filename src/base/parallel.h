@@ -1,4 +1,4 @@
-// Running numbered pieces of work on several threads; also where there are none.
+// Runs numbered pieces of work on several threads, or on the caller's if there are no others.
 #pragma once
 
 #include <atomic>
@@ -12,29 +12,28 @@
 
 namespace kerf {
 
-/// False where the platform has no threads: all work is then done by the caller.
+/// False if the platform has no threads: the caller then does all work.
 #if defined(__EMSCRIPTEN__) && !defined(__EMSCRIPTEN_PTHREADS__)
 inline constexpr bool kHasThreads = false;
 #else
 inline constexpr bool kHasThreads = true;
 #endif
 
-/// How many threads to use; 0 asks for as many as the machine has.
+/// Number of threads to use; 0: as many as the machine has.
 unsigned thread_count(unsigned wanted);
 
-/// Threads that wait for work: for those who have many short rounds of it, as a thread takes as long to begin
-/// as many a round takes to be done.
+/// Threads that wait for work, for many short rounds: starting a thread takes as long as a short round.
 class Team {
  public:
-  /// `threads` with the calling one; fewer where the machine gives no more.
+  /// `threads` including the calling one; fewer if the system refuses more.
   explicit Team(unsigned threads);
   ~Team();
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
   /// Calls work(i) once for each i below `count`, in no fixed order. The calling thread takes part and asks
-  /// stop() between pieces; after that returned true no further piece is begun. Returns when all are done.
-  /// Throws what any piece threw first (memory may run out), after which none is begun either.
+  /// stop() between pieces; once that is true no further piece is started. Returns when all are done.
+  /// Rethrows the first exception of a piece (memory may run out); no piece is started after it.
   template <class Work, class Stop>
   void run(std::size_t count, const Work& work, const Stop& stop) {
     std::atomic<std::size_t> next{0};
@@ -61,14 +60,14 @@ class Team {
   void help();
 
   std::vector<std::thread> helpers_;
-  std::function<void()> round_;            // what the helpers do; empty: go home
-  std::atomic<std::uint32_t> rounds_{0};   // begun
-  std::atomic<std::uint32_t> working_{0};  // helpers that have not done with the last round
+  std::function<void()> round_;            // the work of the round; empty: exit
+  std::atomic<std::uint32_t> rounds_{0};   // started
+  std::atomic<std::uint32_t> working_{0};  // helpers still busy with the last round
   std::mutex error_mutex_;
   std::exception_ptr error_;  // the first of the round
 };
 
-/// One round of a team that has come for it.
+/// One round of a temporary team.
 template <class Work, class Stop>
 void parallel_for(unsigned threads, std::size_t count, const Work& work, const Stop& stop) {
   Team(count < threads ? static_cast<unsigned>(count) : threads).run(count, work, stop);

@@ -1,4 +1,4 @@
-// Bodies: made from triangles or columns, looked over, moved.
+// Bodies: made from triangles or columns, checked, moved.
 #include "stock/body.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace kerf {
 namespace solid {
 namespace {
 
-/// Less is no volume, mm3; far below a crumb, far above rounding.
+/// Smaller volumes count as none, mm3; far below a chip, far above rounding.
 constexpr double kNoVolume = 1e-6;
 
 struct LatticeHash {
@@ -24,7 +24,7 @@ struct LatticeHash {
   }
 };
 
-/// One point for each place, and no triangle without an area's worth of corners.
+/// One point per position, and no triangle with equal vertices.
 MeshSolid weld(std::span<const double> positions, std::span<const std::uint32_t> triangles) {
   MeshSolid mesh;
   std::unordered_map<Lattice, std::uint32_t, LatticeHash> known;
@@ -55,11 +55,10 @@ double signed_volume(const MeshSolid& mesh) {
   return six / 6.0;
 }
 
-/// What is wrong with the edges: those with a triangle too few, and those whose triangles do not face one
-/// way.
+/// Faults of the edges: those with a missing triangle, and those with inconsistently oriented triangles.
 struct EdgeFaults {
   std::size_t open = 0, turned = 0;
-  Point3 first_open;  // the middle of one
+  Point3 first_open;  // midpoint of one
 };
 
 EdgeFaults find_edge_faults(const MeshSolid& mesh) {
@@ -97,7 +96,7 @@ void turn_round(MeshSolid& mesh) {
   for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
 }
 
-/// Tells what is wrong and rights what can be. False where there is nothing to be made of it.
+/// Reports faults and corrects orientation. False if the mesh is unusable.
 bool look_over(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
   const TextSpot file{mesh.name, 0, 0};
   const EdgeFaults faults = find_edge_faults(mesh);
@@ -106,26 +105,26 @@ bool look_over(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
     diagnostics
         .warning(
             Code::mesh_open, file,
-            fmt::format("the mesh does not close: {} edges have a triangle on one side only, one of them at "
+            fmt::format("the mesh is not closed: {} edges have a triangle on one side only, one of them at "
                         "X{:.3f} Y{:.3f} Z{:.3f}",
                         faults.open, at.x, at.y, at.z))
-        .hint = "it is used as far as vertical lines find a way in for each way out";
+        .hint = "it is used as long as no vertical line passes through a hole";
   }
   mesh.is_oriented = faults.turned == 0;
   if (!mesh.is_oriented) {
     diagnostics.warning(
         Code::mesh_turned, file,
-        fmt::format("the triangles at {} edges do not face the same way; in and out are told by "
-                    "counting surfaces",
+        fmt::format("the triangles at {} edges are inconsistently oriented; the inside is determined "
+                    "by counting surfaces",
                     faults.turned));
     volume = std::abs(volume);
   } else if (volume < 0.0) {
-    diagnostics.note(Code::mesh_turned, file, "the triangles face inwards; they were turned round");
+    diagnostics.note(Code::mesh_turned, file, "the triangles face inwards; they were inverted");
     turn_round(mesh);
     volume = -volume;
   }
   if (volume > kNoVolume || !mesh.is_oriented) return true;
-  diagnostics.error(Code::mesh_no_volume, file, "the mesh encloses nothing");
+  diagnostics.error(Code::mesh_no_volume, file, "the mesh encloses no volume");
   return false;
 }
 
@@ -139,7 +138,7 @@ Box3 bounds_of(const MeshSolid& mesh) {
 double volume_of(const LeftColumns& left) {
   const Point3 size = left.bounds.size();
   const ColumnPlaces& p = left.places;
-  const auto share = [&p](double low, double size_in_axis, double first, int k) {
+  const auto fraction_inside = [&p](double low, double size_in_axis, double first, int k) {
     const double begin = std::max(first + (k - 0.5) * p.pitch, low);
     return std::max(std::min(first + (k + 0.5) * p.pitch, low + size_in_axis) - begin, 0.0);
   };
@@ -149,9 +148,9 @@ double volume_of(const LeftColumns& left) {
     for (int i = 0; i < p.nx; ++i) {
       double length = 0.0;
       for (const Run& run : left.columns.column(i, j)) length += static_cast<double>(run.high - run.low);
-      row += length * share(left.bounds.low.x, size.x, p.x, i);
+      row += length * fraction_inside(left.bounds.low.x, size.x, p.x, i);
     }
-    sum += row * share(left.bounds.low.y, size.y, p.y, j);
+    sum += row * fraction_inside(left.bounds.low.y, size.y, p.y, j);
   }
   return sum;
 }
@@ -191,7 +190,7 @@ MeshSolid moved_mesh(MeshSolid mesh, const Moves& moves) {
     for (int k = 0; k < 3; ++k)
       *v[k] = (moves.axis[k].sign < 0.0 ? -*v[k] : *v[k]) + to_lattice(moves.axis[k].shift);
   }
-  return mesh;  // half a turn changes two signs, so that triangles face outwards as before
+  return mesh;  // half a turn changes two signs, so the orientation is unchanged
 }
 
 LeftColumns moved_columns(const LeftColumns& left, const Moves& moves) {
@@ -210,7 +209,7 @@ LeftColumns moved_columns(const LeftColumns& left, const Moves& moves) {
   RunSink sink(out.columns);
   for (int j = 0; j < p.ny; ++j) {
     for (int i = 0; i < p.nx; ++i) {
-      sink.begin_column();
+      sink.start_column();
       const auto runs = left.columns.column(turn_x ? p.nx - 1 - i : i, turn_y ? p.ny - 1 - j : j);
       for (std::size_t k = 0; k < runs.size(); ++k) {
         const Run& run = runs[turn_z ? runs.size() - 1 - k : k];
@@ -228,7 +227,7 @@ ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places) {
   ColumnRuns out{.nx = places.nx, .ny = places.ny, .first = {}, .runs = {}};
   const ColumnPlaces& from = left.places;
   const auto lift = static_cast<float>(from.z - places.z);
-  /// The column whose square a place lies in; -1 outside of all.
+  /// The column whose square contains a position; -1 outside.
   const auto nearest = [&from](double v, double first, int count) {
     const double k = std::floor((v - first) / from.pitch + 0.5);
     return k >= 0.0 && k < count ? static_cast<int>(k) : -1;
@@ -237,7 +236,7 @@ ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places) {
   for (int j = 0; j < places.ny; ++j) {
     const int from_j = nearest(places.y_of(j), from.y, from.ny);
     for (int i = 0; i < places.nx; ++i) {
-      sink.begin_column();
+      sink.start_column();
       const int from_i = nearest(places.x_of(i), from.x, from.nx);
       if (from_i < 0 || from_j < 0) continue;
       for (const Run& run : left.columns.column(from_i, from_j)) sink.add(run.low + lift, run.high + lift);
@@ -309,9 +308,9 @@ Stock stock_of(std::shared_ptr<const StockBody> body) {
 }
 
 Stock moved(const Stock& stock, StockMove move) {
-  const Point3 middle = 0.5 * (stock.block.low + stock.block.high);
-  if (!move.across) move.across = move.flip == StockMove::Flip::about_x ? middle.y : middle.x;
-  if (!move.z) move.z = middle.z;
+  const Point3 centre = 0.5 * (stock.block.low + stock.block.high);
+  if (!move.across) move.across = move.flip == StockMove::Flip::about_x ? centre.y : centre.x;
+  if (!move.z) move.z = centre.z;
   Stock out{solid::moves_of(move)(stock.block)};
   if (stock.body) out.body = stock.body->moved(move);
   return out;

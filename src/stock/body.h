@@ -1,4 +1,4 @@
-// What is behind StockBody: triangles on a lattice of whole numbers, or columns.
+// Data of StockBody: triangles on an integer lattice, or columns.
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace kerf::solid {
 
-/// Corners lie on a lattice of 2^-20 mm (about a nanometre). Whole numbers make it certain on which side of
-/// an edge a line passes, and that both triangles of the edge agree.
+/// Vertices lie on a lattice of 2^-20 mm (about a nanometre). With integers the side on which a line passes
+/// an edge is exact, and both triangles of the edge agree.
 inline constexpr double kPerMm = 1 << 20;
 struct Lattice {
   std::int64_t x = 0, y = 0, z = 0;
@@ -25,7 +25,7 @@ struct MeshSolid {
   std::string name;
   std::vector<Lattice> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  bool is_oriented = true;  // all triangles face outwards; else in and out are told by counting
+  bool is_oriented = true;  // all triangles face outwards; otherwise the inside is found by parity
 
   Point3 at(std::uint32_t v) const {
     const Lattice& p = points[v];
@@ -38,14 +38,14 @@ std::optional<ColumnRuns> mesh_columns(const MeshSolid& mesh, const ColumnPlaces
                                        Diagnostics& diagnostics, Progress* progress);
 ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places);
 
-/// Runs nearer than this to the next one become one, and shorter ones none, mm: what single precision and the
-/// lattice make of faces that touch.
+/// Runs closer than this to the next one are joined, and shorter ones dropped, mm: rounding of touching faces
+/// in single precision and on the lattice.
 inline constexpr float kNoGap = 1e-5f;
-/// Appends a column's runs, given in order, with such gaps and crumbs left out.
+/// Appends the runs of a column, in order, without such gaps and crumbs.
 class RunSink {
  public:
   explicit RunSink(ColumnRuns& out) : out_(out) {}
-  void begin_column() {
+  void start_column() {
     finish();
     out_.first.push_back(static_cast<std::uint32_t>(out_.runs.size()));
   }
@@ -58,7 +58,7 @@ class RunSink {
     run_ = {low, high};
     open_ = true;
   }
-  void end_columns() { begin_column(); }
+  void end_columns() { start_column(); }
 
  private:
   void finish() {

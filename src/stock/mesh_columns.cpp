@@ -1,7 +1,7 @@
-// Vertical lines through a mesh. A line is a point in plan; the triangles above it are those that the point
-// lies in. Whether it does is told by whole numbers, and a point on an edge or corner counts as one beside
-// it: moved by an endless small distance in X, and by a still smaller one in Y. So each line goes in as often
-// as out wherever the mesh closes, whatever the triangles are.
+// Vertical lines through a mesh. A line is a point in plan; it intersects the triangles that contain the
+// point. The test uses integers, and a point on an edge or vertex counts as moved by an infinitesimal
+// distance in X and a still smaller one in Y. So each line enters as often as it leaves wherever the mesh is
+// closed.
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -14,14 +14,14 @@ namespace {
 
 __extension__ typedef __int128 Wide;  // of products of differences on the lattice
 
-constexpr int kBand = 64;  // rows of columns that are looked at together
+constexpr int kBand = 64;  // rows of columns processed together
 
 struct Plan {
   std::int64_t x, y;
   bool operator==(const Plan&) const = default;
 };
 
-/// Twice the area of a, b, p: above 0 where p lies left of a to b. Exact in its sign.
+/// Twice the area of a, b, p: above 0 if p lies left of a to b. The sign is exact.
 double side_of(Plan a, Plan b, Plan p) {
   const auto bx = static_cast<double>(b.x - a.x), by = static_cast<double>(b.y - a.y);
   const auto px = static_cast<double>(p.x - a.x), py = static_cast<double>(p.y - a.y);
@@ -34,7 +34,7 @@ double side_of(Plan a, Plan b, Plan p) {
   return static_cast<double>(exact);
 }
 
-/// Whether p, moved by the endless small, lies left of a to b. Both directions of an edge never agree.
+/// Whether p, moved infinitesimally, lies left of a to b: true for one of the two directions of an edge.
 bool is_left(Plan a, Plan b, Plan p, double& area) {
   area = side_of(a, b, p);
   if (area != 0.0) return area > 0.0;
@@ -64,7 +64,7 @@ class Caster {
   struct Range {
     int first, last;
   };
-  /// Lines of one axis that lie between two places.
+  /// Lines of one axis between two positions.
   static Range between(const std::vector<std::int64_t>& lines, std::int64_t low, std::int64_t high) {
     const auto begin = std::lower_bound(lines.begin(), lines.end(), low);
     const auto end = std::upper_bound(begin, lines.end(), high);
@@ -81,7 +81,7 @@ class Caster {
   Range columns_in_row(const Plan* p, std::int64_t y) const;
   bool cast_band(int band);
   void add_column(std::size_t begin, std::size_t end, int i, int j, RunSink& sink);
-  void tell_faults(Diagnostics& diagnostics) const;
+  void report_faults(Diagnostics& diagnostics) const;
 
   const MeshSolid& mesh_;
   const ColumnPlaces& places_;
@@ -112,8 +112,7 @@ void Caster::sort_into_bands() {
   each([&](std::size_t band, std::uint32_t n) { listed_[next[band]++] = n; });
 }
 
-/// The columns of a row that a triangle's outline leaves between; one more at each end, which the exact test
-/// then tells.
+/// The columns of a row within the outline of a triangle, and one more at each end for the exact test.
 Caster::Range Caster::columns_in_row(const Plan* p, std::int64_t y) const {
   double low = 1e300, high = -1e300;
   for (int k = 0; k < 3; ++k) {
@@ -136,7 +135,7 @@ Caster::Range Caster::columns_in_row(const Plan* p, std::int64_t y) const {
 template <class Visit>
 void Caster::visit_crossings(const Triangle& t, int first_row, int last_row, const Visit& visit) const {
   const Plan p[3] = {plan(t[0]), plan(t[1]), plan(t[2])};
-  if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return;  // upright, and an edge without a left side
+  if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return;  // vertical: an edge without a left side
   double z[3];
   for (std::size_t k = 0; k < 3; ++k) z[k] = mesh_.at(t[k]).z - places_.z;
   const auto [lowest, highest] = std::minmax({z[0], z[1], z[2]});
@@ -186,7 +185,7 @@ bool Caster::cast_band(int band) {
 }
 
 void Caster::add_column(std::size_t begin, std::size_t end, int i, int j, RunSink& sink) {
-  sink.begin_column();
+  sink.start_column();
   if (begin == end) return;
   Crossing* const first = crossings_.data() + begin;
   Crossing* const last = crossings_.data() + end;
@@ -209,22 +208,21 @@ void Caster::add_column(std::size_t begin, std::size_t end, int i, int j, RunSin
   if (depth != 0 && odd_++ == 0) first_odd_ = at;
 }
 
-void Caster::tell_faults(Diagnostics& diagnostics) const {
+void Caster::report_faults(Diagnostics& diagnostics) const {
   const TextSpot file{mesh_.name, 0, 0};
   if (odd_ > 0) {
     diagnostics
-        .error(Code::mesh_open, file,
-               fmt::format(
-                   "{} vertical lines go into the mesh and do not come out, or the other way; the first at "
-                   "X{:.3f} Y{:.3f}",
-                   odd_, first_odd_.x, first_odd_.y))
+        .error(
+            Code::mesh_open, file,
+            fmt::format("{} vertical lines enter the mesh without leaving it, or the reverse; the first at "
+                        "X{:.3f} Y{:.3f}",
+                        odd_, first_odd_.x, first_odd_.y))
         .hint = "close the holes of the mesh";
   } else if (overlapping_ > 0) {
-    diagnostics.warning(
-        Code::mesh_crossing, file,
-        fmt::format("parts of the mesh overlap or cross on {} vertical lines, the first at X{:.3f} "
-                    "Y{:.3f}; all of them together are taken",
-                    overlapping_, first_overlap_.x, first_overlap_.y));
+    diagnostics.warning(Code::mesh_crossing, file,
+                        fmt::format("bodies of the mesh overlap on {} vertical lines, the first at X{:.3f} "
+                                    "Y{:.3f}; their union is used",
+                                    overlapping_, first_overlap_.x, first_overlap_.y));
   }
 }
 
@@ -236,11 +234,11 @@ std::optional<ColumnRuns> Caster::run(Diagnostics& diagnostics, Progress* progre
     if (stop_requested(progress)) return std::nullopt;
     if (cast_band(band)) continue;
     diagnostics.error(Code::mesh_too_large, TextSpot{mesh_.name, 0, 0},
-                      "the mesh has more surfaces above each other than can be kept");
+                      "the mesh has more surfaces above each other than the limit");
     return std::nullopt;
   }
   result_.first.push_back(static_cast<std::uint32_t>(result_.runs.size()));
-  tell_faults(diagnostics);
+  report_faults(diagnostics);
   if (odd_ > 0) return std::nullopt;
   return std::move(result_);
 }

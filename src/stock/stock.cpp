@@ -22,8 +22,8 @@ constexpr std::array kCorners{
     CornerName{"top-right", ZeroCorner::top_right},
 };
 
-/// Share of the block's width or depth that lies on the low side of zero: 0, a half or 1.
-constexpr double share(unsigned index) { return 0.5 * index; }
+/// Fraction of the block's width or depth on the low side of zero: 0, a half or 1.
+constexpr double fraction(unsigned index) { return 0.5 * index; }
 
 bool solid(const Box3& box) {
   return finite(box.low) && finite(box.high) && box.low.x < box.high.x && box.low.y < box.high.y &&
@@ -34,7 +34,7 @@ bool solid(const Box3& box) {
 
 Stock make_block(Point3 size, ZeroCorner corner, ZeroHeight height) {
   const auto index = static_cast<unsigned>(corner);
-  const Point3 low{-share(index % 3) * size.x, -share(index / 3) * size.y,
+  const Point3 low{-fraction(index % 3) * size.x, -fraction(index / 3) * size.y,
                    height == ZeroHeight::top ? -size.z : 0.0};
   const Point3 zero{};  // adding it turns -0 into 0
   Stock stock;
@@ -75,9 +75,9 @@ const std::vector<std::string>& zero_height_names() {
 bool is_solid(const Stock& stock) { return solid(stock.block); }
 
 std::vector<std::string> write_stock_comments(const Stock& stock) {
-  constexpr int kPlaces = 4;
+  constexpr int kDecimals = 4;
   const auto text = [](double value) {
-    std::string plain = number_text(value, kPlaces);
+    std::string plain = number_text(value, kDecimals);
     const std::size_t point = plain.find('.');
     if (point == std::string::npos) return plain + ".00";
     if (plain.size() - point == 2) plain += '0';

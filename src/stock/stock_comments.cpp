@@ -12,9 +12,9 @@ namespace kerf {
 namespace {
 
 constexpr double kMaxReach = 1e6;  // mm; a stock beyond a kilometre is a typing error
-constexpr double kPrinted = 0.05;  // mm: what two comments may differ by from printing
+constexpr double kPrinted = 0.05;  // mm: maximum difference of two comments from rounding
 
-/// Takes the word in front of the numbers and what separates it from them: "stockmin", "stock/block".
+/// Removes and returns the word before the numbers: "stockmin", "stock/block".
 std::string_view take_word(std::string_view& text) {
   while (!text.empty() && (text.front() == '(' || text.front() == ';')) text = trim(text.substr(1));
   while (!text.empty() && text.back() == ')') text = trim(text.substr(0, text.size() - 1));
@@ -25,7 +25,7 @@ std::string_view take_word(std::string_view& text) {
   return word;
 }
 
-/// A coordinate with or without its unit. "mm" and "in" are taken at their word, else `scale` holds.
+/// A coordinate with or without a unit; without one it is multiplied by `scale`.
 std::optional<double> coordinate(std::string_view field, double scale) {
   field = trim(field);
   const auto ends_in = [&](std::string_view unit) {
@@ -43,7 +43,7 @@ std::optional<double> coordinate(std::string_view field, double scale) {
   return *value * scale;
 }
 
-/// The numbers of a list with commas; nothing if they are not exactly `N`.
+/// The numbers of a comma-separated list; nothing if they are not exactly `N`.
 template <std::size_t N>
 std::optional<std::array<double, N>> numbers(std::string_view list, double scale) {
   std::array<double, N> values{};
@@ -106,12 +106,12 @@ bool StockComments::read(std::string_view comment, double scale, const Origin& w
   return true;
 }
 
-/// stockMin and stockMax without volume are dropped, so that STOCK/BLOCK can tell the stock.
+/// stockMin and stockMax without volume are dropped in favour of STOCK/BLOCK.
 void StockComments::check_corners(const Origin& where, Diagnostics& diagnostics) {
   if (!minimum_ || !maximum_) return;
   if (!solid({*minimum_, *maximum_})) {
     diagnostics.warning(Code::stock_impossible, where,
-                        "stockMin is not below stockMax in every axis; passed over");
+                        "stockMin is not below stockMax in every axis; ignored");
     minimum_.reset();
     maximum_.reset();
     return;
@@ -124,7 +124,7 @@ void StockComments::check_agreement(const Origin& where, Diagnostics& diagnostic
     return;
   diagnostics.warning(
       Code::stock_comments_differ, where,
-      "STOCK/BLOCK and stockMin, stockMax describe different blocks; stockMin, stockMax hold");
+      "STOCK/BLOCK and stockMin, stockMax describe different blocks; stockMin, stockMax are used");
 }
 
 std::optional<Stock> StockComments::stock() const {

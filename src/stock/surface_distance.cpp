@@ -1,4 +1,4 @@
-// The distance from a point to a mesh: a tree of boxes over the triangles, the nearer half looked at first.
+// The distance from a point to a mesh: a tree of boxes over the triangles; the nearer half is searched first.
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -8,7 +8,7 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLeaf = 8;  // triangles that are not divided any more
+constexpr std::size_t kLeaf = 8;  // triangles
 
 double distance2_to_box(const Box3& box, Point3 p) {
   double sum = 0.0;
@@ -46,7 +46,7 @@ double distance2_to_triangle(const std::array<Point3, 3>& t, Point3 p) {
 struct SurfaceDistance::Tree {
   struct Node {
     Box3 box;
-    std::uint32_t begin = 0, end = 0;  // triangles of a leaf
+    std::uint32_t first = 0, end = 0;  // triangles of a leaf
     std::uint32_t right = 0;           // the left child follows its parent; 0: a leaf
   };
   std::vector<Node> nodes;
@@ -59,31 +59,31 @@ struct SurfaceDistance::Tree {
 void SurfaceDistance::Tree::build(std::uint32_t begin, std::uint32_t end) {
   const std::size_t number = nodes.size();
   nodes.emplace_back();
-  Box3 box, middles;
+  Box3 box, centroids;
   for (std::uint32_t k = begin; k < end; ++k) {
     for (const Point3& corner : triangles[k]) box.add(corner);
-    middles.add(triangles[k][0] + triangles[k][1] + triangles[k][2]);
+    centroids.add(triangles[k][0] + triangles[k][1] + triangles[k][2]);
   }
   nodes[number].box = box;
-  nodes[number].begin = begin;
+  nodes[number].first = begin;
   nodes[number].end = end;
   if (end - begin <= kLeaf) return;
-  const Point3 size = middles.size();
+  const Point3 size = centroids.size();
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-  const std::uint32_t middle = begin + (end - begin) / 2;
-  std::nth_element(triangles.data() + begin, triangles.data() + middle, triangles.data() + end,
+  const std::uint32_t median = begin + (end - begin) / 2;
+  std::nth_element(triangles.data() + begin, triangles.data() + median, triangles.data() + end,
                    [axis](const auto& a, const auto& b) {
                      return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
                    });
-  build(begin, middle);
+  build(begin, median);
   nodes[number].right = static_cast<std::uint32_t>(nodes.size());
-  build(middle, end);
+  build(median, end);
 }
 
 void SurfaceDistance::Tree::search(std::uint32_t number, Point3 p, double& best2) const {
   const Node& node = nodes[number];
   if (node.right == 0) {
-    for (std::uint32_t k = node.begin; k < node.end; ++k)
+    for (std::uint32_t k = node.first; k < node.end; ++k)
       best2 = std::min(best2, distance2_to_triangle(triangles[k], p));
     return;
   }

@@ -1,4 +1,4 @@
-// The circle behind a profile's arc.
+// The circle of a profile arc.
 #pragma once
 
 #include <cmath>
@@ -17,9 +17,9 @@ inline ProfileArc profile_arc(const Knot& from, const Knot& to) {
   const double dr = to.r - from.r;
   const double dz = to.z - from.z;
   const double b = from.bulge;
-  // The centre lies on the chord's left normal, this share of the chord away from its middle.
-  const double share = (1.0 - b * b) / (4.0 * b);
-  return {0.5 * (from.r + to.r) - share * dz, 0.5 * (from.z + to.z) + share * dr,
+  // The centre lies on the chord's left normal, at this fraction of the chord from its midpoint.
+  const double fraction = (1.0 - b * b) / (4.0 * b);
+  return {0.5 * (from.r + to.r) - fraction * dz, 0.5 * (from.z + to.z) + fraction * dr,
           std::hypot(dr, dz) * (1.0 + b * b) / (4.0 * std::abs(b))};
 }
 

@@ -1,4 +1,4 @@
-// Which tool a program means when its comment and the table both describe the number.
+// Chooses the tool if both the program's comment and the table describe a number.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -19,47 +19,46 @@ constexpr double kConeTip = 0.12;         // mm: pointed Vs are written with tip
 
 bool near(double a, double b, double within = kLength) { return std::abs(a - b) <= within; }
 
-/// A comment whose writer had diameter and height change places, as is known of bowls.
-bool swapped(const MillFields& table, const MillFields& told) {
-  return table.taper == 0.0 && told.taper == 0.0 && table.corner_radius > 0.0 &&
-         near(told.diameter, table.height) && near(told.height, table.diameter) &&
-         near(told.corner_radius, table.corner_radius);
+/// A comment with diameter and height exchanged, as some programs write bowls.
+bool swapped(const MillFields& table, const MillFields& described) {
+  return table.taper == 0.0 && described.taper == 0.0 && table.corner_radius > 0.0 &&
+         near(described.diameter, table.height) && near(described.height, table.diameter) &&
+         near(described.corner_radius, table.corner_radius);
 }
 
-bool same_mill(const ToolShape& known, const MillFields& table, const MillFields& told) {
-  if (table.taper == 0.0 || told.taper == 0.0) {
-    return table.taper == told.taper &&
-           ((near(table.diameter, told.diameter) && near(table.corner_radius, told.corner_radius)) ||
-            swapped(table, told));
+bool same_mill(const ToolShape& known, const MillFields& table, const MillFields& described) {
+  if (table.taper == 0.0 || described.taper == 0.0) {
+    return table.taper == described.taper && ((near(table.diameter, described.diameter) &&
+                                               near(table.corner_radius, described.corner_radius)) ||
+                                              swapped(table, described));
   }
-  // Of tapered balls some programs write the full angle and a tip like a pointed V's.
+  // Some programs write tapered balls with the included angle and a tip like a pointed V's.
   const bool full_angle =
-      std::holds_alternative<shape::TaperedBall>(known) && near(2.0 * table.taper, told.taper, kTaper);
-  const bool pointed =
-      std::holds_alternative<shape::TaperedBall>(known) && told.diameter <= kConeTip && table.diameter <= 0.3;
-  return (near(table.taper, told.taper, kTaper) || full_angle) &&
-         (near(table.diameter, told.diameter, kConeTip) || pointed);
+      std::holds_alternative<shape::TaperedBall>(known) && near(2.0 * table.taper, described.taper, kTaper);
+  const bool pointed = std::holds_alternative<shape::TaperedBall>(known) && described.diameter <= kConeTip &&
+                       table.diameter <= 0.3;
+  return (near(table.taper, described.taper, kTaper) || full_angle) &&
+         (near(table.diameter, described.diameter, kConeTip) || pointed);
 }
 
-/// Some programs tell the radius without taking off half of the tip; the second diameter then fits neither
-/// way.
-bool same_corner(const CornerFields& table, const CornerFields& told) {
-  const bool radius =
-      near(table.radius, told.radius) || near(table.radius, told.radius - 0.5 * told.tip_diameter);
-  return near(table.tip_diameter, told.tip_diameter) && radius;
+/// Some programs write the radius without subtracting half of the tip; the second diameter is then wrong.
+bool same_corner(const CornerFields& table, const CornerFields& described) {
+  const bool radius = near(table.radius, described.radius) ||
+                      near(table.radius, described.radius - 0.5 * described.tip_diameter);
+  return near(table.tip_diameter, described.tip_diameter) && radius;
 }
 
-bool same_tool(const Tool& table, const Tool& told) {
+bool same_tool(const Tool& table, const Tool& described) {
   const auto table_mill = detail::mill_fields(table.shape);
-  const auto told_mill = detail::mill_fields(told.shape);
-  if (table_mill && told_mill) return same_mill(table.shape, *table_mill, *told_mill);
+  const auto described_mill = detail::mill_fields(described.shape);
+  if (table_mill && described_mill) return same_mill(table.shape, *table_mill, *described_mill);
   const auto table_corner = detail::corner_fields(table.shape);
-  const auto told_corner = detail::corner_fields(told.shape);
-  if (table_corner && told_corner) return same_corner(*table_corner, *told_corner);
-  // What a comment cannot say (undercut tools) it says as a mill of the same diameter.
-  const bool sayable = write_tool_comment(table.shape).has_value();
-  return (!sayable || table.shape.index() == told.shape.index()) &&
-         near(table.diameter.mm(), told.diameter.mm());
+  const auto described_corner = detail::corner_fields(described.shape);
+  if (table_corner && described_corner) return same_corner(*table_corner, *described_corner);
+  // Comments cannot describe undercut tools: they describe a mill of the same diameter.
+  const bool describable = write_tool_comment(table.shape).has_value();
+  return (!describable || table.shape.index() == described.shape.index()) &&
+         near(table.diameter.mm(), described.diameter.mm());
 }
 
 std::string text_of(const Tool& tool) {
@@ -75,9 +74,10 @@ const Tool* choose_tool(const Tool* from_table, const Tool* from_comment, const 
     return from_table ? from_table : from_comment;
   Diagnostic& warning = diagnostics.warning(
       Code::tool_comment_differs, where,
-      fmt::format("tool {} is {} by the program's comment, but {} in the tool table; the comment holds",
-                  from_table->number, text_of(*from_comment), text_of(*from_table)));
-  warning.hint = "give the tool with --tool, or in a tool file, to settle it";
+      fmt::format(
+          "tool {} is {} by the program's comment, but {} in the tool table; the comment takes precedence",
+          from_table->number, text_of(*from_comment), text_of(*from_table)));
+  warning.hint = "specify the tool with --tool or in a tool file";
   return from_comment;
 }
 

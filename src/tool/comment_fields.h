@@ -1,4 +1,4 @@
-// CutViewer's tool comments as a word and its numbers: what reading, writing and comparing share.
+// CutViewer's tool comments as a word and its numbers, for reading, writing and comparing.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ struct CornerFields {
   double tip_diameter = 0.0, diameter = 0.0, radius = 0.0, height = 0.0, length = 0.0;
 };
 
-/// The fields that describe a shape; nothing for shapes of other comments or of none.
+/// The fields that describe a shape; nothing for shapes of other comments or without a comment.
 std::optional<MillFields> mill_fields(const ToolShape& shape);
 std::optional<CornerFields> corner_fields(const ToolShape& shape);
 

@@ -1,4 +1,4 @@
-// Whether a half profile drawn by a user is one that the rest of Kerf can work with.
+// Validates a half profile drawn by a user.
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -23,18 +23,18 @@ std::string knot_fault(const Knot& knot) {
   return "";
 }
 
-/// An arc may neither fall anywhere on its way nor cross the axis.
+/// An arc may neither decrease in z nor cross the axis.
 std::string arc_fault(const Knot& a, const Knot& b) {
-  if (a.r == b.r && a.z == b.z) return "starts an arc of no length";
+  if (a.r == b.r && a.z == b.z) return "starts an arc of zero length";
   const double half_sweep = 2.0 * std::atan(a.bulge);
   const double heading = std::atan2(b.z - a.z, b.r - a.r);
   for (const double end : {heading - half_sweep, heading + half_sweep}) {
-    if (end < -kHeading || end > std::numbers::pi + kHeading) return "starts an arc that falls on its way";
+    if (end < -kHeading || end > std::numbers::pi + kHeading) return "starts an arc that decreases in z";
   }
-  // A clockwise arc whose ends differ in height on both sides of its centre's height swells towards the axis.
+  // A clockwise arc whose ends lie above and below its centre bulges towards the axis.
   const ProfileArc arc = profile_arc(a, b);
-  const bool swells = a.bulge < 0.0 && arc.z > a.z && arc.z < b.z;
-  return swells && arc.r - arc.radius < 0.0 ? "starts an arc that crosses the axis" : "";
+  const bool bulges = a.bulge < 0.0 && arc.z > a.z && arc.z < b.z;
+  return bulges && arc.r - arc.radius < 0.0 ? "starts an arc that crosses the axis" : "";
 }
 
 std::string segment_fault(const Knot& a, const Knot& b) {

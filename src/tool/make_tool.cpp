@@ -1,4 +1,4 @@
-// Makes a tool of a shape and what stands above it; the table of tools.
+// Makes a tool of a shape and the parts above it; the tool table.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace {
 constexpr double kMinAngle = 0.01;
 constexpr double kMaxAngle = 179.0;
 
-/// Why a measure cannot be; empty if it can.
+/// The fault of a dimension; empty if it is valid.
 std::string measure_fault(double value, ShapeParameter::Kind kind, ShapeParameter::Need need) {
   if (!std::isfinite(value)) return "is not a finite number";
   if (value < 0.0) return fmt::format("is {}, but must not be negative", number_text(value, 6));
@@ -78,7 +78,7 @@ class MeasureCheck {
   bool fine_ = true;
 };
 
-/// Where the next part above begins: the radius and height of what is below it.
+/// The radius and height at which the next part above starts.
 struct Seat {
   double r = 0.0, z = 0.0;
 };

@@ -1,14 +1,14 @@
-// Chip loads between those of the table.
+// Interpolation of chip loads.
 #include "kerf/material.h"
 
 namespace kerf {
 
 Length highest_chip_load(const Material& material, Length diameter) {
-  ChipLoad below;  // a tool of no diameter takes nothing
+  ChipLoad below;  // chip load 0 at diameter 0
   for (const ChipLoad& above : material.chip_loads) {
     if (diameter <= above.diameter) {
-      const double share = (diameter - below.diameter) / (above.diameter - below.diameter);
-      return below.highest + share * (above.highest - below.highest);
+      const double fraction = (diameter - below.diameter) / (above.diameter - below.diameter);
+      return below.highest + fraction * (above.highest - below.highest);
     }
     below = above;
   }

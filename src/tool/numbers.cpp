@@ -1,5 +1,4 @@
-// The six-digit tool numbers of gcodepreview: kind, two size codes, flute code. docs/manual/tools.md tells
-// the scheme.
+// The six-digit tool numbers of gcodepreview: kind, two size codes, flute code. See docs/manual/tools.md.
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,8 +10,8 @@
 namespace kerf {
 namespace {
 
-constexpr double kPrinted = 0.0065;  // mm: 1/32" is told as 0.80 mm; 1.6 mm is not 1/16"
-constexpr double kEightMm = 0.0625;  // mm: the scheme has 8 mm bits under the code of 5/16"
+constexpr double kPrinted = 0.0065;  // mm: 1/32" is printed as 0.80 mm; 1.6 mm is not 1/16"
+constexpr double kEightMm = 0.0625;  // mm: the scheme codes 8 mm bits as 5/16"
 constexpr double kLongReach = 19.05;
 constexpr int kOther = 9;  // size code: above an inch, or a size without a code
 
@@ -86,7 +85,7 @@ struct Encoder {
     if (!angle || s.tip_diameter.mm() > 0.0 || s.tip_radius.mm() > 0.0) return std::nullopt;
     return number_of(3, *angle, size_code(s.diameter.mm()), flute_code(s.flute.mm(), 1));
   }
-  /// The bowls' numbers carry the maker's number, not sizes.
+  /// Numbers of bowls contain the manufacturer's number, not dimensions.
   std::optional<int> operator()(const shape::Bowl&) const {
     if (number >= 400000 && number <= 499999) return number;
     return number >= 1000 && number <= 99999 ? std::optional(400000 + number) : std::nullopt;
@@ -98,7 +97,7 @@ struct Encoder {
     if (!angle || !tip || !size) return std::nullopt;
     return number_of(5, *angle, 10 * *tip + *size, flute_code(s.flute.mm(), 1));
   }
-  /// Radius and diameter as the catalogue has them: the body, and half of it; the tip's code in the last
+  /// Radius and diameter as in the catalogue: half of the body, and the body; the code of the tip in the last
   /// digit.
   std::optional<int> operator()(const shape::Roundover& s) const {
     const double body = (s.tip_diameter + 2.0 * s.radius).mm();
@@ -123,7 +122,7 @@ struct Encoder {
   }
 };
 
-/// The five digits after the kind, and what they say.
+/// Decodes the five digits after the kind.
 class Decoder {
  public:
   explicit Decoder(int number)
@@ -131,7 +130,7 @@ class Decoder {
 
   /// The shape, or nothing with `fault` set.
   std::optional<ToolShape> shape();
-  std::string fault = "is not a number of the scheme";
+  std::string fault = "does not follow the scheme";
 
  private:
   std::optional<double> length(int code, std::string_view what);
@@ -154,13 +153,13 @@ class Decoder {
 std::optional<double> Decoder::length(int code, std::string_view what) {
   if (code >= 10) return 0.1 * code;
   if (const auto size = size_of(kSizes, code)) return size;
-  return no(code == kOther ? fmt::format("does not say the {}: code 9 is \"above an inch or other\"", what)
+  return no(code == kOther ? fmt::format("does not give the {}: code 9 is \"above an inch or other\"", what)
                            : fmt::format("has no {}: code 00", what));
 }
 
-/// Flute code 1 and 9 take the height from the shape; 0 and 8 do not tell it.
+/// Flute codes 1 and 9 take the height from the shape; 0 and 8 do not specify it.
 std::optional<double> Decoder::flute(std::optional<double> from_shape, Length otherwise) {
-  if (const auto told = size_of(kFlutes, flute_)) return told;
+  if (const auto coded = size_of(kFlutes, flute_)) return coded;
   if (flute_ == 1 || flute_ == 9) {
     if (from_shape) return from_shape;
     return no(fmt::format("has flute code {}, which a tool of this kind does not have", flute_));
@@ -202,7 +201,7 @@ std::optional<ToolShape> Decoder::tapered_ball() {
   const auto tip = size_of(kTips, size_ / 10);
   const auto diameter = size_of(kSizes, size_ % 10);
   if (shape_ == 0 || !tip || !diameter || *tip >= *diameter)
-    return no("has no tapered ball's angle, tip and diameter");
+    return no("lacks the angle, tip and diameter of a tapered ball");
   const auto height = flute(flute_ == 1 ? std::optional(0.0) : std::nullopt, Length());
   if (!height) return std::nullopt;
   return shape::TaperedBall{mm(*diameter), mm(*height), degrees(shape_), mm(*tip)};
@@ -212,16 +211,16 @@ std::optional<ToolShape> Decoder::roundover() {
   const auto body = length(size_, "diameter");
   const auto tip = size_of(kTips, flute_);
   if (!body) return std::nullopt;
-  if (!tip || *tip >= *body) return no("has no roundover's tip");
+  if (!tip || *tip >= *body) return no("lacks the tip of a roundover");
   const double radius = 0.5 * (*body - *tip);
   return shape::Roundover{mm(*tip), mm(radius), Length()};
 }
 
-/// The digits of a dovetail do not tell its flute: the diameter, or less where the sides would meet.
+/// The digits of a dovetail do not specify its flute: the diameter, or less if the sides would meet.
 std::optional<ToolShape> Decoder::dovetail() {
   const auto diameter = length(size_, "diameter");
   if (!diameter) return std::nullopt;
-  if (shape_ == 0 || shape_ > 89) return no("has no dovetail's angle");
+  if (shape_ == 0 || shape_ > 89) return no("lacks the angle of a dovetail");
   const double meet = 0.5 * *diameter / std::tan(degrees(shape_).rad());
   const auto height = flute(std::min(*diameter, 0.75 * meet), mm(std::min(*diameter, 0.75 * meet)));
   if (!height) return std::nullopt;
@@ -233,7 +232,7 @@ std::optional<ToolShape> Decoder::keyhole() {
   const auto head = length(shape_, "head");
   const auto neck = length(size_, "neck");
   if (!head || !neck) return std::nullopt;
-  if (*neck >= *head) return no("has a keyhole's neck wider than its head");
+  if (*neck >= *head) return no("has a keyhole neck wider than its head");
   const auto height = size_of(kFlutes, flute_);
   return shape::Keyhole{mm(*head), mm(height ? *height : 0.375 * *head), mm(*neck), Length()};
 }
@@ -243,10 +242,10 @@ std::optional<ToolShape> Decoder::shape() {
     case 1: return square();
     case 2: return ball();
     case 3: return vee();
-    case 4: return no("carries a bowl's maker's number, which says no sizes");
+    case 4: return no("contains the manufacturer's number of a bowl, which has no dimensions");
     case 5: return tapered_ball();
     case 6: return roundover();
-    case 7: return no("is a thread mill's, for which the scheme has no sizes");
+    case 7: return no("is that of a thread mill, for which the scheme has no dimensions");
     case 8: return dovetail();
     case 9: return keyhole();
     default: return std::nullopt;
@@ -262,10 +261,10 @@ std::optional<int> encode_tool_number(const Tool& tool) {
 std::optional<ToolShape> decode_tool_number(int number, const Origin& where, Diagnostics& diagnostics) {
   Decoder decoder(number < 100000 || number > 999999 ? 0 : number);
   std::optional<ToolShape> shape = decoder.shape();
-  Diagnostics unheard;  // digits can each be right and not fit together
-  if (shape && !make_tool(number, *shape, {}, where, unheard)) {
+  Diagnostics ignored;  // each digit can be right and the shape impossible
+  if (shape && !make_tool(number, *shape, {}, where, ignored)) {
     shape.reset();
-    decoder.fault = "says sizes that do not fit together";
+    decoder.fault = "gives inconsistent dimensions";
   }
   if (!shape) {
     diagnostics.error(Code::tool_number_unclear, where,

@@ -15,7 +15,7 @@ double segment_radius(const Knot& a, const Knot& b, double z) {
   if (z == a.z) return a.r;
   if (z == b.z) return b.r;
   if (a.bulge == 0.0) return a.r + (b.r - a.r) * ((z - a.z) / (b.z - a.z));
-  // As z never falls, a counter-clockwise arc lies right of its centre and a clockwise one left of it.
+  // As z never decreases, a counter-clockwise arc lies right of its centre and a clockwise one left of it.
   const detail::ProfileArc arc = detail::profile_arc(a, b);
   const double height = z - arc.z;
   const double half_chord = std::sqrt(std::max(0.0, (arc.radius - height) * (arc.radius + height)));
@@ -34,21 +34,21 @@ double segment_max_radius(const Knot& a, const Knot& b) {
 
 double Profile::max_radius() const {
   if (empty()) return 0.0;
-  double most = 0.0;
+  double radius = 0.0;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    most = std::max(most, segment_max_radius(knots[i], knots[i + 1]));
+    radius = std::max(radius, segment_max_radius(knots[i], knots[i + 1]));
   }
-  return most;
+  return radius;
 }
 
 double Profile::radius_at(double z) const {
-  double most = 0.0;
+  double radius = 0.0;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const Knot& a = knots[i];
     const Knot& b = knots[i + 1];
-    if (z >= a.z && z <= b.z) most = std::max(most, segment_radius(a, b, z));
+    if (z >= a.z && z <= b.z) radius = std::max(radius, segment_radius(a, b, z));
   }
-  return most;
+  return radius;
 }
 
 std::string_view to_string(ToolPart part) {

@@ -1,5 +1,5 @@
-// CutViewer's tool comments, read as they stand in real programs: odd spacing, two printed decimals, fields
-// left 0.
+// Reads CutViewer's tool comments in the variants of real programs: odd spacing, two decimals, fields left
+// 0.
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPrinted = 0.01;           // mm: half of "3.17" is printed as "1.59"
 constexpr double kMaxRoundedTip = 0.2;      // mm: programs write a pointed V as a ball of 0.10 mm on a cone
-constexpr double kUsualVeeDiameter = 12.7;  // mm: where neither height nor diameter of a V is told
+constexpr double kUsualVeeDiameter = 12.7;  // mm: if a V has neither height nor diameter
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 
 /// The numbers of a comment after its word.
@@ -38,13 +38,11 @@ class CommentReader {
     return std::nullopt;
   }
   std::nullopt_t unusable(const std::string& why) {
-    diagnostics_.warning(Code::tool_comment_unusable, where_,
-                         fmt::format("tool comment passed over: {}", why));
+    diagnostics_.warning(Code::tool_comment_unusable, where_, fmt::format("tool comment ignored: {}", why));
     return std::nullopt;
   }
-  /// Reads between `least` and `most` numbers, none negative but where `sign` allows it; false after an
-  /// error.
-  bool numbers(std::string_view word, std::string_view list, std::size_t least, std::size_t most);
+  /// Reads `min_count` to `max_count` numbers; false after an error.
+  bool numbers(std::string_view word, std::string_view list, std::size_t min_count, std::size_t max_count);
   double length(std::size_t i) const { return scale_ * fields_.values[i]; }
   double angle(std::size_t i) const { return fields_.values[i] * std::numbers::pi / 180.0; }
 
@@ -54,7 +52,7 @@ class CommentReader {
   std::optional<ToolShape> chamfer(std::string_view list);
   std::optional<ToolShape> drill(std::string_view list);
   std::optional<ToolShape> centre_drill(std::string_view list);
-  /// Whether an angle field can be a cone's: above `low`, below `high` degrees.
+  /// Whether an angle field is valid for a cone: above `low`, below `high` degrees.
   bool angle_fits(std::size_t i, double low, double high);
 
   std::string_view comment_;
@@ -64,7 +62,7 @@ class CommentReader {
   Fields fields_;
 };
 
-/// Takes the next field off a list with commas.
+/// Removes and returns the next field of a comma-separated list.
 std::string_view next_field(std::string_view& list) {
   const std::size_t comma = list.find(',');
   const std::string_view field = trim(list.substr(0, comma));
@@ -72,10 +70,10 @@ std::string_view next_field(std::string_view& list) {
   return field;
 }
 
-bool CommentReader::numbers(std::string_view word, std::string_view list, std::size_t least,
-                            std::size_t most) {
+bool CommentReader::numbers(std::string_view word, std::string_view list, std::size_t min_count,
+                            std::size_t max_count) {
   fields_ = {};
-  while (!trim(list).empty() && fields_.count < most) {
+  while (!trim(list).empty() && fields_.count < max_count) {
     const std::string_view field = next_field(list);
     if (fold_name(field) == "color" || fold_name(field) == "colour") break;
     const std::optional<double> value = parse_number(field);
@@ -85,8 +83,8 @@ bool CommentReader::numbers(std::string_view word, std::string_view list, std::s
     }
     fields_.values[fields_.count++] = *value;
   }
-  if (fields_.count >= least) return true;
-  malformed(fmt::format("TOOL/{} needs {} numbers, found {}", word, least, fields_.count));
+  if (fields_.count >= min_count) return true;
+  malformed(fmt::format("TOOL/{} needs {} numbers, found {}", word, min_count, fields_.count));
   return false;
 }
 
@@ -107,8 +105,8 @@ std::optional<ToolShape> CommentReader::mill(std::string_view list) {
   if (diameter < 0.0 || height < 0.0) return malformed("a negative diameter or height");
   if (corner < 0.0) {
     return malformed(
-        "a ball whose control point is its centre (negative corner radius) is not supported; "
-        "write the program for the tip and give the radius as positive");
+        "a ball controlled at its centre (negative corner radius) is not supported; "
+        "write the program for the tip with a positive radius");
   }
   if (corner > 0.5 * diameter + kPrinted) {
     return unusable(fmt::format("a corner radius of {} mm is more than half the diameter of {} mm",
@@ -125,8 +123,8 @@ std::optional<ToolShape> CommentReader::mill(std::string_view list) {
   return shape::BullNose{mm(diameter), mm(height), mm(corner)};
 }
 
-/// The diameter is the one at the tip. A corner radius lies tangent between the tip's flat and the cone; at
-/// half the diameter that is a ball.
+/// The diameter is that of the tip. A corner radius is tangent to the flat of the tip and to the cone; at
+/// half the diameter it is a ball.
 std::optional<ToolShape> CommentReader::tapered_mill(double diameter, double corner, double height,
                                                      double taper) {
   const bool ball = corner > 0.0 && corner >= 0.5 * diameter - std::min(kPrinted, 0.1 * diameter);

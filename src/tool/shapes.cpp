@@ -1,4 +1,4 @@
-// The shapes' names and parameters as one table: readers, writers, checks and messages all use it.
+// Names and parameters of the shapes: one table for readers, writers, checks and messages.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -183,7 +183,7 @@ constexpr std::array kOtherNames{
     OtherName{"profile", "drawn"},
 };
 
-/// Flutes of the usual router bits: diameter and flute in mm.
+/// Flutes of common router bits: diameter and flute in mm.
 constexpr std::array<std::array<double, 2>, 4> kUsualFlutes{
     {{0.79375, 1.5875}, {1.5875, 6.35}, {3.175, 12.7}, {6.35, 19.05}}};
 constexpr double kPrintedDiameter = 0.02;  // mm: "3.17" and "0.80" are the 1/8" and the 1/32" mill

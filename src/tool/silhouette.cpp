@@ -12,11 +12,11 @@ namespace kerf::detail {
 namespace {
 
 constexpr double kQuarter = 0.5 * std::numbers::pi;
-constexpr double kCatalogueRounding = 0.01;  // mm: catalogues print a cone's height with two decimals
+constexpr double kCatalogueRounding = 0.01;  // mm: catalogues print the height of a cone with two decimals
 
 std::string mm_text(double value) { return number_text(value, 4) + " mm"; }
 
-/// Visits a shape, fills in what is not told and draws.
+/// Visits a shape, fills in default dimensions and makes its profile.
 class Drawer {
  public:
   explicit Drawer(Length neck_length) : neck_length_(neck_length.mm()) {}
@@ -43,18 +43,18 @@ class Drawer {
   Cutting result;
 
  private:
-  /// Keeps the first reason; true if `fits`.
+  /// Stores the first reason; true if `fits`.
   bool require(bool fits, const std::string& reason);
   void corner_mill(Length diameter, Length& flute, Length corner_radius);
   /// Ball of `tip_radius` tangent to a cone of the half angle that reaches `radius`, then a cylinder to the
   /// flute.
   void rounded_cone(double tip_radius, double half_angle, double radius, Length& flute);
-  /// A cone that goes on from the outline to `radius`, then a cylinder to the flute; flute 0 is the cone's
-  /// end.
+  /// A cone from the end of the outline to `radius`, then a cylinder to the flute; flute 0: the end of the
+  /// cone.
   void cone(Outline outline, double half_angle, double radius, Length& flute);
-  /// From a head's end inwards to a neck: cutting up to `flute`, or not at all where that is not told.
+  /// From the end of a head inwards to a neck: cutting up to `flute`, or not at all if that is unspecified.
   void necked(Outline head, Length neck_diameter, Length& flute);
-  /// Where a shape does not tell its flute: that of a usual tool.
+  /// The default flute, if the shape has none.
   void assume_flute(Length& flute, Length diameter) {
     result.flute_assumed = flute.mm() == 0.0;
     if (result.flute_assumed) flute = usual_flute(diameter);
@@ -325,7 +325,7 @@ void Drawer::operator()(shape::CornerRounding& s) {
     return;
   }
   const double arc_r = std::min(tip + radius, body);
-  const double left = tip + radius - arc_r;  // of the arc's quarter, where it does not come to its end
+  const double left = tip + radius - arc_r;  // of the quarter arc, if it is not complete
   const double arc_z = std::sqrt((radius - left) * (radius + left));
   if (s.flute.mm() == 0.0) s.flute = std::max(s.height, mm(arc_z));
   const double top = std::max(s.flute, s.height).mm();

@@ -1,4 +1,4 @@
-// CutViewer's tool comments written, and the fields behind them.
+// Writes CutViewer's tool comments, and their fields.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@ namespace kerf {
 namespace detail {
 namespace {
 
-/// The cone's height, which the comment wants: a flute above it would make the comment's tool wider.
+/// The height of the cone: a flute above it would make the tool of the comment wider.
 double cone_height(const shape::Vee& v, double half_angle) {
   const double tip = v.tip_radius.mm();
   const double start_r = tip > 0.0 ? tip * std::cos(half_angle) : 0.5 * v.tip_diameter.mm();
@@ -66,13 +66,13 @@ std::optional<CornerFields> corner_fields(const ToolShape& shape) {
 
 namespace {
 
-/// A length or angle as the seeds' programs print it: two places at least where it is round or an angle.
-std::string field(double value, int least_places) {
+/// A length or angle with at least `min_decimals` decimals.
+std::string field(double value, int min_decimals) {
   constexpr int kMaxDecimals = 6;
   const std::string text = number_text(value, kMaxDecimals);
   const std::size_t point = text.find('.');
-  const auto places = point == std::string::npos ? 0 : static_cast<int>(text.size() - point) - 1;
-  return places < least_places ? fixed_text(value, least_places) : text;
+  const auto decimals = point == std::string::npos ? 0 : static_cast<int>(text.size() - point) - 1;
+  return decimals < min_decimals ? fixed_text(value, min_decimals) : text;
 }
 std::string length_field(double value) { return field(value, value == 0.0 ? 2 : 0); }
 std::string length_field(Length value) { return length_field(value.mm()); }

@@ -142,7 +142,7 @@ def megabytes(words):
 def test_an_endless_stream_ends_at_a_limit(words):
     status, err, used = megabytes(["bash", "-c", words])
     assert status == 1
-    assert b"[1002]" in err and b"ordinary files" in err  # file_too_large
+    assert b"[1002]" in err and b"regular files" in err  # file_too_large
     assert used < 1000
 
 
