@@ -1,10 +1,10 @@
-// What is dangerous or wrong in a toolpath by itself, before any material is thought of: cuts without a feed,
-// a tool or a turning spindle, arcs whose ends do not lie on one circle, programs cut off before their end.
-// With the machine, the tools, the stock or the material told also: moves outside the travel, speeds that the
-// spindle does not have, plunges with tools that cannot, tool changes too low, feeds that break teeth.
+// Hazards of a toolpath that do not depend on the material removed: cuts without a feed, a tool or a running
+// spindle, arcs with different radii at their ends, truncated programs. With a machine, tools, a stock or a
+// material also: motions outside the travel, spindle speeds out of range, plunges with tools that cannot
+// plunge, tool changes below the stock's top, excessive chip loads.
 //
-// What a toolpath does to material (rapids through the stock, shank and holder contact) is simulate.h's
-// matter; `kerf check` shows both.
+// Hazards in the material (rapids through the stock, shank and holder contact) are found by simulate.h;
+// `kerf check` reports both.
 //
 //   std::vector<PathHazard> found = check_path(path, {});
 #pragma once
@@ -27,40 +27,40 @@
 
 namespace kerf {
 
-/// What the front end knows of a program's end. Toolpaths made by calls have none and need none.
+/// Whether the front end saw the end of the program. Toolpaths made by calls need none.
 enum class ProgramEnd : std::uint8_t { not_asked, seen, missing };
 
 struct CheckOptions {
   ArcMismatch arc_radii = {};
   ProgramEnd end = ProgramEnd::not_asked;
-  // What is not told (nullptr, nothing) is not looked at. They must outlive the check.
+  // Without them (nullptr, nothing) the related checks are skipped. They must outlive the check.
   const Machine* machine = nullptr;          // travel and spindle
   const ToolTable* tools = nullptr;          // plunges and chip loads
   const Material* material = nullptr;        // chip loads
   std::optional<Box3> stock = std::nullopt;  // tool changes; plunges only below its top
 };
 
-/// Something wrong from step `step` on. Neighbouring motions with the same trouble are one entry.
+/// A hazard from step `step` on. Consecutive motions with the same hazard are one entry.
 struct PathHazard {
   Code code{};              // a 5xxx code; its name is the hazard's kind
   std::uint32_t step = 0;   // index in the toolpath of the first motion concerned
   std::uint32_t steps = 1;  // motions concerned, this one and those after it
   Point3 at;                // mm, where the first motion concerned ends
   std::string message;
-  std::string hint = {};  // what to do about it; may be empty
+  std::string hint = {};  // the remedy; may be empty
 };
 
 /// "no_feed", "negative_feed", "no_tool", "arc_radii", "spindle_off", "no_program_end" ...
 std::string_view kind_of(const PathHazard& hazard);
 
-/// The hazard of a program written for machines whose Z counts downwards: every rapid on the way from place
-/// to place runs at or below the lowest cut, where Z upwards has the stock. Of the material nothing can be
-/// told then. Nothing for other programs; check_path includes it.
+/// The hazard of a program written for machines whose Z counts downwards: every rapid between
+/// positions runs at or below the lowest cut, inside the stock if Z counted upwards. The material cannot be
+/// checked then. Nothing for other programs; check_path includes it.
 std::optional<PathHazard> find_z_downwards(const Toolpath& path);
 
-/// Looks through a whole toolpath; what it finds is in the order of steps. Neither spindle nor tool is
-/// asked for in programs that switch a laser or lay down beads. A spindle that turns at 0 rpm is one whose
-/// speed is set by hand: the reader of G-code makes an S0 a spindle that is off.
+/// Checks a whole toolpath; hazards are in the order of steps. Programs that switch a laser or lay beads need
+/// neither spindle nor tool. A spindle running at 0 rpm has a manually set speed: the G-code reader turns S0
+/// into a stopped spindle.
 std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& options);
 
 }  // namespace kerf

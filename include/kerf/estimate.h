@@ -1,14 +1,14 @@
-// How long a machine takes for a toolpath, as its controller plans it: acceleration, slower corners, and a
-// look-ahead of few moves that brakes where moves are short.
+// Machining time of a toolpath as planned by the controller: acceleration, slower corners, and a short
+// look-ahead that brakes on short motions.
 //
 //   TimeEstimate time = estimate_time(path, machine);
 //   time.all.motion.seconds();
 //
-// The model is that of GRBL's page "Grbl v1.1 Configuration" ($11, $12, $110-$122): straight moves with
+// The model is that of GRBL's page "Grbl v1.1 Configuration" ($11, $12, $110-$122): straight motions with
 // constant acceleration, limited on each axis; the speed through a corner from the junction deviation; arcs
-// as chords; a ring of planned moves of which the last ends at rest, filled again whenever a move is done (an
-// infinitely fast sender). Spindle, coolant, pauses, dwells, tool changes and shifts of the zero bring the
-// machine to rest where they change something. Feeds are those of the program; overrides stand at 100%.
+// as chords; a queue of planned motions whose last one ends at rest, refilled after every motion (an
+// infinitely fast sender). Changes of spindle and coolant, pauses, dwells, tool changes and changes of the
+// work offset stop the machine. Feeds are those of the program; overrides are 100%.
 #pragma once
 
 #include <cstddef>
@@ -24,9 +24,9 @@ namespace kerf {
 
 /// Times of a part of a toolpath.
 struct TimeFigures {
-  Duration motion;  // moves alone, braking for stops included
+  Duration motion;  // motions alone, including braking for stops
   Duration rapid;   // of `motion`: rapids
-  Duration dwell;   // told waits, as told
+  Duration dwell;   // as programmed
   Duration halts;   // Machine::stop_time of every stop
   std::size_t stops = 0;
   Duration cutting() const { return motion - rapid; }
@@ -38,9 +38,9 @@ struct ToolTime {
   TimeFigures time;
 };
 
-/// A stretch of the toolpath that a tool change, a layer or a note begins.
+/// A section of the toolpath that a tool change, a layer or a note starts.
 struct OperationTime {
-  std::string name;  // the layer's or the note's text; empty where there is none
+  std::string name;  // text of the layer or note; may be empty
   std::optional<int> tool;
   std::size_t first_step = 0;
   TimeFigures time;
@@ -48,15 +48,16 @@ struct OperationTime {
 
 struct TimeEstimate {
   TimeFigures all;
-  std::vector<ToolTime> tools;            // in order of first use; a tool used again is one entry
-  std::vector<OperationTime> operations;  // those that move; at most 1000, the last then holds the rest
-  std::size_t moves = 0;                  // planned ones: chords of arcs each count
-  std::size_t not_timed = 0;              // moves without a feed, and turns of rotary axes alone
+  std::vector<ToolTime> tools;  // in order of first use; a tool used again is one entry
+  std::vector<OperationTime>
+      operations;             // those with motions; at most 1000, the last one then contains the rest
+  std::size_t moves = 0;      // planned ones: chords of arcs each count
+  std::size_t not_timed = 0;  // motions without a feed, and motions of rotary axes alone
 };
 
 TimeEstimate estimate_time(const Toolpath& path, const Machine& machine);
 
-/// Seconds that each step takes, dwells included; one number a step.
+/// Seconds per step, including dwells.
 std::vector<float> step_seconds(const Toolpath& path, const Machine& machine);
 
 }  // namespace kerf

@@ -1,8 +1,8 @@
-// Passes: a toolpath made better without changing what it cuts by more than a tolerance.
+// Passes: optimise a toolpath without changing the cut by more than a tolerance.
 //
-// Each takes a toolpath and returns a new one with the saving. Origins are kept: a step that stands for
-// several has the origin of the first of them. Only neighbouring motions with equal feeds are put together;
-// any other step, a rotary axis, a height to be probed or an unknown place between them ends a chain.
+// Each takes a toolpath and returns a new one with the saving. Origins are kept: a step that replaces
+// several has the origin of the first of them. Only consecutive motions with equal feeds are joined; any
+// other step, a rotary axis, a height to be probed or an unknown position between them ends a chain.
 //
 //   PassResult fitted = fit_arcs(path, {.tolerance = mm(0.01)});
 //   // fitted.path, fitted.before.steps, fitted.after.steps
@@ -26,24 +26,24 @@ struct PassResult {
   PassFigures before, after;
 };
 
-/// Arcs become chains of straight cuts that stray at most `chord` from them.
+/// Arcs become chains of straight cuts within `chord` of them.
 PassResult arcs_to_chords(const Toolpath& path, Length chord);
 
 struct ArcFitOptions {
   Length tolerance = default_tolerance::kArcFitting;  // of a chord's ends and midpoint from the arc
   Length largest_radius = mm(500);                    // flatter chains stay straight
-  std::size_t fewest = 3;                             // chords that an arc stands for
+  std::size_t fewest = 3;                             // chords replaced by an arc
 };
 /// Chains of straight cuts in a plane of the machine become arcs (also helices about Z) where every point of
 /// the chain lies within the tolerance. Corners stay.
 PassResult fit_arcs(const Toolpath& path, const ArcFitOptions& options);
 
-/// Straight cuts, and rapids, that go on in one direction become one: no point that is left out lies farther
-/// than `tolerance` from what replaces it, and none goes back.
+/// Consecutive straight cuts, and rapids, in one direction become one: every removed point lies within
+/// `tolerance` of the result, and the path never reverses.
 PassResult join_straight(const Toolpath& path, Length tolerance);
 
-/// Leaves out rapids that lead nowhere (to where the tool stands), and rapids straight up that are followed
-/// by a rapid straight down again, as far as both go. No rapid goes where none went before.
+/// Removes rapids of zero length, and the common part of a rapid straight up followed by a rapid straight
+/// down. No rapid goes where none went before.
 PassResult shorten_rapids(const Toolpath& path);
 
 }  // namespace kerf

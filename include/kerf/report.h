@@ -1,5 +1,4 @@
-// What a toolpath does, in numbers: counts, lengths, bounds, tools, feeds, speeds, and a first estimate of
-// time.
+// Figures of a toolpath: counts, lengths, bounds, tools, feeds, speeds, and a first estimate of time.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@
 
 namespace kerf {
 
-/// Lowest and highest of what was seen; low above high while nothing was.
+/// Minimum and maximum of the values; low above high without values.
 struct Range {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -25,8 +24,8 @@ struct Range {
   }
 };
 
-/// Counts, lengths and times of a part of a toolpath. Motions with machine coordinates count with the values
-/// an interpreter with zero offsets takes; a helix counts its true length; a move of length 0 is counted.
+/// Counts, lengths and times of a part of a toolpath. Motions in machine coordinates count with the values
+/// of an interpreter with zero offsets; a helix counts its true length; motions of length 0 are counted.
 struct MotionFigures {
   std::size_t lines = 0, arcs = 0, rapids = 0;
   double cut_mm = 0.0, rapid_mm = 0.0;
@@ -51,8 +50,8 @@ struct PathReport {
 
 struct ReportOptions {
   Feed rapid_feed = mm_per_min(3000);
-  /// Highest rates of X, Y and Z. Where all are above 0, a rapid takes what its slowest axis takes, whatever
-  /// `rapid_feed` says.
+  /// Maximum rates of X, Y and Z. If all are above 0, a rapid takes the time of its slowest axis, regardless
+  /// of `rapid_feed`.
   std::array<Feed, 3> axis_rates{};
   /// Only the steps of [first, end) count.
   std::size_t first = 0, end = std::numeric_limits<std::size_t>::max();

@@ -1,8 +1,8 @@
-// The toolpath: the one thing every way in makes and every way out reads.
+// The toolpath: the common representation between all inputs and all outputs.
 //
 // A toolpath is a list of steps. Positions are complete, absolute, in mm and work coordinates (rotary axes in
-// degrees); nothing is modal and nothing knows a controller. Arcs stay arcs. Every step knows its origin: the
-// line, drawing entity or call that caused it. A step is 64 bytes, an origin 16 more.
+// degrees); nothing is modal or specific to a controller. Arcs stay arcs. Every step has an origin: the line,
+// drawing entity or call that caused it. A step has 64 bytes, an origin 16 more.
 //
 //   Toolpath path;
 //   auto here = path.origins().add(CallSpot{.call = "example"});
@@ -13,7 +13,7 @@
 //   path.add(step::Arc{.to = {10, 0, -1}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(400)},
 //   here);
 //
-// Source: the architecture's page "The toolpath"; turning senses as in RS274/NGC section 3.5.3.
+// Directions of rotation as in RS274/NGC section 3.5.3.
 #pragma once
 
 #include <array>
@@ -34,7 +34,7 @@ enum class SpindleTurn : std::uint8_t { off, cw, ccw };
 enum class PathModeKind : std::uint8_t { exact_path, exact_stop, blend };
 enum class Heater : std::uint8_t { nozzle, bed, chamber };
 enum class LaserMode : std::uint8_t { off, constant, dynamic };
-/// Probing: what ends the motion (contact made or contact lost) and whether missing it is an error
+/// Probing: the event that ends the motion (contact made or lost) and whether its absence is an error
 /// (G38.2-G38.5).
 enum class ProbeKind : std::uint8_t { contact_or_error, contact, release_or_error, release };
 /// Where a pause (M0, M1, M60) waits: always, only if the operator's switch is set, or with a change of
@@ -79,7 +79,7 @@ struct Coolant {
   bool mist = false;
   bool flood = false;
 };
-/// How corners are driven; `tolerance` is the permitted distance from the path when blending, 0 = none given.
+/// How corners are run; `tolerance` is the permitted distance from the path when blending, 0 = none given.
 struct PathMode {
   PathModeKind kind = PathModeKind::exact_path;
   Length tolerance;
@@ -89,7 +89,7 @@ struct Probe {
   Feed feed;
   ProbeKind kind = ProbeKind::contact_or_error;
 };
-/// A straight move that lays a bead of `volume` mm3; below 0: draws filament back. 0 by 0: size not told.
+/// A straight move that lays a bead of `volume` mm3; below 0: retracts filament. 0 by 0: size unknown.
 struct Extrude {
   Point3 to;
   Volume volume;
@@ -133,9 +133,8 @@ struct ClosePath {};
 struct StoreHome {
   Reference home = Reference::home;
 };
-/// A line for the controller that Kerf passes on as it is, such as a macro's call or a message on a display.
-/// It neither moves the machine nor changes how other lines are read: whoever makes the step vouches for
-/// that.
+/// A line that is passed to the controller unchanged, such as a macro call or a message on a display. It must
+/// neither move the machine nor change how other lines are read; this is the responsibility of the caller.
 struct Verbatim {
   std::string text;
 };
@@ -167,8 +166,8 @@ enum class StepKind : std::uint8_t {
 /// The name used in `kerf steps`: "rapid", "cut", "tool", "pathmode" and so on.
 std::string_view name_of(StepKind kind);
 
-/// One step, packed. Read it through `kind()` and the typed getters, which assert that the kind is right;
-/// texts and beads are kept by the Toolpath (`Toolpath::layer()`, `text()`, `extrude()`).
+/// One step, packed. Read it through `kind()` and the typed getters, which assert the kind; texts and beads
+/// are stored in the Toolpath (`Toolpath::layer()`, `text()`, `extrude()`).
 class Step {
  public:
   StepKind kind() const { return kind_; }
@@ -178,22 +177,21 @@ class Step {
   bool is_motion() const {
     return kind_ <= StepKind::arc || kind_ == StepKind::probe || kind_ == StepKind::extrude;
   }
-  /// True for motions that meet material at feed: cut and arc (a probe touches, it does not cut).
+  /// True for cutting motions: cut and arc (a probe touches, it does not cut).
   bool is_cutting() const { return kind_ == StepKind::cut || kind_ == StepKind::arc; }
   Point3 to() const { return {values_[0], values_[1], values_[2]}; }
-  /// Feed of a cut, arc, probe or extrude; zero means that the program gave none.
+  /// Feed of a cut, arc, probe or extrude; zero if the program gave none.
   Feed feed() const { return Feed::raw(values_[3]); }
-  /// Bits 1, 2, 4: at this motion's end X, Y, Z is not known in work coordinates (never commanded yet, or
-  /// commanded in machine coordinates). `to()` then holds what an interpreter with zero offsets takes.
+  /// Bits 1, 2, 4: X, Y, Z at the end of this motion is unknown in work coordinates (not yet commanded, or
+  /// commanded in machine coordinates). `to()` then has the value of an interpreter with zero offsets.
   unsigned unknown_axes() const { return frame_ & 7u; }
-  /// What the axes of `reference_axes()` (bits as above) are given in. Those axes are unknown ones.
+  /// The reference of `reference_axes()` (bits as above). Those axes are unknown ones.
   Reference reference() const { return static_cast<Reference>(reference_); }
   unsigned reference_axes() const { return (frame_ >> 3) & 7u; }
-  /// Bits 1, 2, 4, 8, 16, 32: the program named X, Y, Z, A, B, C for this motion; 0 = that is not told.
-  /// `to()` is complete either way. A post that prints words as the user gave them may use it; nothing else
-  /// may depend on it.
+  /// Bits 1, 2, 4, 8, 16, 32: the program named X, Y, Z, A, B, C for this motion; 0: not specified.
+  /// `to()` is complete either way. Only posts that reproduce the user's words may use it.
   unsigned named_axes() const { return named_axes_; }
-  /// The controller comes to rest before this motion although no step says why (the work's zero is shifted).
+  /// The controller stops before this motion for a reason without a step (the work offset changes).
   bool rests_before() const { return rests_before_; }
 
   step::Rapid rapid() const;
@@ -226,9 +224,9 @@ class Step {
   std::uint8_t named_axes_ : 6 = 0;
   std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference axes
 };
-static_assert(sizeof(Step) == 64, "a million steps are to fit in 64 MB");
+static_assert(sizeof(Step) == 64, "a million steps fit in 64 MB");
 
-/// What few motions have besides their place: rotary axes, and a Z that is corrected by measured points.
+/// Rare data of a motion: rotary axes, and a Z that is corrected by probed points.
 struct MotionExtra {
   std::optional<std::array<double, 3>> abc;  // degrees
   std::string z_correction;                  // expression over probed values; empty = none
@@ -244,7 +242,7 @@ class Toolpath {
   OriginTable& origins() { return origins_; }
   const OriginTable& origins() const { return origins_; }
   Origin origin_of(std::size_t i) const { return origins_.resolve(steps_[i].origin()); }
-  /// Whether any step is of this kind; told without a look at the steps.
+  /// Whether any step is of this kind; constant time.
   bool has(StepKind kind) const { return (kinds_ >> static_cast<unsigned>(kind) & 1u) != 0; }
   /// The last motion before step `i`, if there is one.
   std::optional<std::size_t> motion_before(std::size_t i) const;
@@ -272,18 +270,17 @@ class Toolpath {
   std::size_t add(const step::StoreHome& s, OriginId origin);
   /// Copies step `i` of another toolpath (made from the same sources), texts, extras and origin included.
   std::size_t add_copy(const Toolpath& other, std::size_t i);
-  /// Copies the origin of step `i` of another toolpath, callers included, for a step that stands for that
-  /// one.
+  /// Copies the origin of step `i` of another toolpath, callers included, for a step that replaces it.
   OriginId copy_origin(const Toolpath& other, std::size_t i);
 
-  /// Moves the end of motion `i`; an arc's new end must lie on its circle. For front ends that learn where a
-  /// move ends only from the next one.
+  /// Moves the end of motion `i`; an arc's new end must lie on its circle. For front ends that learn the end
+  /// of a motion only from the next one.
   void set_end(std::size_t i, Point3 to);
   /// Marks axes (bits 1, 2, 4 for X, Y, Z) as unknown at the end of motion `i`; see Step::unknown_axes.
   void set_unknown_axes(std::size_t i, unsigned bits);
-  /// Tells which axes the program named for motion `i`; see Step::named_axes.
+  /// Sets the axes that the program named for motion `i`; see Step::named_axes.
   void set_named_axes(std::size_t i, unsigned bits);
-  /// Says that motion `i` leads its `axes` (bits; they must be unknown ones) to a place of the machine.
+  /// Marks `axes` (bits; they must be unknown ones) of motion `i` as given in a reference of the machine.
   void set_reference(std::size_t i, Reference reference, unsigned axes);
   /// Marks motion `i`; see Step::rests_before.
   void set_rests_before(std::size_t i);
@@ -311,7 +308,7 @@ class Toolpath {
 
   std::vector<Step> steps_;
   std::vector<std::size_t> changes_;  // the tool changes and spindle steps among them, in order
-  std::uint32_t kinds_ = 0;           // a bit each
+  std::uint32_t kinds_ = 0;           // one bit per kind
   OriginTable origins_;
   std::vector<std::string> texts_;
   std::unordered_map<std::string, std::int32_t> text_index_;
@@ -319,26 +316,26 @@ class Toolpath {
   std::vector<MotionExtra> extras_{1};
 };
 
-/// Walks the motions of a toolpath with their begin positions and the tool, spindle and feed state in force.
-/// Begin of the first motion is X0 Y0 Z0 with all axes unknown.
+/// A motion of a toolpath with its start position and the current tool and spindle. The first motion starts
+/// at X0 Y0 Z0 with all axes unknown.
 struct MotionContext {
   std::size_t index = 0;      // of the step
   Point3 from;                // mm
-  unsigned unknown_from = 7;  // axes of `from` that are not known, see Step::unknown_axes
+  unsigned unknown_from = 7;  // axes of `from` that are unknown, see Step::unknown_axes
   std::optional<int> tool;    // nothing: no tool change yet
   step::Spindle spindle;
   bool spindle_stated = false;  // a spindle step was seen
 };
 
-/// The motions of a path one after the other, for those who go through them in parts.
+/// Iterates over the motions of a path, in parts if needed.
 class MotionReader {
  public:
   explicit MotionReader(const Toolpath& path) : path_(&path) {}
-  /// As it is when all steps before number `first` have been read; takes no longer where there are many.
+  /// The state after all steps before number `first`; the time does not depend on their number.
   MotionReader(const Toolpath& path, std::size_t first);
-  /// Goes on to the next motion, at first to the first; false where there is none.
+  /// Advances to the next motion, initially to the first; false at the end.
   bool next();
-  /// The motion that next() went to.
+  /// The current motion.
   const Step& step() const { return *motion_; }
   const MotionContext& context() const { return context_; }
 
@@ -357,7 +354,7 @@ void for_each_motion(const Toolpath& path, Visit&& visit) {
   for (MotionReader motion(path); motion.next();) visit(motion.step(), motion.context());
 }
 
-/// The walk of arc step `s` that begins at `from`.
+/// The walk of arc step `s` that starts at `from`.
 ArcWalk walk_of(const Step& s, Point3 from);
 
 }  // namespace kerf

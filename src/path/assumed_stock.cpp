@@ -1,6 +1,6 @@
-// Where the top of the stock is, told from the cuts. What is looked at: plunges (feeds that go down) and
-// sideways cuts (feeds that do not, at a height that a plunge or a rapid move down has reached). Feeds at a
-// height to which the tool was lifted are travel above the stock, as programs without rapid moves have it.
+// The top of the stock, derived from the cuts: from plunges (descending feed motions) and lateral cuts (other
+// feed motions, at a height that a plunge or a downward rapid has reached). Feed motions at a height to which
+// the tool was lifted are travel above the stock, in programs without rapids.
 #include "kerf/assumed_stock.h"
 
 #include <algorithm>
@@ -13,14 +13,14 @@ namespace kerf {
 namespace {
 
 constexpr double kSameHeight = 1e-4;  // mm; programs have three or four decimals
-/// Share of the sideways cuts above Z0 from which on Z0 is not the top. Programs with Z0 on top have a few
-/// above it at most (a first pass that levels the stock), programs with Z0 on the bed most of them.
-constexpr double kShareAboveTop = 0.2;
-constexpr double kIntoTheBed = 1.0;  // mm; how far cuts that go through reach below a bed at Z0
+/// Fraction of lateral cuts above Z0 from which on Z0 is not the top. Programs with Z0 on top have few above
+/// it (a first pass that levels the stock), programs with Z0 on the bed most of them.
+constexpr double kFractionAboveTop = 0.2;
+constexpr double kIntoTheBed = 1.0;  // mm; depth of through cuts below a bed at Z0
 constexpr unsigned kAxisZ = 4;       // in masks of unknown axes
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
 
-/// A feed move, as far as it matters here.
+/// The relevant data of a feed motion.
 struct Feed {
   Point3 from, to;
   double sideways = 0.0;  // mm
@@ -35,8 +35,8 @@ Feed feed_of(const Step& s, Point3 from) {
   return feed;
 }
 
-/// Calls plunge(feed, first) for every feed that goes down, `first` where none came just before it, and
-/// cut(feed, after_plunge) for every sideways cut.
+/// Calls plunge(feed, first) for every descending feed motion, `first` unless another one precedes it, and
+/// cut(feed, after_plunge) for every lateral cut.
 template <class Plunge, class Cut>
 void for_each_feed(const Toolpath& path, Plunge&& plunge, Cut&& cut) {
   bool lifted = true, plunging = false;
@@ -64,17 +64,17 @@ void for_each_feed(const Toolpath& path, Plunge&& plunge, Cut&& cut) {
   });
 }
 
-/// What the heights of all cuts say.
+/// Heights of all cuts.
 struct Heights {
   double lowest = kNowhere;
-  double highest_cut = -kNowhere;               // of the sideways ones
-  double highest_begin = -kNowhere;             // of plunges
+  double highest_cut = -kNowhere;               // of lateral ones
+  double highest_start = -kNowhere;             // of plunges
   double sideways = 0.0, sideways_above = 0.0;  // mm; above: above Z0
 
-  /// Whether the stock stands on Z0 instead of hanging below it.
+  /// Whether Z0 is the bed instead of the top.
   bool on_bed() const {
-    if (lowest >= -kSameHeight) return sideways_above > 0.0 || (sideways == 0.0 && highest_begin > 0.0);
-    return sideways_above > kShareAboveTop * sideways;
+    if (lowest >= -kSameHeight) return sideways_above > 0.0 || (sideways == 0.0 && highest_start > 0.0);
+    return sideways_above > kFractionAboveTop * sideways;
   }
 };
 
@@ -84,7 +84,7 @@ Heights heights_of(const Toolpath& path) {
       path,
       [&](const Feed& feed, bool) {
         h.lowest = std::min(h.lowest, feed.to.z);
-        h.highest_begin = std::max(h.highest_begin, feed.from.z);
+        h.highest_start = std::max(h.highest_start, feed.from.z);
       },
       [&](const Feed& feed, bool) {
         h.lowest = std::min({h.lowest, feed.from.z, feed.to.z});
@@ -95,16 +95,16 @@ Heights heights_of(const Toolpath& path) {
   return h;
 }
 
-/// The top of a stock that stands on the bed: above the highest cut, and at most where plunges to it begin.
+/// The top of a stock on the bed: above the highest cut, and at most at the start of plunges to it.
 std::pair<double, AssumedTop> top_above_bed(const Toolpath& path, const Heights& heights) {
-  if (heights.sideways == 0.0) return {heights.highest_begin, AssumedTop::plunge};
-  double begin = kNowhere;                   // lowest begin of a plunge at or above the highest cut
+  if (heights.sideways == 0.0) return {heights.highest_start, AssumedTop::plunge};
+  double start = kNowhere;                   // lowest start of a plunge at or above the highest cut
   double first = -kNowhere, second = first;  // the highest two heights that plunges end at
   for_each_feed(
       path,
       [&](const Feed& feed, bool is_first) {
         if (is_first && feed.from.z >= heights.highest_cut - kSameHeight)
-          begin = std::min(begin, feed.from.z);
+          start = std::min(start, feed.from.z);
       },
       [&](const Feed& feed, bool after_plunge) {
         const double end = feed.from.z;
@@ -146,7 +146,7 @@ std::optional<AssumedStock> assume_stock(const Toolpath& path, Length margin, Le
   double top = 0.0;
   if (on_bed) std::tie(top, assumed.top) = top_above_bed(path, heights);
   Box3 cuts = bounds_below(path, top);
-  if (cuts.empty()) {  // feeds at one height, to which the tool was lifted
+  if (cuts.empty()) {  // feed motions at one height, to which the tool was lifted
     cuts = bounds_below(path, kNowhere);
     if (cuts.empty()) return std::nullopt;
     top = cuts.high.z;

@@ -1,4 +1,4 @@
-// What the passes share: where a motion begins, which motions can be put together, and the figures.
+// Common to the passes: start positions, which motions can be joined, and the figures.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace kerf::detail {
 
-/// Where the next motion begins.
+/// The start position of the next motion.
 struct Begin {
   Point3 at;
   unsigned unknown = 7;
@@ -16,14 +16,14 @@ struct Begin {
   void pass(const Step& s) {
     if (!s.is_motion()) return;
     at = s.to();
-    // Where a probe stops is not known.
+    // The end of a probe motion is unknown.
     unknown = s.kind() == StepKind::probe ? 7u : s.unknown_axes();
   }
 };
 
 PassFigures figures_of(const Toolpath& path);
 PassResult finished(const Toolpath& before, Toolpath after);
-/// True if a motion's end is known in work coordinates and has nothing besides.
+/// True if the end of a motion is known in work coordinates and has no extra data.
 bool is_plain(const Toolpath& path, std::size_t i);
 /// True if step `i` is a plain motion of the kind and feed of step `first`.
 bool chains(const Toolpath& path, std::size_t i, std::size_t first);

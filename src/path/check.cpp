@@ -1,4 +1,4 @@
-// The checks of a toolpath by itself: one small function a rule, walked over all motions once.
+// The checks of a toolpath by itself: one small function per rule, applied to all motions in one pass.
 #include "kerf/check.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace kerf {
 namespace {
 
 constexpr int kShownDecimals = 4;
-constexpr double kRounding = 1e-6;  // mm that a place may lie beyond a limit by its decimals alone
+constexpr double kRounding = 1e-6;  // mm that rounding may move a position beyond a limit
 
-/// What the whole toolpath tells before its motions are looked at, and what they have told so far.
+/// Facts of the whole toolpath, and the state after the motions so far.
 struct Setting {
   const CheckOptions& options;
   Box3 reached;           // in work coordinates, where the machine's travel allows it
-  bool laser = false;     // the beam is the tool: no spindle is asked for
-  bool printing = false;  // beads are laid: neither spindle nor tool is asked for
+  bool laser = false;     // the beam is the tool: no spindle needed
+  bool printing = false;  // beads are laid: neither spindle nor tool needed
 };
 
 Setting setting_of(const Toolpath& path, const CheckOptions& options) {
@@ -38,7 +38,7 @@ bool needs_feed(const Step& s) {
   return s.is_cutting() || s.kind() == StepKind::probe || s.kind() == StepKind::extrude;
 }
 
-// ---- the rules: the message of what is wrong with a motion, or nothing
+// ---- the rules: the message of a hazard, or nothing
 
 using Message = std::optional<std::string>;
 
@@ -55,7 +55,7 @@ Message negative_feed(const Step& s, const MotionContext&, Setting&) {
 
 Message no_tool(const Step& s, const MotionContext& context, Setting& setting) {
   if (!s.is_cutting() || context.tool || setting.laser || setting.printing) return std::nullopt;
-  return "a cutting move before any tool change: nobody knows what cuts here";
+  return "a cut before the first tool change: the tool is unknown";
 }
 
 Box3 box_of(const Step& s, const MotionContext& context) {
@@ -69,13 +69,13 @@ const Tool* known_tool(std::optional<int> number, const Setting& setting) {
   return setting.options.tools != nullptr && number ? setting.options.tools->find(*number) : nullptr;
 }
 
-/// Half the width of the tool, mm; 0 where it is not known.
+/// Radius of the tool, mm; 0 if unknown.
 double radius_of(std::optional<int> number, const Setting& setting) {
   const Tool* tool = known_tool(number, setting);
   return tool != nullptr ? 0.5 * tool->diameter.mm() : 0.0;
 }
 
-/// Whether a tool whose tip is somewhere in the box can be in the stock's block; true where that is not told.
+/// Whether a tool whose tip is somewhere in the box can be in the stock's block; true without a stock.
 bool can_be_in_stock(const Box3& tip, double radius, const Setting& setting) {
   if (!setting.options.stock) return true;
   const Box3& stock = *setting.options.stock;
@@ -86,14 +86,14 @@ bool can_be_in_stock(const Box3& tip, double radius, const Setting& setting) {
 
 Message spindle_off(const Step& s, const MotionContext& context, Setting& setting) {
   if (!s.is_cutting() || setting.laser || setting.printing) return std::nullopt;
-  if (context.spindle.turn != SpindleTurn::off) return std::nullopt;  // 0 rpm: its speed is set by hand
+  if (context.spindle.turn != SpindleTurn::off) return std::nullopt;  // 0 rpm: the speed is set manually
   if ((s.unknown_axes() | context.unknown_from) == 0) {
     Box3 way = box_of(s, context);
     way.add(context.from);
     if (!can_be_in_stock(way, radius_of(context.tool, setting), setting)) return std::nullopt;
   }
-  if (!context.spindle_stated) return "a cutting move, and the program has not started the spindle";
-  return "a cutting move while the spindle is switched off";
+  if (!context.spindle_stated) return "a cut, and the program has not started the spindle";
+  return "a cut while the spindle is stopped";
 }
 
 Message arc_radii(const Step& s, const MotionContext& context, Setting& setting) {
@@ -105,8 +105,8 @@ Message arc_radii(const Step& s, const MotionContext& context, Setting& setting)
                      number_text(walk.end_radius, kShownDecimals));
 }
 
-/// The travel's ends of an axis in work coordinates. Where the work's zero is not known, those that the moves
-/// so far leave open.
+/// The ends of an axis' travel in work coordinates. Without a work zero, the ends that the motions so far
+/// permit.
 AxisTravel open_travel(const AxisTravel& travel, const Setting& setting, int axis) {
   if (const auto& zero = setting.options.machine->work_zero)
     return {travel.low - (*zero)[axis], travel.high - (*zero)[axis]};
@@ -115,19 +115,20 @@ AxisTravel open_travel(const AxisTravel& travel, const Setting& setting, int axi
   return {setting.reached.high[axis] - travel.length(), setting.reached.low[axis] + travel.length()};
 }
 
-/// What is passed: an end of the travel, where the work's zero is known, else its length.
+/// The exceeded limit: an end of the travel if the work zero is known, otherwise its length.
 std::string message_outside(const Box3& box, const AxisTravel& travel, const Setting& setting, int axis) {
   const auto text = [](double v) { return number_text(v, kShownDecimals); };
   const char name = "XYZ"[axis];
   const auto& zero = setting.options.machine->work_zero;
   if (!zero)
-    return fmt::format("a move out of the machine: its {} axis is {} mm long, and the moves so far span more",
-                       name, text(travel.length()));
+    return fmt::format(
+        "outside of the machine's travel: its {} axis is {} mm long, and the motions so far span more", name,
+        text(travel.length()));
   const double low = box.low[axis] + (*zero)[axis], high = box.high[axis] + (*zero)[axis];
   const bool above = high > travel.high + kRounding;
-  return fmt::format("a move out of the machine: {}{} in machine coordinates, {} the axis's end at {}", name,
-                     text(above ? high : low), above ? "above" : "below",
-                     text(above ? travel.high : travel.low));
+  return fmt::format(
+      "outside of the machine's travel: {}{} in machine coordinates, {} the end of the axis at {}", name,
+      text(above ? high : low), above ? "above" : "below", text(above ? travel.high : travel.low));
 }
 
 Message outside_machine(const Step& s, const MotionContext& context, Setting& setting) {
@@ -156,7 +157,7 @@ Message plunge(const Step& s, const MotionContext& context, Setting& setting) {
   if (setting.options.stock && s.to().z >= setting.options.stock->high.z) return std::nullopt;
   const Tool* tool = known_tool(context.tool, setting);
   if (tool == nullptr || tool->plunges) return std::nullopt;
-  return fmt::format("tool {} does not cut at its centre, and goes straight down here", *context.tool);
+  return fmt::format("tool {} does not cut at its centre, and plunges here", *context.tool);
 }
 
 Message chip_load(const Step& s, const MotionContext& context, Setting& setting) {
@@ -169,7 +170,7 @@ Message chip_load(const Step& s, const MotionContext& context, Setting& setting)
   const Length load = s.feed() / context.spindle.speed / static_cast<double>(tool->teeth);
   const Length highest = highest_chip_load(*material, tool->diameter);
   if (load <= highest) return std::nullopt;
-  return fmt::format("{} mm a tooth ({} mm/min, {} rpm, {} teeth): a tool of {} mm takes {} mm in {}",
+  return fmt::format("{} mm per tooth ({} mm/min, {} rpm, {} teeth): a tool of {} mm takes {} mm in {}",
                      number_text(load.mm(), kShownDecimals), number_text(s.feed().mm_per_min(), 1),
                      number_text(speed, 0), tool->teeth, number_text(tool->diameter.mm(), 3),
                      number_text(highest.mm(), kShownDecimals), material->name);
@@ -181,17 +182,18 @@ struct Rule {
   std::string_view hint;
 };
 constexpr Rule kRules[] = {
-    {Code::path_no_feed, no_feed, "put an F word before the first cut"},
-    {Code::path_negative_feed, negative_feed, "give the feed without its sign"},
-    {Code::path_no_tool, no_tool, "change to a tool (T1 M6), or tell it with --tool SPEC, without a number"},
+    {Code::path_no_feed, no_feed, "add an F word before the first cut"},
+    {Code::path_negative_feed, negative_feed, "remove the sign of the feed"},
+    {Code::path_no_tool, no_tool,
+     "add a tool change (T1 M6), or specify the tool with --tool SPEC, without a number"},
     {Code::path_spindle_off, spindle_off, "start the spindle (S10000 M3) before the cut"},
     {Code::path_arc_radii, arc_radii, "write the arc's end and centre with more decimals"},
-    {Code::path_outside_machine, outside_machine, "move the work's zero, or turn or divide the part"},
-    {Code::path_plunge, plunge, "ramp or spiral into the cut, or drill the place before"},
-    {Code::path_chip_load, chip_load, "lower the feed or raise the spindle's speed"},
+    {Code::path_outside_machine, outside_machine, "move the work zero, or turn or split the part"},
+    {Code::path_plunge, plunge, "ramp or spiral into the cut, or drill that position first"},
+    {Code::path_chip_load, chip_load, "lower the feed or raise the spindle speed"},
 };
 
-// ---- the rules for steps that do not move
+// ---- the rules for steps without motion
 
 using StepMessage = std::optional<PathHazard>;
 
@@ -212,7 +214,7 @@ StepMessage spindle_range(const Step& s, const Setting& setting) {
   return hazard;
 }
 
-/// Where the tool is between two motions.
+/// The position of the tool between two motions.
 struct Rest {
   Point3 at;
   unsigned unknown = 7;  // axes
@@ -220,8 +222,8 @@ struct Rest {
   bool spindle_on = false;
 };
 
-/// How far below the stock's top the tip of the tool is, mm, if the tool is in the stock's block, or may be
-/// there because X or Y is not known.
+/// Depth of the tip below the stock's top, mm, if the tool is in the stock's block, or may be there because X
+/// or Y is unknown.
 std::optional<double> depth_in_stock(const Rest& rest, const Setting& setting) {
   const auto& stock = setting.options.stock;
   constexpr unsigned kAxisZ = 4;
@@ -241,11 +243,11 @@ StepMessage low_tool_change(const Step& s, const Setting& setting, const Rest& r
   hazard.code = Code::path_tool_change_low;
   hazard.message = fmt::format("the tool is changed at Z {}, {} mm below the stock's top",
                                number_text(rest.at.z, kShownDecimals), number_text(*depth, kShownDecimals));
-  hazard.hint = "go up (G0 Z...) before the tool change";
+  hazard.hint = "retract (G0 Z...) before the tool change";
   return hazard;
 }
 
-/// Of a spindle that stops, or a program that ends, with the tool in the stock.
+/// The hazard of a spindle stop or program end with the tool in the stock.
 StepMessage low_stop(const Rest& rest, const Setting& setting, std::string_view what) {
   const auto depth = rest.spindle_on ? depth_in_stock(rest, setting) : std::nullopt;
   if (!depth) return std::nullopt;
@@ -253,7 +255,7 @@ StepMessage low_stop(const Rest& rest, const Setting& setting, std::string_view 
   hazard.code = Code::path_stop_low;
   hazard.message = fmt::format("{} at Z {}, with the tool {} mm deep in the stock", what,
                                number_text(rest.at.z, kShownDecimals), number_text(*depth, kShownDecimals));
-  hazard.hint = "go up (G0 Z...) before that";
+  hazard.hint = "retract (G0 Z...) before that";
   return hazard;
 }
 
@@ -291,9 +293,9 @@ void check_other_steps(const Toolpath& path, const Setting& setting, std::vector
                    [](const PathHazard& a, const PathHazard& b) { return a.step < b.step; });
 }
 
-constexpr double kTravel = 1e-3;  // mm sideways that make a rapid one from place to place
+constexpr double kTravel = 1e-3;  // mm sideways from which on a rapid is a travel
 
-/// Heights of cuts, and of the rapids from place to place.
+/// Heights of cuts, and of rapids between positions.
 struct Levels {
   Range cuts, rapids;
   std::size_t highest_rapid = 0;  // step
@@ -322,13 +324,13 @@ std::string heights_text(const Range& range) {
   return fmt::format("Z {} to {}", low, number_text(range.high, kShownDecimals));
 }
 
-/// Tells whether a motion takes part in runs of a rule: rapids between cuts do not end a run of cuts.
+/// Whether a motion takes part in runs of a rule: rapids between cuts do not end a run of cuts.
 bool ends_runs(const Step& s) { return needs_feed(s); }
 
 }  // namespace
 
 std::string_view kind_of(const PathHazard& hazard) {
-  constexpr std::string_view kPrefix = "path_";  // sets these codes apart from what readers say of their text
+  constexpr std::string_view kPrefix = "path_";  // distinguishes these codes from those of readers
   return name_of(hazard.code).substr(kPrefix.size());
 }
 
@@ -344,11 +346,10 @@ std::optional<PathHazard> find_z_downwards(const Toolpath& path) {
   hazard.step = static_cast<std::uint32_t>(levels.highest_rapid);
   hazard.at = path[levels.highest_rapid].to();
   hazard.message = fmt::format(
-      "the program counts Z downwards, it seems: its rapids run at {}, its cuts at {}; where Z counts "
-      "upwards, "
-      "as is usual, the rapids go through the stock",
+      "the program seems to count Z downwards: its rapids run at {}, its cuts at {}; with Z upwards, "
+      "as usual, the rapids go through the stock",
       heights_text(levels.rapids), heights_text(levels.cuts));
-  hazard.hint = "write the program anew with positive Z upwards (a setting of the program that made it)";
+  hazard.hint = "regenerate the program with positive Z upwards (a setting of the CAM program)";
   return hazard;
 }
 
@@ -356,7 +357,7 @@ std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& opt
   Setting setting = setting_of(path, options);
   std::vector<PathHazard> found;
   constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-  std::array<std::size_t, std::size(kRules)> open;  // each rule's entry that the next motion may join
+  std::array<std::size_t, std::size(kRules)> open;  // the entry of each rule that the next motion may join
   open.fill(kNone);
   for_each_motion(path, [&](const Step& s, const MotionContext& context) {
     for (std::size_t r = 0; r < open.size(); ++r) {
@@ -379,8 +380,8 @@ std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& opt
     Point3 at;
     for_each_motion(path, [&](const Step& s, const MotionContext&) { at = s.to(); });
     found.push_back({Code::path_no_program_end, last, 1, at,
-                     "the program stops here without M2, M30 or a closing %: the file may be cut off",
-                     "look at the file's end, and put M2 there"});
+                     "the program ends here without M2, M30 or a closing %: the file may be truncated",
+                     "check the end of the file, and add M2 there"});
   }
   return found;
 }

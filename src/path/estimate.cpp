@@ -1,4 +1,4 @@
-// Steps into planned moves and stops; their times by tool and operation.
+// Converts steps to planned motions and stops; their times by tool and operation.
 #include "kerf/estimate.h"
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kMaxOperations = 1000;       // listed one by one, as estimate.h says
+constexpr std::size_t kMaxOperations = 1000;       // listed, see estimate.h
 constexpr std::size_t kMaxChords = 65'535;         // of an arc; GRBL counts them in 16 bits
-constexpr std::size_t kChordBudget = 100'000'000;  // of all arcs; then each gets few
+constexpr std::size_t kChordBudget = 100'000'000;  // of all arcs; beyond it each gets few
 constexpr std::size_t kFewChords = 64;
 
-/// Chords of an arc that leave it by `tolerance` at most, as GRBL counts them: the fraction is dropped.
+/// Number of chords of an arc within `tolerance`, rounded down as in GRBL.
 std::size_t chords_of(const ArcWalk& walk, double tolerance) {
   const double r = walk.start_radius;
   const double half_chord2 = tolerance * (2.0 * r - tolerance);
@@ -55,14 +55,14 @@ class Walker {
   void move(std::size_t i) {
     const Step& s = path_[i];
     const bool probes = s.kind() == StepKind::probe;
-    const bool homes = s.reference() == Reference::end_switches;  // takes an unknown time
+    const bool homes = s.reference() == Reference::end_switches;  // of unknown duration
     if (s.rests_before() || probes || homes) stop(i);
     const double feed =
         s.kind() == StepKind::rapid ? std::numeric_limits<double>::infinity() : s.feed().mm_per_min() / 60.0;
     const bool turns_only = s.to() == here_ && s.kind() != StepKind::arc && path_.extra(i) != nullptr;
     if (!(feed > 0.0) || turns_only || homes) {
       if (!homes) ++not_timed_;
-      planner_.place(s.to());
+      planner_.set_position(s.to());
     } else if (s.kind() == StepKind::arc) {
       arc(i, feed);
     } else {
@@ -82,7 +82,7 @@ class Walker {
     planner_.move(path_[i].to(), feed, i);
   }
 
-  /// Whether a step without motion brings the machine to rest: where it changes what the machine does.
+  /// Whether a step without motion stops the machine: if it changes its state.
   bool stops_at(std::size_t i) {
     const Step& s = path_[i];
     switch (s.kind()) {
@@ -121,7 +121,7 @@ class Walker {
     return now.power != was.power && machine_.laser == LaserDrive::stops;
   }
 
-  /// The beam takes its power on with the move that stands on the same line.
+  /// The laser power changes with the motion on the same line.
   bool on_line_of_cut(std::size_t i) const {
     return i + 1 < path_.size() && path_[i + 1].is_motion() && path_[i + 1].origin() == path_[i].origin();
   }
@@ -139,7 +139,7 @@ class Walker {
   std::size_t chords_ = 0, not_timed_ = 0;
 };
 
-/// Puts the times of steps together.
+/// Adds up the times of steps.
 class Sums {
  public:
   Sums(const Toolpath& path, TimeEstimate& out) : path_(path), out_(out) {}
@@ -172,7 +172,7 @@ class Sums {
     sum.stops += part.stops;
   }
 
-  /// A tool change, a layer or a note begins an operation, which counts once it moves.
+  /// A tool change, a layer or a note starts an operation, which counts once it has a motion.
   void begin_parts(std::size_t i) {
     switch (path_[i].kind()) {
       case StepKind::tool_change:

@@ -1,5 +1,4 @@
-// What an F word means (G93, G94, G95), for the ways in that have feed modes: steps carry feeds per minute
-// only.
+// Feed modes (G93, G94, G95) of front ends: steps have feeds per minute only.
 #pragma once
 
 #include <algorithm>

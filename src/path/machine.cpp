@@ -1,4 +1,4 @@
-// What a machine's axes allow along a direction.
+// Limits of a machine along a direction.
 #include "kerf/machine.h"
 
 #include <algorithm>

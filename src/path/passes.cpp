@@ -1,4 +1,4 @@
-// What the passes share, and those that look at one or two steps at a time.
+// Common functions of the passes, and the passes over one or two steps.
 #include "kerf/passes.h"
 
 #include <cmath>
@@ -69,8 +69,8 @@ PassResult arcs_to_chords(const Toolpath& path, Length chord) {
 
 namespace {
 
-/// True if the chain from `first` to `last` (both included) can be one straight step: every point on the way
-/// lies near it, and each is farther along than the one before.
+/// True if the chain from `first` to `last` (inclusive) can be one straight step: every point lies near it,
+/// in increasing order along it.
 bool is_straight(const Toolpath& path, Point3 from, std::size_t first, std::size_t last, double tolerance) {
   const Point3 to = path[last].to();
   const Point3 way = to - from;
@@ -84,7 +84,6 @@ bool is_straight(const Toolpath& path, Point3 from, std::size_t first, std::size
   return dot(way, way) >= along;
 }
 
-/// Chains are looked at this far back, so that a long straight line costs no more than its length times this.
 constexpr std::size_t kMaxChain = 256;  // bounds the time, which grows with its square
 
 }  // namespace
@@ -116,7 +115,7 @@ PassResult join_straight(const Toolpath& path, Length tolerance) {
 
 namespace {
 
-/// True if rapid `i` goes straight up from `from` and rapid `i + 1` straight down again.
+/// True if rapid `i` goes straight up from `from` and rapid `i + 1` straight down.
 bool goes_up_and_down(const Toolpath& path, std::size_t i, Point3 from) {
   if (i + 1 >= path.size() || path[i + 1].kind() != StepKind::rapid) return false;
   if (!detail::is_plain(path, i) || !detail::is_plain(path, i + 1)) return false;
@@ -134,7 +133,7 @@ PassResult shorten_rapids(const Toolpath& path) {
     const bool rapid = s.kind() == StepKind::rapid && begin.known() && detail::is_plain(path, i);
     if (rapid && s.to() == begin.at) continue;
     if (rapid && goes_up_and_down(path, i, begin.at)) {
-      // The second one alone ends at the same place, on a way that the two went already.
+      // The second one alone ends at the same position, along the path of both.
       if (path[i + 1].to() != begin.at) out.add_copy(path, i + 1);
       ++i;
     } else {

@@ -1,4 +1,4 @@
-// The ring of planned moves.
+// The queue of planned motions.
 #include "path/planner.h"
 
 #include <algorithm>
@@ -9,10 +9,10 @@ namespace kerf::detail {
 namespace {
 
 constexpr std::size_t kMaxRing = 10'000;  // motions; more look-ahead changes no time
-// Nearer than this to straight on or to a reversal, the cosine has no digits left for the corner's circle.
+// Closer than this to a straight line or a reversal, the cosine has no digits left for the corner circle.
 constexpr double kStraight = 0.999999;
 
-/// Seconds for `length` mm from speed to speed, with a highest one: ramps, and what is left at that speed.
+/// Seconds for `length` mm between two speeds, with a maximum: ramps, and the rest at that speed.
 double ramp_seconds(double length, double acceleration, double from, double to, double highest) {
   const double peak2 = acceleration * length + (from * from + to * to) / 2.0;
   const double peak = std::max({std::sqrt(peak2), from, to});
@@ -43,8 +43,8 @@ Point3 Planner::rounded(Point3 to) const {
   return to;
 }
 
-/// The speed on a circle that leaves the corner by the junction deviation and touches both moves, where its
-/// centripetal acceleration is what the axes allow towards the corner's inside.
+/// The speed on a circle tangent to both motions within the junction deviation of the corner, with the
+/// centripetal acceleration that the axes permit towards its inside.
 double Planner::corner_speed2(Point3 before, Point3 after) const {
   const double cosine = dot(before, after);  // 1: straight on
   if (cosine > kStraight) return std::numeric_limits<double>::infinity();
@@ -65,12 +65,12 @@ void Planner::move(Point3 to, double feed, std::size_t step) {
   Move& next = at(count_);
   next = {length, along(direction, accelerations_), 0.0, 0.0, 0.0, step};
   next.speed = std::min(std::max(feed, slowest_), along(direction, rates_));
-  if (!standing_) {
+  if (!stopped_) {
     const double slower = std::min(next.speed, last_speed_);
-    next.most_entry2 = std::min(corner_speed2(direction_, direction), slower * slower);
+    next.max_entry2 = std::min(corner_speed2(direction_, direction), slower * slower);
   }
   ++count_;
-  standing_ = false;
+  stopped_ = false;
   direction_ = direction;
   last_speed_ = next.speed;
   plan_backwards();
@@ -80,7 +80,7 @@ void Planner::plan_backwards() {
   double exit2 = 0.0;
   for (std::size_t i = count_ - 1; i > 0; --i) {
     Move& m = at(i);
-    const double entry2 = std::min(m.most_entry2, exit2 + 2.0 * m.acceleration * m.length);
+    const double entry2 = std::min(m.max_entry2, exit2 + 2.0 * m.acceleration * m.length);
     const bool known = i + 1 < count_ && entry2 == m.entry2;
     m.entry2 = exit2 = entry2;
     if (known) return;
@@ -102,10 +102,10 @@ void Planner::finish_front() {
 
 void Planner::stop() {
   while (count_ > 0) finish_front();
-  standing_ = true;
+  stopped_ = true;
 }
 
-void Planner::place(Point3 to) {
+void Planner::set_position(Point3 to) {
   stop();
   here_ = rounded(to);
 }

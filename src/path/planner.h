@@ -1,9 +1,9 @@
-// A motion planner as small controllers have it: a short ring of straight moves, of which the last ends at
-// rest. Works in mm and seconds.
+// A motion planner like that of small controllers: a short queue of straight motions, the last of which ends
+// at rest. Works in mm and seconds.
 //
-// Each move knows the highest speed (squared) at which it may be entered: that of its corner, or 0 after a
-// stop. When a move is added, the speeds of those before it are worked out again from the end, until one does
-// not change. The move at the front is done when the ring is full; its exit is the entry of the next one.
+// Each motion has a maximum entry speed (squared): that of its corner, or 0 after a stop. When a motion is
+// added, the speeds of those before it are recomputed from the end until one does not change. The first
+// motion runs when the queue is full; its exit speed is the entry speed of the next one.
 #pragma once
 
 #include <array>
@@ -19,20 +19,20 @@ class Planner {
   /// Seconds are added to `seconds[move's step]`.
   Planner(const Machine& machine, std::vector<float>& seconds);
 
-  /// A straight move to `to`; `feed` in mm/s, infinity for rapids. Moves shorter than a step are none.
+  /// A straight motion to `to`; `feed` in mm/s, infinity for rapids. Motions shorter than a step are ignored.
   void move(Point3 to, double feed, std::size_t step);
-  /// All that is planned is done, and the machine stands.
+  /// Runs all planned motions and stops the machine.
   void stop();
-  /// Takes the machine to a place without a move (one that is not timed).
-  void place(Point3 to);
+  /// Sets the position without a timed motion.
+  void set_position(Point3 to);
   std::size_t moves() const { return moves_; }
 
  private:
   struct Move {
     double length = 0.0;        // mm
     double acceleration = 0.0;  // mm/s^2
-    double speed = 0.0;         // mm/s, the highest
-    double most_entry2 = 0.0;   // highest entry speed, squared
+    double speed = 0.0;         // mm/s, maximum
+    double max_entry2 = 0.0;    // maximum entry speed, squared
     double entry2 = 0.0;        // planned entry speed, squared
     std::size_t step = 0;
   };
@@ -42,8 +42,8 @@ class Planner {
   void plan_backwards();
   void finish_front();
   Move& at(std::size_t i) {
-    const std::size_t place = front_ + i;
-    return ring_[place < ring_.size() ? place : place - ring_.size()];
+    const std::size_t index = front_ + i;
+    return ring_[index < ring_.size() ? index : index - ring_.size()];
   }
 
   std::vector<float>& seconds_;
@@ -54,7 +54,7 @@ class Planner {
   Point3 here_;            // rounded to steps
   Point3 direction_;       // of the last move
   double last_speed_ = 0;  // of the last move
-  bool standing_ = true;   // nothing is planned, so that the next move begins at rest
+  bool stopped_ = true;    // nothing is planned: the next motion starts at rest
 };
 
 }  // namespace kerf::detail

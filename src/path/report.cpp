@@ -16,11 +16,11 @@ ToolFigures& figures_of(PathReport& report, std::optional<int> tool) {
   return report.tools.back();
 }
 
-/// What one motion adds.
+/// The contribution of one motion.
 struct Motion {
   StepKind kind;
   double length;  // mm
-  Point3 way;     // mm, from begin to end
+  Point3 way;     // mm, from start to end
   Box3 box;
   Feed feed;
 };
@@ -82,8 +82,8 @@ void add(MotionFigures& all, const MotionFigures& more) {
   all.dwell = all.dwell + more.dwell;
 }
 
-/// Where the tool stands before a step.
-Point3 place_before(const Toolpath& path, std::size_t step) {
+/// The position of the tool before a step.
+Point3 position_before(const Toolpath& path, std::size_t step) {
   while (step > 0)
     if (path[--step].is_motion()) return path[step].to();
   return {};
@@ -94,7 +94,7 @@ Point3 place_before(const Toolpath& path, std::size_t step) {
 PathReport report_on(const Toolpath& path, const ReportOptions& options) {
   PathReport report;
   const std::size_t end = std::min(options.end, path.size());
-  Point3 at = place_before(path, std::min(options.first, end));
+  Point3 at = position_before(path, std::min(options.first, end));
   std::optional<int> tool;
   ToolFigures* current = nullptr;  // the tool's entry, looked up when it is first needed
   for (std::size_t i = options.first; i < end; ++i) {
@@ -111,7 +111,7 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
     if (s.kind() == StepKind::dwell) figures.dwell = figures.dwell + s.dwell().time;
     if (turns) figures.speed.add(s.spindle().speed.rpm());
     if (!s.is_motion()) continue;
-    if (s.reference() == Reference::end_switches) {  // how far that is depends on the machine
+    if (s.reference() == Reference::end_switches) {  // the distance depends on the machine
       at = s.to();
       continue;
     }

@@ -52,7 +52,7 @@ SMALL_MILL = "travel_x = [0, 8]\nspindle = [100, 8000]\n"
     ("", "", ["--machine", "mill.toml"], "outside_machine", 9, "zero"),
     ("", "", ["--machine", "mill.toml"], "spindle_range", 6, "change S"),
     ("M3 S10000\n", "", [], "spindle_off", 7, "M3"),
-    ("G0 Z5\nM5\n", "M5\nM6 T201\nG0 Z5\n", [], "tool_change_low", 12, "go up"),
+    ("G0 Z5\nM5\n", "M5\nM6 T201\nG0 Z5\n", [], "tool_change_low", 12, "retract"),
     ("", "", ["-t", "square d=3 flute=12 plunges=false"], "plunge", 8, "ramp"),
     ("F400", "F8000", ["--material", "steel"], "chip_load", 9, "feed"),
     ("M2\n", "", [], "no_program_end", 12, "M2"),

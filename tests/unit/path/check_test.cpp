@@ -158,7 +158,7 @@ TEST(CheckPath, AMoveOutOfTheMachineWhereItsPlaceIsKnown) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].code, Code::path_outside_machine);
   EXPECT_EQ(found[0].step, 4u);
-  EXPECT_NE(found[0].message.find("X100.5 in machine coordinates, above the axis's end at 100"),
+  EXPECT_NE(found[0].message.find("X100.5 in machine coordinates, above the end of the axis at 100"),
             std::string::npos)
       << found[0].message;
   EXPECT_FALSE(found[0].hint.empty());
@@ -171,7 +171,7 @@ TEST(CheckPath, AMoveBelowTheMachinesEndNamesThatEnd) {
   job.add(step::Cut{{0, 0, -11}, mm_per_min(100)});
   const auto found = check_path(job.path, {.machine = &machine});
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].message.find("Z-51 in machine coordinates, below the axis's end at -50"),
+  EXPECT_NE(found[0].message.find("Z-51 in machine coordinates, below the end of the axis at -50"),
             std::string::npos)
       << found[0].message;
 }
@@ -331,13 +331,13 @@ TEST(CheckPath, AFeedThroughTheAirNeedsNoSpindle) {
 TEST(CheckPath, AFeedBeyondTheChipLoad) {
   const ToolTable tools = table_with(2, true);
   const Material wood{"wood", {}, {{mm(3), mm(0.1)}}};
-  Job job = started();  // 10000 rpm, 2 teeth: 2000 mm/min is 0.1 mm a tooth
+  Job job = started();  // 10000 rpm, 2 teeth: 2000 mm/min is 0.1 mm per tooth
   job.add(step::Cut{{5, 0, -1}, mm_per_min(1999)}).add(step::Cut{{9, 0, -1}, mm_per_min(2100)});
   const auto found = check_path(job.path, {.tools = &tools, .material = &wood});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].code, Code::path_chip_load);
   EXPECT_EQ(found[0].step, 4u);
-  EXPECT_NE(found[0].message.find("0.105 mm a tooth"), std::string::npos);
+  EXPECT_NE(found[0].message.find("0.105 mm per tooth"), std::string::npos);
 }
 
 }  // namespace
