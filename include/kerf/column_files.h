@@ -1,9 +1,9 @@
-// Left-over stock as a file of Kerf's own (.kstock): the columns of a workpiece, exact, for the next job.
+// Left-over stock as a file (.kstock): the exact columns of a workpiece for the next job.
 //
 // The bytes, lowest first: "KERFSTK1"; the block's low and high corner (6 doubles, mm), the first column's x
 // and y and the pitch (3 doubles), columns in x and y (2 x 4 bytes); then, row by row, groups of equal
-// columns: how many, how many runs, and each run's low and high (floats, mm above the block's floor). Counts
-// are whole numbers of 7 bits a byte, the lowest first, the eighth bit telling that more follow.
+// columns: their number, the number of runs, and low and high of each run (floats, mm above the block's
+// floor). Counts are integers of 7 bits per byte, the lowest first; the eighth bit means that more follow.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ struct ColumnLimits {
 
 std::string write_columns(const ColumnData& columns);
 /// Appends an error under the file's name, and returns nothing, for anything that write_columns cannot have
-/// written and for more than the limits.
+/// written and beyond the limits.
 std::optional<ColumnData> read_columns(std::string_view bytes, const std::string& name,
                                        Diagnostics& diagnostics, const ColumnLimits& limits = {});
 

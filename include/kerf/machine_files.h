@@ -1,4 +1,4 @@
-// Machines from files: Kerf's own TOML profiles and what GRBL answers to `$$`.
+// Machines from files: TOML profiles and GRBL's answer to `$$`.
 #pragma once
 
 #include <optional>
@@ -9,8 +9,8 @@
 
 namespace kerf {
 
-/// Reads a machine's file; which kind it is tells its text ("$110=3000" on a line is GRBL's). Settings that
-/// are not told stay those of a new Machine. Every fault is reported with its place (TOML profiles:
+/// Reads a machine file; its kind is detected from the text ("$110=3000" on a line is GRBL's). Missing
+/// settings are those of a default Machine. All errors are reported with their location (TOML profiles:
 /// docs/manual/machine.md); nothing is returned then. `file_name` is for the messages.
 std::optional<Machine> read_machine_file(std::string_view text, std::string_view file_name,
                                          Diagnostics& diagnostics);

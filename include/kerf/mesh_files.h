@@ -14,10 +14,10 @@
 
 namespace kerf {
 
-/// What the writers need, borrowed from the caller. Positions x y z in mm (Z up), three indices a triangle,
-/// counter-clockwise seen from outside. `colour_index` is empty or holds one index into `palette` a triangle.
-/// The palette's names become those of materials. `step` is empty or holds the toolpath step that made each
-/// triangle (kept in GLB as the attribute _STEP).
+/// Input of the writers, owned by the caller. Positions x y z in mm (Z up), three indices per triangle,
+/// counter-clockwise seen from outside. `colour_index` is empty or has one index into `palette` per triangle.
+/// The names of the palette become those of materials. `step` is empty or has the toolpath step that made
+/// each triangle (stored in GLB as the attribute _STEP).
 struct MeshView {
   std::span<const float> positions;
   std::span<const std::uint32_t> triangles;
@@ -25,20 +25,20 @@ struct MeshView {
   std::span<const std::array<std::uint8_t, 3>> palette;  // sRGB
   std::span<const std::uint32_t> step;
   std::string name = "part";
-  std::span<const std::string> palette_names = {};  // of the palette's first colours; "colour 2" else
+  std::span<const std::string> palette_names = {};  // of the first colours; default "colour 2"
 };
 
 enum class MeshFormat : std::uint8_t { stl, three_mf, glb, obj };
 /// From a file name's ending (.stl .3mf .glb .obj, any case), or nothing.
 std::optional<MeshFormat> mesh_format_of(std::string_view path);
 /// The file's bytes. STL is binary and without colour; OBJ is without colour. The same mesh gives the same
-/// bytes. Steps are kept in GLB as floats (exact up to 16 million), -1 where there is none. Empty where the
-/// format cannot hold the mesh (GLB over 4 GiB: about 85 million triangles) and for 3MF in a WebAssembly
+/// bytes. Steps are floats in GLB (exact up to 16 million), -1 for none. Empty if the format
+/// cannot hold the mesh (GLB over 4 GiB: about 85 million triangles) and for 3MF in a WebAssembly
 /// build.
 std::string write_mesh(const MeshView& mesh, MeshFormat format);
 
-/// A mesh as a file holds it: x y z in mm, Z up; three indices a triangle. Vertices may stand several times
-/// (in STL each triangle has its own), and nothing says that the triangles enclose something.
+/// The mesh of a file: x y z in mm, Z up; three indices per triangle. Vertices may be repeated (in STL each
+/// triangle has its own), and the triangles need not enclose a volume.
 struct MeshData {
   std::vector<double> positions;
   std::vector<std::uint32_t> triangles;
@@ -50,10 +50,10 @@ struct MeshLimits {
   std::size_t text_bytes = limits::kMaxUnpackedBytes;  // of an unpacked 3MF
 };
 
-/// Reads a mesh. STL (text and binary) and OBJ have no unit: a number is a mm. 3MF tells its unit, GLB is in
-/// metres with Y up; both are turned and scaled, and their parts (3MF's build, GLB's scene) are put together.
-/// Appends errors under the file's name, and returns nothing, for what is damaged, too large, not finite, or
-/// kept outside of the file (glTF's buffers, compressed meshes).
+/// Reads a mesh. STL (text and binary) and OBJ have no unit: a number is a mm. 3MF specifies its unit, GLB is
+/// in metres with Y up; both are converted, and their parts (3MF's build, GLB's scene) combined. Appends
+/// errors under the file's name, and returns nothing, for damaged, too large or non-finite data and data
+/// outside of the file (glTF's buffers, compressed meshes).
 std::optional<MeshData> read_mesh(std::string_view bytes, MeshFormat format, const std::string& name,
                                   Diagnostics& diagnostics, const MeshLimits& limits = {});
 

@@ -1,15 +1,15 @@
-// Posts: a toolpath as the G-code that one kind of controller takes.
+// Posts: a toolpath as G-code for one kind of controller.
 //
-// What controllers differ in is data: a PostProfile says which words there are, how many decimals, whether
-// arcs exist, how long a line may be, what a tool change looks like. Kerf knows the profiles of posts/*.toml;
-// a new machine is one more such file (docs/manual/posts.md), not code.
+// The differences of controllers are data: a PostProfile lists words, decimals, arcs, maximum line lengths
+// and tool changes. The built-in profiles are posts/*.toml; a new machine is one more such file
+// (docs/manual/posts.md), not code.
 //
 //   Diagnostics diagnostics;
 //   const PostProfile* grbl = find_post("grbl");
 //   std::vector<PostedFile> files = post(path, *grbl, {.program_name = "part"}, diagnostics);
 //   lint_gcode(files[0].text, *grbl, "part.nc", diagnostics);
 //
-// Source of the dialects' facts: the manuals of LinuxCNC, GRBL, grblHAL, Marlin, Klipper and Mach3.
+// Sources: the manuals of LinuxCNC, GRBL, grblHAL, Marlin, Klipper and Mach3.
 #pragma once
 
 #include <cstddef>
@@ -29,52 +29,52 @@
 namespace kerf {
 
 enum class LengthUnit : std::uint8_t { mm, inch };
-/// Arcs as G2 and G3 with both plane axes and both centre words, or as straight chords where the controller
+/// Arcs as G2 and G3 with both plane axes and both centre words, or as straight chords if the controller
 /// has no arcs.
 enum class ArcPolicy : std::uint8_t { centre, chords };
 enum class CommentStyle : std::uint8_t { none, brackets, semicolon };
-/// `command`: the controller changes tools (T M6). `pause`: the program stops and a person changes it; not
-/// before the first tool, which is in the spindle already. `files`: a file a tool. `ignore`: nothing.
+/// `command`: the controller changes tools (T M6). `pause`: the program stops for a manual change; not
+/// before the first tool, which is in the spindle already. `files`: one file per tool. `ignore`: nothing.
 enum class ToolChangePolicy : std::uint8_t { command, pause, files, ignore };
 enum class DwellUnit : std::uint8_t { seconds, milliseconds };
-/// Whether a word that is still in force is written again.
+/// Whether an unchanged modal word is written again.
 enum class Repeat : std::uint8_t { when_changed, always };
 /// "X10" or "X10.000".
 enum class Zeros : std::uint8_t { dropped, kept };
 enum class WordSpacing : std::uint8_t { blank, none };
 enum class LineEnd : std::uint8_t { lf, crlf };
-/// What a line is. `words`: codes and words together, in any number, the motion in force until another comes
-/// (RS274, all millers). `commands`: one command, named on every line (printers); G28 and G53 mean other
-/// things there, so that moves to places of the machine are left out.
+/// The form of a line. `words`: any number of codes and words with a modal motion (RS274, all mills).
+/// `commands`: one command, named on every line (printers); G28 and G53 have other meanings there, so motions
+/// to machine positions are left out.
 enum class LineSyntax : std::uint8_t { words, commands };
-/// What the limit of a line's length counts: every byte, or (GRBL) neither blanks nor comments.
+/// What counts towards the maximum line length: every byte, or (GRBL) neither blanks nor comments.
 enum class LineMeasure : std::uint8_t { bytes, significant };
 enum class ExtruderMode : std::uint8_t { relative, absolute };
 
 /// One controller's dialect. Lines of templates may hold {name}, {units}, {tool}, {tool_name},
-/// {tool_comment}, {tools}, {bounds}, {time}, {version} and {profile}; a comment that is empty then is left
+/// {tool_comment}, {tools}, {bounds}, {time}, {version} and {profile}; a comment that ends up empty is left
 /// out.
 struct PostProfile {
   std::string name;   // "grbl"
   std::string title;  // "GRBL 1.1"
   std::string file_ending = ".nc";
 
-  // What the controller understands.
-  std::string letters;       // all letters that may stand on a line, "FGIJKMNPSTXYZ"
+  // What the controller supports.
+  std::string letters;       // all letters of a line, "FGIJKMNPSTXYZ"
   std::vector<int> g_codes;  // in tenths: G38.2 is 382
   std::vector<int> m_codes;  // in tenths
   int highest_tool = 99'999'999;
   int highest_line_number = 99'999;
   std::size_t longest_line = 250;
   LineMeasure line_measure = LineMeasure::bytes;
-  bool percent_lines = false;  // a program may stand between two lines of %
+  bool percent_lines = false;  // a program may be enclosed in lines of %
   bool parameters = false;     // #1, [1 + 2] and O-words
   bool macros = false;         // lines such as PAUSE or SET_FAN_SPEED FAN=box (Klipper)
   LineSyntax syntax = LineSyntax::words;
   CommentStyle comments = CommentStyle::brackets;
   std::string comment_forbidden;  // characters that act even inside a comment (GRBL's ! ? ~)
 
-  // How things are said.
+  // How they are written.
   LengthUnit unit = LengthUnit::mm;
   int decimals_mm = 3, decimals_inch = 4, decimals_degrees = 3, decimals_feed = 3, decimals_speed = 2;
   Zeros zeros = Zeros::dropped;
@@ -91,7 +91,7 @@ struct PostProfile {
 
   ToolChangePolicy tool_change = ToolChangePolicy::command;
   DwellUnit dwell_unit = DwellUnit::seconds;
-  Duration spindle_dwell;      // waited after the spindle starts, unless the program waits itself
+  Duration spindle_dwell;      // after a spindle start, unless the program has a dwell
   Length filament = mm(1.75);  // diameter, for E words
   ExtruderMode extruder = ExtruderMode::relative;
   double fan_full = 255.0;  // S of a fan at full speed
@@ -105,12 +105,12 @@ struct PostProfile {
   bool has_m(int tenths) const;
 };
 
-/// The profiles that every Kerf knows, in the order of their names.
+/// The built-in profiles, ordered by name.
 const std::vector<PostProfile>& built_in_posts();
 /// One of them by its name ("grbl", "LinuxCNC"); null if there is none.
 const PostProfile* find_post(std::string_view name);
-/// Reads a profile file. A key `base = "grbl"` begins from that profile. Errors are reported with their
-/// places; nothing is returned after one.
+/// Reads a profile file. A key `base = "grbl"` inherits from that profile. Errors are reported with
+/// their location; nothing is returned after one.
 std::optional<PostProfile> read_post_profile(std::string_view text, std::string_view file_name,
                                              Diagnostics& diagnostics);
 
@@ -118,24 +118,24 @@ struct PostOptions {
   std::string program_name;        // for the header's comment
   std::optional<LengthUnit> unit;  // instead of the profile's
   std::optional<ToolChangePolicy> tool_change;
-  Feed missing_feed;                      // for cutting moves to which the program gives no feed; 0: an error
-  std::map<int, std::string> tool_names;  // for comments
+  Feed missing_feed;                         // for cuts without a feed; 0: an error
+  std::map<int, std::string> tool_names;     // for comments
   std::map<int, std::string> tool_comments;  // "TOOL/MILL, 6, 0, 20, 0"
 };
 
 struct PostedFile {
-  std::optional<int> tool;  // set where each tool has a file of its own
+  std::optional<int> tool;  // set if each tool has its own file
   std::string text;
   std::size_t lines = 0;
 };
 
-/// Writes a toolpath as G-code. What the controller cannot do is an error (it changes the part) or a warning
-/// (it does not); with an error the files must not be used. A stopped run returns no file.
+/// Writes a toolpath as G-code. A missing feature of the controller is an error if it changes the part,
+/// otherwise a warning; after an error the files must not be used. A stopped run returns no file.
 std::vector<PostedFile> post(const Toolpath& path, const PostProfile& profile, const PostOptions& options,
                              Diagnostics& diagnostics, Progress* progress = nullptr);
 
-/// Reads G-code as the profile's controller does and refuses (an error each) what that would refuse: letters,
-/// codes, conflicts, words without a use, arcs that do not close, lines too long. True if nothing was found.
+/// Reads G-code like the profile's controller and reports what that would refuse, one error each: letters,
+/// codes, conflicts, unused words, arcs that do not close, long lines. True without errors.
 bool lint_gcode(std::string_view text, const PostProfile& profile, const std::string& file_name,
                 Diagnostics& diagnostics);
 

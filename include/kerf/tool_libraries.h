@@ -15,23 +15,23 @@ namespace kerf {
 enum class ToolLibraryKind : std::uint8_t { kerf, linuxcnc, carbide_create, fusion, freecad, camotics };
 std::string_view to_string(ToolLibraryKind kind);
 
-/// Which kind of library a file is, by its text; nothing where it is none.
+/// The kind of a library, detected from its text; nothing if it is none.
 std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes);
 
 struct ToolLibraryOptions {
-  double unit_mm = 1.0;  // mm of a unit of files that do not tell it (tool.tbl): 1 or 25.4
-  int first_number = 1;  // of tools that have none, counted up past those that are taken
+  double unit_mm = 1.0;  // mm per unit of files without a unit (tool.tbl): 1 or 25.4
+  int first_number = 1;  // for tools without a number; used numbers are skipped
 };
 
-/// Reads a library of any kind into `table`. Tools that Kerf cannot make are left out with a warning that
-/// says why; what was assumed is told in notes. Errors: a file that is damaged or no library.
+/// Reads a library of any kind into `table`. Unsupported tools are left out with a warning that gives the
+/// reason; assumptions are reported in notes. Errors: a damaged file or an unknown format.
 void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
                        ToolTable& table, Diagnostics& diagnostics);
 
 /// The tools as a Kerf tool file; reading it gives the same tools.
 std::string write_tool_file(const ToolTable& table);
 /// The tools as LinuxCNC's tool table, diameters in units of `unit_mm` mm. Warnings name the tools whose
-/// shape it cannot tell: those that are not square keep only their diameter and a remark.
+/// shape it cannot describe: those that are not square keep only their diameter and a comment.
 std::string write_linuxcnc_table(const ToolTable& table, double unit_mm, Diagnostics& diagnostics);
 
 }  // namespace kerf
