@@ -1,5 +1,4 @@
-// Splitting of G-code text into blocks. One pass; a line with a fault is reported and left, reading goes on
-// after it.
+// Splits G-code text into blocks in one pass; a faulty line is reported and skipped.
 #include "codec/gcode/block.h"
 
 #include <algorithm>
@@ -40,7 +39,7 @@ std::string shown(char c) {
 constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP",
                                            "FIX", "FUP",  "LN",   "ROUND", "SIN", "SQRT",   "TAN"};
 
-/// The end of a function's name followed by '[', or `p` where none begins here.
+/// The end of a function's name followed by '[', or `p` if there is none.
 const char* after_function_name(const char* p, const char* end) {
   for (const std::string_view name : kFunctions) {
     const char* q = p;
@@ -65,7 +64,7 @@ const char* after_bracket(const char* p, const char* end) {
 
 constexpr std::string_view kOForZero = "is the letter O meant as the digit 0?";
 
-/// "X4O", "XO5": whether the word at `letter`, which has no number, is or meets an O in the place of a digit.
+/// "X4O", "XO5": whether the word at `letter`, which has no number, is or meets an O instead of the digit 0.
 bool is_o_for_zero(const char* line, const char* letter, const char* end) {
   const bool behind_number = letter != line && (is_digit(letter[-1]) || letter[-1] == '.');
   const bool before_o = end - letter > 1 && upper(letter[1]) == 'O';
@@ -77,7 +76,7 @@ const char* after_blanks(const char* p, const char* end) {
   return p;
 }
 
-/// The end of a parameter's name that begins with '#' at `p`: #1, ##2, #[...], #<name>, #-less prefixes
+/// The end of a parameter's name that starts with '#' at `p`: #1, ##2, #[...], #<name>, #-less prefixes
 /// refused.
 const char* after_parameter(const char* p, const char* end) {
   while (p != end && (*p == '#' || is_blank(*p))) ++p;
@@ -121,7 +120,7 @@ BlockReader::BlockReader(std::string_view text, BlockReaderOptions options, Diag
 }
 
 /// Each kind of line end is searched for only once past the last one found, and returns no farther than to
-/// the next line feed, so that neither a text with lone returns nor a jump back costs a look at the whole
+/// the next line feed, so that neither a text with lone returns nor a jump back scans the whole
 /// text.
 void BlockReader::find_line_end() {
   const char* const begin = text_.data();
@@ -149,7 +148,7 @@ void BlockReader::seek(std::size_t position, std::uint32_t lines) {
   next_line_feed_ = next_return_ = 0;
 }
 
-/// To the begin of the line after the one that ends at `end`.
+/// To the start of the line after the one that ends at `end`.
 void BlockReader::go_behind(std::size_t end) {
   position_ = end;
   if (position_ < text_.size()) position_ += text_.substr(position_, 2) == "\r\n" ? 2 : 1;
@@ -204,12 +203,12 @@ void BlockReader::read_line(Block& block) {
   }
 }
 
-/// What may stand before all words: '%' for a whole line, '/'. False if the line is done.
+/// Prefixes of a line: '%' for a whole line, '/'. False if the line is complete.
 bool BlockReader::read_prefix(Block& block) {
   skip_space();
   if (p_ == end_) return false;
   if (*p_ == '%') {
-    block.percent = true;  // what follows on the line is a name for people
+    block.percent = true;  // the rest of the line is a name
     return false;
   }
   if (*p_ == '/') {
@@ -238,7 +237,7 @@ bool BlockReader::is_command() const {
 bool BlockReader::read_item(Block& block) {
   switch (class_of(*p_)) {
     case CharClass::letter:
-      if (*p_ == '$' && block.words.empty()) break;  // a setting of GRBL's, which is no program
+      if (*p_ == '$' && block.words.empty()) break;  // a setting of GRBL, not part of a program
       return upper(*p_) == 'O' ? read_o_word(block) : read_word(block);
     case CharClass::comment: read_comment(block); return true;
     case CharClass::hash: return read_assignment(block);
@@ -251,7 +250,7 @@ bool BlockReader::read_item(Block& block) {
     return true;
   }
   return fault(block, Code::bad_character, p_,
-               fmt::format("{} cannot stand here, expected a letter", shown(*p_)));
+               fmt::format("{} is not allowed here, expected a letter", shown(*p_)));
 }
 
 bool BlockReader::read_word(Block& block) {
@@ -299,7 +298,7 @@ bool BlockReader::read_assignment(Block& block) {
   const char* equals = after_blanks(after_parameter(begin, end_), end_);
   if (equals == end_ || *equals != '=')
     return fault(block, Code::bad_character, begin,
-                 "a parameter at the begin of a word must be given a value with '='");
+                 "a parameter at the start of a word needs a value with '='");
   const char* value = equals + 1;
   const char* value_end = after_computed_value(value, end_);
   if (value_end == value) {
@@ -335,8 +334,8 @@ bool BlockReader::read_o_word(Block& block) {
   return true;
 }
 
-/// Where the comment that opens at p_ ends: at the bracket that closes it, inner pairs counted; else at the
-/// first closing bracket; null if there is none.
+/// The end of the comment that opens at p_: its closing parenthesis, counting inner pairs, otherwise the
+/// first closing parenthesis; null if there is none.
 const char* BlockReader::comment_end(const Block& block) {
   const char* first = std::find(p_ + 1, end_, ')');
   if (first == end_) return nullptr;
@@ -357,7 +356,7 @@ void BlockReader::read_comment(Block& block) {
   const char* close = *p_ == ';' ? end_ : comment_end(block);
   if (close == nullptr) {
     unusual(block, Code::comment_unclosed, p_,
-            "the comment is not closed; it is taken to reach to the line's end");
+            "the comment is not closed; it is assumed to end with the line");
     close = end_;
   }
   block.comments.push_back({{begin, static_cast<std::size_t>(close - begin)}, column});

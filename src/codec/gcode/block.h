@@ -1,10 +1,9 @@
-// G-code text as blocks of words: what stands on each line and where, without any meaning.
+// G-code text as blocks of words with their locations, without any meaning.
 //
-// The reader hands out one block a line into a block that the caller keeps, so that a million lines allocate
-// nothing. Numbers are read to the nearest double. What a number may be computed from (parameters `#1`,
-// `#<name>`, expressions
-// `[...]`, functions) and O-words are recognised and kept as text with their place; nothing here evaluates
-// them. Texts are views into the program's text, which must outlive the block.
+// The reader fills one block per line in an object of the caller, so that a million lines allocate nothing.
+// Numbers are read to the nearest double. Computed values (parameters `#1`, `#<name>`, expressions `[...]`,
+// functions) and O-words are recognised and kept as text with their location, not evaluated. Texts are views
+// into the program's text, which must outlive the block.
 #pragma once
 
 #include <cstdint>
@@ -24,16 +23,16 @@ enum class ValueKind : std::uint8_t { number, expression };
 struct Word {
   double value = 0.0;              // of a number; 0 for an expression
   std::uint32_t column = 0;        // of the letter, from 1
-  std::uint32_t value_offset = 0;  // where the value begins in the block's text
+  std::uint32_t value_offset = 0;  // start of the value in the block's text
   std::uint32_t value_length = 0;
   char letter = 0;
   ValueKind kind = ValueKind::number;
 };
 
-/// A comment without its brackets or semicolon.
+/// A comment without its parentheses or semicolon.
 struct Comment {
   std::string_view text;
-  std::uint32_t column = 0;  // of the bracket or semicolon
+  std::uint32_t column = 0;  // of the parenthesis or semicolon
 };
 
 /// Text that is to be computed: an assignment `#1 = [2 + 3]` or an O-word with all that follows it.
@@ -47,8 +46,8 @@ struct Block {
   std::uint32_t line = 0;  // from 1
   std::string_view text;   // the line without its end
   bool faulty = false;
-  bool optional = false;          // begins with the block delete character '/'
-  bool percent = false;           // a line that begins with '%'
+  bool optional = false;          // starts with the block delete character '/'
+  bool percent = false;           // a line that starts with '%'
   bool computed = false;          // has words or assignments whose value is an expression
   std::string_view command;       // of BlockReaderOptions::Commands::words
   std::optional<double> number;   // N word
@@ -66,7 +65,7 @@ struct BlockReaderOptions {
   std::string file_name = "<text>";
   std::size_t max_line_bytes = 1'000'000;
   bool strict = false;  // unusual comments are errors
-  /// Printers have commands in words ("EXCLUDE_OBJECT NAME=a", "M117 ready"); they are kept as text.
+  /// Printers have commands that are words ("EXCLUDE_OBJECT NAME=a", "M117 ready"); they are kept as text.
   enum class Commands : std::uint8_t { letters, words } commands = Commands::letters;
 };
 
@@ -78,11 +77,11 @@ class BlockReader {
   bool next(Block& block);
   /// The next line's text, which next() would read; empty at the text's end and for an empty line.
   std::string_view peek();
-  /// Leaves out the line that peek() gave.
+  /// Skips the line returned by peek().
   void skip();
-  /// Bytes of the text already read: where the next line begins.
+  /// Bytes of the text already read: the start of the next line.
   std::size_t position() const { return position_; }
-  /// Reads on from a place where a line begins, which was position() when `lines` lines had been read.
+  /// Continues at the start of a line, given by an earlier position() after `lines` lines.
   void seek(std::size_t position, std::uint32_t lines);
   std::uint32_t lines() const { return line_; }
   std::string_view text() const { return text_; }
@@ -111,10 +110,10 @@ class BlockReader {
   Diagnostics& diagnostics_;
   std::size_t position_ = 0;
   std::size_t next_line_feed_ = 0;  // first '\n' at or after position_, found once
-  std::size_t next_return_ = 0;     // first '\r' before that, else the same place
+  std::size_t next_return_ = 0;     // first '\r' before that, otherwise the same
   bool has_returns_ = false;
   std::uint32_t line_ = 0;
-  bool unbalanced_ = false;  // a comment of this line opens more brackets than it closes
+  bool unbalanced_ = false;  // a comment of this line opens more parentheses than it closes
   const char* line_start_ = nullptr;
   const char* p_ = nullptr;  // the next character of the line
   const char* end_ = nullptr;

@@ -14,7 +14,7 @@ constexpr std::size_t kMaxDigits = 600;  // more than kerf/number.h reads, so th
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// After a number may not follow what would have belonged to it.
+/// The character after a number must not be a part of it.
 Decimal checked(Decimal number, const char* end) {
   const char* p = number.end;
   if (p == end) return number;

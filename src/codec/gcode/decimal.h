@@ -1,4 +1,4 @@
-// Decimal numbers of G-code: sign, digits, a point; no exponent. Blanks between the characters do not count.
+// Decimal numbers of G-code: sign, digits, a point; no exponent. Blanks between the characters are ignored.
 #pragma once
 
 #include <cstddef>
@@ -22,10 +22,10 @@ inline constexpr int kExactDigits = 15;  // any integer of so many digits is a d
 inline constexpr double kTenTo[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                     1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
-/// The way for all numbers: blanks inside, any count of digits, everything that is wrong.
+/// The general case: blanks inside, any number of digits, all faults.
 Decimal read_any_decimal(const char* begin, const char* end);
 
-/// True if the number read up to `p` surely ends there: a line end, a letter but E, or a blank before a
+/// True if the number read up to `p` certainly ends there: a line end, a letter but E, or a blank before a
 /// letter.
 inline bool ends_plainly(const char* p, const char* end) {
   if (p == end) return true;
@@ -35,8 +35,8 @@ inline bool ends_plainly(const char* p, const char* end) {
 
 }  // namespace detail
 
-/// Reads the number that begins at `begin`, to the nearest double; never "-0". Usual numbers take the short
-/// way: up to 15 digits are one exact division, which rounds to the nearest double.
+/// Reads the number at `begin`, to the nearest double; never "-0". Numbers of up to 15 digits are one exact
+/// division, which rounds to the nearest double.
 inline Decimal read_decimal(const char* begin, const char* end) {
   const char* p = begin;
   const bool negative = p != end && *p == '-';
@@ -45,17 +45,17 @@ inline Decimal read_decimal(const char* begin, const char* end) {
   const char* const first = p;
   unsigned digit = 0;
   while (p != end && (digit = static_cast<unsigned>(*p) - '0') < 10) digits = digits * 10 + digit, ++p;
-  std::ptrdiff_t count = p - first, places = 0;
+  std::ptrdiff_t count = p - first, decimals = 0;
   if (p != end && *p == '.') {
     const char* const point = p++;
     while (p != end && (digit = static_cast<unsigned>(*p) - '0') < 10) digits = digits * 10 + digit, ++p;
-    places = p - point - 1;
-    count += places;
+    decimals = p - point - 1;
+    count += decimals;
   }
   if (count == 0 || count > detail::kExactDigits || digits > static_cast<std::uint64_t>(limits::kMaxNumber) ||
       !detail::ends_plainly(p, end))
     return detail::read_any_decimal(begin, end);
-  const double size = static_cast<double>(digits) / detail::kTenTo[places];
+  const double size = static_cast<double>(digits) / detail::kTenTo[decimals];
   return {(negative ? -size : size) + 0.0, p, DecimalFault::none};
 }
 

@@ -1,4 +1,4 @@
-// Whether a file's bytes are text at all: a look at the begin, before anything is read from it.
+// Detects from the start of a file whether it is text.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace kerf::gcode {
 
-/// What a text is instead of ASCII or UTF-8, and the byte that shows it.
+/// The kind of a file that is not plain text, and the byte that shows it.
 struct NotPlain {
   enum class Kind : unsigned char { utf16, binary } kind;
   std::size_t at = 0;
 };
-/// Nothing for a text that can be read line by line. Letters of any eight-bit alphabet are text: comments
-/// have them.
+/// Nothing for text that can be read line by line. Letters of any eight-bit alphabet are text, as comments
+/// contain them.
 std::optional<NotPlain> find_not_plain(std::string_view bytes);
 
 }  // namespace kerf::gcode

@@ -27,7 +27,7 @@ void append_count(std::string& out, std::uint64_t value) {
   out += static_cast<char>(value);
 }
 
-/// Takes bytes from the front; after the end everything is 0 and `failed` true.
+/// Reads bytes from the front; after the end all values are 0 and `failed` is true.
 class Bytes {
  public:
   explicit Bytes(std::string_view bytes) : bytes_(bytes) {}
@@ -67,7 +67,7 @@ class Bytes {
   bool failed_ = false;
 };
 
-bool sound_head(const ColumnData& data) {
+bool valid_head(const ColumnData& data) {
   for (std::size_t k = 0; k < 3; ++k)
     if (!(std::abs(data.low[k]) <= limits::kMaxCoordinate) ||
         !(std::abs(data.high[k]) <= limits::kMaxCoordinate) || !(data.low[k] < data.high[k]))
@@ -76,7 +76,7 @@ bool sound_head(const ColumnData& data) {
          data.pitch > 0.0 && data.pitch <= limits::kMaxCoordinate && data.nx > 0 && data.ny > 0;
 }
 
-/// A column's runs: within the block, in order and apart.
+/// The runs of a column: within the block, in order, separate.
 bool read_runs(Bytes& bytes, std::uint64_t count, float height, std::vector<std::array<float, 2>>& runs) {
   float above = 0.0f;
   for (std::uint64_t k = 0; k < count; ++k) {
@@ -139,8 +139,7 @@ std::optional<ColumnData> read_columns(std::string_view bytes, const std::string
     diagnostics.error(Code::stock_left_file, TextSpot{name, 0, 0}, std::move(message));
     return std::nullopt;
   };
-  if (bytes.substr(0, kMagic.size()) != kMagic)
-    return refuse("the file does not begin as left-over stock does");
+  if (bytes.substr(0, kMagic.size()) != kMagic) return refuse("the file does not start like left-over stock");
   Bytes rest(bytes.substr(kMagic.size()));
   ColumnData data;
   for (double& v : data.low) v = rest.real();
@@ -148,8 +147,7 @@ std::optional<ColumnData> read_columns(std::string_view bytes, const std::string
   for (double* v : {&data.x, &data.y, &data.pitch}) *v = rest.real();
   data.nx = rest.number<std::uint32_t>();
   data.ny = rest.number<std::uint32_t>();
-  if (rest.failed() || !sound_head(data))
-    return refuse("the block or the columns that the file tells cannot be");
+  if (rest.failed() || !valid_head(data)) return refuse("the block or the columns of the file are invalid");
   if (std::uint64_t{data.nx} * data.ny > limits.columns)
     return refuse(fmt::format("the file has more than {} columns", limits.columns));
   if (!read_groups(rest, data, limits)) return refuse("the columns in the file are damaged, or too many");

@@ -1,5 +1,5 @@
-// GLB (glTF 2.0, binary): the triangles of the scene, each node's place applied, metres with Y up turned into
-// mm with Z up. Positions of other kinds than floats, buffers in other files and compressed meshes are
+// GLB (glTF 2.0, binary): the triangles of the scene, with the transforms of its nodes, metres with Y up
+// converted to mm with Z up. Positions other than floats, buffers in other files and compressed meshes are
 // refused.
 #include <cmath>
 #include <fmt/format.h>
@@ -47,7 +47,7 @@ class Scene {
 
  private:
   bool visit(std::size_t number, const Affine& parent, int depth);
-  bool add_primitive(const Json& primitive, const Affine& place);
+  bool add_primitive(const Json& primitive, const Affine& transform);
   std::optional<Accessor> accessor(std::size_t number, const char* type);
   std::uint64_t index_at(const Accessor& a, std::size_t k) const;
   bool add_triangles(const std::optional<Accessor>& indices, std::size_t first, std::size_t count, bool turn);
@@ -59,12 +59,12 @@ class Scene {
 };
 
 /// The map of a node: its matrix, or its scale, rotation and translation.
-Affine place_of(const Json& node) {
-  Affine place;
+Affine transform_of(const Json& node) {
+  Affine transform;
   if (node.contains("matrix")) {
     for (std::size_t k = 0; k < 12; ++k)
-      place.m[k % 3][k / 3] = node["matrix"].at(k / 3 * 4 + k % 3).get<double>();
-    return place;
+      transform.m[k % 3][k / 3] = node["matrix"].at(k / 3 * 4 + k % 3).get<double>();
+    return transform;
   }
   const auto numbers = [&node](const char* key, std::vector<double> usual) {
     if (!node.contains(key)) return usual;
@@ -79,23 +79,24 @@ Affine place_of(const Json& node) {
                                {2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)},
                                {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}};
   for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) place.m[row][column] = turned[row][column] * s[column];
-    place.m[row][3] = t[row];
+    for (std::size_t column = 0; column < 3; ++column)
+      transform.m[row][column] = turned[row][column] * s[column];
+    transform.m[row][3] = t[row];
   }
-  return place;
+  return transform;
 }
 
 bool Scene::visit(std::size_t number, const Affine& parent, int depth) {
   if (depth > limits::kMaxSceneDepth || ++visits_ > limits::kMaxSceneNodes)
     return out_.fail("the scene's nodes are nested too deeply, or hold each other");
   const Json& node = json_.at("nodes").at(number);
-  const Affine place = parent.after(place_of(node));
+  const Affine transform = parent.after(transform_of(node));
   if (node.contains("mesh"))
     for (const Json& primitive : json_.at("meshes").at(node["mesh"].get<std::size_t>()).at("primitives"))
-      if (!add_primitive(primitive, place)) return false;
+      if (!add_primitive(primitive, transform)) return false;
   if (node.contains("children"))
     for (const Json& child : node["children"])
-      if (!visit(child.get<std::size_t>(), place, depth + 1)) return false;
+      if (!visit(child.get<std::size_t>(), transform, depth + 1)) return false;
   return true;
 }
 
@@ -122,9 +123,9 @@ std::optional<Accessor> Scene::accessor(std::size_t number, const char* type) {
   const std::size_t begin = view.value("byteOffset", std::size_t{0});
   const std::size_t length = view.at("byteLength").get<std::size_t>();
   // Each test leaves numbers small enough for the next one.
-  const std::size_t most = binary_.size();
-  const bool fits = begin <= most && length <= most - begin && in_view <= length && out.stride <= most &&
-                    out.stride >= size && out.count <= most / size &&
+  const std::size_t available = binary_.size();
+  const bool fits = begin <= available && length <= available - begin && in_view <= length &&
+                    out.stride <= available && out.stride >= size && out.count <= available / size &&
                     (out.count == 0 || (out.count - 1) * out.stride + size <= length - in_view);
   if (!fits) return refuse("an accessor reaches beyond the end of the data");
   out.at = begin + in_view;
@@ -138,7 +139,7 @@ std::uint64_t Scene::index_at(const Accessor& a, std::size_t k) const {
   return little_at<std::uint32_t>(binary_, at);
 }
 
-bool Scene::add_primitive(const Json& primitive, const Affine& place) {
+bool Scene::add_primitive(const Json& primitive, const Affine& transform) {
   const int mode = primitive.value("mode", kTriangles);
   if (mode < kTriangles) return true;  // points and lines enclose nothing
   if (mode >= kStrip) return out_.fail("strips and fans of triangles are not read");
@@ -151,7 +152,7 @@ bool Scene::add_primitive(const Json& primitive, const Affine& place) {
     double p[3] = {};
     for (std::size_t axis = 0; axis < 3; ++axis)
       p[axis] = static_cast<double>(little_at<float>(binary_, at + 4 * axis));
-    place.apply(p[0], p[1], p[2]);
+    transform.apply(p[0], p[1], p[2]);
     if (!out_.add_vertex(p[0], p[1], p[2])) return false;
   }
   std::optional<Accessor> indices;
@@ -161,7 +162,7 @@ bool Scene::add_primitive(const Json& primitive, const Affine& place) {
     if (indices->component != kByte && indices->component != kShort && indices->component != kInt)
       return out_.fail("indices are of a type that they cannot have");
   }
-  return add_triangles(indices, first, indices ? indices->count : positions->count, place.mirrors());
+  return add_triangles(indices, first, indices ? indices->count : positions->count, transform.mirrors());
 }
 
 bool Scene::add_triangles(const std::optional<Accessor>& indices, std::size_t first, std::size_t count,
@@ -179,7 +180,8 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 }  // namespace
 
 bool read_glb(std::string_view bytes, MeshMaker& out) {
-  if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF") return out.fail("the file does not begin as a GLB");
+  if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF")
+    return out.fail("the file does not start like a GLB");
   if (little_at<std::uint32_t>(bytes, 4) != 2) return out.fail("the file is not of glTF's version 2");
   std::string_view chunks[2];
   for (std::size_t at = 12, n = 0; n < 2 && at + 8 <= bytes.size(); ++n) {

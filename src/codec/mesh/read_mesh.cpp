@@ -1,4 +1,4 @@
-// Which format, which reader, and the limits that all of them keep.
+// Selects the reader of a format; limits of all readers.
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -52,7 +52,7 @@ bool MeshMaker::add_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c, 
 
 std::optional<MeshData> MeshMaker::finish() {
   if (!failed_ && mesh_.triangles.empty()) {
-    diagnostics_.error(Code::mesh_no_volume, TextSpot{name_, 0, 0}, "the file holds no triangles");
+    diagnostics_.error(Code::mesh_no_volume, TextSpot{name_, 0, 0}, "the file contains no triangles");
     failed_ = true;
   }
   if (failed_) return std::nullopt;

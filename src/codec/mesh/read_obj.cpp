@@ -1,4 +1,5 @@
-// Wavefront OBJ: vertices and faces; faces of more than three corners become fans. All else is passed over.
+// Wavefront OBJ: vertices and faces; faces of more than three vertices become fans. Everything else is
+// ignored.
 #include "codec/mesh/read_text.h"
 #include "codec/mesh/readers.h"
 

@@ -1,4 +1,4 @@
-// STL, binary and text. A binary file may begin with "solid" too, so its length tells it first.
+// STL, binary and text. A binary file may start with "solid" too, so its length is checked first.
 #include <fmt/format.h>
 
 #include "codec/mesh/read_text.h"
@@ -63,12 +63,12 @@ bool read_text(std::string_view bytes, MeshMaker& out) {
 bool read_stl(std::string_view bytes, MeshMaker& out) {
   const bool has_count = bytes.size() >= kHeader;
   const std::size_t count = has_count ? little_at<std::uint32_t>(bytes, kHeader - 4) : 0;
-  const bool begins_as_text = bytes.substr(0, 5) == "solid";
+  const bool starts_as_text = bytes.substr(0, 5) == "solid";
   const std::size_t needed = kHeader + count * kRecord;
-  if (has_count && (bytes.size() == needed || (!begins_as_text && bytes.size() > needed)))
+  if (has_count && (bytes.size() == needed || (!starts_as_text && bytes.size() > needed)))
     return read_binary(bytes, count, out);
-  if (begins_as_text) return read_text(bytes, out);
-  if (!has_count) return out.fail("the file is too short for an STL, and does not begin with \"solid\"");
+  if (starts_as_text) return read_text(bytes, out);
+  if (!has_count) return out.fail("the file is too short for an STL, and does not start with \"solid\"");
   return out.fail(fmt::format("the file says that it has {} triangles, which take {} bytes, but it has {}",
                               count, needed, bytes.size()));
 }

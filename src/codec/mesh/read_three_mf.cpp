@@ -1,5 +1,5 @@
 // 3MF: the parts of a zip, the model's XML read as a stream, and the build's items put together. Objects may
-// lie in other parts of the same file (the production extension); what else extensions add is passed over.
+// be in other parts of the same file (the production extension); other extensions are ignored.
 #if KERF_WITH_3MF
 
 #include <algorithm>
@@ -56,7 +56,7 @@ using Key = std::pair<std::string, std::string>;  // part and object's id
 
 struct Use {
   Key object;
-  Affine place;
+  Affine transform;
 };
 struct Object {
   MeshData mesh;
@@ -85,8 +85,8 @@ std::optional<double> unit_of(std::string_view name) {
   return it == units.end() ? std::nullopt : std::optional(it->second);
 }
 
-/// "m00 m01 m02 m10 ... m32": rows of a matrix that stands behind a row vector.
-bool read_place(std::string_view text, Affine& place) {
+/// "m00 m01 m02 m10 ... m32": rows of a matrix that multiplies a row vector from the right.
+bool read_transform(std::string_view text, Affine& transform) {
   if (text.empty()) return true;
   for (std::size_t k = 0; k < 12; ++k) {
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
@@ -95,7 +95,7 @@ bool read_place(std::string_view text, Affine& place) {
     const std::size_t end = std::min(text.find_first_of(" \t\r\n"), text.size());
     const auto number = parse_number(text.substr(0, end));
     if (!number) return false;
-    place.m[k % 3][k / 3] = *number;
+    transform.m[k % 3][k / 3] = *number;
     text.remove_prefix(end);
   }
   return true;
@@ -129,7 +129,7 @@ class PartReader {
     if (bytes_ > out_.limits().text_bytes || bytes_ > max_bytes_)
       return out_.too_large("the model unpacks to more text than is read");
     if (XML_Parse(parser_, piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0) == XML_STATUS_ERROR)
-      return fail(fmt::format("the model is no sound XML ({})", XML_ErrorString(XML_GetErrorCode(parser_))));
+      return fail(fmt::format("the model is not valid XML ({})", XML_ErrorString(XML_GetErrorCode(parser_))));
     return !out_.failed();
   }
   void set_max_bytes(std::size_t bytes) { max_bytes_ = bytes; }
@@ -144,7 +144,7 @@ class PartReader {
   void end(std::string_view name) {
     if (name == "object") object_ = nullptr;
   }
-  void begin_object(const Attributes& attributes);
+  void start_object(const Attributes& attributes);
   void add_vertex(const Attributes& attributes);
   void add_triangle(const Attributes& attributes);
   void add_use(const Attributes& attributes, std::vector<Use>& uses);
@@ -163,7 +163,7 @@ void PartReader::begin(std::string_view name, const Attributes& attributes) {
   if (out_.failed()) return;
   if (name == "vertex" && object_ != nullptr) return add_vertex(attributes);
   if (name == "triangle" && object_ != nullptr) return add_triangle(attributes);
-  if (name == "object") return begin_object(attributes);
+  if (name == "object") return start_object(attributes);
   if (name == "component" && object_ != nullptr) return add_use(attributes, object_->components);
   if (name == "item" && is_first_) return add_use(attributes, model_.build);
   if (name != "model" || !is_first_) return;
@@ -172,7 +172,7 @@ void PartReader::begin(std::string_view name, const Attributes& attributes) {
   model_.unit = unit.value_or(1.0);
 }
 
-void PartReader::begin_object(const Attributes& attributes) {
+void PartReader::start_object(const Attributes& attributes) {
   if (model_.objects.size() >= limits::kMaxMeshParts) {
     out_.too_large("the file has more objects than are read");
     return;
@@ -217,7 +217,8 @@ void PartReader::add_use(const Attributes& attributes, std::vector<Use>& uses) {
   const std::string_view path = attributes.text("path");
   use.object = {path.empty() ? part_ : part_name(path), std::string(attributes.text("objectid"))};
   if (!path.empty()) other_parts_.insert(use.object.first);
-  if (!read_place(attributes.text("transform"), use.place)) fail("a transform does not have twelve numbers");
+  if (!read_transform(attributes.text("transform"), use.transform))
+    fail("a transform does not have twelve numbers");
   uses.push_back(std::move(use));
 }
 
@@ -251,8 +252,8 @@ std::string model_part(zip::Reader& package) {
 }
 
 /// Adds an object where it is used, and what it is made of.
-bool place_object(const Model& model, const Use& use, const Affine& outer, int depth, std::size_t& visits,
-                  MeshMaker& out) {
+bool add_object(const Model& model, const Use& use, const Affine& outer, int depth, std::size_t& visits,
+                MeshMaker& out) {
   if (depth > limits::kMaxMeshPartDepth || ++visits > limits::kMaxMeshParts)
     return out.fail("objects are nested too deeply, or hold each other");
   const auto it = model.objects.find(use.object);
@@ -261,21 +262,21 @@ bool place_object(const Model& model, const Use& use, const Affine& outer, int d
         fmt::format("object {} is used, but is not in the file", use.object.second.substr(0, 20)));
   const Object& object = it->second;
   if (!object.is_solid) return true;
-  const Affine place = outer.after(use.place);
+  const Affine transform = outer.after(use.transform);
   const std::size_t first = out.vertices();
   const MeshData& mesh = object.mesh;
   for (std::size_t k = 0; k + 2 < mesh.positions.size(); k += 3) {
     double p[3] = {mesh.positions[k], mesh.positions[k + 1], mesh.positions[k + 2]};
-    place.apply(p[0], p[1], p[2]);
+    transform.apply(p[0], p[1], p[2]);
     if (!out.add_vertex(p[0], p[1], p[2])) return false;
   }
-  const std::size_t second = place.mirrors() ? 2 : 1;
+  const std::size_t second = transform.mirrors() ? 2 : 1;
   for (std::size_t k = 0; k + 2 < mesh.triangles.size(); k += 3)
     if (!out.add_triangle(first + mesh.triangles[k], first + mesh.triangles[k + second],
                           first + mesh.triangles[k + 3 - second]))
       return false;
   for (const Use& component : object.components)
-    if (!place_object(model, component, place, depth + 1, visits, out)) return false;
+    if (!add_object(model, component, transform, depth + 1, visits, out)) return false;
   return true;
 }
 
@@ -303,7 +304,7 @@ bool read_three_mf(std::string_view bytes, MeshMaker& out) {
   for (int k = 0; k < 3; ++k) scale.m[k][k] = model.unit;
   std::size_t visits = 0;
   for (const Use& use : model.build)
-    if (!place_object(model, use, scale, 0, visits, out)) return false;
+    if (!add_object(model, use, scale, 0, visits, out)) return false;
   return true;
 }
 

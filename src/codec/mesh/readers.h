@@ -1,4 +1,4 @@
-// The readers behind read_mesh, one a format, and what they share: a mesh that grows within limits.
+// The readers of read_mesh, one per format, and their common mesh builder with limits.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace kerf::mesh_format {
 
-/// A mesh under construction. The first thing that is wrong is told; after it nothing is added any more.
+/// A mesh under construction. The first error is reported; after it nothing is added.
 class MeshMaker {
  public:
   MeshMaker(const std::string& name, const MeshLimits& limits, Diagnostics& diagnostics)
@@ -18,12 +18,12 @@ class MeshMaker {
 
   const MeshLimits& limits() const { return limits_; }
   bool failed() const { return failed_; }
-  /// Tells what is wrong, at a line of the file or (0) in the file as a whole. Returns false.
+  /// Reports an error at a line of the file, or (0) of the whole file. Returns false.
   bool fail(const std::string& message, std::uint32_t line = 0);
   bool too_large(const std::string& what);
-  /// Adds a vertex; false if it is not finite or one too many.
+  /// Adds a vertex; false if it is not finite or exceeds the limit.
   bool add_vertex(double x, double y, double z, std::uint32_t line = 0);
-  /// Adds a triangle; false if an index points at no vertex or it is one too many.
+  /// Adds a triangle; false if an index is invalid or the limit is exceeded.
   bool add_triangle(std::uint64_t a, std::uint64_t b, std::uint64_t c, std::uint32_t line = 0);
   std::size_t vertices() const { return mesh_.positions.size() / 3; }
   std::optional<MeshData> finish();
@@ -56,14 +56,14 @@ T little_at(std::string_view bytes, std::size_t at) {
   return value;
 }
 
-/// A map of space: p -> M p + t, rows of M with t at their end.
+/// An affine map: p -> M p + t, rows of M with t at their end.
 struct Affine {
   double m[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 
   /// `inner` first, then this one.
   Affine after(const Affine& inner) const;
   void apply(double& x, double& y, double& z) const;
-  /// Whether it mirrors, so that triangles turn round.
+  /// Whether it mirrors, which inverts triangles.
   bool mirrors() const;
 };
 

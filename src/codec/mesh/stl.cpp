@@ -1,4 +1,4 @@
-// Binary STL: 80 bytes of header, the count, then 50 bytes a triangle.
+// Binary STL: 80 bytes of header, the count, then 50 bytes per triangle.
 #include "codec/mesh/writers.h"
 
 namespace kerf::mesh_format {
@@ -7,7 +7,7 @@ std::string write_stl(const MeshView& mesh) {
   const std::size_t triangles = triangle_count(mesh);
   std::string out;
   out.reserve(84 + 50 * triangles);
-  // Must not begin with "solid", by which readers know the text form.
+  // Must not start with "solid", which marks the text form.
   out = "Kerf binary STL, units mm: " + plain_name(mesh);
   out.resize(80, '\0');
   append_little(out, static_cast<std::uint32_t>(triangles));

@@ -1,4 +1,4 @@
-// The writers behind write_mesh, one a format, and the little-endian bytes they share.
+// The writers of write_mesh, one per format, and little-endian output.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@ void append_little(std::string& out, T value) {
   out.append(bytes.data(), bytes.size());
 }
 
-/// Writes numbers as append_little does to where there is room for them.
+/// Writes numbers like append_little into an existing buffer.
 inline void put_little(std::span<const float> numbers, char* out) {
   if constexpr (std::endian::native == std::endian::little) {
     std::memcpy(out, numbers.data(), numbers.size_bytes());
@@ -49,16 +49,16 @@ inline void put_little(std::span<const float> numbers, char* out) {
 inline std::size_t triangle_count(const MeshView& mesh) { return mesh.triangles.size() / 3; }
 inline std::size_t vertex_count(const MeshView& mesh) { return mesh.positions.size() / 3; }
 
-/// The triangle's colour as an index into the palette; `palette.size()` where it has none.
+/// The triangle's colour as an index into the palette; `palette.size()` for none.
 inline std::size_t colour_of(const MeshView& mesh, std::size_t triangle) {
   if (mesh.palette.empty() || triangle >= mesh.colour_index.size()) return mesh.palette.size();
   const std::size_t index = mesh.colour_index[triangle];
   return index < mesh.palette.size() ? index : mesh.palette.size();
 }
 
-/// Normal of a triangle of length 1; zero where it has no area.
+/// Normal of a triangle of length 1; zero for a degenerate one.
 std::array<float, 3> unit_normal(const MeshView& mesh, std::size_t triangle);
-/// The name with everything dropped that is not printable ASCII, so that it fits every header.
+/// The printable ASCII characters of a name, for headers.
 std::string plain_name(const MeshView& mesh);
 /// The name of a colour of the palette, for materials.
 std::string colour_name(const MeshView& mesh, std::size_t colour);

@@ -1,4 +1,4 @@
-// minizip's "file" as bytes in memory: the calls that reading and writing a zip have in common.
+// A minizip file in memory: the callbacks of reading and writing.
 #pragma once
 
 #include <algorithm>
@@ -6,8 +6,8 @@
 
 namespace kerf::zip {
 
-/// Bytes (a text that grows or one that is only looked at) and a place among them. The calls refer to this
-/// object, which stays where it is while the zip is open.
+/// Bytes (growing or read-only) and an offset. The callbacks refer to this object, which must not move while
+/// the zip is open.
 template <class Bytes>
 struct Memory {
   Bytes bytes;
@@ -35,7 +35,7 @@ struct Memory {
     const std::size_t from = origin == ZLIB_FILEFUNC_SEEK_CUR   ? memory.at
                              : origin == ZLIB_FILEFUNC_SEEK_END ? size
                                                                 : 0;
-    const std::size_t to = from + static_cast<std::size_t>(offset);  // wraps where a damaged file asks for it
+    const std::size_t to = from + static_cast<std::size_t>(offset);  // wraps for damaged files
     if (to > size) return -1;
     memory.at = to;
     return 0;

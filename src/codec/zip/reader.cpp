@@ -1,4 +1,4 @@
-// Reads a zip archive that lies in memory.
+// Reads a zip archive in memory.
 #if KERF_WITH_ZIP
 
 #include <algorithm>

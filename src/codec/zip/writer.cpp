@@ -11,7 +11,7 @@
 namespace kerf::zip {
 namespace {
 
-/// Quick compression: meshes shrink little more at higher levels, in several times the time.
+/// Fast compression: higher levels take several times as long for little gain on meshes.
 constexpr int kLevel = 3;
 
 uLong write_memory(voidpf, voidpf stream, const void* from, uLong size) {
@@ -40,7 +40,7 @@ Writer::~Writer() {
 
 void Writer::begin(const char* name, Size size) {
   zip_fileinfo info{};
-  info.tmz_date.tm_year = 1980;  // the first day a zip can tell, so that the bytes do not change with time
+  info.tmz_date.tm_year = 1980;  // the earliest date of a zip, so that the bytes do not depend on the time
   info.tmz_date.tm_mday = 1;
   zipOpenNewFileInZip64(archive_->file, name, &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, kLevel,
                         static_cast<int>(size));

@@ -1,4 +1,4 @@
-// Zip archives in memory, by minizip. Where there is no minizip (WebAssembly) no archive opens.
+// Zip archives in memory, by minizip. Without minizip (WebAssembly) no archive opens.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,7 @@
 
 namespace kerf::zip {
 
-/// Reads an archive's files one at a time. The bytes stay the caller's and must outlive the reader.
+/// Reads the files of an archive one at a time. The caller owns the bytes, which must outlive the reader.
 class Reader {
  public:
   explicit Reader(std::string_view bytes);
@@ -18,12 +18,12 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
 
   bool is_zip() const;
-  /// Takes a piece of a file, and whether the file ends with it; false wants no more.
+  /// Receives a piece of a file, and whether it is the last one; returns false to stop.
   using Take = std::function<bool(std::string_view piece, bool last)>;
-  /// Hands a file (its name in any case) to `take` piece by piece until that returns false. False if there is
-  /// no such file or it is damaged.
+  /// Passes a file (its name in any case) to `take` piece by piece until that returns false. False if there
+  /// is no such file or it is damaged.
   bool unpack(const std::string& name, const Take& take);
-  /// The archive's first file; nothing where there is none, it is damaged or longer than `limit` bytes.
+  /// The archive's first file; nothing if there is none, it is damaged or longer than `limit` bytes.
   std::optional<std::string> first(std::size_t limit);
 
  private:
@@ -33,7 +33,7 @@ class Reader {
   std::unique_ptr<Archive> archive_;
 };
 
-/// Writes an archive; files are written one after the other, text is handed to the compressor in pieces.
+/// Writes an archive; files are written one after the other, text is passed to the compressor in pieces.
 class Writer {
  public:
   Writer();
@@ -41,7 +41,7 @@ class Writer {
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
 
-  /// Begins a file; `large` where it may be longer than 4 GiB (readers of small files need not know zip64).
+  /// Starts a file; `large` if it may be longer than 4 GiB (readers of small files need not support zip64).
   enum class Size : int { small = 0, large = 1 };
   void begin(const char* name, Size size = Size::small);
   void write(std::string_view text);

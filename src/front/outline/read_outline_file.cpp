@@ -21,7 +21,7 @@ class OutlineFileReader {
 
  private:
   bool error(const std::string& message) {
-    diagnostics_.error(Code::outline_file_content, TextSpot{file_, 0, 0}, place_ + message);
+    diagnostics_.error(Code::outline_file_content, TextSpot{file_, 0, 0}, context_ + message);
     return false;
   }
   /// Every key of an object must be one of `known`.
@@ -32,7 +32,7 @@ class OutlineFileReader {
 
   const std::string& file_;
   Diagnostics& diagnostics_;
-  std::string place_;  // "outline 2, segment 5: "
+  std::string context_;  // "outline 2, segment 5: "
   double scale_ = 1.0;
 };
 
@@ -50,9 +50,9 @@ bool OutlineFileReader::keys(const Json& object, const std::vector<std::string>&
 
 bool OutlineFileReader::point(const Json& object, const char* key, Point2& out) {
   const auto found = object.find(key);
-  const bool sound = found != object.end() && found->is_array() && found->size() == 2 &&
+  const bool valid = found != object.end() && found->is_array() && found->size() == 2 &&
                      (*found)[0].is_number() && (*found)[1].is_number();
-  if (!sound) return error(fmt::format("\"{}\" must be two numbers, [x, y]", key));
+  if (!valid) return error(fmt::format("\"{}\" must be two numbers, [x, y]", key));
   out = scale_ * Point2{(*found)[0].get<double>(), (*found)[1].get<double>()};
   return true;
 }
@@ -66,19 +66,19 @@ bool OutlineFileReader::corner(const Json& object, Length& out) {
 }
 
 bool OutlineFileReader::outline(const Json& object, Outline& out) {
-  const std::string whole = place_;
+  const std::string whole = context_;
   if (!keys(object, {"name", "closed", "first", "segments"})) return false;
   const auto first = object.find("first");
   if (first == object.end()) return error("\"first\" is missing");
-  place_ = whole + "first: ";
+  context_ = whole + "first: ";
   if (!keys(*first, {"at", "corner"}) || !point(*first, "at", out.start) || !corner(*first, out.start_corner))
     return false;
-  place_ = whole;
+  context_ = whole;
   const auto segments = object.find("segments");
   if (segments == object.end() || !segments->is_array()) return error("\"segments\" must be a list");
   for (const Json& item : *segments) {
     Segment segment;
-    place_ = fmt::format("{}segment {}: ", whole, out.segments.size() + 1);
+    context_ = fmt::format("{}segment {}: ", whole, out.segments.size() + 1);
     if (!keys(item, {"to", "via", "corner"}) || !point(item, "to", segment.to) ||
         !corner(item, segment.corner))
       return false;
@@ -89,7 +89,7 @@ bool OutlineFileReader::outline(const Json& object, Outline& out) {
     }
     out.segments.push_back(segment);
   }
-  place_ = whole;
+  context_ = whole;
   const auto closed_key = object.find("closed");
   if (closed_key == object.end()) return true;
   if (!closed_key->is_boolean()) return error("\"closed\" must be true or false");
@@ -116,7 +116,7 @@ std::vector<NamedOutline> OutlineFileReader::read(const Json& root) {
     named.name = fmt::format("outline{}", made.size());
     if (item.is_object() && item.contains("name") && item["name"].is_string())
       named.name = item["name"].get<std::string>();
-    place_ = fmt::format("outline \"{}\": ", named.name.substr(0, 80));
+    context_ = fmt::format("outline \"{}\": ", named.name.substr(0, 80));
     if (!outline(item, named.outline)) return {};
     made.push_back(std::move(named));
   }
@@ -130,7 +130,7 @@ std::vector<NamedOutline> read_outline_file(std::string_view text, const std::st
   try {
     return OutlineFileReader(file_name, diagnostics).read(Json::parse(text));
   } catch (const Json::parse_error& problem) {
-    // What stands before the offending byte, for the line and column.
+    // The text before the offending byte, for line and column.
     const std::size_t byte = std::min<std::size_t>(problem.byte == 0 ? 0 : problem.byte - 1, text.size());
     std::uint32_t line = 1, column = 1;
     for (const char c : text.substr(0, byte)) {

@@ -1,4 +1,4 @@
-// Stock from files, and the words that turn it over.
+// Stock from files, flips and shifts from text.
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
@@ -66,7 +66,7 @@ std::optional<double> length_of(std::string_view text) {
 }
 
 /// One word of a flip after its axis; false if it means nothing there.
-bool read_place(const std::string& word, StockMove& move) {
+bool read_position(const std::string& word, StockMove& move) {
   if (word.size() < 3 || word[1] != '=') return false;
   const auto value = length_of(std::string_view(word).substr(2));
   const char across = move.flip == StockMove::Flip::about_x ? 'y' : 'x';
@@ -94,8 +94,8 @@ std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& 
   }
   const auto format = mesh_format_of(name);
   if (!format) {
-    diagnostics.error(Code::mesh_file, TextSpot{name, 0, 0}, "the file's ending names no format of stock")
-        .hint = "known endings: .stl .3mf .glb .obj for meshes, .kstock for what an earlier job has left";
+    diagnostics.error(Code::mesh_file, TextSpot{name, 0, 0}, "the file's ending is not a stock format").hint =
+        "known endings: .stl .3mf .glb .obj for meshes, .kstock for what an earlier job has left";
     return std::nullopt;
   }
   const auto mesh = read_mesh(bytes, *format, name, diagnostics);
@@ -115,7 +115,7 @@ std::optional<StockMove> read_flip_option(std::string_view text, const Origin& w
   if (!words.empty() && words[0] == "x") move.flip = StockMove::Flip::about_x;
   if (!words.empty() && words[0] == "y") move.flip = StockMove::Flip::about_y;
   bool good = move.flip != StockMove::Flip::none && text.size() <= limits::kMaxStockOptionBytes;
-  for (std::size_t k = 1; k < words.size(); ++k) good = good && read_place(words[k], move);
+  for (std::size_t k = 1; k < words.size(); ++k) good = good && read_position(words[k], move);
   if (good) return move;
   diagnostics.error(
       Code::stock_flip, where,
@@ -135,22 +135,23 @@ std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& 
     const std::size_t equals = std::min(word.find('='), word.size());
     const std::string key = word.substr(0, equals);
     const auto value = length_of(std::string_view(word).substr(std::min(equals + 1, word.size())));
-    double* const place = key == "d"        ? &bar.diameter
-                          : key == "length" ? &size
-                          : key == "x"      ? &bar.x_low
-                          : key == "y"      ? &bar.axis_y
-                          : key == "z"      ? &bar.axis_z
-                                            : nullptr;
-    good = good && place != nullptr && value.has_value();
-    if (place != nullptr) *place = value.value_or(0.0);
+    double* const target = key == "d"        ? &bar.diameter
+                           : key == "length" ? &size
+                           : key == "x"      ? &bar.x_low
+                           : key == "y"      ? &bar.axis_y
+                           : key == "z"      ? &bar.axis_z
+                                             : nullptr;
+    good = good && target != nullptr && value.has_value();
+    if (target != nullptr) *target = value.value_or(0.0);
   }
   bar.x_high = bar.x_low + size;
   if (good && bar.diameter > 0.0 && size > 0.0) return bar;
   diagnostics.error(
       Code::rotary_option, where,
-      fmt::format("\"{}\" is no bar; expected \"d=40 length=100\", and where it begins and its axis "
-                  "stands where that is not 0: \"x=-5 y=0 z=12\", all in mm",
-                  text.substr(0, 40)));
+      fmt::format(
+          "\"{}\" is not a bar; expected \"d=40 length=100\", with its start and axis if they are not 0: "
+          "\"x=-5 y=0 z=12\", all in mm",
+          text.substr(0, 40)));
   return std::nullopt;
 }
 

@@ -1,4 +1,4 @@
-// Reads a stock told in words: first into words and lengths, then by the two forms that stock_files.h lists.
+// Reads a stock from text: first into words and lengths, then by the two forms listed in stock_files.h.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -21,16 +21,16 @@ constexpr std::string_view kExpected =
     "expected \"100x60x12 [at lower-left top]\" or \"0,0,-12 to 100,60,0\", in mm or with \"in\" behind each "
     "length or the last one";
 
-/// A length as told; which unit it is in may stand behind a later one.
+/// A length as given; its unit may follow a later one.
 struct Number {
   double value = 0.0;
-  double scale = 0.0;  // mm a unit; 0: none told
+  double scale = 0.0;  // mm per unit; 0: no unit
   bool has_unit() const { return scale != 0.0; }
   bool is_bare() const { return !has_unit() && value != 0.0; }  // 0 needs no unit
 };
 using Token = std::variant<Number, std::string>;
 
-bool begins_number(char c) {
+bool starts_number(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '+' || c == '.';
 }
 
@@ -51,10 +51,10 @@ std::optional<Number> number_of(std::string_view text) {
 
 /// The x of "100 x 60 x 12": alone, or before a number.
 bool stands_between(std::string_view text, std::size_t i) {
-  return text[i] == 'x' && (i + 1 == text.size() || text[i + 1] == ' ' || begins_number(text[i + 1]));
+  return text[i] == 'x' && (i + 1 == text.size() || text[i + 1] == ' ' || starts_number(text[i + 1]));
 }
 
-/// Cuts at blanks and commas, and at the x between two lengths. Nothing where something that begins as a
+/// Splits at blanks and commas, and at the x between two lengths. Nothing if something that starts like a
 /// number is none.
 std::optional<std::vector<Token>> tokens_of(std::string_view text) {
   std::vector<Token> tokens;
@@ -65,7 +65,7 @@ std::optional<std::vector<Token>> tokens_of(std::string_view text) {
       ++i;
       continue;
     }
-    const bool number = begins_number(c);
+    const bool number = starts_number(c);
     std::size_t end = i;
     while (end < text.size() && text[end] != ' ' && text[end] != '\t' && text[end] != ',' &&
            !(number && text[end] == 'x'))
@@ -100,11 +100,11 @@ bool has_bare(std::span<const Number> numbers) {
 }
 
 /// Gives lengths without a unit theirs: that of the last length where it alone has one ("40x30x10in"), mm
-/// where none has. False where some have one and some not, so that nobody knows what is meant.
+/// if none has. False if only some have one, which is ambiguous.
 bool settle(std::span<Number> numbers) {
-  const bool told_early = has_unit(numbers.first(numbers.size() - 1));
+  const bool unit_before_last = has_unit(numbers.first(numbers.size() - 1));
   const double last = numbers.back().scale;
-  if (has_bare(numbers) && told_early) return false;
+  if (has_bare(numbers) && unit_before_last) return false;
   for (Number& number : numbers)
     if (!number.has_unit()) number.scale = last != 0.0 ? last : 1.0;
   return true;
@@ -125,8 +125,8 @@ class Reader {
 
   bool at_end() const { return next_ == tokens_.size(); }
   bool take_word(std::string_view word) {
-    const auto* told = at_end() ? nullptr : std::get_if<std::string>(&tokens_[next_]);
-    if (told == nullptr || *told != word) return false;
+    const auto* given = at_end() ? nullptr : std::get_if<std::string>(&tokens_[next_]);
+    if (given == nullptr || *given != word) return false;
     ++next_;
     return true;
   }
@@ -198,7 +198,7 @@ Answer read_corners(Reader& reader, const Triple& first) {
   return std::string("its highest corner must lie above its lowest in X, Y and Z");
 }
 
-std::string known_places() {
+std::string known_positions() {
   return fmt::format("known: {}, each with {} or {}", list_text(zero_corner_names()), zero_height_names()[0],
                      zero_height_names()[1]);
 }
@@ -208,13 +208,12 @@ Answer read_size(Reader& reader, Triple lengths) {
   const Point3 size = point_of(lengths);
   if (!within_reach(size)) return too_far();
   if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0)) return std::string("each edge must be longer than 0");
-  const bool told = reader.take_word("at") || reader.take_word("zero");
+  const bool named = reader.take_word("at") || reader.take_word("zero");
   const std::optional<ZeroCorner> corner = reader.take_corner();
   const std::optional<ZeroHeight> height = reader.take_height();
-  if (told && !corner && !height)
-    return "the place of program zero is missing or not known; " + known_places();
-  if (!reader.at_end())
-    return "there is something behind it that is no place of program zero; " + known_places();
+  if (named && !corner && !height)
+    return "the position of work zero is missing or unknown; " + known_positions();
+  if (!reader.at_end()) return "the text after it is not a position of work zero; " + known_positions();
   return make_block(size, corner.value_or(ZeroCorner::lower_left), height.value_or(ZeroHeight::top));
 }
 
@@ -228,7 +227,7 @@ Answer read(std::string_view text) {
   const bool corners = reader.take_word("min");
   if (!corners) reader.take_word("block");
   const std::optional<Triple> first = reader.take_triple();
-  if (!first) return std::string("it does not begin with three lengths");
+  if (!first) return std::string("it does not start with three lengths");
   if (reader.take_word("to") || reader.take_word("max")) return read_corners(reader, *first);
   if (corners) return std::string("\"max\" and the highest corner are missing");
   return read_size(reader, *first);

@@ -16,8 +16,8 @@ namespace kerf {
 namespace detail {
 namespace {
 
-void tell(std::vector<Setting>& settings, const ToolShape& blank, std::string_view key, double value,
-          const Origin& where) {
+void add_setting(std::vector<Setting>& settings, const ToolShape& blank, std::string_view key, double value,
+                 const Origin& where) {
   if (value == 0.0) return;
   for (const ShapeParameter& parameter : parameters_of(blank))
     if (parameter.name == key) settings.push_back({std::string(key), where, value});
@@ -25,12 +25,12 @@ void tell(std::vector<Setting>& settings, const ToolShape& blank, std::string_vi
 
 std::vector<Setting> settings_of(const LibraryTool& tool, const ToolShape& blank) {
   std::vector<Setting> settings;
-  tell(settings, blank, "diameter", tool.diameter, tool.where);
-  tell(settings, blank, "flute", tool.flute, tool.where);
-  tell(settings, blank, "corner_radius", tool.corner_radius, tool.where);
-  tell(settings, blank, "tip_diameter", tool.tip_diameter, tool.where);
-  tell(settings, blank, "neck_diameter", tool.neck_diameter, tool.where);
-  tell(settings, blank, "angle", tool.angle, tool.where);
+  add_setting(settings, blank, "diameter", tool.diameter, tool.where);
+  add_setting(settings, blank, "flute", tool.flute, tool.where);
+  add_setting(settings, blank, "corner_radius", tool.corner_radius, tool.where);
+  add_setting(settings, blank, "tip_diameter", tool.tip_diameter, tool.where);
+  add_setting(settings, blank, "neck_diameter", tool.neck_diameter, tool.where);
+  add_setting(settings, blank, "angle", tool.angle, tool.where);
   if (tool.shank_diameter != 0.0) settings.push_back({"shank_diameter", tool.where, tool.shank_diameter});
   if (tool.teeth > 0) settings.push_back({"teeth", tool.where, static_cast<double>(tool.teeth)});
   if (!tool.name.empty()) settings.push_back({"name", tool.where, tool.name});
@@ -48,7 +48,7 @@ LibraryWriter::LibraryWriter(std::string_view file_name, const ToolLibraryOption
       diagnostics_(diagnostics),
       next_(std::max(options.first_number, 0)) {}
 
-Origin LibraryWriter::spot(std::size_t line) const {
+Origin LibraryWriter::location(std::size_t line) const {
   return TextSpot{file_, static_cast<std::uint32_t>(line), 0};
 }
 
@@ -68,17 +68,18 @@ int LibraryWriter::number_for(const LibraryTool& tool) {
   return next_;
 }
 
-void LibraryWriter::add(const LibraryTool& told) {
-  const auto blank = shape_named(told.shape);
-  if (!blank) return leave_out(told.where, told.name, fmt::format("no shape \"{}\"", told.shape));
+void LibraryWriter::add(const LibraryTool& described) {
+  const auto blank = shape_named(described.shape);
+  if (!blank)
+    return leave_out(described.where, described.name, fmt::format("no shape \"{}\"", described.shape));
   Diagnostics faults;
-  std::optional<Tool> tool = tool_of(*blank, settings_of(told, *blank), 1.0, told.where, faults);
+  std::optional<Tool> tool = tool_of(*blank, settings_of(described, *blank), 1.0, described.where, faults);
   if (!tool) {
     const std::string why = faults.list().empty() ? "its measures fit no shape" : faults.list()[0].message;
-    return leave_out(told.where, told.name.empty() ? told.description : told.name, why);
+    return leave_out(described.where, described.name.empty() ? described.description : described.name, why);
   }
-  tool->number = number_for(told);
-  given_.emplace(tool->number, told.where);
+  tool->number = number_for(described);
+  given_.emplace(tool->number, described.where);
   table_.set(tool->number, *tool);
 }
 

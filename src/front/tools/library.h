@@ -1,4 +1,4 @@
-// Inside of the library readers: a tool as other programs tell it, and what puts it into the table.
+// Common to the library readers: a tool as described by other programs, and its conversion.
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace kerf::detail {
 
-/// Lengths in mm, angles in degrees; 0: not told.
+/// Lengths in mm, angles in degrees; 0: unknown.
 struct LibraryTool {
   std::optional<int> number;
   std::string shape;  // a name of shape_named
@@ -28,7 +28,7 @@ class LibraryWriter {
   void add(const LibraryTool& tool);
   /// A tool that is left out, with the reason.
   void leave_out(const Origin& where, std::string_view name, std::string_view why);
-  Origin spot(std::size_t line) const;
+  Origin location(std::size_t line) const;
   const std::string& file() const { return file_; }
   const ToolLibraryOptions& options() const { return options_; }
   Diagnostics& diagnostics() { return diagnostics_; }

@@ -15,7 +15,7 @@ namespace kerf::detail {
 namespace {
 
 using Json = nlohmann::json;
-constexpr double kDrillPoint = 118.0;  // degrees, where none is told
+constexpr double kDrillPoint = 118.0;  // degrees, by default
 
 const Json* member(const Json& object, std::string_view key) {
   if (!object.is_object()) return nullptr;
@@ -79,14 +79,14 @@ void set_fusion_shape(const Json& geometry, const std::string& type, LibraryTool
 
 void read_fusion_tool(const Json& entry, std::size_t index, LibraryWriter& out) {
   const Json none = Json::object();
-  const Json* told = member(entry, "geometry");
-  const Json& geometry = told == nullptr ? none : *told;
+  const Json* given = member(entry, "geometry");
+  const Json& geometry = given == nullptr ? none : *given;
   const Json* post = member(entry, "post-process");
   const std::string unit = fold_name(text_of(entry, "unit"));
   const double scale = has(unit, "inch") ? kMmPerInch : 1.0;
   const std::string type = fold_name(text_of(entry, "type"));
   LibraryTool tool;
-  tool.where = out.spot(0);
+  tool.where = out.location(0);
   tool.description = text_of(entry, "description");
   const std::string vendor = text_of(entry, "vendor"), product = text_of(entry, "product-id");
   tool.name = vendor.empty() || product.empty() ? product : vendor + " " + product;
@@ -119,12 +119,12 @@ double freecad_value(const Json& parameters, std::string_view key) {
 
 void read_freecad_bit(const Json& root, LibraryWriter& out) {
   const Json none = Json::object();
-  const Json* told = member(root, "parameter");
-  const Json& p = told == nullptr ? none : *told;
+  const Json* parameters = member(root, "parameter");
+  const Json& p = parameters == nullptr ? none : *parameters;
   std::string type = fold_name(text_of(root, "shape-type"));
   if (type.empty()) type = fold_name(text_of(root, "shape"));
   LibraryTool tool;
-  tool.where = out.spot(0);
+  tool.where = out.location(0);
   tool.description = text_of(root, "name");
   tool.diameter = freecad_value(p, "Diameter");
   tool.flute = freecad_value(p, "CuttingEdgeHeight");
@@ -163,7 +163,7 @@ void read_camotics_tool(const std::string& key, const Json& entry, const Json& p
   const double scale = has(fold_name(units), "inch") || has(fold_name(units), "imperial") ? kMmPerInch : 1.0;
   const std::string shape = fold_name(text_of(entry, "shape"));
   LibraryTool tool;
-  tool.where = out.spot(0);
+  tool.where = out.location(0);
   const auto number = parse_number(key);
   if (number) tool.number = whole(*number);
   tool.description = text_of(entry, "description");

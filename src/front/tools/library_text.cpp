@@ -31,7 +31,7 @@ std::optional<int> whole(std::string_view text) {
   return static_cast<int>(*value);
 }
 
-/// A comma-separated line's fields; "" in quotes stands for one quote.
+/// A comma-separated line's fields; "" in quotes is one quote.
 std::vector<std::string> fields_of(std::string_view line) {
   std::vector<std::string> fields(1);
   bool quoted = false;
@@ -118,21 +118,21 @@ void read_carbide_csv(std::string_view text, LibraryWriter& out) {
       header = fields;
       return;
     }
-    read_carbide_row(Row(header, fields), out.spot(number), out);
+    read_carbide_row(Row(header, fields), out.location(number), out);
   });
 }
 
-/// "T1 P17 Z0 D6 I45 J45 Q0 ;remark". The table knows no shapes: every tool becomes a square mill.
+/// "T1 P17 Z0 D6 I45 J45 Q0 ;comment". The table has no shapes: every tool becomes a square mill.
 void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
   bool any = false;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
-    const std::size_t remark = std::min(line.find(';'), line.size());
+    const std::size_t comment = std::min(line.find(';'), line.size());
     LibraryTool tool;
-    tool.where = out.spot(number);
+    tool.where = out.location(number);
     tool.shape = "square";
-    if (remark < line.size())
-      tool.description = std::string(trim(line.substr(remark + 1)).substr(0, limits::kMaxNameBytes));
-    std::string_view words = trim(line.substr(0, remark));
+    if (comment < line.size())
+      tool.description = std::string(trim(line.substr(comment + 1)).substr(0, limits::kMaxNameBytes));
+    std::string_view words = trim(line.substr(0, comment));
     if (words.empty()) return;
     while (!words.empty()) {
       const std::size_t end = std::min(words.find_first_of(" \t"), words.size());
@@ -152,10 +152,9 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
     out.add(tool);
   });
   if (any)
-    out.diagnostics().note(
-        Code::tool_library_assumed, out.spot(0),
-        fmt::format("a tool.tbl tells neither shapes nor units: read as square mills in {}",
-                    out.options().unit_mm == 1.0 ? "mm" : "inches"));
+    out.diagnostics().note(Code::tool_library_assumed, out.location(0),
+                           fmt::format("a tool.tbl has neither shapes nor units: read as square mills in {}",
+                                       out.options().unit_mm == 1.0 ? "mm" : "inches"));
 }
 
 }  // namespace kerf::detail

@@ -1,4 +1,4 @@
-// Machine files: told apart by their text, and Kerf's TOML profiles.
+// Machine files: number apart by their text, and Kerf's TOML profiles.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -35,17 +35,17 @@ class ProfileReader {
   }
 
  private:
-  Origin spot(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
+  Origin location(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
 
   void wrong(std::string_view key, const toml::node& node, std::string_view expected) {
-    diagnostics_.error(Code::machine_value, spot(node.source().begin),
+    diagnostics_.error(Code::machine_value, location(node.source().begin),
                        fmt::format("{} must be {}", key, expected));
   }
 
   void unknown(const toml::key& key) {
     std::vector<std::string> known{"name", "controller", "laser"};
     for (const detail::MachineSetting& setting : detail::machine_settings()) known.emplace_back(setting.name);
-    Diagnostic& error = diagnostics_.error(Code::machine_key_unknown, spot(key.source().begin),
+    Diagnostic& error = diagnostics_.error(Code::machine_key_unknown, location(key.source().begin),
                                            fmt::format("a machine has no \"{}\"", key.str().substr(0, 40)));
     const auto meant = did_you_mean(key.str(), known);
     error.hint = meant ? fmt::format("did you mean {}?", *meant) : "its keys are in docs/manual/machine.md";
@@ -85,9 +85,9 @@ class ProfileReader {
   }
 
   static bool number_of(const toml::node& node, const detail::MachineSetting& setting, double& value) {
-    const auto told = node.is_number() ? node.value<double>() : std::nullopt;
-    if (!told || !std::isfinite(*told) || *told < setting.low || *told > setting.high) return false;
-    value = *told;
+    const auto number = node.is_number() ? node.value<double>() : std::nullopt;
+    if (!number || !std::isfinite(*number) || *number < setting.low || *number > setting.high) return false;
+    value = *number;
     return true;
   }
 
@@ -111,7 +111,7 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
                                          Diagnostics& diagnostics) {
   const std::string name(file_name);
   if (text.size() > limits::kMaxProfileBytes) {
-    diagnostics.error(Code::machine_file, TextSpot{name, 0, 0}, "a machine's file is at most 1 MB");
+    diagnostics.error(Code::machine_file, TextSpot{name, 0, 0}, "a machine file is limited to 1 MB");
     return std::nullopt;
   }
   if (has_grbl_settings(text)) return detail::read_grbl_settings(text, file_name, diagnostics);
@@ -127,8 +127,8 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
     return std::nullopt;
   }
   if (result.table().empty()) {
-    diagnostics.error(Code::machine_file, TextSpot{name, 0, 0}, "the file holds no setting of a machine")
-        .hint = kHint;
+    diagnostics.error(Code::machine_file, TextSpot{name, 0, 0}, "the file contains no machine setting").hint =
+        kHint;
     return std::nullopt;
   }
   const std::size_t errors = diagnostics.errors();

@@ -77,7 +77,7 @@ const std::vector<MachineSetting>& machine_settings() {
          m.slowest_spindle = rpm(std::min(v[0], v[1]));
          m.fastest_spindle = rpm(std::max(v[0], v[1]));
        }},
-      {"work_zero", 3, -kMaxLength, kMaxLength, "a place in machine coordinates, mm",
+      {"work_zero", 3, -kMaxLength, kMaxLength, "a position in machine coordinates, mm",
        [](Machine& m, const double* v) {
          m.work_zero = Point3{v[0], v[1], v[2]};
        }},
@@ -151,7 +151,7 @@ void note_missing(const std::vector<int>& seen, const Origin& where, Diagnostics
   if (!missing.empty())
     diagnostics.warning(
         Code::machine_incomplete, where,
-        fmt::format("the settings {} are not told; those of a small router are taken", missing));
+        fmt::format("the settings {} are missing; those of a small router are assumed", missing));
 }
 
 }  // namespace

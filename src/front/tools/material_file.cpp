@@ -23,12 +23,12 @@ class MaterialReader {
 
   std::vector<Material> read(std::string_view text) {
     if (text.size() > limits::kMaxProfileBytes) {
-      diagnostics_.error(Code::material_file, TextSpot{file_, 0, 0}, "a file of materials is at most 1 MB");
+      diagnostics_.error(Code::material_file, TextSpot{file_, 0, 0}, "a material file is limited to 1 MB");
       return {};
     }
     const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
     if (!parsed) {
-      diagnostics_.error(Code::material_file, spot(parsed.error().source()),
+      diagnostics_.error(Code::material_file, location(parsed.error().source()),
                          std::string(parsed.error().description()));
       return {};
     }
@@ -36,7 +36,8 @@ class MaterialReader {
     for (const auto& [key, node] : parsed.table()) {
       const toml::array* list = key.str() == "material" ? node.as_array() : nullptr;
       if (list == nullptr) {
-        diagnostics_.error(Code::machine_key_unknown, spot(key.source()), "expected only [[material]] here");
+        diagnostics_.error(Code::machine_key_unknown, location(key.source()),
+                           "expected only [[material]] here");
         continue;
       }
       for (const toml::node& entry : *list)
@@ -46,10 +47,12 @@ class MaterialReader {
   }
 
  private:
-  Origin spot(const toml::source_region& at) const { return TextSpot{file_, at.begin.line, at.begin.column}; }
+  Origin location(const toml::source_region& at) const {
+    return TextSpot{file_, at.begin.line, at.begin.column};
+  }
 
   void wrong(const toml::node& node, std::string message) {
-    diagnostics_.error(Code::machine_value, spot(node.source()), std::move(message));
+    diagnostics_.error(Code::machine_value, location(node.source()), std::move(message));
   }
 
   std::optional<Material> read_material(const toml::node& node) {
@@ -105,7 +108,7 @@ const std::vector<Material>& built_in_materials() {
     Diagnostics diagnostics;
     std::vector<Material> read =
         read_material_file(embedded::material_files[0].bytes, "data/materials.toml", diagnostics);
-    assert(diagnostics.list().empty());  // a test tells what is wrong
+    assert(diagnostics.list().empty());  // a test reports the fault
     return read;
   }();
   return all;

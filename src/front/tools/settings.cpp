@@ -196,14 +196,14 @@ void SettingReader::unknown(const Setting& setting) {
                      : fmt::format("its measures: {}; all keys: kerf tools shapes", measures);
 }
 
-void SettingReader::read(const Setting& told) {
-  Setting setting = told;
-  setting.key = full_key(told.key, shape_);
+void SettingReader::read(const Setting& given) {
+  Setting setting = given;
+  setting.key = full_key(given.key, shape_);
   for (const std::string& seen : seen_) {
-    if (seen == setting.key && seen != "name") return wrong(setting, "told only once");
+    if (seen == setting.key && seen != "name") return wrong(setting, "given only once");
   }
   seen_.push_back(setting.key);
-  if (!read_shape(setting) && !read_body(setting) && !read_rest(setting)) unknown(told);
+  if (!read_shape(setting) && !read_body(setting) && !read_rest(setting)) unknown(given);
 }
 
 std::optional<Tool> SettingReader::make() {
@@ -246,11 +246,11 @@ const std::vector<ToolKey>& tool_keys() {
       {"neck_diameter", "of a neck above the flutes that does not cut"},
       {"neck_length", "of that neck"},
       {"shank_diameter", "of the shank above it"},
-      {"shank_length", "from the neck or the flute; 20 mm where only the diameter is told"},
+      {"shank_length", "from the neck or the flute; 20 mm if only the diameter is given"},
       {"holder_diameter", "of the holder above the shank"},
       {"holder_length", "of the holder"},
-      {"transition", "step or cone (45 degrees): how a shank wider than what is below it begins"},
-      {"teeth", "1 to 100; 2 where not told"},
+      {"transition", "step or cone (45 degrees): the lower end of a shank wider than the part below it"},
+      {"teeth", "1 to 100; default 2"},
       {"plunges", "true or false: whether it cuts at its centre; each shape has its own default"},
       {"number", "the tool's number"},
       {"numbers", "in files: every number that it is known by"},

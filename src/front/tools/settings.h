@@ -1,4 +1,4 @@
-// A tool told by keys and values, from a file or an option: one meaning for both.
+// A tool from keys and values, of a file or an option, with the same meaning for both.
 #pragma once
 
 #include <optional>

@@ -24,8 +24,8 @@ class FileReader {
   void read(std::string_view text);
 
  private:
-  Origin spot(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
-  Origin spot(const toml::node& node) const { return spot(node.source().begin); }
+  Origin location(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
+  Origin location(const toml::node& node) const { return location(node.source().begin); }
   void error(Code code, const Origin& where, const std::string& message) {
     diagnostics_.error(code, where, message);
   }
@@ -61,7 +61,7 @@ std::optional<double> FileReader::read_unit(const toml::table& table, double oth
   if (node == nullptr) return otherwise;
   const auto name = node->value_exact<std::string_view>();
   const auto scale = name ? mm_per_unit(*name) : std::nullopt;
-  if (!scale) error(Code::tool_value_type, spot(*node), "unit must be \"mm\" or \"inch\"");
+  if (!scale) error(Code::tool_value_type, location(*node), "unit must be \"mm\" or \"inch\"");
   return scale;
 }
 
@@ -69,7 +69,7 @@ void FileReader::read_number(const toml::node& node, std::vector<int>& numbers) 
   const auto value = node.value_exact<std::int64_t>();
   if (!value || *value < 0 || *value > limits::kMaxTableToolNumber ||
       numbers.size() >= limits::kMaxToolAliases) {
-    return error(Code::tool_value_type, spot(node),
+    return error(Code::tool_value_type, location(node),
                  "a tool's number must be a whole number from 0 to 99999999, and there may be 100 of them");
   }
   numbers.push_back(static_cast<int>(*value));
@@ -87,7 +87,7 @@ std::vector<int> FileReader::read_numbers(const toml::table& tool) {
     }
   }
   if (tool.get("number") == nullptr && tool.get("numbers") == nullptr) {
-    error(Code::tool_key_missing, spot(tool), "a tool needs its number, such as number = 102");
+    error(Code::tool_key_missing, location(tool), "a tool needs its number, such as number = 102");
   }
   return numbers;
 }
@@ -97,13 +97,13 @@ std::vector<std::string> FileReader::read_names(const toml::table& tool) {
   const toml::node* node = tool.get("names");
   if (node == nullptr) return names;
   const toml::array* list = node->as_array();
-  if (list == nullptr) error(Code::tool_value_type, spot(*node), "names must be a list of texts");
+  if (list == nullptr) error(Code::tool_value_type, location(*node), "names must be a list of texts");
   if (list == nullptr) return names;
   for (const toml::node& element : *list) {
     if (const auto name = element.value_exact<std::string>())
       names.push_back(*name);
     else
-      error(Code::tool_value_type, spot(element), "a name must be a text in quotes");
+      error(Code::tool_value_type, location(element), "a name must be a text in quotes");
   }
   return names;
 }
@@ -126,7 +126,7 @@ std::optional<Profile> FileReader::read_profile(const toml::array& points) {
   for (const toml::node& point : points) {
     const auto knot = read_knot(point);
     if (!knot) {
-      error(Code::tool_value_type, spot(point), "a point of a profile must be [r, z] or [r, z, bulge]");
+      error(Code::tool_value_type, location(point), "a point of a profile must be [r, z] or [r, z, bulge]");
       return std::nullopt;
     }
     profile.knots.push_back(*knot);
@@ -135,7 +135,7 @@ std::optional<Profile> FileReader::read_profile(const toml::array& points) {
 }
 
 std::optional<detail::Setting> FileReader::read_setting(const toml::key& key, const toml::node& node) {
-  detail::Setting setting{std::string(key.str()), spot(key.source().begin), 0.0};
+  detail::Setting setting{std::string(key.str()), location(key.source().begin), 0.0};
   if (node.is_number()) {
     setting.value = node.value<double>().value_or(0.0);
   } else if (const auto text = node.value_exact<std::string>()) {
@@ -147,7 +147,7 @@ std::optional<detail::Setting> FileReader::read_setting(const toml::key& key, co
     if (!profile) return std::nullopt;
     setting.value = std::move(*profile);
   } else {
-    error(Code::tool_value_type, spot(node),
+    error(Code::tool_value_type, location(node),
           fmt::format("{} must be a number or a text", setting.key.substr(0, 40)));
     return std::nullopt;
   }
@@ -156,7 +156,7 @@ std::optional<detail::Setting> FileReader::read_setting(const toml::key& key, co
 
 void FileReader::read_tool(const toml::table& table) {
   const std::size_t errors = diagnostics_.errors();
-  const Origin where = spot(table);
+  const Origin where = location(table);
   const std::vector<int> numbers = read_numbers(table);
   const std::vector<std::string> names = read_names(table);
   const auto scale = read_unit(table, scale_);
@@ -169,8 +169,8 @@ void FileReader::read_tool(const toml::table& table) {
   if (shape == nullptr)
     return error(Code::tool_key_missing, where, "a tool needs its shape, such as shape = \"square\"");
   const auto shape_name = shape->value_exact<std::string_view>();
-  if (!shape_name) return error(Code::tool_value_type, spot(*shape), "shape must be a text in quotes");
-  const auto blank = detail::blank_shape(*shape_name, spot(*shape), diagnostics_);
+  if (!shape_name) return error(Code::tool_value_type, location(*shape), "shape must be a text in quotes");
+  const auto blank = detail::blank_shape(*shape_name, location(*shape), diagnostics_);
   if (!blank) return;
   auto tool = detail::tool_of(*blank, settings, scale.value_or(1.0), where, diagnostics_);
   if (!tool || diagnostics_.errors() != errors) return;
@@ -203,7 +203,7 @@ void FileReader::read_root(const toml::table& root) {
     if (key.str() == "unit") continue;
     if (key.str() != "tool") {
       Diagnostic& unknown =
-          diagnostics_.error(Code::tool_key_unknown, spot(key.source().begin),
+          diagnostics_.error(Code::tool_key_unknown, location(key.source().begin),
                              fmt::format("a tool file has no \"{}\"", key.str().substr(0, 40)));
       const auto meant = did_you_mean(key.str(), {"tool", "unit"});
       unknown.hint = meant ? fmt::format("did you mean {}?", *meant == "tool" ? "[[tool]]" : *meant)
@@ -212,25 +212,25 @@ void FileReader::read_root(const toml::table& root) {
     }
     const toml::array* tools = node.as_array();
     if (tools == nullptr)
-      error(Code::tool_value_type, spot(node), "tool must be written [[tool]], one table a tool");
+      error(Code::tool_value_type, location(node), "tool must be written [[tool]], one table per tool");
     if (tools == nullptr) continue;
     for (const toml::node& tool : *tools) {
       if (const toml::table* table = tool.as_table())
         read_tool(*table);
       else
-        error(Code::tool_value_type, spot(tool), "tool must be written [[tool]], one table a tool");
+        error(Code::tool_value_type, location(tool), "tool must be written [[tool]], one table per tool");
     }
   }
 }
 
 void FileReader::read(std::string_view text) {
   if (text.size() > limits::kMaxToolFileBytes) {
-    return error(Code::file_too_large, TextSpot{file_, 0, 0}, "a tool file is at most 16 MB long");
+    return error(Code::file_too_large, TextSpot{file_, 0, 0}, "a tool file is limited to 16 MB");
   }
   const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
   if (parsed) return read_root(parsed.table());
   const toml::parse_error& fault = parsed.error();
-  error(Code::tool_file_syntax, spot(fault.source().begin), std::string(fault.description()));
+  error(Code::tool_file_syntax, location(fault.source().begin), std::string(fault.description()));
 }
 
 }  // namespace
@@ -245,7 +245,7 @@ const ToolTable& built_in_tools() {
     ToolTable tools;
     Diagnostics diagnostics;
     read_tool_file(embedded::tool_files[0].bytes, "data/tools.toml", tools, diagnostics);
-    assert(diagnostics.list().empty());  // a test tells what is wrong
+    assert(diagnostics.list().empty());  // a test reports the fault
     return tools;
   }();
   return table;

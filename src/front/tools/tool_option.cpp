@@ -1,4 +1,4 @@
-// A tool told on the command line: a number, a name, or a shape with its measures.
+// A tool on the command line: a number, a name, or a shape with its dimensions.
 #include <fmt/format.h>
 
 #include "front/tools/settings.h"
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxDigits = 9;  // of limits::kMaxToolNumber
 
-/// Words between blanks or commas; "=" binds to both sides even where blanks stand around it.
+/// Words between blanks or commas; "=" binds to both sides even with blanks around it.
 std::vector<std::string_view> words_of(std::string_view text) {
   std::vector<std::string_view> words;
   std::size_t at = 0;

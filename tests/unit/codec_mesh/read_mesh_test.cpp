@@ -174,7 +174,7 @@ TEST(ReadMesh, PutsTogetherThePartsOfA3mf) {
 TEST(ReadMesh, Damaged3mf) {
   expect_code("PK nothing", MeshFormat::three_mf, Code::mesh_file, "no zip");
   expect_code(package("<model/>", "other"), MeshFormat::three_mf, Code::mesh_file, "missing");
-  expect_code(package("<model><unclosed></model>"), MeshFormat::three_mf, Code::mesh_file, "no sound XML");
+  expect_code(package("<model><unclosed></model>"), MeshFormat::three_mf, Code::mesh_file, "not valid XML");
   expect_code(package(model_with("<item objectid=\"9\"/>")), MeshFormat::three_mf, Code::mesh_file,
               "object 9");
   expect_code(package(model_with("<item objectid=\"3\"/>")), MeshFormat::three_mf, Code::mesh_file,

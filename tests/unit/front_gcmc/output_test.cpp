@@ -229,8 +229,9 @@ TEST(GcmcPath, LiteralLinesBecomeSteps) {
   EXPECT_EQ(kinds_of("literal(\"G61.1\\nG64 P0.1 Q0.2\\nM0\\nM1\\nM60\\nM64 P1\\nM101\\nG4 P2\\nM5\\n\");"),
             "pathmode pathmode pause pause pause verbatim verbatim dwell spindle");
   EXPECT_EQ(kinds_of("literal(\"  \"); goto([1]);"), "rapid");
-  EXPECT_EQ(kinds_of("literal(\"M7 \"); comment(\"x\"); comment(\"a\\nM8\");"),
-            "error: The line \"M8)\" cannot be part of a toolpath: ')' cannot stand here, expected a letter");
+  EXPECT_EQ(
+      kinds_of("literal(\"M7 \"); comment(\"x\"); comment(\"a\\nM8\");"),
+      "error: The line \"M8)\" cannot be part of a toolpath: ')' is not allowed here, expected a letter");
   EXPECT_EQ(kinds_of("comment(\"a) M8 (b\");"), "note note coolant");
   const auto ran = run("literal(\"T7\\n\"); literal(\"M6\\n\"); literal(\"S50\\nM4\\n\");");
   EXPECT_EQ(ran.run.path[0].tool_change().tool, 7);
