@@ -117,9 +117,9 @@ std::pair<double, AssumedTop> top_above_bed(const Toolpath& path, const Heights&
         }
       });
   const double pass_above = std::isfinite(second) ? first + (first - second) : kNowhere;
-  const double top = std::min(pass_above, begin);
+  const double top = std::min(pass_above, start);
   if (top == kNowhere || top <= heights.highest_cut) return {heights.highest_cut, AssumedTop::cuts};
-  return {top, pass_above < begin ? AssumedTop::passes : AssumedTop::plunge};
+  return {top, pass_above < start ? AssumedTop::passes : AssumedTop::plunge};
 }
 
 /// Bounds of the feeds that reach below the top.
