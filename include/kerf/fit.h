@@ -20,14 +20,14 @@ struct FitOptions {
   Origin where{};
 };
 
-/// Lines and arcs (of at most half a turn) along a polyline. They begin and end where it does, and pass
+/// Lines and arcs (of at most half a turn) along a polyline. They start and end where it does, and pass
 /// through some of its points; nothing of them is further than `within` from the polyline, and no point of it
 /// further from them. A closed polyline repeats its first point at the end.
 std::optional<Outline> fit_arcs(const std::vector<Point2>& points, Length within, const FitOptions& options,
                                 Diagnostics& diagnostics);
 
 /// A Bézier curve of a degree up to 25 as arcs in pairs that keep its direction where they meet. Each piece
-/// is compared with the curve at 15 places; tolerances below 2^-40 of the largest coordinate count as that.
+/// is compared with the curve at 15 points; tolerances below 2^-40 of the largest coordinate count as that.
 /// Pieces of a millionth of the curve's parameter become lines: the tip of a cusp.
 std::optional<Outline> fit_bezier(const std::vector<Point2>& control, Length within,
                                   const FitOptions& options, Diagnostics& diagnostics);
@@ -39,9 +39,19 @@ struct Spline {
   std::vector<double> knots;    ///< as many as control points and degree and 1; never falling
   std::vector<double> weights;  ///< none, or one from 0.001 to 1000 for each control point
 };
+/// A spline with evenly spaced knots that starts at its first control point and ends at its last one: a
+/// Bézier curve where there is one more point than the degree.
+Spline clamped_spline(int degree, std::vector<Point2> control, std::vector<double> weights = {});
+
 /// As `fit_bezier`, piece by piece between the knots.
 std::optional<Outline> fit_spline(const Spline& spline, Length within, const FitOptions& options,
                                   Diagnostics& diagnostics);
+
+/// The points of a spline whose chords stay within `chord` of it, but at most `limit` chords (or one for each
+/// piece between knots): the ends of its pieces, and equal steps of the parameter between them. The spline
+/// must be valid, as `fit_spline` checks it (but with any weights above 0), and start and end at its first
+/// and last control points.
+std::vector<Point2> flattened(const Spline& spline, Length chord, int limit);
 
 /// The points of an outline whose chords stay within `chord` of its arcs: its ends and points between, at
 /// least 16 to a full circle and at most 4096 an arc. A closed outline ends with its first point.

@@ -17,7 +17,10 @@ struct Point2 {
 };
 constexpr Point2 operator+(Point2 a, Point2 b) { return {a.x + b.x, a.y + b.y}; }
 constexpr Point2 operator-(Point2 a, Point2 b) { return {a.x - b.x, a.y - b.y}; }
+constexpr Point2 operator-(Point2 a) { return {-a.x, -a.y}; }
 constexpr Point2 operator*(double k, Point2 a) { return {k * a.x, k * a.y}; }
+/// A quarter turn counter-clockwise.
+constexpr Point2 left_of(Point2 a) { return {-a.y, a.x}; }
 constexpr double dot(Point2 a, Point2 b) { return a.x * b.x + a.y * b.y; }
 constexpr double cross(Point2 a, Point2 b) { return a.x * b.y - a.y * b.x; }
 inline double length(Point2 a) { return std::hypot(a.x, a.y); }
@@ -83,6 +86,16 @@ constexpr PlaneAxes axes_of(Plane plane) {
     case Plane::xy: break;
   }
   return {0, 1, 2};
+}
+/// The same in the order of the plane's name: XZ gives X Z Y. The words of a program (X Z, I K) and the
+/// centres of step::Arc are in this order.
+constexpr PlaneAxes named_axes_of(Plane plane) {
+  const PlaneAxes axes = axes_of(plane);
+  return plane == Plane::xz ? PlaneAxes{axes.v, axes.u, axes.w} : axes;
+}
+/// Coordinates u, v of a plane's right-handed frame in the order of its name, and the other way round.
+constexpr Point2 in_name_order(Plane plane, Point2 uv) {
+  return plane == Plane::xz ? Point2{uv.y, uv.x} : uv;
 }
 
 /// An arc in its plane's right-handed (u, v) frame, ready to be walked: at share t of its length it is at

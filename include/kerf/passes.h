@@ -4,7 +4,7 @@
 // several has the origin of the first of them. Only consecutive motions with equal feeds are joined; any
 // other step, a rotary axis, a height to be probed or an unknown position between them ends a chain.
 //
-//   PassResult fitted = fit_arcs(path, {.tolerance = mm(0.01)});
+//   PassResult fitted = chords_to_arcs(path, {.tolerance = mm(0.01)});
 //   // fitted.path, fitted.before.steps, fitted.after.steps
 #pragma once
 
@@ -36,7 +36,7 @@ struct ArcFitOptions {
 };
 /// Chains of straight cuts in a plane of the machine become arcs (also helices about Z) where every point of
 /// the chain lies within the tolerance. Corners stay.
-PassResult fit_arcs(const Toolpath& path, const ArcFitOptions& options);
+PassResult chords_to_arcs(const Toolpath& path, const ArcFitOptions& options);
 
 /// Consecutive straight cuts, and rapids, in one direction become one: every removed point lies within
 /// `tolerance` of the result, and the path never reverses.

@@ -61,11 +61,11 @@ Box3 ArcWalk::bounds() const {
 ArcWalk walk_arc(Point3 from, Point3 to, Point2 centre, Plane plane, Turn turn, int extra_turns) {
   assert(extra_turns >= 0);
   const PlaneAxes axes = axes_of(plane);
-  const bool name_order_is_swapped = plane == Plane::xz;  // named x, z; right-handed z, x
   ArcWalk walk;
   walk.plane = plane;
-  walk.u = name_order_is_swapped ? centre.y : centre.x;
-  walk.v = name_order_is_swapped ? centre.x : centre.y;
+  const Point2 about = in_name_order(plane, centre);
+  walk.u = about.x;
+  walk.v = about.y;
   const double start_u = from[axes.u] - walk.u, start_v = from[axes.v] - walk.v;
   const double end_u = to[axes.u] - walk.u, end_v = to[axes.v] - walk.v;
   walk.start_radius = std::hypot(start_u, start_v);

@@ -16,19 +16,19 @@ constexpr std::size_t kMostHits = 20'000'000;  // about a gigabyte of work; beyo
 }  // namespace
 
 int ray_crosses(const Edge& e, Point2 at) {
-  const bool upward = e.b.y > e.a.y;
+  const bool upward = e.to.y > e.from.y;
   // The end counts with the edge above it, so that a chain through a point of this height crosses once.
-  if ((e.a.y > at.y) == (e.b.y > at.y)) return 0;
+  if ((e.from.y > at.y) == (e.to.y > at.y)) return 0;
   const int step = upward ? -1 : 1;
-  if (at.x < std::min(e.a.x, e.b.x)) return 0;
-  if (at.x > std::max(e.a.x, e.b.x)) return step;
+  if (at.x < std::min(e.from.x, e.to.x)) return 0;
+  if (at.x > std::max(e.from.x, e.to.x)) return step;
   if (!e.is_arc()) {
-    const double side = upward ? orientation(e.a, e.b, at) : orientation(e.b, e.a, at);
+    const double side = upward ? orientation(e.from, e.to, at) : orientation(e.to, e.from, at);
     return side < 0.0 ? step : 0;
   }
-  const Point2 q = at - e.a;
+  const Point2 q = at - e.from;
   const bool inside = dot(q, q) < 2.0 * dot(q, e.centre);
-  const bool centre_right = e.centre.x > 0.5 * (e.b.x - e.a.x);
+  const bool centre_right = e.centre.x > 0.5 * (e.to.x - e.from.x);
   return inside == centre_right ? step : 0;
 }
 
@@ -58,10 +58,10 @@ void Arrangement::meet_edges(std::uint32_t i, std::uint32_t j) {
   const Edge &e = set_->edges[i], &f = set_->edges[j];
   const Meeting m = meet(e, f, weld_);
   if (!m.any()) return;
-  if (m.first_has_from) note(i, f.from);
-  if (m.first_has_to) note(i, f.to);
-  if (m.second_has_from) note(j, e.from);
-  if (m.second_has_to) note(j, e.to);
+  if (m.first_has_from) note(i, f.from_point);
+  if (m.first_has_to) note(i, f.to_point);
+  if (m.second_has_from) note(j, e.from_point);
+  if (m.second_has_to) note(j, e.to_point);
   for (int k = 0; k < m.crossings; ++k) {
     const auto number = static_cast<std::uint32_t>(points_.size());
     points_.push_back(m.at[k]);
@@ -103,8 +103,8 @@ void Arrangement::cut_edge(std::uint32_t edge, std::vector<std::uint32_t>& on_it
   if (on_it.size() > 1)
     std::sort(on_it.begin(), on_it.end(),
               [&](std::uint32_t a, std::uint32_t b) { return along(e, points_[a]) < along(e, points_[b]); });
-  on_it.push_back(e.to);
-  std::uint32_t from = e.from;
+  on_it.push_back(e.to_point);
+  std::uint32_t from = e.from_point;
   for (const std::uint32_t to : on_it) {
     const Point2 step = points_[to] - points_[from];
     if (dot(step, step) <= weld_ * weld_) join(from, to);

@@ -40,14 +40,14 @@ class CurveSpeaker {
 };
 
 /// One piece: a chord, and half the tangents of the headings' angles to it.
-struct Piece {
+struct TangentChord {
   Point2 from, chord;  // unit
   double length = 0.0;
   double sine_a = 0.0, cosine_a = 0.0, sine_b = 0.0, cosine_b = 0.0;
 };
 
-Piece make_piece(Point2 from, Point2 heading_a, Point2 to, Point2 heading_b) {
-  Piece p;
+TangentChord make_piece(Point2 from, Point2 heading_a, Point2 to, Point2 heading_b) {
+  TangentChord p;
   p.from = from;
   p.length = norm(to - from);
   if (p.length == 0.0) return p;
@@ -72,18 +72,18 @@ class CurveSmoother {
       : options_(options),
         speaker_(options, diagnostics),
         half_straight_(std::tan(0.5 * options.straight.rad())) {}
-  bool add(std::size_t index, const Piece& piece, Point2 to);
+  bool add(std::size_t index, const TangentChord& piece, Point2 to);
   Outline outline;
 
  private:
   void line(Point2 to) { outline.segments.push_back({to, std::nullopt, {}}); }
-  void arcs(std::size_t index, const Piece& piece, double p, double q, Point2 to);
+  void arcs(std::size_t index, const TangentChord& piece, double p, double q, Point2 to);
   const CurveOptions& options_;
   CurveSpeaker speaker_;
   double half_straight_;
 };
 
-bool CurveSmoother::add(std::size_t index, const Piece& piece, Point2 to) {
+bool CurveSmoother::add(std::size_t index, const TangentChord& piece, Point2 to) {
   static const double kMuchCosine = std::cos(kMuch);
   if (piece.length == 0.0) return speaker_.refuse(Code::curve_malformed, index, "two samples at one place");
   constexpr double kRightAngle = -1e-12;  // cosine: a right angle by rounding is one
@@ -108,7 +108,7 @@ bool CurveSmoother::add(std::size_t index, const Piece& piece, Point2 to) {
 
 /// The arcs meet in the incentre of the triangle of the chord and the tangents, where both run along the
 /// chord.
-void CurveSmoother::arcs(std::size_t index, const Piece& piece, double p, double q, Point2 to) {
+void CurveSmoother::arcs(std::size_t index, const TangentChord& piece, double p, double q, Point2 to) {
   const double sign = piece.sine_a > 0.0 ? 1.0 : -1.0;
   const double x = piece.length * q / (p + q);
   const Point2 to_joint = x * piece.chord + (sign * x * p) * left_of(piece.chord);

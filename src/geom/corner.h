@@ -10,7 +10,8 @@
 
 namespace kerf::outline_detail {
 
-/// One of the two segments that meet at a corner, as far as it is still there.
+/// One of the two segments that meet at a corner, as far as it is still there: a LineArc as seen from the
+/// corner, which keeps the accuracy of small corners far from zero.
 struct Side {
   Point2 away;          // unit, leaving the corner
   Point2 end;           // far end
@@ -61,14 +62,10 @@ struct CornerLimits {
 /// What replaces a corner: `count` pieces after the point `first` on the arriving segment. The last ends on
 /// the leaving segment.
 struct Replacement {
-  struct Piece {
-    Point2 to, via;
-    bool is_arc = false;
-  };
   SharpReason reason = SharpReason::none;  // other than none: there is no replacement
   Point2 first;
   int count = 0;
-  Piece pieces[3];
+  Segment pieces[3];  // relative to the corner, without requests
 };
 
 /// Solves a corner. `request` as in Segment::corner, not 0. Sets which side of each neighbour is the inside.

@@ -23,6 +23,6 @@ Meeting meet(const Edge& first, const Edge& second, double weld);
 bool touches(const Edge& edge, Point2 p, double weld);
 
 /// How far along an edge a point of it lies: 0 at its begin, the square of its chord at its end.
-inline double along(const Edge& edge, Point2 p) { return dot(p - edge.a, edge.chord()); }
+inline double along(const Edge& edge, Point2 p) { return dot(p - edge.from, edge.chord()); }
 
 }  // namespace kerf::region_detail

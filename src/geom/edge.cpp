@@ -18,12 +18,6 @@ constexpr Point2 kEnds[4] = {{0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}}; 
 
 }  // namespace
 
-Point2 centre_of(Point2 chord, double radius, double turn) {
-  const double c2 = dot(chord, chord);
-  const double height = std::sqrt(std::max(0.0, radius * radius - 0.25 * c2));
-  return 0.5 * chord + (turn * height / std::sqrt(c2)) * left_of(chord);
-}
-
 Point2 direction_at(Point2 unit, double chord, double curvature, double ahead) {
   if (curvature == 0.0) return unit;
   // Seen from a point of the circle, another at distance d lies asin(curvature d / 2) off the tangent.
@@ -42,10 +36,10 @@ void EdgeSet::begin(Point2 at) {
 
 void EdgeSet::push(Point2 to, std::uint32_t number, double radius, double turn) {
   Edge e;
-  e.from = edges.size() == first_edge_ ? first_ : edges.back().to;
-  e.a = points[e.from];
-  e.b = to;
-  e.to = number;
+  e.from_point = edges.size() == first_edge_ ? first_ : edges.back().to_point;
+  e.from = points[e.from_point];
+  e.to = to;
+  e.to_point = number;
   e.source = source_;
   e.group = group_;
   if (turn != 0.0) {
@@ -55,7 +49,7 @@ void EdgeSet::push(Point2 to, std::uint32_t number, double radius, double turn) 
     e.radius = std::max(radius, 0.5 * std::sqrt(chord2));
     if (chord2 > 1e-3 * weld_ * e.radius) {
       e.turn = turn;
-      e.centre = centre_of(e.chord(), e.radius, turn);
+      e.centre = centre_over_chord(e.chord(), e.radius, turn);
     }
   }
   edges.push_back(e);
@@ -117,7 +111,7 @@ std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t so
     set.belongs_to(source++, group);
     const auto c = outline_detail::make_carrier(from, s, 0.0);
     if (c.is_arc())
-      set.arc_to(from, s.to, from + c.centre, c.radius, c.turn);
+      set.arc_to(from, s.to, c.circle_centre(), c.radius, c.turn);
     else
       set.line_to(s.to);
     from = s.to;

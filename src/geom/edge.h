@@ -9,9 +9,6 @@
 
 namespace kerf::region_detail {
 
-using outline_detail::left_of;
-using outline_detail::norm;
-
 struct Box {
   double low_x, low_y, high_x, high_y;
   bool overlaps(const Box& o) const {
@@ -19,22 +16,16 @@ struct Box {
   }
 };
 
-/// From point `a` to point `b`. An arc is told by its ends, its radius and its turn, so that both ends lie on
-/// it; the centre follows from them and is kept relative to `a`, which keeps large circles accurate.
-struct Edge {
-  Point2 a, b;
-  Point2 centre;                   // of an arc, relative to `a`
-  double radius = 0.0;             // of an arc
-  double turn = 0.0;               // 0 a line, +1 counter-clockwise, -1 clockwise
-  std::uint32_t from = 0, to = 0;  // points `a` and `b` by number
-  std::uint32_t source = 0;        // what it is a piece of, by the caller's numbers
-  std::uint32_t group = 0;         // whose boundary it is: 0 or 1
+/// An arc is given by its ends, its radius and its turn, so that both ends lie on it; the centre follows from
+/// them.
+struct Edge : LineArc {
+  std::uint32_t from_point = 0, to_point = 0;  // its ends by number
+  std::uint32_t source = 0;                    // what it is a piece of, by the caller's numbers
+  std::uint32_t group = 0;                     // whose boundary it is: 0 or 1
 
-  bool is_arc() const { return turn != 0.0; }
-  Point2 chord() const { return b - a; }
   Box box(double margin) const {
-    return {std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin, std::max(a.x, b.x) + margin,
-            std::max(a.y, b.y) + margin};
+    return {std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin, std::max(from.x, to.x) + margin,
+            std::max(from.y, to.y) + margin};
   }
 };
 
@@ -75,9 +66,6 @@ class EdgeSet {
 
 /// Appends the segments of an outline, each a source of its own from `source` on; returns the next number.
 std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t source, std::uint32_t group);
-
-/// Centre of the circle of an arc of at most half a turn, relative to its begin.
-Point2 centre_of(Point2 chord, double radius, double turn);
 
 /// Which way a curve runs at the distance `ahead` from its begin: its chord's direction `unit`, turned by
 /// what a circle of this curvature (above 0: to the left) turns between there and the chord's end.

@@ -1,9 +1,9 @@
 // Bézier curves and splines as pairs of arcs: a piece is halved until its arcs are near enough.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 
+#include "curve.h"
 #include "fit_check.h"
 #include "segment.h"
 
@@ -36,47 +36,15 @@ namespace {
 
 using namespace outline_detail;
 
-constexpr int kDegrees = 25;        // the highest degree
 constexpr int kSamples = 16;        // parts of a piece at whose ends it is compared
 constexpr double kSampled = 0.9;    // share of the tolerance for the samples; the rest is for what is between
 constexpr double kShortest = 1e-6;  // of the whole range of the parameter
 constexpr double kRounding = 0x1p-40;  // of the largest coordinate: no tolerance is finer
 constexpr double kWeights = 1e3;       // the largest weight
 
-/// A point of a curve and its derivative.
-struct Sample {
-  Point2 at, slope;
-};
-
-/// A curve that is one polynomial, or a quotient of two.
-struct Polynomial {
-  struct Control {
-    double x, y, w;
-  };
-  std::vector<Control> control;  // of a Bézier curve over 0 to 1; x and y are multiplied with the weight
-  Sample at(double t) const;
-};
-
-/// De Casteljau's corner cutting; the last two points give the derivative.
-Sample Polynomial::at(double t) const {
-  std::array<Control, kDegrees + 1> p;
-  std::copy(control.begin(), control.end(), p.begin());
-  const std::size_t n = control.size() - 1;
-  Control before = p[0], after = p[n];
-  for (std::size_t k = n; k > 0; --k) {
-    if (k == 1) before = p[0], after = p[1];
-    for (std::size_t i = 0; i < k; ++i)
-      p[i] = {(1.0 - t) * p[i].x + t * p[i + 1].x, (1.0 - t) * p[i].y + t * p[i + 1].y,
-              (1.0 - t) * p[i].w + t * p[i + 1].w};
-  }
-  const Point2 at{p[0].x / p[0].w, p[0].y / p[0].w};
-  const double scale = static_cast<double>(n) / p[0].w, dw = after.w - before.w;
-  return {at, {scale * (after.x - before.x - dw * at.x), scale * (after.y - before.y - dw * at.y)}};
-}
-
 class CurveFitter {
  public:
-  CurveFitter(const Polynomial& curve, double within, Outline& made)
+  CurveFitter(const RationalBezier& curve, double within, Outline& made)
       : curve_(curve), within_(within), made_(made) {}
   /// Appends the whole curve.
   void run() {
@@ -90,7 +58,7 @@ class CurveFitter {
   void piece(double from, double to);
   bool near(double from, double to, const Carrier* carriers, int count) const;
   bool arcs(double from, double to, Point2 end);
-  const Polynomial& curve_;
+  const RationalBezier& curve_;
   double within_;
   Outline& made_;
 };
@@ -98,7 +66,7 @@ class CurveFitter {
 /// Unit direction at t of the piece that lies between t and `towards`; where the curve stands still, the way
 /// it sets off.
 Point2 CurveFitter::direction(double t, double towards) const {
-  const Sample here = curve_.at(t);
+  const CurveSample here = curve_.at(t);
   const double sense = towards > t ? 1.0 : -1.0;
   Point2 slope = here.slope;
   const double size = norm(curve_.at(towards).at - here.at) / std::abs(towards - t);
@@ -154,47 +122,13 @@ void CurveFitter::piece(double from, double to) {
   }
 }
 
-/// The polynomial pieces of a spline, each as a Bézier curve: its control point j is the spline's polar form
-/// with the end of the span j times and its begin for the rest.
-std::vector<Polynomial> pieces_of(const Spline& spline) {
-  const auto degree = static_cast<std::size_t>(spline.degree);
-  const std::vector<double>& knots = spline.knots;
-  std::vector<Polynomial::Control> control;
-  for (std::size_t i = 0; i < spline.control.size(); ++i) {
-    const double w = spline.weights.empty() ? 1.0 : spline.weights[i];
-    control.push_back({w * spline.control[i].x, w * spline.control[i].y, w});
-  }
-  std::vector<Polynomial> made;
-  for (std::size_t span = degree; span < control.size(); ++span) {
-    const double a = knots[span], b = knots[span + 1];
-    if (!(b > a)) continue;
-    Polynomial piece;
-    for (std::size_t j = 0; j <= degree; ++j) {
-      std::array<Polynomial::Control, kDegrees + 1> p;
-      for (std::size_t i = 0; i <= degree; ++i) p[i] = control[span - degree + i];
-      for (std::size_t round = 1; round <= degree; ++round) {
-        const double t = round <= j ? b : a;
-        for (std::size_t i = degree; i >= round; --i) {
-          const double low = knots[span - degree + i], high = knots[span + 1 + i - round];
-          const double share = high > low ? (t - low) / (high - low) : 0.0;
-          p[i] = {(1.0 - share) * p[i - 1].x + share * p[i].x, (1.0 - share) * p[i - 1].y + share * p[i].y,
-                  (1.0 - share) * p[i - 1].w + share * p[i].w};
-        }
-      }
-      piece.control.push_back(p[degree]);
-    }
-    made.push_back(std::move(piece));
-  }
-  return made;
-}
-
 bool check_spline(const Spline& spline, const FitOptions& options, Diagnostics& diagnostics) {
   const auto refuse = [&](const char* what) {
     diagnostics.error(Code::curve_malformed, options.where,
                       fmt::format("curve \"{}\": {}", options.name, what));
     return false;
   };
-  if (spline.degree < 1 || spline.degree > kDegrees) return refuse("the degree must be 1 to 25");
+  if (spline.degree < 1 || spline.degree > kMaxDegree) return refuse("the degree must be 1 to 25");
   const auto degree = static_cast<std::size_t>(spline.degree);
   if (spline.control.size() <= degree) return refuse("more control points than the degree are needed");
   if (spline.knots.size() != spline.control.size() + degree + 1)
@@ -210,15 +144,15 @@ bool check_spline(const Spline& spline, const FitOptions& options, Diagnostics& 
   return true;
 }
 
-Outline fit_pieces(const std::vector<Polynomial>& pieces, Length within) {
+Outline fit_pieces(const std::vector<RationalBezier>& pieces, Length within) {
   double largest = 0.0;
-  for (const Polynomial& piece : pieces)
+  for (const RationalBezier& piece : pieces)
     for (const auto& c : piece.control)
       largest = std::max({largest, std::abs(c.x / c.w), std::abs(c.y / c.w)});
   const double slack = std::max(within.mm(), kRounding * largest);
   Outline made;
   made.start = pieces.front().at(0.0).at;
-  for (const Polynomial& piece : pieces) CurveFitter(piece, slack, made).run();
+  for (const RationalBezier& piece : pieces) CurveFitter(piece, slack, made).run();
   return made;
 }
 
@@ -227,11 +161,11 @@ Outline fit_pieces(const std::vector<Polynomial>& pieces, Length within) {
 std::optional<Outline> fit_bezier(const std::vector<Point2>& control, Length within,
                                   const FitOptions& options, Diagnostics& diagnostics) {
   if (!check_fit(control, 2, within, options, diagnostics)) return std::nullopt;
-  if (control.size() > kDegrees + 1)
+  if (control.size() > kMaxDegree + 1)
     return diagnostics.error(Code::curve_malformed, options.where,
                              fmt::format("curve \"{}\": more than 26 control points", options.name)),
            std::nullopt;
-  Polynomial curve;
+  RationalBezier curve;
   for (const Point2 p : control) curve.control.push_back({p.x, p.y, 1.0});
   return fit_pieces({curve}, within);
 }

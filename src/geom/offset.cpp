@@ -19,37 +19,22 @@ namespace {
 using namespace region_detail;
 
 /// A segment with its directions at both ends.
-struct Run {
-  Point2 from, to;
-  Point2 begin, end;    // unit directions
-  Point2 centre;        // of an arc
-  double radius = 0.0;  // of an arc
-  double turn = 0.0;    // 0: a line
-  double reach = 0.0;   // so far from both ends it runs on without turning round
-  Point2 right_of_begin() const { return {begin.y, -begin.x}; }
-  Point2 right_of_end() const { return {end.y, -end.x}; }
-  double curvature() const { return turn == 0.0 ? 0.0 : turn / radius; }
+struct Run : LineArc {
+  Point2 start_way, end_way;  // unit directions
+  double reach = 0.0;         // so far from both ends it runs on without turning round
+  Point2 right_of_start() const { return {start_way.y, -start_way.x}; }
+  Point2 right_of_end() const { return {end_way.y, -end_way.x}; }
+  double curvature() const { return is_arc() ? turn / radius : 0.0; }
 };
 
 Run run_of(Point2 from, const Segment& segment) {
-  const outline_detail::Carrier c = outline_detail::make_carrier(from, segment, 0.0);
-  Run run;
-  run.from = from;
-  run.to = segment.to;
-  const Point2 chord = segment.to - from;
-  run.reach = norm(chord);
-  run.turn = c.turn;
-  if (!c.is_arc()) {
-    run.begin = run.end = c.direction;
-    return run;
-  }
-  run.centre = from + c.centre;
-  run.radius = c.radius;
-  run.begin = (c.turn / c.radius) * left_of(Point2{} - c.centre);
-  const Point2 last = chord - c.centre;
-  run.end = (c.turn / norm(last)) * left_of(last);
-  const bool beyond_half = c.turn * cross(chord, c.centre) < 0.0;
-  run.reach = beyond_half ? c.radius : std::min(c.radius, run.reach);
+  Run run{outline_detail::make_carrier(from, segment, 0.0), {}, {}, 0.0};
+  run.start_way = start_direction(run);
+  run.end_way = end_direction(run);
+  run.reach = norm(run.chord());
+  if (!run.is_arc()) return run;
+  const bool beyond_half = run.turn * cross(run.chord(), run.centre) < 0.0;
+  run.reach = beyond_half ? run.radius : std::min(run.radius, run.reach);
   return run;
 }
 
@@ -67,32 +52,32 @@ std::vector<Run> runs_of(const Outline& outline) {
 /// a spike with the inside (on the left) within it is a turn to the left.
 double turn_between(const Run& run, const Run& next) {
   constexpr double kTurnsBack = 1e-6;  // sine: then curvature tells on which side the way back is
-  const double sine = cross(run.end, next.begin);
-  if (dot(run.end, next.begin) > 0.0 || std::abs(sine) > kTurnsBack) return sine >= 0.0 ? 1.0 : -1.0;
+  const double sine = cross(run.end_way, next.start_way);
+  if (dot(run.end_way, next.start_way) > 0.0 || std::abs(sine) > kTurnsBack) return sine >= 0.0 ? 1.0 : -1.0;
   const double ahead = std::min(run.reach, next.reach);
   // Directions from the corner to points that far off on both.
   const auto turned = [&](Point2 tangent, double curvature) {
     return direction_at(tangent, 0.0, curvature, ahead);
   };
-  const Point2 out = turned(next.begin, next.curvature());
-  const Point2 back = turned(Point2{} - run.end, -run.curvature());
+  const Point2 out = turned(next.start_way, next.curvature());
+  const Point2 back = turned(Point2{} - run.end_way, -run.curvature());
   return cross(out, back) >= 0.0 ? 1.0 : -1.0;
 }
 
 /// Adds the curve at the distance `by` to the right of a closed chain (left where below 0).
 void add_parallel(EdgeSet& set, const std::vector<Run>& runs, double by, std::uint32_t& source) {
   const double weld = set.weld();
-  set.begin(runs[0].from + by * runs[0].right_of_begin());
+  set.begin(runs[0].from + by * runs[0].right_of_start());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Run &run = runs[i], &next = runs[i + 1 < runs.size() ? i + 1 : 0];
-    const Point2 begin = run.from + by * run.right_of_begin(), end = run.to + by * run.right_of_end();
+    const Point2 begin = run.from + by * run.right_of_start(), end = run.to + by * run.right_of_end();
     const double radius = run.radius + run.turn * by;
     set.belongs_to(source++);
-    if (run.turn != 0.0 && radius > weld)
-      set.arc_to(begin, end, run.centre, radius, run.turn);
+    if (run.is_arc() && radius > weld)
+      set.arc_to(begin, end, run.circle_centre(), radius, run.turn);
     else
       set.line_to(end);
-    const Point2 next_begin = next.from + by * next.right_of_begin();
+    const Point2 next_begin = next.from + by * next.right_of_start();
     set.belongs_to(source++);
     if (distance(end, next_begin) <= weld) continue;
     if (turn_between(run, next) * by > 0.0)
@@ -157,9 +142,9 @@ class Strips {
 void Strips::ring(const Run& run, double outer, double inner) {
   const bool ccw = run.turn > 0.0;
   const Point2 a =
-      ccw ? run.right_of_begin() : Point2{} - run.right_of_end();  // outwards, at both ends of the
-  const Point2 b = ccw ? run.right_of_end() : Point2{} - run.right_of_begin();  // arc run counter-clockwise
-  const Point2 c = run.centre;
+      ccw ? run.right_of_start() : Point2{} - run.right_of_end();  // outwards, at both ends of the
+  const Point2 b = ccw ? run.right_of_end() : Point2{} - run.right_of_start();  // arc run counter-clockwise
+  const Point2 c = run.circle_centre();
   set_.begin(c + outer * a);
   side(ccw ? Side::right : Side::left);
   set_.arc_to(c + outer * a, c + outer * b, c, outer, 1.0);
@@ -183,8 +168,8 @@ void Strips::ring(const Run& run, double outer, double inner) {
 }
 
 void Strips::run(const Run& run) {
-  if (run.turn != 0.0) return ring(run, run.radius + width_, run.radius - width_);
-  const Point2 aside = width_ * run.right_of_begin();
+  if (run.is_arc()) return ring(run, run.radius + width_, run.radius - width_);
+  const Point2 aside = width_ * run.right_of_start();
   set_.begin(run.from + aside);
   side(Side::right);
   set_.line_to(run.to + aside);
@@ -209,7 +194,7 @@ void Strips::sector(Point2 centre, Point2 from, Point2 to, Side outer) {
 }
 
 void Strips::corner(const Run& run, const Run& next) {
-  const Point2 before = width_ * run.right_of_end(), after = width_ * next.right_of_begin();
+  const Point2 before = width_ * run.right_of_end(), after = width_ * next.right_of_start();
   if (distance(before, after) <= set_.weld()) return;
   if (turn_between(run, next) > 0.0)
     sector(run.to, run.to + before, run.to + after, Side::right);
@@ -242,7 +227,7 @@ void lay(const Outline& path, PathEnds ends, Strips& strips) {
     strips.corner(runs.back(), runs.front());
   } else if (ends == PathEnds::round) {
     strips.half_circle(runs.back().to, runs.back().right_of_end());
-    strips.half_circle(runs.front().from, Point2{} - runs.front().right_of_begin());
+    strips.half_circle(runs.front().from, Point2{} - runs.front().right_of_start());
   }
 }
 

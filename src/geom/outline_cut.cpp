@@ -143,11 +143,11 @@ void CornerPass::follow(const Carrier& carrier, Point2 to) {
 
 void CornerPass::append(const Replacement& made, Point2 corner) {
   for (int i = 0; i < made.count; ++i) {
-    const Replacement::Piece& piece = made.pieces[i];
+    const Segment& piece = made.pieces[i];
     here_ = corner + piece.to;
     Segment& segment = result_.outline.segments.emplace_back();
     segment.to = here_;
-    if (piece.is_arc) segment.via = corner + piece.via;
+    if (piece.via) segment.via = corner + *piece.via;
   }
 }
 

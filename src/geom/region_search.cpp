@@ -16,14 +16,14 @@ using namespace region_detail;
 constexpr std::size_t kMostMeetings = 10'000'000;
 
 Point2 nearest_on(const Edge& e, Point2 p) {
-  const Point2 v = e.chord(), q = p - e.a;
-  if (!e.is_arc()) return e.a + std::clamp(dot(q, v) / dot(v, v), 0.0, 1.0) * v;
+  const Point2 v = e.chord(), q = p - e.from;
+  if (!e.is_arc()) return e.from + std::clamp(dot(q, v) / dot(v, v), 0.0, 1.0) * v;
   const Point2 out = q - e.centre, begin = Point2{} - e.centre, end = v - e.centre;
   // Less than half a turn: between the rays through both ends.
   const bool between = e.turn * cross(begin, out) >= 0.0 && e.turn * cross(out, end) >= 0.0;
   const double size = norm(out);
-  if (between && size > 0.0) return e.a + e.centre + (e.radius / size) * out;
-  return distance(p, e.a) < distance(p, e.b) ? e.a : e.b;
+  if (between && size > 0.0) return e.from + e.centre + (e.radius / size) * out;
+  return distance(p, e.from) < distance(p, e.to) ? e.from : e.to;
 }
 
 }  // namespace
@@ -89,10 +89,10 @@ std::optional<std::vector<SelfMeeting>> self_meetings(const Outline& outline, co
   const bool all = tree_of(set.edges, set.weld()).pairs([&](std::uint32_t i, std::uint32_t j) {
     const Edge &e = set.edges[i], &f = set.edges[j];
     const Meeting m = meet(e, f, set.weld());
-    if (m.first_has_from) note(f.a, e, f);
-    if (m.first_has_to) note(f.b, e, f);
-    if (m.second_has_from) note(e.a, e, f);
-    if (m.second_has_to) note(e.b, e, f);
+    if (m.first_has_from) note(f.from, e, f);
+    if (m.first_has_to) note(f.to, e, f);
+    if (m.second_has_from) note(e.from, e, f);
+    if (m.second_has_to) note(e.to, e, f);
     for (int k = 0; k < m.crossings; ++k) note(m.at[k], e, f);
     return found.size() < kMostMeetings;
   });

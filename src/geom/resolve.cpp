@@ -58,7 +58,7 @@ void append_run(Outline& outline, const Arrangement& arrangement, const Arrangem
   }
   const Edge& e = arrangement.edges()[parts[begin->part].edge];
   if (e.is_arc() && (end - begin > 1 || distance(from, segment.to) > kFlat * e.radius))
-    segment.via = outline_detail::arc_middle(from, segment.to, e.a + e.centre, e.radius,
+    segment.via = outline_detail::arc_middle(from, segment.to, e.circle_centre(), e.radius,
                                              begin->forward ? e.turn : -e.turn);
   outline.segments.push_back(segment);
 }

@@ -113,7 +113,7 @@ std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes) {
     savings.push_back({name, result.before, result.after});
     path = std::move(result.path);
   };
-  if (passes.fit_arcs > Length()) keep("arcs", fit_arcs(path, {.tolerance = passes.fit_arcs}));
+  if (passes.fit_arcs > Length()) keep("arcs", chords_to_arcs(path, {.tolerance = passes.fit_arcs}));
   if (passes.join > Length()) keep("join", join_straight(path, passes.join));
   if (passes.shorten_rapids) keep("rapids", shorten_rapids(path));
   return savings;

@@ -1,7 +1,7 @@
-// The circle of a profile arc.
+// The circle behind a profile's arc.
 #pragma once
 
-#include <cmath>
+#include "geom/line_arc.h"
 
 #include "kerf/tool.h"
 
@@ -14,13 +14,8 @@ struct ProfileArc {
 };
 
 inline ProfileArc profile_arc(const Knot& from, const Knot& to) {
-  const double dr = to.r - from.r;
-  const double dz = to.z - from.z;
-  const double b = from.bulge;
-  // The centre lies on the chord's left normal, at this fraction of the chord from its midpoint.
-  const double fraction = (1.0 - b * b) / (4.0 * b);
-  return {0.5 * (from.r + to.r) - fraction * dz, 0.5 * (from.z + to.z) + fraction * dr,
-          std::hypot(dr, dz) * (1.0 + b * b) / (4.0 * std::abs(b))};
+  const Circle circle = circle_of_bulge({from.r, from.z}, {to.r, to.z}, from.bulge);
+  return {circle.centre.x, circle.centre.y, circle.radius.mm()};
 }
 
 }  // namespace kerf::detail

@@ -157,7 +157,7 @@ class Passes : public testing::TestWithParam<unsigned> {
 };
 
 TEST_P(Passes, fitted_arcs_keep_to_the_path) {
-  const PassResult result = fit_arcs(path_, {.tolerance = mm(kTolerance)});
+  const PassResult result = chords_to_arcs(path_, {.tolerance = mm(kTolerance)});
   expect_sound(path_, result, kTolerance + 2.0 * kSampling);
   EXPECT_LT(result.after.steps, result.before.steps);
   EXPECT_NEAR(result.after.cut_mm, result.before.cut_mm, 0.02 * result.before.cut_mm);
@@ -170,7 +170,7 @@ TEST_P(Passes, joined_cuts_keep_to_the_path) {
 }
 
 TEST_P(Passes, chords_keep_to_their_arcs) {
-  const Toolpath arcs = fit_arcs(path_, {.tolerance = mm(kTolerance)}).path;
+  const Toolpath arcs = chords_to_arcs(path_, {.tolerance = mm(kTolerance)}).path;
   const PassResult result = arcs_to_chords(arcs, mm(kTolerance));
   expect_sound(arcs, result, kTolerance + 2.0 * kSampling);
 }

@@ -23,9 +23,10 @@ struct Grid {
   Counts counts(Point3 p) const { return {count(p.x), count(p.y), count(p.z)}; }
 };
 
+/// A chord or an arc in counts of the last digit that is written: integers, as the controller reads them.
 struct ArcPiece {
   Counts to{};
-  std::int64_t u = 0, v = 0;  // from the piece's begin to its centre, along the plane's axes (axes_of)
+  std::int64_t u = 0, v = 0;  // from its start to its centre, along the plane's axes (axes_of)
 };
 
 enum class ArcForm : std::uint8_t { arcs, chords, straight };

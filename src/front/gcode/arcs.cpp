@@ -17,11 +17,6 @@ constexpr double kChordSlack = 0.0283;      // mm that a radius may be short of 
 constexpr double kSmallestRadius = 1e-9;    // mm; less is a point
 constexpr int kMostTurns = 10'000;
 
-/// u, v of a plane's right-handed frame as a centre in the order of the plane's name.
-Point2 in_name_order(Plane plane, double u, double v) {
-  return plane == Plane::xz ? Point2{v, u} : Point2{u, v};
-}
-
 }  // namespace
 
 void Interpreter::arc(Turn turn) {
@@ -46,7 +41,7 @@ void Interpreter::arc(Turn turn) {
   const Feed feed = mm_per_min(feed_for(length));
   if (line_.unused('E'))
     return extrude_arc(walk_arc(here_.at, to->at, *centre, modes_.plane, turn, extra), *to, feed);
-  if (compensation_.side != Side::none) return compensated_arc(*to, *centre, turn, extra, feed);
+  if (compensation_.cutter) return compensated_arc(*to, *centre, turn, extra, feed);
   if (add(step::Arc{to->at, *centre, modes_.plane, turn, extra, feed})) arrive(*to);
 }
 
@@ -66,7 +61,7 @@ std::optional<Point2> Interpreter::centre_from_offsets() {
   const double first = u.value_or(0.0) * modes_.scale, second = v.value_or(0.0) * modes_.scale;
   if (!modes_.absolute_centres) {
     const Point2 offset = placement_.plain ? Point2{first, second} : turned_offset({first, second});
-    return in_name_order(modes_.plane, here_.at[axes.u] + offset.x, here_.at[axes.v] + offset.y);
+    return in_name_order(modes_.plane, {here_.at[axes.u] + offset.x, here_.at[axes.v] + offset.y});
   }
   if (!u || !v) {
     talker_.error(
@@ -75,7 +70,7 @@ std::optional<Point2> Interpreter::centre_from_offsets() {
     return std::nullopt;
   }
   if (!placement_.plain) return placement_.to_path({first, second, 0.0}).xy();
-  return in_name_order(modes_.plane, first + placement_.shift[axes.u], second + placement_.shift[axes.v]);
+  return in_name_order(modes_.plane, {first + placement_.shift[axes.u], second + placement_.shift[axes.v]});
 }
 
 Point2 Interpreter::turned_offset(Point2 offset) const {
@@ -93,7 +88,6 @@ std::optional<Point2> Interpreter::centre_from_radius(const Place& to, Turn turn
   const PlaneAxes axes = axes_of(modes_.plane);
   const double radius = *word * modes_.scale * std::abs(placement_.scale.x);
   const Point2 from{here_.at[axes.u], here_.at[axes.v]}, end{to.at[axes.u], to.at[axes.v]};
-  const Point2 middle = 0.5 * (from + end);
   const double chord = distance(from, end);
   const double half = 0.5 * chord;
   if (!(half > kSmallestRadius)) {
@@ -118,11 +112,8 @@ std::optional<Point2> Interpreter::centre_from_radius(const Place& to, Turn turn
                     fmt::format("the radius {:.4g} mm does not reach the arc's end, which is {:.4g} mm away; "
                                 "read as a half turn",
                                 std::abs(radius), chord));
-  const double height = std::sqrt(std::max(0.0, radius * radius - half * half));
-  const bool left = (turn == Turn::ccw) == (radius > 0.0);  // of the way from begin to end
-  const Point2 normal{(from.y - end.y) / chord, (end.x - from.x) / chord};
-  const Point2 centre = middle + (left ? height : -height) * normal;
-  return in_name_order(modes_.plane, centre.x, centre.y);
+  const double left = (turn == Turn::ccw) == (radius > 0.0) ? 1.0 : -1.0;  // of the chord
+  return in_name_order(modes_.plane, from + centre_over_chord(end - from, radius, left));
 }
 
 bool Interpreter::radii_agree(const Place& to, Point2 centre) {

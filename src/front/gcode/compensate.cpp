@@ -26,7 +26,7 @@ void Interpreter::set_compensation() {
   const Tenths code = line_.code(Group::compensation);
   const std::optional<double> number = line_.take('D');
   if (code == 400) return end_compensation();
-  if (compensation_.side != Side::none)
+  if (compensation_.cutter)
     talker_.unusual(Code::compensation_refused, line_.column(Group::compensation),
                     "cutter compensation is on already; LinuxCNC wants a G40 before it is set anew");
   if (modes_.plane == Plane::yz) {
@@ -37,14 +37,17 @@ void Interpreter::set_compensation() {
   const std::optional<double> diameter =
       code == 411 || code == 421 ? told_diameter(number) : diameter_for_compensation(number);
   if (!diameter) return;
-  Side side = code < 420 ? Side::left : Side::right;
-  if (*diameter < 0.0) side = other(side);
+  double to_left = (code < 420 ? 0.5 : -0.5) * *diameter;
   const PlaneAxes axes = axes_of(modes_.plane);
-  if (placement_.scale[axes.u] * placement_.scale[axes.v] < 0.0) side = other(side);
-  const bool entered = compensation_.entered && compensation_.side != Side::none;
+  if (placement_.scale[axes.u] * placement_.scale[axes.v] < 0.0) to_left = -to_left;
+  const bool entered = compensation_.cutter && compensation_.cutter->entered();
   if (!entered) compensation_ = {};
-  compensation_.side = *diameter == 0.0 ? Side::none : side;
-  compensation_.radius = 0.5 * std::abs(*diameter);
+  if (to_left == 0.0)
+    compensation_.cutter.reset();
+  else if (entered)
+    compensation_.cutter->change(to_left);
+  else
+    compensation_.cutter.emplace(to_left, kFarthest);
 }
 
 /// G41.1 and G42.1: D is the diameter itself.
@@ -78,16 +81,15 @@ std::optional<double> Interpreter::diameter_for_compensation(std::optional<doubl
 }
 
 void Interpreter::end_compensation() {
-  const bool leaves = compensation_.side != Side::none && compensation_.entered;
-  if (leaves && !runs_forward(compensation_.last, compensation_.direction, compensation_.last.to))
-    tell_gouge();
+  const bool leaves = compensation_.cutter && compensation_.cutter->entered();
+  if (leaves && !compensation_.cutter->ends_forward()) tell_gouge();
   compensation_ = {};
   compensation_.leaving = leaves;
 }
 
 /// Codes that LinuxCNC refuses while compensation is on, because the program's place and the tool's differ.
 void Interpreter::guard_compensation() {
-  if (compensation_.side == Side::none) return;
+  if (!compensation_.cutter) return;
   constexpr Group kRefused[] = {Group::coordinates, Group::reference, Group::machine_coordinates,
                                 Group::scaling,     Group::rotation,  Group::tool_change,
                                 Group::lathe};
@@ -110,123 +112,91 @@ void Interpreter::refuse_compensated(std::string_view what, std::uint32_t column
 
 /// A straight move with compensation.
 void Interpreter::compensated_line(const Place& to, MoveKind kind, double feed) {
-  const Piece piece{in_plane(here_.at), in_plane(to.at), std::nullopt, Turn::ccw};
-  if (!(distance(piece.from, piece.to) > kNoWay)) return along_third_axis(to, kind, feed);
-  const bool entry = !compensation_.entered;
-  if (entry && distance(piece.from, piece.to) <= compensation_.radius)
+  const LineArc line = line_between(in_plane(here_.at), in_plane(to.at));
+  if (!(distance(line.from, line.to) > kNoWay)) return along_third_axis(to, kind, feed);
+  const CompensatedElement made = *compensation_.cutter->add(line);
+  if (made.short_entry)
     talker_.error(
         Code::compensation_entry, line_.column(),
         fmt::format("the first move of a cutter compensation must be longer than the tool's radius; "
                     "{:.4g} mm is not more than {:.4g} mm",
-                    distance(piece.from, piece.to), compensation_.radius),
-        "begin farther away from the part");
-  const Piece axis = *offset(piece, compensation_.side, compensation_.radius);
-  if (entry)
-    compensation_.tool = piece.from;
-  else if (!turn_corner(piece.from, axis, kind, feed))
-    return;
-  const Point2 from = compensation_.tool;
-  compensation_.direction = piece.direction_at_end();
-  add_compensated(moved_in_plane(to.at, axis.to), to, kind, feed);
-  remember_piece({from, axis.to, std::nullopt, Turn::ccw});
+                    distance(line.from, line.to), compensation_.cutter->radius()),
+        "start farther away from the part");
+  if (!follow(made, kind, feed)) return;
+  add_compensated(moved_in_plane(to.at, made.axis.to), to, kind, feed);
+  compensation_.last_step = path_.size() - 1;
 }
 
 /// The tool stays where it is beside the program's path.
 void Interpreter::along_third_axis(const Place& to, MoveKind kind, double feed) {
-  if (!compensation_.entered)
+  const CutterCompensation& cutter = *compensation_.cutter;
+  if (!cutter.entered())
     talker_.unusual(
         Code::compensation_entry, line_.column(),
         "LinuxCNC wants a move in the plane to begin a cutter compensation; this one is left as it is");
-  const Point3 at = compensation_.entered ? moved_in_plane(to.at, compensation_.tool) : to.at;
+  const Point3 at = cutter.entered() ? moved_in_plane(to.at, cutter.tool()) : to.at;
   add_compensated(at, to, kind, feed);
 }
 
-/// Leads the tool from the end of one piece to the begin of the next. False where no more steps are taken.
-bool Interpreter::turn_corner(Point2 corner, const Piece& next, MoveKind kind, double feed) {
-  Compensation& c = compensation_;
-  Corner which = corner_between(c.direction, next.direction_at_begin(), c.side);
-  if (which == Corner::cusp) which = corner_of_cusp(c.last, next, c.side);
-  if (which == Corner::smooth) return true;
-  if (which == Corner::inside) {
-    retreat(corner, next);
-    return true;
-  }
-  if (!runs_forward(c.last, c.direction, c.last.to)) tell_gouge();
+/// Moves the end of the last element and adds the arc about an outside corner. False where no more steps are
+/// taken.
+bool Interpreter::follow(const CompensatedElement& made, MoveKind kind, double feed) {
+  if (made.gouges) tell_gouge();
+  if (made.previous_end)
+    for (std::size_t i = compensation_.last_step; i < path_.size(); ++i)
+      if (path_[i].is_motion()) path_.set_end(i, moved_in_plane(path_[i].to(), *made.previous_end));
+  if (!made.corner) return true;
   Place at = here_;
-  at.at = moved_in_plane(here_.at, next.from);
-  const Turn turn = c.side == Side::left ? Turn::cw : Turn::ccw;
-  const Point2 centre = modes_.plane == Plane::xz ? Point2{corner.y, corner.x} : corner;
-  const bool added = kind == MoveKind::rapid
-                         ? add(step::Rapid{at.at})
-                         : add(step::Arc{at.at, centre, modes_.plane, turn, 0, mm_per_min(feed)});
+  at.at = moved_in_plane(here_.at, made.corner->to);
+  const Point2 corner = made.corner->circle_centre();
+  const Turn turn = made.corner->turn > 0.0 ? Turn::ccw : Turn::cw;
+  const bool added = kind == MoveKind::rapid ? add(step::Rapid{at.at})
+                                             : add(step::Arc{at.at, in_name_order(modes_.plane, corner),
+                                                             modes_.plane, turn, 0, mm_per_min(feed)});
   if (!added) return false;
+  const Point3 programmed = here_.at;
   arrive(at);
-  here_.at = moved_in_plane(here_.at, corner);
-  c.tool = next.from;
+  here_.at = programmed;
   return true;
-}
-
-/// Ends the last piece where the next one begins at an inside corner.
-void Interpreter::retreat(Point2 corner, const Piece& next) {
-  Compensation& c = compensation_;
-  const std::optional<Point2> end = meeting(c.last, c.direction, next, corner);
-  if (!end || !reachable({end->x, end->y, 0.0})) return tell_gouge();
-  for (std::size_t i = c.last_step; i < path_.size(); ++i)
-    if (path_[i].is_motion()) path_.set_end(i, moved_in_plane(path_[i].to(), *end));
-  c.last.to = c.tool = *end;
 }
 
 void Interpreter::tell_gouge() {
   talker_.error(Code::compensation_gouge, line_.column(),
                 fmt::format("a tool of radius {:.4g} mm does not fit into the inside corner before this line "
                             "without cutting into the part",
-                            compensation_.radius),
+                            compensation_.cutter->radius()),
                 "use a thinner tool, or round the corner in the program");
 }
 
 /// An arc with compensation.
 void Interpreter::compensated_arc(const Place& to, Point2 centre, Turn turn, int extra, Feed feed) {
-  const Point2 middle = modes_.plane == Plane::xz ? Point2{centre.y, centre.x} : centre;
-  const Piece piece{in_plane(here_.at), in_plane(to.at), middle, turn};
-  Compensation& c = compensation_;
-  const bool entry = !c.entered;
-  std::optional<Piece> axis = entry ? entry_arc(piece, c.side, c.radius) : offset(piece, c.side, c.radius);
-  const bool too_short = entry && distance(piece.from, piece.to) <= c.radius;
-  if (too_short) axis.reset();
-  if (!axis) {
+  const LineArc arc =
+      arc_about(in_name_order(modes_.plane, centre), in_plane(here_.at), in_plane(to.at), turn);
+  CutterCompensation& cutter = *compensation_.cutter;
+  const bool entry = !cutter.entered();
+  const std::optional<CompensatedElement> made = cutter.add(arc);
+  if (!made) {
     talker_.error(
         entry ? Code::compensation_entry : Code::compensation_gouge, line_.column(),
         fmt::format("{} {:.4g} mm is too small for a tool of radius {:.4g} mm; read as a straight cut",
-                    entry ? "an arc that begins a cutter compensation with a radius of"
+                    entry ? "an arc that starts a cutter compensation with a radius of"
                           : "an arc that is cut from inside with a radius of",
-                    piece.radius(), c.radius));
+                    arc.radius, cutter.radius()));
     return compensated_line(to, MoveKind::cut, feed.mm_per_min());
   }
-  if (entry)
-    c.tool = piece.from;
-  else if (!turn_corner(piece.from, *axis, MoveKind::cut, feed.mm_per_min()))
-    return;
-  const Point2 from = c.tool;
-  c.direction = piece.direction_at_end();
-  const Point2 about = modes_.plane == Plane::xz ? Point2{axis->centre->y, axis->centre->x} : *axis->centre;
-  const Point3 end = moved_in_plane(to.at, axis->to);
+  if (!follow(*made, MoveKind::cut, feed.mm_per_min())) return;
+  const Point2 about = in_name_order(modes_.plane, made->axis.circle_centre());
+  const Point3 end = moved_in_plane(to.at, made->axis.to);
   if (!reachable(end) || !reachable({about.x, about.y, 0.0})) return;
   if (!add(step::Arc{end, about, modes_.plane, turn, extra, feed})) return;
   arrive(to);
-  remember_piece({from, axis->to, axis->centre, turn});
+  compensation_.last_step = path_.size() - 1;
 }
 
 void Interpreter::add_compensated(Point3 at, const Place& to, MoveKind kind, double feed) {
   if (!reachable(at)) return;
   const bool added = kind == MoveKind::rapid ? add(step::Rapid{at}) : add(step::Cut{at, mm_per_min(feed)});
   if (added) arrive(to);
-}
-
-void Interpreter::remember_piece(const Piece& piece) {
-  compensation_.entered = true;
-  compensation_.last = piece;
-  compensation_.tool = piece.to;
-  compensation_.last_step = path_.size() - 1;
 }
 
 }  // namespace kerf::gcode

@@ -4,59 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 #include "front/gcode/interpreter.h"
 
 namespace kerf::gcode {
 namespace {
 
-constexpr double kChord = 0.002;     // mm that a chord may stray from its curve
-constexpr int kMostChords = 10'000;  // of one curve
-constexpr std::size_t kMostPoints = 10'000;
+constexpr Length kChord = mm(0.002);  // that a chord may stray from its curve
+constexpr int kMaxChords = 10'000;    // of one curve
+constexpr std::size_t kMaxPoints = 10'000;
 constexpr int kHighestOrder = 20;
 constexpr int kUsualOrder = 3;
-
-/// Chords of a cubic in Bezier form: its second derivative is largest at an end.
-int chords_of(Point2 a, Point2 b, Point2 c, Point2 d) {
-  const double bend = std::max(length(a - 2.0 * b + c), length(b - 2.0 * c + d));
-  const double count = std::ceil(std::sqrt(0.75 * bend / kChord));
-  return std::isfinite(count) ? static_cast<int>(std::clamp(count, 1.0, double{kMostChords})) : 1;
-}
-
-Point2 cubic_at(Point2 a, Point2 b, Point2 c, Point2 d, double t) {
-  const double s = 1.0 - t;
-  return s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d;
-}
-
-struct Weighted {
-  Point2 p;
-  double w = 1.0;
-};
-
-/// A point of a rational B-spline with clamped, evenly spaced knots, by de Boor's scheme.
-Point2 spline_at(const std::vector<Weighted>& points, int order, double t) {
-  const int degree = order - 1;
-  const int last = static_cast<int>(points.size()) - 1;
-  const int spans = last - degree + 1;
-  const auto knot = [&](int i) { return static_cast<double>(std::clamp(i - degree, 0, spans)); };
-  const int span = std::clamp(static_cast<int>(t), 0, spans - 1) + degree;
-  std::vector<Weighted> d;
-  for (int j = 0; j <= degree; ++j) {
-    const Weighted& from = points[static_cast<std::size_t>(span - degree + j)];
-    d.push_back({from.w * from.p, from.w});
-  }
-  for (int r = 1; r <= degree; ++r)
-    for (int j = degree; j >= r; --j) {
-      const double low = knot(span - degree + j), high = knot(span + 1 + j - r);
-      const double share = high > low ? (t - low) / (high - low) : 0.0;
-      Weighted& here = d[static_cast<std::size_t>(j)];
-      const Weighted& before = d[static_cast<std::size_t>(j - 1)];
-      here.p = (1.0 - share) * before.p + share * here.p;
-      here.w = (1.0 - share) * before.w + share * here.w;
-    }
-  const Weighted& end = d[static_cast<std::size_t>(degree)];
-  return (1.0 / end.w) * end.p;
-}
 
 }  // namespace
 
@@ -78,28 +37,25 @@ std::optional<Point2> Interpreter::point_words(char u, char v) {
   return modes_.scale * Point2{x.value_or(0.0), y.value_or(0.0)};
 }
 
-/// Cuts to each point in turn, Z and the feed staying.
-void Interpreter::polyline(const std::vector<Point2>& points) {
+/// Cuts along a spline from here, Z and the feed staying.
+void Interpreter::cut_along(const Spline& spline) {
+  const std::vector<Point2> points = flattened(spline, kChord, kMaxChords);
   double total = 0.0;
-  Point2 from = here_.at.xy();
-  for (const Point2 p : points) {
-    total += distance(from, p);
-    from = p;
-  }
+  for (std::size_t i = 1; i < points.size(); ++i) total += distance(points[i - 1], points[i]);
   const double feed = feed_for(total);
-  for (const Point2 p : points) {
+  for (std::size_t i = 1; i < points.size(); ++i) {
     if (full_) return;
     Place to = here_;
-    to.at.x = p.x;
-    to.at.y = p.y;
+    to.at.x = points[i].x;
+    to.at.y = points[i].y;
     to.unknown &= ~3u;
     if (!reachable(to.at)) return;
     cut(to, feed);
   }
 }
 
-/// G5 X Y I J P Q: handles from the begin (I J) and from the end (P Q). Without I J the curve goes on as the
-/// last one ended.
+/// G5 X Y I J P Q: handles from the start (I J) and from the end (P Q). Without I J the curve continues the
+/// last one.
 void Interpreter::cubic() {
   const std::optional<Place> to = target();
   if (!to) return;
@@ -110,16 +66,12 @@ void Interpreter::cubic() {
     return line_.use(kAllLetters);
   }
   const Point2 a = here_.at.xy(), d = to->at.xy();
-  const Point2 b = a + first.value_or(-1.0 * last_curve_handle_.value_or(Point2{}));
-  const Point2 c = d + *second;
-  const int count = chords_of(a, b, c, d);
-  std::vector<Point2> points;
-  for (int i = 1; i <= count; ++i) points.push_back(i == count ? d : cubic_at(a, b, c, d, i / double(count)));
-  polyline(points);
+  const Point2 b = a + first.value_or(-last_curve_handle_.value_or(Point2{}));
+  cut_along(clamped_spline(3, {a, b, d + *second, d}));
   last_curve_handle_ = *second;
 }
 
-/// G5.1 X Y I J: one handle, from the begin.
+/// G5.1 X Y I J: one handle, from the start.
 void Interpreter::quadratic() {
   const std::optional<Place> to = target();
   if (!to) return;
@@ -128,15 +80,11 @@ void Interpreter::quadratic() {
     talker_.error(Code::word_missing, line_.column(), "G5.1 needs I or J, its handle; it is left out");
     return line_.use(kAllLetters);
   }
-  const Point2 a = here_.at.xy(), d = to->at.xy(), middle = a + *handle;
-  const Point2 b = a + 2.0 / 3.0 * (middle - a), c = d + 2.0 / 3.0 * (middle - d);
-  const int count = chords_of(a, b, c, d);
-  std::vector<Point2> points;
-  for (int i = 1; i <= count; ++i) points.push_back(i == count ? d : cubic_at(a, b, c, d, i / double(count)));
-  polyline(points);
+  const Point2 a = here_.at.xy();
+  cut_along(clamped_spline(2, {a, a + *handle, to->at.xy()}));
 }
 
-/// The place where the tool stands is the first control point, whose weight G5.2 P without X and Y tells.
+/// The position of the tool is the first control point; G5.2 P without X and Y gives its weight.
 void Interpreter::add_control_point() {
   const bool first = control_points_.empty();
   if (first) curve_order_ = kUsualOrder;
@@ -145,7 +93,7 @@ void Interpreter::add_control_point() {
   const bool place_told = line_.has_unused(kAxisLetters);
   const std::optional<Place> to = target();
   const double weight = line_.take('P').value_or(1.0);
-  if (!to || control_points_.size() > kMostPoints) return;
+  if (!to || control_points_.size() > kMaxPoints) return;
   if (!(weight > 0.0 && weight < 1e6)) {
     talker_.error(Code::word_out_of_range, line_.column('P'), "the weight of a control point is above 0");
     return;
@@ -163,27 +111,15 @@ void Interpreter::add_control_point() {
 void Interpreter::nurbs() {
   const bool draws = line_.has(Group::motion) && line_.code(Group::motion) == 53;
   if (!draws) return add_control_point();
-  std::vector<Weighted> points;
-  for (std::size_t i = 0; i < control_points_.size(); ++i)
-    points.push_back({control_points_[i], control_weights_[i]});
-  control_points_.clear();
-  control_weights_.clear();
+  const std::vector<Point2> points = std::exchange(control_points_, {});
+  const std::vector<double> weights = std::exchange(control_weights_, {});
   modes_.motion = kNoMotion;
   if (points.size() < 2 || static_cast<int>(points.size()) < curve_order_) {
     talker_.error(Code::word_missing, line_.column(),
                   fmt::format("G5.3 draws a curve of order {}, which needs as many points", curve_order_));
     return;
   }
-  double hull = 0.0;
-  for (std::size_t i = 1; i < points.size(); ++i) hull += distance(points[i - 1].p, points[i].p);
-  const int spans = static_cast<int>(points.size()) - curve_order_ + 1;
-  const double wanted = std::ceil(std::sqrt(hull / kChord) / spans) * spans;
-  const int count = static_cast<int>(std::clamp(wanted, double(spans), double{kMostChords}));
-  std::vector<Point2> chain;
-  for (int i = 1; i <= count; ++i)
-    chain.push_back(spline_at(points, curve_order_, spans * (i / double(count))));
-  chain.back() = points.back().p;
-  polyline(chain);
+  cut_along(clamped_spline(curve_order_ - 1, points, weights));
 }
 
 }  // namespace kerf::gcode

@@ -15,13 +15,14 @@
 #include <utility>
 #include <vector>
 
-#include "front/gcode/compensation.h"
 #include "front/gcode/flow.h"
 #include "front/gcode/line.h"
 #include "front/gcode/parameters.h"
+#include "op/cutter_compensation.h"
 #include "path/feed_mode.h"
 
 #include "kerf/drill.h"
+#include "kerf/fit.h"
 #include "kerf/gcode.h"
 #include "kerf/geometry.h"
 #include "kerf/progress.h"
@@ -100,14 +101,9 @@ struct CycleMemory {
 
 /// What G41 and G42 keep. Points lie in the plane's right-handed frame.
 struct Compensation {
-  Side side = Side::none;
-  double radius = 0.0;        // mm
-  bool entered = false;       // the first move is made: the tool is beside the path
-  bool leaving = false;       // G40 was read, and the tool has not come back to the path
-  Point2 tool;                // position of its axis
-  Point2 direction;           // of the program's path, where its last piece ends
-  Piece last;                 // of the axis
-  std::size_t last_step = 0;  // that makes it
+  std::optional<CutterCompensation> cutter;  // while it is on
+  bool leaving = false;                      // G40 was read, and the tool has not come back to the path
+  std::size_t last_step = 0;                 // that makes the last element
 };
 
 enum class MoveKind : std::uint8_t { rapid, cut };
@@ -219,7 +215,7 @@ class Interpreter : public SystemValues {
   void nurbs();
   void add_control_point();
   std::optional<Point2> point_words(char u, char v);
-  void polyline(const std::vector<Point2>& points);
+  void cut_along(const Spline& spline);
 
   // compensate.cpp
   Point2 in_plane(Point3 p) const;
@@ -232,12 +228,10 @@ class Interpreter : public SystemValues {
   void refuse_compensated(std::string_view what, std::uint32_t column);
   void compensated_line(const Place& to, MoveKind kind, double feed);
   void along_third_axis(const Place& to, MoveKind kind, double feed);
-  bool turn_corner(Point2 corner, const Piece& next, MoveKind kind, double feed);
-  void retreat(Point2 corner, const Piece& next);
+  bool follow(const CompensatedElement& made, MoveKind kind, double feed);
   void tell_gouge();
   void compensated_arc(const Place& to, Point2 centre, Turn turn, int extra, Feed feed);
   void add_compensated(Point3 at, const Place& to, MoveKind kind, double feed);
-  void remember_piece(const Piece& piece);
 
   // threads.cpp
   void spindle_move(Tenths motion);

@@ -75,8 +75,7 @@ void Interpreter::straight(Tenths motion) {
   if (line_.unused('E')) return extrude(*to, motion == 0 ? modes_.feed : feed_for(straight_length(*to)));
   compensation_.leaving = false;
   const double feed = motion == 0 ? 0.0 : feed_for(straight_length(*to));
-  if (compensation_.side != Side::none)
-    return compensated_line(*to, motion == 0 ? MoveKind::rapid : MoveKind::cut, feed);
+  if (compensation_.cutter) return compensated_line(*to, motion == 0 ? MoveKind::rapid : MoveKind::cut, feed);
   if (motion == 0) return rapid(*to);
   cut(*to, feed);
 }

@@ -61,8 +61,8 @@ bool Interpreter::takes_plain_lines() const {
   const bool printer = program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
   const bool modes = modes_.absolute && modes_.feed_mode == FeedMode::per_minute && !modes_.diameters &&
                      (modes_.motion == 0 || modes_.motion == 10);
-  const bool path = placement_.plain && compensation_.side == Side::none && !compensation_.leaving &&
-                    !rotary_used_ && !rests_ && here_.reference_axes == 0;
+  const bool path = placement_.plain && !compensation_.cutter && !compensation_.leaving && !rotary_used_ &&
+                    !rests_ && here_.reference_axes == 0;
   return modes && path && moved_ && !printer && !program_.ended && current_depth_ == 0;
 }
 

@@ -240,7 +240,7 @@ void Interpreter::tell_long_dwell(double time, char letter) {
 void Interpreter::set_plane() {
   const Tenths code = line_.code(Group::plane);
   const Plane plane = code == 180 ? Plane::xz : code == 190 ? Plane::yz : Plane::xy;
-  if (plane != modes_.plane && compensation_.side != Side::none)
+  if (plane != modes_.plane && compensation_.cutter)
     refuse_compensated(code_text('G', code), line_.column(Group::plane));
   modes_.plane = plane;
 }

@@ -52,8 +52,8 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
        }},
       {"_ccomp",
        [](const I& i) {
-         const Side side = i.compensation_.side;
-         return side == Side::none ? 400.0 : side == Side::left ? 410.0 : 420.0;
+         const std::optional<CutterCompensation>& cutter = i.compensation_.cutter;
+         return !cutter ? 400.0 : cutter->is_left() ? 410.0 : 420.0;
        }},
       {"_metric", [](const I& i) { return truth(i.modes_.scale == 1.0); }},
       {"_imperial", [](const I& i) { return truth(i.modes_.scale != 1.0); }},

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "sim/sweep/solid.h"
+#include "tool/arc.h"
 
 #include "kerf/geometry.h"
 
@@ -23,7 +24,7 @@ struct ToolDistance::Nearest {
   double distance2 = std::numeric_limits<double>::infinity();
   double r = 0.0, z = 0.0;                // the place
   double normal_r = 0.0, normal_z = 0.0;  // of the outline there, outwards; of an arc
-  const Piece* line = nullptr;            // the piece, if it is a line
+  const ProfileElement* line = nullptr;   // the piece, if it is a line
   bool is_end = false;                    // the place is an end of its piece
   double bend = 0.0;                      // of the distance, if it is none
 
@@ -58,28 +59,28 @@ ToolDistance::ToolDistance(const Silhouette& tool) {
   is_convex_ = turns_left();
 }
 
-double ToolDistance::per_square(const Piece& piece) {
+double ToolDistance::per_square(const ProfileElement& piece) {
   const double dr = piece.r1 - piece.r0, dz = piece.z1 - piece.z0;
   return 1.0 / (dr * dr + dz * dz);
 }
 
 /// Whether two pieces, one after the other, are one upright line: flutes and shank of one width.
-bool ToolDistance::goes_on(const Piece& before, const Piece& next) {
+bool ToolDistance::goes_on(const ProfileElement& before, const ProfileElement& next) {
   return before.side == 0.0 && next.side == 0.0 && before.r1 == next.r0 && before.z1 == next.z0 &&
          before.r0 == before.r1 && next.r0 == next.r1;
 }
 
 /// Whether the outline is one and never turns right.
 bool ToolDistance::turns_left() const {
-  const auto way_at = [](const Piece& piece, double r, double z) {
+  const auto way_at = [](const ProfileElement& piece, double r, double z) {
     return piece.side == 0.0 ? Point2{piece.r1 - piece.r0, piece.z1 - piece.z0}
                              : Point2{piece.centre_z - z, r - piece.centre_r};
   };
   for (std::size_t k = 0; k < pieces_.size(); ++k) {
-    const Piece& piece = pieces_[k];
+    const ProfileElement& piece = pieces_[k];
     if (piece.side < 0.0) return false;
     if (k == 0) continue;
-    const Piece& before = pieces_[k - 1];
+    const ProfileElement& before = pieces_[k - 1];
     if (before.r1 != piece.r0 || before.z1 != piece.z0) return false;
     const Point2 in = way_at(before, before.r1, before.z1), out = way_at(piece, piece.r0, piece.z0);
     if (cross(in, out) < -kSameWay * length(in) * length(out)) return false;
@@ -92,7 +93,7 @@ void ToolDistance::add_region(const std::vector<Knot>& knots) {
   const auto add = [&](const Knot& a, const Knot& b) {
     if ((a.r == b.r && a.z == b.z) || a.z >= kAboveAll)
       return;  // nothing is ever near the end of what holds it
-    Piece piece = piece_between(a, b);
+    ProfileElement piece = piece_between(a, b);
     if (!pieces_.empty() && goes_on(pieces_.back(), piece)) {
       piece.r0 = pieces_.back().r0;
       piece.z0 = pieces_.back().z0;
@@ -106,12 +107,12 @@ void ToolDistance::add_region(const std::vector<Knot>& knots) {
   add({knots.back().r, knots.back().z, 0.0}, {0.0, knots.back().z, 0.0});
 }
 
-ToolDistance::Piece ToolDistance::piece_between(const Knot& a, const Knot& b) {
-  Piece piece{.r0 = a.r, .z0 = a.z, .r1 = b.r, .z1 = b.z};
+ToolDistance::ProfileElement ToolDistance::piece_between(const Knot& a, const Knot& b) {
+  ProfileElement piece{.r0 = a.r, .z0 = a.z, .r1 = b.r, .z1 = b.z};
   piece.per_length2 = per_square(piece);
   if (a.z != b.z) piece.r_per_z = (b.r - a.r) / (b.z - a.z);
   if (a.bulge == 0.0) return piece;
-  const ArcShape arc = arc_shape(a, b);
+  const detail::ProfileArc arc = detail::profile_arc(a, b);
   piece.side = a.bulge > 0.0 ? 1.0 : -1.0;
   piece.centre_r = arc.r;
   piece.centre_z = arc.z;
@@ -119,7 +120,7 @@ ToolDistance::Piece ToolDistance::piece_between(const Knot& a, const Knot& b) {
   return piece;
 }
 
-double ToolDistance::radius_at(const Piece& piece, double z) {
+double ToolDistance::radius_at(const ProfileElement& piece, double z) {
   if (piece.side == 0.0) return piece.r0 + piece.r_per_z * (z - piece.z0);
   const double height = z - piece.centre_z;
   return piece.centre_r +
@@ -127,12 +128,12 @@ double ToolDistance::radius_at(const Piece& piece, double z) {
 }
 
 bool ToolDistance::is_inside(double rho, double z) const {
-  for (const Piece& piece : pieces_)
+  for (const ProfileElement& piece : pieces_)
     if (piece.z0 <= z && z < piece.z1) return rho < radius_at(piece, z);
   return false;
 }
 
-void ToolDistance::look_at_line(const Piece& piece, double rho, double z, Nearest& nearest) {
+void ToolDistance::look_at_line(const ProfileElement& piece, double rho, double z, Nearest& nearest) {
   const double dr = piece.r1 - piece.r0, dz = piece.z1 - piece.z0;
   const double share =
       std::clamp(((rho - piece.r0) * dr + (z - piece.z0) * dz) * piece.per_length2, 0.0, 1.0);
@@ -142,7 +143,7 @@ void ToolDistance::look_at_line(const Piece& piece, double rho, double z, Neares
   nearest.bend = 0.0;
 }
 
-void ToolDistance::look_at_arc(const Piece& piece, double rho, double z, Nearest& nearest) {
+void ToolDistance::look_at_arc(const ProfileElement& piece, double rho, double z, Nearest& nearest) {
   const double r = rho - piece.centre_r, h = z - piece.centre_z;
   const double begin_r = piece.r0 - piece.centre_r, begin_z = piece.z0 - piece.centre_z;
   const double end_r = piece.r1 - piece.centre_r, end_z = piece.z1 - piece.centre_z;
@@ -168,7 +169,7 @@ void ToolDistance::look_at_arc(const Piece& piece, double rho, double z, Nearest
 
 TurnedDistance ToolDistance::at(double rho, double z) const {
   Nearest nearest;
-  for (const Piece& piece : pieces_)
+  for (const ProfileElement& piece : pieces_)
     piece.side == 0.0 ? look_at_line(piece, rho, z, nearest) : look_at_arc(piece, rho, z, nearest);
   const double distance = std::sqrt(nearest.distance2);
   const double sign = is_inside(rho, z) ? -1.0 : 1.0;
@@ -177,7 +178,7 @@ TurnedDistance ToolDistance::at(double rho, double z) const {
   if (distance >= kOnOutline)
     return {sign * distance, per_distance * (rho - nearest.r), per_distance * (z - nearest.z), bend};
   if (nearest.line == nullptr) return {sign * distance, nearest.normal_r, nearest.normal_z, bend};
-  const Piece& line = *nearest.line;
+  const ProfileElement& line = *nearest.line;
   const double per_length = std::sqrt(line.per_length2);
   return {sign * distance, per_length * (line.z1 - line.z0), per_length * (line.r0 - line.r1), bend};
 }

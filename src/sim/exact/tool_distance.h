@@ -29,8 +29,9 @@ class ToolDistance {
   bool is_convex() const { return is_convex_; }
 
  private:
-  /// From a knot to the next, material on the left: towards the axis on the way up.
-  struct Piece {
+  /// From a knot to the next, material on the left: towards the axis on the way up. A LineArc in (r, z) with
+  /// what a distance asks for computed once, as millions of distances are computed.
+  struct ProfileElement {
     double r0 = 0.0, z0 = 0.0, r1 = 0.0, z1 = 0.0;
     double per_length2 = 0.0;  // one divided by the square of its chord
     double side = 0.0;  // of an arc: 1 where it bulges away from the axis, -1 where it is hollow; else 0
@@ -39,16 +40,16 @@ class ToolDistance {
   };
   struct Nearest;
   void add_region(const std::vector<Knot>& knots);
-  static Piece piece_between(const Knot& a, const Knot& b);
-  static double per_square(const Piece& piece);
-  static bool goes_on(const Piece& before, const Piece& next);
-  static double radius_at(const Piece& piece, double z);
-  static void look_at_line(const Piece& piece, double rho, double z, Nearest& nearest);
-  static void look_at_arc(const Piece& piece, double rho, double z, Nearest& nearest);
+  static ProfileElement piece_between(const Knot& a, const Knot& b);
+  static double per_square(const ProfileElement& piece);
+  static bool goes_on(const ProfileElement& before, const ProfileElement& next);
+  static double radius_at(const ProfileElement& piece, double z);
+  static void look_at_line(const ProfileElement& piece, double rho, double z, Nearest& nearest);
+  static void look_at_arc(const ProfileElement& piece, double rho, double z, Nearest& nearest);
   bool turns_left() const;
   bool is_inside(double rho, double z) const;
 
-  std::vector<Piece> pieces_;
+  std::vector<ProfileElement> pieces_;
   double rim_ = 0.0, bottom_ = 0.0;
   bool is_convex_ = false;
 };

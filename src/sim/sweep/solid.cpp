@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "tool/arc.h"
+
 namespace kerf::sim {
 namespace {
 
@@ -45,7 +47,7 @@ Cap arc_cap(double flat, double height, double centre_r, double centre_z, double
 
 /// A zone bounded by an arc that bulges away from the axis.
 Piece zone(const Knot& a, const Knot& b) {
-  const ArcShape arc = arc_shape(a, b);
+  const detail::ProfileArc arc = detail::profile_arc(a, b);
   const bool has_equator = arc.z > a.z && arc.z < b.z;
   Piece piece;
   piece.rim = has_equator ? arc.r + arc.radius : std::max(a.r, b.r);
@@ -60,7 +62,7 @@ Piece zone(const Knot& a, const Knot& b) {
 /// the middles of chords between points of the arc would stray to the other side.
 void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<Piece>& pieces) {
   constexpr double kBeyond = 2.0 / 3.0;
-  const ArcShape arc = arc_shape(a, b);
+  const detail::ProfileArc arc = detail::profile_arc(a, b);
   const double sweep = 4.0 * std::atan(a.bulge);
   const double step = 2.0 * std::acos(1.0 - std::min(stray / kBeyond / arc.radius, 1.0));
   const int count = std::clamp(static_cast<int>(std::ceil(std::abs(sweep) / step)), 1, kMaxFrusta);
@@ -169,19 +171,6 @@ void find_cull_lines(Solid& solid) {
 }
 
 }  // namespace
-
-ArcShape arc_shape(const Knot& a, const Knot& b) {
-  const double dr = b.r - a.r, dz = b.z - a.z;
-  const double chord = std::hypot(dr, dz);
-  const double bulge = a.bulge;
-  const double offset =
-      0.25 * (1.0 / bulge - bulge);  // of the centre from the chord's middle, in chords, to its left
-  ArcShape arc;
-  arc.r = 0.5 * (a.r + b.r) - offset * dz;
-  arc.z = 0.5 * (a.z + b.z) + offset * dr;
-  arc.radius = 0.25 * chord * (std::abs(bulge) + 1.0 / std::abs(bulge));
-  return arc;
-}
 
 double Cap::at(double rho) const {
   if (rho <= flat) return height;

@@ -56,13 +56,6 @@ struct Solid {
   double reach_below(double height) const;
 };
 
-/// A circle in the (r, z) plane, mm.
-struct ArcShape {
-  double r = 0.0, z = 0.0, radius = 0.0;
-};
-/// The circle through two knots with the first one's bulge, which is not 0.
-ArcShape arc_shape(const Knot& a, const Knot& b);
-
 /// Pieces of a profile. Hollow arcs become frusta that stray at most `chord` from the arc. All surfaces but
 /// level ones are moved inwards by `shrink`: what only touches sideways then meets nothing.
 Solid make_solid(const Profile& profile, Length chord, Length shrink);

@@ -17,8 +17,8 @@ constexpr double kPi = std::numbers::pi;
 double off(const Outline& outline, Point2 p) {
   double least = 1e300;
   for (std::size_t i = 0; i < outline.segments.size(); ++i)
-    least = std::min(least, outline_detail::distance_to(
-                                outline_detail::make_carrier(outline.point(i), outline.segments[i], 0.0), p));
+    least = std::min(
+        least, distance_to(outline_detail::make_carrier(outline.point(i), outline.segments[i], 0.0), p));
   return least;
 }
 
@@ -48,8 +48,8 @@ TEST(FitArcs, FindsTheArcsThatWereFlattened) {
   for (const Point2 p : flattened(*made, mm(1e-4))) {
     double least = 1e300;
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      least = std::min(least, outline_detail::distance_to(
-                                  outline_detail::make_carrier(points[i], {points[i + 1], {}, {}}, 0.0), p));
+      least = std::min(least,
+                       distance_to(outline_detail::make_carrier(points[i], {points[i + 1], {}, {}}, 0.0), p));
     EXPECT_LT(least, 0.01);
   }
 }
@@ -153,6 +153,52 @@ TEST(FitErrors, NameWhatIsWrong) {
   spline.weights.clear();
   spline.knots = {0, 0, 0, 2, 1, 1, 1, 1};
   EXPECT_EQ(code_of([&](Diagnostics& d) { return fit_spline(spline, mm(1), {}, d); }), Code::curve_malformed);
+}
+
+double off_chords(const std::vector<Point2>& points, Point2 p) {
+  double off = 1e300;
+  for (std::size_t i = 1; i < points.size(); ++i)
+    off = std::min(off, distance_to(line_between(points[i - 1], points[i]), p));
+  return off;
+}
+
+TEST(Flattened, ASplineThatIsAParabola) {
+  // y = x^2 / 10 from x = -10 to 10; its second derivative by the parameter is 80 mm, so n chords stray 10 /
+  // n^2.
+  const Spline parabola = clamped_spline(2, {{-10, 10}, {0, -10}, {10, 10}});
+  EXPECT_EQ(parabola.knots, (std::vector<double>{0, 0, 0, 1, 1, 1}));
+  const std::vector<Point2> points = flattened(parabola, mm(0.1), 1000);
+  ASSERT_EQ(points.size(), 11u);
+  EXPECT_EQ(points.front(), (Point2{-10, 10}));
+  EXPECT_EQ(points.back(), (Point2{10, 10}));
+  for (const Point2 p : points) EXPECT_NEAR(p.y, p.x * p.x / 10, 1e-12);
+  EXPECT_EQ(flattened(parabola, mm(0.1), 4).size(), 5u);
+}
+
+TEST(Flattened, ARationalSplineStaysWithinTheChord) {
+  // A quarter circle of radius 10, and a half one in two quarters.
+  const double w = std::sqrt(0.5);
+  Spline half{
+      2, {{10, 0}, {10, 10}, {0, 10}, {-10, 10}, {-10, 0}}, {0, 0, 0, 1, 1, 2, 2, 2}, {1, w, 1, w, 1}};
+  for (const double chord : {1.0, 0.1, 0.001}) {
+    const std::vector<Point2> points = flattened(half, mm(chord), 100'000);
+    for (const Point2 p : points) EXPECT_NEAR(length(p), 10, 1e-12);
+    for (int i = 0; i <= 200; ++i) {
+      const double a = kPi * i / 200;
+      EXPECT_LE(off_chords(points, {10 * std::cos(a), 10 * std::sin(a)}), chord);
+    }
+    EXPECT_LT(static_cast<double>(points.size()), 4 + 6 * std::sqrt(10 / chord));
+  }
+}
+
+TEST(Flattened, SplinesOfManySpansPassTheirEnds) {
+  const Spline spline =
+      clamped_spline(3, {{0, 0}, {5, 9}, {9, -4}, {14, 6}, {20, 0}, {22, 5}}, {1, 2, 1, 5, 1, 1});
+  EXPECT_EQ(spline.knots, (std::vector<double>{0, 0, 0, 0, 1, 2, 3, 3, 3, 3}));
+  const auto coarse = flattened(spline, mm(0.05), 100'000), fine = flattened(spline, mm(0.0005), 100'000);
+  EXPECT_GT(fine.size(), 5 * coarse.size());
+  for (const Point2 p : fine) EXPECT_LE(off_chords(coarse, p), 0.05);
+  EXPECT_EQ(coarse.back(), (Point2{22, 5}));
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ std::size_t count_of(const Toolpath& path, StepKind kind) {
   return count;
 }
 
-TEST(FitArcs, finds_the_arc_of_a_chain) {
-  const PassResult result = fit_arcs(chords(10, 0.5, 90), {.tolerance = mm(0.01)});
+TEST(ChordsToArcs, finds_the_arc_of_a_chain) {
+  const PassResult result = chords_to_arcs(chords(10, 0.5, 90), {.tolerance = mm(0.01)});
   ASSERT_EQ(result.path.size(), 2u);
   const step::Arc arc = result.path[1].arc();
   EXPECT_NEAR(arc.centre.x, -10, 1e-6);
@@ -46,34 +46,34 @@ TEST(FitArcs, finds_the_arc_of_a_chain) {
   EXPECT_NEAR(result.after.cut_mm, 10 * std::numbers::pi, 1e-6);
 }
 
-TEST(FitArcs, finds_helices_and_leaves_uneven_rises) {
-  EXPECT_EQ(count_of(fit_arcs(chords(10, 0.5, 90, 3.0), {}).path, StepKind::arc), 1u);
+TEST(ChordsToArcs, finds_helices_and_leaves_uneven_rises) {
+  EXPECT_EQ(count_of(chords_to_arcs(chords(10, 0.5, 90, 3.0), {}).path, StepKind::arc), 1u);
   Toolpath uneven = begun();
   for (int i = 1; i <= 40; ++i) {
     const double a = 0.05 * i;
     uneven.add(step::Cut{{10 * std::cos(a) - 10, 10 * std::sin(a), i % 2 == 0 ? 0.0 : 1.0}, kFeed},
                OriginId::none);
   }
-  EXPECT_EQ(count_of(fit_arcs(uneven, {}).path, StepKind::arc), 0u);
+  EXPECT_EQ(count_of(chords_to_arcs(uneven, {}).path, StepKind::arc), 0u);
 }
 
-TEST(FitArcs, keeps_polygons_lines_and_changes_of_feed) {
-  EXPECT_EQ(count_of(fit_arcs(chords(10, 1.0, 6), {}).path, StepKind::arc), 0u);
+TEST(ChordsToArcs, keeps_polygons_lines_and_changes_of_feed) {
+  EXPECT_EQ(count_of(chords_to_arcs(chords(10, 1.0, 6), {}).path, StepKind::arc), 0u);
   Toolpath line = begun();
   for (int i = 1; i < 20; ++i) line.add(step::Cut{{1.0 * i, 0, 0}, kFeed}, OriginId::none);
-  EXPECT_EQ(count_of(fit_arcs(line, {}).path, StepKind::arc), 0u);
+  EXPECT_EQ(count_of(chords_to_arcs(line, {}).path, StepKind::arc), 0u);
   Toolpath feeds = begun();
   for (int i = 1; i <= 60; ++i) {
     const double a = 0.05 * i;
     feeds.add(step::Cut{{10 * std::cos(a) - 10, 10 * std::sin(a), 0}, i <= 30 ? kFeed : mm_per_min(100)},
               OriginId::none);
   }
-  const PassResult result = fit_arcs(feeds, {});
+  const PassResult result = chords_to_arcs(feeds, {});
   EXPECT_EQ(count_of(result.path, StepKind::arc), 2u);
 }
 
-TEST(FitArcs, a_whole_circle_keeps_its_length) {
-  const PassResult result = fit_arcs(chords(10, 1.0, 360), {.tolerance = mm(0.01)});
+TEST(ChordsToArcs, a_whole_circle_keeps_its_length) {
+  const PassResult result = chords_to_arcs(chords(10, 1.0, 360), {.tolerance = mm(0.01)});
   EXPECT_NEAR(result.after.cut_mm, result.before.cut_mm, 0.01);
   EXPECT_LE(result.path.size(), 20u);
 }
@@ -85,7 +85,7 @@ TEST(ArcsToChords, stay_on_the_arc_and_fit_again) {
   const PassResult lines = arcs_to_chords(path, mm(0.01));
   EXPECT_EQ(count_of(lines.path, StepKind::arc), 0u);
   EXPECT_GT(lines.path.size(), 20u);
-  EXPECT_EQ(count_of(fit_arcs(lines.path, {.tolerance = mm(0.011)}).path, StepKind::arc), 1u);
+  EXPECT_EQ(count_of(chords_to_arcs(lines.path, {.tolerance = mm(0.011)}).path, StepKind::arc), 1u);
 }
 
 TEST(JoinStraight, joins_what_goes_on_and_keeps_corners) {

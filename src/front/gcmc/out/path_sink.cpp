@@ -152,12 +152,11 @@ void PathSink::move(const Move& m) {
 
 void PathSink::arc(const ArcMove& m) {
   if (!goes_on()) return;
-  static constexpr std::size_t kPlaneAxes[][2] = {{0, 1}, {0, 2}, {1, 2}};
   check_size();
   series_start_.reset();
-  const auto& plane = kPlaneAxes[static_cast<std::size_t>(m.plane)];
+  const PlaneAxes plane = named_axes_of(m.plane);
   step::Arc out;
-  out.centre = {(at_[plane[0]] + m.offset.x) * scale_, (at_[plane[1]] + m.offset.y) * scale_};
+  out.centre = {(at_[plane.u] + m.offset.x) * scale_, (at_[plane.v] + m.offset.y) * scale_};
   go(m.to, m.named);
   out.to = position();
   out.plane = m.plane;

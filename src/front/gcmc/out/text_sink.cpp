@@ -164,12 +164,11 @@ void TextSink::move(const Move& m) {
 }
 
 void TextSink::arc(const ArcMove& m) {
-  static constexpr std::size_t kPlaneAxes[][2] = {{0, 1}, {0, 2}, {1, 2}};
   begin_motion(m.turn == Turn::cw ? "G2" : "G3", false);
   axes(m.to, m.named, Words::all);
-  const auto& plane = kPlaneAxes[static_cast<std::size_t>(m.plane)];
-  word(kOffsets[plane[0]], m.offset.x);
-  word(kOffsets[plane[1]], m.offset.y);
+  const PlaneAxes plane = named_axes_of(m.plane);
+  word(kOffsets[plane.u], m.offset.x);
+  word(kOffsets[plane.v], m.offset.y);
   if (m.turns > 0) at_ = fmt::format_to(at_, " P{}", m.turns);
   last_ = m.to;
   end_line();

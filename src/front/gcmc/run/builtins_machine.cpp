@@ -5,6 +5,7 @@
 
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
+#include "geom/line_arc.h"
 
 namespace kerf::gcmc {
 namespace {
@@ -12,19 +13,6 @@ namespace {
 constexpr std::size_t kAxes = 9;
 constexpr bool is_rotary(std::size_t axis) { return axis >= 3 && axis <= 5; }
 constexpr std::string_view kPlaneNames[] = {"PLANE_XY", "PLANE_XZ", "PLANE_YZ"};
-
-/// Indices of a plane's axes in the order of its name, and of the third.
-struct PlaneOrder {
-  std::size_t u, v, w;
-};
-PlaneOrder order_of(Plane plane) {
-  switch (plane) {
-    case Plane::xz: return {0, 2, 1};
-    case Plane::yz: return {1, 2, 0};
-    case Plane::xy: break;
-  }
-  return {0, 1, 2};
-}
 
 void finite_or_fail(const Call& call, double v, std::size_t axis) {
   if (std::isfinite(v)) return;
@@ -169,13 +157,12 @@ int turns_of(const Call& call, int i) {
   return turns;
 }
 
-/// The centre, seen from the begin, of the arc of radius |r| to (du, dv): the short way round for r > 0.
-Point2 arc_centre(const Call& call, double du, double dv, double radius, bool right_of_chord) {
-  const double square = du * du + dv * dv;
-  const double chord = std::sqrt(square);
-  if (chord < kEpsilon) {
+/// Refuses a radius that is too small for an arc over a chord.
+void check_radius(const Call& call, Point2 chord, double radius) {
+  const double square = dot(chord, chord), length = std::sqrt(square);
+  if (length < kEpsilon) {
     call.fail(Code::gcmc_geometry,
-              fmt::format("{}() distance between start and endpoint zero ({:e})", call.name, chord));
+              fmt::format("{}() distance between start and endpoint zero ({:e})", call.name, length));
   }
   const double rise = radius * radius - square / 4.0;
   if (rise < -kEpsilon) {
@@ -183,16 +170,13 @@ Point2 arc_centre(const Call& call, double du, double dv, double radius, bool ri
               fmt::format("{}() radius ({:e}) is less than two times distance from start to end (D={:e})",
                           call.name, radius, rise));
   }
-  const double height = std::sqrt(std::max(rise, 0.0) / square);
-  const double side = right_of_chord ? 1.0 : -1.0;
-  return {du / 2.0 + side * height * dv, dv / 2.0 - side * height * du};
 }
 
 Value arc(const Call& call, Turn turn, From from) {
   if (!call[0].is_vector())
     call.fail(Code::gcmc_type, fmt::format("{}(): First argument must be a vector", call.name));
   Machine& m = call.vm.machine();
-  const PlaneOrder axes = order_of(m.plane);
+  const PlaneAxes axes = named_axes_of(m.plane);
   ArcMove out;
   out.turn = turn;
   out.plane = m.plane;
@@ -204,11 +188,12 @@ Value arc(const Call& call, Turn turn, From from) {
     call.fail(Code::gcmc_geometry, fmt::format("{}() in plane {} is missing both plane coordinates",
                                                call.name, kPlaneNames[static_cast<std::size_t>(m.plane)]));
   }
+  const Point2 chord{to[axes.u] - m.position[axes.u], to[axes.v] - m.position[axes.v]};
+  check_radius(call, chord, radius);
   // In XZ the turning sense is seen from +Y, from where Z points to the left of X: the sides change places.
   const bool mirrored = m.plane == Plane::xz;
-  const bool right = ((turn == Turn::cw) == (radius > 0.0)) != mirrored;
-  out.offset =
-      arc_centre(call, to[axes.u] - m.position[axes.u], to[axes.v] - m.position[axes.v], radius, right);
+  const bool left = ((turn == Turn::ccw) == (radius > 0.0)) != mirrored;
+  out.offset = centre_over_chord(chord, radius, left ? 1.0 : -1.0);
   m.set_position(to);
   out.to = m.told;
   call.vm.show_life();
@@ -224,7 +209,7 @@ Value arc_ccw_relative(const Call& call) { return arc(call, Turn::ccw, From::her
 /// A full circle given by its centre; a third coordinate makes it a helix.
 void circle_by_centre(const Call& call, From from, ArcMove& out, Axes& to) {
   const Machine& m = call.vm.machine();
-  const PlaneOrder axes = order_of(m.plane);
+  const PlaneAxes axes = named_axes_of(m.plane);
   unsigned named = 0;
   const Axes centre = target_of(call, call[0], from, named);
   const unsigned both = 1u << axes.u | 1u << axes.v;
@@ -242,7 +227,7 @@ void circle_by_centre(const Call& call, From from, ArcMove& out, Axes& to) {
 }
 
 void circle_by_radius(const Call& call, ArcMove& out) {
-  const PlaneOrder axes = order_of(call.vm.machine().plane);
+  const PlaneAxes axes = named_axes_of(call.vm.machine().plane);
   if (call.count < 2) call.fail(Code::gcmc_arguments, fmt::format("{}() requires two arguments", call.name));
   const double radius = call.length(0), angle = call.angle(1);
   out.offset = {radius * std::cos(angle), radius * std::sin(angle)};
