@@ -27,20 +27,24 @@ struct DrawingLayer {
 namespace drawing {
 struct Line {
   double x1 = 0.0, y1 = 0.0, x2 = 0.0, y2 = 0.0;
+  double z1 = 0.0, z2 = 0.0;  // for DXF
   bool operator==(const Line&) const = default;
 };
 struct Arc {  // counter-clockwise from start to end
   double x = 0.0, y = 0.0, radius = 0.0, start = 0.0, end = 0.0;
+  double z = 0.0;  // for DXF
   bool operator==(const Arc&) const = default;
 };
 struct Circle {
   double x = 0.0, y = 0.0, radius = 0.0;
+  double z = 0.0;  // for DXF
   bool operator==(const Circle&) const = default;
 };
 struct Vertex {
   double x = 0.0, y = 0.0;
   /// Tangent of a quarter of the sweep to the next vertex, above 0 counter-clockwise; 0: a line.
   double bulge = 0.0;
+  double radius = 0.0;  // of that arc, where it is known better than by the bulge; for SVG
   bool operator==(const Vertex&) const = default;
 };
 struct Polyline {

@@ -12,7 +12,7 @@ PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png", "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
-BACK = {"back_drawing", "back_gcmc", "back_gcode"}
+BACK = {"back_drawing", "back_gcode"}
 BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim"}
 
 
@@ -85,13 +85,12 @@ PUBLIC = {
     "front_gcode": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "front_gcmc_value": ["gcmc_options.h"],
-    "back_gcmc": ["gcmc_drawing.h"],
     "back_gcode": ["post.h"],
     "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
     "front_outline": ["outline_files.h"],
-    "back_drawing": ["outline_drawing.h", "toolpath_drawing.h"],
+    "back_drawing": ["outline_drawing.h", "toolpath_drawing.h", "gcmc_drawing.h"],
     "codec_drawing": ["drawing_files.h", "dxf.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_png": ["image_files.h"],

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "back/drawing/shapes.h"
+#include "back/drawing/strokes.h"
 
 #include "kerf/limits.h"
 #include "kerf/units.h"
@@ -62,22 +63,23 @@ class Drawn {
   std::unordered_multimap<std::size_t, std::size_t> seen_;
 };
 
-class Sketcher {
+class Sketcher final : public drawings::StrokeSink {
  public:
   Sketcher(const Toolpath& path, const ToolpathDrawingOptions& options) : path_(path), options_(options) {
     scale_ = options.unit == DrawingUnit::inch ? 1.0 / kMmPerInch : 1.0;
   }
   Drawing draw();
+  void stroke(const drawings::Stroke& stroke) override;
+  void setting(std::size_t step) override;
 
  private:
-  void take(std::size_t i);
-  void motion(const Step& s);
-  void cut(const Step& s);
+  enum class Closing : std::uint8_t { where_it_meets, always };
+  void cut(const drawings::Stroke& stroke);
   void arc(const ArcWalk& walk);
-  void upright_arc(const ArcWalk& walk);
+  void chord_to(Point3 to);
   void line_to(Point3 to);
   void bulge_to(double bulge, Point3 to);
-  void flush();
+  void flush(Closing closing = Closing::where_it_meets);
   void hole();
   template <class Shape>
   void add(Shape shape);
@@ -102,7 +104,8 @@ class Sketcher {
   std::size_t tools_ = 0;
 
   Point3 at_;
-  bool at_known_ = false;
+  Point3 chord_from_;             // where the last line of the chain starts, if that is a chord
+  bool chord_continues_ = false;  // the next chord of the same arc may lengthen it
   bool has_beam_ = false;
   step::LaserPower beam_;
   // The chain being drawn.
@@ -146,8 +149,9 @@ void Sketcher::bulge_to(double bulge, Point3 to) {
   at_ = to;
 }
 
-/// Draws the chain and begins a new one.
-void Sketcher::flush() {
+/// Draws the chain; the next stroke starts another one.
+void Sketcher::flush(Closing closing) {
+  chord_continues_ = false;
   std::vector<drawing::Vertex> chain = std::exchange(chain_, {});
   const std::optional<ArcWalk> walk = std::exchange(only_arc_, std::nullopt);
   if (chain.empty() && went_down_) hole();
@@ -162,8 +166,9 @@ void Sketcher::flush() {
   }
   const auto &a = chain.front(), &b = chain.back();
   if (chain.size() == 2 && a.bulge == 0.0) return add(drawing::Line{a.x, a.y, b.x, b.y});
-  const bool closed = meets(chain);
-  if (closed) chain.pop_back();
+  const bool meets_start = meets(chain);
+  if (meets_start) chain.pop_back();
+  const bool closed = meets_start || (closing == Closing::always && chain.size() > 2);
   add(drawing::Polyline{std::move(chain), closed});
 }
 
@@ -196,52 +201,54 @@ void Sketcher::arc(const ArcWalk& walk) {
   at_ = end;
 }
 
-/// An arc that does not lie in XY, as chords; where it stands upright they are one line from above.
-void Sketcher::upright_arc(const ArcWalk& walk) {
-  only_arc_.reset();
-  const int count = walk.chords(options_.chord, limits::kMaxChords);
-  for (int k = 1; k <= count; ++k) {
-    const Point3 p = walk.at(static_cast<double>(k) / count);
-    const Point3 next = walk.at(static_cast<double>(std::min(k + 1, count)) / count);
-    const double ax = p.x - at_.x, ay = p.y - at_.y, bx = next.x - p.x, by = next.y - p.y;
-    const bool straight_on =
-        std::abs(ax * by - ay * bx) <= kParallel * std::hypot(ax, ay) && ax * bx + ay * by > 0.0;
-    if (k == count || !straight_on) line_to(p);
+/// A chord of an arc that does not lie in XY. Where the arc is upright, its chords are one line from above.
+void Sketcher::chord_to(Point3 to) {
+  const double ax = at_.x - chord_from_.x, ay = at_.y - chord_from_.y, bx = to.x - at_.x, by = to.y - at_.y;
+  const bool straight_on = chord_continues_ &&
+                           std::abs(ax * by - ay * bx) <= kParallel * std::hypot(ax, ay) &&
+                           ax * bx + ay * by > 0.0;
+  if (straight_on) {
+    chain_.pop_back();
+    at_ = chord_from_;
+  } else {
+    chord_from_ = at_;
   }
+  line_to(to);
+  chord_continues_ = true;
 }
 
-void Sketcher::cut(const Step& s) {
-  const bool in_place = std::hypot(s.to().x - at_.x, s.to().y - at_.y) <= kSamePoint;
-  if (s.kind() == StepKind::arc) {
-    const ArcWalk walk = walk_of(s, at_);
-    if (walk.plane == Plane::xy && walk.sweep != 0.0) return arc(walk);
-    return upright_arc(walk);
-  }
-  if (!in_place) {
+void Sketcher::cut(const drawings::Stroke& stroke) {
+  if (stroke.arc != nullptr) return arc(*stroke.arc);
+  if (stroke.is_chord) {
     only_arc_.reset();
-    return line_to(s.to());
+    return chord_to(stroke.to);
   }
-  if (!chain_.empty()) flush();  // the next pass begins
-  went_down_ = went_down_ || s.to().z < at_.z;
-  at_ = s.to();
+  if (std::hypot(stroke.to.x - at_.x, stroke.to.y - at_.y) > kSamePoint) {
+    only_arc_.reset();
+    return line_to(stroke.to);
+  }
+  if (!chain_.empty()) flush();  // the next pass follows
+  went_down_ = went_down_ || stroke.to.z < at_.z;
 }
 
-void Sketcher::motion(const Step& s) {
+void Sketcher::stroke(const drawings::Stroke& stroke) {
   constexpr unsigned kInPlan = 3;  // X and Y
-  const bool known = (s.unknown_axes() & kInPlan) == 0;
+  const Step& s = path_[stroke.step];
+  const bool known = (stroke.unknown_to & kInPlan) == 0;
+  const bool probes = s.kind() == StepKind::probe;
   const bool rapid = s.kind() == StepKind::rapid || (s.is_cutting() && idle_beam());
-  if (rapid != rapid_ || !known || s.kind() == StepKind::probe) flush();
+  if (rapid != rapid_ || !known || probes) flush();
   rapid_ = rapid;
   const bool drawn = !rapid || options_.rapids == RapidLines::drawn;
-  if (known && at_known_ && drawn && s.kind() != StepKind::probe) cut(s);
+  if (known && (stroke.unknown_from & kInPlan) == 0 && drawn && !probes) cut(stroke);
+  at_ = stroke.to;
+  if (!stroke.ends_step) return;
+  chord_continues_ = false;
   if (meets(chain_)) flush();  // so that the next pass along it is found to be the same
-  at_ = s.to();
-  at_known_ = known;
 }
 
-void Sketcher::take(std::size_t i) {
+void Sketcher::setting(std::size_t i) {
   const Step& s = path_[i];
-  if (s.is_motion()) return motion(s);
   if (s.kind() == StepKind::tool_change) {
     flush();
     tool_ = s.tool_change().tool;
@@ -253,6 +260,8 @@ void Sketcher::take(std::size_t i) {
   } else if (s.kind() == StepKind::laser_power) {
     has_beam_ = true;
     beam_ = s.laser_power();
+  } else if (s.kind() == StepKind::close_path && !rapid_) {
+    flush(Closing::always);
   }
 }
 
@@ -260,7 +269,9 @@ Drawing Sketcher::draw() {
   drawing_.unit = options_.unit;
   drawing_.title = options_.title;
   drawing_.layers.clear();
-  for (std::size_t i = 0; i < path_.size(); ++i) take(i);
+  drawings::StrokeOptions walk;
+  walk.chord = options_.chord;
+  drawings::walk_strokes(path_, walk, *this);
   flush();
   if (drawing_.layers.empty()) drawing_.layers.emplace_back();
   drawings::set_widths(drawing_);

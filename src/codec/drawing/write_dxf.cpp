@@ -7,13 +7,16 @@
 #include <utility>
 #include <vector>
 
+#include "codec/drawing/forms.h"
+
 #include "kerf/drawing_files.h"
 #include "kerf/number.h"
 
 namespace kerf {
 namespace {
 
-constexpr int kDecimals = 10;
+using drawings::Decimals;
+using drawings::DxfForm;
 
 /// Text in ASCII: both versions read files in the code page that they name, so that other letters are told by
 /// their number ("\\U+00E9"). What is no UTF-8 becomes '?'.
@@ -62,12 +65,14 @@ std::string symbol_r12(std::string_view name) {
 
 class DxfWriter {
  public:
-  DxfWriter(const Drawing& drawing, DxfVersion version)
-      : drawing_(drawing), r12_(version == DxfVersion::r12) {
+  DxfWriter(const Drawing& drawing, DxfVersion version, const DxfForm& form)
+      : drawing_(drawing), form_(form), r12_(version == DxfVersion::r12) {
     for (const DrawingLayer& layer : drawing.layers)
       layers_.push_back(r12_ ? symbol_r12(layer.name) : symbol(layer.name));
   }
   std::string write();
+  /// With the form's own head, tail and starts of entities.
+  std::string write_form();
 
  private:
   // Handles that other records refer to; the rest are counted on from kFirstFree.
@@ -88,7 +93,10 @@ class DxfWriter {
   void tag(int group, const std::string& value) { tag(group, std::string_view(value)); }
   void tag(int group, const char* value) { tag(group, std::string_view(value)); }
   void tag(int group, int value) { tag(group, std::to_string(value)); }
-  void tag(int group, double value) { tag(group, number_text(value, kDecimals)); }
+  void tag(int group, double value) {
+    tag(group, form_.decimals == Decimals::fixed ? fmt::format("{:.{}f}", value, form_.digits)
+                                                 : number_text(value, form_.digits));
+  }
   // R12 has neither of these three.
   void handle(unsigned value) {
     if (!r12_) tag(5, fmt::format("{:X}", value));
@@ -99,10 +107,10 @@ class DxfWriter {
   void subclass(std::string_view marker) {
     if (!r12_) tag(100, marker);
   }
-  void point(double x, double y) {
+  void point(double x, double y, double z = 0.0) {
     tag(10, x);
     tag(20, y);
-    tag(30, 0.0);
+    tag(30, z);
   }
   void section(std::string_view name) {
     tag(0, "SECTION");
@@ -126,12 +134,17 @@ class DxfWriter {
   void shape(const drawing::Text& text, std::size_t layer);
   void old_polyline(const drawing::Polyline& line, std::size_t layer);
   void objects();
+  template <class ValueOf>
+  void fill_in(std::string_view text, ValueOf&& value_of);
+  void form_layers();
 
   const Drawing& drawing_;
+  const DxfForm& form_;
   const bool r12_;
   std::vector<std::string> layers_;  // their names as symbols
   std::string out_;
   unsigned next_ = kFirstFree;
+  std::size_t count_ = 0;  // of entities in a form
 };
 
 void DxfWriter::header() {
@@ -295,6 +308,14 @@ void DxfWriter::block(unsigned own, std::string_view name) {
 }
 
 void DxfWriter::entity(std::string_view type, std::string_view marker, std::size_t layer) {
+  if (!form_.entity.empty()) {
+    ++count_;
+    return fill_in(form_.entity, [&](std::string_view key) -> std::string {
+      if (key == "{TYPE}") return std::string(type);
+      if (key == "{SUBCLASS}") return std::string(marker);
+      return key == "{LAYER}" ? layers_[layer] : form_.entity_handle(count_);
+    });
+  }
   tag(0, type);
   handle(next_++);
   owner(kModel);
@@ -305,28 +326,29 @@ void DxfWriter::entity(std::string_view type, std::string_view marker, std::size
 
 void DxfWriter::shape(const drawing::Line& line, std::size_t layer) {
   entity("LINE", "AcDbLine", layer);
-  point(line.x1, line.y1);
+  point(line.x1, line.y1, line.z1);
   tag(11, line.x2);
   tag(21, line.y2);
-  tag(31, 0.0);
+  tag(31, line.z2);
 }
 
 void DxfWriter::shape(const drawing::Arc& arc, std::size_t layer) {
-  const auto turned = [](double degrees) {
+  const auto turned = [&](double degrees) {
+    if (form_.angles == drawings::DxfAngles::as_given) return degrees;
     const double rest = std::fmod(degrees, 360.0);
     return rest < 0.0 ? rest + 360.0 : rest;
   };
   entity("ARC", "AcDbCircle", layer);
-  point(arc.x, arc.y);
+  point(arc.x, arc.y, arc.z);
   tag(40, arc.radius);
-  subclass("AcDbArc");
+  if (form_.arc_marker) subclass("AcDbArc");
   tag(50, turned(arc.start));
   tag(51, turned(arc.end));
 }
 
 void DxfWriter::shape(const drawing::Circle& circle, std::size_t layer) {
   entity("CIRCLE", "AcDbCircle", layer);
-  point(circle.x, circle.y);
+  point(circle.x, circle.y, circle.z);
   tag(40, circle.radius);
 }
 
@@ -401,10 +423,54 @@ std::string DxfWriter::write() {
   return std::move(out_);
 }
 
+// ---- forms
+
+/// Group codes with their values from a text; values in braces come from value_of(key), {LAYERS} is all of
+/// them.
+template <class ValueOf>
+void DxfWriter::fill_in(std::string_view text, ValueOf&& value_of) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of("|\n"), text.size());
+    const std::string_view item = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (item.empty()) continue;
+    if (item == "{LAYERS}") {
+      form_layers();
+      continue;
+    }
+    const std::size_t space = item.find(' ');
+    const std::string_view value = item.substr(space + 1);
+    fmt::format_to(std::back_inserter(out_), "{:>3}\n{}\n", item.substr(0, space),
+                   !value.empty() && value.front() == '{' ? value_of(value) : std::string(value));
+  }
+}
+
+void DxfWriter::form_layers() {
+  for (std::size_t i = 0; i < layers_.size(); ++i)
+    fill_in(form_.layer,
+            [&](std::string_view key) { return key == "{LAYER}" ? layers_[i] : form_.layer_handle(i); });
+}
+
+std::string DxfWriter::write_form() {
+  const auto value_of = [&](std::string_view key) {
+    if (key == "{UNITS}") return std::string(drawing_.unit == DrawingUnit::inch ? "1" : "4");
+    return std::to_string(layers_.size());
+  };
+  fill_in(form_.head, value_of);
+  for (const DrawingEntity& e : drawing_.entities)
+    std::visit([&](const auto& s) { shape(s, e.layer); }, e.shape);
+  fill_in(form_.tail, value_of);
+  return std::move(out_);
+}
+
 }  // namespace
 
+std::string drawings::write_dxf(const Drawing& drawing, const DxfForm& form) {
+  return DxfWriter(drawing, DxfVersion::r2000, form).write_form();
+}
+
 std::string write_dxf(const Drawing& drawing, DxfVersion version) {
-  return DxfWriter(drawing, version).write();
+  return DxfWriter(drawing, version, {}).write();
 }
 
 }  // namespace kerf

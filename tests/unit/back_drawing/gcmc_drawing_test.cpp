@@ -1,7 +1,7 @@
 // The drawings of toolpaths in gcmc's forms.
-#include <gtest/gtest.h>
-
 #include "kerf/gcmc_drawing.h"
+
+#include <gtest/gtest.h>
 
 namespace kerf {
 namespace {
