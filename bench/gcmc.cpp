@@ -16,7 +16,7 @@ namespace {
 /// Writes to an unnamed file.
 class Writer final : public kerf::GcmcOutput {
  public:
-  void message(const kerf::GcmcMessage&) override {}
+  void message(const kerf::Diagnostic&) override {}
   void text(std::string_view piece) override {
     good_ = std::fwrite(piece.data(), 1, piece.size(), file_.get()) == piece.size() && good_;
   }

@@ -11,8 +11,8 @@ namespace {
 
 class NullOutput final : public kerf::GcmcOutput {
  public:
-  void message(const kerf::GcmcMessage& m) override {
-    if (++messages_ < 100) (void)kerf::to_line(m);
+  void message(const kerf::Diagnostic& m) override {
+    if (++messages_ < 100) (void)kerf::gcmc_line(m);
     stop_ = messages_ > kMaxMessages;
   }
   void text(std::string_view) override {}

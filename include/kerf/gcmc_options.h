@@ -49,25 +49,18 @@ struct GcmcOptions {
   std::size_t max_path_steps = 50'000'000;            // steps of the toolpath
 };
 
-enum class GcmcSaid : std::uint8_t { message, script_warning, script_error, warning, error, fatal };
-
-struct GcmcMessage {
-  GcmcSaid said = GcmcSaid::error;
-  Code code = Code::gcmc_script;
-  TextSpot where;
-  std::string text;
-  std::string hint;                   // may be empty; not part of the line
-  std::vector<DiagnosticNote> calls;  // the calls that led here, innermost first
-};
-
-/// "part.gcmc:3:10: Runtime message(): text": the line of the real program, which other programs read.
-std::string to_line(const GcmcMessage& message);
+/// "part.gcmc:3:10: Runtime message(): text": the line of the real program, which other programs read,
+/// without notes and hint. What a program itself says has the code gcmc_script: message() as a note,
+/// warning() and error().
+std::string gcmc_line(const Diagnostic& diagnostic);
 
 /// Takes what a program says and writes.
 class GcmcOutput {
  public:
   virtual ~GcmcOutput() = default;
-  virtual void message(const GcmcMessage& message) = 0;
+  /// A message of the program, a warning or an error, as soon as there is one; `where` is a TextSpot, the
+  /// notes are the calls that led there, innermost first.
+  virtual void message(const Diagnostic& message) = 0;
   /// A piece of the text, as soon as there is enough of it.
   virtual void text(std::string_view piece) = 0;
   /// True where no more text can be taken, as on a full disk: the program ends with the piece that failed,

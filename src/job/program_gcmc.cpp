@@ -13,7 +13,7 @@ namespace {
 /// Drops the texts of message(); warnings and errors are in the diagnostics.
 class NoOutput final : public GcmcOutput {
  public:
-  void message(const GcmcMessage&) override {}
+  void message(const Diagnostic&) override {}
   void text(std::string_view) override {}
 };
 

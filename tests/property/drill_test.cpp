@@ -283,7 +283,7 @@ class DrillProgram {
 
 class Writing final : public GcmcOutput {
  public:
-  void message(const GcmcMessage& m) override { messages += to_line(m) + "\n"; }
+  void message(const Diagnostic& m) override { messages += gcmc_line(m) + "\n"; }
   void text(std::string_view piece) override { gcode += piece; }
   std::string messages, gcode;
 };

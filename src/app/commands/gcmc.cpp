@@ -79,11 +79,11 @@ class Listener final : public GcmcOutput {
   Listener(TextOut& out, bool explain) : out_(out), explain_(explain) {}
 
   void know(const std::string& name, std::string_view text) { texts_[name] = text; }
-  void message(const GcmcMessage& m) override {
+  void message(const Diagnostic& m) override {
     if (silent) return;
     std::fflush(stdout);
-    std::string text = to_line(m) + "\n";
-    if (explain_ && m.said != GcmcSaid::message) text += explanation(m);
+    std::string text = gcmc_line(m) + "\n";
+    if (explain_ && m.severity != Severity::note) text += explanation(m);
     std::fwrite(text.data(), 1, text.size(), stderr);
   }
   void text(std::string_view piece) override { out_.write(piece); }
@@ -91,20 +91,21 @@ class Listener final : public GcmcOutput {
   bool silent = false;
 
  private:
-  std::string explanation(const GcmcMessage& m) {
+  std::string explanation(const Diagnostic& m) {
     std::string text;
-    const std::string line = line_of(m.where);
-    if (!line.empty() && m.where.column > 0) {
+    const auto* spot = std::get_if<TextSpot>(&m.where);
+    const std::string line = spot == nullptr ? "" : line_of(*spot);
+    if (!line.empty() && spot->column > 0) {
       // Errors of syntax are told behind the word they mean.
-      const bool behind =
-          m.code == Code::gcmc_syntax || m.code == Code::gcmc_word || m.code == Code::gcmc_defined_twice;
+      const bool behind = m.code == Code::gcmc_syntax || m.code == Code::gcmc_word ||
+                          m.code == Code::gcmc_text_end || m.code == Code::gcmc_defined_twice;
       const std::size_t at =
-          std::min<std::size_t>(m.where.column - (behind && m.where.column > 1 ? 2 : 1), line.size());
+          std::min<std::size_t>(spot->column - (behind && spot->column > 1 ? 2 : 1), line.size());
       std::string space = line.substr(0, at);
       for (char& c : space) c = c == '\t' ? '\t' : ' ';
       text += fmt::format("    {}\n    {}^\n", line, space);
     }
-    for (const DiagnosticNote& n : m.calls)
+    for (const DiagnosticNote& n : m.notes)
       text += fmt::format("  {}: note: {}\n", to_string(n.where), n.text);
     if (!m.hint.empty()) text += fmt::format("  hint: {}\n", m.hint);
     return text;

@@ -29,36 +29,30 @@ class Reporter final : public SourceReport {
   Reporter(const std::deque<Source>& sources, GcmcOutput& output, Diagnostics& diagnostics)
       : sources_(sources), output_(output), diagnostics_(diagnostics) {}
   void error(Place at, Code code, std::string message, std::string hint) override {
-    say(GcmcSaid::error, at, code, std::move(message), std::move(hint));
+    say(Severity::error, at, code, std::move(message), std::move(hint));
     ++errors;
   }
   void warning(Place at, Code code, std::string message) override {
-    say(GcmcSaid::warning, at, code, std::move(message), {});
+    say(Severity::warning, at, code, std::move(message), {});
     ++warnings;
   }
   void fatal(Place at, Code code, std::string message) override {
-    say(GcmcSaid::fatal, at, code, std::move(message), {});
+    say(Severity::error, at, code, std::move(message), {});
     ++errors;
     over_ = true;  // what follows is only the consequence
   }
   std::size_t errors = 0, warnings = 0;
 
  private:
-  void say(GcmcSaid said, Place at, Code code, std::string text, std::string hint) {
+  void say(Severity severity, Place at, Code code, std::string text, std::string hint) {
     if (over_) return;
-    GcmcMessage m;
-    m.said = said;
-    m.code = code;
-    m.where = {sources_[at.file].name, at.line, at.column};
-    m.text = std::move(text);
-    m.hint = std::move(hint);
-    output_.message(m);
     Diagnostic d;
-    d.severity = said == GcmcSaid::warning ? Severity::warning : Severity::error;
+    d.severity = severity;
     d.code = code;
-    d.where = m.where;
-    d.message = m.text;
-    d.hint = m.hint;
+    d.where = TextSpot{sources_[at.file].name, at.line, at.column};
+    d.message = std::move(text);
+    d.hint = std::move(hint);
+    output_.message(d);
     diagnostics_.add(std::move(d));
   }
   const std::deque<Source>& sources_;
@@ -158,11 +152,20 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
 }  // namespace
 }  // namespace gcmc
 
-std::string to_line(const GcmcMessage& m) {
-  static constexpr std::string_view kWords[] = {
-      "Runtime message(): ", "Runtime warning(): ", "Runtime error(): ", "warning: ", "error: ", "fatal: "};
-  return fmt::format("{}:{}:{}: {}{}", m.where.file, m.where.line, m.where.column,
-                     kWords[static_cast<std::size_t>(m.said)], m.text);
+std::string gcmc_line(const Diagnostic& d) {
+  const bool of_program = d.code == Code::gcmc_script;
+  std::string_view word = "error: ";
+  if (of_program)
+    word = d.severity == Severity::note      ? "Runtime message(): "
+           : d.severity == Severity::warning ? "Runtime warning(): "
+                                             : "Runtime error(): ";
+  else if (d.severity == Severity::warning)
+    word = "warning: ";
+  else if (d.code == Code::gcmc_text_end)
+    word = "fatal: ";
+  const auto* spot = std::get_if<TextSpot>(&d.where);
+  if (spot == nullptr) return fmt::format("{}{}", word, d.message);
+  return fmt::format("{}:{}:{}: {}{}", spot->file, spot->line, spot->column, word, d.message);
 }
 
 GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,

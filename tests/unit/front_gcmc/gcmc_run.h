@@ -12,19 +12,18 @@ namespace kerf::test {
 struct Ran {
   std::string text;                // what was written
   std::vector<std::string> lines;  // message lines without "file:line:col: "
-  std::vector<GcmcMessage> messages;
+  std::vector<Diagnostic> messages;
   GcmcRun run;
   Diagnostics diagnostics;
 };
 
+inline TextSpot spot_of(const Diagnostic& message) { return std::get<TextSpot>(message.where); }
+
 class Collector final : public GcmcOutput {
  public:
   explicit Collector(Ran& ran) : ran_(ran) {}
-  void message(const GcmcMessage& m) override {
-    const std::string line = to_line(m);
-    const std::string place =
-        m.where.file + ":" + std::to_string(m.where.line) + ":" + std::to_string(m.where.column) + ": ";
-    ran_.lines.push_back(line.substr(place.size()));
+  void message(const Diagnostic& m) override {
+    ran_.lines.push_back(gcmc_line(m).substr(to_string(m.where).size() + 2));
     ran_.messages.push_back(m);
   }
   void text(std::string_view piece) override { ran_.text += piece; }

@@ -455,12 +455,12 @@ TEST(GcmcLanguage, AnErrorOfSyntaxRunsNothing) {
 TEST(GcmcLanguage, AllErrorsAreToldInOneRun) {
   const auto ran = run("x = ;\ny = 3\nfunction f( {}\nfoo bar;\n");
   EXPECT_GE(ran.lines.size(), 4u);
-  EXPECT_EQ(ran.messages[1].where.line, 3u);
+  EXPECT_EQ(spot_of(ran.messages[1]).line, 3u);
 }
 
 TEST(GcmcLanguage, PlacesAreThoseOfTheRealProgram) {
   const auto at = [](const char* program) {
-    const auto where = run(program).messages.at(0).where;
+    const auto where = spot_of(run(program).messages.at(0));
     return std::to_string(where.line) + ":" + std::to_string(where.column);
   };
   EXPECT_EQ(at("x = 1%0;"), "1:8");
@@ -485,6 +485,7 @@ TEST_P(Codes, AreStable) {
 }
 const std::vector<Coded> kEach{
     {"$", Code::gcmc_word},
+    {"/* no end", Code::gcmc_text_end},
     {"x;", Code::gcmc_syntax},
     {"include(\"no\");", Code::gcmc_include_missing},
     {"const A = 1; const A = 1;", Code::gcmc_defined_twice},
@@ -508,7 +509,7 @@ INSTANTIATE_TEST_SUITE_P(Each, Codes, testing::ValuesIn(kEach));
 TEST(GcmcLanguage, HintsNameWhatWasMeant) {
   EXPECT_EQ(run("radius = 1; x = raduis;").messages.at(0).hint, "did you mean 'radius'?");
   EXPECT_EQ(run("feedrat(1);").messages.at(0).hint, "did you mean 'feedrate'?");
-  EXPECT_EQ(run("forach(x; v) {}").messages.at(0).said, GcmcSaid::error);
+  EXPECT_EQ(run("forach(x; v) {}").messages.at(0).severity, Severity::error);
   EXPECT_EQ(run("whiel(1) {}").messages.at(0).hint, "did you mean 'while'?");
   EXPECT_EQ(run("x = 5 mmm;").messages.at(0).hint, "did you mean 'mm'?");
 }
@@ -525,11 +526,11 @@ TEST(GcmcLanguage, UnitsThatDoNotFitAreExplained) {
 
 TEST(GcmcLanguage, CallsAreNamedWithAnError) {
   const auto ran = run("function g() { x = 1/0; }\nfunction f() {\n  g();\n}\nf();");
-  const GcmcMessage& m = ran.messages.at(0);
-  ASSERT_EQ(m.calls.size(), 2u);
-  EXPECT_EQ(to_string(m.calls[0].where), "t.gcmc:3:5");
-  EXPECT_EQ(m.calls[0].text, "in the call of g()");
-  EXPECT_EQ(to_string(m.calls[1].where), "t.gcmc:5:3");
+  const Diagnostic& m = ran.messages.at(0);
+  ASSERT_EQ(m.notes.size(), 2u);
+  EXPECT_EQ(to_string(m.notes[0].where), "t.gcmc:3:5");
+  EXPECT_EQ(m.notes[0].text, "in the call of g()");
+  EXPECT_EQ(to_string(m.notes[1].where), "t.gcmc:5:3");
 }
 
 TEST(GcmcLanguage, DefinesRunFirst) {
@@ -544,7 +545,7 @@ TEST(GcmcLanguage, DefinesRunFirst) {
 TEST(GcmcErrors, AStringWithoutEndHidesNothing) {
   const Ran ran = run("x=1mm;\ny=\"abc;\n5=3;\nz.q=1;\n");
   std::vector<std::string> places;
-  for (const GcmcMessage& m : ran.messages) places.push_back(to_string(m.where));
+  for (const Diagnostic& m : ran.messages) places.push_back(to_string(m.where));
   EXPECT_EQ(places, (std::vector<std::string>{"t.gcmc:2:9", "t.gcmc:3:5", "t.gcmc:4:4"}));
   const Ran end = run("x=1;\ny=\"abc");
   EXPECT_EQ(to_string(end.messages.at(0).where), "t.gcmc:2:7");  // behind the last character
@@ -576,7 +577,7 @@ TEST(GcmcLimits, OutputIsBounded) {
     const Ran ran = run(program, options);
     EXPECT_EQ(ran.lines,
               std::vector<std::string>{"error: More than 1 MB of output and messages: an endless loop?"});
-    EXPECT_EQ(ran.messages.at(0).where.line, 2u);
+    EXPECT_EQ(spot_of(ran.messages.at(0)).line, 2u);
     EXPECT_EQ(ran.messages.at(0).code, Code::gcmc_limit);
     EXPECT_EQ(ran.run.status, 1);
     EXPECT_LT(ran.text.size(), std::size_t{1} << 21);
@@ -613,7 +614,7 @@ TEST(GcmcLimits, MemoryIsBounded) {
 class FullDisk final : public GcmcOutput {
  public:
   explicit FullDisk(int room) : room_(room) {}
-  void message(const GcmcMessage& m) override { spoken += to_line(m); }
+  void message(const Diagnostic& m) override { spoken += gcmc_line(m); }
   void text(std::string_view) override { ++pieces; }
   bool is_broken() const override { return pieces > room_; }
   int pieces = 0;

@@ -247,9 +247,9 @@ TEST(GcmcPath, LiteralLinesThatMoveOrChangeModesAreRefused) {
     const auto ran = run(std::string("goto([1]);\n literal(\"") + line + "\\n\"); goto([2]);");
     ASSERT_EQ(ran.messages.size(), 1u) << line;
     EXPECT_EQ(ran.messages[0].code, Code::gcmc_literal) << line;
-    EXPECT_EQ(ran.messages[0].where.line, 2u) << line;
+    EXPECT_EQ(spot_of(ran.messages[0]).line, 2u) << line;
     EXPECT_EQ(ran.run.path.size(), 1u) << line;
-    EXPECT_NE(ran.messages[0].text.find(line), std::string::npos) << ran.messages[0].text;
+    EXPECT_NE(ran.messages[0].message.find(line), std::string::npos) << ran.messages[0].message;
   }
   EXPECT_EQ(messages_of("literal(\"G91\\n\");"),
             "error: The line \"G91\" cannot be part of a toolpath: G91 changes the distance mode");

@@ -201,11 +201,11 @@ Value undefined(const Call&) { return Value::undef(); }
 
 // ---- saying
 
-template <GcmcSaid said>
+template <Severity severity>
 Value say(const Call& call) {
   std::string text = joined_text(call);
   if (!text.empty() && text.back() == '\n') text.pop_back();  // the line is ended anyway
-  call.vm.say(said, std::move(text));
+  call.vm.say(severity, std::move(text));
   return Value::undef();
 }
 
@@ -262,9 +262,9 @@ const std::vector<Builtin>& convert_builtins() {
       {"issvg", is_target<GcmcTarget::svg>, 0, 0},
       {"isdxf", is_target<GcmcTarget::dxf>, 0, 0},
       {"undef", undefined, 0, 0},
-      {"message", say<GcmcSaid::message>, 0, kAnyCount},
-      {"warning", say<GcmcSaid::script_warning>, 0, kAnyCount},
-      {"error", say<GcmcSaid::script_error>, 0, kAnyCount},
+      {"message", say<Severity::note>, 0, kAnyCount},
+      {"warning", say<Severity::warning>, 0, kAnyCount},
+      {"error", say<Severity::error>, 0, kAnyCount},
       {"comment", comment, 0, kAnyCount},
       {"literal", literal, 0, kAnyCount},
   };

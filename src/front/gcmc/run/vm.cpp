@@ -102,47 +102,38 @@ TextSpot Vm::spot(std::size_t instruction) const {
   return {sources_[place.file].name, place.line, place.column};
 }
 
-void Vm::report(GcmcSaid said, Code code, std::string text, std::string hint) {
-  if (said != GcmcSaid::error) {
+void Vm::report(Severity severity, Code code, std::string text, std::string hint) {
+  if (severity != Severity::error || code == Code::gcmc_script) {
     show_life();
     count_output(text.size());
   }
-  GcmcMessage message;
-  message.said = said;
-  message.code = code;
-  message.where = spot(current_instruction());
-  message.text = std::move(text);
-  message.hint = std::move(hint);
-  for (std::size_t i = depth(); i-- > 0 && message.calls.size() < kMostCallNotes;) {
-    const std::string name = name_text(code_of(*frames_[i].callee).name);
-    message.calls.push_back({spot(call_site(i)), fmt::format("in the call of {}()", name)});
-  }
-  output_.message(message);
-  if (said == GcmcSaid::message) return;
   Diagnostic d;
-  d.severity =
-      said == GcmcSaid::warning || said == GcmcSaid::script_warning ? Severity::warning : Severity::error;
+  d.severity = severity;
   d.code = code;
-  d.where = message.where;
-  d.message = message.text;
-  d.notes = std::move(message.calls);
-  d.hint = message.hint;
-  diagnostics_.add(std::move(d));
+  d.where = spot(current_instruction());
+  d.message = std::move(text);
+  d.hint = std::move(hint);
+  for (std::size_t i = depth(); i-- > 0 && d.notes.size() < kMostCallNotes;) {
+    const std::string name = name_text(code_of(*frames_[i].callee).name);
+    d.notes.push_back({spot(call_site(i)), fmt::format("in the call of {}()", name)});
+  }
+  output_.message(d);
+  if (severity != Severity::note) diagnostics_.add(std::move(d));  // message() is for the user alone
 }
 
 void Vm::say_warning(Code code, std::string text, std::string hint) {
   ++warnings_;
-  report(GcmcSaid::warning, code, std::move(text), std::move(hint));
+  report(Severity::warning, code, std::move(text), std::move(hint));
 }
 
 void Vm::say_error(Code code, std::string text, std::string hint) {
-  report(GcmcSaid::error, code, std::move(text), std::move(hint));
+  report(Severity::error, code, std::move(text), std::move(hint));
 }
 
-void Vm::say(GcmcSaid said, std::string text) {
-  if (said == GcmcSaid::script_error) ++script_errors_;
-  if (said == GcmcSaid::script_warning) ++warnings_;
-  report(said, Code::gcmc_script, std::move(text), {});
+void Vm::say(Severity severity, std::string text) {
+  if (severity == Severity::error) ++script_errors_;
+  if (severity == Severity::warning) ++warnings_;
+  report(severity, Code::gcmc_script, std::move(text), {});
 }
 
 void Vm::fail_unknown(std::string_view kind, NameId name, const std::vector<std::string>& known) {

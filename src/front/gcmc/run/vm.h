@@ -52,7 +52,7 @@ class Vm final : public Runtime {
   int run();
 
   /// message(), warning() and error() of the program itself.
-  void say(GcmcSaid said, std::string text);
+  void say(Severity severity, std::string text);
 
   Machine& machine() { return machine_; }
   const GcmcOptions& options() const { return options_; }
@@ -165,7 +165,7 @@ class Vm final : public Runtime {
   Value result_of(const Instruction& in);
   [[noreturn]] void fail_undefined_function(std::int32_t index, std::string hint);
   Value& writable_target(std::int32_t reference);
-  void report(GcmcSaid said, Code code, std::string text, std::string hint);
+  void report(Severity severity, Code code, std::string text, std::string hint);
 
   const Tree& tree_;
   const std::deque<Source>& sources_;

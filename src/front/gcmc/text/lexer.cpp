@@ -137,7 +137,7 @@ void Lexer::skip_block_comment() {
     else
       ++at_;
   }
-  report_.fatal(place(), Code::gcmc_word, "Unexpected EOF");
+  report_.fatal(place(), Code::gcmc_text_end, "Unexpected EOF");
 }
 
 void Lexer::skip_space() {
@@ -340,7 +340,7 @@ void Lexer::unended_string() {
     report_.error(place(), Code::gcmc_word, "Unterminated string");
   }
   if (ended())
-    report_.fatal(place(), Code::gcmc_word, "Unexpected EOF");
+    report_.fatal(place(), Code::gcmc_text_end, "Unexpected EOF");
   else
     --at_;
 }
