@@ -93,14 +93,14 @@ class Listener final : public GcmcOutput {
  private:
   std::string explanation(const Diagnostic& m) {
     std::string text;
-    const auto* spot = std::get_if<TextSpot>(&m.where);
-    const std::string line = spot == nullptr ? "" : line_of(*spot);
-    if (!line.empty() && spot->column > 0) {
-      // Errors of syntax are told behind the word they mean.
+    const auto* where = std::get_if<TextSpot>(&m.where);
+    const std::string line = where == nullptr ? "" : line_of(*where);
+    if (!line.empty() && where->column > 0) {
+      // Errors of syntax are reported after the word they mean.
       const bool behind = m.code == Code::gcmc_syntax || m.code == Code::gcmc_word ||
                           m.code == Code::gcmc_text_end || m.code == Code::gcmc_defined_twice;
       const std::size_t at =
-          std::min<std::size_t>(spot->column - (behind && spot->column > 1 ? 2 : 1), line.size());
+          std::min<std::size_t>(where->column - (behind && where->column > 1 ? 2 : 1), line.size());
       std::string space = line.substr(0, at);
       for (char& c : space) c = c == '\t' ? '\t' : ' ';
       text += fmt::format("    {}\n    {}^\n", line, space);
@@ -111,17 +111,17 @@ class Listener final : public GcmcOutput {
     return text;
   }
 
-  std::string line_of(const TextSpot& spot) {
+  std::string line_of(const TextSpot& where) {
     constexpr std::size_t kLongest = 200;
-    auto known = texts_.find(spot.file);
+    auto known = texts_.find(where.file);
     if (known == texts_.end()) {
       Diagnostics ignored;
-      const auto file = InputFile::open(spot.file, ignored);
-      known = texts_.emplace(spot.file, file ? std::string(file->bytes()) : std::string()).first;
+      const auto file = InputFile::open(where.file, ignored);
+      known = texts_.emplace(where.file, file ? std::string(file->bytes()) : std::string()).first;
     }
     const std::string& text = known->second;
     std::size_t begin = 0;
-    for (std::uint32_t i = 1; i < spot.line; ++i) {
+    for (std::uint32_t i = 1; i < where.line; ++i) {
       begin = text.find('\n', begin);
       if (begin == std::string::npos) return {};
       ++begin;
@@ -161,12 +161,12 @@ int check(const GcmcCommandLine& line, std::string_view text, Listener& listener
   if (line.json) {
     Json list = Json::array();
     for (const Diagnostic& d : diagnostics.list()) {
-      const auto* spot = std::get_if<TextSpot>(&d.where);
+      const auto* where = std::get_if<TextSpot>(&d.where);
       list.push_back({{"code", static_cast<int>(d.code)},
-                      {"column", spot != nullptr ? spot->column : 0},
-                      {"file", spot != nullptr ? spot->file : ""},
+                      {"column", where != nullptr ? where->column : 0},
+                      {"file", where != nullptr ? where->file : ""},
                       {"hint", d.hint},
-                      {"line", spot != nullptr ? spot->line : 0},
+                      {"line", where != nullptr ? where->line : 0},
                       {"message", d.message},
                       {"name", name_of(d.code)},
                       {"severity", to_string(d.severity)}});
