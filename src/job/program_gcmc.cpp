@@ -25,12 +25,20 @@ bool looks_like_gcmc(std::string_view text) {
   return false;
 }
 
-/// The stock that the program's comments describe, as those of G-code do.
-std::optional<Stock> stock_of(const Toolpath& path, Diagnostics& diagnostics) {
-  StockComments comments;
-  for (std::size_t i = 0; i < path.size(); ++i)
-    if (path[i].kind() == StepKind::note) comments.read(path.text(i), 1.0, path.origin_of(i), diagnostics);
-  return comments.stock();
+/// Takes the tools and the stock from the program's comments, as those of G-code do.
+void read_comments(Program& program, Diagnostics& diagnostics) {
+  StockComments stock;
+  ToolComments tools(program.tools);
+  const Toolpath& path = program.path;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i].is_motion()) tools.motion();
+    if (path[i].kind() == StepKind::tool_change) tools.tool_change(path[i].tool_change().tool, diagnostics);
+    if (path[i].kind() != StepKind::note) continue;
+    if (stock.read(path.text(i), 1.0, path.origin_of(i), diagnostics)) continue;
+    tools.read(path.text(i), 1.0, path.origin_of(i), diagnostics);
+  }
+  tools.finish(diagnostics);
+  program.stock = stock.stock();
 }
 
 /// The files among the texts of a run: not the defines, nor Kerf's own library.
@@ -53,9 +61,9 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   NoOutput output;
   GcmcRun run = run_gcmc(file.bytes(), options, output, diagnostics, progress);
   Program program;
-  program.stock = stock_of(run.path, diagnostics);
   program.files = files_of(run, options.file_name);
   program.path = std::move(run.path);
+  read_comments(program, diagnostics);
   return program;
 }
 

@@ -1,6 +1,7 @@
 """A gcmc program read directly gives what the G-code gives that `kerf gcmc` writes for it: the same motions,
 with the same tool and spindle, and in the simulator the same volumes and hazards."""
 import json
+import math
 import os
 from pathlib import Path
 
@@ -100,6 +101,30 @@ def test_both_routes_agree_on_given_programs(kerf, tmp_path, given):
     text = same_motions(kerf, source, tmp_path)
     if text is not None:
         same_results(kerf, source, text)
+
+
+def test_comments_describe_tools_and_stock_on_both_routes(kerf, program, tmp_path):
+    source = program("""
+        comment("stockMin:0mm, 0mm, -6mm"); comment("stockMax:40mm, 30mm, 0mm");
+        comment("TOOL/MILL, 6, 0, 20, 0");
+        toolchange(7);
+        spindle(1000); feedrate(100);
+        goto([10, 10, 5]); move([-, -, -2]); move([20]); goto([-, -, 5]);
+        toolchange(8);
+        comment("TOOL/MILL, 4, 2, 20, 0");
+        spindle(1000);
+        goto([30, 10]); move([-, -, -2]); goto([-, -, 5]);
+        """, "p.gcmc")
+    assert kerf("gcmc", "-o", tmp_path / "p.ngc", source).status == 0
+    a, b = (kerf("simulate", "--json", path).json for path in (source, tmp_path / "p.ngc"))
+    tools = [(t["number"], t["name"]) for t in a["tools"]]
+    assert [number for number, _ in tools] == [7, 8]
+    assert tools == [(t["number"], t["name"]) for t in b["tools"]]
+    assert a["stock"] == b["stock"] and near(a["removed_mm3"], b["removed_mm3"])
+    slot, half_ball = 2 * (60 + 9 * math.pi), 8 * math.pi * 2 / 3
+    assert a["removed_mm3"] == pytest.approx(slot + half_ball, rel=0.02)
+    unused = program('move([1]); comment("TOOL/MILL, 6, 0, 20, 0");', "q.gcmc")
+    assert "tool_comment_unused" in kerf("info", "--json", unused).codes()
 
 
 @pytest.mark.parametrize("line, why", [

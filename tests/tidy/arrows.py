@@ -69,7 +69,7 @@ PUBLIC = {
     "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
              "number.h", "names.h", "codes.def"],
     "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h", "mesh_check.h"],
-    "tool": ["tool.h", "material.h"],
+    "tool": ["tool.h", "tool_comments.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
     "op": ["drill.h"],

@@ -53,17 +53,7 @@ void Interpreter::read_comment(const Comment& comment) {
     return;
   }
   if (read_tool_remark(text, talker_.spot(comment.column))) return;
-  if (!begins_with(text, "TOOL")) return;
-  const TextSpot where = talker_.spot(comment.column);
-  const auto shape = read_tool_comment(text, modes_.scale, where, talker_.diagnostics());
-  if (!shape) return;
-  if (undescribed_tool_) {
-    describe_tool(*undescribed_tool_, *shape, where);
-    undescribed_tool_.reset();
-    return;
-  }
-  pending_shape_ = shape;
-  pending_spot_ = where;
+  tool_comments_.read(text, modes_.scale, talker_.spot(comment.column), talker_.diagnostics());
 }
 
 /// True for a remark that tells a tool. Those of a program's head wait until its units are known.
@@ -88,18 +78,13 @@ void Interpreter::use_tool_remark(std::string_view text, const TextSpot& where) 
   const std::optional<ToolRemark> remark = read_remark(text, modes_.scale);
   const int number = remark ? remark->number.value_or(0) : 0;
   if (!remark || program_.tools.count(number) != 0) return;
-  describe_tool(number, remark->shape, where);
+  tool_comments_.describe(number, remark->shape, where, talker_.diagnostics());
   const auto tool = program_.tools.find(number);
   if (tool == program_.tools.end()) return;
   tool->second.description = std::string(text);
   talker_.diagnostics().note(Code::tool_from_remark, where,
                              fmt::format("tool {} was taken from this remark: {}, diameter {:g} mm", number,
                                          name_of(tool->second.shape), tool->second.diameter.mm()));
-}
-
-void Interpreter::describe_tool(int number, const ToolShape& shape, const TextSpot& where) {
-  if (auto tool = make_tool(number, shape, ToolBody{}, where, talker_.diagnostics()))
-    program_.tools.insert_or_assign(number, std::move(*tool));
 }
 
 }  // namespace kerf::gcode

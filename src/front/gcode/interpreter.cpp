@@ -23,6 +23,7 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
                          Talker& talker)
     : program_(program),
       path_(program.path),
+      tool_comments_(program.tools),
       talker_(talker),
       options_(options),
       parameters_(*this),
@@ -148,9 +149,7 @@ void Interpreter::execute() {
 
 void Interpreter::finish() {
   program_.stock = stock_.stock();
-  if (pending_shape_)
-    talker_.diagnostics().warning(Code::tool_comment_unused, pending_spot_,
-                                  "the comment describes a tool, but no tool change follows");
+  tool_comments_.finish(talker_.diagnostics());
   leave_system();
   tell_silent_spindle();
   program_.cut_short = full_ || flow_->gave_up();

@@ -26,6 +26,7 @@
 #include "kerf/gcode.h"
 #include "kerf/geometry.h"
 #include "kerf/progress.h"
+#include "kerf/tool_comments.h"
 
 namespace kerf::gcode {
 
@@ -152,7 +153,6 @@ class Interpreter : public SystemValues {
   bool read_tool_remark(std::string_view text, const TextSpot& where);
   void use_waiting_remarks();
   void use_tool_remark(std::string_view text, const TextSpot& where);
-  void describe_tool(int number, const ToolShape& shape, const TextSpot& where);
 
   // settings.cpp
   void set_feed_mode();
@@ -289,6 +289,7 @@ class Interpreter : public SystemValues {
 
   GcodeProgram& program_;
   Toolpath& path_;
+  ToolComments tool_comments_;
   Talker& talker_;
   const GcodeReadOptions& options_;
   Parameters parameters_;
@@ -336,9 +337,6 @@ class Interpreter : public SystemValues {
   Compensation compensation_;
 
   StockComments stock_;
-  std::optional<ToolShape> pending_shape_;  // described, and no tool change since
-  TextSpot pending_spot_;
-  std::optional<int> undescribed_tool_;  // changed to, not described, no motion since
   std::vector<std::pair<std::string, TextSpot>> waiting_remarks_;
   std::optional<std::pair<Tenths, TextSpot>> silent_spindle_;  // the first M3 or M4 with no S word so far
   bool units_told_ = false;

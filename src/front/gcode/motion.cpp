@@ -281,7 +281,7 @@ void Interpreter::arrive(const Place& to) {
   rests_ = false;
   here_ = to;
   here_.reference_axes = 0;
-  undescribed_tool_.reset();
+  tool_comments_.motion();
   if (moved_) return;
   moved_ = true;
   use_waiting_remarks();

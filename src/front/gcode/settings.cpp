@@ -89,11 +89,7 @@ void Interpreter::change_tool() {
   const int number = modes_.selected_tool.value_or(0);
   add(step::ToolChange{number});
   modes_.tool = number;
-  undescribed_tool_ = number;
-  if (!pending_shape_) return;
-  describe_tool(number, *pending_shape_, pending_spot_);
-  pending_shape_.reset();
-  undescribed_tool_.reset();
+  tool_comments_.tool_change(number, talker_.diagnostics());
 }
 
 void Interpreter::turn_spindle() {

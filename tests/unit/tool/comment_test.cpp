@@ -1,8 +1,11 @@
 // Tool comments as real programs write them, their writing, and the choice between comment and table.
 #include <cmath>
 #include <gtest/gtest.h>
+#include <map>
+#include <string>
 
 #include "kerf/tool.h"
+#include "kerf/tool_comments.h"
 
 namespace kerf {
 namespace {
@@ -210,6 +213,34 @@ TEST(ChooseTool, OneOrNone) {
   EXPECT_EQ(choose_tool(nullptr, &tool, {}, diagnostics), &tool);
   EXPECT_EQ(choose_tool(nullptr, nullptr, {}, diagnostics), nullptr);
   EXPECT_TRUE(diagnostics.list().empty());
+}
+
+TEST(ToolComments, BelongToTheChangeBeforeThemOrToTheNext) {
+  std::map<int, Tool> tools;
+  Diagnostics diagnostics;
+  ToolComments comments(tools);
+  const auto mill = [&](const char* diameter) {
+    comments.read(std::string(" tool/mill, ") + diameter + ", 0, 10, 0 ", 1.0, {}, diagnostics);
+  };
+  mill("1");  // of the next change
+  comments.tool_change(5, diagnostics);
+  mill("2");  // 5 is described: of the next change
+  comments.motion();
+  comments.tool_change(6, diagnostics);
+  comments.tool_change(7, diagnostics);
+  mill("3");  // of the change before, as nothing moved since
+  comments.tool_change(8, diagnostics);
+  comments.motion();
+  comments.read("milling tool", 1.0, {}, diagnostics);
+  EXPECT_TRUE(diagnostics.list().empty());
+  mill("4");  // of no change
+  comments.finish(diagnostics);
+  ASSERT_EQ(diagnostics.list().size(), 1u);
+  EXPECT_EQ(diagnostics.list()[0].code, Code::tool_comment_unused);
+  ASSERT_EQ(tools.size(), 3u);
+  EXPECT_NEAR(tools.at(5).diameter.mm(), 1.0, 1e-9);
+  EXPECT_NEAR(tools.at(6).diameter.mm(), 2.0, 1e-9);
+  EXPECT_NEAR(tools.at(7).diameter.mm(), 3.0, 1e-9);
 }
 
 }  // namespace
