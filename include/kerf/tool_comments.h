@@ -11,15 +11,15 @@
 
 namespace kerf {
 
-/// Follows a program in its order. A comment (see read_tool_comment) describes the tool of the last tool change if
-/// nothing moved since, else that of the next one.
+/// Follows a program in its order. A comment (see read_tool_comment) describes the tool of the last tool
+/// change if nothing moved since, else that of the next one.
 class ToolComments {
  public:
   /// Described tools are added to `tools`, which must outlive this.
   explicit ToolComments(std::map<int, Tool>& tools) : tools_(tools) {}
 
-  /// Reads a comment without its brackets; others than tool comments have no effect. Lengths are in mm times `scale`
-  /// (25.4 in a program in inches).
+  /// Reads a comment without its parentheses; others than tool comments have no effect. Lengths are in mm
+  /// times `scale` (25.4 in a program in inches).
   void read(std::string_view comment, double scale, const Origin& where, Diagnostics& diagnostics);
   void tool_change(int number, Diagnostics& diagnostics);
   void motion() { undescribed_.reset(); }

@@ -6,6 +6,7 @@
 #include "job/front_ends.h"
 
 #include "kerf/gcmc.h"
+#include "kerf/tool_comments.h"
 
 namespace kerf {
 namespace {

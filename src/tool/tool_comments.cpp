@@ -23,7 +23,8 @@ bool may_describe(std::string_view text) {
 
 }  // namespace
 
-void ToolComments::read(std::string_view comment, double scale, const Origin& where, Diagnostics& diagnostics) {
+void ToolComments::read(std::string_view comment, double scale, const Origin& where,
+                        Diagnostics& diagnostics) {
   while (!comment.empty() && is_blank(comment.front())) comment.remove_prefix(1);
   while (!comment.empty() && is_blank(comment.back())) comment.remove_suffix(1);
   if (comment.size() > kMaxComment || !may_describe(comment)) return;
@@ -53,7 +54,8 @@ void ToolComments::finish(Diagnostics& diagnostics) {
   pending_.reset();
 }
 
-void ToolComments::describe(int number, const ToolShape& shape, const Origin& where, Diagnostics& diagnostics) {
+void ToolComments::describe(int number, const ToolShape& shape, const Origin& where,
+                            Diagnostics& diagnostics) {
   if (auto tool = make_tool(number, shape, ToolBody{}, where, diagnostics))
     tools_.insert_or_assign(number, std::move(*tool));
 }
