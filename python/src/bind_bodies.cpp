@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "bindings.h"
+#include "program_arguments.h"
 #include "simulation_result.h"
 
 #include "kerf/compare.h"
@@ -73,7 +74,7 @@ py::list contacts_of(const Toolpath& path, const std::vector<std::pair<std::stri
   return list;
 }
 
-py::dict compare_with(const Result& result, const Stock& target, double tolerance) {
+py::dict compare_with(const MillingResult& result, const Stock& target, double tolerance) {
   if (!target.body) throw py::value_error("target must be a mesh, as load_stock reads it");
   Diagnostics diagnostics;
   SignalProgress progress;
@@ -81,7 +82,7 @@ py::dict compare_with(const Result& result, const Stock& target, double toleranc
   {
     const CompareOptions options{.tolerance = mm(finite_number(tolerance, "tolerance"))};
     const py::gil_scoped_release release;
-    c = compare(result.simulation.workpiece, *target.body, options, diagnostics, &progress);
+    c = compare(result.simulation().workpiece, *target.body, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
@@ -104,55 +105,54 @@ py::dict compare_with(const Result& result, const Stock& target, double toleranc
   return out;
 }
 
-struct TurnedResult {
-  RotarySimulation simulation;
-  std::shared_ptr<const Toolpath> path;
-};
-
-TurnedResult run_rotary(const Toolpath& path, double diameter, const py::object& x, const py::object& axis,
+RotaryResult run_rotary(const Toolpath& path, double diameter, const py::object& x, const py::object& axis,
                         const std::optional<ToolTable>& tools, double resolution) {
   const Point2 ends = to_point2(x, "x"), yz = to_point2(axis, "axis");
   const RoundBar bar{finite_number(diameter, "diameter"), ends.x, ends.y, yz.x, yz.y};
   const SimulationOptions options = options_of(resolution);
   Diagnostics diagnostics;
   SignalProgress progress;
-  auto kept = std::make_shared<const Toolpath>(path);
+  Job job;
+  job.kind = JobKind::rotary;
+  job.program = to_program(py::cast(path));
+  job.tools = tools ? *tools : built_in_tools();
+  job.bar = bar;
   std::optional<RotarySimulation> simulation;
   {
     const py::gil_scoped_release release;
-    simulation =
-        simulate_rotary(*kept, tools ? *tools : built_in_tools(), bar, options, diagnostics, &progress);
+    simulation = simulate_rotary(job.program.path, job.tools, bar, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return {std::move(*simulation), std::move(kept)};
+  return result_of<RotaryResult>(std::move(job), std::move(*simulation));
 }
 
-py::tuple rotary_mesh(const TurnedResult& result) {
+py::tuple rotary_mesh(const RotaryResult& result) {
   Mesh mesh;
   Diagnostics diagnostics;
   {
     const py::gil_scoped_release release;
-    mesh = extract_mesh(result.simulation.workpiece);
-    verify_mesh(mesh, mesh_volume(result.simulation.workpiece), diagnostics);
+    mesh = extract_mesh(result.simulation().workpiece);
+    verify_mesh(mesh, mesh_volume(result.simulation().workpiece), diagnostics);
   }
   raise_or_warn(diagnostics);
   return mesh_tuple(mesh);
 }
 
 void bind_rotary(py::module_& m) {
-  py::class_<TurnedResult>(m, "RotarySimulation", "What a toolpath left of a bar. Made by `simulate_rotary`.")
+  py::class_<RotaryResult, JobResult>(m, "RotarySimulation",
+                                      "What a toolpath left of a bar. Made by `simulate_rotary`.")
       .def_property_readonly(
-          "stock_mm3", [](const TurnedResult& r) { return r.simulation.stock.mm3(); },
+          "stock_mm3", [](const RotaryResult& r) { return r.simulation().stock.mm3(); },
           "float: volume before, mm3.")
       .def_property_readonly(
-          "removed_mm3", [](const TurnedResult& r) { return r.simulation.removed.mm3(); },
+          "removed_mm3", [](const RotaryResult& r) { return r.simulation().removed.mm3(); },
           "float: volume cut away, mm3.")
       .def_property_readonly(
           "hazards",
-          [](const TurnedResult& r) {
+          [](const RotaryResult& r) {
             py::list list;
-            for (const Hazard& hazard : r.simulation.hazards) list.append(describe(*r.path, hazard));
+            for (const Hazard& hazard : r.simulation().hazards) list.append(describe(r.path(), hazard));
             return list;
           },
           "list of dict: moves that would break a tool or a part, in order.")
@@ -193,11 +193,11 @@ void bind_bodies(py::module_& m) {
   m.def("_read_stock", &read_stock, py::arg("data"), py::arg("name"));
   m.def("_moved_stock", &moved_stock, py::arg("stock"), py::arg("flip"), py::arg("across"), py::arg("z"),
         py::arg("shift"));
-  m.def("_write_left", [](const Result& result) {
-    return py::bytes(write_left_file(left_columns(result.simulation.workpiece)));
+  m.def("_write_left", [](const MillingResult& result) {
+    return py::bytes(write_left_file(left_columns(result.simulation().workpiece)));
   });
-  m.def("_left_stock", [](const Result& result) {
-    return stock_of(make_columns_body(left_columns(result.simulation.workpiece)));
+  m.def("_left_stock", [](const MillingResult& result) {
+    return stock_of(make_columns_body(left_columns(result.simulation().workpiece)));
   });
   m.def("fixture_contacts", &contacts_of, py::arg("path"), py::arg("fixtures"), py::arg("tools") = py::none(),
         py::arg("resolution") = 0.0,

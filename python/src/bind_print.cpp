@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "bindings.h"
+#include "program_arguments.h"
 #include "simulation_result.h"
 
 #include "kerf/limits.h"
@@ -12,11 +13,6 @@ namespace kerf::python {
 namespace py = pybind11;
 
 namespace {
-
-struct PrintResult {
-  PrintSimulation simulation;
-  std::shared_ptr<const Toolpath> path;
-};
 
 PrintResult run(const Toolpath& path, double resolution, long long threads,
                 const std::optional<double>& layer_height, double bed) {
@@ -31,15 +27,15 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
   options.bed = mm(number_within(bed, -limits::kMaxStockSize, limits::kMaxStockSize, "bed", "mm"));
   Diagnostics diagnostics;
   SignalProgress progress;
-  auto kept = std::make_shared<const Toolpath>(path);
+  Job job = make_print_job(to_program(py::cast(path)));
   std::optional<PrintSimulation> simulation;
   {
     const py::gil_scoped_release release;
-    simulation = simulate_print(*kept, options, diagnostics, &progress);
+    simulation = simulate_print(job.program.path, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return {std::move(*simulation), std::move(kept)};
+  return result_of<PrintResult>(std::move(job), std::move(*simulation));
 }
 
 void put_volumes(py::dict& d, const PrintVolumes& v) {
@@ -55,14 +51,14 @@ void put_volumes(py::dict& d, const PrintVolumes& v) {
 
 py::dict totals(const PrintResult& r) {
   py::dict d;
-  put_volumes(d, r.simulation.total);
-  d["blobs_mm3"] = r.simulation.total.blobs.mm3();
+  put_volumes(d, r.simulation().total);
+  d["blobs_mm3"] = r.simulation().total.blobs.mm3();
   return d;
 }
 
 py::list layers_of(const PrintResult& r) {
   py::list list;
-  for (const PrintLayer& layer : r.simulation.layers) {
+  for (const PrintLayer& layer : r.simulation().layers) {
     py::dict d;
     d["z_mm"] = layer.z.mm();
     d["height_mm"] = layer.height.mm();
@@ -75,7 +71,7 @@ py::list layers_of(const PrintResult& r) {
 
 py::list hazards_of(const PrintResult& r) {
   py::list list;
-  for (const PrintHazard& hazard : r.simulation.hazards) {
+  for (const PrintHazard& hazard : r.simulation().hazards) {
     py::dict d;
     d["kind"] = std::string(to_string(hazard.kind));
     d["step"] = hazard.step;
@@ -84,7 +80,7 @@ py::list hazards_of(const PrintResult& r) {
     d["depth_mm"] = hazard.depth.mm();
     d["length_mm"] = hazard.length.mm();
     d["volume_mm3"] = hazard.volume.mm3();
-    d["origin"] = to_string(r.path->origin_of(hazard.step));
+    d["origin"] = to_string(r.path().origin_of(hazard.step));
     list.append(d);
   }
   return list;
@@ -96,9 +92,9 @@ py::tuple mesh_of(const PrintResult& r, bool grooves) {
   {
     const py::gil_scoped_release release;
     Length layer;
-    for (const PrintLayer& l : r.simulation.layers) layer = std::max(layer, l.height);
-    const ColumnGrid closed = grooves ? ColumnGrid{} : without_grooves(r.simulation.columns, layer);
-    const ColumnGrid& columns = grooves ? r.simulation.columns : closed;
+    for (const PrintLayer& l : r.simulation().layers) layer = std::max(layer, l.height);
+    const ColumnGrid closed = grooves ? ColumnGrid{} : without_grooves(r.simulation().columns, layer);
+    const ColumnGrid& columns = grooves ? r.simulation().columns : closed;
     mesh = extract_print_mesh(columns, {});
     verify_mesh(mesh, mesh_volume(columns), diagnostics);
   }
@@ -107,12 +103,13 @@ py::tuple mesh_of(const PrintResult& r, bool grooves) {
 }
 
 void bind_result(py::module_& m) {
-  py::class_<PrintResult>(m, "PrintSimulation", "What a printing program builds. Made by `simulate_print`.")
+  py::class_<PrintResult, JobResult>(m, "PrintSimulation",
+                                     "What a printing program builds. Made by `simulate_print`.")
       .def("__repr__",
            [](const PrintResult& r) {
-             return "<kerf.PrintSimulation: " + number_text(r.simulation.total.laid.mm3(), 3) + " mm3 in " +
-                    std::to_string(r.simulation.layers.size()) + " layers, " +
-                    std::to_string(r.simulation.hazards.size()) + " hazards>";
+             return "<kerf.PrintSimulation: " + number_text(r.simulation().total.laid.mm3(), 3) + " mm3 in " +
+                    std::to_string(r.simulation().layers.size()) + " layers, " +
+                    std::to_string(r.simulation().hazards.size()) + " hazards>";
            })
       .def_property_readonly("total", &totals, R"(dict: figures of the whole print, mm3 and mm.
 
@@ -126,12 +123,12 @@ the round free ends; `blobs_mm3` pushed on the spot; `hollow_mm3` empty height b
           "hazards", &hazards_of,
           "list of dict: moves that hit material, roads that nothing holds, blobs; in order.")
       .def_property_readonly(
-          "roads", [](const PrintResult& r) { return r.simulation.roads; }, "int: extruding moves.")
+          "roads", [](const PrintResult& r) { return r.simulation().roads; }, "int: extruding moves.")
       .def_property_readonly(
-          "resolution_mm", [](const PrintResult& r) { return r.simulation.columns.pitch; },
+          "resolution_mm", [](const PrintResult& r) { return r.simulation().columns.pitch; },
           "float: distance of the columns, mm.")
       .def_property_readonly(
-          "seconds", [](const PrintResult& r) { return r.simulation.seconds; },
+          "seconds", [](const PrintResult& r) { return r.simulation().seconds; },
           "float: time the simulation took.")
       .def("mesh", &mesh_of, py::arg("grooves") = false,
            R"(Surface as `Simulation.mesh` gives it.

@@ -307,7 +307,7 @@ RegionOptions options_of(double tolerance, const char* call) {
   RegionOptions options;
   options.tolerance.weld = mm(finite_number(tolerance, "tolerance"));
   options.name = call;
-  options.where = script_spot(call);
+  options.where = script_location(call);
   return options;
 }
 
@@ -498,7 +498,7 @@ void bind_point_fit(py::module_& m, const char* name, const char* points_name, c
       name,
       [name, fit](const py::object& points, double within) {
         const std::vector<Point2> read = points_of(points);
-        const FitOptions options{name, script_spot(name)};
+        const FitOptions options{name, script_location(name)};
         return list_of(compute([&](Diagnostics& d) { return fit(read, mm(within), options, d); }));
       },
       py::arg(points_name), py::arg("within"), text);
@@ -518,7 +518,7 @@ void bind_fits(py::module_& m) {
       [](const py::object& control, const std::vector<double>& knots, int degree,
          const std::vector<double>& weights, double within) {
         const Spline spline{degree, points_of(control), knots, weights};
-        const FitOptions options{"fit_spline", script_spot("fit_spline")};
+        const FitOptions options{"fit_spline", script_location("fit_spline")};
         return list_of(compute([&](Diagnostics& d) { return fit_spline(spline, mm(within), options, d); }));
       },
       py::arg("control"), py::arg("knots"), py::kw_only(), py::arg("degree") = 3,

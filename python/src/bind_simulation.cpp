@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "bindings.h"
+#include "program_arguments.h"
 #include "simulation_result.h"
 
 #include "kerf/exact_mesh.h"
@@ -19,39 +20,70 @@ namespace py = pybind11;
 
 namespace {
 
-Result run(const Toolpath& path, const Stock* stock, const std::optional<ToolTable>& tools, double resolution,
-           long long threads) {
-  if (stock == nullptr)
+/// A job of a toolpath with exactly these tools and this stock.
+Job plain_job(const Toolpath& path, const py::object& stock, const py::object& tools) {
+  if (!py::isinstance<Stock>(stock))
     throw py::type_error("stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation)");
-  if (finite_number(resolution, "resolution") < 0.0)
-    throw py::value_error("resolution must be 0 (automatic) or above, mm");
+  if (!tools.is_none() && !py::isinstance<ToolTable>(tools))
+    throw py::type_error("tools must be a ToolTable for a Toolpath");
+  Job job;
+  job.program = to_program(py::cast(path));
+  job.stock = py::cast<const Stock&>(stock);
+  job.tools = tools.is_none() ? built_in_tools() : py::cast<const ToolTable&>(tools);
+  return job;
+}
+
+MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, const py::object& tools,
+                                double resolution, long long threads) {
+  Job job = plain_job(path, stock, tools);
   SimulationOptions options;
-  options.resolution = mm(resolution);
-  options.threads = static_cast<unsigned>(whole_within(threads, 0, limits::kMaxThreads, "threads"));
+  options.resolution = to_resolution(resolution);
+  options.threads = to_threads(threads);
   Diagnostics diagnostics;
   SignalProgress progress;
-  auto kept = std::make_shared<const Toolpath>(path);
-  auto used = std::make_shared<const ToolTable>(tools ? *tools : built_in_tools());
   std::optional<Simulation> simulation;
   {
     const py::gil_scoped_release release;
-    simulation = simulate(*kept, *used, *stock, options, diagnostics, &progress);
+    simulation = simulate(job.program.path, job.tools, *job.stock, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return {std::move(*simulation), std::move(kept), std::move(used), *stock};
+  return result_of<MillingResult>(std::move(job), std::move(*simulation));
 }
 
-py::tuple mesh_arrays(const Result& result, bool sharp) {
+MillingResult simulate_program(const Program& program, const py::object& stock, const py::object& tools,
+                               double resolution, long long threads) {
+  if (is_print(program.path)) throw py::type_error("the program prints: use simulate_print");
+  RunOptions options;
+  options.resolution = to_resolution(resolution);
+  options.threads = to_threads(threads);
+  Diagnostics made, diagnostics;
+  Job job = make_job(program, to_settings(tools, stock, {}), UnknownTool::error, made);
+  raise_or_warn(made);
+  SignalProgress progress;
+  std::optional<JobRun> run;
+  {
+    const py::gil_scoped_release release;
+    run = run_job(job, options, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  MillingResult result;
+  result.job = std::make_shared<const Job>(std::move(job));
+  result.run = std::make_shared<const JobRun>(std::move(*run));
+  return result;
+}
+
+py::tuple mesh_arrays(const MillingResult& result, bool sharp) {
   Mesh mesh;
   Diagnostics diagnostics;
   SignalProgress progress;
   {
     const py::gil_scoped_release release;
-    const MeshColumns columns(result.simulation.workpiece);
+    const MeshColumns columns(result.simulation().workpiece);
     if (sharp) {
-      mesh = extract_exact_mesh(columns, {}, result.simulation.workpiece, *result.path, *result.tools,
-                                result.stock, diagnostics, &progress)
+      mesh = extract_exact_mesh(columns, {}, result.simulation().workpiece, result.path(), result.job->tools,
+                                *result.job->stock, diagnostics, &progress)
                  .value_or(Mesh());
     } else {
       mesh = extract_mesh(columns, {}, &progress);
@@ -64,8 +96,8 @@ py::tuple mesh_arrays(const Result& result, bool sharp) {
   return mesh_tuple(mesh);
 }
 
-py::list column_of(const Result& result, int i, int j) {
-  const Workpiece& w = result.simulation.workpiece;
+py::list column_of(const MillingResult& result, int i, int j) {
+  const Workpiece& w = result.simulation().workpiece;
   if (i < 0 || j < 0 || i >= w.columns_x() || j >= w.columns_y()) throw py::index_error("no such column");
   py::list list;
   for (const Interval& run : w.column(i, j))
@@ -96,43 +128,47 @@ py::tuple mesh_tuple(const Mesh& mesh) {
 namespace {
 
 void bind_result(py::module_& m) {
-  py::class_<Result>(m, "Simulation", "What a toolpath left of the stock. Made by `simulate`.")
+  py::class_<MillingResult, JobResult>(m, "Simulation",
+                                       "What a toolpath left of the stock. Made by `simulate`.")
       .def("__repr__",
-           [](const Result& r) {
-             return "<kerf.Simulation: " + number_text(r.simulation.removed.mm3(), 3) + " of " +
-                    number_text(r.simulation.stock.mm3(), 3) + " mm3 removed, " +
-                    std::to_string(r.simulation.hazards.size()) + " hazards>";
+           [](const MillingResult& r) {
+             return "<kerf.Simulation: " + number_text(r.simulation().removed.mm3(), 3) + " of " +
+                    number_text(r.simulation().stock.mm3(), 3) + " mm3 removed, " +
+                    std::to_string(r.simulation().hazards.size()) + " hazards>";
            })
       .def_property_readonly(
-          "stock_mm3", [](const Result& r) { return r.simulation.stock.mm3(); }, "float: volume before, mm3.")
+          "stock_mm3", [](const MillingResult& r) { return r.simulation().stock.mm3(); },
+          "float: volume before, mm3.")
       .def_property_readonly(
-          "removed_mm3", [](const Result& r) { return r.simulation.removed.mm3(); },
+          "removed_mm3", [](const MillingResult& r) { return r.simulation().removed.mm3(); },
           "float: volume cut away, mm3.")
       .def_property_readonly(
-          "left_mm3", [](const Result& r) { return (r.simulation.stock - r.simulation.removed).mm3(); },
+          "left_mm3",
+          [](const MillingResult& r) { return (r.simulation().stock - r.simulation().removed).mm3(); },
           "float: volume left, mm3.")
       .def_property_readonly(
-          "resolution_mm", [](const Result& r) { return r.simulation.workpiece.pitch().mm(); },
+          "resolution_mm", [](const MillingResult& r) { return r.simulation().workpiece.pitch().mm(); },
           "float: distance of the columns, mm.")
       .def_property_readonly(
           "columns",
-          [](const Result& r) {
-            return py::make_tuple(r.simulation.workpiece.columns_x(), r.simulation.workpiece.columns_y());
+          [](const MillingResult& r) {
+            return py::make_tuple(r.simulation().workpiece.columns_x(), r.simulation().workpiece.columns_y());
           },
           "(int, int): columns in X and Y.")
       .def_property_readonly(
-          "seconds", [](const Result& r) { return r.simulation.seconds; }, "float: time the simulation took.")
+          "seconds", [](const MillingResult& r) { return r.simulation().seconds; },
+          "float: time the simulation took.")
       .def_property_readonly(
           "hazards",
-          [](const Result& r) {
+          [](const MillingResult& r) {
             py::list list;
-            for (const Hazard& hazard : r.simulation.hazards) list.append(describe(*r.path, hazard));
+            for (const Hazard& hazard : r.simulation().hazards) list.append(describe(r.path(), hazard));
             return list;
           },
           "list of dict: moves that would break a tool or a part, in order; see `kerf simulate --json`.")
       .def_property_readonly(
           "removed_by_step",
-          [](const Result& r) { return to_array(r.simulation.removed_by_step, "float32", 1); },
+          [](const MillingResult& r) { return to_array(r.simulation().removed_by_step, "float32", 1); },
           "ndarray (steps,): volume removed by each step, mm3.")
       .def("column", &column_of, py::arg("i"), py::arg("j"),
            "Material of a column: list of (low, high) Z in mm, lowest first.")
@@ -157,16 +193,19 @@ tuple of ndarray
 
 void bind_simulation(py::module_& m) {
   bind_result(m);
-  m.def("simulate", &run, py::arg("path"), py::arg("stock"), py::arg("tools") = py::none(),
-        py::arg("resolution") = 0.0, py::arg("threads") = 0,
-        R"(Cut a toolpath out of a stock.
+  m.def("simulate", &simulate_program, py::arg("path"), py::arg("stock") = py::none(),
+        py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
+        R"(Cut a program or a toolpath out of its stock.
 
 Parameters
 ----------
-path : Toolpath
-stock : Stock
+path : Program or Toolpath
+stock : Stock or str, optional
+    For a Toolpath a Stock is required. For a Program it may be a str as ``"100x60x12 at centre top"`` (mm);
+    where omitted the program's comments give it, else a block around the cuts is assumed.
 tools : ToolTable, optional
-    The built-in tools where left out.
+    The built-in tools where omitted. For a Program also a Tool, a str as ``"2=V d=12.7 angle=90"`` or a list
+    of them; the program's comments and the built-in tools supply the rest.
 resolution : float
     Distance of the material columns in mm; 0 chooses one.
 threads : int
@@ -180,6 +219,8 @@ Raises
 ------
 kerf.Error
     Unknown tool, stock without volume, resolution too fine.)");
+  m.def("simulate", &simulate_toolpath, py::arg("path"), py::arg("stock") = py::none(),
+        py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0);
 }
 
 }  // namespace kerf::python

@@ -10,6 +10,7 @@
 #include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
+#include "kerf/program.h"
 #include "kerf/report.h"
 #include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
@@ -70,7 +71,7 @@ py::dict describe(const Toolpath& path, std::size_t i) {
       break;
     }
     case StepKind::note:
-    case StepKind::verbatim: d["text"] = std::string(path.text(i)); break;
+    case StepKind::verbatim: d["text"] = to_str(path.text(i)); break;
     case StepKind::pause: {
       const PauseKind kind = s.pause().kind;
       d["pause"] = kind == PauseKind::always     ? "always"
@@ -82,10 +83,10 @@ py::dict describe(const Toolpath& path, std::size_t i) {
     case StepKind::store_home:
       d["home"] = s.store_home().home == Reference::home ? "home" : "second_home";
       break;
-    case StepKind::layer: d["name"] = path.layer(i).name; break;
+    case StepKind::layer: d["name"] = to_str(path.layer(i).name); break;
     default: break;
   }
-  d["origin"] = to_string(path.origin_of(i));
+  d["origin"] = to_str(to_string(path.origin_of(i)));
   return d;
 }
 
@@ -125,7 +126,7 @@ void bind_motions(py::class_<Toolpath>& c) {
       "rapid",
       [](Toolpath& path, const py::object& to) {
         const Point3 end = to_point3(to, "to");
-        path.add(step::Rapid{end}, path.origins().add(script_spot("rapid")));
+        path.add(step::Rapid{end}, path.origins().add(script_location("rapid")));
       },
       py::arg("to"),
       R"(Append a move at rapid speed.
@@ -138,7 +139,7 @@ to : sequence of 3 float
       "cut",
       [](Toolpath& path, const py::object& to, double feed) {
         const Point3 end = to_point3(to, "to");
-        path.add(step::Cut{end, positive_feed(feed)}, path.origins().add(script_spot("cut")));
+        path.add(step::Cut{end, positive_feed(feed)}, path.origins().add(script_location("cut")));
       },
       py::arg("to"), py::arg("feed"),
       R"(Append a straight move at feed.
@@ -161,7 +162,7 @@ feed : float
         arc.feed = positive_feed(feed);
         arc.extra_turns = whole_within(extra_turns, 0, limits::kMaxTurns, "extra_turns");
         check_radii(path, arc);
-        path.add(arc, path.origins().add(script_spot("arc")));
+        path.add(arc, path.origins().add(script_location("arc")));
       },
       py::arg("to"), py::arg("centre"), py::arg("turn"), py::arg("feed"), py::arg("plane") = "XY",
       py::arg("extra_turns") = 0,
@@ -205,7 +206,7 @@ void bind_extrude(py::class_<Toolpath>& c) {
         bead.volume = mm3(volume ? number_within(*volume, -limits::kMaxExtrudedVolume,
                                                  limits::kMaxExtrudedVolume, "volume", "mm3")
                                  : volume_of_road(path, bead.to, width, height));
-        path.add(bead, path.origins().add(script_spot("extrude")));
+        path.add(bead, path.origins().add(script_location("extrude")));
       },
       py::arg("to"), py::arg("feed"), py::arg("volume") = py::none(), py::arg("width") = 0.0,
       py::arg("height") = 0.0,
@@ -228,7 +229,7 @@ void bind_other_steps(py::class_<Toolpath>& c) {
       "tool",
       [](Toolpath& path, long long number) {
         path.add(step::ToolChange{whole_within(number, 0, limits::kMaxToolNumber, "number")},
-                 path.origins().add(script_spot("tool")));
+                 path.origins().add(script_location("tool")));
       },
       py::arg("number"), "Append a tool change to the tool of this number.");
   c.def(
@@ -236,20 +237,20 @@ void bind_other_steps(py::class_<Toolpath>& c) {
       [](Toolpath& path, double rpm_value, const std::string& turn) {
         number_within(rpm_value, 0.0, limits::kMaxSpeed, "rpm", "rpm");
         const SpindleTurn sense = to_spindle_turn(turn);
-        path.add(step::Spindle{rpm(rpm_value), sense}, path.origins().add(script_spot("spindle")));
+        path.add(step::Spindle{rpm(rpm_value), sense}, path.origins().add(script_location("spindle")));
       },
       py::arg("rpm"), py::arg("turn") = "cw", "Start the spindle ('cw', 'ccw') or stop it ('off').");
   c.def(
       "dwell",
       [](Toolpath& path, double value) {
         number_within(value, 0.0, limits::kMaxDwellSeconds, "seconds", "s");
-        path.add(step::Dwell{seconds(value)}, path.origins().add(script_spot("dwell")));
+        path.add(step::Dwell{seconds(value)}, path.origins().add(script_location("dwell")));
       },
       py::arg("seconds"), "Append a pause of the given length in seconds.");
   c.def(
       "note",
       [](Toolpath& path, const std::string& text) {
-        path.add(step::Note{text}, path.origins().add(script_spot("note")));
+        path.add(step::Note{text}, path.origins().add(script_location("note")));
       },
       py::arg("text"), "Append a remark that posts write as a comment.");
 }
@@ -300,6 +301,9 @@ Examples
 >>> path.tool(102); path.spindle(16000)
 >>> path.rapid((0, 0, 5)); path.cut((0, 0, -1), feed=100); path.cut((50, 0, -1), feed=400))");
   c.def(py::init<>());
+  c.def(py::init([](const Program& program) { return program.path; }), py::arg("program"),
+        "The toolpath of a program.");
+  py::implicitly_convertible<Program, Toolpath>();
   bind_motions(c);
   bind_extrude(c);
   bind_other_steps(c);

@@ -32,7 +32,7 @@ std::string option_text(const std::string& shape_name, const py::kwargs& sizes) 
 Tool tool_from_text(const std::string& text, long long told_number) {
   const int number = whole_within(told_number, 0, limits::kMaxToolNumber, "number");
   Diagnostics diagnostics;
-  std::optional<Tool> tool = read_tool_option(text, script_spot("Tool"), diagnostics);
+  std::optional<Tool> tool = read_tool_option(text, script_location("Tool"), diagnostics);
   raise_or_warn(diagnostics);
   if (number != 0) tool->number = number;
   return *tool;
@@ -63,7 +63,7 @@ Tool drawn_tool(const py::sequence& knots, long long told_number) {
     drawn.cutting.knots.push_back({k.x, k.y, k.z});
   }
   Diagnostics diagnostics;
-  std::optional<Tool> tool = make_tool(number, drawn, {}, script_spot("Tool.drawn"), diagnostics);
+  std::optional<Tool> tool = make_tool(number, drawn, {}, script_location("Tool.drawn"), diagnostics);
   raise_or_warn(diagnostics);
   return *tool;
 }

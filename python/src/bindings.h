@@ -38,8 +38,11 @@ void bind_copy(pybind11::class_<Value>& c) {
       pybind11::arg("memo"));
 }
 
+/// Text for Python; bytes that are no UTF-8 (an old file's comment) become the replacement character.
+pybind11::str to_str(std::string_view text);
+
 /// Where in the user's script the call that is running stands.
-CallSpot script_spot(const char* call);
+CallSpot script_location(const char* call);
 
 /// Lets Ctrl-C stop long work: asks Python for signals now and then. Made and used with the GIL held by the
 /// caller's thread; `check` re-raises what the signal handler raised.
@@ -56,6 +59,9 @@ class SignalProgress final : public Progress {
 
 void bind_toolpath(pybind11::module_& m);
 void bind_tools(pybind11::module_& m);
+void bind_program(pybind11::module_& m);
+void bind_job(pybind11::module_& m);
+void bind_outputs(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_print(pybind11::module_& m);
 void bind_bodies(pybind11::module_& m);

@@ -15,7 +15,8 @@ PyObject* error_type =
 
 py::list origins_of(const Diagnostic& d) {
   py::list notes;
-  for (const DiagnosticNote& note : d.notes) notes.append(py::make_tuple(to_string(note.where), note.text));
+  for (const DiagnosticNote& note : d.notes)
+    notes.append(py::make_tuple(to_str(to_string(note.where)), to_str(note.text)));
   return notes;
 }
 
@@ -30,7 +31,7 @@ void bind_diagnostics(py::module_& m) {
       .def_property_readonly(
           "name", [](const Diagnostic& d) { return std::string(name_of(d.code)); }, "str: the code's name.")
       .def_property_readonly(
-          "where", [](const Diagnostic& d) { return to_string(d.where); },
+          "where", [](const Diagnostic& d) { return to_str(to_string(d.where)); },
           "str: file, line and column, or drawing spot.")
       .def_property_readonly(
           "line",
@@ -40,11 +41,14 @@ void bind_diagnostics(py::module_& m) {
             return py::none();
           },
           "int or None: line in the user's file.")
-      .def_readonly("message", &Diagnostic::message, "str: what is wrong and what was expected.")
-      .def_readonly("hint", &Diagnostic::hint, "str: what may help; may be empty.")
+      .def_property_readonly(
+          "message", [](const Diagnostic& d) { return to_str(d.message); },
+          "str: what is wrong and what was expected.")
+      .def_property_readonly(
+          "hint", [](const Diagnostic& d) { return to_str(d.hint); }, "str: what may help; may be empty.")
       .def_property_readonly("notes", &origins_of, "list of (str, str): further places and texts.")
-      .def("__repr__", [](const Diagnostic& d) { return "<kerf.Diagnostic " + to_string(d) + ">"; })
-      .def("__str__", [](const Diagnostic& d) { return to_string(d); });
+      .def("__repr__", [](const Diagnostic& d) { return to_str("<kerf.Diagnostic " + to_string(d) + ">"); })
+      .def("__str__", [](const Diagnostic& d) { return to_str(to_string(d)); });
 }
 
 }  // namespace
@@ -58,14 +62,15 @@ py::list to_list(const Diagnostics& diagnostics) {
 void raise_or_warn(const Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) {
     for (const Diagnostic& d : diagnostics.list())
-      if (d.severity == Severity::warning && PyErr_WarnEx(PyExc_UserWarning, to_string(d).c_str(), 2) != 0)
+      if (d.severity == Severity::warning &&
+          PyErr_WarnEx(PyExc_UserWarning, py::cast<std::string>(to_str(to_string(d))).c_str(), 2) != 0)
         throw py::error_already_set();
     return;
   }
   std::string text;
   for (const Diagnostic& d : diagnostics.list())
     if (d.severity == Severity::error) text += (text.empty() ? "" : "\n") + to_string(d);
-  py::object error = py::handle(error_type)(text);
+  py::object error = py::handle(error_type)(to_str(text));
   error.attr("diagnostics") = to_list(diagnostics);
   PyErr_SetObject(error_type, error.ptr());
   throw py::error_already_set();
@@ -130,9 +135,15 @@ Point2 to_point2(const py::handle& value, const char* argument) {
   return {v[0], v[1]};
 }
 
+py::str to_str(std::string_view text) {
+  PyObject* decoded = PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "replace");
+  if (decoded == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::str>(decoded);
+}
+
 py::tuple to_tuple(Point3 p) { return py::make_tuple(p.x, p.y, p.z); }
 
-CallSpot script_spot(const char* call) {
+CallSpot script_location(const char* call) {
   CallSpot spot;
   spot.call = call;
   PyFrameObject* frame = PyEval_GetFrame();  // borrowed
@@ -168,7 +179,10 @@ PYBIND11_MODULE(_kerf, m) {
   m.add_object("Error", error_type);
   bind_diagnostics(m);
   bind_tools(m);
+  bind_program(m);
   bind_toolpath(m);
+  bind_job(m);
+  bind_outputs(m);
   bind_simulation(m);
   bind_print(m);
   bind_bodies(m);

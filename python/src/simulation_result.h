@@ -1,4 +1,4 @@
-// What the bindings of the simulators share: a finished simulation, its hazards and arrays for Python.
+// What the bindings of the simulators share: a finished run, its hazards and arrays for Python.
 #pragma once
 
 #include <memory>
@@ -7,17 +7,33 @@
 #include "bindings.h"
 
 #include "kerf/mesh.h"
-#include "kerf/simulate.h"
+#include "kerf/outputs.h"
 
 namespace kerf::python {
 
-/// A finished simulation with the toolpath it came from (for origins and colours).
-struct Result {
-  Simulation simulation;
-  std::shared_ptr<const Toolpath> path;
-  std::shared_ptr<const ToolTable> tools;
-  Stock stock;
+/// A finished run with the job that it is of: what the three kinds of simulation share.
+struct JobResult {
+  std::shared_ptr<const Job> job;
+  std::shared_ptr<const JobRun> run;
+  const Toolpath& path() const { return job->program.path; }
 };
+struct MillingResult : JobResult {
+  const Simulation& simulation() const { return run->milling(); }
+};
+struct RotaryResult : JobResult {
+  const RotarySimulation& simulation() const { return run->rotary(); }
+};
+struct PrintResult : JobResult {
+  const PrintSimulation& simulation() const { return run->print(); }
+};
+/// A result of a simulation that was run without make_job.
+template <class Result, class Simulated>
+Result result_of(Job job, Simulated simulation) {
+  Result result;
+  result.job = std::make_shared<const Job>(std::move(job));
+  result.run = std::make_shared<const JobRun>(JobRun{std::move(simulation), {}});
+  return result;
+}
 
 /// A hazard as the dictionary that Python gets.
 pybind11::dict describe(const Toolpath& path, const Hazard& hazard);

@@ -1,0 +1,155 @@
+// Checking programs and estimating their time, in Python.
+#include "bindings.h"
+#include "program_arguments.h"
+
+#include "kerf/material_files.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+py::dict finding_dict(const Finding& f) {
+  py::dict d;
+  d["kind"] = f.kind;
+  d["step"] = f.step;
+  d["steps"] = f.steps;
+  d["at"] = to_tuple(f.at);
+  d["depth_mm"] = f.depth_mm;
+  d["removed_mm3"] = f.removed_mm3;
+  d["message"] = to_str(f.message);
+  d["hint"] = to_str(f.hint);
+  d["origin"] = to_str(to_string(f.origin));
+  py::list callers;
+  for (const Origin& caller : f.callers) callers.append(to_str(to_string(caller)));
+  d["callers"] = callers;
+  return d;
+}
+
+py::list check(const py::object& program, const py::object& tools, const py::object& stock,
+               const std::vector<std::pair<std::string, Stock>>& fixtures, const py::object& machine,
+               const std::optional<std::string>& material, double resolution, long long threads) {
+  const JobSettings settings = to_settings(tools, stock, fixtures);
+  const std::optional<Machine> on = to_machine(machine);
+  Diagnostics diagnostics;
+  std::optional<Material> of;
+  if (material) of = material_named(*material, diagnostics);
+  raise_or_warn(diagnostics);
+  JobCheckOptions options;
+  options.resolution = to_resolution(resolution);
+  options.threads = to_threads(threads);
+  options.machine = on ? &*on : nullptr;
+  options.material = of ? &*of : nullptr;
+  const Job job = make_job(to_program(program), settings, UnknownTool::unreported, diagnostics);
+  SignalProgress progress;
+  std::vector<Finding> findings;
+  {
+    const py::gil_scoped_release release;
+    findings = check_job(job, options, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  py::list list;
+  for (const Finding& finding : findings) list.append(finding_dict(finding));
+  return list;
+}
+
+void put_times(py::dict& d, const TimeFigures& time) {
+  d["total"] = time.total().seconds();
+  d["motion"] = time.motion.seconds();
+  d["cutting"] = time.cutting().seconds();
+  d["rapid"] = time.rapid.seconds();
+  d["dwell"] = time.dwell.seconds();
+  d["halts"] = time.halts.seconds();
+  d["stops"] = time.stops;
+}
+
+py::dict estimate(const py::object& program, const py::object& machine) {
+  const std::optional<Machine> on = to_machine(machine);
+  Diagnostics ignored;  // tools and stock do not change the time
+  const Job job = make_job(to_program(program), {}, UnknownTool::unreported, ignored);
+  const JobTimes times = times_of(job, on ? &*on : nullptr);
+  py::dict out;
+  put_times(out, times.estimate.all);
+  out["machine"] = times.planned() ? py::object(to_str(times.machine)) : py::none();
+  py::list tools, operations;
+  for (const ToolTime& t : times.estimate.tools) {
+    py::dict d;
+    d["number"] = t.tool;
+    put_times(d, t.time);
+    tools.append(d);
+  }
+  for (const OperationTime& o : times.estimate.operations) {
+    py::dict d;
+    d["name"] = to_str(o.name);
+    d["tool"] = o.tool;
+    d["step"] = o.first_step;
+    put_times(d, o.time);
+    operations.append(d);
+  }
+  out["tools"] = tools;
+  out["operations"] = operations;
+  return out;
+}
+
+}  // namespace
+
+void bind_job(py::module_& m) {
+  m.def("check", &check, py::arg("program"), py::kw_only(), py::arg("tools") = py::none(),
+        py::arg("stock") = py::none(), py::arg("fixtures") = py::tuple(), py::arg("machine") = py::none(),
+        py::arg("material") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
+        R"(Hazards of a program: what would break a tool, a part or the machine's patience.
+
+Parameters
+----------
+program : Program or Toolpath
+tools : Tool, str, ToolTable or list of them, optional
+    A Tool with a number, or ``"2=V d=12.7 angle=90"``, is for that number; without one for every number. The
+    program's comments and the built-in tools supply the rest.
+stock : Stock or str, optional
+    A str as ``"100x60x12 at centre top"``, mm. Where omitted the program's comments give it, else a block
+    around the cuts is assumed.
+fixtures : list of (str, Stock)
+    Names and solids that no part of a tool may touch.
+machine : str or os.PathLike, optional
+    A profile (TOML), or GRBL's ``$$`` settings, for travel and spindle speeds.
+material : str, optional
+    Of the stock, for the chip load: ``'plywood'``, ``'aluminium'`` ...
+resolution : float
+    Distance of the material columns, mm; 0: coarse, by the size of the stock.
+threads : int
+    0: as many as the machine has.
+
+Returns
+-------
+list of dict
+    `kind`, `step` (index), `steps` (moves concerned), `at` (mm), `depth_mm`, `removed_mm3`, `message`,
+    `hint`, `origin`, `callers`, in the order of steps. Warnings go to the `warnings` module.
+
+Raises
+------
+kerf.Error
+    A tool, stock, machine or material that is not understood.)");
+  m.def("estimate", &estimate, py::arg("program"), py::kw_only(), py::arg("machine") = py::none(),
+        R"(How long a program takes.
+
+Parameters
+----------
+program : Program or Toolpath
+machine : str or os.PathLike, optional
+    A profile (TOML), or GRBL's ``$$`` settings: times as its controller plans them. Otherwise programmed
+    feeds and rapid rates, without acceleration.
+
+Returns
+-------
+dict
+    `total`, `motion`, `cutting`, `rapid`, `dwell`, `halts` in seconds; `stops`; `machine` (its name or None);
+    `tools` and `operations`, lists of dict with the same times.
+
+Raises
+------
+kerf.Error
+    A machine's file that cannot be read.)");
+}
+
+}  // namespace kerf::python

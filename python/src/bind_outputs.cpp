@@ -1,0 +1,176 @@
+// What a simulation leaves or builds, in Python: meshes, pictures and left-over stock as bytes and as files.
+#include <algorithm>
+
+#include "bindings.h"
+#include "simulation_result.h"
+
+#include "kerf/files.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+constexpr int kMinPixels = 16, kMaxPixels = 16384;  // a side of a picture
+
+View to_view(const py::object& view, const py::object& size, const std::optional<std::string>& section) {
+  View out;
+  if (py::isinstance<py::str>(view)) {
+    const auto named = named_view(py::cast<std::string>(view));
+    if (!named)
+      throw py::value_error(
+          "view must be 'top', 'bottom', 'front', 'back', 'left', 'right', 'iso' or (azimuth, "
+          "elevation) in degrees");
+    out = *named;
+  } else {
+    const Point2 angles = to_point2(view, "view");
+    out.azimuth = degrees(number_within(angles.x, -360.0, 360.0, "the azimuth of view", "degrees"));
+    out.elevation = degrees(number_within(angles.y, -90.0, 90.0, "the elevation of view", "degrees"));
+  }
+  const Point2 pixels = to_point2(size, "size");
+  out.width =
+      static_cast<int>(number_within(pixels.x, kMinPixels, kMaxPixels, "the width of size", "pixels"));
+  out.height =
+      static_cast<int>(number_within(pixels.y, kMinPixels, kMaxPixels, "the height of size", "pixels"));
+  if (section) {
+    out.section = parse_section(*section);
+    if (!out.section) throw py::value_error("section must be a plane as 'x=25', 'y=-3.5' or 'z=1in'");
+    if (!faces(out, *out.section))
+      throw py::value_error("the view shows no more of the section than its edge");
+  }
+  return out;
+}
+
+MeshFormat to_format(const std::string& name) {
+  const auto format = mesh_format_of("." + name);
+  if (!format) throw py::value_error("format must be 'stl', '3mf', 'glb' or 'obj', not '" + name + "'");
+  return *format;
+}
+
+/// Makes the surface and hands it to `write`, without the interpreter's lock.
+template <class Write>
+std::string bytes_of(const JobResult& result, const SurfaceOptions& options, Write write) {
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  std::optional<std::string> bytes;
+  {
+    const py::gil_scoped_release release;
+    const auto surface = make_surface(*result.job, *result.run, options, diagnostics, &progress);
+    if (surface) bytes = write(*surface, diagnostics);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  return std::move(*bytes);
+}
+
+py::bytes mesh_file_of(const JobResult& result, const std::string& format, const std::string& name,
+                       bool grooves) {
+  const MeshFormat kind = to_format(format);
+  const SurfaceOptions options{SurfaceDetail::exact, grooves ? Grooves::kept : Grooves::closed};
+  return bytes_of(result, options, [&](const PartSurface& surface, Diagnostics& diagnostics) {
+    return mesh_file(surface, kind, name, diagnostics);
+  });
+}
+
+py::bytes picture_of(const JobResult& result, const py::object& view, const py::object& size,
+                     const std::optional<std::string>& section, bool grooves) {
+  const View how = to_view(view, size, section);
+  const SurfaceOptions options{SurfaceDetail::exact, grooves ? Grooves::kept : Grooves::closed};
+  return bytes_of(result, options, [&](const PartSurface& surface, Diagnostics& diagnostics) {
+    return picture_file(surface, how, diagnostics);
+  });
+}
+
+void save(const JobResult& result, const py::args& paths, const py::object& view, const py::object& size,
+          const std::optional<std::string>& section, bool grooves) {
+  const py::object fspath = py::module_::import("os").attr("fspath");
+  std::vector<PartFile> files;
+  for (const py::handle item : paths) {
+    const auto path = py::cast<std::string>(fspath(item));
+    const auto file = part_file(path);
+    if (!file) throw py::value_error("'" + path + "' must end in .stl, .3mf, .glb, .obj, .png or .kstock");
+    files.push_back(*file);
+  }
+  const PartFileOptions options{to_view(view, size, section), grooves ? Grooves::kept : Grooves::closed};
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  {
+    const py::gil_scoped_release release;
+    OutputSet set;
+    if (write_part(files, *result.job, *result.run, options, set, diagnostics, &progress))
+      set.commit(diagnostics);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+}
+
+}  // namespace
+
+void bind_outputs(py::module_& m) {
+  const py::tuple view = py::make_tuple(-35.0, 50.0), size = py::make_tuple(1600, 1000);
+  py::class_<JobResult>(m, "JobResult",
+                        "What the simulations of all kinds share: meshes, pictures and files.")
+      .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
+           py::arg("grooves") = false,
+           R"(The part's surface as the bytes of a mesh file, coloured by tool where the format has colours.
+
+Parameters
+----------
+format : {'stl', '3mf', 'glb', 'obj'}
+name : str
+    For formats that hold one.
+grooves : bool
+    Whether a print keeps the grooves between beads.
+
+Returns
+-------
+bytes
+
+Raises
+------
+kerf.Error
+    The mesh is not closed, or not of the right volume.)")
+      .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
+           py::arg("section") = py::none(), py::arg("grooves") = false,
+           R"(A picture of the part, coloured by tool; surfaces made by hazards are red.
+
+Parameters
+----------
+view : str or (float, float)
+    'top', 'bottom', 'front', 'back', 'left', 'right', 'iso', or azimuth and elevation in degrees.
+size : (int, int)
+    Width and height in pixels, 16 to 16384.
+section : str, optional
+    A plane at which the part is cut open, ``'x=25'`` (mm).
+grooves : bool
+    Whether a print keeps the grooves between beads.
+
+Returns
+-------
+bytes
+    A PNG.
+
+Raises
+------
+kerf.Error
+    The section misses the part.)")
+      .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
+           py::arg("section") = py::none(), py::arg("grooves") = false,
+           R"(Write the part to files: all of them, or none where one fails.
+
+Parameters
+----------
+*paths : str or os.PathLike
+    Meshes (.stl .3mf .glb .obj), pictures (.png), the stock of a following job (.kstock).
+view, size, section, grooves
+    As in `picture`.
+
+Raises
+------
+ValueError
+    A path with another ending.
+kerf.Error
+    A file that cannot be written, an invalid mesh, a section that misses the part.)");
+}
+
+}  // namespace kerf::python

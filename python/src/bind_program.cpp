@@ -1,0 +1,180 @@
+// Programs in Python: loading them from files of any kind, and writing them for controllers or as drawings.
+#include <algorithm>
+
+#include "bindings.h"
+#include "program_arguments.h"
+
+#include "kerf/names.h"
+#include "kerf/posting.h"
+#include "kerf/program.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
+constexpr double kSmallestFit = 1e-6, kLargestFit = 1.0;             // mm, tolerances of the passes
+
+std::optional<GcodeDialect> to_dialect(const std::optional<std::string>& name) {
+  if (!name) return std::nullopt;
+  const auto dialect = dialect_named(*name);
+  if (!dialect)
+    throw py::value_error("unknown dialect '" + *name + "'; known: " + joined(dialect_names(), ", "));
+  return dialect;
+}
+
+Program load(const std::string& path, const std::optional<std::string>& dialect, bool read_on, bool strict,
+             const std::optional<double>& filament, std::vector<std::string> defines,
+             std::vector<std::string> include_paths, const py::object& tools, const py::object& machine) {
+  ProgramOptions options;
+  options.dialect = to_dialect(dialect);
+  options.read_on = read_on;
+  options.strict = strict;
+  if (filament)
+    options.filament_diameter =
+        number_within(*filament, kThinnestFilament, kThickestFilament, "filament", "mm");
+  options.defines = std::move(defines);
+  options.include_paths = std::move(include_paths);
+  options.tool_diameter = diameters_of(to_tool_choices(tools));
+  options.machine = to_machine(machine);
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  std::optional<Program> program;
+  {
+    const py::gil_scoped_release release;
+    program = load_program(path, options, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  return std::move(*program);
+}
+
+PostTarget to_target(const std::string& name) {
+  if (name.find('.') != std::string::npos) {
+    Diagnostics diagnostics;
+    const auto target = load_post_target(name, diagnostics);
+    raise_or_warn(diagnostics);
+    return *target;
+  }
+  const auto target = find_post_target(name);
+  if (!target)
+    throw py::value_error("unknown post '" + name + "'; known: " + joined(post_target_names(), ", ") +
+                          ", or the path of a post file (.toml)");
+  return *target;
+}
+
+std::optional<LengthUnit> to_unit(const std::optional<std::string>& name) {
+  if (!name) return std::nullopt;
+  if (*name == "mm") return LengthUnit::mm;
+  if (*name == "inch") return LengthUnit::inch;
+  throw py::value_error("unit must be 'mm' or 'inch', not '" + *name + "'");
+}
+
+Length to_tolerance(double value, const char* argument) {
+  return value == 0.0 ? Length() : mm(number_within(value, kSmallestFit, kLargestFit, argument, "mm"));
+}
+
+/// The texts of a program for a target, each with the name of its file.
+py::list post_texts(const py::object& value, const std::string& to, const std::string& file_name,
+                    const std::optional<std::string>& unit, const std::optional<std::string>& tool_change,
+                    double feed, const py::object& tools, double fit_arcs, double join, bool shorten_rapids,
+                    bool rapids, const std::string& dxf_version) {
+  Program program = to_program(value);
+  const PostTarget target = to_target(to);
+  PostingOptions options;
+  options.unit = to_unit(unit);
+  if (tool_change) {
+    options.tool_change = tool_change_policy_named(*tool_change);
+    if (!options.tool_change)
+      throw py::value_error("tool_change must be 'command', 'pause', 'files' or 'ignore'");
+  }
+  options.missing_feed = mm_per_min(number_within(feed, 0.0, limits::kMaxSpeed, "feed", "mm/min"));
+  options.rapids = rapids ? RapidLines::drawn : RapidLines::left_out;
+  const auto version = dxf_version_named(dxf_version);
+  if (!version) throw py::value_error("dxf_version must be 'r2000' or 'r12', not '" + dxf_version + "'");
+  options.dxf_version = *version;
+  options.tools = used_tools(program, to_tool_choices(tools));
+  const PassChoices passes{to_tolerance(fit_arcs, "fit_arcs"), to_tolerance(join, "join"), shorten_rapids};
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  std::vector<PostedFile> files;
+  {
+    const py::gil_scoped_release release;
+    improve(program.path, passes);
+    files = post_program(program, target, options, diagnostics, &progress);
+  }
+  progress.rethrow();
+  raise_or_warn(diagnostics);
+  const std::vector<std::string> names = posted_file_names(file_name, files);
+  py::list texts;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    texts.append(py::make_tuple(to_str(names[i]), py::bytes(files[i].text)));
+  return texts;
+}
+
+[[noreturn]] void throw_os_error(const Diagnostics& diagnostics) {
+  PyErr_SetString(PyExc_OSError,
+                  py::cast<std::string>(to_str(to_string(diagnostics.list().front()))).c_str());
+  throw py::error_already_set();
+}
+
+void bind_program_class(py::module_& m) {
+  py::class_<Program> c(m, "Program", R"(A toolpath with what its file says about units, tools and stock.
+
+Made by `load`. Calls that take a Toolpath take a Program as well.)");
+  bind_copy(c);
+  c.def("__repr__",
+        [](const Program& p) {
+          return to_str("<kerf.Program " + p.source + ": " + p.front_end + ", " +
+                        std::to_string(p.path.size()) + " steps>");
+        })
+      .def(
+          "__len__", [](const Program& p) { return p.path.size(); }, "Number of steps.")
+      .def_readonly("toolpath", &Program::path, "Toolpath: its steps.")
+      .def_property_readonly(
+          "source", [](const Program& p) { return to_str(p.source); }, "str: the file's name as given.")
+      .def_readonly("front_end", &Program::front_end, "str: what read it, 'G-code' or 'gcmc'.")
+      .def_property_readonly(
+          "units", [](const Program& p) { return p.units == ProgramUnits::inch ? "inch" : "mm"; },
+          "str: 'mm' or 'inch', of the file; the toolpath is in mm.")
+      .def_readonly("tools", &Program::tools, "dict of int to Tool: those that the program describes.")
+      .def_readonly("stock", &Program::stock, "Stock or None: where the program describes it.")
+      .def_property_readonly(
+          "files",
+          [](const Program& p) {
+            py::list files;
+            for (const std::string& file : p.files) files.append(to_str(file));
+            return files;
+          },
+          "list of str: all files read, the program first, then those that it includes or calls.");
+}
+
+}  // namespace
+
+void bind_program(py::module_& m) {
+  bind_program_class(m);
+  m.def("_load", &load, py::arg("path"), py::kw_only(), py::arg("dialect"), py::arg("read_on"),
+        py::arg("strict"), py::arg("filament"), py::arg("defines"), py::arg("include_paths"),
+        py::arg("tools"), py::arg("machine"));
+  m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
+        py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("tools"), py::arg("fit_arcs"),
+        py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"));
+  m.def(
+      "_write_files",
+      [](const std::vector<std::pair<std::string, py::bytes>>& files) {
+        OutputSet set;
+        Diagnostics diagnostics;
+        bool written = true;
+        for (const auto& [name, bytes] : files)
+          written = written && set.write(name, std::string_view(bytes), diagnostics);
+        if (written) set.commit(diagnostics);
+        if (diagnostics.has_errors()) throw_os_error(diagnostics);
+      },
+      py::arg("files"));
+  m.def(
+      "posts", [] { return post_target_names(); },
+      "Names that `post` knows: controllers, and the drawing formats 'dxf' and 'svg'.");
+}
+
+}  // namespace kerf::python

@@ -1,0 +1,93 @@
+// Arguments that several calls take.
+#include "program_arguments.h"
+
+#include "kerf/files.h"
+#include "kerf/machine_files.h"
+#include "kerf/stock_files.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+void add_tools(const py::handle& value, ToolChoices& choices, Diagnostics& diagnostics) {
+  if (py::isinstance<ToolTable>(value)) {
+    for (const auto& [number, tool] : py::cast<const ToolTable&>(value).tools())
+      choices.table.set(number, tool);
+  } else if (py::isinstance<Tool>(value)) {
+    const Tool& tool = py::cast<const Tool&>(value);
+    if (tool.number == 0)
+      choices.any_number = tool;
+    else
+      choices.numbered.insert_or_assign(tool.number, tool);
+  } else if (py::isinstance<py::str>(value)) {
+    add_tool(py::cast<std::string>(value), script_location("tools"), choices, diagnostics);
+  } else if (py::isinstance<py::sequence>(value)) {
+    for (const py::handle item : value) add_tools(item, choices, diagnostics);
+  } else {
+    throw py::type_error(
+        "tools must be a Tool, a str such as '2=square d=3 flute=9', a ToolTable, or a list of "
+        "them");
+  }
+}
+
+}  // namespace
+
+Program to_program(const py::handle& value) {
+  if (py::isinstance<Program>(value)) return py::cast<const Program&>(value);
+  if (!py::isinstance<Toolpath>(value)) throw py::type_error("program must be a Program or a Toolpath");
+  Program program;
+  program.source = "toolpath";
+  program.front_end = "Python";
+  program.path = py::cast<const Toolpath&>(value);
+  return program;
+}
+
+ToolChoices to_tool_choices(const py::handle& value) {
+  ToolChoices choices;
+  if (value.is_none()) return choices;
+  Diagnostics diagnostics;
+  add_tools(value, choices, diagnostics);
+  raise_or_warn(diagnostics);
+  return choices;
+}
+
+JobSettings to_settings(const py::handle& tools, const py::handle& stock,
+                        const std::vector<std::pair<std::string, Stock>>& fixtures) {
+  JobSettings settings;
+  settings.tools = to_tool_choices(tools);
+  if (py::isinstance<py::str>(stock)) {
+    Diagnostics diagnostics;
+    settings.stock = read_stock_option(py::cast<std::string>(stock), script_location("stock"), diagnostics);
+    raise_or_warn(diagnostics);
+  } else if (py::isinstance<Stock>(stock)) {
+    settings.stock = py::cast<const Stock&>(stock);
+  } else if (!stock.is_none()) {
+    throw py::type_error("stock must be a Stock or a str such as '100x60x12 at centre top'");
+  }
+  for (const auto& [name, solid] : fixtures) settings.fixtures.push_back({name, solid});
+  return settings;
+}
+
+std::optional<Machine> to_machine(const py::handle& value) {
+  if (value.is_none()) return std::nullopt;
+  const auto name = py::cast<std::string>(py::module_::import("os").attr("fspath")(value));
+  Diagnostics diagnostics;
+  std::optional<Machine> machine;
+  if (const auto file = InputFile::open(name, diagnostics))
+    machine = read_machine_file(file->bytes(), name, diagnostics);
+  raise_or_warn(diagnostics);
+  return machine;
+}
+
+Length to_resolution(double value) {
+  if (finite_number(value, "resolution") < 0.0)
+    throw py::value_error("resolution must be 0 (automatic) or above, mm");
+  return mm(value);
+}
+
+unsigned to_threads(long long value) {
+  return static_cast<unsigned>(whole_within(value, 0, limits::kMaxThreads, "threads"));
+}
+
+}  // namespace kerf::python
