@@ -101,7 +101,7 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
       set.commit(diagnostics);
   }
   progress.rethrow();
-  raise_or_warn(diagnostics);
+  raise_os_error_or_warn(diagnostics);
 }
 
 }  // namespace
@@ -169,8 +169,10 @@ Raises
 ------
 ValueError
     A path with another ending.
+OSError
+    A file that cannot be written.
 kerf.Error
-    A file that cannot be written, an invalid mesh, a section that misses the part.)");
+    An invalid mesh, a section that misses the part.)");
 }
 
 }  // namespace kerf::python

@@ -113,12 +113,6 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
   return texts;
 }
 
-[[noreturn]] void throw_os_error(const Diagnostics& diagnostics) {
-  PyErr_SetString(PyExc_OSError,
-                  py::cast<std::string>(to_str(to_string(diagnostics.list().front()))).c_str());
-  throw py::error_already_set();
-}
-
 void bind_program_class(py::module_& m) {
   py::class_<Program> c(m, "Program", R"(A toolpath with what its file says about units, tools and stock.
 
@@ -169,7 +163,7 @@ void bind_program(py::module_& m) {
         for (const auto& [name, bytes] : files)
           written = written && set.write(name, std::string_view(bytes), diagnostics);
         if (written) set.commit(diagnostics);
-        if (diagnostics.has_errors()) throw_os_error(diagnostics);
+        raise_os_error_or_warn(diagnostics);
       },
       py::arg("files"));
   m.def(

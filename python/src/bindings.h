@@ -14,6 +14,8 @@ namespace kerf::python {
 
 /// Raises kerf.Error with the list where it holds errors; passes warnings to Python's warnings module else.
 void raise_or_warn(const Diagnostics& diagnostics);
+/// As raise_or_warn, but OSError where a file could not be written.
+void raise_os_error_or_warn(const Diagnostics& diagnostics);
 /// A list of kerf.Diagnostic.
 pybind11::list to_list(const Diagnostics& diagnostics);
 

@@ -76,6 +76,15 @@ void raise_or_warn(const Diagnostics& diagnostics) {
   throw py::error_already_set();
 }
 
+void raise_os_error_or_warn(const Diagnostics& diagnostics) {
+  for (const Diagnostic& d : diagnostics.list()) {
+    if (d.code != Code::file_unwritable) continue;
+    PyErr_SetString(PyExc_OSError, py::cast<std::string>(to_str(to_string(d))).c_str());
+    throw py::error_already_set();
+  }
+  raise_or_warn(diagnostics);
+}
+
 double finite_number(double value, const char* argument) {
   if (!std::isfinite(value)) throw py::value_error(std::string(argument) + " must be a finite number");
   return value;

@@ -29,6 +29,12 @@ def write(tmp_path):
     return write
 
 
+def positions(program):
+    """Ends of the motions, mm."""
+    steps = [program.toolpath[i] for i in range(len(program))]
+    return [step["to"] for step in steps if "to" in step]
+
+
 @pytest.fixture
 def program(write):
     return kerf.load(write("part.nc", PROGRAM))
@@ -45,7 +51,7 @@ def test_a_program_says_what_its_file_says(write):
     assert program.tools[7].diameter == pytest.approx(3 * 25.4)
     assert program.stock.high == pytest.approx((20 * 25.4, 10 * 25.4, 0))
     assert program.files == [str(path)]
-    assert program.toolpath[len(program) - 1]["to"] == pytest.approx((25.4, 0, 0))
+    assert positions(program) == [pytest.approx((25.4, 0, 0))]
 
 
 def test_gcmc_programs_take_defines_and_include_folders(write, tmp_path):
@@ -57,13 +63,15 @@ def test_gcmc_programs_take_defines_and_include_folders(write, tmp_path):
         kerf.load(path)
     program = kerf.load(path, defines=["depth=7mm"], include_paths=[tmp_path / "library"])
     assert program.front_end == "gcmc"
-    assert program.toolpath[len(program) - 1]["to"] == (0, 0, -7)
+    assert positions(program)[-1] == (0, 0, -7)
     assert program.files == [str(path), str(tmp_path / "library") + "/depth.gcmc"]
 
 
 def test_reading_can_go_on_and_be_strict(write):
     path = write("two.nc", PROGRAM + "G0 X9\nM2\n")
-    assert len(kerf.load(path, read_on=True)) == len(kerf.load(path)) + 1
+    with pytest.warns(UserWarning, match="--read-on"):
+        first = kerf.load(path)
+    assert len(positions(kerf.load(path, read_on=True))) == len(positions(first)) + 1
     with pytest.raises(ValueError, match="known: .*linuxcnc"):
         kerf.load(path, dialect="nonsense")
 
@@ -72,15 +80,20 @@ def test_cutter_compensation_needs_the_tool(write):
     path = write("comp.nc", "G21 G90\nT1 M6\nG0 X0 Y0 Z1\nG41\nG1 X10 F100\nG1 X20\nG40\nG1 Y5\nM2\n")
     with pytest.raises(kerf.Error):
         kerf.load(path)
-    moves = [kerf.load(path, tools=f"1=square d={d}").toolpath[i] for d in (4, 6) for i in range(6)]
-    assert 2 in [m["to"][1] for m in moves[:6] if "to" in m]
-    assert 3 in [m["to"][1] for m in moves[6:] if "to" in m]
+    for diameter in (4, 6):
+        sides = [to[1] for to in positions(kerf.load(path, tools=f"1=square d={diameter}"))]
+        assert max(sides[:-1]) == pytest.approx(diameter / 2)
 
 
 def test_old_encodings_are_read(write):
-    program = kerf.load(write("old.nc", PROGRAM.encode().replace(b"G21", b"(Fr\xe4sen)\nG21")))
-    assert "Fr\ufffdsen" in [program.toolpath[i].get("text") for i in range(len(program))]
-    assert b"Fr\xe4sen" not in kerf.post(program, "grbl").encode()
+    text = b"G21\n(MSG,Fr\xe4sen)\nG0 X1\nG1 X2 X3\nM2\n"
+    with pytest.raises(kerf.Error) as caught:
+        kerf.load(write("Fr\xe4sen.nc", text))
+    assert "Fr\xe4sen.nc" in caught.value.diagnostics[0].where
+    program = kerf.load(write("old.nc", text.replace(b" X3", b" F9")))
+    notes = [program.toolpath[i].get("text", "") for i in range(len(program))]
+    assert any("Fr\ufffdsen" in note for note in notes)
+    assert "Fr\ufffdsen" in kerf.post(program, "linuxcnc")
 
 
 def test_missing_files_are_os_errors(tmp_path):
@@ -105,8 +118,6 @@ def test_a_rapid_in_the_stock_is_found(write):
 
 
 def test_the_check_takes_tools_stock_fixtures_machine_and_material(program, write):
-    deep = kerf.check(program, tools="102=square d=3.175 flute=1")
-    assert "over_flute" in [f["kind"] for f in deep]
     assert "below_floor" in [f["kind"] for f in kerf.check(program, stock="20x10x1")]
     clamp = kerf.Stock.block((4, 4, 4), zero="centre")
     assert kerf.check(program, fixtures=[("far", clamp)]) == []
@@ -116,6 +127,7 @@ def test_the_check_takes_tools_stock_fixtures_machine_and_material(program, writ
     assert [f["kind"] for f in kerf.check(program, machine=slow)] == ["spindle_range"]
     fast = kerf.load(write("fast.nc", PROGRAM.replace("G0 Z2\nM5", "G1 X9 F9000\nG0 Z2\nM5")))
     assert [f["kind"] for f in kerf.check(fast, material="aluminium")] == ["chip_load"]
+    assert [f["kind"] for f in kerf.check(fast, tools="102=square d=3.175 flute=1")] == ["over_flute"]
 
 
 @pytest.mark.parametrize("arguments, words", [
@@ -158,7 +170,7 @@ def test_posts_for_controllers(program):
     text = kerf.post(program, "grbl")
     assert "G1 Z-2 F100" in text.splitlines()
     inch = kerf.post(program, "linuxcnc", unit="inch")
-    assert "G20" in inch and "G1 Z-0.0787 F3.937" in inch
+    assert "G20" in inch and "G1 Z-0.07874 F3.937" in inch
     assert {"grbl", "dxf", "svg"} <= set(kerf.posts())
 
 
@@ -250,7 +262,7 @@ def test_wrong_outputs_are_refused(program, tmp_path):
             call()
     with pytest.raises(kerf.Error, match="x=99"):
         result.picture(section="x=99")
-    with pytest.raises(kerf.Error, match="folder"):
+    with pytest.raises(OSError, match="none/a.stl"):
         result.save(tmp_path / "none" / "a.stl")
     assert list(tmp_path.glob("a.*")) == []
 
