@@ -125,7 +125,7 @@ void run(benchmark::State& state, const Toolpath& path) {
   const PeakMemory memory;
   for (auto _ : state) {
     Diagnostics diagnostics;
-    const auto result = simulate(path, tools, block(), options, diagnostics);
+    const auto result = simulate({borrowed(path), tools, block(), options}, diagnostics);
     if (!result) return state.SkipWithError("not simulated");
     removed = result->removed.mm3();
   }
@@ -169,7 +169,7 @@ struct CutJob {
   CutJob(const benchmark::State& state, Toolpath job, Length tolerance) : path(std::move(job)) {
     SimulationOptions options;
     options.resolution = mm(1e-3 * static_cast<double>(state.range(0)));
-    result = simulate(path, table(), block(), options, diagnostics);
+    result = simulate({borrowed(path), table(), block(), options}, diagnostics);
     if (result) columns.emplace(result->workpiece);
     one_group.assign(path.size(), 0);
     merged = {.tolerance = tolerance, .step_groups = one_group};
@@ -214,7 +214,7 @@ void exact_mesh(benchmark::State& state, Toolpath path) {
   std::size_t triangles = 0;
   for (auto _ : state) {
     Mesh mesh = extract_mesh(*job.columns, job.merged);
-    sharpen_mesh(mesh, job.result->workpiece, job.path, table(), block());
+    sharpen_mesh(mesh, *job.result);
     triangles = mesh.step.size();
   }
   state.counters["triangles"] = static_cast<double>(triangles);

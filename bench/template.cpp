@@ -74,11 +74,10 @@ struct Making {
   Length resolution;  // 0: the default of the block
 };
 
-/// The mesh of what was cut, verified; nothing on failure.
-std::optional<Mesh> made_mesh(const Simulation& result, const Toolpath& path, const Stock& stock,
-                              Finish finish, Stopwatch& watch) {
+/// The mesh of what was cut, verified; nothing where something fails.
+std::optional<Mesh> made_mesh(const Simulation& result, Finish finish, Stopwatch& watch) {
   const bool is_sharp = finish == Finish::sharpened;
-  const std::vector<std::uint8_t> one_group(path.size(), 0);
+  const std::vector<std::uint8_t> one_group(result.job.path->size(), 0);
   MeshOptions options{.tolerance = mm(is_sharp ? 0.002 : 0.005), .step_groups = one_group};
   const MeshColumns columns(result.workpiece);
   watch.lap("columns_cpu_s");
@@ -86,7 +85,7 @@ std::optional<Mesh> made_mesh(const Simulation& result, const Toolpath& path, co
   watch.lap("mesh_cpu_s");
   if (is_sharp) {
     const SharpenOptions sharp;
-    if (!sharpen_mesh(mesh, result.workpiece, path, built_in_tools(), stock, sharp)) return std::nullopt;
+    if (!sharpen_mesh(mesh, result, sharp)) return std::nullopt;
     options.tolerance = options.tolerance + sharp.tolerance;
     watch.lap("sharpen_cpu_s");
   }
@@ -104,11 +103,11 @@ std::string made_glb(const std::string& text, Making making, Stopwatch& watch, s
   Diagnostics diagnostics;
   const GcodeProgram program = read_gcode(text, {}, diagnostics);
   watch.lap("read_cpu_s");
-  const auto result =
-      simulate(program.path, built_in_tools(), stock, {.resolution = making.resolution}, diagnostics);
+  const auto result = simulate(
+      {borrowed(program.path), built_in_tools(), stock, {.resolution = making.resolution}}, diagnostics);
   if (!result) return {};
   watch.lap("simulate_cpu_s");
-  const auto mesh = made_mesh(*result, program.path, stock, making.finish, watch);
+  const auto mesh = made_mesh(*result, making.finish, watch);
   if (!mesh) return {};
   triangles = mesh->step.size();
   MeshView view;

@@ -120,6 +120,8 @@ struct JobRun {
   const PrintSimulation& print() const { return std::get<PrintSimulation>(result); }
 };
 /// Cuts or prints the job. Nothing where that is impossible (`diagnostics` has the error) or it is stopped.
+/// The run refers to the job's toolpath: the job must exist unchanged, and at the same address, as long as
+/// the run.
 std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnostics& diagnostics,
                               Progress* progress = nullptr);
 

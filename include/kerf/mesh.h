@@ -67,4 +67,15 @@ VolumeRange mesh_volume(const ColumnGrid& columns, const MeshOptions& options = 
 /// Whether a mesh may be written, see mesh_check.h.
 bool verify_mesh(const Mesh& mesh, const VolumeRange& volume, Diagnostics& diagnostics);
 
+/// A mesh with the volume that it should enclose.
+struct CheckedMesh {
+  Mesh mesh;
+  VolumeRange volume;
+  bool is_verified = false;  // verify_mesh has accepted it; else it is still to be asked
+};
+/// Whether the mesh may be written.
+inline bool verify_mesh(const CheckedMesh& mesh, Diagnostics& diagnostics) {
+  return mesh.is_verified || verify_mesh(mesh.mesh, mesh.volume, diagnostics);
+}
+
 }  // namespace kerf

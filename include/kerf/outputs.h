@@ -40,10 +40,8 @@ struct SurfaceOptions {
 };
 
 /// A surface with the colour of each triangle: the stock's own, that of a hazard, or that of a tool.
-struct PartSurface {
-  Mesh mesh;
-  VolumeRange volume;                     // what a sound mesh of it holds
-  std::vector<std::uint8_t> colours;      // one a triangle: an index into part_palette()
+struct PartSurface : CheckedMesh {
+  std::vector<std::uint8_t> colours;      // one per triangle: an index into part_palette()
   std::vector<std::string> colour_names;  // of the palette, as far as it is used
 };
 std::span<const std::array<std::uint8_t, 3>> part_palette();

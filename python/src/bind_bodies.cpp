@@ -124,7 +124,7 @@ RotaryResult run_rotary(const Toolpath& path, double diameter, const py::object&
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return result_of<RotaryResult>(std::move(job), std::move(*simulation));
+  return result_of<RotaryResult>(std::make_shared<const Job>(std::move(job)), std::move(*simulation));
 }
 
 py::tuple rotary_mesh(const RotaryResult& result) {

@@ -27,11 +27,11 @@ PrintResult run(const Toolpath& path, double resolution, long long threads,
   options.bed = mm(number_within(bed, -limits::kMaxStockSize, limits::kMaxStockSize, "bed", "mm"));
   Diagnostics diagnostics;
   SignalProgress progress;
-  Job job = make_print_job(to_program(py::cast(path)));
+  auto job = std::make_shared<const Job>(make_print_job(to_program(py::cast(path))));
   std::optional<PrintSimulation> simulation;
   {
     const py::gil_scoped_release release;
-    simulation = simulate_print(job.program.path, options, diagnostics, &progress);
+    simulation = simulate_print(job->program.path, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);

@@ -21,7 +21,7 @@ namespace py = pybind11;
 namespace {
 
 /// A job of a toolpath with exactly these tools and this stock.
-Job plain_job(const Toolpath& path, const py::object& stock, const py::object& tools) {
+std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& stock, const py::object& tools) {
   if (!py::isinstance<Stock>(stock))
     throw py::type_error("stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation)");
   if (!tools.is_none() && !py::isinstance<ToolTable>(tools))
@@ -30,12 +30,12 @@ Job plain_job(const Toolpath& path, const py::object& stock, const py::object& t
   job.program = to_program(py::cast(path));
   job.stock = py::cast<const Stock&>(stock);
   job.tools = tools.is_none() ? built_in_tools() : py::cast<const ToolTable&>(tools);
-  return job;
+  return std::make_shared<const Job>(std::move(job));
 }
 
 MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, const py::object& tools,
                                 double resolution, long long threads) {
-  Job job = plain_job(path, stock, tools);
+  std::shared_ptr<const Job> job = plain_job(path, stock, tools);
   SimulationOptions options;
   options.resolution = to_resolution(resolution);
   options.threads = to_threads(threads);
@@ -44,7 +44,8 @@ MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, c
   std::optional<Simulation> simulation;
   {
     const py::gil_scoped_release release;
-    simulation = simulate(job.program.path, job.tools, *job.stock, options, diagnostics, &progress);
+    simulation =
+        simulate({borrowed(job->program.path), job->tools, *job->stock, options}, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
@@ -58,42 +59,43 @@ MillingResult simulate_program(const Program& program, const py::object& stock, 
   options.resolution = to_resolution(resolution);
   options.threads = to_threads(threads);
   Diagnostics made, diagnostics;
-  Job job = make_job(program, to_settings(tools, stock, {}), UnknownTool::error, made);
+  MillingResult result;
+  result.job = std::make_shared<const Job>(
+      make_job(program, to_settings(tools, stock, {}), UnknownTool::error, made));
   raise_or_warn(made);
   SignalProgress progress;
   std::optional<JobRun> run;
   {
     const py::gil_scoped_release release;
-    run = run_job(job, options, diagnostics, &progress);
+    run = run_job(*result.job, options, diagnostics, &progress);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  MillingResult result;
-  result.job = std::make_shared<const Job>(std::move(job));
   result.run = std::make_shared<const JobRun>(std::move(*run));
   return result;
 }
 
+/// The mesh of a simulation; nothing if stopped.
+std::optional<CheckedMesh> mesh_of(const Simulation& simulation, bool sharp, Diagnostics& diagnostics,
+                                   Progress& progress) {
+  if (sharp) return extract_exact_mesh(simulation, {}, diagnostics, &progress);
+  const MeshColumns columns(simulation.workpiece);
+  CheckedMesh made{extract_mesh(columns, {}, &progress), mesh_volume(columns)};
+  return progress.stop_requested() ? std::nullopt : std::optional(std::move(made));
+}
+
 py::tuple mesh_arrays(const MillingResult& result, bool sharp) {
-  Mesh mesh;
+  std::optional<CheckedMesh> mesh;
   Diagnostics diagnostics;
   SignalProgress progress;
   {
     const py::gil_scoped_release release;
-    const MeshColumns columns(result.simulation().workpiece);
-    if (sharp) {
-      mesh = extract_exact_mesh(columns, {}, result.simulation().workpiece, result.path(), result.job->tools,
-                                *result.job->stock, diagnostics, &progress)
-                 .value_or(Mesh());
-    } else {
-      mesh = extract_mesh(columns, {}, &progress);
-    }
-    if (!progress.stop_requested())
-      verify_mesh(mesh, mesh_volume(columns, {.tolerance = SharpenOptions().tolerance}), diagnostics);
+    mesh = mesh_of(result.simulation(), sharp, diagnostics, progress);
+    if (mesh) verify_mesh(*mesh, diagnostics);
   }
   progress.rethrow();
   raise_or_warn(diagnostics);
-  return mesh_tuple(mesh);
+  return mesh_tuple(mesh ? mesh->mesh : Mesh());
 }
 
 py::list column_of(const MillingResult& result, int i, int j) {

@@ -11,7 +11,8 @@
 
 namespace kerf::python {
 
-/// A finished run with the job that it is of: what the three kinds of simulation share.
+/// A finished run with the job that it is of: what the three kinds of simulation share. The run refers to the
+/// toolpath of its job.
 struct JobResult {
   std::shared_ptr<const Job> job;
   std::shared_ptr<const JobRun> run;
@@ -28,9 +29,9 @@ struct PrintResult : JobResult {
 };
 /// A result of a simulation that was run without make_job.
 template <class Result, class Simulated>
-Result result_of(Job job, Simulated simulation) {
+Result result_of(std::shared_ptr<const Job> job, Simulated simulation) {
   Result result;
-  result.job = std::make_shared<const Job>(std::move(job));
+  result.job = std::move(job);
   result.run = std::make_shared<const JobRun>(JobRun{std::move(simulation), {}});
   return result;
 }

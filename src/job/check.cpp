@@ -127,7 +127,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   }
   how.resolution = resolution_for(*job.stock, options.resolution);
   if (progress != nullptr) progress->phase("checking");
-  const auto simulation = simulate(path, job.tools, *job.stock, how, diagnostics, progress);
+  const auto simulation = simulate({borrowed(path), job.tools, *job.stock, how}, diagnostics, progress);
   if (!simulation) return {};
   if (!simulation->stopped) warn_untouched(job, simulation->removed, diagnostics);
   return merged(findings_at_fixtures(path, job, how, diagnostics, progress),

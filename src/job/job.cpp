@@ -25,7 +25,7 @@ std::vector<Finding> findings_of_milling(const Job& job, const Simulation& simul
 std::optional<JobRun> run_milling(const Job& job, const SimulationOptions& how, Diagnostics& diagnostics,
                                   Progress* progress) {
   if (progress != nullptr) progress->phase("cutting");
-  auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, progress);
+  auto simulation = simulate({borrowed(job.program.path), job.tools, *job.stock, how}, diagnostics, progress);
   if (!simulation || simulation->stopped) return std::nullopt;
   warn_untouched(job, simulation->removed, diagnostics);
   auto findings = findings_of_milling(job, *simulation, how, diagnostics, progress);

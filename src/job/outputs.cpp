@@ -102,41 +102,28 @@ std::vector<std::uint32_t> red_steps(const PrintSimulation& s) {
   return steps;
 }
 
-/// A mesh and what a sound one of its material holds.
-struct MeshOfRun {
-  Mesh mesh;
-  VolumeRange volume;
-};
-
-std::optional<MeshOfRun> mesh_of(const Simulation& s, const Job& job, const MeshOptions& options,
-                                 const SurfaceOptions& how, Diagnostics& diagnostics, Progress* progress) {
+std::optional<CheckedMesh> mesh_of(const Simulation& s, const MeshOptions& options, const SurfaceOptions& how,
+                                   Diagnostics& diagnostics, Progress* progress) {
+  if (how.detail == SurfaceDetail::exact) return extract_exact_mesh(s, options, diagnostics, progress);
   const MeshColumns columns(s.workpiece);
-  std::optional<Mesh> mesh;
-  if (how.detail == SurfaceDetail::exact) {
-    mesh = extract_exact_mesh(columns, options, s.workpiece, job.program.path, job.tools, *job.stock,
-                              diagnostics, progress);
-    if (!mesh) return std::nullopt;
-  } else {
-    mesh = extract_mesh(columns, options, progress);
-    relabel_mesh(*mesh, s.workpiece);
-  }
-  const Length stray = options.tolerance + SharpenOptions().tolerance;
-  return MeshOfRun{std::move(*mesh), mesh_volume(columns, {.tolerance = stray})};
+  CheckedMesh made{extract_mesh(columns, options, progress), mesh_volume(columns, options)};
+  relabel_mesh(made.mesh, s.workpiece);
+  return made;
 }
 
-std::optional<MeshOfRun> mesh_of(const RotarySimulation& s, const Job&, const MeshOptions&,
-                                 const SurfaceOptions&, Diagnostics&, Progress* progress) {
-  return MeshOfRun{extract_mesh(s.workpiece, progress), mesh_volume(s.workpiece)};
+std::optional<CheckedMesh> mesh_of(const RotarySimulation& s, const MeshOptions&, const SurfaceOptions&,
+                                   Diagnostics&, Progress* progress) {
+  return CheckedMesh{extract_mesh(s.workpiece, progress), mesh_volume(s.workpiece)};
 }
 
-std::optional<MeshOfRun> mesh_of(const PrintSimulation& s, const Job&, const MeshOptions& options,
-                                 const SurfaceOptions& how, Diagnostics&, Progress* progress) {
+std::optional<CheckedMesh> mesh_of(const PrintSimulation& s, const MeshOptions& options,
+                                   const SurfaceOptions& how, Diagnostics&, Progress* progress) {
   Length layer;
   for (const PrintLayer& l : s.layers) layer = std::max(layer, l.height);
   const bool kept = how.grooves == Grooves::kept;
   const ColumnGrid closed = kept ? ColumnGrid{} : without_grooves(s.columns, layer);
   const ColumnGrid& columns = kept ? s.columns : closed;
-  return MeshOfRun{extract_print_mesh(columns, options, progress), mesh_volume(columns, options)};
+  return CheckedMesh{extract_print_mesh(columns, options, progress), mesh_volume(columns, options)};
 }
 
 std::string mesh_bytes(const PartSurface& surface, MeshFormat format, std::string_view name) {
@@ -235,11 +222,10 @@ std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const
   StepColours colours = std::visit(
       [&](const auto& result) { return colour_steps(job.program.path, red_steps(result)); }, run.result);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = colours.of_step};
-  std::optional<MeshOfRun> made = std::visit(
-      [&](const auto& result) { return mesh_of(result, job, options, how, diagnostics, progress); },
-      run.result);
+  std::optional<CheckedMesh> made = std::visit(
+      [&](const auto& result) { return mesh_of(result, options, how, diagnostics, progress); }, run.result);
   if (!made || (progress != nullptr && progress->stop_requested())) return std::nullopt;
-  PartSurface surface{std::move(made->mesh), made->volume, {}, std::move(colours.names)};
+  PartSurface surface{std::move(*made), {}, std::move(colours.names)};
   surface.colours = colour_triangles(surface.mesh, colours);
   if (surface.mesh.triangles.empty())
     diagnostics
@@ -251,7 +237,7 @@ std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const
 
 std::optional<std::string> mesh_file(const PartSurface& surface, MeshFormat format, std::string_view name,
                                      Diagnostics& diagnostics) {
-  if (!verify_mesh(surface.mesh, surface.volume, diagnostics)) return std::nullopt;
+  if (!verify_mesh(surface, diagnostics)) return std::nullopt;
   return mesh_bytes(surface, format, name);
 }
 
@@ -311,8 +297,7 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
                    diagnostics, progress);
   if (!surface) return false;
   const auto is_mesh = [](const PartFile& file) { return file.mesh.has_value(); };
-  if (std::any_of(surfaces.begin(), surfaces.end(), is_mesh) &&
-      !verify_mesh(surface->mesh, surface->volume, diagnostics))
+  if (std::any_of(surfaces.begin(), surfaces.end(), is_mesh) && !verify_mesh(*surface, diagnostics))
     return false;
   const std::string name = std::filesystem::path(job.program.source).stem().string();
   if (progress != nullptr) progress->phase("writing");

@@ -177,7 +177,7 @@ std::string unsound(const Mesh& mesh, const Simulation& result, const VolumeRang
   return {};
 }
 
-std::string unsound_mesh(const Job& job, const Simulation& result, Strays& strays) {
+std::string unsound_mesh(const Simulation& result, Strays& strays) {
   const ColumnGrid columns = result.workpiece.grid();
   const Mesh rough = extract_mesh(columns);
   if (std::string problem = unsound(rough, result, mesh_volume(columns), strays.rough, strays.most_allowed);
@@ -187,8 +187,7 @@ std::string unsound_mesh(const Job& job, const Simulation& result, Strays& stray
   for (const unsigned n : {0u, 1u}) {
     SharpenOptions options;
     options.threads = n == 0 ? 1 : 3;
-    if (!sharpen_mesh(sharp[n], result.workpiece, job.path, job.tools, job.stock, options))
-      return "not sharpened";
+    if (!sharpen_mesh(sharp[n], result, options)) return "not sharpened";
   }
   if (!same_bits(sharp[0].positions, sharp[1].positions) ||
       !same_bits(sharp[0].triangles, sharp[1].triangles))
@@ -208,7 +207,7 @@ std::string problem_of(const Job& job, Strays& strays) {
   }
   if (std::string problem = differs_by_level(job, *reference); !problem.empty()) return problem;
   if (std::string problem = lost_volume(*reference); !problem.empty()) return problem;
-  return unsound_mesh(job, *reference, strays);
+  return unsound_mesh(*reference, strays);
 }
 
 }  // namespace

@@ -151,7 +151,8 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   SimulationOptions how;
   how.resolution = resolution_for(*job.stock, options.resolution);
   how.threads = static_cast<unsigned>(options.threads);
-  const auto simulation = simulate(job.program.path, job.tools, *job.stock, how, diagnostics, &progress);
+  const auto simulation =
+      simulate({borrowed(job.program.path), job.tools, *job.stock, how}, diagnostics, &progress);
   std::optional<Comparison> comparison;
   if (simulation && !simulation->stopped)
     comparison = compare(simulation->workpiece, *target.body, {.tolerance = mm(options.tolerance)},

@@ -49,7 +49,7 @@ double outside_of(double v, double size) { return std::max({-v, v - size, 0.0});
 /// One piece of a solid on its way past the block.
 class Passing {
  public:
-  Passing(const Line& line, const Solid& solid, const Piece& piece, Point3 size, double ignore)
+  Passing(const Line& line, const Solid& solid, const ConvexPiece& piece, Point3 size, double ignore)
       : line_(line), solid_(solid), piece_(piece), size_(size), ignore_(ignore) {}
 
   void note(Contact& contact) const;
@@ -75,7 +75,7 @@ class Passing {
 
   const Line& line_;
   const Solid& solid_;
-  const Piece& piece_;
+  const ConvexPiece& piece_;
   Point3 size_;
   double ignore_;
 };
@@ -141,7 +141,8 @@ void note_block_contacts(const Sweep& sweep, const ToolSolids& tool, Point3 size
     contact.kind = rapid ? HazardKind::rapid_in_stock : kKinds[part];
     const Solid& solid = tool.touching[part];
     for (const Line& line : lines)
-      for (const Piece& piece : solid.pieces) Passing(line, solid, piece, size, hazard_depth).note(contact);
+      for (const ConvexPiece& piece : solid.pieces)
+        Passing(line, solid, piece, size, hazard_depth).note(contact);
     if (contact.share <= 1.0) contacts.push_back(contact);
   }
 }

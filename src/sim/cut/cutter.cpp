@@ -58,13 +58,14 @@ TileColumns Cutter::columns_of(std::size_t tile) const {
 }
 
 TileJob Cutter::job(CutBatch& batch, std::size_t k) const {
+  const Batch& plan = *batch.plan;
   TileJob job;
-  place_columns(batch.busy[k], job);
+  place_columns(plan.busy[k], job);
   job.tools = &tools_;
-  job.sweeps = batch.sweeps.data();
-  job.list = batch.list.data() + batch.start[k];
-  job.count = batch.start[k + 1] - batch.start[k];
-  job.removed = batch.removed.data() + batch.start[k];
+  job.sweeps = plan.sweeps.data();
+  job.list = plan.list.data() + plan.start[k];
+  job.count = plan.start[k + 1] - plan.start[k];
+  job.removed = batch.removed.data() + plan.start[k];
   job.contacts = &batch.contacts_of[k];
   return job;
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,8 @@
 namespace kerf::sim {
 
 /// A batch and what cutting it has found.
-struct CutBatch : Batch {
+struct CutBatch {
+  std::shared_ptr<const Batch> plan;
   std::vector<double> removed;                    // length of column, mm, one a pair in order of the list
   std::vector<std::vector<Contact>> contacts_of;  // one a tile
 };
@@ -49,30 +51,34 @@ class Cutter {
   bool narrow_x_ = false, narrow_y_ = false;  // the last column of a row, the last row
 };
 
-/// Cuts all batches of a feeder: calls cut(batch, k) for each of a batch's tiles on any thread and
-/// at_rest(batch) after the last of them. While a batch is cut, what the one before has found is added up by
-/// add_up(batch), and then the next one is planned in its place. After stop() returned true no further piece
-/// is begun.
-template <class Cut, class AddUp, class AtRest, class Stop>
-void cut_batches(Feeder& feeder, unsigned threads, const Cut& cut, const AddUp& add_up, const AtRest& at_rest,
-                 const Stop& stop) {
+/// Cuts all batches that next() returns, a std::shared_ptr<const Batch>: calls cut(batch, k) for each of a
+/// batch's tiles on any thread and at_rest(batch) after the last of them. While a batch is cut, what the
+/// previous one has found is added up by add_up(batch), and then next() is called. After stop() returned true
+/// no further tile is started.
+template <class Next, class Cut, class AddUp, class AtRest, class Stop>
+void cut_batches(const Next& next, unsigned threads, const Cut& cut, const AddUp& add_up,
+                 const AtRest& at_rest, const Stop& stop) {
   CutBatch now, other;
-  feeder.fill(now);
-  const auto pieces = static_cast<unsigned>(now.busy.size() + 1);
-  Team team(now.is_last ? std::min(threads, pieces) : threads);
+  now.plan = next();
+  const auto pieces = static_cast<unsigned>(now.plan->busy.size() + 1);
+  Team team(now.plan->is_last ? std::min(threads, pieces) : threads);
+  const auto finish = [&](CutBatch& batch) {
+    if (batch.plan) add_up(batch);
+    batch.plan.reset();
+  };
   for (bool more = true; more && !stop(); std::swap(now, other)) {
-    more = !now.is_last;
-    now.removed.assign(now.list.size(), 0.0);
-    now.contacts_of.assign(now.busy.size(), {});
+    more = !now.plan->is_last;
+    now.removed.assign(now.plan->list.size(), 0.0);
+    now.contacts_of.assign(now.plan->busy.size(), {});
     const auto work = [&](std::size_t n) {
-      if (n > 0) return cut(now, now.order[n - 1]);
-      add_up(other);
-      if (more) feeder.fill(other);
+      if (n > 0) return cut(now, now.plan->order[n - 1]);
+      finish(other);
+      if (more) other.plan = next();
     };
-    team.run(now.busy.size() + 1, work, stop);
+    team.run(now.plan->busy.size() + 1, work, stop);
     at_rest(now);
   }
-  add_up(other);
+  finish(other);
 }
 
 /// Contacts by step and kind, each the sum of what its step met.

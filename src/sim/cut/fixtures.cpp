@@ -12,13 +12,13 @@ namespace {
 /// Columns of a fixture, where its size asks for them, and the range of their distance. Those of a body find
 /// contacts; those of a box only say how much is met, and may be few: every move is sent through all of them
 /// that it meets.
-struct Columns {
+struct FixtureColumns {
   double count, finest, coarsest;  // mm
 };
-constexpr Columns kOfBodies{1e6, 0.02, 0.25}, kOfBoxes{4e4, 0.02, 1.0};
+constexpr FixtureColumns kOfBodies{1e6, 0.02, 0.25}, kOfBoxes{4e4, 0.02, 1.0};
 
 Length pitch_for(const Stock& solid, Length told) {
-  const Columns& columns = solid.body ? kOfBodies : kOfBoxes;
+  const FixtureColumns& columns = solid.body ? kOfBodies : kOfBoxes;
   const Point3 size = solid.block.size();
   const double own = std::clamp(std::sqrt(size.x * size.y / columns.count), columns.finest, columns.coarsest);
   return mm(solid.body && told.mm() > 0.0 ? std::min(own, told.mm()) : own);
@@ -60,7 +60,7 @@ std::optional<std::vector<FixtureContact>> find_fixture_contacts(const Toolpath&
     how.role = SolidRole::no_go;
     how.resolution = pitch_for(fixtures[n].solid, options.resolution);
     Diagnostics said;
-    const auto result = simulate(path, tools, fixtures[n].solid, how, said, progress);
+    const auto result = simulate({borrowed(path), tools, fixtures[n].solid, how}, said, progress);
     for (const Diagnostic& d : said.list())
       if (is_news(d)) diagnostics.add(d);
     if (!result || result->stopped) return std::nullopt;

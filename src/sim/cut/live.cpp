@@ -55,20 +55,19 @@ std::vector<ColumnBlock> blocks_of(const Workpiece::Body& body, const std::vecto
   return blocks;
 }
 
-/// Cuts all that the feeder gives; done(batch) is called after each batch, with the tiles at rest. False if
+/// Cuts all batches of a source; done(batch) is called after each batch, with the tiles at rest. False if
 /// stopped.
 template <class Done>
-bool cut_tiles(Workpiece::Body& body, Feeder& feeder, const Cutter& cutter, unsigned threads,
+bool cut_tiles(Workpiece::Body& body, BatchSource& source, const Cutter& cutter, unsigned threads,
                Progress* progress, const Done& done) {
   bool stopped = false;
   const auto cut = [&](CutBatch& batch, std::size_t k) {
     TileJob job = cutter.job(batch, k);
-    job.tile = &body.touch(batch.busy[k]);
+    job.tile = &body.touch(batch.plan->busy[k]);
     cut_tile(job);
   };
-  cut_batches(
-      feeder, thread_count(threads), cut, [](const CutBatch&) {}, done,
-      [&] { return stopped = stopped || stop_requested(progress); });
+  cut_batches([&] { return source.next(); }, thread_count(threads), cut, [](const CutBatch&) {}, done,
+              [&] { return stopped = stopped || stop_requested(progress); });
   return !stopped;
 }
 
@@ -216,13 +215,14 @@ void LiveSimulation::State::add_tiles_of_new(const sim::MotionChange& change,
                                              std::vector<bool>& tiles) const {
   if (change.first == change.new_end) return;
   const sim::StepRange steps{motions[change.first].step, motions[change.new_end - 1].step};
-  sim::Feeder feeder(workpiece->body(), path, survey,
-                     {.plan = {.margin = workpiece->pitch().mm(), .tiles = nullptr},
-                      .steps = {steps},
-                      .hazard_depth = options.simulation.hazard_depth});
-  for (sim::Batch batch; !batch.is_last;) {
-    feeder.fill(batch);
-    for (const std::uint32_t tile : batch.busy) tiles[tile] = true;
+  sim::BatchSource source(workpiece->body(), path, survey,
+                          {.plan = {.margin = workpiece->pitch().mm(), .tiles = nullptr},
+                           .steps = {steps},
+                           .hazard_depth = options.simulation.hazard_depth});
+  for (bool more = true; more;) {
+    const auto batch = source.next();
+    for (const std::uint32_t tile : batch->busy) tiles[tile] = true;
+    more = !batch->is_last;
   }
 }
 
@@ -288,42 +288,44 @@ class LiveRun {
 
 bool LiveRun::cut(std::vector<StepRange> steps) {
   if (progress_ != nullptr) progress_->phase("cutting");
-  FeedScope scope{.plan = {.margin = body_.pitch, .tiles = &tiles_},
-                  .steps = std::move(steps),
-                  .hazard_depth = state_.options.simulation.hazard_depth};
+  BatchScope scope{.plan = {.margin = body_.pitch, .tiles = &tiles_},
+                   .steps = std::move(steps),
+                   .hazard_depth = state_.options.simulation.hazard_depth};
   scope.numbers = &state_.step_numbers;
   for (std::size_t k = 1; k < state_.keyframes.size(); ++k)
     scope.pauses.push_back(state_.step_at(state_.keyframes[k].motion));
-  Feeder feeder(body_, state_.path, state_.survey, std::move(scope));
-  const bool whole = cut_tiles(body_, feeder, cutter_, state_.options.simulation.threads, progress_,
+  BatchSource source(body_, state_.path, state_.survey, std::move(scope));
+  const bool whole = cut_tiles(body_, source, cutter_, state_.options.simulation.threads, progress_,
                                [&](const CutBatch& batch) { take_over(batch); });
   report(progress_, 1.0);
   return whole;
 }
 
 void LiveRun::take_over(const CutBatch& batch) {
-  LiveChunk chunk{.steps_done = batch.steps_done, .changed = {}};
-  for (std::size_t k = 0; k < batch.busy.size(); ++k) {
+  const Batch& plan = *batch.plan;
+  LiveChunk chunk{.steps_done = plan.steps_done, .changed = {}};
+  for (std::size_t k = 0; k < plan.busy.size(); ++k) {
     log_tile(batch, k);
-    cut_since_[batch.busy[k]] = true;
-    if (chunk_) chunk.changed.push_back(block_of(body_, batch.busy[k]));
+    cut_since_[plan.busy[k]] = true;
+    if (chunk_) chunk.changed.push_back(block_of(body_, plan.busy[k]));
   }
-  for (const Contact& contact : batch.contacts)
+  for (const Contact& contact : plan.contacts)
     if (contact.step >= fresh_number_) state_.floor.push_back(contact);
   std::vector<Keyframe>& keyframes = state_.keyframes;
   for (; next_keyframe_ < keyframes.size() &&
-         state_.step_at(keyframes[next_keyframe_].motion) <= batch.steps_done;
+         state_.step_at(keyframes[next_keyframe_].motion) <= plan.steps_done;
        ++next_keyframe_)
     keep_tiles(keyframes[next_keyframe_], keyframes[next_keyframe_ - 1]);
   const auto all = static_cast<double>(std::max<std::size_t>(state_.path.size(), 1));
-  report(progress_, static_cast<double>(batch.steps_done) / all);
+  report(progress_, static_cast<double>(plan.steps_done) / all);
   if (chunk_ && !chunk.changed.empty()) chunk_(chunk);
 }
 
 void LiveRun::log_tile(const CutBatch& batch, std::size_t k) {
-  TileLog& log = state_.logs[batch.busy[k]];
-  for (std::size_t at = batch.start[k]; at < batch.start[k + 1]; ++at) {
-    const std::uint32_t number = batch.sweeps[batch.list[at]].step;
+  const Batch& plan = *batch.plan;
+  TileLog& log = state_.logs[plan.busy[k]];
+  for (std::size_t at = plan.start[k]; at < plan.start[k + 1]; ++at) {
+    const std::uint32_t number = plan.sweeps[plan.list[at]].step;
     if (batch.removed[at] == 0.0) continue;
     const auto length = static_cast<float>(batch.removed[at]);
     if (!log.removed.empty() && log.removed.back().number == number) {
@@ -332,11 +334,11 @@ void LiveRun::log_tile(const CutBatch& batch, std::size_t k) {
       log.removed.push_back({number, length});
     }
   }
-  const auto place = [&](std::size_t at) {
-    return state_.motion_at(body_.step(batch.sweeps[batch.list[at]].step));
+  const auto motion = [&](std::size_t at) {
+    return state_.motion_at(body_.step(plan.sweeps[plan.list[at]].step));
   };
-  log.first = std::min(log.first, place(batch.start[k]));
-  log.last = std::max(log.last, place(batch.start[k + 1] - 1));
+  log.first = std::min(log.first, motion(plan.start[k]));
+  log.last = std::max(log.last, motion(plan.start[k + 1] - 1));
   log.contacts.insert(log.contacts.end(), batch.contacts_of[k].begin(), batch.contacts_of[k].end());
 }
 
@@ -444,13 +446,13 @@ std::optional<Workpiece> LiveSimulation::at(std::size_t steps, Progress* progres
   Workpiece part = s.with_tiles(keyframe.tiles);
   if (keyframe.motion == motion) return part;
   Workpiece::Body& body = part.body();
-  sim::FeedScope scope{.plan = {.margin = body.pitch, .tiles = nullptr},
-                       .steps = {{s.motions[keyframe.motion].step, s.motions[motion - 1].step}},
-                       .hazard_depth = s.options.simulation.hazard_depth};
+  sim::BatchScope scope{.plan = {.margin = body.pitch, .tiles = nullptr},
+                        .steps = {{s.motions[keyframe.motion].step, s.motions[motion - 1].step}},
+                        .hazard_depth = s.options.simulation.hazard_depth};
   scope.numbers = &s.step_numbers;
-  sim::Feeder feeder(body, s.path, s.survey, std::move(scope));
+  sim::BatchSource source(body, s.path, s.survey, std::move(scope));
   sim::Cutter cutter(body, s.survey.solids, s.options.simulation.hazard_depth);
-  const bool whole = sim::cut_tiles(body, feeder, cutter, s.options.simulation.threads, progress,
+  const bool whole = sim::cut_tiles(body, source, cutter, s.options.simulation.threads, progress,
                                     [](const sim::CutBatch&) {});
   return whole ? std::optional(std::move(part)) : std::nullopt;
 }

@@ -11,6 +11,7 @@
 #include "base/parallel.h"
 #include "sim/cut/block_contact.h"
 #include "sim/cut/cutter.h"
+#include "sim/cut/simulation_plan.h"
 #include "sim/cut/step_sums.h"
 #include "sim/cut/walls.h"
 #include "sim/dexel/initial_columns.h"
@@ -25,19 +26,18 @@ namespace {
 /// counted anew.
 constexpr double kNegligible = 1e-6;
 
-class Run {
+class CutRun {
  public:
-  Run(Workpiece& workpiece, const Toolpath& path, Survey survey, const SimulationOptions& options,
-      Progress* progress)
+  CutRun(Workpiece& workpiece, const SimulationJob& job, Simulation::Plan& plan, Progress* progress)
       : body_(workpiece.body()),
-        path_(path),
-        survey_(std::move(survey)),
-        hazard_depth_(options.hazard_depth),
-        is_no_go_(options.role == SolidRole::no_go),
-        threads_(thread_count(options.threads)),
+        path_(*job.path),
+        plan_(plan),
+        hazard_depth_(job.options.hazard_depth),
+        is_no_go_(job.options.role == SolidRole::no_go),
+        threads_(thread_count(job.options.threads)),
         progress_(progress),
-        removed_(body_.pitch * body_.pitch, path.size()),
-        cutter_(body_, survey_.solids, hazard_depth_) {}
+        removed_(body_.pitch * body_.pitch, path_.size()),
+        cutter_(body_, plan.survey.solids, hazard_depth_) {}
 
   void cut_all() {
     if (progress_ != nullptr) progress_->phase("cutting");
@@ -58,6 +58,8 @@ class Run {
  private:
   std::vector<StepRange> steps_in(const std::vector<bool>& tiles) const;
   void send_all(const std::vector<bool>* tiles);
+  template <class Next>
+  void send(const Next& next);
   void cut_tile_number(CutBatch& batch, std::size_t k);
   void meet_tile(std::size_t tile, TileJob job);
   void note_block_contacts(const Batch& batch);
@@ -65,7 +67,7 @@ class Run {
 
   Workpiece::Body& body_;
   const Toolpath& path_;
-  Survey survey_;
+  Simulation::Plan& plan_;
   Length hazard_depth_;
   bool is_no_go_;
   unsigned threads_;
@@ -80,24 +82,42 @@ class Run {
   ContactList contacts_;
 };
 
-/// Plans all motions and cuts them, in batches; given tiles, only what goes there.
-void Run::send_all(const std::vector<bool>* tiles) {
-  const PlanScope scope{.margin = body_.pitch, .tiles = tiles};
-  Feeder feeder(body_, path_, survey_,
-                {.plan = scope,
-                 .steps = tiles == nullptr ? std::vector{StepRange{0, path_.size()}} : steps_in(*tiles),
-                 .hazard_depth = hazard_depth_,
-                 .is_no_go = is_no_go_});
+/// Cuts the batches that next() returns.
+template <class Next>
+void CutRun::send(const Next& next) {
   const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
   const double steps = static_cast<double>(std::max<std::size_t>(path_.size(), 1));
+  const auto report_batch = [&](const CutBatch& batch) {
+    report(progress_, static_cast<double>(batch.plan->steps_done) / steps);
+  };
   cut_batches(
-      feeder, threads_, [&](CutBatch& batch, std::size_t k) { cut_tile_number(batch, k); },
-      [&](const CutBatch& batch) { take_over(batch); },
-      [&](const CutBatch& batch) { report(progress_, static_cast<double>(batch.steps_done) / steps); }, stop);
+      next, threads_, [&](CutBatch& batch, std::size_t k) { cut_tile_number(batch, k); },
+      [&](const CutBatch& batch) { take_over(batch); }, report_batch, stop);
 }
 
-void Run::cut_tile_number(CutBatch& batch, std::size_t k) {
-  const std::size_t tile = batch.busy[k];
+/// Cuts all motions; given tiles, what goes there.
+void CutRun::send_all(const std::vector<bool>* tiles) {
+  if (tiles != nullptr && plan_.batches.complete()) {
+    std::size_t next = 0;
+    return send([&] { return plan_.batches.batches()[next++]; });
+  }
+  const bool is_kept = tiles == nullptr && !is_no_go_;
+  BatchSource source(
+      body_, path_, plan_.survey,
+      {.plan = {.margin = body_.pitch, .beside = is_kept ? kKeptMargin * body_.pitch : 0.0, .tiles = tiles},
+       .steps = tiles == nullptr ? std::vector{StepRange{0, path_.size()}} : steps_in(*tiles),
+       .hazard_depth = hazard_depth_,
+       .is_no_go = is_no_go_});
+  send([&] {
+    auto batch = source.next();
+    if (is_kept) plan_.batches.add(batch);
+    return batch;
+  });
+}
+
+void CutRun::cut_tile_number(CutBatch& batch, std::size_t k) {
+  const std::size_t tile = batch.plan->busy[k];
+  if (walls_ != nullptr && !walls_->tiles()[tile]) return;
   TileJob job = cutter_.job(batch, k);
   if (walls_ != nullptr) return walls_->cut(tile, job);
   job.tile = &body_.touch(tile);
@@ -106,7 +126,7 @@ void Run::cut_tile_number(CutBatch& batch, std::size_t k) {
 }
 
 /// Of what is not to be cut each step meets all that was there: a clamp stays a clamp.
-void Run::meet_tile(std::size_t tile, TileJob job) {
+void CutRun::meet_tile(std::size_t tile, TileJob job) {
   for (std::size_t rest = job.count; rest > 0; rest -= job.count) {
     const std::uint32_t step = job.sweeps[*job.list].step;
     for (job.count = 1; job.count < rest && job.sweeps[job.list[job.count]].step == step;) ++job.count;
@@ -119,23 +139,23 @@ void Run::meet_tile(std::size_t tile, TileJob job) {
 }
 
 /// Contacts that are too narrow for the columns.
-void Run::note_block_contacts(const Batch& batch) {
+void CutRun::note_block_contacts(const Batch& batch) {
   if (body_.start) return;  // not a block
   std::vector<Contact> contacts;
   for (const Sweep& sweep : batch.sweeps)
-    sim::note_block_contacts(sweep, survey_.solids[sweep.tool], body_.bounds.size(), hazard_depth_.mm(),
+    sim::note_block_contacts(sweep, plan_.survey.solids[sweep.tool], body_.bounds.size(), hazard_depth_.mm(),
                              contacts);
   for (const Contact& contact : contacts) contacts_.add(contact);
 }
 
-std::vector<StepRange> Run::steps_in(const std::vector<bool>& tiles) const {
+std::vector<StepRange> CutRun::steps_in(const std::vector<bool>& tiles) const {
   std::vector<StepRange> all;
   for (std::size_t tile = 0; tile < tiles.size(); ++tile)
     if (tiles[tile] && in_tile_[tile].first <= in_tile_[tile].last) all.push_back(in_tile_[tile]);
   return apart(std::move(all));
 }
 
-void Run::refine_walls() {
+void CutRun::refine_walls() {
   if (stopped_) return;
   const std::vector<WallSquares> found = find_walls(body_, threads_);
   double most = 0.0;
@@ -157,7 +177,7 @@ void Run::refine_walls() {
   if (stopped_) more_.reset();
 }
 
-void Run::tell_removed(Simulation& result) {
+void CutRun::tell_removed(Simulation& result) {
   const double more = more_ ? more_->total() : 0.0;
   result.removed = mm3(removed_.total() + more);
   result.workpiece.body().wall_volume = -more;
@@ -168,35 +188,38 @@ void Run::tell_removed(Simulation& result) {
                  std::plus<>());
 }
 
-void Run::take_over(const CutBatch& batch) {
-  (walls_ == nullptr ? removed_ : *more_).add(batch);
-  if (walls_ == nullptr) {
-    if (is_no_go_) note_block_contacts(batch);
-    for (const Contact& contact : batch.contacts) contacts_.add(contact);
-    for (const std::vector<Contact>& of_tile : batch.contacts_of)
-      for (const Contact& contact : of_tile) contacts_.add(contact);
-    for (std::size_t k = 0; k < batch.busy.size(); ++k) {
-      sweeps_in_tile_[batch.busy[k]] += batch.start[k + 1] - batch.start[k];
-      in_tile_[batch.busy[k]].add({batch.sweeps[batch.list[batch.start[k]]].step,
-                                   batch.sweeps[batch.list[batch.start[k + 1] - 1]].step});
-    }
+void CutRun::take_over(const CutBatch& batch) {
+  if (walls_ != nullptr) return more_->add(batch);
+  removed_.add(batch);
+  const Batch& plan = *batch.plan;
+  if (is_no_go_) note_block_contacts(plan);
+  for (const Contact& contact : plan.contacts) contacts_.add(contact);
+  for (const std::vector<Contact>& of_tile : batch.contacts_of)
+    for (const Contact& contact : of_tile) contacts_.add(contact);
+  for (std::size_t k = 0; k < plan.busy.size(); ++k) {
+    sweeps_in_tile_[plan.busy[k]] += plan.start[k + 1] - plan.start[k];
+    in_tile_[plan.busy[k]].add(
+        {plan.sweeps[plan.list[plan.start[k]]].step, plan.sweeps[plan.list[plan.start[k + 1] - 1]].step});
   }
 }
 
 }  // namespace
 }  // namespace sim
 
-std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools, const Stock& stock,
-                                   const SimulationOptions& options, Diagnostics& diagnostics,
-                                   Progress* progress) {
-  const auto begin = std::chrono::steady_clock::now();
-  std::optional<sim::Setup> setup = sim::set_up(path, tools, stock, options, diagnostics);
+std::optional<Simulation> simulate(SimulationJob job, Diagnostics& diagnostics, Progress* progress) {
+  const auto start = std::chrono::steady_clock::now();
+  const Stock& stock = job.stock;
+  std::optional<sim::Setup> setup = sim::set_up(*job.path, job.tools, stock, job.options, diagnostics);
   if (!setup) return std::nullopt;
-  Simulation result{.workpiece = Workpiece(stock, setup->pitch),
+  const auto plan = std::make_shared<Simulation::Plan>();
+  plan->survey = std::move(setup->survey);
+  Simulation result{.job = {},
+                    .workpiece = Workpiece(stock, setup->pitch),
                     .stock = {},
                     .removed = {},
                     .hazards = {},
-                    .removed_by_step = {}};
+                    .removed_by_step = {},
+                    .plan = plan};
   const Point3 size = stock.block.size();
   result.stock = mm3(size.x * size.y * size.z);
   if (stock.body) {
@@ -204,14 +227,23 @@ std::optional<Simulation> simulate(const Toolpath& path, const ToolTable& tools,
       return std::nullopt;
     result.stock = result.workpiece.volume();
   }
-  sim::Run run(result.workpiece, path, std::move(setup->survey), options, progress);
+  sim::CutRun run(result.workpiece, job, *plan, progress);
   run.cut_all();
-  if (options.role == SolidRole::stock) run.refine_walls();
+  if (job.options.role == SolidRole::stock) run.refine_walls();
   run.tell_removed(result);
   result.hazards = run.hazards();
   result.stopped = run.stopped();
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.job = std::move(job);
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
+}
+
+std::optional<Simulation> simulate(Toolpath path, ToolTable tools, Stock stock,
+                                   const SimulationOptions& options, Diagnostics& diagnostics,
+                                   Progress* progress) {
+  return simulate(
+      {std::make_shared<const Toolpath>(std::move(path)), std::move(tools), std::move(stock), options},
+      diagnostics, progress);
 }
 
 }  // namespace kerf

@@ -13,12 +13,13 @@ StepSums::StepSums(double area, std::size_t steps) : area_(area), steps_(steps) 
 }
 
 void StepSums::add(const CutBatch& batch) {
-  of_sweep_.assign(batch.sweeps.size(), 0.0);
-  for (std::size_t at = 0; at < batch.list.size(); ++at) of_sweep_[batch.list[at]] += batch.removed[at];
+  const Batch& plan = *batch.plan;
+  of_sweep_.assign(plan.sweeps.size(), 0.0);
+  for (std::size_t at = 0; at < plan.list.size(); ++at) of_sweep_[plan.list[at]] += batch.removed[at];
   for (std::size_t first = 0, next = 0; first < of_sweep_.size(); first = next) {
-    const std::size_t step = batch.sweeps[first].step;
+    const std::size_t step = plan.sweeps[first].step;
     double length = 0.0;
-    for (; next < of_sweep_.size() && batch.sweeps[next].step == step; ++next) length += of_sweep_[next];
+    for (; next < of_sweep_.size() && plan.sweeps[next].step == step; ++next) length += of_sweep_[next];
     if (length != 0.0) add_to_step(step, length);
   }
 }

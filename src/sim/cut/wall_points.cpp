@@ -45,14 +45,14 @@ double unit_share(std::uint32_t bits) { return static_cast<double>(bits & 0xffff
 double fraction(double v) { return v < 1.0 ? v : v - 1.0; }
 
 /// From one column's place to the next one's or to the block's border, along one axis.
-struct Span {
+struct Gap {
   double low, high;
   double length() const { return high - low; }
   double at(double share) const { return low + share * (high - low); }
 };
 
 /// A point, and the column of the workpiece in whose square it is, where columns do not all begin alike.
-struct Point {
+struct WallPoint {
   Real x, y, weight;
   int i, j;
 };
@@ -69,33 +69,33 @@ class PointList {
     points_.reserve(most_points);
   }
 
-  void add_square(Square square, const Lattice& lattice);
+  void add_square(WallSquare square, const Lattice& lattice);
   /// Takes from a column what squares replace. Where it slopes beside a wall, its centre says too little of
   /// the quarters that are left, to the first order: `counts_rest` has them replaced by their own middles.
   void add_column(const TileColumns& columns, const WallSquares::Quarters& quarters, const Lattice& lattice);
   /// Lets what follows begin with a new micro.
   void fill_up();
-  const std::vector<Point>& points() const { return points_; }
+  const std::vector<WallPoint>& points() const { return points_; }
 
  private:
   const Workpiece::Body& body_;
   int column_, row_;  // of the tile's first column, and where that is
   double low_x_, low_y_;
-  std::vector<Point> points_;
+  std::vector<WallPoint> points_;
 };
 
-void PointList::add_square(Square square, const Lattice& lattice) {
+void PointList::add_square(WallSquare square, const Lattice& lattice) {
   const double count = lattice.count;
   const int i = column_ + square.x, j = row_ + square.y;
   const Point3 size = body_.bounds.size();
-  const Span x{i < 0 ? 0.0 : body_.place_x(i), i + 1 < body_.nx ? body_.place_x(i + 1) : size.x};
-  const Span y{j < 0 ? 0.0 : body_.place_y(j), j + 1 < body_.ny ? body_.place_y(j + 1) : size.y};
+  const Gap x{i < 0 ? 0.0 : body_.place_x(i), i + 1 < body_.nx ? body_.place_x(i + 1) : size.x};
+  const Gap y{j < 0 ? 0.0 : body_.place_y(j), j + 1 < body_.ny ? body_.place_y(j + 1) : size.y};
   const auto weight = static_cast<Real>(x.length() * y.length() / (body_.pitch * body_.pitch) / count);
   const std::uint32_t bits = scrambled(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j));
   for (int k = 0; k < lattice.count; ++k) {
     const double at_x = x.at(fraction(unit_share(bits) + k / count));
     const double at_y = y.at(fraction(unit_share(bits >> 16) + lattice.row[k] / count));
-    Point point{static_cast<Real>(at_x - low_x_), static_cast<Real>(at_y - low_y_), weight, 0, 0};
+    WallPoint point{static_cast<Real>(at_x - low_x_), static_cast<Real>(at_y - low_y_), weight, 0, 0};
     if (body_.start) {
       point.i = std::min(static_cast<int>(at_x / body_.pitch), body_.nx - 1);
       point.j = std::min(static_cast<int>(at_y / body_.pitch), body_.ny - 1);
@@ -106,11 +106,11 @@ void PointList::add_square(Square square, const Lattice& lattice) {
 
 void PointList::add_column(const TileColumns& columns, const WallSquares::Quarters& quarters,
                            const Lattice& lattice) {
-  const Place place = place_of(quarters.column);
+  const ColumnInTile place = column_in_tile(quarters.column);
   const Real share_x = columns.share_x[place.x], share_y = columns.share_y[place.y];
   const Real quarter = 0.25f * share_x * share_y;
   const auto quarter_pitch = static_cast<Real>(0.25 * body_.pitch);
-  Point centre{columns.x[place.x], columns.y[place.y], 0.0f, column_ + place.x, row_ + place.y};
+  WallPoint centre{columns.x[place.x], columns.y[place.y], 0.0f, column_ + place.x, row_ + place.y};
   for (int k = 0; k < 4; ++k) {
     const bool is_taken = (quarters.taken >> k & 1) != 0;
     if (is_taken || lattice.counts_rest) centre.weight -= quarter;
@@ -169,11 +169,11 @@ void enclose(PointTile& tile) {
 }
 
 /// Fills a part with points.
-void fill_part(const Workpiece::Body& body, const Point* points, WallTile::Part& part) {
+void fill_part(const Workpiece::Body& body, const WallPoint* points, WallTile::Part& part) {
   for (std::size_t micro = 0; micro < part.points.micros.size(); ++micro) {
     PointMicro& lanes = part.points.micros[micro];
     for (int lane = 0; lane < kLanes; ++lane) {
-      const Point& point = *points++;
+      const WallPoint& point = *points++;
       lanes.x[lane] = point.x;
       lanes.y[lane] = point.y;
       lanes.weight[lane] = point.weight;
@@ -193,7 +193,7 @@ WallTile::WallTile(const Workpiece::Body& body, const Cutter& cutter, const Wall
   PointList list(body, walls.tile,
                  walls.squares.size() * static_cast<std::size_t>(lattice.count) +
                      walls.quarters.size() * a_column + 2 * kLanes);
-  for (const Square square : walls.squares) list.add_square(square, lattice);
+  for (const WallSquare square : walls.squares) list.add_square(square, lattice);
   list.fill_up();
   const TileColumns columns = cutter.columns_of(walls.tile);
   for (const WallSquares::Quarters& quarters : walls.quarters) list.add_column(columns, quarters, lattice);

@@ -37,7 +37,7 @@ constexpr int kGrades = 32;
 /// A square that a wall may go through, and how high the highest step on its edges is, graded by powers of
 /// two of the least that counts.
 struct Candidate {
-  Square square;
+  WallSquare square;
   std::int8_t grade;
   bool is_own;  // not another tile's, which has it too
 };
@@ -49,8 +49,8 @@ constexpr int kSquares = 4 * kMicros * kLanes;
 int number_of(int x, int y) {
   return 4 * lane_index(std::max(x, 0), std::max(y, 0)) + (x < 0 ? 1 : 0) + (y < 0 ? 2 : 0);
 }
-Square square_of(int number) {
-  const Place place = place_of(number / 4);
+WallSquare square_of(int number) {
+  const ColumnInTile place = column_in_tile(number / 4);
   return {static_cast<std::int8_t>((number & 1) != 0 ? -1 : place.x),
           static_cast<std::int8_t>((number & 2) != 0 ? -1 : place.y)};
 }
@@ -178,7 +178,7 @@ Candidates Window::look(std::size_t tile) {
   for (std::size_t word = 0; word < noted_.size(); ++word) {
     for (std::uint64_t rest = noted_[word]; rest != 0; rest &= rest - 1) {
       const int number = static_cast<int>(word * 64) + __builtin_ctzll(rest);
-      const Square square = square_of(number);
+      const WallSquare square = square_of(number);
       found.push_back(
           {square, grade_[number], (square.x >= 0 || tile_x == 0) && (square.y >= 0 || tile_y == 0)});
     }
@@ -214,7 +214,7 @@ WallSquares squares_above(int grade, const Candidates& candidates, const Workpie
   bool any_in[kMicros] = {};
   for (const Candidate& candidate : candidates) {
     if (candidate.grade < grade) continue;
-    const Square square = candidate.square;
+    const WallSquare square = candidate.square;
     if (candidate.is_own) {
       walls.squares.push_back(square);
       walls.most_error += highest_step(candidate.grade) * body.pitch;

@@ -24,7 +24,7 @@ namespace kerf::sim {
 
 /// A square between columns, by its place in a tile: from column x to the next one, from row y to the next.
 /// At the block's border -1, or the last column or row, stands for the half of a square that is left there.
-struct Square {
+struct WallSquare {
   std::int8_t x, y;
 };
 
@@ -36,7 +36,7 @@ struct WallSquares {
   };
   std::uint32_t tile = 0;
   double most_error = 0.0;  // what the columns' centres can say too much or too little, mm of column
-  std::vector<Square> squares;
+  std::vector<WallSquare> squares;
   std::vector<Quarters> quarters;
 };
 

@@ -29,11 +29,11 @@ constexpr int lane_index(int x, int y) {
   return (super * kSupers + micro) * kLanes + (y & 3) * 4 + (x & 3);
 }
 
-/// Place of a column in its tile, from its lane_index.
-struct Place {
+/// Position of a column in its tile, from its lane_index.
+struct ColumnInTile {
   int x, y;
 };
-constexpr Place place_of(int index) {
+constexpr ColumnInTile column_in_tile(int index) {
   const int super = index >> 8, micro = (index >> 4) & 15, lane = index & 15;
   return {(super & 3) * 16 + (micro & 3) * 4 + (lane & 3),
           (super >> 2) * 16 + (micro >> 2) * 4 + (lane >> 2)};

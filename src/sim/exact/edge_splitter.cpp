@@ -132,7 +132,7 @@ void EdgeSplitter::look_again() {
     if (!has_changed && (may_turn_ || stray.found.verdict != Verdict::turns)) return false;
     const std::uint32_t corner = mesh_.find(stray.a, stray.b);
     if (corner != kNone)  // it was not turned
-      spots_.push_back(sweeps_.spot_at(middle_of(corner), std::min(corner, mesh_.across(corner))));
+      queries_.push_back(sweeps_.query_at(middle_of(corner), std::min(corner, mesh_.across(corner))));
     return true;
   };
   strays_.erase(std::remove_if(strays_.begin(), strays_.end(), is_taken), strays_.end());
@@ -147,28 +147,28 @@ void EdgeSplitter::find_suspects() {
     return corner != kNone && is_changed_[corner / 3] != 0;
   };
   const std::size_t pieces = (changed_.size() + kAtATime - 1) / kAtATime;
-  std::vector<std::vector<Spot>> found(pieces);
+  std::vector<std::vector<QueryPoint>> found(pieces);
   const auto work = [&](std::size_t piece) {
     for (std::size_t n = piece * kAtATime; n < std::min(changed_.size(), (piece + 1) * kAtATime); ++n)
       for (std::uint32_t c = 3 * changed_[n]; c < 3 * changed_[n] + 3; ++c) {
         if (is_changed(mesh_.across(c)) && mesh_.across(c) < c) continue;  // found from there
         if (is_suspect(c))
-          found[piece].push_back(sweeps_.spot_at(middle_of(c), std::min(c, mesh_.across(c))));
+          found[piece].push_back(sweeps_.query_at(middle_of(c), std::min(c, mesh_.across(c))));
       }
   };
   parallel_for(threads_, pieces, work, [] { return false; });
-  spots_.clear();
-  for (const std::vector<Spot>& some : found) spots_.insert(spots_.end(), some.begin(), some.end());
+  queries_.clear();
+  for (const std::vector<QueryPoint>& some : found) queries_.insert(queries_.end(), some.begin(), some.end());
   look_again();
   for (const std::uint32_t t : changed_) is_changed_[t] = 0;
   changed_.clear();
-  std::sort(spots_.begin(), spots_.end());
-  const auto is_same = [](const Spot& a, const Spot& b) { return a.number == b.number; };
-  spots_.erase(std::unique(spots_.begin(), spots_.end(), is_same), spots_.end());
+  std::sort(queries_.begin(), queries_.end());
+  const auto is_same = [](const QueryPoint& a, const QueryPoint& b) { return a.number == b.number; };
+  queries_.erase(std::unique(queries_.begin(), queries_.end(), is_same), queries_.end());
 }
 
 void EdgeSplitter::look_at(std::size_t n, Around& around) {
-  const std::uint32_t corner = spots_[n].number, across = mesh_.across(corner);
+  const std::uint32_t corner = queries_[n].number, across = mesh_.across(corner);
   const std::uint32_t triangle = corner / 3, other = across == kNone ? triangle : across / 3;
   const Point3 a = mesh_.point(mesh_.vertex(corner)), b = mesh_.point(mesh_.vertex(LinkedMesh::next(corner)));
   const bool stock = mesh_.step(triangle) == kStockSurface, other_stock = mesh_.step(other) == kStockSurface;
@@ -226,10 +226,10 @@ bool EdgeSplitter::can_turn(std::uint32_t corner) const {
 }
 
 void EdgeSplitter::take_found() {
-  for (std::size_t n = 0; n < spots_.size(); ++n) {
-    if (found_[n].verdict == Verdict::good) mesh_.mark(spots_[n].number);
+  for (std::size_t n = 0; n < queries_.size(); ++n) {
+    if (found_[n].verdict == Verdict::good) mesh_.mark(queries_[n].number);
     if (found_[n].verdict == Verdict::parts || found_[n].verdict == Verdict::turns)
-      add_stray(spots_[n].number, found_[n]);
+      add_stray(queries_[n].number, found_[n]);
   }
 }
 
@@ -278,21 +278,21 @@ void EdgeSplitter::find_crossed() {
     return distance(mesh_.point(mesh_.vertex(stray.corner)),
                     mesh_.point(mesh_.vertex(LinkedMesh::next(stray.corner))));
   };
-  spots_.clear();
+  queries_.clear();
   for (std::uint32_t n = 0; n < strays_.size(); ++n) {
     Stray& stray = strays_[n];
     const Stray *one = only_other(stray.corner), *two = only_other(mesh_.across(stray.corner));
     if (one == nullptr || two == nullptr || one == two) continue;
     if (size(stray) <= std::max(size(*one), size(*two))) continue;
     stray.crossing = 0.5 * (one->found.at + two->found.at);
-    spots_.push_back(sweeps_.spot_at(stray.crossing, n));
+    queries_.push_back(sweeps_.query_at(stray.crossing, n));
   }
   number_all([](std::uint32_t) { return kNone; });
-  std::sort(spots_.begin(), spots_.end());
+  std::sort(queries_.begin(), queries_.end());
 }
 
 bool EdgeSplitter::look_at_crossed(std::size_t n, Around& around) const {
-  const Point3 middle = strays_[spots_[n].number].crossing;
+  const Point3 middle = strays_[queries_[n].number].crossing;
   return std::abs(around.wider(middle).at(middle).value) <= tolerance_;
 }
 

@@ -25,9 +25,9 @@ class EdgeSplitter {
     for (int round = 0; round <= most; ++round) {
       may_turn_ = round < most;
       find_suspects();
-      found_.assign(spots_.size(), {});
+      found_.assign(queries_.size(), {});
       sweeps_.visit(
-          spots_, threads_, [&](std::size_t n, Around& around) { look_at(n, around); }, stop);
+          queries_, threads_, [&](std::size_t n, Around& around) { look_at(n, around); }, stop);
       if (stop()) return;
       take_found();
       if (may_turn_) turn_edges();
@@ -37,13 +37,13 @@ class EdgeSplitter {
   template <class Stop>
   bool part(const Stop& stop) {
     find_crossed();
-    std::vector<std::uint8_t> is_good(spots_.size(), 0);
+    std::vector<std::uint8_t> is_good(queries_.size(), 0);
     sweeps_.visit(
-        spots_, threads_, [&](std::size_t n, Around& around) { is_good[n] = look_at_crossed(n, around); },
+        queries_, threads_, [&](std::size_t n, Around& around) { is_good[n] = look_at_crossed(n, around); },
         stop);
     if (stop()) return false;
-    for (std::size_t n = 0; n < spots_.size(); ++n)
-      if (is_good[n] != 0) strays_[spots_[n].number].found.verdict = Verdict::crossed;
+    for (std::size_t n = 0; n < queries_.size(); ++n)
+      if (is_good[n] != 0) strays_[queries_[n].number].found.verdict = Verdict::crossed;
     return part_strays();
   }
 
@@ -100,8 +100,8 @@ class EdgeSplitter {
   std::vector<std::uint32_t> changed_;          // triangles since the last look
   std::vector<std::uint8_t> is_changed_;        // of triangles
   std::vector<std::array<float, 3>> smoothed_;  // of vertices within one surface its normal, else 0
-  std::vector<Spot> spots_;                     // edges, by a corner
-  std::vector<Found> found_;                    // of spots_
+  std::vector<QueryPoint> queries_;             // edges, by a corner
+  std::vector<Found> found_;                    // of queries_
   std::vector<Stray> strays_;                   // that are known
   std::vector<std::uint32_t> stray_of_;         // of corners: number of the stray, or kNone
   std::uint32_t first_new_ = 0;                 // vertex: edges between older ones have been looked at

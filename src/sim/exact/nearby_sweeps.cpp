@@ -215,7 +215,7 @@ Distance Nearby::at(Point3 place) const {
   return nearest;
 }
 
-Spot SweepsByTile::spot_at(Point3 place, std::uint32_t number) const {
+QueryPoint SweepsByTile::query_at(Point3 place, std::uint32_t number) const {
   const auto column = [&](double v, int columns) {
     return std::clamp(static_cast<int>(std::floor(v / body_.pitch)), 0, columns - 1);
   };
@@ -229,14 +229,27 @@ Spot SweepsByTile::spot_at(Point3 place, std::uint32_t number) const {
 
 void SweepsByTile::take(const Batch& batch) {
   std::vector<std::uint32_t> number(batch.sweeps.size(), kNotYet);
-  for (const Batch::Pair& pair : batch.pairs) {
-    std::uint32_t& mine = number[pair.sweep];
-    if (mine == kNotYet) {
-      mine = static_cast<std::uint32_t>(sweeps_.size());
-      sweeps_.push_back(batch.sweeps[pair.sweep]);
-    }
-    of_tile_[pair.tile].push_back(mine);
+  for (const std::uint32_t sweep : batch.list) number[sweep] = 0;
+  for (std::size_t n = 0; n < number.size(); ++n) {
+    if (number[n] == kNotYet) continue;
+    number[n] = static_cast<std::uint32_t>(sweeps_.size());
+    sweeps_.push_back(batch.sweeps[n]);
   }
+  for (std::size_t k = 0; k < batch.busy.size(); ++k)
+    for (std::size_t at = batch.start[k]; at < batch.start[k + 1]; ++at)
+      of_tile_[batch.busy[k]].push_back(number[batch.list[at]]);
+}
+
+/// Takes those of a batch of the simulation that the planner wants.
+void SweepsByTile::take_kept(const Batch& batch, Planner& planner) {
+  Batch wanted;
+  auto beside = batch.beside.begin();
+  for (std::size_t n = 0; n <= batch.sweeps.size(); ++n) {
+    for (; beside != batch.beside.end() && beside->before == n; ++beside) planner.add(beside->sweep, wanted);
+    if (n < batch.sweeps.size()) planner.add(batch.sweeps[n], wanted);
+  }
+  wanted.sort(of_tile_.size());
+  take(wanted);
 }
 
 Around::Around(const SweepsByTile& sweeps)
@@ -244,19 +257,19 @@ Around::Around(const SweepsByTile& sweeps)
       wider_(sweeps.tools_, sweeps.reach_ + kWider * sweeps.body_.pitch),
       nearby_(sweeps.tools_, sweeps.reach_) {}
 
-void Around::go_to(const Spot& spot) {
-  const bool is_in_block = spot.tile == spot_.tile && spot.block == spot_.block;
+void Around::go_to(const QueryPoint& query) {
+  const bool is_in_block = query.tile == query_.tile && query.block == query_.block;
   has_block_ = has_block_ && is_in_block;
-  has_wider_ = has_wider_ && is_in_block && spot.layer == spot_.layer;
-  spot_ = spot;
+  has_wider_ = has_wider_ && is_in_block && query.layer == query_.layer;
+  query_ = query;
 }
 
-/// Of the spot's cube of columns.
+/// Of the query point's cube of columns.
 Point3 Around::middle() const {
   const auto tiles_x = static_cast<std::uint32_t>(sweeps_.body_.tiles_x);
-  const double i = spot_.tile % tiles_x * kTileColumns + (spot_.block % kBlocksAcross + 0.5) * kBlock;
-  const double j = spot_.tile / tiles_x * kTileColumns + (spot_.block / kBlocksAcross + 0.5) * kBlock;
-  return sweeps_.body_.pitch * Point3{i, j, (spot_.layer + 0.5) * kBlock};
+  const double i = query_.tile % tiles_x * kTileColumns + (query_.block % kBlocksAcross + 0.5) * kBlock;
+  const double j = query_.tile / tiles_x * kTileColumns + (query_.block / kBlocksAcross + 0.5) * kBlock;
+  return sweeps_.body_.pitch * Point3{i, j, (query_.layer + 0.5) * kBlock};
 }
 
 void Around::gather_block() {
@@ -264,7 +277,7 @@ void Around::gather_block() {
   const Point2 middle = this->middle().xy();
   const double half = std::numbers::sqrt2 * 0.5 * kBlock * body.pitch + sweeps_.reach_;
   reachable_.clear();
-  for (const std::uint32_t n : sweeps_.of_tile_[spot_.tile]) {
+  for (const std::uint32_t n : sweeps_.of_tile_[query_.tile]) {
     const Sweep& sweep = sweeps_.sweeps_[n];
     const Point2 way = middle - nearest_in_plan(sweep, middle);
     const double most = sweeps_.tools_[sweep.tool].rim() + half;
@@ -315,7 +328,7 @@ const Nearby& Around::of_columns(Point3 place) {
   std::sort(steps_.begin(), steps_.end());
   steps_.erase(std::unique(steps_.begin(), steps_.end()), steps_.end());
   of_columns_.clear();
-  const std::vector<std::uint32_t>& list = sweeps_.of_tile_[spot_.tile];
+  const std::vector<std::uint32_t>& list = sweeps_.of_tile_[query_.tile];
   for (const std::uint32_t step : steps_) {
     const auto before = [&](std::uint32_t n, std::uint32_t wanted) {
       return sweeps_.sweeps_[n].step < wanted;

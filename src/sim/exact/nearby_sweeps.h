@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "sim/cut/simulation_plan.h"
 #include "sim/dexel/tile.h"
 #include "sim/exact/sweep_distance.h"
-#include "sim/sweep/batch_source.h"
 
 namespace kerf::sim {
 
@@ -69,11 +69,11 @@ class Nearby {
 };
 
 /// A place that is looked at, in its tile, its block of columns there, and its layer of that.
-struct Spot {
+struct QueryPoint {
   std::uint32_t tile = 0, block = 0;
   std::int32_t layer = 0;
   std::uint32_t number = 0;  // whose place it is
-  bool operator<(const Spot& other) const {
+  bool operator<(const QueryPoint& other) const {
     return std::tie(tile, block, layer, number) <
            std::tie(other.tile, other.block, other.layer, other.number);
   }
@@ -85,17 +85,20 @@ class SweepsByTile {
   /// `reach`: how far from a place there is something to be found, mm.
   SweepsByTile(const Workpiece::Body& body, const std::vector<ToolDistance>& tools, double reach)
       : body_(body), tools_(tools), reach_(reach) {}
-  /// Gathers them for the tiles of some spots. `stop` is asked now and then.
+  /// Gathers them for the tiles of some query points, from the batches that the simulation has kept or by
+  /// planning its path again. `stop` is asked now and then.
   template <class Stop>
-  void gather(const Toolpath& path, const Survey& survey, const std::vector<Spot>& spots, const Stop& stop);
+  void gather(const Simulation& simulation, const std::vector<QueryPoint>& queries, const Stop& stop);
 
-  Spot spot_at(Point3 place, std::uint32_t number) const;
-  /// Calls work(n, around) for number n of the spots, which are in order, on all threads.
+  QueryPoint query_at(Point3 place, std::uint32_t number) const;
+  /// Calls work(n, around) for number n of the query points, which are in order, on all threads.
   template <class Work, class Stop>
-  void visit(const std::vector<Spot>& spots, unsigned threads, const Work& work, const Stop& stop) const;
+  void visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work,
+             const Stop& stop) const;
 
  private:
   void take(const Batch& batch);
+  void take_kept(const Batch& batch, Planner& planner);
   friend class Around;
 
   const Workpiece::Body& body_;
@@ -105,11 +108,11 @@ class SweepsByTile {
   std::vector<std::vector<std::uint32_t>> of_tile_;
 };
 
-/// What is around the spots of one tile, one spot after the other.
+/// What is around the query points of one tile, one after the other.
 class Around {
  public:
   explicit Around(const SweepsByTile& sweeps);
-  void go_to(const Spot& spot);
+  void go_to(const QueryPoint& query);
   /// From all sweeps.
   const Nearby& all(Point3 place);
   /// The same for one look.
@@ -127,7 +130,7 @@ class Around {
   };
   const SweepsByTile& sweeps_;
   Nearby wider_, nearby_;  // the wider ones serve several places
-  Spot spot_;
+  QueryPoint query_;
   bool has_block_ = false, has_wider_ = false;
   std::vector<Reachable> reachable_;
   std::vector<const Sweep*> of_block_, of_columns_;
@@ -136,32 +139,42 @@ class Around {
 };
 
 template <class Stop>
-void SweepsByTile::gather(const Toolpath& path, const Survey& survey, const std::vector<Spot>& spots,
+void SweepsByTile::gather(const Simulation& simulation, const std::vector<QueryPoint>& queries,
                           const Stop& stop) {
   std::vector<bool> wanted(body_.tiles.size(), false);
-  for (const Spot& spot : spots) wanted[spot.tile] = true;
+  for (const QueryPoint& query : queries) wanted[query.tile] = true;
   of_tile_.resize(body_.tiles.size());
   const PlanScope scope{.margin = 2.0 * reach_, .tiles = &wanted};
-  Feeder feeder(body_, path, survey,
-                {.plan = scope, .steps = {StepRange{0, path.size()}}, .hazard_depth = Length()});
-  Batch batch;
-  do {
-    feeder.fill(batch);
-    take(batch);
-  } while (!batch.is_last && !stop());
+  const Simulation::Plan& plan = *simulation.plan;
+  if (plan.batches.complete()) {
+    Planner planner(body_, plan.survey.solids, Length(), scope);
+    for (const auto& batch : plan.batches.batches()) {
+      if (stop()) return;
+      take_kept(*batch, planner);
+    }
+    return;
+  }
+  const Toolpath& path = *simulation.job.path;
+  BatchSource source(body_, path, plan.survey,
+                     {.plan = scope, .steps = {StepRange{0, path.size()}}, .hazard_depth = Length()});
+  for (bool more = true; more;) {
+    const auto batch = source.next();
+    take(*batch);
+    more = !batch->is_last && !stop();
+  }
 }
 
 template <class Work, class Stop>
-void SweepsByTile::visit(const std::vector<Spot>& spots, unsigned threads, const Work& work,
+void SweepsByTile::visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work,
                          const Stop& stop) const {
   std::vector<std::size_t> begin;
-  for (std::size_t n = 0; n < spots.size(); ++n)
-    if (n == 0 || spots[n].tile != spots[n - 1].tile) begin.push_back(n);
-  begin.push_back(spots.size());
+  for (std::size_t n = 0; n < queries.size(); ++n)
+    if (n == 0 || queries[n].tile != queries[n - 1].tile) begin.push_back(n);
+  begin.push_back(queries.size());
   const auto do_tile = [&](std::size_t k) {
     Around around(*this);
     for (std::size_t n = begin[k]; n < begin[k + 1]; ++n) {
-      around.go_to(spots[n]);
+      around.go_to(queries[n]);
       work(n, around);
     }
   };

@@ -24,29 +24,27 @@ namespace {
 /// Vertices that are nearer than this share of the tolerance to their surfaces are left alone.
 constexpr double kGoodEnough = 0.5;
 /// How far from a vertex surfaces are looked for, in pitches.
-constexpr double kReach = 0.95;
+constexpr double kReach = 0.5 * kKeptMargin;
 
 /// Each round turns edges and then halves those that still stray.
 constexpr int kMaxRounds = 5;
 
 class Sharpener {
  public:
-  Sharpener(Mesh& mesh, const Workpiece::Body& body, const Toolpath& path, Survey survey,
-            const ToolTable& tools, const SharpenOptions& options, Progress* progress);
+  Sharpener(Mesh& mesh, const Simulation& simulation, const SharpenOptions& options, Progress* progress);
   bool run();
 
  private:
   bool is_wanted(std::uint32_t vertex) const;
-  std::vector<Spot> find_spots() const;
+  std::vector<QueryPoint> find_queries() const;
   void place_vertices();
   void split_edges();
-  void move(const std::vector<Spot>& spots, const std::vector<Point3>& places);
+  void move(const std::vector<QueryPoint>& queries, const std::vector<Point3>& places);
   bool stopped() { return stopped_ = stopped_ || stop_requested(progress_); }
 
   LinkedMesh mesh_;
+  const Simulation& simulation_;
   const Workpiece::Body& body_;
-  const Toolpath& path_;
-  Survey survey_;
   double tolerance_;
   unsigned threads_;
   Progress* progress_;
@@ -56,18 +54,19 @@ class Sharpener {
   std::vector<bool> bends_;  // vertices that were looked at
 };
 
-Sharpener::Sharpener(Mesh& mesh, const Workpiece::Body& body, const Toolpath& path, Survey survey,
-                     const ToolTable& tools, const SharpenOptions& options, Progress* progress)
-    : mesh_(mesh, body.bounds.low, thread_count(options.threads)),
-      body_(body),
-      path_(path),
-      survey_(std::move(survey)),
+Sharpener::Sharpener(Mesh& mesh, const Simulation& simulation, const SharpenOptions& options,
+                     Progress* progress)
+    : mesh_(mesh, simulation.workpiece.bounds().low, thread_count(options.threads)),
+      simulation_(simulation),
+      body_(simulation.workpiece.body()),
       tolerance_(options.tolerance.mm()),
       threads_(thread_count(options.threads)),
       progress_(progress),
-      sweeps_(body, tools_, kReach * body.pitch) {
-  std::vector<const Silhouette*> silhouettes(survey_.solids.size());
-  for (const auto& [number, index] : survey_.index) silhouettes[index] = &tools.find(number)->silhouette;
+      sweeps_(body_, tools_, kReach * body_.pitch) {
+  const Survey& survey = simulation.plan->survey;
+  std::vector<const Silhouette*> silhouettes(survey.solids.size());
+  for (const auto& [number, index] : survey.index)
+    silhouettes[index] = &simulation.job.tools.find(number)->silhouette;
   for (const Silhouette* silhouette : silhouettes) tools_.emplace_back(*silhouette);
 }
 
@@ -87,49 +86,49 @@ bool Sharpener::is_wanted(std::uint32_t vertex) const {
   return most > least * least;
 }
 
-std::vector<Spot> Sharpener::find_spots() const {
+std::vector<QueryPoint> Sharpener::find_queries() const {
   constexpr std::size_t kAtATime = 1 << 14;
   const std::size_t count = mesh_.vertices(), pieces = (count + kAtATime - 1) / kAtATime;
-  std::vector<std::vector<Spot>> found(pieces);
+  std::vector<std::vector<QueryPoint>> found(pieces);
   const auto work = [&](std::size_t piece) {
     for (std::size_t v = piece * kAtATime; v < std::min(count, (piece + 1) * kAtATime); ++v) {
       const auto vertex = static_cast<std::uint32_t>(v);
-      if (is_wanted(vertex)) found[piece].push_back(sweeps_.spot_at(mesh_.point(vertex), vertex));
+      if (is_wanted(vertex)) found[piece].push_back(sweeps_.query_at(mesh_.point(vertex), vertex));
     }
   };
   parallel_for(threads_, pieces, work, [] { return false; });
-  std::vector<Spot> spots;
-  for (const std::vector<Spot>& some : found) spots.insert(spots.end(), some.begin(), some.end());
-  std::sort(spots.begin(), spots.end());
-  return spots;
+  std::vector<QueryPoint> queries;
+  for (const std::vector<QueryPoint>& some : found) queries.insert(queries.end(), some.begin(), some.end());
+  std::sort(queries.begin(), queries.end());
+  return queries;
 }
 
 void Sharpener::place_vertices() {
-  const std::vector<Spot> spots = find_spots();
+  const std::vector<QueryPoint> queries = find_queries();
   bends_.assign(mesh_.vertices(), false);
-  for (const Spot& spot : spots) bends_[spot.number] = true;
-  sweeps_.gather(path_, survey_, spots, [&] { return stopped(); });
-  std::vector<Point3> places(spots.size());
+  for (const QueryPoint& query : queries) bends_[query.number] = true;
+  sweeps_.gather(simulation_, queries, [&] { return stopped(); });
+  std::vector<Point3> places(queries.size());
   std::atomic<std::size_t> done{0};
   const auto stop = [&] {
-    report(progress_, 0.6 * static_cast<double>(done) / static_cast<double>(spots.size()));
+    report(progress_, 0.6 * static_cast<double>(done) / static_cast<double>(queries.size()));
     return stopped();
   };
   sweeps_.visit(
-      spots, threads_,
+      queries, threads_,
       [&](std::size_t n, Around& around) {
-        places[n] = Placer(mesh_, body_, tolerance_).place(spots[n].number, around);
+        places[n] = Placer(mesh_, body_, tolerance_).place(queries[n].number, around);
         ++done;
       },
       stop);
-  if (!stopped()) move(spots, places);
+  if (!stopped()) move(queries, places);
 }
 
-void Sharpener::move(const std::vector<Spot>& spots, const std::vector<Point3>& places) {
+void Sharpener::move(const std::vector<QueryPoint>& queries, const std::vector<Point3>& places) {
   std::vector<Point3> before(mesh_.vertices());
   std::vector<std::uint32_t> changed;
   for (std::uint32_t v = 0; v < mesh_.vertices(); ++v) before[v] = mesh_.point(v);
-  for (std::size_t n = 0; n < spots.size(); ++n) mesh_.move(spots[n].number, places[n]);
+  for (std::size_t n = 0; n < queries.size(); ++n) mesh_.move(queries[n].number, places[n]);
   for (std::uint32_t t = 0; t < mesh_.triangles(); ++t)
     if (bends_[mesh_.vertex(3 * t)] || bends_[mesh_.vertex(3 * t + 1)] || bends_[mesh_.vertex(3 * t + 2)])
       changed.push_back(t);
@@ -157,49 +156,43 @@ bool Sharpener::run() {
 }  // namespace
 }  // namespace sim
 
-bool sharpen_mesh(Mesh& mesh, const Workpiece& workpiece, const Toolpath& path, const ToolTable& tools,
-                  const Stock& stock, const SharpenOptions& options, Progress* progress) {
-  SimulationOptions of_simulation;
-  of_simulation.resolution = workpiece.pitch();
-  of_simulation.threads = options.threads;
-  of_simulation.max_columns = SIZE_MAX;  // they are there already
-  Diagnostics said_before;
-  std::optional<sim::Setup> setup = sim::set_up(path, tools, stock, of_simulation, said_before);
-  if (!setup || mesh.triangles.empty()) return true;  // nothing was cut
+bool sharpen_mesh(Mesh& mesh, const Simulation& simulation, const SharpenOptions& options,
+                  Progress* progress) {
+  if (mesh.triangles.empty()) return true;
   if (progress != nullptr) progress->phase("sharpening");
   Mesh rough;
   if (progress != nullptr) rough = mesh;
-  const Workpiece::Body& body = workpiece.body();
-  if (!sim::Sharpener(mesh, body, path, std::move(setup->survey), tools, options, progress).run()) {
+  if (!sim::Sharpener(mesh, simulation, options, progress).run()) {
     mesh = std::move(rough);
     return false;
   }
   meshing::mend_flat_triangles(mesh, thread_count(options.threads));
-  relabel_mesh(mesh, workpiece);
+  relabel_mesh(mesh, simulation.workpiece);
   report(progress, 1.0);
   return true;
 }
 
-std::optional<Mesh> extract_exact_mesh(const MeshColumns& columns, const MeshOptions& options,
-                                       const Workpiece& workpiece, const Toolpath& path,
-                                       const ToolTable& tools, const Stock& stock, Diagnostics& diagnostics,
-                                       Progress* progress) {
+std::optional<CheckedMesh> extract_exact_mesh(const Simulation& simulation, const MeshOptions& options,
+                                              Diagnostics& diagnostics, Progress* progress) {
   const SharpenOptions sharp;
-  Mesh mesh = extract_mesh(columns, options, progress);
-  if (stop_requested(progress) || !sharpen_mesh(mesh, workpiece, path, tools, stock, sharp, progress))
+  const MeshColumns columns(simulation.workpiece, options.threads);
+  CheckedMesh result{extract_mesh(columns, options, progress), {}};
+  if (stop_requested(progress) || !sharpen_mesh(result.mesh, simulation, sharp, progress))
     return std::nullopt;
   Diagnostics fault;
   MeshOptions allowed = options;
   allowed.tolerance = options.tolerance + sharp.tolerance;
-  if (verify_mesh(mesh, mesh_volume(columns, allowed), fault)) return mesh;
+  result.volume = mesh_volume(columns, allowed);
+  result.is_verified = verify_mesh(result.mesh, result.volume, fault);
+  if (result.is_verified) return result;
   diagnostics
       .warning(Code::mesh_unsound, {},
                "edges and walls are only as exact as the columns: with exact ones the mesh is not sound")
       .hint = "a finer --resolution may help";
-  mesh = extract_mesh(columns, options, progress);
-  relabel_mesh(mesh, workpiece);
+  result.mesh = extract_mesh(columns, options, progress);
+  relabel_mesh(result.mesh, simulation.workpiece);
   if (stop_requested(progress)) return std::nullopt;
-  return mesh;
+  return result;
 }
 
 void relabel_mesh(Mesh& mesh, const Workpiece& workpiece) {

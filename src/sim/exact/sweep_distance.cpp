@@ -9,7 +9,7 @@ namespace kerf::sim {
 namespace {
 
 /// Where along a sweep the tool is.
-struct Span {
+struct PathRange {
   double first = 0.0, last = 0.0;
   bool empty() const { return !(first <= last); }
   double width() const { return last - first; }
@@ -52,7 +52,7 @@ class Looker {
   };
   Look at(double t) const;
   /// The part of the path from which the tool may be nearer than `reach`.
-  Span near(double reach) const;
+  PathRange near(double reach) const;
   /// Where the tool may come nearest.
   double guess() const;
   double look_width() const { return kLookShare * std::max(tool_.rim(), kPathTolerance); }
@@ -65,8 +65,8 @@ class Looker {
 
   /// Of a piece of the path along which the distance has one lowest place, which may be `stride` from where
   /// it is guessed. Anything that is not below `enough` will do where nothing is.
-  Nearest lowest(Span span, double guess, double stride, double enough) const;
-  Nearest lowest_of_many(Span span, double enough) const;
+  Nearest lowest(PathRange range, double guess, double stride, double enough) const;
+  Nearest lowest_of_many(PathRange range, double enough) const;
 
  private:
   const Sweep& sweep_;
@@ -93,7 +93,7 @@ Looker::Look Looker::at(double t) const {
   return look;
 }
 
-Span Looker::near(double reach) const {
+PathRange Looker::near(double reach) const {
   const double wide = tool_.rim() + reach;
   const double dx = place_.x - sweep_.x, dy = place_.y - sweep_.y;
   const double along = dx * sweep_.ux + dy * sweep_.uy, across = dx * sweep_.uy - dy * sweep_.ux;
@@ -170,28 +170,28 @@ struct Bracket {
 
 /// The distance to a convex tool is a convex function along a line. Newton's method finds the bottom of a
 /// curve; that of a kink is where its two sides meet.
-Nearest Looker::lowest(Span span, double guess, double stride, double enough) const {
+Nearest Looker::lowest(PathRange range, double guess, double stride, double enough) const {
   Bracket bracket;
   bool knows_first = false, knows_last = false;
   Nearest best;
-  double t = span.clamp(guess);
+  double t = range.clamp(guess);
   for (int n = 0; n < kMaxLooks; ++n) {
     const Look look = at(t);
     if (look.distance.value < best.distance.value) best = {look.distance, t};
     if (look.along >= 0.0) {
-      span.last = t;
+      range.last = t;
       bracket.last = look;
       knows_last = true;
     }
     if (look.along <= 0.0) {
-      span.first = t;
+      range.first = t;
       bracket.first = look;
       knows_first = true;
     }
-    const double width = bracket.width = span.width();
+    const double width = bracket.width = range.width();
     if (!(width > kPathTolerance)) break;
     const double step = look.bend > 0.0 ? -look.along / look.bend : std::copysign(width, -look.along);
-    const bool is_inside = span.first < t + step && t + step < span.last;
+    const bool is_inside = range.first < t + step && t + step < range.last;
     const double gain = -0.5 * look.along * step;
     if (is_inside && gain <= kParabolaTolerance && std::abs(look.along) <= kNearlyLevel) {
       if (look.distance.value <= best.distance.value) best.distance.value -= gain;
@@ -200,7 +200,7 @@ Nearest Looker::lowest(Span span, double guess, double stride, double enough) co
     if (!knows_first || !knows_last) {
       const double lowest = look.distance.value - std::abs(look.along) * width;
       if (best.distance.value - lowest <= kDistanceTolerance || lowest >= enough) break;
-      t = span.clamp(t + std::clamp(step, -stride, stride));
+      t = range.clamp(t + std::clamp(step, -stride, stride));
       stride *= kLongerStride;
       continue;
     }
@@ -217,25 +217,25 @@ Nearest Looker::lowest(Span span, double guess, double stride, double enough) co
     const Bracket::Told kink = bracket.kink();
     const double close = close_width();
     if (width <= close && bracket.is_kink() && kink.value <= best.distance.value)
-      return {{kink.value, bracket.gradient()}, span.first + kink.at};
+      return {{kink.value, bracket.gradient()}, range.first + kink.at};
     // A little beyond the kink, seen from the end that is nearer, so that the other end comes near too.
     const double beyond = kink.at < 0.5 * width ? 0.4 * close : -0.4 * close;
-    t = span.first + std::clamp(kink.at + beyond, 0.01 * width, 0.99 * width);
+    t = range.first + std::clamp(kink.at + beyond, 0.01 * width, 0.99 * width);
   }
   return best;
 }
 
 /// Looks that are near enough to each other have at most one lowest place between them.
-Nearest Looker::lowest_of_many(Span span, double enough) const {
-  const double wanted = std::ceil(span.width() / look_width());
+Nearest Looker::lowest_of_many(PathRange range, double enough) const {
+  const double wanted = std::ceil(range.width() / look_width());
   const int pieces = static_cast<int>(std::clamp(wanted, 1.0, static_cast<double>(kMaxLooks)));
-  const auto place = [&](int k) { return span.first + span.width() * k / pieces; };
+  const auto place = [&](int k) { return range.first + range.width() * k / pieces; };
   Nearest best;
   const auto take = [&](const Nearest& found) {
     if (found.distance.value < best.distance.value) best = found;
   };
-  Look before = at(span.first);
-  take({before.distance, span.first});
+  Look before = at(range.first);
+  take({before.distance, range.first});
   for (int k = 1; k <= pieces; ++k) {
     const Look look = at(place(k));
     take({look.distance, place(k)});
@@ -282,34 +282,34 @@ Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, P
 Nearest nearest_along(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
                       double enough) {
   const Looker looker(sweep, tool, place);
-  const Span span = looker.near(reach);
-  if (span.empty()) return {};
-  return tool.is_convex() ? looker.lowest(span, looker.guess(), looker.look_width(), enough)
-                          : looker.lowest_of_many(span, enough);
+  const PathRange range = looker.near(reach);
+  if (range.empty()) return {};
+  return tool.is_convex() ? looker.lowest(range, looker.guess(), looker.look_width(), enough)
+                          : looker.lowest_of_many(range, enough);
 }
 
 Nearest nearest_beside(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
                        const Nearest& known, Point3 moved, double enough) {
   const Looker looker(sweep, tool, place);
-  const Span span = looker.near(reach);
-  if (span.empty()) return {};
+  const PathRange range = looker.near(reach);
+  if (range.empty()) return {};
   // Of several lowest places another one may be the lowest now.
-  if (!tool.is_convex()) return looker.lowest_of_many(span, enough);
+  if (!tool.is_convex()) return looker.lowest_of_many(range, enough);
   const double guess = known.where + looker.share_along(moved);
-  return looker.lowest(span, guess, std::max(length(moved), kMinStride), enough);
+  return looker.lowest(range, guess, std::max(length(moved), kMinStride), enough);
 }
 
 DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach) {
   const Looker looker(sweep, tool, place);
-  const Span span = looker.near(reach);
-  if (span.empty()) return {};
-  const double t = span.clamp(looker.guess());
+  const PathRange range = looker.near(reach);
+  if (range.empty()) return {};
+  const double t = range.clamp(looker.guess());
   const Looker::Look look = looker.at(t);
   const double value = look.distance.value;
   if (tool.is_convex())  // it is above its tangent
-    return {value + std::min(look.along * (span.first - t), look.along * (span.last - t)), value};
+    return {value + std::min(look.along * (range.first - t), look.along * (range.last - t)), value};
   // Nothing comes nearer faster than the tool moves.
-  return {value - std::max(t - span.first, span.last - t) * looker.per_mm(), value};
+  return {value - std::max(t - range.first, range.last - t) * looker.per_mm(), value};
 }
 
 }  // namespace kerf::sim

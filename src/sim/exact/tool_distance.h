@@ -29,9 +29,9 @@ class ToolDistance {
   bool is_convex() const { return is_convex_; }
 
  private:
-  /// From a knot to the next, material on the left: towards the axis on the way up. A LineArc in (r, z) with
-  /// what a distance asks for computed once, as millions of distances are computed.
-  struct ProfileElement {
+  /// From a knot to the next, material on the left: towards the axis on the way up. A LineArc in (r, z) whose
+  /// constants are computed once, as millions of distances are computed.
+  struct ProfileSegment {
     double r0 = 0.0, z0 = 0.0, r1 = 0.0, z1 = 0.0;
     double per_length2 = 0.0;  // one divided by the square of its chord
     double side = 0.0;  // of an arc: 1 where it bulges away from the axis, -1 where it is hollow; else 0
@@ -40,16 +40,16 @@ class ToolDistance {
   };
   struct Nearest;
   void add_region(const std::vector<Knot>& knots);
-  static ProfileElement piece_between(const Knot& a, const Knot& b);
-  static double per_square(const ProfileElement& piece);
-  static bool goes_on(const ProfileElement& before, const ProfileElement& next);
-  static double radius_at(const ProfileElement& piece, double z);
-  static void look_at_line(const ProfileElement& piece, double rho, double z, Nearest& nearest);
-  static void look_at_arc(const ProfileElement& piece, double rho, double z, Nearest& nearest);
+  static ProfileSegment segment_between(const Knot& a, const Knot& b);
+  static double per_square(const ProfileSegment& segment);
+  static bool goes_on(const ProfileSegment& before, const ProfileSegment& next);
+  static double radius_at(const ProfileSegment& segment, double z);
+  static void look_at_line(const ProfileSegment& segment, double rho, double z, Nearest& nearest);
+  static void look_at_arc(const ProfileSegment& segment, double rho, double z, Nearest& nearest);
   bool turns_left() const;
   bool is_inside(double rho, double z) const;
 
-  std::vector<ProfileElement> pieces_;
+  std::vector<ProfileSegment> segments_;
   double rim_ = 0.0, bottom_ = 0.0;
   bool is_convex_ = false;
 };

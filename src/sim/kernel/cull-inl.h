@@ -52,7 +52,7 @@ struct Nearness {
   Mask ahead;  // not all of the block is behind, see behind_of
 };
 
-HWY_INLINE Nearness near_line(const View& w, const Blocks& b, Real rim) {
+HWY_INLINE Nearness near_line(const LocalSweep& w, const Blocks& b, Real rim) {
   const Real along = std::abs(w.cx), across = std::abs(w.cy);
   const Vector reach = b.half_x * along + b.half_y * across;
   const Vector x = w.x + b.x, y = w.y + b.y;
@@ -69,7 +69,7 @@ HWY_INLINE Nearness near_line(const View& w, const Blocks& b, Real rim) {
   return n;
 }
 
-HWY_INLINE Nearness near_arc(const View& w, const Blocks& b) {
+HWY_INLINE Nearness near_arc(const LocalSweep& w, const Blocks& b) {
   constexpr Real kDiagonal = 1.4142136f;
   const Vector x = w.x + b.x, y = w.y + b.y;
   const Vector dr =
@@ -84,7 +84,7 @@ inline constexpr std::size_t kFewPieces = 4;
 
 /// Of a level line that follows another: blocks in which some piece takes what it did not take at the line's
 /// begin. A cylinder takes nothing new from a block that its first disc covers.
-HWY_INLINE Mask new_ground(const View& w, const LaneSolid& solid, const Blocks& b, Vector distance2) {
+HWY_INLINE Mask new_ground(const LocalSweep& w, const LaneSolid& solid, const Blocks& b, Vector distance2) {
   const Vector x = w.x + b.x - w.t_low * w.cx, y = w.y + b.y - w.t_low * w.cy;
   const Vector far2 = square(absolute(x) + b.half_x) + square(absolute(y) + b.half_y);
   Mask some = no_lane();
@@ -96,7 +96,7 @@ HWY_INLINE Mask new_ground(const View& w, const LaneSolid& solid, const Blocks& 
 }
 
 /// Bits of the blocks that a solid can meet, given the blocks' highest and lowest material.
-HWY_INLINE unsigned cull(const View& w, const LaneSolid& solid, const Blocks& b, const Real* top,
+HWY_INLINE unsigned cull(const LocalSweep& w, const LaneSolid& solid, const Blocks& b, const Real* top,
                          const Real* bottom) {
   const Nearness n = w.is_arc ? near_arc(w, b) : near_line(w, b, solid.rim);
   Mask meets = n.ahead;

@@ -34,14 +34,14 @@ inline constexpr Real kMinCosine = 0.5f;
 
 /// A level sweep from the tile's first column.
 struct DiscSweep {
-  Real begin_x, begin_y, end_x, end_y;
+  Real start_x, start_y, end_x, end_y;
   Real along_x, along_y, length;
   bool follows;
 };
 
 /// Sweeps that are looked at together, as a straight line.
 struct Bundle {
-  Real begin_x, begin_y, along_x, along_y, length;
+  Real start_x, start_y, along_x, along_y, length;
   Real slack;               // how much farther back or ahead than a block may seem to be it has to be
   Real outer2[kFewPieces];  // squared distances: the reach of a cylinder from the line,
   Real inner2[kFewPieces];  // and its disc at the begin, where the sweep before has been
@@ -104,7 +104,7 @@ HWY_INLINE BundleChord chord_of(const DiscSweep* sweeps, int count, Real rim) {
   const DiscSweep& first = sweeps[0];
   if (count == 1) return {first.along_x, first.along_y, first.length, 0, first.follows ? Real{0} : kFar};
   const DiscSweep& last = sweeps[count - 1];
-  const Real x = last.end_x - first.begin_x, y = last.end_y - first.begin_y;
+  const Real x = last.end_x - first.start_x, y = last.end_y - first.start_y;
   const Real length = std::sqrt(x * x + y * y), per_length = length > 0 ? 1 / length : 0;
   const Real along_x = x * per_length, along_y = y * per_length;
   Real cosine = 1, sine = 0, way = 0;
@@ -129,8 +129,8 @@ HWY_INLINE void prepare_bundles(CylinderGroup& group, Real pitch) {
     const DiscSweep& begin = group.sweep[first];
     const BundleChord chord = chord_of(&begin, std::min(group.each, group.count - first), solid.rim);
     Bundle& bundle = group.bundle[group.bundles++];
-    bundle = {begin.begin_x,
-              begin.begin_y,
+    bundle = {begin.start_x,
+              begin.start_y,
               chord.along_x,
               chord.along_y,
               chord.length,
@@ -162,7 +162,7 @@ HWY_INLINE unsigned bundles_over(const CylinderGroup& group, unsigned bundles, c
     const int b = __builtin_ctz(bundles);
     const Bundle& bundle = group.bundle[b];
     const Real along = std::abs(bundle.along_x), across = std::abs(bundle.along_y);
-    const Vector x = blocks.x - bundle.begin_x, y = blocks.y - bundle.begin_y;
+    const Vector x = blocks.x - bundle.start_x, y = blocks.y - bundle.start_y;
     const Vector u = x * bundle.along_x + y * bundle.along_y, v = y * bundle.along_x - x * bundle.along_y;
     const Vector reach = blocks.half_x * along + blocks.half_y * across;
     const Vector du = higher_of(outside(u, 0, bundle.length) - reach, 0);
@@ -188,7 +188,7 @@ HWY_INLINE Vector nearest_on_the_way(const DiscSweep& s, Vector x, Vector y, Vec
   const Vector u = x * s.along_x + y * s.along_y, v = y * s.along_x - x * s.along_y;
   distance2 = select((u < 0) & (u > -s.length), lower_of(distance2, v * v), distance2);
   if (s.follows) return distance2;
-  return lower_of(distance2, square(x + (s.end_x - s.begin_x)) + square(y + (s.end_y - s.begin_y)));
+  return lower_of(distance2, square(x + (s.end_x - s.start_x)) + square(y + (s.end_y - s.start_y)));
 }
 
 /// The number of the first sweep over each column; kMaxSweeps where there is none.

@@ -23,7 +23,7 @@ struct GroupWork {
   const LaneSolid* solid = nullptr;
   int count = 0;
   bool all_open = true;  // the solid reaches above the block in all sweeps
-  View view[kGroup];
+  LocalSweep view[kGroup];
   bool open[kGroup];
   std::uint32_t step[kGroup];
   Lanes taken[kGroup];                       // length of column, weighted
@@ -47,7 +47,7 @@ HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
   Ids ids = load_ids(tile.top_step[micro]);
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
-    const View& w = work.view[k];
+    const LocalSweep& w = work.view[k];
     const Vector x = w.x + places.x, y = w.y + places.y;
     const Vector u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
     const Vector across = ball.radius2 - v * v;
@@ -78,7 +78,7 @@ HWY_NOINLINE void any_micro(GroupWork& work, int micro, unsigned sweeps) {
   const std::size_t groups = work.solid->one_envelope ? 1 : work.solid->pieces.size();
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
-    const View& w = work.view[k];
+    const LocalSweep& w = work.view[k];
     const MicroView m = look_at(w, places);
     for (std::size_t g = 0; g < groups; ++g) {
       Swept swept;
@@ -118,8 +118,8 @@ HWY_NOINLINE void group_super(GroupWork& work, int super, unsigned sweeps) {
 
 HWY_INLINE void add_sweep(GroupWork& work, const Sweep& sweep) {
   const int k = work.count++;
-  View& view = work.view[k];
-  set_view(sweep, work.job, view);
+  LocalSweep& view = work.view[k];
+  set_local_sweep(sweep, work.job, view);
   work.open[k] = view.z_low + work.solid->top >= work.job.field->height;
   prepare_for(view, sweep, *work.solid, Follow::yes, work.open[k]);
   work.step[k] = sweep.step;

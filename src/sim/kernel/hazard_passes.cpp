@@ -9,7 +9,7 @@ namespace {
 
 /// Share of the step's way at which a contact of the column begins. In plan exact for the rim; a plunge is
 /// met at the height where the contact is.
-double begin_of_contact(const Sweep& s, const View& w, Point2 place, Real rim, Real low, Real high) {
+double begin_of_contact(const Sweep& s, const LocalSweep& w, Point2 place, Real rim, Real low, Real high) {
   double share = 0.0;
   if (s.is_arc) {
     const double x = place.x, y = place.y;
@@ -38,8 +38,8 @@ double place_of(const Real* places, int column, const TileJob& job) {
 }
 
 /// Notes what a column's sweep from `low` to `high` meets; returns whether that is more than is ignored.
-bool note_column(const TileJob& job, const Sweep& s, const View& w, const Pass& pass, const MicroContact& m,
-                 int lane, std::vector<Interval>& column, Contact& contact) {
+bool note_column(const TileJob& job, const Sweep& s, const LocalSweep& w, const Pass& pass,
+                 const MicroContact& m, int lane, std::vector<Interval>& column, Contact& contact) {
   const int micro = m.micro;
   const Real low = m.low[lane], high = m.high[lane];
   column.clear();
@@ -66,7 +66,7 @@ bool note_column(const TileJob& job, const Sweep& s, const View& w, const Pass& 
 
 }  // namespace
 
-void note_contacts(const TileJob& job, const Sweep& sweep, const View& view, const Pass& pass,
+void note_contacts(const TileJob& job, const Sweep& sweep, const LocalSweep& view, const Pass& pass,
                    MicroContact& columns, Contact& contact) {
   std::vector<Interval> column;
   for (int i = 0; i < kLanes; ++i) {

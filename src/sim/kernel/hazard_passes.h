@@ -2,7 +2,7 @@
 // column. No part of the inner loops: most jobs never come here.
 #pragma once
 
-#include "sim/kernel/view.h"
+#include "sim/kernel/local_sweep.h"
 
 namespace kerf::sim {
 
@@ -31,7 +31,7 @@ struct MicroContact {
 };
 
 /// Notes the contacts of a micro and leaves in `low` and `high` only what is to be taken away.
-void note_contacts(const TileJob& job, const Sweep& sweep, const View& view, const Pass& pass,
+void note_contacts(const TileJob& job, const Sweep& sweep, const LocalSweep& view, const Pass& pass,
                    MicroContact& columns, Contact& contact);
 /// Keeps what a pass has found, if anything.
 void keep_contact(const TileJob& job, const Pass& pass, Contact& contact);

@@ -106,7 +106,7 @@ LaneSolid::LaneSolid(const Solid& solid)
       rim(static_cast<Real>(solid.rim)),
       bottom(static_cast<Real>(solid.bottom)),
       top(static_cast<Real>(solid.top)) {
-  for (const Piece& piece : solid.pieces) {
+  for (const ConvexPiece& piece : solid.pieces) {
     const auto r = static_cast<Real>(piece.rim);
     pieces.push_back(
         {r, static_cast<Real>(piece.rim * piece.rim), lane_cap(piece.lower), lane_cap(piece.upper)});

@@ -35,7 +35,7 @@ HWY_INLINE MicroPlaces places_of(const TileJob& job, int micro) {
   return {load(x), load(y)};
 }
 
-HWY_INLINE MicroView look_at(const View& w, const MicroPlaces& places) {
+HWY_INLINE MicroView look_at(const LocalSweep& w, const MicroPlaces& places) {
   MicroView m{w.x + places.x, w.y + places.y, {}, {}};
   if (w.slope == 0) {
     m.v2 = path_distance2(w, m.x, m.y);
@@ -60,7 +60,7 @@ struct PassWork {
   const TileJob& job;
   const Sweep& sweep;
   const Pass& pass;
-  View view;
+  LocalSweep view;
   bool open = false;  // the solid reaches above the block all along
   double taken = 0.0;
   Contact contact = {};
@@ -121,8 +121,8 @@ HWY_NOINLINE void run_pass(PassWork& work) {
 
 /// All passes of a sweep. Returns the length of column taken.
 HWY_NOINLINE double cut_sweep(const TileJob& job, const Sweep& sweep) {
-  View view;
-  set_view(sweep, job, view);
+  LocalSweep view;
+  set_local_sweep(sweep, job, view);
   const PassList list = list_passes(sweep, (*job.tools)[sweep.tool], job.field->hazard_depth);
   double taken = 0.0;
   for (int k = 0; k < list.count; ++k) {

@@ -9,8 +9,8 @@
 
 #include <cmath>
 
+#include "sim/kernel/local_sweep.h"
 #include "sim/kernel/vector-inl.h"
-#include "sim/kernel/view.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
@@ -28,21 +28,21 @@ struct MicroView {
 HWY_INLINE Vector outside(Vector v, Real low, Real high) { return higher_of(low - v, v - high); }
 
 /// Squared distance of each column from a line's path in plan.
-HWY_INLINE Vector line_distance2(const View& w, Vector x, Vector y) {
+HWY_INLINE Vector line_distance2(const LocalSweep& w, Vector x, Vector y) {
   const Vector u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
   return square(higher_of(outside(u, w.t_low, w.t_high), 0)) + v * v;
 }
 
 /// The same from a line's or an arc's path.
-HWY_INLINE Vector path_distance2(const View& w, Vector x, Vector y) {
+HWY_INLINE Vector path_distance2(const LocalSweep& w, Vector x, Vector y) {
   if (!w.is_arc) return line_distance2(w, x, y);
-  const Mask after_begin = w.begin_x * y - w.begin_y * x >= 0;
+  const Mask after_begin = w.start_x * y - w.start_y * x >= 0;
   const Mask before_end = x * w.end_y - y * w.end_x >= 0;
   const Mask inside = w.full   ? every_lane()
                       : w.wide ? (after_begin | before_end)
                                : (after_begin & before_end);
   const Vector off = root(x * x + y * y) - w.radius;
-  const Vector to_begin = square(x - w.begin_x) + square(y - w.begin_y);
+  const Vector to_begin = square(x - w.start_x) + square(y - w.start_y);
   const Vector to_end = square(x - w.end_x) + square(y - w.end_y);
   return select(inside, off * off, lower_of(to_begin, to_end));
 }
@@ -64,7 +64,8 @@ HWY_INLINE Vector level_cap(const LaneCap& c, Real rim2, Vector distance2) {
 }
 
 /// A ball that is not cut short by its rim: the closed form needs nothing else.
-HWY_INLINE Vector sloped_ball(const LaneCap& c, const View& w, Real slope, Real lead, Vector u, Vector v2) {
+HWY_INLINE Vector sloped_ball(const LaneCap& c, const LocalSweep& w, Real slope, Real lead, Vector u,
+                              Vector v2) {
   const Vector across = c.radius2 - v2;
   const Vector t = clamped(u - lead * root(across), w.t_low, w.t_high);
   const Vector rest = across - square(u - t);
@@ -76,14 +77,14 @@ struct Reach {
   Vector begin, end;
   Mask any;
 };
-HWY_INLINE Reach reach_of(Real rim2, const View& w, Vector u, Vector v2) {
+HWY_INLINE Reach reach_of(Real rim2, const LocalSweep& w, Vector u, Vector v2) {
   const Vector reach = root(rim2 - v2);
   const Vector begin = higher_of(u - reach, w.t_low), end = lower_of(u + reach, w.t_high);
   return {begin, end, (v2 < rim2) & (begin <= end)};
 }
 
 /// Where along the path the sweep over a disc is lowest: as far down the slope as the disc reaches.
-HWY_INLINE Vector flat_best(Real flat2, const View& w, Real slope, Vector u, Vector v2) {
+HWY_INLINE Vector flat_best(Real flat2, const LocalSweep& w, Real slope, Vector u, Vector v2) {
   const Vector half = root(flat2 - v2);
   return slope > 0 ? higher_of(u - half, w.t_low) : lower_of(u + half, w.t_high);
 }
@@ -96,8 +97,8 @@ HWY_INLINE Vector curve_at(const LaneCap& c, Vector rho2) {
 }
 
 /// The lowest point, where `best` is the place along the path at which the curve beyond the flat is lowest.
-HWY_INLINE Vector sloped_curve(const LaneCap& c, Real rim2, const View& w, Real slope, Vector u, Vector v2,
-                               Vector best) {
+HWY_INLINE Vector sloped_curve(const LaneCap& c, Real rim2, const LocalSweep& w, Real slope, Vector u,
+                               Vector v2, Vector best) {
   const Reach reach = reach_of(rim2, w, u, v2);
   const Vector t = clamped(best, reach.begin, reach.end);
   const Vector rho2 = v2 + square(u - t);
@@ -116,7 +117,8 @@ HWY_INLINE Vector cone_best(const LaneCap& c, Real slope, Vector u, Vector v2) {
 
 /// Where a torus is lowest: the zero of the derivative, which rises along the path, by Newton's steps inside
 /// a bracket.
-HWY_INLINE Vector torus_best(const LaneCap& c, Real rim2, const View& w, Real slope, Vector u, Vector v2) {
+HWY_INLINE Vector torus_best(const LaneCap& c, Real rim2, const LocalSweep& w, Real slope, Vector u,
+                             Vector v2) {
   const Vector tiny = 1e-12f;
   const Reach reach = reach_of(rim2, w, u, v2);
   Vector low = reach.begin, high = higher_of(reach.end, low), best = clamped(u, low, high);
@@ -139,8 +141,8 @@ HWY_INLINE Vector torus_best(const LaneCap& c, Real rim2, const View& w, Real sl
 
 /// Lowest point above each column, relative to z at the frame's origin, of an underside swept along a line of
 /// `slope` (the view's, or that with the sign changed for an upper side); kFar where the sweep does not pass.
-HWY_INLINE Vector sloped_cap(const LanePiece& piece, const LaneCap& c, const View& w, Real slope, Vector u,
-                             Vector v2) {
+HWY_INLINE Vector sloped_cap(const LanePiece& piece, const LaneCap& c, const LocalSweep& w, Real slope,
+                             Vector u, Vector v2) {
   const Real lead = slope == w.slope ? w.ball_lead : -w.ball_lead;
   switch (c.curve) {
     case CapCurve::flat: {
@@ -160,7 +162,7 @@ HWY_INLINE Vector sloped_cap(const LanePiece& piece, const LaneCap& c, const Vie
 /// swept: heights relative to the view's z, for level sweeps to its lowest (highest) one. Not
 /// inlined: the code is long, and the commonest shapes do not come here.
 enum class Side : std::uint8_t { lower, upper };
-HWY_NOINLINE Vector swept_cap(const LanePiece& piece, Side side, const View& w, const MicroView& m) {
+HWY_NOINLINE Vector swept_cap(const LanePiece& piece, Side side, const LocalSweep& w, const MicroView& m) {
   const LaneCap& cap = side == Side::lower ? piece.lower : piece.upper;
   if (w.slope == 0) return level_cap(cap, piece.rim2, m.v2);
   return sloped_cap(piece, cap, w, side == Side::lower ? w.slope : -w.slope, m.u, m.v2);
@@ -172,7 +174,7 @@ struct Swept {
   Lanes low, high;
 };
 HWY_NOINLINE void sweep_over(const LaneSolid& solid, std::size_t group, bool open, Real above_all,
-                             const View& w, const MicroView& m, Swept& out) {
+                             const LocalSweep& w, const MicroView& m, Swept& out) {
   const std::size_t last = solid.one_envelope ? solid.pieces.size() - 1 : group;
   Vector low = kFar;
   for (std::size_t k = group; k <= last; ++k)

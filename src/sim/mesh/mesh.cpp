@@ -204,7 +204,7 @@ class Extraction {
 
   /// Puts all into one mesh and makes it a manifold without flat triangles.
   bool finish() {
-    CapSheet::Place place{mesh.positions.size() / 3, 0};
+    CapSheet::MeshCounts place{mesh.positions.size() / 3, 0};
     std::vector<std::size_t> first_of_walls;
     for (const WallBand& band : walls_) {
       first_of_walls.push_back(place.triangles);

@@ -122,7 +122,7 @@ class CapSheet {
   void place_vertices(int band);
   /// Gives the vertices and the triangles places in the mesh: after the first `place.vertices` vertices, and
   /// from `place.triangles` on, as many as there may be. Adds their numbers to `place`.
-  struct Place {
+  struct MeshCounts {
     std::size_t vertices = 0, triangles = 0;
   };
   void find_places(Place& place);
@@ -132,7 +132,7 @@ class CapSheet {
   void close_gaps(Mesh& mesh, std::size_t& end, std::vector<std::size_t>& at_walls) const;
 
  private:
-  struct Node {
+  struct GridCorner {
     int x, y;
   };
   /// The height of a corner that is not simple.
@@ -142,10 +142,11 @@ class CapSheet {
   };
   struct Band {
     std::vector<float> positions;
-    std::vector<std::array<std::uint32_t, 4>> parts;    // vertices by quadrant where the cap is torn
-    std::vector<std::pair<Node, std::uint32_t>> taken;  // corners whose entries are known from the start
+    std::vector<std::array<std::uint32_t, 4>> parts;  // vertices by quadrant where the cap is torn
+    std::vector<std::pair<GridCorner, std::uint32_t>>
+        taken;                           // corners whose entries are known from the start
     std::vector<std::uint32_t> entries;  // of the needed corners, those of whole squares left out
-    std::vector<Node> beyond;            // needed corners of other bands
+    std::vector<GridCorner> beyond;      // needed corners of other bands
     std::vector<int> above;              // x of the corners on the band's high side that errors need
     std::size_t first_vertex = 0, first_triangle = 0, triangles = 0;
     std::size_t most_triangles = 0, below = 0;  // of its own squares; more of those of the band below
@@ -163,7 +164,7 @@ class CapSheet {
   void take_entry(int i, int j, std::uint32_t entry);
   std::uint32_t& entry(int i, int j);
   void number_corners(Band& band, int number);
-  const Ends& ends_of(const Square& square) const {
+  const Ends& ends_of(const ColumnSquare& square) const {
     return side_ == Side::bottom ? *square.low : *square.high;
   }
   int end_of(int i, int j) const { return side_ == Side::bottom ? 0 : columns_.ends(i, j) - 1; }
@@ -173,9 +174,9 @@ class CapSheet {
   bool level(int i, int j) const;
   bool of_one_group(int i, int j) const;
   bool is_plain(int square_x, int square_y) const;
-  static std::array<Node, 2> parents(Node n);
+  static std::array<GridCorner, 2> parents(GridCorner n);
   template <class Beyond>
-  void need_parents(Node n, int band, std::vector<Node>& work, const Beyond& beyond);
+  void need_parents(GridCorner n, int band, std::vector<GridCorner>& work, const Beyond& beyond);
   template <class Work>
   void for_needed(int band, const Work& work) const;
   bool is_new_vertex(int i, int j) const;

@@ -233,7 +233,7 @@ class CapSheet::Cover {
   }
 
   void run() {
-    const Node sw{0, 0}, se{kSquare, 0}, ne{kSquare, kSquare}, nw{0, kSquare};
+    const GridCorner sw{0, 0}, se{kSquare, 0}, ne{kSquare, kSquare}, nw{0, kSquare};
     cover(sw, ne, se);
     cover(ne, sw, nw);
   }
@@ -248,19 +248,19 @@ class CapSheet::Cover {
     const Band* band = nullptr;
     const std::uint32_t* wall_vertices = nullptr;
   };
-  const Known& known(Node n) const {
+  const Known& known(GridCorner n) const {
     return corners_[static_cast<unsigned>(n.x) / kSquare + 2 * (static_cast<unsigned>(n.y) / kSquare)];
   }
-  bool is_needed(Node n) const {
+  bool is_needed(GridCorner n) const {
     const CapBlock* const block = known(n).block;
     return block != nullptr && block->needed[Columns::cell(n.x, n.y)] != 0;
   }
-  void cover(Node a, Node b, Node apex);
-  void leaf(Node a, Node b, Node apex);
-  std::uint32_t vertex(Node corner, Node column, bool& at_wall) const;
+  void cover(GridCorner a, GridCorner b, GridCorner apex);
+  void leaf(GridCorner a, GridCorner b, GridCorner apex);
+  std::uint32_t vertex(GridCorner corner, GridCorner column, bool& at_wall) const;
 
   const Columns& columns_;
-  const Square& square_;
+  const ColumnSquare& square_;
   const Ends& ends_;
   bool up_;
   int wide_, deep_;  // columns of the square that are in the grid
@@ -269,8 +269,8 @@ class CapSheet::Cover {
   std::array<Known, 4> corners_;
 };
 
-void CapSheet::Cover::cover(Node a, Node b, Node apex) {
-  const Node middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+void CapSheet::Cover::cover(GridCorner a, GridCorner b, GridCorner apex) {
+  const GridCorner middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
   const bool smallest = std::abs(a.x - b.x) == 1;
   if (!smallest && is_needed(middle)) {
     cover(apex, a, middle);
@@ -280,13 +280,13 @@ void CapSheet::Cover::cover(Node a, Node b, Node apex) {
   leaf(a, b, apex);
 }
 
-void CapSheet::Cover::leaf(Node a, Node b, Node apex) {
+void CapSheet::Cover::leaf(GridCorner a, GridCorner b, GridCorner apex) {
   const int sx = a.x + b.x + apex.x, sy = a.y + b.y + apex.y;
   // The column beside a corner of the triangle that lies inside it.
-  const auto inner = [&](Node n) {
-    return Node{3 * n.x <= sx ? n.x : n.x - 1, 3 * n.y <= sy ? n.y : n.y - 1};
+  const auto inner = [&](GridCorner n) {
+    return GridCorner{3 * n.x <= sx ? n.x : n.x - 1, 3 * n.y <= sy ? n.y : n.y - 1};
   };
-  const Node column = inner(apex);
+  const GridCorner column = inner(apex);
   if (column.x >= wide_ || column.y >= deep_) return;
   const std::size_t cell = Columns::cell(column.x, column.y);
   if (square_.many != nullptr && square_.many->first[cell + 1] == square_.many->first[cell]) return;
@@ -304,7 +304,7 @@ void CapSheet::Cover::leaf(Node a, Node b, Node apex) {
   step_[t] = ends_.step[cell];
 }
 
-std::uint32_t CapSheet::Cover::vertex(Node corner, Node column, bool& at_wall) const {
+std::uint32_t CapSheet::Cover::vertex(GridCorner corner, GridCorner column, bool& at_wall) const {
   const Known& known = this->known(corner);
   const std::size_t cell = Columns::cell(corner.x, corner.y);
   assert(cell == 0 || known.block != nullptr);

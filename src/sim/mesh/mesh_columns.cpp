@@ -75,13 +75,14 @@ template <class Read>
 void Columns::fill(unsigned threads, const Read& read) {
   const auto read_one = [&](std::size_t n) {
     read(n);
-    Square& square = squares_[n];
+    ColumnSquare& square = squares_[n];
     square.is_low_level = square.low == floor_.get() || is_level(n, *square.low);
     square.is_high_level = square.high == full_.get() || is_level(n, *square.high);
   };
   parallel_for(threads, squares_.size(), read_one, [] { return false; });
-  has_material_ = std::any_of(squares_.begin(), squares_.end(),
-                              [](const Square& s) { return s.many == nullptr || !s.many->runs.empty(); });
+  has_material_ = std::any_of(squares_.begin(), squares_.end(), [](const ColumnSquare& s) {
+    return s.many == nullptr || !s.many->runs.empty();
+  });
 }
 
 int Columns::columns_x(std::size_t square) const {
@@ -132,7 +133,7 @@ void Columns::fill_many(std::size_t number, const Add& add) {
 }
 
 void Columns::read_tile(const Workpiece::Body& body, std::size_t number) {
-  Square& square = squares_[number];
+  ColumnSquare& square = squares_[number];
   square.low = floor_.get();
   const sim::Tile* const tile = body.tiles[number].get();
   if (tile == nullptr) {

@@ -34,7 +34,7 @@ struct ManyRuns {
 
 /// The lowest and the highest end of each column, which caps are made of. Where a column is empty the step of
 /// the high one is who took its last material.
-struct Square {
+struct ColumnSquare {
   const Ends* low = nullptr;
   const Ends* high = nullptr;
   const ManyRuns* many = nullptr;  // null: each column is one interval
@@ -72,12 +72,12 @@ class Columns {
 
   int squares_x() const { return squares_x_; }
   int squares_y() const { return squares_y_; }
-  const Square& square(int x, int y) const {
+  const ColumnSquare& square(int x, int y) const {
     return squares_[static_cast<std::size_t>(y) * static_cast<std::size_t>(squares_x()) +
                     static_cast<std::size_t>(x)];
   }
   /// The square of a column in the grid.
-  const Square& square_of(int i, int j) const {
+  const ColumnSquare& square_of(int i, int j) const {
     const std::size_t x = static_cast<unsigned>(i) / kSquare, y = static_cast<unsigned>(j) / kSquare;
     return squares_[y * static_cast<unsigned>(squares_x_) + x];
   }
@@ -94,7 +94,7 @@ class Columns {
     const float z = square(first_x, first_y).low->z[0];
     for (int y = first_y; y <= last_y; ++y)
       for (int x = first_x; x <= last_x; ++x)
-        if (const Square& s = square(x, y); !s.is_low_level || s.low->z[0] != z) return false;
+        if (const ColumnSquare& s = square(x, y); !s.is_low_level || s.low->z[0] != z) return false;
     return true;
   }
 
@@ -102,7 +102,7 @@ class Columns {
   /// Ends of a column; 0 outside the grid.
   int ends(int i, int j) const {
     if (!inside(i, j)) return 0;
-    const Square& s = square_of(i, j);
+    const ColumnSquare& s = square_of(i, j);
     if (s.many == nullptr) return 2;
     const std::size_t c = cell(i, j);
     return 2 * static_cast<int>(s.many->first[c + 1] - s.many->first[c]);
@@ -111,7 +111,7 @@ class Columns {
   /// intervals are kept.
   Runs runs(int i, int j, Interval& one) const {
     if (!inside(i, j)) return {};
-    const Square& s = square_of(i, j);
+    const ColumnSquare& s = square_of(i, j);
     const std::size_t c = cell(i, j);
     if (s.many != nullptr)
       return {s.many->runs.data() + s.many->first[c], std::size_t{s.many->first[c + 1] - s.many->first[c]}};
@@ -119,14 +119,14 @@ class Columns {
     return {&one, 1};
   }
   double z(int i, int j, int end) const {
-    const Square& s = square_of(i, j);
+    const ColumnSquare& s = square_of(i, j);
     const std::size_t c = cell(i, j);
     if (s.many == nullptr) return static_cast<double>(end == 0 ? s.low->z[c] : s.high->z[c]);
     const Interval& run = s.many->runs[s.many->first[c] + static_cast<std::size_t>(end / 2)];
     return static_cast<double>(end % 2 == 0 ? run.low : run.high);
   }
   std::uint32_t step(int i, int j, int end) const {
-    const Square& s = square_of(i, j);
+    const ColumnSquare& s = square_of(i, j);
     const std::size_t c = cell(i, j);
     if (s.many == nullptr) return end == 0 ? s.low->step[c] : s.high->step[c];
     const Interval& run = s.many->runs[s.many->first[c] + static_cast<std::size_t>(end / 2)];
@@ -158,7 +158,7 @@ class Columns {
   double size_x_, size_y_, height_;
   bool narrow_x_, narrow_y_;  // the last column of a row, the last row
   bool has_material_ = false;
-  std::vector<Square> squares_;
+  std::vector<ColumnSquare> squares_;
   sim::BlockStore<Ends> store_;
   // What the squares point to: ends of their own, or those that all share.
   std::vector<std::array<sim::BlockStore<Ends>::Pointer, 2>> own_;

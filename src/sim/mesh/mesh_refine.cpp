@@ -209,13 +209,13 @@ bool CapSheet::is_plain(int square_x, int square_y) const {
   if (square_x == 0 || square_y == 0 || square_x + 1 >= columns_.squares_x() ||
       square_y + 1 >= columns_.squares_y())
     return false;
-  const auto is_level = [this](const Square& square) {
+  const auto is_level = [this](const ColumnSquare& square) {
     return side_ == Side::bottom ? square.is_low_level : square.is_high_level;
   };
   const float z = ends_of(columns_.square(square_x, square_y)).z[0];
   for (int y = square_y - 1; y <= square_y + 1; ++y) {
     for (int x = square_x - 1; x <= square_x + 1; ++x) {
-      const Square& square = columns_.square(x, y);
+      const ColumnSquare& square = columns_.square(x, y);
       if (!is_level(square) || ends_of(square).z[0] != z) return false;
     }
   }
@@ -245,25 +245,25 @@ void CapSheet::find_errors(int number) {
 }
 
 /// The apexes of the two triangles that a corner halves, which is no corner of a whole square.
-std::array<CapSheet::Node, 2> CapSheet::parents(Node n) {
+std::array<CapSheet::GridCorner, 2> CapSheet::parents(GridCorner n) {
   const int both = n.x | n.y, s = both & -both;
   const bool odd_x = (n.x & s) != 0, odd_y = (n.y & s) != 0;
   if (odd_x && odd_y) {
     const int way = s == kSquare / 2 || ((n.x - s) / (2 * s) + (n.y - s) / (2 * s)) % 2 == 0 ? s : -s;
-    return {Node{n.x + way, n.y - s}, Node{n.x - way, n.y + s}};
+    return {GridCorner{n.x + way, n.y - s}, GridCorner{n.x - way, n.y + s}};
   }
-  if (odd_y) return {Node{n.x - s, n.y}, Node{n.x + s, n.y}};
-  return {Node{n.x, n.y - s}, Node{n.x, n.y + s}};
+  if (odd_y) return {GridCorner{n.x - s, n.y}, GridCorner{n.x + s, n.y}};
+  return {GridCorner{n.x, n.y - s}, GridCorner{n.x, n.y + s}};
 }
 
 /// Notes all that a needed corner needs; beyond(n) what is in other bands.
 template <class Beyond>
-void CapSheet::need_parents(Node n, int band, std::vector<Node>& work, const Beyond& beyond) {
+void CapSheet::need_parents(GridCorner n, int band, std::vector<GridCorner>& work, const Beyond& beyond) {
   work.assign(1, n);
   while (!work.empty()) {
-    const Node child = work.back();
+    const GridCorner child = work.back();
     work.pop_back();
-    for (const Node p : parents(child)) {
+    for (const GridCorner p : parents(child)) {
       if (p.x < 0 || p.y < 0 || is_whole(p.x, p.y) || p.x / kSquare >= blocks_x_ ||
           p.y / kSquare >= blocks_y_)
         continue;
@@ -283,21 +283,21 @@ void CapSheet::propagate(int number) {
   Band& band = bands_[static_cast<std::size_t>(number)];
   if (number > 0)
     for (const int x : bands_[static_cast<std::size_t>(number) - 1].above) need(x, number * kSquare);
-  std::vector<Node> work;
-  const auto beyond = [&](Node n) { band.beyond.push_back(n); };
+  std::vector<GridCorner> work;
+  const auto beyond = [&](GridCorner n) { band.beyond.push_back(n); };
   for_needed(number, [&](int i, int j) { need_parents({i, j}, number, work, beyond); });
 }
 
 void CapSheet::propagate_across() {
-  std::vector<Node> across, work;
+  std::vector<GridCorner> across, work;
   for (Band& band : bands_) across.insert(across.end(), band.beyond.begin(), band.beyond.end());
   while (!across.empty()) {
-    const Node n = across.back();
+    const GridCorner n = across.back();
     across.pop_back();
     std::uint8_t& needed = block(n.x, n.y).needed[Columns::cell(n.x, n.y)];
     if (needed != 0) continue;
     needed = 1;
-    need_parents(n, n.y / kSquare, work, [&](Node p) { across.push_back(p); });
+    need_parents(n, n.y / kSquare, work, [&](GridCorner p) { across.push_back(p); });
   }
 }
 

@@ -141,7 +141,7 @@ void Scanner::read(int j, Row& row) const {
     return;
   }
   for (int first = 0; first < columns_.nx(); first += kSquare) {
-    const Square& square = columns_.square_of(first, j);
+    const ColumnSquare& square = columns_.square_of(first, j);
     const auto count = static_cast<std::size_t>(std::min(kSquare, columns_.nx() - first));
     const std::size_t at = Columns::cell(0, j);
     const bool is_one = square.many == nullptr;
@@ -288,7 +288,7 @@ void Scanner::scan(int j, std::uint8_t* simple) {
   const int end = columns_.uneven(columns_.nx() - 1, j) ? columns_.nx() - 1 : columns_.nx();
   for (int first = 0; first < end; first += kSquare) {
     const int stop = std::min(first + kSquare, end);
-    const Square& square = columns_.square_of(first, j);
+    const ColumnSquare& square = columns_.square_of(first, j);
     const bool is_level = square.many == nullptr && square.is_low_level && j % kSquare != 0;
     // Only the corners on a square's low side have columns of other squares beside them.
     scan_some(std::max(first, 1), is_level ? first + 1 : stop, j, Lows::any, simple);

@@ -58,7 +58,7 @@ class BlockFaces {
   /// Columns of one interval each, with such neighbours to the right and above; none of them is narrower.
   void add_plain(int first, int end, int j, Faces& faces) const {
     if (first >= end) return;
-    const Square& square = columns_.square_of(first, j);
+    const ColumnSquare& square = columns_.square_of(first, j);
     const std::size_t at = Columns::cell(first, j);
     const float *low = square.low->z.data() + at, *high = square.high->z.data() + at;
     const double pitch = columns_.pitch(), count = end - first;
@@ -74,7 +74,7 @@ class BlockFaces {
 
   /// Columns of which some are of one interval, as their neighbours to the right and above are.
   void add_mixed(int first, int end, int j, Faces& faces) const {
-    const Square& square = columns_.square_of(first, j);
+    const ColumnSquare& square = columns_.square_of(first, j);
     const auto is_one = [&](std::size_t c) { return square.many->first[c + 1] - square.many->first[c] == 1; };
     const double pitch = columns_.pitch();
     double length = 0.0, bare = 0.0, count = 0.0;

@@ -43,7 +43,7 @@ struct LayerSums {
 };
 
 struct Batch {
-  std::vector<Piece> pieces;
+  std::vector<BeadPiece> pieces;
   std::vector<Road> roads;
   struct Pair {
     std::uint32_t tile, piece;
@@ -107,10 +107,10 @@ class Printer final : public RoadSink {
  private:
   Point2 in_frame(Point3 p) const { return {p.x - frame_.x, p.y - frame_.y}; }
   void add_wedge(const Road& road, Point3 at, Point2 after, Point2 before, const Section& section);
-  void add(const Piece& piece);
-  void meet_bed(const Piece& piece);
-  void meet(const Contact& contact);
-  bool passes(const Piece& piece, double reach, int tile_y, int& first_x, int& last_x) const;
+  void add(const BeadPiece& piece);
+  void meet_bed(const BeadPiece& piece);
+  void meet(const NozzleContact& contact);
+  bool passes(const BeadPiece& piece, double reach, int tile_y, int& first_x, int& last_x) const;
   void flush();
   void lay_batch();
   void merge();
@@ -125,12 +125,12 @@ class Printer final : public RoadSink {
   Progress* progress_;
   unsigned threads_;
   int tiles_x_, tiles_y_;
-  std::vector<std::unique_ptr<Tile>> tiles_;
+  std::vector<std::unique_ptr<PrintTile>> tiles_;
   Batch batch_;
   std::vector<Sums> sums_;  // one a pair of the batch
   std::vector<LayerSums> layers_;
   std::vector<PrintHazard> hazards_;
-  std::map<std::uint32_t, Contact> contacts_;  // by step
+  std::map<std::uint32_t, NozzleContact> contacts_;  // by step
   Stretches stretches_;
   double blobs_ = 0.0;
   std::uint32_t chain_begin_ = 0;
@@ -139,8 +139,8 @@ class Printer final : public RoadSink {
   bool laying_ends_ = false, stopped_ = false, ended_ = false;
 };
 
-Piece piece_of(const Section& section) {
-  Piece piece;
+BeadPiece piece_of(const Section& section) {
+  BeadPiece piece;
   piece.round = 0.5 * section.height;
   piece.flat = std::max(0.0, 0.5 * section.width - piece.round);
   return piece;
@@ -149,7 +149,7 @@ Piece piece_of(const Section& section) {
 void Printer::road(const Road& r) {
   if (laying_ends_) return;
   if (!r.goes_on) chain_begin_ = r.step;
-  Piece piece = piece_of(r.section);
+  BeadPiece piece = piece_of(r.section);
   piece.step = r.step;
   piece.layer = survey_.layer_of(r.level);
   piece.road = static_cast<std::uint32_t>(batch_.roads.size());
@@ -177,7 +177,7 @@ void Printer::corner(const Road& before, const Road& next) {
 }
 
 void Printer::add_wedge(const Road& road, Point3 at, Point2 after, Point2 before, const Section& section) {
-  Piece piece = piece_of(section);
+  BeadPiece piece = piece_of(section);
   piece.kind = PieceKind::wedge;
   piece.step = road.step;
   piece.layer = survey_.layer_of(road.level);
@@ -191,7 +191,7 @@ void Printer::add_wedge(const Road& road, Point3 at, Point2 after, Point2 before
 void Printer::travel(std::uint32_t step, Point3 from, Point3 to) {
   if (laying_ends_) return;
   const Point2 way = to.xy() - from.xy();
-  Piece piece;
+  BeadPiece piece;
   piece.length = length(way);
   if (!(piece.length > 0.0)) return;
   if (travel_step_ != step) travelled_ = 0.0;
@@ -215,7 +215,7 @@ void Printer::blob(std::uint32_t step, Point3 at, double volume) {
 }
 
 /// The tiles of a row that a piece reaches; false for none.
-bool Printer::passes(const Piece& p, double reach, int tile_y, int& first_x, int& last_x) const {
+bool Printer::passes(const BeadPiece& p, double reach, int tile_y, int& first_x, int& last_x) const {
   const double side = kTileSide * frame_.pitch;
   const double low = tile_y * side - reach - frame_.pitch, high = (tile_y + 1) * side + reach;
   double a = 0.0, b = p.length;  // where the middle line is that high, along it
@@ -237,7 +237,7 @@ bool Printer::passes(const Piece& p, double reach, int tile_y, int& first_x, int
 }
 
 /// The bed reaches beyond the columns.
-void Printer::meet_bed(const Piece& p) {
+void Printer::meet_bed(const BeadPiece& p) {
   const double deepest = -std::min(p.z, p.z + p.length * p.slope), least = options_.contact_depth.mm();
   if (deepest <= least) return;
   const double u = p.z < -least ? 0.0 : (-least - p.z) / p.slope;
@@ -247,7 +247,7 @@ void Printer::meet_bed(const Piece& p) {
         deepest});
 }
 
-void Printer::add(const Piece& piece) {
+void Printer::add(const BeadPiece& piece) {
   if (ended_) return;
   if (piece.kind != PieceKind::wedge) meet_bed(piece);
   const double reach = piece.kind == PieceKind::travel ? frame_.pitch : piece.reach();
@@ -291,14 +291,14 @@ void Printer::lay_batch() {
     if (k == 0 || batch_.pairs[k].tile != batch_.pairs[k - 1].tile) begins.push_back(k);
   begins.push_back(batch_.pairs.size());
   sums_.assign(batch_.pairs.size(), {});
-  std::vector<std::vector<Contact>> contacts(begins.size());
+  std::vector<std::vector<NozzleContact>> contacts(begins.size());
   const double depth = options_.contact_depth.mm();
   const auto lay_tile = [&](std::size_t n) {
     const std::uint32_t number = batch_.pairs[begins[n]].tile;
-    std::unique_ptr<Tile>& tile = tiles_[number];
+    std::unique_ptr<PrintTile>& tile = tiles_[number];
     if (!tile)
-      tile = std::make_unique<Tile>(frame_, static_cast<int>(number) % tiles_x_,
-                                    static_cast<int>(number) / tiles_x_);
+      tile = std::make_unique<PrintTile>(frame_, static_cast<int>(number) % tiles_x_,
+                                         static_cast<int>(number) / tiles_x_);
     for (std::size_t k = begins[n]; k < begins[n + 1]; ++k)
       tile->add(batch_.pieces[batch_.pairs[k].piece], depth, sums_[k], contacts[n]);
   };
@@ -306,14 +306,14 @@ void Printer::lay_batch() {
                [&] { return stopped_ = stopped_ || stop_requested(progress_); });
   stopped_ = stopped_ || stop_requested(progress_);
   if (stopped_) return;
-  for (const std::vector<Contact>& of_tile : contacts)
-    for (const Contact& contact : of_tile) meet(contact);
+  for (const std::vector<NozzleContact>& of_tile : contacts)
+    for (const NozzleContact& contact : of_tile) meet(contact);
 }
 
-void Printer::meet(const Contact& contact) {
+void Printer::meet(const NozzleContact& contact) {
   const auto [it, is_new] = contacts_.try_emplace(contact.step, contact);
   if (is_new) return;
-  Contact& all = it->second;
+  NozzleContact& all = it->second;
   all.depth = std::max(all.depth, contact.depth);
   if (contact.way >= all.way) return;
   all.way = contact.way;
@@ -324,7 +324,7 @@ void Printer::meet(const Contact& contact) {
 void Printer::merge() {
   std::vector<Sums> of_road(batch_.roads.size());
   for (std::size_t k = 0; k < batch_.pairs.size(); ++k) {
-    const Piece& piece = batch_.pieces[batch_.pairs[k].piece];
+    const BeadPiece& piece = batch_.pieces[batch_.pairs[k].piece];
     if (piece.kind == PieceKind::travel) continue;
     const Sums& sums = sums_[k];
     LayerSums& layer = layers_[piece.layer];

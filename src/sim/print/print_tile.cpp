@@ -12,7 +12,7 @@ namespace {
 /// A vector's component below this bounds nothing along its axis.
 constexpr double kLevel = 1e-12;
 
-struct Span {
+struct ClippedRange {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 
   /// Leaves the x for which low_bound <= a * x + b <= high_bound.
@@ -40,7 +40,7 @@ struct Columns {
 
 }  // namespace
 
-Tile::Tile(const Frame& frame, int tile_x, int tile_y)
+PrintTile::PrintTile(const Frame& frame, int tile_x, int tile_y)
     : pitch_(frame.pitch),
       touch_(frame.touch),
       first_x_(tile_x * kTileSide),
@@ -52,13 +52,13 @@ Tile::Tile(const Frame& frame, int tile_x, int tile_y)
 /// visit(column, u, v) for the columns within `reach` of the middle line: u along it, v across. Half open, so
 /// that of two roads in line each column belongs to one.
 template <class Visit>
-void Tile::for_each_column(const Piece& p, double reach, const Visit& visit) const {
+void PrintTile::for_each_column(const BeadPiece& p, double reach, const Visit& visit) const {
   const double end_y = p.from.y + p.length * p.along.y;
   const Columns rows(std::min(p.from.y, end_y) - reach, std::max(p.from.y, end_y) + reach, pitch_, first_y_,
                      columns_y_);
   for (int j = rows.first; j <= rows.last; ++j) {
     const double y = j * pitch_ - p.from.y;
-    Span span;
+    ClippedRange span;
     span.clip(p.along.x, y * p.along.y, 0.0, p.length);
     span.clip(-p.along.y, y * p.along.x, -reach, reach);
     const Columns columns(span.low + p.from.x, span.high + p.from.x, pitch_, first_x_, columns_x_);
@@ -73,7 +73,7 @@ void Tile::for_each_column(const Piece& p, double reach, const Visit& visit) con
 
 /// visit(column, distance from the wedge's middle).
 template <class Visit>
-void Tile::for_each_wedge_column(const Piece& p, const Visit& visit) const {
+void PrintTile::for_each_wedge_column(const BeadPiece& p, const Visit& visit) const {
   const double reach = p.reach();
   const Columns rows(p.from.y - reach, p.from.y + reach, pitch_, first_y_, columns_y_);
   const Columns columns(p.from.x - reach, p.from.x + reach, pitch_, first_x_, columns_x_);
@@ -86,7 +86,8 @@ void Tile::for_each_wedge_column(const Piece& p, const Visit& visit) const {
   }
 }
 
-void Tile::add(const Piece& piece, double contact_depth, Sums& sums, std::vector<Contact>& contacts) {
+void PrintTile::add(const BeadPiece& piece, double contact_depth, Sums& sums,
+                    std::vector<NozzleContact>& contacts) {
   switch (piece.kind) {
     case PieceKind::road: return lay_road(piece, contact_depth, sums, contacts);
     case PieceKind::wedge: return lay_wedge(piece, sums);
@@ -97,25 +98,25 @@ void Tile::add(const Piece& piece, double contact_depth, Sums& sums, std::vector
 namespace {
 
 /// Half the height of a section so far from its middle line.
-double half_height(const Piece& p, double v) {
+double half_height(const BeadPiece& p, double v) {
   if (v <= p.flat) return p.round;
   const double aside = v - p.flat;
   return std::sqrt(std::max(0.0, p.round * p.round - aside * aside));
 }
 
 /// The columns that the middle line runs through, about: half a column's width across the line.
-double middle_reach(const Piece& p, double pitch) {
+double middle_reach(const BeadPiece& p, double pitch) {
   return 0.5 * pitch * (std::abs(p.along.x) + std::abs(p.along.y));
 }
 
 /// Makes a contact of a column the nozzle goes through at u, or deepens the move's contact.
-void meet(const Piece& p, double u, double depth, std::vector<Contact>& contacts) {
+void meet(const BeadPiece& p, double u, double depth, std::vector<NozzleContact>& contacts) {
   const Point3 at{p.from.x + u * p.along.x, p.from.y + u * p.along.y, p.z + u * p.slope};
   if (contacts.empty() || contacts.back().step != p.step) {
     contacts.push_back({p.step, p.begin + u, at, depth});
     return;
   }
-  Contact& contact = contacts.back();
+  NozzleContact& contact = contacts.back();
   contact.depth = std::max(contact.depth, depth);
   if (p.begin + u >= contact.way) return;
   contact.way = p.begin + u;
@@ -124,7 +125,8 @@ void meet(const Piece& p, double u, double depth, std::vector<Contact>& contacts
 
 }  // namespace
 
-void Tile::lay_road(const Piece& p, double contact_depth, Sums& sums, std::vector<Contact>& contacts) {
+void PrintTile::lay_road(const BeadPiece& p, double contact_depth, Sums& sums,
+                         std::vector<NozzleContact>& contacts) {
   const double middle = middle_reach(p, pitch_);
   for_each_column(p, p.reach(), [&](int column, double u, double v) {
     const double nozzle = p.z + u * p.slope;
@@ -140,12 +142,13 @@ void Tile::lay_road(const Piece& p, double contact_depth, Sums& sums, std::vecto
   });
 }
 
-void Tile::lay_wedge(const Piece& p, Sums& sums) {
+void PrintTile::lay_wedge(const BeadPiece& p, Sums& sums) {
   for_each_wedge_column(p, [&](int column, double distance) { lay_section(p, column, p.z, distance, sums); });
 }
 
 /// Lays what a section whose top is at `nozzle` has at this distance from its middle line.
-Tile::Laid Tile::lay_section(const Piece& p, int column, double nozzle, double aside, Sums& sums) {
+PrintTile::Laid PrintTile::lay_section(const BeadPiece& p, int column, double nozzle, double aside,
+                                       Sums& sums) {
   const double half = half_height(p, aside), centre = nozzle - p.round;
   const auto low = static_cast<float>(centre - half), high = static_cast<float>(centre + half);
   const double bottom = centre - p.round;
@@ -156,7 +159,7 @@ Tile::Laid Tile::lay_section(const Piece& p, int column, double nozzle, double a
   return laid;
 }
 
-void Tile::travel(const Piece& p, double contact_depth, std::vector<Contact>& contacts) {
+void PrintTile::travel(const BeadPiece& p, double contact_depth, std::vector<NozzleContact>& contacts) {
   const double lowest = std::min(p.z, p.z + p.length * p.slope);
   if (top_ - lowest <= contact_depth) return;
   for_each_column(p, middle_reach(p, pitch_), [&](int column, double u, double) {
@@ -166,7 +169,7 @@ void Tile::travel(const Piece& p, double contact_depth, std::vector<Contact>& co
 }
 
 /// The lowest node that stays clear above `height`; kNoNode where none does.
-std::uint32_t Tile::find_above(int column, float height) {
+std::uint32_t PrintTile::find_above(int column, float height) {
   std::uint32_t above = kNoNode;
   int walked = 0;
   for (std::uint32_t n = link(kNoNode, column); n != kNoNode && nodes_[n].low > height; n = nodes_[n].below) {
@@ -179,7 +182,7 @@ std::uint32_t Tile::find_above(int column, float height) {
 }
 
 /// Adds a run to a column. It rests on what goes below the road's bottom and comes up to `under.reach`.
-Tile::Laid Tile::lay(int column, float low, float high, std::uint32_t step, Support under) {
+PrintTile::Laid PrintTile::lay(int column, float low, float high, std::uint32_t step, Support under) {
   Laid laid;
   laid.rests = under.reach <= 0.0f;
   if (low < 0.0f) {  // the bed is there already
@@ -188,10 +191,10 @@ Tile::Laid Tile::lay(int column, float low, float high, std::uint32_t step, Supp
   }
   if (!(high > low) || too_deep_) return laid;
   const std::uint32_t above = find_above(column, high + touch_);
-  Node joined{low, high, step, step, kNoNode};
+  MaterialRun joined{low, high, step, step, kNoNode};
   std::uint32_t next = link(above, column);
   while (next != kNoNode && nodes_[next].high >= low - touch_) {
-    const Node node = nodes_[next];
+    const MaterialRun node = nodes_[next];
     laid.covered += std::max(0.0f, std::min(high, node.high) - std::max(low, node.low));
     laid.rests = laid.rests || node.low < under.bottom - touch_;
     laid.oldest = std::min({laid.oldest, node.low_step, node.high_step});
@@ -212,7 +215,7 @@ Tile::Laid Tile::lay(int column, float low, float high, std::uint32_t step, Supp
   return laid;
 }
 
-void Tile::insert(std::uint32_t above, int column, const Node& node) {
+void PrintTile::insert(std::uint32_t above, int column, const MaterialRun& node) {
   std::uint32_t number = free_;
   if (number == kNoNode) {
     number = static_cast<std::uint32_t>(nodes_.size());
@@ -227,14 +230,14 @@ void Tile::insert(std::uint32_t above, int column, const Node& node) {
   ++used_;
 }
 
-void Tile::take_out(std::uint32_t above, int column, std::uint32_t node) {
+void PrintTile::take_out(std::uint32_t above, int column, std::uint32_t node) {
   link(above, column) = nodes_[node].below;
   nodes_[node].below = free_;
   free_ = node;
   --used_;
 }
 
-void Tile::intervals(int column, std::vector<Interval>& out) const {
+void PrintTile::intervals(int column, std::vector<Interval>& out) const {
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
   for (std::uint32_t n = heads_[static_cast<std::size_t>(column)]; n != kNoNode; n = nodes_[n].below)
     out.push_back({nodes_[n].low, nodes_[n].high, nodes_[n].low_step, nodes_[n].high_step});

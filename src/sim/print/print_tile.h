@@ -29,7 +29,7 @@ struct Frame {
 enum class PieceKind : std::uint8_t { road, wedge, travel };
 
 /// Coordinates are relative to column 0, 0 and the bed.
-struct Piece {
+struct BeadPiece {
   PieceKind kind = PieceKind::road;
   std::uint32_t step = 0, layer = 0;
   std::uint32_t road = 0;         // number in its batch
@@ -56,25 +56,25 @@ struct Sums {
 };
 
 /// Where the nozzle goes through material.
-struct Contact {
+struct NozzleContact {
   std::uint32_t step = 0;
   double way = 0.0;    // mm from the move's begin, of the first contact
   Point3 at;           // there, relative to the frame
   double depth = 0.0;  // mm, the largest
 };
 
-class Tile {
+class PrintTile {
  public:
-  struct Node {
+  struct MaterialRun {
     float low, high;  // mm above the bed
     std::uint32_t low_step, high_step;
     std::uint32_t below;  // the next run down, kNoNode for none
   };
 
-  Tile(const Frame& frame, int tile_x, int tile_y);
+  PrintTile(const Frame& frame, int tile_x, int tile_y);
 
   /// Lays a road or wedge, or tests a travel; `contact_depth` as in PrintOptions.
-  void add(const Piece& piece, double contact_depth, Sums& sums, std::vector<Contact>& contacts);
+  void add(const BeadPiece& piece, double contact_depth, Sums& sums, std::vector<NozzleContact>& contacts);
 
   /// Appends the runs of a column, lowest first.
   void intervals(int column, std::vector<Interval>& out) const;
@@ -93,16 +93,17 @@ class Tile {
     float bottom, reach;
   };
   template <class Visit>
-  void for_each_column(const Piece& piece, double reach, const Visit& visit) const;
+  void for_each_column(const BeadPiece& piece, double reach, const Visit& visit) const;
   template <class Visit>
-  void for_each_wedge_column(const Piece& piece, const Visit& visit) const;
-  void lay_road(const Piece& piece, double contact_depth, Sums& sums, std::vector<Contact>& contacts);
-  void lay_wedge(const Piece& piece, Sums& sums);
-  void travel(const Piece& piece, double contact_depth, std::vector<Contact>& contacts);
-  Laid lay_section(const Piece& piece, int column, double nozzle, double aside, Sums& sums);
+  void for_each_wedge_column(const BeadPiece& piece, const Visit& visit) const;
+  void lay_road(const BeadPiece& piece, double contact_depth, Sums& sums,
+                std::vector<NozzleContact>& contacts);
+  void lay_wedge(const BeadPiece& piece, Sums& sums);
+  void travel(const BeadPiece& piece, double contact_depth, std::vector<NozzleContact>& contacts);
+  Laid lay_section(const BeadPiece& piece, int column, double nozzle, double aside, Sums& sums);
   Laid lay(int column, float low, float high, std::uint32_t step, Support under);
   std::uint32_t find_above(int column, float height);
-  void insert(std::uint32_t above, int column, const Node& node);
+  void insert(std::uint32_t above, int column, const MaterialRun& node);
   void take_out(std::uint32_t above, int column, std::uint32_t node);
   std::uint32_t& link(std::uint32_t above, int column) {
     return above == kNoNode ? heads_[static_cast<std::size_t>(column)] : nodes_[above].below;
@@ -116,7 +117,7 @@ class Tile {
   float touch_;
   int first_x_, first_y_, columns_x_, columns_y_;
   std::vector<std::uint32_t> heads_;  // the highest run of each column
-  std::vector<Node> nodes_;
+  std::vector<MaterialRun> nodes_;
   std::uint32_t free_ = kNoNode;  // nodes that are not used, chained by `below`
   std::size_t used_ = 0;
   double top_ = 0.0;  // of all columns

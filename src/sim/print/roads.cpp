@@ -49,9 +49,9 @@ class Levels {
   std::vector<double> stack_;
 };
 
-class Reader {
+class ExtrusionReader {
  public:
-  Reader(const Toolpath& path, const PrintOptions& options, RoadSink& sink, Diagnostics* diagnostics)
+  ExtrusionReader(const Toolpath& path, const PrintOptions& options, RoadSink& sink, Diagnostics* diagnostics)
       : path_(path), options_(options), sink_(sink), diagnostics_(diagnostics), levels_(options.bed.mm()) {}
 
   void run() {
@@ -237,7 +237,7 @@ double height_of(double area, double width) {
 
 void for_each_road(const Toolpath& path, const PrintOptions& options, RoadSink& sink,
                    Diagnostics* diagnostics) {
-  Reader(path, options, sink, diagnostics).run();
+  ExtrusionReader(path, options, sink, diagnostics).run();
 }
 
 }  // namespace kerf::printing

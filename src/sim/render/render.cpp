@@ -88,7 +88,7 @@ class Painter {
     int x, y;
   };
   using Ray = std::array<Offset, kSteps>;
-  struct Place {
+  struct PixelPoint {
     float x, y, z;
   };
 
@@ -124,11 +124,11 @@ class Painter {
   Point3 fill_;
   std::optional<CutPlane> section_;
   Target seen_, shadow_;
-  std::vector<Spot> spots_;
+  std::vector<ScreenVertex> screen_;
   std::vector<std::array<float, 3>> vertex_normals_;
   std::vector<PackedNormal> normals_;
-  std::vector<Place> places_;     // one a pixel, viewer's frame, mm
-  std::vector<float> occlusion_;  // one a pixel, 0 open to 1 closed
+  std::vector<PixelPoint> places_;  // one a pixel, viewer's frame, mm
+  std::vector<float> occlusion_;    // one a pixel, 0 open to 1 closed
 };
 
 Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view)
@@ -205,7 +205,7 @@ Point3 Painter::normal_at(std::uint32_t triangle, double x, double y) const {
   const std::uint32_t* v = mesh_.triangles.data() + std::size_t{3} * triangle;
   const Point3 a = vertex(mesh_, v[0]);
   const Point3 face = unit(cross(vertex(mesh_, v[1]) - a, vertex(mesh_, v[2]) - a));
-  const Spot &p = spots_[v[0]], &q = spots_[v[1]], &r = spots_[v[2]];
+  const ScreenVertex &p = screen_[v[0]], &q = screen_[v[1]], &r = screen_[v[2]];
   const double area = (static_cast<double>(q.x) - p.x) * (static_cast<double>(r.y) - p.y) -
                       (static_cast<double>(q.y) - p.y) * (static_cast<double>(r.x) - p.x);
   if (area == 0.0) return face;
@@ -256,7 +256,7 @@ void Painter::place_pixels() {
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < width_; ++x) {
         const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
-        Place& place = places_[pixel(x, y)];
+        PixelPoint& place = places_[pixel(x, y)];
         place.z = kFarDepth;
         if (depth >= kFarDepth) continue;
         const double far = depth / (1.0 - eye_.nearness * depth),
@@ -287,11 +287,11 @@ std::vector<Painter::Ray> Painter::rays_of(int cell) const {
 
 /// How much of the sky around a pixel's surface is hidden by what stands within the occlusion radius.
 float Painter::occlusion_at(int x, int y, const std::vector<Ray>& rays) const {
-  const Place& p = places_[pixel(x, y)];
+  const PixelPoint& p = places_[pixel(x, y)];
   if (p.z >= kFarDepth) return 0.0f;
   const Point3 normal = normals_[seen_.index(x * fine_, y * fine_)].get();
-  const Place n{static_cast<float>(dot(normal, eye_.right)), static_cast<float>(dot(normal, eye_.up)),
-                static_cast<float>(dot(normal, eye_.into))};
+  const PixelPoint n{static_cast<float>(dot(normal, eye_.right)), static_cast<float>(dot(normal, eye_.up)),
+                     static_cast<float>(dot(normal, eye_.into))};
   const auto radius = static_cast<float>(kOcclusionRadius * size_);
   constexpr float kSlant = 0.08f;  // lower horizons are the surface's own unevenness
   float sum = 0.0f;
@@ -300,7 +300,7 @@ float Painter::occlusion_at(int x, int y, const std::vector<Ray>& rays) const {
     for (const Offset& offset : ray) {
       const int qx = x + offset.x, qy = y + offset.y;
       if (qx < 0 || qy < 0 || qx >= width_ || qy >= height_) break;
-      const Place& q = places_[pixel(qx, qy)];
+      const PixelPoint& q = places_[pixel(qx, qy)];
       const float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
       const float height = n.x * dx + n.y * dy + n.z * dz, square = dx * dx + dy * dy + dz * dz;
       if (height <= 0.0f || square >= radius * radius) continue;
@@ -433,8 +433,8 @@ Image Painter::paint() {
   seen_.triangle.assign(samples, kNothing);
   occlusion_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0f);
   if (!box_.empty() && finite(box_.low) && finite(box_.high)) {
-    spots_ = project_all(mesh_, eye_);
-    draw(mesh_, spots_, cut_in(eye_), seen_);
+    screen_ = project_all(mesh_, eye_);
+    draw(mesh_, screen_, cut_in(eye_), seen_);
     draw_shadows();
     smooth_normals();
     lay_ground_and_normals();

@@ -15,7 +15,7 @@ namespace {
 /// that it is theirs, so that every surface covers a sample once.
 struct Edge {
   double a, b, c;
-  Edge(const Spot& p, const Spot& q)
+  Edge(const ScreenVertex& p, const ScreenVertex& q)
       : a(static_cast<double>(p.y) - q.y),
         b(static_cast<double>(q.x) - p.x),
         c(static_cast<double>(p.x) * q.y - static_cast<double>(p.y) * q.x) {}
@@ -33,7 +33,8 @@ struct Band {
 /// Calls visit(x, y, depth) for each sample of a band that a triangle covers which turns clockwise in the
 /// picture, whose y points down: one that is seen from outside.
 template <class Visit>
-void for_each_sample(const Spot& p, const Spot& q, const Spot& r, const Band& band, const Visit& visit) {
+void for_each_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Band& band,
+                     const Visit& visit) {
   const float low_x = std::min({p.x, q.x, r.x}), high_x = std::max({p.x, q.x, r.x});
   const float low_y = std::min({p.y, q.y, r.y}), high_y = std::max({p.y, q.y, r.y});
   const int y_begin = std::max(band.first, static_cast<int>(std::ceil(low_y - 0.5f)));
@@ -56,42 +57,45 @@ void for_each_sample(const Spot& p, const Spot& q, const Spot& r, const Band& ba
 
 /// Calls visit(number, p, q, r) for each triangle.
 template <class Visit>
-void for_each_triangle(const Mesh& mesh, const std::vector<Spot>& spots, const Visit& visit) {
+void for_each_triangle(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const Visit& visit) {
   for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
-    visit(static_cast<std::uint32_t>(t / 3), spots[mesh.triangles[t]], spots[mesh.triangles[t + 1]],
-          spots[mesh.triangles[t + 2]]);
+    visit(static_cast<std::uint32_t>(t / 3), vertices[mesh.triangles[t]], vertices[mesh.triangles[t + 1]],
+          vertices[mesh.triangles[t + 2]]);
 }
 
 /// The nearest of the faces turned to the viewer at each sample of a band.
-void draw_faces(const Mesh& mesh, const std::vector<Spot>& spots, const std::optional<Cut>& cut,
+void draw_faces(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
                 const Band& band, Target& target) {
-  for_each_triangle(mesh, spots, [&](std::uint32_t number, const Spot& p, const Spot& q, const Spot& r) {
-    for_each_sample(p, q, r, band, [&](int x, int y, float depth) {
-      const std::size_t at = target.index(x, y);
-      if (depth >= target.depth[at] || (cut && cut->leaves_out(x + 0.5, y + 0.5, depth))) return;
-      target.depth[at] = depth;
-      if (!target.triangle.empty()) target.triangle[at] = number;
-    });
-  });
+  for_each_triangle(
+      mesh, vertices,
+      [&](std::uint32_t number, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
+        for_each_sample(p, q, r, band, [&](int x, int y, float depth) {
+          const std::size_t at = target.index(x, y);
+          if (depth >= target.depth[at] || (cut && cut->leaves_out(x + 0.5, y + 0.5, depth))) return;
+          target.depth[at] = depth;
+          if (!target.triangle.empty()) target.triangle[at] = number;
+        });
+      });
 }
 
 /// The face of a cut in a band: a place of the plane lies in material where, on the way on from the viewer,
 /// the surface is left once more than it is entered.
-void draw_cut_face(const Mesh& mesh, const std::vector<Spot>& spots, const Cut& cut, const Band& band,
-                   Target& target) {
+void draw_cut_face(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const Cut& cut,
+                   const Band& band, Target& target) {
   const std::size_t from = target.index(0, band.first), samples = target.index(0, band.last) - from;
   std::vector<std::int16_t> left(samples);
-  for_each_triangle(mesh, spots, [&](std::uint32_t, const Spot& p, const Spot& q, const Spot& r) {
-    const auto count = [&](std::int16_t change) {
-      return [&, change](int x, int y, float depth) {
-        if (cut.leaves_out(x + 0.5, y + 0.5, depth)) return;
-        std::int16_t& sum = left[target.index(x, y) - from];
-        sum = static_cast<std::int16_t>(sum + change);
-      };
-    };
-    for_each_sample(p, q, r, band, count(-1));
-    for_each_sample(p, r, q, band, count(1));
-  });
+  for_each_triangle(mesh, vertices,
+                    [&](std::uint32_t, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
+                      const auto count = [&](std::int16_t change) {
+                        return [&, change](int x, int y, float depth) {
+                          if (cut.leaves_out(x + 0.5, y + 0.5, depth)) return;
+                          std::int16_t& sum = left[target.index(x, y) - from];
+                          sum = static_cast<std::int16_t>(sum + change);
+                        };
+                      };
+                      for_each_sample(p, q, r, band, count(-1));
+                      for_each_sample(p, r, q, band, count(1));
+                    });
   for (int y = band.first; y < band.last; ++y) {
     for (int x = 0; x < band.width; ++x) {
       const std::size_t at = target.index(x, y);
@@ -126,16 +130,16 @@ void Projection::fit(const Mesh& mesh, const std::optional<CutPlane>& section, i
   y0 = height / 2.0 - scale * (top + bottom) / 2;
 }
 
-std::vector<Spot> project_all(const Mesh& mesh, const Projection& projection) {
-  std::vector<Spot> spots(mesh.positions.size() / 3);
-  in_bands(static_cast<int>(spots.size()), [&](int begin, int end) {
+std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection) {
+  std::vector<ScreenVertex> vertices(mesh.positions.size() / 3);
+  in_bands(static_cast<int>(vertices.size()), [&](int begin, int end) {
     for (int v = begin; v < end; ++v) {
       const Point3 p = projection.project(vertex(mesh, static_cast<std::uint32_t>(v)));
-      spots[static_cast<std::size_t>(v)] = {static_cast<float>(p.x), static_cast<float>(p.y),
-                                            static_cast<float>(p.z)};
+      vertices[static_cast<std::size_t>(v)] = {static_cast<float>(p.x), static_cast<float>(p.y),
+                                               static_cast<float>(p.z)};
     }
   });
-  return spots;
+  return vertices;
 }
 
 Cut::Cut(const CutPlane& plane, const Projection& projection) {
@@ -146,11 +150,12 @@ Cut::Cut(const CutPlane& plane, const Projection& projection) {
   constant_ = -above - x_ * projection.x0 - y_ * projection.y0;
 }
 
-void draw(const Mesh& mesh, const std::vector<Spot>& spots, const std::optional<Cut>& cut, Target& target) {
+void draw(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
+          Target& target) {
   in_bands(target.height, [&](int first, int last) {
     const Band band{target.width, first, last};
-    draw_faces(mesh, spots, cut, band, target);
-    if (cut && cut->is_before()) draw_cut_face(mesh, spots, *cut, band, target);
+    draw_faces(mesh, vertices, cut, band, target);
+    if (cut && cut->is_before()) draw_cut_face(mesh, vertices, *cut, band, target);
   });
 }
 

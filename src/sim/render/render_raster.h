@@ -66,7 +66,7 @@ class Cut {
 };
 
 /// A vertex in the picture.
-struct Spot {
+struct ScreenVertex {
   float x, y, z;
 };
 
@@ -81,9 +81,10 @@ struct Target {
   }
 };
 
-std::vector<Spot> project_all(const Mesh& mesh, const Projection& projection);
+std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection);
 /// Draws the triangles that face the viewer, but for what `cut` leaves out, and the cut's face as kCutFace.
-void draw(const Mesh& mesh, const std::vector<Spot>& spots, const std::optional<Cut>& cut, Target& target);
+void draw(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
+          Target& target);
 /// Calls work(begin, end) for bands of 0 to count, on as many threads as there are.
 void in_bands(int count, const std::function<void(int, int)>& work);
 

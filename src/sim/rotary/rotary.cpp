@@ -69,10 +69,10 @@ struct RotaryMotion {
 };
 
 /// Reads the toolpath into motions and tools, and tells what cannot be done.
-class Reader {
+class RotaryMotionReader {
  public:
-  Reader(const Toolpath& path, const ToolTable& table, const RoundBar& bar, double spacing,
-         Diagnostics& diagnostics)
+  RotaryMotionReader(const Toolpath& path, const ToolTable& table, const RoundBar& bar, double spacing,
+                     Diagnostics& diagnostics)
       : path_(path), table_(table), bar_(bar), spacing_(spacing), diagnostics_(diagnostics) {}
 
   bool run();
@@ -96,7 +96,7 @@ class Reader {
   bool judges_spindle_ = false, told_other_axes_ = false, told_no_tool_ = false;
 };
 
-bool Reader::run() {
+bool RotaryMotionReader::run() {
   bool has_spindle = false, has_laser = false;
   for (const Step& step : path_.steps()) {
     has_spindle = has_spindle || step.kind() == StepKind::spindle;
@@ -114,7 +114,7 @@ bool Reader::run() {
   return diagnostics_.errors() == errors;
 }
 
-double Reader::turn_at(const MotionExtra* extra, const MotionContext& context) {
+double RotaryMotionReader::turn_at(const MotionExtra* extra, const MotionContext& context) {
   if (extra == nullptr || !extra->abc) return turn_;
   const auto& abc = *extra->abc;
   if ((abc[1] != 0.0 || abc[2] != 0.0) && !std::exchange(told_other_axes_, true))
@@ -123,7 +123,7 @@ double Reader::turn_at(const MotionExtra* extra, const MotionContext& context) {
   return degrees(abc[0]).rad();
 }
 
-std::optional<std::uint32_t> Reader::tool_of(const Step& step, const MotionContext& context) {
+std::optional<std::uint32_t> RotaryMotionReader::tool_of(const Step& step, const MotionContext& context) {
   std::optional<int> number = context.tool;
   if (!number && table_.tools().size() == 1) number = table_.tools().begin()->first;
   if (!number) {
@@ -145,7 +145,7 @@ std::optional<std::uint32_t> Reader::tool_of(const Step& step, const MotionConte
   return index_[*number] = place;
 }
 
-void Reader::push(RotaryMotion motion) {
+void RotaryMotionReader::push(RotaryMotion motion) {
   if (!(length(motion.from) < kMaxReach) || !(length(motion.to) < kMaxReach)) {
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(motion.step),
                        "the motion goes too far away");
@@ -158,7 +158,7 @@ void Reader::push(RotaryMotion motion) {
   motions.push_back(motion);
 }
 
-void Reader::add(const Step& step, const MotionContext& context) {
+void RotaryMotionReader::add(const Step& step, const MotionContext& context) {
   const double turn_from = turn_;
   turn_ = turn_at(path_.extra(context.index), context);
   if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return;
@@ -432,7 +432,7 @@ std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const Tool
   auto work = sim::make_bar(bar, options, diagnostics);
   if (!work) return std::nullopt;
   const double girth_pitch = std::numbers::pi * bar.diameter / work->around;
-  sim::Reader reader(path, tools, bar, 0.5 * std::min(work->dx, girth_pitch), diagnostics);
+  sim::RotaryMotionReader reader(path, tools, bar, 0.5 * std::min(work->dx, girth_pitch), diagnostics);
   if (!reader.run()) return std::nullopt;
   RotarySimulation result{
       .workpiece = std::move(*work), .stock = {}, .removed = {}, .hazards = {}, .removed_by_step = {}};

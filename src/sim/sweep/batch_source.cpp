@@ -2,6 +2,7 @@
 #include "sim/sweep/batch_source.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace kerf::sim {
 
@@ -19,13 +20,13 @@ std::vector<StepRange> apart(std::vector<StepRange> ranges) {
   return out;
 }
 
-bool Feeder::is_wanted(std::size_t step) {
+bool BatchSource::is_wanted(std::size_t step) {
   const std::vector<StepRange>& steps = scope_.steps;
   while (next_range_ < steps.size() && steps[next_range_].last < step) ++next_range_;
   return next_range_ < steps.size() && steps[next_range_].first <= step;
 }
 
-bool Feeder::find_tool(int number) {
+bool BatchSource::find_tool(int number) {
   if (number == tool_number_) return true;
   const auto tool = survey_.index.find(number);
   if (tool == survey_.index.end()) return false;
@@ -35,7 +36,7 @@ bool Feeder::find_tool(int number) {
 }
 
 /// Adds the motion that was read.
-void Feeder::add(Batch& batch) {
+void BatchSource::add(Batch& batch) {
   const Step& step = motion_.step();
   const MotionContext& context = motion_.context();
   if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_.interrupt();
@@ -47,7 +48,7 @@ void Feeder::add(Batch& batch) {
 }
 
 /// Whether a batch is to end before the motion that was read.
-bool Feeder::reached_pause() {
+bool BatchSource::reached_pause() {
   const std::size_t before = next_pause_;
   while (next_pause_ < scope_.pauses.size() && scope_.pauses[next_pause_] <= motion_.context().index)
     ++next_pause_;
@@ -56,7 +57,7 @@ bool Feeder::reached_pause() {
 
 /// Goes on to the motion before the range of steps that is wanted next, if that is further on: it is not
 /// wanted, but the next one may follow it.
-bool Feeder::skip() {
+bool BatchSource::skip() {
   if (next_range_ < skipped_to_) return false;
   skipped_to_ = next_range_ + 1;
   const std::optional<std::size_t> before = path_.motion_before(scope_.steps[next_range_].first);
@@ -65,9 +66,32 @@ bool Feeder::skip() {
   return motion_.next();
 }
 
-bool Feeder::next_motion() { return skip() || motion_.next(); }
+bool BatchSource::next_motion() { return skip() || motion_.next(); }
 
-void Feeder::fill(Batch& batch) {
+std::shared_ptr<const Batch> BatchSource::next() {
+  const auto is_free = [](const std::shared_ptr<Batch>& batch) { return batch.use_count() == 1; };
+  const auto free = std::find_if(batches_.begin(), batches_.end(), is_free);
+  const std::shared_ptr<Batch> batch =
+      free != batches_.end() ? *free : batches_.emplace_back(std::make_shared<Batch>());
+  std::swap(batch->pairs, pairs_);
+  fill(*batch);
+  std::swap(batch->pairs, pairs_);
+  return batch;
+}
+
+void KeptBatches::add(const std::shared_ptr<const Batch>& batch) {
+  constexpr std::size_t kMaxSweeps = 1 << 18, kMaxPairs = 1 << 22;  // some 50 MB
+  sweeps_ += batch->sweeps.size() + batch->beside.size();
+  pairs_ += batch->list.size();
+  too_many_ = too_many_ || sweeps_ > kMaxSweeps || pairs_ > kMaxPairs;
+  if (too_many_) {
+    batches_.clear();
+  } else {
+    batches_.push_back(batch);
+  }
+}
+
+void BatchSource::fill(Batch& batch) {
   batch.clear();
   planner_.go_on(batch);
   while (!batch.full() && !is_done() && (waiting_ || next_motion())) {

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,8 +27,11 @@ struct StepRange {
 /// The same steps in order, no range touching another.
 std::vector<StepRange> apart(std::vector<StepRange> ranges);
 
+/// How far from the centres of columns sweeps are kept for exact meshes, in pitches.
+inline constexpr double kKeptMargin = 1.9;
+
 /// What of a toolpath is to be cut, and how it is judged.
-struct FeedScope {
+struct BatchScope {
   PlanScope plan;
   std::vector<StepRange> steps;  // in order and apart
   Length hazard_depth;
@@ -36,9 +41,10 @@ struct FeedScope {
   const std::vector<std::uint32_t>* numbers = nullptr;
 };
 
-class Feeder {
+/// Plans a path batch by batch.
+class BatchSource {
  public:
-  Feeder(const Workpiece::Body& body, const Toolpath& path, const Survey& survey, FeedScope scope)
+  BatchSource(const Workpiece::Body& body, const Toolpath& path, const Survey& survey, BatchScope scope)
       : path_(path),
         survey_(survey),
         scope_(std::move(scope)),
@@ -46,10 +52,11 @@ class Feeder {
         planner_(body, survey.solids, scope_.hazard_depth, scope_.plan),
         motion_(path) {}
 
-  /// Fills a batch, whatever it held, with what comes next.
-  void fill(Batch& batch);
+  /// What comes next, in a batch that nothing else holds any more or in a new one.
+  std::shared_ptr<const Batch> next();
 
  private:
+  void fill(Batch& batch);
   bool is_wanted(std::size_t step);
   bool next_motion();
   bool skip();
@@ -61,7 +68,7 @@ class Feeder {
 
   const Toolpath& path_;
   const Survey& survey_;
-  FeedScope scope_;
+  BatchScope scope_;
   std::size_t tiles_;
   Planner planner_;
   MotionReader motion_;
@@ -70,6 +77,24 @@ class Feeder {
   std::optional<int> tool_number_;  // of tool_
   std::uint32_t tool_ = 0;
   bool waiting_ = false;  // the motion that was read has not been added
+  std::vector<std::shared_ptr<Batch>> batches_;
+  std::vector<Batch::Pair> pairs_;  // the memory of all batches' pairs, which are of no use when sorted
+};
+
+/// The batches of a path, kept for what needs its sweeps again as long as they are few: planning a longer
+/// path again takes little of the time that cutting it takes, and much less memory.
+class KeptBatches {
+ public:
+  void add(const std::shared_ptr<const Batch>& batch);
+  /// Whether these are all batches of the path.
+  bool complete() const { return !batches_.empty() && batches_.back()->is_last; }
+  /// In order of time.
+  const std::vector<std::shared_ptr<const Batch>>& batches() const { return batches_; }
+
+ private:
+  std::vector<std::shared_ptr<const Batch>> batches_;
+  std::size_t sweeps_ = 0, pairs_ = 0;
+  bool too_many_ = false;
 };
 
 }  // namespace kerf::sim

@@ -29,11 +29,11 @@ constexpr double kShort = 2.0;
 double distance_to_interval(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
 /// The x range of the part of a line that lies between two heights in y; empty if there is none.
-struct Span {
+struct RangeInX {
   double low = 1.0, high = 0.0;
   bool empty() const { return low > high; }
 };
-Span span_between(double x0, double y0, double x1, double y1, double y_low, double y_high) {
+RangeInX range_between(double x0, double y0, double x1, double y1, double y_low, double y_high) {
   double t0 = 0.0, t1 = 1.0;
   const double dy = y1 - y0;
   if (dy == 0.0) {
@@ -121,6 +121,7 @@ bool Batch::full() const { return sweeps.size() >= kBatchSweeps || pairs.size() 
 void Batch::clear() {
   sweeps.clear();
   pairs.clear();
+  beside.clear();
   contacts.clear();
 }
 
@@ -318,7 +319,17 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, double& reach) const 
   return any == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(passes);
 }
 
-/// Finds the tiles of the batch's last sweep, and takes it back if there are none. `to`: where a line ends.
+void Planner::add(const Sweep& planned, Batch& batch) {
+  batch.sweeps.push_back(planned);
+  const Point3 to{planned.x + planned.length * planned.ux, planned.y + planned.length * planned.uy,
+                  planned.z_end};
+  double reach = 0.0;
+  passes_that_meet(planned, reach);
+  if (!find_tiles(planned, to, reach + scope_.margin, batch)) batch.sweeps.pop_back();
+}
+
+/// Finds the tiles of the batch's last sweep, and removes the sweep if there are none. `to`: where a line
+/// ends.
 void Planner::emit(const Point3& to, Batch& batch) {
   if (!find_pairs(batch.sweeps.back(), to, batch)) batch.sweeps.pop_back();
 }
@@ -330,7 +341,16 @@ bool Planner::find_pairs(Sweep& sweep, const Point3& to, Batch& batch) const {
   double reach = 0.0;
   sweep.passes = passes_that_meet(sweep, reach);
   if (sweep.passes == 0) return false;
-  reach += scope_.margin;
+  if (find_tiles(sweep, to, reach + scope_.margin, batch)) return true;
+  const std::size_t pairs = batch.pairs.size();
+  if (scope_.beside <= 0.0 || !find_tiles(sweep, to, reach + scope_.beside, batch)) return false;
+  batch.pairs.resize(pairs);
+  batch.beside.push_back({sweep, batch.sweeps.size() - 1});
+  return false;
+}
+
+/// Pairs the batch's last sweep with the tiles within its reach; false if there are none.
+bool Planner::find_tiles(const Sweep& sweep, const Point3& to, double reach, Batch& batch) const {
   const std::size_t before = batch.pairs.size();
   const auto number = static_cast<std::uint32_t>(batch.sweeps.size() - 1);
   if (sweep.is_arc) {
@@ -360,10 +380,10 @@ void Planner::pair_line(const Sweep& s, const Point3& to, double reach, std::uin
   for (int row = rows.first; row <= rows.last; ++row) {
     const double low = (row * kTileColumns + 0.5) * body_.pitch - reach;
     const double high = ((row + 1) * kTileColumns - 0.5) * body_.pitch + reach;
-    const Span span = span_between(s.x, s.y, to.x, to.y, low, high);
-    if (span.empty()) continue;
+    const RangeInX range = range_between(s.x, s.y, to.x, to.y, low, high);
+    if (range.empty()) continue;
     const TileRange columns =
-        tiles_between(span.low - reach, span.high + reach, body_.pitch, body_.nx, body_.tiles_x);
+        tiles_between(range.low - reach, range.high + reach, body_.pitch, body_.nx, body_.tiles_x);
     for (int column = columns.first; column <= columns.last; ++column) pair(column, row, number, batch);
   }
 }

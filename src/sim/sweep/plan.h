@@ -35,8 +35,14 @@ struct Batch {
     std::uint32_t tile;
     std::uint32_t sweep;
   };
+  /// A sweep that touches no tile but passes near one, see PlanScope.
+  struct Beside {
+    Sweep sweep;
+    std::size_t before;  // how many of `sweeps` precede it
+  };
   std::vector<Sweep> sweeps;
   std::vector<Pair> pairs;
+  std::vector<Beside> beside;
   std::vector<Contact> contacts;  // found by the planner itself: below_floor
   std::size_t steps_done = 0;     // of the toolpath, with this batch
   bool is_last = false;
@@ -55,10 +61,11 @@ struct Batch {
   std::vector<std::uint32_t> count_;
 };
 
-/// Which pairs of sweep and tile are wanted. The usual ones: of all tiles, where a column's centre is
+/// Which pairs of sweep and tile are wanted. By default: those of all tiles where a column's centre is
 /// reached.
 struct PlanScope {
-  double margin = 0.0;                       // mm, how far from the centres there is something to reach
+  double margin = 0.0;                       // mm, maximum distance from the centres
+  double beside = 0.0;                       // mm, the same of sweeps that are listed as Batch::beside
   const std::vector<bool>* tiles = nullptr;  // only these
 };
 
@@ -74,6 +81,8 @@ class Planner {
   bool unfinished() const { return chords_.next < chords_.count; }
   /// Adds more of an unfinished motion, until it ends or the batch is full.
   void go_on(Batch& batch);
+  /// Adds a sweep that another planner has made of the same workpiece and tools.
+  void add(const Sweep& planned, Batch& batch);
   /// Takes a motion as done: the next may follow it.
   void pass_over(const Step& step, const MotionContext& context, std::uint32_t tool);
   /// Forgets where the tool was: nothing follows the sweep before.
@@ -107,6 +116,7 @@ class Planner {
   bool is_far(const Motion& motion, std::uint32_t tool) const;
   void emit(const Point3& to, Batch& batch);
   bool find_pairs(Sweep& sweep, const Point3& to, Batch& batch) const;
+  bool find_tiles(const Sweep& sweep, const Point3& to, double reach, Batch& batch) const;
   std::uint8_t passes_that_meet(const Sweep& sweep, double& reach) const;
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
   /// Number of the tile a place along X or Y is in; any number below 0 or above the last outside.

@@ -20,8 +20,8 @@ constexpr int kMaxFrusta = 4096;
 Cap flat_cap(double height, double rim) { return {.flat = rim, .height = height}; }
 
 /// A straight flank, which is a cylinder where the radii are equal.
-Piece frustum(double r0, double z0, double r1, double z1) {
-  Piece piece;
+ConvexPiece frustum(double r0, double z0, double r1, double z1) {
+  ConvexPiece piece;
   piece.rim = std::max(r0, r1);
   piece.lower = flat_cap(z0, piece.rim);
   piece.upper = flat_cap(-z1, piece.rim);
@@ -46,10 +46,10 @@ Cap arc_cap(double flat, double height, double centre_r, double centre_z, double
 }
 
 /// A zone bounded by an arc that bulges away from the axis.
-Piece zone(const Knot& a, const Knot& b) {
+ConvexPiece zone(const Knot& a, const Knot& b) {
   const detail::ProfileArc arc = detail::profile_arc(a, b);
   const bool has_equator = arc.z > a.z && arc.z < b.z;
-  Piece piece;
+  ConvexPiece piece;
   piece.rim = has_equator ? arc.r + arc.radius : std::max(a.r, b.r);
   piece.lower = flat_cap(a.z, piece.rim);
   piece.upper = flat_cap(-b.z, piece.rim);
@@ -60,7 +60,7 @@ Piece zone(const Knot& a, const Knot& b) {
 
 /// Frusta for a hollow arc. Their knots lie as far beyond it as makes the volume right: two thirds of what
 /// the middles of chords between points of the arc would stray to the other side.
-void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<Piece>& pieces) {
+void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<ConvexPiece>& pieces) {
   constexpr double kBeyond = 2.0 / 3.0;
   const detail::ProfileArc arc = detail::profile_arc(a, b);
   const double sweep = 4.0 * std::atan(a.bulge);
@@ -79,8 +79,8 @@ void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<Piec
   }
 }
 
-std::vector<Piece> pieces_of(const Profile& profile, double chord) {
-  std::vector<Piece> pieces;
+std::vector<ConvexPiece> pieces_of(const Profile& profile, double chord) {
+  std::vector<ConvexPiece> pieces;
   for (std::size_t i = 0; i + 1 < profile.knots.size(); ++i) {
     const Knot& a = profile.knots[i];
     const Knot& b = profile.knots[i + 1];
@@ -108,18 +108,18 @@ void shrink_cap(Cap& cap, double shrink, double rim) {
   if (cap.radius <= 0.0) cap = flat_cap(cap.height, rim);
 }
 
-void shrink_pieces(std::vector<Piece>& pieces, double shrink) {
-  for (Piece& piece : pieces) {
+void shrink_pieces(std::vector<ConvexPiece>& pieces, double shrink) {
+  for (ConvexPiece& piece : pieces) {
     piece.rim -= shrink;
     shrink_cap(piece.lower, shrink, piece.rim);
     shrink_cap(piece.upper, shrink, piece.rim);
   }
-  std::erase_if(pieces, [](const Piece& piece) { return piece.rim <= 0.0; });
+  std::erase_if(pieces, [](const ConvexPiece& piece) { return piece.rim <= 0.0; });
 }
 
-bool never_shrinks_upwards(const std::vector<Piece>& pieces) {
+bool never_shrinks_upwards(const std::vector<ConvexPiece>& pieces) {
   double rim = 0.0;
-  for (const Piece& piece : pieces) {
+  for (const ConvexPiece& piece : pieces) {
     const double start = piece.lower.curve == CapCurve::flat ? piece.rim : piece.lower.flat;
     if (piece.upper.curve != CapCurve::flat || start < rim - kSameRadius) return false;
     rim = piece.rim;
@@ -128,18 +128,18 @@ bool never_shrinks_upwards(const std::vector<Piece>& pieces) {
 }
 
 /// Of one envelope, leaves out the pieces whose underside is hidden by those below them.
-void drop_hidden(std::vector<Piece>& pieces) {
+void drop_hidden(std::vector<ConvexPiece>& pieces) {
   double rim = 0.0;
-  std::erase_if(pieces, [&](const Piece& piece) {
+  std::erase_if(pieces, [&](const ConvexPiece& piece) {
     const bool hidden = piece.rim <= rim + kSameRadius;
     rim = std::max(rim, piece.rim);
     return hidden;
   });
 }
 
-double underside_at(const std::vector<Piece>& pieces, double rho, double top) {
+double underside_at(const std::vector<ConvexPiece>& pieces, double rho, double top) {
   double low = top;
-  for (const Piece& piece : pieces)
+  for (const ConvexPiece& piece : pieces)
     if (rho <= piece.rim) low = std::min(low, piece.lower.at(rho));
   return low;
 }
@@ -204,7 +204,7 @@ Solid make_solid(const Profile& profile, Length chord, Length shrink) {
   solid.one_envelope = never_shrinks_upwards(solid.pieces);
   if (solid.one_envelope) drop_hidden(solid.pieces);
   if (shrink.mm() > 0.0) shrink_pieces(solid.pieces, shrink.mm());
-  for (const Piece& piece : solid.pieces) solid.rim = std::max(solid.rim, piece.rim);
+  for (const ConvexPiece& piece : solid.pieces) solid.rim = std::max(solid.rim, piece.rim);
   if (!solid.empty()) find_cull_lines(solid);
   return solid;
 }

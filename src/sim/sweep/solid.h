@@ -30,7 +30,7 @@ struct Cap {
 };
 
 /// One convex piece. The upper side is kept upside down (heights negated), so that one algorithm serves both.
-struct Piece {
+struct ConvexPiece {
   double rim = 0.0;  // largest radius
   Cap lower;
   Cap upper;
@@ -45,7 +45,7 @@ inline constexpr int kCullLines = 6;
 
 /// A part of a tool, ready to be swept.
 struct Solid {
-  std::vector<Piece> pieces;
+  std::vector<ConvexPiece> pieces;
   /// The radius never shrinks upwards: the pieces' lower sides make one underside, the top is flat and full.
   bool one_envelope = false;
   double rim = 0.0, bottom = 0.0, top = 0.0;

@@ -1,4 +1,4 @@
-// The simulation as a whole: volumes, who cut what, threads, unknown places, refusals.
+// The simulation as a whole: volumes, who cut what, threads, unknown positions.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -18,13 +18,6 @@ TEST(Simulate, VolumesAddUp) {
   for (const float v : result->removed_by_step) sum += static_cast<double>(v);
   EXPECT_NEAR(sum, result->removed.mm3(), 1e-4 * result->removed.mm3());
   EXPECT_GT(result->removed.mm3(), 5000.0);
-}
-
-TEST(Simulate, UntouchedStockHasItsVolume) {
-  const Workpiece workpiece(block({1, 2, 3}, {8.3, 7.1, 5}), mm(0.7));
-  EXPECT_NEAR(workpiece.volume().mm3(), 7.3 * 5.1 * 2, 1e-4);
-  EXPECT_EQ(workpiece.columns_x(), 11);
-  EXPECT_EQ(workpiece.columns_y(), 8);
 }
 
 TEST(Simulate, SameForAnyNumberOfThreads) {
@@ -201,102 +194,7 @@ TEST(UnknownPlaces, ACutFromAnUnknownHeightComesFromAbove) {
   EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * 9 * 5, 2.5);
 }
 
-// ---- refusals and warnings
-
-struct Refusal {
-  Diagnostics diagnostics;
-  bool ran = false;
-  bool says(Code code) const {
-    for (const Diagnostic& d : diagnostics.list())
-      if (d.code == code) return true;
-    return false;
-  }
-};
-Refusal attempt(const Toolpath& path, const ToolTable& tools, Stock stock = block({0, 0, -10}, {50, 40, 0}),
-                double pitch = 0.5) {
-  Refusal refusal;
-  refusal.ran = run(path, tools, stock, pitch, refusal.diagnostics).has_value();
-  return refusal;
-}
-Toolpath plain_cut(int tool) {
-  Path path;
-  return path.tool(tool).rapid({5, 5, 2}).cut({5, 5, -1}).path();
-}
-
-TEST(Refusals, UnknownTool) {
-  const Refusal refusal = attempt(plain_cut(77), square_and_keyhole());
-  EXPECT_FALSE(refusal.ran);
-  ASSERT_TRUE(refusal.says(Code::no_such_tool));
-  EXPECT_NE(refusal.diagnostics.list()[0].hint.find("\"square d="), std::string::npos);
-  EXPECT_NE(to_string(refusal.diagnostics.list()[0].where), "");
-}
-
-TEST(Refusals, NoToolChosen) {
-  Path path;
-  path.rapid({5, 5, 2}).cut({5, 5, -1});
-  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::no_tool_chosen));
-  ToolTable one;
-  one.set(9, make_drawn(9, profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}})));
-  EXPECT_TRUE(attempt(path.path(), one).ran);
-}
-
-TEST(Refusals, ResolutionAndStock) {
-  const double nan = std::nan("");
-  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), nan)
-                  .says(Code::bad_resolution));
-  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), -1)
-                  .says(Code::bad_resolution));
-  const Refusal fine =
-      attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {5000, 4000, 0}), 0.001);
-  ASSERT_TRUE(fine.says(Code::too_many_columns));
-  EXPECT_NE(fine.diagnostics.list()[0].hint.find("would do"), std::string::npos);
-  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), Stock{}).says(Code::stock_empty));
-  EXPECT_TRUE(
-      attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, nan, 0})).says(Code::stock_empty));
-  EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {1e300, 40, 0}))
-                  .says(Code::stock_empty));
-}
-
-TEST(Refusals, TheResolutionSaidToDoDoes) {
-  const Stock stock = block({0, 0, -10}, {500, 400, 0});
-  Diagnostics diagnostics;
-  SimulationOptions options;
-  options.max_columns = 10'000;
-  options.resolution = mm(0.1);
-  ASSERT_FALSE(simulate(plain_cut(1), square_and_keyhole(), stock, options, diagnostics));
-  const std::string hint = diagnostics.list().at(0).hint;
-  options.resolution = mm(std::stod(hint.substr(hint.find_first_of("0123456789"))));
-  EXPECT_TRUE(simulate(plain_cut(1), square_and_keyhole(), stock, options, diagnostics));
-}
-
-TEST(Refusals, AutomaticResolution) {
-  Diagnostics diagnostics;
-  const auto result =
-      run(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {100, 100, 0}), 0, diagnostics);
-  ASSERT_TRUE(result);
-  EXPECT_NEAR(result->workpiece.pitch().mm(), 100 / std::sqrt(2.5e6), 1e-9);
-}
-
-TEST(Refusals, AbsurdMotions) {
-  Path path;
-  path.tool(1).rapid({5, 5, 2}).cut({1e300, 5, -1});
-  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::motion_out_of_range));
-}
-
-TEST(Warnings, WhatIsNotSimulatedIsSaid) {
-  Path path;
-  path.tool(1).rapid({5, 5, 2}).cut({5, 5, -1});
-  Toolpath& steps = path.path();
-  steps.set_extra(2, {.abc = std::array<double, 3>{10, 0, 0}, .z_correction = "#100"});
-  steps.add(step::Extrude{{6, 6, -1}, mm3(1), mm(0.4), mm(0.2), mm_per_min(900)}, path.origin());
-  const Refusal said = attempt(steps, square_and_keyhole());
-  EXPECT_TRUE(said.ran);
-  EXPECT_TRUE(said.says(Code::rotary_not_simulated));
-  EXPECT_TRUE(said.says(Code::z_correction_not_simulated));
-  EXPECT_TRUE(said.says(Code::extrusion_not_simulated));
-}
-
-TEST(Warnings, LongPathsAreSurveyedInPartsAndSayThingsOnce) {
+TEST(Simulate, LongPathsAreSurveyedInPartsWithOneWarning) {
   Path path;
   const auto cut_across = [&](int tool, double y) {
     path.tool(tool).rapid({2, y, 5}).cut({2, y, -2}).cut({40, y, -2});
@@ -304,9 +202,9 @@ TEST(Warnings, LongPathsAreSurveyedInPartsAndSayThingsOnce) {
   cut_across(1, 8);
   for (int k = 0; k < 70000; ++k) path.rapid({40, 8, 5.0 + k % 2});
   cut_across(3, 20);
-  const Refusal quiet = attempt(path.path(), square_and_keyhole());
-  EXPECT_TRUE(quiet.ran);
-  EXPECT_TRUE(quiet.diagnostics.list().empty());
+  Diagnostics quiet;
+  EXPECT_TRUE(run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, quiet));
+  EXPECT_TRUE(quiet.list().empty());
   for (int k = 0; k < 70000; ++k) path.rapid({40, 8, 5.0 + k % 2});
   cut_across(2, 32);
   for (const std::size_t step : {std::size_t{5}, std::size_t{70010}, path.path().size() - 1})
@@ -320,33 +218,6 @@ TEST(Warnings, LongPathsAreSurveyedInPartsAndSayThingsOnce) {
     EXPECT_EQ(said.list()[0].code, Code::rotary_not_simulated);
     for (const std::size_t step : {std::size_t{3}, std::size_t{70007}, path.path().size() - 1})
       EXPECT_GT(result->removed_by_step[step], 1.0f) << "step " << step;
-  }
-}
-
-TEST(Warnings, CoarseArcAndUnknownPlace) {
-  Path path;
-  path.tool(1).rapid({5, 5, 2}).cut({5, 5, -1});
-  path.arc({.to = {5, 5, -2}, .centre = {1e6, 5}, .extra_turns = 50, .feed = mm_per_min(9)});
-  EXPECT_TRUE(attempt(path.path(), square_and_keyhole()).says(Code::coarse_arc));
-  Path unknown;
-  unknown.tool(1).cut({0, 0, -1});
-  unknown.path().set_unknown_axes(1, 3);
-  EXPECT_TRUE(attempt(unknown.path(), square_and_keyhole()).says(Code::cut_at_unknown_place));
-}
-
-TEST(Warnings, OnlyTheUnknownAxesAreNamed) {
-  const std::pair<unsigned, std::string_view> cases[] = {
-      {7, "said where X, Y and Z are; X0 and Y0 are taken, and without a Z nothing is cut"},
-      {2, "said where Y is; Y0 is taken"},
-      {4, "said where Z is; without it nothing is cut"}};
-  for (const auto& [axes, words] : cases) {
-    Path unknown;
-    unknown.tool(1).cut({0, 0, -1});
-    unknown.path().set_unknown_axes(1, axes);
-    const Refusal said = attempt(unknown.path(), square_and_keyhole());
-    ASSERT_TRUE(said.says(Code::cut_at_unknown_place));
-    const std::string& message = said.diagnostics.list().front().message;
-    EXPECT_NE(message.find(words), std::string::npos) << message;
   }
 }
 

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "../sim_cut/cut_jobs.h"
+#include "sim/cut/simulation_plan.h"
 #include "sim/exact/quadric.h"
 #include "sim/exact/sweep_distance.h"
 #include "sim/exact/tool_distance.h"
@@ -164,7 +165,7 @@ Part part_of(const Toolpath& path, const Profile& cutting, const Stock& stock) {
   Part part;
   if (!result) return part;
   part.rough = part.sharp = extract_mesh(result->workpiece.grid());
-  EXPECT_TRUE(sharpen_mesh(part.sharp, result->workpiece, path, tools, stock));
+  EXPECT_TRUE(sharpen_mesh(part.sharp, *result));
   return part;
 }
 
@@ -303,6 +304,24 @@ TEST(RelabelledMesh, SteepRimsBelongToTheCutToo) {
   EXPECT_EQ(mesh.triangles, rough.triangles);
 }
 
+TEST(SharpMesh, IsTheSameFromKeptSweepsAndFromThePath) {
+  Diagnostics diagnostics;
+  auto result =
+      run(random_job(6, 150), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics);
+  ASSERT_TRUE(result && result->plan->batches.complete());
+  const Mesh rough = extract_mesh(MeshColumns(result->workpiece), {});
+  Mesh kept = rough, planned = rough;
+  ASSERT_TRUE(sharpen_mesh(kept, *result));
+  const auto without_batches = std::make_shared<Simulation::Plan>();
+  without_batches->survey = result->plan->survey;
+  result->plan = without_batches;
+  ASSERT_TRUE(sharpen_mesh(planned, *result));
+  EXPECT_NE(kept.positions, rough.positions);
+  EXPECT_EQ(kept.positions, planned.positions);
+  EXPECT_EQ(kept.triangles, planned.triangles);
+  EXPECT_EQ(kept.step, planned.step);
+}
+
 TEST(SharpMesh, ADiscardedRunLeavesTheMeshAsItWas) {
   class Stopped : public Progress {
    public:
@@ -319,7 +338,7 @@ TEST(SharpMesh, ADiscardedRunLeavesTheMeshAsItWas) {
   ASSERT_TRUE(result);
   const Mesh rough = extract_mesh(result->workpiece.grid());
   Mesh mesh = rough;
-  EXPECT_FALSE(sharpen_mesh(mesh, result->workpiece, path.path(), tools, kBlock, {}, &stopped));
+  EXPECT_FALSE(sharpen_mesh(mesh, *result, {}, &stopped));
   EXPECT_EQ(mesh.positions, rough.positions);
   EXPECT_EQ(mesh.triangles, rough.triangles);
 }

@@ -171,7 +171,7 @@ TEST_P(MeshOfSweeps, LiesWhereTheReferenceSays) {
     print("rough", tool, motion, rough);
     EXPECT_LE(rough.surfaces.largest, kSurfaceLimit) << motion.name;
     EXPECT_LE(rough.edges.largest, kEdgeLimit) << motion.name;
-    ASSERT_TRUE(sharpen_mesh(mesh, result->workpiece, path_of(motion), table_of(tool), block_of_motions()));
+    ASSERT_TRUE(sharpen_mesh(mesh, *result));
     EXPECT_EQ(check_mesh(mesh).bad_edges, 0u) << motion.name;
     const MeshErrors sharp = errors_of(mesh, left);
     print("sharp", tool, motion, sharp);

@@ -1,5 +1,5 @@
 // From a sweep in the block's frame to a tile's.
-#include "sim/kernel/view.h"
+#include "sim/kernel/local_sweep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace kerf::sim {
 namespace {
 
-void view_line(const Sweep& s, const TileJob& job, double half_tile, View& w) {
+void view_line(const Sweep& s, const TileJob& job, double half_tile, LocalSweep& w) {
   const double to_x = job.x + half_tile - s.x, to_y = job.y + half_tile - s.y;
   const double t = std::clamp(to_x * s.ux + to_y * s.uy, 0.0, s.length);
   w.is_arc = false;
@@ -22,16 +22,16 @@ void view_line(const Sweep& s, const TileJob& job, double half_tile, View& w) {
   w.ball_lead = s.ball_lead;
 }
 
-void view_arc(const Sweep& s, const TileJob& job, View& w) {
+void view_arc(const Sweep& s, const TileJob& job, LocalSweep& w) {
   w.is_arc = true;
   w.x = static_cast<Real>(job.x - s.x);
   w.y = static_cast<Real>(job.y - s.y);
   w.radius = static_cast<Real>(s.radius);
   const double c = std::cos(s.turn), d = std::sin(s.turn);
   const double ex = s.ux * c - s.uy * d, ey = s.ux * d + s.uy * c;
-  const bool ccw = s.turn > 0.0;  // a clockwise arc is the counter-clockwise one from its end to its begin
-  w.begin_x = static_cast<Real>(s.radius * (ccw ? s.ux : ex));
-  w.begin_y = static_cast<Real>(s.radius * (ccw ? s.uy : ey));
+  const bool ccw = s.turn > 0.0;  // a clockwise arc is the counter-clockwise one from its end to its start
+  w.start_x = static_cast<Real>(s.radius * (ccw ? s.ux : ex));
+  w.start_y = static_cast<Real>(s.radius * (ccw ? s.uy : ey));
   w.end_x = static_cast<Real>(s.radius * (ccw ? ex : s.ux));
   w.end_y = static_cast<Real>(s.radius * (ccw ? ey : s.uy));
   constexpr double kHalfTurn = 3.14159265358979323846;
@@ -50,9 +50,9 @@ void view_arc(const Sweep& s, const TileJob& job, View& w) {
 }
 
 /// What a cut that follows another need not cut again: all that lies so far back that the lowest point above
-/// it is the begin, where the sweep before has ended. For solids with undercuts that holds in level sweeps
+/// it is the start, where the previous sweep ended. For solids with undercuts that holds in level sweeps
 /// only.
-Real behind_of(const View& w, const Sweep& s, const LaneSolid& solid, bool open) {
+Real behind_of(const LocalSweep& w, const Sweep& s, const LaneSolid& solid, bool open) {
   if (!s.follows || w.is_arc || s.length == 0.0) return -kFar;
   if (w.slope == 0) return w.t_low;
   if (!solid.one_envelope || !open) return -kFar;
@@ -62,7 +62,7 @@ Real behind_of(const View& w, const Sweep& s, const LaneSolid& solid, bool open)
 
 }  // namespace
 
-void set_view(const Sweep& s, const TileJob& job, View& w) {
+void set_local_sweep(const Sweep& s, const TileJob& job, LocalSweep& w) {
   if (s.is_arc) {
     view_arc(s, job, w);
   } else {
@@ -73,7 +73,7 @@ void set_view(const Sweep& s, const TileJob& job, View& w) {
   if (w.slope == 0) w.z = w.z_low;
 }
 
-void prepare_for(View& w, const Sweep& sweep, const LaneSolid& solid, Follow follow, bool open) {
+void prepare_for(LocalSweep& w, const Sweep& sweep, const LaneSolid& solid, Follow follow, bool open) {
   w.behind = follow == Follow::no ? -kFar : behind_of(w, sweep, solid, open);
   w.level_follow = follow == Follow::yes && sweep.follows && !w.is_arc && sweep.length > 0.0 && w.slope == 0;
 }

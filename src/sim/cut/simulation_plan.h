@@ -1,0 +1,16 @@
+// What a simulation keeps for meshes with exact edges, so that nothing is computed a second time.
+#pragma once
+
+#include "sim/sweep/batch_source.h"
+#include "sim/sweep/survey.h"
+
+#include "kerf/simulate.h"
+
+namespace kerf {
+
+struct Simulation::Plan {
+  sim::Survey survey;
+  sim::KeptBatches batches;
+};
+
+}  // namespace kerf
