@@ -1,15 +1,36 @@
-// Any bytes as a DXF file: read, its blocks placed, its texts without codes.
+// Any bytes as a DXF file: read, its blocks inserted, its texts without codes, its outlines and their region.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
 
+#include "kerf/drawing_outlines.h"
 #include "kerf/dxf.h"
 
 namespace {
 
 void expect(bool holds) {
   if (!holds) std::abort();
+}
+
+/// Outlines are joined end to end, and finite.
+void check_outlines(const kerf::dxf::Drawing& drawing, const kerf::dxf::VisitOptions& visit,
+                    kerf::Diagnostics& diagnostics) {
+  using namespace kerf;
+  DrawingOutlineOptions options;
+  options.unit = mm(1.0);
+  options.within = mm(0.1);
+  options.max_segments = 20'000;
+  options.visit = visit;
+  const auto drawn = drawn_outlines(drawing, options, diagnostics);
+  if (!drawn) return expect(diagnostics.has_errors());
+  std::size_t segments = 0;
+  for (const DrawnOutline& o : drawn->outlines) {
+    expect(!o.outline.segments.empty() && !o.handles.empty());
+    expect(std::isfinite(length(o.outline).mm()));
+    segments += o.outline.segments.size();
+  }
+  if (segments <= 300) drawn_region(*drawn, FillRule::even_odd, {}, diagnostics);
 }
 
 }  // namespace
@@ -37,5 +58,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       dxf::anchor(**text);
     }
   });
+  check_outlines(*drawing, options, diagnostics);
+  layer_contents(*drawing, options, diagnostics);
   return 0;
 }

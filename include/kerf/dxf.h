@@ -243,8 +243,10 @@ std::string unit_name(int insunits);
 
 /// Hexadecimal, in capitals; empty for none.
 std::string handle_text(std::uint64_t handle);
-/// Where an entity is in its file.
+/// The file; an entity's line in it; an entity at a position in mm.
+Origin origin_of(const Drawing& drawing);
 Origin origin_of(const Drawing& drawing, const Entity& entity);
+Origin origin_at(const Drawing& drawing, std::uint32_t layer, std::uint64_t handle, double x_mm, double y_mm);
 
 /// The point that a text is aligned to: the second point of TEXT with an alignment.
 Point anchor(const Text& text);

@@ -52,6 +52,20 @@ std::optional<Outline> fit_spline(const Spline& spline, Length within, const Fit
 /// must be valid, as `fit_spline` checks it (but with any weights above 0), and start and end at its first
 /// and last control points.
 std::vector<Point2> flattened(const Spline& spline, Length chord, int limit);
+/// The arc of an ellipse centre + cos(t) * u + sin(t) * v, from t = `start` over `sweep` (below 0: falling t,
+/// at most a full turn), as a spline: exact but for rounding.
+Spline ellipse_spline(Point2 centre, Point2 u, Point2 v, Angle start, Angle sweep);
+
+/// How a spline through points runs at its ends.
+struct SplineEnds {
+  std::optional<Point2> start, end;  ///< directions of travel; none, or a zero vector: without curvature
+  bool closed = false;               ///< smooth where the last point meets the first; directions are ignored
+};
+/// The cubic spline through points, with the distances of neighbours as its parameter and continuous
+/// curvature, as CAD programs draw a spline that is specified by fit points. Points equal to the one before
+/// are ignored. Nothing, with an error appended, for fewer than two different points.
+std::optional<Spline> spline_through(const std::vector<Point2>& points, const SplineEnds& ends,
+                                     const FitOptions& options, Diagnostics& diagnostics);
 
 /// The points of an outline whose chords stay within `chord` of its arcs: its ends and points between, at
 /// least 16 to a full circle and at most 4096 an arc. A closed outline ends with its first point.

@@ -12,6 +12,8 @@ import os
 from . import _kerf
 from ._kerf import (
     Diagnostic,
+    Drawing,
+    DrawingOutlines,
     Error,
     JobResult,
     PrintSimulation,
@@ -35,6 +37,7 @@ from ._kerf import (
     flattened,
     parallel,
     posts,
+    read_drawing,
     read_gcode,
     self_meetings,
     simulate,
@@ -45,6 +48,8 @@ from ._kerf import (
 
 __all__ = [
     "Diagnostic",
+    "Drawing",
+    "DrawingOutlines",
     "Error",
     "JobResult",
     "PrintSimulation",
@@ -68,11 +73,13 @@ __all__ = [
     "flattened",
     "left_stock",
     "load",
+    "load_drawing",
     "load_stock",
     "move_stock",
     "parallel",
     "post",
     "posts",
+    "read_drawing",
     "read_gcode",
     "save_left_stock",
     "self_meetings",
@@ -211,6 +218,28 @@ def post(
         return texts[0][1].decode(errors="replace")
     _kerf._write_files(texts)
     return [file for file, text in texts]
+
+
+def load_drawing(path):
+    """Read a DXF drawing: R12 to R2018, ASCII or binary.
+
+    Parameters
+    ----------
+    path : str or os.PathLike
+
+    Returns
+    -------
+    Drawing
+
+    Raises
+    ------
+    OSError
+        Where the file cannot be read.
+    kerf.Error
+        Where it is no DXF file, or entities are damaged.
+    """
+    with open(path, "rb") as file:
+        return _kerf.read_drawing(file.read(), os.fsdecode(path))
 
 
 def load_stock(path):

@@ -3,16 +3,37 @@
 #include <memory>
 
 #include "bindings.h"
+#include "region_binding.h"
 
 #include "kerf/fit.h"
-#include "kerf/region.h"
 
 namespace kerf::python {
 namespace py = pybind11;
 
-namespace {
+py::list rows_of(const Outline& outline) {
+  py::list list;
+  list.append(py::make_tuple(outline.start.x, outline.start.y));
+  for (const Segment& s : outline.segments)
+    list.append(s.via ? py::make_tuple(s.via->x, s.via->y, s.to.x, s.to.y) : py::make_tuple(s.to.x, s.to.y));
+  return list;
+}
 
-constexpr double kDefaultTolerance = 1e-6;  // mm, as Tolerance::weld
+RegionOptions options_of(double tolerance, const char* call) {
+  RegionOptions options;
+  options.tolerance.weld = mm(finite_number(tolerance, "tolerance"));
+  options.name = call;
+  options.where = script_location(call);
+  return options;
+}
+
+FillRule rule_of(const std::string& name) {
+  if (name == "even_odd") return FillRule::even_odd;
+  if (name == "nonzero") return FillRule::nonzero;
+  if (name == "positive") return FillRule::positive;
+  throw py::value_error("unknown fill '" + name + "'; known: even_odd, nonzero, positive");
+}
+
+namespace {
 
 // The texts of help().
 constexpr const char* kRegion = R"(A part of the plane bounded by lines and arcs.
@@ -283,17 +304,9 @@ Figure figure_of(const py::handle& value) {
   return figure;
 }
 
-py::list list_of(const Outline& outline) {
-  py::list list;
-  list.append(py::make_tuple(outline.start.x, outline.start.y));
-  for (const Segment& s : outline.segments)
-    list.append(s.via ? py::make_tuple(s.via->x, s.via->y, s.to.x, s.to.y) : py::make_tuple(s.to.x, s.to.y));
-  return list;
-}
-
 py::list list_of(const std::vector<Outline>& outlines) {
   py::list list;
-  for (const Outline& outline : outlines) list.append(list_of(outline));
+  for (const Outline& outline : outlines) list.append(rows_of(outline));
   return list;
 }
 
@@ -301,47 +314,6 @@ py::list list_of(const std::vector<Point2>& points) {
   py::list list;
   for (const Point2 p : points) list.append(py::make_tuple(p.x, p.y));
   return list;
-}
-
-RegionOptions options_of(double tolerance, const char* call) {
-  RegionOptions options;
-  options.tolerance.weld = mm(finite_number(tolerance, "tolerance"));
-  options.name = call;
-  options.where = script_location(call);
-  return options;
-}
-
-/// Runs work without Python's lock, and raises what it has to say.
-template <class Work>
-auto compute(Work work) {
-  Diagnostics diagnostics;
-  auto made = [&] {
-    const py::gil_scoped_release release;
-    return work(diagnostics);
-  }();
-  raise_or_warn(diagnostics);
-  return std::move(*made);
-}
-
-/// A region, with the tree for questions made when first asked.
-class PyRegion {
- public:
-  explicit PyRegion(Region made) : region(std::move(made)) {}
-  const RegionSearch& search() const {
-    if (!search_) search_ = std::make_shared<RegionSearch>(region);
-    return *search_;
-  }
-  Region region;
-
- private:
-  mutable std::shared_ptr<RegionSearch> search_;  // made with Python's lock held
-};
-
-FillRule rule_of(const std::string& name) {
-  if (name == "even_odd") return FillRule::even_odd;
-  if (name == "nonzero") return FillRule::nonzero;
-  if (name == "positive") return FillRule::positive;
-  throw py::value_error("unknown fill '" + name + "'; known: even_odd, nonzero, positive");
 }
 
 PyRegion region_of(const py::object& outlines, const std::string& fill, double tolerance) {
@@ -446,7 +418,7 @@ void bind_region_class(py::module_& m) {
             py::list list;
             for (const Figure& figure : figures(r.region)) {
               py::list outlines;
-              for (const auto& shape : figure) outlines.append(list_of(std::get<Outline>(shape)));
+              for (const auto& shape : figure) outlines.append(rows_of(std::get<Outline>(shape)));
               list.append(outlines);
             }
             return list;
@@ -499,7 +471,7 @@ void bind_point_fit(py::module_& m, const char* name, const char* points_name, c
       [name, fit](const py::object& points, double within) {
         const std::vector<Point2> read = points_of(points);
         const FitOptions options{name, script_location(name)};
-        return list_of(compute([&](Diagnostics& d) { return fit(read, mm(within), options, d); }));
+        return rows_of(compute([&](Diagnostics& d) { return fit(read, mm(within), options, d); }));
       },
       py::arg(points_name), py::arg("within"), text);
 }
@@ -519,7 +491,7 @@ void bind_fits(py::module_& m) {
          const std::vector<double>& weights, double within) {
         const Spline spline{degree, points_of(control), knots, weights};
         const FitOptions options{"fit_spline", script_location("fit_spline")};
-        return list_of(compute([&](Diagnostics& d) { return fit_spline(spline, mm(within), options, d); }));
+        return rows_of(compute([&](Diagnostics& d) { return fit_spline(spline, mm(within), options, d); }));
       },
       py::arg("control"), py::arg("knots"), py::kw_only(), py::arg("degree") = 3,
       py::arg("weights") = std::vector<double>(), py::arg("within") = 0.01, kFitSpline);

@@ -68,5 +68,6 @@ void bind_simulation(pybind11::module_& m);
 void bind_print(pybind11::module_& m);
 void bind_bodies(pybind11::module_& m);
 void bind_region(pybind11::module_& m);
+void bind_drawing(pybind11::module_& m);
 
 }  // namespace kerf::python

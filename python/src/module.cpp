@@ -196,4 +196,5 @@ PYBIND11_MODULE(_kerf, m) {
   bind_print(m);
   bind_bodies(m);
   bind_region(m);
+  bind_drawing(m);
 }

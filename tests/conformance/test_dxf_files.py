@@ -40,6 +40,7 @@ LINES = {
     "cut_off_after_group": ([LINE], [("dxf_truncated", 39)]),
     "cut_off_in_value": ([LINE], [("dxf_group_code", 50), ("dxf_truncated", 49)]),
     "no_header": ([LINE], []),
+    "two_headers": ([LINE], [("dxf_structure", 22)]),
     "no_sections": ([LINE, NEXT], [("dxf_structure", 2), ("dxf_truncated", 31)]),
     "no_endsec": ([LINE], [("dxf_structure", 18)]),
     "comments": ([LINE], []),

@@ -68,7 +68,7 @@ OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly sm
 PUBLIC = {
     "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
              "number.h", "names.h", "codes.def"],
-    "geom": ["geometry.h", "outline.h", "extrude.h", "fit.h", "region.h", "mesh_check.h"],
+    "geom": ["geometry.h", "outline.h", "chain.h", "extrude.h", "fit.h", "region.h", "mesh_check.h"],
     "tool": ["tool.h", "tool_comments.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
@@ -89,7 +89,7 @@ PUBLIC = {
     "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
-    "front_outline": ["outline_files.h"],
+    "front_outline": ["outline_files.h", "drawing_outlines.h"],
     "back_drawing": ["outline_drawing.h", "toolpath_drawing.h", "gcmc_drawing.h"],
     "codec_drawing": ["drawing_files.h", "dxf.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],

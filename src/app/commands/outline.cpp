@@ -1,9 +1,11 @@
-// kerf outline: cuts the corners of outlines from a JSON file or a Python script, and draws what changed.
+// kerf outline: cuts the corners of outlines from a JSON file or a Python script, and draws what changed. For
+// drawings see outline_drawing.h.
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/commands/outline_drawing.h"
 #include "app/options/common.h"
 #include "app/report/json.h"
 
@@ -19,6 +21,7 @@ struct Options {
   OutputOptions output;
   std::string file, svg, dxf;
   bool fair = false;
+  DrawingOptions drawing;
 };
 
 struct Result {
@@ -106,8 +109,12 @@ void write_files(const Options& options, const Result& result, Diagnostics& diag
   if (sound) set.commit(diagnostics);
 }
 
-Status run(Console& console, const Options& options) {
+Status run(Console& console, const Options& options, const std::vector<std::string>& drawing_only) {
+  if (is_drawing(options.file))
+    return run_drawing(console, options.file, options.svg, options.dxf, options.drawing);
   Diagnostics diagnostics;
+  for (const std::string& name : drawing_only)
+    diagnostics.warning(Code::option_unused, {}, name + " has an effect on DXF drawings only");
   const std::vector<NamedOutline> outlines = load_outlines(options.file, diagnostics);
   const Result result = cut_all(outlines, options, diagnostics);
   if (!diagnostics.has_errors()) write_files(options, result, diagnostics);
@@ -118,6 +125,9 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples = R"(  kerf outline plate.json --svg plate.svg
   kerf outline design.py --svg design.svg     the outlines that a script cuts with cnc25d_api
   kerf outline plate.json --json              the cut outlines and what became of each corner
+  kerf outline part.dxf --list-layers         the layers of a drawing and what is on them
+  kerf outline part.dxf --layer CUT --json    the outlines of a layer; open ends with their coordinates
+  kerf outline part.dxf --layer CUT --region --dxf clean.dxf
 
 The picture shows the ideal outlines (dashed), the cut ones over them, and the router bit's circle at each
 changed corner. A corner that cannot be cut stays sharp, with a warning that says why.
@@ -128,9 +138,11 @@ changed corner. A corner that cannot be cut stays sharp, with a warning that say
 Command add_outline(CommandParser& root) {
   auto options = std::make_shared<Options>();
   CommandParser parser =
-      new_command(root, "outline", "Make the corners of outlines millable, and draw what changed", kExamples,
-                  options->output);
-  parser.add_text("FILE", options->file, "Outlines as JSON, or a Python script (.py) that cuts outlines")
+      new_command(root, "outline", "Make the corners of outlines millable, and take outlines from drawings",
+                  kExamples, options->output);
+  parser
+      .add_text("FILE", options->file,
+                "Outlines as JSON, a Python script (.py) that cuts outlines, or a drawing (.dxf)")
       .required()
       .value_name("");
   parser.add_text("--svg", options->svg, "Write the picture of the corners").value_name("PATH");
@@ -138,7 +150,10 @@ Command add_outline(CommandParser& root) {
   parser.add_flag(
       "--fair", options->fair,
       "Share an edge that is too short for both of its corners evenly, instead of first come first served");
-  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
+  add_drawing_options(parser, options->drawing);
+  return {parser, &options->output, [options, parser](Console& console) {
+            return run(console, *options, given_drawing_options(parser));
+          }};
 }
 
 }  // namespace kerf::app

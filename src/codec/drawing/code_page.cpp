@@ -47,16 +47,6 @@ std::size_t utf8_length(std::string_view text) {
   return length;
 }
 
-/// The name by which iconv knows a page.
-std::string iconv_name(int page) {
-  if (page >= 28591 && page <= 28606) return fmt::format("ISO-8859-{}", page - 28590);
-  if (page == 10000) return "MACINTOSH";
-  if (page == 1361) return "JOHAB";
-  if (page == 949) return "UHC";
-  if (page == 950) return "BIG5";
-  return fmt::format("CP{}", page);
-}
-
 }  // namespace
 
 void append_utf8(std::string& out, char32_t c) {
@@ -130,6 +120,20 @@ class TextDecoder::Converter {
   bool append(std::string&, std::string_view) { return false; }
 };
 #else
+namespace {
+
+/// The name by which iconv knows a page.
+std::string iconv_name(int page) {
+  if (page >= 28591 && page <= 28606) return fmt::format("ISO-8859-{}", page - 28590);
+  if (page == 10000) return "MACINTOSH";
+  if (page == 1361) return "JOHAB";
+  if (page == 949) return "UHC";
+  if (page == 950) return "BIG5";
+  return fmt::format("CP{}", page);
+}
+
+}  // namespace
+
 class TextDecoder::Converter {
  public:
   static std::unique_ptr<Converter> open(int page) {

@@ -98,8 +98,20 @@ std::string_view type_name(const Drawing& drawing, const Entity& entity) {
   return std::visit(Names{drawing}, entity.shape);
 }
 
-Origin origin_of(const Drawing& drawing, const Entity& entity) {
-  return TextSpot{drawing.file, drawing.binary ? 0 : static_cast<std::uint32_t>(entity.position), 0};
+namespace {
+
+Origin at_line(const Drawing& drawing, std::size_t line) {
+  return TextSpot{drawing.file, drawing.binary ? 0 : static_cast<std::uint32_t>(line), 0};
+}
+
+}  // namespace
+
+Origin origin_of(const Drawing& drawing) { return at_line(drawing, 0); }
+Origin origin_of(const Drawing& drawing, const Entity& entity) { return at_line(drawing, entity.position); }
+
+Origin origin_at(const Drawing& drawing, std::uint32_t layer, std::uint64_t handle, double x_mm,
+                 double y_mm) {
+  return DxfSpot{drawing.file, drawing.layers[layer].name, handle_text(handle), x_mm, y_mm};
 }
 
 // ------------------------------------------------------------------------------------------------- matrices

@@ -147,6 +147,10 @@ void Reader::section() {
     return skip_section();
   }
   const std::string_view name = tags_.text();
+  if (name == "HEADER" && !drawing_.header.empty()) {
+    warn_structure("a second section HEADER; skipped");
+    return skip_section();
+  }
   if (name == "HEADER") {
     header();
   } else if (name == "TABLES") {

@@ -85,6 +85,7 @@ FILES = {
         header() + tags((0, "SECTION"), (2, "ENTITIES")) + line(0, 0, 10, 5) + line(10, 5, 20, 55)
     ).replace("31\n0\n", "")[:-2],
     "no_header": section("ENTITIES", line(0, 0, 10, 5)) + tags((0, "EOF")),
+    "two_headers": header() + header(unit=1) + section("ENTITIES", line(0, 0, 10, 5)) + tags((0, "EOF")),
     "no_sections": line(0, 0, 10, 5) + line(10, 5, 20, 5),
     "no_endsec": header().replace("0\nENDSEC\n", "")
     + section("ENTITIES", line(0, 0, 10, 5))

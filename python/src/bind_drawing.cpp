@@ -1,0 +1,212 @@
+// DXF drawings in Python: layers, outlines and regions.
+#include "bindings.h"
+#include "region_binding.h"
+
+#include "kerf/drawing_outlines.h"
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+constexpr const char* kDrawing =
+    R"(A DXF drawing: layers, and outlines from them. Made by `load_drawing` and `read_drawing`.
+)";
+
+constexpr const char* kOutlines =
+    R"(Outlines of layers: entities joined end to end, curves as arcs, blocks inserted.
+
+Parameters
+----------
+layers : str or list of str, optional
+    Names of layers; all that are neither off nor frozen where omitted.
+unit : {'mm', 'inch'}, optional
+    The drawing's unit; as it specifies where omitted.
+tolerance : float
+    Maximum deviation of arcs from ellipses and splines, mm.
+join : float
+    Maximum gap between entities that are joined, mm.
+
+Returns
+-------
+DrawingOutlines
+
+Raises
+------
+kerf.Error
+    Where the drawing specifies no unit and none is given, a layer does not exist, or nothing is drawn on the
+    layers. What is left open is a warning.
+)";
+
+constexpr const char* kRegion = R"(The region that the outlines of layers bound.
+
+Parameters are those of `outlines`, and `fill` as for `Region`: with 'even_odd' outlines inside others are
+holes.
+
+Returns
+-------
+Region
+
+Raises
+------
+kerf.Error
+    As `outlines`, and where an outline is open.
+)";
+
+struct PyDrawing {
+  dxf::Drawing drawing;
+};
+
+DrawingOutlineOptions options_for(const py::object& layers, const py::object& unit, double tolerance,
+                                  double join) {
+  DrawingOutlineOptions options;
+  if (py::isinstance<py::str>(layers))
+    options.layers = {py::cast<std::string>(layers)};
+  else if (!layers.is_none())
+    options.layers = py::cast<std::vector<std::string>>(layers);
+  if (!layers.is_none() && options.layers.empty()) throw py::value_error("layers must not be empty");
+  if (!unit.is_none()) {
+    const auto scale = mm_per_unit(py::cast<std::string>(unit));
+    if (!scale) throw py::value_error("unit must be 'mm' or 'inch'");
+    options.unit = mm(*scale);
+  }
+  options.within = mm(number_within(tolerance, 1e-6, 10.0, "tolerance", "mm"));
+  options.join = mm(number_within(join, 1e-6, 10.0, "join", "mm"));
+  return options;
+}
+
+DrawingOutlines outlines_of(const PyDrawing& drawing, const py::object& layers, const py::object& unit,
+                            double tolerance, double join) {
+  const DrawingOutlineOptions options = options_for(layers, unit, tolerance, join);
+  return compute([&](Diagnostics& d) { return drawn_outlines(drawing.drawing, options, d); });
+}
+
+PyRegion region_of(const DrawingOutlines& drawn, const std::string& fill, double tolerance) {
+  const RegionOptions options = options_of(tolerance, "region");
+  const FillRule rule = rule_of(fill);
+  return PyRegion(compute([&](Diagnostics& d) { return drawn_region(drawn, rule, options, d); }));
+}
+
+py::list shapes_of(const DrawingOutlines& drawn) {
+  py::list list;
+  for (const DrawnOutline& o : drawn.outlines) {
+    if (o.circle)
+      list.append(py::make_tuple(o.circle->centre.x, o.circle->centre.y, o.circle->radius.mm()));
+    else
+      list.append(rows_of(o.outline));
+  }
+  return list;
+}
+
+template <class Field>
+py::list names_of(const DrawingOutlines& drawn, Field field) {
+  py::list list;
+  for (const DrawnOutline& o : drawn.outlines) list.append(o.*field);
+  return list;
+}
+
+py::list open_ends_of(const DrawingOutlines& drawn) {
+  py::list list;
+  for (const DrawnOpenEnd& end : drawn.open_ends)
+    list.append(py::make_tuple(end.at.x, end.at.y, end.layer, end.entity,
+                               end.nearest ? py::object(py::float_(end.distance.mm())) : py::none()));
+  return list;
+}
+
+py::list layers_of(const PyDrawing& drawing) {
+  Diagnostics diagnostics;
+  py::list list;
+  for (const LayerContent& layer : layer_contents(drawing.drawing, {}, diagnostics)) {
+    py::dict types, entry;
+    for (const auto& [type, count] : layer.types) types[py::str(type)] = count;
+    entry["name"] = layer.name;
+    entry["off"] = layer.off;
+    entry["frozen"] = layer.frozen;
+    entry["colour"] = layer.colour;
+    entry["linetype"] = layer.linetype;
+    entry["entities"] = types;
+    list.append(entry);
+  }
+  raise_or_warn(diagnostics);
+  return list;
+}
+
+PyDrawing read(const py::bytes& bytes, const std::string& name) {
+  const auto view = static_cast<std::string_view>(bytes);
+  return {compute([&](Diagnostics& d) { return dxf::read_dxf(view, name, d); })};
+}
+
+void bind_drawn(py::module_& m) {
+  py::class_<DrawingOutlines>(m, "DrawingOutlines", "Outlines from a drawing, in mm.")
+      .def_property_readonly(
+          "outlines", &shapes_of,
+          "list: outlines as lists of points and arcs as for `Region`; circles as (x, y, radius).")
+      .def_property_readonly(
+          "names", [](const DrawingOutlines& d) { return names_of(d, &DrawnOutline::name); },
+          "list of str: layer and number of each outline.")
+      .def_property_readonly(
+          "handles", [](const DrawingOutlines& d) { return names_of(d, &DrawnOutline::handles); },
+          "list of list of str: handles of the entities of each outline.")
+      .def_property_readonly(
+          "points",
+          [](const DrawingOutlines& d) {
+            py::list list;
+            for (const DrawnPoint& p : d.points) list.append(py::make_tuple(p.at.x, p.at.y));
+            return list;
+          },
+          "list of (x, y): entities of the type POINT.")
+      .def_property_readonly("open_ends", &open_ends_of,
+                             "list of (x, y, layer, entity, distance to the nearest other open end or None).")
+      .def_property_readonly(
+          "junctions",
+          [](const DrawingOutlines& d) {
+            py::list list;
+            for (const DrawnJunction& j : d.junctions)
+              list.append(py::make_tuple(j.at.x, j.at.y, j.layer, j.entities));
+            return list;
+          },
+          "list of (x, y, layer, entities): where more than two ends meet, or an end is on another entity.")
+      .def("region", &region_of, py::kw_only(), py::arg("fill") = "even_odd",
+           py::arg("tolerance") = kDefaultTolerance,
+           "The `Region` that the outlines bound; kerf.Error where one is open.")
+      .def("__len__", [](const DrawingOutlines& d) { return d.outlines.size(); })
+      .def("__repr__", [](const DrawingOutlines& d) {
+        return "<kerf.DrawingOutlines of " + std::to_string(d.outlines.size()) + " outlines>";
+      });
+}
+
+}  // namespace
+
+void bind_drawing(py::module_& m) {
+  bind_drawn(m);
+  py::class_<PyDrawing>(m, "Drawing", kDrawing)
+      .def_property_readonly(
+          "version", [](const PyDrawing& d) { return d.drawing.version; },
+          "str: 'AC1015', ...; may be empty.")
+      .def_property_readonly(
+          "unit",
+          [](const PyDrawing& d) -> py::object {
+            const int unit = d.drawing.unit.value_or(0);
+            return unit == 0 ? py::object(py::none()) : py::object(py::str(dxf::unit_name(unit)));
+          },
+          "str or None: the unit that the drawing specifies.")
+      .def_property_readonly("layers", &layers_of,
+                             "list of dict: name, off, frozen, colour, linetype, entities by type.")
+      .def("outlines", &outlines_of, py::arg("layers") = py::none(), py::kw_only(),
+           py::arg("unit") = py::none(), py::arg("tolerance") = 0.01, py::arg("join") = 0.01, kOutlines)
+      .def(
+          "region",
+          [](const PyDrawing& d, const py::object& layers, const py::object& unit, double tolerance,
+             double join, const std::string& fill) {
+            return region_of(outlines_of(d, layers, unit, tolerance, join), fill, kDefaultTolerance);
+          },
+          py::arg("layers") = py::none(), py::kw_only(), py::arg("unit") = py::none(),
+          py::arg("tolerance") = 0.01, py::arg("join") = 0.01, py::arg("fill") = "even_odd", kRegion)
+      .def("__repr__", [](const PyDrawing& d) { return "<kerf.Drawing " + d.drawing.file + ">"; });
+  m.def("read_drawing", &read, py::arg("data"), py::arg("name") = "<bytes>",
+        "Read a DXF drawing, ASCII or binary, from bytes into a `Drawing`; `name` is for messages.");
+}
+
+}  // namespace kerf::python

@@ -1,0 +1,293 @@
+// Outlines from a drawing: entities chosen by layer, converted, joined, and what is left open reported.
+#include "kerf/drawing_outlines.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+
+#include "front/outline/drawing_pieces.h"
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf {
+namespace {
+
+using outline_front::PieceMaker;
+
+constexpr double kSmallGap = 1.0;  // mm; up to this a hint says how to close it
+
+std::string position_text(Point2 p) { return number_text(p.x, 4) + ", " + number_text(p.y, 4); }
+
+/// Pieces of one layer, and where each came from.
+struct LayerPieces {
+  std::vector<Outline> outlines;
+  std::vector<std::string> names;
+  std::vector<std::uint64_t> handles;
+  std::vector<std::optional<Circle>> circles;
+};
+
+class OutlineDrawer {
+ public:
+  OutlineDrawer(const dxf::Drawing& drawing, const DrawingOutlineOptions& options, Diagnostics& diagnostics)
+      : drawing_(drawing), options_(options), diagnostics_(diagnostics) {}
+  std::optional<DrawingOutlines> draw();
+
+ private:
+  Origin file() const { return dxf::origin_of(drawing_); }
+  std::optional<double> mm_per_unit();
+  bool choose_layers();
+  bool collect();
+  void take(const dxf::Placed& placed, PieceMaker& maker);
+  void join(std::uint32_t layer, const LayerPieces& pieces);
+  void report(std::uint32_t layer, const LayerPieces& pieces, const Chained& chained);
+  void report_ignored();
+  Origin location(std::uint32_t layer, const LayerPieces& pieces, std::uint32_t piece, Point2 at) const {
+    return dxf::origin_at(drawing_, layer, pieces.handles[piece], at.x, at.y);
+  }
+
+  const dxf::Drawing& drawing_;
+  const DrawingOutlineOptions& options_;
+  Diagnostics& diagnostics_;
+  std::vector<bool> chosen_;  // by layer; empty: all visible ones
+  std::map<std::uint32_t, LayerPieces> pieces_;
+  std::map<std::string, std::size_t> ignored_;
+  std::vector<std::size_t> hidden_;  // entities by layer
+  std::size_t wide_ = 0, segments_ = 0;
+  DrawingOutlines made_;
+};
+
+/// The unit asked for, else the drawing's; an error where there is none.
+std::optional<double> OutlineDrawer::mm_per_unit() {
+  const int number = drawing_.unit.value_or(0);
+  const auto own = dxf::mm_per_unit(number);
+  if (options_.unit) {
+    if (own && *own != options_.unit->mm())
+      diagnostics_.warning(Code::drawing_unit, file(),
+                           fmt::format("the drawing specifies {}; read with {:g} mm as requested",
+                                       dxf::unit_name(number), options_.unit->mm()));
+    return options_.unit->mm();
+  }
+  if (own) return own;
+  const std::string what = number == 0 ? "the drawing does not specify its unit ($INSUNITS)"
+                                       : fmt::format("unknown unit {} ($INSUNITS)", number);
+  diagnostics_.error(Code::drawing_unit, file(), what).hint =
+      "specify it: mm or inch (--unit mm, --unit inch)";
+  return std::nullopt;
+}
+
+bool OutlineDrawer::choose_layers() {
+  if (options_.layers.empty()) return true;
+  chosen_.assign(drawing_.layers.size(), false);
+  std::vector<std::string> known;
+  for (const dxf::Layer& layer : drawing_.layers) known.push_back(layer.name);
+  bool all = true;
+  for (const std::string& name : options_.layers) {
+    if (const auto index = dxf::find_layer(drawing_, name)) {
+      chosen_[*index] = true;
+      continue;
+    }
+    all = false;
+    Diagnostic& error =
+        diagnostics_.error(Code::drawing_layer, file(), fmt::format("the drawing has no layer \"{}\"", name));
+    constexpr std::size_t kListed = 20;
+    if (const auto meant = did_you_mean(name, known))
+      error.hint = fmt::format("did you mean \"{}\"?", *meant);
+    else
+      error.hint =
+          "layers: " + joined(std::vector(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(std::min(
+                                                                             known.size(), kListed))),
+                              ", ");
+  }
+  return all;
+}
+
+void OutlineDrawer::take(const dxf::Placed& placed, PieceMaker& maker) {
+  const bool chosen =
+      chosen_.empty() ? placed.style.visible : chosen_[placed.style.layer] && !placed.entity.hidden;
+  if (!chosen) {
+    if (chosen_.empty()) ++hidden_[placed.style.layer];
+    return;
+  }
+  if (segments_ > options_.max_segments) return;
+  const std::string& layer = drawing_.layers[placed.style.layer].name;
+  if (const auto* dot = std::get_if<dxf::Dot>(&placed.entity.shape)) {
+    made_.points.push_back(
+        {maker.flat(placed.matrix * dot->at), layer, dxf::handle_text(placed.entity.handle)});
+    return;
+  }
+  const std::size_t before = diagnostics_.errors();
+  auto piece = maker.make(placed);
+  if (!piece) {
+    if (diagnostics_.errors() == before) ++ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
+    return;
+  }
+  std::string name = outline_front::entity_name(drawing_, placed.entity);
+  if (piece->tilted)
+    diagnostics_.warning(Code::drawing_tilted, maker.location(placed, piece->outline.start),
+                         fmt::format("{} is not parallel to XY; its projection is used", name));
+  const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
+  if (line != nullptr && !(*line)->widths.empty()) ++wide_;
+  segments_ += piece->outline.segments.size();
+  LayerPieces& pieces = pieces_[placed.style.layer];
+  pieces.outlines.push_back(std::move(piece->outline));
+  pieces.circles.push_back(piece->circle);
+  pieces.names.push_back(std::move(name));
+  pieces.handles.push_back(placed.entity.handle);
+}
+
+bool OutlineDrawer::collect() {
+  hidden_.assign(drawing_.layers.size(), 0);
+  PieceMaker maker(drawing_, made_.unit.mm(), options_, diagnostics_);
+  const bool all = dxf::for_each_placed(drawing_, options_.visit, diagnostics_,
+                                        [&](const dxf::Placed& placed) { take(placed, maker); });
+  if (segments_ <= options_.max_segments) return all;
+  diagnostics_
+      .error(Code::drawing_limit, file(),
+             fmt::format("the outlines have more than {} segments", options_.max_segments))
+      .hint = "increase the tolerance of curves, or choose fewer layers";
+  return false;
+}
+
+void OutlineDrawer::join(std::uint32_t layer, const LayerPieces& pieces) {
+  ChainOptions how;
+  how.join = options_.join;
+  how.tolerance = options_.tolerance;
+  Chained chained = chain(pieces.outlines, how);
+  const std::string& name = drawing_.layers[layer].name;
+  std::size_t number = 0;
+  for (ChainedOutline& outline : chained.outlines) {
+    const std::uint32_t first = outline.parts.front().piece;
+    DrawnOutline drawn;
+    drawn.name = fmt::format("{}.{}", name, ++number);
+    drawn.layer = name;
+    drawn.where = location(layer, pieces, first, outline.outline.start);
+    drawn.circle = outline.parts.size() == 1
+                       ? pieces.circles[first]
+                       : outline_front::whole_circle(outline.outline, options_.tolerance.weld.mm());
+    for (const ChainPart& part : outline.parts)
+      drawn.handles.push_back(dxf::handle_text(pieces.handles[part.piece]));
+    drawn.outline = std::move(outline.outline);
+    made_.outlines.push_back(std::move(drawn));
+  }
+  report(layer, pieces, chained);
+}
+
+void OutlineDrawer::report(std::uint32_t layer, const LayerPieces& pieces, const Chained& chained) {
+  const std::string& name = drawing_.layers[layer].name;
+  for (const OpenEnd& end : chained.open_ends) {
+    std::string message =
+        fmt::format("{} has an open end at {}", pieces.names[end.piece], position_text(end.at));
+    if (end.nearest)
+      message += fmt::format("; the nearest open end is that of {} at {}, {} mm away",
+                             pieces.names[end.nearest_piece], position_text(*end.nearest),
+                             number_text(end.distance.mm(), 4));
+    Diagnostic& warning = diagnostics_.warning(
+        Code::drawing_open_end, location(layer, pieces, end.piece, end.at), std::move(message));
+    if (end.nearest && end.distance.mm() <= kSmallGap)
+      warning.hint = fmt::format("gaps up to {} mm are joined; a larger tolerance closes this one",
+                                 number_text(options_.join.mm(), 4));
+    made_.open_ends.push_back({end.at, name, pieces.names[end.piece], end.nearest, end.distance});
+  }
+  for (const Junction& junction : chained.junctions) {
+    DrawnJunction drawn{junction.at, name, {}};
+    for (const std::uint32_t piece : junction.pieces) drawn.entities.push_back(pieces.names[piece]);
+    const std::string more = junction.count > drawn.entities.size() ? " and others" : "";
+    diagnostics_
+        .warning(Code::drawing_junction, location(layer, pieces, junction.pieces.front(), junction.at),
+                 fmt::format("{}{} meet at {}; they are not joined there", list_text(drawn.entities, "and"),
+                             more, position_text(junction.at)))
+        .hint = "remove what does not belong to the outline, or move it to another layer";
+    made_.junctions.push_back(std::move(drawn));
+  }
+  for (const RepeatedPiece& repeated : chained.repeated)
+    diagnostics_.warning(Code::drawing_repeated,
+                         location(layer, pieces, repeated.piece, pieces.outlines[repeated.piece].start),
+                         fmt::format("{} lies on {} and is ignored", pieces.names[repeated.piece],
+                                     pieces.names[repeated.earlier]));
+}
+
+void OutlineDrawer::report_ignored() {
+  std::vector<std::string> types;
+  for (const auto& [type, count] : ignored_) types.push_back(fmt::format("{} {}", count, type));
+  if (!types.empty())
+    diagnostics_.warning(Code::drawing_ignored, file(),
+                         fmt::format("entities that are no outlines are ignored: {}", joined(types, ", ")));
+  if (wide_ > 0)
+    diagnostics_.note(
+        Code::drawing_ignored, file(),
+        fmt::format("the widths of {} polylines are ignored; outlines are their centre lines", wide_));
+  std::vector<std::string> hidden;
+  for (std::size_t i = 0; i < hidden_.size(); ++i)
+    if (hidden_[i] > 0)
+      hidden.push_back(fmt::format("{} ({} entities)", drawing_.layers[i].name, hidden_[i]));
+  if (!hidden.empty())
+    diagnostics_
+        .note(Code::drawing_hidden, file(),
+              fmt::format("hidden entities are not used: {}", joined(hidden, ", ")))
+        .hint = "name a layer to use it although it is off or frozen";
+}
+
+std::optional<DrawingOutlines> OutlineDrawer::draw() {
+  const auto unit = mm_per_unit();
+  if (!choose_layers() || !unit) return std::nullopt;
+  made_.unit = mm(*unit);
+  if (!collect()) return std::nullopt;
+  for (const auto& [layer, pieces] : pieces_) join(layer, pieces);
+  report_ignored();
+  if (made_.outlines.empty() && made_.points.empty()) {
+    if (!diagnostics_.has_errors())
+      diagnostics_.error(Code::drawing_empty, file(),
+                         options_.layers.empty()
+                             ? "the drawing has no outline and no point on its visible layers"
+                             : "the layers have no outline and no point: " + joined(options_.layers, ", "));
+    return std::nullopt;
+  }
+  return std::move(made_);
+}
+
+}  // namespace
+
+std::optional<DrawingOutlines> drawn_outlines(const dxf::Drawing& drawing,
+                                              const DrawingOutlineOptions& options,
+                                              Diagnostics& diagnostics) {
+  return OutlineDrawer(drawing, options, diagnostics).draw();
+}
+
+std::optional<Region> drawn_region(const DrawingOutlines& drawn, FillRule rule, const RegionOptions& options,
+                                   Diagnostics& diagnostics) {
+  std::vector<Outline> outlines;
+  bool closed = true;
+  for (const DrawnOutline& o : drawn.outlines) {
+    if (!o.outline.closed())
+      diagnostics.error(Code::region_open_outline, o.where, fmt::format("outline {} is open", o.name));
+    closed = closed && o.outline.closed();
+    outlines.push_back(o.outline);
+  }
+  if (!closed) return std::nullopt;
+  return make_region(outlines, rule, options, diagnostics);
+}
+
+std::vector<LayerContent> layer_contents(const dxf::Drawing& drawing, const dxf::VisitOptions& options,
+                                         Diagnostics& diagnostics) {
+  std::vector<LayerContent> contents;
+  for (const dxf::Layer& layer : drawing.layers) {
+    LayerContent& content = contents.emplace_back();
+    content.name = layer.name;
+    content.off = layer.off;
+    content.frozen = layer.frozen;
+    content.colour = layer.colour;
+    content.linetype = drawing.linetypes[layer.linetype].name;
+  }
+  dxf::for_each_placed(drawing, options, diagnostics, [&](const dxf::Placed& placed) {
+    LayerContent& content = contents[placed.style.layer];
+    ++content.entities;
+    const std::string_view type = dxf::type_name(drawing, placed.entity);
+    for (auto& [name, count] : content.types)
+      if (name == type) return static_cast<void>(++count);
+    content.types.emplace_back(type, 1);
+  });
+  return contents;
+}
+
+}  // namespace kerf

@@ -1,0 +1,71 @@
+// Entities of a drawing as pieces of outlines in mm.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "kerf/drawing_outlines.h"
+#include "kerf/fit.h"
+
+namespace kerf::outline_front {
+
+/// A shape seen from above, in mm.
+struct FlatPiece {
+  Outline outline;               // empty: there is none
+  std::optional<Circle> circle;  // the same, where it is a whole circle
+  double low_z = 0.0, high_z = 0.0;
+  bool tilted = false;  // not in a plane parallel to XY
+};
+
+/// Converts the shapes of one drawing. Errors go to the diagnostics with the entity's origin.
+class PieceMaker {
+ public:
+  PieceMaker(const dxf::Drawing& drawing, double mm_per_unit, const DrawingOutlineOptions& options,
+             Diagnostics& diagnostics)
+      : drawing_(drawing), scale_(mm_per_unit), options_(options), diagnostics_(diagnostics) {}
+
+  /// Nothing where the entity is no outline or an error was appended.
+  std::optional<FlatPiece> make(const dxf::Placed& placed);
+  /// The entity's location, at a position of its own.
+  Origin location(const dxf::Placed& placed, Point2 at) const;
+  Point2 flat(dxf::Point p) const { return {scale_ * p.x, scale_ * p.y}; }
+
+ private:
+  struct Frame;
+  std::optional<FlatPiece> shape(const dxf::Line& line);
+  std::optional<FlatPiece> shape(const dxf::Circle& circle);
+  std::optional<FlatPiece> shape(const dxf::Arc& arc);
+  std::optional<FlatPiece> shape(const dxf::Boxed<dxf::Polyline>& polyline);
+  std::optional<FlatPiece> shape(const dxf::Boxed<dxf::Ellipse>& ellipse);
+  std::optional<FlatPiece> shape(const dxf::Boxed<dxf::Spline>& spline);
+  template <class Other>
+  std::optional<FlatPiece> shape(const Other&) {
+    return std::nullopt;
+  }
+  /// The arc centre + cos(t) * u + sin(t) * v, in world coordinates.
+  std::optional<FlatPiece> elliptic_arc(dxf::Point centre, dxf::Point u, dxf::Point v, double start,
+                                        double sweep);
+  bool append_bulge(Outline& outline, const dxf::Matrix& matrix, const dxf::Vertex& from,
+                    const dxf::Vertex& to, FlatPiece& piece);
+  std::optional<FlatPiece> fitted(const Spline& spline, FlatPiece piece);
+  dxf::Matrix object() const;
+  void add_z(FlatPiece& piece, dxf::Point p) const;
+  bool is_near(const Outline& outline);
+  bool refuse(Code code, const std::string& what, Point2 at);
+  std::string entity_name() const;
+  FitOptions fit_options() const;
+
+  const dxf::Drawing& drawing_;
+  const double scale_;
+  const DrawingOutlineOptions& options_;
+  Diagnostics& diagnostics_;
+  const dxf::Placed* placed_ = nullptr;
+};
+
+/// "LINE 2F", or "LINE of line 120" without a handle.
+std::string entity_name(const dxf::Drawing& drawing, const dxf::Entity& entity);
+/// The circle that a closed outline of arcs runs around once.
+std::optional<Circle> whole_circle(const Outline& outline, double weld);
+
+}  // namespace kerf::outline_front

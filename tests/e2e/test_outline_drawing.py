@@ -1,0 +1,183 @@
+"""kerf outline with DXF drawings: layers, units, open ends, outputs."""
+
+import math
+
+import pytest
+
+CUT = [("LINE", (0, 0, 40, 0)), ("LINE", (40, 20, 40, 0)), ("LINE", (40, 20, 0, 20)), ("LINE", (0, 20, 0, 0))]
+
+
+def tags(*rows):
+    return "".join(f"{group}\n{value}\n" for group, value in rows)
+
+
+def line(x1, y1, x2, y2, layer="CUT", handle=None):
+    name = [(5, handle)] if handle else []
+    return tags((0, "LINE"), *name, (8, layer), (10, x1), (20, y1), (11, x2), (21, y2))
+
+
+def drawing(*entities, unit=4):
+    units = tags((9, "$INSUNITS"), (70, unit)) if unit is not None else ""
+    return (
+        tags((0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1015"))
+        + units
+        + tags(
+            (0, "ENDSEC"),
+            (0, "SECTION"),
+            (2, "TABLES"),
+            (0, "TABLE"),
+            (2, "LAYER"),
+            (0, "LAYER"),
+            (2, "CUT"),
+            (70, 0),
+            (62, 1),
+            (6, "CONTINUOUS"),
+            (0, "LAYER"),
+            (2, "notes"),
+            (70, 1),
+            (62, 3),
+            (6, "CONTINUOUS"),
+            (0, "ENDTAB"),
+            (0, "ENDSEC"),
+            (0, "SECTION"),
+            (2, "ENTITIES"),
+        )
+        + "".join(entities)
+        + tags((0, "ENDSEC"), (0, "EOF"))
+    )
+
+
+PLATE = [line(*points) for _, points in CUT]
+HOLE = tags((0, "CIRCLE"), (5, "2F"), (8, "CUT"), (10, 10), (20, 10), (40, 4))
+ELLIPSE = tags((0, "ELLIPSE"), (8, "CUT"), (10, 28), (20, 10), (11, 8), (21, 0), (40, 0.5))
+
+
+@pytest.fixture
+def part(tmp_path):
+    def write(*entities, unit=4):
+        (tmp_path / "part.dxf").write_text(drawing(*entities, unit=unit))
+        return "part.dxf"
+
+    return write
+
+
+def test_the_outlines_of_a_layer(kerf, part):
+    run = kerf("outline", part(*PLATE, HOLE, ELLIPSE), "--layer", "cut", "--json")
+    assert run.status == 0, run.err
+    plate, hole, ellipse = run.json["outlines"]
+    assert plate["closed"] and len(plate["segments"]) == 4 and plate["length_mm"] == 120
+    assert hole["circle"] == {"at": [10, 10], "radius": 4} and hole["handles"] == ["2F"]
+    assert ellipse["closed"] and all("via" in s for s in ellipse["segments"])
+    assert run.json["unit"] == "mm" and run.json["drawing"] == {
+        "version": "AC1015",
+        "insunits": 4,
+        "unit_mm": 1,
+    }
+    assert run.json["open_ends"] == [] and run.codes() == []
+
+
+def test_the_tolerance_of_curves(kerf, part):
+    file = part(ELLIPSE)
+    coarse, fine = (
+        len(kerf("outline", file, "--tolerance", t, "--json").json["outlines"][0]["segments"])
+        for t in ("0.1", "0.0001")
+    )
+    assert 4 <= coarse < fine <= 200
+
+
+def test_the_region_has_holes(kerf, part, tmp_path):
+    run = kerf(
+        "outline", part(*PLATE, HOLE), "--region", "--json", "--dxf", "clean.dxf", "--svg", "clean.svg"
+    )
+    assert run.json["region"]["area_mm2"] == pytest.approx(800 - 16 * math.pi)
+    assert len(run.json["region"]["outlines"]) == 2 and run.json["outputs"] == ["clean.svg", "clean.dxf"]
+    again = kerf("outline", "clean.dxf", "--region", "--json")
+    assert again.json["region"]["area_mm2"] == pytest.approx(800 - 16 * math.pi)
+    assert (tmp_path / "clean.svg").read_text().startswith("<?xml")
+
+
+def test_a_missing_unit_is_asked_for(kerf, part):
+    file = part(*PLATE, unit=None)
+    run = kerf("outline", file)
+    assert run.status == 1 and "does not specify its unit" in run.err and "--unit inch" in run.err
+    assert kerf("outline", file, "--unit", "inch", "--json").json["outlines"][0]["segments"][0]["to"] == [
+        1016,
+        0,
+    ]
+    assert kerf("outline", file, "--unit", "ell").status == 2
+
+
+def test_open_ends_and_junctions_are_reported_with_their_coordinates(kerf, part, tmp_path):
+    file = part(
+        line(0, 0, 40, 0, handle="A1"), line(40.03, 0, 40, 20, handle="A2"), line(20, 0, 20, 5, handle="A3")
+    )
+    run = kerf("outline", file, "--svg", "faults.svg", "--json")
+    assert run.status == 0
+    assert {(tuple(e["at"]), e["entity"]) for e in run.json["open_ends"]} == {
+        ((0, 0), "LINE A1"),
+        ((40, 0), "LINE A1"),
+        ((40.03, 0), "LINE A2"),
+        ((40, 20), "LINE A2"),
+        ((20, 5), "LINE A3"),
+    }
+    near = next(e for e in run.json["open_ends"] if e["at"] == [40, 0])
+    assert near["nearest"] == [40.03, 0] and near["distance_mm"] == pytest.approx(0.03)
+    assert run.json["junctions"] == [{"at": [20, 0], "layer": "CUT", "entities": ["LINE A3", "LINE A1"]}]
+    assert (tmp_path / "faults.svg").read_text().count("<circle") == 6
+    text = kerf("outline", file).err
+    assert "layer CUT, handle A1, at 40, 0" in text and "0.03 mm away" in text
+    assert len(kerf("outline", file, "--join", "0.05", "--json").json["open_ends"]) == 3
+
+
+def test_layers_are_listed_without_a_unit(kerf, part):
+    file = part(*PLATE, HOLE, line(0, 0, 1, 1, layer="notes"), unit=None)
+    run = kerf("outline", file, "--list-layers")
+    assert run.status == 0 and "4 LINE, 1 CIRCLE" in run.out and "frozen" in run.out
+    layers = {
+        layer["name"]: layer for layer in kerf("outline", file, "--list-layers", "--json").json["layers"]
+    }
+    assert layers["CUT"]["types"] == {"LINE": 4, "CIRCLE": 1} and layers["notes"]["frozen"]
+
+
+def test_hidden_layers_are_used_by_name_only(kerf, part):
+    file = part(*PLATE, line(0, 0, 1, 1, layer="notes"))
+    run = kerf("outline", file, "--json")
+    assert len(run.json["outlines"]) == 1 and run.codes() == ["drawing_hidden"]
+    assert len(kerf("outline", file, "--layer", "notes", "--layer", "CUT", "--json").json["outlines"]) == 2
+
+
+@pytest.mark.parametrize(
+    "options, status, code",
+    [
+        (("--layer", "CUTS"), 1, "drawing_layer"),
+        (("--layer", "notes"), 1, "drawing_empty"),
+        (("--unit", "inch"), 0, "drawing_unit"),
+    ],
+)
+def test_what_does_not_fit_the_drawing(kerf, part, options, status, code):
+    run = kerf("outline", part(*PLATE), *options, "--json")
+    assert run.status == status and code in run.codes()
+
+
+def test_a_broken_drawing_is_read_as_far_as_possible(kerf, part, tmp_path):
+    file = part(*PLATE, tags((0, "CIRCLE"), (8, "CUT"), (10, 1), (20, "x"), (40, 3)), HOLE)
+    run = kerf("outline", file, "--json", "--dxf", "out.dxf")
+    assert run.status == 1 and run.codes() == ["dxf_number"] and len(run.json["outlines"]) == 2
+    assert run.json["diagnostics"][0]["origin"]["line"] == drawing(*PLATE).count("\n") - 4 + 8
+    assert not (tmp_path / "out.dxf").exists()
+
+
+def test_outputs_do_not_replace_the_drawing(kerf, part):
+    file = part(*PLATE)
+    assert kerf("outline", file, "--dxf", file).status == 2
+    assert kerf("outline", file, "--dxf", "a.out", "--svg", "a.out").status == 2
+    assert kerf("outline", "none.dxf").status == 1
+
+
+def test_options_for_drawings_have_no_effect_on_other_files(kerf, tmp_path):
+    (tmp_path / "plate.json").write_text(
+        '{"unit": "mm", "outlines": [{"name": "a", "closed": true, '
+        '"first": {"at": [0, 0]}, "segments": [{"to": [4, 0]}, {"to": [4, 2]}]}]}'
+    )
+    run = kerf("outline", "plate.json", "--layer", "CUT", "--json")
+    assert run.status == 0 and run.codes() == ["option_unused"]
