@@ -204,21 +204,21 @@ class Extraction {
 
   /// Puts all into one mesh and makes it a manifold without flat triangles.
   bool finish() {
-    CapSheet::MeshCounts place{mesh.positions.size() / 3, 0};
+    CapSheet::MeshCounts counts{mesh.positions.size() / 3, 0};
     std::vector<std::size_t> first_of_walls;
     for (const WallBand& band : walls_) {
-      first_of_walls.push_back(place.triangles);
-      place.triangles += band.builder.mesh.step.size();
+      first_of_walls.push_back(counts.triangles);
+      counts.triangles += band.builder.mesh.step.size();
     }
-    const std::size_t wall_triangles = place.triangles;
-    for (const int n : {0, 1}) sheet(n).find_places(place);
-    prepare(mesh.positions, 3 * place.vertices);
-    prepare(mesh.triangles, 3 * place.triangles);
-    prepare(mesh.step, place.triangles);
+    const std::size_t wall_triangles = counts.triangles;
+    for (const int n : {0, 1}) sheet(n).assign_ranges(counts);
+    prepare(mesh.positions, 3 * counts.vertices);
+    prepare(mesh.triangles, 3 * counts.triangles);
+    prepare(mesh.step, counts.triangles);
     const auto enlarge = [&](int n) {
-      if (n == 0) return mesh.triangles.resize(3 * place.triangles);
-      mesh.positions.resize(3 * place.vertices);
-      mesh.step.resize(place.triangles);
+      if (n == 0) return mesh.triangles.resize(3 * counts.triangles);
+      mesh.positions.resize(3 * counts.vertices);
+      mesh.step.resize(counts.triangles);
     };
     const bool filled =
         in_parallel(2, enlarge) &&

@@ -120,12 +120,12 @@ class CapSheet {
   void propagate_across();
   /// Finds the vertices of a band that there are not yet, and makes ready for its triangles.
   void place_vertices(int band);
-  /// Gives the vertices and the triangles places in the mesh: after the first `place.vertices` vertices, and
-  /// from `place.triangles` on, as many as there may be. Adds their numbers to `place`.
+  /// Assigns ranges of the mesh to the vertices and triangles: vertices from `counts.vertices` on, triangles
+  /// from `counts.triangles` on, as many as there can be. Adds their numbers to `counts`.
   struct MeshCounts {
     std::size_t vertices = 0, triangles = 0;
   };
-  void find_places(Place& place);
+  void assign_ranges(MeshCounts& counts);
   /// `wall_vertices`: of each band, the vertices in the mesh of its walls' vertices.
   void fill(int band, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh);
   /// Moves the triangles down to `end`, leaving none out, and appends those that have a vertex of a wall.

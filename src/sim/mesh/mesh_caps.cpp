@@ -193,13 +193,13 @@ void CapSheet::place_vertices(int number) {
   });
 }
 
-void CapSheet::find_places(Place& place) {
+void CapSheet::assign_ranges(MeshCounts& counts) {
   for (std::size_t b = 0; b < bands_.size(); ++b) {
     Band& band = bands_[b];
-    band.first_vertex = place.vertices;
-    band.first_triangle = place.triangles;
-    place.vertices += band.positions.size() / 3;
-    if (b + 1 < bands_.size()) place.triangles += band.most_triangles + bands_[b + 1].below;
+    band.first_vertex = counts.vertices;
+    band.first_triangle = counts.triangles;
+    counts.vertices += band.positions.size() / 3;
+    if (b + 1 < bands_.size()) counts.triangles += band.most_triangles + bands_[b + 1].below;
   }
 }
 
