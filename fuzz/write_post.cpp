@@ -26,7 +26,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   kerf::PostOptions options;
   options.program_name = text.substr(0, 40);
   if (size % 2 != 0) options.unit = kerf::LengthUnit::inch;
-  kerf::Diagnostics diagnostics(5);
   for (const kerf::PostedFile& file : kerf::post(program.path, profile, options, diagnostics)) {
     kerf::Diagnostics found(5);
     if (diagnostics.has_errors() || kerf::lint_gcode(file.text, profile, "written", found)) continue;
