@@ -116,7 +116,7 @@ TEST(ReadMesh, DamagedObjAndGlb) {
   expect_code("v 0 0 0\nv 1 0 0\nf 1 2 3\n", MeshFormat::obj, Code::mesh_file, "does not exist");
   expect_code("v 0 0 0\nv 1 0 0\nf 1 2\n", MeshFormat::obj, Code::mesh_file, "fewer than three");
   expect_code("v 0 0 x\n", MeshFormat::obj, Code::mesh_file, "three numbers");
-  expect_code("glTX", MeshFormat::glb, Code::mesh_file, "begin as a GLB");
+  expect_code("glTX", MeshFormat::glb, Code::mesh_file, "start like a GLB");
   std::string good = write_mesh(Tetrahedron().view(), MeshFormat::glb);
   expect_code(good.substr(0, good.size() - 8), MeshFormat::glb, Code::mesh_file, "within a chunk");
   const auto changed = [&good](const std::string& from, const std::string& to) {
