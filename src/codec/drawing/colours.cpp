@@ -13,8 +13,8 @@ std::uint8_t byte_of(double share) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
 }
 
-/// Share of red (offset 0), green (8) or blue (4) in a hue told in twelfths of the circle.
-double share_of(double hue, double offset) {
+/// Fraction of red (offset 0), green (8) or blue (4) in a hue given in twelfths of the circle.
+double fraction_of(double hue, double offset) {
   const double k = std::fmod(offset + hue, 12.0);
   return std::clamp(std::abs(k / 2.0 - 3.0) - 1.0, 0.0, 1.0);
 }
@@ -38,7 +38,7 @@ std::array<std::uint8_t, 3> colour_of_index(int index) {
   const double value = kValues[static_cast<std::size_t>(index % 10 / 2)];
   const double white = index % 2 == 0 ? 0.0 : 0.5;
   const auto mixed = [&](double offset) {
-    return byte_of(value * (white + (1.0 - white) * share_of(hue, offset)));
+    return byte_of(value * (white + (1.0 - white) * fraction_of(hue, offset)));
   };
   return {mixed(0.0), mixed(8.0), mixed(4.0)};
 }

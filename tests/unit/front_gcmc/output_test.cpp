@@ -345,7 +345,8 @@ TEST(GcmcInclude, WhatCannotBeReadIsToldWhatItIs) {
   std::ofstream(large) << ";";
   std::filesystem::resize_file(large, std::uintmax_t{1} << 30);  // a hole, which takes no room
   const std::string said = messages_of("include(\"" + large.string() + "\");");
-  EXPECT_NE(said.find("kerf_large.gcmc': the file is larger than the limit of 268435456 bytes"), std::string::npos)
+  EXPECT_NE(said.find("kerf_large.gcmc': the file is larger than the limit of 268435456 bytes"),
+            std::string::npos)
       << said;
   std::filesystem::remove(large);
   // A folder of the name does not hide the file that is looked for further on.
