@@ -18,25 +18,25 @@
 namespace kerf {
 
 struct Fixture {
-  std::string name;  // as the user told it, for messages
+  std::string name;  // as specified by the user, for messages
   Stock solid;       // a block, or a body
 };
 
-/// A step that meets a fixture. One entry a step, fixture and part of the tool.
+/// A step that touches a fixture. One entry per step, fixture and part of the tool.
 struct FixtureContact {
   std::size_t fixture = 0;       // index among the fixtures
   std::uint32_t step = 0;        // index in the toolpath
-  std::optional<ToolPart> part;  // nothing in rapid moves, where it is the tool as a whole
-  Point3 at;                     // mm, the first place met along the move
-  Length depth;                  // largest, below the fixture's surface as it stands above
-  Volume met;                    // of the fixture, by its columns
+  std::optional<ToolPart> part;  // nothing for rapids: the whole tool
+  Point3 at;                     // mm, the first point touched along the motion
+  Length depth;                  // maximum, below the original surface of the fixture
+  Volume met;                    // volume of the fixture that is touched, by its columns
 };
 
-/// Looks for contacts; in order of steps, each step as if it were the first. A block is tested by its shape,
-/// so that no contact over `options.hazard_depth` is missed, and 40,000 columns say how much is met. Of a
-/// body a contact can be missed that is less than half a column sideways; its columns are at most
-/// `options.resolution` apart (0: as fine as a million of them allows). Appends errors, and returns nothing,
-/// as `simulate` does; nothing without an error if stopped.
+/// Finds contacts, in the order of steps, each step as if it were the first. A block is tested by its shape,
+/// so that no contact above `options.hazard_depth` is missed; about 40,000 columns measure the volume
+/// touched. Of a body, a contact can be missed that is less than half a column wide; the pitch of its columns
+/// is at most `options.resolution` (0: chosen for about a million columns). Appends errors, and returns
+/// nothing, as `simulate` does; nothing without an error if stopped.
 std::optional<std::vector<FixtureContact>> find_fixture_contacts(const Toolpath& path, const ToolTable& tools,
                                                                  std::span<const Fixture> fixtures,
                                                                  const SimulationOptions& options,

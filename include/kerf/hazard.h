@@ -24,9 +24,9 @@ std::string_view to_string(HazardKind kind);
 struct Hazard {
   HazardKind kind{};
   std::uint32_t step = 0;  // index in the toolpath
-  Point3 at;               // mm, the first column met along the motion, at the depth of the contact there
+  Point3 at;               // mm, the first column touched along the motion, at the depth of the contact there
   Length depth;            // largest depth of the contact below the material's surface
-  Volume removed;          // material met
+  Volume removed;          // material touched
 };
 
 }  // namespace kerf

@@ -1,10 +1,9 @@
-// A simulation that lives while its program is edited: after an edit only the tiles that changed motions
-// touch are cut anew, what is cut is shown bit by bit, and any instant of the job can be looked at.
+// A simulation that follows the edits of its program: after an edit only the tiles touched by changed motions
+// are cut again; progress can be shown while cutting, and the workpiece is available at any step.
 //
-// The columns and the hazards are those that `simulate` gives for the same toolpath, but for a tenth of a
-// micron on steep flanks (sums are rounded by groups of sweeps, which may end elsewhere). The volumes are
-// those of the columns' middles: walls between two columns are not measured anew (simulate does so), so they
-// may be off by half a column at a wall.
+// Columns and hazards are those of `simulate` for the same toolpath, within 0.1 um on steep flanks (sums are
+// rounded per group of sweeps, and groups may differ). Volumes are those of the column centres: walls between
+// columns are not measured as in simulate, so they may be off by half a column at a wall.
 #pragma once
 
 #include <cstddef>
@@ -26,58 +25,57 @@ namespace kerf {
 
 struct LiveOptions {
   SimulationOptions simulation;
-  /// States kept along the job, evenly spread, from which any instant is reached; each costs the memory of
-  /// the tiles that change until the next.
+  /// Number of states kept, evenly spread along the job, from which any step is reached; each needs the
+  /// memory of the tiles that change until the next.
   std::size_t states = 16;
 };
 
 /// A rectangle of columns.
 struct ColumnBlock {
-  int i = 0, j = 0;    // its first column
-  int nx = 0, ny = 0;  // how many
+  int i = 0, j = 0;    // the first column
+  int nx = 0, ny = 0;  // numbers of columns
 };
 
-/// What has been cut since the chunk before.
+/// The columns cut since the previous call.
 struct LiveChunk {
   std::size_t steps_done = 0;  // of the toolpath
   std::vector<ColumnBlock> changed;
 };
-/// Called between two batches, with the simulation's workpiece at rest.
+/// Called between two batches, while the workpiece does not change.
 using LiveProgress = std::function<void(const LiveChunk&)>;
 
-/// What an update has done.
+/// The result of an update.
 struct LiveUpdate {
-  std::size_t motions_kept = 0;     // of the toolpath's motions, as they were before
-  std::vector<ColumnBlock> redone;  // all columns that may differ from before
+  std::size_t motions_kept = 0;     // unchanged motions of the toolpath
+  std::vector<ColumnBlock> redone;  // all columns that may have changed
   double seconds = 0.0;
-  bool stopped = false;  // the state is then that of a part of the job; the next update begins anew
+  bool stopped = false;  // the state then contains only part of the job; the next update starts over
 };
 
 class LiveSimulation {
  public:
   struct State;
 
-  /// Nothing is cut yet: the workpiece is the stock. An unsound stock is told by the first update.
+  /// Nothing is cut: the workpiece is the stock. The first update reports an invalid stock.
   LiveSimulation(ToolTable tools, Stock stock, LiveOptions options);
   LiveSimulation(LiveSimulation&&) noexcept;
   LiveSimulation& operator=(LiveSimulation&&) noexcept;
   ~LiveSimulation();
 
-  /// Makes this the simulation of `path`. Appends errors as `simulate` does and returns nothing where it
-  /// cannot run; all is then as before.
+  /// Makes this the simulation of `path`. Appends errors as `simulate` does, and returns nothing and changes
+  /// nothing, if it cannot run.
   std::optional<LiveUpdate> update(Toolpath path, Diagnostics& diagnostics, Progress* progress = nullptr,
                                    const LiveProgress& chunk = {});
 
-  /// That of the last update; empty before the first.
+  /// The toolpath of the last update; empty before the first.
   const Toolpath& path() const;
-  /// The part as it is after the whole job; null before the first update.
+  /// The workpiece after the whole job; null before the first update.
   const Workpiece* workpiece() const;
   Volume stock() const, removed() const;
   std::vector<Hazard> hazards() const;         // in order of steps
   std::vector<float> removed_by_step() const;  // mm3
 
-  /// The part as it stood after the first `steps` steps; a copy. Nothing before the first update, and where
-  /// stopped.
+  /// A copy of the workpiece after the first `steps` steps. Nothing before the first update, and if stopped.
   std::optional<Workpiece> at(std::size_t steps, Progress* progress = nullptr) const;
 
  private:

@@ -25,7 +25,7 @@
 namespace kerf {
 
 /// A grid of vertical lines: column (i, j) is at x + i * pitch, y + j * pitch. Heights are relative to z.
-struct ColumnPlaces {
+struct ColumnPositions {
   double x = 0.0, y = 0.0, z = 0.0;  // mm
   double pitch = 1.0;                // mm
   int nx = 0, ny = 0;
@@ -43,7 +43,7 @@ struct ColumnPlaces {
   }
 };
 
-/// An interval of material on a vertical line, mm above the z of its ColumnPlaces.
+/// An interval of material on a vertical line, mm above the z of its ColumnPositions.
 struct Run {
   float low = 0.0f, high = 0.0f;
   bool operator==(const Run&) const = default;
@@ -65,8 +65,9 @@ struct ColumnRuns {
 
 /// Columns left by an earlier job.
 struct LeftColumns {
-  Box3 bounds;          // mm, of the block that they were cut from
-  ColumnPlaces places;  // from the centre of the first one; a last row or column may extend beyond the block
+  Box3 bounds;  // mm, of the block that they were cut from
+  ColumnPositions
+      positions;  // from the centre of the first one; a last row or column may extend beyond the block
   ColumnRuns columns;
 };
 
@@ -95,7 +96,7 @@ class StockBody {
   /// infinitesimal distance, the same for all triangles, so that none leaks. Appends an error and returns
   /// nothing if a line passes through a hole of the mesh, and warnings if bodies overlap. Nothing, without an
   /// error, if stopped.
-  std::optional<ColumnRuns> columns(const ColumnPlaces& places, Diagnostics& diagnostics,
+  std::optional<ColumnRuns> columns(const ColumnPositions& positions, Diagnostics& diagnostics,
                                     Progress* progress = nullptr) const;
   /// The body after a move. `move` must be complete.
   std::shared_ptr<const StockBody> moved(const StockMove& move) const;

@@ -104,7 +104,7 @@ struct Temperature {
 };
 struct Fan {
   int fan = 0;
-  double share = 0.0;  // 0 to 1
+  double fraction = 0.0;  // 0 to 1
 };
 struct LaserPower {
   LaserMode mode = LaserMode::off;

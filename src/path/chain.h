@@ -9,7 +9,7 @@
 namespace kerf::detail {
 
 /// The start position of the next motion.
-struct Begin {
+struct StartPosition {
   Point3 at;
   unsigned unknown = 7;
   bool known() const { return unknown == 0; }

@@ -116,7 +116,7 @@ std::optional<LineArc> Fitter::longest(Point3 from, std::size_t first, std::size
 
 PassResult chords_to_arcs(const Toolpath& path, const ArcFitOptions& options) {
   Toolpath out;
-  detail::Begin from;
+  detail::StartPosition from;
   const Fitter fitter(path, options);
   for (std::size_t i = 0; i < path.size(); ++i) {
     std::optional<LineArc> fit;

@@ -146,7 +146,7 @@ class Sums {
 
   void add(std::size_t i, double seconds_of_step, std::size_t stops, Duration stop_time) {
     const Step& s = path_[i];
-    begin_parts(i);
+    start_operation(i);
     TimeFigures figures;
     const Duration time = seconds(seconds_of_step);
     if (s.is_motion()) figures.motion = time;
@@ -173,7 +173,7 @@ class Sums {
   }
 
   /// A tool change, a layer or a note starts an operation, which counts once it has a motion.
-  void begin_parts(std::size_t i) {
+  void start_operation(std::size_t i) {
     switch (path_[i].kind()) {
       case StepKind::tool_change:
         tool_ = path_[i].tool_change().tool;

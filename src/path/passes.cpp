@@ -45,13 +45,13 @@ double distance_to_segment(Point3 p, Point3 a, Point3 b) {
 
 PassResult arcs_to_chords(const Toolpath& path, Length chord) {
   Toolpath out;
-  detail::Begin begin;
+  detail::StartPosition start;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
     if (s.kind() != StepKind::arc) {
       out.add_copy(path, i);
     } else {
-      const ArcWalk walk = walk_of(s, begin.at);
+      const ArcWalk walk = walk_of(s, start.at);
       const int count = walk.chords(chord);
       const OriginId origin = out.copy_origin(path, i);
       const MotionExtra* extra = path.extra(i);
@@ -62,7 +62,7 @@ PassResult arcs_to_chords(const Toolpath& path, Length chord) {
         if (extra != nullptr) out.set_extra(added, *extra);
       }
     }
-    begin.pass(s);
+    start.pass(s);
   }
   return detail::finished(path, std::move(out));
 }
@@ -90,13 +90,13 @@ constexpr std::size_t kMaxChain = 256;  // bounds the time, which grows with its
 
 PassResult join_straight(const Toolpath& path, Length tolerance) {
   Toolpath out;
-  detail::Begin begin;
+  detail::StartPosition start;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool straight = path[i].kind() == StepKind::cut || path[i].kind() == StepKind::rapid;
     std::size_t last = i;
-    if (straight && detail::is_plain(path, i) && begin.known())
+    if (straight && detail::is_plain(path, i) && start.known())
       while (last - i < kMaxChain && detail::chains(path, last + 1, i) &&
-             is_straight(path, begin.at, i, last + 1, tolerance.mm()))
+             is_straight(path, start.at, i, last + 1, tolerance.mm()))
         ++last;
     if (last == i) {
       out.add_copy(path, i);
@@ -108,7 +108,7 @@ PassResult join_straight(const Toolpath& path, Length tolerance) {
         out.add(step::Rapid{path[last].to()}, origin);
     }
     i = last;
-    begin.pass(path[i]);
+    start.pass(path[i]);
   }
   return detail::finished(path, std::move(out));
 }
@@ -127,19 +127,19 @@ bool goes_up_and_down(const Toolpath& path, std::size_t i, Point3 from) {
 
 PassResult shorten_rapids(const Toolpath& path) {
   Toolpath out;
-  detail::Begin begin;
+  detail::StartPosition start;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
-    const bool rapid = s.kind() == StepKind::rapid && begin.known() && detail::is_plain(path, i);
-    if (rapid && s.to() == begin.at) continue;
-    if (rapid && goes_up_and_down(path, i, begin.at)) {
+    const bool rapid = s.kind() == StepKind::rapid && start.known() && detail::is_plain(path, i);
+    if (rapid && s.to() == start.at) continue;
+    if (rapid && goes_up_and_down(path, i, start.at)) {
       // The second one alone ends at the same position, along the path of both.
-      if (path[i + 1].to() != begin.at) out.add_copy(path, i + 1);
+      if (path[i + 1].to() != start.at) out.add_copy(path, i + 1);
       ++i;
     } else {
       out.add_copy(path, i);
     }
-    begin.pass(path[i]);
+    start.pass(path[i]);
   }
   return detail::finished(path, std::move(out));
 }

@@ -175,7 +175,7 @@ std::size_t Toolpath::add(const step::Temperature& s, OriginId origin) {
 std::size_t Toolpath::add(const step::Fan& s, OriginId origin) {
   Step& out = append(StepKind::fan, origin);
   out.count_ = s.fan;
-  out.values_[0] = s.share;
+  out.values_[0] = s.fraction;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::LaserPower& s, OriginId origin) {

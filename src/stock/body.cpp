@@ -97,7 +97,7 @@ void turn_round(MeshSolid& mesh) {
 }
 
 /// Reports faults and corrects orientation. False if the mesh is unusable.
-bool look_over(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
+bool check_mesh(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
   const TextSpot file{mesh.name, 0, 0};
   const EdgeFaults faults = find_edge_faults(mesh);
   if (faults.open > 0) {
@@ -137,10 +137,10 @@ Box3 bounds_of(const MeshSolid& mesh) {
 
 double volume_of(const LeftColumns& left) {
   const Point3 size = left.bounds.size();
-  const ColumnPlaces& p = left.places;
+  const ColumnPositions& p = left.positions;
   const auto fraction_inside = [&p](double low, double size_in_axis, double first, int k) {
-    const double begin = std::max(first + (k - 0.5) * p.pitch, low);
-    return std::max(std::min(first + (k + 0.5) * p.pitch, low + size_in_axis) - begin, 0.0);
+    const double start = std::max(first + (k - 0.5) * p.pitch, low);
+    return std::max(std::min(first + (k + 0.5) * p.pitch, low + size_in_axis) - start, 0.0);
   };
   double sum = 0.0;
   for (int j = 0; j < p.ny; ++j) {
@@ -196,11 +196,11 @@ MeshSolid moved_mesh(MeshSolid mesh, const Moves& moves) {
 LeftColumns moved_columns(const LeftColumns& left, const Moves& moves) {
   LeftColumns out;
   out.bounds = moves(left.bounds);
-  ColumnPlaces& p = out.places = left.places;
+  ColumnPositions& p = out.positions = left.positions;
   const bool turn_x = moves.axis[0].sign < 0.0, turn_y = moves.axis[1].sign < 0.0,
              turn_z = moves.axis[2].sign < 0.0;
-  p.x = moves.axis[0](left.places.x + (turn_x ? (p.nx - 1) * p.pitch : 0.0));
-  p.y = moves.axis[1](left.places.y + (turn_y ? (p.ny - 1) * p.pitch : 0.0));
+  p.x = moves.axis[0](left.positions.x + (turn_x ? (p.nx - 1) * p.pitch : 0.0));
+  p.y = moves.axis[1](left.positions.y + (turn_y ? (p.ny - 1) * p.pitch : 0.0));
   p.z = out.bounds.low.z;
   const auto height = static_cast<float>(left.bounds.size().z);
   out.columns.nx = p.nx;
@@ -223,21 +223,21 @@ LeftColumns moved_columns(const LeftColumns& left, const Moves& moves) {
 
 }  // namespace
 
-ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places) {
-  ColumnRuns out{.nx = places.nx, .ny = places.ny, .first = {}, .runs = {}};
-  const ColumnPlaces& from = left.places;
-  const auto lift = static_cast<float>(from.z - places.z);
+ColumnRuns resampled(const LeftColumns& left, const ColumnPositions& positions) {
+  ColumnRuns out{.nx = positions.nx, .ny = positions.ny, .first = {}, .runs = {}};
+  const ColumnPositions& from = left.positions;
+  const auto lift = static_cast<float>(from.z - positions.z);
   /// The column whose square contains a position; -1 outside.
   const auto nearest = [&from](double v, double first, int count) {
     const double k = std::floor((v - first) / from.pitch + 0.5);
     return k >= 0.0 && k < count ? static_cast<int>(k) : -1;
   };
   RunSink sink(out);
-  for (int j = 0; j < places.ny; ++j) {
-    const int from_j = nearest(places.y_of(j), from.y, from.ny);
-    for (int i = 0; i < places.nx; ++i) {
+  for (int j = 0; j < positions.ny; ++j) {
+    const int from_j = nearest(positions.y_of(j), from.y, from.ny);
+    for (int i = 0; i < positions.nx; ++i) {
       sink.start_column();
-      const int from_i = nearest(places.x_of(i), from.x, from.nx);
+      const int from_i = nearest(positions.x_of(i), from.x, from.nx);
       if (from_i < 0 || from_j < 0) continue;
       for (const Run& run : left.columns.column(from_i, from_j)) sink.add(run.low + lift, run.high + lift);
     }
@@ -256,14 +256,14 @@ Volume StockBody::volume() const { return mm3(inside_->volume); }
 
 std::optional<Length> StockBody::pitch() const {
   const auto* left = std::get_if<LeftColumns>(&inside_->what);
-  return left == nullptr ? std::nullopt : std::optional(mm(left->places.pitch));
+  return left == nullptr ? std::nullopt : std::optional(mm(left->positions.pitch));
 }
 
-std::optional<ColumnRuns> StockBody::columns(const ColumnPlaces& places, Diagnostics& diagnostics,
+std::optional<ColumnRuns> StockBody::columns(const ColumnPositions& positions, Diagnostics& diagnostics,
                                              Progress* progress) const {
   if (const auto* mesh = std::get_if<solid::MeshSolid>(&inside_->what))
-    return solid::mesh_columns(*mesh, places, diagnostics, progress);
-  return solid::resampled(std::get<LeftColumns>(inside_->what), places);
+    return solid::mesh_columns(*mesh, positions, diagnostics, progress);
+  return solid::resampled(std::get<LeftColumns>(inside_->what), positions);
 }
 
 std::shared_ptr<const StockBody> StockBody::moved(const StockMove& move) const {
@@ -285,7 +285,7 @@ std::shared_ptr<const StockBody> make_mesh_body(std::span<const double> position
   solid::MeshSolid mesh = solid::weld(positions, triangles);
   mesh.name = name;
   double volume = solid::signed_volume(mesh);
-  if (!solid::look_over(mesh, volume, diagnostics)) return nullptr;
+  if (!solid::check_mesh(mesh, volume, diagnostics)) return nullptr;
   auto inside = std::make_unique<StockBody::Inside>();
   inside->bounds = solid::bounds_of(mesh);
   inside->volume = volume;

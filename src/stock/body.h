@@ -34,9 +34,9 @@ struct MeshSolid {
   }
 };
 
-std::optional<ColumnRuns> mesh_columns(const MeshSolid& mesh, const ColumnPlaces& places,
+std::optional<ColumnRuns> mesh_columns(const MeshSolid& mesh, const ColumnPositions& positions,
                                        Diagnostics& diagnostics, Progress* progress);
-ColumnRuns resampled(const LeftColumns& left, const ColumnPlaces& places);
+ColumnRuns resampled(const LeftColumns& left, const ColumnPositions& positions);
 
 /// Runs closer than this to the next one are joined, and shorter ones dropped, mm: rounding of touching faces
 /// in single precision and on the lattice.

@@ -49,11 +49,11 @@ struct Crossing {
 
 class Caster {
  public:
-  Caster(const MeshSolid& mesh, const ColumnPlaces& places) : mesh_(mesh), places_(places) {
-    for (int i = 0; i < places.nx; ++i) x_.push_back(to_lattice(places.x_of(i)));
-    for (int j = 0; j < places.ny; ++j) y_.push_back(to_lattice(places.y_of(j)));
-    result_.nx = places.nx;
-    result_.ny = places.ny;
+  Caster(const MeshSolid& mesh, const ColumnPositions& positions) : mesh_(mesh), positions_(positions) {
+    for (int i = 0; i < positions.nx; ++i) x_.push_back(to_lattice(positions.x_of(i)));
+    for (int j = 0; j < positions.ny; ++j) y_.push_back(to_lattice(positions.y_of(j)));
+    result_.nx = positions.nx;
+    result_.ny = positions.ny;
     result_.first.reserve(x_.size() * y_.size() + 1);
   }
 
@@ -84,7 +84,7 @@ class Caster {
   void report_faults(Diagnostics& diagnostics) const;
 
   const MeshSolid& mesh_;
-  const ColumnPlaces& places_;
+  const ColumnPositions& positions_;
   std::vector<std::int64_t> x_, y_;                 // lines, on the lattice
   std::vector<std::uint32_t> band_first_, listed_;  // triangles by bands of rows
   std::vector<std::size_t> start_;                  // of a band's columns among its crossings
@@ -137,7 +137,7 @@ void Caster::visit_crossings(const Triangle& t, int first_row, int last_row, con
   const Plan p[3] = {plan(t[0]), plan(t[1]), plan(t[2])};
   if (p[0] == p[1] || p[1] == p[2] || p[2] == p[0]) return;  // vertical: an edge without a left side
   double z[3];
-  for (std::size_t k = 0; k < 3; ++k) z[k] = mesh_.at(t[k]).z - places_.z;
+  for (std::size_t k = 0; k < 3; ++k) z[k] = mesh_.at(t[k]).z - positions_.z;
   const auto [lowest, highest] = std::minmax({z[0], z[1], z[2]});
   const Range rows = rows_of(t);
   for (int j = std::max(rows.first, first_row); j <= std::min(rows.last, last_row); ++j) {
@@ -157,8 +157,8 @@ void Caster::visit_crossings(const Triangle& t, int first_row, int last_row, con
 }
 
 bool Caster::cast_band(int band) {
-  const int first_row = band * kBand, last_row = std::min(first_row + kBand, places_.ny) - 1;
-  const auto columns = static_cast<std::size_t>(places_.nx);
+  const int first_row = band * kBand, last_row = std::min(first_row + kBand, positions_.ny) - 1;
+  const auto columns = static_cast<std::size_t>(positions_.nx);
   const std::size_t count = static_cast<std::size_t>(last_row - first_row + 1) * columns;
   const auto number = [&](int i, int j) {
     return static_cast<std::size_t>(j - first_row) * columns + static_cast<std::size_t>(i);
@@ -177,7 +177,7 @@ bool Caster::cast_band(int band) {
   each([&](int i, int j, const Crossing& crossing) { crossings_[next[number(i, j)]++] = crossing; });
   RunSink sink(result_);
   for (int j = first_row; j <= last_row; ++j)
-    for (int i = 0; i < places_.nx; ++i)
+    for (int i = 0; i < positions_.nx; ++i)
       add_column(start_[number(i, j)], start_[number(i, j) + 1], i, j, sink);
   sink.end_columns();
   result_.first.pop_back();  // it is the next band's first
@@ -192,7 +192,7 @@ void Caster::add_column(std::size_t begin, std::size_t end, int i, int j, RunSin
   std::sort(first, last, [](const Crossing& a, const Crossing& b) {
     return a.z != b.z ? a.z < b.z : a.enters > b.enters;
   });
-  const Point2 at{places_.x_of(i), places_.y_of(j)};
+  const Point2 at{positions_.x_of(i), positions_.y_of(j)};
   const bool counts = !mesh_.is_oriented;
   int depth = 0;
   bool overlaps = false;
@@ -228,7 +228,7 @@ void Caster::report_faults(Diagnostics& diagnostics) const {
 
 std::optional<ColumnRuns> Caster::run(Diagnostics& diagnostics, Progress* progress) {
   sort_into_bands();
-  const int bands = (places_.ny + kBand - 1) / kBand;
+  const int bands = (positions_.ny + kBand - 1) / kBand;
   for (int band = 0; band < bands; ++band) {
     report(progress, static_cast<double>(band) / bands);
     if (stop_requested(progress)) return std::nullopt;
@@ -245,10 +245,10 @@ std::optional<ColumnRuns> Caster::run(Diagnostics& diagnostics, Progress* progre
 
 }  // namespace
 
-std::optional<ColumnRuns> mesh_columns(const MeshSolid& mesh, const ColumnPlaces& places,
+std::optional<ColumnRuns> mesh_columns(const MeshSolid& mesh, const ColumnPositions& positions,
                                        Diagnostics& diagnostics, Progress* progress) {
   if (progress != nullptr) progress->phase("reading the body");
-  return Caster(mesh, places).run(diagnostics, progress);
+  return Caster(mesh, positions).run(diagnostics, progress);
 }
 
 }  // namespace kerf::solid

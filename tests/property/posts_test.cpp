@@ -218,7 +218,7 @@ std::vector<std::string> printing_of(const Toolpath& path) {
                      number_text(t.celsius, 1) + (t.wait ? " waits" : ""));
     }
     if (s.kind() == StepKind::fan)
-      list.push_back("fan " + std::to_string(s.fan().fan) + " " + number_text(255 * s.fan().share, 0));
+      list.push_back("fan " + std::to_string(s.fan().fan) + " " + number_text(255 * s.fan().fraction, 0));
   }
   return list;
 }

@@ -112,7 +112,7 @@ void add_setting(Json& out, const Toolpath& path, std::size_t i) {
       break;
     case StepKind::fan:
       out["fan"] = s.fan().fan;
-      out["share"] = json_of(s.fan().share);
+      out["share"] = json_of(s.fan().fraction);
       break;
     case StepKind::laser_power:
       out["mode"] = word(s.laser_power().mode);

@@ -135,11 +135,11 @@ void Poster::temperature(std::size_t i) {
 
 void Poster::fan(std::size_t i) {
   const step::Fan f = path_[i].fan();
-  if (!can_m(i, f.share > 0.0 ? 1060 : 1070, "a fan")) return;
+  if (!can_m(i, f.fraction > 0.0 ? 1060 : 1070, "a fan")) return;
   begin();
-  code('M', f.share > 0.0 ? 1060 : 1070);
+  code('M', f.fraction > 0.0 ? 1060 : 1070);
   if (f.fan != 0) word('P', f.fan, 0);
-  if (f.share > 0.0) word('S', counts_of(std::min(f.share, 1.0) * profile_.fan_full, 0), 0);
+  if (f.fraction > 0.0) word('S', counts_of(std::min(f.fraction, 1.0) * profile_.fan_full, 0), 0);
   end(i);
 }
 

@@ -20,11 +20,11 @@ ColumnData data_of(const LeftColumns& left) {
     data.low[static_cast<std::size_t>(k)] = left.bounds.low[k];
     data.high[static_cast<std::size_t>(k)] = left.bounds.high[k];
   }
-  data.x = left.places.x;
-  data.y = left.places.y;
-  data.pitch = left.places.pitch;
-  data.nx = static_cast<std::uint32_t>(left.places.nx);
-  data.ny = static_cast<std::uint32_t>(left.places.ny);
+  data.x = left.positions.x;
+  data.y = left.positions.y;
+  data.pitch = left.positions.pitch;
+  data.nx = static_cast<std::uint32_t>(left.positions.nx);
+  data.ny = static_cast<std::uint32_t>(left.positions.ny);
   data.first = left.columns.first;
   data.runs.reserve(left.columns.runs.size());
   for (const Run& run : left.columns.runs) data.runs.push_back({run.low, run.high});
@@ -35,10 +35,10 @@ LeftColumns left_of(const ColumnData& data) {
   LeftColumns left;
   left.bounds.add(Point3{data.low[0], data.low[1], data.low[2]});
   left.bounds.add(Point3{data.high[0], data.high[1], data.high[2]});
-  left.places = {
+  left.positions = {
       data.x, data.y, data.low[2], data.pitch, static_cast<int>(data.nx), static_cast<int>(data.ny)};
-  left.columns.nx = left.places.nx;
-  left.columns.ny = left.places.ny;
+  left.columns.nx = left.positions.nx;
+  left.columns.ny = left.positions.ny;
   left.columns.first = data.first;
   left.columns.runs.reserve(data.runs.size());
   for (const auto& run : data.runs) left.columns.runs.push_back({run[0], run[1]});

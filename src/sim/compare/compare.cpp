@@ -54,7 +54,7 @@ class Comparer {
         nx_(part.columns_x()),
         ny_(part.columns_y()) {}
 
-  std::optional<Comparison> run(const ColumnPlaces& places, const ColumnRuns& target, Progress* progress);
+  std::optional<Comparison> run(const ColumnPositions& places, const ColumnRuns& target, Progress* progress);
 
  private:
   void look_at_column(int i, int j, std::span<const Run> target);
@@ -69,7 +69,7 @@ class Comparer {
   double tolerance_;
   std::size_t most_regions_;
   int nx_, ny_;
-  ColumnPlaces places_;
+  ColumnPositions places_;
   double floor_ = 0.0, reach_ = 0.0;
   Point3 last_place_;
   double last_distance_ = std::numeric_limits<double>::infinity();
@@ -182,7 +182,7 @@ void Comparer::gather_regions(DifferenceKind kind) {
   }
 }
 
-std::optional<Comparison> Comparer::run(const ColumnPlaces& places, const ColumnRuns& target,
+std::optional<Comparison> Comparer::run(const ColumnPositions& places, const ColumnRuns& target,
                                         Progress* progress) {
   if (progress != nullptr) progress->phase("comparing");
   places_ = places;
@@ -235,7 +235,7 @@ std::optional<Comparison> compare(const Workpiece& part, const StockBody& target
                                   Progress* progress) {
   const Workpiece::Body& body = part.body();
   const Point3 low = body.bounds.low;
-  const ColumnPlaces places{
+  const ColumnPositions places{
       low.x + 0.5 * body.pitch, low.y + 0.5 * body.pitch, low.z, body.pitch, body.nx, body.ny,
       body.bounds.high.x,       body.bounds.high.y};
   const auto columns = target.columns(places, diagnostics, progress);

@@ -1,6 +1,6 @@
-// Convex pieces against a box. While a piece moves straight, its distance from the box in plan is a convex
-// function of the way, and so is what is missing for a contact in height: thirds and halves find where it
-// begins.
+// Contacts of convex pieces with a box. While a piece moves along a line, its distance in plan from the box
+// and its clearance in height are convex functions of the path parameter: ternary search finds their minimum,
+// bisection the start of a contact.
 #include "sim/cut/block_contact.h"
 
 #include <algorithm>
@@ -11,19 +11,19 @@
 namespace kerf::sim {
 namespace {
 
-constexpr int kThirds = 80;    // steps of a search for a lowest value: the way's last bits
-constexpr int kHalvings = 55;  // steps of a search for a zero: likewise
+constexpr int kThirds = 80;    // iterations of a search for a minimum, to full precision
+constexpr int kHalvings = 55;  // iterations of a search for a zero, to full precision
 
-/// A straight part of a sweep.
+/// A straight section of a sweep.
 struct Line {
   Point3 from, to;
-  double share_begin = 0.0, share_end = 1.0;  // of the step's way
+  double start_fraction = 0.0, end_fraction = 1.0;  // fractions of the step's path
 
   Point3 at(double t) const { return from + t * (to - from); }
-  double share(double t) const { return share_begin + t * (share_end - share_begin); }
+  double fraction(double t) const { return start_fraction + t * (end_fraction - start_fraction); }
 };
 
-/// Where a convex function is lowest.
+/// The position of the minimum of a convex function.
 template <class Function>
 double lowest(const Function& f, double low, double high) {
   for (int n = 0; n < kThirds; ++n) {
@@ -33,20 +33,20 @@ double lowest(const Function& f, double low, double high) {
   return 0.5 * (low + high);
 }
 
-/// The end of the stretch on which a function is negative, from `inside` towards `outside`.
+/// The end of the interval in which a function is negative, from `inside` towards `outside`.
 template <class Function>
 double last_negative(const Function& f, double inside, double outside) {
   if (f(outside) < 0.0) return outside;
   for (int n = 0; n < kHalvings; ++n) {
-    const double middle = 0.5 * (inside + outside);
-    (f(middle) < 0.0 ? inside : outside) = middle;
+    const double midpoint = 0.5 * (inside + outside);
+    (f(midpoint) < 0.0 ? inside : outside) = midpoint;
   }
   return inside;
 }
 
 double outside_of(double v, double size) { return std::max({-v, v - size, 0.0}); }
 
-/// One piece of a solid on its way past the block.
+/// One piece of a solid that moves past the block.
 class Passing {
  public:
   Passing(const Line& line, const Solid& solid, const ConvexPiece& piece, Point3 size, double ignore)
@@ -56,7 +56,7 @@ class Passing {
 
  private:
   bool is_far() const;
-  /// Of the axis from the block in plan.
+  /// Distance of the axis from the block in plan.
   double distance(Point3 tip) const {
     return std::hypot(outside_of(tip.x, size_.x), outside_of(tip.y, size_.y));
   }
@@ -66,8 +66,8 @@ class Passing {
     const Point3 tip = line_.at(t);
     return tip.z + piece_.lower.at(distance(tip));
   }
-  /// What is missing for a contact in height; convex where the block is within the rim.
-  double missing(double t) const {
+  /// Clearance to a contact in height; convex while the block is within the rim.
+  double clearance(double t) const {
     const Point3 tip = line_.at(t);
     const double high = solid_.one_envelope ? solid_.top : -piece_.upper.at(distance(tip));
     return ignore_ + std::max(low(t), 0.0) - std::min(tip.z + high, size_.z);
@@ -91,26 +91,27 @@ bool Passing::is_far() const {
 void Passing::note(Contact& contact) const {
   if (is_far()) return;
   const auto beyond = [&](double t) { return beyond_rim(t); };
-  const auto missing = [&](double t) { return this->missing(t); };
+  const auto clearance = [&](double t) { return this->clearance(t); };
   const double nearest = lowest(beyond, 0.0, 1.0);
   if (beyond(nearest) >= 0.0) return;
-  const double begin = last_negative(beyond, nearest, 0.0), end = last_negative(beyond, nearest, 1.0);
-  const double inmost = lowest(missing, begin, end);
-  if (missing(inmost) >= 0.0) return;
-  const double first = last_negative(missing, inmost, begin), last = last_negative(missing, inmost, end);
+  const double start = last_negative(beyond, nearest, 0.0), end = last_negative(beyond, nearest, 1.0);
+  const double innermost = lowest(clearance, start, end);
+  if (clearance(innermost) >= 0.0) return;
+  const double first = last_negative(clearance, innermost, start),
+               last = last_negative(clearance, innermost, end);
   const double deepest = low(lowest([&](double t) { return low(t); }, first, last));
   contact.depth = std::max(contact.depth, size_.z - std::max(deepest, 0.0));
-  if (line_.share(first) >= contact.share) return;
-  contact.share = line_.share(first);
+  if (line_.fraction(first) >= contact.fraction) return;
+  contact.fraction = line_.fraction(first);
   const Point3 tip = line_.at(first);
   contact.at = {std::clamp(tip.x, 0.0, size_.x), std::clamp(tip.y, 0.0, size_.y),
                 std::clamp(low(first), 0.0, size_.z)};
 }
 
 std::vector<Line> lines_of(const Sweep& s) {
-  const auto begin = static_cast<double>(s.share_begin), end = static_cast<double>(s.share_end);
+  const auto start = static_cast<double>(s.start_fraction), end = static_cast<double>(s.end_fraction);
   const Point3 from{s.x, s.y, s.z};
-  if (!s.is_arc) return {{from, {s.x + s.length * s.ux, s.y + s.length * s.uy, s.z_end}, begin, end}};
+  if (!s.is_arc) return {{from, {s.x + s.length * s.ux, s.y + s.length * s.uy, s.z_end}, start, end}};
   ArcWalk walk;
   walk.u = s.x;
   walk.v = s.y;
@@ -122,7 +123,7 @@ std::vector<Line> lines_of(const Sweep& s) {
   std::vector<Line> lines;
   for (int k = 0; k < count; ++k) {
     const double a = static_cast<double>(k) / count, b = (k + 1.0) / count;
-    lines.push_back({walk.at(a), walk.at(b), begin + a * (end - begin), begin + b * (end - begin)});
+    lines.push_back({walk.at(a), walk.at(b), start + a * (end - start), start + b * (end - start)});
   }
   return lines;
 }
@@ -143,7 +144,7 @@ void note_block_contacts(const Sweep& sweep, const ToolSolids& tool, Point3 size
     for (const Line& line : lines)
       for (const ConvexPiece& piece : solid.pieces)
         Passing(line, solid, piece, size, hazard_depth).note(contact);
-    if (contact.share <= 1.0) contacts.push_back(contact);
+    if (contact.fraction <= 1.0) contacts.push_back(contact);
   }
 }
 

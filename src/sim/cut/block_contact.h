@@ -1,5 +1,5 @@
-// Whether sweeps touch a block that nothing may touch: by the tool's and the block's shapes alone, so that no
-// contact slips between two columns.
+// Contacts of sweeps with a block that must not be touched, from the shapes of tool and block alone, so that
+// no contact is lost between two columns.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace kerf::sim {
 
-/// Appends what a sweep touches of the block that reaches from the frame's origin to `size` and of which it
-/// takes nothing away: at most one contact a part of the tool, of a rapid at most one. Contacts that are no
-/// longer than `hazard_depth` in height are none. How much is met (Contact::removed) is left at 0.
+/// Appends the contacts of a sweep with the block from the frame's origin to `size`, of which nothing is
+/// removed: at most one contact per part of the tool, for a rapid at most one in all. Contacts with a height
+/// up to `hazard_depth` are ignored. Contact::removed stays 0.
 void note_block_contacts(const Sweep& sweep, const ToolSolids& tool, Point3 size, double hazard_depth,
                          std::vector<Contact>& contacts);
 

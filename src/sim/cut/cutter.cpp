@@ -1,35 +1,35 @@
-// The run's arrays for the kernels, and what the kernels give back.
+// Prepares the jobs of the kernels and merges their contacts.
 #include "sim/cut/cutter.h"
 
 #include <algorithm>
 
 namespace kerf::sim {
 
-void Cutter::ColumnPlaces::add(double column_share, double column_place, int number, double pitch) {
+void Cutter::AxisColumns::add(double column_fraction, double column_position, int number, double pitch) {
   const int first = number / kTileColumns * kTileColumns;
-  share.push_back(static_cast<Real>(column_share));
-  place.push_back(static_cast<Real>(column_place - (first + 0.5) * pitch));
+  fraction.push_back(static_cast<Real>(column_fraction));
+  position.push_back(static_cast<Real>(column_position - (first + 0.5) * pitch));
 }
 
 Cutter::Cutter(Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth)
     : body_(body) {
   for (const ToolSolids& solids : tools) tools_.emplace_back(solids);
-  constexpr double kNarrower = 1e-6;  // less is rounding
-  narrow_x_ = body_.share_x(body_.nx - 1) < 1.0 - kNarrower;
-  narrow_y_ = body_.share_y(body_.ny - 1) < 1.0 - kNarrower;
+  constexpr double kNarrower = 1e-6;  // less comes from rounding
+  narrow_x_ = body_.fraction_x(body_.nx - 1) < 1.0 - kNarrower;
+  narrow_y_ = body_.fraction_y(body_.ny - 1) < 1.0 - kNarrower;
   field_.pitch = body_.pitch;
   field_.height = body_.height;
   field_.same_height = body_.same_height;
   field_.hazard_depth = static_cast<Real>(hazard_depth.mm());
   for (int i = 0; i < kTileColumns; ++i) field_.step[i] = static_cast<Real>(i * body_.pitch);
   for (int i = 0; i < body_.tiles_x * kTileColumns; ++i)
-    along_x_.add(body_.share_x(i), body_.place_x(std::min(i, body_.nx - 1)), i, body_.pitch);
+    along_x_.add(body_.fraction_x(i), body_.column_x(std::min(i, body_.nx - 1)), i, body_.pitch);
   for (int j = 0; j < body_.tiles_y * kTileColumns; ++j)
-    along_y_.add(body_.share_y(j), body_.place_y(std::min(j, body_.ny - 1)), j, body_.pitch);
+    along_y_.add(body_.fraction_y(j), body_.column_y(std::min(j, body_.ny - 1)), j, body_.pitch);
 }
 
-/// Tells the kernels where the columns of a tile are.
-void Cutter::place_columns(std::size_t tile, TileJob& job) const {
+/// Sets the positions of the columns of a tile in a job.
+void Cutter::set_columns(std::size_t tile, TileJob& job) const {
   const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
   const auto column = static_cast<int>(tile % tiles_x) * kTileColumns;
   const auto row = static_cast<int>(tile / tiles_x) * kTileColumns;
@@ -37,22 +37,22 @@ void Cutter::place_columns(std::size_t tile, TileJob& job) const {
   job.x = (column + 0.5) * body_.pitch;
   job.y = (row + 0.5) * body_.pitch;
   if ((narrow_x_ && column + kTileColumns >= body_.nx) || (narrow_y_ && row + kTileColumns >= body_.ny)) {
-    job.place_x = along_x_.place.data() + column;
-    job.place_y = along_y_.place.data() + row;
-    job.share_x = along_x_.share.data() + column;
-    job.share_y = along_y_.share.data() + row;
+    job.position_x = along_x_.position.data() + column;
+    job.position_y = along_y_.position.data() + row;
+    job.fraction_x = along_x_.fraction.data() + column;
+    job.fraction_y = along_y_.fraction.data() + row;
   }
 }
 
 TileColumns Cutter::columns_of(std::size_t tile) const {
   TileJob job;
-  place_columns(tile, job);
+  set_columns(tile, job);
   TileColumns columns;
   for (int i = 0; i < kTileColumns; ++i) {
-    columns.x[i] = job.place_x != nullptr ? job.place_x[i] : even_place(field_, i);
-    columns.y[i] = job.place_y != nullptr ? job.place_y[i] : even_place(field_, i);
-    columns.share_x[i] = job.share_x != nullptr ? job.share_x[i] : 1.0f;
-    columns.share_y[i] = job.share_y != nullptr ? job.share_y[i] : 1.0f;
+    columns.x[i] = job.position_x != nullptr ? job.position_x[i] : even_position(field_, i);
+    columns.y[i] = job.position_y != nullptr ? job.position_y[i] : even_position(field_, i);
+    columns.fraction_x[i] = job.fraction_x != nullptr ? job.fraction_x[i] : 1.0f;
+    columns.fraction_y[i] = job.fraction_y != nullptr ? job.fraction_y[i] : 1.0f;
   }
   return columns;
 }
@@ -60,7 +60,7 @@ TileColumns Cutter::columns_of(std::size_t tile) const {
 TileJob Cutter::job(CutBatch& batch, std::size_t k) const {
   const Batch& plan = *batch.plan;
   TileJob job;
-  place_columns(plan.busy[k], job);
+  set_columns(plan.busy[k], job);
   job.tools = &tools_;
   job.sweeps = plan.sweeps.data();
   job.list = plan.list.data() + plan.start[k];
@@ -74,8 +74,8 @@ void ContactList::add(const Contact& contact) {
   const auto [it, is_new] = contacts_.try_emplace({contact.step, contact.kind}, contact);
   if (is_new) return;
   Contact& all = it->second;
-  if (contact.share < all.share) {
-    all.share = contact.share;
+  if (contact.fraction < all.fraction) {
+    all.fraction = contact.fraction;
     all.at = contact.at;
   }
   all.depth = std::max(all.depth, contact.depth);

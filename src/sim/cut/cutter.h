@@ -1,4 +1,4 @@
-// Sends the tiles of a batch of sweeps to the kernels.
+// Passes the tiles of a batch of sweeps to the kernels.
 #pragma once
 
 #include <algorithm>
@@ -13,55 +13,57 @@
 
 namespace kerf::sim {
 
-/// A batch and what cutting it has found.
+/// A batch and the results of cutting it.
 struct CutBatch {
   std::shared_ptr<const Batch> plan;
-  std::vector<double> removed;                    // length of column, mm, one a pair in order of the list
-  std::vector<std::vector<Contact>> contacts_of;  // one a tile
+  std::vector<double> removed;  // length of column, mm, one per pair in the order of the list
+  std::vector<std::vector<Contact>> contacts_of;  // one per tile
 };
 
-/// Places of a tile's columns from its first one, as the kernels see them, and their shares in the block.
+/// Positions of the columns of a tile from its first one, as the kernels see them, and their fractions inside
+/// the block.
 struct TileColumns {
   Real x[kTileColumns], y[kTileColumns];
-  Real share_x[kTileColumns], share_y[kTileColumns];
+  Real fraction_x[kTileColumns], fraction_y[kTileColumns];
 };
 
-/// What tiles and kernels share during a run.
+/// Data of tiles and kernels during a run.
 class Cutter {
  public:
   Cutter(Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth);
 
-  /// The work on tile number `k` of the batch, all but the tile itself; what it finds goes into the batch.
-  /// Tiles may be worked on at the same time.
+  /// The job for tile number `k` of the batch, without the tile itself; its results are stored in the batch.
+  /// Jobs for several tiles may run at the same time.
   TileJob job(CutBatch& batch, std::size_t k) const;
   TileColumns columns_of(std::size_t tile) const;
 
  private:
-  /// Along one axis: each column's share in the block, and its place from the first column of its tile.
-  struct ColumnPlaces {
-    std::vector<Real> share, place;
-    void add(double column_share, double column_place, int number, double pitch);
+  /// Along one axis: the fraction of each column inside the block, and its position from the first column of
+  /// its tile.
+  struct AxisColumns {
+    std::vector<Real> fraction, position;
+    void add(double column_fraction, double column_position, int number, double pitch);
   };
-  void place_columns(std::size_t tile, TileJob& job) const;
+  void set_columns(std::size_t tile, TileJob& job) const;
 
   Workpiece::Body& body_;
   std::vector<LaneTool> tools_;
   Field field_{};
-  ColumnPlaces along_x_, along_y_;
-  bool narrow_x_ = false, narrow_y_ = false;  // the last column of a row, the last row
+  AxisColumns along_x_, along_y_;
+  bool narrow_x_ = false, narrow_y_ = false;  // the last column of a row or the last row is narrower
 };
 
-/// Cuts all batches that next() returns, a std::shared_ptr<const Batch>: calls cut(batch, k) for each of a
-/// batch's tiles on any thread and at_rest(batch) after the last of them. While a batch is cut, what the
-/// previous one has found is added up by add_up(batch), and then next() is called. After stop() returned true
-/// no further tile is started.
+/// Cuts all batches that next(), a function returning std::shared_ptr<const Batch>, returns: calls cut(batch,
+/// k) for each tile of a batch on any thread, and at_rest(batch) after the last of them. While a batch is
+/// cut, the results of the previous one are passed to add_up(batch), then next() is called. After stop() has
+/// returned true no further tile is started.
 template <class Next, class Cut, class AddUp, class AtRest, class Stop>
 void cut_batches(const Next& next, unsigned threads, const Cut& cut, const AddUp& add_up,
                  const AtRest& at_rest, const Stop& stop) {
   CutBatch now, other;
   now.plan = next();
-  const auto pieces = static_cast<unsigned>(now.plan->busy.size() + 1);
-  Team team(now.plan->is_last ? std::min(threads, pieces) : threads);
+  const auto tasks = static_cast<unsigned>(now.plan->busy.size() + 1);
+  Team team(now.plan->is_last ? std::min(threads, tasks) : threads);
   const auto finish = [&](CutBatch& batch) {
     if (batch.plan) add_up(batch);
     batch.plan.reset();
@@ -81,11 +83,11 @@ void cut_batches(const Next& next, unsigned threads, const Cut& cut, const AddUp
   finish(other);
 }
 
-/// Contacts by step and kind, each the sum of what its step met.
+/// Contacts merged by step and kind.
 class ContactList {
  public:
   void add(const Contact& contact);
-  /// In order of steps; `low` is the block's lowest corner.
+  /// Sorted by step; `low` is the lowest corner of the block.
   std::vector<Hazard> hazards(Point3 low) const;
 
  private:

@@ -1,4 +1,4 @@
-// Each fixture is a workpiece of its own through which the toolpath is sent as if nothing of it might be cut.
+// Simulates the toolpath once per fixture, with the fixture as a no-go solid.
 #include "kerf/fixtures.h"
 
 #include <algorithm>
@@ -9,19 +9,19 @@
 namespace kerf {
 namespace {
 
-/// Columns of a fixture, where its size asks for them, and the range of their distance. Those of a body find
-/// contacts; those of a box only say how much is met, and may be few: every move is sent through all of them
-/// that it meets.
+/// The wanted number of columns of a fixture, and the range of their pitch. The columns of a body find its
+/// contacts. Those of a box only measure the volume touched and may be few, as every motion is applied to all
+/// columns that it touches.
 struct FixtureColumns {
   double count, finest, coarsest;  // mm
 };
 constexpr FixtureColumns kOfBodies{1e6, 0.02, 0.25}, kOfBoxes{4e4, 0.02, 1.0};
 
-Length pitch_for(const Stock& solid, Length told) {
+Length pitch_for(const Stock& solid, Length wanted) {
   const FixtureColumns& columns = solid.body ? kOfBodies : kOfBoxes;
   const Point3 size = solid.block.size();
   const double own = std::clamp(std::sqrt(size.x * size.y / columns.count), columns.finest, columns.coarsest);
-  return mm(solid.body && told.mm() > 0.0 ? std::min(own, told.mm()) : own);
+  return mm(solid.body && wanted.mm() > 0.0 ? std::min(own, wanted.mm()) : own);
 }
 
 std::optional<ToolPart> part_of(HazardKind kind) {
@@ -37,12 +37,13 @@ std::optional<ToolPart> part_of(HazardKind kind) {
   return std::nullopt;
 }
 
-/// Cuts below its floor mean nothing for a solid that is not to be touched, and over-long ones are contacts
-/// of the part above the flutes.
+/// Cuts below its floor are no contacts of a no-go solid, and cuts above the flutes are contacts of the part
+/// above them.
 bool is_contact(HazardKind kind) { return kind == HazardKind::rapid_in_stock || part_of(kind).has_value(); }
 
-/// What is wrong with a fixture's own mesh is told; what the toolpath lacks, the stock's simulation has told.
-bool is_news(const Diagnostic& d) {
+/// Errors, and warnings about the mesh of a fixture (4000 to 4999); warnings about the toolpath come from the
+/// simulation of the stock.
+bool is_reported(const Diagnostic& d) {
   return d.severity == Severity::error ||
          (static_cast<int>(d.code) >= 4000 && static_cast<int>(d.code) < 5000);
 }
@@ -59,10 +60,10 @@ std::optional<std::vector<FixtureContact>> find_fixture_contacts(const Toolpath&
     SimulationOptions how = options;
     how.role = SolidRole::no_go;
     how.resolution = pitch_for(fixtures[n].solid, options.resolution);
-    Diagnostics said;
-    const auto result = simulate({borrowed(path), tools, fixtures[n].solid, how}, said, progress);
-    for (const Diagnostic& d : said.list())
-      if (is_news(d)) diagnostics.add(d);
+    Diagnostics found_here;
+    const auto result = simulate({borrowed(path), tools, fixtures[n].solid, how}, found_here, progress);
+    for (const Diagnostic& d : found_here.list())
+      if (is_reported(d)) diagnostics.add(d);
     if (!result || result->stopped) return std::nullopt;
     for (const Hazard& h : result->hazards)
       if (is_contact(h.kind)) found.push_back({n, h.step, part_of(h.kind), h.at, h.depth, h.removed});

@@ -1,8 +1,9 @@
-// The living simulation: what changes between two toolpaths, the tiles that this touches, and states along
-// the job.
+// The live simulation: finds what an edit changes and the tiles that it touches, and keeps states along the
+// job.
 //
-// Tiles keep numbers for steps that stay with a motion as the program changes around it; a table says which
-// step of the newest toolpath a number stands for. So tiles that an edit does not touch are not touched.
+// Tiles store a number for each step that stays with a motion while the program changes around it; a table
+// has the step of the newest toolpath for each number. So tiles that an edit does not touch remain as they
+// are.
 #include "kerf/live.h"
 
 #include <algorithm>
@@ -17,13 +18,13 @@ namespace kerf {
 namespace sim {
 namespace {
 
-/// What the cutting of a tile gave, by the numbers of motions.
+/// The results of cutting a tile, by the numbers of motions.
 struct TileLog {
   struct Removed {
     std::uint32_t number;
     float length;  // of column, mm
   };
-  std::size_t first = SIZE_MAX, last = 0;  // motions that can touch the tile, by place in the job
+  std::size_t first = SIZE_MAX, last = 0;  // indices of the motions that can touch the tile
   std::vector<Removed> removed;
   std::vector<Contact> contacts;
 
@@ -36,7 +37,7 @@ struct TileLog {
 
 using TileCopy = std::shared_ptr<const Tile>;
 
-/// The tiles as they were before a motion; null where a tile is as at the beginning.
+/// The tiles before a motion; null where a tile is in its initial state.
 struct Keyframe {
   std::size_t motion = 0;
   std::vector<TileCopy> tiles;
@@ -84,27 +85,27 @@ struct LiveSimulation::State {
   Volume stock;
   sim::Survey survey;
   std::vector<sim::MotionKey> motions;
-  std::vector<std::uint32_t> numbers;       // one a motion
-  std::vector<std::uint32_t> step_numbers;  // one a step: that of its motion
+  std::vector<std::uint32_t> numbers;       // one per motion
+  std::vector<std::uint32_t> step_numbers;  // one per step: that of its motion
   std::uint32_t next_number = 0;
-  std::vector<sim::TileLog> logs;        // one a tile
+  std::vector<sim::TileLog> logs;        // one per tile
   std::vector<sim::Contact> floor;       // found by the planner: cuts below the floor, by number
-  std::vector<sim::Keyframe> keyframes;  // in order of motions, the first at the beginning
-  std::size_t laid_out_for = 0;          // motions when the keyframes were placed
+  std::vector<sim::Keyframe> keyframes;  // sorted by motion, the first at the start
+  std::size_t laid_out_for = 0;          // number of motions when the keyframes were added
   bool is_whole = false;                 // all motions are cut
 
-  bool must_begin_anew(std::size_t new_motions) const;
-  bool begin(Length pitch, Diagnostics& diagnostics, Progress* progress);
-  void place_keyframes();
-  std::vector<bool> numbers_gone(const sim::MotionChange& change) const;
+  bool must_restart(std::size_t new_motions) const;
+  bool restart(Length pitch, Diagnostics& diagnostics, Progress* progress);
+  void add_keyframes();
+  std::vector<bool> deleted_numbers(const sim::MotionChange& change) const;
   std::vector<bool> tiles_of_old(const sim::MotionChange& change) const;
-  void take(Toolpath&& new_path, sim::Survey&& new_survey, std::vector<sim::MotionKey>&& keys,
-            const sim::MotionChange& change);
+  void adopt(Toolpath&& new_path, sim::Survey&& new_survey, std::vector<sim::MotionKey>&& keys,
+             const sim::MotionChange& change);
   void add_tiles_of_new(const sim::MotionChange& change, std::vector<bool>& tiles) const;
   std::vector<sim::StepRange> steps_for(const std::vector<bool>& tiles,
                                         const sim::MotionChange& change) const;
   void clear(const std::vector<bool>& tiles);
-  /// A workpiece with copies of the tiles; what is null is as at the beginning.
+  /// A workpiece with copies of the tiles; null tiles are in their initial state.
   template <class Tiles>
   Workpiece with_tiles(const Tiles& tiles) const {
     const Workpiece::Body& now = workpiece->body();
@@ -124,20 +125,21 @@ struct LiveSimulation::State {
     const auto at = std::lower_bound(motions.begin(), motions.end(), step, before);
     return static_cast<std::size_t>(at - motions.begin());
   }
-  /// The step at which a motion begins; the toolpath's end for the one after the last.
+  /// The step of a motion; the end of the toolpath for the one after the last.
   std::size_t step_at(std::size_t motion) const {
     return motion < motions.size() ? motions[motion].step : path.size();
   }
 };
 
-/// Numbers are used up and states are unevenly spread in the end; then all is cut again.
-bool LiveSimulation::State::must_begin_anew(std::size_t new_motions) const {
-  constexpr std::size_t kSmall = 10'000;  // motions that are soon cut in any case
+/// Restarts before numbers run out or the states are spread too unevenly.
+bool LiveSimulation::State::must_restart(std::size_t new_motions) const {
+  constexpr std::size_t kSmall = 10'000;  // a job that is quickly cut in any case
   return !is_whole || new_motions > 2 * laid_out_for + kSmall || next_number > 8 * laid_out_for + 8 * kSmall;
 }
 
-/// The uncut stock, without motions. False, with an error appended unless stopped, where it cannot be.
-bool LiveSimulation::State::begin(Length pitch, Diagnostics& diagnostics, Progress* progress) {
+/// Restarts with the uncut stock and no motions. False, with an error appended unless stopped, if that is not
+/// possible.
+bool LiveSimulation::State::restart(Length pitch, Diagnostics& diagnostics, Progress* progress) {
   Workpiece uncut(from, pitch);
   const Point3 size = from.block.size();
   stock = mm3(size.x * size.y * size.z);
@@ -159,38 +161,38 @@ bool LiveSimulation::State::begin(Length pitch, Diagnostics& diagnostics, Progre
   return true;
 }
 
-void LiveSimulation::State::place_keyframes() {
+void LiveSimulation::State::add_keyframes() {
   laid_out_for = motions.size();
   for (std::size_t k = 1; k <= options.states; ++k)
     keyframes.push_back({motions.size() * k / (options.states + 1), keyframes[0].tiles});
 }
 
-/// Which numbers belong to motions that are gone.
-std::vector<bool> LiveSimulation::State::numbers_gone(const sim::MotionChange& change) const {
-  std::vector<bool> gone(next_number, false);
-  for (std::size_t m = change.first; m < change.old_end; ++m) gone[numbers[m]] = true;
-  return gone;
+/// The numbers of the deleted motions.
+std::vector<bool> LiveSimulation::State::deleted_numbers(const sim::MotionChange& change) const {
+  std::vector<bool> deleted(next_number, false);
+  for (std::size_t m = change.first; m < change.old_end; ++m) deleted[numbers[m]] = true;
+  return deleted;
 }
 
-/// The tiles from which the motions that are gone have taken something, or where they met something.
+/// The tiles that the deleted motions have cut or touched.
 std::vector<bool> LiveSimulation::State::tiles_of_old(const sim::MotionChange& change) const {
-  const std::vector<bool> gone = numbers_gone(change);
+  const std::vector<bool> deleted = deleted_numbers(change);
   std::vector<bool> tiles(logs.size(), false);
   for (std::size_t tile = 0; tile < logs.size(); ++tile) {
     const sim::TileLog& log = logs[tile];
     tiles[tile] = std::any_of(log.removed.begin(), log.removed.end(),
-                              [&](const auto& removed) { return gone[removed.number]; }) ||
+                              [&](const auto& removed) { return deleted[removed.number]; }) ||
                   std::any_of(log.contacts.begin(), log.contacts.end(),
-                              [&](const sim::Contact& contact) { return gone[contact.step]; });
+                              [&](const sim::Contact& contact) { return deleted[contact.step]; });
   }
   return tiles;
 }
 
-/// Makes the new toolpath the one that the state is for; the tiles stay as they are.
-void LiveSimulation::State::take(Toolpath&& new_path, sim::Survey&& new_survey,
-                                 std::vector<sim::MotionKey>&& keys, const sim::MotionChange& change) {
-  const std::vector<bool> gone = numbers_gone(change);
-  std::erase_if(floor, [&](const sim::Contact& contact) { return gone[contact.step]; });
+/// Replaces the toolpath of the state; the tiles stay as they are.
+void LiveSimulation::State::adopt(Toolpath&& new_path, sim::Survey&& new_survey,
+                                  std::vector<sim::MotionKey>&& keys, const sim::MotionChange& change) {
+  const std::vector<bool> deleted = deleted_numbers(change);
+  std::erase_if(floor, [&](const sim::Contact& contact) { return deleted[contact.step]; });
   std::vector<std::uint32_t> now(numbers.begin(),
                                  numbers.begin() + static_cast<std::ptrdiff_t>(change.first));
   for (std::size_t m = change.first; m < change.new_end; ++m) now.push_back(next_number++);
@@ -237,7 +239,7 @@ std::vector<sim::StepRange> LiveSimulation::State::steps_for(const std::vector<b
   if (change.first < change.new_end) add(change.first, change.new_end - 1);
   for (std::size_t tile = 0; tile < tiles.size(); ++tile)
     if (tiles[tile]) add(logs[tile].first, logs[tile].last);
-  return sim::apart(std::move(steps));
+  return sim::merge_ranges(std::move(steps));
 }
 
 void LiveSimulation::State::clear(const std::vector<bool>& tiles) {
@@ -251,11 +253,11 @@ void LiveSimulation::State::clear(const std::vector<bool>& tiles) {
 namespace sim {
 namespace {
 
-/// Cuts motions of a live simulation and writes down what they give.
+/// Cuts motions of a live simulation and records the results.
 class LiveRun {
  public:
   using State = LiveSimulation::State;
-  /// What is cut: all tiles that are marked. Motions with numbers from `fresh_number` on are new.
+  /// Cuts all marked tiles. Motions with numbers from `fresh_number` on are new.
   LiveRun(State& state, const std::vector<bool>& tiles, std::uint32_t fresh_number, Progress* progress,
           const LiveProgress& chunk)
       : state_(state),
@@ -271,7 +273,7 @@ class LiveRun {
   bool cut(std::vector<StepRange> steps);
 
  private:
-  void take_over(const CutBatch& batch);
+  void add_results(const CutBatch& batch);
   void log_tile(const CutBatch& batch, std::size_t k);
   void keep_tiles(Keyframe& keyframe, const Keyframe& before);
 
@@ -282,7 +284,7 @@ class LiveRun {
   const LiveProgress& chunk_;
   Workpiece::Body& body_;
   Cutter cutter_;
-  std::vector<bool> cut_since_;  // the keyframe before: tiles
+  std::vector<bool> cut_since_;  // tiles cut since the previous keyframe
   std::size_t next_keyframe_ = 1;
 };
 
@@ -296,12 +298,12 @@ bool LiveRun::cut(std::vector<StepRange> steps) {
     scope.pauses.push_back(state_.step_at(state_.keyframes[k].motion));
   BatchSource source(body_, state_.path, state_.survey, std::move(scope));
   const bool whole = cut_tiles(body_, source, cutter_, state_.options.simulation.threads, progress_,
-                               [&](const CutBatch& batch) { take_over(batch); });
+                               [&](const CutBatch& batch) { add_results(batch); });
   report(progress_, 1.0);
   return whole;
 }
 
-void LiveRun::take_over(const CutBatch& batch) {
+void LiveRun::add_results(const CutBatch& batch) {
   const Batch& plan = *batch.plan;
   LiveChunk chunk{.steps_done = plan.steps_done, .changed = {}};
   for (std::size_t k = 0; k < plan.busy.size(); ++k) {
@@ -342,7 +344,7 @@ void LiveRun::log_tile(const CutBatch& batch, std::size_t k) {
   log.contacts.insert(log.contacts.end(), batch.contacts_of[k].begin(), batch.contacts_of[k].end());
 }
 
-/// A keyframe shares with the one before what was not cut between them.
+/// A keyframe references the tiles of the previous one that were not cut between them.
 void LiveRun::keep_tiles(Keyframe& keyframe, const Keyframe& before) {
   for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
     if (!tiles_[tile]) continue;
@@ -367,30 +369,30 @@ LiveSimulation::~LiveSimulation() = default;
 
 std::optional<LiveUpdate> LiveSimulation::update(Toolpath path, Diagnostics& diagnostics, Progress* progress,
                                                  const LiveProgress& chunk) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
   State& s = *state_;
   auto setup = sim::set_up(path, s.tools, s.from, s.options.simulation, diagnostics);
   if (!setup) return std::nullopt;
   std::vector<sim::MotionKey> keys = sim::motion_keys(path, setup->survey);
-  const bool anew = s.must_begin_anew(keys.size());
-  if (anew && !s.begin(setup->pitch, diagnostics, progress)) return std::nullopt;
+  const bool restarts = s.must_restart(keys.size());
+  if (restarts && !s.restart(setup->pitch, diagnostics, progress)) return std::nullopt;
   const sim::MotionChange change = sim::change_of(s.motions, keys);
-  std::vector<bool> tiles = anew ? std::vector<bool>(s.logs.size(), true) : s.tiles_of_old(change);
+  std::vector<bool> tiles = restarts ? std::vector<bool>(s.logs.size(), true) : s.tiles_of_old(change);
   const std::uint32_t fresh_number = s.next_number;
-  s.take(std::move(path), std::move(setup->survey), std::move(keys), change);
-  if (anew) {
-    s.place_keyframes();
+  s.adopt(std::move(path), std::move(setup->survey), std::move(keys), change);
+  if (restarts) {
+    s.add_keyframes();
   } else {
     s.add_tiles_of_new(change, tiles);
   }
   std::vector<sim::StepRange> steps = s.steps_for(tiles, change);
-  if (!anew) s.clear(tiles);
+  if (!restarts) s.clear(tiles);
   s.is_whole = change.none() || sim::LiveRun(s, tiles, fresh_number, progress, chunk).cut(std::move(steps));
   LiveUpdate done;
   done.motions_kept = s.motions.size() - (change.new_end - change.first);
   done.redone = sim::blocks_of(s.workpiece->body(), tiles);
   done.stopped = !s.is_whole;
-  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  done.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return done;
 }
 

@@ -1,4 +1,4 @@
-// Motions as numbers that can be compared.
+// Hashes of motions, for comparing toolpaths.
 #include "sim/cut/motion_keys.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace kerf::sim {
 namespace {
 
-/// Mixes words into one of 64 bits: multiplication spreads each bit upwards, the shift brings it down again.
+/// A 64-bit hash: multiplication spreads each bit upwards, the shift downwards.
 class Mixer {
  public:
   void add(std::uint64_t word) {
@@ -35,7 +35,8 @@ class Mixer {
 std::vector<MotionKey> motion_keys(const Toolpath& path, const Survey& survey) {
   std::vector<MotionKey> keys;
   keys.reserve(path.size());
-  int tool_before = -1;  // of the motion before, if that cut: what follows it need not cut its begin again
+  int tool_before =
+      -1;  // of the previous motion, if that cut: the following one need not cut its start again
   for (MotionReader motion(path); motion.next();) {
     const Step& step = motion.step();
     const MotionContext& context = motion.context();

@@ -1,4 +1,4 @@
-// The driver: sends the planner's batches through the kernels and gathers what they found.
+// The driver: passes batches from the planner to the kernels and collects the results.
 #include "kerf/simulate.h"
 
 #include <algorithm>
@@ -22,8 +22,7 @@ namespace kerf {
 namespace sim {
 namespace {
 
-/// Walls between columns that can change the volume by less than this much of what was removed are not
-/// counted anew.
+/// Walls that can change the volume by less than this fraction of what was removed are not measured.
 constexpr double kNegligible = 1e-6;
 
 class CutRun {
@@ -47,12 +46,12 @@ class CutRun {
     report(progress_, 1.0);
   }
 
-  /// Counts the columns at walls anew, see walls.h. Where there are none that matter, or if stopped, the
-  /// columns' centres alone tell the volumes.
+  /// Measures the columns at walls, see walls.h. Without relevant walls, or if stopped, volumes are those of
+  /// the column centres.
   void refine_walls();
 
   bool stopped() const { return stopped_; }
-  void tell_removed(Simulation& result);
+  void set_removed(Simulation& result);
   std::vector<Hazard> hazards() const { return contacts_.hazards(body_.bounds.low); }
 
  private:
@@ -61,9 +60,9 @@ class CutRun {
   template <class Next>
   void send(const Next& next);
   void cut_tile_number(CutBatch& batch, std::size_t k);
-  void meet_tile(std::size_t tile, TileJob job);
+  void touch_tile(std::size_t tile, TileJob job);
   void note_block_contacts(const Batch& batch);
-  void take_over(const CutBatch& batch);
+  void add_results(const CutBatch& batch);
 
   Workpiece::Body& body_;
   const Toolpath& path_;
@@ -72,10 +71,10 @@ class CutRun {
   bool is_no_go_;
   unsigned threads_;
   Progress* progress_;
-  StepSums removed_;                // by the columns' centres
-  std::optional<StepSums> more_;    // and what the walls between them add
-  WallGroup* walls_ = nullptr;      // what is cut instead of the workpiece, if any
-  std::vector<StepRange> in_tile_;  // which steps each tile has seen
+  StepSums removed_;                // by the centres of columns
+  std::optional<StepSums> more_;    // correction for walls
+  WallGroup* walls_ = nullptr;      // cut instead of the workpiece, if any
+  std::vector<StepRange> in_tile_;  // the steps of each tile
   std::vector<std::size_t> sweeps_in_tile_;
   bool stopped_ = false;
   Cutter cutter_;
@@ -92,10 +91,10 @@ void CutRun::send(const Next& next) {
   };
   cut_batches(
       next, threads_, [&](CutBatch& batch, std::size_t k) { cut_tile_number(batch, k); },
-      [&](const CutBatch& batch) { take_over(batch); }, report_batch, stop);
+      [&](const CutBatch& batch) { add_results(batch); }, report_batch, stop);
 }
 
-/// Cuts all motions; given tiles, what goes there.
+/// Cuts all motions, or only those that touch the given tiles.
 void CutRun::send_all(const std::vector<bool>* tiles) {
   if (tiles != nullptr && plan_.batches.complete()) {
     std::size_t next = 0;
@@ -121,12 +120,12 @@ void CutRun::cut_tile_number(CutBatch& batch, std::size_t k) {
   TileJob job = cutter_.job(batch, k);
   if (walls_ != nullptr) return walls_->cut(tile, job);
   job.tile = &body_.touch(tile);
-  if (is_no_go_) return meet_tile(tile, job);
+  if (is_no_go_) return touch_tile(tile, job);
   cut_tile(job);
 }
 
-/// Of what is not to be cut each step meets all that was there: a clamp stays a clamp.
-void CutRun::meet_tile(std::size_t tile, TileJob job) {
+/// A no-go solid is restored after each step, so that each step touches all of it.
+void CutRun::touch_tile(std::size_t tile, TileJob job) {
   for (std::size_t rest = job.count; rest > 0; rest -= job.count) {
     const std::uint32_t step = job.sweeps[*job.list].step;
     for (job.count = 1; job.count < rest && job.sweeps[job.list[job.count]].step == step;) ++job.count;
@@ -138,7 +137,7 @@ void CutRun::meet_tile(std::size_t tile, TileJob job) {
   }
 }
 
-/// Contacts that are too narrow for the columns.
+/// Adds contacts that are too narrow for the columns.
 void CutRun::note_block_contacts(const Batch& batch) {
   if (body_.start) return;  // not a block
   std::vector<Contact> contacts;
@@ -152,19 +151,19 @@ std::vector<StepRange> CutRun::steps_in(const std::vector<bool>& tiles) const {
   std::vector<StepRange> all;
   for (std::size_t tile = 0; tile < tiles.size(); ++tile)
     if (tiles[tile] && in_tile_[tile].first <= in_tile_[tile].last) all.push_back(in_tile_[tile]);
-  return apart(std::move(all));
+  return merge_ranges(std::move(all));
 }
 
 void CutRun::refine_walls() {
   if (stopped_) return;
   const std::vector<WallSquares> found = find_walls(body_, threads_);
-  double most = 0.0;
+  double max_error = 0.0;
   std::size_t squares = 0;
   for (const WallSquares& walls : found) {
-    most += walls.most_error;
+    max_error += walls.max_error;
     squares += walls.squares.size();
   }
-  if (found.empty() || most * body_.pitch * body_.pitch <= kNegligible * removed_.total()) return;
+  if (found.empty() || max_error * body_.pitch * body_.pitch <= kNegligible * removed_.total()) return;
   if (progress_ != nullptr) progress_->phase("measuring walls");
   more_.emplace(body_.pitch * body_.pitch, path_.size());
   for (std::size_t next = 0; next < found.size() && !stopped_;) {
@@ -177,7 +176,7 @@ void CutRun::refine_walls() {
   if (stopped_) more_.reset();
 }
 
-void CutRun::tell_removed(Simulation& result) {
+void CutRun::set_removed(Simulation& result) {
   const double more = more_ ? more_->total() : 0.0;
   result.removed = mm3(removed_.total() + more);
   result.workpiece.body().wall_volume = -more;
@@ -188,7 +187,7 @@ void CutRun::tell_removed(Simulation& result) {
                  std::plus<>());
 }
 
-void CutRun::take_over(const CutBatch& batch) {
+void CutRun::add_results(const CutBatch& batch) {
   if (walls_ != nullptr) return more_->add(batch);
   removed_.add(batch);
   const Batch& plan = *batch.plan;
@@ -230,7 +229,7 @@ std::optional<Simulation> simulate(SimulationJob job, Diagnostics& diagnostics, 
   sim::CutRun run(result.workpiece, job, *plan, progress);
   run.cut_all();
   if (job.options.role == SolidRole::stock) run.refine_walls();
-  run.tell_removed(result);
+  run.set_removed(result);
   result.hazards = run.hazards();
   result.stopped = run.stopped();
   result.job = std::move(job);

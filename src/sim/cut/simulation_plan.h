@@ -1,4 +1,4 @@
-// What a simulation keeps for meshes with exact edges, so that nothing is computed a second time.
+// Data that a simulation keeps for meshes with exact edges, so that nothing is computed twice.
 #pragma once
 
 #include "sim/sweep/batch_source.h"

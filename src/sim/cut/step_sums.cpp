@@ -1,4 +1,5 @@
-// Sums by step: exact within a batch, so that a step of a thousand chords is as exact as one of one.
+// Sums by step in double precision within a batch, so that a step of a thousand chords is as exact as one of
+// one.
 #include "sim/cut/step_sums.h"
 
 #include <utility>

@@ -1,4 +1,4 @@
-// What the steps of a path have removed, added up batch by batch.
+// The volumes removed by the steps of a path, added up batch by batch.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +8,16 @@
 
 namespace kerf::sim {
 
-/// The order of adding is told by the batches alone, whichever thread was first: sums of floating numbers
+/// The order of additions depends only on the batches, not on threads, as sums of floating-point numbers
 /// depend on it.
 class StepSums {
  public:
   /// `area`: of a column, mm2; `steps`: of the path.
   StepSums(double area, std::size_t steps);
-  /// Adds what a batch has removed. Batches come in order of time.
+  /// Adds the lengths removed by a batch. Batches come in time order.
   void add(const CutBatch& batch);
   double total() const { return total_; }  // mm3
-  /// mm3, one a step. There is nothing to be added any more.
+  /// mm3, one per step. Nothing may be added afterwards.
   std::vector<float> take_volumes();
 
  private:
@@ -26,7 +26,7 @@ class StepSums {
   double area_;
   std::size_t steps_;
   double total_ = 0.0;
-  std::vector<float> volumes_;    // one a step, up to the last that removes something
+  std::vector<float> volumes_;    // one per step, up to the last that removes something
   std::vector<double> of_sweep_;  // of one batch, mm of column
 };
 

@@ -1,4 +1,4 @@
-// Finding the squares between columns that walls go through.
+// Finds the squares between columns that walls pass through.
 #include "sim/cut/walls.h"
 
 #include <algorithm>
@@ -13,67 +13,69 @@
 namespace kerf::sim {
 namespace {
 
-/// A step between two columns that exceeds what the slopes beside it explain by less than this much of a
-/// pitch is left to the centres: curved surfaces have such steps everywhere.
+/// A step between two columns whose excess over what the slopes beside it explain is below this many pitches
+/// is no wall: curved surfaces have such steps everywhere.
 constexpr Real kMinStep = 0.25f;
-/// The same between two level surfaces, where nothing else explains a step.
+/// The same between two level surfaces, where no slope explains a step.
 constexpr Real kMinLevelStep = 0.002f;
-/// How much of the lower of the steps beside it explains a step, if all three go the same way: a curve's
-/// slope changes from column to column. And of the higher one: ridges and edges of slopes, whose error is
-/// small against a wall's; but no more than so many pitches, as that one may be a wall itself.
+/// A step is explained by this multiple of the lower of its neighbouring steps if all three have the same
+/// sign (the slope of a curve changes from column to column), and by this multiple of the higher one (ridges
+/// and edges of slopes, whose error is small against that of a wall), up to a maximum in pitches, as that one
+/// may be a wall itself.
 constexpr Real kExplainedByLower = 2.0f;
 constexpr Real kExplainedByHigher = 1.5f;
 constexpr Real kMaxExplained = 4.0f;
-/// Most squares that are counted anew: a share of all and in any case this many; bounds the time.
-constexpr double kMaxShare = 0.25;
+/// Maximum number of squares that are measured: this fraction of all, but at least kAlways, and at limit
+/// kMaxSquares; bounds the time.
+constexpr double kMaxFraction = 0.25;
 constexpr std::size_t kAlways = 1 << 16;
 constexpr std::size_t kMaxSquares = 1 << 22;
 
-/// Micros that memory is asked for ahead.
+/// Prefetch distance, micros.
 constexpr int kAhead = 8;
 
 constexpr int kGrades = 32;
 
-/// A square that a wall may go through, and how high the highest step on its edges is, graded by powers of
-/// two of the least that counts.
+/// A square that a wall may pass through. `grade`: the highest step on its edges in powers of two of the
+/// minimum step.
 struct Candidate {
   WallSquare square;
   std::int8_t grade;
-  bool is_own;  // not another tile's, which has it too
+  bool is_own;  // this tile owns it (a neighbour may list it too)
 };
 using Candidates = std::vector<Candidate>;
 
-/// Squares by number: that of the column at its low corner, four times, and which of its corners lie before
-/// the tile. So sixteen in a row lie close together.
+/// Number of a square: four times that of the column at its low corner, plus bits for corners before the
+/// tile. Sixteen in a row are close together in memory.
 constexpr int kSquares = 4 * kMicros * kLanes;
 int number_of(int x, int y) {
   return 4 * lane_index(std::max(x, 0), std::max(y, 0)) + (x < 0 ? 1 : 0) + (y < 0 ? 2 : 0);
 }
 WallSquare square_of(int number) {
-  const ColumnInTile place = column_in_tile(number / 4);
-  return {static_cast<std::int8_t>((number & 1) != 0 ? -1 : place.x),
-          static_cast<std::int8_t>((number & 2) != 0 ? -1 : place.y)};
+  const ColumnInTile position = column_in_tile(number / 4);
+  return {static_cast<std::int8_t>((number & 1) != 0 ? -1 : position.x),
+          static_cast<std::int8_t>((number & 2) != 0 ? -1 : position.y)};
 }
 
 /// The steps around the columns of one tile.
 class Window {
  public:
   explicit Window(const Workpiece::Body& body);
-  Candidates look(std::size_t tile);
+  Candidates find(std::size_t tile);
 
  private:
   bool untouched(int tile_x, int tile_y) const;
   void read(const Tile* tile);
   void read_micro(int column, int row);
-  void go_on_at_borders();
+  void extend_borders();
   void note(int x, int y, int grade);
 
   const Workpiece::Body& body_;
   StepRules rules_;
   int columns_ = 0, rows_ = 0;            // of the tile
-  int first_column_ = 0, first_row_ = 0;  // where it begins
+  int first_column_ = 0, first_row_ = 0;  // of the tile
   WindowLengths length_;
-  std::int8_t grade_[kSquares];  // by number, of those that are noted
+  std::int8_t grade_[kSquares];  // by number, valid where `noted_`
   std::array<std::uint64_t, kSquares / 64> noted_{};
   std::vector<ColumnStep> steps_;
 };
@@ -82,9 +84,9 @@ Window::Window(const Workpiece::Body& body) : body_(body) {
   const auto pitch = static_cast<Real>(body.pitch);
   rules_.explained_by_lower = kExplainedByLower;
   rules_.explained_by_higher = kExplainedByHigher;
-  rules_.most_explained = kMaxExplained * pitch;
-  rules_.per_least = 1 / (kMinStep * pitch);
-  rules_.per_least_level = 1 / std::max(kMinLevelStep * pitch, body.same_height);
+  rules_.max_explained = kMaxExplained * pitch;
+  rules_.per_min = 1 / (kMinStep * pitch);
+  rules_.per_min_level = 1 / std::max(kMinLevelStep * pitch, body.same_height);
   rules_.same_height = body.same_height;
 }
 
@@ -97,7 +99,7 @@ bool Window::untouched(int tile_x, int tile_y) const {
   return true;
 }
 
-/// Reads the lengths of the micro that has a column in its corner.
+/// Reads the lengths of the micro with its first column at a position.
 void Window::read_micro(int column, int row) {
   const std::size_t number =
       static_cast<std::size_t>((row + first_row_) / kTileColumns) * static_cast<std::size_t>(body_.tiles_x) +
@@ -114,8 +116,8 @@ void Window::read_micro(int column, int row) {
     std::memcpy(&length_[row + kRing + k][column + kRing], lengths.v + 4 * k, 4 * sizeof(Real));
 }
 
-/// Beyond the block's borders it goes on as at them.
-void Window::go_on_at_borders() {
+/// Repeats the columns at the borders of the block beyond them.
+void Window::extend_borders() {
   const int left = std::max(-first_column_, -kRing) + kRing, low = std::max(-first_row_, -kRing) + kRing;
   const int right = std::min(body_.nx - first_column_ + kRing, kWindow) - 1;
   const int high = std::min(body_.ny - first_row_ + kRing, kWindow) - 1;
@@ -127,7 +129,7 @@ void Window::go_on_at_borders() {
   for (int y = high + 1; y < kWindow; ++y) std::copy_n(length_[high], kWindow, length_[y]);
 }
 
-/// Reads the lengths of a tile and of what is around it.
+/// Reads the lengths of a tile and its surroundings.
 void Window::read(const Tile* tile) {
   const auto read_if_any = [&](int column, int row) {
     const int i = column + first_column_, j = row + first_row_;
@@ -143,7 +145,7 @@ void Window::read(const Tile* tile) {
     read_if_any(-kRing, k);
     read_if_any(kTileColumns, k);
   }
-  go_on_at_borders();
+  extend_borders();
 }
 
 void Window::note(int x, int y, int grade) {
@@ -156,7 +158,7 @@ void Window::note(int x, int y, int grade) {
   grade_[number] = static_cast<std::int8_t>(std::max<int>(grade_[number], grade));
 }
 
-Candidates Window::look(std::size_t tile) {
+Candidates Window::find(std::size_t tile) {
   const auto tiles_x = static_cast<std::size_t>(body_.tiles_x);
   const auto tile_x = static_cast<int>(tile % tiles_x), tile_y = static_cast<int>(tile / tiles_x);
   if (!body_.tiles[tile] && untouched(tile_x, tile_y)) return {};
@@ -172,7 +174,7 @@ Candidates Window::look(std::size_t tile) {
     const int x = step.x - kRing, y = step.y - kRing;
     const int grade = std::min(std::ilogb(step.excess), kGrades - 1);
     note(x, y, grade);
-    note(step.way == StepWay::along_x ? x : x - 1, step.way == StepWay::along_x ? y - 1 : y, grade);
+    note(step.axis == StepAxis::along_x ? x : x - 1, step.axis == StepAxis::along_x ? y - 1 : y, grade);
   }
   Candidates found;
   for (std::size_t word = 0; word < noted_.size(); ++word) {
@@ -186,24 +188,24 @@ Candidates Window::look(std::size_t tile) {
   return found;
 }
 
-/// The lowest grade that leaves no more squares than are affordable.
+/// The lowest grade for which the number of squares stays within the maximum.
 int lowest_grade(const std::array<std::atomic<std::size_t>, kGrades>& count, const Workpiece::Body& body) {
   const double all = static_cast<double>(body.nx) * static_cast<double>(body.ny);
-  const std::size_t most =
-      std::min(kMaxSquares, std::max(kAlways, static_cast<std::size_t>(kMaxShare * all)));
+  const std::size_t limit =
+      std::min(kMaxSquares, std::max(kAlways, static_cast<std::size_t>(kMaxFraction * all)));
   std::size_t sum = 0;
   int grade = kGrades;
-  while (grade > 0 && sum + count[static_cast<std::size_t>(grade - 1)] <= most)
+  while (grade > 0 && sum + count[static_cast<std::size_t>(grade - 1)] <= limit)
     sum += count[static_cast<std::size_t>(--grade)];
   return grade;
 }
 
-/// No step of a grade is higher than this many pitches.
+/// Maximum height of a step of a grade, pitches.
 double highest_step(int grade) {
   return std::ldexp(static_cast<double>(kMinStep), grade + 1) + static_cast<double>(kMaxExplained);
 }
 
-/// The squares with steps of at least a grade.
+/// The squares with steps of at least this grade.
 WallSquares squares_above(int grade, const Candidates& candidates, const Workpiece::Body& body,
                           std::size_t tile) {
   WallSquares walls;
@@ -217,7 +219,7 @@ WallSquares squares_above(int grade, const Candidates& candidates, const Workpie
     const WallSquare square = candidate.square;
     if (candidate.is_own) {
       walls.squares.push_back(square);
-      walls.most_error += highest_step(candidate.grade) * body.pitch;
+      walls.max_error += highest_step(candidate.grade) * body.pitch;
     }
     for (int y = std::max<int>(square.y, 0); y <= std::min(square.y + 1, rows - 1); ++y) {
       for (int x = std::max<int>(square.x, 0); x <= std::min(square.x + 1, columns - 1); ++x) {
@@ -240,12 +242,12 @@ WallSquares squares_above(int grade, const Candidates& candidates, const Workpie
 std::vector<WallSquares> find_walls(const Workpiece::Body& body, unsigned threads) {
   std::array<std::atomic<std::size_t>, kGrades> count{};
   std::vector<Candidates> candidates(body.tiles.size());
-  const auto look = [&](std::size_t tile) {
-    candidates[tile] = Window(body).look(tile);
+  const auto find_candidates = [&](std::size_t tile) {
+    candidates[tile] = Window(body).find(tile);
     for (const Candidate& candidate : candidates[tile])
       if (candidate.is_own) ++count[static_cast<std::size_t>(candidate.grade)];
   };
-  parallel_for(threads, body.tiles.size(), look, [] { return false; });
+  parallel_for(threads, body.tiles.size(), find_candidates, [] { return false; });
   const int lowest = lowest_grade(count, body);
   std::vector<WallSquares> found(body.tiles.size());
   const auto choose = [&](std::size_t tile) {

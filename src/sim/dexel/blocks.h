@@ -1,4 +1,4 @@
-// Memory in large blocks, of huge pages, for many objects of one size.
+// Allocates many objects of one size from large blocks of memory in huge pages.
 #pragma once
 
 #include <cstddef>
@@ -16,8 +16,8 @@ void* new_block(std::size_t bytes);
 void free_block(void* block);
 using kerf::use_huge_pages;
 
-/// Makes objects of one type; their memory goes from one to the next and is kept until the store ends. Safe
-/// to use from several threads.
+/// Makes objects of one type. Memory of destroyed objects is reused; all of it is kept until the store is
+/// destroyed. Thread-safe.
 template <class Object>
 class BlockStore {
  public:
@@ -33,7 +33,7 @@ class BlockStore {
 
   template <class... Arguments>
   Pointer make(Arguments&&... arguments) {
-    return Pointer(new (place()) Object(std::forward<Arguments>(arguments)...), Destroy{this});
+    return Pointer(new (allocate()) Object(std::forward<Arguments>(arguments)...), Destroy{this});
   }
 
  private:
@@ -45,7 +45,7 @@ class BlockStore {
     void operator()(void* block) const { free_block(block); }
   };
 
-  void* place() {
+  void* allocate() {
     const std::lock_guard lock(mutex_);
     if (!unused_.empty()) {
       void* at = unused_.back();

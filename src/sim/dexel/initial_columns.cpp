@@ -1,4 +1,4 @@
-// Columns of a body into tiles.
+// Copies the columns of a stock body into tiles.
 #include "sim/dexel/initial_columns.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 namespace kerf::sim {
 namespace {
 
-/// Heights of a run as the tiles hold them: within the block, what touches its faces being on them.
+/// A run clipped to the block. Ends within `same_height` of a face of the block are moved onto it.
 Run within_block(const Run& run, const Workpiece::Body& body) {
   Run out{std::max(run.low, 0.0f), std::min(run.high, body.height)};
   if (out.low <= body.same_height) out.low = 0.0f;
@@ -14,11 +14,11 @@ Run within_block(const Run& run, const Workpiece::Body& body) {
   return out;
 }
 
-/// Puts the runs of a column into one lane of a micro, which is as made until then.
+/// Stores the runs of a column in one lane of a micro that is still in its initial state.
 void put_column(std::span<const Run> runs, const Workpiece::Body& body, Tile& tile, int micro, int lane) {
   tile.top[micro][lane] = 0.0f;
-  for (const Run& told : runs) {
-    const Run run = within_block(told, body);
+  for (const Run& original : runs) {
+    const Run run = within_block(original, body);
     if (!(run.high > run.low)) continue;
     if (run.low == 0.0f) {
       tile.top[micro][lane] = run.high;
@@ -83,10 +83,10 @@ void fill_start_tile(const Workpiece::Body& body, std::size_t number, Tile& tile
 bool fill_from_body(Workpiece::Body& body, const StockBody& from, Diagnostics& diagnostics,
                     Progress* progress) {
   const Point3 low = body.bounds.low;
-  const ColumnPlaces places{
+  const ColumnPositions positions{
       low.x + 0.5 * body.pitch, low.y + 0.5 * body.pitch, low.z, body.pitch, body.nx, body.ny,
       body.bounds.high.x,       body.bounds.high.y};
-  auto columns = from.columns(places, diagnostics, progress);
+  auto columns = from.columns(positions, diagnostics, progress);
   if (!columns) return false;
   body.start = std::make_shared<const ColumnRuns>(std::move(*columns));
   const auto tiles_x = static_cast<std::size_t>(body.tiles_x);
@@ -109,7 +109,7 @@ LeftColumns left_columns(const Workpiece& workpiece) {
   const ColumnGrid grid = workpiece.grid();
   LeftColumns left;
   left.bounds = workpiece.bounds();
-  left.places = {low.x + 0.5 * pitch, low.y + 0.5 * pitch, low.z, pitch, grid.nx, grid.ny};
+  left.positions = {low.x + 0.5 * pitch, low.y + 0.5 * pitch, low.z, pitch, grid.nx, grid.ny};
   left.columns.nx = grid.nx;
   left.columns.ny = grid.ny;
   left.columns.first = grid.first;

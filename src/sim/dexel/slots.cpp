@@ -1,4 +1,4 @@
-// Pages of slots out of large blocks.
+// Allocates pages of slots from large blocks.
 #include "sim/dexel/slots.h"
 
 #include <cstddef>
@@ -12,14 +12,14 @@ SlotPages::Page* SlotPages::take() {
   if (unused_.empty()) {
     auto* memory = static_cast<std::byte*>(blocks_.emplace_back(new_block(kBlock)).get());
     for (std::size_t n = kBlock / sizeof(Page); n > 0; --n)
-      unused_.push_back(new (memory + (n - 1) * sizeof(Page)) Page);  // not touched, let alone cleared
+      unused_.push_back(new (memory + (n - 1) * sizeof(Page)) Page);  // not cleared
   }
   Page* page = unused_.back();
   unused_.pop_back();
   return page;
 }
 
-void SlotPages::give_back(const std::vector<Page*>& pages) {
+void SlotPages::release(const std::vector<Page*>& pages) {
   const std::lock_guard lock(mutex_);
   unused_.insert(unused_.end(), pages.rbegin(), pages.rend());
 }
@@ -30,7 +30,7 @@ Slots::Slots(const Slots& other) : memory_(other.memory_) {
 }
 
 Slots::~Slots() {
-  if (!pages_.empty()) memory_->give_back(pages_);
+  if (!pages_.empty()) memory_->release(pages_);
 }
 
 }  // namespace kerf::sim

@@ -1,4 +1,4 @@
-// The intervals of the columns of a micro that is no height field: slots, and the memory they live in.
+// Slots hold the intervals of columns that have material above an undercut; their memory comes in pages.
 #pragma once
 
 #include <cstddef>
@@ -22,24 +22,24 @@ struct alignas(64) Lanes {
   Real operator[](int i) const { return v[i]; }
 };
 
-/// One interval in each column of a micro; low above high where there is none.
+/// One interval in each column of a micro; low > high: none.
 struct Slot {
   Lanes low, high;
   alignas(64) std::uint32_t low_step[kLanes];
   alignas(64) std::uint32_t high_step[kLanes];
 };
 
-/// Memory for slots, in pages that go from one tile to the next; all of it is kept until the last tile that
-/// uses it ends. Safe to use from several threads.
+/// Memory for slots, in pages that tiles return and reuse; all of it is kept until the last tile that uses it
+/// is destroyed. Thread-safe.
 class SlotPages {
  public:
-  static constexpr std::size_t kSlots = 16;  // of a page
+  static constexpr std::size_t kSlots = 16;  // per page
   struct Page {
     Slot slot[kSlots];
-    std::int32_t next[kSlots];  // slot of the same chain, or of those that are free; -1 after the last
+    std::int32_t next[kSlots];  // next slot of the same chain or of the free list; -1 after the last
   };
   Page* take();
-  void give_back(const std::vector<Page*>& pages);
+  void release(const std::vector<Page*>& pages);
 
  private:
   struct Free {
@@ -50,7 +50,7 @@ class SlotPages {
   std::vector<Page*> unused_;
 };
 
-/// Slots by number. They never move, and no slot is copied as their number grows.
+/// Numbered slots. They never move, and none is copied as their number grows.
 class Slots {
  public:
   explicit Slots(std::shared_ptr<SlotPages> memory) : memory_(std::move(memory)) {}
@@ -61,22 +61,22 @@ class Slots {
     return *this;
   }
   ~Slots();
-  /// None, in the same memory.
+  /// An empty list that uses the same memory.
   Slots none() const { return Slots(memory_); }
 
-  Slot& operator[](std::int32_t k) { return page(k).slot[place(k)]; }
-  const Slot& operator[](std::int32_t k) const { return page(k).slot[place(k)]; }
-  std::int32_t& next(std::int32_t k) { return page(k).next[place(k)]; }
-  std::int32_t next(std::int32_t k) const { return page(k).next[place(k)]; }
+  Slot& operator[](std::int32_t k) { return page(k).slot[index_in_page(k)]; }
+  const Slot& operator[](std::int32_t k) const { return page(k).slot[index_in_page(k)]; }
+  std::int32_t& next(std::int32_t k) { return page(k).next[index_in_page(k)]; }
+  std::int32_t next(std::int32_t k) const { return page(k).next[index_in_page(k)]; }
   std::int32_t size() const { return size_; }
-  /// Not cleared: Tile::add_slot does that.
+  /// Appends an uninitialised slot; Tile::add_slot clears it.
   void add() {
-    if (place(size_++) == 0) pages_.push_back(memory_->take());
+    if (index_in_page(size_++) == 0) pages_.push_back(memory_->take());
   }
 
  private:
   using Page = SlotPages::Page;
-  static std::size_t place(std::int32_t k) { return static_cast<std::size_t>(k) % SlotPages::kSlots; }
+  static std::size_t index_in_page(std::int32_t k) { return static_cast<std::size_t>(k) % SlotPages::kSlots; }
   Page& page(std::int32_t k) const { return *pages_[static_cast<std::size_t>(k) / SlotPages::kSlots]; }
   void swap(Slots& other) {
     memory_.swap(other.memory_);

@@ -1,4 +1,4 @@
-// The material columns: making them, reading them, their volume.
+// The dexel columns of a workpiece: making and reading them, their volume.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -49,9 +49,9 @@ Tile::Tile(Real height, int micros, std::shared_ptr<SlotPages> memory) : slots(s
 
 namespace {
 
-/// Unused slots that are kept in any case, and the share of all that is kept.
+/// Free slots up to this number, or up to this fraction (1 / divisor) of all slots, are kept.
 constexpr std::int32_t kMaxUnused = 16;
-constexpr std::int32_t kMaxUnusedShare = 3;
+constexpr std::int32_t kUnusedDivisor = 3;
 
 }  // namespace
 
@@ -100,7 +100,7 @@ void Tile::drop_chain(int micro) {
 void Tile::pack_slots() {
   std::int32_t unused = 0;
   for (std::int32_t k = free_slot; k >= 0; k = slots.next(k)) ++unused;
-  if (unused < kMaxUnused || unused < slots.size() / kMaxUnusedShare) return;
+  if (unused < kMaxUnused || unused < slots.size() / kUnusedDivisor) return;
   Slots packed = slots.none();
   for (std::int32_t& first : chain) {
     std::int32_t* link = &first;
@@ -143,16 +143,16 @@ void Tile::intervals(int index, std::vector<Interval>& out) const {
 
 void Tile::cut_through(int index, std::vector<std::uint32_t>& out) const {
   const int micro = index / kLanes, lane = index % kLanes;
-  // An interval that ends keeps the step of its end as that of its high end.
+  // The high end of an empty interval has the step that removed it.
   out.push_back(top_step[micro][lane]);
   for (std::int32_t k = chain[micro]; k >= 0; k = slots.next(k)) out.push_back(slots[k].high_step[lane]);
 }
 
 namespace {
 
-/// A last column that holds less than this share of a pitch is rounding of the division, not material.
+/// A last column narrower than this fraction of a pitch comes from rounding of the division.
 constexpr double kNoColumn = 1e-6;
-/// Smallest difference in height that is kept, mm, and in units of the height's last place.
+/// Minimum difference of two heights, mm, and in ulps of the height.
 constexpr double kSameHeight = 1e-5;
 constexpr double kSameHeightUlps = 4.0;
 
@@ -162,9 +162,9 @@ int column_count(double size, double pitch) {
   return static_cast<int>(count);
 }
 
-double share_inside(int i, double pitch, double size) { return std::clamp(size / pitch - i, 0.0, 1.0); }
+double fraction_inside(int i, double pitch, double size) { return std::clamp(size / pitch - i, 0.0, 1.0); }
 
-double place_inside(int i, double pitch, double size) {
+double centre_inside(int i, double pitch, double size) {
   return 0.5 * (i * pitch + std::min((i + 1) * pitch, size));
 }
 
@@ -178,8 +178,8 @@ Workpiece::Body::Body(const Box3& block, double column_pitch) : bounds(block), p
   tiles_x = (nx + sim::kTileColumns - 1) / sim::kTileColumns;
   tiles_y = (ny + sim::kTileColumns - 1) / sim::kTileColumns;
   height = static_cast<sim::Real>(size.z);
-  const double last_place = std::nextafter(height, sim::kFar) - height;
-  same_height = static_cast<sim::Real>(std::max(sim::kSameHeight, sim::kSameHeightUlps * last_place));
+  const double ulp = std::nextafter(height, sim::kFar) - height;
+  same_height = static_cast<sim::Real>(std::max(sim::kSameHeight, sim::kSameHeightUlps * ulp));
   tiles.resize(static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y));
 }
 
@@ -222,10 +222,10 @@ void Workpiece::Body::restore(std::size_t tile) {
   sim::fill_start_tile(*this, tile, *tiles[tile]);
 }
 
-double Workpiece::Body::place_x(int i) const { return sim::place_inside(i, pitch, bounds.size().x); }
-double Workpiece::Body::place_y(int j) const { return sim::place_inside(j, pitch, bounds.size().y); }
-double Workpiece::Body::share_x(int i) const { return sim::share_inside(i, pitch, bounds.size().x); }
-double Workpiece::Body::share_y(int j) const { return sim::share_inside(j, pitch, bounds.size().y); }
+double Workpiece::Body::column_x(int i) const { return sim::centre_inside(i, pitch, bounds.size().x); }
+double Workpiece::Body::column_y(int j) const { return sim::centre_inside(j, pitch, bounds.size().y); }
+double Workpiece::Body::fraction_x(int i) const { return sim::fraction_inside(i, pitch, bounds.size().x); }
+double Workpiece::Body::fraction_y(int j) const { return sim::fraction_inside(j, pitch, bounds.size().y); }
 
 Workpiece::Workpiece(const Stock& stock, Length pitch)
     : body_(std::make_unique<Body>(stock.block, pitch.mm())) {}
@@ -252,8 +252,8 @@ std::vector<Interval> Workpiece::column(int i, int j) const {
   return out;
 }
 
-double ColumnGrid::column_x(int i) const { return sim::place_inside(i, pitch, bounds.size().x); }
-double ColumnGrid::column_y(int j) const { return sim::place_inside(j, pitch, bounds.size().y); }
+double ColumnGrid::column_x(int i) const { return sim::centre_inside(i, pitch, bounds.size().x); }
+double ColumnGrid::column_y(int j) const { return sim::centre_inside(j, pitch, bounds.size().y); }
 
 ColumnGrid Workpiece::grid() const {
   const Body& body = *body_;
@@ -303,9 +303,9 @@ Volume Workpiece::volume() const {
         for (const Interval& run : column)
           length += static_cast<double>(run.high) - static_cast<double>(run.low);
       }
-      line += length * body.share_x(i);
+      line += length * body.fraction_x(i);
     }
-    sum += line * body.share_y(j);
+    sum += line * body.fraction_y(j);
   }
   return mm3(sum * body.pitch * body.pitch + body.wall_volume);
 }

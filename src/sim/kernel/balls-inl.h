@@ -1,5 +1,6 @@
-// Balls over columns that stand on the floor a pitch apart, sixteen sweeps at a time: what reliefs are made
-// of. All pairs of a sweep and a micro are listed first, so that one loop without branches does the rest.
+// Balls over columns that start at the floor and lie one pitch apart, sixteen sweeps at a time: the finishing
+// passes of reliefs. All pairs of a sweep and a micro are listed first, so that one loop without branches
+// does the rest.
 #if defined(KERF_SIM_BALLS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_BALLS_INL_H
 #undef KERF_SIM_BALLS_INL_H
@@ -15,29 +16,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
-inline constexpr int kGroup = kLanes;  // sweeps: one bit of a mask each
+inline constexpr int kGroup = kLanes;  // sweeps, one bit of a mask each
 
-/// Steeper paths go another way: along them heights are differences of numbers that grow with the slope.
+/// Steeper paths use the general code, as their heights would be differences of numbers that grow with the
+/// slope.
 inline constexpr double kSteepest = 4;
 
-/// A ball's sweep, seen from its begin: u runs along the path in plan, v across, z is the ball's centre. A
-/// tile's supers, a super's micros and a micro's columns are one pattern of 4 x 4 places, four times as large
-/// each time.
+/// The sweep of a ball relative to its start point: u runs along the path in plan, v across, z is the height
+/// of the ball's centre. The supers of a tile, the micros of a super and the columns of a micro form the same
+/// 4 x 4 pattern, four times as large each time.
 struct BallSweep {
-  Lanes u, v;              // of a micro's columns from its middle
-  Lanes super_u, super_v;  // of the middles of the tile's supers
-  Lanes micro_u, micro_v;  // of the middles of a super's micros
+  Lanes u, v;              // columns of a micro, from its centre
+  Lanes super_u, super_v;  // centres of the supers of the tile
+  Lanes micro_u, micro_v;  // centres of the micros of a super
   Lanes taken;             // length of column
   Real length = 0, slope = 0;
-  Real z_begin = 0, z_end = 0;
-  Real slant2 = 1;  // length along the path a mm in plan, squared
-  Real lead2 = 0;   // Sweep::ball_lead squared, with its sign
-  Real lowest = 0;  // of the centre
-  Real behind = 0;  // all before this was cut by the sweep before
-  Real reach = 0;   // from a square's middle to its border along u and v, a mm of half its side
+  Real z_start = 0, z_end = 0;
+  Real slant2 = 1;  // length along the path per mm in plan, squared
+  Real lead2 = 0;   // Sweep::ball_lead squared, with the sign of ball_lead
+  Real lowest = 0;  // minimum height of the centre
+  Real behind = 0;  // everything before this u was cut by the previous sweep
+  Real reach = 0;   // half extent of a square along u and v, per mm of half its side
   std::uint32_t step = 0;
   bool follows = false;
-  bool to_floor = false;  // it may cut through
+  bool to_floor = false;  // it may cut through to the floor
 };
 
 /// Pairs of a sweep and a micro of one super, in order of time.
@@ -52,47 +54,47 @@ struct BallGroup {
   Real radius2 = 0;
 };
 
-/// What all sweeps of a group share.
+/// Data of a tile that all sweeps of a group use.
 struct BallTile {
   HWY_INLINE BallTile(const TileJob& job, const LaneCap& cap)
-      : middle_x(job.x + 31.5 * job.field->pitch),
-        middle_y(job.y + 31.5 * job.field->pitch),
+      : centre_x(job.x + 31.5 * job.field->pitch),
+        centre_y(job.y + 31.5 * job.field->pitch),
         radius(std::sqrt(cap.radius2)),
-        sight(kTileColumns * job.field->pitch + static_cast<double>(radius)),
+        range(kTileColumns * job.field->pitch + static_cast<double>(radius)),
         centre_z(static_cast<double>(cap.centre_z)),
         floor(radius + 2 * job.field->same_height),
         x((load(kColumn) - 1.5f) * job.field->step[1]),
         y((load(kRow) - 1.5f) * job.field->step[1]) {}
 
-  double middle_x, middle_y;
+  double centre_x, centre_y;
   Real radius;
-  double sight;     // ends of paths that are further away along the path are seen by no column
+  double range;     // farther path ends reach no column
   double centre_z;  // of the ball, above the tip
-  Real floor;       // a ball with its centre below this may cut through
-  Vector x, y;      // the places of the pattern, the least ones
+  Real floor;       // below this height of its centre a ball may cut through
+  Vector x, y;      // the pattern of a micro
 };
 
-/// Which sweeps of a tool go this way where the tile allows it. Only such sweeps share a group, so that how a
-/// sweep is cut does not depend on the others.
-struct BallWay {
-  HWY_INLINE BallWay(const TileJob& job, const LaneSolid& solid)
+/// Selects the sweeps of a tool that this code can cut in a tile. Only such sweeps form a group, so that the
+/// result of a sweep does not depend on the others.
+struct BallFilter {
+  HWY_INLINE BallFilter(const TileJob& job, const LaneSolid& solid)
       : is_ball(solid.is_ball),
         lowest(static_cast<double>(job.field->height) - static_cast<double>(solid.top)) {}
-  HWY_INLINE bool takes(const Sweep& sweep) const {
+  HWY_INLINE bool accepts(const Sweep& sweep) const {
     return is_ball && std::abs(sweep.slope) <= kSteepest && std::min(sweep.z, sweep.z_end) >= lowest;
   }
   bool is_ball;
-  double lowest;  // of a tip whose solid reaches above the block
+  double lowest;  // minimum tip height at which the solid reaches above the block
 };
 
-/// Whether the columns of a tile are a pitch apart and have always stood on the floor.
+/// Whether the columns of a tile are one pitch apart and have only ever had an interval at the floor.
 HWY_INLINE bool is_plain(const TileJob& job) {
-  return job.points == nullptr && job.place_x == nullptr && !job.tile->was_undercut;
+  return job.points == nullptr && job.position_x == nullptr && !job.tile->was_undercut;
 }
 
-/// Where the tile is: the pattern of its places turned to the sweep's path.
-HWY_INLINE void place_tile(BallSweep& ball, const Sweep& sweep, const BallTile& tile, double along,
-                           double across) {
+/// Rotates the pattern of the tile into the frame of the sweep.
+HWY_INLINE void rotate_pattern(BallSweep& ball, const Sweep& sweep, const BallTile& tile, double along,
+                               double across) {
   const Real cx = static_cast<Real>(sweep.ux), cy = static_cast<Real>(sweep.uy);
   const Vector u = tile.x * cx + tile.y * cy, v = tile.y * cx - tile.x * cy;
   store(u, ball.u);
@@ -103,39 +105,39 @@ HWY_INLINE void place_tile(BallSweep& ball, const Sweep& sweep, const BallTile& 
 }
 
 HWY_INLINE void prepare_ball(BallSweep& ball, const BallTile& tile, const Sweep& sweep) {
-  const double x = tile.middle_x - sweep.x, y = tile.middle_y - sweep.y;
+  const double x = tile.centre_x - sweep.x, y = tile.centre_y - sweep.y;
   const double across = y * sweep.ux - x * sweep.uy;
-  double along = x * sweep.ux + y * sweep.uy, left_out = 0, length = sweep.length;
-  if (HWY_UNLIKELY(length > tile.sight)) {  // so that numbers stay small
-    left_out = std::clamp(along - tile.sight, 0.0, length);
-    along -= left_out;
-    length = std::clamp(along + tile.sight, 0.0, length - left_out);
+  double along = x * sweep.ux + y * sweep.uy, skipped = 0, length = sweep.length;
+  if (HWY_UNLIKELY(length > tile.range)) {  // keeps numbers small
+    skipped = std::clamp(along - tile.range, 0.0, length);
+    along -= skipped;
+    length = std::clamp(along + tile.range, 0.0, length - skipped);
   }
-  const double z = sweep.z + sweep.slope * left_out + tile.centre_z;
+  const double z = sweep.z + sweep.slope * skipped + tile.centre_z;
   ball.length = static_cast<Real>(length);
   ball.slope = static_cast<Real>(sweep.slope);
-  ball.z_begin = static_cast<Real>(z);
+  ball.z_start = static_cast<Real>(z);
   ball.z_end = static_cast<Real>(z + sweep.slope * length);
   ball.follows = sweep.follows;
-  if (HWY_UNLIKELY(sweep.length == 0)) {  // straight up or down: what follows is all new
-    ball.z_begin = ball.z_end = static_cast<Real>(std::min(sweep.z, sweep.z_end) + tile.centre_z);
+  if (HWY_UNLIKELY(sweep.length == 0)) {  // vertical: nothing was cut before
+    ball.z_start = ball.z_end = static_cast<Real>(std::min(sweep.z, sweep.z_end) + tile.centre_z);
     ball.follows = false;
   }
-  ball.lowest = lower_real(ball.z_begin, ball.z_end);
+  ball.lowest = lower_real(ball.z_start, ball.z_end);
   ball.slant2 = 1 + ball.slope * ball.slope;
   ball.lead2 = sweep.ball_lead * std::abs(sweep.ball_lead);
   ball.step = sweep.step;
   ball.to_floor = ball.lowest < tile.floor;
-  // The lowest point above what lies further back is the begin, where the sweep before has ended.
+  // Columns farther back are lowest above the start point, where the previous sweep ended.
   const Real lead = lower_real(sweep.ball_lead, 0) * tile.radius;
-  ball.behind = ball.follows ? lead - static_cast<Real>(left_out) : -kFar;
-  place_tile(ball, sweep, tile, along, across);
+  ball.behind = ball.follows ? lead - static_cast<Real>(skipped) : -kFar;
+  rotate_pattern(ball, sweep, tile, along, across);
   store(0, ball.taken);
 }
 
-/// Cuts one micro with one sweep. The ball touches a column deepest where it is ahead of it by its lead, but
-/// not before its begin or beyond its end; which of the three is told by squares, since a root takes as long
-/// as ten other operations. What a sweep that follows another touches at its begin is cut already.
+/// Cuts one micro with one sweep. The ball is lowest above a column where its centre is ahead of it by the
+/// lead, clamped to the path. Squares decide which of start, path and end applies, as a root accepts as long
+/// as ten other operations. What a following sweep touches at its start has been cut already.
 HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real same, Lanes& tops,
                               std::uint32_t* steps, Lanes& taken) {
   const Vector u = load(ball.u) + ball.micro_u[inner], v = load(ball.v) + ball.micro_v[inner];
@@ -144,11 +146,11 @@ HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real sam
   const Vector u2 = u * absolute(u), beyond2 = beyond * absolute(beyond);
   const Mask at_end = beyond2 > lead2;
   Vector down2 = select(at_end, across - absolute(beyond2), ball.slant2 * across);
-  Vector centre = select(at_end, ball.z_end, ball.z_begin + ball.slope * u);
+  Vector centre = select(at_end, ball.z_end, ball.z_start + ball.slope * u);
   if (!ball.follows) {
-    const Mask at_begin = u2 < lead2;
-    down2 = select(at_begin, across - absolute(u2), down2);
-    centre = select(at_begin, ball.z_begin, centre);
+    const Mask at_start = u2 < lead2;
+    down2 = select(at_start, across - absolute(u2), down2);
+    centre = select(at_start, ball.z_start, centre);
   }
   Vector low = centre - root_or_nan(down2);
   if (ball.to_floor) low = select(low < same, 0, low);
@@ -161,8 +163,8 @@ HWY_INLINE void cut_with_ball(BallSweep& ball, int inner, Real radius2, Real sam
   store(select(cut, sum + depth, sum), taken);
 }
 
-/// Square blocks of columns, 2 `half` wide with their middles at (u, v), that a ball can meet, given their
-/// highest material.
+/// Square blocks of columns, 2 `half` wide and centred at (u, v), that a ball can touch, given their highest
+/// material.
 HWY_INLINE Mask cull_ball(const BallSweep& ball, Vector u, Vector v, Real half, Vector top, Real radius2) {
   const Real reach = half * ball.reach;
   const Vector du = u - clamped(u, -reach, ball.length + reach);
@@ -183,11 +185,11 @@ HWY_INLINE void add_pairs(BallPairs& pairs, int sweep, Mask micros) {
   }
 }
 
-/// Lists which micros of a super the sweeps whose bits are set can meet. Returns those that any can.
+/// Lists the micros of a super that the given sweeps (bits) can touch. Returns the micros touched by any.
 HWY_INLINE Mask list_pairs(BallGroup& group, const TileJob& job, int super, unsigned sweeps) {
   const Vector top = load(job.tile->micro_top + super * kSupers);
   const Real half = 1.5f * job.field->step[1];
-  Mask met = no_lane();
+  Mask touched = no_lane();
   group.pairs.count = 0;
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
@@ -198,16 +200,16 @@ HWY_INLINE Mask list_pairs(BallGroup& group, const TileJob& job, int super, unsi
     store(v, ball.micro_v);
     const Mask micros = cull_ball(ball, u, v, half, top, group.radius2);
     add_pairs(group.pairs, k, micros);
-    met = met | micros;
+    touched = touched | micros;
   }
-  return met;
+  return touched;
 }
 
-/// Cuts one super with those sweeps of the group whose bits are set.
+/// Cuts one super with the given sweeps (bits) of the group.
 HWY_NOINLINE void balls_over_super(BallGroup& group, const TileJob& job, int super, unsigned sweeps) {
   Tile& tile = *job.tile;
   const int first = super * kSupers;
-  const Mask met = list_pairs(group, job, super, sweeps);
+  const Mask touched = list_pairs(group, job, super, sweeps);
   const Real same = job.field->same_height, radius2 = group.radius2;
   for (int n = 0, count = group.pairs.count; n < count; ++n) {
     const std::uint32_t pair = group.pairs.pair[n];
@@ -216,14 +218,14 @@ HWY_NOINLINE void balls_over_super(BallGroup& group, const TileJob& job, int sup
     cut_with_ball(ball, inner, radius2, same, tile.top[first + inner], tile.top_step[first + inner],
                   ball.taken);
   }
-  for (unsigned rest = bits_of(met); rest != 0; rest &= rest - 1) {
+  for (unsigned rest = bits_of(touched); rest != 0; rest &= rest - 1) {
     const int micro = first + __builtin_ctz(rest);
     tile.micro_top[micro] = highest_of(load(tile.top[micro]));
   }
   tile.super_top[super] = highest_of(load(tile.micro_top + first));
 }
 
-/// Cuts with `count` sweeps of the job's list from number `first` on.
+/// Cuts with `count` sweeps of the job's list, starting at number `first`.
 HWY_NOINLINE void cut_balls(BallGroup& group, const TileJob& job, const LaneCap& cap, std::size_t first,
                             int count) {
   Tile& tile = *job.tile;
@@ -231,16 +233,16 @@ HWY_NOINLINE void cut_balls(BallGroup& group, const TileJob& job, const LaneCap&
   group.radius2 = cap.radius2;
   const BallTile around(job, cap);
   alignas(64) std::uint32_t supers[kGroup] = {};
-  unsigned met = 0;
+  unsigned touched = 0;
   for (int k = 0; k < count; ++k) {
     BallSweep& ball = group.ball[k];
     prepare_ball(ball, around, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
     supers[k] = bits_of(cull_ball(ball, load(ball.super_u), load(ball.super_v), 7.5f * field.step[1],
                                   load(tile.super_top), group.radius2));
-    met |= supers[k];
+    touched |= supers[k];
   }
-  for (; met != 0; met &= met - 1) {
-    const int super = __builtin_ctz(met);
+  for (; touched != 0; touched &= touched - 1) {
+    const int super = __builtin_ctz(touched);
     balls_over_super(group, job, super, lanes_with(supers, 1u << super));
   }
   for (int k = 0; k < count; ++k) {

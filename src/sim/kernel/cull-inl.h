@@ -1,4 +1,4 @@
-// Which of sixteen square blocks of columns a sweep can meet at all.
+// Culling: which of sixteen square blocks of columns a sweep can touch.
 #if defined(KERF_SIM_CULL_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_CULL_INL_H
 #undef KERF_SIM_CULL_INL_H
@@ -13,24 +13,25 @@
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
-// Places of the lanes in a 4 x 4 block.
+// Column and row of the lanes in a 4 x 4 block.
 inline constexpr Lanes kColumn = {{0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3}};
 inline constexpr Lanes kRow = {{0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3}};
 
-/// Sixteen blocks of columns: their centres from the tile's first column, half the reach of their columns.
+/// Sixteen blocks of columns: their centres from the first column of the tile, and the half extents of their
+/// columns.
 struct Blocks {
   Vector x, y, half_x, half_y;
 };
-/// Blocks in 4 rows of 4: the centre of the first, their distance, half the reach of their columns.
+/// 4 x 4 blocks: the centre of the first, their distance, and the half extent of their columns.
 HWY_INLINE Blocks square_of_blocks(Real x, Real y, Real step, Real half) {
   return {x + load(kColumn) * step, y + load(kRow) * step, half, half};
 }
 HWY_INLINE Blocks blocks_of(const PointTile::Boxes& boxes) {
   return {load(boxes.x), load(boxes.y), load(boxes.half_x), load(boxes.half_y)};
 }
-/// How far columns may be from where they were if they were a pitch apart, pitches: the last ones stand in
-/// the middle of what is left of them.
-HWY_INLINE Real farthest_shift(const TileJob& job) { return job.place_x != nullptr ? 0.5f : 0.0f; }
+/// Maximum offset of columns from a grid of one pitch, in pitches: a narrower last column has its centre in
+/// what is left of it.
+HWY_INLINE Real farthest_shift(const TileJob& job) { return job.position_x != nullptr ? 0.5f : 0.0f; }
 HWY_INLINE Blocks supers_of(const TileJob& job) {
   if (job.points != nullptr) return blocks_of(job.points->around_supers);
   const Real pitch = job.field->step[1];
@@ -45,11 +46,11 @@ HWY_INLINE Blocks micros_of(const TileJob& job, int super) {
                           (1.5f + farthest_shift(job)) * pitch);
 }
 
-/// How far the path is from the blocks at least, squared, in plan, and the heights of the tip while the tool
-/// is over them.
+/// The minimum squared distance in plan of the path from each block, and the range of heights of the tip
+/// while the tool is over it.
 struct Nearness {
   Vector distance2, z_low, z_high;
-  Mask ahead;  // not all of the block is behind, see behind_of
+  Mask ahead;  // part of the block is not behind, see behind_of
 };
 
 HWY_INLINE Nearness near_line(const LocalSweep& w, const Blocks& b, Real rim) {
@@ -79,12 +80,12 @@ HWY_INLINE Nearness near_arc(const LocalSweep& w, const Blocks& b) {
   return {higher_of(dr * dr, dx * dx + dy * dy), w.z_low, w.z_high, every_lane()};
 }
 
-/// Most pieces of a solid for which all of them are looked at together.
+/// Maximum number of pieces of a solid that are all tested.
 inline constexpr std::size_t kFewPieces = 4;
 
-/// Of a level line that follows another: blocks in which some piece takes what it did not take at the line's
-/// begin. A cylinder takes nothing new from a block that its first disc covers.
-HWY_INLINE Mask new_ground(const LocalSweep& w, const LaneSolid& solid, const Blocks& b, Vector distance2) {
+/// Of a level line that follows another: blocks in which some piece can remove what it did not remove at the
+/// start of the line. A cylinder removes nothing from a block that its disc at the start covers.
+HWY_INLINE Mask not_yet_cut(const LocalSweep& w, const LaneSolid& solid, const Blocks& b, Vector distance2) {
   const Vector x = w.x + b.x - w.t_low * w.cx, y = w.y + b.y - w.t_low * w.cy;
   const Vector far2 = square(absolute(x) + b.half_x) + square(absolute(y) + b.half_y);
   Mask some = no_lane();
@@ -95,14 +96,14 @@ HWY_INLINE Mask new_ground(const LocalSweep& w, const LaneSolid& solid, const Bl
   return some;
 }
 
-/// Bits of the blocks that a solid can meet, given the blocks' highest and lowest material.
+/// Bits of the blocks that a solid can touch, given their highest and lowest material.
 HWY_INLINE unsigned cull(const LocalSweep& w, const LaneSolid& solid, const Blocks& b, const Real* top,
                          const Real* bottom) {
   const Nearness n = w.is_arc ? near_arc(w, b) : near_line(w, b, solid.rim);
   Mask meets = n.ahead;
   if (solid.is_ball) {
     const Vector over = higher_of(n.z_low + solid.pieces[0].lower.centre_z - load(top),
-                                  0);  // of the ball's centre over the material
+                                  0);  // height of the ball's centre above the material
     meets = meets & (solid.pieces[0].lower.radius2 - n.distance2 > over * over);
   } else if (solid.is_flat) {
     meets = meets & (n.distance2 < solid.rim * solid.rim) & (n.z_low + solid.bottom < load(top)) &
@@ -116,7 +117,7 @@ HWY_INLINE unsigned cull(const LocalSweep& w, const LaneSolid& solid, const Bloc
             (n.z_high + solid.top > load(bottom));
   }
   if (w.level_follow && solid.pieces.size() <= kFewPieces)
-    meets = meets & new_ground(w, solid, b, n.distance2);
+    meets = meets & not_yet_cut(w, solid, b, n.distance2);
   return bits_of(meets);
 }
 

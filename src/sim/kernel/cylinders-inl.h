@@ -1,12 +1,12 @@
-// Cylinders that move at one height: keyhole and T-slot cutters, flat mills in pockets. Whichever sweep is
-// the first over a column takes all that any of them takes, so many sweeps in a row are looked at together:
-// which of them is the first over each column, and then one subtraction.
+// Cylinders that move at one height: keyhole and T-slot cutters, flat mills in pockets. The first sweep over
+// a column removes all that any of them removes, so many successive sweeps are processed together: find the
+// first sweep over each column, then subtract once.
 //
-// Sweeps that follow each other are bundled, as many as are about as long as half a micro: one comparison
-// tells which of sixteen bundles can meet a block of columns. A block that the disc at a bundle's begin
-// covers has nothing more to give, nor has one that lies behind. All places are kept from the tile's first
-// column, so that the disc at a sweep's end is to the bit the disc at the next one's begin: that one takes
-// nothing and is not looked at, whatever else is bundled.
+// Sweeps that follow each other are bundled into chords of about half a micro; one comparison tests sixteen
+// bundles against a block of columns. A block that is covered by the disc at the start of a bundle, or lies
+// behind it, is already cut. All positions are relative to the tile's first column, so that the disc at the
+// end of a sweep and that at the start of the next are the same to the bit: the latter removes nothing and is
+// skipped, whatever else is bundled.
 #if defined(KERF_SIM_CYLINDERS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_CYLINDERS_INL_H
 #undef KERF_SIM_CYLINDERS_INL_H
@@ -22,43 +22,43 @@
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
-inline constexpr int kBundles = kLanes;  // of a group: one bit of a mask each
-inline constexpr int kMaxBundled = 8;    // sweeps of a bundle
+inline constexpr int kBundles = kLanes;  // per group, one bit of a mask each
+inline constexpr int kMaxBundled = 8;    // sweeps per bundle
 inline constexpr int kMaxSweeps = kBundles * kMaxBundled;
-inline constexpr Real kBundleLength = 3;  // pitches, where sweeps are that short
-/// What is left to rounding where blocks are compared, pitches.
+inline constexpr Real kBundleLength = 3;  // pitches, if sweeps are that short
+/// Margin for rounding in comparisons with blocks, pitches.
 inline constexpr Real kBlockMargin = 0.01f;
-/// Sweeps of a bundle turn away from its chord by less than the angle with this cosine, or no block counts as
-/// wholly before it or behind it.
+/// Minimum cosine of the angle between the sweeps of a bundle and its chord; below it no block counts as
+/// entirely before or behind the bundle.
 inline constexpr Real kMinCosine = 0.5f;
 
-/// A level sweep from the tile's first column.
+/// A level sweep, relative to the tile's first column.
 struct DiscSweep {
   Real start_x, start_y, end_x, end_y;
   Real along_x, along_y, length;
   bool follows;
 };
 
-/// Sweeps that are looked at together, as a straight line.
+/// Sweeps that are tested together, as a straight line.
 struct Bundle {
   Real start_x, start_y, along_x, along_y, length;
-  Real slack;               // how much farther back or ahead than a block may seem to be it has to be
-  Real outer2[kFewPieces];  // squared distances: the reach of a cylinder from the line,
-  Real inner2[kFewPieces];  // and its disc at the begin, where the sweep before has been
+  Real slack;               // margin for a block to count as behind or ahead
+  Real outer2[kFewPieces];  // squared distances: reach of a cylinder from the line,
+  Real inner2[kFewPieces];  // and its disc at the start, where the previous sweep ended
 };
-/// Which of sixteen blocks of columns a bundle can take something of, one bit each, by cylinders; and which
-/// of those lie so far ahead of it that only the discs at its sweeps' ends count.
+/// For each cylinder and bundle the blocks (one bit each) that it can cut, and those so far ahead that only
+/// the discs at the ends of its sweeps count.
 struct BundleBits {
-  alignas(64) std::uint32_t met[kFewPieces][kBundles];
+  alignas(64) std::uint32_t touched[kFewPieces][kBundles];
   alignas(64) std::uint32_t passed[kBundles];
 };
 
 struct CylinderGroup {
   const LaneSolid* solid = nullptr;
-  int count = 0, each = 1;                 // sweeps, and how many make a bundle
-  Real low[kFewPieces], high[kFewPieces];  // what the cylinders take
+  int count = 0, each = 1;                 // sweeps, and sweeps per bundle
+  Real low[kFewPieces], high[kFewPieces];  // interval removed by each cylinder
   DiscSweep sweep[kMaxSweeps];
-  // One more for columns that no sweep meets.
+  // The last one is for columns that no sweep touches.
   std::uint32_t step[kMaxSweeps + 1];
   Lanes taken[kMaxSweeps + 1];  // length of column, weighted
   int bundles = 0;
@@ -66,37 +66,38 @@ struct CylinderGroup {
   BundleBits supers, micros;
 };
 
-/// Whether a tool's level sweeps go this way.
+/// Whether this code can cut level sweeps of a tool.
 HWY_INLINE bool may_be_level_cylinders(const LaneSolid& solid) {
   return solid.is_cylinders && !solid.pieces.empty() && solid.pieces.size() <= kFewPieces;
 }
 
-/// Whether a sweep goes this way.
+/// Whether this code can cut a sweep.
 HWY_INLINE bool is_level_cylinders(const TileJob& job, const Sweep& sweep) {
   return sweep.z == sweep.z_end && may_be_level_cylinders((*job.tools)[sweep.tool].cutting);
 }
 
-/// Ends that no column of the tile can see are brought nearer, so that numbers stay small.
+/// Ends that reach no column of the tile are moved nearer, to keep numbers small.
 HWY_INLINE DiscSweep disc_sweep(const TileJob& job, const Sweep& s, Real rim) {
-  const double sight = 2.0 * (kTileColumns * job.field->pitch + static_cast<double>(rim));
+  const double range = 2.0 * (kTileColumns * job.field->pitch + static_cast<double>(rim));
   double from = 0.0, to = s.length;
-  if (s.length > sight) {
+  if (s.length > range) {
     const double near = (job.x - s.x) * s.ux + (job.y - s.y) * s.uy;
-    from = std::clamp(near - sight, 0.0, s.length);
-    to = std::clamp(near + sight, 0.0, s.length);
+    from = std::clamp(near - range, 0.0, s.length);
+    to = std::clamp(near + range, 0.0, s.length);
   }
-  const auto place = [](double v) { return static_cast<Real>(v); };
-  return {place(s.x + from * s.ux - job.x),
-          place(s.y + from * s.uy - job.y),
-          place(s.x + to * s.ux - job.x),
-          place(s.y + to * s.uy - job.y),
-          place(s.ux),
-          place(s.uy),
-          place(to - from),
+  const auto real = [](double v) { return static_cast<Real>(v); };
+  return {real(s.x + from * s.ux - job.x),
+          real(s.y + from * s.uy - job.y),
+          real(s.x + to * s.ux - job.x),
+          real(s.y + to * s.uy - job.y),
+          real(s.ux),
+          real(s.uy),
+          real(to - from),
           s.follows};
 }
 
-/// A bundle's chord, how far its sweeps may be from it, and how much they turn away from it.
+/// The chord of a bundle, the maximum distance of its sweeps from it, and the slack for their change of
+/// direction.
 struct BundleChord {
   Real along_x, along_y, length, bulge, slack;
 };
@@ -107,18 +108,18 @@ HWY_INLINE BundleChord chord_of(const DiscSweep* sweeps, int count, Real rim) {
   const Real x = last.end_x - first.start_x, y = last.end_y - first.start_y;
   const Real length = std::sqrt(x * x + y * y), per_length = length > 0 ? 1 / length : 0;
   const Real along_x = x * per_length, along_y = y * per_length;
-  Real cosine = 1, sine = 0, way = 0;
+  Real cosine = 1, sine = 0, total = 0;
   bool all_follow = true;
   for (int k = 0; k < count; ++k) {
     const DiscSweep& s = sweeps[k];
     cosine = std::min(cosine, s.along_x * along_x + s.along_y * along_y);
     sine = std::max(sine, std::abs(s.along_y * along_x - s.along_x * along_y));
-    way += s.length;
+    total += s.length;
     all_follow = all_follow && s.follows;
   }
-  if (cosine < kMinCosine) return {along_x, along_y, length, way, kFar};
-  const Real bulge = sine * way;
-  return {along_x, along_y, length, bulge, all_follow ? bulge + sine / cosine * (rim + way) : kFar};
+  if (cosine < kMinCosine) return {along_x, along_y, length, total, kFar};
+  const Real bulge = sine * total;
+  return {along_x, along_y, length, bulge, all_follow ? bulge + sine / cosine * (rim + total) : kFar};
 }
 
 HWY_INLINE void prepare_bundles(CylinderGroup& group, Real pitch) {
@@ -126,11 +127,11 @@ HWY_INLINE void prepare_bundles(CylinderGroup& group, Real pitch) {
   const Real margin = kBlockMargin * pitch;
   group.bundles = 0;
   for (int first = 0; first < group.count; first += group.each) {
-    const DiscSweep& begin = group.sweep[first];
-    const BundleChord chord = chord_of(&begin, std::min(group.each, group.count - first), solid.rim);
+    const DiscSweep& start = group.sweep[first];
+    const BundleChord chord = chord_of(&start, std::min(group.each, group.count - first), solid.rim);
     Bundle& bundle = group.bundle[group.bundles++];
-    bundle = {begin.start_x,
-              begin.start_y,
+    bundle = {start.start_x,
+              start.start_y,
               chord.along_x,
               chord.along_y,
               chord.length,
@@ -139,7 +140,7 @@ HWY_INLINE void prepare_bundles(CylinderGroup& group, Real pitch) {
               {}};
     for (std::size_t p = 0; p < solid.pieces.size(); ++p) {
       const Real rim = solid.pieces[p].rim, outer = rim + chord.bulge + margin;
-      const Real inner = begin.follows ? std::max(rim - margin, Real{0}) : 0;
+      const Real inner = start.follows ? std::max(rim - margin, Real{0}) : 0;
       bundle.outer2[p] = outer * outer;
       bundle.inner2[p] = inner * inner;
     }
@@ -147,17 +148,17 @@ HWY_INLINE void prepare_bundles(CylinderGroup& group, Real pitch) {
 }
 
 /// Compares bundles (one bit each) with blocks, given their highest and lowest material. Returns the bits of
-/// blocks that any of them meets.
+/// blocks that any of them touches.
 HWY_INLINE unsigned bundles_over(const CylinderGroup& group, unsigned bundles, const Blocks& blocks,
                                  const Real* top, const Real* bottom, BundleBits& bits) {
   const std::size_t pieces = group.solid->pieces.size();
   Mask material[kFewPieces];
   for (std::size_t p = 0; p < pieces; ++p) {
     material[p] = (load(top) > group.low[p]) & (load(bottom) < group.high[p]);
-    store_ids(all_ids(0), bits.met[p]);
+    store_ids(all_ids(0), bits.touched[p]);
   }
   store_ids(all_ids(0), bits.passed);
-  unsigned all_met = 0;
+  unsigned all_touched = 0;
   for (; bundles != 0; bundles &= bundles - 1) {
     const int b = __builtin_ctz(bundles);
     const Bundle& bundle = group.bundle[b];
@@ -170,32 +171,33 @@ HWY_INLINE unsigned bundles_over(const CylinderGroup& group, unsigned bundles, c
     const Vector near2 = du * du + dv * dv;
     const Vector far2 = square(absolute(x) + blocks.half_x) + square(absolute(y) + blocks.half_y);
     const Mask ahead = u + reach + bundle.slack > 0;
-    unsigned met = 0;
+    unsigned touched = 0;
     for (std::size_t p = 0; p < pieces; ++p) {
-      bits.met[p][b] = bits_of(material[p] & ahead & (near2 < bundle.outer2[p]) & (far2 >= bundle.inner2[p]));
-      met |= bits.met[p][b];
+      bits.touched[p][b] =
+          bits_of(material[p] & ahead & (near2 < bundle.outer2[p]) & (far2 >= bundle.inner2[p]));
+      touched |= bits.touched[p][b];
     }
-    if (met == 0) continue;
+    if (touched == 0) continue;
     bits.passed[b] = bits_of(u - bundle.length - reach > bundle.slack);
-    all_met |= met;
+    all_touched |= touched;
   }
-  return all_met;
+  return all_touched;
 }
 
-/// Squared distance of columns from a sweep's way between its ends, and from its begin if it follows no
-/// other; `distance2` elsewhere. Columns are seen from the end.
-HWY_INLINE Vector nearest_on_the_way(const DiscSweep& s, Vector x, Vector y, Vector distance2) {
+/// Squared distance of columns from the path of a sweep between its ends, and from its start point unless it
+/// follows another sweep; `distance2` elsewhere. Positions are relative to the end point.
+HWY_INLINE Vector nearest_on_path(const DiscSweep& s, Vector x, Vector y, Vector distance2) {
   const Vector u = x * s.along_x + y * s.along_y, v = y * s.along_x - x * s.along_y;
   distance2 = select((u < 0) & (u > -s.length), lower_of(distance2, v * v), distance2);
   if (s.follows) return distance2;
   return lower_of(distance2, square(x + (s.end_x - s.start_x)) + square(y + (s.end_y - s.start_y)));
 }
 
-/// The number of the first sweep over each column; kMaxSweeps where there is none.
-HWY_INLINE Ids first_over(const CylinderGroup& group, const MicroPlaces& places, unsigned bundles,
+/// The number of the first sweep over each column; kMaxSweeps if there is none.
+HWY_INLINE Ids first_over(const CylinderGroup& group, const MicroPositions& positions, unsigned bundles,
                           unsigned passed, Real rim2) {
   Ids first = all_ids(kMaxSweeps);
-  while (bundles != 0) {  // the latest first, so that the others only have to take columns over
+  while (bundles != 0) {  // the latest first; earlier ones overwrite
     const int b = 31 - __builtin_clz(bundles);
     bundles ^= 1u << b;
     const DiscSweep* const begin = group.sweep + b * group.each;
@@ -204,21 +206,21 @@ HWY_INLINE Ids first_over(const CylinderGroup& group, const MicroPlaces& places,
     const bool is_passed = (passed >> b & 1u) != 0;
     while (s-- != begin) {
       number = one_less(number);
-      const Vector x = places.x - s->end_x, y = places.y - s->end_y;
+      const Vector x = positions.x - s->end_x, y = positions.y - s->end_y;
       Vector distance2 = x * x + y * y;
-      if (!is_passed) distance2 = nearest_on_the_way(*s, x, y, distance2);
+      if (!is_passed) distance2 = nearest_on_path(*s, x, y, distance2);
       first = select(distance2 < rim2, number, first);
     }
   }
   return first;
 }
 
-/// Takes a cylinder from the columns of a micro, each by the sweep whose number it has.
+/// Subtracts a cylinder from the columns of a micro, each by the sweep with its number.
 HWY_INLINE void take_by_numbers(CylinderGroup& group, const TileJob& job, int micro, std::size_t piece,
                                 Ids numbers) {
   const Mask none = numbers == all_ids(kMaxSweeps);
-  const unsigned met = bits_of(~none);
-  if (met == 0) return;
+  const unsigned touched = bits_of(~none);
+  if (touched == 0) return;
   alignas(64) std::uint32_t number[kLanes];
   store_ids(numbers, number);
   alignas(64) std::uint32_t step[kLanes];
@@ -231,18 +233,18 @@ HWY_INLINE void take_by_numbers(CylinderGroup& group, const TileJob& job, int mi
   for (int i = 0; i < kLanes; ++i) group.taken[number[i]][i] += taken[i];
 }
 
-/// The same where only few sweeps come in question: no look at each column.
+/// The same for few sweeps: a loop over sweeps instead of columns.
 HWY_INLINE void take_by_few(CylinderGroup& group, const TileJob& job, int micro, std::size_t piece,
                             Ids numbers) {
   const Mask none = numbers == all_ids(kMaxSweeps);
   alignas(64) std::uint32_t number[kLanes];
   store_ids(numbers, number);
-  const unsigned met = bits_of(~none);
-  if (met == 0) return;
+  const unsigned touched = bits_of(~none);
+  if (touched == 0) return;
   std::uint32_t by[kLanes];
   int count = 0;
   Ids step = all_ids(0);
-  for (unsigned rest = met; rest != 0; ++count) {
+  for (unsigned rest = touched; rest != 0; ++count) {
     by[count] = number[__builtin_ctz(rest)];
     const Mask mine = numbers == all_ids(by[count]);
     step = select(mine, all_ids(group.step[by[count]]), step);
@@ -257,15 +259,15 @@ HWY_INLINE void take_by_few(CylinderGroup& group, const TileJob& job, int micro,
   }
 }
 
-/// Takes from a micro, a lane of a super, what is left of it.
+/// Subtracts all cylinders from a micro.
 HWY_NOINLINE void cylinders_over_micro(CylinderGroup& group, const TileJob& job, int micro) {
   const unsigned lane = 1u << (micro % kSupers);
-  const MicroPlaces places = places_of(job, micro);
+  const MicroPositions positions = positions_of(job, micro);
   const unsigned passed = lanes_with(group.micros.passed, lane);
   for (std::size_t p = 0; p < group.solid->pieces.size(); ++p) {
-    const unsigned met = lanes_with(group.micros.met[p], lane);
-    if (met == 0) continue;
-    const Ids first = first_over(group, places, met, passed, group.solid->pieces[p].rim2);
+    const unsigned touched = lanes_with(group.micros.touched[p], lane);
+    if (touched == 0) continue;
+    const Ids first = first_over(group, positions, touched, passed, group.solid->pieces[p].rim2);
     group.each > 1 ? take_by_numbers(group, job, micro, p, first) : take_by_few(group, job, micro, p, first);
   }
 }
@@ -275,7 +277,7 @@ HWY_NOINLINE void cylinders_over_super(CylinderGroup& group, const TileJob& job,
   const int first = super * kSupers;
   unsigned bundles = 0;
   for (std::size_t p = 0; p < group.solid->pieces.size(); ++p)
-    bundles |= lanes_with(group.supers.met[p], 1u << super);
+    bundles |= lanes_with(group.supers.touched[p], 1u << super);
   unsigned micros = bundles_over(group, bundles, micros_of(job, super), tile.micro_top + first,
                                  tile.micro_bottom + first, group.micros);
   if (micros == 0) return;
@@ -283,7 +285,7 @@ HWY_NOINLINE void cylinders_over_super(CylinderGroup& group, const TileJob& job,
   update_super(tile, super);
 }
 
-/// The sweeps of one tile lie far apart.
+/// Prefetch distance: the sweeps of one tile are scattered in memory.
 inline constexpr std::size_t kFetchedAhead = 16;
 HWY_INLINE void fetch(const Sweep& sweep) {
   const auto* bytes = reinterpret_cast<const char*>(&sweep);
@@ -291,18 +293,18 @@ HWY_INLINE void fetch(const Sweep& sweep) {
   __builtin_prefetch(bytes + sizeof(Sweep) - 1);
 }
 
-/// Adds sweeps to a group as long as they can be bundled like the first of them, or up to one a bundle.
-/// Returns how many were added.
+/// Adds sweeps to a group as long as they can be bundled like the first of them; if they cannot, one per
+/// bundle. Returns the number of sweeps added.
 HWY_INLINE int gather_cylinders(CylinderGroup& group, const TileJob& job, std::size_t first,
-                                std::size_t most) {
+                                std::size_t limit) {
   const Sweep& like = job.sweeps[job.list[first]];
   const double pitch = job.field->pitch, bundle = static_cast<double>(kBundleLength) * pitch;
   group.solid = &(*job.tools)[like.tool].cutting;
   group.each =
       like.length * kMaxBundled > bundle ? std::max(1, static_cast<int>(bundle / like.length)) : kMaxBundled;
-  most = std::min(most, static_cast<std::size_t>(kBundles * group.each));
+  limit = std::min(limit, static_cast<std::size_t>(kBundles * group.each));
   int count = 0;
-  for (; static_cast<std::size_t>(count) < most; ++count) {
+  for (; static_cast<std::size_t>(count) < limit; ++count) {
     const std::size_t q = first + static_cast<std::size_t>(count);
     if (q + kFetchedAhead < job.count) fetch(job.sweeps[job.list[q + kFetchedAhead]]);
     const Sweep& sweep = job.sweeps[job.list[q]];
@@ -321,11 +323,11 @@ HWY_INLINE int gather_cylinders(CylinderGroup& group, const TileJob& job, std::s
   return group.count = count;
 }
 
-/// Cuts with level sweeps of cylinders from number `first` of the job's list on, `most` at most. Returns how
-/// many.
+/// Cuts with at limit `limit` level sweeps of cylinders from number `first` of the job's list on. Returns
+/// their number.
 HWY_NOINLINE std::size_t cut_cylinders(CylinderGroup& group, const TileJob& job, std::size_t first,
-                                       std::size_t most) {
-  const int count = gather_cylinders(group, job, first, most);
+                                       std::size_t limit) {
+  const int count = gather_cylinders(group, job, first, limit);
   const LaneSolid& solid = *group.solid;
   const auto z = static_cast<Real>(job.sweeps[job.list[first]].z);
   const bool open = z + solid.top >= job.field->height;

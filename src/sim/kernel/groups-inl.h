@@ -1,6 +1,6 @@
-// Sixteen sweeps at a time on one tile: the cuts that only cut. What each micro keeps stays in registers
-// while the sweeps that can meet it pass, in order of time, so that the result is that of one sweep after the
-// other.
+// Sixteen sweeps at a time on one tile, for sweeps that only cut. The columns of a micro stay in registers
+// while the sweeps that can touch it are applied in time order, so that the result is that of one sweep after
+// another.
 #if defined(KERF_SIM_GROUPS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_GROUPS_INL_H
 #undef KERF_SIM_GROUPS_INL_H
@@ -35,20 +35,21 @@ HWY_INLINE void add_taken(GroupWork& work, int k, Vector weighted) {
   store(load(work.taken[k]) + weighted, work.taken[k]);
 }
 
-/// A ball over columns that stand on the floor, where balls-inl.h will not do: steep paths, uneven columns.
+/// A ball over columns that start at the floor, for the cases that balls-inl.h excludes: steep paths, uneven
+/// columns.
 HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
   const TileJob& job = work.job;
   Tile& tile = *job.tile;
   const LaneCap& ball = work.solid->pieces[0].lower;
   const Real same = job.field->same_height;
-  const MicroPlaces places = places_of(job, micro);
+  const MicroPositions positions = positions_of(job, micro);
   const Vector weight = weights_of(job, micro);
   Vector top = load(tile.top[micro]);
   Ids ids = load_ids(tile.top_step[micro]);
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
     const LocalSweep& w = work.view[k];
-    const Vector x = w.x + places.x, y = w.y + places.y;
+    const Vector x = w.x + positions.x, y = w.y + positions.y;
     const Vector u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
     const Vector across = ball.radius2 - v * v;
     Vector t = u;
@@ -73,13 +74,13 @@ HWY_NOINLINE void ball_micro(GroupWork& work, int micro, unsigned sweeps) {
 HWY_NOINLINE void any_micro(GroupWork& work, int micro, unsigned sweeps) {
   const TileJob& job = work.job;
   const Field& field = *job.field;
-  const MicroPlaces places = places_of(job, micro);
+  const MicroPositions positions = positions_of(job, micro);
   const Vector weight = weights_of(job, micro);
   const std::size_t groups = work.solid->one_envelope ? 1 : work.solid->pieces.size();
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
     const LocalSweep& w = work.view[k];
-    const MicroView m = look_at(w, places);
+    const MicroView m = view_micro(w, positions);
     for (std::size_t g = 0; g < groups; ++g) {
       Swept swept;
       sweep_over(*work.solid, g, work.open[k], field.height + 1, w, m, swept);
@@ -95,17 +96,17 @@ HWY_NOINLINE void group_super(GroupWork& work, int super, unsigned sweeps) {
   Tile& tile = *job.tile;
   const int first = super * kSupers;
   const Blocks blocks = micros_of(job, super);
-  unsigned met = 0;
+  unsigned touched = 0;
   std::fill_n(work.micros, kGroup, 0u);
   for (; sweeps != 0; sweeps &= sweeps - 1) {
     const int k = __builtin_ctz(sweeps);
     work.micros[k] =
         cull(work.view[k], *work.solid, blocks, tile.micro_top + first, tile.micro_bottom + first);
-    met |= work.micros[k];
+    touched |= work.micros[k];
   }
-  if (met == 0) return;
-  for (; met != 0; met &= met - 1) {
-    const int inner = __builtin_ctz(met), micro = first + inner;
+  if (touched == 0) return;
+  for (; touched != 0; touched &= touched - 1) {
+    const int inner = __builtin_ctz(touched), micro = first + inner;
     const unsigned which = lanes_with(work.micros, 1u << inner);
     if (work.solid->is_ball && work.all_open && tile.chain[micro] < 0) {
       ball_micro(work, micro, which);
@@ -127,7 +128,7 @@ HWY_INLINE void add_sweep(GroupWork& work, const Sweep& sweep) {
   store(0, work.taken[k]);
 }
 
-/// What comes after a group is fetched while the group is cut: the sweeps of one tile lie far apart.
+/// Prefetches the next group while this one is cut: the sweeps of one tile are scattered in memory.
 HWY_INLINE void fetch_ahead(const TileJob& job, std::size_t next) {
   const std::size_t end = std::min(job.count, next + kGroup);
   for (; next < end; ++next) {
@@ -137,7 +138,7 @@ HWY_INLINE void fetch_ahead(const TileJob& job, std::size_t next) {
   }
 }
 
-/// Cuts with sweeps number `first` to `first + count - 1` of the job's list.
+/// Cuts with sweeps `first` to `first + count - 1` of the job's list.
 HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   const TileJob& job = work.job;
   fetch_ahead(job, first + static_cast<std::size_t>(count));
@@ -149,14 +150,14 @@ HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   for (int k = 0; k < count; ++k) add_sweep(work, job.sweeps[job.list[first + static_cast<std::size_t>(k)]]);
   Tile& tile = *job.tile;
   alignas(64) std::uint32_t supers[kGroup] = {};
-  unsigned met = 0;
+  unsigned touched = 0;
   const Blocks blocks = supers_of(job);
   for (int k = 0; k < count; ++k) {
     supers[k] = cull(work.view[k], *work.solid, blocks, tile.super_top, tile.super_bottom);
-    met |= supers[k];
+    touched |= supers[k];
   }
-  for (; met != 0; met &= met - 1) {
-    const int super = __builtin_ctz(met);
+  for (; touched != 0; touched &= touched - 1) {
+    const int super = __builtin_ctz(touched);
     group_super(work, super, lanes_with(supers, 1u << super));
   }
   for (int k = 0; k < count; ++k)

@@ -1,4 +1,4 @@
-// Notes of contacts: where along the step they begin, how deep they are, how much is met.
+// Records contacts: where along the step they start, their depth, and the material touched.
 #include "sim/kernel/hazard_passes.h"
 
 #include <algorithm>
@@ -7,37 +7,37 @@
 namespace kerf::sim {
 namespace {
 
-/// Share of the step's way at which a contact of the column begins. In plan exact for the rim; a plunge is
-/// met at the height where the contact is.
-double begin_of_contact(const Sweep& s, const LocalSweep& w, Point2 place, Real rim, Real low, Real high) {
-  double share = 0.0;
+/// Fraction of the step's path at which a contact with the column starts. In plan exact for the rim; a plunge
+/// touches it at the height of the contact.
+double start_of_contact(const Sweep& s, const LocalSweep& w, Point2 position, Real rim, Real low, Real high) {
+  double fraction = 0.0;
   if (s.is_arc) {
-    const double x = place.x, y = place.y;
+    const double x = position.x, y = position.y;
     const double angle = std::atan2(s.ux * y - s.uy * x, s.ux * x + s.uy * y);
     constexpr double kTurn = 6.283185307179586;
     double ahead = s.turn > 0.0 ? angle : -angle;
     const double lead =
-        std::min(3.0, static_cast<double>(rim) / s.radius);  // the rim comes before the centre
+        std::min(3.0, static_cast<double>(rim) / s.radius);  // the rim arrives before the centre
     if (ahead < 0.0 && ahead + kTurn - lead < std::abs(s.turn)) ahead += kTurn;
-    share = (ahead - lead) / std::abs(s.turn);
+    fraction = (ahead - lead) / std::abs(s.turn);
   } else if (s.length > 0.0) {
-    const auto x = static_cast<Real>(place.x), y = static_cast<Real>(place.y);
+    const auto x = static_cast<Real>(position.x), y = static_cast<Real>(position.y);
     const Real u = x * w.cx + y * w.cy, v = y * w.cx - x * w.cy;
-    share = static_cast<double>(u - std::sqrt(higher_real(rim * rim - v * v, 0)) - w.t_low) / s.length;
-  } else if (s.z >
-             s.z_end) {  // the tip's height above the lowest it reaches in this column is the same everywhere
-    share = (s.z - (s.z_end + static_cast<double>(high - low))) / (s.z - s.z_end);
+    fraction = static_cast<double>(u - std::sqrt(higher_real(rim * rim - v * v, 0)) - w.t_low) / s.length;
+  } else if (s.z > s.z_end) {  // the height of the tip above its lowest point is the same in all columns
+    fraction = (s.z - (s.z_end + static_cast<double>(high - low))) / (s.z - s.z_end);
   }
-  share = std::clamp(share, 0.0, 1.0);
-  const auto begin = static_cast<double>(s.share_begin), end = static_cast<double>(s.share_end);
-  return begin + share * (end - begin);
+  fraction = std::clamp(fraction, 0.0, 1.0);
+  const auto begin = static_cast<double>(s.start_fraction), end = static_cast<double>(s.end_fraction);
+  return begin + fraction * (end - begin);
 }
 
-double place_of(const Real* places, int column, const TileJob& job) {
-  return places == nullptr ? column * job.field->pitch : static_cast<double>(places[column]);
+double position_of(const Real* positions, int column, const TileJob& job) {
+  return positions == nullptr ? column * job.field->pitch : static_cast<double>(positions[column]);
 }
 
-/// Notes what a column's sweep from `low` to `high` meets; returns whether that is more than is ignored.
+/// Records what a sweep from `low` to `high` touches in a column; returns whether that exceeds the ignored
+/// length.
 bool note_column(const TileJob& job, const Sweep& s, const LocalSweep& w, const Pass& pass,
                  const MicroContact& m, int lane, std::vector<Interval>& column, Contact& contact) {
   const int micro = m.micro;
@@ -51,15 +51,15 @@ bool note_column(const TileJob& job, const Sweep& s, const LocalSweep& w, const 
     any = true;
     contact.removed += static_cast<double>(b - a) * static_cast<double>(m.weight[lane]);
     contact.depth = std::max(contact.depth, static_cast<double>(run.high - a));
-    const Point2 place{static_cast<double>(m.x[lane]), static_cast<double>(m.y[lane])};
-    const double share = begin_of_contact(s, w, place, pass.solid->rim, low, b);
-    if (share >= contact.share) continue;
-    contact.share = share;
+    const Point2 position{static_cast<double>(m.x[lane]), static_cast<double>(m.y[lane])};
+    const double fraction = start_of_contact(s, w, position, pass.solid->rim, low, b);
+    if (fraction >= contact.fraction) continue;
+    contact.fraction = fraction;
     const int super = micro / kSupers, inner = micro % kSupers;
     const int column_x = (super & 3) * 16 + (inner & 3) * 4 + lane % 4;
     const int column_y = (super >> 2) * 16 + (inner >> 2) * 4 + lane / 4;
-    contact.at = {job.x + place_of(job.place_x, column_x, job), job.y + place_of(job.place_y, column_y, job),
-                  static_cast<double>(a)};
+    contact.at = {job.x + position_of(job.position_x, column_x, job),
+                  job.y + position_of(job.position_y, column_y, job), static_cast<double>(a)};
   }
   return any;
 }
@@ -70,17 +70,17 @@ void note_contacts(const TileJob& job, const Sweep& sweep, const LocalSweep& vie
                    MicroContact& columns, Contact& contact) {
   std::vector<Interval> column;
   for (int i = 0; i < kLanes; ++i) {
-    const bool meets = columns.low[i] < columns.high[i] &&
-                       columns.low[i] < job.tile->micro_top[columns.micro] &&
-                       note_column(job, sweep, view, pass, columns, i, column, contact);
-    if (meets || pass.ignore == 0) continue;
+    const bool touches = columns.low[i] < columns.high[i] &&
+                         columns.low[i] < job.tile->micro_top[columns.micro] &&
+                         note_column(job, sweep, view, pass, columns, i, column, contact);
+    if (touches || pass.ignore == 0) continue;
     columns.low[i] = kFar;
     columns.high[i] = -kFar;
   }
 }
 
 void keep_contact(const TileJob& job, const Pass& pass, Contact& contact) {
-  if (contact.share > 1.0 || contact.depth <= static_cast<double>(pass.report_above)) return;
+  if (contact.fraction > 1.0 || contact.depth <= static_cast<double>(pass.report_above)) return;
   contact.removed *= job.field->pitch * job.field->pitch;
   job.contacts->push_back(contact);
 }
@@ -96,7 +96,7 @@ PassList list_passes(const Sweep& sweep, const LaneTool& tool, Real ignore) {
          .kind = rapid ? HazardKind::rapid_in_stock : kind,
          .ignore = ignore});
   };
-  // What a standing spindle cuts, however little, is cut all the same.
+  // With the spindle stopped a cut still removes material, however little.
   const bool off = (sweep.passes & kPassSpindleOff) != 0;
   if ((sweep.passes & kPassCut) != 0)
     add({.solid = &tool.cutting, .is_hazard = off, .kind = HazardKind::spindle_off, .report_above = ignore});

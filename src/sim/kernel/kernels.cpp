@@ -1,11 +1,11 @@
-// Sweeps against columns, 16 at a time: `cut_tile` for each level of processor, and the choice at run time.
+// Sweeps against columns, 16 at a time: `cut_tile` for each processor level, and the choice at run time.
 #include <algorithm>
 
-// Left out: levels that are hardly faster than those they follow, since each costs a compilation.
+// Excluded: levels that are hardly faster than those below them, as each costs a compilation.
 #define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "sim/kernel/kernels.cpp"
-#include <hwy/foreach_target.h>  // NOLINT: this file again, once for each level
+#include <hwy/foreach_target.h>  // NOLINT: this file again, once per level
 #include <hwy/highway.h>
 
 #include "sim/kernel/cylinders-inl.h"
@@ -17,21 +17,21 @@ HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 namespace {
 
-/// Whether a sweep may go in a group.
+/// Whether a sweep can be part of a group.
 HWY_INLINE bool only_cuts(const Sweep& sweep) { return sweep.passes == kPassCut && !sweep.is_arc; }
 
-/// How many sweeps from number `first` on go together: they only cut, with one tool, and in one way.
+/// The number of sweeps from `first` on that form a group: they only cut, with one tool and the same code.
 HWY_INLINE int group_size(const TileJob& job, std::size_t first) {
-  const std::size_t most = std::min(first + kGroup, job.count);
+  const std::size_t limit = std::min(first + kGroup, job.count);
   const Sweep& sweep = job.sweeps[job.list[first]];
-  const BallWay ball(job, (*job.tools)[sweep.tool].cutting);
+  const BallFilter ball(job, (*job.tools)[sweep.tool].cutting);
   const bool may_be_level = may_be_level_cylinders((*job.tools)[sweep.tool].cutting);
-  const bool is_quick = ball.takes(sweep);
+  const bool is_quick = ball.accepts(sweep);
   std::size_t end = first + 1;
-  for (; end < most; ++end) {
+  for (; end < limit; ++end) {
     const Sweep& next = job.sweeps[job.list[end]];
     if (!only_cuts(next) || next.tool != sweep.tool || (may_be_level && next.z == next.z_end) ||
-        ball.takes(next) != is_quick)
+        ball.accepts(next) != is_quick)
       break;
   }
   return static_cast<int>(end - first);
@@ -59,20 +59,20 @@ void cut_tile(const TileJob& job) {
 }
 
 void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out) {
-  // A step from the last column that is looked at in its own way goes out of what is looked at.
+  // Along X the last examined column has no step; it would lead out of the examined columns.
   constexpr int kFirst = kRing - 1, kLast = kWindow - kRing;
   for (int y = kFirst; y <= kLast; ++y) {
     const Real* row = lengths[y];
     const auto at = [&](int x) { return load(row + x); };
     for (int x = kFirst; x < kLast; x += kLanes) {
       const int k = std::min(x, kLast - kLanes);
-      add_steps(excess_of(rules, at(k - 1), at(k), at(k + 1), at(k + 2)), k, y, StepWay::along_x, out);
+      add_steps(excess_of(rules, at(k - 1), at(k), at(k + 1), at(k + 2)), k, y, StepAxis::along_x, out);
     }
     if (y == kLast) break;
     const auto next = [&](int x, int rows) { return load(row + x + rows * kWindow); };
     for (int x = kFirst; x <= kLast; x += kLanes) {
       const int k = std::min(x, kLast + 1 - kLanes);
-      add_steps(excess_of(rules, next(k, -1), next(k, 0), next(k, 1), next(k, 2)), k, y, StepWay::along_y,
+      add_steps(excess_of(rules, next(k, -1), next(k, 0), next(k, 1), next(k, 2)), k, y, StepAxis::along_y,
                 out);
     }
   }
@@ -94,7 +94,7 @@ LaneCap lane_cap(const Cap& cap) {
           real(cap.slope), real(cap.centre_r), real(cap.centre_z),        real(cap.radius * cap.radius)};
 }
 
-/// Up to its equator, so that the rim does not cut the ball short.
+/// The rim reaches the equator, so that it does not clip the ball.
 bool is_half_ball(const LanePiece& piece) {
   return piece.lower.curve == CapCurve::ball && piece.lower.flat == 0 && piece.rim2 >= piece.lower.radius2;
 }

@@ -1,5 +1,5 @@
-// The inner loops: sweeps against the columns of one tile. Everything that is worth exchanging for speed is
-// behind `cut_tile`; the planner and the bookkeeping around it know nothing of lanes.
+// The inner loops: sweeps against the columns of one tile. All code that is optimised for speed is called
+// through `cut_tile`; planner and bookkeeping do not depend on lanes.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace kerf::sim {
 
-// Solids in single precision with what the kernels need squared.
+// Solids in single precision, with precomputed squares.
 struct LaneCap {
   CapCurve curve = CapCurve::flat;
   Real flat = 0, flat2 = 0, height = 0, slope = 0, centre_r = 0, centre_z = 0, radius2 = 0;
@@ -24,11 +24,11 @@ struct LaneSolid {
   explicit LaneSolid(const Solid& solid);
 
   std::vector<LanePiece> pieces;
-  LanePiece lid;  // of one envelope: its flat top
+  LanePiece lid;  // flat top of a solid with one envelope
   bool one_envelope = false;
-  bool is_ball = false;       // of one envelope, which is half a ball and has the closed form
-  bool is_cylinders = false;  // all pieces are
-  bool is_flat = false;       // nothing of it is lower than its flat bottom, which reaches to its rim
+  bool is_ball = false;       // one envelope that is half a ball and has the closed form
+  bool is_cylinders = false;  // all pieces are cylinders
+  bool is_flat = false;       // no point is lower than its flat bottom, which extends to the rim
   Real rim = 0, bottom = 0, top = 0;
   Real offset[kCullLines] = {}, slope[kCullLines] = {};
 };
@@ -40,7 +40,7 @@ struct LaneTool {
   LaneSolid over_flute;
 };
 
-/// What all tiles share.
+/// Data of all tiles.
 struct Field {
   double pitch = 0.0;
   Real height = 0;       // of the block
@@ -48,66 +48,66 @@ struct Field {
   Real hazard_depth = 0;
   Real step[kTileColumns];  // i * pitch
 };
-/// Place of a column from its tile's first one where all are a pitch apart, to the bit as the kernels see it:
-/// from the first column of its micro on.
-inline Real even_place(const Field& field, int column) {
+/// Position of a column from its tile's first one if all are one pitch apart; bit for bit that of the
+/// kernels, which start at the first column of the micro.
+inline Real even_position(const Field& field, int column) {
   return field.step[column / 4 * 4] + static_cast<Real>(column % 4) * field.step[1];
 }
 
-/// Sixteen points anywhere, which are a micro's columns then: places from the tile's first column, mm, and
-/// how much what is taken of each counts.
+/// Sixteen arbitrary points as the columns of a micro: positions from the tile's first column, mm, and
+/// weights of the removed lengths.
 struct PointMicro {
   Lanes x, y, weight;
 };
-/// A tile whose columns are points, with boxes around the micros and supers.
+/// A tile whose columns are points, with boxes around its micros and supers.
 struct PointTile {
   struct Boxes {
     Lanes x, y, half_x, half_y;
   };
-  std::vector<PointMicro> micros;  // kMicros at most; what is above is not to be cut
+  std::vector<PointMicro> micros;  // at most kMicros; the others are empty
   Boxes around_micros[kSupers], around_supers;
 };
 
-/// The work on one tile: sweeps `list[0]` to `list[count - 1]` in time order.
+/// A job for one tile: sweeps `list[0]` to `list[count - 1]` in time order.
 struct TileJob {
   const Field* field = nullptr;
   Tile* tile = nullptr;
   double x = 0.0, y = 0.0;  // of the tile's first column, block frame
-  // Of a tile with columns that are narrower, 64 each: places of the columns and their shares in the block.
-  // Null in other tiles, whose columns are a pitch apart.
-  const Real *place_x = nullptr, *place_y = nullptr;
-  const Real *share_x = nullptr, *share_y = nullptr;
-  const PointTile* points = nullptr;  // instead of places and shares: the columns are points
+  // Of a tile with narrower columns, 64 each: positions of the columns and their fractions inside the block.
+  // Null for other tiles, whose columns are one pitch apart.
+  const Real *position_x = nullptr, *position_y = nullptr;
+  const Real *fraction_x = nullptr, *fraction_y = nullptr;
+  const PointTile* points = nullptr;  // instead of positions and fractions: the columns are points
   const std::vector<LaneTool>* tools = nullptr;
   const Sweep* sweeps = nullptr;
   const std::uint32_t* list = nullptr;
   std::size_t count = 0;
-  double* removed = nullptr;                 // out: length of column taken by each of the sweeps, mm
+  double* removed = nullptr;                 // out: length of column removed by each of the sweeps, mm
   std::vector<Contact>* contacts = nullptr;  // out, appended
 };
 
 void cut_tile(const TileJob& job);
 
-/// Lengths of material of the columns of a tile and of a ring of micros around it.
+/// Lengths of material in the columns of a tile and of a ring of micros around it.
 inline constexpr int kRing = 4;
 inline constexpr int kWindow = kTileColumns + 2 * kRing;
 using WindowLengths = Real[kWindow][kWindow];
 
-/// Which steps between neighbouring columns count, see walls.cpp.
+/// Thresholds for steps between neighbouring columns, see walls.cpp.
 struct StepRules {
-  Real explained_by_lower = 0, explained_by_higher = 0, most_explained = 0;
-  Real per_least = 0, per_least_level = 0;  // one divided by the least step that counts
+  Real explained_by_lower = 0, explained_by_higher = 0, max_explained = 0;
+  Real per_min = 0, per_min_level = 0;  // 1 / minimum step
   Real same_height = 0;
 };
-/// A step from the column at (x, y) of the window to the next one along X or Y, in least steps that count.
-enum class StepWay : std::uint8_t { along_x, along_y };
+/// A step from the column at (x, y) of the window to the next one along X or Y, in units of the minimum step.
+enum class StepAxis : std::uint8_t { along_x, along_y };
 struct ColumnStep {
   int x, y;
-  StepWay way;
+  StepAxis axis;
   Real excess;
 };
-/// Finds those that count, some of them twice: from columns and rows 1 before the tile's first to those 1
-/// after its last.
+/// Finds the steps above the minimum, some of them twice, from one column and row before the tile's first to
+/// one after its last.
 void find_steps(const StepRules& rules, const WindowLengths& lengths, std::vector<ColumnStep>& out);
 
 }  // namespace kerf::sim

@@ -49,9 +49,8 @@ void view_arc(const Sweep& s, const TileJob& job, LocalSweep& w) {
   w.slope = w.t_low = w.t_high = 0;
 }
 
-/// What a cut that follows another need not cut again: all that lies so far back that the lowest point above
-/// it is the start, where the previous sweep ended. For solids with undercuts that holds in level sweeps
-/// only.
+/// The u before which a following cut need not cut again: there the lowest point above the column is the
+/// start point, where the previous sweep ended. For solids with undercuts that holds only for level sweeps.
 Real behind_of(const LocalSweep& w, const Sweep& s, const LaneSolid& solid, bool open) {
   if (!s.follows || w.is_arc || s.length == 0.0) return -kFar;
   if (w.slope == 0) return w.t_low;

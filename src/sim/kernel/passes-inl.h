@@ -1,5 +1,5 @@
-// One sweep on one tile, with whatever it is tested for: level arcs, rapids, shanks and holders near
-// material. All else goes the quicker way of groups-inl.h.
+// One sweep on one tile with all its tests: level arcs, rapids, shanks and holders near material. All other
+// sweeps use the faster groups-inl.h.
 #if defined(KERF_SIM_PASSES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_PASSES_INL_H
 #undef KERF_SIM_PASSES_INL_H
@@ -14,29 +14,29 @@
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
-/// Places of the columns of a micro from the tile's first column.
-struct MicroPlaces {
+/// Positions of the columns of a micro from the first column of the tile.
+struct MicroPositions {
   Vector x, y;
 };
-HWY_INLINE MicroPlaces places_of(const TileJob& job, int micro) {
+HWY_INLINE MicroPositions positions_of(const TileJob& job, int micro) {
   if (job.points != nullptr) {
     const PointMicro& points = job.points->micros[static_cast<std::size_t>(micro)];
     return {load(points.x), load(points.y)};
   }
   const Field& field = *job.field;
   const int column = column_of(micro), row = row_of(micro);
-  if (job.place_x == nullptr)
+  if (job.position_x == nullptr)
     return {field.step[column] + load(kColumn) * field.step[1], field.step[row] + load(kRow) * field.step[1]};
   Lanes x, y;
   for (int i = 0; i < kLanes; ++i) {
-    x[i] = job.place_x[column + i % 4];
-    y[i] = job.place_y[row + i / 4];
+    x[i] = job.position_x[column + i % 4];
+    y[i] = job.position_y[row + i / 4];
   }
   return {load(x), load(y)};
 }
 
-HWY_INLINE MicroView look_at(const LocalSweep& w, const MicroPlaces& places) {
-  MicroView m{w.x + places.x, w.y + places.y, {}, {}};
+HWY_INLINE MicroView view_micro(const LocalSweep& w, const MicroPositions& positions) {
+  MicroView m{w.x + positions.x, w.y + positions.y, {}, {}};
   if (w.slope == 0) {
     m.v2 = path_distance2(w, m.x, m.y);
   } else {
@@ -48,25 +48,25 @@ HWY_INLINE MicroView look_at(const LocalSweep& w, const MicroPlaces& places) {
 
 HWY_INLINE Vector weights_of(const TileJob& job, int micro) {
   if (job.points != nullptr) return load(job.points->micros[static_cast<std::size_t>(micro)].weight);
-  if (job.share_x == nullptr) return 1;
+  if (job.fraction_x == nullptr) return 1;
   const int column = column_of(micro), row = row_of(micro);
   Lanes weight;
-  for (int i = 0; i < kLanes; ++i) weight[i] = job.share_x[column + i % 4] * job.share_y[row + i / 4];
+  for (int i = 0; i < kLanes; ++i) weight[i] = job.fraction_x[column + i % 4] * job.fraction_y[row + i / 4];
   return load(weight);
 }
 
-/// One sweep's pass over a tile.
+/// One pass of a sweep over a tile.
 struct PassWork {
   const TileJob& job;
   const Sweep& sweep;
   const Pass& pass;
   LocalSweep view;
-  bool open = false;  // the solid reaches above the block all along
+  bool open = false;  // the solid reaches above the block along the whole sweep
   double taken = 0.0;
   Contact contact = {};
 };
 
-/// Finds contacts and leaves in `low` and `high` what is to be taken away.
+/// Records contacts and leaves in `low` and `high` what is to be removed.
 HWY_NOINLINE void note_micro(PassWork& work, int micro, const MicroView& m, Vector& low, Vector& high) {
   MicroContact columns;
   columns.micro = micro;
@@ -84,7 +84,7 @@ HWY_NOINLINE void cut_micro(PassWork& work, int micro) {
   const TileJob& job = work.job;
   const Field& field = *job.field;
   const LaneSolid& solid = *work.pass.solid;
-  const MicroView m = look_at(work.view, places_of(job, micro));
+  const MicroView m = view_micro(work.view, positions_of(job, micro));
   const std::size_t groups = solid.one_envelope ? 1 : solid.pieces.size();
   for (std::size_t g = 0; g < groups; ++g) {
     Swept swept;
@@ -96,7 +96,7 @@ HWY_NOINLINE void cut_micro(PassWork& work, int micro) {
   }
 }
 
-/// Finds the highest and lowest material of a super again.
+/// Recomputes the highest and lowest material of a super.
 HWY_INLINE void update_super(Tile& tile, int super) {
   tile.super_top[super] = highest_of(load(tile.micro_top + super * kSupers));
   tile.super_bottom[super] = lowest_of(load(tile.micro_bottom + super * kSupers));
@@ -119,7 +119,7 @@ HWY_NOINLINE void run_pass(PassWork& work) {
   }
 }
 
-/// All passes of a sweep. Returns the length of column taken.
+/// All passes of a sweep. Returns the length of column removed.
 HWY_NOINLINE double cut_sweep(const TileJob& job, const Sweep& sweep) {
   LocalSweep view;
   set_local_sweep(sweep, job, view);

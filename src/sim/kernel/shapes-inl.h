@@ -1,5 +1,5 @@
-// A convex piece swept: the lowest point of its underside above (or the highest below) each of sixteen
-// columns.
+// A swept convex piece: the lowest point of its underside (or the highest of its upper side) above each of
+// sixteen columns.
 #if defined(KERF_SIM_SHAPES_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_SHAPES_INL_H
 #undef KERF_SIM_SHAPES_INL_H
@@ -15,14 +15,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
-/// Steps of the safeguarded Newton search for the lowest point of a swept torus.
+/// Iterations of the safeguarded Newton search for the lowest point of a swept torus.
 inline constexpr int kSearchSteps = 14;
 
-/// The columns of a micro in a sweep's frame.
+/// The columns of a micro in the frame of a sweep.
 struct MicroView {
-  Vector x, y;  // place
+  Vector x, y;  // position
   Vector u,
-      v2;  // along the line and squared across it; of level sweeps u is not set and v2 the squared distance
+      v2;  // along the line, and squared across it; for level sweeps u is not set and v2 is the squared
+           // distance
 };
 
 HWY_INLINE Vector outside(Vector v, Real low, Real high) { return higher_of(low - v, v - high); }
@@ -33,18 +34,18 @@ HWY_INLINE Vector line_distance2(const LocalSweep& w, Vector x, Vector y) {
   return square(higher_of(outside(u, w.t_low, w.t_high), 0)) + v * v;
 }
 
-/// The same from a line's or an arc's path.
+/// The same for a line or an arc.
 HWY_INLINE Vector path_distance2(const LocalSweep& w, Vector x, Vector y) {
   if (!w.is_arc) return line_distance2(w, x, y);
-  const Mask after_begin = w.start_x * y - w.start_y * x >= 0;
+  const Mask after_start = w.start_x * y - w.start_y * x >= 0;
   const Mask before_end = x * w.end_y - y * w.end_x >= 0;
   const Mask inside = w.full   ? every_lane()
-                      : w.wide ? (after_begin | before_end)
-                               : (after_begin & before_end);
+                      : w.wide ? (after_start | before_end)
+                               : (after_start & before_end);
   const Vector off = root(x * x + y * y) - w.radius;
-  const Vector to_begin = square(x - w.start_x) + square(y - w.start_y);
+  const Vector to_start = square(x - w.start_x) + square(y - w.start_y);
   const Vector to_end = square(x - w.end_x) + square(y - w.end_y);
-  return select(inside, off * off, lower_of(to_begin, to_end));
+  return select(inside, off * off, lower_of(to_start, to_end));
 }
 
 /// Underside of a piece at a squared distance from its axis; kFar beyond the rim.
@@ -63,7 +64,7 @@ HWY_INLINE Vector level_cap(const LaneCap& c, Real rim2, Vector distance2) {
   return select(distance2 < rim2, low, kFar);
 }
 
-/// A ball that is not cut short by its rim: the closed form needs nothing else.
+/// A ball that is not clipped by its rim: the closed form suffices.
 HWY_INLINE Vector sloped_ball(const LaneCap& c, const LocalSweep& w, Real slope, Real lead, Vector u,
                               Vector v2) {
   const Vector across = c.radius2 - v2;
@@ -72,42 +73,42 @@ HWY_INLINE Vector sloped_ball(const LaneCap& c, const LocalSweep& w, Real slope,
   return select(rest > 0, slope * t + c.centre_z - root(rest), kFar);
 }
 
-/// The part of the path from which a rim reaches a column.
+/// The section of the path from which a rim reaches a column.
 struct Reach {
-  Vector begin, end;
+  Vector start, end;
   Mask any;
 };
 HWY_INLINE Reach reach_of(Real rim2, const LocalSweep& w, Vector u, Vector v2) {
   const Vector reach = root(rim2 - v2);
-  const Vector begin = higher_of(u - reach, w.t_low), end = lower_of(u + reach, w.t_high);
-  return {begin, end, (v2 < rim2) & (begin <= end)};
+  const Vector start = higher_of(u - reach, w.t_low), end = lower_of(u + reach, w.t_high);
+  return {start, end, (v2 < rim2) & (start <= end)};
 }
 
-/// Where along the path the sweep over a disc is lowest: as far down the slope as the disc reaches.
+/// The path position where the sweep of a disc is lowest: as far down the slope as the disc reaches.
 HWY_INLINE Vector flat_best(Real flat2, const LocalSweep& w, Real slope, Vector u, Vector v2) {
   const Vector half = root(flat2 - v2);
   return slope > 0 ? higher_of(u - half, w.t_low) : lower_of(u + half, w.t_high);
 }
 
-/// The underside beyond the flat, at a squared distance from the axis.
+/// The underside outside the flat, at a squared distance from the axis.
 HWY_INLINE Vector curve_at(const LaneCap& c, Vector rho2) {
   if (c.curve == CapCurve::cone) return c.height + c.slope * (root(rho2) - c.flat);
   if (c.curve == CapCurve::ball) return c.centre_z - root(c.radius2 - rho2);
   return c.centre_z - root(c.radius2 - square(higher_of(root(rho2) - c.centre_r, 0)));
 }
 
-/// The lowest point, where `best` is the place along the path at which the curve beyond the flat is lowest.
+/// The lowest point; `best` is the path position at which the curve outside the flat is lowest.
 HWY_INLINE Vector sloped_curve(const LaneCap& c, Real rim2, const LocalSweep& w, Real slope, Vector u,
                                Vector v2, Vector best) {
   const Reach reach = reach_of(rim2, w, u, v2);
-  const Vector t = clamped(best, reach.begin, reach.end);
+  const Vector t = clamped(best, reach.start, reach.end);
   const Vector rho2 = v2 + square(u - t);
   Vector low = slope * t + curve_at(c, rho2);
   if (c.flat2 > 0) low = select(rho2 < c.flat2, slope * flat_best(c.flat2, w, slope, u, v2) + c.height, low);
   return select(reach.any, low, kFar);
 }
 
-/// A cone is lowest where its flank falls as fast as the path rises; steeper paths go to the end of the
+/// A cone is lowest where the slope of its flank is that of the path; for steeper paths at the end of the
 /// reach.
 HWY_INLINE Vector cone_best(const LaneCap& c, Real slope, Vector u, Vector v2) {
   const Real rest = c.slope * c.slope - slope * slope;
@@ -115,22 +116,22 @@ HWY_INLINE Vector cone_best(const LaneCap& c, Real slope, Vector u, Vector v2) {
   return slope > 0 ? -kFar : kFar;
 }
 
-/// Where a torus is lowest: the zero of the derivative, which rises along the path, by Newton's steps inside
-/// a bracket.
+/// The path position where a torus is lowest: the zero of the derivative, which increases along the path, by
+/// Newton iterations in a bracket.
 HWY_INLINE Vector torus_best(const LaneCap& c, Real rim2, const LocalSweep& w, Real slope, Vector u,
                              Vector v2) {
   const Vector tiny = 1e-12f;
   const Reach reach = reach_of(rim2, w, u, v2);
-  Vector low = reach.begin, high = higher_of(reach.end, low), best = clamped(u, low, high);
+  Vector low = reach.start, high = higher_of(reach.end, low), best = clamped(u, low, high);
   for (int n = 0; n < kSearchSteps; ++n) {
     const Vector p = best - u;
     const Vector rho = root(higher_of(v2 + p * p, tiny));
     const Vector out = higher_of(rho - c.centre_r, 0);
     const Vector down = root(higher_of(c.radius2 - out * out, tiny));
     const Vector rise = out / down, along = p / rho;
-    const Vector bend = only(out > 0, c.radius2 / (down * down * down));
+    const Vector curvature = only(out > 0, c.radius2 / (down * down * down));
     const Vector first = slope + rise * along;
-    const Vector second = bend * along * along + rise * v2 / (rho * rho * rho);
+    const Vector second = curvature * along * along + rise * v2 / (rho * rho * rho);
     high = select(first > 0, best, high);
     low = select(first > 0, low, best);
     const Vector next = best - first / higher_of(second, tiny);
@@ -139,15 +140,15 @@ HWY_INLINE Vector torus_best(const LaneCap& c, Real rim2, const LocalSweep& w, R
   return best;
 }
 
-/// Lowest point above each column, relative to z at the frame's origin, of an underside swept along a line of
-/// `slope` (the view's, or that with the sign changed for an upper side); kFar where the sweep does not pass.
+/// Lowest point above each column, relative to z at the origin of the frame, of an underside swept along a
+/// line of `slope` (that of the view, negated for an upper side); kFar where the sweep does not pass.
 HWY_INLINE Vector sloped_cap(const LanePiece& piece, const LaneCap& c, const LocalSweep& w, Real slope,
                              Vector u, Vector v2) {
   const Real lead = slope == w.slope ? w.ball_lead : -w.ball_lead;
   switch (c.curve) {
     case CapCurve::flat: {
       const Reach reach = reach_of(piece.rim2, w, u, v2);
-      return select(reach.any, slope * (slope > 0 ? reach.begin : reach.end) + c.height, kFar);
+      return select(reach.any, slope * (slope > 0 ? reach.start : reach.end) + c.height, kFar);
     }
     case CapCurve::cone: return sloped_curve(c, piece.rim2, w, slope, u, v2, cone_best(c, slope, u, v2));
     case CapCurve::ball:
@@ -158,9 +159,9 @@ HWY_INLINE Vector sloped_cap(const LanePiece& piece, const LaneCap& c, const Loc
   return sloped_curve(c, piece.rim2, w, slope, u, v2, torus_best(c, piece.rim2, w, slope, u, v2));
 }
 
-/// The underside of one side of a piece (of the upper side, which is kept upside down, for Side::upper),
-/// swept: heights relative to the view's z, for level sweeps to its lowest (highest) one. Not
-/// inlined: the code is long, and the commonest shapes do not come here.
+/// A swept side of a piece (the upper side is stored upside down): heights relative to the z of the view, for
+/// level sweeps to its lowest (highest) one. Not inlined: the code is long, and the most common shapes do not
+/// use it.
 enum class Side : std::uint8_t { lower, upper };
 HWY_NOINLINE Vector swept_cap(const LanePiece& piece, Side side, const LocalSweep& w, const MicroView& m) {
   const LaneCap& cap = side == Side::lower ? piece.lower : piece.upper;
@@ -168,8 +169,8 @@ HWY_NOINLINE Vector swept_cap(const LanePiece& piece, Side side, const LocalSwee
   return sloped_cap(piece, cap, w, side == Side::lower ? w.slope : -w.slope, m.u, m.v2);
 }
 
-/// What piece number `group` sweeps above each column, or all pieces of a solid of one envelope. `open`:
-/// nothing is left above.
+/// The interval that piece `group`, or all pieces of a solid with one envelope, sweeps above each column.
+/// `open`: nothing is left above.
 struct Swept {
   Lanes low, high;
 };

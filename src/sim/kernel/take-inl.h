@@ -1,4 +1,4 @@
-// Taking swept intervals away from the columns of a micro.
+// Subtracts swept intervals from the columns of a micro.
 #if defined(KERF_SIM_TAKE_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_TAKE_INL_H
 #undef KERF_SIM_TAKE_INL_H
@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace kerf::sim::HWY_NAMESPACE {
 
-/// Takes all above `low` from columns that stand on the floor. Returns the length taken of each.
+/// Removes everything above `low` from columns that start at the floor. Returns the length removed of each.
 HWY_INLINE Vector take_open(Tile& tile, int micro, Vector low, Ids step, Real same) {
   const Vector old = load(tile.top[micro]);
   const Vector left = only(low >= same, low);
@@ -23,42 +23,42 @@ HWY_INLINE Vector take_open(Tile& tile, int micro, Vector low, Ids step, Real sa
   return old - now;
 }
 
-/// One interval of 16 columns less [low, high]; returned are the columns where that leaves two intervals, and
-/// the caller stores what is above the gap.
+/// Subtracts [low, high] from one interval in each of 16 columns. Returns the columns in which two intervals
+/// remain; the caller stores the upper one.
 HWY_INLINE Mask take_from_slot(Slot& slot, Vector low, Vector high, Ids step, Real same, Vector& taken) {
   const Vector l = load(slot.low), h = load(slot.high);
   const Vector a = higher_of(low, l), b = lower_of(high, h);
   const Mask bottom = a <= l + same, top = b + same >= h;
-  const Mask meets = (b > a) & ((b - a > same) | (bottom & top));
-  const Mask all_of_it = meets & bottom & top;
-  const Mask from_below = meets & bottom & ~top, with_new_top = meets & ~bottom;
+  const Mask touches = (b > a) & ((b - a > same) | (bottom & top));
+  const Mask all_of_it = touches & bottom & top;
+  const Mask from_below = touches & bottom & ~top, with_new_top = touches & ~bottom;
   store(select(all_of_it, kFar, select(from_below, b, l)), slot.low);
   store(select(all_of_it, -kFar, select(with_new_top, a, h)), slot.high);
   store_ids(select(from_below, step, load_ids(slot.low_step)), slot.low_step);
-  // Of an interval that ends here too: Tile::cut_through reads it.
+  // Also for an interval that ends here: Tile::cut_through reads it.
   store_ids(select(with_new_top | all_of_it, step, load_ids(slot.high_step)), slot.high_step);
-  taken = taken + select(all_of_it, h - l, only(meets, b - a));
-  return meets & ~bottom & ~top;
+  taken = taken + select(all_of_it, h - l, only(touches, b - a));
+  return touches & ~bottom & ~top;
 }
 
-/// Finds the highest and lowest material of a micro with a chain again, and whether anything floats in it
-/// still: most undercut columns lose soon what is above the gap.
+/// Recomputes the highest and lowest material of a micro with a chain, and frees the chain if it is empty:
+/// most undercut columns soon lose what is above the gap.
 HWY_INLINE void update_bounds(Tile& tile, int micro) {
   Vector high = load(tile.top[micro]), low = select(high > 0, 0, kFar);
-  Mask floats = no_lane();
+  Mask above_gap = no_lane();
   for (std::int32_t k = tile.chain[micro]; k >= 0; k = tile.slots.next(k)) {
     const Vector slot_high = load(tile.slots[k].high);
     const Vector slot_low = load(tile.slots[k].low);
     high = higher_of(high, slot_high);
     low = lower_of(low, slot_low);
-    floats = floats | (slot_low < slot_high);
+    above_gap = above_gap | (slot_low < slot_high);
   }
   tile.micro_top[micro] = highest_of(high);
   tile.micro_bottom[micro] = lowest_of(low);
-  if (!any(floats)) tile.drop_chain(micro);
+  if (!any(above_gap)) tile.drop_chain(micro);
 }
 
-/// What is left above the gaps in intervals that a sweep has split, one a column.
+/// The parts of intervals above the gaps where a sweep has split them, one per column.
 struct Remnants {
   Mask split;
   Vector low, high;
@@ -72,23 +72,23 @@ HWY_INLINE void store_where(Mask where, Ids v, std::uint32_t* ids) {
   store_ids(select(where, v, load_ids(ids)), ids);
 }
 
-/// Puts remnants into a slot that is free in all their columns, into a new one if some column has none that
-/// is free, else column by column wherever there is room.
+/// Stores remnants in a slot that is empty in all their columns, in a new one if a column has no empty slot,
+/// else column by column.
 HWY_INLINE void store_remnants(Tile& tile, int micro, const Remnants& rest) {
-  Slot* room = nullptr;
+  Slot* slot_for_all = nullptr;
   Mask full = rest.split;
-  for (std::int32_t k = tile.chain[micro]; k >= 0 && room == nullptr; k = tile.slots.next(k)) {
+  for (std::int32_t k = tile.chain[micro]; k >= 0 && slot_for_all == nullptr; k = tile.slots.next(k)) {
     Slot& slot = tile.slots[k];
     const Mask taken = rest.split & (load(slot.low) <= load(slot.high));
-    if (!any(taken)) room = &slot;
+    if (!any(taken)) slot_for_all = &slot;
     full = full & taken;
   }
-  if (room == nullptr && any(full)) room = &tile.add_slot(micro);
-  if (room != nullptr) {
-    store_where(rest.split, rest.low, room->low);
-    store_where(rest.split, rest.high, room->high);
-    store_where(rest.split, rest.low_step, room->low_step);
-    return store_where(rest.split, rest.high_step, room->high_step);
+  if (slot_for_all == nullptr && any(full)) slot_for_all = &tile.add_slot(micro);
+  if (slot_for_all != nullptr) {
+    store_where(rest.split, rest.low, slot_for_all->low);
+    store_where(rest.split, rest.high, slot_for_all->high);
+    store_where(rest.split, rest.low_step, slot_for_all->low_step);
+    return store_where(rest.split, rest.high_step, slot_for_all->high_step);
   }
   Lanes low, high;
   alignas(64) std::uint32_t low_step[kLanes], high_step[kLanes];
@@ -102,26 +102,26 @@ HWY_INLINE void store_remnants(Tile& tile, int micro, const Remnants& rest) {
   }
 }
 
-/// Takes [low, high] from what stands on the floor; what it leaves above the gap goes to `rest`.
-HWY_INLINE Vector take_from_standing(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same,
-                                     Remnants& rest) {
+/// Subtracts [low, high] from the intervals at the floor; upper parts that remain are stored in `rest`.
+HWY_INLINE Vector take_from_floor(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same,
+                                  Remnants& rest) {
   const Vector h = load(tile.top[micro]);
   const Ids old_step = load_ids(tile.top_step[micro]);
   const Vector a = higher_of(low, 0), b = lower_of(high, h);
   const Mask bottom = a <= same, top = b + same >= h;
-  const Mask meets = (b > a) & ((b - a > same) | (bottom & top));
-  store(select(meets, only(~bottom, a), h), tile.top[micro]);
-  store_ids(select(meets, step, old_step), tile.top_step[micro]);
-  rest.split = meets & ~top;
+  const Mask touches = (b > a) & ((b - a > same) | (bottom & top));
+  store(select(touches, only(~bottom, a), h), tile.top[micro]);
+  store_ids(select(touches, step, old_step), tile.top_step[micro]);
+  rest.split = touches & ~top;
   rest.high = h;
   rest.high_step = old_step;
-  return select(meets & bottom & top, h, only(meets, b - a));
+  return select(touches & bottom & top, h, only(touches, b - a));
 }
 
-/// Takes [low, high] from what stands and what floats.
+/// Subtracts [low, high] from all intervals.
 HWY_INLINE Vector take_from_all(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same) {
   Remnants rest{no_lane(), high, 0, step, step};
-  Vector taken = take_from_standing(tile, micro, low, high, step, same, rest);
+  Vector taken = take_from_floor(tile, micro, low, high, step, same, rest);
   for (std::int32_t k = tile.chain[micro]; k >= 0;) {
     Slot& slot = tile.slots[k];
     const Vector old_high = load(slot.high);
@@ -139,10 +139,10 @@ HWY_INLINE Vector take_from_all(Tile& tile, int micro, Vector low, Vector high, 
   return taken;
 }
 
-/// Takes [low, high]; returns the length taken of each column.
+/// Subtracts [low, high]; returns the length removed of each column.
 HWY_NOINLINE Vector take(Tile& tile, int micro, Vector low, Vector high, Ids step, Real same) {
-  const Mask meets = (low < high) & (low < tile.micro_top[micro]) & (high > tile.micro_bottom[micro]);
-  if (!any(meets)) return 0;
+  const Mask touches = (low < high) & (low < tile.micro_top[micro]) & (high > tile.micro_bottom[micro]);
+  if (!any(touches)) return 0;
   if (tile.chain[micro] < 0) {
     const Vector top = load(tile.top[micro]);
     const Mask cuts = (low < top) & (high > same);

@@ -1,6 +1,6 @@
-// Sixteen numbers at a time on every processor, over Highway: one, two or four registers. Compiled once for
-// each level of processor (see kernels.cpp). No operation here is fused, approximate or reordered, so that
-// all of them give the same bits.
+// Sixteen numbers at a time on every processor, over Highway: one, two or four registers. Compiled once per
+// processor level (see kernels.cpp). No operation here is fused, approximate or reordered, so that all levels
+// return the same bits.
 #if defined(KERF_SIM_VECTOR_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef KERF_SIM_VECTOR_INL_H
 #undef KERF_SIM_VECTOR_INL_H
@@ -28,14 +28,14 @@ struct Vector {
   hn::Vec<RealTag> part[kParts];
 
   HWY_INLINE Vector() : Vector(0.0f) {}
-  HWY_INLINE Vector(Real v) {  // NOLINT: a number stands for sixteen of them
+  HWY_INLINE Vector(Real v) {  // NOLINT: one number is broadcast to sixteen lanes
     for (int p = 0; p < kParts; ++p) part[p] = hn::Set(RealTag(), v);
   }
 };
 struct Mask {
   hn::Mask<RealTag> part[kParts];
 };
-/// Numbers of steps.
+/// Step numbers.
 struct Ids {
   hn::Vec<IdTag> part[kParts];
 };
@@ -91,12 +91,12 @@ HWY_INLINE Vector absolute(Vector v) {
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::Abs(v.part[p]);
   return v;
 }
-/// Square root; of negative numbers 0.
+/// Square root; 0 for negative numbers.
 HWY_INLINE Vector root(Vector v) {
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::Sqrt(hn::ZeroIfNegative(v.part[p]));
   return v;
 }
-/// Square root; of negative numbers no number, which no comparison holds for.
+/// Square root; NaN for negative numbers, for which all comparisons are false.
 HWY_INLINE Vector root_or_nan(Vector v) {
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::Sqrt(v.part[p]);
   return v;
@@ -154,13 +154,14 @@ HWY_INLINE Ids one_less(Ids a) {
   for (int p = 0; p < kParts; ++p) a.part[p] = hn::Sub(a.part[p], hn::Set(IdTag(), 1));
   return a;
 }
-/// The numbers where the mask is true, else 0.
+/// The values where the mask is true, else 0.
 HWY_INLINE Vector only(Mask m, Vector v) {
   for (int p = 0; p < kParts; ++p) v.part[p] = hn::IfThenElseZero(m.part[p], v.part[p]);
   return v;
 }
 
-/// Stores one number where the mask is true. Stores with a mask are quick where masks are registers only.
+/// Stores one number where the mask is true. Masked stores are fast only where masks are registers of their
+/// own.
 HWY_INLINE void store_where(Mask m, std::uint32_t id, std::uint32_t* ids) {
 #if HWY_TARGET <= HWY_AVX3
   for (int p = 0; p < kParts; ++p)
@@ -174,7 +175,7 @@ HWY_INLINE bool any(Mask m) {
   for (int p = 1; p < kParts; ++p) m.part[0] = hn::Or(m.part[0], m.part[p]);
   return !hn::AllFalse(RealTag(), m.part[0]);
 }
-/// One bit a lane.
+/// One bit per lane.
 HWY_INLINE unsigned bits_of(Mask m) {
   unsigned bits = 0;
   for (int p = 0; p < kParts; ++p) {
@@ -184,7 +185,7 @@ HWY_INLINE unsigned bits_of(Mask m) {
   }
   return bits;
 }
-/// The lanes among sixteen words that have a bit set.
+/// The lanes of sixteen words in which a bit is set.
 HWY_INLINE unsigned lanes_with(const std::uint32_t* words, unsigned bit) {
   Mask m;
   const auto wanted = hn::Set(IdTag(), bit);
@@ -231,7 +232,7 @@ HWY_INLINE hn::TFromD<D> reduced_part(D /*d*/, hn::Vec<D> v, const Operation& op
   }
 }
 #endif
-/// All lanes together, halves first: in the same order whatever the width.
+/// Reduces all lanes, halves first: in the same order for any width.
 template <class Tag, class Sixteen, class Operation>
 HWY_INLINE hn::TFromD<Tag> reduced(Sixteen v, const Operation& operation) {
   for (int n = kParts / 2; n > 0; n /= 2)

@@ -1,5 +1,5 @@
-// The rotary simulator: motions become rows of standing tools, which slabs of the bar are cut with one after
-// the other in time order, the slabs side by side on all threads.
+// The rotary simulator: motions become sequences of tool poses. Slabs of the bar are cut pose by pose in time
+// order, several slabs in parallel.
 #include "kerf/rotary.h"
 
 #include <algorithm>
@@ -25,18 +25,18 @@ namespace sim {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-/// Of the automatic distance: a move along a small bar then takes hundredths of a second. The work goes with
-/// the third power of the rays' number along a line, for the row of standing tools becomes denser too.
+/// Number of rays at the default distance: a motion along a small bar takes hundredths of a second. The time
+/// grows with the third power of the number of rays along a line, as the poses become denser too.
 constexpr double kUsualRays = 1e5;
-constexpr double kFinest = 0.02, kCoarsest = 1.0;  // mm, of the usual distance of rays
-constexpr double kMinSpacing = 1e-3;               // mm, of any
-constexpr double kMaxPoses = 1e8;                  // hours of work
+constexpr double kFinest = 0.02, kCoarsest = 1.0;  // mm, of the default distance of rays
+constexpr double kMinSpacing = 1e-3;               // mm, of any distance
+constexpr double kMaxPoses = 1e8;                  // a run of hours
 constexpr double kMaxReach = 1e6;                  // mm
-constexpr int kSlabRows = 8;                       // rays along the bar that one thread takes at a time
+constexpr int kSlabRows = 8;                       // rays along the bar per slab
 const Length kProfileChord = mm(0.001);            // frusta for arcs of a tool
 const Length kPathChord = mm(0.002);               // chords for arcs of the path
-constexpr double kClearance = 1e-4;                // mm, sideways contacts below it are rounding
-constexpr float kCrumb = 1e-5f;                    // mm, shorter runs are none
+constexpr double kClearance = 1e-4;                // mm, shallower sideways contacts are rounding
+constexpr float kCrumb = 1e-5f;                    // mm, shorter runs are dropped
 
 struct RotaryTool {
   Frusta cutting;
@@ -55,11 +55,11 @@ RotaryTool make_rotary_tool(const Silhouette& tool) {
   return out;
 }
 
-/// A straight stretch of a motion while the bar turns evenly.
+/// A straight section of a motion, with a uniform turn of the bar.
 struct RotaryMotion {
-  Point3 from, to;                            // mm, work coordinates
-  double turn_from = 0.0, turn_to = 0.0;      // radians, A
-  double share_begin = 0.0, share_end = 1.0;  // of its step's way
+  Point3 from, to;                                  // mm, work coordinates
+  double turn_from = 0.0, turn_to = 0.0;            // radians, A
+  double start_fraction = 0.0, end_fraction = 1.0;  // fractions of the step's path
   std::uint32_t step = 0, tool = 0;
   bool cuts = false, spindle_off = false;
   int poses = 1;
@@ -68,7 +68,7 @@ struct RotaryMotion {
   double turn(double t) const { return turn_from + t * (turn_to - turn_from); }
 };
 
-/// Reads the toolpath into motions and tools, and tells what cannot be done.
+/// Reads motions and tools from the toolpath and reports what cannot be simulated.
 class RotaryMotionReader {
  public:
   RotaryMotionReader(const Toolpath& path, const ToolTable& table, const RoundBar& bar, double spacing,
@@ -91,9 +91,9 @@ class RotaryMotionReader {
   double spacing_;
   Diagnostics& diagnostics_;
   std::map<int, std::uint32_t> index_;
-  std::map<int, bool> told_missing_;
+  std::map<int, bool> reported_missing_;
   double turn_ = 0.0, poses_ = 0.0;
-  bool judges_spindle_ = false, told_other_axes_ = false, told_no_tool_ = false;
+  bool judges_spindle_ = false, reported_other_axes_ = false, reported_no_tool_ = false;
 };
 
 bool RotaryMotionReader::run() {
@@ -107,17 +107,16 @@ bool RotaryMotionReader::run() {
   for_each_motion(path_, [&](const Step& step, const MotionContext& context) { add(step, context); });
   if (poses_ > kMaxPoses)
     diagnostics_
-        .error(
-            Code::rotary_limit, {},
-            fmt::format("the job needs {:.0f} places of the tool; at most {:.0f} are cut", poses_, kMaxPoses))
-        .hint = "a coarser resolution needs fewer";
+        .error(Code::rotary_limit, {},
+               fmt::format("the job needs {:.0f} tool positions; the limit is {:.0f}", poses_, kMaxPoses))
+        .hint = "use a coarser resolution";
   return diagnostics_.errors() == errors;
 }
 
 double RotaryMotionReader::turn_at(const MotionExtra* extra, const MotionContext& context) {
   if (extra == nullptr || !extra->abc) return turn_;
   const auto& abc = *extra->abc;
-  if ((abc[1] != 0.0 || abc[2] != 0.0) && !std::exchange(told_other_axes_, true))
+  if ((abc[1] != 0.0 || abc[2] != 0.0) && !std::exchange(reported_other_axes_, true))
     diagnostics_.warning(Code::rotary_not_simulated, path_.origin_of(context.index),
                          "the axes B and C are not simulated; only A turns the bar");
   return degrees(abc[0]).rad();
@@ -127,28 +126,28 @@ std::optional<std::uint32_t> RotaryMotionReader::tool_of(const Step& step, const
   std::optional<int> number = context.tool;
   if (!number && table_.tools().size() == 1) number = table_.tools().begin()->first;
   if (!number) {
-    if (step.is_cutting() && !std::exchange(told_no_tool_, true))
+    if (step.is_cutting() && !std::exchange(reported_no_tool_, true))
       diagnostics_.error(Code::no_tool_chosen, path_.origin_of(context.index),
-                         "the program cuts here before it has chosen a tool");
+                         "cut before the first tool change");
     return std::nullopt;
   }
   if (const auto it = index_.find(*number); it != index_.end()) return it->second;
   const Tool* tool = table_.find(*number);
   if (tool == nullptr) {
-    if (step.is_cutting() && !std::exchange(told_missing_[*number], true))
+    if (step.is_cutting() && !std::exchange(reported_missing_[*number], true))
       diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
-                         fmt::format("tool {} cuts here, but its shape is not known", *number));
+                         fmt::format("tool {} cuts here, but has no shape", *number));
     return std::nullopt;
   }
-  const auto place = static_cast<std::uint32_t>(tools.size());
+  const auto index = static_cast<std::uint32_t>(tools.size());
   tools.push_back(make_rotary_tool(tool->silhouette));
-  return index_[*number] = place;
+  return index_[*number] = index;
 }
 
 void RotaryMotionReader::push(RotaryMotion motion) {
   if (!(length(motion.from) < kMaxReach) || !(length(motion.to) < kMaxReach)) {
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(motion.step),
-                       "the motion goes too far away");
+                       "the motion goes too far from the work zero");
     return;
   }
   const double turned = std::abs(motion.turn_to - motion.turn_from) * 0.5 * bar_.diameter;
@@ -172,8 +171,8 @@ void RotaryMotionReader::add(const Step& step, const MotionContext& context) {
   motion.step = static_cast<std::uint32_t>(context.index);
   motion.tool = *tool;
   motion.cuts = step.is_cutting();
-  motion.spindle_off = judges_spindle_ && spindle_stands(context);
-  // What is not known neither cuts nor is told, as in the plane simulator.
+  motion.spindle_off = judges_spindle_ && spindle_stopped(context);
+  // Motions at unknown positions neither cut nor are reported, as in the simulator for three axes.
   constexpr unsigned kZ = 4;
   if ((step.unknown_axes() & kZ) != 0 || (!motion.cuts && (step.unknown_axes() | context.unknown_from) != 0))
     return;
@@ -186,24 +185,24 @@ void RotaryMotionReader::add(const Step& step, const MotionContext& context) {
   const int count = walk.chords(kPathChord);
   for (int k = 0; k < count; ++k) {
     RotaryMotion chord = motion;
-    chord.share_begin = static_cast<double>(k) / count;
-    chord.share_end = (k + 1.0) / count;
-    chord.from = walk.at(chord.share_begin);
-    chord.to = walk.at(chord.share_end);
-    chord.turn_from = turn_from + chord.share_begin * (turn_ - turn_from);
-    chord.turn_to = turn_from + chord.share_end * (turn_ - turn_from);
+    chord.start_fraction = static_cast<double>(k) / count;
+    chord.end_fraction = (k + 1.0) / count;
+    chord.from = walk.at(chord.start_fraction);
+    chord.to = walk.at(chord.end_fraction);
+    chord.turn_from = turn_from + chord.start_fraction * (turn_ - turn_from);
+    chord.turn_to = turn_from + chord.end_fraction * (turn_ - turn_from);
     push(chord);
   }
 }
 
 struct RotaryContact {
-  double share = 2.0;
+  double fraction = 2.0;
   Point3 at;
   double depth = 0.0, volume = 0.0;
 };
 using Contacts = std::map<std::pair<std::uint32_t, HazardKind>, RotaryContact>;
 
-/// Some rows of rays, cut by all motions.
+/// Several rows of rays, cut by all motions.
 class Slab {
  public:
   Slab(RotaryWorkpiece& workpiece, int first, int last, double hazard_depth)
@@ -217,7 +216,7 @@ class Slab {
   enum class Pass : std::uint8_t { cut, contact };
   struct Pose {
     Point3 tip;
-    double turn, share;
+    double turn, fraction;
     const RotaryMotion* motion;
   };
   void apply(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose);
@@ -227,7 +226,7 @@ class Slab {
     return work_.rays[static_cast<std::size_t>(j) * static_cast<std::size_t>(work_.along) +
                       static_cast<std::size_t>(i)];
   }
-  double take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, double& longest);
+  double take(std::vector<Interval>& ray, RayInterval s, std::uint32_t step, double& longest);
   double taken_by(std::uint32_t step, HazardKind kind, const void* ray, double more);
   void note(HazardKind kind, const Pose& pose, Point3 at, double depth, double volume);
 
@@ -240,7 +239,7 @@ class Slab {
     std::unordered_map<const void*, double> of_ray;  // mm
   };
   std::array<Taken, 8> taken_;  // by HazardKind
-  std::vector<Stretch> stretches_;
+  std::vector<RayInterval> intervals_;
   std::vector<Interval> rest_;
 };
 
@@ -253,7 +252,7 @@ void Slab::cut(const RotaryMotion& motion, const RotaryTool& tool) {
   for (int k = 0; k <= motion.poses; ++k) {
     const double t = static_cast<double>(k) / motion.poses;
     const Pose pose{motion.at(t), motion.turn(t),
-                    motion.share_begin + t * (motion.share_end - motion.share_begin), &motion};
+                    motion.start_fraction + t * (motion.end_fraction - motion.start_fraction), &motion};
     if (pose.tip.x - rim > high || pose.tip.x + rim < low) continue;
     if (!motion.cuts) {
       for (const Frusta& part : tool.touching) apply(part, Pass::contact, HazardKind::rapid_in_stock, pose);
@@ -267,7 +266,8 @@ void Slab::cut(const RotaryMotion& motion, const RotaryTool& tool) {
   }
 }
 
-/// Goes to the rays that can meet the part: those of its width along the bar, and of the angles under it.
+/// Applies a part to the rays that it can touch: those within its rim along the bar, and within the angles
+/// under it.
 void Slab::apply(const Frusta& part, Pass pass, HazardKind kind, const Pose& pose) {
   if (part.empty()) return;
   const double radius = 0.5 * bar_.diameter, rim = part.rim();
@@ -301,10 +301,10 @@ void Slab::apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Po
   if (ray.empty()) return;
   const auto reach = static_cast<double>(ray.back().high);
   if (seen.z + std::max(reach * seen.cosine, 0.0) <= part.bottom()) return;
-  stretches_.clear();
-  part.meet(seen, reach, stretches_);
+  intervals_.clear();
+  part.intersect(seen, reach, intervals_);
   double volume = 0.0, longest = 0.0, surface = 0.0;
-  for (const Stretch& s : stretches_) {
+  for (const RayInterval& s : intervals_) {
     if (pass != Pass::cut && s.high - s.low <= hazard_depth_) continue;
     const double before = longest;
     volume += take(ray, s, pose.motion->step, longest);
@@ -322,8 +322,8 @@ void Slab::apply_to_ray(const Frusta& part, Pass pass, HazardKind kind, const Po
   if (depth > hazard_depth_) note(kind, pose, at, depth, volume);
 }
 
-/// What a step's contacts of one kind have taken of a ray, with `more` now: a motion goes in little by
-/// little.
+/// The total length that contacts of one kind of a step have removed from a ray, after adding `more`: a
+/// motion enters in small steps.
 double Slab::taken_by(std::uint32_t step, HazardKind kind, const void* ray, double more) {
   Taken& taken = taken_[static_cast<std::size_t>(kind)];
   if (taken.step != step) taken.of_ray.clear();
@@ -331,9 +331,9 @@ double Slab::taken_by(std::uint32_t step, HazardKind kind, const void* ray, doub
   return taken.of_ray[ray] += more;
 }
 
-/// Takes a stretch out of a ray. Returns the integral of r over what was taken, and raises `longest` to the
-/// longest piece.
-double Slab::take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, double& longest) {
+/// Subtracts an interval from a ray. Returns the integral of r over the removed runs, and raises `longest` to
+/// the longest of them.
+double Slab::take(std::vector<Interval>& ray, RayInterval s, std::uint32_t step, double& longest) {
   const auto low = static_cast<float>(s.low), high = static_cast<float>(s.high);
   if (!(high > ray.front().low) || !(low < ray.back().high)) return 0.0;
   double sum = 0.0;
@@ -356,8 +356,8 @@ double Slab::take(std::vector<Interval>& ray, Stretch s, std::uint32_t step, dou
 
 void Slab::note(HazardKind kind, const Pose& pose, Point3 at, double depth, double volume) {
   RotaryContact& contact = contacts[{pose.motion->step, kind}];
-  if (pose.share < contact.share) {
-    contact.share = pose.share;
+  if (pose.fraction < contact.fraction) {
+    contact.fraction = pose.fraction;
     contact.at = at;
   }
   contact.depth = std::max(contact.depth, depth);
@@ -368,8 +368,8 @@ void merge(const Contacts& from, Contacts& into) {
   for (const auto& [key, contact] : from) {
     const auto [it, is_new] = into.try_emplace(key, contact);
     if (is_new) continue;
-    if (contact.share < it->second.share) {
-      it->second.share = contact.share;
+    if (contact.fraction < it->second.fraction) {
+      it->second.fraction = contact.fraction;
       it->second.at = contact.at;
     }
     it->second.depth = std::max(it->second.depth, contact.depth);
@@ -377,7 +377,7 @@ void merge(const Contacts& from, Contacts& into) {
   }
 }
 
-/// The bar before the first cut, or nothing with an error.
+/// The bar before the first cut; nothing, with an error appended, if it is invalid.
 std::optional<RotaryWorkpiece> make_bar(const RoundBar& bar, const SimulationOptions& options,
                                         Diagnostics& diagnostics) {
   const double size = bar.x_high - bar.x_low, girth = std::numbers::pi * bar.diameter;
@@ -428,7 +428,7 @@ Volume RotaryWorkpiece::volume() const {
 std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const ToolTable& tools,
                                                 const RoundBar& bar, const SimulationOptions& options,
                                                 Diagnostics& diagnostics, Progress* progress) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
   auto work = sim::make_bar(bar, options, diagnostics);
   if (!work) return std::nullopt;
   const double girth_pitch = std::numbers::pi * bar.diameter / work->around;
@@ -442,7 +442,7 @@ std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const Tool
   for (int row = 0; row < result.workpiece.along; row += sim::kSlabRows)
     slabs.emplace_back(result.workpiece, row, std::min(row + sim::kSlabRows, result.workpiece.along) - 1,
                        options.hazard_depth.mm());
-  std::size_t begun = 0;
+  std::size_t started = 0;
   parallel_for(
       thread_count(options.threads), slabs.size(),
       [&](std::size_t n) {
@@ -450,7 +450,7 @@ std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const Tool
           slabs[n].cut(motion, reader.tools[motion.tool]);
       },
       [&] {
-        report(progress, std::min(1.0, static_cast<double>(++begun) / static_cast<double>(slabs.size())));
+        report(progress, std::min(1.0, static_cast<double>(++started) / static_cast<double>(slabs.size())));
         return result.stopped = result.stopped || stop_requested(progress);
       });
   std::vector<double> by_step(path.size(), 0.0);
@@ -467,7 +467,7 @@ std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const Tool
   result.removed = mm3(removed);
   for (const auto& [key, c] : contacts)
     result.hazards.push_back({key.second, key.first, c.at, mm(c.depth), mm3(c.volume)});
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 

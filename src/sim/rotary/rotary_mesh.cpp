@@ -1,5 +1,5 @@
-// The surface of a turned workpiece: the rays are unrolled into columns, these are meshed, and the mesh is
-// rolled up again.
+// The surface of a rotary workpiece: the rays are unrolled into columns, these are meshed, and the mesh is
+// rolled up.
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -9,9 +9,9 @@
 namespace kerf {
 namespace {
 
-/// The rays as columns whose heights are distances from the axis. Every end of a run gets a number of its own
-/// as its step, so that no level faces are merged, which would be flat when rolled up; `steps` says whose it
-/// is.
+/// The rays as columns whose heights are distances from the axis. Every run end gets a unique number as its
+/// step, so that no level faces are merged, which would be flat after rolling up; `steps` has the step of
+/// each number.
 ColumnGrid unroll(const RotaryWorkpiece& work, std::vector<std::uint32_t>& steps) {
   ColumnGrid grid;
   grid.pitch = 1.0;
@@ -48,7 +48,7 @@ Mesh extract_mesh(const RotaryWorkpiece& work, Progress* progress) {
     p[1] = static_cast<float>(work.bar.axis_y - r * std::sin(angle));
     p[2] = static_cast<float>(work.bar.axis_z + r * std::cos(angle));
   }
-  // Along, around, outwards is a left-handed order, so that triangles are turned round.
+  // (along, around, outwards) is a left-handed frame, so triangles are inverted.
   for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
     std::swap(mesh.triangles[t + 1], mesh.triangles[t + 2]);
   for (std::uint32_t& step : mesh.step)

@@ -1,4 +1,4 @@
-// Frusta and tilted lines.
+// Intersections of frusta with tilted lines.
 #include "sim/rotary/rotary_tool.h"
 
 #include <algorithm>
@@ -7,20 +7,20 @@
 namespace kerf::sim {
 namespace {
 
-constexpr double kParallel = 1e-12;  // of a direction's part: the line runs along the other one
-constexpr double kTouching = 1e-9;   // mm; stretches nearer than this are one
+constexpr double kParallel = 1e-12;  // of a component of a direction: the line is parallel to the other axis
+constexpr double kTouching = 1e-9;   // mm; closer intervals are one
 constexpr double kMaxChords = 4096;  // of an arc
 
-/// The part of [low, high] where a + b * r lies between two values.
-bool clip_between(double a, double b, double least, double most, double& low, double& high) {
-  if (std::abs(b) < kParallel) return a >= least && a <= most;
-  const double r0 = (least - a) / b, r1 = (most - a) / b;
+/// Clips [low, high] to minimum <= a + b * r <= maximum.
+bool clip_between(double a, double b, double minimum, double maximum, double& low, double& high) {
+  if (std::abs(b) < kParallel) return a >= minimum && a <= maximum;
+  const double r0 = (minimum - a) / b, r1 = (maximum - a) / b;
   low = std::max(low, std::min(r0, r1));
   high = std::min(high, std::max(r0, r1));
   return low < high;
 }
 
-/// The part of [low, high] where a r^2 + 2 b r + c <= 0, which is known to be one stretch.
+/// Clips [low, high] to a r^2 + 2 b r + c <= 0, which is known to be one interval.
 bool clip_quadratic(double a, double b, double c, double& low, double& high) {
   if (std::abs(a) < kParallel) {
     if (std::abs(b) < kParallel) return c <= 0.0;
@@ -30,7 +30,7 @@ bool clip_quadratic(double a, double b, double c, double& low, double& high) {
   }
   const double discriminant = b * b - a * c;
   if (discriminant <= 0.0) return a < 0.0;
-  // The root that does not cancel first, the other one from the product of both.
+  // The root without cancellation first, the other one from the product of both.
   const double q = b > 0.0 ? -b - std::sqrt(discriminant) : -b + std::sqrt(discriminant);
   const double r0 = std::min(q / a, c / q), r1 = std::max(q / a, c / q);
   if (a > 0.0) {
@@ -38,7 +38,7 @@ bool clip_quadratic(double a, double b, double c, double& low, double& high) {
     high = std::min(high, r1);
     return low < high;
   }
-  // Within one nappe of the cone: below the lower root or above the upper one.
+  // In one nappe of the cone: below the lower root or above the upper one.
   const double below = std::min(high, r0) - low, above = high - std::max(low, r1);
   if (below <= 0.0 && above <= 0.0) return false;
   if (below >= above) {
@@ -58,7 +58,7 @@ Frusta::Frusta(double radius, double bottom, double top) : rim_(radius), bottom_
 void Frusta::add_band(double r0, double z0, double r1, double z1) {
   if (!(z1 > z0) || (r0 <= 0.0 && r1 <= 0.0)) return;
   const double slope = (r1 - r0) / (z1 - z0);
-  if (r0 < 0.0) z0 -= r0 / slope;  // shrunk beyond its axis there
+  if (r0 < 0.0) z0 -= r0 / slope;  // shrunk beyond the axis there
   if (r1 < 0.0) z1 -= r1 / slope;
   r0 = std::max(r0, 0.0);
   if (bands_.empty()) bottom_ = z0;
@@ -80,15 +80,15 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
       const double turn = 2.0 * std::acos(std::max(1.0 - chord.mm() / radius, 0.0));
       count = std::clamp(std::ceil(std::abs(angle) / std::max(turn, 1e-6)), 1.0, kMaxChords);
     }
-    // Walks the arc by turning the chord's own direction; a straight segment is one step.
+    // Points of the arc are found by rotating its chord; a straight segment is one step.
     double r = a.r, z = a.z;
     for (double n = 1.0; n <= count; ++n) {
-      const double share = n / count;
-      double r1 = a.r + share * (b.r - a.r), z1 = a.z + share * (b.z - a.z);
+      const double fraction = n / count;
+      double r1 = a.r + fraction * (b.r - a.r), z1 = a.z + fraction * (b.z - a.z);
       if (count > 1.0) {
-        // From a, the chord to the place at `share` is turned by half of what the arc still has to turn.
-        const double reach = span * std::sin(0.5 * angle * share) / std::sin(0.5 * angle);
-        const double turn = -0.5 * angle * (1.0 - share);
+        // From a, the chord to the point at `fraction` is rotated by half of the remaining angle of the arc.
+        const double reach = span * std::sin(0.5 * angle * fraction) / std::sin(0.5 * angle);
+        const double turn = -0.5 * angle * (1.0 - fraction);
         const double ux = (b.r - a.r) / span, uz = (b.z - a.z) / span;
         r1 = a.r + reach * (ux * std::cos(turn) - uz * std::sin(turn));
         z1 = a.z + reach * (ux * std::sin(turn) + uz * std::cos(turn));
@@ -100,12 +100,12 @@ Frusta::Frusta(const Profile& profile, Length chord, Length shrink) {
   }
 }
 
-void Frusta::meet(const TiltedRay& ray, double reach, std::vector<Stretch>& out) const {
+void Frusta::intersect(const TiltedRay& ray, double reach, std::vector<RayInterval>& out) const {
   const std::size_t first = out.size();
-  double begin = 0.0, end = reach;
-  if (ray.x * ray.x >= rim_ * rim_ || !clip_between(ray.z, ray.cosine, bottom_, top_, begin, end)) return;
+  double start = 0.0, end = reach;
+  if (ray.x * ray.x >= rim_ * rim_ || !clip_between(ray.z, ray.cosine, bottom_, top_, start, end)) return;
   for (const Band& band : bands_) {
-    double low = begin, high = end;
+    double low = start, high = end;
     if (!clip_between(ray.z, ray.cosine, band.low, band.high, low, high)) continue;
     const double radius = band.radius + band.slope * (ray.z - band.low), turn = band.slope * ray.cosine;
     if (!clip_quadratic(ray.sine * ray.sine - turn * turn, ray.y * ray.sine - radius * turn,
@@ -115,7 +115,7 @@ void Frusta::meet(const TiltedRay& ray, double reach, std::vector<Stretch>& out)
   }
   if (out.size() - first < 2) return;
   std::sort(out.begin() + static_cast<std::ptrdiff_t>(first), out.end(),
-            [](const Stretch& a, const Stretch& b) { return a.low < b.low; });
+            [](const RayInterval& a, const RayInterval& b) { return a.low < b.low; });
   std::size_t last = first;
   for (std::size_t k = first + 1; k < out.size(); ++k) {
     if (out[k].low <= out[last].high + kTouching) {

@@ -1,4 +1,4 @@
-// A tool as the rays of the rotary simulator meet it: frusta about an upright axis, met by lines of any tilt.
+// A tool of the rotary simulator: frusta about the Z axis, intersected with rays of any tilt.
 #pragma once
 
 #include <vector>
@@ -8,12 +8,13 @@
 
 namespace kerf::sim {
 
-/// A stretch of a ray, mm from the bar's axis.
-struct Stretch {
+/// An interval of a ray, mm from the axis of the bar.
+struct RayInterval {
   double low, high;
 };
 
-/// A ray seen from the tool's tip: r mm along it, the point is (x, y + r * sine, z + r * cosine).
+/// A ray relative to the tool tip: r mm from the axis of the bar its point is (x, y + r * sine, z + r *
+/// cosine).
 struct TiltedRay {
   double x, y, z;
   double sine, cosine;
@@ -23,7 +24,7 @@ struct TiltedRay {
 class Frusta {
  public:
   Frusta() = default;
-  /// Arcs become chords that stray by at most `chord`; everything is `shrink` smaller, but for its top.
+  /// Arcs become chords within `chord`; all surfaces are moved inwards by `shrink`, except the top.
   Frusta(const Profile& profile, Length chord, Length shrink);
   /// A cylinder.
   Frusta(double radius, double bottom, double top);
@@ -32,8 +33,8 @@ class Frusta {
   double rim() const { return rim_; }
   double bottom() const { return bottom_; }
   double top() const { return top_; }
-  /// Appends where a ray, from its begin to `reach`, lies within the part; stretches that touch are one.
-  void meet(const TiltedRay& ray, double reach, std::vector<Stretch>& out) const;
+  /// Appends the intervals of a ray, from 0 to `reach`, inside the part; intervals that touch are joined.
+  void intersect(const TiltedRay& ray, double reach, std::vector<RayInterval>& out) const;
 
  private:
   struct Band {

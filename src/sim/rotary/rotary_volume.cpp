@@ -1,4 +1,4 @@
-// What the mesh of a turned workpiece should hold, computed from its rays.
+// The volume that the mesh of a rotary workpiece should have, computed from its rays.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -1,4 +1,4 @@
-// Which motions of a toolpath become sweeps, and of what.
+// Selects the motions of a toolpath that become sweeps, with their tools.
 #include "sim/sweep/batch_source.h"
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 namespace kerf::sim {
 
-std::vector<StepRange> apart(std::vector<StepRange> ranges) {
+std::vector<StepRange> merge_ranges(std::vector<StepRange> ranges) {
   std::sort(ranges.begin(), ranges.end(),
             [](const StepRange& a, const StepRange& b) { return a.first < b.first; });
   std::vector<StepRange> out;
@@ -35,19 +35,19 @@ bool BatchSource::find_tool(int number) {
   return true;
 }
 
-/// Adds the motion that was read.
+/// Adds the current motion to a batch.
 void BatchSource::add(Batch& batch) {
   const Step& step = motion_.step();
   const MotionContext& context = motion_.context();
   if (step.kind() == StepKind::probe || step.kind() == StepKind::extrude) return planner_.interrupt();
   const std::optional<int> number = survey_.tool_of(context);
   if (!number || !find_tool(*number)) return planner_.interrupt();  // a rapid before the first tool
-  if (!is_wanted(context.index)) return planner_.pass_over(step, context, tool_);
+  if (!is_wanted(context.index)) return planner_.skip(step, context, tool_);
   const bool spindle_off = scope_.is_no_go || survey_.spindle_off(context);
   planner_.add(step, context, tool_, spindle_off, batch);
 }
 
-/// Whether a batch is to end before the motion that was read.
+/// Whether the batch ends before the current motion.
 bool BatchSource::reached_pause() {
   const std::size_t before = next_pause_;
   while (next_pause_ < scope_.pauses.size() && scope_.pauses[next_pause_] <= motion_.context().index)
@@ -55,8 +55,8 @@ bool BatchSource::reached_pause() {
   return next_pause_ != before;
 }
 
-/// Goes on to the motion before the range of steps that is wanted next, if that is further on: it is not
-/// wanted, but the next one may follow it.
+/// Skips ahead to the motion before the next wanted range. That motion is not wanted itself, but the next one
+/// may follow it.
 bool BatchSource::skip() {
   if (next_range_ < skipped_to_) return false;
   skipped_to_ = next_range_ + 1;
@@ -93,7 +93,7 @@ void KeptBatches::add(const std::shared_ptr<const Batch>& batch) {
 
 void BatchSource::fill(Batch& batch) {
   batch.clear();
-  planner_.go_on(batch);
+  planner_.resume(batch);
   while (!batch.full() && !is_done() && (waiting_ || next_motion())) {
     if (!waiting_ && (waiting_ = reached_pause())) break;
     waiting_ = false;

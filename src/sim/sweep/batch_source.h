@@ -1,4 +1,4 @@
-// From a toolpath to batches of sweeps: in parts, so that one batch is made while the one before is cut.
+// Batches of sweeps from a toolpath: one batch is planned while the previous one is cut.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace kerf::sim {
 
-/// From a first step to a last one; none while the first is after the last.
+/// The steps first to last; empty if first > last.
 struct StepRange {
   std::size_t first = SIZE_MAX, last = 0;
   void add(const StepRange& more) {
@@ -24,20 +24,20 @@ struct StepRange {
   }
 };
 
-/// The same steps in order, no range touching another.
-std::vector<StepRange> apart(std::vector<StepRange> ranges);
+/// The same steps as sorted ranges that neither overlap nor touch.
+std::vector<StepRange> merge_ranges(std::vector<StepRange> ranges);
 
-/// How far from the centres of columns sweeps are kept for exact meshes, in pitches.
+/// Sweeps within this distance of column centres are kept for exact meshes, in pitches.
 inline constexpr double kKeptMargin = 1.9;
 
-/// What of a toolpath is to be cut, and how it is judged.
+/// Which steps of a toolpath are cut, and how contacts are judged.
 struct BatchScope {
   PlanScope plan;
-  std::vector<StepRange> steps;  // in order and apart
+  std::vector<StepRange> steps;  // sorted, without overlap
   Length hazard_depth;
-  bool is_no_go = false;                 // every cut is one of a spindle that stands
-  std::vector<std::size_t> pauses = {};  // in order: a batch ends before each of these steps
-  /// Null, or one a step: what sweeps and contacts have in place of it.
+  bool is_no_go = false;                 // every cut counts as one with the spindle stopped
+  std::vector<std::size_t> pauses = {};  // sorted: a batch ends before each of these steps
+  /// Null, or one number per step, stored in sweeps and contacts instead of the step.
   const std::vector<std::uint32_t>* numbers = nullptr;
 };
 
@@ -52,7 +52,7 @@ class BatchSource {
         planner_(body, survey.solids, scope_.hazard_depth, scope_.plan),
         motion_(path) {}
 
-  /// What comes next, in a batch that nothing else holds any more or in a new one.
+  /// The next batch: a reused one that is no longer referenced elsewhere, or a new one.
   std::shared_ptr<const Batch> next();
 
  private:
@@ -62,7 +62,7 @@ class BatchSource {
   bool skip();
   bool is_done() const { return next_range_ >= scope_.steps.size(); }
   bool reached_pause();
-  /// Sets tool_ to the place of a tool's solids; false if it has none.
+  /// Sets tool_ to the index of the solids of a tool; false if it has none.
   bool find_tool(int number);
   void add(Batch& batch);
 
@@ -73,22 +73,23 @@ class BatchSource {
   Planner planner_;
   MotionReader motion_;
   std::size_t next_range_ = 0, next_pause_ = 0;
-  std::size_t skipped_to_ = 0;      // the ranges before this one were skipped to
+  std::size_t skipped_to_ = 0;      // the ranges before this one have been skipped to
   std::optional<int> tool_number_;  // of tool_
   std::uint32_t tool_ = 0;
-  bool waiting_ = false;  // the motion that was read has not been added
+  bool waiting_ = false;  // the current motion has not been added yet
   std::vector<std::shared_ptr<Batch>> batches_;
-  std::vector<Batch::Pair> pairs_;  // the memory of all batches' pairs, which are of no use when sorted
+  std::vector<Batch::Pair>
+      pairs_;  // memory for the pairs, shared by all batches, as pairs are not needed after sorting
 };
 
-/// The batches of a path, kept for what needs its sweeps again as long as they are few: planning a longer
-/// path again takes little of the time that cutting it takes, and much less memory.
+/// The batches of a path, kept for a second pass over its sweeps while they are few. Planning a long path
+/// again takes a small fraction of the time of cutting it and saves much memory.
 class KeptBatches {
  public:
   void add(const std::shared_ptr<const Batch>& batch);
   /// Whether these are all batches of the path.
   bool complete() const { return !batches_.empty() && batches_.back()->is_last; }
-  /// In order of time.
+  /// Sorted by time.
   const std::vector<std::shared_ptr<const Batch>>& batches() const { return batches_; }
 
  private:

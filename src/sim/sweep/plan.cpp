@@ -10,25 +10,25 @@
 namespace kerf::sim {
 namespace {
 
-/// A batch is cut when it holds this many; enough to keep all threads busy, and bounded memory.
+/// A batch is full with this many: enough for all threads, and bounded memory.
 constexpr std::size_t kBatchSweeps = 1 << 14;
 constexpr std::size_t kBatchPairs = 1 << 20;
-/// Most chords for one arc. More means a circle of kilometres or thousands of turns.
+/// Maximum number of chords per arc; only a radius of kilometres or thousands of turns would need more.
 constexpr int kMaxChords = 1 << 20;
-/// A straight move shorter than this in plan is taken as straight up or down, mm.
+/// A straight motion shorter than this in plan is vertical, mm.
 constexpr double kNoLength = 1e-6;
-/// An arc at one height whose radii differ by less than this is taken as a circle about its centre, mm.
+/// A level arc whose radii differ by less than this is a circular arc about its centre, mm.
 constexpr double kSameRadius = 1e-4;
-/// Larger level arcs become chords: single precision about the centre would not do, mm.
+/// Level arcs with a larger radius become chords, as single precision about the centre does not suffice, mm.
 constexpr double kLargestRadius = 1000.0;
 constexpr double kSameLevel = 1e-9;  // mm
-/// A line no longer than this many times the tool's reach is paired with all tiles of its box: hardly more
-/// than those it meets.
+/// A line up to this many times the tool's reach is paired with all tiles of its bounds, hardly more than it
+/// touches.
 constexpr double kShort = 2.0;
 
 double distance_to_interval(double v, double low, double high) { return std::max({low - v, v - high, 0.0}); }
 
-/// The x range of the part of a line that lies between two heights in y; empty if there is none.
+/// The x range of a line where low <= y <= high; empty if there is none.
 struct RangeInX {
   double low = 1.0, high = 0.0;
   bool empty() const { return low > high; }
@@ -48,7 +48,7 @@ RangeInX range_between(double x0, double y0, double x1, double y1, double y_low,
   return {std::min(xa, xb), std::max(xa, xb)};
 }
 
-/// Tiles along one axis whose column centres lie between two places; clipped to the workpiece.
+/// Tiles along one axis with column centres between two positions; clipped to the workpiece.
 struct TileRange {
   int first = 0, last = -1;
 };
@@ -60,7 +60,7 @@ TileRange tiles_between(double low, double high, double pitch, int columns, int 
           std::min(static_cast<int>(last_column) / kTileColumns, tiles - 1)};
 }
 
-/// Makes a sweep a straight one.
+/// Sets the line of a sweep.
 void set_line(Sweep& sweep, const Point3& from, const Point3& to) {
   sweep.x = from.x;
   sweep.y = from.y;
@@ -78,7 +78,7 @@ void set_line(Sweep& sweep, const Point3& from, const Point3& to) {
   sweep.ball_lead = static_cast<float>(dz) / std::sqrt(static_cast<float>(plan2 + dz * dz));
 }
 
-/// Whether an arc is swept as it is.
+/// Whether an arc becomes one sweep instead of chords.
 bool is_level(const ArcWalk& walk) {
   if (walk.plane != Plane::xy || std::abs(walk.start_w - walk.end_w) > kSameLevel) return false;
   const double radius = 0.5 * (walk.start_radius + walk.end_radius);
@@ -86,7 +86,7 @@ bool is_level(const ArcWalk& walk) {
   return radius <= kLargestRadius && radius >= kSameRadius;
 }
 
-/// Makes a sweep a level arc.
+/// Sets the level arc of a sweep.
 void set_arc(Sweep& sweep, const ArcWalk& walk) {
   sweep.is_arc = true;
   sweep.x = walk.u;
@@ -99,7 +99,7 @@ void set_arc(Sweep& sweep, const ArcWalk& walk) {
   sweep.length = sweep.radius * std::abs(walk.sweep);
 }
 
-/// The lowest of the parts that only touch; above everything if there are none.
+/// The lowest point of the parts that do not cut; kAboveAll if there are none.
 double other_bottom(const ToolSolids& tool) {
   double bottom = kAboveAll;
   for (const Solid* part : {&tool.over_flute, &tool.touching[1], &tool.touching[2], &tool.touching[3]})
@@ -187,21 +187,21 @@ Planner::Motion Planner::motion_of(const Step& step, const MotionContext& contex
   Motion motion;
   motion.from = context.from - body_.bounds.low;
   motion.to = step.to() - body_.bounds.low;
-  const unsigned begin = context.unknown_from, end = step.unknown_axes();
+  const unsigned start = context.unknown_from, end = step.unknown_axes();
   constexpr unsigned kZ = 4, kXY = 3;
   if (!step.is_cutting()) {
-    motion.is_swept = end == 0 && (begin & kZ) == 0;
-    if ((begin & kXY) != 0) motion.from = motion.to;
+    motion.is_swept = end == 0 && (start & kZ) == 0;
+    if ((start & kXY) != 0) motion.from = motion.to;
     return motion;
   }
   if ((end & kZ) != 0) motion.is_swept = false;
-  if ((begin & kZ) != 0) motion.from.z = std::max(motion.to.z, size_.z);
+  if ((start & kZ) != 0) motion.from.z = std::max(motion.to.z, size_.z);
   if (step.kind() == StepKind::arc) {
     if (!is_walked(context)) motion.from = motion.to;
     return motion;
   }
-  if ((begin & 1u) != 0) motion.from.x = motion.to.x;
-  if ((begin & 2u) != 0) motion.from.y = motion.to.y;
+  if ((start & 1u) != 0) motion.from.x = motion.to.x;
+  if ((start & 2u) != 0) motion.from.y = motion.to.y;
   return motion;
 }
 
@@ -212,7 +212,7 @@ bool Planner::can_meet(const ArcWalk& walk, std::uint32_t tool) const {
          box.low.z < size_.z;
 }
 
-/// Whether a straight motion is away from the tiles that are wanted, and has nothing else to tell.
+/// Whether a straight motion neither reaches the wanted tiles nor cuts below the floor.
 bool Planner::is_far(const Motion& motion, std::uint32_t tool) const {
   if (std::min(motion.from.z, motion.to.z) < -hazard_depth_) return false;
   const double reach = extents_[tool].widest + scope_.margin;
@@ -222,7 +222,7 @@ bool Planner::is_far(const Motion& motion, std::uint32_t tool) const {
          std::min(motion.from.y, motion.to.y) - reach > wanted_.high.y;
 }
 
-void Planner::pass_over(const Step& step, const MotionContext& context, std::uint32_t tool) {
+void Planner::skip(const Step& step, const MotionContext& context, std::uint32_t tool) {
   const Motion motion = motion_of(step, context);
   if (!motion.is_swept) return interrupt();
   remember(step, tool, motion.to);
@@ -230,8 +230,7 @@ void Planner::pass_over(const Step& step, const MotionContext& context, std::uin
 
 void Planner::add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
                   Batch& batch) {
-  // Numbers by themselves until the end: a million times a point is written and read again is a tenth of it
-  // all.
+  // Kept in locals: storing and loading a point per motion would cost a tenth of the time.
   Point3 from = context.from - body_.bounds.low, to = step.to() - body_.bounds.low;
   if ((context.unknown_from | step.unknown_axes()) != 0) {
     const Motion motion = motion_of(step, context);
@@ -247,7 +246,7 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   constexpr int kParts = kPassNeck | kPassShank | kPassHolder;
   static constexpr Sweep kNew;
   Sweep& sweep =
-      batch.sweeps.emplace_back(kNew);  // in its place: a copy of what was just written waits for it
+      batch.sweeps.emplace_back(kNew);  // constructed in place: copying what was just written would stall
   sweep.passes = static_cast<std::uint8_t>(
       cuts ? kPassCut | kPassOverFlute | kParts | (spindle_off ? kPassSpindleOff : 0) : kPassRapid | kParts);
   sweep.step = static_cast<std::uint32_t>(context.index);
@@ -258,7 +257,7 @@ void Planner::add(const Step& step, const MotionContext& context, std::uint32_t 
   emit(to, batch);
 }
 
-/// The batch's last sweep is one in all but its place.
+/// The last sweep of the batch has all data but the geometry.
 void Planner::add_arc(const Step& step, const MotionContext& context, Batch& batch) {
   ArcWalk walk = walk_of(step, context.from);
   const PlaneAxes axes = axes_of(walk.plane);
@@ -276,18 +275,18 @@ void Planner::add_arc(const Step& step, const MotionContext& context, Batch& bat
   batch.sweeps.pop_back();
   if (!meets) return;
   chords_ = {walk, like, 0, chord_count(walk).count, like.follows, step.is_cutting(), walk.at(0.0)};
-  go_on(batch);
+  resume(batch);
 }
 
-void Planner::go_on(Batch& batch) {
+void Planner::resume(Batch& batch) {
   Chords& c = chords_;
   for (; c.next < c.count && !batch.full(); ++c.next) {
-    const auto share_at = [&](int k) { return static_cast<float>(k) / static_cast<float>(c.count); };
+    const auto fraction_at = [&](int k) { return static_cast<float>(k) / static_cast<float>(c.count); };
     const Point3 to = c.walk.at((c.next + 1.0) / c.count);
     Sweep& chord = batch.sweeps.emplace_back(c.like);
     chord.follows = c.next > 0 ? c.others_follow : c.first_follows;
-    chord.share_begin = share_at(c.next);
-    chord.share_end = share_at(c.next + 1);
+    chord.start_fraction = fraction_at(c.next);
+    chord.end_fraction = fraction_at(c.next + 1);
     set_line(chord, c.from, to);
     emit(to, batch);
     c.from = to;
@@ -313,7 +312,7 @@ std::uint8_t Planner::passes_that_meet(const Sweep& sweep, double& reach) const 
     check(kPassShank, tool.touching[2], hazard_depth_);
     check(kPassHolder, tool.touching[3], hazard_depth_);
   }
-  // That a rapid's parts are no feed's is remembered even where the cutting part itself is clear.
+  // A rapid is marked as such even where the cutting part itself is clear.
   const int any = passes & ~kPassSpindleOff;
   if (any != 0 && (wanted & kPassRapid) != 0) passes |= kPassRapid;
   return any == 0 ? std::uint8_t{0} : static_cast<std::uint8_t>(passes);
@@ -328,13 +327,12 @@ void Planner::add(const Sweep& planned, Batch& batch) {
   if (!find_tiles(planned, to, reach + scope_.margin, batch)) batch.sweeps.pop_back();
 }
 
-/// Finds the tiles of the batch's last sweep, and removes the sweep if there are none. `to`: where a line
-/// ends.
+/// Pairs the last sweep of the batch with its tiles, and removes it if there are none. `to`: end of a line.
 void Planner::emit(const Point3& to, Batch& batch) {
   if (!find_pairs(batch.sweeps.back(), to, batch)) batch.sweeps.pop_back();
 }
 
-/// False if the sweep meets no tile.
+/// False if the sweep touches no tile.
 bool Planner::find_pairs(Sweep& sweep, const Point3& to, Batch& batch) const {
   if ((sweep.passes & kPassCut) != 0 && std::min(sweep.z, sweep.z_end) < -hazard_depth_)
     note_below_floor(sweep, batch);
@@ -349,7 +347,7 @@ bool Planner::find_pairs(Sweep& sweep, const Point3& to, Batch& batch) const {
   return false;
 }
 
-/// Pairs the batch's last sweep with the tiles within its reach; false if there are none.
+/// Pairs the last sweep of the batch with the tiles within `reach`; false if there are none.
 bool Planner::find_tiles(const Sweep& sweep, const Point3& to, double reach, Batch& batch) const {
   const std::size_t before = batch.pairs.size();
   const auto number = static_cast<std::uint32_t>(batch.sweeps.size() - 1);
@@ -361,7 +359,7 @@ bool Planner::find_tiles(const Sweep& sweep, const Point3& to, double reach, Bat
   return batch.pairs.size() != before;
 }
 
-/// All tiles that the box around a line and its reach meets.
+/// All tiles within `reach` of the bounds of a line.
 void Planner::pair_box(const Sweep& s, const Point3& to, double reach, std::uint32_t number,
                        Batch& batch) const {
   const int left = std::max(tile_at(std::min(s.x, to.x) - reach), 0);
@@ -418,19 +416,19 @@ void Planner::note_below_floor(const Sweep& s, Batch& batch) const {
   const Solid& solid = tools_[s.tool].cutting;
   const double deepest = std::min(s.z, s.z_end);
   const double reach = solid.reach_below(-deepest);
-  // The share of the way that is below the floor, walked in steps small against the tool.
+  // The fraction of the path below the floor, sampled in steps that are small against the tool.
   constexpr double kStep = 0.1;  // mm
   constexpr double kMaxSteps = 4096;
   const double slope = s.length > 0.0 ? (s.z_end - s.z) : 0.0;
-  double begin = 0.0, end = 1.0;
-  if (slope < 0.0) begin = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
+  double start = 0.0, end = 1.0;
+  if (slope < 0.0) start = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
   if (slope > 0.0) end = std::clamp((-hazard_depth_ - s.z) / slope, 0.0, 1.0);
-  const int steps = static_cast<int>(std::clamp(std::ceil((end - begin) * s.length / kStep), 1.0, kMaxSteps));
+  const int steps = static_cast<int>(std::clamp(std::ceil((end - start) * s.length / kStep), 1.0, kMaxSteps));
   Contact contact;
   contact.step = s.step;
   contact.kind = HazardKind::below_floor;
   for (int k = 0; k <= steps; ++k) {
-    const double t = begin + (end - begin) * k / steps;
+    const double t = start + (end - start) * k / steps;
     double x = s.x + t * s.length * s.ux, y = s.y + t * s.length * s.uy;
     if (s.is_arc) {
       const double c = std::cos(t * s.turn), d = std::sin(t * s.turn);
@@ -441,11 +439,12 @@ void Planner::note_below_floor(const Sweep& s, Batch& batch) const {
       continue;
     const double z = s.length > 0.0 ? s.z + t * (s.z_end - s.z) : deepest;
     contact.depth = std::max(contact.depth, -z);
-    if (contact.share <= 1.0) continue;
-    contact.share = static_cast<double>(s.share_begin) + t * static_cast<double>(s.share_end - s.share_begin);
+    if (contact.fraction <= 1.0) continue;
+    contact.fraction =
+        static_cast<double>(s.start_fraction) + t * static_cast<double>(s.end_fraction - s.start_fraction);
     contact.at = {std::clamp(x, 0.0, size_.x), std::clamp(y, 0.0, size_.y), z};
   }
-  if (contact.share <= 1.0) batch.contacts.push_back(contact);
+  if (contact.fraction <= 1.0) batch.contacts.push_back(contact);
 }
 
 }  // namespace kerf::sim

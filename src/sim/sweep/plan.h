@@ -1,18 +1,16 @@
 // From the motions of a toolpath to sweeps, sorted by the tiles that they can touch.
 //
-// Where a motion begins is not always known (see Step::unknown_axes). A path that was never commanded must
-// neither cut nor be reported, so:
-//   rapid   whose end, or the height of whose begin, is unknown: not swept;
-//           whose begin is unknown in X or Y only: the tool at its end, which is the one place where it
-//           surely is;
-//   cut     whose end height is unknown: not swept;
-//           whose begin height is unknown: begins above the block, or at its end if that is higher;
-//           whose begin is unknown in X or Y: begins at its end's;
-//           whose end is unknown in X or Y: goes where an interpreter with zero offsets goes (with a
-//           warning);
-//   arc     whose begin is unknown in X or Y: begins where an interpreter with zero offsets is (with a
-//           warning), since its centre is told from there;
-//           whose begin height is unknown: the tool at its end.
+// The start of a motion may be unknown (see Step::unknown_axes). A path that was never commanded must neither
+// cut nor be reported. Therefore:
+//   rapid   end, or start height, unknown: not swept
+//           start unknown in X or Y only: the tool at its end, the only position that is certain
+//   cut     end height unknown: not swept
+//           start height unknown: starts above the block, or at the end height if that is higher
+//           start unknown in X or Y: starts at the X or Y of its end
+//           end unknown in X or Y: as an interpreter with zero offsets (with a warning)
+//   arc     start unknown in X or Y: as an interpreter with zero offsets (with a warning), as the centre is
+//           relative to it
+//           start height unknown: the tool at its end
 #pragma once
 
 #include <algorithm>
@@ -28,8 +26,8 @@
 
 namespace kerf::sim {
 
-/// Sweeps in time order, and which sweep can touch which tile: first in order of sweeps, and once sorted in
-/// order of tiles.
+/// Sweeps in time order, and which sweep can touch which tile: first in the order of sweeps, after sort() in
+/// the order of tiles.
 struct Batch {
   struct Pair {
     std::uint32_t tile;
@@ -55,17 +53,17 @@ struct Batch {
   // Tile busy[k] has the sweeps list[start[k]] to list[start[k + 1] - 1], in order of time.
   std::vector<std::uint32_t> busy, list;
   std::vector<std::size_t> start;
-  std::vector<std::uint32_t> order;  // of busy: the largest first, so that the threads end together
+  std::vector<std::uint32_t> order;  // of busy: the tile with the most sweeps first, so that all threads
+                                     // finish at about the same time
 
  private:
   std::vector<std::uint32_t> count_;
 };
 
-/// Which pairs of sweep and tile are wanted. By default: those of all tiles where a column's centre is
-/// reached.
+/// The wanted pairs of sweep and tile; by default those of all tiles with a column centre in reach.
 struct PlanScope {
   double margin = 0.0;                       // mm, maximum distance from the centres
-  double beside = 0.0;                       // mm, the same of sweeps that are listed as Batch::beside
+  double beside = 0.0;                       // mm, the same for sweeps listed in Batch::beside
   const std::vector<bool>* tiles = nullptr;  // only these
 };
 
@@ -74,18 +72,18 @@ class Planner {
   Planner(const Workpiece::Body& body, const std::vector<ToolSolids>& tools, Length hazard_depth,
           PlanScope scope = {});
 
-  /// Adds a motion of a tool; `spindle_off`: what it cuts is cut with a spindle that stands. An arc of more
-  /// chords than the batch holds is left unfinished.
+  /// Adds a motion of a tool; `spindle_off`: it cuts with the spindle stopped. An arc with more chords than
+  /// the batch can hold is left unfinished.
   void add(const Step& step, const MotionContext& context, std::uint32_t tool, bool spindle_off,
            Batch& batch);
   bool unfinished() const { return chords_.next < chords_.count; }
   /// Adds more of an unfinished motion, until it ends or the batch is full.
-  void go_on(Batch& batch);
-  /// Adds a sweep that another planner has made of the same workpiece and tools.
+  void resume(Batch& batch);
+  /// Adds a sweep made by another planner for the same workpiece and tools.
   void add(const Sweep& planned, Batch& batch);
-  /// Takes a motion as done: the next may follow it.
-  void pass_over(const Step& step, const MotionContext& context, std::uint32_t tool);
-  /// Forgets where the tool was: nothing follows the sweep before.
+  /// Skips a motion that counts as done, so that the next one may follow it.
+  void skip(const Step& step, const MotionContext& context, std::uint32_t tool);
+  /// Forgets the tool position: the next sweep follows none.
   void interrupt() { cutting_tool_.reset(); }
 
  private:
@@ -93,10 +91,10 @@ class Planner {
     Point3 from, to;  // block frame
     bool is_swept = true;
   };
-  /// An arc on its way into batches.
+  /// An arc of which some chords are not in a batch yet.
   struct Chords {
     ArcWalk walk;
-    Sweep like;  // in all but its place
+    Sweep like;  // all but the geometry
     int next = 0, count = 0;
     bool first_follows = false, others_follow = false;
     Point3 from;
@@ -108,10 +106,10 @@ class Planner {
   }
   void add_arc(const Step& step, const MotionContext& context, Batch& batch);
   bool can_meet(const ArcWalk& walk, std::uint32_t tool) const;
-  /// What tells quickly that a tool cannot meet something.
+  /// For a quick test that a tool is clear of something.
   struct ToolExtent {
     double widest;        // largest radius of all parts, mm
-    double other_bottom;  // the lowest of what does not cut, mm above the tip
+    double other_bottom;  // lowest point of the parts that do not cut, mm above the tip
   };
   bool is_far(const Motion& motion, std::uint32_t tool) const;
   void emit(const Point3& to, Batch& batch);
@@ -119,10 +117,10 @@ class Planner {
   bool find_tiles(const Sweep& sweep, const Point3& to, double reach, Batch& batch) const;
   std::uint8_t passes_that_meet(const Sweep& sweep, double& reach) const;
   void note_below_floor(const Sweep& sweep, Batch& batch) const;
-  /// Number of the tile a place along X or Y is in; any number below 0 or above the last outside.
-  int tile_at(double place) const {
+  /// Number of the tile of a coordinate along X or Y; outside any number below 0 or above the last.
+  int tile_at(double v) const {
     // std::floor is a call, and std::clamp branches.
-    return static_cast<int>(std::min(std::max(place * per_tile_ + 1.0, 0.0), 1e6)) - 1;
+    return static_cast<int>(std::min(std::max(v * per_tile_ + 1.0, 0.0), 1e6)) - 1;
   }
   void pair_box(const Sweep& sweep, const Point3& to, double reach, std::uint32_t number, Batch& batch) const;
   void pair_line(const Sweep& sweep, const Point3& to, double reach, std::uint32_t number,
@@ -135,18 +133,18 @@ class Planner {
 
   const Workpiece::Body& body_;
   const std::vector<ToolSolids>& tools_;
-  std::vector<ToolExtent> extents_;  // one a tool
+  std::vector<ToolExtent> extents_;  // one per tool
   double hazard_depth_;
   PlanScope scope_;
   Box3 wanted_;  // around the tiles of the scope; in X and Y only
   double per_tile_;
   Point3 size_;
-  std::optional<std::uint32_t> cutting_tool_;  // of the sweep before, if that cut
-  Point3 end_;                                 // where it ended, block frame
+  std::optional<std::uint32_t> cutting_tool_;  // of the previous sweep, if that cut
+  Point3 end_;                                 // its end, block frame
   Chords chords_;
 };
 
-/// Chords for the arc of `walk` at the simulator's tolerance, and whether that many are more than are made.
+/// Chords of an arc at the simulator's tolerance, and whether they are limited to the maximum number.
 struct ChordCount {
   int count = 1;
   bool too_coarse = false;

@@ -1,4 +1,4 @@
-// Cutting a tool's half profile into convex pieces.
+// Splits the half profile of a tool into convex pieces.
 #include "sim/sweep/solid.h"
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 namespace kerf::sim {
 namespace {
 
-/// Radii and centres closer than this are taken as equal, mm: far below what a profile's numbers mean.
+/// Radii and centres closer than this are equal, mm; far below the precision of a profile.
 constexpr double kSameRadius = 1e-9;
 /// Steps in radius at which an underside is sampled to find its convex hull.
 constexpr int kHullSamples = 512;
-/// Most frusta for one hollow arc; with a chord of half a micron enough for a radius of 100 m.
+/// Maximum number of frusta per concave arc; with a chord tolerance of 0.5 um enough for a radius of 100 m.
 constexpr int kMaxFrusta = 4096;
 
 Cap flat_cap(double height, double rim) { return {.flat = rim, .height = height}; }
@@ -58,13 +58,13 @@ ConvexPiece zone(const Knot& a, const Knot& b) {
   return piece;
 }
 
-/// Frusta for a hollow arc. Their knots lie as far beyond it as makes the volume right: two thirds of what
-/// the middles of chords between points of the arc would stray to the other side.
-void add_hollow_arc(const Knot& a, const Knot& b, double stray, std::vector<ConvexPiece>& pieces) {
+/// Frusta for a concave arc. Their knots lie outside it by 2/3 of the chord error, so that the volume is
+/// right.
+void add_concave_arc(const Knot& a, const Knot& b, double chord_error, std::vector<ConvexPiece>& pieces) {
   constexpr double kBeyond = 2.0 / 3.0;
   const detail::ProfileArc arc = detail::profile_arc(a, b);
   const double sweep = 4.0 * std::atan(a.bulge);
-  const double step = 2.0 * std::acos(1.0 - std::min(stray / kBeyond / arc.radius, 1.0));
+  const double step = 2.0 * std::acos(1.0 - std::min(chord_error / kBeyond / arc.radius, 1.0));
   const int count = std::clamp(static_cast<int>(std::ceil(std::abs(sweep) / step)), 1, kMaxFrusta);
   const double radius = arc.radius * (1.0 + kBeyond * (1.0 - std::cos(0.5 * sweep / count)));
   const double start = std::atan2(a.z - arc.z, a.r - arc.r);
@@ -88,7 +88,7 @@ std::vector<ConvexPiece> pieces_of(const Profile& profile, double chord) {
     if (a.bulge > 0.0) {
       pieces.push_back(zone(a, b));
     } else if (a.bulge < 0.0) {
-      add_hollow_arc(a, b, chord, pieces);
+      add_concave_arc(a, b, chord, pieces);
     } else {
       pieces.push_back(frustum(a.r, a.z, b.r, b.z));
     }
@@ -127,7 +127,7 @@ bool never_shrinks_upwards(const std::vector<ConvexPiece>& pieces) {
   return true;
 }
 
-/// Of one envelope, leaves out the pieces whose underside is hidden by those below them.
+/// Of one envelope, removes the pieces whose underside is hidden by those below them.
 void drop_hidden(std::vector<ConvexPiece>& pieces) {
   double rim = 0.0;
   std::erase_if(pieces, [&](const ConvexPiece& piece) {
@@ -159,11 +159,11 @@ void find_cull_lines(Solid& solid) {
     while (hull.size() > 1 && !turns_up(hull[hull.size() - 2], hull.back())) hull.pop_back();
     hull.push_back(next);
   }
-  // Shares of the rim at which the hull is followed; denser outside, where a ball is steep.
-  constexpr double kShares[kCullLines] = {0.0, 0.25, 0.45, 0.65, 0.82, 0.95};
+  // Fractions of the rim at which hull edges are chosen; denser outside, where a ball is steep.
+  constexpr double kFractions[kCullLines] = {0.0, 0.25, 0.45, 0.65, 0.82, 0.95};
   for (int i = 0; i < kCullLines; ++i) {
     std::size_t edge = 0;
-    while (edge + 2 < hull.size() && hull[edge + 1].rho <= kShares[i] * solid.rim) ++edge;
+    while (edge + 2 < hull.size() && hull[edge + 1].rho <= kFractions[i] * solid.rim) ++edge;
     const Corner a = hull[edge], b = hull[edge + 1];
     const double slope = (b.height - a.height) / (b.rho - a.rho);
     solid.lines[i] = {a.height - slope * a.rho, slope};
@@ -185,12 +185,12 @@ double Cap::at(double rho) const {
 }
 
 double Solid::reach_below(double height) const {
-  // The underside never falls outwards, so that halving the range finds the last place below the height.
+  // The underside does not fall outwards, so bisection finds the last radius below the height.
   double low = 0.0, high = rim;
   if (underside_at(pieces, rim, top) < height) return rim;
   for (int n = 0; n < 60; ++n) {
-    const double middle = 0.5 * (low + high);
-    (underside_at(pieces, middle, top) < height ? low : high) = middle;
+    const double midpoint = 0.5 * (low + high);
+    (underside_at(pieces, midpoint, top) < height ? low : high) = midpoint;
   }
   return low;
 }

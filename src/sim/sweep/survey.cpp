@@ -1,5 +1,5 @@
-// Looks at what is to be simulated before anything is cut: the stock's size, the columns, the tools, what of
-// the program the simulator passes over.
+// Checks the input of a simulation before anything is cut: stock, resolution, tools, and steps that are not
+// simulated.
 #include "sim/sweep/survey.h"
 
 #include <algorithm>
@@ -17,14 +17,14 @@
 namespace kerf::sim {
 namespace {
 
-constexpr double kMinPitch = 1e-4;                               // mm; finer, single precision ends
-constexpr double kDefaultColumns = 2.5e6;                        // of the automatic resolution
+constexpr double kMinPitch = 1e-4;         // mm; below it single precision does not suffice
+constexpr double kDefaultColumns = 2.5e6;  // of the default resolution
 constexpr double kDefaultFinest = 0.02, kDefaultCoarsest = 1.0;  // mm
-constexpr double kMaxDefaultColumns = 5e7;                       // a coarser one rather than more
-/// Sideways contacts below this are rounding, even where no depth at all is to be ignored, mm.
+constexpr double kMaxDefaultColumns = 5e7;  // the default resolution is made coarser for more
+/// Sideways contacts below this are rounding, even with a hazard depth of 0, mm.
 constexpr double kMinClearance = 1e-4;
 
-bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
+bool stock_is_valid(const Stock& stock, Diagnostics& diagnostics) {
   const Box3& block = stock.block;
   const Point3 size = block.size();
   if (!finite(block.low) || !finite(block.high) || !(size.x > 0.0) || !(size.y > 0.0) || !(size.z > 0.0)) {
@@ -43,7 +43,7 @@ bool stock_is_sound(const Stock& stock, Diagnostics& diagnostics) {
   return false;
 }
 
-/// The column pitch to use, or nothing with an error.
+/// The column pitch; nothing, with an error appended, if it is invalid.
 std::optional<double> choose_pitch(const SimulationOptions& options, const Stock& stock,
                                    Diagnostics& diagnostics) {
   const Point3 size = stock.block.size();
@@ -57,24 +57,24 @@ std::optional<double> choose_pitch(const SimulationOptions& options, const Stock
   if (!std::isfinite(pitch) || pitch < kMinPitch) {
     diagnostics.error(
         Code::bad_resolution, {},
-        fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 to have one chosen",
+        fmt::format("the resolution is {} mm; expected a length of at least {} mm, or 0 for the default",
                     number_text(pitch, 9), number_text(kMinPitch, 4)));
     return std::nullopt;
   }
-  pitch = std::min(pitch, std::max(size.x, size.y));  // never less than one column
+  pitch = std::min(pitch, std::max(size.x, size.y));  // at least one column
   const double columns = std::ceil(size.x / pitch) * std::ceil(size.y / pitch);
-  const auto most = static_cast<double>(std::min(options.max_columns, std::size_t{0xfffffff0}));
-  if (columns <= most) return pitch;
-  // The finest that does for certain: (x / p + 1) (y / p + 1) = most, for the last column may be a part of
-  // one.
+  const auto limit = static_cast<double>(std::min(options.max_columns, std::size_t{0xfffffff0}));
+  if (columns <= limit) return pitch;
+  // The finest pitch that is certainly allowed solves (x / p + 1) (y / p + 1) = limit, as the last column may
+  // be narrower.
   const double area = size.x * size.y, edges = size.x + size.y, longest = std::max(size.x, size.y);
-  const double root = std::sqrt(edges * edges + 4.0 * area * std::max(most - 1.0, 0.0));
-  const double would_do = root > edges ? std::min(2.0 * area / (root - edges), longest) : longest;
+  const double root = std::sqrt(edges * edges + 4.0 * area * std::max(limit - 1.0, 0.0));
+  const double possible = root > edges ? std::min(2.0 * area / (root - edges), longest) : longest;
   Diagnostic& error =
       diagnostics.error(Code::too_many_columns, {},
                         fmt::format("a resolution of {} mm needs {:.0f} columns; at most {:.0f} are allowed",
-                                    number_text(pitch, 6), columns, most));
-  error.hint = fmt::format("a resolution of {} mm would do", number_text(std::ceil(would_do * 1e4) / 1e4, 4));
+                                    number_text(pitch, 6), columns, limit));
+  error.hint = fmt::format("try a resolution of {} mm", number_text(std::ceil(possible * 1e4) / 1e4, 4));
   return std::nullopt;
 }
 
@@ -93,13 +93,13 @@ class Surveyor {
     if (tools_.tools().size() == 1) survey_.only_tool = tools_.tools().begin()->first;
     survey_.judges_spindle = path_.has(StepKind::spindle) && !path_.has(StepKind::laser_power);
     for (MotionReader motion(path_, first); motion.next() && motion.context().index < last;)
-      look_at(motion.step(), motion.context());
+      check_motion(motion.step(), motion.context());
     return std::move(survey_);
   }
 
  private:
-  void look_at(const Step& step, const MotionContext& context) {
-    check_place(step, context);
+  void check_motion(const Step& step, const MotionContext& context) {
+    check_position(step, context);
     check_extras(step, context);
     const std::optional<int> number = survey_.tool_of(context);
     const bool is_known = number && (number == known_tool_ || find_tool(*number));
@@ -109,13 +109,14 @@ class Surveyor {
     if (step.kind() == StepKind::arc && is_walked(context) &&
         chord_count(walk_of(step, context.from)).too_coarse)
       diagnostics_.warning(Code::coarse_arc, path_.origin_of(context.index),
-                           "the arc is so long that it is simulated with chords coarser than usual");
+                           "the arc is so long that its chords are coarser than the tolerance");
     constexpr unsigned kXY = 3;
-    const unsigned arc_begin = step.kind() == StepKind::arc ? context.unknown_from & kXY : 0u;
-    if ((step.unknown_axes() | arc_begin) != 0) warn_unknown_place(step.unknown_axes() | arc_begin, context);
+    const unsigned unknown_start = step.kind() == StepKind::arc ? context.unknown_from & kXY : 0u;
+    if ((step.unknown_axes() | unknown_start) != 0)
+      warn_unknown_position(step.unknown_axes() | unknown_start, context);
   }
 
-  /// Makes the solids of a tool that is met for the first time. False if its shape is not known.
+  /// Makes the solids of a tool at its first use. False if it has no shape.
   bool find_tool(int number) {
     if (survey_.index.count(number) == 0) {
       const Tool* tool = tools_.find(number);
@@ -127,7 +128,7 @@ class Surveyor {
     return true;
   }
 
-  void check_place(const Step& step, const MotionContext& context) {
+  void check_position(const Step& step, const MotionContext& context) {
     Point3 arc_centre = centre_;
     if (step.kind() == StepKind::arc) {
       const Point2 c = step.arc().centre;
@@ -135,65 +136,62 @@ class Surveyor {
     }
     if (is_near(step.to()) && is_near(arc_centre)) return;
     diagnostics_.error(Code::motion_out_of_range, path_.origin_of(context.index),
-                       fmt::format("the motion goes further than {} km from the stock",
+                       fmt::format("the motion goes farther than {} km from the stock",
                                    number_text(limits::kMaxCoordinate * 1e-6, 0)));
   }
 
-  bool is_near(Point3 place) const {
-    const Point3 way = place - centre_;
-    return dot(way, way) < limits::kMaxCoordinate * limits::kMaxCoordinate;
+  bool is_near(Point3 position) const {
+    const Point3 offset = position - centre_;
+    return dot(offset, offset) < limits::kMaxCoordinate * limits::kMaxCoordinate;
   }
 
   void check_extras(const Step& step, const MotionContext& context) {
     if (step.kind() == StepKind::extrude)
       once(Code::extrusion_not_simulated, context,
-           "a program that cuts is simulated as one; its extruding moves are passed over");
+           "extruding motions are not simulated in a program that cuts");
     const MotionExtra* extra = path_.extra(context.index);
     if (extra == nullptr) return;
     if (extra->abc)
       once(Code::rotary_not_simulated, context,
-           "rotary axes are not simulated here; the tool is taken as upright throughout, see --rotary");
+           "rotary axes are not simulated here; the tool axis is assumed to be Z throughout, see --rotary");
     if (!extra->z_correction.empty())
-      once(Code::z_correction_not_simulated, context,
-           "corrections of Z by measured points are not simulated");
+      once(Code::z_correction_not_simulated, context, "Z corrections by probed points are not simulated");
   }
 
   void no_such_tool(int number, const MotionContext& context) {
     if (std::find(missing_.begin(), missing_.end(), number) != missing_.end()) return;
     missing_.push_back(number);
-    Diagnostic& error =
-        diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
-                           fmt::format("tool {} cuts here, but its shape is not known", number));
-    error.hint = fmt::format("give a tool {}, for example \"square d=3.175 flute=12.7\"", number);
+    Diagnostic& error = diagnostics_.error(Code::no_such_tool, path_.origin_of(context.index),
+                                           fmt::format("tool {} cuts here, but has no shape", number));
+    error.hint = fmt::format("specify tool {}, e.g. \"square d=3.175 flute=12.7\"", number);
   }
 
   void no_tool(const MotionContext& context) {
-    if (std::exchange(said_no_tool_, true)) return;
+    if (std::exchange(reported_no_tool_, true)) return;
     Diagnostic& error = diagnostics_.error(Code::no_tool_chosen, path_.origin_of(context.index),
-                                           "the program cuts here before it has chosen a tool");
-    error.hint = "give exactly one tool, which is then used until the program chooses another";
+                                           "cut before the first tool change");
+    error.hint = "specify exactly one tool; it is then used until the first tool change";
   }
 
-  void warn_unknown_place(unsigned axes, const MotionContext& context) {
+  void warn_unknown_position(unsigned axes, const MotionContext& context) {
     constexpr unsigned kAxisZ = 4;
-    std::vector<std::string> unknown, taken;
+    std::vector<std::string> unknown, assumed;
     for (unsigned axis = 0; axis < 3; ++axis) {
       if ((axes >> axis & 1u) == 0) continue;
       unknown.emplace_back(1, "XYZ"[axis]);
-      if (axis < 2) taken.push_back(fmt::format("{}0", "XYZ"[axis]));
+      if (axis < 2) assumed.push_back(fmt::format("{}0", "XYZ"[axis]));
     }
-    std::string message = fmt::format("the program cuts here before it has said where {} {}; ",
+    std::string message = fmt::format("cut at an unknown position: {} {} not known; ",
                                       list_text(unknown, "and"), unknown.size() == 1 ? "is" : "are");
-    if (!taken.empty())
-      message += fmt::format("{} {} taken", list_text(taken, "and"), taken.size() == 1 ? "is" : "are");
+    if (!assumed.empty()) message += fmt::format("assuming {}", list_text(assumed, "and"));
     if ((axes & kAxisZ) != 0)
-      message += taken.empty() ? "without it nothing is cut" : ", and without a Z nothing is cut";
+      message += assumed.empty() ? "nothing is cut without Z" : "; nothing is cut without Z";
     once(Code::cut_at_unknown_place, context, std::move(message));
   }
 
   void once(Code code, const MotionContext& context, std::string message) {
-    if (std::find(said_.begin(), said_.end(), code) != said_.end()) return;
-    said_.push_back(code);
+    if (std::find(reported_.begin(), reported_.end(), code) != reported_.end()) return;
+    reported_.push_back(code);
     diagnostics_.warning(code, path_.origin_of(context.index), std::move(message));
   }
 
@@ -203,33 +201,36 @@ class Surveyor {
   double clearance_;
   Diagnostics& diagnostics_;
   Survey survey_;
-  std::optional<int> known_tool_;  // of the motion before
+  std::optional<int> known_tool_;  // of the previous motion
   std::vector<int> missing_;
-  std::vector<Code> said_;
-  bool said_no_tool_ = false;
+  std::vector<Code> reported_;
+  bool reported_no_tool_ = false;
 };
 
-/// Adds the tools of a later part of the path.
-void add_tools(Survey& survey, Survey&& part) {
-  std::vector<const std::pair<const int, std::uint32_t>*> in_order(part.solids.size());
-  for (const auto& tool : part.index) in_order[tool.second] = &tool;
+/// Adds the tools of a later section of the path.
+void add_tools(Survey& survey, Survey&& section) {
+  std::vector<const std::pair<const int, std::uint32_t>*> in_order(section.solids.size());
+  for (const auto& tool : section.index) in_order[tool.second] = &tool;
   for (const auto* tool : in_order)
     if (survey.index.try_emplace(tool->first, static_cast<std::uint32_t>(survey.solids.size())).second)
-      survey.solids.push_back(std::move(part.solids[tool->second]));
+      survey.solids.push_back(std::move(section.solids[tool->second]));
 }
 
-/// Long paths are looked at in parts; only if there is something to be said, once more from begin to end.
+/// Surveys sections of the path in parallel. If any has a diagnostic, the whole path is surveyed again in
+/// order, so that diagnostics appear once and in order.
 Survey survey_of(const Toolpath& path, const ToolTable& tools, const Stock& stock, double clearance,
                  unsigned threads, Diagnostics& diagnostics) {
-  constexpr std::size_t kPart = 1 << 16;  // steps
-  const std::size_t count = path.size() / kPart + 1;
-  std::vector<Diagnostics> said(count);
+  constexpr std::size_t kSection = 1 << 16;  // steps
+  const std::size_t count = path.size() / kSection + 1;
+  std::vector<Diagnostics> diagnostics_of(count);
   std::vector<Survey> found(count);
-  const auto look = [&](std::size_t n) {
-    found[n] = Surveyor(path, tools, stock, clearance, said[n]).run(n * kPart, (n + 1) * kPart);
+  const auto survey_section = [&](std::size_t n) {
+    found[n] =
+        Surveyor(path, tools, stock, clearance, diagnostics_of[n]).run(n * kSection, (n + 1) * kSection);
   };
-  parallel_for(threads, count, look, [] { return false; });
-  const bool is_quiet = std::all_of(said.begin(), said.end(), [](const auto& d) { return d.list().empty(); });
+  parallel_for(threads, count, survey_section, [] { return false; });
+  const bool is_quiet = std::all_of(diagnostics_of.begin(), diagnostics_of.end(),
+                                    [](const auto& d) { return d.list().empty(); });
   if (!is_quiet) return Surveyor(path, tools, stock, clearance, diagnostics).run(0, path.size());
   for (std::size_t n = 1; n < count; ++n) add_tools(found[0], std::move(found[n]));
   return std::move(found[0]);
@@ -239,7 +240,7 @@ Survey survey_of(const Toolpath& path, const ToolTable& tools, const Stock& stoc
 
 std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const Stock& stock,
                             const SimulationOptions& options, Diagnostics& diagnostics) {
-  if (!stock_is_sound(stock, diagnostics)) return std::nullopt;
+  if (!stock_is_valid(stock, diagnostics)) return std::nullopt;
   const std::optional<double> pitch = choose_pitch(options, stock, diagnostics);
   if (!pitch) return std::nullopt;
   const std::size_t errors_before = diagnostics.errors();

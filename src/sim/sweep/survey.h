@@ -1,4 +1,4 @@
-// What a simulation needs to know before it begins.
+// The survey of a toolpath and its tools before the simulation starts.
 #pragma once
 
 #include <cstdint>
@@ -16,36 +16,36 @@
 
 namespace kerf::sim {
 
-/// Whether the spindle stands, as far as the program has said.
-inline bool spindle_stands(const MotionContext& motion) {
+/// Whether the spindle is stopped, as far as the program states it.
+inline bool spindle_stopped(const MotionContext& motion) {
   return !motion.spindle_stated || motion.spindle.turn == SpindleTurn::off;
 }
-/// Whether an arc is cut along its way, not just at its end: from X0 or Y0 where those are not known.
+/// Whether an arc is swept along its path and not only at its end. Unknown X or Y of its start count as 0.
 inline bool is_walked(const MotionContext& arc) {
   constexpr unsigned kZ = 4;
   return (arc.unknown_from & kZ) == 0;
 }
 
-/// Which tool cuts where, found before anything is cut so that a missing tool costs no time.
+/// The tools that cut, found before anything is cut so that a missing tool costs no time.
 struct Survey {
-  std::map<int, std::uint32_t> index;  // tool number to place in `solids`
+  std::map<int, std::uint32_t> index;  // tool number to index in `solids`
   std::vector<ToolSolids> solids;
   std::optional<int> only_tool;  // of a table with one tool: used until the program chooses
-  bool judges_spindle = false;   // the program says something of the spindle and is not for a laser
+  bool judges_spindle = false;   // the program states the spindle and is not for a laser
 
-  /// The number of the tool of a motion, if one is told or there is only one.
+  /// The tool number of a motion, if one was chosen or there is only one tool.
   std::optional<int> tool_of(const MotionContext& motion) const {
     return motion.tool ? motion.tool : only_tool;
   }
-  /// Whether what the motion cuts is cut by a spindle that stands.
-  bool spindle_off(const MotionContext& motion) const { return judges_spindle && spindle_stands(motion); }
+  /// Whether the motion cuts with the spindle stopped.
+  bool spindle_off(const MotionContext& motion) const { return judges_spindle && spindle_stopped(motion); }
 };
 
 struct Setup {
   Length pitch;
   Survey survey;
 };
-/// Nothing, with an error appended, where the stock, the resolution or a tool will not do.
+/// Nothing, with an error appended, if the stock, the resolution or a tool is invalid.
 std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const Stock& stock,
                             const SimulationOptions& options, Diagnostics& diagnostics);
 

@@ -127,7 +127,7 @@ TEST(GcodeProgram, APrinterPushesFilament) {
       EXPECT_EQ(s.temperature().celsius, 200.0);
     }
     if (s.kind() == StepKind::fan) {
-      EXPECT_EQ(s.fan().share, 1.0);
+      EXPECT_EQ(s.fan().fraction, 1.0);
     }
   }
   ASSERT_EQ(volumes.size(), 2u);

@@ -10,7 +10,7 @@ namespace {
 LeftColumns three_columns() {
   LeftColumns left;
   left.bounds = {{1, 2, -5}, {4, 3, 0}};
-  left.places = {1.5, 2.5, -5, 1, 3, 1};
+  left.positions = {1.5, 2.5, -5, 1, 3, 1};
   left.columns = {3, 1, {0, 1, 2, 4}, {{0, 5}, {0, 5}, {0, 1.5f}, {2.25f, 4}}};
   return left;
 }
@@ -23,7 +23,7 @@ TEST(StockFile, LeftOverStockThereAndBack) {
   EXPECT_EQ(stock->block, three_columns().bounds);
   EXPECT_DOUBLE_EQ(stock->body->volume().mm3(), 5 + 5 + 1.5 + 1.75);
   EXPECT_EQ(stock->body->pitch()->mm(), 1.0);
-  const auto columns = stock->body->columns(three_columns().places, diagnostics);
+  const auto columns = stock->body->columns(three_columns().positions, diagnostics);
   EXPECT_EQ(columns->runs, three_columns().columns.runs);
 }
 

@@ -51,7 +51,7 @@ TEST(Toolpath, KeepsEveryKindOfStep) {
   EXPECT_EQ(path.extrude(9).height, mm(0.2));
   EXPECT_EQ(path.extrude(9).volume, mm3(1.2));
   EXPECT_TRUE(path[10].temperature().wait);
-  EXPECT_EQ(path[11].fan().share, 0.5);
+  EXPECT_EQ(path[11].fan().fraction, 0.5);
   EXPECT_EQ(path[12].laser_power().mode, LaserMode::dynamic);
   EXPECT_EQ(path.layer(13).name, "cut 3 mm");
   EXPECT_EQ(path.layer(13).colour, 5);

@@ -30,7 +30,7 @@ template <class Top>
 Workpiece part_of(const Top& top) {
   LeftColumns left;
   left.bounds = {{0, 0, -8}, {40, 20, 0}};
-  auto& grid = left.places = {.x = 0.05, .y = 0.05, .z = -8.0, .pitch = 0.1, .nx = 400, .ny = 200};
+  auto& grid = left.positions = {.x = 0.05, .y = 0.05, .z = -8.0, .pitch = 0.1, .nx = 400, .ny = 200};
   left.columns.nx = grid.nx;
   left.columns.ny = grid.ny;
   for (int j = 0; j < grid.ny; ++j) {

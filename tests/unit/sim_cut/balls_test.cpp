@@ -43,7 +43,7 @@ class Chain {
   }
 
  private:
-  double share() {
+  double fraction() {
     state_ = state_ * 1664525u + 1013904223u;
     return (state_ >> 8) / 16777216.0;
   }

@@ -224,7 +224,7 @@ TEST(Simulate, LongPathsAreSurveyedInPartsWithOneWarning) {
 class Stopper : public Progress {
  public:
   void phase(std::string_view what) override { phase_ = what; }
-  void report(double share) override { share_ = share; }
+  void report(double fraction) override { share_ = share; }
   bool stop_requested() override { return true; }
   std::string phase_;
   double share_ = -1;

@@ -60,7 +60,7 @@ TEST(Refusals, ResolutionAndStock) {
   const Refusal fine =
       attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {5000, 4000, 0}), 0.001);
   ASSERT_TRUE(fine.says(Code::too_many_columns));
-  EXPECT_NE(fine.diagnostics.list()[0].hint.find("would do"), std::string::npos);
+  EXPECT_NE(fine.diagnostics.list()[0].hint.find("try a resolution of"), std::string::npos);
   EXPECT_TRUE(attempt(plain_cut(1), square_and_keyhole(), Stock{}).says(Code::stock_empty));
   EXPECT_TRUE(
       attempt(plain_cut(1), square_and_keyhole(), block({0, 0, -10}, {50, nan, 0})).says(Code::stock_empty));
@@ -118,9 +118,9 @@ TEST(Warnings, CoarseArcAndUnknownPosition) {
 
 TEST(Warnings, OnlyTheUnknownAxesAreNamed) {
   const std::pair<unsigned, std::string_view> cases[] = {
-      {7, "said where X, Y and Z are; X0 and Y0 are taken, and without a Z nothing is cut"},
-      {2, "said where Y is; Y0 is taken"},
-      {4, "said where Z is; without it nothing is cut"}};
+      {7, "X, Y and Z are not known; assuming X0 and Y0; nothing is cut without Z"},
+      {2, "Y is not known; assuming Y0"},
+      {4, "Z is not known; nothing is cut without Z"}};
   for (const auto& [axes, words] : cases) {
     Path unknown;
     unknown.tool(1).cut({0, 0, -1});

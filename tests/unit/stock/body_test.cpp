@@ -20,7 +20,7 @@ std::shared_ptr<const StockBody> sound_body(const Triangles& mesh) {
 }
 
 /// Columns that cover a body, the first `offset` pitches from its low corner.
-ColumnPlaces places_over(const StockBody& body, double pitch, double offset = 0.5) {
+ColumnPositions places_over(const StockBody& body, double pitch, double offset = 0.5) {
   const Box3& b = body.bounds();
   return {b.low.x + offset * pitch,
           b.low.y + offset * pitch,
@@ -36,7 +36,7 @@ double volume_of(const ColumnRuns& columns, double pitch) {
   return sum * pitch * pitch;
 }
 
-ColumnRuns sound_columns(const StockBody& body, const ColumnPlaces& places) {
+ColumnRuns sound_columns(const StockBody& body, const ColumnPositions& places) {
   Diagnostics diagnostics;
   auto columns = body.columns(places, diagnostics);
   EXPECT_TRUE(columns);
@@ -60,7 +60,7 @@ TEST(StockBody, VolumesOfKnownSolids) {
 
 TEST(StockBody, HeightsOfASphereAreExact) {
   const auto ball = sound_body(sphere_mesh({0, 0, 0}, 10, 400));
-  const ColumnPlaces places{-5, -5, 0, 0.37, 27, 27};
+  const ColumnPositions places{-5, -5, 0, 0.37, 27, 27};
   const ColumnRuns columns = sound_columns(*ball, places);
   for (int j = 0; j < 27; ++j) {
     for (int i = 0; i < 27; ++i) {
@@ -169,7 +169,7 @@ TEST(StockBody, FlippedMeshAndFlippedColumnsAgree) {
   part.add(box_mesh({5, 2, -4}, {15, 8, 0}));
   Diagnostics diagnostics;
   const auto mesh = body_of(part, diagnostics);
-  const ColumnPlaces places{0.25, 0.25, -10, 0.5, 80, 40};
+  const ColumnPositions places{0.25, 0.25, -10, 0.5, 80, 40};
   LeftColumns left{mesh->bounds(), places, *mesh->columns(places, diagnostics)};
   const auto columns = make_columns_body(std::move(left));
   EXPECT_NEAR(columns->volume().mm3(), mesh->volume().mm3(), 1e-2);
@@ -178,7 +178,7 @@ TEST(StockBody, FlippedMeshAndFlippedColumnsAgree) {
     const Stock a = moved(stock_of(mesh), move), b = moved(stock_of(columns), move);
     EXPECT_EQ(a.block, b.block);
     const Point3 low = a.block.low;
-    const ColumnPlaces there{low.x + 0.25, low.y + 0.25, low.z, 0.5, 80, 40};
+    const ColumnPositions there{low.x + 0.25, low.y + 0.25, low.z, 0.5, 80, 40};
     EXPECT_EQ(a.body->columns(there, diagnostics)->runs, b.body->columns(there, diagnostics)->runs);
   }
   const Stock turned = moved(stock_of(mesh), {StockMove::Flip::about_x, 10.0, -5.0, {}});
