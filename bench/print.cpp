@@ -21,7 +21,7 @@ Toolpath infill(std::int64_t beads) {
   };
   Point3 at;
   const auto lay = [&](Point3 to) {
-    path.add(step::Extrude{to, road_volume(mm(distance(at, to)), mm(kWidth), mm(kHeight)), mm(kWidth),
+    path.add(step::Extrude{to, bead_volume(mm(distance(at, to)), mm(kWidth), mm(kHeight)), mm(kWidth),
                            mm(kHeight), mm_per_min(3000)},
              here);
     at = to;

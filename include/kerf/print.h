@@ -1,30 +1,31 @@
-// The added bead: what a printing program builds, road by road, and what comes out wrong.
+// The print simulator: the beads that an extruding program lays, and its hazards.
 //
-// A *road* is a straight extruding move. Its cross-section is what slicers reckon with (the Slic3r manual,
-// "Flow math"; PrusaSlicer, SuperSlicer and OrcaSlicer share it): a rectangle with half circles at its sides,
+// A *bead* (*road* in the FDM literature) is the material of one straight extruding motion. Its cross-section
+// is that of the slicers (the Slic3r manual, "Flow math"; PrusaSlicer, SuperSlicer and OrcaSlicer use the
+// same): a rectangle with half circles at its sides,
 //
-//   area = (width - height) * height + pi * (height / 2)^2,   area = volume / length in the plan,
+//   area = (width - height) * height + pi * (height / 2)^2,   area = volume / length in plan,
 //
-// so that of volume, width and height two tell the third. The nozzle's Z is the road's top. Its height is,
-// first found: the step's own (step::Extrude, where the program's comments tell it);
-// PrintOptions::layer_height; what the step's width and volume leave; the step in Z from the layer below,
-// which is the last one printed lower than this (the bed for the first). A chain of roads without another
-// motion in between keeps its height; where it climbs by a whole height (a vase) a new layer begins. A road
-// with less material than a round string of that height is a string of its own diameter, at the nozzle.
-// Roads end square, so that each holds its own volume; where a road goes on at an angle, the wedge outside
-// the corner is round, as a nozzle is; free ends get half a turn of the cross-section, told apart (`ends`).
+// so two of volume, width and height determine the third. The Z of the nozzle is the top of the bead. Its
+// height is the first of: that of the step (step::Extrude, from comments of the program);
+// PrintOptions::layer_height; the height that follows from width and volume of the step; the difference in Z
+// from the layer below, which is the last one printed lower than this (the bed for the first). A chain of
+// beads without another motion in between keeps its height; where it climbs by a whole height (a vase) a new
+// layer starts. A bead with less material than a round one of that height is a cylinder of its own diameter
+// below the nozzle. Beads have square ends, so that each has exactly its own volume; where a bead continues
+// at an angle, the wedge outside the corner is rounded; free ends are rounded too, and their volume is
+// reported as `ends`.
 //
-// Filament that is pushed while the nozzle stands first makes good what was drawn back; more of it is a
-// *blob*, which is told and not laid, since nothing tells its shape. So is a "road" wider than
-// limits::kMaxBeadWidth.
+// Filament extruded without motion first compensates for retraction; the rest is a *blob*. It is reported,
+// but not laid, as its shape is unknown. A bead wider than limits::kMaxBeadWidth is also a blob.
 //
-// Material is columns of intervals, as in workpiece.h; they stand on the bed and grow by union. Each interval
-// end has the step that made it, the earlier one where two made it. Lengths in mm, work coordinates.
+// The material is columns of intervals, as in workpiece.h; they start at the bed and grow by union. Each
+// interval end has the step that made it, the earlier one if two made it. Lengths in mm, work coordinates.
 //
 //   extruded = laid - ends + overlap + blobs
 //
-// Volumes are counted in columns; in each layer the columns' share is scaled to what E says was extruded, so
-// that the figures do not depend on how a road lies in the grid. `threads` changes nothing in any result.
+// Volumes are measured in columns; in each layer they are scaled to the extruded volume given by E, so that
+// the figures do not depend on the position of a bead in the grid. The results do not depend on `threads`.
 #pragma once
 
 #include <cstddef>
@@ -45,89 +46,90 @@
 namespace kerf {
 
 struct PrintOptions {
-  Length resolution = mm(0);  // column pitch; 0 chooses one: a fifth of the usual road's width or, for a
-                              // large print, what keeps to some millions of columns and intervals
+  Length resolution = mm(0);  // column pitch; 0 chooses one: a fifth of the usual bead width or, for a large
+                              // print, one that needs some millions of columns and intervals
   unsigned threads = 0;       // 0: as many as the machine has
-  std::optional<Length> layer_height = {};  // of roads whose step tells none; nothing: told as said above
-  Length bed = mm(0);                       // Z of the bed's face
-  Length contact_depth =
-      default_tolerance::kNozzleDepth;  // the nozzle in material by less than this is no hazard
-  Volume least_blob = mm3(0.01);        // less is no blob
+  std::optional<Length> layer_height = {};                 // of beads whose step has none; nothing: see above
+  Length bed = mm(0);                                      // Z of the top of the bed
+  Length contact_depth = default_tolerance::kNozzleDepth;  // shallower contacts of the nozzle are ignored
+  Volume min_blob = mm3(0.01);                             // smaller ones are ignored
   std::size_t max_columns = limits::kMaxColumns;
   std::size_t max_intervals = limits::kMaxPrintIntervals;
 };
 
 enum class PrintHazardKind : std::uint8_t {
-  nozzle_contact,  // a move, extruding or not, whose nozzle goes through material or the bed
-  in_air,       // roads that nothing holds: neither material below nor any beside, nor a road they go on from
-  unsupported,  // a stretch of road longer than wide whose middle line has nothing below it
-  blob,         // filament pushed on the spot, more than was drawn back
+  nozzle_contact,  // a motion, extruding or not, whose nozzle passes through material or the bed
+  in_air,  // beads without support: no material below or beside them, and not a continuation of a supported
+           // bead
+  unsupported,  // consecutive beads, longer than wide in all, with nothing below their centre line
+  blob,         // filament extruded without motion, more than was retracted
 };
 std::string_view to_string(PrintHazardKind kind);
 
-/// One entry a move for nozzle_contact and blob; a stretch of roads that go on from each other is one entry.
+/// One entry per motion for nozzle_contact and blob; consecutive unsupported beads are one entry.
 struct PrintHazard {
   PrintHazardKind kind{};
-  std::uint32_t step = 0;  // index in the toolpath, of a stretch's first road
-  std::size_t steps = 1;   // roads of the stretch
-  Point3 at;               // mm, the nozzle where it begins
-  Length depth;            // nozzle_contact: the largest, under the nozzle's axis
-  Length length;           // unsupported, in_air: of the stretch
+  std::uint32_t step = 0;  // index in the toolpath, of the first bead
+  std::size_t steps = 1;   // beads of the entry
+  Point3 at;               // mm, the nozzle at the start
+  Length depth;            // nozzle_contact: maximum, on the axis of the nozzle
+  Length length;           // unsupported, in_air: length without support
   Volume volume;           // blob
 };
 
 struct PrintVolumes {
-  Volume extruded;     // as E says; of roads and blobs
-  Volume laid;         // what the material holds
-  Volume overlap;      // extruded where there is material already (or the bed). Of two roads that meet at a
-                       // corner only what does not fit into the wedge outside the corner
-  Volume ends;         // the round free ends, which reach beyond the roads' lengths
-  Volume blobs;        // extruded on the spot
-  Volume hollow;       // empty height under material: in each column, between the bed and the highest
-                       // material. Infill's cells, the room below bridges, the lenses between round sides
-  Volume enclosed;     // the part of `hollow` from which no way leads out, from column to column
-  Length road_length;  // in the plan
-  Length unsupported;  // of it, with nothing below the middle line: bridges, and overhangs by more than half
-                       // a width. "Below" ends half the road's height below it
+  Volume extruded;  // as given by E, of beads and blobs
+  Volume laid;      // volume of the material
+  Volume overlap;   // extruded into existing material (or the bed). Of two beads that meet at a corner only
+                    // what does not fit into the wedge outside the corner
+  Volume ends;      // the rounded free ends, beyond the lengths of the beads
+  Volume blobs;     // extruded without motion
+  Volume hollow;  // space below material: in each column, between the bed and the highest material. Cells of
+                  // infill, the space below bridges, the gaps between rounded sides
+  Volume enclosed;     // the part of `hollow` that is not connected, from column to column, with the outside
+  Length bead_length;  // in plan
+  Length unsupported;  // of it, with nothing below the centre line: bridges, and overhangs by more than half
+                       // a width. Material at most half the height of the bead below it counts
 };
 
-/// All roads of one nozzle height; sloping ones belong to the layer that they begin in. `hollow` and
-/// `enclosed` are those between the layer below and this one.
+/// All beads with one nozzle height; sloping ones belong to the layer they start in. `hollow` and `enclosed`
+/// are those between the layer below and this one.
 struct PrintLayer {
-  Length z;       // the nozzle's
-  Length height;  // of its thickest road
-  std::size_t roads = 0;
-  PrintVolumes volumes;  // but for blobs, which belong to no layer
+  Length z;       // of the nozzle
+  Length height;  // of its highest bead
+  std::size_t beads = 0;
+  PrintVolumes volumes;  // without blobs, which belong to no layer
 };
 
 struct PrintSimulation {
-  ColumnGrid columns;              // what extract_mesh takes; bounds.low.z is the bed
+  ColumnGrid columns;              // input of extract_mesh; bounds.low.z is the bed
   std::vector<PrintLayer> layers;  // lowest first
   PrintVolumes total;
-  std::size_t roads = 0;
-  std::vector<PrintHazard> hazards;  // in order of steps
+  std::size_t beads = 0;
+  std::vector<PrintHazard> hazards;  // sorted by step
   double seconds = 0.0;              // of the simulation alone
-  bool stopped = false;              // interrupted: what is here is not complete
+  bool stopped = false;              // interrupted: the result is incomplete
 };
 
-/// What a road holds that is so long in the plan, wide and high; it is no higher than wide.
-Volume road_volume(Length length, Length width, Length height);
+/// The volume of a bead of this length in plan, width and height; height <= width.
+Volume bead_volume(Length length, Length width, Length height);
 
-/// Whether a program prints and does nothing else: it extrudes while it moves and turns no spindle.
+/// Whether a program only prints: it extrudes while moving and starts no spindle.
 bool is_print(const Toolpath& path);
 
-/// Lays the roads of a program. Appends errors (no road, too many columns) and returns nothing where it
-/// cannot run; warns where nothing tells a height, where the comments' widths contradict E (is the filament's
-/// diameter right?), where the place is not known, and where columns are too coarse for roads.
+/// Lays the beads of a program. Appends errors (no beads, too many columns) and returns nothing if it cannot
+/// run. Warns if a height is unknown, if widths in comments contradict E (wrong filament diameter?), if a
+/// position is unknown, and if the columns are too coarse for the beads.
 std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintOptions& options,
                                               Diagnostics& diagnostics, Progress* progress = nullptr);
 
-/// The columns with every gap no higher than `height` filled, but those above the bed. The grooves and lenses
-/// between round-sided roads make most of a print's exact surface; closed by a layer's height, the mesh is
-/// smaller by far and shows the same part.
+/// The columns with all gaps up to `height` filled, except those above the bed. Most of the exact surface of
+/// a print is grooves and gaps between beads with rounded sides; closed by the height of a layer, the mesh is
+/// much smaller and shows the same part.
 ColumnGrid without_grooves(const ColumnGrid& columns, Length height);
 
-/// The surface of a print's columns: extract_mesh, with a road's step on the walls beside nothing too.
+/// The surface of the columns of a print: extract_mesh, but walls beside empty columns have the step of a
+/// bead too.
 Mesh extract_print_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress = nullptr);
 
 }  // namespace kerf

@@ -45,7 +45,7 @@ void put_volumes(py::dict& d, const PrintVolumes& v) {
   d["ends_mm3"] = v.ends.mm3();
   d["hollow_mm3"] = v.hollow.mm3();
   d["enclosed_mm3"] = v.enclosed.mm3();
-  d["road_mm"] = v.road_length.mm();
+  d["road_mm"] = v.bead_length.mm();
   d["unsupported_mm"] = v.unsupported.mm();
 }
 
@@ -62,7 +62,7 @@ py::list layers_of(const PrintResult& r) {
     py::dict d;
     d["z_mm"] = layer.z.mm();
     d["height_mm"] = layer.height.mm();
-    d["roads"] = layer.roads;
+    d["roads"] = layer.beads;
     put_volumes(d, layer.volumes);
     list.append(d);
   }
@@ -123,7 +123,7 @@ the round free ends; `blobs_mm3` pushed on the spot; `hollow_mm3` empty height b
           "hazards", &hazards_of,
           "list of dict: moves that hit material, roads that nothing holds, blobs; in order.")
       .def_property_readonly(
-          "roads", [](const PrintResult& r) { return r.simulation().roads; }, "int: extruding moves.")
+          "roads", [](const PrintResult& r) { return r.simulation().beads; }, "int: extruding moves.")
       .def_property_readonly(
           "resolution_mm", [](const PrintResult& r) { return r.simulation().columns.pitch; },
           "float: distance of the columns, mm.")

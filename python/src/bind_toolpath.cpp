@@ -190,7 +190,7 @@ double volume_of_road(const Toolpath& path, Point3 to, double width, double heig
   if (i == 0) throw py::value_error("without a volume a move must come before, from where the road goes");
   if (!(height > 0.0 && width >= height))
     throw py::value_error("without a volume width and height must be told, and width be no less than height");
-  return road_volume(mm(distance(path[i - 1].to().xy(), to.xy())), mm(width), mm(height)).mm3();
+  return bead_volume(mm(distance(path[i - 1].to().xy(), to.xy())), mm(width), mm(height)).mm3();
 }
 
 void bind_extrude(py::class_<Toolpath>& c) {

@@ -25,7 +25,7 @@ void add_volumes(Json& out, const PrintVolumes& v) {
   out["ends_mm3"] = json_of(v.ends.mm3());
   out["hollow_mm3"] = json_of(v.hollow.mm3());
   out["enclosed_mm3"] = json_of(v.enclosed.mm3());
-  out["road_mm"] = json_of(v.road_length.mm());
+  out["road_mm"] = json_of(v.bead_length.mm());
   out["unsupported_mm"] = json_of(v.unsupported.mm());
 }
 
@@ -33,7 +33,7 @@ Json layers_json(const std::vector<PrintLayer>& layers) {
   Json list = Json::array();
   for (const PrintLayer& layer : layers) {
     Json entry{
-        {"z_mm", json_of(layer.z.mm())}, {"height_mm", json_of(layer.height.mm())}, {"roads", layer.roads}};
+        {"z_mm", json_of(layer.z.mm())}, {"height_mm", json_of(layer.height.mm())}, {"roads", layer.beads}};
     add_volumes(entry, layer.volumes);
     list.push_back(std::move(entry));
   }
@@ -56,7 +56,7 @@ Json json_of_result(const Program& program, const PrintSimulation& s, const std:
   out["kind"] = "print";
   add_volumes(out, s.total);
   out["blobs_mm3"] = json_of(s.total.blobs.mm3());
-  out["roads"] = s.roads;
+  out["roads"] = s.beads;
   out["layers"] = layers_json(s.layers);
   out["resolution_mm"] = json_of(s.columns.pitch);
   out["steps"] = program.path.size();
@@ -73,8 +73,8 @@ void show_summary(Console& console, const Program& program, const PrintSimulatio
   const PrintVolumes& t = s.total;
   const double share = 100.0 * (t.overlap / t.extruded);
   console.summary(fmt::format("{}: {} steps, a print", program.source, program.path.size()));
-  console.summary(fmt::format("roads    {} in {} layers, {} mm long", s.roads, s.layers.size(),
-                              number_text(t.road_length.mm(), 1)));
+  console.summary(fmt::format("roads    {} in {} layers, {} mm long", s.beads, s.layers.size(),
+                              number_text(t.bead_length.mm(), 1)));
   console.summary(fmt::format("extruded {} mm3, {} of it ({}%) where material is already", text(t.extruded),
                               text(t.overlap), number_text(share, 1)));
   console.summary(fmt::format("laid     {} mm3 of material", text(t.laid)));

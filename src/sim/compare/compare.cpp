@@ -114,7 +114,7 @@ void Comparer::weigh(const Difference& d, Point2 at, double area, std::size_t nu
 
 void Comparer::look_at_column(int i, int j, std::span<const Run> target) {
   const Workpiece::Body& body = part_.body();
-  const double area = body.share_x(i) * body.share_y(j) * body.pitch * body.pitch;
+  const double area = body.fraction_x(i) * body.fraction_y(j) * body.pitch * body.pitch;
   const std::vector<Interval> part = part_.column(i, j);
   double of_target = 0.0, of_part = 0.0;
   for (const Run& run : target) of_target += static_cast<double>(run.high - run.low);

@@ -143,7 +143,7 @@ HWY_NOINLINE void cut_group(GroupWork& work, std::size_t first, int count) {
   const TileJob& job = work.job;
   fetch_ahead(job, first + static_cast<std::size_t>(count));
   work.solid = &(*job.tools)[job.sweeps[job.list[first]].tool].cutting;
-  if (is_plain(job) && BallWay(job, *work.solid).takes(job.sweeps[job.list[first]]))
+  if (is_plain(job) && BallFilter(job, *work.solid).accepts(job.sweeps[job.list[first]]))
     return cut_balls(work.balls, job, work.solid->pieces[0].lower, first, count);
   work.count = 0;
   work.all_open = true;

@@ -1,8 +1,8 @@
-// simulate_print: surveys the roads, chooses the columns, lays the roads tile by tile, adds up.
+// simulate_print: surveys the beads, chooses the columns, lays the beads tile by tile, adds up.
 //
-// Three passes over the roads: the survey; roads and the wedges of corners in time order; the free ends, last
-// so that they take only what no road takes. Within a tile pieces are laid in time order; sums are added in
-// the order of tiles, so that threads change nothing.
+// Three passes over the beads: the survey; beads and the wedges of corners in time order; the free ends last,
+// so that they get only space that no bead fills. Within a tile, pieces are laid in time order; sums are
+// added in the order of tiles, so that the result does not depend on threads.
 #include "kerf/print.h"
 
 #include <algorithm>
@@ -27,40 +27,41 @@ namespace kerf {
 namespace printing {
 namespace {
 
-constexpr std::size_t kBatchPairs = 1'000'000;     // of piece and tile, laid at once
-constexpr std::size_t kBatchColumns = 30'000'000;  // likewise, of all pieces: bounds what a batch can add
-constexpr double kStraight = 1e-6;                 // sine of the angle below which a corner has no wedge
+constexpr std::size_t kBatchPairs = 1'000'000;  // of piece and tile, per batch
+constexpr std::size_t kBatchColumns =
+    30'000'000;  // columns of all pieces of a batch: bounds the memory that a batch can add
+constexpr double kStraight = 1e-6;  // sine of the angle below which a corner has no wedge
 
 // ---- laying
 
-/// What a layer adds up; heights of columns in mm, to be multiplied by a column's area.
+/// The sums of a layer; heights of columns in mm, to be multiplied by the area of a column.
 struct LayerSums {
-  double volume = 0.0, length = 0.0, bare = 0.0;  // of roads: mm3, mm
-  double height = 0.0;                            // the thickest road, mm
-  std::size_t roads = 0;
-  double full = 0.0, covered = 0.0;  // of roads
+  double volume = 0.0, length = 0.0, bare = 0.0;  // of beads: mm3, mm
+  double height = 0.0;                            // of the highest bead, mm
+  std::size_t beads = 0;
+  double full = 0.0, covered = 0.0;  // of beads
   double filled_corners = 0.0, filled_ends = 0.0;
 };
 
 struct Batch {
   std::vector<BeadPiece> pieces;
-  std::vector<Road> roads;
+  std::vector<Bead> beads;
   struct Pair {
     std::uint32_t tile, piece;
   };
   std::vector<Pair> pairs;
-  std::size_t columns = 0;  // that the pieces may touch
+  std::size_t columns = 0;  // maximum number that the pieces can touch
 
   bool full() const { return pairs.size() >= kBatchPairs || columns >= kBatchColumns; }
   void clear() {
     pieces.clear();
-    roads.clear();
+    beads.clear();
     pairs.clear();
     columns = 0;
   }
 };
 
-class Printer final : public RoadSink {
+class Printer final : public BeadSink {
  public:
   Printer(const Toolpath& path, const PrintOptions& options, const Frame& frame, const Survey& survey,
           Diagnostics& diagnostics, Progress* progress)
@@ -75,16 +76,16 @@ class Printer final : public RoadSink {
         tiles_y_((frame.ny + kTileSide - 1) / kTileSide),
         tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)),
         layers_(survey.levels.size()),
-        stretches_(hazards_) {}
+        unsupported_(hazards_) {}
 
-  /// False where it was stopped or the print is too large, which is then said.
+  /// False if stopped, or with an error if the print is too large.
   bool print() {
     if (progress_ != nullptr) progress_->phase("printing");
-    for_each_road(path_, options_, *this, nullptr);
+    for_each_bead(path_, options_, *this, nullptr);
     flush();
-    stretches_.close();
+    unsupported_.close();
     laying_ends_ = true;
-    for_each_road(path_, options_, *this, nullptr);
+    for_each_bead(path_, options_, *this, nullptr);
     flush();
     report(progress_, 1.0);
     return !ended_;
@@ -92,21 +93,21 @@ class Printer final : public RoadSink {
   bool stopped() const { return stopped_; }
   PrintSimulation result();
 
-  void road(const Road& r) override;
-  void corner(const Road& before, const Road& next) override;
-  void free_begin(const Road& r) override {
+  void bead(const Bead& r) override;
+  void corner(const Bead& before, const Bead& next) override;
+  void free_start(const Bead& r) override {
     if (laying_ends_) add_wedge(r, r.from, {}, r.along, r.section);
   }
-  void free_end(const Road& r) override {
+  void free_end(const Bead& r) override {
     if (laying_ends_) add_wedge(r, r.to, r.along, {}, r.section);
   }
   void travel(std::uint32_t step, Point3 from, Point3 to) override;
   void blob(std::uint32_t step, Point3 at, double volume) override;
-  bool goes_on() override { return !ended_; }
+  bool wants_more() override { return !ended_; }
 
  private:
   Point2 in_frame(Point3 p) const { return {p.x - frame_.x, p.y - frame_.y}; }
-  void add_wedge(const Road& road, Point3 at, Point2 after, Point2 before, const Section& section);
+  void add_wedge(const Bead& bead, Point3 at, Point2 after, Point2 before, const Section& section);
   void add(const BeadPiece& piece);
   void meet_bed(const BeadPiece& piece);
   void meet(const NozzleContact& contact);
@@ -127,13 +128,13 @@ class Printer final : public RoadSink {
   int tiles_x_, tiles_y_;
   std::vector<std::unique_ptr<PrintTile>> tiles_;
   Batch batch_;
-  std::vector<Sums> sums_;  // one a pair of the batch
+  std::vector<Sums> sums_;  // one per pair of the batch
   std::vector<LayerSums> layers_;
   std::vector<PrintHazard> hazards_;
   std::map<std::uint32_t, NozzleContact> contacts_;  // by step
-  Stretches stretches_;
+  UnsupportedBeads unsupported_;
   double blobs_ = 0.0;
-  std::uint32_t chain_begin_ = 0;
+  std::uint32_t chain_start_ = 0;
   std::uint32_t travel_step_ = std::numeric_limits<std::uint32_t>::max();
   double travelled_ = 0.0;  // of this step
   bool laying_ends_ = false, stopped_ = false, ended_ = false;
@@ -146,29 +147,29 @@ BeadPiece piece_of(const Section& section) {
   return piece;
 }
 
-void Printer::road(const Road& r) {
+void Printer::bead(const Bead& r) {
   if (laying_ends_) return;
-  if (!r.goes_on) chain_begin_ = r.step;
+  if (!r.continues) chain_start_ = r.step;
   BeadPiece piece = piece_of(r.section);
   piece.step = r.step;
   piece.layer = survey_.layer_of(r.level);
-  piece.road = static_cast<std::uint32_t>(batch_.roads.size());
-  piece.chain_begin = chain_begin_;
+  piece.bead = static_cast<std::uint32_t>(batch_.beads.size());
+  piece.chain_start = chain_start_;
   piece.from = in_frame(r.from);
   piece.along = r.along;
   piece.length = r.length;
   piece.z = r.from.z - frame_.bed;
   piece.slope = r.slope();
-  batch_.roads.push_back(r);
+  batch_.beads.push_back(r);
   LayerSums& layer = layers_[piece.layer];
   layer.volume += r.volume;
   layer.length += r.length;
   layer.height = std::max(layer.height, r.section.height);
-  ++layer.roads;
+  ++layer.beads;
   add(piece);
 }
 
-void Printer::corner(const Road& before, const Road& next) {
+void Printer::corner(const Bead& before, const Bead& next) {
   if (laying_ends_) return;
   if (std::abs(cross(before.along, next.along)) < kStraight && dot(before.along, next.along) > 0.0) return;
   const Section section{std::min(before.section.width, next.section.width),
@@ -176,11 +177,11 @@ void Printer::corner(const Road& before, const Road& next) {
   add_wedge(next, next.from, before.along, next.along, section);
 }
 
-void Printer::add_wedge(const Road& road, Point3 at, Point2 after, Point2 before, const Section& section) {
+void Printer::add_wedge(const Bead& bead, Point3 at, Point2 after, Point2 before, const Section& section) {
   BeadPiece piece = piece_of(section);
   piece.kind = PieceKind::wedge;
-  piece.step = road.step;
-  piece.layer = survey_.layer_of(road.level);
+  piece.step = bead.step;
+  piece.layer = survey_.layer_of(bead.level);
   piece.from = in_frame(at);
   piece.z = at.z - frame_.bed;
   piece.after = after;
@@ -190,17 +191,17 @@ void Printer::add_wedge(const Road& road, Point3 at, Point2 after, Point2 before
 
 void Printer::travel(std::uint32_t step, Point3 from, Point3 to) {
   if (laying_ends_) return;
-  const Point2 way = to.xy() - from.xy();
+  const Point2 offset = to.xy() - from.xy();
   BeadPiece piece;
-  piece.length = length(way);
+  piece.length = length(offset);
   if (!(piece.length > 0.0)) return;
   if (travel_step_ != step) travelled_ = 0.0;
   travel_step_ = step;
   piece.kind = PieceKind::travel;
   piece.step = step;
   piece.from = in_frame(from);
-  piece.along = 1.0 / piece.length * way;
-  piece.begin = travelled_;
+  piece.along = 1.0 / piece.length * offset;
+  piece.travelled = travelled_;
   piece.z = from.z - frame_.bed;
   piece.slope = (to.z - from.z) / piece.length;
   travelled_ += piece.length;
@@ -210,15 +211,15 @@ void Printer::travel(std::uint32_t step, Point3 from, Point3 to) {
 void Printer::blob(std::uint32_t step, Point3 at, double volume) {
   if (laying_ends_) return;
   blobs_ += volume;
-  if (volume < options_.least_blob.mm3()) return;
+  if (volume < options_.min_blob.mm3()) return;
   hazards_.push_back({PrintHazardKind::blob, step, 1, at, {}, {}, mm3(volume)});
 }
 
-/// The tiles of a row that a piece reaches; false for none.
+/// The tiles of a row within reach of a piece; false if there are none.
 bool Printer::passes(const BeadPiece& p, double reach, int tile_y, int& first_x, int& last_x) const {
   const double side = kTileSide * frame_.pitch;
   const double low = tile_y * side - reach - frame_.pitch, high = (tile_y + 1) * side + reach;
-  double a = 0.0, b = p.length;  // where the middle line is that high, along it
+  double a = 0.0, b = p.length;  // range of the centre line within these y
   const double rise = p.along.y;
   if (std::abs(rise) * p.length > frame_.pitch) {
     const double at_low = (low - p.from.y) / rise, at_high = (high - p.from.y) / rise;
@@ -236,13 +237,13 @@ bool Printer::passes(const BeadPiece& p, double reach, int tile_y, int& first_x,
   return true;
 }
 
-/// The bed reaches beyond the columns.
+/// Contacts with the bed, which extends beyond the columns.
 void Printer::meet_bed(const BeadPiece& p) {
-  const double deepest = -std::min(p.z, p.z + p.length * p.slope), least = options_.contact_depth.mm();
-  if (deepest <= least) return;
-  const double u = p.z < -least ? 0.0 : (-least - p.z) / p.slope;
+  const double deepest = -std::min(p.z, p.z + p.length * p.slope), min_depth = options_.contact_depth.mm();
+  if (deepest <= min_depth) return;
+  const double u = p.z < -min_depth ? 0.0 : (-min_depth - p.z) / p.slope;
   meet({p.step,
-        p.begin + u,
+        p.travelled + u,
         {p.from.x + u * p.along.x, p.from.y + u * p.along.y, p.z + u * p.slope},
         deepest});
 }
@@ -283,26 +284,26 @@ void Printer::flush() {
 }
 
 void Printer::lay_batch() {
-  // By tile; in a tile in order of time.
+  // By tile; within a tile by time.
   std::stable_sort(batch_.pairs.begin(), batch_.pairs.end(),
                    [](const Batch::Pair& a, const Batch::Pair& b) { return a.tile < b.tile; });
-  std::vector<std::size_t> begins;
+  std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < batch_.pairs.size(); ++k)
-    if (k == 0 || batch_.pairs[k].tile != batch_.pairs[k - 1].tile) begins.push_back(k);
-  begins.push_back(batch_.pairs.size());
+    if (k == 0 || batch_.pairs[k].tile != batch_.pairs[k - 1].tile) starts.push_back(k);
+  starts.push_back(batch_.pairs.size());
   sums_.assign(batch_.pairs.size(), {});
-  std::vector<std::vector<NozzleContact>> contacts(begins.size());
+  std::vector<std::vector<NozzleContact>> contacts(starts.size());
   const double depth = options_.contact_depth.mm();
   const auto lay_tile = [&](std::size_t n) {
-    const std::uint32_t number = batch_.pairs[begins[n]].tile;
+    const std::uint32_t number = batch_.pairs[starts[n]].tile;
     std::unique_ptr<PrintTile>& tile = tiles_[number];
     if (!tile)
       tile = std::make_unique<PrintTile>(frame_, static_cast<int>(number) % tiles_x_,
                                          static_cast<int>(number) / tiles_x_);
-    for (std::size_t k = begins[n]; k < begins[n + 1]; ++k)
+    for (std::size_t k = starts[n]; k < starts[n + 1]; ++k)
       tile->add(batch_.pieces[batch_.pairs[k].piece], depth, sums_[k], contacts[n]);
   };
-  parallel_for(threads_, begins.size() - 1, lay_tile,
+  parallel_for(threads_, starts.size() - 1, lay_tile,
                [&] { return stopped_ = stopped_ || stop_requested(progress_); });
   stopped_ = stopped_ || stop_requested(progress_);
   if (stopped_) return;
@@ -315,14 +316,15 @@ void Printer::meet(const NozzleContact& contact) {
   if (is_new) return;
   NozzleContact& all = it->second;
   all.depth = std::max(all.depth, contact.depth);
-  if (contact.way >= all.way) return;
-  all.way = contact.way;
+  if (contact.distance >= all.distance) return;
+  all.distance = contact.distance;
   all.at = contact.at;
 }
 
-/// Adds the batch's sums to the layers, in the order of tiles, and looks at its roads in the order of time.
+/// Adds the sums of the batch to the layers, in the order of tiles, and finds unsupported beads, in time
+/// order.
 void Printer::merge() {
-  std::vector<Sums> of_road(batch_.roads.size());
+  std::vector<Sums> of_bead(batch_.beads.size());
   for (std::size_t k = 0; k < batch_.pairs.size(); ++k) {
     const BeadPiece& piece = batch_.pieces[batch_.pairs[k].piece];
     if (piece.kind == PieceKind::travel) continue;
@@ -334,14 +336,14 @@ void Printer::merge() {
     }
     layer.full += sums.full;
     layer.covered += sums.covered;
-    Sums& road = of_road[piece.road];
-    road.full += sums.full;
-    road.middle += sums.middle;
-    road.bare += sums.bare;
-    road.held = road.held || sums.held;
+    Sums& bead = of_bead[piece.bead];
+    bead.full += sums.full;
+    bead.centre += sums.centre;
+    bead.bare += sums.bare;
+    bead.supported = bead.supported || sums.supported;
   }
-  for (std::size_t r = 0; r < batch_.roads.size(); ++r)
-    layers_[survey_.layer_of(batch_.roads[r].level)].bare += stretches_.add(batch_.roads[r], of_road[r]);
+  for (std::size_t r = 0; r < batch_.beads.size(); ++r)
+    layers_[survey_.layer_of(batch_.beads[r].level)].bare += unsupported_.add(batch_.beads[r], of_bead[r]);
 }
 
 void Printer::check_size() {
@@ -356,14 +358,15 @@ void Printer::check_size() {
   ended_ = true;
   if (too_deep) {
     diagnostics_.error(Code::print_too_large, {},
-                       fmt::format("more than {} roads lie above one place without touching",
+                       fmt::format("more than {} beads lie above each other without touching",
                                    limits::kMaxIntervalsPerColumn));
     return;
   }
   diagnostics_
       .error(Code::print_too_large, {},
-             fmt::format("the print's columns have more than {} runs of material", options_.max_intervals))
-      .hint = fmt::format("ask for columns farther apart than {} mm", number_text(frame_.pitch, 4));
+             fmt::format("the columns of the print have more than {} intervals of material",
+                         options_.max_intervals))
+      .hint = fmt::format("use a resolution coarser than {} mm", number_text(frame_.pitch, 4));
 }
 
 ColumnGrid Printer::grid() const {
@@ -390,15 +393,15 @@ ColumnGrid Printer::grid() const {
   return grid;
 }
 
-/// The figures of a layer from what its columns counted; see print.h.
+/// The figures of a layer from the sums of its columns; see print.h.
 PrintVolumes volumes_of(const LayerSums& sums, double column_area) {
   PrintVolumes volumes;
   volumes.extruded = mm3(sums.volume);
-  const double share = sums.full > 0.0 ? (sums.covered - sums.filled_corners) / sums.full : 0.0;
-  volumes.overlap = std::clamp(share, 0.0, 1.0) * volumes.extruded;
+  const double fraction = sums.full > 0.0 ? (sums.covered - sums.filled_corners) / sums.full : 0.0;
+  volumes.overlap = std::clamp(fraction, 0.0, 1.0) * volumes.extruded;
   volumes.ends = mm3(sums.filled_ends * column_area);
   volumes.laid = volumes.extruded - volumes.overlap + volumes.ends;
-  volumes.road_length = mm(sums.length);
+  volumes.bead_length = mm(sums.length);
   volumes.unsupported = mm(sums.bare);
   return volumes;
 }
@@ -408,16 +411,16 @@ void add_up(PrintVolumes& all, const PrintVolumes& more) {
   all.laid = all.laid + more.laid;
   all.overlap = all.overlap + more.overlap;
   all.ends = all.ends + more.ends;
-  all.road_length = all.road_length + more.road_length;
+  all.bead_length = all.bead_length + more.bead_length;
   all.unsupported = all.unsupported + more.unsupported;
 }
 
 PrintSimulation Printer::result() {
   PrintSimulation out;
-  out.roads = survey_.roads;
+  out.beads = survey_.beads;
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     const PrintVolumes volumes = volumes_of(layers_[i], frame_.pitch * frame_.pitch);
-    out.layers.push_back({mm(survey_.levels[i]), mm(layers_[i].height), layers_[i].roads, volumes});
+    out.layers.push_back({mm(survey_.levels[i]), mm(layers_[i].height), layers_[i].beads, volumes});
     add_up(out.total, volumes);
   }
   out.total.blobs = mm3(blobs_);
@@ -468,17 +471,17 @@ bool is_print(const Toolpath& path) {
 
 std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintOptions& options,
                                               Diagnostics& diagnostics, Progress* progress) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto start = std::chrono::steady_clock::now();
   printing::Survey survey(progress);
-  printing::for_each_road(path, options, survey, &diagnostics);
+  printing::for_each_bead(path, options, survey, &diagnostics);
   if (survey.stopped) {
     PrintSimulation nothing;
     nothing.stopped = true;
     return nothing;
   }
-  if (survey.roads == 0) {
-    diagnostics.error(Code::nothing_printed, {}, "no move of the program lays a road").hint =
-        "a printing program moves with E words, the filament pushed";
+  if (survey.beads == 0) {
+    diagnostics.error(Code::nothing_printed, {}, "no motion of the program lays a bead").hint =
+        "a printing program extrudes while it moves (E words)";
     return std::nullopt;
   }
   survey.sort_levels();
@@ -487,7 +490,7 @@ std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintO
   printing::Printer printer(path, options, *frame, survey, diagnostics, progress);
   if (!printer.print() && !printer.stopped()) return std::nullopt;
   PrintSimulation result = printer.result();
-  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }
 

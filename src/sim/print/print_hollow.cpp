@@ -1,4 +1,4 @@
-// Gaps below runs, joined from column to column where a way leads from one to the other.
+// Gaps below intervals, joined with gaps of neighbouring columns that they touch.
 #include "sim/print/print_hollow.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 namespace kerf::printing {
 namespace {
 
-/// Sets of numbers that grow together.
+/// Disjoint sets of numbers (union-find).
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {
@@ -20,7 +20,7 @@ class Sets {
     }
     return a;
   }
-  /// The lower number stands for both, so that the result does not depend on the order.
+  /// The lower number represents both, so that the result does not depend on the order.
   void join(std::uint32_t a, std::uint32_t b) {
     a = find(a);
     b = find(b);
@@ -31,7 +31,7 @@ class Sets {
   std::vector<std::uint32_t> parent_;
 };
 
-/// Adds up lengths of upright lines by the layers that they lie in; each takes the time of two searches.
+/// Adds up lengths of vertical lines by layer; each takes the time of two searches.
 class ByLayer {
  public:
   ByLayer(const std::vector<double>& tops)
@@ -45,7 +45,7 @@ class ByLayer {
     }
     part_[a] += tops_[a] - low;
     part_[b] += high - tops_[b - 1];
-    ++whole_[a + 1];  // the layers between are filled
+    ++whole_[a + 1];  // all layers between
     --whole_[b];
   }
   /// The length in each layer.
@@ -68,10 +68,10 @@ class ByLayer {
 
   const std::vector<double>& tops_;  // above the bed
   std::vector<double> part_;
-  std::vector<long long> whole_;  // how many more lines fill this layer than the one below it
+  std::vector<long long> whole_;  // number of lines that fill this layer, minus that of the layer below
 };
 
-/// Gap number k is the one below interval k. The number after all is the room outside.
+/// Gap number k is below interval k. The number after the last gap is the space outside.
 class Gaps {
  public:
   Gaps(const ColumnGrid& grid, float touch)
@@ -87,7 +87,7 @@ class Gaps {
   bool is_gap(std::uint32_t column, std::uint32_t k) const { return high(k) - low(column, k) > touch_; }
   bool is_open(std::uint32_t k) { return sets_.find(k) == sets_.find(outside_); }
 
-  /// Joins the gaps of a column with those of a neighbour, and with the room above the neighbour.
+  /// Joins the gaps of two neighbouring columns with each other and with the space above them.
   void join(std::uint32_t a, std::uint32_t b) {
     std::uint32_t i = grid_.first[a], j = grid_.first[b];
     const std::uint32_t i_end = grid_.first[a + 1], j_end = grid_.first[b + 1];
@@ -110,7 +110,7 @@ class Gaps {
   bool reaches(float low_a, float high_a, float low_b, float high_b) const {
     return std::min(high_a, high_b) - std::max(low_a, low_b) > touch_;
   }
-  /// From gap `from` of a column upwards, what lies beside the room above the other column.
+  /// Joins the gaps of a column from number `from` on with the space above the other column.
   void open_above(std::uint32_t column, std::uint32_t from, std::uint32_t other) {
     const std::uint32_t end = grid_.first[other + 1];
     const float top = end == grid_.first[other] ? 0.0f : grid_.intervals[end - 1].high;

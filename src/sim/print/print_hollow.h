@@ -1,4 +1,4 @@
-// The empty height under material: how much of it there is, layer by layer, and which part is shut in.
+// The space below material: its height by layer, and the part that is enclosed.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace kerf::printing {
 
-/// Fills in `hollow` and `enclosed` of every layer (lowest first), and of `total`. `touch`: heights no
-/// farther apart are one. False if stopped.
+/// Sets `hollow` and `enclosed` of every layer (lowest first), and of `total`. `touch`: gaps up to this
+/// height are none. False if stopped.
 bool measure_hollow(const ColumnGrid& grid, double touch, std::vector<PrintLayer>& layers,
                     PrintVolumes& total, Progress* progress);
 

@@ -1,4 +1,4 @@
-// Roads that nothing holds: bridges, overhangs, roads in the air.
+// Unsupported beads: bridges, overhangs, beads in the air.
 #pragma once
 
 #include <utility>
@@ -8,45 +8,44 @@
 
 namespace kerf::printing {
 
-/// Follows roads in time order and tells stretches without support.
-class Stretches {
+/// Collects consecutive unsupported beads in time order and reports them.
+class UnsupportedBeads {
  public:
-  explicit Stretches(std::vector<PrintHazard>& hazards) : hazards_(hazards) {}
+  explicit UnsupportedBeads(std::vector<PrintHazard>& hazards) : hazards_(hazards) {}
 
-  /// Returns the length of the road that has nothing below.
-  double add(const Road& road, const Sums& sums) {
-    if (!road.goes_on) {
+  /// Returns the length of the bead with nothing below it.
+  double add(const Bead& bead, const Sums& sums) {
+    if (!bead.continues) {
       close();
-      held_ = false;
-      share_ = 0.0;
+      supported_ = false;
+      bare_fraction_ = 0.0;
     }
-    // A road so short that no column stands under it is as the one before.
-    if (sums.middle > 0) share_ = static_cast<double>(sums.bare) / sums.middle;
-    held_ = held_ || sums.held || sums.full == 0.0;
-    const double bare = share_ * road.length;
-    const PrintHazardKind kind = held_ ? PrintHazardKind::unsupported : PrintHazardKind::in_air;
-    if (open_ && (bare == 0.0 || kind != stretch_.kind)) close();
+    // A bead so short that it covers no column counts like the previous one.
+    if (sums.centre > 0) bare_fraction_ = static_cast<double>(sums.bare) / sums.centre;
+    supported_ = supported_ || sums.supported || sums.full == 0.0;
+    const double bare = bare_fraction_ * bead.length;
+    const PrintHazardKind kind = supported_ ? PrintHazardKind::unsupported : PrintHazardKind::in_air;
+    if (open_ && (bare == 0.0 || kind != entry_.kind)) close();
     if (bare == 0.0) return 0.0;
     if (!open_) {
       open_ = true;
-      width_ = road.section.width;
-      stretch_ = {kind, road.step, 0, road.from, {}, {}, {}};
+      width_ = bead.section.width;
+      entry_ = {kind, bead.step, 0, bead.from, {}, {}, {}};
     }
-    ++stretch_.steps;
-    stretch_.length = stretch_.length + mm(bare);
+    ++entry_.steps;
+    entry_.length = entry_.length + mm(bare);
     return bare;
   }
   void close() {
     if (!std::exchange(open_, false)) return;
-    if (stretch_.kind == PrintHazardKind::in_air || stretch_.length.mm() > width_)
-      hazards_.push_back(stretch_);
+    if (entry_.kind == PrintHazardKind::in_air || entry_.length.mm() > width_) hazards_.push_back(entry_);
   }
 
  private:
   std::vector<PrintHazard>& hazards_;
-  PrintHazard stretch_;
-  bool open_ = false, held_ = false;
-  double width_ = 0.0, share_ = 0.0;
+  PrintHazard entry_;
+  bool open_ = false, supported_ = false;
+  double width_ = 0.0, bare_fraction_ = 0.0;
 };
 
 }  // namespace kerf::printing

@@ -1,4 +1,4 @@
-// What a print's columns become a surface by.
+// The surface of a print from its columns.
 #include "kerf/print.h"
 
 namespace kerf {
@@ -26,8 +26,7 @@ ColumnGrid without_grooves(const ColumnGrid& columns, Length height) {
 
 Mesh extract_print_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress) {
   Mesh mesh = extract_mesh(columns, options, progress);
-  // A wall beside a column without material has no step: nothing was cut there. That of the caps around is
-  // right.
+  // A wall beside an empty column has no step, as nothing was cut there. It gets that of the adjacent caps.
   std::vector<std::uint32_t> of_vertex(mesh.positions.size() / 3, kStockSurface);
   for (std::size_t t = 0; t < mesh.step.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)

@@ -12,14 +12,14 @@
 namespace kerf::printing {
 namespace {
 
-constexpr double kFinestPitch = 0.02;     // mm, of those that are chosen
-constexpr double kColumnsPerWidth = 5.0;  // of the usual road
-constexpr double kChosenColumns = 4e6;    // where no pitch is told
-constexpr double kChosenIntervals = 2e7;  // likewise; every column of every road may keep one
-constexpr double kPitchDigits = 1000.0;   // a chosen pitch is whole in this part of a mm
-constexpr double kCoarse = 0.5;           // of the usual road's width
+constexpr double kFinestPitch = 0.02;     // mm, of a chosen pitch
+constexpr double kColumnsPerWidth = 5.0;  // of the usual bead
+constexpr double kChosenColumns = 4e6;    // for a chosen pitch
+constexpr double kChosenIntervals = 2e7;  // for a chosen pitch; every column of every bead may keep one
+constexpr double kPitchDigits = 1000.0;   // a chosen pitch is a multiple of 1 mm / this
+constexpr double kCoarse = 0.5;           // pitch, of the usual bead width
 constexpr int kMargin = 2;                // columns without material around the print
-constexpr double kTouch = 1e-4;           // mm, and in units of the height's last place:
+constexpr double kTouch = 1e-4;           // mm; and in ulps of the height:
 constexpr double kTouchUlps = 4.0;
 
 double choose_pitch(const Survey& survey, const PrintOptions& options) {
@@ -33,27 +33,27 @@ double choose_pitch(const Survey& survey, const PrintOptions& options) {
 
 }  // namespace
 
-void Survey::road(const Road& r) {
+void Survey::bead(const Bead& r) {
   const double reach = r.section.width / 2.0;
   for (const Point3 p : {r.from, r.to}) {
     box.add(p + Point3{-reach, -reach, -r.section.height});
     box.add(p + Point3{reach, reach, 0.0});
   }
-  ++roads;
+  ++beads;
   length += r.length;
   area += r.length * r.section.width;
   if (levels.empty() || levels.back() != r.level) levels.push_back(r.level);
   if (levels.size() > 2 * sorted) sort_levels();
 }
 
-bool Survey::goes_on() {
-  constexpr std::size_t kBetween = 4096;  // motions, between two questions
+bool Survey::wants_more() {
+  constexpr std::size_t kBetween = 4096;  // motions between two checks
   stopped = stopped || (++motions % kBetween == 0 && stop_requested(progress));
   return !stopped;
 }
 
 void Survey::sort_levels() {
-  constexpr std::size_t kFew = 1024;  // levels are not sorted for less
+  constexpr std::size_t kFew = 1024;  // levels; fewer are not sorted early
   std::sort(levels.begin(), levels.end());
   std::size_t kept = 0;
   for (const double z : levels)
@@ -68,8 +68,8 @@ std::uint32_t Survey::layer_of(double level) const {
 }
 
 std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& options, Diagnostics& diagnostics) {
-  const double told = options.resolution.mm();
-  if (!(told >= 0.0) || !std::isfinite(told)) {
+  const double wanted = options.resolution.mm();
+  if (!(wanted >= 0.0) || !std::isfinite(wanted)) {
     diagnostics.error(Code::bad_resolution, {},
                       "the resolution must be a length above 0, or 0 to choose one");
     return std::nullopt;
@@ -79,7 +79,7 @@ std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& option
   if (!(size.x < limits::kMaxStockSize && size.y < limits::kMaxStockSize &&
         std::abs(high) < limits::kMaxStockSize)) {
     diagnostics.error(Code::print_too_large, {},
-                      fmt::format("the print is {} x {} x {} mm, which cannot be meant",
+                      fmt::format("the print measures {} x {} x {} mm, more than the limit",
                                   number_text(size.x, 0), number_text(size.y, 0), number_text(high, 0)));
     return std::nullopt;
   }
@@ -87,18 +87,19 @@ std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& option
   const double nx = std::ceil(size.x / pitch) + 1 + 2 * kMargin,
                ny = std::ceil(size.y / pitch) + 1 + 2 * kMargin;
   if (nx * ny > static_cast<double>(options.max_columns)) {
-    const double least = std::sqrt(size.x * size.y / static_cast<double>(options.max_columns));
+    const double min_pitch = std::sqrt(size.x * size.y / static_cast<double>(options.max_columns));
     diagnostics
         .error(Code::print_too_large, {},
-               fmt::format("columns {} mm apart are {:.0f} for this print, more than {}",
+               fmt::format("a resolution of {} mm needs {:.0f} columns; at most {} are allowed",
                            number_text(pitch, 4), nx * ny, options.max_columns))
-        .hint = fmt::format("ask for columns {} mm apart or more", number_text(1.1 * least, 3));
+        .hint = fmt::format("use a resolution of {} mm or more", number_text(1.1 * min_pitch, 3));
     return std::nullopt;
   }
   if (pitch > kCoarse * survey.usual_width())
-    diagnostics.warning(Code::print_coarse, {},
-                        fmt::format("columns {} mm apart are coarse for roads {} mm wide; figures are rough",
-                                    number_text(pitch, 3), number_text(survey.usual_width(), 3)));
+    diagnostics.warning(
+        Code::print_coarse, {},
+        fmt::format("a resolution of {} mm is coarse for beads {} mm wide; the figures are inaccurate",
+                    number_text(pitch, 3), number_text(survey.usual_width(), 3)));
   Frame frame;
   frame.pitch = pitch;
   frame.nx = static_cast<int>(nx);
@@ -107,8 +108,8 @@ std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& option
   frame.y = (std::floor(survey.box.low.y / pitch) - kMargin + kShift) * pitch;
   frame.bed = options.bed.mm();
   const auto height = static_cast<float>(std::max(high, 1.0));
-  const float last_place = std::nextafter(height, std::numeric_limits<float>::max()) - height;
-  frame.touch = static_cast<float>(std::max(kTouch, kTouchUlps * static_cast<double>(last_place)));
+  const float ulp = std::nextafter(height, std::numeric_limits<float>::max()) - height;
+  frame.touch = static_cast<float>(std::max(kTouch, kTouchUlps * static_cast<double>(ulp)));
   return frame;
 }
 

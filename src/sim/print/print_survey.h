@@ -1,4 +1,4 @@
-// What the roads of a print are like as a whole, and how the columns stand that hold them.
+// The survey of the beads of a print, and its columns.
 #pragma once
 
 #include <cstddef>
@@ -12,26 +12,26 @@
 
 namespace kerf::printing {
 
-struct Survey final : RoadSink {
+struct Survey final : BeadSink {
   explicit Survey(Progress* asked) : progress(asked) {}
 
-  void road(const Road& r) override;
-  bool goes_on() override;
-  /// Leaves each level once, lowest first; those that rounding alone tells apart become the lowest of them.
+  void bead(const Bead& r) override;
+  bool wants_more() override;
+  /// Sorts the levels and removes duplicates; of levels that differ only by rounding the lowest stays.
   void sort_levels();
-  /// The number of the layer with this level; levels must be sorted.
+  /// The number of the layer at this level; levels must be sorted.
   std::uint32_t layer_of(double level) const;
   double usual_width() const { return area / length; }
 
   Progress* progress;
   Box3 box;
-  std::size_t roads = 0, motions = 0, sorted = 1024;
-  double length = 0.0, area = 0.0;  // mm, mm2 of all roads in the plan
+  std::size_t beads = 0, motions = 0, sorted = 1024;
+  double length = 0.0, area = 0.0;  // mm, mm2 of all beads in plan
   std::vector<double> levels;
   bool stopped = false;
 };
 
-/// Where the columns stand. Nothing, and said, where there are too many.
+/// The grid of columns. Nothing, with an error appended, if there are too many.
 std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& options, Diagnostics& diagnostics);
 
 }  // namespace kerf::printing

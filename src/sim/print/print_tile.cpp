@@ -1,4 +1,4 @@
-// Laying pieces column by column.
+// Lays pieces column by column.
 #include "sim/print/print_tile.h"
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 namespace kerf::printing {
 namespace {
 
-/// A vector's component below this bounds nothing along its axis.
+/// A component of a direction below this clips nothing along its axis.
 constexpr double kLevel = 1e-12;
 
 struct ClippedRange {
   double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
 
-  /// Leaves the x for which low_bound <= a * x + b <= high_bound.
+  /// Clips to the x with low_bound <= a * x + b <= high_bound.
   void clip(double a, double b, double low_bound, double high_bound) {
     if (std::abs(a) < kLevel) {
       if (b < low_bound || b > high_bound) high = -std::numeric_limits<double>::infinity();
@@ -27,14 +27,14 @@ struct ClippedRange {
   }
 };
 
-/// First and last column number of a span, within a tile.
+/// First and last column of an interval, within a tile.
 struct Columns {
   int first, last;
   Columns(double low, double high, double pitch, int tile_first, int count) {
-    const double begin = std::max(std::ceil(low / pitch), static_cast<double>(tile_first));
+    const double start = std::max(std::ceil(low / pitch), static_cast<double>(tile_first));
     const double end = std::min(std::floor(high / pitch), static_cast<double>(tile_first + count - 1));
-    first = begin <= end ? static_cast<int>(begin) : 0;
-    last = begin <= end ? static_cast<int>(end) : -1;
+    first = start <= end ? static_cast<int>(start) : 0;
+    last = start <= end ? static_cast<int>(end) : -1;
   }
 };
 
@@ -47,10 +47,10 @@ PrintTile::PrintTile(const Frame& frame, int tile_x, int tile_y)
       first_y_(tile_y * kTileSide),
       columns_x_(std::min(kTileSide, frame.nx - first_x_)),
       columns_y_(std::min(kTileSide, frame.ny - first_y_)),
-      heads_(std::size_t{kTileSide} * kTileSide, kNoNode) {}
+      heads_(std::size_t{kTileSide} * kTileSide, kNoRun) {}
 
-/// visit(column, u, v) for the columns within `reach` of the middle line: u along it, v across. Half open, so
-/// that of two roads in line each column belongs to one.
+/// Calls visit(column, u, v) for the columns within `reach` of the centre line: u along it, v across. Half
+/// open, so that each column belongs to only one of two collinear beads.
 template <class Visit>
 void PrintTile::for_each_column(const BeadPiece& p, double reach, const Visit& visit) const {
   const double end_y = p.from.y + p.length * p.along.y;
@@ -71,7 +71,7 @@ void PrintTile::for_each_column(const BeadPiece& p, double reach, const Visit& v
   }
 }
 
-/// visit(column, distance from the wedge's middle).
+/// Calls visit(column, distance from the centre of the wedge).
 template <class Visit>
 void PrintTile::for_each_wedge_column(const BeadPiece& p, const Visit& visit) const {
   const double reach = p.reach();
@@ -89,7 +89,7 @@ void PrintTile::for_each_wedge_column(const BeadPiece& p, const Visit& visit) co
 void PrintTile::add(const BeadPiece& piece, double contact_depth, Sums& sums,
                     std::vector<NozzleContact>& contacts) {
   switch (piece.kind) {
-    case PieceKind::road: return lay_road(piece, contact_depth, sums, contacts);
+    case PieceKind::bead: return lay_bead(piece, contact_depth, sums, contacts);
     case PieceKind::wedge: return lay_wedge(piece, sums);
     case PieceKind::travel: return travel(piece, contact_depth, contacts);
   }
@@ -97,48 +97,48 @@ void PrintTile::add(const BeadPiece& piece, double contact_depth, Sums& sums,
 
 namespace {
 
-/// Half the height of a section so far from its middle line.
+/// Half the height of a section at this distance from its centre line.
 double half_height(const BeadPiece& p, double v) {
   if (v <= p.flat) return p.round;
   const double aside = v - p.flat;
   return std::sqrt(std::max(0.0, p.round * p.round - aside * aside));
 }
 
-/// The columns that the middle line runs through, about: half a column's width across the line.
-double middle_reach(const BeadPiece& p, double pitch) {
+/// Half the width across the centre line of the columns that it passes through, approximately.
+double centre_reach(const BeadPiece& p, double pitch) {
   return 0.5 * pitch * (std::abs(p.along.x) + std::abs(p.along.y));
 }
 
-/// Makes a contact of a column the nozzle goes through at u, or deepens the move's contact.
+/// Records a contact of the nozzle at u, or deepens the contact of the motion.
 void meet(const BeadPiece& p, double u, double depth, std::vector<NozzleContact>& contacts) {
   const Point3 at{p.from.x + u * p.along.x, p.from.y + u * p.along.y, p.z + u * p.slope};
   if (contacts.empty() || contacts.back().step != p.step) {
-    contacts.push_back({p.step, p.begin + u, at, depth});
+    contacts.push_back({p.step, p.travelled + u, at, depth});
     return;
   }
   NozzleContact& contact = contacts.back();
   contact.depth = std::max(contact.depth, depth);
-  if (p.begin + u >= contact.way) return;
-  contact.way = p.begin + u;
+  if (p.travelled + u >= contact.distance) return;
+  contact.distance = p.travelled + u;
   contact.at = at;
 }
 
 }  // namespace
 
-void PrintTile::lay_road(const BeadPiece& p, double contact_depth, Sums& sums,
+void PrintTile::lay_bead(const BeadPiece& p, double contact_depth, Sums& sums,
                          std::vector<NozzleContact>& contacts) {
-  const double middle = middle_reach(p, pitch_);
+  const double reach = centre_reach(p, pitch_);
   for_each_column(p, p.reach(), [&](int column, double u, double v) {
     const double nozzle = p.z + u * p.slope;
-    const bool in_middle = v <= middle;
-    if (in_middle) {
-      ++sums.middle;
+    const bool on_centre_line = v <= reach;
+    if (on_centre_line) {
+      ++sums.centre;
       const double depth = height_over(column) - nozzle;
       if (depth > contact_depth) meet(p, u, depth, contacts);
     }
     const Laid laid = lay_section(p, column, nozzle, v, sums);
-    sums.bare += in_middle && !laid.rests ? 1 : 0;
-    sums.held = sums.held || laid.rests || laid.oldest < p.chain_begin;
+    sums.bare += on_centre_line && !laid.supported ? 1 : 0;
+    sums.supported = sums.supported || laid.supported || laid.oldest < p.chain_start;
   });
 }
 
@@ -146,7 +146,7 @@ void PrintTile::lay_wedge(const BeadPiece& p, Sums& sums) {
   for_each_wedge_column(p, [&](int column, double distance) { lay_section(p, column, p.z, distance, sums); });
 }
 
-/// Lays what a section whose top is at `nozzle` has at this distance from its middle line.
+/// Lays the interval of a section with its top at `nozzle`, at this distance from its centre line.
 PrintTile::Laid PrintTile::lay_section(const BeadPiece& p, int column, double nozzle, double aside,
                                        Sums& sums) {
   const double half = half_height(p, aside), centre = nozzle - p.round;
@@ -162,17 +162,17 @@ PrintTile::Laid PrintTile::lay_section(const BeadPiece& p, int column, double no
 void PrintTile::travel(const BeadPiece& p, double contact_depth, std::vector<NozzleContact>& contacts) {
   const double lowest = std::min(p.z, p.z + p.length * p.slope);
   if (top_ - lowest <= contact_depth) return;
-  for_each_column(p, middle_reach(p, pitch_), [&](int column, double u, double) {
+  for_each_column(p, centre_reach(p, pitch_), [&](int column, double u, double) {
     const double depth = height_over(column) - (p.z + u * p.slope);
     if (depth > contact_depth) meet(p, u, depth, contacts);
   });
 }
 
-/// The lowest node that stays clear above `height`; kNoNode where none does.
+/// The lowest run entirely above `height`; kNoRun if there is none.
 std::uint32_t PrintTile::find_above(int column, float height) {
-  std::uint32_t above = kNoNode;
+  std::uint32_t above = kNoRun;
   int walked = 0;
-  for (std::uint32_t n = link(kNoNode, column); n != kNoNode && nodes_[n].low > height; n = nodes_[n].below) {
+  for (std::uint32_t n = link(kNoRun, column); n != kNoRun && runs_[n].low > height; n = runs_[n].below) {
     above = n;
     if (++walked <= limits::kMaxIntervalsPerColumn) continue;
     too_deep_ = true;
@@ -181,22 +181,23 @@ std::uint32_t PrintTile::find_above(int column, float height) {
   return above;
 }
 
-/// Adds a run to a column. It rests on what goes below the road's bottom and comes up to `under.reach`.
+/// Adds a run to a column. It is supported by material from below the bottom of the bead that reaches
+/// `under.reach`.
 PrintTile::Laid PrintTile::lay(int column, float low, float high, std::uint32_t step, Support under) {
   Laid laid;
-  laid.rests = under.reach <= 0.0f;
-  if (low < 0.0f) {  // the bed is there already
+  laid.supported = under.reach <= 0.0f;
+  if (low < 0.0f) {  // the bed
     laid.covered = std::min(high, 0.0f) - low;
     low = 0.0f;
   }
   if (!(high > low) || too_deep_) return laid;
   const std::uint32_t above = find_above(column, high + touch_);
-  MaterialRun joined{low, high, step, step, kNoNode};
+  MaterialRun joined{low, high, step, step, kNoRun};
   std::uint32_t next = link(above, column);
-  while (next != kNoNode && nodes_[next].high >= low - touch_) {
-    const MaterialRun node = nodes_[next];
+  while (next != kNoRun && runs_[next].high >= low - touch_) {
+    const MaterialRun node = runs_[next];
     laid.covered += std::max(0.0f, std::min(high, node.high) - std::max(low, node.low));
-    laid.rests = laid.rests || node.low < under.bottom - touch_;
+    laid.supported = laid.supported || node.low < under.bottom - touch_;
     laid.oldest = std::min({laid.oldest, node.low_step, node.high_step});
     if (node.high >= joined.high - touch_) {
       joined.high_step = node.high_step;
@@ -206,10 +207,10 @@ PrintTile::Laid PrintTile::lay(int column, float low, float high, std::uint32_t 
       joined.low_step = node.low_step;
       joined.low = std::min(joined.low, node.low);
     }
-    take_out(above, column, next);
+    remove(above, column, next);
     next = link(above, column);
   }
-  laid.rests = laid.rests || (next != kNoNode && nodes_[next].high >= under.reach);
+  laid.supported = laid.supported || (next != kNoRun && runs_[next].high >= under.reach);
   insert(above, column, joined);
   top_ = std::max(top_, static_cast<double>(joined.high));
   return laid;
@@ -217,30 +218,30 @@ PrintTile::Laid PrintTile::lay(int column, float low, float high, std::uint32_t 
 
 void PrintTile::insert(std::uint32_t above, int column, const MaterialRun& node) {
   std::uint32_t number = free_;
-  if (number == kNoNode) {
-    number = static_cast<std::uint32_t>(nodes_.size());
-    nodes_.push_back(node);
+  if (number == kNoRun) {
+    number = static_cast<std::uint32_t>(runs_.size());
+    runs_.push_back(node);
   } else {
-    free_ = nodes_[number].below;
-    nodes_[number] = node;
+    free_ = runs_[number].below;
+    runs_[number] = node;
   }
-  std::uint32_t& place = link(above, column);
-  nodes_[number].below = place;
-  place = number;
+  std::uint32_t& head = link(above, column);
+  runs_[number].below = head;
+  head = number;
   ++used_;
 }
 
-void PrintTile::take_out(std::uint32_t above, int column, std::uint32_t node) {
-  link(above, column) = nodes_[node].below;
-  nodes_[node].below = free_;
+void PrintTile::remove(std::uint32_t above, int column, std::uint32_t node) {
+  link(above, column) = runs_[node].below;
+  runs_[node].below = free_;
   free_ = node;
   --used_;
 }
 
 void PrintTile::intervals(int column, std::vector<Interval>& out) const {
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
-  for (std::uint32_t n = heads_[static_cast<std::size_t>(column)]; n != kNoNode; n = nodes_[n].below)
-    out.push_back({nodes_[n].low, nodes_[n].high, nodes_[n].low_step, nodes_[n].high_step});
+  for (std::uint32_t n = heads_[static_cast<std::size_t>(column)]; n != kNoRun; n = runs_[n].below)
+    out.push_back({runs_[n].low, runs_[n].high, runs_[n].low_step, runs_[n].high_step});
   std::reverse(out.begin() + begin, out.end());
 }
 

@@ -1,66 +1,67 @@
 // The material of a print in a square of columns: runs that grow by union. And the pieces that are laid:
-// roads, the round wedges of their corners and ends, and travels, which lay nothing but may hit something.
+// beads, the round wedges of their corners and ends; and travels, which lay nothing but may hit material.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <vector>
 
-#include "sim/print/roads.h"
+#include "sim/print/beads.h"
 
 namespace kerf::printing {
 
 inline constexpr int kTileSide = 64;  // columns along a tile's edge
-inline constexpr std::uint32_t kNoNode = 0xffffffffu;
-/// Columns stand at (k + kShift) * pitch along X and Y: a place that no round number hits, so that no column
-/// stands on the line in which two roads meet.
+inline constexpr std::uint32_t kNoRun = 0xffffffffu;
+/// Columns are at (k + kShift) * pitch in X and Y: off all round numbers, so that no column lies on the line
+/// between two beads.
 inline constexpr double kShift = 0.381966;
 
-/// How the columns of a print stand.
+/// The grid of columns of a print.
 struct Frame {
   double x = 0.0, y = 0.0;  // mm, of column 0, 0
   double bed = 0.0;         // Z
   double pitch = 0.0;       // mm
   int nx = 0, ny = 0;
-  float touch = 0.0f;  // runs no farther apart than this are one: what rounding leaves
+  float touch = 0.0f;  // closer runs are joined: rounding
 };
 
-/// What a piece does in its columns.
-enum class PieceKind : std::uint8_t { road, wedge, travel };
+/// The kind of a piece.
+enum class PieceKind : std::uint8_t { bead, wedge, travel };
 
 /// Coordinates are relative to column 0, 0 and the bed.
 struct BeadPiece {
-  PieceKind kind = PieceKind::road;
+  PieceKind kind = PieceKind::bead;
   std::uint32_t step = 0, layer = 0;
-  std::uint32_t road = 0;         // number in its batch
-  std::uint32_t chain_begin = 0;  // step of the first road of its chain
-  Point2 from;                    // mm, of the middle line; the middle of a wedge
+  std::uint32_t bead = 0;         // number in its batch
+  std::uint32_t chain_start = 0;  // step of the first bead of its chain
+  Point2 from;                    // mm, of the centre line; the centre of a wedge
   Point2 along;                   // unit vector
   double length = 0.0;            // mm
-  double begin = 0.0;             // mm of its move that other pieces make before it
-  double z = 0.0, slope = 0.0;    // the nozzle at `from`, and its rise for each mm
+  double travelled = 0.0;         // mm of the motion before this piece
+  double z = 0.0, slope = 0.0;    // nozzle at `from`, and its rise per mm
   double flat = 0.0;              // half the width of the section's rectangle
   double round = 0.0;             // half the section's height
-  // A wedge is where after.p >= 0 and before.p <= 0, p counted from its middle; a zero vector bounds nothing.
+  // A wedge is the set of p, relative to its centre, with after.p >= 0 and before.p <= 0; a zero vector clips
+  // nothing.
   Point2 after, before;
 
-  double reach() const { return flat + round; }  // from the middle line, of a road or wedge
+  double reach() const { return flat + round; }  // from the centre line of a bead or the centre of a wedge
 };
 
-/// What laying the pieces of a tile counted, by piece. Heights add up columns.
+/// Sums of laying a piece in a tile. Heights are summed over columns.
 struct Sums {
-  double full = 0.0;                   // height of the piece, all of it
-  double covered = 0.0;                // of this, where there was material already, or below the bed
-  std::uint32_t middle = 0, bare = 0;  // columns of the middle line; of these, with nothing below
-  bool held = false;                   // by what lies below, or by another chain's material
+  double full = 0.0;                   // height of the piece
+  double covered = 0.0;                // of this, in existing material or below the bed
+  std::uint32_t centre = 0, bare = 0;  // columns of the centre line; those with nothing below
+  bool supported = false;              // by material below, or by that of another chain
 };
 
-/// Where the nozzle goes through material.
+/// A contact of the nozzle with material.
 struct NozzleContact {
   std::uint32_t step = 0;
-  double way = 0.0;    // mm from the move's begin, of the first contact
-  Point3 at;           // there, relative to the frame
-  double depth = 0.0;  // mm, the largest
+  double distance = 0.0;  // mm from the start of the motion to the first contact
+  Point3 at;              // position of the first contact, relative to the frame
+  double depth = 0.0;     // mm, maximum
 };
 
 class PrintTile {
@@ -68,27 +69,27 @@ class PrintTile {
   struct MaterialRun {
     float low, high;  // mm above the bed
     std::uint32_t low_step, high_step;
-    std::uint32_t below;  // the next run down, kNoNode for none
+    std::uint32_t below;  // the next run below, kNoRun for none
   };
 
   PrintTile(const Frame& frame, int tile_x, int tile_y);
 
-  /// Lays a road or wedge, or tests a travel; `contact_depth` as in PrintOptions.
+  /// Lays a bead or wedge, or tests a travel; `contact_depth` as in PrintOptions.
   void add(const BeadPiece& piece, double contact_depth, Sums& sums, std::vector<NozzleContact>& contacts);
 
   /// Appends the runs of a column, lowest first.
   void intervals(int column, std::vector<Interval>& out) const;
   std::size_t runs() const { return used_; }
-  /// True once a column held more runs than are walked past; what followed there was not laid.
+  /// True if a column exceeded the maximum number of runs; nothing was laid in it afterwards.
   bool too_deep() const { return too_deep_; }
 
  private:
   struct Laid {
     float covered = 0.0f;
-    bool rests = false;                                                // on something below
-    std::uint32_t oldest = std::numeric_limits<std::uint32_t>::max();  // step of what it met
+    bool supported = false;                                            // by material below
+    std::uint32_t oldest = std::numeric_limits<std::uint32_t>::max();  // step of the oldest material touched
   };
-  /// The road's bottom, and how far up what lies below must come to support it.
+  /// The bottom of the bead, and the height that material below must reach to support it.
   struct Support {
     float bottom, reach;
   };
@@ -96,7 +97,7 @@ class PrintTile {
   void for_each_column(const BeadPiece& piece, double reach, const Visit& visit) const;
   template <class Visit>
   void for_each_wedge_column(const BeadPiece& piece, const Visit& visit) const;
-  void lay_road(const BeadPiece& piece, double contact_depth, Sums& sums,
+  void lay_bead(const BeadPiece& piece, double contact_depth, Sums& sums,
                 std::vector<NozzleContact>& contacts);
   void lay_wedge(const BeadPiece& piece, Sums& sums);
   void travel(const BeadPiece& piece, double contact_depth, std::vector<NozzleContact>& contacts);
@@ -104,21 +105,21 @@ class PrintTile {
   Laid lay(int column, float low, float high, std::uint32_t step, Support under);
   std::uint32_t find_above(int column, float height);
   void insert(std::uint32_t above, int column, const MaterialRun& node);
-  void take_out(std::uint32_t above, int column, std::uint32_t node);
+  void remove(std::uint32_t above, int column, std::uint32_t node);
   std::uint32_t& link(std::uint32_t above, int column) {
-    return above == kNoNode ? heads_[static_cast<std::size_t>(column)] : nodes_[above].below;
+    return above == kNoRun ? heads_[static_cast<std::size_t>(column)] : runs_[above].below;
   }
-  double height_over(int column) const {  // of the highest material over the bed
+  double height_over(int column) const {  // height of the material above the bed
     const std::uint32_t head = heads_[static_cast<std::size_t>(column)];
-    return head == kNoNode ? 0.0 : static_cast<double>(nodes_[head].high);
+    return head == kNoRun ? 0.0 : static_cast<double>(runs_[head].high);
   }
 
   double pitch_;
   float touch_;
   int first_x_, first_y_, columns_x_, columns_y_;
   std::vector<std::uint32_t> heads_;  // the highest run of each column
-  std::vector<MaterialRun> nodes_;
-  std::uint32_t free_ = kNoNode;  // nodes that are not used, chained by `below`
+  std::vector<MaterialRun> runs_;
+  std::uint32_t free_ = kNoRun;  // free runs, linked by `below`
   std::size_t used_ = 0;
   double top_ = 0.0;  // of all columns
   bool too_deep_ = false;

@@ -1,4 +1,4 @@
-// The assumed stock: where its top is for programs with Z0 on the top, on the bed, and between.
+// The assumed stock: its top for programs with Z0 on the top, on the bed, and between.
 #include "kerf/assumed_stock.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace kerf {
 namespace {
 
-/// A program made move by move: rapids and feeds to points.
+/// A program of rapids and feed motions to points.
 class Program {
  public:
   Program& rapid(double x, double y, double z) {
@@ -17,9 +17,9 @@ class Program {
     path_.add(step::Cut{{x, y, z}, mm_per_min(300)}, OriginId::none);
     return *this;
   }
-  /// A slot along X from a plunge that begins at `begin`, lifted to `lift` by a feed.
-  Program& slot(double begin, double z, double lift) {
-    return rapid(0, 0, begin).feed(0, 0, z).feed(50, 0, z).feed(50, 0, lift);
+  /// A slot along X from a plunge that starts at `start`, lifted to `lift` by a feed motion.
+  Program& slot(double start, double z, double lift) {
+    return rapid(0, 0, start).feed(0, 0, z).feed(50, 0, z).feed(50, 0, lift);
   }
   AssumedStock assumed() const {
     const auto stock = assume_stock(path_, mm(5), mm(1));
@@ -44,10 +44,10 @@ TEST(AssumedStock, FeedsThatLiftOrTravelAboveDoNotRaiseTheTop) {
   Program program;
   program.slot(5, -2, 15).feed(-200, 0, 15).feed(-200, 0, 5).rapid(0, 0, 5).slot(5, -3, 15);
   EXPECT_EQ(program.top(), 0.0);
-  EXPECT_EQ(program.assumed().stock.block.low.x, -5.0) << "travel above the stock does not widen it";
+  EXPECT_EQ(program.assumed().stock.block.low.x, -5.0) << "travel above the stock does not enlarge it";
 }
 
-TEST(AssumedStock, RampsThatBeginAboveZeroDoNotRaiseTheTop) {
+TEST(AssumedStock, RampsThatStartAboveZeroDoNotRaiseTheTop) {
   Program program;
   program.rapid(0, 0, 2);
   for (int i = 0; i < 10; ++i) program.feed(i % 2 == 0 ? 50 : 0, 0, 2 - 0.3 * (i + 1));
@@ -75,7 +75,7 @@ TEST(AssumedStock, CutsIntoTheBedGoThroughTheStock) {
   EXPECT_DOUBLE_EQ(program.bottom(), -0.2);
 }
 
-TEST(AssumedStock, OnePassAboveTheBedBeginsWhereItsPlungeDoes) {
+TEST(AssumedStock, OnePassAboveTheBedStartsAtItsPlunge) {
   const Program program = Program().slot(6, 2, 15);
   EXPECT_EQ(program.assumed().top, AssumedTop::plunge);
   EXPECT_EQ(program.top(), 6.0);
@@ -107,7 +107,7 @@ TEST(AssumedStock, HolesBelowZero) {
   EXPECT_EQ(program.bottom(), -9.0);
 }
 
-TEST(AssumedStock, AProgramThatBeginsWithoutAHeight) {
+TEST(AssumedStock, AProgramThatStartsWithoutAHeight) {
   Program program;
   program.feed(0, 0, -1).feed(20, 0, -1);
   EXPECT_EQ(program.top(), 0.0);

@@ -1,4 +1,4 @@
-// The checks of a toolpath by itself: every code provoked, and sound paths left in peace.
+// The checks of a toolpath by itself: every code provoked, and none for valid paths.
 #include "kerf/check.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 namespace kerf {
 namespace {
 
-/// A sound little job: tool, spindle, plunge, line, half circle.
+/// A valid small job: tool, spindle, plunge, line, half circle.
 struct Job {
   Toolpath path;
   std::uint32_t file = path.origins().file("job.nc");
@@ -33,7 +33,7 @@ std::vector<std::string> kinds(const Job& job, const CheckOptions& options = {})
 
 using Kinds = std::vector<std::string>;
 
-TEST(CheckPath, SoundJobHasNoHazards) {
+TEST(CheckPath, AValidJobHasNoHazards) {
   Job job = started();
   job.add(step::Cut{{0, 0, -1}, mm_per_min(100)});
   job.add(step::Arc{.to = {10, 0, -1}, .centre = {5, 0}, .turn = Turn::cw, .feed = mm_per_min(400)});
@@ -53,7 +53,7 @@ TEST(CheckPath, CutsWithoutFeedAreOneRunWithTheFirstStep) {
   EXPECT_EQ(found[0].at, (Point3{0, 0, -1}));
 }
 
-TEST(CheckPath, ASoundCutEndsARun) {
+TEST(CheckPath, AValidCutEndsARun) {
   Job job = started();
   job.add(step::Cut{{0, 0, -1}, Feed{}})
       .add(step::Cut{{1, 0, -1}, mm_per_min(5)})
@@ -67,7 +67,7 @@ TEST(CheckPath, ProbesNeedAFeedButNeitherToolNorSpindle) {
   EXPECT_EQ(kinds(job), Kinds{"no_feed"});
 }
 
-TEST(CheckPath, NegativeFeedSaysItsValue) {
+TEST(CheckPath, ANegativeFeedIsReportedWithItsValue) {
   Job job = started();
   job.add(step::Cut{{0, 0, -1}, mm_per_min(-12.5)});
   const auto found = check_path(job.path, {});
@@ -95,7 +95,7 @@ TEST(CheckPath, SpindleNeverStartedOrStopped) {
   Job stopped = started();
   stopped.add(step::Spindle{}).add(step::Cut{{0, 0, -1}, mm_per_min(10)});
   EXPECT_EQ(kinds(stopped), Kinds{"spindle_off"});
-  Job by_hand = started();  // it turns, at a speed that nobody told
+  Job by_hand = started();  // it turns at an unknown speed
   by_hand.add(step::Spindle{rpm(0), SpindleTurn::cw}).add(step::Cut{{0, 0, -1}, mm_per_min(10)});
   EXPECT_EQ(kinds(by_hand), Kinds{});
 }
@@ -133,7 +133,7 @@ TEST(CheckPath, ArcRadiiFollowGrblsRule) {
   EXPECT_EQ(kinds(huge), Kinds{"arc_radii"});  // beyond half a millimetre
 }
 
-TEST(CheckPath, AMissingEndIsToldAtTheLastStep) {
+TEST(CheckPath, AMissingEndIsReportedAtTheLastStep) {
   Job job = started();
   job.add(step::Cut{{3, 0, -1}, mm_per_min(100)}).add(step::Dwell{seconds(1)});
   const auto found = check_path(job.path, {.end = ProgramEnd::missing});
@@ -149,7 +149,7 @@ Machine table_of(double x, double y, double z) {
   return machine;
 }
 
-TEST(CheckPath, AMoveOutOfTheMachineWhereItsPlaceIsKnown) {
+TEST(CheckPath, AMotionBeyondTheTravelOfAKnownWorkZero) {
   Machine machine = table_of(100, 100, 50);
   machine.work_zero = Point3{10, 10, -40};
   Job job = started();
@@ -164,7 +164,7 @@ TEST(CheckPath, AMoveOutOfTheMachineWhereItsPlaceIsKnown) {
   EXPECT_FALSE(found[0].hint.empty());
 }
 
-TEST(CheckPath, AMoveBelowTheMachinesEndNamesThatEnd) {
+TEST(CheckPath, AMotionBelowTheTravelNamesThatEnd) {
   Machine machine = table_of(100, 100, 50);
   machine.work_zero = Point3{10, 10, -40};
   Job job = started();
@@ -176,7 +176,7 @@ TEST(CheckPath, AMoveBelowTheMachinesEndNamesThatEnd) {
       << found[0].message;
 }
 
-TEST(CheckPath, OnlyTheLengthCountsWhereTheMachinesPlaceIsNotKnown) {
+TEST(CheckPath, OnlyTheLengthOfTheTravelCountsWithoutAWorkZero) {
   const Machine machine = table_of(100, 100, 50);
   Job far = started();
   far.add(step::Cut{{1000, 0, -1}, mm_per_min(100)});
@@ -187,7 +187,7 @@ TEST(CheckPath, OnlyTheLengthCountsWhereTheMachinesPlaceIsNotKnown) {
   EXPECT_EQ(kinds(elsewhere, {.machine = &machine}), Kinds{});
 }
 
-TEST(CheckPath, AnArcsBulgeLeavesTheMachine) {
+TEST(CheckPath, TheBulgeOfAnArcExceedsTheTravel) {
   const Machine machine = table_of(100, 8, 50);
   Job job = started();
   job.add(step::Cut{{0, 0, -1}, mm_per_min(100)});
@@ -257,7 +257,7 @@ TEST(CheckPath, ZThatCountsDownwards) {
   EXPECT_NE(found[0].message.find("rapids run at Z -5, its cuts at Z 3;"), std::string::npos)
       << found[0].message;
   EXPECT_FALSE(found[0].hint.empty());
-  Job one_level;  // a laser, a plotter: nothing tells which way Z counts
+  Job one_level;  // a laser or plotter: the direction of Z is unknown
   one_level.add(step::ToolChange{1}).add(step::Spindle{rpm(1), SpindleTurn::cw});
   one_level.add(step::Rapid{{0, 0, 0}}).add(step::Rapid{{1, 0, 0}}).add(step::Cut{{5, 0, 0}, mm_per_min(9)});
   EXPECT_EQ(kinds(one_level), Kinds{});

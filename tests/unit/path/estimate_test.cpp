@@ -1,4 +1,4 @@
-// Planned times: against what can be worked out by hand, and the rules of corners, look-ahead and stops.
+// Planned times: against hand-computed values, and the rules of corners, look-ahead and stops.
 #include "kerf/estimate.h"
 
 #include <chrono>
@@ -95,7 +95,7 @@ TEST(EstimateTime, ALasersPowerFollowsOnlyInLaserMode) {
   EXPECT_NEAR(job.motion(machine), trapezoid(20, 1000 / 60.0, 200), kExact);
 }
 
-TEST(EstimateTime, DwellsAndHaltsStandBesideTheMotion) {
+TEST(EstimateTime, DwellsAndHaltsAreSeparateFromMotion) {
   Machine machine;
   machine.stop_time = seconds(0.025);
   const Job job = Job().cut({10, 0, 0}, 1000).add(step::Dwell{seconds(1.5)}).cut({20, 0, 0}, 1000);
@@ -160,7 +160,7 @@ TEST(EstimateTime, AMillionMovesTakeLessThanASecond) {
   EXPECT_GT(job.motion(), 1000.0);
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   RecordProperty("seconds", std::to_string(took.count()));
-  EXPECT_LT(took.count(), 5.0);  // 1 s on an idle machine; tests share theirs
+  EXPECT_LT(took.count(), 5.0);  // 1 s on an idle machine; tests run in parallel
 }
 
 }  // namespace

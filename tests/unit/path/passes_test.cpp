@@ -1,4 +1,4 @@
-// Passes: what is put together, what must stay, and that nothing strays.
+// Passes: what is joined, what must stay, and deviations.
 #include "kerf/passes.h"
 
 #include <cmath>
@@ -10,17 +10,17 @@ namespace {
 
 const Feed kFeed = mm_per_min(500);
 
-Toolpath begun() {
+Toolpath started() {
   Toolpath path;
   path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
   return path;
 }
 
-/// A circle of chords about (-radius, 0) that begins at zero, `share` of it, rising to `rise`.
-Toolpath chords(double radius, double share, int count, double rise = 0.0) {
-  Toolpath path = begun();
+/// A fraction of a circle of chords about (-radius, 0) that starts at zero, rising to `rise`.
+Toolpath chords(double radius, double fraction, int count, double rise = 0.0) {
+  Toolpath path = started();
   for (int i = 1; i <= count; ++i) {
-    const double t = static_cast<double>(i) / count, angle = 2.0 * std::numbers::pi * share * t;
+    const double t = static_cast<double>(i) / count, angle = 2.0 * std::numbers::pi * fraction * t;
     path.add(step::Cut{{radius * std::cos(angle) - radius, radius * std::sin(angle), rise * t}, kFeed},
              OriginId::none);
   }
@@ -48,7 +48,7 @@ TEST(ChordsToArcs, finds_the_arc_of_a_chain) {
 
 TEST(ChordsToArcs, finds_helices_and_leaves_uneven_rises) {
   EXPECT_EQ(count_of(chords_to_arcs(chords(10, 0.5, 90, 3.0), {}).path, StepKind::arc), 1u);
-  Toolpath uneven = begun();
+  Toolpath uneven = started();
   for (int i = 1; i <= 40; ++i) {
     const double a = 0.05 * i;
     uneven.add(step::Cut{{10 * std::cos(a) - 10, 10 * std::sin(a), i % 2 == 0 ? 0.0 : 1.0}, kFeed},
@@ -59,10 +59,10 @@ TEST(ChordsToArcs, finds_helices_and_leaves_uneven_rises) {
 
 TEST(ChordsToArcs, keeps_polygons_lines_and_changes_of_feed) {
   EXPECT_EQ(count_of(chords_to_arcs(chords(10, 1.0, 6), {}).path, StepKind::arc), 0u);
-  Toolpath line = begun();
+  Toolpath line = started();
   for (int i = 1; i < 20; ++i) line.add(step::Cut{{1.0 * i, 0, 0}, kFeed}, OriginId::none);
   EXPECT_EQ(count_of(chords_to_arcs(line, {}).path, StepKind::arc), 0u);
-  Toolpath feeds = begun();
+  Toolpath feeds = started();
   for (int i = 1; i <= 60; ++i) {
     const double a = 0.05 * i;
     feeds.add(step::Cut{{10 * std::cos(a) - 10, 10 * std::sin(a), 0}, i <= 30 ? kFeed : mm_per_min(100)},
@@ -79,7 +79,7 @@ TEST(ChordsToArcs, a_whole_circle_keeps_its_length) {
 }
 
 TEST(ArcsToChords, stay_on_the_arc_and_fit_again) {
-  Toolpath path = begun();
+  Toolpath path = started();
   path.add(step::Arc{.to = {-20, 0, 1}, .centre = {-10, 0}, .turn = Turn::ccw, .feed = kFeed},
            OriginId::none);
   const PassResult lines = arcs_to_chords(path, mm(0.01));
@@ -88,8 +88,8 @@ TEST(ArcsToChords, stay_on_the_arc_and_fit_again) {
   EXPECT_EQ(count_of(chords_to_arcs(lines.path, {.tolerance = mm(0.011)}).path, StepKind::arc), 1u);
 }
 
-TEST(JoinStraight, joins_what_goes_on_and_keeps_corners) {
-  Toolpath path = begun();
+TEST(JoinStraight, joins_collinear_cuts_and_keeps_corners) {
+  Toolpath path = started();
   for (int i = 1; i <= 10; ++i) path.add(step::Cut{{1.0 * i, 0, 0}, kFeed}, OriginId::none);
   path.add(step::Cut{{10, 5, 0}, kFeed}, OriginId::none);
   path.add(step::Cut{{10, 2, 0}, kFeed}, OriginId::none);  // back
@@ -99,8 +99,8 @@ TEST(JoinStraight, joins_what_goes_on_and_keeps_corners) {
   EXPECT_NEAR(result.before.cut_mm, result.after.cut_mm, 1e-9);
 }
 
-TEST(JoinStraight, a_slow_bend_does_not_add_up) {
-  Toolpath path = begun();
+TEST(JoinStraight, a_slow_curve_is_not_joined) {
+  Toolpath path = started();
   for (int i = 1; i <= 100; ++i) {
     const double a = 0.01 * i;
     path.add(step::Cut{{100 * std::sin(a), 100 - 100 * std::cos(a), 0}, kFeed}, OriginId::none);
@@ -110,8 +110,8 @@ TEST(JoinStraight, a_slow_bend_does_not_add_up) {
   EXPECT_NEAR(result.after.cut_mm, 100.0, 0.05);
 }
 
-TEST(ShortenRapids, leaves_out_ways_to_nowhere) {
-  Toolpath path = begun();
+TEST(ShortenRapids, removes_rapids_without_effect) {
+  Toolpath path = started();
   path.add(step::Cut{{0, 0, -1}, kFeed}, OriginId::none);
   path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
   path.add(step::Rapid{{0, 0, 0.5}}, OriginId::none);
@@ -124,7 +124,7 @@ TEST(ShortenRapids, leaves_out_ways_to_nowhere) {
   EXPECT_LT(result.after.rapid_mm, result.before.rapid_mm);
 }
 
-TEST(ShortenRapids, leaves_unknown_places_alone) {
+TEST(ShortenRapids, keeps_motions_at_unknown_positions) {
   Toolpath path;
   path.set_unknown_axes(path.add(step::Rapid{{0, 0, 5}}, OriginId::none), 3);
   path.add(step::Rapid{{0, 0, 5}}, OriginId::none);

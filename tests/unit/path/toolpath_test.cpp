@@ -1,4 +1,4 @@
-// The toolpath's packing: what goes in comes out.
+// The packing of toolpaths: what is stored is read back.
 #include "kerf/toolpath.h"
 
 #include <algorithm>
@@ -98,10 +98,10 @@ bool is_same(const MotionContext& a, const MotionContext& b) {
          a.spindle_stated == b.spindle_stated;
 }
 
-TEST(Toolpath, AReaderThatBeginsAnywhereReadsTheSame) {
+TEST(Toolpath, AReaderThatStartsAnywhereReadsTheSame) {
   Toolpath path;
   const auto motion = [&](double x) { path.add(step::Cut{{x, 0, 0}, mm_per_min(10)}, OriginId::none); };
-  path.add(step::Note{"begin"}, OriginId::none);
+  path.add(step::Note{"start"}, OriginId::none);
   motion(1);
   path.add(step::ToolChange{7}, OriginId::none);
   motion(2);
@@ -132,7 +132,7 @@ TEST(Toolpath, AReaderThatBeginsAnywhereReadsTheSame) {
   }
 }
 
-TEST(Toolpath, TellsKindsAndMotionsBefore) {
+TEST(Toolpath, ReportsKindsAndMotionsBefore) {
   Toolpath path;
   EXPECT_FALSE(path.has(StepKind::cut));
   EXPECT_EQ(path.motion_before(0), std::nullopt);

@@ -1,5 +1,5 @@
-// Chains of moves of a ball, as reliefs are made of, against the exact sweeps: each move begins where the one
-// before has ended, which the kernels make use of.
+// Chains of motions of a ball, as in reliefs, against the exact sweeps: each motion starts at the end of the
+// previous one, which the kernels use.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,8 +13,8 @@ namespace {
 constexpr double kMicron = 0.001;
 constexpr double kRadius = 3.0;
 
-/// Lowest height of a ball of kRadius above a place while its tip goes from a to b; infinity if it does not
-/// come there. What stands above the ball's middle is a cylinder.
+/// Minimum height of a ball of kRadius above a point while its tip goes from a to b; infinity if it does not
+/// reach the point. Above its centre the tool is a cylinder.
 double swept_low(Point3 a, Point3 b, double x, double y) {
   if (x < std::min(a.x, b.x) - kRadius || x > std::max(a.x, b.x) + kRadius) return 1e6;
   if (y < std::min(a.y, b.y) - kRadius || y > std::max(a.y, b.y) + kRadius) return 1e6;
@@ -23,7 +23,7 @@ double swept_low(Point3 a, Point3 b, double x, double y) {
     const double down2 = kRadius * kRadius - dx * dx - dy * dy;
     return down2 < 0.0 ? 1e6 - down2 : a.z + t * (b.z - a.z) + kRadius - std::sqrt(down2);
   };
-  // Convex where the ball is over the place, and rising away from there.
+  // Convex where the ball is over the point, and increasing away from there.
   double low = 0.0, high = 1.0;
   for (int n = 0; n < 100; ++n) {
     const double left = low + (high - low) / 3, right = high - (high - low) / 3;
@@ -48,21 +48,21 @@ class Chain {
     return (state_ >> 8) / 16777216.0;
   }
   Point3 next(Point3 at, int k) {
-    const double kind = share();
+    const double kind = fraction();
     const auto across = [&](double reach) {
-      at.x = std::clamp(at.x + reach * (2 * share() - 1), 0.0, 26.0);
-      at.y = std::clamp(at.y + reach * (2 * share() - 1), 0.0, 18.0);
+      at.x = std::clamp(at.x + reach * (2 * fraction() - 1), 0.0, 26.0);
+      at.y = std::clamp(at.y + reach * (2 * fraction() - 1), 0.0, 18.0);
     };
     if (kind < 0.1) {
-      at.z = 9 * share() - 0.5;  // straight up or down, now and then through the floor
+      at.z = 9 * fraction() - 0.5;  // vertical, sometimes through the floor
     } else if (kind < 0.2) {
       across(20.0);  // level and long
     } else if (kind < 0.3) {
       across(0.1);  // steep
-      at.z = std::max(0.5, at.z + 4 * share() - 2);
+      at.z = std::max(0.5, at.z + 4 * fraction() - 2);
     } else {
       across(k % 2 == 0 ? 0.3 : 3.0);
-      at.z = std::clamp(at.z + 0.4 * share() - 0.2, 0.2, 8.5);
+      at.z = std::clamp(at.z + 0.4 * fraction() - 0.2, 0.2, 8.5);
     }
     return at;
   }

@@ -1,4 +1,4 @@
-// Stock that is no block, left-over stock turned over, and fixtures.
+// Stock that is not a block, left-over stock turned over, and fixtures.
 #include <gtest/gtest.h>
 
 #include "../stock/solids.h"
@@ -37,8 +37,8 @@ TEST(BodyStock, ABoxAsAMeshCutsAsABlockDoes) {
   EXPECT_EQ(a->workpiece.column(100, 90).size(), b->workpiece.column(100, 90).size());
 }
 
-TEST(BodyStock, ASlotThroughASphereRemovesWhatGeometrySays) {
-  // A slot 6 wide along X through the middle of a sphere of 10 mm, down to its equator.
+TEST(BodyStock, ASlotThroughASphereRemovesTheExactVolume) {
+  // A slot 6 wide along X through the centre of a sphere of 10 mm, down to its equator.
   Path path;
   path.tool(1).rapid({-20, 0, 20}).cut({-20, 0, 0}).cut({20, 0, 0});
   Diagnostics diagnostics;
@@ -53,7 +53,7 @@ TEST(BodyStock, ASlotThroughASphereRemovesWhatGeometrySays) {
   EXPECT_NEAR(result->workpiece.volume().mm3(), result->stock.mm3() - result->removed.mm3(), 0.1);
 }
 
-TEST(BodyStock, RapidsThroughAHollowMeetNothing) {
+TEST(BodyStock, RapidsThroughACavityTouchNothing) {
   Triangles tray = box_mesh({0, 0, 0}, {40, 40, 5});
   tray.add(box_mesh({0, 0, 5}, {5, 40, 30}));
   tray.add(box_mesh({35, 0, 5}, {40, 40, 30}));
@@ -73,8 +73,8 @@ TEST(BodyStock, RapidsThroughAHollowMeetNothing) {
   EXPECT_EQ(result->hazards[0].step, 3u);
 }
 
-TEST(BodyStock, RapidsWithTheShankThroughAMeshAreTold) {
-  // The flutes pass below a ball, what holds them goes through it.
+TEST(BodyStock, RapidsWithTheShankThroughAMeshAreReported) {
+  // The flutes pass below a ball, the shank through it.
   ToolTable tools;
   tools.set(1, make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 5, 0}})));
   Path path;
@@ -90,9 +90,9 @@ TEST(BodyStock, RapidsWithTheShankThroughAMeshAreTold) {
   EXPECT_NEAR(result->hazards[0].removed.mm3(), exact, 0.01 * exact);
 }
 
-TEST(LeftStock, BothSidesMeetInTheMiddle) {
-  // A pocket from the top and, after half a turn about the block's own middle, the same one from below:
-  // through.
+TEST(LeftStock, PocketsFromBothSidesMakeAThroughHole) {
+  // A pocket from the top and, after half a turn about the centre of the block, the same one from below: a
+  // through hole.
   Path pocket;
   pocket.tool(1).rapid({20, 10, 5}).cut({20, 10, -5}).rapid({20, 10, 5});
   Diagnostics diagnostics;
@@ -104,7 +104,7 @@ TEST(LeftStock, BothSidesMeetInTheMiddle) {
   EXPECT_EQ(second.block, first.block);
   const auto both = run(pocket.path(), square_6(), second, 0.0, diagnostics);
   ASSERT_TRUE(both);
-  EXPECT_EQ(both->workpiece.pitch().mm(), 0.05);  // of the left-over
+  EXPECT_EQ(both->workpiece.pitch().mm(), 0.05);  // that of the left-over stock
   const double area = std::numbers::pi * 9.0;
   EXPECT_NEAR(top->removed.mm3(), 5.0 * area, 2e-3 * area);
   EXPECT_NEAR(both->stock.mm3(), 6400.0 - 5.0 * area, 0.05 * area);
@@ -120,7 +120,7 @@ TEST(Fixtures, EveryPartAtFeedAndRapid) {
   Tool tool = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 10, 0}}));
   tool.silhouette.shank = profile({{5, 10, 0}, {5, 30, 0}});
   tools.set(1, tool);
-  // Fixture 0 is 4 high, fixture 1 begins 12 above Z0.
+  // Fixture 0 is 4 high, fixture 1 starts 12 above Z0.
   const std::vector<Fixture> fixtures{fixture("clamp", {{0, 0, 0}, {10, 10, 4}}),
                                       fixture("bridge", {{50, 0, 12}, {60, 10, 20}})};
   Path path;
@@ -130,7 +130,7 @@ TEST(Fixtures, EveryPartAtFeedAndRapid) {
   const auto found = find_fixture_contacts(path.path(), tools, fixtures, {}, diagnostics);
   ASSERT_TRUE(found);
   EXPECT_TRUE(diagnostics.list().empty());
-  // In and out again, at feed and at rapid speed: the clamp stays whole, so that each move meets it.
+  // In and out, at feed and at rapid speed: the clamp is not cut, so each motion touches it.
   struct Expected {
     std::size_t fixture;
     std::uint32_t step;
@@ -152,8 +152,8 @@ TEST(Fixtures, EveryPartAtFeedAndRapid) {
   EXPECT_NEAR((*found)[2].met.mm3(), std::numbers::pi * 9.0, 0.1);
 }
 
-TEST(Fixtures, AMoveOfManyChordsMeetsWhatItMeetsOnce) {
-  // A helix that turns three times at the same place in the clamp.
+TEST(Fixtures, AMotionOfManyChordsTouchesAFixtureOnce) {
+  // A helix with three turns at the same position in the clamp.
   Path path;
   path.tool(1).rapid({25, 20, 10}).cut({25, 20, 4.0});
   path.arc(
@@ -168,7 +168,7 @@ TEST(Fixtures, AMoveOfManyChordsMeetsWhatItMeetsOnce) {
   EXPECT_GT((*found)[0].met.mm3(), ring * 0.8);
 }
 
-TEST(Fixtures, WhatOnlyTouchesIsNoContact) {
+TEST(Fixtures, TouchingWithoutDepthIsNoContact) {
   Path path;
   path.tool(1).rapid({-3, -20, 1}).cut({-3, 20, 1}).rapid({-3, 20, 4}).rapid({20, 5, 4}).cut({-20, 5, 4});
   Diagnostics diagnostics;

@@ -1,5 +1,5 @@
-// Chains of level moves of tools that are made of cylinders: whatever is looked at together, each column has
-// to be cut by the move that is the first over it.
+// Chains of level motions of tools that consist of cylinders: however the motions are grouped, each column
+// must be cut by the first motion over it.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -19,18 +19,18 @@ Tool keyhole_cutter() {
   return make_drawn(1, profile({{0, 0, 0}, {kHead, 0, 0}, {kHead, 1, 0}, {kNeck, 1, 0}, {kNeck, 12, 0}}));
 }
 
-/// Smooth slots, turns on the spot, steps to and fro and moves across the block, from outside of it.
+/// Smooth slots, turns in place, steps back and forth, and motions across the block from outside it.
 std::vector<Point3> wandering(int count) {
   std::mt19937 random(3);
-  const auto share = [&] { return static_cast<double>(random() % 1000000u) * 1e-6; };
+  const auto fraction = [&] { return static_cast<double>(random() % 1000000u) * 1e-6; };
   std::vector<Point3> all{{-6, 9, kFloor}};
   double heading = 0.0;
   for (int k = 0; k < count; ++k) {
     Point3 at = all.back();
     const int kind = k / 150 % 4;
-    heading += kind == 0 ? 0.01 : kind == 1 ? 0.3 * share() : 2 * std::numbers::pi * share();
-    double length = kind == 2 ? 0.1 * share() : 0.04;
-    if (kind == 3) length = share() < 0.1 ? 20 * share() : 0.5 * share();
+    heading += kind == 0 ? 0.01 : kind == 1 ? 0.3 * fraction() : 2 * std::numbers::pi * fraction();
+    double length = kind == 2 ? 0.1 * fraction() : 0.04;
+    if (kind == 3) length = fraction() < 0.1 ? 20 * fraction() : 0.5 * fraction();
     at.x = std::clamp(at.x + length * std::cos(heading), -6.0, 30.0);
     at.y = std::clamp(at.y + length * std::sin(heading), -4.0, 22.0);
     all.push_back(at);
@@ -45,7 +45,7 @@ double distance_to(Point3 a, Point3 b, double x, double y) {
   return std::hypot(x - a.x - t * dx, y - a.y - t * dy);
 }
 
-/// The first move that comes nearer to a place than `radius`, and whether rounding may say another one.
+/// The first motion within `radius` of a point, and whether rounding may select another one.
 struct First {
   std::uint32_t step = kNone;
   bool is_doubtful = false;
@@ -63,7 +63,7 @@ First first_over(const std::vector<Point3>& moves, double radius, double x, doub
 
 class Cylinders : public testing::TestWithParam<double> {};
 
-TEST_P(Cylinders, TheFirstMoveOverAColumnCutsIt) {
+TEST_P(Cylinders, TheFirstMotionOverAColumnCutsIt) {
   const std::vector<Point3> moves = wandering(1800);
   ToolTable tools;
   tools.set(1, keyhole_cutter());

@@ -1,6 +1,5 @@
-// Nothing reported that is not there, nothing missed: every kind of hazard a hundredth of a millimetre before
-// and beyond its limit in depth, and one column before and beyond it sideways, for every motion that can
-// cause it.
+// No false and no missed hazards: every kind of hazard a hundredth of a millimetre before and beyond its
+// limit in depth, and one column before and beyond it sideways, for every motion that can cause it.
 #include <gtest/gtest.h>
 
 #include "../stock/solids.h"
@@ -24,20 +23,20 @@ const char* name_of(Travel travel) {
 
 enum class Speed { feed, rapid };
 
-/// Moves so that `place` is the furthest that the tool gets: the lowest of all, and of arcs the highest in Y.
-void travel_to(Path& path, Travel travel, Speed speed, Point3 place) {
+/// A motion whose extreme position is `limit`: the lowest of all, and of arcs the highest in Y.
+void travel_to(Path& path, Travel travel, Speed speed, Point3 limit) {
   const auto go = [&](Point3 to) { speed == Speed::feed ? path.cut(to) : path.rapid(to); };
   const auto from = [&](Point3 to) { path.rapid({to.x, to.y, 70}).rapid(to); };
-  const auto [x, y, z] = place;
+  const auto [x, y, z] = limit;
   switch (travel) {
     case Travel::line: from({-40, y, z}), go({100, y, z}); break;
     case Travel::back: from({100, y, z}), go({-40, y, z}); break;
     case Travel::across: from({x, -40, z}), go({x, y, z}); break;
-    case Travel::plunge: from({x, y, 60}), go(place); break;
-    case Travel::slope: from({x - 60, y, z + 15}), go(place); break;
+    case Travel::plunge: from({x, y, 60}), go(limit); break;
+    case Travel::slope: from({x - 60, y, z + 15}), go(limit); break;
     case Travel::arc:
       from({x, y - 80, z});
-      path.arc({.to = place, .centre = {x, y - 40}, .turn = Turn::ccw, .feed = mm_per_min(100)});
+      path.arc({.to = limit, .centre = {x, y - 40}, .turn = Turn::ccw, .feed = mm_per_min(100)});
       break;
     case Travel::dip:
       from({x - 40, y, z + 40});
@@ -50,7 +49,7 @@ void travel_to(Path& path, Travel travel, Speed speed, Point3 place) {
   }
 }
 
-/// Flutes of 2 mm that are 10 long, and what a case puts above them.
+/// Flutes of 2 mm, 10 long, and the parts of a case above them.
 Tool slim(const Profile& neck, const Profile& shank, const Profile& holder) {
   Tool tool = make_drawn(1, profile({{0, 0, 0}, {1, 0, 0}, {1, 10, 0}}));
   tool.silhouette.neck = neck;
@@ -67,15 +66,16 @@ Tool with_holder() { return slim({}, cylinder(1, 10, 15), cylinder(12, 15, 60));
 Tool flutes_only() { return make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 5, 0}})); }
 Tool ball() { return make_drawn(1, profile({{0, 0, kQuarter}, {3, 3, 0}, {3, 12, 0}})); }
 
-/// A limit and how to get there. What is `beyond` it by so much goes into `axis`: 2 deeper, 1 sideways in Y.
+/// A limit and the motions to it. The distance `beyond` it is applied along `axis`: 2 deeper, 1 sideways in
+/// Y.
 struct Limit {
   const char* name;
   HazardKind kind;
   Tool tool;
   Speed speed;
-  Point3 place;  // of the tip at the limit
+  Point3 limit;  // of the tip at the limit
   int axis;
-  double depth;  // of the contact just beyond it; 0: as much as it is beyond
+  double depth;  // of the contact just beyond it; 0: equal to `beyond`
   std::vector<Travel> travels;
   bool has_slot = false;  // 4 wide along X at Y20, through the block
   bool spindle_off = false;
@@ -126,7 +126,7 @@ std::vector<Limit> limits() {
        along,
        false,
        true},
-      // Sideways, in a slot as wide as the shank is thick less one: only the shank reaches the wall.
+      // Sideways, in a slot narrower than the shank by 1: only the shank reaches the wall.
       {"shank in the slot",
        HazardKind::shank_contact,
        slim({}, cylinder(1.5, 10, 60), {}),
@@ -148,7 +148,7 @@ std::vector<Limit> limits() {
   };
 }
 
-/// The hazards of a travel that goes `beyond` the limit.
+/// The hazards of a motion that goes `beyond` the limit.
 std::vector<Hazard> hazards_beyond(const Limit& limit, Travel travel, double beyond, const Stock& stock) {
   ToolTable tools;
   tools.set(1, limit.tool);
@@ -158,9 +158,9 @@ std::vector<Hazard> hazards_beyond(const Limit& limit, Travel travel, double bey
   if (limit.has_slot) path.tool(2).rapid({-30, 20, 70}).cut({-30, 20, -20}).cut({90, 20, -20});
   path.rapid({-30, 20, 70}).tool(1);
   if (limit.spindle_off) path.spindle(SpindleTurn::off);
-  Point3 place = limit.place;
-  place[limit.axis] += limit.axis == 2 ? -beyond : beyond;
-  travel_to(path, travel, limit.speed, place);
+  Point3 limit = limit.limit;
+  limit[limit.axis] += limit.axis == 2 ? -beyond : beyond;
+  travel_to(path, travel, limit.speed, limit);
   Diagnostics diagnostics;
   const auto result = run(path.path(), tools, stock, kPitch, diagnostics);
   EXPECT_TRUE(result) << limit.name;
@@ -201,14 +201,14 @@ TEST(Grazes, OfAMesh) {
       stock_of(make_mesh_body(mesh.positions, mesh.triangles, "box.stl", diagnostics)));
 }
 
-// ---- fixtures: a box of the block's size, beside which and over which the tool goes
+// ---- fixtures: a box of the size of the block; the tool passes beside and over it
 
 struct FixtureLimit {
   const char* name;
   std::optional<ToolPart> part;
   Tool tool;
   Speed speed;
-  Point3 place;
+  Point3 limit;
   int axis;
   double depth;  // see Limit
 };
@@ -241,9 +241,9 @@ std::vector<FixtureContact> contacts_beyond(const FixtureLimit& limit, Travel tr
   tools.set(1, limit.tool);
   Path path;
   path.rapid({-30, 20, 70}).tool(1);
-  Point3 place = limit.place;
-  place[limit.axis] += limit.axis == 2 ? -beyond : beyond;
-  travel_to(path, travel, limit.speed, place);
+  Point3 limit = limit.limit;
+  limit[limit.axis] += limit.axis == 2 ? -beyond : beyond;
+  travel_to(path, travel, limit.speed, limit);
   Diagnostics diagnostics;
   const auto found =
       find_fixture_contacts(path.path(), tools, std::vector{Fixture{"clamp", solid}}, {}, diagnostics);
@@ -256,13 +256,13 @@ std::vector<Travel> travels_of(const FixtureLimit& limit) {
   std::vector<T> travels{T::line, T::back};
   if (limit.speed == Speed::feed) travels.push_back(T::arc);
   if (limit.axis == 2) travels.push_back(T::slope);
-  // A plunge takes the flutes past what the part above them is to meet.
+  // A plunge would move the flutes past what the part above them is to touch.
   if (limit.axis == 2 || limit.part != ToolPart::shank) travels.push_back(T::plunge);
   return travels;
 }
 
 template <class Travels>
-void expect_fixture_told(const Stock& solid, double sideways, const Travels& travels) {
+void expect_fixture_reported(const Stock& solid, double sideways, const Travels& travels) {
   for (const FixtureLimit& limit : fixture_limits()) {
     const double step = limit.axis == 2 ? kHair : sideways;
     for (const Travel travel : travels(limit)) {
@@ -272,21 +272,21 @@ void expect_fixture_told(const Stock& solid, double sideways, const Travels& tra
       const auto some = contacts_beyond(limit, travel, step, solid);
       ASSERT_EQ(some.size(), 1u);
       EXPECT_EQ(some[0].part, limit.part);
-      // A ball that reaches in sideways does so at its equator, and higher up by what the way in is long.
+      // A ball touches sideways at its equator, and higher by the length of the overlap.
       const double flank = limit.tool.silhouette.cutting.knots.front().bulge != 0 && limit.axis == 1 ? 1 : 0;
       EXPECT_NEAR(some[0].depth.mm(), limit.depth > 0 ? limit.depth : kHair, 2e-3 + flank);
     }
   }
 }
 
-TEST(Grazes, OfAFixture) { expect_fixture_told(block({0, 0, -kBlockZ}, {60, 40, 0}), kHair, travels_of); }
+TEST(Grazes, OfAFixture) { expect_fixture_reported(block({0, 0, -kBlockZ}, {60, 40, 0}), kHair, travels_of); }
 
 TEST(Grazes, OfAFixtureFromAFile) {
   const Triangles mesh = box_mesh({0, 0, -kBlockZ}, {60, 40, 0});
   Diagnostics diagnostics;
   const double columns = 0.049;  // the distance of a million of them
-  expect_fixture_told(stock_of(make_mesh_body(mesh.positions, mesh.triangles, "box.stl", diagnostics)),
-                      columns, [](const FixtureLimit&) { return std::vector{Travel::line}; });
+  expect_fixture_reported(stock_of(make_mesh_body(mesh.positions, mesh.triangles, "box.stl", diagnostics)),
+                          columns, [](const FixtureLimit&) { return std::vector{Travel::line}; });
 }
 
 }  // namespace

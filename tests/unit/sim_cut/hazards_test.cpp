@@ -35,7 +35,7 @@ bool has(const std::vector<Hazard>& hazards, HazardKind kind) {
   return false;
 }
 
-TEST(Hazards, RapidThroughTheStockIsReportedWithPlaceDepthAndVolume) {
+TEST(Hazards, RapidThroughTheStockIsReportedWithPositionDepthAndVolume) {
   Path path;
   path.tool(1).rapid({-10, 20, 5}).rapid({-10, 20, -2}).rapid({30, 20, -2});
   const auto hazards = hazards_of(path);
@@ -51,7 +51,7 @@ TEST(Hazards, RapidThroughTheStockIsReportedWithPlaceDepthAndVolume) {
 }
 
 TEST(Hazards, RapidWithFlutesAlreadyThroughTheStock) {
-  // The flutes pass below a plate of 10 mm; what is above them goes through it, drawn or not.
+  // The flutes pass below a plate of 10 mm; the parts above them go through it, drawn or not.
   Tool flutes = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 5, 0}})), all = whole_tool(1);
   const Profile none;
   struct Case {
@@ -91,13 +91,13 @@ TEST(Hazards, RapidWithAllPartsInTheStockCountsThemTogether) {
   ASSERT_EQ(hazards.size(), 1u);
   EXPECT_EQ(hazards[0].kind, HazardKind::rapid_in_stock);
   EXPECT_NEAR(hazards[0].depth.mm(), 45.0, 1e-3);
-  // The flutes open the whole hole above them; the shank a wider one from 25 on, the holder from 5 on.
+  // The flutes cut the whole hole above them; the shank a wider one from 25 on, the holder from 5 on.
   const double exact = std::numbers::pi * (9 * 45 + (16 - 9) * 25 + (225 - 16) * 5);
   EXPECT_NEAR(hazards[0].removed.mm3(), exact, 2e-3 * exact);
 }
 
-TEST(Hazards, RapidInAPocketWhoseWallsOnlyTheHolderMeets) {
-  // A pocket of 20 x 20, 8 deep, and a tool whose holder of 30 begins 6 above the tip.
+TEST(Hazards, RapidInAPocketWhoseWallsOnlyTheHolderTouches) {
+  // A pocket of 20 x 20, 8 deep, and a tool whose holder of 30 starts 6 above the tip.
   Tool tool = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 6, 0}}));
   tool.silhouette.holder = profile({{15, 6, 0}, {15, 30, 0}});
   Tool long_tool = make_drawn(2, profile({{0, 0, 0}, {3, 0, 0}, {3, 30, 0}}));
@@ -142,15 +142,15 @@ TEST(Hazards, RapidAHundredthTooDeepIsReported) {
 }
 
 TEST(Hazards, RapidBesideTheStockTouchesNothingButOneColumnIsReported) {
-  Path beside;  // the tool's side is exactly at the block's
+  Path beside;  // the side of the tool is exactly at that of the block
   beside.tool(1).rapid({-10, -3, 5}).rapid({-10, -3, -5}).rapid({70, -3, -5});
   EXPECT_TRUE(hazards_of(beside).empty());
-  Path inside;  // reaches the first row of columns, which stand at 0.05
+  Path inside;  // reaches the first row of columns, at 0.05
   inside.tool(1).rapid({-10, -2.94, 5}).rapid({-10, -2.94, -5}).rapid({70, -2.94, -5});
   EXPECT_EQ(hazards_of(inside).size(), 1u);
 }
 
-TEST(Hazards, LeavingAndReturningAlongWhatIsCutIsNone) {
+TEST(Hazards, LeavingAndReturningThroughCutMaterialIsNone) {
   Path path;
   path.tool(1).rapid({10, 10, 2}).cut({10, 10, -4}).rapid({10, 10, 2}).rapid({10, 10, -4});
   path.cut({30.3, 17.7, -4}).rapid({10, 10, -4}).rapid({30.3, 17.7, -4}).rapid({30.3, 17.7, 5});
@@ -158,7 +158,7 @@ TEST(Hazards, LeavingAndReturningAlongWhatIsCutIsNone) {
   EXPECT_TRUE(hazards_of(path).empty());
 }
 
-TEST(Hazards, WalkingAlongWallsAndCircleCutBeforeIsNone) {
+TEST(Hazards, FollowingWallsAndCirclesCutBeforeIsNone) {
   Path path;
   path.tool(1).rapid({35, 20, 2}).cut({35, 20, -4});
   path.arc({.to = {35, 20, -4}, .centre = {30, 20}, .turn = Turn::ccw, .feed = mm_per_min(100)});
@@ -169,7 +169,7 @@ TEST(Hazards, WalkingAlongWallsAndCircleCutBeforeIsNone) {
 }
 
 TEST(Hazards, DeepPassesInAWidenedSlotAreNone) {
-  // 18 mm deep in steps of 6: the neck is thinner, and all above the flutes was cut before.
+  // 18 mm deep in steps of 6: the neck is thinner, and everything beside the flutes has been cut.
   Path path;
   path.tool(1).rapid({10, 20, 2});
   for (const double z : {-6.0, -12.0, -18.0}) path.cut({10, 20, z}).cut({40, 20, z}).cut({10, 20, z});
@@ -182,7 +182,7 @@ TEST(Hazards, CuttingDeeperThanTheFluteInOneGo) {
   path.tool(1).rapid({-10, 20, 2}).cut({-10, 20, -12}).cut({30, 20, -12});
   const auto hazards = hazards_of(path);
   EXPECT_TRUE(has(hazards, HazardKind::over_flute));
-  EXPECT_FALSE(has(hazards, HazardKind::neck_contact));  // one fault, told once
+  EXPECT_FALSE(has(hazards, HazardKind::neck_contact));  // one fault, reported once
   EXPECT_FALSE(has(hazards, HazardKind::shank_contact));
   for (const Hazard& h : hazards) {
     if (h.kind == HazardKind::over_flute) {
@@ -192,7 +192,7 @@ TEST(Hazards, CuttingDeeperThanTheFluteInOneGo) {
 }
 
 TEST(Hazards, TooDeepACutHasNoConsequences) {
-  // An end mill whose shank is as thick as its flutes; what stands above the flutes is taken with the cut.
+  // An end mill whose shank is as thick as its flutes; material above the flutes is removed with the cut.
   Tool tool = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 10, 0}}));
   for (const bool has_shank : {true, false}) {
     tool.silhouette.shank = has_shank ? profile({{3, 10, 0}, {3, 50, 0}}) : Profile{};
@@ -211,7 +211,7 @@ TEST(Hazards, TooDeepACutHasNoConsequences) {
 }
 
 TEST(Hazards, UndercutsWithANarrowNeckAreNone) {
-  // A disc on a thin neck that walks in a slot that an end mill has made before.
+  // A disc on a thin neck in a slot that an end mill has cut before.
   ToolTable tools;
   tools.set(1, make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}})));
   Tool disc = make_drawn(2, profile({{0, 0, 0}, {6, 0, 0}, {6, 2, 0}}));
@@ -227,8 +227,8 @@ TEST(Hazards, UndercutsWithANarrowNeckAreNone) {
   EXPECT_NEAR(result->removed_by_step[8], 60 * 6 * 2, 0.1);  // the undercut itself
 }
 
-TEST(Hazards, NothingIsMetBesideABlockThatThePitchDoesNotDivide) {
-  // The last columns of a row hold less than half a pitch.
+TEST(Hazards, NothingIsTouchedBesideABlockThatThePitchDoesNotDivide) {
+  // The last columns of a row are narrower than half a pitch.
   const Stock odd = block({0, 0, -30}, {59.93, 39.94, 0});
   ToolTable tools;
   tools.set(1, whole_tool(1));
@@ -245,7 +245,7 @@ TEST(Hazards, NothingIsMetBesideABlockThatThePitchDoesNotDivide) {
   for (const bool at_feed : {false, true}) {
     Path tangent, inside;
     walk_round(0.0, tangent, at_feed);
-    walk_round(0.03, inside, at_feed);  // the last columns stand 0.015 and 0.02 mm from the block's sides
+    walk_round(0.03, inside, at_feed);  // the last columns are 0.015 and 0.02 mm from the sides of the block
     Diagnostics diagnostics;
     const auto none = run(tangent.path(), tools, odd, kPitch, diagnostics);
     const auto some = run(inside.path(), tools, odd, kPitch, diagnostics);
@@ -263,7 +263,7 @@ TEST(Hazards, FluteJustLongEnoughIsNone) {
   EXPECT_TRUE(hazards_of(path).empty());
 }
 
-TEST(Hazards, ShankMeetsTheWallItIsTooThickFor) {
+TEST(Hazards, ShankTooThickForASlotTouchesTheWall) {
   Path path;
   path.tool(1).rapid({10, 20, 2});
   for (const double z : {-8.0, -16.0, -20.0, -22.0}) path.cut({10, 20, z}).cut({40, 20, z}).cut({10, 20, z});
@@ -275,7 +275,7 @@ TEST(Hazards, ShankMeetsTheWallItIsTooThickFor) {
   }
 }
 
-TEST(Hazards, HolderMeetsTheTop) {
+TEST(Hazards, HolderTouchesTheTop) {
   ToolTable tools;
   Tool tool = whole_tool(1);
   tool.silhouette.neck = {};
@@ -317,7 +317,7 @@ TEST(Hazards, SpindleOff) {
   ASSERT_EQ(hazards.size(), 1u);
   EXPECT_EQ(hazards[0].kind, HazardKind::spindle_off);
   EXPECT_EQ(hazards[0].step, 5u);
-  Path never;  // the program says nothing of the spindle
+  Path never;  // the program does not state the spindle
   never.tool(1).rapid({10, 20, 2}).cut({10, 20, -2});
   EXPECT_TRUE(hazards_of(never).empty());
   Path late;
@@ -329,7 +329,7 @@ TEST(Hazards, SpindleOff) {
 }
 
 TEST(Hazards, ContactsInAnUndercutSlot) {
-  // A keyhole head may only leave where it came in.
+  // A keyhole head may only leave where it entered.
   ToolTable tools;
   tools.set(1, make_drawn(1, profile({{0, 0, 0}, {4, 0, 0}, {4, 2.5, 0}, {2, 2.5, 0}, {2, 9, 0}})));
   for (const bool at_the_hole : {true, false}) {

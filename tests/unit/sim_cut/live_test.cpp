@@ -1,4 +1,4 @@
-// The living simulation against the plain one: after every edit, at every instant.
+// The live simulation against the plain one: after every edit, at every step.
 #include "kerf/live.h"
 
 #include <gtest/gtest.h>
@@ -11,8 +11,8 @@ namespace {
 
 struct Move {
   StepKind kind = StepKind::cut;
-  Point3 to;     // of an arc: half a circle or helix leads there
-  int tool = 0;  // changed to before the move; 0: as before
+  Point3 to;     // of an arc: the end of half a circle or helix
+  int tool = 0;  // changed to before the motion; 0: unchanged
   bool note = false;
 };
 
@@ -57,7 +57,7 @@ class RandomJob {
     for (int k = 0; k < 60; ++k) moves_.push_back(move());
   }
   const std::vector<Move>& moves() const { return moves_; }
-  /// Changes, adds or removes a few moves somewhere.
+  /// Changes, adds or removes a few motions at a random position.
   void edit() {
     const auto at = static_cast<std::ptrdiff_t>(pick(moves_.size()));
     switch (pick(4)) {
@@ -75,7 +75,7 @@ class RandomJob {
   }
   Move move() {
     Move out;
-    // Short moves, so that an edit leaves most tiles alone.
+    // Short motions, so that an edit leaves most tiles unchanged.
     const Point3 near = moves_.empty() ? Point3{25, 20, 0} : moves_.back().to;
     out.to = {std::clamp(near.x + number(-8, 8), -5.0, 55.0), std::clamp(near.y + number(-8, 8), -5.0, 45.0),
               number(-4, 1)};
@@ -89,8 +89,8 @@ class RandomJob {
   std::vector<Move> moves_;
 };
 
-/// Sweeps are cut in groups, and what a group computes at once is rounded otherwise where a batch ends
-/// elsewhere. On a ball's steep flank that is some units of the last place.
+/// Sweeps are cut in groups, and results within a group are rounded differently where a batch ends elsewhere:
+/// some ulps on the steep flank of a ball.
 constexpr float kRounding = 1e-4f;  // mm
 
 void expect_same_columns(const Workpiece& a, const Workpiece& b) {
@@ -136,7 +136,7 @@ LiveOptions coarse() {
 
 class LiveEdits : public ::testing::TestWithParam<unsigned> {};
 
-TEST_P(LiveEdits, GiveWhatThePlainSimulationGives) {
+TEST_P(LiveEdits, MatchThePlainSimulation) {
   RandomJob job(GetParam());
   const LiveOptions options = coarse();
   LiveSimulation live(two_tools(), block(), options);
@@ -177,7 +177,7 @@ TEST(Live, AnEditTouchesOnlyItsTiles) {
   const Toolpath path = path_of(moves);
   const auto done = live.update(path, diagnostics);
   ASSERT_TRUE(done);
-  EXPECT_EQ(done->motions_kept, path.size() - 1 - 2);  // the cut and the lift that begins where it ends
+  EXPECT_EQ(done->motions_kept, path.size() - 1 - 2);  // the cut and the retract that starts at its end
   for (const ColumnBlock& changed : done->redone) EXPECT_LT(changed.i * 0.05, 5.0);
   EXPECT_FALSE(done->redone.empty());
   expect_same(live, plain(path, block(), options.simulation));
@@ -185,7 +185,7 @@ TEST(Live, AnEditTouchesOnlyItsTiles) {
   EXPECT_TRUE(same->redone.empty());
 }
 
-TEST(Live, ChunksTellWhatHasChanged) {
+TEST(Live, ChunksListTheChangedColumns) {
   RandomJob job(3);
   const LiveOptions options = coarse();
   LiveSimulation live(two_tools(), block(), options);
@@ -210,7 +210,7 @@ TEST(Live, ChunksTellWhatHasChanged) {
     }
 }
 
-TEST(Live, AnErrorLeavesAllAsItWas) {
+TEST(Live, AnErrorChangesNothing) {
   RandomJob job(4);
   LiveSimulation live(two_tools(), block(), coarse());
   EXPECT_EQ(live.workpiece(), nullptr);
@@ -233,7 +233,7 @@ class StopAtOnce final : public Progress {
   bool stop_requested() override { return true; }
 };
 
-TEST(Live, WhatWasStoppedIsDoneAnew) {
+TEST(Live, AStoppedUpdateIsRepeated) {
   RandomJob job(5);
   const LiveOptions options = coarse();
   LiveSimulation live(two_tools(), block(), options);

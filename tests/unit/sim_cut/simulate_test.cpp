@@ -1,4 +1,4 @@
-// The simulation as a whole: volumes, who cut what, threads, unknown positions.
+// The simulation as a whole: volumes, steps of surfaces, threads, unknown positions.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -72,8 +72,8 @@ TEST(Simulate, GridAndColumnsAgree) {
   }
 }
 
-TEST(Simulate, ColumnsCutThroughKnowWhoTookTheLast) {
-  Path path;  // 2 plunge, 3 slot through, 6 keyhole beside it, 7 deeper where nothing is left
+TEST(Simulate, EmptyColumnsHaveTheStepThatEmptiedThem) {
+  Path path;  // 2 plunge, 3 slot through, 6 keyhole beside it, 7 deeper in empty columns
   path.tool(1).rapid({10, 20, 2}).cut({10, 20, -2}).cut({10, 20, -11}).cut({30, 20, -11});
   path.tool(2).rapid({40, 20, 2}).cut({40, 20, -12}).cut({40, 20, -13});
   Diagnostics diagnostics;
@@ -89,13 +89,13 @@ TEST(Simulate, ColumnsCutThroughKnowWhoTookTheLast) {
   EXPECT_EQ(at(10, 20), 3u);
   EXPECT_EQ(at(25, 20), 4u);
   EXPECT_EQ(at(40, 20), 7u);    // in the neck
-  EXPECT_EQ(at(43.2, 20), 7u);  // the head has passed all of it from above
+  EXPECT_EQ(at(43.2, 20), 7u);  // the head has removed everything from above
   EXPECT_EQ(at(2, 2), kStockSurface);
 }
 
-TEST(Simulate, EveryEndKnowsTheStepThatMadeIt) {
-  Path path;  // 0 tool, 1 rapid, 2 plunge, 3 slot, 4 tool, 5 rapid, 6 beside, 7 undercut through the slot's
-              // end
+TEST(Simulate, EveryEndHasTheStepThatMadeIt) {
+  Path path;  // 0 tool, 1 rapid, 2 plunge, 3 slot, 4 tool, 5 rapid, 6 beside, 7 undercut through the end of
+              // the slot
   path.tool(1).rapid({10, 20, 2}).cut({10, 20, -2}).cut({30, 20, -2});
   path.tool(2).rapid({-6, 20, 2}).cut({-6, 20, -8}).cut({20, 20, -8});
   Diagnostics diagnostics;
@@ -107,7 +107,7 @@ TEST(Simulate, EveryEndKnowsTheStepThatMadeIt) {
   };
   EXPECT_EQ(at(45, 5).at(0).high_step, kStockSurface);
   EXPECT_EQ(at(28, 20).at(0).high_step, 3u);
-  EXPECT_EQ(at(9, 20).at(0).high_step, 7u);  // the neck is in the column: nothing stands above the head
+  EXPECT_EQ(at(9, 20).at(0).high_step, 7u);  // the neck is in the column: no material above the head
   const auto roofed = at(5, 23.2);           // beyond the neck, within the head
   ASSERT_EQ(roofed.size(), 2u);
   EXPECT_EQ(roofed[0].high_step, 7u);
@@ -132,9 +132,9 @@ TEST(Simulate, AColumnMayHaveManyIntervals) {
   EXPECT_NEAR(result->stock.mm3() - result->removed.mm3(), result->workpiece.volume().mm3(), 0.01);
 }
 
-// ---- where a motion begins is not known
+// ---- motions whose start is unknown
 
-TEST(UnknownPlaces, AProgramThatOnlyRetractsCutsNothing) {
+TEST(UnknownPositions, AProgramThatOnlyRetractsCutsNothing) {
   Path path;
   path.tool(1).rapid({0, 0, 5});
   path.path().set_unknown_axes(1, 3);
@@ -152,7 +152,7 @@ TEST(UnknownPlaces, AProgramThatOnlyRetractsCutsNothing) {
   EXPECT_TRUE(result->hazards.empty());
 }
 
-TEST(UnknownPlaces, ARapidFromAnUnknownPlaceIsSweptAtItsEndOnly) {
+TEST(UnknownPositions, ARapidFromAnUnknownPositionIsSweptAtItsEndOnly) {
   Toolpath path;
   const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
   path.add(step::ToolChange{1}, here);
@@ -165,7 +165,7 @@ TEST(UnknownPlaces, ARapidFromAnUnknownPlaceIsSweptAtItsEndOnly) {
   EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * 9 * 2, 1.0);
 }
 
-TEST(UnknownPlaces, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
+TEST(UnknownPositions, AnArcFromAnUnknownPositionIsCutFromXZeroYZero) {
   for (const unsigned unknown : {0u, 3u}) {
     Toolpath path;
     const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
@@ -182,7 +182,7 @@ TEST(UnknownPlaces, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
   }
 }
 
-TEST(UnknownPlaces, ACutFromAnUnknownHeightComesFromAbove) {
+TEST(UnknownPositions, ACutFromAnUnknownHeightComesFromAbove) {
   Toolpath path;
   const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
   path.add(step::ToolChange{1}, here);
@@ -194,7 +194,7 @@ TEST(UnknownPlaces, ACutFromAnUnknownHeightComesFromAbove) {
   EXPECT_NEAR(result->removed.mm3(), std::numbers::pi * 9 * 5, 2.5);
 }
 
-TEST(Simulate, LongPathsAreSurveyedInPartsWithOneWarning) {
+TEST(Simulate, LongPathsAreSurveyedInSectionsWithOneWarning) {
   Path path;
   const auto cut_across = [&](int tool, double y) {
     path.tool(tool).rapid({2, y, 5}).cut({2, y, -2}).cut({40, y, -2});
@@ -210,12 +210,12 @@ TEST(Simulate, LongPathsAreSurveyedInPartsWithOneWarning) {
   for (const std::size_t step : {std::size_t{5}, std::size_t{70010}, path.path().size() - 1})
     path.path().set_extra(step, {.abc = std::array<double, 3>{10, 0, 0}, .z_correction = ""});
   for (const unsigned threads : {1u, 2u, 3u, 7u}) {
-    Diagnostics said;
+    Diagnostics diagnostics;
     const auto result =
-        run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, said, threads);
+        run(path.path(), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics, threads);
     ASSERT_TRUE(result);
-    ASSERT_EQ(said.list().size(), 1u) << threads << " threads";
-    EXPECT_EQ(said.list()[0].code, Code::rotary_not_simulated);
+    ASSERT_EQ(diagnostics.list().size(), 1u) << threads << " threads";
+    EXPECT_EQ(diagnostics.list()[0].code, Code::rotary_not_simulated);
     for (const std::size_t step : {std::size_t{3}, std::size_t{70007}, path.path().size() - 1})
       EXPECT_GT(result->removed_by_step[step], 1.0f) << "step " << step;
   }
@@ -224,10 +224,10 @@ TEST(Simulate, LongPathsAreSurveyedInPartsWithOneWarning) {
 class Stopper : public Progress {
  public:
   void phase(std::string_view what) override { phase_ = what; }
-  void report(double fraction) override { share_ = share; }
+  void report(double fraction) override { fraction_ = fraction; }
   bool stop_requested() override { return true; }
   std::string phase_;
-  double share_ = -1;
+  double fraction_ = -1;
 };
 
 TEST(Simulate, StopsWhenAsked) {

@@ -16,8 +16,8 @@ namespace kerf::test {
 inline constexpr double kMicron = 0.001;
 inline constexpr double kTop = 12.0;  // of the block, whose floor is at 0
 
-/// Where a static tool's material lies at a distance from the axis: intervals above the tip, by the half
-/// profile alone.
+/// The intervals of a stationary tool at a distance from the axis, above the tip, from the half profile
+/// alone.
 class Silhouette2 {
  public:
   explicit Silhouette2(const Profile& profile) {
@@ -127,7 +127,7 @@ inline std::vector<Motion> motions() {
   return list;
 }
 
-/// What the tool removes above one place: merged runs.
+/// What the tool removes above one point: merged runs.
 class Reference {
  public:
   Reference(const Profile& profile, const Motion& motion) : tool_(profile), motion_(motion) {
@@ -205,11 +205,11 @@ class Reference {
     }
     if (current) all.push_back(*current);
   }
-  /// The last moment between `in` and `out` at which the segment reaches the column.
+  /// The last parameter between `in` and `out` at which the segment reaches the column.
   double edge(double x, double y, int segment, double in, double out) const {
     for (int n = 0; n < 50; ++n) {
-      const double middle = 0.5 * (in + out);
-      (run_at(x, y, segment, middle) ? in : out) = middle;
+      const double midpoint = 0.5 * (in + out);
+      (run_at(x, y, segment, midpoint) ? in : out) = midpoint;
     }
     return in;
   }
@@ -258,7 +258,7 @@ inline std::vector<Silhouette2::Run> left_of(const std::vector<Silhouette2::Run>
   return left;
 }
 
-/// The job of one motion: straight down to its begin, then the motion.
+/// The job of one motion: straight down to its start, then the motion.
 inline Toolpath path_of(const Motion& motion) {
   Path path;
   path.tool(1).rapid({motion.from.x, motion.from.y, 40}).cut(motion.from);
@@ -270,7 +270,7 @@ inline Toolpath path_of(const Motion& motion) {
   return path.path();
 }
 
-/// What is left of a column by the approach and the motion.
+/// The remaining column after the approach and the motion.
 class Remainder {
  public:
   Remainder(const NamedProfile& tool, const Motion& motion)
@@ -295,8 +295,8 @@ class Remainder {
   Reference down_, along_;
 };
 
-/// The tool as number 1. Its neck is like a thread: some motions go deeper than the profile is high, and
-/// nothing is to follow it there.
+/// The tool as number 1. Its neck is very thin: some motions go deeper than the profile is high, and nothing
+/// above it may cut there.
 inline ToolTable table_of(const NamedProfile& tool) {
   ToolTable tools;
   Tool drawn = make_drawn(1, tool.profile);
@@ -313,7 +313,7 @@ inline std::optional<Simulation> cut(const NamedProfile& tool, const Motion& mot
   return run(path_of(motion), table_of(tool), block_of_motions(), pitch, diagnostics);
 }
 
-/// Errors over a pattern of places, mm.
+/// Errors over a pattern of points, mm.
 struct Errors {
   double largest = 0.0, percentile_99 = 0.0;
 };

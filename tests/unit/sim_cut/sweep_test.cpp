@@ -8,9 +8,9 @@
 namespace kerf::test {
 namespace {
 
-/// How far the ends of a column's intervals lie from where they may be. Where the surface is steep, a micron
-/// sideways counts as much as a micron in height: an end may be anywhere between the heights that the
-/// reference gives within a micron of the column. `left(x, y)` is the reference.
+/// The deviation of the interval ends of a column. On a steep surface a micron sideways counts like a micron
+/// in height: an end may be anywhere between the heights of the reference within a micron of the column.
+/// `left(x, y)` is the reference.
 template <class Left>
 double surface_error(double x, double y, const std::vector<Interval>& have, const Left& left) {
   std::vector<Silhouette2::Run> low, high;

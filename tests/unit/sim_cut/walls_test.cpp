@@ -9,7 +9,7 @@ namespace kerf::test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-/// What the removed volume may be off by, in pitches times the outline's length times the depth.
+/// Permitted error of the removed volume, in pitches times the length of the outline times the depth.
 constexpr double kMaxOff = 0.2;
 
 /// An end mill number 1 of the given radius.
@@ -35,7 +35,7 @@ Simulation simulated(const Toolpath& path, const ToolTable& tools, const Stock& 
   return std::move(*result);
 }
 
-/// Places and angles that no grid knows, the same in every run.
+/// Random positions and angles, the same in every run.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -49,7 +49,7 @@ class Random {
 
 class Walls : public testing::TestWithParam<double> {};  // the pitch, mm
 
-TEST_P(Walls, SlotsOfManyWidthsPlacesAndAngles) {
+TEST_P(Walls, SlotsOfManyWidthsPositionsAndAngles) {
   const double pitch = GetParam();
   Random random(11);
   for (int n = 0; n < 24; ++n) {
@@ -75,19 +75,19 @@ TEST_P(Walls, PlungesAndRings) {
   for (int n = 0; n < 12; ++n) {
     const double r = random.between(0.8, 2.5), ring = random.between(3, 8), depth = random.between(0.5, 12);
     const Point3 centre{random.between(14, 16), random.between(14, 16), -depth};
-    const Point3 begin = centre + Point3{ring, 0.0, 0.0};
+    const Point3 start = centre + Point3{ring, 0.0, 0.0};
     Path plunge, circle;
     plunge.tool(1).rapid({centre.x, centre.y, 5}).cut(centre);
     circle.tool(1)
-        .rapid({begin.x, begin.y, 5})
-        .cut(begin)
-        .arc({.to = begin,
+        .rapid({start.x, start.y, 5})
+        .cut(start)
+        .arc({.to = start,
               .centre = {centre.x, centre.y},
               .turn = Turn::ccw,
 
               .feed = mm_per_min(100)});
     const Stock stock = block({0, 0, -10}, {30, 30, 0});
-    const double deep = std::min(depth, 10.0);  // some go through the floor
+    const double deep = std::min(depth, 10.0);  // some reach through the floor
     EXPECT_NEAR(simulated(plunge.path(), end_mill(r), stock, pitch).removed.mm3(), kPi * r * r * deep,
                 kMaxOff * pitch * 2 * kPi * r * deep);
     EXPECT_NEAR(simulated(circle.path(), end_mill(r), stock, pitch).removed.mm3(), 4 * kPi * ring * r * deep,
@@ -100,7 +100,7 @@ TEST_P(Walls, AKeyholeSlotsRoofsCountToo) {
   ToolTable tools;
   tools.set(1, make_drawn(1, profile({{0, 0, 0}, {4, 0, 0}, {4, 2.5, 0}, {2, 2.5, 0}, {2, 9, 0}})));
   for (const double y : {15.0, 15.017, 15.031}) {
-    Path path;  // from beyond the block into its middle, the head under a roof
+    Path path;  // from outside the block to its centre, the head below a roof
     path.tool(1).rapid({-6, y, 5}).rapid({-6, y, -7}).cut({18.013, y, -7});
     const Simulation result = simulated(path.path(), tools, block({0, 0, -10}, {30, 30, 0}), pitch);
     const double exact = (8 * 18.013 + 8 * kPi) * 2.5 + (4 * 18.013 + 2 * kPi) * 4.5;
@@ -109,7 +109,7 @@ TEST_P(Walls, AKeyholeSlotsRoofsCountToo) {
   }
 }
 
-TEST_P(Walls, ABorderColumnCountsForItsShare) {
+TEST_P(Walls, ABorderColumnCountsByItsFraction) {
   const double pitch = GetParam();
   const Stock stock = block({0, 0, -4}, {20.013, 15.031, 0});  // the pitch does not divide it
   Path path;
@@ -120,7 +120,7 @@ TEST_P(Walls, ABorderColumnCountsForItsShare) {
 
 INSTANTIATE_TEST_SUITE_P(Pitches, Walls, testing::Values(0.05, 0.1, 0.2, 0.5));
 
-// So many squares that each has only a few points: their errors cancel.
+// With so many squares each has only a few points: their errors cancel.
 TEST(WallsOfManySquares, AreAsExactAlongTheWholeOutline) {
   constexpr double kPitch = 0.05, kRadius = 1.0137, kDepth = 2.5;
   constexpr int kSlots = 24;
@@ -139,8 +139,8 @@ TEST(WallsOfManySquares, AreAsExactAlongTheWholeOutline) {
   EXPECT_NEAR(result.removed.mm3(), area * kDepth, 2e-3 * kPitch * outline * kDepth);
 }
 
-// The frusta that stand for a hollow arc lie on both sides of it.
-TEST(Walls, AHollowFlankHasItsVolume) {
+// The frusta of a concave arc lie on both sides of it.
+TEST(Walls, AConcaveFlankHasItsVolume) {
   ToolTable tools;
   tools.set(1, make_drawn(1, profile({{0, 0, 0}, {0.5, 0, -kQuarter}, {2.5, 2, 0}, {2.5, 6, 0}})));
   Path path;
@@ -150,7 +150,7 @@ TEST(Walls, AHollowFlankHasItsVolume) {
   EXPECT_NEAR(result.removed.mm3(), exact, 3e-4 * exact);
 }
 
-/// Level moves across each other, with short chords among them, whose walls many steps make together.
+/// Crossing level motions with short chords, whose walls many steps make together.
 Toolpath crossing_moves(unsigned seed) {
   Random random(seed);
   Path path;

@@ -1,4 +1,4 @@
-// Workpieces as they are before the first cut.
+// Workpieces before the first cut.
 #include <gtest/gtest.h>
 #include <memory>
 #include <utility>
@@ -31,7 +31,7 @@ TEST(Workpiece, TheLastColumnIsTheNarrowRestOfTheBlock) {
 LeftColumns bridge_and_nothing() {
   LeftColumns left;
   left.bounds = {{0, 0, 10}, {2, 1, 15}};
-  left.places = {.x = 0.5, .y = 0.5, .z = 10.0, .pitch = 1.0, .nx = 2, .ny = 1};
+  left.positions = {.x = 0.5, .y = 0.5, .z = 10.0, .pitch = 1.0, .nx = 2, .ny = 1};
   left.columns.nx = 2;
   left.columns.ny = 1;
   left.columns.first = {0, 2, 2};

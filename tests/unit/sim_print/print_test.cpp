@@ -1,4 +1,4 @@
-// Prints whose volumes are known.
+// Prints with known volumes.
 #include "kerf/print.h"
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "sim/print/roads.h"
+#include "sim/print/beads.h"
 
 namespace kerf::test {
 namespace {
@@ -15,19 +15,19 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kWidth = 0.5, kHeight = 0.2;
 constexpr double kArea = (kWidth - kHeight) * kHeight + kPi * kHeight * kHeight / 4.0;
-/// What two half ends of a road hold: half a cylinder and a quarter of a torus' outer half each.
+/// The volume of two ends of a bead: half a cylinder and a quarter of the outer half of a torus each.
 constexpr double kFlat = (kWidth - kHeight) / 2.0, kRound = kHeight / 2.0;
 constexpr double kEnds = kPi * kFlat * kFlat * kHeight + kPi * kPi * kFlat * kRound * kRound +
                          4.0 / 3.0 * kPi * kRound * kRound * kRound;
 
-/// Toolpaths of a printer; roads are kWidth wide unless told otherwise.
+/// Toolpaths of a printer; beads are kWidth wide by default.
 class Print {
  public:
   Print& travel(Point3 to) {
     path_.add(step::Cut{to, mm_per_min(6000)}, OriginId::none);
     return arrive(to);
   }
-  Print& road(Point3 to, double width = kWidth, double height = kHeight) {
+  Print& bead(Point3 to, double width = kWidth, double height = kHeight) {
     const double area = (width - height) * height + kPi * height * height / 4.0;
     return push(to, area * distance(at_.xy(), to.xy()));
   }
@@ -35,7 +35,7 @@ class Print {
     path_.add(step::Extrude{to, mm3(volume), width, height, mm_per_min(1200)}, OriginId::none);
     return arrive(to);
   }
-  Print& line(Point3 from, Point3 to) { return travel(from).road(to); }
+  Print& line(Point3 from, Point3 to) { return travel(from).bead(to); }
   const Toolpath& path() const { return path_; }
   Toolpath& path() { return path_; }
 
@@ -57,7 +57,7 @@ PrintSimulation run(const Print& print, double pitch, PrintOptions options = {})
   return result ? std::move(*result) : PrintSimulation{};
 }
 
-/// Material of all columns, mm3, without the scaling by layer.
+/// The material of all columns, mm3, without the scaling by layer.
 double in_columns(const PrintSimulation& s) {
   double sum = 0.0;
   for (const Interval& run : s.columns.intervals)
@@ -70,34 +70,35 @@ std::size_t count(const PrintSimulation& s, PrintHazardKind kind) {
                                                 [&](const PrintHazard& h) { return h.kind == kind; }));
 }
 
-TEST(PrintSection, TwoOfThreeTellTheThird) {
+TEST(PrintSection, TwoOfThreeDetermineTheThird) {
   const auto section = printing::section_of(kArea, kHeight);
   EXPECT_NEAR(section.width, kWidth, 1e-12);
   EXPECT_NEAR(printing::height_of(kArea, kWidth), kHeight, 1e-12);
-  EXPECT_NEAR(road_volume(mm(3), mm(kWidth), mm(kHeight)).mm3(), 3 * kArea, 1e-12);
-  const double round = kPi / 4.0 * 0.15 * 0.15;  // a thread thinner than the layer
+  EXPECT_NEAR(bead_volume(mm(3), mm(kWidth), mm(kHeight)).mm3(), 3 * kArea, 1e-12);
+  const double round = kPi / 4.0 * 0.15 * 0.15;  // a bead thinner than the layer
   EXPECT_NEAR(printing::section_of(round, kHeight).width, 0.15, 1e-12);
   EXPECT_NEAR(printing::section_of(round, kHeight).height, 0.15, 1e-12);
   EXPECT_NEAR(printing::height_of(round, 0.15), 0.15, 1e-9);
   EXPECT_EQ(printing::height_of(1.01 * round, 0.15), 0.0);
 }
 
-TEST(Print, ASingleRoadHasItsSectionTimesItsLengthAndItsEnds) {
-  const auto s = run(Print().travel({5, 5, kHeight}).road({15, 12, kHeight}), 0.02);
+TEST(Print, ASingleBeadHasItsSectionTimesItsLengthAndItsEnds) {
+  const auto s = run(Print().travel({5, 5, kHeight}).bead({15, 12, kHeight}), 0.02);
   const double volume = kArea * std::hypot(10.0, 7.0);
   EXPECT_NEAR(s.total.extruded.mm3(), volume, 1e-12);
   EXPECT_NEAR(s.total.ends.mm3(), kEnds, 0.02 * kEnds);
   EXPECT_EQ(s.total.overlap.mm3(), 0.0);
   EXPECT_NEAR(s.total.laid.mm3(), volume + kEnds, 0.02 * kEnds);
-  EXPECT_NEAR(in_columns(s), s.total.laid.mm3(), 2e-3 * volume);  // a slanting road meets all phases
-  EXPECT_EQ(s.roads, 1u);
+  EXPECT_NEAR(in_columns(s), s.total.laid.mm3(),
+              2e-3 * volume);  // an oblique bead has all phases relative to the grid
+  EXPECT_EQ(s.beads, 1u);
   ASSERT_EQ(s.layers.size(), 1u);
   EXPECT_EQ(s.layers[0].z, mm(kHeight));
   EXPECT_NEAR(s.layers[0].height.mm(), kHeight, 1e-12);
   EXPECT_TRUE(s.hazards.empty());
 }
 
-/// Overlap of two parallel roads, mm2: where both sections are, by fine summation.
+/// The overlap of two parallel beads, mm2: the intersection of their sections, by fine summation.
 double overlap_area(double spacing) {
   double sum = 0.0;
   constexpr double kStep = 1e-5;
@@ -110,7 +111,7 @@ double overlap_area(double spacing) {
   return sum;
 }
 
-TEST(Print, ParallelRoadsOverlapByTheirSections) {
+TEST(Print, ParallelBeadsOverlapByTheirSections) {
   for (const double spacing : {kWidth - 0.1, kWidth - kHeight * (1.0 - kPi / 4.0), kWidth, kWidth + 0.05}) {
     Print print;
     print.line({1, 1, kHeight}, {31, 3, kHeight});
@@ -124,24 +125,24 @@ TEST(Print, ParallelRoadsOverlapByTheirSections) {
   }
 }
 
-TEST(Print, CrossingRoadsOverlapOnce) {
+TEST(Print, CrossingBeadsOverlapOnce) {
   const auto s =
       run(Print().line({0, 10, kHeight}, {20, 10, kHeight}).line({10, 0, kHeight}, {10, 20, kHeight}), 0.01);
-  // Two cylinders of the section that cross: the integral of (2 half width at z)^2 over z.
+  // Two crossing beads: the integral of (2 half width at z)^2 over z.
   const double square = 4.0 * (kFlat * kFlat * kHeight + 2.0 * kFlat * kPi * kRound * kRound / 2.0 +
                                4.0 / 3.0 * kRound * kRound * kRound);
   EXPECT_NEAR(s.total.overlap.mm3(), square, 0.02 * square);
   EXPECT_EQ(s.total.hollow.mm3() > 0.0, true);  // below the round sides
 }
 
-TEST(Print, ACornerIsNoOverlapWhereItsWedgeTakesIt) {
-  // A circle of many short chords: what the inner side has too much fills the outer side.
+TEST(Print, ACornerIsNoOverlapUpToTheVolumeOfItsWedge) {
+  // A circle of many short chords: the excess on the inner side equals what is missing outside.
   Print print;
   print.travel({20.3, 10.7, kHeight});
   constexpr int kChords = 200;
   for (int i = 1; i <= kChords; ++i) {
     const double a = 2.0 * kPi * i / kChords;
-    print.road({10.3 + 10 * std::cos(a), 10.7 + 10 * std::sin(a), kHeight});
+    print.bead({10.3 + 10 * std::cos(a), 10.7 + 10 * std::sin(a), kHeight});
   }
   const auto s = run(print, 0.02);
   EXPECT_LT(s.total.overlap.mm3(), 1e-3 * s.total.extruded.mm3());  // without the wedges 7e-3
@@ -149,9 +150,9 @@ TEST(Print, ACornerIsNoOverlapWhereItsWedgeTakesIt) {
   EXPECT_NEAR(in_columns(s), s.total.laid.mm3(), 2e-3 * s.total.laid.mm3());
 }
 
-TEST(Print, ARightAngleLeavesTheKnownExcess) {
-  const auto s = run(Print().travel({0, 0, kHeight}).road({10, 0, kHeight}).road({10, 10, kHeight}), 0.005);
-  // At each height the square of the half width, less the quarter disc of the wedge.
+TEST(Print, ARightAngleHasTheKnownExcess) {
+  const auto s = run(Print().travel({0, 0, kHeight}).bead({10, 0, kHeight}).bead({10, 10, kHeight}), 0.005);
+  // At each height the square of the half width, minus the quarter disc of the wedge.
   const double squares = kFlat * kFlat * kHeight + 2.0 * kFlat * kPi * kRound * kRound / 2.0 +
                          4.0 / 3.0 * kRound * kRound * kRound;
   const double excess = (1.0 - kPi / 4.0) * squares;
@@ -159,7 +160,7 @@ TEST(Print, ARightAngleLeavesTheKnownExcess) {
   EXPECT_NEAR(s.total.ends.mm3(), kEnds, 0.02 * kEnds);
 }
 
-TEST(Print, AGridOfInfillHasItsCells) {
+TEST(Print, AGridOfInfillEnclosesItsCells) {
   Print print;
   constexpr double kCell = 2.0, kSide = 10.0;
   for (int layer = 1; layer <= 4; ++layer) {
@@ -167,11 +168,11 @@ TEST(Print, AGridOfInfillHasItsCells) {
     for (double at = 0.0; at <= kSide; at += kCell)
       print.line({0, at, z}, {kSide, at, z}).line({at, 0, z}, {at, kSide, z});
   }
-  // A lid over all: roads side by side.
+  // A lid: beads side by side.
   for (double y = 0.0; y <= kSide; y += kWidth / 2.0)
     print.line({0, y, 5 * kHeight}, {kSide, y, 5 * kHeight});
   const auto s = run(print, 0.025);
-  // 25 cells as high as four layers, and (kCell - kWidth) wide where roads are widest.
+  // 25 cells, four layers high and (kCell - kWidth) wide where beads are widest.
   const double cells = 25.0 * (kCell - kWidth) * (kCell - kWidth) * 4.0 * kHeight;
   EXPECT_GT(s.total.enclosed.mm3(), cells);
   EXPECT_LT(s.total.enclosed.mm3(), 25.0 * std::pow(kCell - kWidth + kHeight, 2) * 4.0 * kHeight);
@@ -182,7 +183,7 @@ TEST(Print, AGridOfInfillHasItsCells) {
   ASSERT_EQ(s.layers.size(), 5u);
   EXPECT_NEAR(s.layers[1].volumes.enclosed.mm3(), s.layers[2].volumes.enclosed.mm3(), 1e-3);
   // The lid bridges the cells: about (kCell - kWidth) / kCell of its length between the first and last line.
-  const double lid = s.layers[4].volumes.road_length.mm();
+  const double lid = s.layers[4].volumes.bead_length.mm();
   EXPECT_NEAR(s.layers[4].volumes.unsupported.mm() / lid, (kCell - kWidth) / kCell * 30.0 / 41.0, 0.08);
 }
 
@@ -195,15 +196,15 @@ TEST(Print, AnOpenCellIsHollowButNotEnclosed) {
   EXPECT_EQ(s.total.enclosed.mm3() < 0.05 * s.total.hollow.mm3(), true) << s.total.enclosed.mm3();
 }
 
-TEST(Print, WhatIsDrawnBackIsNoBlob) {
+TEST(Print, CompensatedRetractionIsNoBlob) {
   Print print;
   print.line({0, 0, kHeight}, {10, 0, kHeight});
   print.push({10, 0, kHeight}, -2.0)
       .travel({0, 5, kHeight})
       .push({0, 5, kHeight}, 2.0)
-      .road({10, 5, kHeight});
+      .bead({10, 5, kHeight});
   EXPECT_TRUE(run(print, 0.1).hazards.empty());
-  // Wiping: filament drawn back while the nozzle moves.
+  // Wiping: retraction while the nozzle moves.
   print.push({5, 5, kHeight}, -1.5).push({5, 5, kHeight}, -0.5).push({5, 5, kHeight}, 2.3);
   const auto s = run(print, 0.1);
   ASSERT_EQ(s.hazards.size(), 1u);
@@ -215,14 +216,14 @@ TEST(Print, WhatIsDrawnBackIsNoBlob) {
   EXPECT_NEAR((t.laid - t.ends + t.overlap + t.blobs).mm3(), t.extruded.mm3(), 1e-9);
 }
 
-TEST(Print, ARoadWiderThanAnyNozzleIsABlob) {
+TEST(Print, ABeadWiderThanAnyNozzleIsABlob) {
   const auto s = run(Print().line({0, 0, kHeight}, {10, 0, kHeight}).push({10, 0.1, kHeight}, 30.0), 0.1);
   ASSERT_EQ(s.hazards.size(), 1u);
   EXPECT_EQ(s.hazards[0].kind, PrintHazardKind::blob);
   EXPECT_EQ(s.total.blobs.mm3(), 30.0);
 }
 
-TEST(Print, ABridgeIsUnsupportedAndARoadInTheAirIsTold) {
+TEST(Print, ABridgeIsUnsupportedAndABeadInTheAirIsReported) {
   Print print;
   for (const double x : {0.0, 10.0}) {
     print.line({x, 0, kHeight}, {x, 10, kHeight});
@@ -236,7 +237,7 @@ TEST(Print, ABridgeIsUnsupportedAndARoadInTheAirIsTold) {
   EXPECT_NEAR(s.total.unsupported.mm(), 10.0 - kWidth, 0.15);
   EXPECT_EQ(s.hazards[0].step, 9u);
 
-  print.line({2, 8, 5}, {8, 8, 5}).road({8, 9, 5});
+  print.line({2, 8, 5}, {8, 8, 5}).bead({8, 9, 5});
   s = run(print, 0.05);
   ASSERT_EQ(s.hazards.size(), 2u);
   EXPECT_EQ(s.hazards[1].kind, PrintHazardKind::in_air);
@@ -256,11 +257,11 @@ TEST(Print, AnOverhangOfLessThanHalfAWidthIsSupported) {
   }
 }
 
-TEST(Print, TheNozzleInPrintedMaterialIsTold) {
+TEST(Print, TheNozzleInPrintedMaterialIsReported) {
   Print print;
   for (int layer = 1; layer <= 10; ++layer) print.line({10, 0, layer * kHeight}, {10, 20, layer * kHeight});
   print.travel({15, 20, 3.0}).travel({15, 10, 1.0});    // down beside it
-  print.travel({5, 10, 1.0});                           // and through it, 1 mm deep
+  print.travel({5, 10, 1.0});                           // through it, 1 mm deep
   print.travel({5, 10, 2.0}).travel({15, 10, 2.0});     // at its height
   print.travel({15, 10, -0.1}).travel({16, 10, -0.1});  // into the bed
   const auto s = run(print, 0.05);
@@ -291,34 +292,34 @@ TEST(Print, AVaseClimbsWithoutLayerChanges) {
   for (int i = 1; i <= kChords * (kTurns + 1); ++i) {
     const double a = 2.0 * kPi * i / kChords;
     const double z = kHeight + kHeight * std::max(0, i - kChords) / kChords;
-    print.road({10 + 10 * std::cos(a), 10 + 10 * std::sin(a), z});
+    print.bead({10 + 10 * std::cos(a), 10 + 10 * std::sin(a), z});
   }
   const auto s = run(print, 0.05);
   ASSERT_GE(s.layers.size(), 5u);
   EXPECT_LE(s.layers.size(), 6u);
   for (const PrintLayer& layer : s.layers) EXPECT_NEAR(layer.height.mm(), kHeight, 1e-9);
   EXPECT_TRUE(s.hazards.empty());
-  // The first turn that climbs does so out of the flat one, with as much filament: half a layer too much.
+  // The first climbing turn starts on the flat one with the same extrusion: half a layer in excess.
   const double turn = s.total.extruded.mm3() / (kTurns + 1);
   EXPECT_NEAR(s.total.overlap.mm3(), 0.5 * turn, 0.05 * turn);
 }
 
-TEST(Print, ToldHeightsAndWidthsCount) {
-  // A road 0.4 high over two layers of 0.2, as slicers print combined infill.
+TEST(Print, GivenHeightsAndWidthsAreUsed) {
+  // A bead 0.4 high over two layers of 0.2, as slicers print combined infill.
   Print print;
   print.line({0, 0, kHeight}, {10, 0, kHeight}).line({0, 0, 2 * kHeight}, {10, 0, 2 * kHeight});
   print.travel({0, 5, 2 * kHeight}).push({10, 5, 2 * kHeight}, 2.0, mm(0.6), mm(0.4));
   const double area = 0.2;
   EXPECT_NEAR(run(print, 0.1).layers[1].height.mm(), 0.4, 1e-12);
   EXPECT_NEAR(printing::section_of(area, 0.4).width, 0.4 + (area - kPi * 0.04) / 0.4, 1e-12);
-  // Only the width: volume tells the height, whatever the steps in Z.
+  // Only the width is given: the height follows from the volume, not from the steps in Z.
   Print wide;
   wide.travel({0, 0, 0.9}).push({10, 0, 0.9}, 10 * kArea, mm(kWidth));
   EXPECT_NEAR(run(wide, 0.1).layers[0].height.mm(), kHeight, 1e-9);
 }
 
-TEST(Print, WidthsThatContradictTheVolumeAreTold) {
-  Print print;  // as a file for filament of 2.85 mm that is read as one for 1.75
+TEST(Print, WidthsThatContradictTheVolumeAreReported) {
+  Print print;  // as if a file for 2.85 mm filament were read with 1.75 mm
   print.travel({0, 0, kHeight}).push({10, 0, kHeight}, 10 * kArea * 0.377, mm(kWidth), mm(kHeight));
   Diagnostics diagnostics;
   ASSERT_TRUE(simulate_print(print.path(), {}, diagnostics));
@@ -326,7 +327,7 @@ TEST(Print, WidthsThatContradictTheVolumeAreTold) {
   EXPECT_EQ(diagnostics.list()[0].code, Code::print_width_differs);
 }
 
-TEST(Print, AHeightThatNothingTellsIsAssumedAndSaid) {
+TEST(Print, AnUnknownHeightIsAssumedAndReported) {
   Print print;
   print.travel({0, 0, 0}).push({10, 0, 0}, 10 * kArea);
   Diagnostics diagnostics;
@@ -334,7 +335,7 @@ TEST(Print, AHeightThatNothingTellsIsAssumedAndSaid) {
   ASSERT_TRUE(s);
   ASSERT_EQ(diagnostics.list().size(), 1u);
   EXPECT_EQ(diagnostics.list()[0].code, Code::print_height_unknown);
-  EXPECT_NEAR(s->total.laid.mm3(), 0.0, 1e-9);  // all of it is below the bed
+  EXPECT_NEAR(s->total.laid.mm3(), 0.0, 1e-9);  // everything is below the bed
   EXPECT_NEAR(s->total.overlap.mm3(), s->total.extruded.mm3(), 1e-9);
 
   PrintOptions lower;
@@ -345,7 +346,7 @@ TEST(Print, AHeightThatNothingTellsIsAssumedAndSaid) {
   EXPECT_NEAR(s->layers[0].height.mm(), 0.3, 1e-12);
 }
 
-TEST(Print, ErrorsAreSaid) {
+TEST(Print, ErrorsAreReported) {
   const auto code_of = [](const Toolpath& path, const PrintOptions& options) {
     Diagnostics diagnostics;
     const auto s = simulate_print(path, options, diagnostics);
@@ -366,17 +367,17 @@ TEST(Print, ErrorsAreSaid) {
   EXPECT_EQ(code_of(unknown.path(), {}), Code::print_at_unknown_place);
 }
 
-TEST(Print, OnlyWhatPrintsAndDoesNotMillIsAPrint) {
+TEST(Print, APrintExtrudesAndStartsNoSpindle) {
   Print print;
   print.travel({0, 0, 1}).push({0, 0, 1}, 5);
   EXPECT_FALSE(is_print(print.path()));
-  print.road({10, 0, 1});
+  print.bead({10, 0, 1});
   EXPECT_TRUE(is_print(print.path()));
   print.path().add(step::Spindle{rpm(10000), SpindleTurn::cw}, OriginId::none);
   EXPECT_FALSE(is_print(print.path()));
 }
 
-/// A little of everything, at random.
+/// A random print with all kinds of motions.
 Print random_print(unsigned seed, int moves) {
   std::mt19937 random(seed);
   const auto real = [&](double low, double high) {
@@ -392,7 +393,7 @@ Print random_print(unsigned seed, int moves) {
     if (kind < 3)
       print.travel(to);
     else
-      print.road(to, real(0.25, 0.8));
+      print.bead(to, real(0.25, 0.8));
   }
   return print;
 }
@@ -437,17 +438,19 @@ TEST(Print, RandomPrintsAddUpAndHaveClosedSurfaces) {
   }
 }
 
-TEST(Print, NumbersBeyondReasonAreSurvived) {
+TEST(Print, ExtremeNumbersAreHandled) {
   constexpr double kOdd[] = {0,   1e-9, 1e-4,  0.2, 0.45,   3,   50,      1e3,
                              1e5, 1e7,  1e300, -1,  -1e300, NAN, INFINITY};
-  constexpr double kPlaces[] = {0, 1e-7, 0.1, 0.2, 0.3, 5, 7, 300, -4, 2e4, 1e7};
+  constexpr double kCoordinates[] = {0, 1e-7, 0.1, 0.2, 0.3, 5, 7, 300, -4, 2e4, 1e7};
   std::mt19937 random(11);
-  const auto place = [&] { return kPlaces[random() % (random() % 4 == 0 ? std::size(kPlaces) : 7)]; };
+  const auto coordinate = [&] {
+    return kCoordinates[random() % (random() % 4 == 0 ? std::size(kCoordinates) : 7)];
+  };
   int laid = 0;
   for (int n = 0; n < 300; ++n) {
     Print print;
     for (int i = 0; i < 20; ++i) {
-      const Point3 to{place(), place(), place()};
+      const Point3 to{coordinate(), coordinate(), coordinate()};
       const double odd = kOdd[random() % std::size(kOdd)];
       if (random() % 3 == 0)
         print.travel(to);
@@ -483,16 +486,17 @@ TEST(Print, GroovesCanBeClosed) {
     const std::size_t runs = closed.first[c + 1] - closed.first[c];
     EXPECT_EQ(runs == 0, s.columns.first[c + 1] == s.columns.first[c]);
     if (runs == 0) continue;
-    // Around the middle line the missing layer parts two runs; the sides are farther apart and stay grooved.
+    // Near the centre line the missing layer separates two runs; the sides are farther apart and keep their
+    // grooves.
     EXPECT_EQ(closed.intervals[closed.first[c]].low, s.columns.intervals[s.columns.first[c]].low);
     EXPECT_EQ(closed.intervals[closed.first[c + 1] - 1].high,
               s.columns.intervals[s.columns.first[c + 1] - 1].high);
   }
   const auto one = [&](const ColumnGrid& grid) {
-    std::size_t most = 0;
+    std::size_t max_runs = 0;
     for (std::size_t c = 0; c + 1 < grid.first.size(); ++c)
-      most = std::max<std::size_t>(most, grid.first[c + 1] - grid.first[c]);
-    return most;
+      max_runs = std::max<std::size_t>(max_runs, grid.first[c + 1] - grid.first[c]);
+    return max_runs;
   };
   EXPECT_EQ(one(s.columns), 4u);
   EXPECT_EQ(one(closed), 2u);

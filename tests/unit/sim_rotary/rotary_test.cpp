@@ -1,4 +1,4 @@
-// The rotary simulator against solids whose volume is known.
+// The rotary simulator against solids of known volume.
 #include "kerf/rotary.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Toolpaths with an A.
+/// Toolpaths with an A axis.
 class RotaryPath {
  public:
   RotaryPath& tool(int number) { return path_.add(step::ToolChange{number}, here_), *this; }
@@ -22,7 +22,7 @@ class RotaryPath {
   RotaryPath& arc(Point3 to, Point2 centre) {
     return turned(path_.add(step::Arc{.to = to, .centre = centre, .feed = mm_per_min(500)}, here_), 0.0);
   }
-  /// Where X and Y are is not known from the first motion on.
+  /// X and Y are unknown from the first motion on.
   RotaryPath& lost() {
     for (std::size_t i = 0; i < path_.size(); ++i)
       if (path_[i].is_motion()) path_.set_unknown_axes(i, 3);
@@ -56,7 +56,7 @@ std::optional<RotarySimulation> run(const RotaryPath& path, const ToolTable& too
   return simulate_rotary(path.path(), tools, kBar, options, diagnostics);
 }
 
-/// Area of the part of a disc beyond a chord that is `h` from its middle.
+/// The area of a disc segment beyond a chord at distance `h` from the centre.
 double cap_area(double r, double h) { return r * r * std::acos(h / r) - h * std::sqrt(r * r - h * h); }
 
 TEST(Rotary, AnUntouchedBar) {
@@ -70,7 +70,7 @@ TEST(Rotary, AnUntouchedBar) {
   EXPECT_TRUE(result->hazards.empty());
 }
 
-TEST(Rotary, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
+TEST(Rotary, AnArcFromAnUnknownPositionIsCutFromXZeroYZero) {
   double removed[2] = {};
   for (const bool lost : {false, true}) {
     RotaryPath path;
@@ -86,7 +86,7 @@ TEST(Rotary, AnArcFromAnUnknownPlaceIsCutFromXZeroYZero) {
 }
 
 TEST(Rotary, AFlatByIndexing) {
-  // A wide tool levels one side at Z7; then the bar turns half round, and the other side.
+  // A wide tool faces one side at Z7; then, after half a turn of the bar, the other side.
   RotaryPath path;
   path.tool(1)
       .rapid({-20, 0, 20})
@@ -123,7 +123,7 @@ TEST(Rotary, IndexedHolesComeFromTheirSides) {
     exact += 2 * 2 * std::sqrt(4 - y * y) * (std::sqrt(100 - y * y) - 4) * 4 / 2000;
   }
   EXPECT_NEAR(result->removed.mm3(), exact, 5e-3 * exact);
-  // A90 takes the tool from Z+ to Y-, which is ray number around / 4.
+  // A90 moves the tool from Z+ to Y-, which is ray number around / 4.
   const auto& side = result->workpiece.rays[static_cast<std::size_t>(result->workpiece.around / 4) *
                                                 static_cast<std::size_t>(result->workpiece.along) +
                                             static_cast<std::size_t>(19 / result->workpiece.dx)];
@@ -131,15 +131,15 @@ TEST(Rotary, IndexedHolesComeFromTheirSides) {
 }
 
 TEST(Rotary, TurningWhileCuttingMakesAGroove) {
-  // A square tool of 4 mm that stands still at Z8 while the bar turns once: a groove. Its floor is round;
-  // under a tool of that width it is a polygon's envelope, for the tool reaches beyond the axis line.
+  // A square tool of 4 mm at rest at Z8 while the bar makes one turn: a groove with a round floor; below a
+  // tool of that width it would be a polygon, but the tool extends beyond the line of the axis.
   RotaryPath path;
   path.tool(1).rapid({15, 0, 20}).cut({15, 0, 8}).cut({15, 0, 8}, 360);
   Diagnostics diagnostics;
   const auto result = run(path, square(2), 0.1, diagnostics);
   ASSERT_TRUE(result && diagnostics.list().empty());
-  // At distance dx from the middle the tool is 2 sqrt(4 - dx^2) wide, and its bottom is nearest to the axis
-  // in its middle: 8. So every ray within 2 mm is cut to 8.
+  // At distance dx from its centre the tool is 2 sqrt(4 - dx^2) wide, and the centre of its bottom is nearest
+  // to the axis: 8. So every ray within 2 mm is cut to 8.
   const double exact = kPi * (100 - 64) * 4;
   EXPECT_NEAR(result->removed.mm3(), exact, 5e-3 * exact);
   double lowest = 100, highest = 0;
@@ -163,12 +163,12 @@ TEST(Rotary, ABallFollowsAHelix) {
   const auto coarse = run(path, ball, 0.1, diagnostics), fine = run(path, ball, 0.05, diagnostics);
   ASSERT_TRUE(coarse && fine);
   EXPECT_NEAR(coarse->removed.mm3(), fine->removed.mm3(), 5e-3 * fine->removed.mm3());
-  // A groove 1 mm deep of a ball of 1.5: area of a segment times the way of its centroid, nearly.
+  // A groove 1 mm deep by a ball of 1.5: approximately the area of a segment times the path of its centroid.
   const double segment = cap_area(1.5, 0.5), way = std::hypot(20.0, 4 * kPi * 9.4);
   EXPECT_NEAR(fine->removed.mm3(), segment * way, 0.05 * segment * way);
 }
 
-TEST(Rotary, HazardsAreTold) {
+TEST(Rotary, HazardsAreReported) {
   ToolTable tools = square(2);
   Tool tool = make_drawn(1, profile({{0, 0, 0}, {2, 0, 0}, {2, 3, 0}}));
   tool.silhouette.shank = profile({{4, 3, 0}, {4, 40, 0}});
@@ -189,7 +189,7 @@ TEST(Rotary, HazardsAreTold) {
   EXPECT_NEAR(result->hazards[1].depth.mm(), 2.0, 0.02);
 }
 
-TEST(Rotary, RapidsThroughTheBarAreTold) {
+TEST(Rotary, RapidsThroughTheBarAreReported) {
   // Above, at and below the axis, and with the flutes below the bar; a tool of 4 mm with a flute of 5.
   const ToolTable tools = one_tool(profile({{0, 0, 0}, {2, 0, 0}, {2, 5, 0}}));
   for (const double z : {9.0, 1.0, 0.0, -3.0, -10.0, -40.0}) {
@@ -208,7 +208,7 @@ TEST(Rotary, RapidsThroughTheBarAreTold) {
 }
 
 TEST(Rotary, NearMissesAndGrazes) {
-  // A hundredth over and into the bar's top, and a ray's distance beside and into its side.
+  // A hundredth above and into the top of the bar, and a ray distance beside and into its side.
   struct Limit {
     const char* name;
     double y, z;  // of the tip at the limit
@@ -243,7 +243,7 @@ TEST(Rotary, NearMissesAndGrazes) {
   }
 }
 
-TEST(Rotary, ACutAboveTheFlutesIsTold) {
+TEST(Rotary, ACutAboveTheFlutesIsReported) {
   RotaryPath path;
   path.tool(1).rapid({-5, 0, 20}).rapid({-5, 0, 5}).cut({10, 0, 5});
   Diagnostics diagnostics;
@@ -265,7 +265,7 @@ TEST(Rotary, TheSameWithAnyNumberOfThreads) {
   ASSERT_EQ(a->hazards.size(), b->hazards.size());
 }
 
-TEST(Rotary, TheMeshIsClosedAndHoldsTheVolume) {
+TEST(Rotary, TheMeshIsClosedAndHasTheVolume) {
   RotaryPath path;
   path.tool(1)
       .rapid({5, 0, 20})
@@ -285,12 +285,12 @@ TEST(Rotary, TheMeshIsClosedAndHoldsTheVolume) {
   EXPECT_LT(range.tolerance.mm3(), 0.2 * check.volume.mm3());
 }
 
-TEST(Rotary, TheDistanceThatIsChosenFollowsTheBar) {
+TEST(Rotary, TheDefaultDistanceDependsOnTheBar) {
   struct Case {
     RoundBar bar;
     double distance;
   };
-  // sqrt(length * girth / 100,000), but from 0.02 to 1 mm.
+  // sqrt(length * girth / 100,000), limited to 0.02 to 1 mm
   for (const Case& c : {Case{{10, 0, 60, 0, 0}, 0.1373}, Case{{40, 0, 100, 0, 0}, 0.3545},
                         Case{{1, 0, 5, 0, 0}, 0.02}, Case{{300, 0, 2000, 0, 0}, 1.0}}) {
     RotaryPath path;
@@ -303,7 +303,7 @@ TEST(Rotary, TheDistanceThatIsChosenFollowsTheBar) {
   }
 }
 
-TEST(Rotary, WhatCannotBeDoneIsTold) {
+TEST(Rotary, InvalidInputIsReported) {
   RotaryPath path;
   path.tool(1).rapid({5, 0, 20}).cut({5, 0, 9}, 3.6e9);
   Diagnostics diagnostics;

@@ -50,7 +50,7 @@ TEST(BatchSource, AMotionIsPairedWithTheTilesItCanTouch) {
   EXPECT_EQ(batch.steps_done, planned.path.size());
 }
 
-TEST(BatchSource, BatchesThatAreHeldAreNotUsedAgain) {
+TEST(BatchSource, ReferencedBatchesAreNotReused) {
   Path path;
   path.tool(1).rapid({5, 5, 2});
   for (int k = 0; k < 50000; ++k) path.cut({5.0 + k % 2, 5, -1});

@@ -1,4 +1,4 @@
-// What is refused and what is warned of before anything is cut.
+// Errors and warnings before anything is cut.
 #include "sim/sweep/survey.h"
 
 #include <array>

@@ -1,4 +1,4 @@
-// Bodies: columns of meshes whose volume is known, lines through corners and edges, faults, moves, distances.
+// Bodies: columns of meshes with known volume, lines through vertices and edges, faults, moves, distances.
 #include <gtest/gtest.h>
 #include <random>
 
@@ -12,15 +12,15 @@ namespace {
 std::shared_ptr<const StockBody> body_of(const Triangles& mesh, Diagnostics& diagnostics) {
   return make_mesh_body(mesh.positions, mesh.triangles, "body.stl", diagnostics);
 }
-std::shared_ptr<const StockBody> sound_body(const Triangles& mesh) {
+std::shared_ptr<const StockBody> valid_body(const Triangles& mesh) {
   Diagnostics diagnostics;
   auto body = body_of(mesh, diagnostics);
   EXPECT_TRUE(body && diagnostics.list().empty());
   return body;
 }
 
-/// Columns that cover a body, the first `offset` pitches from its low corner.
-ColumnPositions places_over(const StockBody& body, double pitch, double offset = 0.5) {
+/// Columns that cover a body, the first one `offset` pitches from its low corner.
+ColumnPositions positions_over(const StockBody& body, double pitch, double offset = 0.5) {
   const Box3& b = body.bounds();
   return {b.low.x + offset * pitch,
           b.low.y + offset * pitch,
@@ -36,32 +36,32 @@ double volume_of(const ColumnRuns& columns, double pitch) {
   return sum * pitch * pitch;
 }
 
-ColumnRuns sound_columns(const StockBody& body, const ColumnPositions& places) {
+ColumnRuns valid_columns(const StockBody& body, const ColumnPositions& positions) {
   Diagnostics diagnostics;
-  auto columns = body.columns(places, diagnostics);
+  auto columns = body.columns(positions, diagnostics);
   EXPECT_TRUE(columns);
   for (const Diagnostic& d : diagnostics.list()) ADD_FAILURE() << to_string(d);
   return columns ? *columns : ColumnRuns{};
 }
 
 TEST(StockBody, VolumesOfKnownSolids) {
-  const auto box = sound_body(box_mesh({1, 2, 3}, {11, 7, 5}));
+  const auto box = valid_body(box_mesh({1, 2, 3}, {11, 7, 5}));
   EXPECT_NEAR(box->volume().mm3(), 100.0, 1e-6);
-  EXPECT_NEAR(volume_of(sound_columns(*box, places_over(*box, 0.1)), 0.1), 100.0, 1e-4);
+  EXPECT_NEAR(volume_of(valid_columns(*box, positions_over(*box, 0.1)), 0.1), 100.0, 1e-4);
   const int sides = 200;
-  const auto bar = sound_body(prism_mesh({0, 0, -4}, 5, 8, sides));
+  const auto bar = valid_body(prism_mesh({0, 0, -4}, 5, 8, sides));
   const double exact = sides / 2.0 * 25.0 * std::sin(2.0 * std::numbers::pi / sides) * 8.0;
   EXPECT_NEAR(bar->volume().mm3(), exact, 1e-3);
-  EXPECT_NEAR(volume_of(sound_columns(*bar, places_over(*bar, 0.02)), 0.02), exact, 5e-4 * exact);
-  const auto ball = sound_body(sphere_mesh({3, -2, 1}, 6, 100));
+  EXPECT_NEAR(volume_of(valid_columns(*bar, positions_over(*bar, 0.02)), 0.02), exact, 5e-4 * exact);
+  const auto ball = valid_body(sphere_mesh({3, -2, 1}, 6, 100));
   EXPECT_NEAR(ball->volume().mm3(), 4.0 / 3.0 * std::numbers::pi * 216.0, 1.0);
-  EXPECT_NEAR(volume_of(sound_columns(*ball, places_over(*ball, 0.03)), 0.03), ball->volume().mm3(), 0.02);
+  EXPECT_NEAR(volume_of(valid_columns(*ball, positions_over(*ball, 0.03)), 0.03), ball->volume().mm3(), 0.02);
 }
 
 TEST(StockBody, HeightsOfASphereAreExact) {
-  const auto ball = sound_body(sphere_mesh({0, 0, 0}, 10, 400));
-  const ColumnPositions places{-5, -5, 0, 0.37, 27, 27};
-  const ColumnRuns columns = sound_columns(*ball, places);
+  const auto ball = valid_body(sphere_mesh({0, 0, 0}, 10, 400));
+  const ColumnPositions positions{-5, -5, 0, 0.37, 27, 27};
+  const ColumnRuns columns = valid_columns(*ball, positions);
   for (int j = 0; j < 27; ++j) {
     for (int i = 0; i < 27; ++i) {
       const double x = -5 + 0.37 * i, y = -5 + 0.37 * j, z = std::sqrt(100.0 - x * x - y * y);
@@ -73,22 +73,22 @@ TEST(StockBody, HeightsOfASphereAreExact) {
 }
 
 TEST(StockBody, LinesThroughCornersAndEdgesNeitherLeakNorDouble) {
-  // Every line meets corners and edges of the triangles.
+  // Every line passes through vertices and edges of the triangles.
   Triangles steps;
   for (int k = 0; k < 3; ++k)
     for (int n = 0; n < 3; ++n)
       steps.add(box_mesh({4.0 * k, 4.0 * n, 0}, {4.0 * k + 2, 4.0 * n + 2, 1.0 + k + n}));
-  const auto body = sound_body(steps);
-  const ColumnRuns columns = sound_columns(*body, {-1, -1, 0, 0.5, 26, 26});
+  const auto body = valid_body(steps);
+  const ColumnRuns columns = valid_columns(*body, {-1, -1, 0, 0.5, 26, 26});
   EXPECT_NEAR(volume_of(columns, 0.5), body->volume().mm3(), 1e-4);
-  const auto fan = sound_body(prism_mesh({0, 0, 0}, 8, 3, 16));
-  for (const auto& run : sound_columns(*fan, {-8, -8, 0, 1, 17, 17}).runs) EXPECT_EQ(run, (kerf::Run{0, 3}));
+  const auto fan = valid_body(prism_mesh({0, 0, 0}, 8, 3, 16));
+  for (const auto& run : valid_columns(*fan, {-8, -8, 0, 1, 17, 17}).runs) EXPECT_EQ(run, (kerf::Run{0, 3}));
 }
 
-TEST(StockBody, RandomClosedMeshesHaveAWayOutForEachWayIn) {
+TEST(StockBody, LinesLeaveRandomClosedMeshesAsOftenAsTheyEnter) {
   std::mt19937 random(7);
   for (int round = 0; round < 200; ++round) {
-    // Small whole numbers, so that corners, edges and lines coincide all the time.
+    // Small integers, so that vertices, edges and lines coincide often.
     Triangles mesh;
     const auto coordinate = [&] { return static_cast<double>(random() % 6); };
     for (int k = 0; k < 5; ++k) mesh.point({coordinate(), coordinate(), coordinate()});
@@ -106,29 +106,30 @@ TEST(StockBody, RandomClosedMeshesHaveAWayOutForEachWayIn) {
   }
 }
 
-TEST(StockBody, HollowsAndUndercuts) {
+TEST(StockBody, CavitiesAndUndercuts) {
   Triangles shell = box_mesh({0, 0, 0}, {10, 10, 10});
   shell.add(box_mesh({2, 2, 3}, {8, 8, 7}), true);
-  const auto body = sound_body(shell);
+  const auto body = valid_body(shell);
   EXPECT_NEAR(body->volume().mm3(), 1000.0 - 144.0, 1e-6);
-  const ColumnRuns columns = sound_columns(*body, {5, 5, 0, 1, 1, 1});
+  const ColumnRuns columns = valid_columns(*body, {5, 5, 0, 1, 1, 1});
   ASSERT_EQ(columns.runs.size(), 2u);
   EXPECT_EQ(columns.runs[0], (kerf::Run{0, 3}));
   EXPECT_EQ(columns.runs[1], (kerf::Run{7, 10}));
 }
 
-TEST(StockBody, FaultsAreTold) {
+TEST(StockBody, FaultsAreReported) {
   Diagnostics open;
   Triangles lidless = box_mesh({0, 0, 0}, {10, 10, 10});
-  lidless.triangles.resize(lidless.triangles.size() - 6);  // without a side, where no line goes through
+  lidless.triangles.resize(lidless.triangles.size() -
+                           6);  // without one side; no line passes through the hole
   auto body = body_of(lidless, open);
   ASSERT_TRUE(body);
   ASSERT_EQ(open.list().size(), 1u);
   EXPECT_EQ(open.list()[0].code, Code::mesh_open);
-  EXPECT_TRUE(body->columns(places_over(*body, 1), open));
+  EXPECT_TRUE(body->columns(positions_over(*body, 1), open));
   lidless.triangles.erase(lidless.triangles.begin() + 6, lidless.triangles.begin() + 9);  // and half the top
   body = body_of(lidless, open);
-  EXPECT_FALSE(body->columns(places_over(*body, 1), open));
+  EXPECT_FALSE(body->columns(positions_over(*body, 1), open));
   EXPECT_TRUE(open.has_errors());
 
   Diagnostics inwards;
@@ -144,14 +145,14 @@ TEST(StockBody, FaultsAreTold) {
   std::swap(some.triangles[6], some.triangles[7]);  // one triangle of the top
   body = body_of(some, mixed);
   EXPECT_EQ(mixed.list()[0].code, Code::mesh_turned);
-  EXPECT_NEAR(volume_of(*body->columns(places_over(*body, 1), mixed), 1), 1000.0, 1e-3);
+  EXPECT_NEAR(volume_of(*body->columns(positions_over(*body, 1), mixed), 1), 1000.0, 1e-3);
 
   Diagnostics nothing;
   EXPECT_FALSE(body_of({{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2, 0, 2, 1}}, nothing));
   EXPECT_EQ(nothing.list().back().code, Code::mesh_no_volume);
 }
 
-TEST(StockBody, OverlappingPartsAreOneAndTold) {
+TEST(StockBody, OverlappingBodiesAreUnitedAndReported) {
   Triangles two = box_mesh({0, 0, 0}, {10, 10, 10});
   two.add(box_mesh({5, 5, 5}, {15, 15, 15}));
   Diagnostics diagnostics;
@@ -169,8 +170,8 @@ TEST(StockBody, FlippedMeshAndFlippedColumnsAgree) {
   part.add(box_mesh({5, 2, -4}, {15, 8, 0}));
   Diagnostics diagnostics;
   const auto mesh = body_of(part, diagnostics);
-  const ColumnPositions places{0.25, 0.25, -10, 0.5, 80, 40};
-  LeftColumns left{mesh->bounds(), places, *mesh->columns(places, diagnostics)};
+  const ColumnPositions positions{0.25, 0.25, -10, 0.5, 80, 40};
+  LeftColumns left{mesh->bounds(), positions, *mesh->columns(positions, diagnostics)};
   const auto columns = make_columns_body(std::move(left));
   EXPECT_NEAR(columns->volume().mm3(), mesh->volume().mm3(), 1e-2);
   for (const auto flip : {StockMove::Flip::none, StockMove::Flip::about_x, StockMove::Flip::about_y}) {
@@ -183,7 +184,7 @@ TEST(StockBody, FlippedMeshAndFlippedColumnsAgree) {
   }
   const Stock turned = moved(stock_of(mesh), {StockMove::Flip::about_x, 10.0, -5.0, {}});
   const auto line =
-      turned.body->columns({10, 15, -10, 1, 1, 1}, diagnostics);  // over the boss, which hangs now
+      turned.body->columns({10, 15, -10, 1, 1, 1}, diagnostics);  // above the boss, which now points down
   ASSERT_EQ(line->runs.size(), 1u);
   EXPECT_EQ(line->runs[0], (kerf::Run{0, 10}));
   EXPECT_EQ(turned.body->columns({30, 15, -10, 1, 1, 1}, diagnostics)->runs[0], (kerf::Run{4, 10}));
@@ -192,14 +193,14 @@ TEST(StockBody, FlippedMeshAndFlippedColumnsAgree) {
 }
 
 TEST(SurfaceDistance, IsExact) {
-  const auto box = sound_body(box_mesh({0, 0, 0}, {10, 10, 10}));
+  const auto box = valid_body(box_mesh({0, 0, 0}, {10, 10, 10}));
   const SurfaceDistance to_box(*box);
   EXPECT_NEAR(to_box.at({5, 5, 12}, 100), 2.0, 1e-9);
   EXPECT_NEAR(to_box.at({5, 4, 3}, 100), 3.0, 1e-9);
   EXPECT_NEAR(to_box.at({13, 14, 5}, 100), 5.0, 1e-9);
   EXPECT_NEAR(to_box.at({11, 12, 12}, 100), 3.0, 1e-9);
   EXPECT_NEAR(to_box.at({5, 5, 50}, 1), 1.0, 1e-9);  // not beyond the limit
-  const auto ball = sound_body(sphere_mesh({0, 0, 0}, 10, 200));
+  const auto ball = valid_body(sphere_mesh({0, 0, 0}, 10, 200));
   const SurfaceDistance to_ball(*ball);
   std::mt19937 random(3);
   for (int k = 0; k < 200; ++k) {

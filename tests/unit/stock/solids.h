@@ -1,4 +1,4 @@
-// Closed meshes whose volumes are known: boxes, prisms, spheres as polyhedra.
+// Closed meshes with known volumes: boxes, prisms, spheres as polyhedra.
 #pragma once
 
 #include <cmath>
@@ -61,7 +61,7 @@ inline Triangles prism_mesh(Point3 base, double radius, double height, int sides
   return out;
 }
 
-/// A sphere of rings; its volume is somewhat below 4/3 pi r^3.
+/// A sphere of rings of triangles; its volume is slightly below 4/3 pi r^3.
 inline Triangles sphere_mesh(Point3 centre, double radius, int rings) {
   Triangles out;
   const int sides = 2 * rings;

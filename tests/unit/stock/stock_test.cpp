@@ -14,7 +14,7 @@ void expect_box(const std::optional<Stock>& stock, Point3 low, Point3 high) {
   }
 }
 
-TEST(MakeBlock, ZeroAtEveryNamedPlace) {
+TEST(MakeBlock, ZeroAtEveryNamedPosition) {
   const Point3 size{100, 60, 12.7};
   expect_box(make_block(size, ZeroCorner::lower_left, ZeroHeight::top), {0, 0, -12.7}, {100, 60, 0});
   expect_box(make_block(size, ZeroCorner::centre_left, ZeroHeight::top), {0, -30, -12.7}, {100, 30, 0});
@@ -29,7 +29,7 @@ TEST(ParseZero, CaseSpacesAndHyphensDoNotCount) {
   EXPECT_EQ(parse_zero_corner("center left"), ZeroCorner::centre_left);
   EXPECT_EQ(parse_zero_corner("TOPLEFT"), ZeroCorner::top_left);
   EXPECT_EQ(parse_zero_corner("Center"), ZeroCorner::centre);
-  EXPECT_FALSE(parse_zero_corner("middle"));
+  EXPECT_FALSE(parse_zero_corner("nowhere"));
   EXPECT_EQ(parse_zero_height(" Top"), ZeroHeight::top);
   EXPECT_EQ(parse_zero_height("BOTTOM"), ZeroHeight::bottom);
   EXPECT_FALSE(parse_zero_height(""));
@@ -40,13 +40,13 @@ TEST(ParseZero, CaseSpacesAndHyphensDoNotCount) {
 
 TEST(Stock, NoVolumeIsNotSolid) { EXPECT_FALSE(is_solid(Stock{})); }
 
-struct Told {
+struct Comments {
   std::optional<Stock> stock;
   Diagnostics diagnostics;
 };
-Told told(std::initializer_list<std::string_view> comments, double scale = 1.0) {
+Comments read(std::initializer_list<std::string_view> comments, double scale = 1.0) {
   StockComments reader;
-  Told result;
+  Comments result;
   for (const std::string_view comment : comments) {
     EXPECT_TRUE(reader.read(comment, scale, {}, result.diagnostics)) << comment;
   }
@@ -62,15 +62,15 @@ TEST(StockComments, AllSpacings) {
                                {"STOCK/BLOCK, 219, 150, 8.35, 109.5, 75, 8.35"},
                                {"(STOCK/BLOCK,219.00, 150.00, 8.35,109.50, 75.00, 8.35)"},
                                {" stock/block,219,150,8.35,109.5mm,75,8.35"}}) {
-    const Told found = told(comments);
+    const Comments found = read(comments);
     EXPECT_TRUE(found.diagnostics.list().empty());
     expect_box(found.stock, low, high);
   }
 }
 
-TEST(StockComments, InchesScaleAndUnitsHold) {
-  expect_box(told({"STOCK/BLOCK, 4, 2, 1, 0, 0, 1"}, 25.4).stock, {0, 0, -25.4}, {101.6, 50.8, 0});
-  expect_box(told({"stockMin:0mm, 0mm, -10mm", "stockMax:1in, 50mm, 0mm"}, 25.4).stock, {0, 0, -10},
+TEST(StockComments, InchesAndUnits) {
+  expect_box(read({"STOCK/BLOCK, 4, 2, 1, 0, 0, 1"}, 25.4).stock, {0, 0, -25.4}, {101.6, 50.8, 0});
+  expect_box(read({"stockMin:0mm, 0mm, -10mm", "stockMax:1in, 50mm, 0mm"}, 25.4).stock, {0, 0, -10},
              {25.4, 50, 0});
 }
 
@@ -85,30 +85,30 @@ TEST(StockComments, OtherCommentsAreNotOfTheStock) {
   EXPECT_FALSE(reader.stock());
 }
 
-TEST(StockComments, MalformedOnesAreErrors) {
+TEST(StockComments, MalformedCommentsAreErrors) {
   for (const char* comment :
        {"stockMin:", "stockMin:1,2", "stockMin:1,2,3,4", "stockMax: a, b, c", "STOCK/BLOCK, 1, 2, 3",
         "STOCK/BLOCK, 1, 2, 3, 4, 5, 6, 7", "stockMin: nan, 0, 0", "stockMin: 1e300, 0, 0"}) {
-    const Told found = told({comment});
+    const Comments found = read({comment});
     ASSERT_EQ(found.diagnostics.errors(), 1u) << comment;
     EXPECT_EQ(found.diagnostics.list()[0].code, Code::stock_comment_malformed) << comment;
     EXPECT_FALSE(found.stock);
   }
-  const Told flat = told({"STOCK/BLOCK, 10, 10, 0, 0, 0, 0"});
+  const Comments flat = read({"STOCK/BLOCK, 10, 10, 0, 0, 0, 0"});
   EXPECT_EQ(flat.diagnostics.list().at(0).code, Code::stock_impossible);
 }
 
 TEST(StockComments, AStockMaxBelowStockMinLeavesTheBlock) {
-  const Told found = told({"stockMin:0.00mm, -30.0mm, 0.00mm", "stockMax:100mm, 30.0mm, -12.7mm",
-                           "STOCK/BLOCK, 100, 60, 12.7, 0.00, 30.0, 0.00mm"});
+  const Comments found = read({"stockMin:0.00mm, -30.0mm, 0.00mm", "stockMax:100mm, 30.0mm, -12.7mm",
+                               "STOCK/BLOCK, 100, 60, 12.7, 0.00, 30.0, 0.00mm"});
   EXPECT_EQ(found.diagnostics.errors(), 0u);
   EXPECT_EQ(found.diagnostics.list().at(0).code, Code::stock_impossible);
   expect_box(found.stock, {0, -30, 0}, {100, 30, 12.7});
 }
 
-TEST(StockComments, ContradictionsAreWarned) {
-  const Told found =
-      told({"stockMin:0, 0, -10", "stockMax:100, 60, 0", "STOCK/BLOCK, 100, 60, 12, 0, 0, 12"});
+TEST(StockComments, ContradictionsAreReported) {
+  const Comments found =
+      read({"stockMin:0, 0, -10", "stockMax:100, 60, 0", "STOCK/BLOCK, 100, 60, 12, 0, 0, 12"});
   EXPECT_EQ(found.diagnostics.list().at(0).code, Code::stock_comments_differ);
   expect_box(found.stock, {0, 0, -10}, {100, 60, 0});
 }
@@ -120,7 +120,7 @@ TEST(WriteStockComments, ReadBack) {
   EXPECT_EQ(lines[0], "stockMin:-50.00mm, -30.0625mm, -12.70mm");
   EXPECT_EQ(lines[1], "stockMax:50.00mm, 30.0625mm, 0.00mm");
   EXPECT_EQ(lines[2], "STOCK/BLOCK, 100.00, 60.125, 12.70, 50.00, 30.0625, 12.70");
-  const Told again = told({lines[0], lines[1], lines[2]});
+  const Comments again = read({lines[0], lines[1], lines[2]});
   EXPECT_TRUE(again.diagnostics.list().empty());
   expect_box(again.stock, stock.block.low, stock.block.high);
 }
