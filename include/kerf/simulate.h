@@ -51,7 +51,7 @@ struct Simulation {
 /// Cuts the toolpath out of the stock. Appends errors (unknown tool, too many columns) and returns nothing
 /// where it cannot run. Steps without effect on material (dwell, notes) are skipped.
 std::optional<Simulation> simulate(SimulationJob job, Diagnostics& diagnostics, Progress* progress = nullptr);
-/// The same of a toolpath that the result takes over: one that is passed by name is copied.
+/// The same for a toolpath by value, which is copied unless it is moved in.
 std::optional<Simulation> simulate(Toolpath path, ToolTable tools, Stock stock,
                                    const SimulationOptions& options, Diagnostics& diagnostics,
                                    Progress* progress = nullptr);

@@ -1,4 +1,4 @@
-// What a simulation can be asked for, the same for three axes, four axes and fixtures.
+// Options of a simulation, the same for three axes, four axes and fixtures.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace kerf {
 
-/// What the solid is for: to be cut, or (fixtures.h) not to be touched at all. A no-go solid is never cut,
-/// and every cut into it is reported as HazardKind::spindle_off, as if the spindle were stopped.
+/// The role of the solid: stock is cut; a no-go solid (fixtures.h) must not be touched. It is never cut, and
+/// every cut into it is reported as HazardKind::spindle_off, as if the spindle were stopped.
 enum class SolidRole : std::uint8_t { stock, no_go };
 
 struct SimulationOptions {

@@ -1,10 +1,10 @@
 // Chains of chords become arcs. A chain grows greedily: arcs are tried for doubled lengths, which are then
 // halved, and one is kept if every point and every chord's midpoint lie within the tolerance.
 //
-// Two arcs are tried over each chain: that through its start, the point halfway and its end, which also
-// finds more than half a turn, and where it fails the mean of all that pass near the points
-// (geom/arc_heights.h, which also fits arcs to points alone). What differs from that fit is what a toolpath
-// asks for besides: the tool must go forward all the time, corners stay, and helices rise evenly.
+// Two arcs are tried for each chain: that through its start, the point halfway and its end, which also finds
+// arcs of more than 180 degrees, and if it fails the mean of all arcs near the points (geom/arc_heights.h,
+// which also fits arcs to points alone). A toolpath has further conditions: the tool must always move
+// forward, corners stay, and helices rise evenly.
 #include <cmath>
 #include <numbers>
 #include <optional>

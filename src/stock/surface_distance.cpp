@@ -44,12 +44,12 @@ double distance2_to_triangle(const std::array<Point3, 3>& t, Point3 p) {
 }  // namespace
 
 struct SurfaceDistance::Tree {
-  struct Node {
+  struct BoxNode {
     Box3 box;
     std::uint32_t first = 0, end = 0;  // triangles of a leaf
     std::uint32_t right = 0;           // the left child follows its parent; 0: a leaf
   };
-  std::vector<Node> nodes;
+  std::vector<BoxNode> nodes;
   std::vector<std::array<Point3, 3>> triangles;
 
   void build(std::uint32_t begin, std::uint32_t end);
@@ -81,7 +81,7 @@ void SurfaceDistance::Tree::build(std::uint32_t begin, std::uint32_t end) {
 }
 
 void SurfaceDistance::Tree::search(std::uint32_t number, Point3 p, double& best2) const {
-  const Node& node = nodes[number];
+  const BoxNode& node = nodes[number];
   if (node.right == 0) {
     for (std::uint32_t k = node.first; k < node.end; ++k)
       best2 = std::min(best2, distance2_to_triangle(triangles[k], p));

@@ -10,7 +10,7 @@
 
 namespace kerf::sim {
 
-/// A motion as the simulator sees it.
+/// The identity of a motion for the simulator.
 struct MotionKey {
   std::uint64_t hash = 0;  // of everything that determines what the motion cuts and touches
   std::uint32_t step = 0;  // index in its toolpath

@@ -43,7 +43,7 @@ struct LayerSums {
   double filled_corners = 0.0, filled_ends = 0.0;
 };
 
-struct Batch {
+struct PieceBatch {
   std::vector<BeadPiece> pieces;
   std::vector<Bead> beads;
   struct Pair {
@@ -63,7 +63,7 @@ struct Batch {
 
 class Printer final : public BeadSink {
  public:
-  Printer(const Toolpath& path, const PrintOptions& options, const Frame& frame, const Survey& survey,
+  Printer(const Toolpath& path, const PrintOptions& options, const Frame& frame, const PrintSurvey& survey,
           Diagnostics& diagnostics, Progress* progress)
       : path_(path),
         options_(options),
@@ -121,14 +121,14 @@ class Printer final : public BeadSink {
   const Toolpath& path_;
   const PrintOptions& options_;
   Frame frame_;
-  const Survey& survey_;
+  const PrintSurvey& survey_;
   Diagnostics& diagnostics_;
   Progress* progress_;
   unsigned threads_;
   int tiles_x_, tiles_y_;
   std::vector<std::unique_ptr<PrintTile>> tiles_;
-  Batch batch_;
-  std::vector<Sums> sums_;  // one per pair of the batch
+  PieceBatch batch_;
+  std::vector<PieceSums> sums_;  // one per pair of the batch
   std::vector<LayerSums> layers_;
   std::vector<PrintHazard> hazards_;
   std::map<std::uint32_t, NozzleContact> contacts_;  // by step
@@ -286,7 +286,7 @@ void Printer::flush() {
 void Printer::lay_batch() {
   // By tile; within a tile by time.
   std::stable_sort(batch_.pairs.begin(), batch_.pairs.end(),
-                   [](const Batch::Pair& a, const Batch::Pair& b) { return a.tile < b.tile; });
+                   [](const PieceBatch::Pair& a, const PieceBatch::Pair& b) { return a.tile < b.tile; });
   std::vector<std::size_t> starts;
   for (std::size_t k = 0; k < batch_.pairs.size(); ++k)
     if (k == 0 || batch_.pairs[k].tile != batch_.pairs[k - 1].tile) starts.push_back(k);
@@ -324,11 +324,11 @@ void Printer::meet(const NozzleContact& contact) {
 /// Adds the sums of the batch to the layers, in the order of tiles, and finds unsupported beads, in time
 /// order.
 void Printer::merge() {
-  std::vector<Sums> of_bead(batch_.beads.size());
+  std::vector<PieceSums> of_bead(batch_.beads.size());
   for (std::size_t k = 0; k < batch_.pairs.size(); ++k) {
     const BeadPiece& piece = batch_.pieces[batch_.pairs[k].piece];
     if (piece.kind == PieceKind::travel) continue;
-    const Sums& sums = sums_[k];
+    const PieceSums& sums = sums_[k];
     LayerSums& layer = layers_[piece.layer];
     if (piece.kind == PieceKind::wedge) {
       (laying_ends_ ? layer.filled_ends : layer.filled_corners) += sums.full - sums.covered;
@@ -336,7 +336,7 @@ void Printer::merge() {
     }
     layer.full += sums.full;
     layer.covered += sums.covered;
-    Sums& bead = of_bead[piece.bead];
+    PieceSums& bead = of_bead[piece.bead];
     bead.full += sums.full;
     bead.centre += sums.centre;
     bead.bare += sums.bare;
@@ -472,7 +472,7 @@ bool is_print(const Toolpath& path) {
 std::optional<PrintSimulation> simulate_print(const Toolpath& path, const PrintOptions& options,
                                               Diagnostics& diagnostics, Progress* progress) {
   const auto start = std::chrono::steady_clock::now();
-  printing::Survey survey(progress);
+  printing::PrintSurvey survey(progress);
   printing::for_each_bead(path, options, survey, &diagnostics);
   if (survey.stopped) {
     PrintSimulation nothing;

@@ -14,7 +14,7 @@ class UnsupportedBeads {
   explicit UnsupportedBeads(std::vector<PrintHazard>& hazards) : hazards_(hazards) {}
 
   /// Returns the length of the bead with nothing below it.
-  double add(const Bead& bead, const Sums& sums) {
+  double add(const Bead& bead, const PieceSums& sums) {
     if (!bead.continues) {
       close();
       supported_ = false;

@@ -22,7 +22,7 @@ constexpr int kMargin = 2;                // columns without material around the
 constexpr double kTouch = 1e-4;           // mm; and in ulps of the height:
 constexpr double kTouchUlps = 4.0;
 
-double choose_pitch(const Survey& survey, const PrintOptions& options) {
+double choose_pitch(const PrintSurvey& survey, const PrintOptions& options) {
   if (options.resolution.mm() > 0.0) return options.resolution.mm();
   const Point3 size = survey.box.size();
   double pitch = std::max(kFinestPitch, survey.usual_width() / kColumnsPerWidth);
@@ -33,7 +33,7 @@ double choose_pitch(const Survey& survey, const PrintOptions& options) {
 
 }  // namespace
 
-void Survey::bead(const Bead& r) {
+void PrintSurvey::bead(const Bead& r) {
   const double reach = r.section.width / 2.0;
   for (const Point3 p : {r.from, r.to}) {
     box.add(p + Point3{-reach, -reach, -r.section.height});
@@ -46,13 +46,13 @@ void Survey::bead(const Bead& r) {
   if (levels.size() > 2 * sorted) sort_levels();
 }
 
-bool Survey::wants_more() {
+bool PrintSurvey::wants_more() {
   constexpr std::size_t kBetween = 4096;  // motions between two checks
   stopped = stopped || (++motions % kBetween == 0 && stop_requested(progress));
   return !stopped;
 }
 
-void Survey::sort_levels() {
+void PrintSurvey::sort_levels() {
   constexpr std::size_t kFew = 1024;  // levels; fewer are not sorted early
   std::sort(levels.begin(), levels.end());
   std::size_t kept = 0;
@@ -62,12 +62,13 @@ void Survey::sort_levels() {
   sorted = std::max(kept, kFew);
 }
 
-std::uint32_t Survey::layer_of(double level) const {
+std::uint32_t PrintSurvey::layer_of(double level) const {
   const auto it = std::upper_bound(levels.begin(), levels.end(), level);
   return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(it - levels.begin() - 1, 0));
 }
 
-std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& options, Diagnostics& diagnostics) {
+std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& options,
+                                Diagnostics& diagnostics) {
   const double wanted = options.resolution.mm();
   if (!(wanted >= 0.0) || !std::isfinite(wanted)) {
     diagnostics.error(Code::bad_resolution, {},

@@ -12,8 +12,8 @@
 
 namespace kerf::printing {
 
-struct Survey final : BeadSink {
-  explicit Survey(Progress* asked) : progress(asked) {}
+struct PrintSurvey final : BeadSink {
+  explicit PrintSurvey(Progress* asked) : progress(asked) {}
 
   void bead(const Bead& r) override;
   bool wants_more() override;
@@ -32,6 +32,7 @@ struct Survey final : BeadSink {
 };
 
 /// The grid of columns. Nothing, with an error appended, if there are too many.
-std::optional<Frame> make_frame(const Survey& survey, const PrintOptions& options, Diagnostics& diagnostics);
+std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& options,
+                                Diagnostics& diagnostics);
 
 }  // namespace kerf::printing

@@ -28,9 +28,9 @@ struct ClippedRange {
 };
 
 /// First and last column of an interval, within a tile.
-struct Columns {
+struct ColumnRange {
   int first, last;
-  Columns(double low, double high, double pitch, int tile_first, int count) {
+  ColumnRange(double low, double high, double pitch, int tile_first, int count) {
     const double start = std::max(std::ceil(low / pitch), static_cast<double>(tile_first));
     const double end = std::min(std::floor(high / pitch), static_cast<double>(tile_first + count - 1));
     first = start <= end ? static_cast<int>(start) : 0;
@@ -54,14 +54,14 @@ PrintTile::PrintTile(const Frame& frame, int tile_x, int tile_y)
 template <class Visit>
 void PrintTile::for_each_column(const BeadPiece& p, double reach, const Visit& visit) const {
   const double end_y = p.from.y + p.length * p.along.y;
-  const Columns rows(std::min(p.from.y, end_y) - reach, std::max(p.from.y, end_y) + reach, pitch_, first_y_,
-                     columns_y_);
+  const ColumnRange rows(std::min(p.from.y, end_y) - reach, std::max(p.from.y, end_y) + reach, pitch_,
+                         first_y_, columns_y_);
   for (int j = rows.first; j <= rows.last; ++j) {
     const double y = j * pitch_ - p.from.y;
     ClippedRange span;
     span.clip(p.along.x, y * p.along.y, 0.0, p.length);
     span.clip(-p.along.y, y * p.along.x, -reach, reach);
-    const Columns columns(span.low + p.from.x, span.high + p.from.x, pitch_, first_x_, columns_x_);
+    const ColumnRange columns(span.low + p.from.x, span.high + p.from.x, pitch_, first_x_, columns_x_);
     for (int i = columns.first; i <= columns.last; ++i) {
       const double x = i * pitch_ - p.from.x;
       const double u = x * p.along.x + y * p.along.y, v = y * p.along.x - x * p.along.y;
@@ -75,8 +75,8 @@ void PrintTile::for_each_column(const BeadPiece& p, double reach, const Visit& v
 template <class Visit>
 void PrintTile::for_each_wedge_column(const BeadPiece& p, const Visit& visit) const {
   const double reach = p.reach();
-  const Columns rows(p.from.y - reach, p.from.y + reach, pitch_, first_y_, columns_y_);
-  const Columns columns(p.from.x - reach, p.from.x + reach, pitch_, first_x_, columns_x_);
+  const ColumnRange rows(p.from.y - reach, p.from.y + reach, pitch_, first_y_, columns_y_);
+  const ColumnRange columns(p.from.x - reach, p.from.x + reach, pitch_, first_x_, columns_x_);
   for (int j = rows.first; j <= rows.last; ++j) {
     for (int i = columns.first; i <= columns.last; ++i) {
       const Point2 at{i * pitch_ - p.from.x, j * pitch_ - p.from.y};
@@ -86,7 +86,7 @@ void PrintTile::for_each_wedge_column(const BeadPiece& p, const Visit& visit) co
   }
 }
 
-void PrintTile::add(const BeadPiece& piece, double contact_depth, Sums& sums,
+void PrintTile::add(const BeadPiece& piece, double contact_depth, PieceSums& sums,
                     std::vector<NozzleContact>& contacts) {
   switch (piece.kind) {
     case PieceKind::bead: return lay_bead(piece, contact_depth, sums, contacts);
@@ -125,7 +125,7 @@ void meet(const BeadPiece& p, double u, double depth, std::vector<NozzleContact>
 
 }  // namespace
 
-void PrintTile::lay_bead(const BeadPiece& p, double contact_depth, Sums& sums,
+void PrintTile::lay_bead(const BeadPiece& p, double contact_depth, PieceSums& sums,
                          std::vector<NozzleContact>& contacts) {
   const double reach = centre_reach(p, pitch_);
   for_each_column(p, p.reach(), [&](int column, double u, double v) {
@@ -142,13 +142,13 @@ void PrintTile::lay_bead(const BeadPiece& p, double contact_depth, Sums& sums,
   });
 }
 
-void PrintTile::lay_wedge(const BeadPiece& p, Sums& sums) {
+void PrintTile::lay_wedge(const BeadPiece& p, PieceSums& sums) {
   for_each_wedge_column(p, [&](int column, double distance) { lay_section(p, column, p.z, distance, sums); });
 }
 
 /// Lays the interval of a section with its top at `nozzle`, at this distance from its centre line.
 PrintTile::Laid PrintTile::lay_section(const BeadPiece& p, int column, double nozzle, double aside,
-                                       Sums& sums) {
+                                       PieceSums& sums) {
   const double half = half_height(p, aside), centre = nozzle - p.round;
   const auto low = static_cast<float>(centre - half), high = static_cast<float>(centre + half);
   const double bottom = centre - p.round;

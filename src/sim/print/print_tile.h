@@ -12,8 +12,8 @@ namespace kerf::printing {
 
 inline constexpr int kTileSide = 64;  // columns along a tile's edge
 inline constexpr std::uint32_t kNoRun = 0xffffffffu;
-/// Columns are at (k + kShift) * pitch in X and Y: off all round numbers, so that no column lies on the line
-/// between two beads.
+/// Columns are at (k + kShift) * pitch in X and Y: off all round numbers, so that no column lies on the
+/// line between two beads.
 inline constexpr double kShift = 0.381966;
 
 /// The grid of columns of a print.
@@ -48,8 +48,8 @@ struct BeadPiece {
   double reach() const { return flat + round; }  // from the centre line of a bead or the centre of a wedge
 };
 
-/// Sums of laying a piece in a tile. Heights are summed over columns.
-struct Sums {
+/// PieceSums of laying a piece in a tile. Heights are summed over columns.
+struct PieceSums {
   double full = 0.0;                   // height of the piece
   double covered = 0.0;                // of this, in existing material or below the bed
   std::uint32_t centre = 0, bare = 0;  // columns of the centre line; those with nothing below
@@ -75,7 +75,8 @@ class PrintTile {
   PrintTile(const Frame& frame, int tile_x, int tile_y);
 
   /// Lays a bead or wedge, or tests a travel; `contact_depth` as in PrintOptions.
-  void add(const BeadPiece& piece, double contact_depth, Sums& sums, std::vector<NozzleContact>& contacts);
+  void add(const BeadPiece& piece, double contact_depth, PieceSums& sums,
+           std::vector<NozzleContact>& contacts);
 
   /// Appends the runs of a column, lowest first.
   void intervals(int column, std::vector<Interval>& out) const;
@@ -97,11 +98,11 @@ class PrintTile {
   void for_each_column(const BeadPiece& piece, double reach, const Visit& visit) const;
   template <class Visit>
   void for_each_wedge_column(const BeadPiece& piece, const Visit& visit) const;
-  void lay_bead(const BeadPiece& piece, double contact_depth, Sums& sums,
+  void lay_bead(const BeadPiece& piece, double contact_depth, PieceSums& sums,
                 std::vector<NozzleContact>& contacts);
-  void lay_wedge(const BeadPiece& piece, Sums& sums);
+  void lay_wedge(const BeadPiece& piece, PieceSums& sums);
   void travel(const BeadPiece& piece, double contact_depth, std::vector<NozzleContact>& contacts);
-  Laid lay_section(const BeadPiece& piece, int column, double nozzle, double aside, Sums& sums);
+  Laid lay_section(const BeadPiece& piece, int column, double nozzle, double aside, PieceSums& sums);
   Laid lay(int column, float low, float high, std::uint32_t step, Support under);
   std::uint32_t find_above(int column, float height);
   void insert(std::uint32_t above, int column, const MaterialRun& node);

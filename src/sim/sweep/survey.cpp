@@ -248,7 +248,7 @@ std::optional<Setup> set_up(const Toolpath& path, const ToolTable& tools, const 
   Setup setup{mm(*pitch),
               survey_of(path, tools, stock, clearance, thread_count(options.threads), diagnostics)};
   if (diagnostics.errors() != errors_before) return std::nullopt;
-  // What is above short flutes goes into a solid that is not to be touched as neck, shank or holder.
+  // Parts above short flutes that enter a no-go solid are contacts of neck, shank or holder only.
   if (options.role == SolidRole::no_go)
     for (ToolSolids& solids : setup.survey.solids) solids.over_flute = {};
   return setup;

@@ -23,20 +23,20 @@ const char* name_of(Travel travel) {
 
 enum class Speed { feed, rapid };
 
-/// A motion whose extreme position is `limit`: the lowest of all, and of arcs the highest in Y.
-void travel_to(Path& path, Travel travel, Speed speed, Point3 limit) {
+/// A motion whose extreme position is `tip`: the lowest of all, and of arcs the highest in Y.
+void travel_to(Path& path, Travel travel, Speed speed, Point3 tip) {
   const auto go = [&](Point3 to) { speed == Speed::feed ? path.cut(to) : path.rapid(to); };
   const auto from = [&](Point3 to) { path.rapid({to.x, to.y, 70}).rapid(to); };
-  const auto [x, y, z] = limit;
+  const auto [x, y, z] = tip;
   switch (travel) {
     case Travel::line: from({-40, y, z}), go({100, y, z}); break;
     case Travel::back: from({100, y, z}), go({-40, y, z}); break;
     case Travel::across: from({x, -40, z}), go({x, y, z}); break;
-    case Travel::plunge: from({x, y, 60}), go(limit); break;
-    case Travel::slope: from({x - 60, y, z + 15}), go(limit); break;
+    case Travel::plunge: from({x, y, 60}), go(tip); break;
+    case Travel::slope: from({x - 60, y, z + 15}), go(tip); break;
     case Travel::arc:
       from({x, y - 80, z});
-      path.arc({.to = limit, .centre = {x, y - 40}, .turn = Turn::ccw, .feed = mm_per_min(100)});
+      path.arc({.to = tip, .centre = {x, y - 40}, .turn = Turn::ccw, .feed = mm_per_min(100)});
       break;
     case Travel::dip:
       from({x - 40, y, z + 40});
@@ -73,7 +73,7 @@ struct Limit {
   HazardKind kind;
   Tool tool;
   Speed speed;
-  Point3 limit;  // of the tip at the limit
+  Point3 tip;  // of the tip at the limit
   int axis;
   double depth;  // of the contact just beyond it; 0: equal to `beyond`
   std::vector<Travel> travels;
@@ -158,9 +158,9 @@ std::vector<Hazard> hazards_beyond(const Limit& limit, Travel travel, double bey
   if (limit.has_slot) path.tool(2).rapid({-30, 20, 70}).cut({-30, 20, -20}).cut({90, 20, -20});
   path.rapid({-30, 20, 70}).tool(1);
   if (limit.spindle_off) path.spindle(SpindleTurn::off);
-  Point3 limit = limit.limit;
-  limit[limit.axis] += limit.axis == 2 ? -beyond : beyond;
-  travel_to(path, travel, limit.speed, limit);
+  Point3 tip = limit.tip;
+  tip[limit.axis] += limit.axis == 2 ? -beyond : beyond;
+  travel_to(path, travel, limit.speed, tip);
   Diagnostics diagnostics;
   const auto result = run(path.path(), tools, stock, kPitch, diagnostics);
   EXPECT_TRUE(result) << limit.name;
@@ -208,7 +208,7 @@ struct FixtureLimit {
   std::optional<ToolPart> part;
   Tool tool;
   Speed speed;
-  Point3 limit;
+  Point3 tip;
   int axis;
   double depth;  // see Limit
 };
@@ -241,9 +241,9 @@ std::vector<FixtureContact> contacts_beyond(const FixtureLimit& limit, Travel tr
   tools.set(1, limit.tool);
   Path path;
   path.rapid({-30, 20, 70}).tool(1);
-  Point3 limit = limit.limit;
-  limit[limit.axis] += limit.axis == 2 ? -beyond : beyond;
-  travel_to(path, travel, limit.speed, limit);
+  Point3 tip = limit.tip;
+  tip[limit.axis] += limit.axis == 2 ? -beyond : beyond;
+  travel_to(path, travel, limit.speed, tip);
   Diagnostics diagnostics;
   const auto found =
       find_fixture_contacts(path.path(), tools, std::vector{Fixture{"clamp", solid}}, {}, diagnostics);
