@@ -35,6 +35,11 @@ ALLOWED = {
     **{codec: {"base"} for codec in CODEC},
     "codec_mesh": {"codec_zip", "base"},  # 3MF is a zip
     **{front: OP | CODEC for front in FRONT},
+    **rooms("front_gcode", OP | CODEC, {
+        "comments": [],
+        "program": ["comments"],
+        "run": ["program", "comments"],
+    }),
     **rooms("front_gcmc", OP | CODEC, {
         "value": [],
         "text": ["value"],
@@ -82,7 +87,9 @@ PUBLIC = {
     "sim_compare": ["compare.h"],
     "sim_rotary": ["rotary.h"],
     "sim_print": ["print.h"],
-    "front_gcode": ["gcode.h"],
+    "front_gcode_comments": ["gcode_dialect.h"],
+    "front_gcode_program": ["gcode_options.h"],
+    "front_gcode_run": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "front_gcmc_value": ["gcmc_options.h"],
     "back_gcode": ["post.h"],

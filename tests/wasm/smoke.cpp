@@ -9,7 +9,7 @@
 #include "kerf/geometry.h"
 #include "kerf/number.h"
 #include "kerf/toolpath.h"
-#ifdef KERF_HAS_FRONT_GCODE
+#ifdef KERF_HAS_FRONT_GCODE_RUN
 #include "kerf/gcode.h"
 #endif
 #ifdef KERF_HAS_SIM_CUT
@@ -46,7 +46,7 @@ void check_path() {
   expect(path.size() == 1 && path[0].cut().to.x == 10.0, "a toolpath keeps its step");
 }
 
-#ifdef KERF_HAS_FRONT_GCODE
+#ifdef KERF_HAS_FRONT_GCODE_RUN
 constexpr const char* kProgram =
     "G21 G90\nM6 T1\nM3 S10000\nG0 Z5\nG0 X5 Y10\nG1 Z-1 F100\nG1 X15 F400\nG0 Z5\nM30\n";
 
@@ -63,7 +63,7 @@ void check_gcode() {
 }
 #endif
 
-#if defined(KERF_HAS_FRONT_GCODE) && defined(KERF_HAS_SIM_CUT)
+#if defined(KERF_HAS_FRONT_GCODE_RUN) && defined(KERF_HAS_SIM_CUT)
 ToolTable one_square_mill(Diagnostics& diagnostics) {
   ToolTable tools;
   if (auto tool = make_tool(1, shape::Square{mm(4), mm(12)}, {}, {}, diagnostics)) tools.set(1, *tool);
@@ -102,10 +102,10 @@ void check_simulator() {
 int main() {
   kerf::check_base_and_geom();
   kerf::check_path();
-#ifdef KERF_HAS_FRONT_GCODE
+#ifdef KERF_HAS_FRONT_GCODE_RUN
   kerf::check_gcode();
 #endif
-#if defined(KERF_HAS_FRONT_GCODE) && defined(KERF_HAS_SIM_CUT)
+#if defined(KERF_HAS_FRONT_GCODE_RUN) && defined(KERF_HAS_SIM_CUT)
   kerf::check_simulator();
 #endif
   std::printf(kerf::failures == 0 ? "WebAssembly smoke: passed\n" : "WebAssembly smoke: failed\n");

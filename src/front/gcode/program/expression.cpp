@@ -1,0 +1,286 @@
+// Expressions by recursive descent; the depth is bounded.
+#include "front/gcode/program/expression.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "codec/gcode/decimal.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr int kDeepest = 200;         // brackets within brackets
+constexpr double kEqual = 1e-4;       // EQ and NE: LinuxCNC's slack
+constexpr double kLargest = 1e30;     // of any result
+constexpr double kIndexSlack = 1e-4;  // a parameter's number may be off a whole one by this much
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP",
+                                           "FIX", "FUP",  "LN",   "ROUND", "SIN", "SQRT",   "TAN"};
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+/// The end of `word` in `text` from `at` on, blanks passed over; 0 if it does not stand there.
+std::size_t word_end(std::string_view text, std::size_t at, std::string_view word) {
+  for (const char wanted : word) {
+    while (at < text.size() && is_blank(text[at])) ++at;
+    if (at == text.size() || upper(text[at]) != wanted) return 0;
+    ++at;
+  }
+  return at;
+}
+
+}  // namespace
+
+enum class ExpressionReader::Operator : unsigned char {
+  power,
+  times,
+  divided,
+  modulo,
+  plus,
+  minus,
+  equal,
+  unequal,
+  greater,
+  at_least,
+  less,
+  at_most,
+  both,
+  either,
+  one_of,
+};
+
+int ExpressionReader::binding_of(Operator op) {
+  if (op == Operator::power) return 5;
+  if (op <= Operator::modulo) return 4;
+  if (op <= Operator::minus) return 3;
+  return op <= Operator::at_most ? 2 : 1;
+}
+
+std::optional<double> ExpressionReader::fail(Code code, std::string message) {
+  if (fault_.message.empty()) fault_ = {code, at_, std::move(message)};
+  return std::nullopt;
+}
+
+std::optional<double> ExpressionReader::checked(double value) {
+  if (std::isfinite(value) && std::abs(value) <= kLargest) return value + 0.0;
+  return fail(Code::expression_impossible, "a value that is no number or too large");
+}
+
+void ExpressionReader::skip_blanks() {
+  while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+}
+
+bool ExpressionReader::take(char c) {
+  skip_blanks();
+  if (at_ == text_.size() || text_[at_] != c) return false;
+  ++at_;
+  return true;
+}
+
+bool ExpressionReader::take_word(std::string_view word) {
+  const std::size_t end = word_end(text_, at_, word);
+  if (end == 0) return false;
+  at_ = end;
+  return true;
+}
+
+bool ExpressionReader::at_end() {
+  skip_blanks();
+  return at_ == text_.size();
+}
+
+std::optional<double> ExpressionReader::value() {
+  if (++depth_ > kDeepest) return fail(Code::expression_malformed, "brackets within brackets too deep");
+  const std::optional<double> found = operand();
+  --depth_;
+  return found;
+}
+
+std::optional<double> ExpressionReader::operand() {
+  if (at_end()) return fail(Code::expression_malformed, "a value is missing here");
+  const char c = text_[at_];
+  if (c == '[') return bracket();
+  if (c == '#') return parameter();
+  const char next = at_ + 1 < text_.size() ? text_[at_ + 1] : ' ';
+  const bool sign = (c == '+' || c == '-') && !((next >= '0' && next <= '9') || next == '.');
+  if (sign) {
+    ++at_;
+    const std::optional<double> size = value();
+    return size ? checked(c == '-' ? -*size : *size) : size;
+  }
+  return (upper(c) >= 'A' && upper(c) <= 'Z') ? function() : plain_number();
+}
+
+std::optional<double> ExpressionReader::plain_number() {
+  const Decimal number = read_decimal(text_.data() + at_, text_.data() + text_.size());
+  const char after = number.end == text_.data() + text_.size() ? ' ' : *number.end;
+  const bool signed_after = number.fault == DecimalFault::malformed && (after == '+' || after == '-');
+  if (number.fault != DecimalFault::none && !signed_after)
+    return fail(Code::expression_malformed, "a value cannot be read here");
+  at_ = static_cast<std::size_t>(number.end - text_.data());
+  return number.value;
+}
+
+std::optional<double> ExpressionReader::bracket() {
+  ++at_;  // '['
+  const std::optional<double> inner = operation(1);
+  if (!inner) return inner;
+  if (!take(']')) return fail(Code::expression_malformed, "an operator or a closing ] is missing here");
+  return inner;
+}
+
+/// Operands and operators that bind at least as tightly as `weakest`, equal ones from the left.
+std::optional<double> ExpressionReader::operation(int weakest) {
+  std::optional<double> left = value();
+  std::size_t end = 0;
+  while (left) {
+    const std::optional<Operator> op = peek_operator(end);
+    if (!op || binding_of(*op) < weakest) break;
+    at_ = end;
+    const std::optional<double> right = operation(binding_of(*op) + 1);
+    if (!right) return right;
+    left = apply(*op, *left, *right);
+  }
+  return left;
+}
+
+std::optional<ExpressionReader::Operator> ExpressionReader::peek_operator(std::size_t& end) const {
+  constexpr struct {
+    std::string_view word;
+    Operator op;
+  } kOperators[] = {{"**", Operator::power},    {"*", Operator::times},    {"/", Operator::divided},
+                    {"+", Operator::plus},      {"-", Operator::minus},    {"MOD", Operator::modulo},
+                    {"EQ", Operator::equal},    {"NE", Operator::unequal}, {"GT", Operator::greater},
+                    {"GE", Operator::at_least}, {"LT", Operator::less},    {"LE", Operator::at_most},
+                    {"AND", Operator::both},    {"OR", Operator::either},  {"XOR", Operator::one_of}};
+  for (const auto& entry : kOperators) {
+    end = word_end(text_, at_, entry.word);
+    if (end != 0) return entry.op;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> ExpressionReader::apply(Operator op, double left, double right) {
+  switch (op) {
+    case Operator::power:
+      if (left < 0.0 && right != std::floor(right))
+        return fail(Code::expression_impossible, "a number below 0 has no power that is not whole");
+      return checked(std::pow(left, right));
+    case Operator::times: return checked(left * right);
+    case Operator::divided:
+      if (right == 0.0) return fail(Code::expression_impossible, "division by zero");
+      return checked(left / right);
+    case Operator::modulo: {
+      if (right == 0.0) return fail(Code::expression_impossible, "MOD by zero");
+      const double remainder = std::fmod(left, right);
+      return checked(remainder < 0.0 ? remainder + std::abs(right) : remainder);
+    }
+    case Operator::plus: return checked(left + right);
+    case Operator::minus: return checked(left - right);
+    case Operator::equal: return std::abs(left - right) < kEqual ? 1.0 : 0.0;
+    case Operator::unequal: return std::abs(left - right) < kEqual ? 0.0 : 1.0;
+    case Operator::greater: return left > right ? 1.0 : 0.0;
+    case Operator::at_least: return left >= right ? 1.0 : 0.0;
+    case Operator::less: return left < right ? 1.0 : 0.0;
+    case Operator::at_most: return left <= right ? 1.0 : 0.0;
+    case Operator::both: return left != 0.0 && right != 0.0 ? 1.0 : 0.0;
+    case Operator::either: return left != 0.0 || right != 0.0 ? 1.0 : 0.0;
+    case Operator::one_of: return (left != 0.0) != (right != 0.0) ? 1.0 : 0.0;
+  }
+  return std::nullopt;
+}
+
+std::optional<ExpressionReader::Target> ExpressionReader::target() {
+  const auto none = [this](std::string message) {
+    fail(Code::expression_malformed, std::move(message));
+    return std::nullopt;
+  };
+  if (!take('#')) return none("a parameter (#) is expected here");
+  if (take('<')) {
+    const std::size_t close = text_.find('>', at_);
+    std::string name = normal_name(text_.substr(at_, close == std::string_view::npos ? 0 : close - at_));
+    if (name.empty()) return none("a parameter's name between < and > is expected here");
+    at_ = close + 1;
+    return Target{0, std::move(name)};
+  }
+  const std::size_t begin = at_;
+  const std::optional<double> index = value();
+  if (!index) return std::nullopt;
+  const double whole = std::round(*index);
+  if (std::abs(whole - *index) <= kIndexSlack && whole >= 1.0 && whole <= Parameters::kLast)
+    return Target{static_cast<int>(whole), {}};
+  at_ = begin;
+  fail(Code::parameter_unknown,
+       fmt::format("parameters have whole numbers from 1 to {}, not {:g}", Parameters::kLast, *index));
+  return std::nullopt;
+}
+
+std::optional<double> ExpressionReader::parameter() {
+  const std::size_t begin = at_;
+  const std::optional<Target> what = target();
+  if (!what) return std::nullopt;
+  const auto found = what->name.empty() ? parameters_.number(what->number) : parameters_.name(what->name);
+  if (found) return found;
+  at_ = begin;
+  return fail(Code::parameter_unknown, fmt::format("the parameter #<{}> has no value", what->name));
+}
+
+std::optional<double> ExpressionReader::function() {
+  const std::size_t begin = at_;
+  for (const std::string_view name : kFunctions) {
+    at_ = begin;
+    if (!take_word(name)) continue;
+    skip_blanks();
+    if (at_ == text_.size() || text_[at_] != '[') continue;
+    if (name == "EXISTS") return exists();
+    if (name == "ATAN") return arc_tangent();
+    const std::optional<double> x = bracket();
+    return x ? apply(name, *x) : x;
+  }
+  at_ = begin;
+  return fail(Code::expression_malformed, "no function has this name, or its [ is missing");
+}
+
+std::optional<double> ExpressionReader::exists() {
+  ++at_;  // '['
+  const std::optional<Target> what = target();
+  if (!what) return std::nullopt;
+  if (!take(']')) return fail(Code::expression_malformed, "a closing ] is missing here");
+  return what->name.empty() || parameters_.name(what->name) ? 1.0 : 0.0;
+}
+
+/// ATAN[y]/[x]: the angle in all four quarters.
+std::optional<double> ExpressionReader::arc_tangent() {
+  const std::optional<double> y = bracket();
+  if (!y) return y;
+  if (!take('/')) return fail(Code::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
+  skip_blanks();
+  if (at_ == text_.size() || text_[at_] != '[')
+    return fail(Code::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
+  const std::optional<double> x = bracket();
+  if (!x) return x;
+  return std::atan2(*y, *x) / kDegree;
+}
+
+std::optional<double> ExpressionReader::apply(std::string_view function, double x) {
+  const auto impossible = [&](std::string_view why) {
+    return fail(Code::expression_impossible, fmt::format("{} of {:g}: {}", function, x, why));
+  };
+  if (function == "ABS") return std::abs(x);
+  if (function == "SIN") return std::sin(x * kDegree);
+  if (function == "COS") return std::cos(x * kDegree);
+  if (function == "TAN") return checked(std::tan(x * kDegree));
+  if (function == "EXP") return checked(std::exp(x));
+  if (function == "FIX") return std::floor(x) + 0.0;
+  if (function == "FUP") return std::ceil(x) + 0.0;
+  if (function == "ROUND") return std::round(x) + 0.0;
+  if (function == "LN") return x > 0.0 ? checked(std::log(x)) : impossible("it must be above 0");
+  if (function == "SQRT") return x >= 0.0 ? std::sqrt(x) : impossible("it must not be below 0");
+  if (std::abs(x) > 1.0) return impossible("it must be from -1 to 1");
+  return (function == "ASIN" ? std::asin(x) : std::acos(x)) / kDegree;
+}
+
+}  // namespace kerf::gcode

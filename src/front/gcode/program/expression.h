@@ -1,0 +1,74 @@
+// The value of what stands in a program in place of a number: "#1", "#<depth>", "[2 * #1 + SIN[30]]".
+//
+// Operators from the tightest: **; * / MOD; + -; EQ NE GT GE LT LE; AND OR XOR; equal ones from the left, **
+// too. Angles are degrees. Blanks and the case of letters do not count.
+// Source: LinuxCNC's pages "Expressions", "Functions", "Binary operators".
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "front/gcode/program/parameters.h"
+
+#include "kerf/diagnostics.h"
+
+namespace kerf::gcode {
+
+/// Why a text has no value, and where in it.
+struct ExpressionFault {
+  Code code = Code::expression_malformed;
+  std::size_t offset = 0;
+  std::string message;
+};
+
+/// Reads values one after the other from a text.
+class ExpressionReader {
+ public:
+  ExpressionReader(std::string_view text, const Parameters& parameters)
+      : text_(text), parameters_(parameters) {}
+
+  /// The next value: a number, a parameter, a bracket or a function. Finite; else nothing, and fault() says
+  /// why.
+  std::optional<double> value();
+  /// What "#... =" sets: a number or a name. Nothing, and fault(), where it cannot be read.
+  struct Target {
+    int number = 0;
+    std::string name;  // empty: the number counts
+  };
+  std::optional<Target> target();
+  /// Takes the character if it comes next, after blanks.
+  bool take(char c);
+  bool at_end();
+  std::size_t position() const { return at_; }
+  std::string_view rest() const { return text_.substr(at_); }
+  const ExpressionFault& fault() const { return fault_; }
+
+ private:
+  enum class Operator : unsigned char;
+  std::optional<double> fail(Code code, std::string message);
+  std::optional<double> bracket();
+  std::optional<double> operation(int weakest);
+  std::optional<double> operand();
+  std::optional<double> plain_number();
+  std::optional<double> parameter();
+  std::optional<double> function();
+  std::optional<double> exists();
+  std::optional<double> arc_tangent();
+  std::optional<double> apply(std::string_view function, double x);
+  std::optional<double> apply(Operator op, double left, double right);
+  std::optional<Operator> peek_operator(std::size_t& end) const;
+  std::optional<double> checked(double value);
+  void skip_blanks();
+  bool take_word(std::string_view word);
+  static int binding_of(Operator op);
+
+  std::string_view text_;
+  const Parameters& parameters_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+  ExpressionFault fault_;
+};
+
+}  // namespace kerf::gcode

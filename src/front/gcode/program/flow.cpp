@@ -1,0 +1,377 @@
+// Loops, conditions, calls.
+#include "front/gcode/program/flow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "front/gcode/program/o_word.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr std::size_t kDeepestCall = 100;
+constexpr std::size_t kCostOfLine = 16;  // bytes that even an empty line counts for
+constexpr double kMostRepeats = 1e9;
+
+/// What a line does to the flow of a Fanuc program.
+enum class Turning : std::uint8_t { none, gives_back, ends };
+
+Turning turning_of(std::string_view line) {
+  int depth = 0;
+  for (std::size_t i = 0; i < line.size() && line[i] != ';'; ++i) {
+    if (line[i] == '(') ++depth;
+    if (line[i] == ')') --depth;
+    const char c = static_cast<char>(line[i] & ~0x20);  // in capitals
+    if (depth > 0 || (c != 'M' && c != 'O')) continue;
+    if (c == 'O') return Turning::ends;  // another program begins
+    std::size_t end = i + 1;
+    while (end < line.size() && line[end] >= '0' && line[end] <= '9') ++end;
+    const std::string_view number = line.substr(i + 1, end - i - 1);
+    if (number == "99") return Turning::gives_back;
+    if (number == "2" || number == "02" || number == "30") return Turning::ends;
+  }
+  return Turning::none;
+}
+
+}  // namespace
+
+Flow::Flow(std::string_view text, const GcodeReadOptions& options, Talker& talker, Parameters& parameters,
+           GcodeDialect dialect, Diagnostics& diagnostics)
+    : options_(options),
+      dialect_(dialect),
+      talker_(talker),
+      parameters_(parameters),
+      diagnostics_(diagnostics) {
+  auto source = std::make_unique<Source>();
+  source->name = options.file_name;
+  source->reader = std::make_unique<BlockReader>(text, reader_options(options.file_name), diagnostics);
+  frames_.emplace_back().source = source.get();
+  sources_.push_back(std::move(source));
+}
+
+Flow::~Flow() = default;
+
+BlockReaderOptions Flow::reader_options(const std::string& name) const {
+  const bool printer = dialect_ == GcodeDialect::marlin || dialect_ == GcodeDialect::klipper;
+  const auto commands = printer ? BlockReaderOptions::Commands::words : BlockReaderOptions::Commands::letters;
+  return {name, options_.max_line_bytes, options_.strict, commands};
+}
+
+bool Flow::next(Block& block) {
+  while (!stopped_) {
+    if (frames_.back().source->reader->next(block)) return !jumped_ || may_run(block);
+    if (frames_.size() == 1) return false;
+    return_from_call();  // a subroutine's file may end without endsub
+  }
+  return false;
+}
+
+bool Flow::may_run(const Block& block) {
+  work_ += block.text.size() + kCostOfLine;
+  if (work_ <= options_.max_rerun_bytes) return true;
+  talker_.at_line(block.line);
+  talker_.error(Code::runs_too_long, 1,
+                "loops and calls repeat more lines than are read; the rest is left out", "does a loop end?");
+  stopped_ = true;
+  return false;
+}
+
+void Flow::jump(std::size_t position, std::uint32_t lines) {
+  jumped_ = true;
+  frames_.back().source->reader->seek(position, lines);
+}
+
+void Flow::jump_to(std::size_t o_line_index) {
+  const OLine& line = o_line(o_line_index);
+  jump(line.begin, line.lines_before);
+}
+
+void Flow::jump_behind(std::size_t o_line_index) {
+  const OLine& line = o_line(o_line_index);
+  jump(line.next, line.lines_before + 1);
+}
+
+/// The entry of the list for the line that was read last.
+std::optional<std::size_t> Flow::here(const Block& block) {
+  Source& source = *frames_.back().source;
+  list(source);
+  const auto found = std::lower_bound(
+      source.o_lines.begin(), source.o_lines.end(), block.line,
+      [](const OLine& line, std::uint32_t number) { return line.lines_before + 1 < number; });
+  if (found == source.o_lines.end() || found->lines_before + 1 != block.line) return std::nullopt;
+  return static_cast<std::size_t>(found - source.o_lines.begin());
+}
+
+std::optional<double> Flow::value_of(ExpressionReader& reader, std::uint32_t column) {
+  const std::optional<double> value = reader.value();
+  if (!value)
+    talker_.error(reader.fault().code, column + static_cast<std::uint32_t>(reader.fault().offset),
+                  reader.fault().message);
+  return value;
+}
+
+/// The one value that if, while and repeat need.
+std::optional<double> Flow::only_value(const Block& block) {
+  const OWord word = read_o_word(block.o_word->text);
+  const auto offset = static_cast<std::uint32_t>(word.values.data() - block.o_word->text.data());
+  ExpressionReader reader(word.values, parameters_);
+  if (reader.at_end() || word.values[reader.position()] != '[') {
+    talker_.error(Code::o_word_malformed, block.o_word->column,
+                  "a value in brackets is expected after this word");
+    return std::nullopt;
+  }
+  return value_of(reader, block.o_word->column + offset);
+}
+
+void Flow::control(const Block& block) {
+  talker_.at_line(block.line);
+  const std::optional<std::size_t> at = here(block);
+  if (!at || o_line(*at).kind == OKind::nothing) {
+    talker_.error(Code::o_word_malformed, block.o_word->column,
+                  "this O-word cannot be understood; expected a label and sub, call, if, while ...");
+    return;
+  }
+  carry_out(*at, block);
+}
+
+void Flow::carry_out(std::size_t at, const Block& block) {
+  const OLine& line = o_line(at);
+  const bool paired = line.partner != at;
+  const std::uint32_t column = block.o_word->column;
+  switch (line.kind) {
+    case OKind::sub: return paired ? jump_behind(line.partner) : void(unmatched(line, column));
+    case OKind::end_sub:
+    case OKind::give_back: return give_back(block);
+    case OKind::call: return call(block);
+    case OKind::condition: return paired ? branch(at, block) : void(unmatched(line, column));
+    case OKind::else_if:
+    case OKind::otherwise: return paired ? jump_behind(line.partner) : void(unmatched(line, column));
+    case OKind::loop_while:
+      if (!paired) return void(unmatched(line, column));
+      if (only_value(block).value_or(0.0) == 0.0) jump_behind(line.partner);
+      return;
+    case OKind::end_while: return paired ? jump_to(line.partner) : void(unmatched(line, column));
+    case OKind::while_of_do:
+      if (only_value(block).value_or(0.0) != 0.0) jump_behind(line.partner);
+      return;
+    case OKind::repeat: return paired ? begin_repeat(at, block) : void(unmatched(line, column));
+    case OKind::end_repeat: return paired ? end_repeat(at) : void(unmatched(line, column));
+    case OKind::leave:
+    case OKind::go_on: return leave_loop(at, column);
+    case OKind::end_if:
+    case OKind::loop_do:
+      if (!paired) unmatched(line, column);
+      return;
+    case OKind::number:
+    case OKind::nothing: return;
+  }
+}
+
+bool Flow::unmatched(const OLine& line, std::uint32_t column) {
+  talker_.error(
+      Code::o_word_unmatched, column,
+      fmt::format("the O-word with the label {} lacks its counterpart; it is left out", line.label));
+  return false;
+}
+
+/// Goes to the first branch of an if whose condition holds, or behind the end.
+void Flow::branch(std::size_t at, const Block& block) {
+  Block question;
+  const Block* asked = &block;
+  while (only_value(*asked).value_or(0.0) == 0.0) {
+    const std::size_t next = o_line(at).branch;
+    if (next == at || o_line(next).kind != OKind::else_if) return jump_behind(next);
+    jump_to(next);
+    if (!this->next(question) || !question.o_word) return;
+    talker_.at_line(question.line);
+    asked = &question;
+    at = next;
+  }
+}
+
+void Flow::begin_repeat(std::size_t at, const Block& block) {
+  const double count = std::round(only_value(block).value_or(0.0));
+  if (!(count >= 1.0)) return jump_behind(o_line(at).partner);
+  std::vector<Repeat>& repeats = frames_.back().repeats;
+  std::erase_if(repeats, [&](const Repeat& r) { return r.o_line >= at; });  // left by a jump
+  repeats.push_back({at, std::min(count, kMostRepeats)});
+}
+
+void Flow::end_repeat(std::size_t at) {
+  const std::size_t begin = o_line(at).partner;
+  std::vector<Repeat>& repeats = frames_.back().repeats;
+  std::erase_if(repeats, [&](const Repeat& r) { return r.o_line > begin; });
+  if (repeats.empty() || repeats.back().o_line != begin) return;
+  if (--repeats.back().left >= 1.0) return jump_behind(begin);
+  repeats.pop_back();
+}
+
+/// The loop of the same label that a line lies in.
+std::optional<std::size_t> Flow::loop_around(std::size_t at) const {
+  for (std::size_t i = at; i-- > 0;) {
+    const OLine& line = o_line(i);
+    const bool loop =
+        line.kind == OKind::loop_while || line.kind == OKind::loop_do || line.kind == OKind::repeat;
+    if (loop && line.partner > at && line.label == o_line(at).label) return i;
+  }
+  return std::nullopt;
+}
+
+void Flow::leave_loop(std::size_t at, std::uint32_t column) {
+  const std::optional<std::size_t> loop = loop_around(at);
+  if (!loop) return void(unmatched(o_line(at), column));
+  const std::size_t end = o_line(*loop).partner;
+  if (o_line(at).kind == OKind::go_on) return jump_to(end);
+  std::erase_if(frames_.back().repeats, [&](const Repeat& r) { return r.o_line >= *loop; });
+  jump_behind(end);
+}
+
+// ---- subroutines
+
+/// The label of a call; one that is computed becomes its number.
+std::optional<std::string> Flow::label_of(const OWord& word, std::uint32_t column) {
+  if (word.label.front() != '[' && word.label.front() != '#') return word.label;
+  ExpressionReader reader(word.label, parameters_);
+  const std::optional<double> value = value_of(reader, column);
+  if (!value) return std::nullopt;
+  return fmt::format("{:.0f}", *value);
+}
+
+void Flow::call(const Block& block) {
+  const OWord word = read_o_word(block.o_word->text);
+  const std::uint32_t column = block.o_word->column;
+  const std::optional<std::string> label = label_of(word, column);
+  if (!label) return;
+  std::vector<double> arguments;
+  ExpressionReader reader(word.values, parameters_);
+  while (!reader.at_end()) {
+    const auto offset = static_cast<std::uint32_t>(word.values.data() - block.o_word->text.data());
+    const std::optional<double> value = value_of(reader, column + offset);
+    if (!value) return;
+    arguments.push_back(*value);
+  }
+  if (arguments.size() > Parameters::kArguments) {
+    talker_.error(Code::o_word_malformed, column,
+                  fmt::format("a call has at most {} values; it is left out", Parameters::kArguments));
+    return;
+  }
+  if (!enter(*label, 1, column)) return;
+  parameters_.enter(arguments);
+  frames_.back().own_parameters = true;
+}
+
+void Flow::call_number(int number, int repeats, std::uint32_t column) {
+  enter(std::to_string(number), repeats, column);
+}
+
+/// Goes to the begin of a subroutine; what it is called with is the caller's matter.
+bool Flow::enter(const std::string& label, int repeats, std::uint32_t column) {
+  std::size_t entry = 0;
+  Source* source = source_of(label, entry);
+  if (source == nullptr) {
+    talker_.error(Code::sub_missing, column,
+                  fmt::format("no subroutine {} is in this program or in a file beside it", label));
+    return false;
+  }
+  if (frames_.size() > kDeepestCall) {
+    talker_.error(Code::calls_too_deep, column,
+                  fmt::format("calls within calls deeper than {}; this one is left out", kDeepestCall));
+    return false;
+  }
+  const BlockReader& caller = *frames_.back().source->reader;
+  Frame frame;
+  frame.source = source;
+  frame.return_to = caller.position();
+  frame.return_lines = caller.lines();
+  frame.repeats_left = repeats - 1;
+  frame.entry = entry;
+  frames_.push_back(std::move(frame));
+  jump_behind(entry);
+  return true;
+}
+
+Flow::Source* Flow::source_of(const std::string& label, std::size_t& entry) {
+  for (Source* source : {frames_.back().source, sources_.front().get()}) {
+    list(*source);
+    const auto found = source->subs.find(label);
+    if (found == source->subs.end()) continue;
+    entry = found->second;
+    return source;
+  }
+  Source* source = load(label);
+  if (source == nullptr) return nullptr;
+  const auto found = source->subs.find(label);
+  if (found == source->subs.end()) return nullptr;
+  entry = found->second;
+  return source;
+}
+
+/// The text of a subroutine's own file, read once. Names that could lead to another folder are no names.
+Flow::Source* Flow::load(const std::string& label) {
+  std::string name = label;
+  if (name.size() > 2 && name.front() == '<') name = name.substr(1, name.size() - 2);
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
+  if (!options_.read_file || name.empty() || !std::all_of(name.begin(), name.end(), plain)) return nullptr;
+  name += ".ngc";
+  for (const auto& known : sources_)
+    if (known->name == name) return known.get();
+  std::optional<std::string> text = options_.read_file(name);
+  if (!text) return nullptr;
+  auto source = std::make_unique<Source>();
+  source->name = name;
+  source->owned = std::move(*text);
+  source->reader = std::make_unique<BlockReader>(source->owned, reader_options(name), diagnostics_);
+  list(*source);
+  sources_.push_back(std::move(source));
+  return sources_.back().get();
+}
+
+void Flow::give_back(const Block& block) {
+  const OWord word = read_o_word(block.o_word->text);
+  if (depth() == 0) {
+    talker_.error(Code::o_word_unmatched, block.o_word->column, "there is no subroutine to return from here");
+    return;
+  }
+  ExpressionReader reader(word.values, parameters_);
+  std::optional<double> value;
+  if (!reader.at_end()) value = value_of(reader, block.o_word->column);
+  return_from_call();
+  parameters_.set_name("_value", value.value_or(0.0));
+  parameters_.set_name("_value_returned", value ? 1.0 : 0.0);
+}
+
+bool Flow::skip_subprogram() {
+  BlockReader& reader = *frames_.back().source->reader;
+  const std::string_view text = reader.text();
+  std::size_t at = reader.position();
+  for (std::uint32_t lines = reader.lines() + 1; at < text.size(); ++lines) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const Turning turning = turning_of(text.substr(at, end - at));
+    at = std::min(end + 1, text.size());
+    if (turning == Turning::ends) return false;
+    if (turning == Turning::none) continue;
+    reader.seek(at, lines);
+    return true;
+  }
+  return false;
+}
+
+bool Flow::return_from_call() {
+  if (depth() == 0) return false;
+  Frame& frame = frames_.back();
+  if (frame.repeats_left-- > 0) {
+    frame.repeats.clear();
+    jump_behind(frame.entry);
+    return true;
+  }
+  const Frame done = std::move(frame);
+  if (done.own_parameters) parameters_.leave();
+  frames_.pop_back();
+  jump(done.return_to, done.return_lines);
+  return true;
+}
+
+}  // namespace kerf::gcode

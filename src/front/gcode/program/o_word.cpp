@@ -1,0 +1,79 @@
+// Splitting an O-word.
+#include "front/gcode/program/o_word.h"
+
+#include "kerf/names.h"
+
+namespace kerf::gcode {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+OKind kind_of(const std::string& word) {
+  constexpr struct {
+    std::string_view word;
+    OKind kind;
+  } kWords[] = {
+      {"", OKind::number},
+      {"sub", OKind::sub},
+      {"endsub", OKind::end_sub},
+      {"return", OKind::give_back},
+      {"call", OKind::call},
+      {"if", OKind::condition},
+      {"elseif", OKind::else_if},
+      {"else", OKind::otherwise},
+      {"endif", OKind::end_if},
+      {"while", OKind::loop_while},
+      {"endwhile", OKind::end_while},
+      {"do", OKind::loop_do},
+      {"repeat", OKind::repeat},
+      {"endrepeat", OKind::end_repeat},
+      {"break", OKind::leave},
+      {"continue", OKind::go_on},
+  };
+  for (const auto& entry : kWords)
+    if (entry.word == word) return entry.kind;
+  return OKind::nothing;
+}
+
+/// Where the label that begins at 0 ends: "100", "<name>", "[2*#1]", "#1".
+std::size_t label_end(std::string_view text) {
+  if (text.empty()) return 0;
+  std::size_t at = 0;
+  if (text[0] == '<') {
+    const std::size_t close = text.find('>');
+    return close == std::string_view::npos ? text.size() : close + 1;
+  }
+  while (at < text.size() && text[at] == '#') ++at;
+  if (at < text.size() && text[at] == '[') {
+    int depth = 0;
+    for (; at < text.size(); ++at) {
+      if (text[at] == '[') ++depth;
+      if (text[at] == ']' && --depth == 0) return at + 1;
+    }
+    return at;
+  }
+  while (at < text.size() && (is_digit(text[at]) || text[at] == ' ' || text[at] == '\t')) ++at;
+  return at;
+}
+
+}  // namespace
+
+OWord read_o_word(std::string_view text) {
+  OWord word;
+  text = trim(text.substr(1));
+  const std::size_t end = label_end(text);
+  word.label = normal_name(text.substr(0, end));
+  const std::size_t digit = word.label.find_first_not_of('0');
+  if (!word.label.empty() && word.label.front() == '0')
+    word.label = digit == std::string::npos ? "0" : word.label.substr(digit);
+  text = trim(text.substr(end));
+  std::size_t letters = 0;
+  while (letters < text.size() && (is_letter(text[letters]))) ++letters;
+  word.kind = word.label.empty() ? OKind::nothing : kind_of(normal_name(text.substr(0, letters)));
+  word.values = text.substr(letters);
+  if (word.kind == OKind::number && !word.values.empty()) word.kind = OKind::nothing;
+  return word;
+}
+
+}  // namespace kerf::gcode

@@ -1,0 +1,147 @@
+// Printers: Marlin and Klipper. E is the filament, heaters and fans are steps of their own.
+//
+// Source: Marlin's list of G-codes; Klipper's page "G-Codes".
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "front/gcode/comments/slicer_comments.h"
+#include "front/gcode/run/interpreter.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr double kFullFan = 255.0;
+constexpr double kHottest = 2000.0;  // degrees Celsius that can be meant
+constexpr double kChord = 0.01;      // mm that a bead may stray from its arc
+constexpr int kMostChords = 10'000;
+constexpr int kMostFans = 100;
+constexpr double kUsualFilament = 1.75;  // mm
+
+}  // namespace
+
+/// True for a line whose M code only a printer has.
+bool Interpreter::printer_line() {
+  if (!is_printer()) return false;
+  if (line_.has('T') && !line_.has_codes()) {  // changes at once
+    select_tool();
+    if (modes_.selected_tool) {
+      modes_.tool = *modes_.selected_tool;
+      add(step::ToolChange{*modes_.tool});
+    }
+  }
+  if (line_.large_m_code() >= 0) return true;
+  if (!line_.has(Group::other)) return false;
+  const Tenths code = line_.code(Group::other);
+  return code == 820 || code == 830 || code == 840;
+}
+
+void Interpreter::printer_code() {
+  const int code = line_.large_m_code();
+  if (code < 0) {
+    const Tenths small = line_.code(Group::other);
+    if (small != 840) filament_relative_ = small == 830;
+    return;
+  }
+  const auto heat = [&](Heater heater, bool wait) {
+    const double celsius = std::clamp(line_.take('S').value_or(line_.take('R').value_or(0.0)), 0.0, kHottest);
+    add(step::Temperature{heater, celsius, wait});
+  };
+  switch (code) {
+    case 104: return heat(Heater::nozzle, false);
+    case 109: return heat(Heater::nozzle, true);
+    case 140: return heat(Heater::bed, false);
+    case 190: return heat(Heater::bed, true);
+    case 141: return heat(Heater::chamber, false);
+    case 191: return heat(Heater::chamber, true);
+    case 106:
+    case 107: {
+      const auto fan = static_cast<int>(std::clamp(line_.take('P').value_or(0.0), 0.0, double{kMostFans}));
+      const double power = code == 107 ? 0.0 : line_.take('S').value_or(kFullFan);
+      add(step::Fan{fan, std::clamp(power / kFullFan, 0.0, 1.0)});
+      return;
+    }
+    case 200: return set_volumetric();
+    default: add(step::Verbatim{fmt::format("M{}", code)}); return;  // the machine's own matter
+  }
+}
+
+/// G28 drives to the ends of the axes, G92 sets coordinates and the filament's zero.
+void Interpreter::printer_reference() {
+  const Tenths code = line_.code(Group::reference);
+  if (code == 920) {
+    const std::optional<double> e = line_.take('E');
+    if (e) filament_ = *e;
+    if (line_.has_unused(kAxisLetters)) shift_zero();
+    return;
+  }
+  if (code == 280) run_to_end_switches();
+  line_.use(kAllLetters);
+}
+
+/// The axes named, or all, run to their end switches.
+void Interpreter::run_to_end_switches() {
+  const bool all = !line_.has_any(kAxisLetters);
+  auto to = here_;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!all && !line_.has(static_cast<char>('X' + axis))) continue;
+    to.at[axis] = 0.0;
+    to.unknown |= 1u << axis;
+    to.reference_axes |= 1u << axis;
+  }
+  to.reference = Reference::end_switches;
+  rapid(to);
+}
+
+/// How thick the filament is: as told by the caller, by the program's remarks, as usual.
+void Interpreter::set_filament(std::string_view text) {
+  filament_diameter_ = options_.filament_diameter ? *options_.filament_diameter
+                                                  : told_filament_diameter(text).value_or(kUsualFilament);
+}
+
+/// M200: with a diameter (D) above 0 the E words tell volumes from here on; S1 and S0 switch that alone.
+void Interpreter::set_volumetric() {
+  const auto diameter = line_.take('D'), on = line_.take('S');
+  if (diameter) volumetric_ = *diameter > 0.0;
+  if (on) volumetric_ = *on != 0.0;
+}
+
+/// Marlin's G91 holds for E too; Klipper's does not.
+bool Interpreter::filament_is_relative() const {
+  return filament_relative_ || (program_.dialect == GcodeDialect::marlin && !modes_.absolute);
+}
+
+/// A straight move with an E word: a bead where it moves, or filament pushed or drawn back.
+void Interpreter::extrude(const Place& to, double feed) {
+  const double e = line_.take('E').value_or(0.0);
+  const bool relative = filament_is_relative();
+  const double pushed = relative ? e : e - filament_;
+  filament_ = relative ? filament_ + e : e;
+  const double area = std::numbers::pi / 4.0 * filament_diameter_ * filament_diameter_;
+  if (!(to.at == here_.at) && pushed == 0.0) return cut(to, feed);
+  step::Extrude bead;
+  bead.to = to.at;
+  bead.volume = Volume::raw(volumetric_ ? pushed : pushed * modes_.scale * area);
+  bead.width = mm(bead_width_);
+  bead.height = mm(bead_height_);
+  bead.feed = mm_per_min(feed);
+  if (std::isfinite(bead.volume.raw()) && add(bead)) arrive(to);
+}
+
+/// Beads are straight: an arc with an E word becomes chords, each with its share.
+void Interpreter::extrude_arc(const ArcWalk& walk, const Place& to, Feed feed) {
+  const double e = line_.take('E').value_or(0.0);
+  const bool relative = filament_is_relative();
+  const double pushed = relative ? e : e - filament_;
+  const int count = walk.chords(mm(kChord), kMostChords);
+  const double begin = filament_;
+  for (int i = 1; i <= count; ++i) {
+    Place next = to;
+    if (i < count) next.at = walk.at(i / double(count));
+    line_.put('E', relative ? pushed / count : begin + pushed * i / count);
+    extrude(next, feed.mm_per_min());
+  }
+}
+
+}  // namespace kerf::gcode

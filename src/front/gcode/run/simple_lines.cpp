@@ -1,0 +1,106 @@
+// The short way for plain moves. It must do what the long way does with the same line; a test compares them.
+#include "codec/gcode/decimal.h"
+#include "front/gcode/run/interpreter.h"
+
+namespace kerf::gcode {
+namespace {
+
+/// The words of a plain line. Bits of `axes` as everywhere: 1, 2, 4 for X, Y, Z.
+struct PlainWords {
+  double axis[3] = {};
+  double feed = 0.0;
+  unsigned axes = 0;
+  Tenths motion = kMotionNotSaid;
+  std::uint32_t column = 0;  // of the first word
+  bool has_feed = false;
+};
+
+/// False for anything but one each of G0 or G1, X, Y, Z and F after an N.
+bool read_plain(std::string_view text, PlainWords& words) {
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  bool numbered = false;
+  while (p != end) {
+    if (*p == ' ') {
+      ++p;
+      continue;
+    }
+    const char letter = *p;
+    if (letter < 'F' || letter > 'Z') return false;
+    const Decimal number = read_decimal(p + 1, end);
+    if (number.fault != DecimalFault::none) return false;
+    const auto column = static_cast<std::uint32_t>(p - text.data()) + 1;
+    p = number.end;
+    if (letter == 'N' && !numbered && words.column == 0) {
+      numbered = true;
+      continue;
+    }
+    if (words.column == 0) words.column = column;
+    if (letter >= 'X') {
+      const auto i = static_cast<unsigned>(letter - 'X');
+      if ((words.axes >> i & 1u) != 0) return false;
+      words.axes |= 1u << i;
+      words.axis[i] = number.value;
+    } else if (letter == 'G' && words.motion == kMotionNotSaid &&
+               (number.value == 0.0 || number.value == 1.0)) {
+      words.motion = number.value == 0.0 ? 0 : 10;
+    } else if (letter == 'F' && !words.has_feed) {
+      words.has_feed = true;
+      words.feed = number.value;
+    } else {
+      return false;
+    }
+  }
+  return words.axes != 0;
+}
+
+}  // namespace
+
+/// Whether the state is the usual one of a program on its way.
+bool Interpreter::takes_plain_lines() const {
+  const bool printer = program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
+  const bool modes = modes_.absolute && modes_.feed_mode == FeedMode::per_minute && !modes_.diameters &&
+                     (modes_.motion == 0 || modes_.motion == 10);
+  const bool path = placement_.plain && !compensation_.cutter && !compensation_.leaving && !rotary_used_ &&
+                    !rests_ && here_.reference_axes == 0;
+  return modes && path && moved_ && !printer && !program_.ended && current_depth_ == 0;
+}
+
+std::size_t Interpreter::run_plain_lines(BlockReader& reader, std::size_t limit) {
+  std::size_t lines = 0;
+  if (!takes_plain_lines()) return lines;
+  while (lines < limit && run_plain_line(reader.peek(), reader.lines() + 1)) {
+    reader.skip();
+    ++lines;
+  }
+  return lines;
+}
+
+bool Interpreter::run_plain_line(std::string_view text, std::uint32_t number) {
+  PlainWords words;
+  if (!read_plain(text, words) || path_.size() >= max_steps_) return false;
+  const Tenths motion = words.motion == kMotionNotSaid ? modes_.motion : words.motion;
+  const double feed = words.has_feed ? words.feed * modes_.scale : modes_.feed;
+  if (feed < 0.0 || (motion == 10 && !(feed > 0.0))) return false;
+  Place to = here_;
+  for (int axis = 0; axis < 3; ++axis)
+    if ((words.axes >> axis & 1u) != 0)
+      to.at[axis] = words.axis[axis] * modes_.scale + placement_.shift[axis];
+  to.unknown &= ~words.axes;
+  if (!is_near(to.at)) return false;
+  modes_.motion = motion;
+  modes_.feed = feed;
+  if (motion == 10) no_feed_said_ = false;
+  words_since_percent_ = true;
+  talker_.at_line(number);
+  origin_line_ = number;
+  origin_ = path_.origins().text(file_, number, words.column);
+  if (motion == 0)
+    path_.add(step::Rapid{to.at}, origin_);
+  else
+    path_.add(step::Cut{to.at, mm_per_min(feed)}, origin_);
+  arrive(to);
+  return true;
+}
+
+}  // namespace kerf::gcode

@@ -1,0 +1,122 @@
+// Moves that the spindle drives: G33, G33.1 and the threading cycle G76.
+//
+// Source: LinuxCNC's pages "G33 Spindle Synchronized Motion", "G33.1 Rigid Tapping", "G76 Threading Cycle".
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "front/gcode/run/interpreter.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr int kMostPasses = 1000;
+
+}  // namespace
+
+/// One turn of the spindle moves the tool by K; G33.1 goes back the same way with the spindle reversed.
+void Interpreter::spindle_move(Tenths motion) {
+  const Place from = here_;
+  const std::optional<Place> to = target();
+  const std::optional<double> pitch = line_.take('K');
+  if (!pitch) {
+    talker_.error(Code::word_missing, line_.column(Group::motion),
+                  fmt::format("{} needs K, the way in one turn of the spindle", code_text('G', motion)));
+    return line_.use(kAllLetters);
+  }
+  if (!to) return;
+  const double feed = std::abs(*pitch) * modes_.scale * modes_.speed;
+  cut(*to, feed);
+  if (motion == 330) return;
+  const SpindleTurn turn = modes_.spindle;
+  spin(turn == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw);
+  cut(from, feed);
+  spin(turn);
+}
+
+/// What the words of G76 say, in mm; depths count along `side`.
+struct Interpreter::Thread {
+  double pitch = 0.0, peak = 0.0, first = 0.0, full = 0.0;
+  double fall = 1.0;    // how fast the depths of passes fall
+  double slant = 0.0;   // tangent of the slide's angle
+  double spring = 0.0;  // passes at full depth, once more
+  double taper = 0.0;   // length of the ends that rise
+  bool tapered_entry = false, tapered_exit = false;
+  double side = 1.0;  // of the work in X: +1 for inner threads
+  double way = 1.0;   // along Z
+
+  bool meant() const {
+    return pitch > 0.0 && peak != 0.0 && first > 0.0 && full > first && fall >= 1.0 && std::isfinite(slant) &&
+           spring >= 0.0 && spring <= kMostPasses && taper >= 0.0 &&
+           std::pow(full / first, fall) <= kMostPasses;
+  }
+};
+
+Interpreter::Thread Interpreter::take_thread_words() {
+  const double in_x = modes_.scale * (modes_.diameters ? 0.5 : 1.0);  // I, J and K are diameters as X is
+  Thread thread;
+  thread.pitch = line_.take('P').value_or(0.0) * modes_.scale;
+  thread.peak = line_.take('I').value_or(0.0) * in_x;
+  thread.first = line_.take('J').value_or(0.0) * in_x;
+  thread.full = line_.take('K').value_or(0.0) * in_x;
+  thread.fall = line_.take('R').value_or(1.0);
+  thread.slant = std::tan(line_.take('Q').value_or(0.0) * std::numbers::pi / 180.0);
+  thread.spring = line_.take('H').value_or(0.0);
+  thread.taper = line_.take('E').value_or(0.0) * modes_.scale;
+  const double ends = line_.take('L').value_or(0.0);  // 1: the entry rises, 2: the exit, 3: both
+  thread.tapered_entry = thread.taper > 0.0 && (ends == 1.0 || ends == 3.0);
+  thread.tapered_exit = thread.taper > 0.0 && (ends == 2.0 || ends == 3.0);
+  thread.side = thread.peak > 0.0 ? 1.0 : -1.0;
+  return thread;
+}
+
+/// One pass of a thread: in beside the work, along it at the pitch, and out.
+void Interpreter::thread_pass(const Thread& t, const Place& start, double end_z, double depth) {
+  const double clear = start.at.x - t.side * (t.full - depth);
+  const double bottom = start.at.x + t.side * (std::abs(t.peak) + depth);
+  const double outside = bottom - t.side * t.full;  // where a taper begins or ends
+  const double feed = t.pitch * modes_.speed;
+  const double taper_feed = t.taper > 0.0 ? feed * std::hypot(t.taper, t.full) / t.taper : feed;
+  const double begin_z = start.at.z + t.way * depth * t.slant;
+  const double last_z = end_z - t.way * (t.full - depth) * t.slant;
+  Place at = start;
+  const auto go = [&](double x, double z) {
+    at.at.x = x;
+    at.at.z = z;
+    return at;
+  };
+  rapid(go(clear, begin_z));
+  if (t.tapered_entry) {
+    cut(go(outside, begin_z), taper_feed);
+    cut(go(bottom, begin_z + t.way * t.taper), taper_feed);
+  } else {
+    rapid(go(bottom, begin_z));
+  }
+  cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed);
+  if (t.tapered_exit) cut(go(outside, last_z), taper_feed);
+  rapid(go(clear, last_z));
+}
+
+/// G76 P Z I J K R Q H E L: passes of growing depth in X, as deep as leaves the same chip.
+void Interpreter::thread_cycle() {
+  Thread thread = take_thread_words();
+  const Place start = here_;
+  const std::optional<Place> end = target();
+  if (!end) return;
+  thread.way = end->at.z < start.at.z ? -1.0 : 1.0;
+  if (!thread.meant()) {
+    talker_.error(Code::word_out_of_range, line_.column(),
+                  "G76 needs P (pitch), I, J, K above J, R from 1; it is left out");
+    return;
+  }
+  double depth = thread.first;
+  for (int n = 2; depth < thread.full && !full_; ++n) {
+    thread_pass(thread, start, end->at.z, depth);
+    depth = thread.first * std::pow(n, 1.0 / thread.fall);
+  }
+  for (int i = 0; i <= static_cast<int>(thread.spring) && !full_; ++i)
+    thread_pass(thread, start, end->at.z, thread.full);
+  rapid(*end);
+}
+
+}  // namespace kerf::gcode

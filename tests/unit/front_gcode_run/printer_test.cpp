@@ -1,0 +1,102 @@
+// Printers' programs: what is pushed and drawn back, and what slicers tell in remarks.
+#include <gtest/gtest.h>
+#include <numbers>
+
+#include "kerf/gcode.h"
+
+namespace kerf::test {
+namespace {
+
+const std::string kHead = "M104 S200\nM109 S200\nG28\nG1 X0 Y0 Z0.2 F600\n";
+constexpr double kUsual = std::numbers::pi / 4.0 * 1.75 * 1.75;  // mm2
+
+std::vector<step::Extrude> beads(const std::string& text, GcodeReadOptions options = {}) {
+  Diagnostics diagnostics;
+  if (!options.dialect) options.dialect = GcodeDialect::marlin;
+  const auto program = read_gcode(text, options, diagnostics);
+  EXPECT_FALSE(diagnostics.has_errors()) << to_string(diagnostics.list().front());
+  std::vector<step::Extrude> out;
+  for (std::size_t i = 0; i < program.path.size(); ++i)
+    if (program.path[i].kind() == StepKind::extrude) out.push_back(program.path.extrude(i));
+  return out;
+}
+
+TEST(Printer, HomingLeavesItsAxesUnknown) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = GcodeDialect::marlin;
+  const auto program = read_gcode("G1 X10 Y20 Z5 F600\nG28 X0 Y0\nG28\n", options, diagnostics);
+  ASSERT_EQ(program.path.size(), 3u);
+  const auto homing = [&](std::size_t i, unsigned axes) {
+    const Step& s = program.path[i];
+    EXPECT_EQ(s.kind(), StepKind::rapid);
+    EXPECT_EQ(s.reference(), Reference::end_switches);
+    EXPECT_EQ(s.reference_axes(), axes);
+    EXPECT_EQ(s.unknown_axes(), axes);
+  };
+  homing(1, 3);
+  homing(2, 7);
+}
+
+TEST(Printer, FilamentIsDrawnBackWhileMovingToo) {
+  const auto b = beads(kHead + "M83\nG1 X10 E1\nG1 X5 E-0.5\nG1 E-0.25\nG1 X5\n");
+  ASSERT_EQ(b.size(), 3u);
+  EXPECT_NEAR(b[1].volume.mm3(), -0.5 * kUsual, 1e-9);
+  EXPECT_EQ(b[1].to, (Point3{5, 0, 0.2}));
+  EXPECT_NEAR(b[2].volume.mm3(), -0.25 * kUsual, 1e-9);
+}
+
+TEST(Printer, RelativeMovesOfMarlinAreThoseOfTheFilamentToo) {
+  const std::string text = kHead + "G92 E5\nG91\nG1 X10 E1\nG90\nG1 X20 E7.5\n";
+  const auto marlin = beads(text);
+  ASSERT_EQ(marlin.size(), 2u);
+  EXPECT_NEAR(marlin[0].volume.mm3(), kUsual, 1e-9);
+  EXPECT_NEAR(marlin[1].volume.mm3(), 1.5 * kUsual, 1e-9);
+  GcodeReadOptions options;
+  options.dialect = GcodeDialect::klipper;
+  EXPECT_NEAR(beads(text, options)[0].volume.mm3(), -4.0 * kUsual, 1e-9);
+}
+
+TEST(Printer, VolumesCanBeToldDirectly) {
+  const auto b = beads(kHead + "M83\nM200 D1.75\nG1 X10 E3\nM200 D0\nG1 X20 E3\nM200 S1\nG1 X30 E2\n");
+  ASSERT_EQ(b.size(), 3u);
+  EXPECT_NEAR(b[0].volume.mm3(), 3.0, 1e-9);
+  EXPECT_NEAR(b[1].volume.mm3(), 3.0 * kUsual, 1e-9);
+  EXPECT_NEAR(b[2].volume.mm3(), 2.0, 1e-9);
+}
+
+TEST(Printer, RemarksTellTheNextRoads) {
+  const auto b = beads(kHead +
+                       "M83\nG1 X10 E1\n;HEIGHT:0.3\n;WIDTH:0.45\nG1 X20 E1\n; LAYER_HEIGHT: 0.2\n"
+                       "; LINE_WIDTH: 0.42\nG1 X30 E1\n;Layer height: 0.1\n;HEIGHT:nonsense\nG1 X40 E1\n");
+  ASSERT_EQ(b.size(), 4u);
+  EXPECT_EQ(b[0].width, mm(0));
+  EXPECT_EQ(b[1].width, mm(0.45));
+  EXPECT_EQ(b[1].height, mm(0.3));
+  EXPECT_EQ(b[2].width, mm(0.42));
+  EXPECT_EQ(b[2].height, mm(0.2));
+  EXPECT_EQ(b[3].height, mm(0.2));
+  Diagnostics diagnostics;
+  const auto milled = read_gcode(";HEIGHT:0.3\nG1 X10 F100\nM2\n", {}, diagnostics);
+  EXPECT_EQ(milled.dialect, GcodeDialect::rs274);
+}
+
+TEST(Printer, ProgramsNeedNoEnd) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = GcodeDialect::marlin;
+  read_gcode(kHead, options, diagnostics);
+  EXPECT_TRUE(diagnostics.list().empty()) << to_string(diagnostics.list().front());
+}
+
+TEST(Printer, TheFilamentDiameterIsThatOfTheOptionsElseOfTheComments) {
+  const double area = std::numbers::pi / 4.0 * 2.85 * 2.85;
+  EXPECT_NEAR(beads("; filament_diameter = 2.85\n" + kHead + "M83\nG1 X10 E1\n")[0].volume.mm3(), area, 1e-9);
+  GcodeReadOptions options;
+  options.filament_diameter = 1.0;  // the caller's word is the last
+  EXPECT_NEAR(beads("; filament_diameter = 2.85\n" + kHead + "M83\nG1 X10 E1\n", options)[0].volume.mm3(),
+              std::numbers::pi / 4.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace kerf::test
