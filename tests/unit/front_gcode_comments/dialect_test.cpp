@@ -60,7 +60,7 @@ TEST(Dialect, TheGuessNamesItsEvidence) {
   const Evidence cases[] = {
       {"grbl-maker.nc", "GRBL", "\"(Written by Carbide Create)\" in line 3", 3},
       {"fanuc-numbered.nc", "Fanuc", "O1001 in line 2 and M98 in line 4", 2},
-      {"laser-powers.gc", "laser", "M4 in line 2 and the S words of its moves", 2},
+      {"laser-powers.gc", "laser", "M4 in line 2 and the S words of its motions", 2},
       {"marlin-words.gcode", "Marlin", "M140 in line 1 and E in line 5", 1},
       {"klipper-words.gcode", "Klipper", "M140 in line 2 and SET_PRESSURE_ADVANCE in line 4", 2},
   };

@@ -95,7 +95,7 @@ TEST(OWord, IsALabelAKeywordAndValues) {
   EXPECT_EQ(read_o_word("o0100").label, "100");
   EXPECT_EQ(read_o_word("o0100").kind, OKind::number);
   EXPECT_EQ(read_o_word("o100 endwhile").kind, OKind::end_while);
-  EXPECT_EQ(read_o_word("o100 twice").kind, OKind::nothing);
+  EXPECT_EQ(read_o_word("o100 twice").kind, OKind::invalid);
 }
 
 }  // namespace

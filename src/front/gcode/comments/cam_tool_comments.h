@@ -1,4 +1,4 @@
-// Tools as CAM programs tell them to people: "T4 D=3.175 CR=0 - ZMIN=-5.3 - flat end mill".
+// Tool descriptions that CAM programs write for the operator: "T4 D=3.175 CR=0 - ZMIN=-5.3 - flat end mill".
 #pragma once
 
 #include <optional>
@@ -8,13 +8,13 @@
 
 namespace kerf::gcode {
 
-struct ToolRemark {
-  std::optional<int> number;  // nothing: the remark names none
+struct CamTool {
+  std::optional<int> number;  // nothing: the comment has none
   ToolShape shape;
 };
 
-/// What a remark says of a tool; lengths are in mm times `scale` where the remark names no unit. Nothing
-/// where it is not surely about a tool.
-std::optional<ToolRemark> read_remark(std::string_view text, double scale);
+/// The tool that a comment describes. Lengths are in mm times `scale` unless the comment names a unit.
+/// Nothing if the form is not one of those known.
+std::optional<CamTool> read_cam_tool(std::string_view text, double scale);
 
 }  // namespace kerf::gcode

@@ -1,4 +1,5 @@
-// Which controller a program is for: told by its remarks, else by words that only one kind of machine has.
+// Names of dialects, and the detection of a program's dialect: from its comments, else from words that only
+// one kind of machine has.
 #include <algorithm>
 #include <cctype>
 #include <fmt/format.h>
@@ -11,11 +12,12 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLookedAt = 64 * 1024;       // bytes from the begin, remarks left aside
-constexpr std::size_t kMostRemarks = 1024 * 1024;  // bytes with them: slicers put pictures there
-constexpr std::size_t kShown = 60;                 // characters of what told it
-constexpr int kFewMoves = 8;                       // a program is told by what more moves than these do
-constexpr std::size_t kFewPowers = 3;
+constexpr std::size_t kMaxWordBytes = 64 * 1024;  // examined from the start, lines that are comments excluded
+constexpr std::size_t kMaxTotalBytes = 1024 * 1024;  // with them: slicers store pictures in comments
+constexpr std::size_t kMaxEvidenceChars = 60;
+// A laser program has more than so many motions with S words, and fewer than 1 / so many of them in Z.
+constexpr int kLaserMotions = 8;
+constexpr std::size_t kLaserPowers = 3;  // minimum number of different S words
 
 struct Name {
   std::string_view name;
@@ -28,40 +30,40 @@ constexpr Name kNames[] = {
     {"fanuc", GcodeDialect::fanuc},       {"haas", GcodeDialect::fanuc},     {"laser", GcodeDialect::laser},
     {"marlin", GcodeDialect::marlin},     {"klipper", GcodeDialect::klipper}};
 
-/// Remarks that name the controller or a program that writes for one kind only.
-constexpr Name kRemarks[] = {{"LIGHTBURN", GcodeDialect::laser},
-                             {"LASERGRBL", GcodeDialect::laser},
-                             {"LASERWEB", GcodeDialect::laser},
-                             {"LASER TOOL", GcodeDialect::laser},
-                             {"KLIPPER", GcodeDialect::klipper},
-                             {"FLAVOR:MARLIN", GcodeDialect::marlin},
-                             {"GCODE_FLAVOR = MARLIN", GcodeDialect::marlin},
-                             {"MACH3", GcodeDialect::mach3},
-                             {"MACH 3", GcodeDialect::mach3},
-                             {"MACH2", GcodeDialect::mach3},
-                             {"GRBL", GcodeDialect::grbl},
-                             {"CARBIDE CREATE", GcodeDialect::grbl}};
+/// Names of controllers, and of programs that write for one dialect only.
+constexpr Name kNamesInComments[] = {{"LIGHTBURN", GcodeDialect::laser},
+                                     {"LASERGRBL", GcodeDialect::laser},
+                                     {"LASERWEB", GcodeDialect::laser},
+                                     {"LASER TOOL", GcodeDialect::laser},
+                                     {"KLIPPER", GcodeDialect::klipper},
+                                     {"FLAVOR:MARLIN", GcodeDialect::marlin},
+                                     {"GCODE_FLAVOR = MARLIN", GcodeDialect::marlin},
+                                     {"MACH3", GcodeDialect::mach3},
+                                     {"MACH 3", GcodeDialect::mach3},
+                                     {"MACH2", GcodeDialect::mach3},
+                                     {"GRBL", GcodeDialect::grbl},
+                                     {"CARBIDE CREATE", GcodeDialect::grbl}};
 
-/// The profile that a file says it was written with: Kerf's own posts begin with "(Kerf 0.1.0, laser)".
-std::optional<GcodeDialect> written_by_kerf(std::string_view remark) {
+/// The profile of a file that Kerf has written: its posts start with "(Kerf 0.1.0, laser)".
+std::optional<GcodeDialect> written_by_kerf(std::string_view comment) {
   constexpr std::string_view kOwn = "KERF ";
-  const std::size_t own = remark.find(kOwn);
-  const std::size_t comma = own == std::string_view::npos ? own : remark.find(", ", own);
+  const std::size_t own = comment.find(kOwn);
+  const std::size_t comma = own == std::string_view::npos ? own : comment.find(", ", own);
   if (comma == std::string_view::npos) return std::nullopt;
-  const std::string_view name = remark.substr(comma + 2);
+  const std::string_view name = comment.substr(comma + 2);
   return dialect_named(name.substr(0, name.find_first_of(") \t")));
 }
 
-/// The controller that a remark (in capitals) names, if any.
-std::optional<GcodeDialect> remarked_in(std::string_view remark) {
-  if (const auto own = written_by_kerf(remark)) return own;
-  for (const Name& entry : kRemarks)
-    if (remark.find(entry.name) != std::string_view::npos) return entry.dialect;
+/// The dialect of a comment in capitals that names a controller or its program.
+std::optional<GcodeDialect> dialect_of_comment(std::string_view comment) {
+  if (const auto own = written_by_kerf(comment)) return own;
+  for (const Name& entry : kNamesInComments)
+    if (comment.find(entry.name) != std::string_view::npos) return entry.dialect;
   return std::nullopt;
 }
 
-/// Lines of one kind: how many, and the first of them.
-struct Sign {
+/// Lines with one kind of evidence: their number, and the first of them.
+struct Evidence {
   int count = 0;
   std::uint32_t line = 0;
   std::string text;
@@ -69,30 +71,29 @@ struct Sign {
   void add(std::uint32_t number, std::string_view what) {
     if (count++ > 0) return;
     line = number;
-    text = what.substr(0, kShown);
+    text = what.substr(0, kMaxEvidenceChars);
   }
   explicit operator bool() const { return count > 0; }
 };
 
-/// What is counted over the lines.
-struct Signs {
-  Sign heating, extruding, klipper_command;
-  Sign beam, powered_move;
-  Sign number, call;
-  int deep_moves = 0;
+struct WordEvidence {
+  Evidence heating, extruding, klipper_command;
+  Evidence beam, motion_with_power;
+  Evidence program_number, call;
+  int motions_in_z = 0;
   std::set<std::string, std::less<>> powers;
 };
 
-/// A remark that names a controller; none where `sign` is empty.
-struct Remark {
+/// A comment that names a controller; none if `evidence` is empty.
+struct CommentEvidence {
   GcodeDialect dialect = GcodeDialect::rs274;
-  Sign sign;
+  Evidence evidence;
 };
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// A line in capitals without remarks and blanks.
-std::string bare(std::string_view line) {
+/// A line in capitals without comments and blanks.
+std::string words_of(std::string_view line) {
   std::string text;
   int depth = 0;
   for (const char c : line) {
@@ -120,85 +121,87 @@ bool is_heating(std::string_view code) {
   return false;
 }
 
-/// "O1001" alone, as Fanuc's programs begin; O-words have letters behind their label.
+/// "O1001" alone, the first line of Fanuc's programs; O-words have letters after their label.
 bool is_program_number(const std::string& line) {
   return line[0] == 'O' && line.size() > 4 && std::all_of(line.begin() + 1, line.end(), is_digit);
 }
 
-/// `line` is bare; `raw` is the same as it stands there.
-void look_at(const std::string& line, std::string_view raw, std::uint32_t number, Signs& signs) {
+/// Adds a line's words to the evidence. `line` is in capitals without blanks (words_of), `raw` the original.
+void count_words(const std::string& line, std::string_view raw, std::uint32_t number, WordEvidence& found) {
   if (line.empty()) return;
   const std::string_view code = after(line, 'M');
-  if (line[0] == 'M' && is_heating(code)) signs.heating.add(number, "M" + std::string(code));
+  if (line[0] == 'M' && is_heating(code)) found.heating.add(number, "M" + std::string(code));
   const bool command = line.size() > 4 && line.find('_') != std::string::npos && !is_digit(line[1]);
   if (command && line.find('#') == std::string::npos && line[0] != 'O')
-    signs.klipper_command.add(number, raw.substr(0, raw.find_first_of(" \t=;(")));
+    found.klipper_command.add(number, raw.substr(0, raw.find_first_of(" \t=;(")));
   if (code == "3" || code == "4" || code == "03" || code == "04")
-    signs.beam.add(number, "M" + std::string(code));
-  if (code == "98" || code == "99") signs.call.add(number, "M" + std::string(code));
-  if (is_program_number(line)) signs.number.add(number, line);
+    found.beam.add(number, "M" + std::string(code));
+  if (code == "98" || code == "99") found.call.add(number, "M" + std::string(code));
+  if (is_program_number(line)) found.program_number.add(number, line);
   const bool moves = line.find_first_of("XY") != std::string::npos;
-  if (line[0] == 'G' && !after(line, 'E').empty()) signs.extruding.add(number, "E");
-  if (line.find('Z') != std::string::npos) ++signs.deep_moves;
+  if (line[0] == 'G' && !after(line, 'E').empty()) found.extruding.add(number, "E");
+  if (line.find('Z') != std::string::npos) ++found.motions_in_z;
   const std::string_view power = after(line, 'S');
   if (!moves || power.empty()) return;
-  signs.powered_move.add(number, "S");
-  if (signs.powers.size() <= kFewPowers) signs.powers.emplace(power);
+  found.motion_with_power.add(number, "S");
+  if (found.powers.size() <= kLaserPowers) found.powers.emplace(power);
 }
 
-std::string place_of(const Sign& sign) { return fmt::format("{} in line {}", sign.text, sign.line); }
+std::string location_of(const Evidence& e) { return fmt::format("{} in line {}", e.text, e.line); }
 
-DialectGuess told_by(const Signs& s) {
-  if (s.heating.count > 1 && s.extruding && s.klipper_command)
-    return {GcodeDialect::klipper, place_of(s.heating) + " and " + place_of(s.klipper_command),
-            s.heating.line};
-  if (s.heating.count > 1 && s.extruding)
-    return {GcodeDialect::marlin, place_of(s.heating) + " and " + place_of(s.extruding), s.heating.line};
-  const bool beam = s.beam && s.powered_move.count > kFewMoves && s.powers.size() >= kFewPowers;
-  if (beam && s.deep_moves * kFewMoves < s.powered_move.count)
-    return {GcodeDialect::laser, fmt::format("{} and the S words of its moves", place_of(s.beam)),
-            s.beam.line};
-  if (s.number && s.call)
-    return {GcodeDialect::fanuc, place_of(s.number) + " and " + place_of(s.call), s.number.line};
+DialectGuess guess_from_words(const WordEvidence& e) {
+  if (e.heating.count > 1 && e.extruding && e.klipper_command)
+    return {GcodeDialect::klipper, location_of(e.heating) + " and " + location_of(e.klipper_command),
+            e.heating.line};
+  if (e.heating.count > 1 && e.extruding)
+    return {GcodeDialect::marlin, location_of(e.heating) + " and " + location_of(e.extruding),
+            e.heating.line};
+  const bool beam = e.beam && e.motion_with_power.count > kLaserMotions && e.powers.size() >= kLaserPowers;
+  if (beam && e.motions_in_z * kLaserMotions < e.motion_with_power.count)
+    return {GcodeDialect::laser, fmt::format("{} and the S words of its motions", location_of(e.beam)),
+            e.beam.line};
+  if (e.program_number && e.call)
+    return {GcodeDialect::fanuc, location_of(e.program_number) + " and " + location_of(e.call),
+            e.program_number.line};
   return {};
 }
 
-/// Of printers, a remark alone says nothing: a mill may cut the model of a klipper.
-bool is_borne_out(GcodeDialect dialect, const Signs& signs) {
+/// A comment alone does not make a printer's program: a mill may cut a model of the ship klipper.
+bool is_plausible(GcodeDialect dialect, const WordEvidence& e) {
   const bool printer = dialect == GcodeDialect::marlin || dialect == GcodeDialect::klipper;
-  return !printer || signs.heating || signs.extruding;
+  return !printer || e.heating || e.extruding;
 }
 
-/// Control bytes and quotes do not belong in a message.
-std::string quoted(std::string_view remark) {
+/// A comment for a message, without control characters and quotes.
+std::string quoted(std::string_view comment) {
   std::string text = "\"";
-  for (const char c : remark.substr(0, kShown))
+  for (const char c : comment.substr(0, kMaxEvidenceChars))
     text += static_cast<unsigned char>(c) < ' ' || c == '"' ? ' ' : c;
   return text + '"';
 }
 
-/// Walks over the lines; those that are remarks alone do not count against what is looked at.
-class LineWalk {
+/// Iterates over the lines up to the limits above.
+class LineScanner {
  public:
-  explicit LineWalk(std::string_view text) : text_(text.substr(0, kMostRemarks)) {}
+  explicit LineScanner(std::string_view text) : text_(text.substr(0, kMaxTotalBytes)) {}
   bool next() {
-    if (text_.empty() || words_ > kLookedAt) return false;
+    if (text_.empty() || word_bytes_ > kMaxWordBytes) return false;
     const std::size_t end = text_.find_first_of("\r\n");
     line = text_.substr(0, end);
     const bool pair = end != std::string_view::npos && text_.substr(end, 2) == "\r\n";
     text_.remove_prefix(end == std::string_view::npos ? text_.size() : end + (pair ? 2 : 1));
     ++number;
-    remark = line.find_first_of("(;");
-    if (remark != 0) words_ += line.size() + 1;
+    comment = line.find_first_of("(;");
+    if (comment != 0) word_bytes_ += line.size() + 1;
     return true;
   }
   std::string_view line;
-  std::size_t remark = 0;  // where the line's remark begins
+  std::size_t comment = 0;  // start of the line's comment
   std::uint32_t number = 0;
 
  private:
   std::string_view text_;
-  std::size_t words_ = 0;
+  std::size_t word_bytes_ = 0;
 };
 
 }  // namespace
@@ -233,25 +236,25 @@ const std::vector<std::string>& dialect_names() {
 }
 
 DialectGuess guess_dialect(std::string_view text) {
-  Signs signs;
-  Remark remarked;
-  for (LineWalk walk(text); walk.next();) {
-    look_at(bare(walk.line), walk.line, walk.number, signs);
-    if (walk.remark == std::string_view::npos) continue;
-    const std::string_view remark = walk.line.substr(walk.remark);
-    std::string capitals(remark);
+  WordEvidence words;
+  CommentEvidence named;
+  for (LineScanner scanner(text); scanner.next();) {
+    count_words(words_of(scanner.line), scanner.line, scanner.number, words);
+    if (scanner.comment == std::string_view::npos) continue;
+    const std::string_view comment = scanner.line.substr(scanner.comment);
+    std::string capitals(comment);
     for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const bool better = !remarked.sign || remarked.dialect == GcodeDialect::grbl;
-    const auto named = remarked_in(capitals);
-    if (!named || !better || (remarked.sign && *named == remarked.dialect)) continue;
-    remarked = {*named, {}};
-    remarked.sign.add(walk.number, quoted(remark));
+    const bool better = !named.evidence || named.dialect == GcodeDialect::grbl;
+    const auto dialect = dialect_of_comment(capitals);
+    if (!dialect || !better || (named.evidence && *dialect == named.dialect)) continue;
+    named = {*dialect, {}};
+    named.evidence.add(scanner.number, quoted(comment));
   }
-  const DialectGuess told = told_by(signs);
-  if (!is_borne_out(remarked.dialect, signs)) remarked = {};
-  const bool plain_remark = !remarked.sign || remarked.dialect == GcodeDialect::grbl;
-  if (!remarked.sign || (told.dialect != GcodeDialect::rs274 && plain_remark)) return told;
-  return {remarked.dialect, place_of(remarked.sign), remarked.sign.line};
+  const DialectGuess guess = guess_from_words(words);
+  if (!is_plausible(named.dialect, words)) named = {};
+  const bool weak = !named.evidence || named.dialect == GcodeDialect::grbl;
+  if (!named.evidence || (guess.dialect != GcodeDialect::rs274 && weak)) return guess;
+  return {named.dialect, location_of(named.evidence), named.evidence.line};
 }
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Remarks of slicers.
+// Comments of slicers.
 #include "front/gcode/comments/slicer_comments.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kLargestBead = 20.0;                      // mm
-constexpr double kThinnest = 0.5, kThickest = 10.0;        // mm, of filaments
-constexpr std::size_t kSettings = std::size_t{64} * 1024;  // bytes at the begin and at the end
-constexpr std::size_t kLongest = 200;                      // bytes of a line that tells a diameter
+constexpr double kMaxBeadSize = 20.0;                      // mm
+constexpr double kMinFilament = 0.5, kMaxFilament = 10.0;  // mm, diameter
+constexpr std::size_t kSettings = std::size_t{64} * 1024;  // bytes examined at the start and at the end
+constexpr std::size_t kMaxLineBytes = 200;                 // of a line with a diameter
 
 std::string capitals(std::string_view text) {
   std::string out(text);
@@ -22,16 +22,15 @@ std::string capitals(std::string_view text) {
   return out;
 }
 
-/// The number that `text` begins with, after blanks.
+/// The number at the start of `text`, after blanks.
 std::optional<double> leading_number(std::string_view text) {
   text = trim(text);
   const std::size_t end = text.find_first_not_of("0123456789.");
   return parse_number(text.substr(0, end));
 }
 
-/// The diameter that a line tells, if any.
 std::optional<double> diameter_in(std::string_view line) {
-  if (line.size() > kLongest || line.empty() || line.front() != ';') return std::nullopt;
+  if (line.size() > kMaxLineBytes || line.empty() || line.front() != ';') return std::nullopt;
   const std::string text = capitals(line);
   const std::size_t filament = text.find("FILAMENT");
   if (filament == std::string::npos) return std::nullopt;
@@ -39,14 +38,14 @@ std::optional<double> diameter_in(std::string_view line) {
   if (diameter == std::string::npos) return std::nullopt;
   const std::size_t sign = text.find_first_of("=:,", diameter);
   if (sign == std::string::npos) return std::nullopt;
-  const auto told = leading_number(std::string_view(text).substr(sign + 1));
-  return told && *told >= kThinnest && *told <= kThickest ? told : std::nullopt;
+  const auto value = leading_number(std::string_view(text).substr(sign + 1));
+  return value && *value >= kMinFilament && *value <= kMaxFilament ? value : std::nullopt;
 }
 
 std::optional<double> diameter_in_lines(std::string_view text) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    if (const auto told = diameter_in(trim(text.substr(0, end)))) return told;
+    if (const auto value = diameter_in(trim(text.substr(0, end)))) return value;
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return std::nullopt;
@@ -54,7 +53,7 @@ std::optional<double> diameter_in_lines(std::string_view text) {
 
 }  // namespace
 
-std::optional<BeadRemark> read_bead_remark(std::string_view text) {
+std::optional<BeadSize> read_bead_size(std::string_view text) {
   struct Name {
     std::string_view name;
     BeadMeasure measure;
@@ -65,14 +64,14 @@ std::optional<BeadRemark> read_bead_remark(std::string_view text) {
                              {"LINE_WIDTH:", BeadMeasure::width}};
   for (const Name& n : kNames) {
     if (text.substr(0, n.name.size()) != n.name) continue;
-    const auto told = leading_number(text.substr(n.name.size()));
-    if (told && *told > 0.0 && *told <= kLargestBead) return BeadRemark{n.measure, *told};
+    const auto value = leading_number(text.substr(n.name.size()));
+    if (value && *value > 0.0 && *value <= kMaxBeadSize) return BeadSize{n.measure, *value};
   }
   return std::nullopt;
 }
 
-std::optional<double> told_filament_diameter(std::string_view text) {
-  if (const auto told = diameter_in_lines(text.substr(0, kSettings))) return told;
+std::optional<double> find_filament_diameter(std::string_view text) {
+  if (const auto value = diameter_in_lines(text.substr(0, kSettings))) return value;
   if (text.size() <= kSettings) return std::nullopt;
   return diameter_in_lines(text.substr(text.size() - std::min(kSettings, text.size() - kSettings)));
 }

@@ -1,4 +1,4 @@
-// What slicers tell in remarks: how wide and how high the next roads are, how thick the filament is.
+// Comments of slicers: width and height of the beads that follow, diameter of the filament.
 #pragma once
 
 #include <cstdint>
@@ -8,17 +8,17 @@
 namespace kerf::gcode {
 
 enum class BeadMeasure : std::uint8_t { width, height };
-struct BeadRemark {
+struct BeadSize {
   BeadMeasure measure{};
   double mm = 0.0;
 };
 /// "HEIGHT:0.2" and "WIDTH:0.45" (PrusaSlicer, SuperSlicer, OrcaSlicer), "LAYER_HEIGHT: 0.2" and "LINE_WIDTH:
-/// 0.42" (Bambu Studio); they hold until the next one.
-std::optional<BeadRemark> read_bead_remark(std::string_view text);
+/// 0.42" (Bambu Studio); in force until the next one.
+std::optional<BeadSize> read_bead_size(std::string_view text);
 
-/// The diameter in mm that the settings at a program's begin or end tell, of the first extruder:
-/// "filament_diameter = 1.75" (Slic3r and its kin), "filamentDiameters,1.75" (Simplify3D), "Filament Diameter
-/// #1: 1.75" (ideaMaker).
-std::optional<double> told_filament_diameter(std::string_view text);
+/// The filament diameter in mm of the first extruder, from the settings at the start or end of a program:
+/// "filament_diameter = 1.75" (Slic3r and its derivatives), "filamentDiameters,1.75" (Simplify3D), "Filament
+/// Diameter #1: 1.75" (ideaMaker).
+std::optional<double> find_filament_diameter(std::string_view text);
 
 }  // namespace kerf::gcode

@@ -1,4 +1,4 @@
-// The table of G and M codes: the modal group each belongs to, and how far Kerf reads it.
+// The table of G and M codes: the modal group of each, and how far Kerf supports it.
 //
 // Source: LinuxCNC's pages "G-Codes", "M-Codes" and "Modal groups"; GRBL's list of codes.
 #pragma once
@@ -28,7 +28,7 @@ enum class Group : std::uint8_t {
   rotation,
   dwell,
   machine_coordinates,
-  reference,  // not modal: G4, G53, and what uses the line's axis words itself
+  reference,  // not modal: codes that use the line's axis words themselves
   stop,
   tool_change,
   spindle,
@@ -43,10 +43,10 @@ enum class Group : std::uint8_t {
 inline constexpr int kGroups = static_cast<int>(Group::other) + 1;
 
 enum class Support : std::uint8_t {
-  read,     // has its meaning
-  idle,     // known, and of no effect on a milling path: nothing is said
-  ignored,  // known, left out with a note
-  missing,  // known, would change the path, not read yet: an error
+  read,     // supported
+  idle,     // known, without effect on a milling path: skipped silently
+  ignored,  // known, skipped with a note
+  missing,  // known, would change the path, not supported: an error
 };
 
 /// A code's number in tenths: G38.2 is 382.

@@ -10,10 +10,10 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr int kDeepest = 200;         // brackets within brackets
-constexpr double kEqual = 1e-4;       // EQ and NE: LinuxCNC's slack
-constexpr double kLargest = 1e30;     // of any result
-constexpr double kIndexSlack = 1e-4;  // a parameter's number may be off a whole one by this much
+constexpr int kMaxDepth = 200;   // of nested brackets
+constexpr double kEqual = 1e-4;  // tolerance of EQ and NE in LinuxCNC
+constexpr double kMaxResult = 1e30;
+constexpr double kIndexTolerance = 1e-4;  // of the distance of a parameter's number from a whole one
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP",
@@ -22,7 +22,7 @@ constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS"
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
-/// The end of `word` in `text` from `at` on, blanks passed over; 0 if it does not stand there.
+/// The end of `word` at `at` in `text`, blanks ignored; 0 if `text` has another word there.
 std::size_t word_end(std::string_view text, std::size_t at, std::string_view word) {
   for (const char wanted : word) {
     while (at < text.size() && is_blank(text[at])) ++at;
@@ -52,7 +52,7 @@ enum class ExpressionReader::Operator : unsigned char {
   one_of,
 };
 
-int ExpressionReader::binding_of(Operator op) {
+int ExpressionReader::precedence_of(Operator op) {
   if (op == Operator::power) return 5;
   if (op <= Operator::modulo) return 4;
   if (op <= Operator::minus) return 3;
@@ -65,8 +65,8 @@ std::optional<double> ExpressionReader::fail(Code code, std::string message) {
 }
 
 std::optional<double> ExpressionReader::checked(double value) {
-  if (std::isfinite(value) && std::abs(value) <= kLargest) return value + 0.0;
-  return fail(Code::expression_impossible, "a value that is no number or too large");
+  if (std::isfinite(value) && std::abs(value) <= kMaxResult) return value + 0.0;
+  return fail(Code::expression_impossible, "the result is undefined or too large");
 }
 
 void ExpressionReader::skip_blanks() {
@@ -93,7 +93,7 @@ bool ExpressionReader::at_end() {
 }
 
 std::optional<double> ExpressionReader::value() {
-  if (++depth_ > kDeepest) return fail(Code::expression_malformed, "brackets within brackets too deep");
+  if (++depth_ > kMaxDepth) return fail(Code::expression_malformed, "brackets are nested too deeply");
   const std::optional<double> found = operand();
   --depth_;
   return found;
@@ -119,7 +119,7 @@ std::optional<double> ExpressionReader::plain_number() {
   const char after = number.end == text_.data() + text_.size() ? ' ' : *number.end;
   const bool signed_after = number.fault == DecimalFault::malformed && (after == '+' || after == '-');
   if (number.fault != DecimalFault::none && !signed_after)
-    return fail(Code::expression_malformed, "a value cannot be read here");
+    return fail(Code::expression_malformed, "expected a value here");
   at_ = static_cast<std::size_t>(number.end - text_.data());
   return number.value;
 }
@@ -128,19 +128,19 @@ std::optional<double> ExpressionReader::bracket() {
   ++at_;  // '['
   const std::optional<double> inner = operation(1);
   if (!inner) return inner;
-  if (!take(']')) return fail(Code::expression_malformed, "an operator or a closing ] is missing here");
+  if (!take(']')) return fail(Code::expression_malformed, "expected an operator or a closing ] here");
   return inner;
 }
 
-/// Operands and operators that bind at least as tightly as `weakest`, equal ones from the left.
-std::optional<double> ExpressionReader::operation(int weakest) {
+/// Precedence climbing: operands and operators of at least `min_precedence`, left-associative.
+std::optional<double> ExpressionReader::operation(int min_precedence) {
   std::optional<double> left = value();
   std::size_t end = 0;
   while (left) {
     const std::optional<Operator> op = peek_operator(end);
-    if (!op || binding_of(*op) < weakest) break;
+    if (!op || precedence_of(*op) < min_precedence) break;
     at_ = end;
-    const std::optional<double> right = operation(binding_of(*op) + 1);
+    const std::optional<double> right = operation(precedence_of(*op) + 1);
     if (!right) return right;
     left = apply(*op, *left, *right);
   }
@@ -167,7 +167,7 @@ std::optional<double> ExpressionReader::apply(Operator op, double left, double r
   switch (op) {
     case Operator::power:
       if (left < 0.0 && right != std::floor(right))
-        return fail(Code::expression_impossible, "a number below 0 has no power that is not whole");
+        return fail(Code::expression_impossible, "a negative number has no power with a fractional exponent");
       return checked(std::pow(left, right));
     case Operator::times: return checked(left * right);
     case Operator::divided:
@@ -198,40 +198,40 @@ std::optional<ExpressionReader::Target> ExpressionReader::target() {
     fail(Code::expression_malformed, std::move(message));
     return std::nullopt;
   };
-  if (!take('#')) return none("a parameter (#) is expected here");
+  if (!take('#')) return none("expected a parameter (#) here");
   if (take('<')) {
     const std::size_t close = text_.find('>', at_);
     std::string name = normal_name(text_.substr(at_, close == std::string_view::npos ? 0 : close - at_));
-    if (name.empty()) return none("a parameter's name between < and > is expected here");
+    if (name.empty()) return none("expected a parameter name between < and > here");
     at_ = close + 1;
     return Target{0, std::move(name)};
   }
-  const std::size_t begin = at_;
+  const std::size_t start = at_;
   const std::optional<double> index = value();
   if (!index) return std::nullopt;
   const double whole = std::round(*index);
-  if (std::abs(whole - *index) <= kIndexSlack && whole >= 1.0 && whole <= Parameters::kLast)
+  if (std::abs(whole - *index) <= kIndexTolerance && whole >= 1.0 && whole <= Parameters::kLast)
     return Target{static_cast<int>(whole), {}};
-  at_ = begin;
+  at_ = start;
   fail(Code::parameter_unknown,
-       fmt::format("parameters have whole numbers from 1 to {}, not {:g}", Parameters::kLast, *index));
+       fmt::format("parameter numbers are whole numbers from 1 to {}, not {:g}", Parameters::kLast, *index));
   return std::nullopt;
 }
 
 std::optional<double> ExpressionReader::parameter() {
-  const std::size_t begin = at_;
+  const std::size_t start = at_;
   const std::optional<Target> what = target();
   if (!what) return std::nullopt;
   const auto found = what->name.empty() ? parameters_.number(what->number) : parameters_.name(what->name);
   if (found) return found;
-  at_ = begin;
+  at_ = start;
   return fail(Code::parameter_unknown, fmt::format("the parameter #<{}> has no value", what->name));
 }
 
 std::optional<double> ExpressionReader::function() {
-  const std::size_t begin = at_;
+  const std::size_t start = at_;
   for (const std::string_view name : kFunctions) {
-    at_ = begin;
+    at_ = start;
     if (!take_word(name)) continue;
     skip_blanks();
     if (at_ == text_.size() || text_[at_] != '[') continue;
@@ -240,8 +240,8 @@ std::optional<double> ExpressionReader::function() {
     const std::optional<double> x = bracket();
     return x ? apply(name, *x) : x;
   }
-  at_ = begin;
-  return fail(Code::expression_malformed, "no function has this name, or its [ is missing");
+  at_ = start;
+  return fail(Code::expression_malformed, "unknown function, or its [ is missing");
 }
 
 std::optional<double> ExpressionReader::exists() {
@@ -252,7 +252,7 @@ std::optional<double> ExpressionReader::exists() {
   return what->name.empty() || parameters_.name(what->name) ? 1.0 : 0.0;
 }
 
-/// ATAN[y]/[x]: the angle in all four quarters.
+/// ATAN[y]/[x]: atan2.
 std::optional<double> ExpressionReader::arc_tangent() {
   const std::optional<double> y = bracket();
   if (!y) return y;
@@ -277,9 +277,9 @@ std::optional<double> ExpressionReader::apply(std::string_view function, double 
   if (function == "FIX") return std::floor(x) + 0.0;
   if (function == "FUP") return std::ceil(x) + 0.0;
   if (function == "ROUND") return std::round(x) + 0.0;
-  if (function == "LN") return x > 0.0 ? checked(std::log(x)) : impossible("it must be above 0");
-  if (function == "SQRT") return x >= 0.0 ? std::sqrt(x) : impossible("it must not be below 0");
-  if (std::abs(x) > 1.0) return impossible("it must be from -1 to 1");
+  if (function == "LN") return x > 0.0 ? checked(std::log(x)) : impossible("the argument must be above 0");
+  if (function == "SQRT") return x >= 0.0 ? std::sqrt(x) : impossible("the argument must not be negative");
+  if (std::abs(x) > 1.0) return impossible("the argument must be from -1 to 1");
   return (function == "ASIN" ? std::asin(x) : std::acos(x)) / kDegree;
 }
 

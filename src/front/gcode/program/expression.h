@@ -1,8 +1,9 @@
-// The value of what stands in a program in place of a number: "#1", "#<depth>", "[2 * #1 + SIN[30]]".
+// Values of expressions, which a program may have wherever it has a number: "#1", "#<depth>",
+// "[2 * #1 + SIN[30]]".
 //
-// Operators from the tightest: **; * / MOD; + -; EQ NE GT GE LT LE; AND OR XOR; equal ones from the left, **
-// too. Angles are degrees. Blanks and the case of letters do not count.
-// Source: LinuxCNC's pages "Expressions", "Functions", "Binary operators".
+// Operators by decreasing precedence: **; * / MOD; + -; EQ NE GT GE LT LE; AND OR XOR; all of them, ** too,
+// are left-associative. Angles are in degrees. Blanks and the case of letters are ignored. Source: LinuxCNC's
+// pages "Expressions", "Functions", "Binary operators".
 #pragma once
 
 #include <cstddef>
@@ -16,7 +17,7 @@
 
 namespace kerf::gcode {
 
-/// Why a text has no value, and where in it.
+/// Why a text has no value, and the offset of the fault in it.
 struct ExpressionFault {
   Code code = Code::expression_malformed;
   std::size_t offset = 0;
@@ -29,16 +30,16 @@ class ExpressionReader {
   ExpressionReader(std::string_view text, const Parameters& parameters)
       : text_(text), parameters_(parameters) {}
 
-  /// The next value: a number, a parameter, a bracket or a function. Finite; else nothing, and fault() says
-  /// why.
+  /// The next value: a number, a parameter, a bracketed expression or a function. Finite; nothing with
+  /// fault() set.
   std::optional<double> value();
-  /// What "#... =" sets: a number or a name. Nothing, and fault(), where it cannot be read.
+  /// The parameter on the left of "#... =". Nothing with fault() set if it cannot be read.
   struct Target {
     int number = 0;
-    std::string name;  // empty: the number counts
+    std::string name;  // empty: the parameter has a number
   };
   std::optional<Target> target();
-  /// Takes the character if it comes next, after blanks.
+  /// Takes the character if it is the next one after blanks.
   bool take(char c);
   bool at_end();
   std::size_t position() const { return at_; }
@@ -49,7 +50,7 @@ class ExpressionReader {
   enum class Operator : unsigned char;
   std::optional<double> fail(Code code, std::string message);
   std::optional<double> bracket();
-  std::optional<double> operation(int weakest);
+  std::optional<double> operation(int min_precedence);
   std::optional<double> operand();
   std::optional<double> plain_number();
   std::optional<double> parameter();
@@ -62,7 +63,7 @@ class ExpressionReader {
   std::optional<double> checked(double value);
   void skip_blanks();
   bool take_word(std::string_view word);
-  static int binding_of(Operator op);
+  static int precedence_of(Operator op);
 
   std::string_view text_;
   const Parameters& parameters_;

@@ -1,4 +1,4 @@
-// Loops, conditions, calls.
+// Execution of O-words: loops, conditions, calls.
 #include "front/gcode/program/flow.h"
 
 #include <algorithm>
@@ -10,37 +10,37 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr std::size_t kDeepestCall = 100;
-constexpr std::size_t kCostOfLine = 16;  // bytes that even an empty line counts for
-constexpr double kMostRepeats = 1e9;
+constexpr std::size_t kMaxCallDepth = 100;
+constexpr std::size_t kLineCost = 16;  // bytes added for each line, so that empty ones count too
+constexpr double kMaxRepeats = 1e9;
 
-/// What a line does to the flow of a Fanuc program.
-enum class Turning : std::uint8_t { none, gives_back, ends };
+/// Whether a line of a Fanuc program returns from a subprogram or ends the program.
+enum class FlowWord : std::uint8_t { none, returns, ends };
 
-Turning turning_of(std::string_view line) {
+FlowWord flow_word_of(std::string_view line) {
   int depth = 0;
   for (std::size_t i = 0; i < line.size() && line[i] != ';'; ++i) {
     if (line[i] == '(') ++depth;
     if (line[i] == ')') --depth;
     const char c = static_cast<char>(line[i] & ~0x20);  // in capitals
     if (depth > 0 || (c != 'M' && c != 'O')) continue;
-    if (c == 'O') return Turning::ends;  // another program begins
+    if (c == 'O') return FlowWord::ends;  // start of another program
     std::size_t end = i + 1;
     while (end < line.size() && line[end] >= '0' && line[end] <= '9') ++end;
     const std::string_view number = line.substr(i + 1, end - i - 1);
-    if (number == "99") return Turning::gives_back;
-    if (number == "2" || number == "02" || number == "30") return Turning::ends;
+    if (number == "99") return FlowWord::returns;
+    if (number == "2" || number == "02" || number == "30") return FlowWord::ends;
   }
-  return Turning::none;
+  return FlowWord::none;
 }
 
 }  // namespace
 
-Flow::Flow(std::string_view text, const GcodeReadOptions& options, Talker& talker, Parameters& parameters,
-           GcodeDialect dialect, Diagnostics& diagnostics)
+Flow::Flow(std::string_view text, const GcodeReadOptions& options, LineReporter& reporter,
+           Parameters& parameters, GcodeDialect dialect, Diagnostics& diagnostics)
     : options_(options),
       dialect_(dialect),
-      talker_(talker),
+      reporter_(reporter),
       parameters_(parameters),
       diagnostics_(diagnostics) {
   auto source = std::make_unique<Source>();
@@ -68,11 +68,12 @@ bool Flow::next(Block& block) {
 }
 
 bool Flow::may_run(const Block& block) {
-  work_ += block.text.size() + kCostOfLine;
+  work_ += block.text.size() + kLineCost;
   if (work_ <= options_.max_rerun_bytes) return true;
-  talker_.at_line(block.line);
-  talker_.error(Code::runs_too_long, 1,
-                "loops and calls repeat more lines than are read; the rest is left out", "does a loop end?");
+  reporter_.at_line(block.line);
+  reporter_.error(Code::runs_too_long, 1,
+                  "loops and calls repeat too many lines; the rest of the program is not read",
+                  "does every loop end?");
   stopped_ = true;
   return false;
 }
@@ -84,18 +85,18 @@ void Flow::jump(std::size_t position, std::uint32_t lines) {
 
 void Flow::jump_to(std::size_t o_line_index) {
   const OLine& line = o_line(o_line_index);
-  jump(line.begin, line.lines_before);
+  jump(line.start, line.lines_before);
 }
 
-void Flow::jump_behind(std::size_t o_line_index) {
+void Flow::jump_after(std::size_t o_line_index) {
   const OLine& line = o_line(o_line_index);
   jump(line.next, line.lines_before + 1);
 }
 
-/// The entry of the list for the line that was read last.
-std::optional<std::size_t> Flow::here(const Block& block) {
+/// Index of the last line in the list of O-words.
+std::optional<std::size_t> Flow::find_o_line(const Block& block) {
   Source& source = *frames_.back().source;
-  list(source);
+  list_o_words(source);
   const auto found = std::lower_bound(
       source.o_lines.begin(), source.o_lines.end(), block.line,
       [](const OLine& line, std::uint32_t number) { return line.lines_before + 1 < number; });
@@ -106,108 +107,107 @@ std::optional<std::size_t> Flow::here(const Block& block) {
 std::optional<double> Flow::value_of(ExpressionReader& reader, std::uint32_t column) {
   const std::optional<double> value = reader.value();
   if (!value)
-    talker_.error(reader.fault().code, column + static_cast<std::uint32_t>(reader.fault().offset),
-                  reader.fault().message);
+    reporter_.error(reader.fault().code, column + static_cast<std::uint32_t>(reader.fault().offset),
+                    reader.fault().message);
   return value;
 }
 
-/// The one value that if, while and repeat need.
-std::optional<double> Flow::only_value(const Block& block) {
+/// The value of if, while and repeat.
+std::optional<double> Flow::condition_value(const Block& block) {
   const OWord word = read_o_word(block.o_word->text);
   const auto offset = static_cast<std::uint32_t>(word.values.data() - block.o_word->text.data());
   ExpressionReader reader(word.values, parameters_);
   if (reader.at_end() || word.values[reader.position()] != '[') {
-    talker_.error(Code::o_word_malformed, block.o_word->column,
-                  "a value in brackets is expected after this word");
+    reporter_.error(Code::o_word_malformed, block.o_word->column,
+                    "expected an expression in square brackets after this word");
     return std::nullopt;
   }
   return value_of(reader, block.o_word->column + offset);
 }
 
 void Flow::control(const Block& block) {
-  talker_.at_line(block.line);
-  const std::optional<std::size_t> at = here(block);
-  if (!at || o_line(*at).kind == OKind::nothing) {
-    talker_.error(Code::o_word_malformed, block.o_word->column,
-                  "this O-word cannot be understood; expected a label and sub, call, if, while ...");
+  reporter_.at_line(block.line);
+  const std::optional<std::size_t> at = find_o_line(block);
+  if (!at || o_line(*at).kind == OKind::invalid) {
+    reporter_.error(Code::o_word_malformed, block.o_word->column,
+                    "expected a label and a keyword after O: sub, call, if, while ...");
     return;
   }
-  carry_out(*at, block);
+  execute(*at, block);
 }
 
-void Flow::carry_out(std::size_t at, const Block& block) {
+void Flow::execute(std::size_t at, const Block& block) {
   const OLine& line = o_line(at);
   const bool paired = line.partner != at;
   const std::uint32_t column = block.o_word->column;
   switch (line.kind) {
-    case OKind::sub: return paired ? jump_behind(line.partner) : void(unmatched(line, column));
+    case OKind::sub: return paired ? jump_after(line.partner) : void(unmatched(line, column));
     case OKind::end_sub:
-    case OKind::give_back: return give_back(block);
+    case OKind::return_sub: return return_with_value(block);
     case OKind::call: return call(block);
-    case OKind::condition: return paired ? branch(at, block) : void(unmatched(line, column));
+    case OKind::if_branch: return paired ? branch(at, block) : void(unmatched(line, column));
     case OKind::else_if:
-    case OKind::otherwise: return paired ? jump_behind(line.partner) : void(unmatched(line, column));
+    case OKind::else_branch: return paired ? jump_after(line.partner) : void(unmatched(line, column));
     case OKind::loop_while:
       if (!paired) return void(unmatched(line, column));
-      if (only_value(block).value_or(0.0) == 0.0) jump_behind(line.partner);
+      if (condition_value(block).value_or(0.0) == 0.0) jump_after(line.partner);
       return;
     case OKind::end_while: return paired ? jump_to(line.partner) : void(unmatched(line, column));
     case OKind::while_of_do:
-      if (only_value(block).value_or(0.0) != 0.0) jump_behind(line.partner);
+      if (condition_value(block).value_or(0.0) != 0.0) jump_after(line.partner);
       return;
-    case OKind::repeat: return paired ? begin_repeat(at, block) : void(unmatched(line, column));
+    case OKind::repeat: return paired ? start_repeat(at, block) : void(unmatched(line, column));
     case OKind::end_repeat: return paired ? end_repeat(at) : void(unmatched(line, column));
-    case OKind::leave:
-    case OKind::go_on: return leave_loop(at, column);
+    case OKind::break_loop:
+    case OKind::continue_loop: return leave_loop(at, column);
     case OKind::end_if:
     case OKind::loop_do:
       if (!paired) unmatched(line, column);
       return;
     case OKind::number:
-    case OKind::nothing: return;
+    case OKind::invalid: return;
   }
 }
 
 bool Flow::unmatched(const OLine& line, std::uint32_t column) {
-  talker_.error(
-      Code::o_word_unmatched, column,
-      fmt::format("the O-word with the label {} lacks its counterpart; it is left out", line.label));
+  reporter_.error(Code::o_word_unmatched, column,
+                  fmt::format("the O-word with the label {} has no counterpart; skipped", line.label));
   return false;
 }
 
-/// Goes to the first branch of an if whose condition holds, or behind the end.
+/// Jumps to the first branch whose condition is true, otherwise after the end of the if.
 void Flow::branch(std::size_t at, const Block& block) {
-  Block question;
-  const Block* asked = &block;
-  while (only_value(*asked).value_or(0.0) == 0.0) {
+  Block next_branch;
+  const Block* tested = &block;
+  while (condition_value(*tested).value_or(0.0) == 0.0) {
     const std::size_t next = o_line(at).branch;
-    if (next == at || o_line(next).kind != OKind::else_if) return jump_behind(next);
+    if (next == at || o_line(next).kind != OKind::else_if) return jump_after(next);
     jump_to(next);
-    if (!this->next(question) || !question.o_word) return;
-    talker_.at_line(question.line);
-    asked = &question;
+    if (!this->next(next_branch) || !next_branch.o_word) return;
+    reporter_.at_line(next_branch.line);
+    tested = &next_branch;
     at = next;
   }
 }
 
-void Flow::begin_repeat(std::size_t at, const Block& block) {
-  const double count = std::round(only_value(block).value_or(0.0));
-  if (!(count >= 1.0)) return jump_behind(o_line(at).partner);
+void Flow::start_repeat(std::size_t at, const Block& block) {
+  const double count = std::round(condition_value(block).value_or(0.0));
+  if (!(count >= 1.0)) return jump_after(o_line(at).partner);
   std::vector<Repeat>& repeats = frames_.back().repeats;
-  std::erase_if(repeats, [&](const Repeat& r) { return r.o_line >= at; });  // left by a jump
-  repeats.push_back({at, std::min(count, kMostRepeats)});
+  std::erase_if(repeats, [&](const Repeat& r) { return r.o_line >= at; });  // of loops left by a jump
+  repeats.push_back({at, std::min(count, kMaxRepeats)});
 }
 
 void Flow::end_repeat(std::size_t at) {
-  const std::size_t begin = o_line(at).partner;
+  const std::size_t start = o_line(at).partner;
   std::vector<Repeat>& repeats = frames_.back().repeats;
-  std::erase_if(repeats, [&](const Repeat& r) { return r.o_line > begin; });
-  if (repeats.empty() || repeats.back().o_line != begin) return;
-  if (--repeats.back().left >= 1.0) return jump_behind(begin);
+  std::erase_if(repeats, [&](const Repeat& r) { return r.o_line > start; });
+  if (repeats.empty() || repeats.back().o_line != start) return;
+  if (--repeats.back().left >= 1.0) return jump_after(start);
   repeats.pop_back();
 }
 
-/// The loop of the same label that a line lies in.
+/// The innermost loop around a line with the label of its O-word.
 std::optional<std::size_t> Flow::loop_around(std::size_t at) const {
   for (std::size_t i = at; i-- > 0;) {
     const OLine& line = o_line(i);
@@ -222,14 +222,14 @@ void Flow::leave_loop(std::size_t at, std::uint32_t column) {
   const std::optional<std::size_t> loop = loop_around(at);
   if (!loop) return void(unmatched(o_line(at), column));
   const std::size_t end = o_line(*loop).partner;
-  if (o_line(at).kind == OKind::go_on) return jump_to(end);
+  if (o_line(at).kind == OKind::continue_loop) return jump_to(end);
   std::erase_if(frames_.back().repeats, [&](const Repeat& r) { return r.o_line >= *loop; });
-  jump_behind(end);
+  jump_after(end);
 }
 
 // ---- subroutines
 
-/// The label of a call; one that is computed becomes its number.
+/// The label of a call; a computed one is evaluated.
 std::optional<std::string> Flow::label_of(const OWord& word, std::uint32_t column) {
   if (word.label.front() != '[' && word.label.front() != '#') return word.label;
   ExpressionReader reader(word.label, parameters_);
@@ -252,8 +252,8 @@ void Flow::call(const Block& block) {
     arguments.push_back(*value);
   }
   if (arguments.size() > Parameters::kArguments) {
-    talker_.error(Code::o_word_malformed, column,
-                  fmt::format("a call has at most {} values; it is left out", Parameters::kArguments));
+    reporter_.error(Code::o_word_malformed, column,
+                    fmt::format("a call has at most {} arguments; skipped", Parameters::kArguments));
     return;
   }
   if (!enter(*label, 1, column)) return;
@@ -265,18 +265,18 @@ void Flow::call_number(int number, int repeats, std::uint32_t column) {
   enter(std::to_string(number), repeats, column);
 }
 
-/// Goes to the begin of a subroutine; what it is called with is the caller's matter.
+/// Jumps to the start of a subroutine; the caller passes the arguments.
 bool Flow::enter(const std::string& label, int repeats, std::uint32_t column) {
   std::size_t entry = 0;
   Source* source = source_of(label, entry);
   if (source == nullptr) {
-    talker_.error(Code::sub_missing, column,
-                  fmt::format("no subroutine {} is in this program or in a file beside it", label));
+    reporter_.error(Code::sub_missing, column,
+                    fmt::format("subroutine {} is neither in this program nor in a file next to it", label));
     return false;
   }
-  if (frames_.size() > kDeepestCall) {
-    talker_.error(Code::calls_too_deep, column,
-                  fmt::format("calls within calls deeper than {}; this one is left out", kDeepestCall));
+  if (frames_.size() > kMaxCallDepth) {
+    reporter_.error(Code::calls_too_deep, column,
+                    fmt::format("calls are nested deeper than {}; this one is skipped", kMaxCallDepth));
     return false;
   }
   const BlockReader& caller = *frames_.back().source->reader;
@@ -287,13 +287,13 @@ bool Flow::enter(const std::string& label, int repeats, std::uint32_t column) {
   frame.repeats_left = repeats - 1;
   frame.entry = entry;
   frames_.push_back(std::move(frame));
-  jump_behind(entry);
+  jump_after(entry);
   return true;
 }
 
 Flow::Source* Flow::source_of(const std::string& label, std::size_t& entry) {
   for (Source* source : {frames_.back().source, sources_.front().get()}) {
-    list(*source);
+    list_o_words(*source);
     const auto found = source->subs.find(label);
     if (found == source->subs.end()) continue;
     entry = found->second;
@@ -307,7 +307,7 @@ Flow::Source* Flow::source_of(const std::string& label, std::size_t& entry) {
   return source;
 }
 
-/// The text of a subroutine's own file, read once. Names that could lead to another folder are no names.
+/// The file of a subroutine, loaded once. Names with characters of other folders' paths are refused.
 Flow::Source* Flow::load(const std::string& label) {
   std::string name = label;
   if (name.size() > 2 && name.front() == '<') name = name.substr(1, name.size() - 2);
@@ -324,15 +324,15 @@ Flow::Source* Flow::load(const std::string& label) {
   source->name = name;
   source->owned = std::move(*text);
   source->reader = std::make_unique<BlockReader>(source->owned, reader_options(name), diagnostics_);
-  list(*source);
+  list_o_words(*source);
   sources_.push_back(std::move(source));
   return sources_.back().get();
 }
 
-void Flow::give_back(const Block& block) {
+void Flow::return_with_value(const Block& block) {
   const OWord word = read_o_word(block.o_word->text);
   if (depth() == 0) {
-    talker_.error(Code::o_word_unmatched, block.o_word->column, "there is no subroutine to return from here");
+    reporter_.error(Code::o_word_unmatched, block.o_word->column, "return or endsub outside of a subroutine");
     return;
   }
   ExpressionReader reader(word.values, parameters_);
@@ -349,10 +349,10 @@ bool Flow::skip_subprogram() {
   std::size_t at = reader.position();
   for (std::uint32_t lines = reader.lines() + 1; at < text.size(); ++lines) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
-    const Turning turning = turning_of(text.substr(at, end - at));
+    const FlowWord word = flow_word_of(text.substr(at, end - at));
     at = std::min(end + 1, text.size());
-    if (turning == Turning::ends) return false;
-    if (turning == Turning::none) continue;
+    if (word == FlowWord::ends) return false;
+    if (word == FlowWord::none) continue;
     reader.seek(at, lines);
     return true;
   }
@@ -364,7 +364,7 @@ bool Flow::return_from_call() {
   Frame& frame = frames_.back();
   if (frame.repeats_left-- > 0) {
     frame.repeats.clear();
-    jump_behind(frame.entry);
+    jump_after(frame.entry);
     return true;
   }
   const Frame done = std::move(frame);

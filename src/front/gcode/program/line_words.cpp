@@ -1,4 +1,4 @@
-// Sorting the words of a line.
+// Sorts the words of a line and evaluates its expressions.
 #include "front/gcode/program/line_words.h"
 
 #include <cmath>
@@ -12,41 +12,21 @@ namespace kerf::gcode {
 namespace {
 
 constexpr Tenths kFirstLargeCode = 1000;  // M100
-constexpr std::uint32_t kSpecialLetters = Line::bit('E') | Line::bit('U') | Line::bit('V') | Line::bit('W');
-constexpr double kTenthsSlack = 1e-4;  // G38.2 may arrive as 38.19999 from other programs
+constexpr std::uint32_t kSpecialLetters =
+    LineWords::bit('E') | LineWords::bit('U') | LineWords::bit('V') | LineWords::bit('W');
+constexpr double kTenthsTolerance = 1e-4;  // some programs write G38.2 as 38.19999
 
-/// A code's number in tenths, or -1 if it has more than one place.
+/// A code's number in tenths, or -1 if it has more than one decimal.
 Tenths tenths_of(double value) {
   const double tenths = std::round(value * 10.0);
-  if (!(tenths >= 0.0 && tenths < 1e6) || std::abs(value * 10.0 - tenths) > kTenthsSlack * 10.0) return -1;
+  if (!(tenths >= 0.0 && tenths < 1e6) || std::abs(value * 10.0 - tenths) > kTenthsTolerance * 10.0)
+    return -1;
   return static_cast<Tenths>(tenths);
 }
 
 }  // namespace
 
-void Talker::error(Code code, std::uint32_t column, std::string message, std::string_view hint) {
-  say(Severity::error, code, column, std::move(message), hint);
-}
-
-void Talker::unusual(Code code, std::uint32_t column, std::string message, std::string_view hint) {
-  unusual_at(spot(column), code, std::move(message), hint);
-}
-
-void Talker::unusual_at(TextSpot where, Code code, std::string message, std::string_view hint) {
-  const Severity severity = strict_ ? Severity::error : Severity::warning;
-  diagnostics_.add({severity, code, std::move(where), std::move(message), {}, std::string(hint)});
-}
-
-void Talker::note(Code code, std::uint32_t column, std::string message) {
-  say(Severity::note, code, column, std::move(message), {});
-}
-
-void Talker::say(Severity severity, Code code, std::uint32_t column, std::string message,
-                 std::string_view hint) {
-  diagnostics_.add({severity, code, spot(column), std::move(message), {}, std::string(hint)});
-}
-
-bool Line::sort(const Block& block, Parameters& parameters, Talker& talker) {
+bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& reporter) {
   letters_ = used_ = groups_ = 0;
   large_m_code_ = -1;
   polar_radius_.reset();
@@ -54,16 +34,16 @@ bool Line::sort(const Block& block, Parameters& parameters, Talker& talker) {
   column_of_block_ = block.words.empty() ? 1 : block.words.front().column;
   other_spindle_ = false;
   if (block.computed) {
-    if (!compute(block, parameters, talker)) return false;
+    if (!compute(block, parameters, reporter)) return false;
   } else {
-    for (const Word& word : block.words) add_word(word, word.value, talker);
+    for (const Word& word : block.words) add_word(word, word.value, reporter);
   }
-  if ((letters_ & kSpecialLetters) != 0) drop_letters(talker);
+  if ((letters_ & kSpecialLetters) != 0) drop_unknown_letters(reporter);
   return true;
 }
 
-/// Takes out letters that have no meaning here, and says so.
-void Line::drop_letters(Talker& talker) {
+/// Removes words that have no meaning here, with a warning or an error.
+void LineWords::drop_unknown_letters(LineReporter& reporter) {
   const bool filament = rules_ == LetterRules::printer;
   const bool taper = has(Group::motion) && code(Group::motion) == 760;
   const bool e_is_used = filament || has(Group::other) || taper;
@@ -71,24 +51,22 @@ void Line::drop_letters(Talker& talker) {
     if (!has(letter) || (letter == 'E' && e_is_used)) continue;
     letters_ &= ~bit(letter);
     if (letter == 'E' || filament)
-      talker.unusual(Code::unknown_letter, column(letter),
-                     fmt::format("the letter {} has no meaning here and is left out", letter));
+      reporter.unusual(Code::unknown_letter, column(letter),
+                       fmt::format("the letter {} has no meaning here; skipped", letter));
     else
-      talker.error(
-          Code::code_unsupported, column(letter),
-          fmt::format("{} moves a secondary axis, beside {}, which Kerf does not follow; it is left out",
-                      letter, static_cast<char>(letter + 3)));
+      reporter.error(Code::code_unsupported, column(letter),
+                     fmt::format("{} is a secondary axis parallel to {}, which is not supported; skipped",
+                                 letter, static_cast<char>(letter + 3)));
   }
 }
 
-/// A parameter and the value that it gets.
-struct Line::Setting {
+struct LineWords::Assignment {
   ExpressionReader::Target what;
   double value = 0.0;
 };
 
-/// A line with values that are worked out.
-bool Line::compute(const Block& block, Parameters& parameters, Talker& talker) {
+/// Evaluates the expressions of a line.
+bool LineWords::compute(const Block& block, Parameters& parameters, LineReporter& reporter) {
   for (const Word& word : block.words) {
     double value = word.value;
     if (word.kind == ValueKind::expression) {
@@ -96,65 +74,66 @@ bool Line::compute(const Block& block, Parameters& parameters, Talker& talker) {
       const std::optional<double> computed = reader.value();
       if (!computed) {
         const auto offset = static_cast<std::uint32_t>(reader.fault().offset);
-        talker.error(reader.fault().code, word.column + 1 + offset,
-                     reader.fault().message + "; the line is left out");
+        reporter.error(reader.fault().code, word.column + 1 + offset,
+                       reader.fault().message + "; the line is skipped");
         return false;
       }
       value = *computed;
     }
-    add_word(word, value, talker);
+    add_word(word, value, reporter);
   }
-  std::vector<Setting> settings;
+  std::vector<Assignment> assignments;
   for (const Computation& text : block.assignments) {
-    const std::optional<Setting> setting = assignment(text, parameters, talker);
-    if (!setting) return false;
-    settings.push_back(*setting);
+    const std::optional<Assignment> parsed = parse_assignment(text, parameters, reporter);
+    if (!parsed) return false;
+    assignments.push_back(*parsed);
   }
-  for (const Setting& s : settings)
-    if (s.what.name.empty())
-      parameters.set_number(s.what.number, s.value);
+  for (const Assignment& a : assignments)
+    if (a.what.name.empty())
+      parameters.set_number(a.what.number, a.value);
     else
-      parameters.set_name(s.what.name, s.value);
+      parameters.set_name(a.what.name, a.value);
   return true;
 }
 
-std::optional<Line::Setting> Line::assignment(const Computation& text, const Parameters& parameters,
-                                              Talker& talker) {
+std::optional<LineWords::Assignment> LineWords::parse_assignment(const Computation& text,
+                                                                 const Parameters& parameters,
+                                                                 LineReporter& reporter) {
   ExpressionReader reader(text.text, parameters);
   const auto what = reader.target();
   if (what && reader.take('='))
-    if (const std::optional<double> value = reader.value()) return Setting{*what, *value};
-  const bool told = !reader.fault().message.empty();
-  const auto offset = static_cast<std::uint32_t>(told ? reader.fault().offset : reader.position());
-  talker.error(told ? reader.fault().code : Code::expression_malformed, text.column + offset,
-               (told ? reader.fault().message : std::string("'=' is missing")) + "; the line is left out");
+    if (const std::optional<double> value = reader.value()) return Assignment{*what, *value};
+  const bool has_fault = !reader.fault().message.empty();
+  const auto offset = static_cast<std::uint32_t>(has_fault ? reader.fault().offset : reader.position());
+  reporter.error(has_fault ? reader.fault().code : Code::expression_malformed, text.column + offset,
+                 (has_fault ? reader.fault().message : std::string("missing '='")) + "; the line is skipped");
   return std::nullopt;
 }
 
-void Line::add_word(const Word& word, double value, Talker& talker) {
+void LineWords::add_word(const Word& word, double value, LineReporter& reporter) {
   const bool letter = word.letter >= 'A' && word.letter <= 'Z';
-  if (!letter) return add_sign_word(word, value, talker);
-  if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, value, talker);
+  if (!letter) return add_sign_word(word, value, reporter);
+  if (((bit('G') | bit('M')) & bit(word.letter)) != 0) return add_code(word, value, reporter);
   if (has(word.letter))
-    talker.unusual(Code::word_repeated, word.column,
-                   fmt::format("{} stands twice on the line; the last one counts", word.letter));
+    reporter.unusual(Code::word_repeated, word.column,
+                     fmt::format("two {} words on one line; the last one is used", word.letter));
   letters_ |= bit(word.letter);
   values_[index(word.letter)] = value;
   columns_[index(word.letter)] = word.column;
 }
 
-/// "@", "^" and "$"; "*" is a sender's checksum. "$-1" means all spindles.
-void Line::add_sign_word(const Word& word, double value, Talker& talker) {
+/// "@", "^" and "$" ("$-1": all spindles). "*" is a sender's checksum and ignored.
+void LineWords::add_sign_word(const Word& word, double value, LineReporter& reporter) {
   if (word.letter == '@') polar_radius_ = value;
   if (word.letter == '^') polar_angle_ = value;
   if (word.letter != '$' || value == 0.0 || value == -1.0) return;
   other_spindle_ = true;
-  talker.note(
+  reporter.note(
       Code::code_ignored, word.column,
-      fmt::format("spindle {:g} is not the one that cuts; what the line says of it is left out", value));
+      fmt::format("only spindle 0 is supported; the words of this line for spindle {:g} are skipped", value));
 }
 
-void Line::add_code(const Word& word, double value, Talker& talker) {
+void LineWords::add_code(const Word& word, double value, LineReporter& reporter) {
   const bool is_g = word.letter == 'G';
   const Tenths number = tenths_of(value);
   if (!is_g && number >= kFirstLargeCode && number % 10 == 0) {
@@ -163,34 +142,34 @@ void Line::add_code(const Word& word, double value, Talker& talker) {
     return;
   }
   const CodeEntry* entry = is_g ? find_g_code(number) : find_m_code(number);
-  const std::string_view hint = "is this a program for another kind of machine?";
+  const std::string_view hint = "is this program for another kind of machine?";
   if (entry == nullptr) {
-    talker.unusual(is_g ? Code::unknown_g_code : Code::unknown_m_code, word.column,
-                   fmt::format("unknown code {}{:g}; it is left out", word.letter, value), hint);
+    reporter.unusual(is_g ? Code::unknown_g_code : Code::unknown_m_code, word.column,
+                     fmt::format("unknown code {}{:g}; skipped", word.letter, value), hint);
     return;
   }
   if (entry->support == Support::ignored)
-    talker.note(Code::code_ignored, word.column,
-                fmt::format("{} does not change the path; it is left out", code_text(word.letter, number)));
+    reporter.note(Code::code_ignored, word.column,
+                  fmt::format("{} does not change the toolpath; skipped", code_text(word.letter, number)));
   if (entry->support == Support::missing)
-    talker.error(Code::code_unsupported, word.column,
-                 fmt::format("{} is not read yet", code_text(word.letter, number)));
+    reporter.error(Code::code_unsupported, word.column,
+                   fmt::format("{} is not supported", code_text(word.letter, number)));
   const auto group = static_cast<std::size_t>(entry->group);
   if (has(entry->group) && codes_[group] != number && entry->group != Group::other)
-    talker.unusual(Code::modal_conflict, word.column,
-                   fmt::format("{} and {} exclude each other; the last one counts",
-                               code_text(word.letter, codes_[group]), code_text(word.letter, number)));
+    reporter.unusual(Code::modal_conflict, word.column,
+                     fmt::format("{} and {} exclude each other; the last one is used",
+                                 code_text(word.letter, codes_[group]), code_text(word.letter, number)));
   groups_ |= bit(entry->group);
   codes_[group] = number;
   code_columns_[group] = word.column;
 }
 
-void Line::list_unused(Talker& talker) const {
+void LineWords::list_unused(LineReporter& reporter) const {
   const std::uint32_t left = letters_ & ~used_;
   for (char letter = 'A'; letter <= 'Z'; ++letter)
     if ((left & bit(letter)) != 0)
-      talker.unusual(Code::word_unused, columns_[index(letter)],
-                     fmt::format("nothing on the line uses the {} word; it is left out", letter));
+      reporter.unusual(Code::word_unused, columns_[index(letter)],
+                       fmt::format("no code on this line uses the {} word; skipped", letter));
 }
 
 }  // namespace kerf::gcode

@@ -1,4 +1,4 @@
-// Splitting an O-word.
+// Parser of O-words.
 #include "front/gcode/program/o_word.h"
 
 #include "kerf/names.h"
@@ -17,26 +17,26 @@ OKind kind_of(const std::string& word) {
       {"", OKind::number},
       {"sub", OKind::sub},
       {"endsub", OKind::end_sub},
-      {"return", OKind::give_back},
+      {"return", OKind::return_sub},
       {"call", OKind::call},
-      {"if", OKind::condition},
+      {"if", OKind::if_branch},
       {"elseif", OKind::else_if},
-      {"else", OKind::otherwise},
+      {"else", OKind::else_branch},
       {"endif", OKind::end_if},
       {"while", OKind::loop_while},
       {"endwhile", OKind::end_while},
       {"do", OKind::loop_do},
       {"repeat", OKind::repeat},
       {"endrepeat", OKind::end_repeat},
-      {"break", OKind::leave},
-      {"continue", OKind::go_on},
+      {"break", OKind::break_loop},
+      {"continue", OKind::continue_loop},
   };
   for (const auto& entry : kWords)
     if (entry.word == word) return entry.kind;
-  return OKind::nothing;
+  return OKind::invalid;
 }
 
-/// Where the label that begins at 0 ends: "100", "<name>", "[2*#1]", "#1".
+/// The end of the label at the start of `text`: "100", "<name>", "[2*#1]", "#1".
 std::size_t label_end(std::string_view text) {
   if (text.empty()) return 0;
   std::size_t at = 0;
@@ -70,9 +70,9 @@ OWord read_o_word(std::string_view text) {
   text = trim(text.substr(end));
   std::size_t letters = 0;
   while (letters < text.size() && (is_letter(text[letters]))) ++letters;
-  word.kind = word.label.empty() ? OKind::nothing : kind_of(normal_name(text.substr(0, letters)));
+  word.kind = word.label.empty() ? OKind::invalid : kind_of(normal_name(text.substr(0, letters)));
   word.values = text.substr(letters);
-  if (word.kind == OKind::number && !word.values.empty()) word.kind = OKind::nothing;
+  if (word.kind == OKind::number && !word.values.empty()) word.kind = OKind::invalid;
   return word;
 }
 

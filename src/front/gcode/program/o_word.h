@@ -1,4 +1,4 @@
-// The parts of an O-word: "O<name> call [1]" is the label <name>, the word call and the values after it.
+// An O-word: "O<name> call [1]" has the label <name>, the keyword call and the value [1].
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 namespace kerf::gcode {
 
 struct OWord {
-  std::string label;        // "100", "<name>"; one that is computed as it stands
-  std::string_view values;  // what follows the keyword
-  OKind kind = OKind::nothing;
+  std::string label;        // "100", "<name>"; a computed one as its expression
+  std::string_view values;  // the text after the keyword
+  OKind kind = OKind::invalid;
 };
 
-/// `text` from the letter O on, without a comment.
+/// Parses `text`, which starts with the letter O and has no comment.
 OWord read_o_word(std::string_view text);
 
 }  // namespace kerf::gcode

@@ -1,4 +1,4 @@
-// The list of a text's O-words: found, named and paired.
+// The list of a text's O-words, paired.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -12,7 +12,7 @@ namespace {
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The O-word of a line, from its letter on; empty where there is none.
+/// The O-word of a line, from its letter to the end or comment; empty if there is none.
 std::string_view o_word_in(std::string_view line) {
   std::size_t at = 0;
   const auto skip = [&](auto wanted) {
@@ -30,7 +30,7 @@ std::string_view o_word_in(std::string_view line) {
   return line.substr(0, line.find_first_of(";("));
 }
 
-/// The open words of each label, innermost last.
+/// Pairs opening and closing words of equal label.
 class Pairing {
  public:
   explicit Pairing(std::vector<OLine>& lines) : lines_(lines) {}
@@ -43,14 +43,14 @@ class Pairing {
       line.kind = OKind::while_of_do;
     switch (line.kind) {
       case OKind::sub:
-      case OKind::condition:
+      case OKind::if_branch:
       case OKind::loop_while:
       case OKind::loop_do:
       case OKind::repeat: open.push_back(i); return;
       case OKind::else_if:
-      case OKind::otherwise: return chain(open, i);
+      case OKind::else_branch: return chain(open, i);
       case OKind::end_sub: return close(open, i, OKind::sub);
-      case OKind::end_if: return close(open, i, OKind::condition);
+      case OKind::end_if: return close(open, i, OKind::if_branch);
       case OKind::end_while: return close(open, i, OKind::loop_while);
       case OKind::while_of_do: return close(open, i, OKind::loop_do);
       case OKind::end_repeat: return close(open, i, OKind::repeat);
@@ -59,9 +59,9 @@ class Pairing {
   }
 
  private:
-  /// The last branch so far of an if leads to this one.
+  /// Links the last branch of the open if to this one.
   void chain(const std::vector<std::size_t>& open, std::size_t i) {
-    if (open.empty() || lines_[open.back()].kind != OKind::condition) return;
+    if (open.empty() || lines_[open.back()].kind != OKind::if_branch) return;
     lines_[last_branch(open.back())].branch = i;
   }
   std::size_t last_branch(std::size_t at) const {
@@ -74,7 +74,7 @@ class Pairing {
     open.pop_back();
     lines_[i].partner = first;
     lines_[first].partner = i;
-    if (wanted != OKind::condition) return;
+    if (wanted != OKind::if_branch) return;
     for (std::size_t at = first; lines_[at].branch != at;) {
       at = lines_[at].branch;
       lines_[at].partner = i;
@@ -83,12 +83,12 @@ class Pairing {
   }
 
   std::vector<OLine>& lines_;
-  std::map<std::string, std::vector<std::size_t>> open_;
+  std::map<std::string, std::vector<std::size_t>> open_;  // words of each label, innermost last
 };
 
 }  // namespace
 
-void Flow::list(Source& source) {
+void Flow::list_o_words(Source& source) {
   if (source.listed) return;
   source.listed = true;
   const std::string_view text = source.reader->text();
@@ -99,13 +99,13 @@ void Flow::list(Source& source) {
     const std::size_t next = end + (text.substr(end, 2) == "\r\n" ? 2 : 1);
     const std::string_view word = o_word_in(text.substr(at, end - at));
     if (!word.empty()) {
-      const OWord told = read_o_word(word);
-      OLine line{at, std::min(next, text.size()), lines, told.label, told.kind, 0, 0};
+      const OWord parsed = read_o_word(word);
+      OLine line{at, std::min(next, text.size()), lines, parsed.label, parsed.kind, 0, 0};
       source.o_lines.push_back(std::move(line));
       pairing.add(source.o_lines.size() - 1);
       const OKind kind = source.o_lines.back().kind;
       if (kind == OKind::sub || kind == OKind::number)
-        source.subs.emplace(told.label, source.o_lines.size() - 1);
+        source.subs.emplace(parsed.label, source.o_lines.size() - 1);
     }
     at = next;
   }

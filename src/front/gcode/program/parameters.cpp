@@ -1,4 +1,4 @@
-// Parameters: plain storage with the rules of which name is seen where.
+// Storage of parameters, with the scopes of names.
 #include "front/gcode/program/parameters.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ std::string normal_name(std::string_view text) {
 
 std::optional<double> Parameters::number(int number) const {
   if (number < 1 || number > kLast) return std::nullopt;
-  if (const auto told = system_.system_number(number)) return told;
+  if (const auto value = system_.system_number(number)) return value;
   return slot(number) / system_.unit_of(number);
 }
 
@@ -40,13 +40,13 @@ void Parameters::set_name(const std::string& name, double value) {
 
 void Parameters::enter(std::span<const double> arguments) {
   frames_.emplace_back();
-  std::copy_n(numbers_.begin() + 1, kArguments, frames_.back().kept.begin());
+  std::copy_n(numbers_.begin() + 1, kArguments, frames_.back().caller.begin());
   std::fill_n(numbers_.begin() + 1, kArguments, 0.0);
   std::copy_n(arguments.begin(), std::min(arguments.size(), kArguments), numbers_.begin() + 1);
 }
 
 void Parameters::leave() {
-  std::copy(frames_.back().kept.begin(), frames_.back().kept.end(), numbers_.begin() + 1);
+  std::copy(frames_.back().caller.begin(), frames_.back().caller.end(), numbers_.begin() + 1);
   frames_.pop_back();
 }
 

@@ -1,8 +1,8 @@
-// The parameters of a program: numbered ones, local and global names, and those that tell a controller's
+// The parameters of a program: numbered ones, local and global names, and those that hold the controller's
 // state.
 //
-// Source: LinuxCNC's page "Parameters, variables, functions": 1-30 belong to a subroutine's call, names that
-// begin with '_' are known everywhere, other names in one subroutine only.
+// Source: LinuxCNC's page "Parameters, variables, functions": 1 to 30 belong to a subroutine's call, names
+// that start with '_' are global, other names belong to one subroutine.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace kerf::gcode {
 
-/// What a program can read of the controller's state: the parameters that no program sets.
+/// The controller's state as parameters that a program can read but not set.
 class SystemValues {
  public:
   virtual ~SystemValues() = default;
   virtual std::optional<double> system_number(int number) const = 0;
-  /// `name` in small letters without its brackets, such as "_x".
+  /// `name` in lower case without < and >, such as "_x".
   virtual std::optional<double> system_name(std::string_view name) const = 0;
-  /// What a number that the controller keeps in mm is divided by when the program reads it.
+  /// The divisor for parameters that are stored in mm: mm per unit of the program; 1 for all others.
   virtual double unit_of(int number) const = 0;
 };
 
@@ -40,18 +40,19 @@ class Parameters {
   std::optional<double> name(const std::string& name) const;
   void set_name(const std::string& name, double value);
 
-  /// What the controller itself keeps in numbered parameters (offsets, homes); no test of the number.
+  /// Direct access to what the controller stores in numbered parameters (offsets, homes); `number` is not
+  /// checked.
   double& slot(int number) { return numbers_[static_cast<std::size_t>(number)]; }
   double slot(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
-  /// A subroutine begins with its arguments in #1 to #30, and ends with the caller's values back in them.
+  /// Starts a subroutine: its arguments are in #1 to #30. leave() restores the caller's values.
   void enter(std::span<const double> arguments);
   void leave();
 
  private:
   using Names = std::unordered_map<std::string, double>;
   struct Frame {
-    std::array<double, kArguments> kept{};
+    std::array<double, kArguments> caller{};  // values of #1 to #30
     Names names;
   };
   const SystemValues& system_;
@@ -60,7 +61,7 @@ class Parameters {
   std::vector<Frame> frames_;
 };
 
-/// A name in small letters without blanks: "Cut Depth" is "cutdepth".
+/// A name in lower case without blanks: "Cut Depth" is "cutdepth".
 std::string normal_name(std::string_view text);
 
 }  // namespace kerf::gcode

@@ -1,4 +1,4 @@
-// Comments that mean something: tools, the stock, messages for the operator.
+// Comments with an effect: tools, stock, bead sizes, messages for the operator.
 #include <fmt/format.h>
 #include <string>
 
@@ -15,8 +15,8 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// True if `text` begins with `word` (upper case) in any case.
-bool begins_with(std::string_view text, std::string_view word) {
+/// Case-insensitive; `word` is in capitals.
+bool starts_with(std::string_view text, std::string_view word) {
   if (text.size() < word.size()) return false;
   for (std::size_t i = 0; i < word.size(); ++i) {
     const char c = text[i] >= 'a' && text[i] <= 'z' ? static_cast<char>(text[i] - 'a' + 'A') : text[i];
@@ -25,66 +25,66 @@ bool begins_with(std::string_view text, std::string_view word) {
   return true;
 }
 
-constexpr std::size_t kLongestComment = 1000;  // bytes of a comment that can describe something
+constexpr std::size_t kMaxCommentBytes = 1000;  // longer ones are skipped
 
-constexpr std::size_t kMostWaiting = 1000;  // remarks before the units are known
+constexpr std::size_t kMaxPendingTools = 1000;  // before the units are known
 
 }  // namespace
 
 void Interpreter::read_comment(const Comment& comment) {
   const std::string_view text = trimmed(comment.text);
-  if (text.size() > kLongestComment) return;
+  if (text.size() > kMaxCommentBytes) return;
   if (is_printer()) {
-    if (const auto bead = read_bead_remark(text)) {
-      (bead->measure == BeadMeasure::width ? bead_width_ : bead_height_) = bead->mm;
+    if (const auto size = read_bead_size(text)) {
+      (size->measure == BeadMeasure::width ? bead_width_ : bead_height_) = size->mm;
       return;
     }
   }
-  if (begins_with(text, "MSG")) {
+  if (starts_with(text, "MSG")) {
     const std::string_view rest = trimmed(text.substr(3));
     if (rest.empty() || rest.front() != ',') return;
-    origin_line_ = talker_.line();
+    origin_line_ = reporter_.line();
     origin_ = path_.origins().text(file_, origin_line_, comment.column);
     add(step::Note{std::string(trimmed(rest.substr(1)))});
     return;
   }
-  if (begins_with(text, "STOCK")) {
-    stock_.read(text, modes_.scale, talker_.spot(comment.column), talker_.diagnostics());
+  if (starts_with(text, "STOCK")) {
+    stock_.read(text, modes_.scale, reporter_.location(comment.column), reporter_.diagnostics());
     return;
   }
-  if (read_tool_remark(text, talker_.spot(comment.column))) return;
-  tool_comments_.read(text, modes_.scale, talker_.spot(comment.column), talker_.diagnostics());
+  if (take_cam_tool(text, reporter_.location(comment.column))) return;
+  tool_comments_.read(text, modes_.scale, reporter_.location(comment.column), reporter_.diagnostics());
 }
 
-/// True for a remark that tells a tool. Those of a program's head wait until its units are known.
-bool Interpreter::read_tool_remark(std::string_view text, const TextSpot& where) {
-  if (text.size() < 5 || !read_remark(text, modes_.scale)) return false;
-  if (units_told_ || moved_) {
-    use_tool_remark(text, where);
-  } else if (waiting_remarks_.size() < kMostWaiting) {
-    waiting_remarks_.emplace_back(std::string(text), where);
+/// True for a tool comment of a CAM program. Those in the header are kept until the units are known.
+bool Interpreter::take_cam_tool(std::string_view text, const TextSpot& where) {
+  if (text.size() < 5 || !read_cam_tool(text, modes_.scale)) return false;
+  if (units_given_ || moved_) {
+    use_cam_tool(text, where);
+  } else if (pending_tools_.size() < kMaxPendingTools) {
+    pending_tools_.emplace_back(std::string(text), where);
   }
   return true;
 }
 
-void Interpreter::use_waiting_remarks() {
-  for (const auto& [text, where] : waiting_remarks_) use_tool_remark(text, where);
-  waiting_remarks_.clear();
+void Interpreter::use_pending_tools() {
+  for (const auto& [text, where] : pending_tools_) use_cam_tool(text, where);
+  pending_tools_.clear();
 }
 
-/// A remark counts where no comment that is meant for programs describes the tool. Without a number it is
-/// the tool of a program that changes none: number 0.
-void Interpreter::use_tool_remark(std::string_view text, const TextSpot& where) {
-  const std::optional<ToolRemark> remark = read_remark(text, modes_.scale);
-  const int number = remark ? remark->number.value_or(0) : 0;
-  if (!remark || program_.tools.count(number) != 0) return;
-  tool_comments_.describe(number, remark->shape, where, talker_.diagnostics());
+/// TOOL/... comments (kerf/tool_comments.h) have precedence. A comment without a number describes
+/// tool 0, the tool of a program without tool changes.
+void Interpreter::use_cam_tool(std::string_view text, const TextSpot& where) {
+  const std::optional<CamTool> described = read_cam_tool(text, modes_.scale);
+  const int number = described ? described->number.value_or(0) : 0;
+  if (!described || program_.tools.count(number) != 0) return;
+  tool_comments_.describe(number, described->shape, where, reporter_.diagnostics());
   const auto tool = program_.tools.find(number);
   if (tool == program_.tools.end()) return;
   tool->second.description = std::string(text);
-  talker_.diagnostics().note(Code::tool_from_remark, where,
-                             fmt::format("tool {} was taken from this remark: {}, diameter {:g} mm", number,
-                                         name_of(tool->second.shape), tool->second.diameter.mm()));
+  reporter_.diagnostics().note(Code::tool_from_remark, where,
+                               fmt::format("tool {} from this comment: {}, diameter {:g} mm", number,
+                                           name_of(tool->second.shape), tool->second.diameter.mm()));
 }
 
 }  // namespace kerf::gcode

@@ -1,8 +1,8 @@
-// G40 to G42: moves while the tool's radius is compensated.
+// G40 to G42: motions with cutter compensation.
 //
-// The controller goes on to count in the places that the program tells (here_); the steps lead the tool's
-// axis beside them. Where a move ends may change once more with the next one, at an inside corner: then the
-// steps since the last move in the plane are led to the new place.
+// position_ remains the programmed position; the steps are those of the tool axis, offset from it. At an
+// inside corner the next motion changes the end point of the last one: then all steps since the last motion
+// in the plane get the new end point.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@ Point2 Interpreter::in_plane(Point3 p) const {
   return {p[axes.u], p[axes.v]};
 }
 
-Point3 Interpreter::moved_in_plane(Point3 p, Point2 to) const {
+Point3 Interpreter::with_plane_position(Point3 p, Point2 to) const {
   const PlaneAxes axes = axes_of(modes_.plane);
   p[axes.u] = to.x;
   p[axes.v] = to.y;
@@ -27,19 +27,19 @@ void Interpreter::set_compensation() {
   const std::optional<double> number = line_.take('D');
   if (code == 400) return end_compensation();
   if (compensation_.cutter)
-    talker_.unusual(Code::compensation_refused, line_.column(Group::compensation),
-                    "cutter compensation is on already; LinuxCNC wants a G40 before it is set anew");
+    reporter_.unusual(Code::compensation_refused, line_.column(Group::compensation),
+                      "cutter compensation is already on; LinuxCNC requires a G40 before it is set again");
   if (modes_.plane == Plane::yz) {
-    talker_.error(Code::compensation_refused, line_.column(Group::compensation),
-                  "cutter compensation goes with the XY and the XZ plane; it is left out");
+    reporter_.error(Code::compensation_refused, line_.column(Group::compensation),
+                    "cutter compensation is possible in the XY and XZ planes only; skipped");
     return;
   }
   const std::optional<double> diameter =
-      code == 411 || code == 421 ? told_diameter(number) : diameter_for_compensation(number);
+      code == 411 || code == 421 ? given_diameter(number) : diameter_for_compensation(number);
   if (!diameter) return;
   double to_left = (code < 420 ? 0.5 : -0.5) * *diameter;
   const PlaneAxes axes = axes_of(modes_.plane);
-  if (placement_.scale[axes.u] * placement_.scale[axes.v] < 0.0) to_left = -to_left;
+  if (frame_.scale[axes.u] * frame_.scale[axes.v] < 0.0) to_left = -to_left;
   const bool entered = compensation_.cutter && compensation_.cutter->entered();
   if (!entered) compensation_ = {};
   if (to_left == 0.0)
@@ -47,23 +47,23 @@ void Interpreter::set_compensation() {
   else if (entered)
     compensation_.cutter->change(to_left);
   else
-    compensation_.cutter.emplace(to_left, kFarthest);
+    compensation_.cutter.emplace(to_left, kMaxCoordinate);
 }
 
 /// G41.1 and G42.1: D is the diameter itself.
-std::optional<double> Interpreter::told_diameter(std::optional<double> number) {
+std::optional<double> Interpreter::given_diameter(std::optional<double> number) {
   if (number) return *number * modes_.scale;
-  talker_.error(
+  reporter_.error(
       Code::word_missing, line_.column(Group::compensation),
-      fmt::format("{} needs D, the tool's diameter", code_text('G', line_.code(Group::compensation))));
+      fmt::format("{} needs D, the tool diameter", code_text('G', line_.code(Group::compensation))));
   return std::nullopt;
 }
 
-/// G41 and G42: D is the number of the tool whose diameter counts; without it, the tool in the spindle.
+/// G41 and G42: D is the number of the tool whose diameter is used; without D, the tool in the spindle.
 std::optional<double> Interpreter::diameter_for_compensation(std::optional<double> number) {
   const bool whole = !number || (*number == std::floor(*number) && *number >= 0.0 && *number < 1e9);
   if (!whole) {
-    talker_.error(Code::word_out_of_range, line_.column('D'), "D is a tool's number, whole and from 0");
+    reporter_.error(Code::word_out_of_range, line_.column('D'), "D is a tool number, a whole number from 0");
     return std::nullopt;
   }
   if (number == 0.0) return 0.0;
@@ -71,24 +71,25 @@ std::optional<double> Interpreter::diameter_for_compensation(std::optional<doubl
   const std::optional<double> diameter = tool ? diameter_of(*tool) : std::nullopt;
   if (diameter) return diameter;
   const std::string which =
-      tool ? fmt::format("tool {}", *tool) : "the tool, no tool change stands before it";
-  talker_.error(
+      tool ? fmt::format("tool {}", *tool) : "the tool, but there is no tool change before it";
+  reporter_.error(
       Code::compensation_no_tool, line_.column(Group::compensation),
-      fmt::format("cutter compensation needs the diameter of {}; the path is left as it is told", which),
-      tool ? fmt::format("tell it, e.g. --tool {}=\"square d=6\", or use G41.1 D6", *tool)
-           : std::string("write M6 T... before it, or use G41.1 D6"));
+      fmt::format("cutter compensation needs the diameter of {}; the path is not compensated", which),
+      tool ? fmt::format("specify one, e.g. --tool {}=\"square d=6\", or use G41.1 D6", *tool)
+           : std::string("put M6 T... before it, or use G41.1 D6"));
   return std::nullopt;
 }
 
 void Interpreter::end_compensation() {
   const bool leaves = compensation_.cutter && compensation_.cutter->entered();
-  if (leaves && !compensation_.cutter->ends_forward()) tell_gouge();
+  if (leaves && !compensation_.cutter->ends_forward()) report_gouge();
   compensation_ = {};
   compensation_.leaving = leaves;
 }
 
-/// Codes that LinuxCNC refuses while compensation is on, because the program's place and the tool's differ.
-void Interpreter::guard_compensation() {
+/// LinuxCNC refuses these codes while compensation is on, because the programmed position is not that of the
+/// tool.
+void Interpreter::end_compensation_for_refused_codes() {
   if (!compensation_.cutter) return;
   constexpr Group kRefused[] = {Group::coordinates, Group::reference, Group::machine_coordinates,
                                 Group::scaling,     Group::rotation,  Group::tool_change,
@@ -104,98 +105,99 @@ void Interpreter::guard_compensation() {
 }
 
 void Interpreter::refuse_compensated(std::string_view what, std::uint32_t column) {
-  talker_.error(Code::compensation_refused, column,
-                fmt::format("{} cannot stand while cutter compensation is on, which ends here", what),
-                "put a G40 and a move away from the part before it");
+  reporter_.error(
+      Code::compensation_refused, column,
+      fmt::format("{} is not allowed while cutter compensation is on; compensation ends here", what),
+      "put a G40 and a motion away from the part before it");
   end_compensation();
 }
 
-/// A straight move with compensation.
-void Interpreter::compensated_line(const Place& to, MoveKind kind, double feed) {
-  const LineArc line = line_between(in_plane(here_.at), in_plane(to.at));
-  if (!(distance(line.from, line.to) > kNoWay)) return along_third_axis(to, kind, feed);
+/// A straight motion with compensation.
+void Interpreter::compensated_line(const ToolPosition& to, MotionKind kind, double feed) {
+  const LineArc line = line_between(in_plane(position_.at), in_plane(to.at));
+  if (!(distance(line.from, line.to) > kMinPlaneMotion)) return along_third_axis(to, kind, feed);
   const CompensatedElement made = *compensation_.cutter->add(line);
   if (made.short_entry)
-    talker_.error(
+    reporter_.error(
         Code::compensation_entry, line_.column(),
-        fmt::format("the first move of a cutter compensation must be longer than the tool's radius; "
+        fmt::format("the first motion with cutter compensation must be longer than the tool radius; "
                     "{:.4g} mm is not more than {:.4g} mm",
                     distance(line.from, line.to), compensation_.cutter->radius()),
         "start farther away from the part");
-  if (!follow(made, kind, feed)) return;
-  add_compensated(moved_in_plane(to.at, made.axis.to), to, kind, feed);
+  if (!add_corner(made, kind, feed)) return;
+  add_compensated(with_plane_position(to.at, made.axis.to), to, kind, feed);
   compensation_.last_step = path_.size() - 1;
 }
 
-/// The tool stays where it is beside the program's path.
-void Interpreter::along_third_axis(const Place& to, MoveKind kind, double feed) {
+/// A motion without a component in the plane: the tool keeps its offset from the programmed path.
+void Interpreter::along_third_axis(const ToolPosition& to, MotionKind kind, double feed) {
   const CutterCompensation& cutter = *compensation_.cutter;
   if (!cutter.entered())
-    talker_.unusual(
+    reporter_.unusual(
         Code::compensation_entry, line_.column(),
-        "LinuxCNC wants a move in the plane to begin a cutter compensation; this one is left as it is");
-  const Point3 at = cutter.entered() ? moved_in_plane(to.at, cutter.tool()) : to.at;
+        "LinuxCNC requires a motion in the plane to start cutter compensation; this one is not compensated");
+  const Point3 at = cutter.entered() ? with_plane_position(to.at, cutter.tool()) : to.at;
   add_compensated(at, to, kind, feed);
 }
 
-/// Moves the end of the last element and adds the arc about an outside corner. False where no more steps are
-/// taken.
-bool Interpreter::follow(const CompensatedElement& made, MoveKind kind, double feed) {
-  if (made.gouges) tell_gouge();
+/// Moves the end of the last element and adds the arc around an outside corner. False at the limit of steps.
+bool Interpreter::add_corner(const CompensatedElement& made, MotionKind kind, double feed) {
+  if (made.gouges) report_gouge();
   if (made.previous_end)
     for (std::size_t i = compensation_.last_step; i < path_.size(); ++i)
-      if (path_[i].is_motion()) path_.set_end(i, moved_in_plane(path_[i].to(), *made.previous_end));
+      if (path_[i].is_motion()) path_.set_end(i, with_plane_position(path_[i].to(), *made.previous_end));
   if (!made.corner) return true;
-  Place at = here_;
-  at.at = moved_in_plane(here_.at, made.corner->to);
+  ToolPosition at = position_;
+  at.at = with_plane_position(position_.at, made.corner->to);
   const Point2 corner = made.corner->circle_centre();
   const Turn turn = made.corner->turn > 0.0 ? Turn::ccw : Turn::cw;
-  const bool added = kind == MoveKind::rapid ? add(step::Rapid{at.at})
-                                             : add(step::Arc{at.at, in_name_order(modes_.plane, corner),
-                                                             modes_.plane, turn, 0, mm_per_min(feed)});
+  const bool added = kind == MotionKind::rapid ? add(step::Rapid{at.at})
+                                               : add(step::Arc{at.at, in_name_order(modes_.plane, corner),
+                                                               modes_.plane, turn, 0, mm_per_min(feed)});
   if (!added) return false;
-  const Point3 programmed = here_.at;
+  const Point3 programmed = position_.at;
   arrive(at);
-  here_.at = programmed;
+  position_.at = programmed;
   return true;
 }
 
-void Interpreter::tell_gouge() {
-  talker_.error(Code::compensation_gouge, line_.column(),
-                fmt::format("a tool of radius {:.4g} mm does not fit into the inside corner before this line "
-                            "without cutting into the part",
-                            compensation_.cutter->radius()),
-                "use a thinner tool, or round the corner in the program");
+void Interpreter::report_gouge() {
+  reporter_.error(
+      Code::compensation_gouge, line_.column(),
+      fmt::format("a tool of radius {:.4g} mm does not fit into the inside corner before this line "
+                  "without cutting into the part",
+                  compensation_.cutter->radius()),
+      "use a smaller tool, or round the corner in the program");
 }
 
 /// An arc with compensation.
-void Interpreter::compensated_arc(const Place& to, Point2 centre, Turn turn, int extra, Feed feed) {
+void Interpreter::compensated_arc(const ToolPosition& to, Point2 centre, Turn turn, int extra, Feed feed) {
   const LineArc arc =
-      arc_about(in_name_order(modes_.plane, centre), in_plane(here_.at), in_plane(to.at), turn);
+      arc_about(in_name_order(modes_.plane, centre), in_plane(position_.at), in_plane(to.at), turn);
   CutterCompensation& cutter = *compensation_.cutter;
   const bool entry = !cutter.entered();
   const std::optional<CompensatedElement> made = cutter.add(arc);
   if (!made) {
-    talker_.error(
+    reporter_.error(
         entry ? Code::compensation_entry : Code::compensation_gouge, line_.column(),
         fmt::format("{} {:.4g} mm is too small for a tool of radius {:.4g} mm; read as a straight cut",
-                    entry ? "an arc that starts a cutter compensation with a radius of"
-                          : "an arc that is cut from inside with a radius of",
+                    entry ? "an arc at the start of cutter compensation with a radius of"
+                          : "an inside arc with a radius of",
                     arc.radius, cutter.radius()));
-    return compensated_line(to, MoveKind::cut, feed.mm_per_min());
+    return compensated_line(to, MotionKind::cut, feed.mm_per_min());
   }
-  if (!follow(*made, MoveKind::cut, feed.mm_per_min())) return;
+  if (!add_corner(*made, MotionKind::cut, feed.mm_per_min())) return;
   const Point2 about = in_name_order(modes_.plane, made->axis.circle_centre());
-  const Point3 end = moved_in_plane(to.at, made->axis.to);
+  const Point3 end = with_plane_position(to.at, made->axis.to);
   if (!reachable(end) || !reachable({about.x, about.y, 0.0})) return;
   if (!add(step::Arc{end, about, modes_.plane, turn, extra, feed})) return;
   arrive(to);
   compensation_.last_step = path_.size() - 1;
 }
 
-void Interpreter::add_compensated(Point3 at, const Place& to, MoveKind kind, double feed) {
+void Interpreter::add_compensated(Point3 at, const ToolPosition& to, MotionKind kind, double feed) {
   if (!reachable(at)) return;
-  const bool added = kind == MoveKind::rapid ? add(step::Rapid{at}) : add(step::Cut{at, mm_per_min(feed)});
+  const bool added = kind == MotionKind::rapid ? add(step::Rapid{at}) : add(step::Cut{at, mm_per_min(feed)});
   if (added) arrive(to);
 }
 

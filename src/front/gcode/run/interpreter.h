@@ -1,7 +1,7 @@
-// What the words mean: the modal state of a controller, and the steps that a line makes in that state.
+// The interpreter: the modal state of a controller, and the steps that each line adds in that state.
 //
-// The order in which a line's words take effect, and what each does, is that of LinuxCNC's interpreter; where
-// it refuses a line that other controllers read, the line is read as those do and the difference is reported.
+// Words take effect in the order of LinuxCNC's interpreter and as it defines them. A line that LinuxCNC
+// refuses but other controllers read is read as by those, with a diagnostic.
 #pragma once
 
 #include <array>
@@ -31,30 +31,31 @@
 namespace kerf::gcode {
 
 inline constexpr unsigned kAllAxes = 7;
-inline constexpr double kNoWay = 1e-9;                // mm; a move of less is none in its plane
-inline constexpr int kHome28 = 5161, kHome30 = 5181;  // first of the parameters that keep the homes
+inline constexpr double kMinPlaneMotion = 1e-9;       // mm; a shorter distance is no motion in the plane
+inline constexpr int kHome28 = 5161, kHome30 = 5181;  // first of the parameters that store the homes
 inline constexpr std::uint32_t kAllLetters = (1u << 26) - 1;
-inline constexpr Tenths kNoMotion = 800;      // G80
-inline constexpr Tenths kMotionNotSaid = -1;  // before the first motion code
-inline constexpr Tenths kMotionNotRead = -2;  // after one that is not supported
+inline constexpr Tenths kNoMotion = 800;          // G80
+inline constexpr Tenths kMotionNotGiven = -1;     // before the first motion code
+inline constexpr Tenths kMotionUnsupported = -2;  // after one that is not supported
 
-/// A place with its unknown axes (Step::unknown_axes).
-struct Place {
+/// A position with its unknown axes (Step::unknown_axes).
+struct ToolPosition {
   Point3 at;  // mm
   unsigned unknown = kAllAxes;
-  Reference reference = Reference::work;  // what the axes of reference_axes were told in on this line
+  Reference reference = Reference::work;  // of reference_axes, which this line sets
   unsigned reference_axes = 0;
 };
 
-inline constexpr double kFarthest = 1e7;  // mm; 10 km
-/// Whether a place is one that a program may mean.
-inline bool is_near(Point3 p) {
-  return std::abs(p.x) <= kFarthest && std::abs(p.y) <= kFarthest && std::abs(p.z) <= kFarthest;
+inline constexpr double kMaxCoordinate = 1e7;  // mm; 10 km
+/// Whether the absolute values of all coordinates are <= kMaxCoordinate.
+inline bool within_limit(Point3 p) {
+  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+         std::abs(p.z) <= kMaxCoordinate;
 }
 
-/// What a controller remembers from line to line.
+/// Modal state.
 struct Modes {
-  Tenths motion = kMotionNotSaid;
+  Tenths motion = kMotionNotGiven;
   Plane plane = Plane::xy;
   bool absolute = true;
   bool absolute_centres = false;
@@ -65,94 +66,94 @@ struct Modes {
   SpindleTurn spindle = SpindleTurn::off;
   bool mist = false, flood = false;
   double surface_speed = 0.0;     // m/min of G96; 0: the speed is in rpm
-  bool speed_told = false;        // an S word was read
+  bool speed_given = false;       // an S word was read
   bool retract_to_start = false;  // G98
   bool diameters = false;         // G7: X words are diameters
   int system = 1;                 // 1 to 9: G54 to G59.3
   std::optional<int> selected_tool, tool;
 };
 
-/// How the program's coordinates lie in the toolpath's: turned about zero, then shifted.
-struct Placement {
-  Point3 shift;       // mm
-  double turn = 0.0;  // degrees, in XY
+/// Transformation from program coordinates to those of the toolpath: scaled, rotated about zero, shifted.
+struct ProgramFrame {
+  Point3 shift;           // mm
+  double rotation = 0.0;  // degrees, in XY
   double cosine = 1.0, sine = 0.0;
   Point3 scale{1.0, 1.0, 1.0};  // G51, about `scale_zero` in program coordinates
   Point3 scale_zero;
-  bool plain = true;  // only shifted
+  bool only_shifted = true;
 
   Point3 to_path(Point3 program) const;
   Point3 to_program(Point3 path) const;
 };
 
-/// What M70 and M73 keep.
-struct KeptModes {
+/// Modes stored by M70 and M73.
+struct SavedModes {
   Modes modes;
-  bool automatic = false;  // M73: put back when the subroutine ends
+  bool automatic = false;  // M73: restored at the end of the subroutine
 };
 
-/// What canned cycles keep from hole to hole. R and Z as the program gave them, in mm; the rest in mm and
+/// Words of a canned cycle, in force until its end. R and Z as in the program, in mm; the rest in mm and
 /// seconds.
-struct CycleMemory {
-  Tenths motion = kNoMotion;  // the cycle these belong to
+struct CycleWords {
+  Tenths motion = kNoMotion;  // the cycle of these words
   std::optional<double> r, bottom, dwell, peck;
   std::optional<double> aside_u, aside_v, back_level;  // I J K of a back boring cycle
-  std::optional<double> start_level;                   // before the series of cycles
+  std::optional<double> start_level;                   // before the first of consecutive cycles
 };
 
-/// What G41 and G42 keep. Points lie in the plane's right-handed frame.
+/// State of G41 and G42. Points are in the plane's right-handed frame.
 struct Compensation {
   std::optional<CutterCompensation> cutter;  // while it is on
-  bool leaving = false;                      // G40 was read, and the tool has not come back to the path
-  std::size_t last_step = 0;                 // that makes the last element
+  bool leaving = false;                      // after G40, until the tool is back on the programmed path
+  std::size_t last_step = 0;                 // the first step of the last element
 };
 
-enum class MoveKind : std::uint8_t { rapid, cut };
+enum class MotionKind : std::uint8_t { rapid, cut };
 
 class Interpreter : public SystemValues {
  public:
-  Interpreter(GcodeProgram& program, std::string_view text, const GcodeReadOptions& options, Talker& talker);
+  Interpreter(GcodeProgram& program, std::string_view text, const GcodeReadOptions& options,
+              LineReporter& reporter);
 
   Parameters& parameters() { return parameters_; }
-  /// Which texts and lines follow each other; needed before the first run().
-  void follow(Flow& flow) { flow_ = &flow; }
+  /// Must be set before the first run().
+  void set_flow(Flow& flow) { flow_ = &flow; }
   std::optional<double> system_number(int number) const override;
   std::optional<double> system_name(std::string_view name) const override;
   double unit_of(int number) const override;
 
-  /// Carries out one line.
+  /// Executes one line.
   void run(const Block& block);
-  /// The short way for the lines that long programs are made of: reads on while the lines hold nothing but G0
-  /// or G1, axis words and F, at most `limit` of them, and gives their number. What is not surely such a line
-  /// is left to run(), which does the same with it.
-  std::size_t run_plain_lines(BlockReader& reader, std::size_t limit);
-  /// To be called after the last line.
+  /// Fast path: executes lines of nothing but G0 or G1, axis words and F, at most `limit` of them, with the
+  /// same result as run(). Stops before any other line. Returns the number of lines.
+  std::size_t run_simple_lines(BlockReader& reader, std::size_t limit);
+  /// Must be called after the last line.
   void finish();
-  /// True once nothing more is to be read: the program has ended, or the limit of steps is reached.
+  /// True after the end of the program, or at the limit of steps.
   bool done() const { return full_ || stopped_; }
 
  private:
   // interpreter.cpp
-  bool goes_on(const Block& block);
+  bool reads_after_end(const Block& block);
   void read_percent();
-  void tell_silent_spindle();
+  void report_missing_speed();
   void execute();
 
-  void look_where_we_are();
+  void follow_calls();
   bool is_printer() const {
     return program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
   }
   bool printer_line();
 
   // simple_lines.cpp
-  bool takes_plain_lines() const;
-  bool run_plain_line(std::string_view text, std::uint32_t number);
+  bool accepts_simple_lines() const;
+  bool run_simple_line(std::string_view text, std::uint32_t number);
 
   // comment_effects.cpp
   void read_comment(const Comment& comment);
-  bool read_tool_remark(std::string_view text, const TextSpot& where);
-  void use_waiting_remarks();
-  void use_tool_remark(std::string_view text, const TextSpot& where);
+  bool take_cam_tool(std::string_view text, const TextSpot& where);
+  void use_pending_tools();
+  void use_cam_tool(std::string_view text, const TextSpot& where);
 
   // settings.cpp
   void set_feed_mode();
@@ -161,10 +162,10 @@ class Interpreter : public SystemValues {
   void set_speed();
   void select_tool();
   void change_tool();
-  void turn_spindle();
+  void switch_spindle();
   void switch_coolant();
   void dwell();
-  void tell_long_dwell(double time, char letter);
+  void report_long_dwell(double time, char letter);
   void set_plane();
   void set_path_mode();
   void set_distance();
@@ -173,29 +174,29 @@ class Interpreter : public SystemValues {
   void end_program();
   void set_spindle_mode();
   void subroutine();
-  void keep_modes();
+  void save_modes();
   void restore_modes(const Modes& modes);
-  void beam();
+  void set_beam();
   void read_large_m_code();
 
   // work_offsets.cpp
   void use_coordinates();
-  void leave_system();
-  void tell_unknown_offset(int system);
+  void check_system_offsets();
+  void report_unknown_offset(int system);
   void set_data();
   void set_system(int system);
   void touch_off(int system);
   void set_tool_data(int tool);
   void shift_locally();
   void scale_program();
-  void turn_program();
-  void refresh_placement();
+  void rotate_program();
+  void update_frame();
   double system_offset(int axis) const;
-  void set_home(int first, Place& home);
+  void set_home(int first, ToolPosition& home);
 
   // system_parameters.cpp
   Point3 program_position() const;
-  std::optional<double> system_place(std::string_view name) const;
+  std::optional<double> position_parameter(std::string_view name) const;
   std::optional<double> diameter_of(int tool) const;
 
   // printer.cpp
@@ -205,8 +206,8 @@ class Interpreter : public SystemValues {
   void set_filament(std::string_view text);
   void set_volumetric();
   bool filament_is_relative() const;
-  void extrude(const Place& to, double feed);
-  void extrude_arc(const ArcWalk& walk, const Place& to, Feed feed);
+  void extrude(const ToolPosition& to, double feed);
+  void extrude_arc(const ArcWalk& walk, const ToolPosition& to, Feed feed);
 
   // splines.cpp
   void curve(Tenths motion);
@@ -219,59 +220,59 @@ class Interpreter : public SystemValues {
 
   // compensation.cpp
   Point2 in_plane(Point3 p) const;
-  Point3 moved_in_plane(Point3 p, Point2 to) const;
+  Point3 with_plane_position(Point3 p, Point2 to) const;
   void set_compensation();
-  std::optional<double> told_diameter(std::optional<double> number);
+  std::optional<double> given_diameter(std::optional<double> number);
   std::optional<double> diameter_for_compensation(std::optional<double> number);
   void end_compensation();
-  void guard_compensation();
+  void end_compensation_for_refused_codes();
   void refuse_compensated(std::string_view what, std::uint32_t column);
-  void compensated_line(const Place& to, MoveKind kind, double feed);
-  void along_third_axis(const Place& to, MoveKind kind, double feed);
-  bool follow(const CompensatedElement& made, MoveKind kind, double feed);
-  void tell_gouge();
-  void compensated_arc(const Place& to, Point2 centre, Turn turn, int extra, Feed feed);
-  void add_compensated(Point3 at, const Place& to, MoveKind kind, double feed);
+  void compensated_line(const ToolPosition& to, MotionKind kind, double feed);
+  void along_third_axis(const ToolPosition& to, MotionKind kind, double feed);
+  bool add_corner(const CompensatedElement& made, MotionKind kind, double feed);
+  void report_gouge();
+  void compensated_arc(const ToolPosition& to, Point2 centre, Turn turn, int extra, Feed feed);
+  void add_compensated(Point3 at, const ToolPosition& to, MotionKind kind, double feed);
 
   // thread_cycles.cpp
-  void spindle_move(Tenths motion);
+  void spindle_motion(Tenths motion);
   struct Thread;
   Thread take_thread_words();
-  void thread_pass(const Thread& thread, const Place& start, double end_z, double depth);
+  void thread_pass(const Thread& thread, const ToolPosition& start, double end_z, double depth);
   void thread_cycle();
 
   // motion.cpp
-  void move();
-  void move_in(Tenths motion);
+  void run_line_motion();
+  void run_motion(Tenths motion);
   void straight(Tenths motion);
   void probe(Tenths motion);
   void use_reference();
-  void go_home(const Place& home, Reference reference);
-  void note_rest();
+  void go_home(const ToolPosition& home, Reference reference);
+  void note_stop();
   void shift_zero();
-  std::optional<Place> target();
-  Place placed_target();
+  std::optional<ToolPosition> target();
+  ToolPosition target_in_frame();
   void polar();
-  std::optional<Place> machine_target();
+  std::optional<ToolPosition> machine_target();
   bool reachable(Point3 p);
   double feed_for(double length);
-  double straight_length(const Place& to) const;
+  double straight_length(const ToolPosition& to) const;
 
   // arcs.cpp
   void arc(Turn turn);
-  std::optional<Point2> centre_of(const Place& to, Turn turn);
+  std::optional<Point2> centre_of(const ToolPosition& to, Turn turn);
   std::optional<Point2> centre_from_offsets();
-  Point2 turned_offset(Point2 offset) const;
-  std::optional<Point2> centre_from_radius(const Place& to, Turn turn);
-  bool radii_agree(const Place& to, Point2 centre);
-  bool leaves_compensation();
+  Point2 rotated_offset(Point2 offset) const;
+  std::optional<Point2> centre_from_radius(const ToolPosition& to, Turn turn);
+  bool radii_agree(const ToolPosition& to, Point2 centre);
+  bool refuse_arc_after_compensation();
   int extra_turns();
 
   // canned_cycles.cpp
   class CycleSink;
   void cycle(Tenths motion);
   bool take_cycle_words(Tenths motion);
-  std::optional<DrillCycle> plan_cycle(Tenths motion, Place& place);
+  std::optional<DrillCycle> plan_cycle(Tenths motion, ToolPosition& target_position);
   void plan_back_bore(DrillCycle& cycle) const;
   int repeats();
   int reachable_holes(const DrillCycle& cycle, int holes);
@@ -282,15 +283,15 @@ class Interpreter : public SystemValues {
   OriginId origin();
   template <class S>
   bool add(const S& step);
-  void rapid(const Place& to);
-  void cut(const Place& to, double feed);
-  void arrive(const Place& to);
-  void spin(SpindleTurn turn);
+  void rapid(const ToolPosition& to);
+  void cut(const ToolPosition& to, double feed);
+  void arrive(const ToolPosition& to);
+  void set_spindle(SpindleTurn turn);
 
   GcodeProgram& program_;
   Toolpath& path_;
   ToolComments tool_comments_;
-  Talker& talker_;
+  LineReporter& reporter_;
   const GcodeReadOptions& options_;
   Parameters parameters_;
   Flow* flow_ = nullptr;
@@ -299,52 +300,52 @@ class Interpreter : public SystemValues {
   std::size_t max_steps_;
   AfterEnd after_end_;
   std::uint32_t file_;
-  Line line_;
-  std::uint32_t origin_line_ = 0;  // the line that origin_ belongs to
+  LineWords line_;
+  std::uint32_t origin_line_ = 0;  // the line of origin_
   OriginId origin_ = OriginId::none;
   bool full_ = false;
-  bool stopped_ = false;  // there is text after the program's end, which is not to be read
+  bool stopped_ = false;  // at text after the program's end (AfterEnd::stop)
 
   Modes modes_;
-  Place here_;
+  ToolPosition position_;
   std::array<double, 3> rotary_{};  // degrees
   bool rotary_used_ = false;
-  Placement placement_;
-  std::size_t system_from_ = 0;                       // the first step made in the coordinate system in force
-  TextSpot system_spot_;                              // where that was chosen
-  std::uint32_t systems_used_ = 0, systems_set_ = 0;  // bit n: moved in; told by G10
+  ProgramFrame frame_;
+  std::size_t system_from_ = 0;                       // the first step in the current coordinate system
+  TextSpot system_location_;                          // of the word that selected it
+  std::uint32_t systems_used_ = 0, systems_set_ = 0;  // bit n: system n has motions; was set by G10
   Point3 local_shift_;                                // by G92 and G52, mm
-  Point3 kept_local_shift_;                           // what G92.2 put aside
-  double program_turn_ = 0.0;                         // G68, degrees
-  Point3 program_turn_about_;                         // program coordinates, mm
+  Point3 kept_local_shift_;                           // stored by G92.2
+  double program_rotation_ = 0.0;                     // G68, degrees
+  Point3 program_rotation_centre_;                    // program coordinates, mm
   Tenths work_offset_ = 540;
-  bool rests_ = false;  // the next motion begins at rest: a zero was shifted
-  Place home_28_, home_30_;
-  std::vector<std::optional<KeptModes>> kept_modes_{1};  // one a subroutine's level
-  std::map<int, double> tool_diameters_;                 // mm, by G10 L1
-  std::vector<Point2> control_points_;                   // of G5.2
+  bool starts_at_rest_ = false;  // the next motion starts at rest: a zero was shifted
+  ToolPosition home_28_, home_30_;
+  std::vector<std::optional<SavedModes>> saved_modes_{1};  // one per call level
+  std::map<int, double> tool_diameters_;                   // mm, by G10 L1
+  std::vector<Point2> control_points_;                     // of G5.2
   std::vector<double> control_weights_;
   int curve_order_ = 0;
-  std::optional<Point2> last_curve_handle_;  // of G5: second control point, from the end
+  std::optional<Point2> last_control_point_;  // of G5: second control point, relative to the end
   LaserMode beam_mode_ = LaserMode::off;
   double beam_power_ = 0.0;
-  double filament_ = 0.0;           // E position, mm (mm3 where E tells volumes)
+  double filament_ = 0.0;           // E position, mm (mm3 after M200)
   double filament_diameter_ = 0.0;  // mm
   bool filament_relative_ = false;
-  bool volumetric_ = false;                      // M200: E tells volumes
-  double bead_width_ = 0.0, bead_height_ = 0.0;  // mm, as remarks tell; 0: not told
-  CycleMemory cycle_;
+  bool volumetric_ = false;                      // M200: E is a volume
+  double bead_width_ = 0.0, bead_height_ = 0.0;  // mm, of comments; 0: unknown
+  CycleWords cycle_;
   Compensation compensation_;
 
   StockComments stock_;
-  std::vector<std::pair<std::string, TextSpot>> waiting_remarks_;
-  std::optional<std::pair<Tenths, TextSpot>> silent_spindle_;  // the first M3 or M4 with no S word so far
-  bool units_told_ = false;
+  std::vector<std::pair<std::string, TextSpot>> pending_tools_;
+  std::optional<std::pair<Tenths, TextSpot>> spindle_without_speed_;  // first M3 or M4 before any S word
+  bool units_given_ = false;
   bool moved_ = false;
-  bool no_feed_said_ = false;
-  bool offset_said_ = false;
-  bool long_dwell_said_ = false;
-  bool after_end_said_ = false;
+  bool no_feed_reported_ = false;
+  bool unknown_offset_reported_ = false;
+  bool long_dwell_reported_ = false;
+  bool text_after_end_reported_ = false;
   bool percent_open_ = false;
   bool words_since_percent_ = false;
 };

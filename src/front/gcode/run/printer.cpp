@@ -1,4 +1,4 @@
-// Printers: Marlin and Klipper. E is the filament, heaters and fans are steps of their own.
+// Printers: Marlin and Klipper. E is the filament; heaters and fans are separate steps.
 //
 // Source: Marlin's list of G-codes; Klipper's page "G-Codes".
 #include <algorithm>
@@ -13,18 +13,18 @@ namespace kerf::gcode {
 namespace {
 
 constexpr double kFullFan = 255.0;
-constexpr double kHottest = 2000.0;  // degrees Celsius that can be meant
-constexpr double kChord = 0.01;      // mm that a bead may stray from its arc
-constexpr int kMostChords = 10'000;
-constexpr int kMostFans = 100;
-constexpr double kUsualFilament = 1.75;  // mm
+constexpr double kMaxCelsius = 2000.0;
+constexpr double kChordTolerance = 0.01;  // mm
+constexpr int kMaxChords = 10'000;
+constexpr int kMaxFans = 100;
+constexpr double kDefaultFilament = 1.75;  // mm
 
 }  // namespace
 
-/// True for a line whose M code only a printer has.
+/// True for a line with an M code of printers.
 bool Interpreter::printer_line() {
   if (!is_printer()) return false;
-  if (line_.has('T') && !line_.has_codes()) {  // changes at once
+  if (line_.has('T') && !line_.has_codes()) {  // T alone changes the tool
     select_tool();
     if (modes_.selected_tool) {
       modes_.tool = *modes_.selected_tool;
@@ -45,7 +45,8 @@ void Interpreter::printer_code() {
     return;
   }
   const auto heat = [&](Heater heater, bool wait) {
-    const double celsius = std::clamp(line_.take('S').value_or(line_.take('R').value_or(0.0)), 0.0, kHottest);
+    const double celsius =
+        std::clamp(line_.take('S').value_or(line_.take('R').value_or(0.0)), 0.0, kMaxCelsius);
     add(step::Temperature{heater, celsius, wait});
   };
   switch (code) {
@@ -57,17 +58,17 @@ void Interpreter::printer_code() {
     case 191: return heat(Heater::chamber, true);
     case 106:
     case 107: {
-      const auto fan = static_cast<int>(std::clamp(line_.take('P').value_or(0.0), 0.0, double{kMostFans}));
+      const auto fan = static_cast<int>(std::clamp(line_.take('P').value_or(0.0), 0.0, double{kMaxFans}));
       const double power = code == 107 ? 0.0 : line_.take('S').value_or(kFullFan);
       add(step::Fan{fan, std::clamp(power / kFullFan, 0.0, 1.0)});
       return;
     }
     case 200: return set_volumetric();
-    default: add(step::Verbatim{fmt::format("M{}", code)}); return;  // the machine's own matter
+    default: add(step::Verbatim{fmt::format("M{}", code)}); return;  // for the controller
   }
 }
 
-/// G28 drives to the ends of the axes, G92 sets coordinates and the filament's zero.
+/// G28 runs to the end switches, G92 sets coordinates and the E position.
 void Interpreter::printer_reference() {
   const Tenths code = line_.code(Group::reference);
   if (code == 920) {
@@ -80,10 +81,10 @@ void Interpreter::printer_reference() {
   line_.use(kAllLetters);
 }
 
-/// The axes named, or all, run to their end switches.
+/// Homing of the named axes, or of all.
 void Interpreter::run_to_end_switches() {
   const bool all = !line_.has_any(kAxisLetters);
-  auto to = here_;
+  auto to = position_;
   for (int axis = 0; axis < 3; ++axis) {
     if (!all && !line_.has(static_cast<char>('X' + axis))) continue;
     to.at[axis] = 0.0;
@@ -94,32 +95,32 @@ void Interpreter::run_to_end_switches() {
   rapid(to);
 }
 
-/// How thick the filament is: as told by the caller, by the program's remarks, as usual.
+/// Filament diameter: from the options, else from the slicer's comments, else the default.
 void Interpreter::set_filament(std::string_view text) {
   filament_diameter_ = options_.filament_diameter ? *options_.filament_diameter
-                                                  : told_filament_diameter(text).value_or(kUsualFilament);
+                                                  : find_filament_diameter(text).value_or(kDefaultFilament);
 }
 
-/// M200: with a diameter (D) above 0 the E words tell volumes from here on; S1 and S0 switch that alone.
+/// M200: with a diameter (D) above 0 the E words are volumes from here on; S1 and S0 switch only that.
 void Interpreter::set_volumetric() {
   const auto diameter = line_.take('D'), on = line_.take('S');
   if (diameter) volumetric_ = *diameter > 0.0;
   if (on) volumetric_ = *on != 0.0;
 }
 
-/// Marlin's G91 holds for E too; Klipper's does not.
+/// Marlin's G91 applies to E too, Klipper's does not.
 bool Interpreter::filament_is_relative() const {
   return filament_relative_ || (program_.dialect == GcodeDialect::marlin && !modes_.absolute);
 }
 
-/// A straight move with an E word: a bead where it moves, or filament pushed or drawn back.
-void Interpreter::extrude(const Place& to, double feed) {
+/// A straight motion with an E word: a bead; without motion, filament that is extruded or retracted.
+void Interpreter::extrude(const ToolPosition& to, double feed) {
   const double e = line_.take('E').value_or(0.0);
   const bool relative = filament_is_relative();
   const double pushed = relative ? e : e - filament_;
   filament_ = relative ? filament_ + e : e;
   const double area = std::numbers::pi / 4.0 * filament_diameter_ * filament_diameter_;
-  if (!(to.at == here_.at) && pushed == 0.0) return cut(to, feed);
+  if (!(to.at == position_.at) && pushed == 0.0) return cut(to, feed);
   step::Extrude bead;
   bead.to = to.at;
   bead.volume = Volume::raw(volumetric_ ? pushed : pushed * modes_.scale * area);
@@ -129,17 +130,17 @@ void Interpreter::extrude(const Place& to, double feed) {
   if (std::isfinite(bead.volume.raw()) && add(bead)) arrive(to);
 }
 
-/// Beads are straight: an arc with an E word becomes chords, each with its share.
-void Interpreter::extrude_arc(const ArcWalk& walk, const Place& to, Feed feed) {
+/// Beads are straight: an arc with an E word becomes chords, each with an equal fraction of the filament.
+void Interpreter::extrude_arc(const ArcWalk& walk, const ToolPosition& to, Feed feed) {
   const double e = line_.take('E').value_or(0.0);
   const bool relative = filament_is_relative();
   const double pushed = relative ? e : e - filament_;
-  const int count = walk.chords(mm(kChord), kMostChords);
-  const double begin = filament_;
+  const int count = walk.chords(mm(kChordTolerance), kMaxChords);
+  const double start = filament_;
   for (int i = 1; i <= count; ++i) {
-    Place next = to;
+    ToolPosition next = to;
     if (i < count) next.at = walk.at(i / double(count));
-    line_.put('E', relative ? pushed / count : begin + pushed * i / count);
+    line_.set('E', relative ? pushed / count : start + pushed * i / count);
     extrude(next, feed.mm_per_min());
   }
 }

@@ -1,4 +1,4 @@
-// read_gcode: text to blocks to steps.
+// read_gcode: from text to blocks to steps.
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -12,34 +12,33 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLinesPerReport = 16'384;   // a stop is noticed within some milliseconds
-constexpr std::size_t kBytesPerStep = 16;         // of usual programs, for the first reservation
-constexpr std::size_t kMostReserved = 2'000'000;  // steps; a longer program grows as it goes
+constexpr std::size_t kLinesPerReport = 16'384;       // a stop request takes effect within milliseconds
+constexpr std::size_t kBytesPerStep = 16;             // typical, for the first reservation
+constexpr std::size_t kMaxReservedSteps = 2'000'000;  // a longer path is reallocated
 
 GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
   if (options.dialect) return *options.dialect;
   const DialectGuess guess = guess_dialect(text);
   if (guess.dialect != GcodeDialect::rs274)
-    diagnostics.note(Code::dialect_guessed, TextSpot{options.file_name, guess.line, 0},
-                     fmt::format("this looks like a program for {} ({}), and is read as one",
-                                 to_string(guess.dialect), guess.from));
+    diagnostics.note(
+        Code::dialect_guessed, TextSpot{options.file_name, guess.line, 0},
+        fmt::format("reading this as a program for {} ({})", to_string(guess.dialect), guess.from));
   return guess.dialect;
 }
 
-/// False, said once, for bytes that are no text: their lines would make an error each.
+/// False with one error for bytes that are not text; otherwise each of their lines would be an error.
 bool is_text(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
   const std::optional<gcode::NotPlain> not_plain = gcode::find_not_plain(text);
   if (!not_plain) return true;
   const std::string_view before = text.substr(0, not_plain->at);
   const auto line = static_cast<std::uint32_t>(std::count(before.begin(), before.end(), '\n')) + 1;
-  const std::size_t line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
-  const TextSpot where{options.file_name, line, static_cast<std::uint32_t>(not_plain->at - line_begin) + 1};
+  const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
+  const TextSpot where{options.file_name, line, static_cast<std::uint32_t>(not_plain->at - line_start) + 1};
   if (not_plain->kind == gcode::NotPlain::Kind::utf16)
-    diagnostics
-        .error(Code::text_not_plain, where, "this is UTF-16, two bytes a letter; no controller reads that")
-        .hint = "save it as UTF-8 or ASCII, e.g. with: iconv -f UTF-16 -t UTF-8";
+    diagnostics.error(Code::text_not_plain, where, "the file is UTF-16, which no controller reads").hint =
+        "save it as UTF-8 or ASCII, e.g. with: iconv -f UTF-16 -t UTF-8";
   else
-    diagnostics.error(Code::text_not_plain, where, "this is binary data, no G-code");
+    diagnostics.error(Code::text_not_plain, where, "this is binary data, not G-code");
   return false;
 }
 
@@ -53,17 +52,17 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
     program.cut_short = true;
     return program;
   }
-  program.path.reserve(std::min({text.size() / kBytesPerStep + 1, options.max_steps, kMostReserved}));
+  program.path.reserve(std::min({text.size() / kBytesPerStep + 1, options.max_steps, kMaxReservedSteps}));
   program.dialect = dialect_of(text, options, diagnostics);
-  gcode::Talker talker(options.file_name, options.strict, diagnostics);
-  gcode::Interpreter interpreter(program, text, options, talker);
-  gcode::Flow flow(text, options, talker, interpreter.parameters(), program.dialect, diagnostics);
-  interpreter.follow(flow);
+  gcode::LineReporter reporter(options.file_name, options.strict, diagnostics);
+  gcode::Interpreter interpreter(program, text, options, reporter);
+  gcode::Flow flow(text, options, reporter, interpreter.parameters(), program.dialect, diagnostics);
+  interpreter.set_flow(flow);
   gcode::Block block;
   std::size_t lines = 0, next_report = kLinesPerReport;
   while (!interpreter.done()) {
-    if (gcode::BlockReader* reader = flow.straight_reader())
-      lines += interpreter.run_plain_lines(*reader, kLinesPerReport);
+    if (gcode::BlockReader* reader = flow.sequential_reader())
+      lines += interpreter.run_simple_lines(*reader, kLinesPerReport);
     if (!flow.next(block)) break;
     interpreter.run(block);
     if (++lines < next_report) continue;

@@ -1,22 +1,22 @@
-// The short way for plain moves. It must do what the long way does with the same line; a test compares them.
+// Fast path for lines of G0 or G1, axis words and F. The result must be that of run(); a test compares them.
 #include "codec/gcode/decimal.h"
 #include "front/gcode/run/interpreter.h"
 
 namespace kerf::gcode {
 namespace {
 
-/// The words of a plain line. Bits of `axes` as everywhere: 1, 2, 4 for X, Y, Z.
-struct PlainWords {
+/// The words of such a line. Bits of `axes`: 1, 2, 4 for X, Y, Z.
+struct SimpleWords {
   double axis[3] = {};
   double feed = 0.0;
   unsigned axes = 0;
-  Tenths motion = kMotionNotSaid;
+  Tenths motion = kMotionNotGiven;
   std::uint32_t column = 0;  // of the first word
   bool has_feed = false;
 };
 
-/// False for anything but one each of G0 or G1, X, Y, Z and F after an N.
-bool read_plain(std::string_view text, PlainWords& words) {
+/// False for anything but at most one each of N (first), G0 or G1, X, Y, Z and F, with an axis word.
+bool read_simple(std::string_view text, SimpleWords& words) {
   const char* p = text.data();
   const char* const end = p + text.size();
   bool numbered = false;
@@ -41,7 +41,7 @@ bool read_plain(std::string_view text, PlainWords& words) {
       if ((words.axes >> i & 1u) != 0) return false;
       words.axes |= 1u << i;
       words.axis[i] = number.value;
-    } else if (letter == 'G' && words.motion == kMotionNotSaid &&
+    } else if (letter == 'G' && words.motion == kMotionNotGiven &&
                (number.value == 0.0 || number.value == 1.0)) {
       words.motion = number.value == 0.0 ? 0 : 10;
     } else if (letter == 'F' && !words.has_feed) {
@@ -56,43 +56,43 @@ bool read_plain(std::string_view text, PlainWords& words) {
 
 }  // namespace
 
-/// Whether the state is the usual one of a program on its way.
-bool Interpreter::takes_plain_lines() const {
+/// Whether the modal state lets a line have only its plain meaning: absolute, per minute, unscaled, no
+/// compensation.
+bool Interpreter::accepts_simple_lines() const {
   const bool printer = program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
   const bool modes = modes_.absolute && modes_.feed_mode == FeedMode::per_minute && !modes_.diameters &&
                      (modes_.motion == 0 || modes_.motion == 10);
-  const bool path = placement_.plain && !compensation_.cutter && !compensation_.leaving && !rotary_used_ &&
-                    !rests_ && here_.reference_axes == 0;
+  const bool path = frame_.only_shifted && !compensation_.cutter && !compensation_.leaving && !rotary_used_ &&
+                    !starts_at_rest_ && position_.reference_axes == 0;
   return modes && path && moved_ && !printer && !program_.ended && current_depth_ == 0;
 }
 
-std::size_t Interpreter::run_plain_lines(BlockReader& reader, std::size_t limit) {
+std::size_t Interpreter::run_simple_lines(BlockReader& reader, std::size_t limit) {
   std::size_t lines = 0;
-  if (!takes_plain_lines()) return lines;
-  while (lines < limit && run_plain_line(reader.peek(), reader.lines() + 1)) {
+  if (!accepts_simple_lines()) return lines;
+  while (lines < limit && run_simple_line(reader.peek(), reader.lines() + 1)) {
     reader.skip();
     ++lines;
   }
   return lines;
 }
 
-bool Interpreter::run_plain_line(std::string_view text, std::uint32_t number) {
-  PlainWords words;
-  if (!read_plain(text, words) || path_.size() >= max_steps_) return false;
-  const Tenths motion = words.motion == kMotionNotSaid ? modes_.motion : words.motion;
+bool Interpreter::run_simple_line(std::string_view text, std::uint32_t number) {
+  SimpleWords words;
+  if (!read_simple(text, words) || path_.size() >= max_steps_) return false;
+  const Tenths motion = words.motion == kMotionNotGiven ? modes_.motion : words.motion;
   const double feed = words.has_feed ? words.feed * modes_.scale : modes_.feed;
   if (feed < 0.0 || (motion == 10 && !(feed > 0.0))) return false;
-  Place to = here_;
+  ToolPosition to = position_;
   for (int axis = 0; axis < 3; ++axis)
-    if ((words.axes >> axis & 1u) != 0)
-      to.at[axis] = words.axis[axis] * modes_.scale + placement_.shift[axis];
+    if ((words.axes >> axis & 1u) != 0) to.at[axis] = words.axis[axis] * modes_.scale + frame_.shift[axis];
   to.unknown &= ~words.axes;
-  if (!is_near(to.at)) return false;
+  if (!within_limit(to.at)) return false;
   modes_.motion = motion;
   modes_.feed = feed;
-  if (motion == 10) no_feed_said_ = false;
+  if (motion == 10) no_feed_reported_ = false;
   words_since_percent_ = true;
-  talker_.at_line(number);
+  reporter_.at_line(number);
   origin_line_ = number;
   origin_ = path_.origins().text(file_, number, words.column);
   if (motion == 0)

@@ -11,18 +11,19 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr Length kChord = mm(0.002);  // that a chord may stray from its curve
-constexpr int kMaxChords = 10'000;    // of one curve
+constexpr Length kChordTolerance = mm(0.002);
+constexpr int kMaxChords = 10'000;  // of one curve
 constexpr std::size_t kMaxPoints = 10'000;
-constexpr int kHighestOrder = 20;
-constexpr int kUsualOrder = 3;
+constexpr int kMaxOrder = 20;
+constexpr int kDefaultOrder = 3;
 
 }  // namespace
 
 void Interpreter::curve(Tenths motion) {
-  if (modes_.plane != Plane::xy || !placement_.plain) {
-    talker_.error(Code::code_unsupported, line_.column(),
-                  "splines lie in the XY plane, neither turned nor scaled; the line is left out");
+  if (modes_.plane != Plane::xy || !frame_.only_shifted) {
+    reporter_.error(
+        Code::code_unsupported, line_.column(),
+        "splines are supported in the XY plane only, without rotation and scale; the line is skipped");
     return line_.use(kAllLetters);
   }
   if (motion == 50) return cubic();
@@ -30,22 +31,22 @@ void Interpreter::curve(Tenths motion) {
   nurbs();
 }
 
-/// Two words as a vector in mm; nothing where both are absent.
+/// Two words as a vector in mm; nothing if both are missing.
 std::optional<Point2> Interpreter::point_words(char u, char v) {
   const std::optional<double> x = line_.take(u), y = line_.take(v);
   if (!x && !y) return std::nullopt;
   return modes_.scale * Point2{x.value_or(0.0), y.value_or(0.0)};
 }
 
-/// Cuts along a spline from here, Z and the feed staying.
+/// Cuts along a spline from the current position at constant Z and feed.
 void Interpreter::cut_along(const Spline& spline) {
-  const std::vector<Point2> points = flattened(spline, kChord, kMaxChords);
+  const std::vector<Point2> points = flattened(spline, kChordTolerance, kMaxChords);
   double total = 0.0;
   for (std::size_t i = 1; i < points.size(); ++i) total += distance(points[i - 1], points[i]);
   const double feed = feed_for(total);
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (full_) return;
-    Place to = here_;
+    ToolPosition to = position_;
     to.at.x = points[i].x;
     to.at.y = points[i].y;
     to.unknown &= ~3u;
@@ -54,55 +55,56 @@ void Interpreter::cut_along(const Spline& spline) {
   }
 }
 
-/// G5 X Y I J P Q: handles from the start (I J) and from the end (P Q). Without I J the curve continues the
-/// last one.
+/// G5 X Y I J P Q: control points relative to the start (I J) and to the end (P Q). Without I J the curve
+/// continues the last one with the same tangent.
 void Interpreter::cubic() {
-  const std::optional<Place> to = target();
+  const std::optional<ToolPosition> to = target();
   if (!to) return;
   const std::optional<Point2> first = point_words('I', 'J'), second = point_words('P', 'Q');
-  if (!second || (!first && !last_curve_handle_)) {
-    talker_.error(Code::word_missing, line_.column(),
-                  "G5 needs P and Q, and I and J where no G5 goes before; it is left out");
+  if (!second || (!first && !last_control_point_)) {
+    reporter_.error(Code::word_missing, line_.column(),
+                    "G5 needs P and Q, and also I and J unless a G5 precedes it; skipped");
     return line_.use(kAllLetters);
   }
-  const Point2 a = here_.at.xy(), d = to->at.xy();
-  const Point2 b = a + first.value_or(-last_curve_handle_.value_or(Point2{}));
+  const Point2 a = position_.at.xy(), d = to->at.xy();
+  const Point2 b = a + first.value_or(-last_control_point_.value_or(Point2{}));
   cut_along(clamped_spline(3, {a, b, d + *second, d}));
-  last_curve_handle_ = *second;
+  last_control_point_ = *second;
 }
 
-/// G5.1 X Y I J: one handle, from the start.
+/// G5.1 X Y I J: one control point, relative to the start.
 void Interpreter::quadratic() {
-  const std::optional<Place> to = target();
+  const std::optional<ToolPosition> to = target();
   if (!to) return;
-  const std::optional<Point2> handle = point_words('I', 'J');
-  if (!handle) {
-    talker_.error(Code::word_missing, line_.column(), "G5.1 needs I or J, its handle; it is left out");
+  const std::optional<Point2> control = point_words('I', 'J');
+  if (!control) {
+    reporter_.error(Code::word_missing, line_.column(), "G5.1 needs I or J, its control point; skipped");
     return line_.use(kAllLetters);
   }
-  const Point2 a = here_.at.xy();
-  cut_along(clamped_spline(2, {a, a + *handle, to->at.xy()}));
+  const Point2 a = position_.at.xy();
+  cut_along(clamped_spline(2, {a, a + *control, to->at.xy()}));
 }
 
 /// The position of the tool is the first control point; G5.2 P without X and Y gives its weight.
 void Interpreter::add_control_point() {
   const bool first = control_points_.empty();
-  if (first) curve_order_ = kUsualOrder;
+  if (first) curve_order_ = kDefaultOrder;
   if (const auto order = line_.take('L'))
-    curve_order_ = static_cast<int>(std::clamp(std::floor(*order), 2.0, double{kHighestOrder}));
-  const bool place_told = line_.has_unused(kAxisLetters);
-  const std::optional<Place> to = target();
+    curve_order_ = static_cast<int>(std::clamp(std::floor(*order), 2.0, double{kMaxOrder}));
+  const bool position_given = line_.has_unused(kAxisLetters);
+  const std::optional<ToolPosition> to = target();
   const double weight = line_.take('P').value_or(1.0);
   if (!to || control_points_.size() > kMaxPoints) return;
   if (!(weight > 0.0 && weight < 1e6)) {
-    talker_.error(Code::word_out_of_range, line_.column('P'), "the weight of a control point is above 0");
+    reporter_.error(Code::word_out_of_range, line_.column('P'),
+                    "the weight of a control point must be above 0");
     return;
   }
   if (first) {
-    control_points_.push_back(here_.at.xy());
-    control_weights_.push_back(place_told ? 1.0 : weight);
+    control_points_.push_back(position_.at.xy());
+    control_weights_.push_back(position_given ? 1.0 : weight);
   }
-  if (!place_told) return;
+  if (!position_given) return;
   control_points_.push_back(to->at.xy());
   control_weights_.push_back(weight);
 }
@@ -115,8 +117,9 @@ void Interpreter::nurbs() {
   const std::vector<double> weights = std::exchange(control_weights_, {});
   modes_.motion = kNoMotion;
   if (points.size() < 2 || static_cast<int>(points.size()) < curve_order_) {
-    talker_.error(Code::word_missing, line_.column(),
-                  fmt::format("G5.3 draws a curve of order {}, which needs as many points", curve_order_));
+    reporter_.error(
+        Code::word_missing, line_.column(),
+        fmt::format("G5.3 has order {}, which needs at least as many control points", curve_order_));
     return;
   }
   cut_along(clamped_spline(curve_order_ - 1, points, weights));

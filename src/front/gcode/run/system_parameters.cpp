@@ -1,4 +1,4 @@
-// What a program can read of its controller: #5220, #5420, #<_x>, #<_feed> and so on.
+// Parameters that hold the controller's state: #5220, #5420, #<_x>, #<_feed> and so on.
 //
 // Source: LinuxCNC's pages "Predefined named parameters" and "Numbered parameters".
 #include "front/gcode/run/interpreter.h"
@@ -6,12 +6,12 @@
 namespace kerf::gcode {
 namespace {
 
-double truth(bool holds) { return holds ? 1.0 : 0.0; }
+double truth(bool value) { return value ? 1.0 : 0.0; }
 
 }  // namespace
 
 Point3 Interpreter::program_position() const {
-  const Point3 p = placement_.to_program(here_.at);
+  const Point3 p = frame_.to_program(position_.at);
   return {p.x / modes_.scale, p.y / modes_.scale, p.z / modes_.scale};
 }
 
@@ -21,7 +21,7 @@ std::optional<double> Interpreter::system_number(int number) const {
   if (number >= 5420 && number <= 5422) return program_position()[number - 5420];
   if (number >= 5423 && number <= 5425) return rotary_[static_cast<std::size_t>(number - 5423)];
   switch (number) {
-    case 5070: return 1.0;  // a probe's success: it always meets its end
+    case 5070: return 1.0;  // success of a probe: contact is assumed at its end
     case 5210: return truth(local_shift_ != Point3{});
     case 5220: return modes_.system;
     case 5400: return modes_.tool.value_or(0);
@@ -30,7 +30,7 @@ std::optional<double> Interpreter::system_number(int number) const {
   }
 }
 
-/// Homes and offsets are kept in mm.
+/// Homes and offsets are stored in mm.
 double Interpreter::unit_of(int number) const {
   const bool home = (number >= 5161 && number <= 5163) || (number >= 5181 && number <= 5183);
   const int axis = (number - 5221) % 20;
@@ -44,7 +44,7 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
   static const std::map<std::string_view, Read> kNames{
       {"_vmajor", [](const I&) { return 2.9; }},
       {"_vminor", [](const I&) { return 0.0; }},
-      {"_line", [](const I& i) { return static_cast<double>(i.talker_.line()); }},
+      {"_line", [](const I& i) { return static_cast<double>(i.reporter_.line()); }},
       {"_motion_mode", [](const I& i) { return static_cast<double>(i.modes_.motion); }},
       {"_plane",
        [](const I& i) {
@@ -84,11 +84,11 @@ std::optional<double> Interpreter::system_name(std::string_view name) const {
       {"_feed_hold", [](const I&) { return 1.0; }},
   };
   const auto found = kNames.find(name);
-  return found == kNames.end() ? system_place(name) : found->second(*this);
+  return found == kNames.end() ? position_parameter(name) : found->second(*this);
 }
 
-/// Where the tool is, how fast, and which.
-std::optional<double> Interpreter::system_place(std::string_view name) const {
+/// Position, feed, speed and tool.
+std::optional<double> Interpreter::position_parameter(std::string_view name) const {
   using Read = double (*)(const Interpreter&);
   using I = Interpreter;
   static const std::map<std::string_view, Read> kNames{
@@ -106,9 +106,9 @@ std::optional<double> Interpreter::system_place(std::string_view name) const {
       {"_u", [](const I&) { return 0.0; }},
       {"_v", [](const I&) { return 0.0; }},
       {"_w", [](const I&) { return 0.0; }},
-      {"_abs_x", [](const I& i) { return i.here_.at.x / i.modes_.scale; }},
-      {"_abs_y", [](const I& i) { return i.here_.at.y / i.modes_.scale; }},
-      {"_abs_z", [](const I& i) { return i.here_.at.z / i.modes_.scale; }},
+      {"_abs_x", [](const I& i) { return i.position_.at.x / i.modes_.scale; }},
+      {"_abs_y", [](const I& i) { return i.position_.at.y / i.modes_.scale; }},
+      {"_abs_z", [](const I& i) { return i.position_.at.z / i.modes_.scale; }},
       {"_abs_a", [](const I& i) { return i.rotary_[0]; }},
       {"_abs_b", [](const I& i) { return i.rotary_[1]; }},
       {"_abs_c", [](const I& i) { return i.rotary_[2]; }},

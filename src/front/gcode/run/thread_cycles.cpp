@@ -1,4 +1,4 @@
-// Moves that the spindle drives: G33, G33.1 and the threading cycle G76.
+// Spindle-synchronized motions: G33, G33.1 and the threading cycle G76.
 //
 // Source: LinuxCNC's pages "G33 Spindle Synchronized Motion", "G33.1 Rigid Tapping", "G76 Threading Cycle".
 #include <cmath>
@@ -10,18 +10,19 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr int kMostPasses = 1000;
+constexpr int kMaxPasses = 1000;
 
 }  // namespace
 
-/// One turn of the spindle moves the tool by K; G33.1 goes back the same way with the spindle reversed.
-void Interpreter::spindle_move(Tenths motion) {
-  const Place from = here_;
-  const std::optional<Place> to = target();
+/// The tool moves by K per revolution; G33.1 then returns along the same path with the spindle reversed.
+void Interpreter::spindle_motion(Tenths motion) {
+  const ToolPosition from = position_;
+  const std::optional<ToolPosition> to = target();
   const std::optional<double> pitch = line_.take('K');
   if (!pitch) {
-    talker_.error(Code::word_missing, line_.column(Group::motion),
-                  fmt::format("{} needs K, the way in one turn of the spindle", code_text('G', motion)));
+    reporter_.error(
+        Code::word_missing, line_.column(Group::motion),
+        fmt::format("{} needs K, the distance per revolution of the spindle", code_text('G', motion)));
     return line_.use(kAllLetters);
   }
   if (!to) return;
@@ -29,31 +30,32 @@ void Interpreter::spindle_move(Tenths motion) {
   cut(*to, feed);
   if (motion == 330) return;
   const SpindleTurn turn = modes_.spindle;
-  spin(turn == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw);
+  set_spindle(turn == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw);
   cut(from, feed);
-  spin(turn);
+  set_spindle(turn);
 }
 
-/// What the words of G76 say, in mm; depths count along `side`.
+/// The words of G76, in mm; depths are positive along `side`.
 struct Interpreter::Thread {
   double pitch = 0.0, peak = 0.0, first = 0.0, full = 0.0;
-  double fall = 1.0;    // how fast the depths of passes fall
-  double slant = 0.0;   // tangent of the slide's angle
-  double spring = 0.0;  // passes at full depth, once more
-  double taper = 0.0;   // length of the ends that rise
+  double fall = 1.0;    // degression of the depths of cut
+  double slant = 0.0;   // tangent of the compound slide angle
+  double spring = 0.0;  // additional passes at full depth
+  double taper = 0.0;   // length of tapered ends
   bool tapered_entry = false, tapered_exit = false;
-  double side = 1.0;  // of the work in X: +1 for inner threads
-  double way = 1.0;   // along Z
+  double side = 1.0;  // direction of the cut in X: +1 for internal threads
+  double way = 1.0;   // direction in Z
 
-  bool meant() const {
+  bool is_valid() const {
     return pitch > 0.0 && peak != 0.0 && first > 0.0 && full > first && fall >= 1.0 && std::isfinite(slant) &&
-           spring >= 0.0 && spring <= kMostPasses && taper >= 0.0 &&
-           std::pow(full / first, fall) <= kMostPasses;
+           spring >= 0.0 && spring <= kMaxPasses && taper >= 0.0 &&
+           std::pow(full / first, fall) <= kMaxPasses;
   }
 };
 
 Interpreter::Thread Interpreter::take_thread_words() {
-  const double in_x = modes_.scale * (modes_.diameters ? 0.5 : 1.0);  // I, J and K are diameters as X is
+  const double in_x =
+      modes_.scale * (modes_.diameters ? 0.5 : 1.0);  // with G7, I, J and K are diameters as X is
   Thread thread;
   thread.pitch = line_.take('P').value_or(0.0) * modes_.scale;
   thread.peak = line_.take('I').value_or(0.0) * in_x;
@@ -63,50 +65,51 @@ Interpreter::Thread Interpreter::take_thread_words() {
   thread.slant = std::tan(line_.take('Q').value_or(0.0) * std::numbers::pi / 180.0);
   thread.spring = line_.take('H').value_or(0.0);
   thread.taper = line_.take('E').value_or(0.0) * modes_.scale;
-  const double ends = line_.take('L').value_or(0.0);  // 1: the entry rises, 2: the exit, 3: both
+  const double ends = line_.take('L').value_or(0.0);  // 1: tapered entry, 2: exit, 3: both
   thread.tapered_entry = thread.taper > 0.0 && (ends == 1.0 || ends == 3.0);
   thread.tapered_exit = thread.taper > 0.0 && (ends == 2.0 || ends == 3.0);
   thread.side = thread.peak > 0.0 ? 1.0 : -1.0;
   return thread;
 }
 
-/// One pass of a thread: in beside the work, along it at the pitch, and out.
-void Interpreter::thread_pass(const Thread& t, const Place& start, double end_z, double depth) {
+/// One pass of a thread: infeed outside of the work, cut along Z at the pitch, retract.
+void Interpreter::thread_pass(const Thread& t, const ToolPosition& start, double end_z, double depth) {
   const double clear = start.at.x - t.side * (t.full - depth);
   const double bottom = start.at.x + t.side * (std::abs(t.peak) + depth);
-  const double outside = bottom - t.side * t.full;  // where a taper begins or ends
+  const double outside = bottom - t.side * t.full;  // X at the outer end of a taper
   const double feed = t.pitch * modes_.speed;
   const double taper_feed = t.taper > 0.0 ? feed * std::hypot(t.taper, t.full) / t.taper : feed;
-  const double begin_z = start.at.z + t.way * depth * t.slant;
+  const double start_z = start.at.z + t.way * depth * t.slant;
   const double last_z = end_z - t.way * (t.full - depth) * t.slant;
-  Place at = start;
+  ToolPosition at = start;
   const auto go = [&](double x, double z) {
     at.at.x = x;
     at.at.z = z;
     return at;
   };
-  rapid(go(clear, begin_z));
+  rapid(go(clear, start_z));
   if (t.tapered_entry) {
-    cut(go(outside, begin_z), taper_feed);
-    cut(go(bottom, begin_z + t.way * t.taper), taper_feed);
+    cut(go(outside, start_z), taper_feed);
+    cut(go(bottom, start_z + t.way * t.taper), taper_feed);
   } else {
-    rapid(go(bottom, begin_z));
+    rapid(go(bottom, start_z));
   }
   cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed);
   if (t.tapered_exit) cut(go(outside, last_z), taper_feed);
   rapid(go(clear, last_z));
 }
 
-/// G76 P Z I J K R Q H E L: passes of growing depth in X, as deep as leaves the same chip.
+/// G76 P Z I J K R Q H E L: the n-th pass has the depth first * n^(1 / fall); fall = 2 gives constant chip
+/// area.
 void Interpreter::thread_cycle() {
   Thread thread = take_thread_words();
-  const Place start = here_;
-  const std::optional<Place> end = target();
+  const ToolPosition start = position_;
+  const std::optional<ToolPosition> end = target();
   if (!end) return;
   thread.way = end->at.z < start.at.z ? -1.0 : 1.0;
-  if (!thread.meant()) {
-    talker_.error(Code::word_out_of_range, line_.column(),
-                  "G76 needs P (pitch), I, J, K above J, R from 1; it is left out");
+  if (!thread.is_valid()) {
+    reporter_.error(Code::word_out_of_range, line_.column(),
+                    "G76 needs P (pitch), I, J, K above J, R from 1; skipped");
     return;
   }
   double depth = thread.first;
