@@ -1,5 +1,5 @@
-// Planning of arcs. A controller works out the radius and the angles from rounded numbers; what it will work
-// out is worked out here first, and an arc that would come out differently is written as chords.
+// Planning of arcs. A controller computes radius and angles from rounded numbers. The same is computed here;
+// an arc that would become a different one is written as chords.
 #include "back/gcode/arc_plan.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace kerf::gcode {
 namespace {
 
 constexpr double kTurn = 2.0 * std::numbers::pi;
-constexpr double kWholeTurn = kTurn - 1e-6;  // radians; an arc past this is a full circle
+constexpr double kWholeTurn = kTurn - 1e-6;  // radians; a larger sweep is a full circle
 // 90 % of what GRBL permits, because it computes with 24 bits.
 constexpr ArcMismatch kMismatch{.absolute = mm(0.0045), .relative = 0.0009, .limit = mm(0.45)};
 constexpr double kAngleOff = 0.5;  // radians by which rounding may change a sweep
@@ -22,10 +22,10 @@ constexpr double kArcOff = 4.0;    // counts of arc length likewise
 constexpr double kMinSweep = 1e-4;   // radians
 constexpr int kMaxChords = 1 << 20;  // of one arc; a finer tolerance than double precision has
 
-/// As std::hypot, for counts, whose squares neither overflow nor vanish.
-double far(double u, double v) { return std::sqrt(u * u + v * v); }
+/// std::hypot for counts, whose squares neither overflow nor underflow.
+double distance_of(double u, double v) { return std::sqrt(u * u + v * v); }
 
-/// What a controller makes of an arc's words, in counts and radians.
+/// An arc as a controller computes it from its words, in counts and radians.
 struct AsRead {
   double start_radius, end_radius, sweep;
 };
@@ -36,41 +36,41 @@ AsRead read_back(double du, double dv, std::int64_t u, std::int64_t v, bool ccw)
   double sweep = std::atan2(-cu * ev + cv * eu, -cu * eu - cv * ev);
   if (!ccw) sweep = -sweep;
   if (sweep <= 0.0) sweep += kTurn;
-  return {far(cu, cv), far(eu, ev), sweep};
+  return {distance_of(cu, cv), distance_of(eu, ev), sweep};
 }
 
-/// Of the four whole centres around (cu, cv), the one whose radii differ least.
-void round_centre(double du, double dv, double cu, double cv, ArcPiece& piece) {
+/// Of the four integer centres around (cu, cv), the one with the smallest difference of radii.
+void round_centre(double du, double dv, double cu, double cv, ArcSegment& segment) {
   double best = -1.0;
   for (const double u : {std::floor(cu), std::floor(cu) + 1.0}) {
     for (const double v : {std::floor(cv), std::floor(cv) + 1.0}) {
-      const double off = std::abs(far(u, v) - far(du - u, dv - v));
-      // Among centres as good as each other, the nearest one.
-      const double badness = off + 0.25 * far(u - cu, v - cv);
+      const double off = std::abs(distance_of(u, v) - distance_of(du - u, dv - v));
+      // The second term selects the nearest of equally good centres.
+      const double badness = off + 0.25 * distance_of(u - cu, v - cv);
       if (best >= 0.0 && badness >= best) continue;
       best = badness;
-      piece.u = static_cast<std::int64_t>(u);
-      piece.v = static_cast<std::int64_t>(v);
+      segment.u = static_cast<std::int64_t>(u);
+      segment.v = static_cast<std::int64_t>(v);
     }
   }
 }
 
 /// Splits into `count` arcs; false if one of them would be read differently.
 bool split_into_arcs(const ArcWalk& walk, const Counts& from, const Counts& to, int count, const Grid& grid,
-                     std::vector<ArcPiece>& pieces) {
+                     std::vector<ArcSegment>& segments) {
   const PlaneAxes axes = axes_of(walk.plane);
   const auto u = static_cast<std::size_t>(axes.u), v = static_cast<std::size_t>(axes.v);
   const double sweep = std::abs(walk.sweep) / count;
-  Counts begin = from;
+  Counts start = from;
   for (int i = 1; i <= count; ++i) {
-    ArcPiece piece;
-    piece.to = i == count ? to : grid.counts(walk.at(static_cast<double>(i) / count));
-    const auto du = static_cast<double>(piece.to[u] - begin[u]);
-    const auto dv = static_cast<double>(piece.to[v] - begin[v]);
-    const double cu = walk.u * grid.counts_per_mm - static_cast<double>(begin[u]);
-    const double cv = walk.v * grid.counts_per_mm - static_cast<double>(begin[v]);
-    round_centre(du, dv, cu, cv, piece);
-    const AsRead read = read_back(du, dv, piece.u, piece.v, walk.sweep > 0.0);
+    ArcSegment segment;
+    segment.to = i == count ? to : grid.counts(walk.at(static_cast<double>(i) / count));
+    const auto du = static_cast<double>(segment.to[u] - start[u]);
+    const auto dv = static_cast<double>(segment.to[v] - start[v]);
+    const double cu = walk.u * grid.counts_per_mm - static_cast<double>(start[u]);
+    const double cv = walk.v * grid.counts_per_mm - static_cast<double>(start[v]);
+    round_centre(du, dv, cu, cv, segment);
+    const AsRead read = read_back(du, dv, segment.u, segment.v, walk.sweep > 0.0);
     const double off = std::abs(read.sweep - sweep);
     const double radius = std::max(read.start_radius, read.end_radius);
     const bool same =
@@ -78,18 +78,18 @@ bool split_into_arcs(const ArcWalk& walk, const Counts& from, const Counts& to, 
     if (!same ||
         !kMismatch.permits(read.start_radius / grid.counts_per_mm, read.end_radius / grid.counts_per_mm))
       return false;
-    pieces.push_back(piece);
-    begin = piece.to;
+    segments.push_back(segment);
+    start = segment.to;
   }
   return true;
 }
 
 void split_into_chords(const ArcWalk& walk, const Counts& to, const Grid& grid, Length chord,
-                       std::vector<ArcPiece>& pieces) {
+                       std::vector<ArcSegment>& segments) {
   const int count = walk.chords(chord, kMaxChords);
   for (int i = 1; i < count; ++i)
-    pieces.push_back({grid.counts(walk.at(static_cast<double>(i) / count)), 0, 0});
-  pieces.push_back({to, 0, 0});
+    segments.push_back({grid.counts(walk.at(static_cast<double>(i) / count)), 0, 0});
+  segments.push_back({to, 0, 0});
 }
 
 bool wants_arcs(const ArcWalk& walk, const PostProfile& profile) {
@@ -103,29 +103,29 @@ bool wants_arcs(const ArcWalk& walk, const PostProfile& profile) {
 
 void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const Grid& grid,
               const PostProfile& profile, ArcPlan& plan) {
-  plan.pieces.clear();
+  plan.segments.clear();
   plan.uneven = !kMismatch.permits(walk.start_radius, walk.end_radius);
   const double swept = std::abs(walk.sweep);
   const double length = swept * std::max(walk.start_radius, walk.end_radius);
   if (length < profile.shortest_arc.mm() || swept < kMinSweep) {
     plan.form = ArcForm::straight;
-    plan.pieces.push_back({to, 0, 0});
+    plan.segments.push_back({to, 0, 0});
     return;
   }
   if (!plan.uneven && wants_arcs(walk, profile)) {
     const PlaneAxes axes = axes_of(walk.plane);
     const auto u = static_cast<std::size_t>(axes.u), v = static_cast<std::size_t>(axes.v);
     const bool closes = from[u] == to[u] && from[v] == to[v] && swept > std::numbers::pi;
-    const double pieces = swept < kWholeTurn && !closes ? 1.0 : std::ceil(swept / std::numbers::pi - 1e-6);
+    const double count = swept < kWholeTurn && !closes ? 1.0 : std::ceil(swept / std::numbers::pi - 1e-6);
     plan.form = ArcForm::arcs;
-    if (pieces <= kMaxChords &&
-        split_into_arcs(walk, from, to, std::max(static_cast<int>(pieces), closes ? 2 : 1), grid,
-                        plan.pieces))
+    if (count <= kMaxChords &&
+        split_into_arcs(walk, from, to, std::max(static_cast<int>(count), closes ? 2 : 1), grid,
+                        plan.segments))
       return;
-    plan.pieces.clear();
+    plan.segments.clear();
   }
   plan.form = ArcForm::chords;
-  split_into_chords(walk, to, grid, profile.chord, plan.pieces);
+  split_into_chords(walk, to, grid, profile.chord, plan.segments);
 }
 
 }  // namespace kerf::gcode

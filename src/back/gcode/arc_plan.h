@@ -1,4 +1,4 @@
-// How an arc is written: as arcs whose rounded words still close, or as chords.
+// How an arc is written: as arcs that are still consistent after rounding, or as chords.
 #pragma once
 
 #include <array>
@@ -10,10 +10,10 @@
 
 namespace kerf::gcode {
 
-/// A place in whole counts of the last decimal that is written.
+/// A position in units of the last decimal that is written.
 using Counts = std::array<std::int64_t, 3>;
 
-/// Turns mm into counts. One scale for all three axes.
+/// Converts mm to counts, with one scale for all axes.
 struct Grid {
   double counts_per_mm = 1000.0;
   std::int64_t count(double value) const {
@@ -23,8 +23,8 @@ struct Grid {
   Counts counts(Point3 p) const { return {count(p.x), count(p.y), count(p.z)}; }
 };
 
-/// A chord or an arc in counts of the last digit that is written: integers, as the controller reads them.
-struct ArcPiece {
+/// A chord or an arc in counts.
+struct ArcSegment {
   Counts to{};
   std::int64_t u = 0, v = 0;  // from its start to its centre, along the plane's axes (axes_of)
 };
@@ -33,12 +33,11 @@ enum class ArcForm : std::uint8_t { arcs, chords, straight };
 
 struct ArcPlan {
   ArcForm form = ArcForm::straight;
-  bool uneven = false;           // its radii differ by more than controllers take
-  std::vector<ArcPiece> pieces;  // chords have no centre
+  bool uneven = false;               // its radii differ by more than controllers permit
+  std::vector<ArcSegment> segments;  // chords have no centre
 };
 
-/// Plans the arc `walk` that begins at `from` as written and ends at `to` as written. `plan` is reused from
-/// arc to arc.
+/// Plans the arc `walk` with the start point `from` and the end point `to` as written. `plan` can be reused.
 void plan_arc(const ArcWalk& walk, const Counts& from, const Counts& to, const Grid& grid,
               const PostProfile& profile, ArcPlan& plan);
 

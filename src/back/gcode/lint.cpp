@@ -1,6 +1,5 @@
-// The linter: reads G-code as a controller of the profile does, a line at a time, and refuses what that
-// refuses. Which words there are is the profile's; how words go together is the same for all (RS274/NGC, and
-// GRBL's own messages, of which the numbers are named).
+// The linter: reads G-code line by line like a controller of the profile, and reports what that refuses. The
+// words are those of the profile; the rules for their combination are the same for all (RS274/NGC, GRBL).
 #include "back/gcode/lint.h"
 
 #include <algorithm>
@@ -66,7 +65,7 @@ class Linter {
         diagnostics_(diagnostics),
         foreign_(start == LintStart::foreign_line) {
     feed_known_ = foreign_;
-    place_known_ = start == LintStart::of_program;
+    position_known_ = start == LintStart::of_program;
   }
 
   void check(const Block& block);
@@ -77,9 +76,9 @@ class Linter {
   void check_comments(const Block& block);
   void check_length(const Block& block);
   void check_foreign(const Block& block);
-  bool take_words(const Block& block);
-  bool take_code(const Word& word);
-  bool take_value(const Word& word);
+  bool read_words(const Block& block);
+  bool read_code(const Word& word);
+  bool read_value(const Word& word);
   bool in_group(int tenths, const Group* groups, std::size_t count, std::uint32_t& seen);
   void check_single();
   void run();
@@ -115,11 +114,11 @@ class Linter {
   bool refused_ = false;
 
   // of the program
-  int motion_ = 0;  // in tenths; GRBL begins with G0
+  int motion_ = 0;  // in tenths; GRBL starts with G0
   Plane plane_ = Plane::xy;
   bool absolute_ = true, absolute_centres_ = false, inverse_time_ = false;
   double scale_ = 1.0;  // mm of a unit
-  bool feed_known_ = false, place_known_ = true;
+  bool feed_known_ = false, position_known_ = true;
   Point3 at_;  // mm
 };
 
@@ -128,12 +127,12 @@ void Linter::check(const Block& block) {
   column_ = 1;
   refused_ = false;
   check_comments(block);
-  if (block.faulty) return;  // said by the reader of blocks
+  if (block.faulty) return;  // reported by BlockReader
   if (foreign_) check_foreign(block);
   if (!check_form(block)) return;
   check_length(block);
   if (!block.command.empty()) return check_command(block.command);
-  if (take_words(block) && !refused_) run();
+  if (read_words(block) && !refused_) run();
 }
 
 /// A line in words: "M117 ready", or a macro such as "PAUSE".
@@ -150,15 +149,16 @@ void Linter::check_command(std::string_view command) {
 }
 
 bool Linter::check_form(const Block& block) {
-  if (block.percent && !profile_.percent_lines) refuse(Code::lint_syntax, "the controller has no lines of %");
+  if (block.percent && !profile_.percent_lines)
+    refuse(Code::lint_syntax, "the controller has no percent lines");
   if (block.percent) return false;
   if (block.o_word || !block.assignments.empty()) {
     if (!profile_.parameters) refuse(Code::lint_syntax, "the controller has neither parameters nor O-words");
-    place_known_ = false;
+    position_known_ = false;
     return false;
   }
   if (block.number && *block.number > profile_.highest_line_number)
-    refuse(Code::lint_value, fmt::format("line numbers go up to {}", profile_.highest_line_number));
+    refuse(Code::lint_value, fmt::format("the maximum line number is {}", profile_.highest_line_number));
   return true;
 }
 
@@ -168,13 +168,13 @@ void Linter::check_comments(const Block& block) {
     const bool semicolon = block.text[comment.column - 1] == ';';
     if (profile_.comments == CommentStyle::none ||
         (profile_.comments == CommentStyle::semicolon && !semicolon))
-      refuse(Code::lint_comment, "the controller has no such comments");
+      refuse(Code::lint_comment, "the controller has no comments of this form");
     if (!semicolon && comment.text.find('(') != std::string_view::npos)
-      refuse(Code::lint_comment, "a comment holds another one");
+      refuse(Code::lint_comment, "a comment within a comment");
     for (const char c : comment.text) {
       const bool plain = static_cast<unsigned char>(c) >= 0x20 && static_cast<unsigned char>(c) < 0x7f;
       if ((plain || c == '\t') && profile_.comment_forbidden.find(c) == std::string::npos) continue;
-      refuse(Code::lint_comment, "a comment holds a character that a controller acts on or cannot read");
+      refuse(Code::lint_comment, "a comment with a character that controllers execute or cannot read");
       break;
     }
   }
@@ -205,34 +205,34 @@ void Linter::check_length(const Block& block) {
     length -= std::min(length, static_cast<std::size_t>(blanks));
   }
   if (length > profile_.longest_line)
-    refuse(Code::lint_line,
-           fmt::format("the line has {} bytes; the controller reads {}", length, profile_.longest_line));
+    refuse(Code::lint_line, fmt::format("the line has {} bytes; the maximum of the controller is {}", length,
+                                        profile_.longest_line));
 }
 
-bool Linter::take_words(const Block& block) {
+bool Linter::read_words(const Block& block) {
   letters_ = used_ = g_groups_ = m_groups_ = 0;
   codes_.clear();
   m_codes_.clear();
   for (const Word& word : block.words) {
     column_ = word.column;
     if (word.kind == ValueKind::expression && !profile_.parameters)
-      refuse(Code::lint_syntax, "the controller computes nothing");
-    if (word.kind == ValueKind::expression) place_known_ = false;
+      refuse(Code::lint_syntax, "the controller has no expressions");
+    if (word.kind == ValueKind::expression) position_known_ = false;
     const bool letter = word.letter >= 'A' && word.letter <= 'Z';
     if (!letter || !profile_.has_letter(word.letter)) {
-      refuse(Code::lint_letter, fmt::format("the controller does not know the letter {}", word.letter));
+      refuse(Code::lint_letter, fmt::format("the controller does not have the letter {}", word.letter));
       continue;
     }
     if (word.letter == 'G' || word.letter == 'M')
-      take_code(word);
+      read_code(word);
     else
-      take_value(word);
+      read_value(word);
   }
   column_ = 1;
   return !refused_;
 }
 
-bool Linter::take_code(const Word& word) {
+bool Linter::read_code(const Word& word) {
   const bool is_g = word.letter == 'G';
   const int tenths = word.value < 1e6 ? static_cast<int>(std::lround(word.value * 10.0)) : -1;
   const bool exact = std::abs(word.value * 10.0 - tenths) < 1e-6;
@@ -248,13 +248,13 @@ bool Linter::take_code(const Word& word) {
   return in_group(tenths, kMGroups, std::size(kMGroups), m_groups_);
 }
 
-/// Notes which group the code is of; false (said) if the line has one of that group already.
+/// Records the group of the code; false with an error if the line already has a code of that group.
 bool Linter::in_group(int tenths, const Group* groups, std::size_t count, std::uint32_t& seen) {
   for (std::size_t g = 0; g < count; ++g) {
     const auto& codes = groups[g].codes;
     if (std::find(codes.begin(), codes.end(), tenths) == codes.end()) continue;
     if ((seen >> g & 1u) != 0) {
-      refuse(Code::lint_conflict, "two codes of one group stand on the line");
+      refuse(Code::lint_conflict, "two codes of one group on the line");
       return false;
     }
     seen |= 1u << g;
@@ -262,9 +262,9 @@ bool Linter::in_group(int tenths, const Group* groups, std::size_t count, std::u
   return true;
 }
 
-bool Linter::take_value(const Word& word) {
+bool Linter::read_value(const Word& word) {
   if (has(word.letter)) {
-    refuse(Code::lint_conflict, fmt::format("{} stands twice on the line", word.letter));
+    refuse(Code::lint_conflict, fmt::format("two {} words on the line", word.letter));
     return false;
   }
   letters_ |= bit(word.letter);
@@ -273,17 +273,17 @@ bool Linter::take_value(const Word& word) {
   if (never_negative && word.value < 0.0)
     refuse(Code::lint_value, fmt::format("{} cannot be negative", word.letter));
   if (word.letter == 'T' && word.value > profile_.highest_tool)
-    refuse(Code::lint_value, fmt::format("tools have numbers up to {}", profile_.highest_tool));
+    refuse(Code::lint_value, fmt::format("the maximum tool number is {}", profile_.highest_tool));
   return !refused_;
 }
 
-/// Whether a line of LineSyntax::commands is one command.
+/// Checks that a line of LineSyntax::commands is a single command.
 void Linter::check_single() {
   const std::size_t commands = codes_.size() + m_codes_.size();
   const bool tool_alone = letters_ == bit('T') || letters_ == (bit('T') | bit('N'));
-  if (commands > 1) refuse(Code::lint_conflict, "a line of this controller holds one command");
+  if (commands > 1) refuse(Code::lint_conflict, "a line of this controller has one command only");
   if (commands == 0 && letters_ != 0 && !tool_alone)
-    refuse(Code::lint_missing, "a line of this controller begins with its command, such as G1");
+    refuse(Code::lint_missing, "a line of this controller starts with its command, such as G1");
 }
 
 void Linter::run() {
@@ -331,9 +331,9 @@ void Linter::use_special() {
   const bool axes = (letters_ & kAxes) != 0;
   const bool takes_axes = has_code(280) || has_code(300) || has_code(920) || has_code(100) || has_code(431);
   if (takes_axes && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
-    refuse(Code::lint_conflict, "two codes of the line want its axis words");
+    refuse(Code::lint_conflict, "two codes of the line use its axis words");
   if (has_code(40)) {
-    if (!has('P')) return refuse(Code::lint_missing, "G4 needs its time, P");
+    if (!has('P')) return refuse(Code::lint_missing, "G4 needs a time, P");
     if (value('P') < 0.0) refuse(Code::lint_value, "a time cannot be negative");
     use(bit('P'));
   }
@@ -348,12 +348,12 @@ void Linter::use_special() {
   if (has_code(431) && (letters_ & kAxes) != bit('Z'))
     return refuse(Code::lint_missing, "G43.1 needs Z and nothing else");
   if (has_code(490) && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
-    refuse(Code::lint_conflict, "G49 stands with a motion");
+    refuse(Code::lint_conflict, "G49 on a line with a motion");
   if (has_code(530) && motion_ > 10 && axes && (g_groups_ >> kMotionGroup & 1u) == 0)
-    refuse(Code::lint_conflict, "G53 goes with G0 and G1 only");
+    refuse(Code::lint_conflict, "G53 is allowed with G0 and G1 only");
   if (!takes_axes) return;
   use(kAxes);
-  place_known_ = false;
+  position_known_ = false;
 }
 
 Point3 Linter::target() const {
@@ -373,27 +373,27 @@ void Linter::move() {
   const bool special = (g_groups_ >> kSpecialGroup & 1u) != 0 && (used_ & letters_ & kAxes) != 0;
   if (special) return;
   if (motion_ == 800) {
-    if (axes) refuse(Code::lint_conflict, "axis words while no motion is in force (G80)");
+    if (axes) refuse(Code::lint_conflict, "axis words after G80, which ends the modal motion");
     return;
   }
   const bool feeds = motion_ >= 10 && motion_ < 800;
   if (feeds && (inverse_time_ ? !(has('F') && value('F') > 0.0) : !feed_known_))
-    return refuse(Code::lint_missing, "a cutting move before any feed");
+    return refuse(Code::lint_missing, "a cut before any feed");
   const bool probe = motion_ >= 382 && motion_ <= 385;
   const bool arc = motion_ == 20 || motion_ == 30;
   if (!axes && (probe || arc)) return refuse(Code::lint_missing, "the motion needs axis words");
   if (motion_ == 730 || motion_ >= 800) use(bit('R') | bit('Q') | bit('P') | bit('L') | kCentre);
   use(kAxes | bit('E'));
   const Point3 to = target();
-  if (probe && place_known_ && to == at_) return refuse(Code::lint_value, "a probing move that goes nowhere");
+  if (probe && position_known_ && to == at_) return refuse(Code::lint_value, "a probing motion of length 0");
   if (arc) use_arc();
   if (refused_) return;
   if (arc) check_arc(to);
   at_ = to;
-  if (has_code(530) || probe) place_known_ = false;
-  // A program that names all axes in work coordinates says where it is.
+  if (has_code(530) || probe) position_known_ = false;
+  // After all axes in work coordinates the position is known.
   else if (absolute_ && (letters_ & kLinear) == kLinear)
-    place_known_ = true;
+    position_known_ = true;
 }
 
 void Linter::use_arc() {
@@ -410,14 +410,14 @@ void Linter::use_arc() {
 }
 
 void Linter::check_arc(Point3 to) {
-  if (!place_known_ || absolute_centres_) return;
+  if (!position_known_ || absolute_centres_) return;
   const PlaneAxes axes = axes_of(plane_);
-  const Point2 way{to[axes.u] - at_[axes.u], to[axes.v] - at_[axes.v]};
+  const Point2 offset{to[axes.u] - at_[axes.u], to[axes.v] - at_[axes.v]};
   if (has('R')) {
-    const double chord = length(way);
-    if (chord == 0.0) return refuse(Code::lint_missing, "an arc with a radius ends where it begins");
+    const double chord = length(offset);
+    if (chord == 0.0) return refuse(Code::lint_missing, "an arc with R ends at its start point");
     if (chord > 2.0 * std::abs(value('R')) * scale_ + kMismatch.absolute.mm())
-      refuse(Code::lint_arc, "the radius does not reach the arc's end");
+      refuse(Code::lint_arc, "the radius is smaller than half the distance to the end point");
     return;
   }
   const auto word = [this](int axis) {
@@ -425,7 +425,7 @@ void Linter::check_arc(Point3 to) {
     return has(letter) ? value(letter) * scale_ : 0.0;
   };
   const Point2 centre{word(axes.u), word(axes.v)};
-  const double start = length(centre), end = distance(centre, way);
+  const double start = length(centre), end = distance(centre, offset);
   if (!kMismatch.permits(start, end))
     refuse(Code::lint_arc,
            fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre", start, end));
@@ -435,7 +435,7 @@ void Linter::check_unused() {
   const std::uint32_t left = letters_ & ~used_;
   for (char letter = 'A'; letter <= 'Z' && !refused_; ++letter)
     if ((left & bit(letter)) != 0)
-      refuse(Code::lint_unused, fmt::format("nothing on the line uses the {} word", letter));
+      refuse(Code::lint_unused, fmt::format("no code on this line uses the {} word", letter));
 }
 
 }  // namespace

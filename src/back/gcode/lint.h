@@ -1,4 +1,4 @@
-// The check of G-code against a profile, for whole programs and for single lines in the middle of one.
+// The check of G-code against a profile, for whole programs and for single lines within one.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace kerf::gcode {
 
-/// What comes before the text: nothing, or an unknown part of a program, of which the text is a line that was
-/// not made for it. Such a line may neither move the machine nor change a mode.
+/// `of_program`: the text is a whole program. `foreign_line`: the text is a line of unknown origin within a
+/// program; it must neither move the machine nor change a mode.
 enum class LintStart : std::uint8_t { of_program, foreign_line };
 
-/// True if nothing was found; see lint_gcode().
+/// True without errors; see lint_gcode().
 bool lint(std::string_view text, const PostProfile& profile, const std::string& file_name, LintStart start,
           Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// Motions as lines: axes, feeds, arcs, chords; and which step goes where.
+// Motions as lines: axes, feeds, arcs, chords; and the function for each kind of step.
 #include "back/gcode/poster.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMaxCounts = 1e13;  // of a position; exact in a double with room for differences
 constexpr std::size_t kStepsBetweenReports = 1 << 16;
-constexpr std::size_t kBytesPerStep = 24;  // of usual programs
+constexpr std::size_t kBytesPerStep = 24;  // typical
 constexpr int kDecimalsExtruded = 5;
 
 double power_of_ten(int exponent) { return std::pow(10.0, exponent); }
@@ -94,7 +94,7 @@ void Poster::write_motion(std::size_t i) {
   unknown_from_ = s.unknown_axes();
 }
 
-/// Whether the motion's numbers can be written, and the controller has what it needs besides.
+/// Whether the motion can be written: numbers within the limits, no height correction.
 bool Poster::fits(std::size_t i) {
   const Step& s = path_[i];
   double farthest = std::max({std::abs(s.to().x), std::abs(s.to().y), std::abs(s.to().z), s.feed().raw()});
@@ -109,27 +109,29 @@ bool Poster::fits(std::size_t i) {
   }
   const MotionExtra* extra = path_.extra(i);
   if (extra != nullptr && !extra->z_correction.empty())
-    cannot(i, "the heights depend on points yet to be probed, which this post does not write");
+    report_unsupported(
+        i, "the heights depend on points that have to be probed first, which posts do not support");
   return true;
 }
 
-/// The axes whose words the line needs so that the controller arrives.
+/// The axes whose words the line needs.
 unsigned Poster::axes_to_write(std::size_t i, const Counts& to) {
   const unsigned unknown = path_[i].unknown_axes();
-  unsigned axes = profile_.axes == Repeat::always ? kAllAxes & ~unknown : kAllAxes & ~unknown & ~told_;
+  unsigned axes = profile_.axes == Repeat::always ? kAllAxes & ~unknown : kAllAxes & ~unknown & ~known_axes_;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (to[axis] == at_[axis]) continue;
     const unsigned bit = 1u << axis;
     axes |= bit;
     if ((unknown & bit) != 0)
-      diagnostics_.warning(Code::post_place_unknown, path_.origin_of(i),
-                           fmt::format("{} was never told in work coordinates here; it is written as {}",
-                                       "XYZ"[axis], path_[i].to()[static_cast<int>(axis)]));
+      diagnostics_.warning(
+          Code::post_place_unknown, path_.origin_of(i),
+          fmt::format("the position of {} in work coordinates is unknown here; written as {}", "XYZ"[axis],
+                      path_[i].to()[static_cast<int>(axis)]));
   }
   return axes;
 }
 
-/// Puts the rotary words that change; false if there are none.
+/// Adds the rotary words that change; false if there are none.
 bool Poster::add_rotary(std::size_t i) {
   const MotionExtra* extra = path_.extra(i);
   if (extra == nullptr || !extra->abc) return false;
@@ -138,12 +140,12 @@ bool Poster::add_rotary(std::size_t i) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double degrees = (*extra->abc)[axis];
     const auto counts = static_cast<std::int64_t>(std::llround(degrees * scale));
-    if (counts == rotary_[axis] && ((told_rotary_ >> axis & 1u) != 0 || counts == 0)) continue;
+    if (counts == rotary_[axis] && ((known_rotary_ >> axis & 1u) != 0 || counts == 0)) continue;
     const char letter = static_cast<char>('A' + axis);
     rotary_[axis] = counts;
-    told_rotary_ |= 1u << axis;
+    known_rotary_ |= 1u << axis;
     if (!profile_.has_letter(letter)) {
-      cannot(i, fmt::format("the controller has no rotary axis {}", letter));
+      report_unsupported(i, fmt::format("the controller has no rotary axis {}", letter));
       continue;
     }
     word(letter, counts, profile_.decimals_degrees);
@@ -159,14 +161,14 @@ void Poster::put_motion(int g) {
   motion_ = g;
 }
 
-/// Puts the arc's plane, on a line of its own where a line holds one command.
+/// Adds the plane of an arc, on a separate line for LineSyntax::commands.
 void Poster::put_plane(std::size_t i, Plane plane) {
   if (plane_ == plane) return;
   plane_ = plane;
   code('G', plane == Plane::xy ? 170 : plane == Plane::xz ? 180 : 190);
   if (profile_.syntax == LineSyntax::words) return;
-  end(i);
-  begin();
+  end_line(i);
+  start_line();
 }
 
 void Poster::put_axes(const Counts& to, unsigned axes) {
@@ -178,10 +180,10 @@ void Poster::put_feed(std::size_t i) {
   Feed feed = path_[i].feed();
   if (!(feed.raw() > 0.0)) feed = options_.missing_feed;
   if (!(feed.raw() > 0.0)) {
-    if (!no_feed_said_)
-      diagnostics_.error(Code::post_no_feed, path_.origin_of(i), "a cutting move has no feed").hint =
-          "say with --feed which one such moves get";
-    no_feed_said_ = true;
+    if (!no_feed_reported_)
+      diagnostics_.error(Code::post_no_feed, path_.origin_of(i), "a cut without a feed").hint =
+          "specify a feed for such cuts with --feed";
+    no_feed_reported_ = true;
     return;
   }
   const auto counts = std::max<std::int64_t>(1, std::llround(feed.mm_per_min() * counts_per_feed_));
@@ -198,7 +200,7 @@ void Poster::put_power() {
 
 void Poster::arrive(std::size_t i, const Counts& to) {
   at_ = to;
-  told_ = kAllAxes & ~path_[i].unknown_axes();
+  known_axes_ = kAllAxes & ~path_[i].unknown_axes();
   touched_ = false;
 }
 
@@ -206,12 +208,12 @@ void Poster::straight(int g, std::size_t i) { straight_to(g, i, grid_.counts(pat
 
 void Poster::straight_to(int g, std::size_t i, const Counts& to) {
   const unsigned axes = axes_to_write(i, to);
-  begin();
+  start_line();
   put_motion(g);
   put_axes(to, axes);
   const bool rotary = add_rotary(i);
   arrive(i, to);
-  if (axes == 0 && !rotary) {  // it leads nowhere, but is a move; leaving such moves out is a pass's matter
+  if (axes == 0 && !rotary) {  // length 0: written all the same; passes remove such motions
     const unsigned known = kAllAxes & ~path_[i].unknown_axes();
     if (known == 0) {
       line_.clear();
@@ -224,7 +226,7 @@ void Poster::straight_to(int g, std::size_t i, const Counts& to) {
     put_feed(i);
     put_power();
   }
-  end(i);
+  end_line(i);
 }
 
 void Poster::arc(std::size_t i) {
@@ -235,42 +237,42 @@ void Poster::arc(std::size_t i) {
   const unsigned in_plane = (1u << axes.u) | (1u << axes.v);
   if ((unknown_from_ & in_plane) != 0)
     diagnostics_.error(Code::post_place_unknown, path_.origin_of(i),
-                       "an arc begins where nobody has told in work coordinates that the tool stands");
+                       "the start point of an arc is unknown in work coordinates");
   const ArcWalk walk = walk_arc(from_, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
   unsigned first_axes = axes_to_write(i, to);
   plan_arc(walk, at_, to, grid_, profile_, plan_);
   if (plan_.uneven)
     diagnostics_.warning(Code::post_arc_uneven, path_.origin_of(i),
-                         fmt::format("the arc begins {:.4f} mm and ends {:.4f} mm from its centre; it is "
+                         fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre; "
                                      "written as {} straight cuts",
-                                     walk.start_radius, walk.end_radius, plan_.pieces.size()));
+                                     walk.start_radius, walk.end_radius, plan_.segments.size()));
   if (plan_.form != ArcForm::arcs) return chords(i);
-  for (const ArcPiece& piece : plan_.pieces) {
-    begin();
+  for (const ArcSegment& segment : plan_.segments) {
+    start_line();
     put_plane(i, arc.plane);
     code('G', arc.turn == Turn::cw ? 20 : 30);
     motion_ = arc.turn == Turn::cw ? 2 : 3;
     const auto w = static_cast<std::size_t>(axes.w);
-    const unsigned third = piece.to[w] != at_[w] ? 1u << w : 0u;
-    put_axes(piece.to, in_plane | third | first_axes);
+    const unsigned third = segment.to[w] != at_[w] ? 1u << w : 0u;
+    put_axes(segment.to, in_plane | third | first_axes);
     first_axes = 0;
-    const std::int64_t centre[3] = {piece.u, piece.v, 0};
+    const std::int64_t centre[3] = {segment.u, segment.v, 0};
     for (const int axis : {0, 1, 2})
       if (axis != axes.w) word(static_cast<char>('I' + axis), centre[axis == axes.u ? 0 : 1], decimals_);
     add_rotary(i);
     put_feed(i);
     put_power();
-    arrive(i, piece.to);
-    end(i);
+    arrive(i, segment.to);
+    end_line(i);
   }
 }
 
-/// The plan's pieces as straight cuts.
+/// The segments of the plan as straight cuts.
 void Poster::chords(std::size_t i) {
-  const bool several = plan_.pieces.size() > 1;
-  for (const ArcPiece& piece : plan_.pieces) {
-    const bool nowhere = piece.to == at_ && told_ == kAllAxes;
-    if (!(several && nowhere)) straight_to(1, i, piece.to);
+  const bool several = plan_.segments.size() > 1;
+  for (const ArcSegment& segment : plan_.segments) {
+    const bool no_motion = segment.to == at_ && known_axes_ == kAllAxes;
+    if (!(several && no_motion)) straight_to(1, i, segment.to);
   }
 }
 
@@ -278,43 +280,44 @@ void Poster::probe(std::size_t i) {
   const step::Probe probe = path_[i].probe();
   const int tenths = 382 + static_cast<int>(probe.kind);
   if (!profile_.has_g(tenths))
-    return cannot(i, fmt::format("the controller has no probing move G{}.{}", tenths / 10, tenths % 10));
+    return report_unsupported(
+        i, fmt::format("the controller has no probing motion G{}.{}", tenths / 10, tenths % 10));
   const Counts to = grid_.counts(probe.to);
-  if (to == at_ && !touched_) return cannot(i, "a probing move that goes nowhere is refused by controllers");
+  if (to == at_ && !touched_) return report_unsupported(i, "controllers refuse a probing motion of length 0");
   const unsigned axes = axes_to_write(i, to);
-  begin();
+  start_line();
   code('G', tenths);
   put_axes(to, axes == 0 ? 1u << 2 : axes);
   put_feed(i);
-  end(i);
+  end_line(i);
   at_ = to;
-  told_ = 0;  // contact ends the move wherever it happens
+  known_axes_ = 0;  // the motion ends at contact
   touched_ = true;
   motion_ = -1;
 }
 
 void Poster::extrude(std::size_t i) {
-  if (!profile_.has_letter('E')) return cannot(i, "the controller cannot lay down material (no E word)");
+  if (!profile_.has_letter('E')) return report_unsupported(i, "the controller cannot extrude (no E word)");
   const double radius = 0.5 * profile_.filament.mm();
   const double area = std::acos(-1.0) * radius * radius;
   extruded_ += path_.extrude(i).volume.mm3() / area;
   const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
   const std::int64_t whole = std::llround(extruded_ / unit_mm * power_of_ten(kDecimalsExtruded));
-  const std::int64_t e = profile_.extruder == ExtruderMode::absolute ? whole : whole - told_extruded_;
+  const std::int64_t e = profile_.extruder == ExtruderMode::absolute ? whole : whole - written_extruded_;
   const Counts to = grid_.counts(path_[i].to());
   const unsigned axes = axes_to_write(i, to);
-  begin();
-  if (axes == 0 && whole == told_extruded_) return;
+  start_line();
+  if (axes == 0 && whole == written_extruded_) return;
   put_motion(1);
   put_axes(to, axes);
-  if (whole != told_extruded_) word('E', e, kDecimalsExtruded);
-  told_extruded_ = whole;
+  if (whole != written_extruded_) word('E', e, kDecimalsExtruded);
+  written_extruded_ = whole;
   put_feed(i);
   arrive(i, to);
-  end(i);
+  end_line(i);
 }
 
-/// A move to machine coordinates, or to the place the controller keeps as home.
+/// A motion to machine coordinates, or to a home stored in the controller.
 void Poster::to_reference(int g, std::size_t i) {
   const Step& s = path_[i];
   const Counts to = grid_.counts(s.to());
@@ -322,46 +325,46 @@ void Poster::to_reference(int g, std::size_t i) {
   const bool machine = s.reference() == Reference::machine;
   const int tenths = machine ? 530 : s.reference() == Reference::home ? 280 : 300;
   if (!profile_.has_g(tenths) || profile_.syntax == LineSyntax::commands) {
-    return left_out(
-        i, fmt::format("the controller has no G{}; this move to a place of the machine", tenths / 10));
+    return report_skipped(
+        i, fmt::format("the controller has no G{}; a motion to a machine position", tenths / 10));
   }
   if (machine) {
-    begin();
+    start_line();
     code('G', tenths);
     code('G', g * 10);
     put_axes(to, s.reference_axes());
     if (g == 1) put_feed(i);
-    end(i);
-  } else {  // through a point no way off, in distances
-    begin();
+    end_line(i);
+  } else {  // with an intermediate point at distance 0
+    start_line();
     code('G', 910);
     code('G', tenths);
     put_axes(Counts{}, s.reference_axes());
-    end(i);
-    begin();
+    end_line(i);
+    start_line();
     code('G', 900);
-    end(i);
+    end_line(i);
   }
   motion_ = -1;
   arrive(i, to);
 }
 
-/// A printer's G28; the axis words are flags.
+/// G28 of printers; the axis words are flags.
 void Poster::to_end_switches(std::size_t i) {
   const Step& s = path_[i];
   if (!profile_.has_g(280) || profile_.syntax != LineSyntax::commands)
-    return left_out(i, "the controller has no G28 that runs the axes to their end switches; homing");
-  begin();
+    return report_skipped(i, "the controller has no G28 that runs the axes to their end switches; homing");
+  start_line();
   code('G', 280);
   if (s.reference_axes() != kAllAxes) put_axes(Counts{}, s.reference_axes());
-  end(i);
+  end_line(i);
   motion_ = -1;
   arrive(i, grid_.counts(s.to()));
 }
 
 // ---- lines
 
-void Poster::begin() {
+void Poster::start_line() {
   line_.clear();
   if (profile_.line_number_step == 0) return;
   line_number_ += profile_.line_number_step;
@@ -375,30 +378,30 @@ void Poster::word(char letter, std::int64_t counts, int decimals) {
   line_.units(counts, decimals, decimals == 0 ? Fraction::shortest : fraction_);
 }
 
-/// A G or M code, which has decimals only where it needs them.
+/// A G or M code, with a decimal only if it needs one.
 void Poster::code(char letter, int tenths) {
   if (profile_.spacing == WordSpacing::blank && !line_.empty()) line_.put(' ');
   line_.put(letter);
   line_.units(tenths, 1, Fraction::shortest);
 }
 
-void Poster::end(std::size_t i) {
+void Poster::end_line(std::size_t i) {
   const std::string_view text = line_.text();
   if (text.size() > profile_.longest_line)
-    diagnostics_.error(
-        Code::post_line_long, i < path_.size() ? path_.origin_of(i) : Origin{},
-        fmt::format("a line of {} bytes; the controller reads {}", text.size(), profile_.longest_line));
+    diagnostics_.error(Code::post_line_long, i < path_.size() ? path_.origin_of(i) : Origin{},
+                       fmt::format("a line of {} bytes; the maximum of the controller is {}", text.size(),
+                                   profile_.longest_line));
   out_ += text;
   out_ += profile_.line_end == LineEnd::crlf ? "\r\n" : "\n";
   ++lines_;
 }
 
-void Poster::cannot(std::size_t i, std::string message) {
+void Poster::report_unsupported(std::size_t i, std::string message) {
   diagnostics_.error(Code::post_cannot, path_.origin_of(i), std::move(message));
 }
 
-void Poster::left_out(std::size_t i, std::string message) {
-  diagnostics_.warning(Code::post_left_out, path_.origin_of(i), std::move(message) + " is left out");
+void Poster::report_skipped(std::size_t i, std::string message) {
+  diagnostics_.warning(Code::post_left_out, path_.origin_of(i), std::move(message) + " is skipped");
 }
 
 }  // namespace kerf::gcode

@@ -1,4 +1,4 @@
-// The writer of a toolpath: what the controller has been told so far, and the lines each step adds to it.
+// The writer of a toolpath: the state of the controller after the lines so far, and the lines of each step.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "back/gcode/arc_plan.h"
-#include "back/gcode/line.h"
+#include "back/gcode/line_buffer.h"
 
 #include "kerf/post.h"
 #include "kerf/report.h"
@@ -17,7 +17,7 @@ namespace kerf::gcode {
 
 inline constexpr unsigned kAllAxes = 7;
 
-/// True for a line of a template that only says something.
+/// True for a line of a template that is a comment.
 bool is_comment(std::string_view line);
 
 class Poster {
@@ -49,7 +49,7 @@ class Poster {
   void put_plane(std::size_t i, Plane plane);
   void put_power();
 
-  // states.cpp
+  // state_steps.cpp
   void spindle(std::size_t i);
   void laser(std::size_t i);
   void coolant(std::size_t i, const step::Coolant& wanted);
@@ -66,8 +66,8 @@ class Poster {
   void stop_spindle();
   void start_spindle(std::size_t i);
 
-  // text.cpp
-  void open_file(std::size_t begin);
+  // templates.cpp
+  void open_file(std::size_t first_step);
   void find_file_end();
   void close_file();
   void approach(std::size_t i);
@@ -84,14 +84,14 @@ class Poster {
   void forget();
 
   // lines
-  void begin();
+  void start_line();
   void word(char letter, std::int64_t counts, int decimals);
   void code(char letter, int tenths);
-  void end(std::size_t i);
+  void end_line(std::size_t i);
   void m_line(std::size_t i, int tenths);
   bool can_m(std::size_t i, int tenths, std::string_view what);
-  void cannot(std::size_t i, std::string message);
-  void left_out(std::size_t i, std::string message);
+  void report_unsupported(std::size_t i, std::string message);
+  void report_skipped(std::size_t i, std::string message);
 
   const Toolpath& path_;
   const PostProfile& profile_;
@@ -107,26 +107,26 @@ class Poster {
   std::vector<PostedFile> files_;
   std::string out_;
   std::size_t lines_ = 0;
-  std::size_t file_begin_ = 0, file_end_ = 0;  // the steps of the file being written
+  std::size_t file_start_ = 0, file_end_ = 0;  // steps of the current file
   std::optional<MotionFigures> figures_;       // of those steps
-  std::optional<int> file_tool_;               // in the spindle at the file's first motion
+  std::optional<int> file_tool_;               // at the first motion of the file
   int line_number_ = 0;
   LineBuffer line_;
   ArcPlan plan_;
 
-  // Where the toolpath is.
+  // State of the toolpath.
   Point3 from_;
   unsigned unknown_from_ = kAllAxes;
   std::optional<int> tool_;
   step::Spindle wanted_spindle_;
   step::Coolant wanted_coolant_;
 
-  // What the controller knows.
+  // State of the controller.
   Counts at_{};
-  bool touched_ = false;  // a probe may have ended before at_
-  unsigned told_ = 0;     // axes whose at_ the controller has been told in work coordinates
+  bool touched_ = false;     // a probe may have ended before at_
+  unsigned known_axes_ = 0;  // axes whose at_ has been written in work coordinates
   std::array<std::int64_t, 3> rotary_{};
-  unsigned told_rotary_ = 0;
+  unsigned known_rotary_ = 0;
   int motion_ = -1;
   std::optional<Plane> plane_;
   std::int64_t feed_ = -1;
@@ -134,11 +134,11 @@ class Poster {
   step::Coolant coolant_;
   LaserMode laser_ = LaserMode::off;
   std::optional<double> pending_power_;
-  double extruded_ = 0.0;           // mm of filament
-  std::int64_t told_extruded_ = 0;  // in counts of E
-  bool restore_ = false;            // spindle or coolant may have been stopped by a tool change
-  bool moved_ = false;              // in this file
-  bool no_feed_said_ = false;
+  double extruded_ = 0.0;              // mm of filament
+  std::int64_t written_extruded_ = 0;  // in counts of E
+  bool restore_ = false;               // spindle or coolant may have been stopped by a tool change
+  bool moved_ = false;                 // in this file
+  bool no_feed_reported_ = false;
 };
 
 }  // namespace kerf::gcode

@@ -1,6 +1,5 @@
-// Post files: TOML into a profile, every fault with its line and column; and the profiles compiled in.
-//
-// One table of keys drives the reading and the messages.
+// Post files: TOML to profiles, errors with line and column; the built-in profiles. One table of keys is used
+// for reading and for messages.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -18,7 +17,7 @@
 namespace kerf {
 namespace {
 
-/// Takes a value; false if it is not of the right kind or out of range.
+/// Sets a value; false if it has the wrong type or is out of range.
 using Take = std::function<bool(const toml::node&, PostProfile&)>;
 
 struct Key {
@@ -242,11 +241,11 @@ class ProfileReader {
   std::optional<PostProfile> read(std::string_view text, const PostProfile* (*find)(std::string_view));
 
  private:
-  Origin spot(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
-  Origin spot(const toml::node& node) const { return spot(node.source().begin); }
+  Origin location(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
+  Origin location(const toml::node& node) const { return location(node.source().begin); }
   void read_table(std::string_view section, const toml::table& table);
   void read_key(std::string_view section, const toml::key& key, const toml::node& node);
-  bool begin_from(const toml::node& base, const PostProfile* (*find)(std::string_view));
+  bool inherit(const toml::node& base, const PostProfile* (*find)(std::string_view));
 
   std::string file_;
   Diagnostics& diagnostics_;
@@ -260,13 +259,13 @@ void ProfileReader::read_key(std::string_view section, const toml::key& key, con
     known.emplace_back(k.name);
     if (k.name != key.str()) continue;
     if (!k.take(node, profile_))
-      diagnostics_.error(Code::post_value_bad, spot(node),
+      diagnostics_.error(Code::post_value_bad, location(node),
                          fmt::format("{} must be {}", std::string(k.name), std::string(k.expected)));
     return;
   }
   Diagnostic& d =
-      diagnostics_.error(Code::post_key_unknown, spot(key.source().begin),
-                         fmt::format("a post has no key \"{}\" here", std::string(key.str().substr(0, 60))));
+      diagnostics_.error(Code::post_key_unknown, location(key.source().begin),
+                         fmt::format("unknown key \"{}\" of a post", std::string(key.str().substr(0, 60))));
   if (const auto meant = did_you_mean(key.str(), known)) d.hint = fmt::format("did you mean \"{}\"?", *meant);
 }
 
@@ -281,11 +280,11 @@ void ProfileReader::read_table(std::string_view section, const toml::table& tabl
   }
 }
 
-bool ProfileReader::begin_from(const toml::node& base, const PostProfile* (*find)(std::string_view)) {
+bool ProfileReader::inherit(const toml::node& base, const PostProfile* (*find)(std::string_view)) {
   const auto name = base.value_exact<std::string_view>();
   const PostProfile* profile = name && find != nullptr ? find(*name) : nullptr;
   if (profile == nullptr) {
-    diagnostics_.error(Code::post_unknown, spot(base), "base must be the name of a post that Kerf knows");
+    diagnostics_.error(Code::post_unknown, location(base), "base must be the name of a built-in post");
     return false;
   }
   profile_ = *profile;
@@ -296,20 +295,19 @@ std::optional<PostProfile> ProfileReader::read(std::string_view text,
                                                const PostProfile* (*find)(std::string_view)) {
   const std::size_t errors_before = diagnostics_.errors();
   if (text.size() > limits::kMaxProfileBytes) {
-    diagnostics_.error(
-        Code::post_file_syntax, TextSpot{file_, 0, 0},
-        fmt::format("a post file of more than {} bytes is not read", limits::kMaxProfileBytes));
+    diagnostics_.error(Code::post_file_syntax, TextSpot{file_, 0, 0},
+                       fmt::format("a post file is limited to {} bytes", limits::kMaxProfileBytes));
     return std::nullopt;
   }
   const toml::parse_result parsed = toml::parse(text, file_);
   if (!parsed) {
-    diagnostics_.error(Code::post_file_syntax, spot(parsed.error().source().begin),
+    diagnostics_.error(Code::post_file_syntax, location(parsed.error().source().begin),
                        std::string(parsed.error().description()));
     return std::nullopt;
   }
   const toml::table& root = parsed.table();
   if (const toml::node* base = root.get("base"))
-    if (!begin_from(*base, find)) return std::nullopt;
+    if (!inherit(*base, find)) return std::nullopt;
   read_table("", root);
   if (profile_.name.empty() && diagnostics_.errors() == errors_before)
     diagnostics_.error(Code::post_value_bad, TextSpot{file_, 0, 0},

@@ -66,9 +66,9 @@ constexpr std::string_view kOForZero = "is the letter O meant as the digit 0?";
 
 /// "X4O", "XO5": whether the word at `letter`, which has no number, is or meets an O instead of the digit 0.
 bool is_o_for_zero(const char* line, const char* letter, const char* end) {
-  const bool behind_number = letter != line && (is_digit(letter[-1]) || letter[-1] == '.');
+  const bool after_number = letter != line && (is_digit(letter[-1]) || letter[-1] == '.');
   const bool before_o = end - letter > 1 && upper(letter[1]) == 'O';
-  return before_o || (upper(*letter) == 'O' && behind_number);
+  return before_o || (upper(*letter) == 'O' && after_number);
 }
 
 const char* after_blanks(const char* p, const char* end) {
@@ -149,7 +149,7 @@ void BlockReader::seek(std::size_t position, std::uint32_t lines) {
 }
 
 /// To the start of the line after the one that ends at `end`.
-void BlockReader::go_behind(std::size_t end) {
+void BlockReader::go_after(std::size_t end) {
   position_ = end;
   if (position_ < text_.size()) position_ += text_.substr(position_, 2) == "\r\n" ? 2 : 1;
 }
@@ -160,7 +160,7 @@ std::string_view BlockReader::peek() {
 }
 
 void BlockReader::skip() {
-  go_behind(line_end());
+  go_after(line_end());
   ++line_;
 }
 
@@ -179,7 +179,7 @@ bool BlockReader::next(Block& block) {
   unbalanced_ = false;
   line_start_ = p_ = text_.data() + position_;
   end_ = text_.data() + end;
-  go_behind(end);
+  go_after(end);
   if (block.text.size() > options_.max_line_bytes) {
     fault(block, Code::line_too_long, line_start_,
           fmt::format("the line is longer than {} bytes", options_.max_line_bytes), "is this a G-code file?");
@@ -313,7 +313,7 @@ bool BlockReader::read_assignment(Block& block) {
   return true;
 }
 
-/// "O100" alone is a program's number and stays a word; with a name or a keyword after it, it steers the
+/// "O100" alone is a program's number and stays a word; with a name or a keyword after it, it controls the
 /// program.
 bool BlockReader::read_o_word(Block& block) {
   const char* begin = p_;

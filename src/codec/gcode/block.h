@@ -88,7 +88,7 @@ class BlockReader {
 
  private:
   std::size_t line_end();
-  void go_behind(std::size_t end);
+  void go_after(std::size_t end);
   void find_line_end();
   void read_line(Block& block);
   bool read_prefix(Block& block);

@@ -35,8 +35,8 @@ inline bool ends_plainly(const char* p, const char* end) {
 
 }  // namespace detail
 
-/// Reads the number at `begin`, to the nearest double; never "-0". Numbers of up to 15 digits are one exact
-/// division, which rounds to the nearest double.
+/// Reads the number at the start of the range, to the nearest double; never "-0". Numbers of up to 15 digits
+/// are one exact division, which rounds to the nearest double.
 inline Decimal read_decimal(const char* begin, const char* end) {
   const char* p = begin;
   const bool negative = p != end && *p == '-';

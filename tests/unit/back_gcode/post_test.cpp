@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <string>
 
-#include "back/gcode/line.h"
+#include "back/gcode/line_buffer.h"
 
 namespace kerf {
 namespace {

@@ -1,4 +1,4 @@
-// The words of canned cycles G73, G74 and G81 to G89; kerf/drill.h makes their motions.
+// The words of canned cycles G73, G74 and G81 to G89; kerf/drill.h computes their motions.
 #include <cmath>
 #include <fmt/format.h>
 

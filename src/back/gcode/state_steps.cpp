@@ -1,5 +1,4 @@
-// Steps that do not move: spindle, laser, coolant, dwell, heaters, fans, tool changes, and what a front end
-// hands through as it is.
+// Steps other than motions: spindle, laser, coolant, dwell, heaters, fans, tool changes, verbatim lines.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -17,15 +16,15 @@ std::int64_t counts_of(double value, int decimals) { return std::llround(value *
 }  // namespace
 
 void Poster::m_line(std::size_t i, int tenths) {
-  begin();
+  start_line();
   code('M', tenths);
-  end(i);
+  end_line(i);
 }
 
 /// True if the controller has the M code; else an error about `what`.
 bool Poster::can_m(std::size_t i, int tenths, std::string_view what) {
   if (profile_.has_m(tenths)) return true;
-  cannot(i, fmt::format("the controller has no M{}, which {} needs", tenths / 10, what));
+  report_unsupported(i, fmt::format("the controller has no M{}, which {} needs", tenths / 10, what));
   return false;
 }
 
@@ -45,12 +44,12 @@ void Poster::stop_spindle() {
 
 void Poster::start_spindle(std::size_t i) {
   const int tenths = wanted_spindle_.turn == SpindleTurn::cw ? 30 : 40;
-  if (!can_m(i, tenths, "a turning spindle")) return;
+  if (!can_m(i, tenths, "starting the spindle")) return;
   const bool starts = spindle_.turn == SpindleTurn::off;
-  begin();
+  start_line();
   code('M', tenths);
   word('S', counts_of(wanted_spindle_.speed.rpm(), profile_.decimals_speed), profile_.decimals_speed);
-  end(i);
+  end_line(i);
   spindle_ = wanted_spindle_;
   const bool waits = i + 1 < path_.size() && path_[i + 1].kind() == StepKind::dwell;
   if (starts && !waits && profile_.spindle_dwell > Duration{}) dwell(i, profile_.spindle_dwell);
@@ -59,18 +58,18 @@ void Poster::start_spindle(std::size_t i) {
 void Poster::laser(std::size_t i) {
   const step::LaserPower wanted = path_[i].laser_power();
   if (wanted.mode == LaserMode::off) return stop_spindle();
-  if (wanted.mode == laser_) {  // a power alone does not stop the motion
+  if (wanted.mode == laser_) {  // a changed power does not stop the motion
     pending_power_ = wanted.power;
     return;
   }
   const int tenths = wanted.mode == LaserMode::constant ? 30 : 40;
   if (!can_m(i, tenths, "a laser")) return;
   laser_ = wanted.mode;
-  pending_power_.reset();  // told with the mode
-  begin();
+  pending_power_.reset();  // written with the mode
+  start_line();
   code('M', tenths);
   word('S', counts_of(wanted.power, profile_.decimals_speed), profile_.decimals_speed);
-  end(i);
+  end_line(i);
 }
 
 void Poster::coolant(std::size_t i, const step::Coolant& wanted) {
@@ -84,25 +83,25 @@ void Poster::coolant(std::size_t i, const step::Coolant& wanted) {
     if (profile_.has_m(70))
       m_line(i, 70);
     else
-      left_out(i, "the controller has no M7; mist");
+      report_skipped(i, "the controller has no M7; mist");
   }
   if (wanted.flood && !coolant_.flood) {
     coolant_.flood = true;
     if (profile_.has_m(80))
       m_line(i, 80);
     else
-      left_out(i, "the controller has no M8; flood");
+      report_skipped(i, "the controller has no M8; flood");
   }
 }
 
 void Poster::dwell(std::size_t i, Duration time) {
   constexpr int kDecimals = 3;
   const bool seconds = profile_.dwell_unit == DwellUnit::seconds;
-  begin();
+  start_line();
   code('G', 40);
   word('P', counts_of(seconds ? time.seconds() : 1000.0 * time.seconds(), seconds ? kDecimals : 0),
        seconds ? kDecimals : 0);
-  end(i);
+  end_line(i);
 }
 
 void Poster::path_mode(std::size_t i) {
@@ -111,15 +110,14 @@ void Poster::path_mode(std::size_t i) {
                      : mode.kind == PathModeKind::exact_stop ? 611
                                                              : 610;
   if (!profile_.has_g(tenths)) {
-    if (mode.kind != PathModeKind::exact_path)
-      left_out(i, "the controller drives corners its own way; the mode");
+    if (mode.kind != PathModeKind::exact_path) report_skipped(i, "the controller has no such path mode; it");
     return;
   }
-  begin();
+  start_line();
   code('G', tenths);
   if (mode.kind == PathModeKind::blend && mode.tolerance > Length{} && profile_.has_letter('P'))
     word('P', grid_.count(mode.tolerance.mm()), decimals_);
-  end(i);
+  end_line(i);
 }
 
 void Poster::temperature(std::size_t i) {
@@ -127,23 +125,23 @@ void Poster::temperature(std::size_t i) {
   constexpr int kSet[] = {1040, 1400, 1410}, kWait[] = {1090, 1900, 1910};
   const int tenths = (t.wait ? kWait : kSet)[static_cast<std::size_t>(t.heater)];
   if (!can_m(i, tenths, "a heater")) return;
-  begin();
+  start_line();
   code('M', tenths);
   word('S', counts_of(t.celsius, 1), 1);
-  end(i);
+  end_line(i);
 }
 
 void Poster::fan(std::size_t i) {
   const step::Fan f = path_[i].fan();
   if (!can_m(i, f.fraction > 0.0 ? 1060 : 1070, "a fan")) return;
-  begin();
+  start_line();
   code('M', f.fraction > 0.0 ? 1060 : 1070);
   if (f.fan != 0) word('P', f.fan, 0);
   if (f.fraction > 0.0) word('S', counts_of(std::min(f.fraction, 1.0) * profile_.fan_full, 0), 0);
-  end(i);
+  end_line(i);
 }
 
-/// What a tool change stopped is started again before the tool moves.
+/// Restarts what a tool change has stopped, before the next motion.
 void Poster::restore(std::size_t i) {
   restore_ = false;
   if (wanted_spindle_.turn != spindle_.turn || wanted_spindle_.speed != spindle_.speed) {
@@ -168,8 +166,8 @@ void Poster::tool_change(std::size_t i) {
   restore_ = true;
   if (tool_policy_ == ToolChangePolicy::command) {
     if (number > profile_.highest_tool)
-      cannot(i, fmt::format("the controller's tools have numbers up to {}; this one is {}",
-                            profile_.highest_tool, number));
+      report_unsupported(i, fmt::format("the maximum tool number of the controller is {}; this one is {}",
+                                        profile_.highest_tool, number));
     templates(profile_.change_lines);
   } else if (!first || moved_) {
     templates(profile_.pause_lines);
@@ -177,25 +175,25 @@ void Poster::tool_change(std::size_t i) {
   templates(profile_.section);
 }
 
-/// A pause in the controller's own way where it has no such M code.
+/// A pause; by the profile's pause lines if the controller has no such M code.
 void Poster::pause(std::size_t i) {
   const PauseKind kind = path_[i].pause().kind;
   const int m = kind == PauseKind::always ? 0 : kind == PauseKind::optional ? 10 : 600;
   if (profile_.has_m(m)) return m_line(i, m);
-  if (kind == PauseKind::optional) return left_out(i, "the controller has no M1; the optional pause");
+  if (kind == PauseKind::optional) return report_skipped(i, "the controller has no M1; the optional pause");
   std::vector<std::string> lines = profile_.pause_lines;
   lines.erase(std::remove_if(lines.begin(), lines.end(), is_comment), lines.end());
-  if (lines.empty()) return cannot(i, "the controller has no way to pause");
+  if (lines.empty()) return report_unsupported(i, "the controller has no way to pause");
   templates(lines);
 }
 
-/// A file ends where another tool comes. Changes before its first motion only choose its tool, which
-/// open_file() has looked for.
+/// A file ends at the change to another tool. Changes before its first motion only select its tool, which
+/// open_file() has found already.
 void Poster::change_file(std::size_t i) {
   if (!moved_ || file_tool_ == path_[i].tool_change().tool) return;
   if (files_.size() + 1 == limits::kMaxPostedFiles)
-    cannot(i, fmt::format("there are more than {} tool changes, each of which starts a file",
-                          limits::kMaxPostedFiles));
+    report_unsupported(i, fmt::format("there are more than {} tool changes, each of which starts a file",
+                                      limits::kMaxPostedFiles));
   if (files_.size() + 1 >= limits::kMaxPostedFiles) return;
   close_file();
   open_file(i);
@@ -205,21 +203,21 @@ void Poster::change_file(std::size_t i) {
 void Poster::store_home(std::size_t i) {
   const int tenths = path_[i].store_home().home == Reference::home ? 281 : 301;
   if (!profile_.has_g(tenths))
-    return left_out(i, fmt::format("the controller has no G{}.1; storing the position", tenths / 10));
-  begin();
+    return report_skipped(i, fmt::format("the controller has no G{}.1; storing the position", tenths / 10));
+  start_line();
   code('G', tenths);
-  end(i);
+  end_line(i);
 }
 
 void Poster::verbatim(std::size_t i) {
   const std::string_view text = path_.text(i);
   if (text.find_first_of("\r\n") != std::string_view::npos || text.size() > profile_.longest_line)
-    return cannot(i, "a text handed through to the controller is longer than one of its lines");
+    return report_unsupported(i, "a verbatim text does not fit on one line of the controller");
   const std::string line(text);
   Diagnostics found;
   if (!lint(line, profile_, "", LintStart::foreign_line, found)) {
     Diagnostic& d = diagnostics_.error(Code::post_cannot, path_.origin_of(i),
-                                       fmt::format("the controller does not take \"{}\"", line));
+                                       fmt::format("the controller does not accept \"{}\"", line));
     for (const Diagnostic& f : found.list()) d.notes.push_back({{}, f.message});
     return;
   }

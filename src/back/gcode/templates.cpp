@@ -1,4 +1,4 @@
-// Files' begins and ends, templates, comments.
+// Starts and ends of files, templates, comments.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -27,11 +27,11 @@ bool is_comment(std::string_view line) {
   return !line.empty() && (line.front() == '(' || line.front() == ';');
 }
 
-/// Finds which tool the file that begins at file_begin_ is for, and where it ends.
+/// Finds the tool of the file that starts at file_start_, and the end of the file.
 void Poster::find_file_end() {
   bool moved = false;
   file_tool_.reset();
-  for (file_end_ = file_begin_; file_end_ < path_.size(); ++file_end_) {
+  for (file_end_ = file_start_; file_end_ < path_.size(); ++file_end_) {
     const Step& s = path_[file_end_];
     moved = moved || s.is_motion();
     if (s.kind() != StepKind::tool_change) continue;
@@ -43,8 +43,8 @@ void Poster::find_file_end() {
   }
 }
 
-void Poster::open_file(std::size_t begin) {
-  file_begin_ = begin;
+void Poster::open_file(std::size_t first_step) {
+  file_start_ = first_step;
   find_file_end();
   figures_.reset();
   out_.clear();
@@ -74,27 +74,27 @@ void Poster::close_file() {
   out_ = {};
 }
 
-/// A further file begins where the tool before it stopped: up first, then across.
+/// A further file starts with motions to the end position of the file before: up first, then across.
 void Poster::approach(std::size_t i) {
   const Counts to = grid_.counts(from_);
   moved_ = true;
   if ((unknown_from_ & 4u) != 0) return;
-  begin();
+  start_line();
   put_motion(0);
   put_axes(to, 4u);
-  end(i);
-  told_ |= 4u;
+  end_line(i);
+  known_axes_ |= 4u;
   if ((unknown_from_ & 3u) == 0) {
-    begin();
+    start_line();
     put_motion(0);
     put_axes(to, 3u);
-    end(i);
-    told_ |= 3u;
+    end_line(i);
+    known_axes_ |= 3u;
   }
   at_ = to;
 }
 
-/// Text that is safe inside a comment: plain characters, no brackets, nothing that acts.
+/// Text that is safe in a comment: printable ASCII, no parentheses, no characters that controllers execute.
 std::string Poster::sanitised(std::string_view text) const {
   std::string out;
   for (const char c : text.substr(0, limits::kMaxTemplateValueBytes)) {
@@ -116,13 +116,13 @@ void Poster::comment(std::string_view text) {
   std::string clean = sanitised(trim(text));
   if (clean.empty()) return;
   clean = clean.substr(0, profile_.longest_line - 3);
-  begin();
+  start_line();
   line_.clear();
-  const bool brackets = profile_.comments == CommentStyle::brackets;
-  line_.put(brackets ? "(" : "; ");
+  const bool parentheses = profile_.comments == CommentStyle::brackets;
+  line_.put(parentheses ? "(" : "; ");
   line_.put(clean);
-  if (brackets) line_.put(')');
-  end(path_.size());
+  if (parentheses) line_.put(')');
+  end_line(path_.size());
 }
 
 void Poster::templates(const std::vector<std::string>& lines) {
@@ -153,7 +153,7 @@ std::string Poster::expanded(std::string_view line) {
       out += sanitised(*value);
     else
       diagnostics_
-          .error(Code::post_placeholder, {}, fmt::format("post {}: no such name {{{}}}", profile_.name, key))
+          .error(Code::post_placeholder, {}, fmt::format("post {}: unknown name {{{}}}", profile_.name, key))
           .hint = "names: name, units, tool, tool_name, tool_comment, tools, bounds, time, version, profile";
     if (close == std::string_view::npos) break;
     line.remove_prefix(close + 1);
@@ -180,9 +180,9 @@ std::optional<std::string> Poster::value_of(std::string_view key) {
   return std::nullopt;
 }
 
-/// What the file does, worked out when a template first asks for it.
+/// Figures of the file, computed at the first use in a template.
 const MotionFigures& Poster::figures() {
-  if (!figures_) figures_ = report_on(path_, {.first = file_begin_, .end = file_end_}).all;
+  if (!figures_) figures_ = report_on(path_, {.first = file_start_, .end = file_end_}).all;
   return *figures_;
 }
 
@@ -209,7 +209,7 @@ std::string Poster::time_text() {
 std::string Poster::tools_text() const {
   std::string text;
   std::optional<int> last;
-  for (std::size_t i = file_begin_; i < file_end_; ++i) {
+  for (std::size_t i = file_start_; i < file_end_; ++i) {
     const Step& s = path_[i];
     if (s.kind() != StepKind::tool_change || last == s.tool_change().tool) continue;
     last = s.tool_change().tool;
@@ -219,21 +219,21 @@ std::string Poster::tools_text() const {
   return text;
 }
 
-/// A line that is written as it is. What it did is not known, so that everything is told again after it.
+/// A verbatim line. Its effect is unknown: after it the whole state is written again.
 void Poster::raw_line(std::string_view text) {
   out_ += text;
   if (text.size() > profile_.longest_line)
-    diagnostics_.error(
-        Code::post_line_long, {},
-        fmt::format("a line of {} bytes; the controller reads {}", text.size(), profile_.longest_line));
+    diagnostics_.error(Code::post_line_long, {},
+                       fmt::format("a line of {} bytes; the maximum of the controller is {}", text.size(),
+                                   profile_.longest_line));
   out_ += profile_.line_end == LineEnd::crlf ? "\r\n" : "\n";
   ++lines_;
   if (!is_comment(text)) forget();
 }
 
 void Poster::forget() {
-  told_ = 0;
-  told_rotary_ = 0;
+  known_axes_ = 0;
+  known_rotary_ = 0;
   motion_ = -1;
   plane_.reset();
   feed_ = -1;

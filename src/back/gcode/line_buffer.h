@@ -1,5 +1,5 @@
-// One line of G-code being made, in a fixed buffer: letters with numbers that are whole counts of the last
-// decimal, so that writing needs no floating point and repeats exactly.
+// A line of G-code in a fixed buffer. Numbers are integers in units of the last decimal, so that writing
+// needs no floating point.
 #pragma once
 
 #include <array>
@@ -18,10 +18,10 @@ inline char* write_units(char* p, std::int64_t units, int decimals, Fraction fra
   const bool negative = units < 0;
   auto rest = negative ? 0 - static_cast<std::uint64_t>(units) : static_cast<std::uint64_t>(units);
   if (negative) *p++ = '-';
-  int places = decimals;
-  while (places > 0 && fraction == Fraction::shortest && rest % 10 == 0) rest /= 10, --places;
-  if (places > 0) {
-    for (int i = 0; i < places; ++i) *--d = static_cast<char>('0' + rest % 10), rest /= 10;
+  int count = decimals;
+  while (count > 0 && fraction == Fraction::shortest && rest % 10 == 0) rest /= 10, --count;
+  if (count > 0) {
+    for (int i = 0; i < count; ++i) *--d = static_cast<char>('0' + rest % 10), rest /= 10;
     *--d = '.';
   }
   do *--d = static_cast<char>('0' + rest % 10), rest /= 10;
@@ -30,7 +30,7 @@ inline char* write_units(char* p, std::int64_t units, int decimals, Fraction fra
   return p;
 }
 
-/// The words of a line. More than fits is impossible: a line has at most 20 words of 25 characters.
+/// The words of a line. It cannot overflow: a line has at most 20 words of 25 characters.
 class LineBuffer {
  public:
   void clear() { end_ = text_.data(); }
