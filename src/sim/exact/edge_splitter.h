@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/exact/sharpen.h"
+#include "sim/exact/vertex_fitter.h"
 
 namespace kerf::sim {
 

@@ -1,6 +1,6 @@
 // Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and
 // the vertex goes to where the planes meet; then once more from there with places much nearer to it.
-#include "sim/exact/sharpen.h"
+#include "sim/exact/vertex_fitter.h"
 
 #include <algorithm>
 #include <cmath>

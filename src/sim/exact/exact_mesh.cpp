@@ -12,7 +12,7 @@
 #include "base/parallel.h"
 #include "sim/exact/edge_splitter.h"
 #include "sim/exact/relabel.h"
-#include "sim/exact/sharpen.h"
+#include "sim/exact/vertex_fitter.h"
 #include "sim/mesh/mesh_build.h"
 
 #include "kerf/exact_mesh.h"
