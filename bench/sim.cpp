@@ -207,14 +207,14 @@ void ReliefMeshVerified(benchmark::State& state) {
   state.counters["triangles"] = static_cast<double>(mesh.step.size());
 }
 
-/// An exact mesh within 2 microns of the sweeps: extraction and sharpening.
+/// An exact mesh within 2 microns of the sweeps: extraction and fitting.
 void exact_mesh(benchmark::State& state, Toolpath path) {
   const CutJob job(state, std::move(path), mm(0.002));
   if (!job.result) return state.SkipWithError("not simulated");
   std::size_t triangles = 0;
   for (auto _ : state) {
     Mesh mesh = extract_mesh(*job.columns, job.merged);
-    sharpen_mesh(mesh, *job.result);
+    make_mesh_exact(mesh, *job.result);
     triangles = mesh.step.size();
   }
   state.counters["triangles"] = static_cast<double>(triangles);

@@ -76,17 +76,17 @@ struct Making {
 
 /// The mesh of what was cut, verified; nothing where something fails.
 std::optional<Mesh> made_mesh(const Simulation& result, Finish finish, Stopwatch& watch) {
-  const bool is_sharp = finish == Finish::sharpened;
+  const bool is_exact = finish == Finish::sharpened;
   const std::vector<std::uint8_t> one_group(result.job.path->size(), 0);
-  MeshOptions options{.tolerance = mm(is_sharp ? 0.002 : 0.005), .step_groups = one_group};
+  MeshOptions options{.tolerance = mm(is_exact ? 0.002 : 0.005), .step_groups = one_group};
   const MeshColumns columns(result.workpiece);
   watch.lap("columns_cpu_s");
   Mesh mesh = extract_mesh(columns, options);
   watch.lap("mesh_cpu_s");
-  if (is_sharp) {
-    const SharpenOptions sharp;
-    if (!sharpen_mesh(mesh, result, sharp)) return std::nullopt;
-    options.tolerance = options.tolerance + sharp.tolerance;
+  if (is_exact) {
+    const ExactMeshOptions exact;
+    if (!make_mesh_exact(mesh, result, exact)) return std::nullopt;
+    options.tolerance = options.tolerance + exact.tolerance;
     watch.lap("sharpen_cpu_s");
   }
   Diagnostics diagnostics;

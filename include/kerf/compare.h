@@ -1,10 +1,10 @@
-// Compares a cut part with the mesh that it was to become: gouges, where material of the target is gone, and
-// rests, where material stands that the target has not.
+// Compares a cut part with the target mesh: gouges, where material of the target was removed, and rests,
+// where material is left outside the target.
 //
-// Both are looked at on the part's columns. A difference's depth is how far its deepest point lies from the
-// target's surface, so that a wall that is 0.1 mm off counts as 0.1 however high it is. A part that meets its
-// target only touches it: walls between two columns are known to half a pitch, but what the columns' own
-// lines say is exact.
+// Both are compared on the part's columns. The depth of a difference is the largest distance of its points
+// from the target's surface: a wall that is off by 0.1 mm has a depth of 0.1 mm whatever its height. Along
+// the columns' centre lines the comparison is exact; between two columns walls are only known to half a
+// pitch.
 #pragma once
 
 #include <cstdint>
@@ -25,43 +25,43 @@ std::string_view to_string(DifferenceKind kind);
 
 struct CompareOptions {
   Length tolerance = default_tolerance::kComparison;  // smaller differences are not reported
-  std::size_t most_regions = 50;                      // the deepest are told
+  std::size_t max_regions = 50;                       // reported, the deepest ones
 };
 
 /// Neighbouring columns with the same kind of difference.
 struct DifferenceRegion {
   DifferenceKind kind{};
   Length depth;   // largest distance from the target's surface
-  Point3 at;      // mm, where that is
-  Volume volume;  // deeper than the tolerance
+  Point3 at;      // mm, its position
+  Volume volume;  // beyond the tolerance
   Box3 bounds;    // mm
   std::size_t columns = 0;
 };
 
 struct Comparison {
-  Volume target, part;                    // both on the columns
-  Volume gouge, rest;                     // of all differences, those within the tolerance too
-  Volume gouge_beyond, rest_beyond;       // of those beyond it
-  std::size_t region_count = 0;           // of all, told or not
+  Volume target, part;                    // both measured on the columns
+  Volume gouge, rest;                     // of all differences, including those within the tolerance
+  Volume gouge_beyond, rest_beyond;       // of those beyond the tolerance
+  std::size_t region_count = 0;           // all, also those that are not in `regions`
   std::vector<DifferenceRegion> regions;  // deepest first
   int nx = 0, ny = 0;
-  /// One a column (j * nx + i), mm: depth of its largest difference beyond the tolerance, below 0 for a
-  /// gouge; 0 where there is none.
+  /// Per column (j * nx + i), mm: depth of its largest difference beyond the tolerance, negative for a gouge;
+  /// 0 if there is none.
   std::vector<float> map;
   /// Whether the target has material on the column.
   std::vector<bool> in_target;
 };
 
-/// Appends an error and returns nothing where the target cannot tell its columns; a warning where it reaches
-/// out of the stock. Nothing, without an error, if stopped.
+/// Appends an error and returns nothing if the columns of the target cannot be computed; appends a warning if
+/// the target extends beyond the stock. If stopped, nothing without an error.
 std::optional<Comparison> compare(const Workpiece& part, const StockBody& target,
                                   const CompareOptions& options, Diagnostics& diagnostics,
                                   Progress* progress = nullptr);
 
-/// The map from above, one pixel a column or a few: green the target, red gouges, blue rests, in full colour
-/// from `full` on. At most `longest` pixels on a side.
-Image draw_map(const Comparison& comparison, Length full, int longest);
-/// The same colour for a depth of the map.
+/// The map from above, one pixel or more per column, or several columns per pixel: the target green, gouges
+/// red, rests blue, fully saturated from a depth of `full`. At most `max_pixels` pixels per side.
+Image draw_map(const Comparison& comparison, Length full, int max_pixels);
+/// The colour of a depth in that map.
 std::array<std::uint8_t, 3> difference_colour(double depth, Length full);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Pictures as PNG bytes from plain pixels.
+// PNG files from plain pixels.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@ struct ImageView {
   std::span<const std::uint8_t> rgba;
 };
 
-/// The file's bytes; empty if the picture has no pixels, fewer than its size requires, or more than a PNG
-/// can hold.
+/// The file's bytes; empty if the picture has no pixels, fewer than width * height, or more than a PNG can
+/// hold.
 std::string write_png(const ImageView& image);
 
 }  // namespace kerf

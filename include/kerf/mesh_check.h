@@ -1,5 +1,4 @@
-// Is a mesh what it should be: closed, turned outwards, and of the volume that it was made for. Every mesh is
-// looked at so before it is written.
+// Checks a mesh before it is written: closed, oriented outwards, and of the expected volume.
 //
 // Positions are x y z in mm; triangles are three indices each, counter-clockwise seen from outside.
 #pragma once
@@ -14,7 +13,7 @@
 namespace kerf {
 
 /// Volume enclosed by a closed mesh, and the number of edges that are not shared by exactly two triangles in
-/// opposite directions (0 for a sound mesh).
+/// opposite directions (0 for a valid mesh).
 struct MeshCheck {
   Volume volume;
   std::size_t bad_edges = 0;
@@ -23,12 +22,13 @@ struct MeshCheck {
 MeshCheck check_mesh(std::span<const float> positions, std::span<const std::uint32_t> triangles,
                      unsigned threads = 0);
 
-/// What a mesh should hold.
+/// The volume that a mesh should enclose.
 struct VolumeRange {
   Volume expected, tolerance;
 };
-/// False, with the error mesh_unsound, for a mesh with a bad edge or another volume; a mesh without triangles
-/// is sound where nothing is expected. To fail here is a fault of the program, not of the user's input.
+/// False, with the error mesh_unsound, for a mesh with a bad edge or a volume outside the range. A mesh
+/// without triangles is valid if the expected volume is 0. A failure is a defect of Kerf, not of the user's
+/// input.
 bool verify_mesh(std::span<const float> positions, std::span<const std::uint32_t> triangles,
                  const VolumeRange& volume, Diagnostics& diagnostics);
 

@@ -14,10 +14,10 @@
 
 namespace kerf {
 
-/// A section of the part in a picture: what is on the viewer's side of a plane is left out, and where the
-/// plane goes through material its face is drawn in kSectionColour, without shading.
+/// A section of the part in a picture: everything on the viewer's side of a plane is omitted, and the cut
+/// face of the material is drawn in kSectionColour, without shading.
 struct Section {
-  Plane plane = Plane::yz;  // parallel to it
+  Plane plane = Plane::yz;  // the section is parallel to it
   double at = 0.0;          // mm along the third axis, work coordinates
 };
 inline constexpr std::array<std::uint8_t, 3> kSectionColour{247, 226, 92};  // sRGB
@@ -29,17 +29,17 @@ struct View {
   int width = 1600, height = 1000;  // pixels
   std::optional<Section> section = {};
 };
-/// Whether the face of a section is visible; in a view along the plane only its edge is.
+/// Whether the cut face of a section is visible: false in a view along its plane.
 bool faces(const View& view, const Section& section);
-/// Of "top", "bottom", "front", "back", "left", "right" or "iso"; of any other name nothing.
+/// The view "top", "bottom", "front", "back", "left", "right" or "iso"; nothing for other names.
 std::optional<View> named_view(std::string_view name);
 
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  // rows from the top
 };
-/// Draws a mesh with shading, fitted to the picture; `colours` has one sRGB colour per triangle (missing ones
-/// are drawn grey). Sizes are limited to 1 to 8192 pixels per side.
+/// Draws a shaded mesh scaled to fill the picture. `colours`: one sRGB colour per triangle, grey where
+/// missing. Width and height are clamped to 1 to 8192 pixels.
 Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
 
 }  // namespace kerf

@@ -185,14 +185,14 @@ std::string unsound_mesh(const Simulation& result, Strays& strays) {
     return problem;
   std::array<Mesh, 2> sharp{rough, rough};
   for (const unsigned n : {0u, 1u}) {
-    SharpenOptions options;
+    ExactMeshOptions options;
     options.threads = n == 0 ? 1 : 3;
-    if (!sharpen_mesh(sharp[n], result, options)) return "not sharpened";
+    if (!make_mesh_exact(sharp[n], result, options)) return "not sharpened";
   }
   if (!same_bits(sharp[0].positions, sharp[1].positions) ||
       !same_bits(sharp[0].triangles, sharp[1].triangles))
     return "the sharp mesh depends on the number of threads";
-  const VolumeRange range = mesh_volume(columns, {.tolerance = SharpenOptions().tolerance});
+  const VolumeRange range = mesh_volume(columns, {.tolerance = ExactMeshOptions().tolerance});
   const std::string problem = unsound(sharp[0], result, range, strays.sharp, strays.most_allowed);
   return problem.empty() ? problem : "sharpened: " + problem;
 }

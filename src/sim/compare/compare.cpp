@@ -1,4 +1,5 @@
-// Differences column by column, their depth by the distance to the target's surface, and their regions.
+// Compares part and target column by column. The depth of a difference is its largest distance from the
+// target's surface; neighbouring columns with differences of one kind form a region.
 #include "kerf/compare.h"
 
 #include <algorithm>
@@ -15,13 +16,13 @@ namespace {
 
 constexpr float kNoLength = 1e-5f;  // mm; shorter differences are rounding
 
-/// A stretch of one column that only one of part and target has.
+/// An interval of one column that belongs to only one of part and target.
 struct Difference {
   DifferenceKind kind;
   float low, high;  // mm above the floor
 };
 
-/// The stretches of `a` that `b` has not.
+/// Appends a - b: the intervals of `a` outside those of `b`.
 template <class A, class B>
 void subtract(const A& a, const B& b, DifferenceKind kind, std::vector<Difference>& out) {
   std::size_t k = 0;
@@ -36,10 +37,10 @@ void subtract(const A& a, const B& b, DifferenceKind kind, std::vector<Differenc
   }
 }
 
-/// What one column has of one kind, beyond the tolerance.
+/// The differences of one kind beyond the tolerance in one column.
 struct Cell {
-  float depth = 0.0f;   // mm; 0: nothing
-  float at = 0.0f;      // height of the deepest place, mm above the floor
+  float depth = 0.0f;   // mm; 0: none
+  float at = 0.0f;      // height of the deepest point, mm above the floor
   float volume = 0.0f;  // mm3
   float low = 0.0f, high = 0.0f;
 };
@@ -50,14 +51,14 @@ class Comparer {
       : part_(part),
         distance_(target),
         tolerance_(options.tolerance.mm()),
-        most_regions_(options.most_regions),
+        max_regions_(options.max_regions),
         nx_(part.columns_x()),
         ny_(part.columns_y()) {}
 
-  std::optional<Comparison> run(const ColumnPositions& places, const ColumnRuns& target, Progress* progress);
+  std::optional<Comparison> run(const ColumnPositions& grid, const ColumnRuns& target, Progress* progress);
 
  private:
-  void look_at_column(int i, int j, std::span<const Run> target);
+  void compare_column(int i, int j, std::span<const Run> target);
   double distance_to(Point3 p);
   void weigh(const Difference& difference, Point2 at, double area, std::size_t number);
   void gather_regions(DifferenceKind kind);
@@ -67,23 +68,24 @@ class Comparer {
   const Workpiece& part_;
   SurfaceDistance distance_;
   double tolerance_;
-  std::size_t most_regions_;
+  std::size_t max_regions_;
   int nx_, ny_;
-  ColumnPositions places_;
+  ColumnPositions grid_;
   double floor_ = 0.0, reach_ = 0.0;
-  Point3 last_place_;
+  Point3 last_point_;
   double last_distance_ = std::numeric_limits<double>::infinity();
   Comparison out_;
   std::vector<Cell> gouges_, rests_;
   std::vector<Difference> found_;
 };
 
-/// The place asked for before is near, and no distance changes faster than the place: that limits the search.
+/// Distance to the target's surface. It differs from that of the previous query point by no more than the
+/// distance between the two points, which limits the search.
 double Comparer::distance_to(Point3 p) {
   constexpr double kSlack = 1e-6;  // mm, for rounding
-  const double limit = last_distance_ + distance(p, last_place_) + kSlack;
+  const double limit = last_distance_ + distance(p, last_point_) + kSlack;
   last_distance_ = distance_.at(p, std::min(limit, reach_));
-  last_place_ = p;
+  last_point_ = p;
   return last_distance_;
 }
 
@@ -91,14 +93,14 @@ void Comparer::weigh(const Difference& d, Point2 at, double area, std::size_t nu
   const double length = static_cast<double>(d.high) - static_cast<double>(d.low), volume = length * area;
   (d.kind == DifferenceKind::gouge ? out_.gouge : out_.rest) =
       (d.kind == DifferenceKind::gouge ? out_.gouge : out_.rest) + mm3(volume);
-  if (length <= tolerance_) return;  // an end of it lies on the target's surface
-  float deepest = 0.0f, place = 0.0f;
-  for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-    const double z = static_cast<double>(d.low) + share * length;
+  if (length <= tolerance_) return;  // one of its ends lies on the target's surface
+  float deepest = 0.0f, deepest_z = 0.0f;
+  for (const double fraction : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const double z = static_cast<double>(d.low) + fraction * length;
     const auto depth = static_cast<float>(distance_to({at.x, at.y, floor_ + z}));
     if (depth <= deepest) continue;
     deepest = depth;
-    place = static_cast<float>(z);
+    deepest_z = static_cast<float>(z);
   }
   if (!(static_cast<double>(deepest) > tolerance_)) return;
   Volume& beyond = d.kind == DifferenceKind::gouge ? out_.gouge_beyond : out_.rest_beyond;
@@ -109,10 +111,10 @@ void Comparer::weigh(const Difference& d, Point2 at, double area, std::size_t nu
   cell.volume += static_cast<float>(volume);
   if (deepest <= cell.depth) return;
   cell.depth = deepest;
-  cell.at = place;
+  cell.at = deepest_z;
 }
 
-void Comparer::look_at_column(int i, int j, std::span<const Run> target) {
+void Comparer::compare_column(int i, int j, std::span<const Run> target) {
   const Workpiece::Body& body = part_.body();
   const double area = body.fraction_x(i) * body.fraction_y(j) * body.pitch * body.pitch;
   const std::vector<Interval> part = part_.column(i, j);
@@ -127,12 +129,12 @@ void Comparer::look_at_column(int i, int j, std::span<const Run> target) {
   found_.clear();
   subtract(target, part, DifferenceKind::gouge, found_);
   subtract(part, target, DifferenceKind::rest, found_);
-  for (const Difference& d : found_) weigh(d, {places_.x_of(i), places_.y_of(j)}, area, number);
+  for (const Difference& d : found_) weigh(d, {grid_.x_of(i), grid_.y_of(j)}, area, number);
   const float gouge = gouges_[number].depth, rest = rests_[number].depth;
   out_.map[number] = gouge > rest ? -gouge : rest;
 }
 
-/// All columns that hang together with one, also across corners.
+/// The region of columns connected to one along sides or corners.
 DifferenceRegion Comparer::flood(DifferenceKind kind, std::size_t from, std::vector<bool>& seen) {
   const std::vector<Cell>& of_kind = cells(kind);
   DifferenceRegion region{.kind = kind, .depth = {}, .at = {}, .volume = {}, .bounds = {}};
@@ -145,7 +147,7 @@ DifferenceRegion Comparer::flood(DifferenceKind kind, std::size_t from, std::vec
     const int i = static_cast<int>(number % static_cast<std::size_t>(nx_));
     const int j = static_cast<int>(number / static_cast<std::size_t>(nx_));
     const Cell& cell = of_kind[number];
-    const double x = places_.x_of(i), y = places_.y_of(j);
+    const double x = grid_.x_of(i), y = grid_.y_of(j);
     volume += static_cast<double>(cell.volume);
     region.bounds.add(Point3{x, y, floor_ + static_cast<double>(cell.low)});
     region.bounds.add(Point3{x, y, floor_ + static_cast<double>(cell.high)});
@@ -175,17 +177,17 @@ void Comparer::gather_regions(DifferenceKind kind) {
     if (seen[n] || !(of_kind[n].depth > 0.0f)) continue;
     out_.regions.push_back(flood(kind, n, seen));
     ++out_.region_count;
-    if (out_.regions.size() < 2 * most_regions_ + 64) continue;  // keeps memory bounded
+    if (out_.regions.size() < 2 * max_regions_ + 64) continue;  // keeps memory bounded
     std::sort(out_.regions.begin(), out_.regions.end(),
               [](const auto& a, const auto& b) { return a.depth > b.depth; });
-    out_.regions.resize(most_regions_);
+    out_.regions.resize(max_regions_);
   }
 }
 
-std::optional<Comparison> Comparer::run(const ColumnPositions& places, const ColumnRuns& target,
+std::optional<Comparison> Comparer::run(const ColumnPositions& grid, const ColumnRuns& target,
                                         Progress* progress) {
   if (progress != nullptr) progress->phase("comparing");
-  places_ = places;
+  grid_ = grid;
   floor_ = part_.bounds().low.z;
   reach_ = 2.0 * length(part_.bounds().size());
   out_.nx = nx_;
@@ -198,17 +200,17 @@ std::optional<Comparison> Comparer::run(const ColumnPositions& places, const Col
   for (int j = 0; j < ny_; ++j) {
     report(progress, static_cast<double>(j) / ny_);
     if (stop_requested(progress)) return std::nullopt;
-    for (int i = 0; i < nx_; ++i) look_at_column(i, j, target.column(i, j));
+    for (int i = 0; i < nx_; ++i) compare_column(i, j, target.column(i, j));
   }
   gather_regions(DifferenceKind::gouge);
   gather_regions(DifferenceKind::rest);
   std::sort(out_.regions.begin(), out_.regions.end(),
             [](const auto& a, const auto& b) { return a.depth > b.depth; });
-  out_.regions.resize(std::min(out_.regions.size(), most_regions_));
+  out_.regions.resize(std::min(out_.regions.size(), max_regions_));
   return std::move(out_);
 }
 
-void tell_outside(const Box3& part, const StockBody& target, Diagnostics& diagnostics) {
+void warn_outside(const Box3& part, const StockBody& target, Diagnostics& diagnostics) {
   constexpr double kTouching = 1e-3;  // mm
   double outside = 0.0;
   for (int axis = 0; axis < 3; ++axis)
@@ -217,13 +219,13 @@ void tell_outside(const Box3& part, const StockBody& target, Diagnostics& diagno
   if (outside <= kTouching) return;
   diagnostics
       .warning(Code::target_outside, {},
-               fmt::format("the target reaches {} mm out of the stock; what lies outside is not compared",
+               fmt::format("the target extends {} mm beyond the stock; that part is not compared",
                            number_text(outside, 3)))
-      .hint = "the target must stand in the program's work coordinates";
+      .hint = "the target must be given in the program's work coordinates";
 }
 
-std::uint8_t between(double share, int from, int to) {
-  return static_cast<std::uint8_t>(std::lround(from + share * (to - from)));
+std::uint8_t between(double fraction, int from, int to) {
+  return static_cast<std::uint8_t>(std::lround(from + fraction * (to - from)));
 }
 
 }  // namespace
@@ -235,33 +237,34 @@ std::optional<Comparison> compare(const Workpiece& part, const StockBody& target
                                   Progress* progress) {
   const Workpiece::Body& body = part.body();
   const Point3 low = body.bounds.low;
-  const ColumnPositions places{
+  const ColumnPositions grid{
       low.x + 0.5 * body.pitch, low.y + 0.5 * body.pitch, low.z, body.pitch, body.nx, body.ny,
       body.bounds.high.x,       body.bounds.high.y};
-  const auto columns = target.columns(places, diagnostics, progress);
+  const auto columns = target.columns(grid, diagnostics, progress);
   if (!columns) return std::nullopt;
-  tell_outside(body.bounds, target, diagnostics);
-  return Comparer(part, target, options).run(places, *columns, progress);
+  warn_outside(body.bounds, target, diagnostics);
+  return Comparer(part, target, options).run(grid, *columns, progress);
 }
 
 std::array<std::uint8_t, 3> difference_colour(double depth, Length full) {
-  const double share = std::clamp(std::abs(depth) / std::max(full.mm(), 1e-9), 0.0, 1.0);
-  if (depth < 0.0) return {between(share, 250, 170), between(share, 190, 0), between(share, 150, 20)};
-  return {between(share, 170, 10), between(share, 205, 40), between(share, 250, 160)};
+  const double fraction = std::clamp(std::abs(depth) / std::max(full.mm(), 1e-9), 0.0, 1.0);
+  if (depth < 0.0)
+    return {between(fraction, 250, 170), between(fraction, 190, 0), between(fraction, 150, 20)};
+  return {between(fraction, 170, 10), between(fraction, 205, 40), between(fraction, 250, 160)};
 }
 
-Image draw_map(const Comparison& c, Length full, int longest) {
-  constexpr int kLargestDot = 8;  // pixels of a column
+Image draw_map(const Comparison& c, Length full, int max_pixels) {
+  constexpr int kLargestDot = 8;  // pixels per column
   Image image;
-  const int most = std::max({c.nx, c.ny, 1});
-  const int dot = std::clamp(longest / most, 1, kLargestDot);
-  const int skip = (most * dot + longest - 1) / longest;  // columns a pixel, where there are too many
+  const int largest = std::max({c.nx, c.ny, 1});
+  const int dot = std::clamp(max_pixels / largest, 1, kLargestDot);
+  const int skip = (largest * dot + max_pixels - 1) / max_pixels;  // columns per pixel of a large grid
   image.width = std::max(c.nx * dot / skip, 1);
   image.height = std::max(c.ny * dot / skip, 1);
   image.rgba.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
   for (int y = image.height - 1; y >= 0; --y) {
     for (int x = 0; x < image.width; ++x) {
-      // Of the columns behind a pixel the largest difference shows.
+      // A pixel shows the largest difference of its columns.
       float depth = 0.0f;
       bool in_target = false;
       for (int j = y * skip / dot; j <= std::min(((y + 1) * skip - 1) / dot, c.ny - 1); ++j) {

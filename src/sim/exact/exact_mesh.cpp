@@ -1,5 +1,12 @@
-// The mesh of the columns, moved to where the sweeps end: which vertices, which sweeps are near them, and all
-// tiles on all threads.
+// Exact meshes: moves the vertices of a mesh of columns to the surfaces that the sweeps left and splits its
+// edges.
+//
+//   1. Select the vertices around which the mesh is not flat, and gather the sweeps near them.
+//   2. Move each to its surface, edge or corner (VertexFitter), one tile per thread, and repair folds.
+//   3. In rounds, flip edges and then split those that are still off the surface (EdgeSplitter).
+//   4. Remove degenerate triangles and assign triangles along edges to steps again.
+#include "kerf/exact_mesh.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -15,31 +22,29 @@
 #include "sim/exact/vertex_fitter.h"
 #include "sim/mesh/mesh_build.h"
 
-#include "kerf/exact_mesh.h"
-
 namespace kerf {
 namespace sim {
 namespace {
 
-/// Vertices that are nearer than this share of the tolerance to their surfaces are left alone.
+/// Vertices are not moved if they are closer to their surface than this fraction of the tolerance.
 constexpr double kGoodEnough = 0.5;
-/// How far from a vertex surfaces are looked for, in pitches.
+/// Maximum distance of a sweep from a vertex, in pitches.
 constexpr double kReach = 0.5 * kKeptMargin;
 
-/// Each round turns edges and then halves those that still stray.
+/// Rounds of flipping and splitting edges.
 constexpr int kMaxRounds = 5;
 
-class Sharpener {
+class ExactMesher {
  public:
-  Sharpener(Mesh& mesh, const Simulation& simulation, const SharpenOptions& options, Progress* progress);
+  ExactMesher(Mesh& mesh, const Simulation& simulation, const ExactMeshOptions& options, Progress* progress);
   bool run();
 
  private:
-  bool is_wanted(std::uint32_t vertex) const;
+  bool is_curved_at(std::uint32_t vertex) const;
   std::vector<QueryPoint> find_queries() const;
-  void place_vertices();
+  void fit_vertices();
   void split_edges();
-  void move(const std::vector<QueryPoint>& queries, const std::vector<Point3>& places);
+  void move(const std::vector<QueryPoint>& queries, const std::vector<Point3>& positions);
   bool stopped() { return stopped_ = stopped_ || stop_requested(progress_); }
 
   LinkedMesh mesh_;
@@ -51,11 +56,11 @@ class Sharpener {
   bool stopped_ = false;
   std::vector<ToolDistance> tools_;
   SweepsByTile sweeps_;
-  std::vector<bool> bends_;  // vertices that were looked at
+  std::vector<bool> is_curved_;  // vertices that were fitted
 };
 
-Sharpener::Sharpener(Mesh& mesh, const Simulation& simulation, const SharpenOptions& options,
-                     Progress* progress)
+ExactMesher::ExactMesher(Mesh& mesh, const Simulation& simulation, const ExactMeshOptions& options,
+                         Progress* progress)
     : mesh_(mesh, simulation.workpiece.bounds().low, thread_count(options.threads)),
       simulation_(simulation),
       body_(simulation.workpiece.body()),
@@ -70,30 +75,30 @@ Sharpener::Sharpener(Mesh& mesh, const Simulation& simulation, const SharpenOpti
   for (const Silhouette* silhouette : silhouettes) tools_.emplace_back(*silhouette);
 }
 
-/// Whether the triangles around a vertex bend. What is flat is right already.
-bool Sharpener::is_wanted(std::uint32_t vertex) const {
+/// Whether the normals of the triangles around a vertex differ. Flat surfaces are exact already.
+bool ExactMesher::is_curved_at(std::uint32_t vertex) const {
   std::optional<Point3> first;
-  double most = 0.0;
+  double largest = 0.0;
   mesh_.around(vertex, [&](std::uint32_t triangle) {
     const Point3 normal = mesh_.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
     if (!first) first = normal;
-    const Point3 turn = normal - *first;
-    most = std::max(most, dot(turn, turn));
+    const Point3 change = normal - *first;
+    largest = std::max(largest, dot(change, change));
   });
-  // A surface that turns by an angle over two pitches is an eighth of it times the pitch from its chord.
-  const double least = 8.0 * kGoodEnough * tolerance_ / body_.pitch;
-  return most > least * least;
+  // If the normal changes by an angle within about a pitch, the sagitta is pitch * angle / 8.
+  const double threshold = 8.0 * kGoodEnough * tolerance_ / body_.pitch;
+  return largest > threshold * threshold;
 }
 
-std::vector<QueryPoint> Sharpener::find_queries() const {
+std::vector<QueryPoint> ExactMesher::find_queries() const {
   constexpr std::size_t kAtATime = 1 << 14;
   const std::size_t count = mesh_.vertices(), pieces = (count + kAtATime - 1) / kAtATime;
   std::vector<std::vector<QueryPoint>> found(pieces);
   const auto work = [&](std::size_t piece) {
     for (std::size_t v = piece * kAtATime; v < std::min(count, (piece + 1) * kAtATime); ++v) {
       const auto vertex = static_cast<std::uint32_t>(v);
-      if (is_wanted(vertex)) found[piece].push_back(sweeps_.query_at(mesh_.point(vertex), vertex));
+      if (is_curved_at(vertex)) found[piece].push_back(sweeps_.query_at(mesh_.point(vertex), vertex));
     }
   };
   parallel_for(threads_, pieces, work, [] { return false; });
@@ -103,12 +108,12 @@ std::vector<QueryPoint> Sharpener::find_queries() const {
   return queries;
 }
 
-void Sharpener::place_vertices() {
+void ExactMesher::fit_vertices() {
   const std::vector<QueryPoint> queries = find_queries();
-  bends_.assign(mesh_.vertices(), false);
-  for (const QueryPoint& query : queries) bends_[query.number] = true;
+  is_curved_.assign(mesh_.vertices(), false);
+  for (const QueryPoint& query : queries) is_curved_[query.number] = true;
   sweeps_.gather(simulation_, queries, [&] { return stopped(); });
-  std::vector<Point3> places(queries.size());
+  std::vector<Point3> positions(queries.size());
   std::atomic<std::size_t> done{0};
   const auto stop = [&] {
     report(progress_, 0.6 * static_cast<double>(done) / static_cast<double>(queries.size()));
@@ -116,38 +121,39 @@ void Sharpener::place_vertices() {
   };
   sweeps_.visit(
       queries, threads_,
-      [&](std::size_t n, Around& around) {
-        places[n] = Placer(mesh_, body_, tolerance_).place(queries[n].number, around);
+      [&](std::size_t n, SweepFinder& finder) {
+        positions[n] = VertexFitter(mesh_, body_, tolerance_).fit(queries[n].number, finder);
         ++done;
       },
       stop);
-  if (!stopped()) move(queries, places);
+  if (!stopped()) move(queries, positions);
 }
 
-void Sharpener::move(const std::vector<QueryPoint>& queries, const std::vector<Point3>& places) {
+void ExactMesher::move(const std::vector<QueryPoint>& queries, const std::vector<Point3>& positions) {
   std::vector<Point3> before(mesh_.vertices());
   std::vector<std::uint32_t> changed;
   for (std::uint32_t v = 0; v < mesh_.vertices(); ++v) before[v] = mesh_.point(v);
-  for (std::size_t n = 0; n < queries.size(); ++n) mesh_.move(queries[n].number, places[n]);
+  for (std::size_t n = 0; n < queries.size(); ++n) mesh_.move(queries[n].number, positions[n]);
   for (std::uint32_t t = 0; t < mesh_.triangles(); ++t)
-    if (bends_[mesh_.vertex(3 * t)] || bends_[mesh_.vertex(3 * t + 1)] || bends_[mesh_.vertex(3 * t + 2)])
+    if (is_curved_[mesh_.vertex(3 * t)] || is_curved_[mesh_.vertex(3 * t + 1)] ||
+        is_curved_[mesh_.vertex(3 * t + 2)])
       changed.push_back(t);
-  mesh_.settle(changed, [&](std::uint32_t v) { return before[v]; });
+  mesh_.repair_folds(changed, [&](std::uint32_t v) { return before[v]; });
 }
 
-void Sharpener::split_edges() {
-  EdgeSplitter splitter(mesh_, body_, sweeps_, std::move(bends_), tolerance_, threads_);
+void ExactMesher::split_edges() {
+  EdgeSplitter splitter(mesh_, body_, sweeps_, std::move(is_curved_), tolerance_, threads_);
   const auto stop = [&] { return stopped(); };
   for (int round = 0; round < kMaxRounds; ++round) {
-    splitter.turn(stop);
-    if (stopped() || !splitter.part(stop)) return;
+    splitter.flip_edges(stop);
+    if (stopped() || !splitter.split_edges(stop)) return;
     report(progress_, 0.6 + 0.3 * (round + 1) / kMaxRounds);
   }
-  splitter.turn(stop);
+  splitter.flip_edges(stop);
 }
 
-bool Sharpener::run() {
-  place_vertices();
+bool ExactMesher::run() {
+  fit_vertices();
   if (!stopped() && !body_.start) relabel_triangles(mesh_.mesh(), body_.bounds);
   if (!stopped()) split_edges();
   return !stopped();
@@ -156,17 +162,17 @@ bool Sharpener::run() {
 }  // namespace
 }  // namespace sim
 
-bool sharpen_mesh(Mesh& mesh, const Simulation& simulation, const SharpenOptions& options,
-                  Progress* progress) {
+bool make_mesh_exact(Mesh& mesh, const Simulation& simulation, const ExactMeshOptions& options,
+                     Progress* progress) {
   if (mesh.triangles.empty()) return true;
-  if (progress != nullptr) progress->phase("sharpening");
-  Mesh rough;
-  if (progress != nullptr) rough = mesh;
-  if (!sim::Sharpener(mesh, simulation, options, progress).run()) {
-    mesh = std::move(rough);
+  if (progress != nullptr) progress->phase("exact mesh");
+  Mesh original;
+  if (progress != nullptr) original = mesh;
+  if (!sim::ExactMesher(mesh, simulation, options, progress).run()) {
+    mesh = std::move(original);
     return false;
   }
-  meshing::mend_flat_triangles(mesh, thread_count(options.threads));
+  meshing::remove_degenerate_triangles(mesh, thread_count(options.threads));
   relabel_mesh(mesh, simulation.workpiece);
   report(progress, 1.0);
   return true;
@@ -174,20 +180,20 @@ bool sharpen_mesh(Mesh& mesh, const Simulation& simulation, const SharpenOptions
 
 std::optional<CheckedMesh> extract_exact_mesh(const Simulation& simulation, const MeshOptions& options,
                                               Diagnostics& diagnostics, Progress* progress) {
-  const SharpenOptions sharp;
+  const ExactMeshOptions exact;
   const MeshColumns columns(simulation.workpiece, options.threads);
   CheckedMesh result{extract_mesh(columns, options, progress), {}};
-  if (stop_requested(progress) || !sharpen_mesh(result.mesh, simulation, sharp, progress))
+  if (stop_requested(progress) || !make_mesh_exact(result.mesh, simulation, exact, progress))
     return std::nullopt;
   Diagnostics fault;
   MeshOptions allowed = options;
-  allowed.tolerance = options.tolerance + sharp.tolerance;
+  allowed.tolerance = options.tolerance + exact.tolerance;
   result.volume = mesh_volume(columns, allowed);
   result.is_verified = verify_mesh(result.mesh, result.volume, fault);
   if (result.is_verified) return result;
   diagnostics
       .warning(Code::mesh_unsound, {},
-               "edges and walls are only as exact as the columns: with exact ones the mesh is not sound")
+               "edges and walls are only as exact as the columns, since the exact mesh is not valid")
       .hint = "a finer --resolution may help";
   result.mesh = extract_mesh(columns, options, progress);
   relabel_mesh(result.mesh, simulation.workpiece);
@@ -197,7 +203,7 @@ std::optional<CheckedMesh> extract_exact_mesh(const Simulation& simulation, cons
 
 void relabel_mesh(Mesh& mesh, const Workpiece& workpiece) {
   const Workpiece::Body& body = workpiece.body();
-  if (!body.start) sim::relabel_triangles(mesh, body.bounds);  // else its surface may lie anywhere
+  if (!body.start) sim::relabel_triangles(mesh, body.bounds);  // other stock may have its surface anywhere
 }
 
 }  // namespace kerf

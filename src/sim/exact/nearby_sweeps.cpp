@@ -1,4 +1,8 @@
-// Which sweeps are near a place: by tile, by block of columns, and by their distance.
+// Selecting sweeps near a point: by tile, by block of columns, and by bounds of their distance.
+//
+// Distances change by no more than the query point moves. So if a centre is at distance d from the nearest
+// sweep, a sweep whose distance from the centre exceeds d + 2 reach is not the nearest one of any point
+// within `reach` of it, and one whose distance exceeds `reach` does not touch that sphere: both are dropped.
 #include "sim/exact/nearby_sweeps.h"
 
 #include <algorithm>
@@ -10,18 +14,18 @@
 namespace kerf::sim {
 namespace {
 
-/// Columns along the side of a block of columns that share a list of sweeps.
+/// Columns along a side of a block, which has one list of sweeps, and of a cube, which has a shorter one.
 constexpr int kBlock = 8;
 constexpr int kBlocksAcross = kTileColumns / kBlock;
-/// Pitches from the middle of a cube of so many columns to its corners: places there share a shorter list.
-constexpr double kWider = 0.5 * kBlock * std::numbers::sqrt3;
-/// Columns along the side of the square around a place whose steps are looked at.
+/// Distance from the centre of a cube to its corners, in pitches.
+constexpr double kCubeDiagonal = 0.5 * kBlock * std::numbers::sqrt3;
+/// Columns along a side of the square around a point whose steps select sweeps, see of_columns.
 constexpr int kColumns = 4;
-constexpr std::uint32_t kNotYet = 0xffffffffu;
+constexpr std::uint32_t kUnnumbered = 0xffffffffu;
 
 }  // namespace
 
-bool comes_before(const Sweep* a, const Sweep* b) {
+bool is_gathered_before(const Sweep* a, const Sweep* b) {
   const auto key = [](const Sweep* sweep) {
     return std::tuple(!is_level(*sweep), is_level(*sweep) ? sweep->tool : 0,
                       is_level(*sweep) ? sweep->z : 0.0, sweep);
@@ -31,207 +35,215 @@ bool comes_before(const Sweep* a, const Sweep* b) {
 
 namespace {
 
-/// Whether the one that is nearest in plan is the nearer of two.
+/// Whether two sweeps belong to one LevelGroup.
 bool is_one_level(const Sweep& a, const Sweep& b) {
   return is_level(a) && is_level(b) && a.tool == b.tool && a.z == b.z;
 }
 
-/// Whether a place may be within reach of an arc: it is near the whole circle.
-bool may_be_near(const Sweep& arc, Point2 place, double reach) {
-  const double dx = place.x - arc.x, dy = place.y - arc.y;
+/// Whether a point is within reach of the full circle of an arc, and so may be of the arc.
+bool may_be_near(const Sweep& arc, Point2 point, double reach) {
+  const double dx = point.x - arc.x, dy = point.y - arc.y;
   return std::abs(std::sqrt(dx * dx + dy * dy) - arc.radius) <= reach;
 }
 
-/// The way of a place from the nearest of several paths, in plan.
-class NearestWay {
+/// The shortest of the vectors from several paths to one point, in plan.
+class NearestVector {
  public:
-  void take(Point2 way) {
-    const double square = dot(way, way);
+  void take(Point2 vector) {
+    const double square = dot(vector, vector);
     if (square >= square_) return;
     square_ = square;
-    way_ = way;
+    vector_ = vector;
   }
   double far() const { return std::sqrt(square_); }
-  /// Whether a path `way` from the place can be nearest to another one within `reach`.
-  bool may_change_to(const Sweep& path, Point2 way, double reach) const {
-    const double far = this->far(), most = far + 2.0 * reach, square = dot(way, way);
-    if (square > most * most) return false;
+  /// Whether a path with this vector can be the nearest one to some point within `reach`.
+  bool may_change_to(const Sweep& path, Point2 vector, double reach) const {
+    const double far = this->far(), limit = far + 2.0 * reach, square = dot(vector, vector);
+    if (square > limit * limit) return false;
     if (path.is_arc || far < 2.0 * reach || square <= square_) return true;
-    // The distance to a line is convex: above its tangent. That to one of its places is not more above its
-    // own than the other term tells.
+    // For a displacement s, |s| <= reach, the distance to the line is at least |v| + s v / |v| (convex, so
+    // above its tangent), and the distance to the nearest point of the other path at most
+    // |n| + s n / |n| + reach^2 / (2 (|n| - reach)). So the line stays further away if
+    // |v| - |n| > reach |v / |v| - n / |n|| + reach^2 / (2 (|n| - reach)).
     const double other = std::sqrt(square);
-    const Point2 turn = (1.0 / other) * way - (1.0 / far) * way_;
-    return other - far <= reach * std::sqrt(dot(turn, turn)) + 0.5 * reach * reach / (far - reach);
+    const Point2 change = (1.0 / other) * vector - (1.0 / far) * vector_;
+    return other - far <= reach * std::sqrt(dot(change, change)) + 0.5 * reach * reach / (far - reach);
   }
 
  private:
   double square_ = std::numeric_limits<double>::infinity();
-  Point2 way_;
+  Point2 vector_;
 };
 
 }  // namespace
 
-void Nearby::begin(Point3 place) {
-  around_ = place;
-  levels_.clear();
+void NearbySweeps::clear_around(Point3 centre) {
+  centre_ = centre;
+  groups_.clear();
   level_.clear();
   lines_.clear();
-  others_.clear();
+  sloped_.clear();
 }
 
-/// Takes those that may be met of sweeps at one height; returns the distance of the nearest.
-double Nearby::gather_level(const Sweep* const* sweeps, const Line* lines, std::size_t count) {
+/// Adds a group of those of `count` sweeps of one tool at one height that may be nearest within reach.
+/// Returns the distance of the centre to the nearest.
+double NearbySweeps::gather_level(const Sweep* const* sweeps, const PlanLine* lines, std::size_t count) {
   const Sweep& like = *sweeps[0];
-  ways_.resize(count);
-  for (std::size_t k = 0; k < count; ++k) ways_[k] = lines[k].way_to(around_.xy());
-  NearestWay nearest;
+  vectors_.resize(count);
+  for (std::size_t k = 0; k < count; ++k) vectors_[k] = lines[k].vector_to(centre_.xy());
+  NearestVector nearest;
   for (std::size_t k = 0; k < count; ++k) {
     const Sweep& sweep = *sweeps[k];
     if (sweep.is_arc) {
-      const bool is_near = may_be_near(sweep, around_.xy(), nearest.far() + 2.0 * reach_);
-      ways_[k] = is_near ? around_.xy() - nearest_in_plan(sweep, around_.xy()) : Point2{kNowhere, kNowhere};
+      const bool is_near = may_be_near(sweep, centre_.xy(), nearest.far() + 2.0 * reach_);
+      vectors_[k] =
+          is_near ? centre_.xy() - nearest_in_plan(sweep, centre_.xy()) : Point2{kOutOfReach, kOutOfReach};
     }
-    nearest.take(ways_[k]);
+    nearest.take(vectors_[k]);
   }
-  Level level{level_.size(), level_.size(), 0.0};
+  LevelGroup group{level_.size(), level_.size(), 0.0};
   for (std::size_t k = 0; k < count; ++k)
-    if (nearest.may_change_to(*sweeps[k], ways_[k], reach_)) {
+    if (nearest.may_change_to(*sweeps[k], vectors_[k], reach_)) {
       level_.push_back(sweeps[k]);
       lines_.push_back(lines[k]);
     }
-  level.end = level_.size();
+  group.end = level_.size();
   const ToolDistance& tool = tools_[like.tool];
-  level.low = distance_to_level(tool, nearest_of(level, around_.xy()), like.z, around_).value;
-  levels_.push_back(level);
-  return level.low;
+  group.low = distance_to_level(tool, nearest_of(group, centre_.xy()), like.z, centre_).value;
+  groups_.push_back(group);
+  return group.low;
 }
 
-/// Leaves those that a place `reach` away can meet, if one of all is not further than `nearest`: it is nearer
-/// to each by no more than that, and further from the nearest by no more.
-void Nearby::keep_near(double nearest) {
+/// Removes the sweeps that cannot be nearest within reach, see the head of this file. `nearest`: an upper
+/// bound of the distance to the nearest sweep. Computes the distances to slopes and plunges that are left,
+/// the one with the lowest bound first, which lowers `nearest`.
+void NearbySweeps::discard_far(double nearest) {
   const auto sort = [&] {
-    const double most = std::min(nearest + 2.0 * reach_, reach_);
-    const auto is_far = [&](const auto& one) { return one.low > most; };
-    levels_.erase(std::remove_if(levels_.begin(), levels_.end(), is_far), levels_.end());
-    others_.erase(std::remove_if(others_.begin(), others_.end(), is_far), others_.end());
-    std::sort(others_.begin(), others_.end(), [](const Other& a, const Other& b) {
+    const double limit = std::min(nearest + 2.0 * reach_, reach_);
+    const auto is_far = [&](const auto& one) { return one.low > limit; };
+    groups_.erase(std::remove_if(groups_.begin(), groups_.end(), is_far), groups_.end());
+    sloped_.erase(std::remove_if(sloped_.begin(), sloped_.end(), is_far), sloped_.end());
+    std::sort(sloped_.begin(), sloped_.end(), [](const SlopedSweep& a, const SlopedSweep& b) {
       return a.low != b.low ? a.low < b.low : a.sweep < b.sweep;
     });
   };
   sort();
   bool any = false;
-  for (Other& other : others_) {
-    if (other.is_known || other.low > nearest + 2.0 * reach_) continue;
-    other.nearest = nearest_along(*other.sweep, tools_[other.sweep->tool], around_, 2.0 * reach_);
-    other.low = other.nearest.distance.value;
-    other.is_known = any = true;
-    nearest = std::min(nearest, other.low);
+  for (SlopedSweep& sloped : sloped_) {
+    if (sloped.is_computed || sloped.low > nearest + 2.0 * reach_) continue;
+    sloped.nearest = distance_along(*sloped.sweep, tools_[sloped.sweep->tool], centre_, 2.0 * reach_);
+    sloped.low = sloped.nearest.distance.value;
+    sloped.is_computed = any = true;
+    nearest = std::min(nearest, sloped.low);
   }
   if (any) sort();
 }
 
-void Nearby::gather(const std::vector<const Sweep*>& sweeps, Point3 place) {
-  begin(place);
+void NearbySweeps::gather(const std::vector<const Sweep*>& sweeps, Point3 centre) {
+  clear_around(centre);
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < sweeps.size();) {
     const Sweep& sweep = *sweeps[k];
     if (is_level(sweep)) {
       std::size_t end = k + 1;
       while (end < sweeps.size() && is_one_level(sweep, *sweeps[end])) ++end;
-      of_level_.clear();
-      for (std::size_t n = k; n < end; ++n) of_level_.push_back(Line::of(*sweeps[n]));
-      nearest = std::min(nearest, gather_level(&sweeps[k], of_level_.data(), end - k));
+      group_lines_.clear();
+      for (std::size_t n = k; n < end; ++n) group_lines_.push_back(PlanLine::of(*sweeps[n]));
+      nearest = std::min(nearest, gather_level(&sweeps[k], group_lines_.data(), end - k));
       k = end;
       continue;
     }
-    const DistanceBounds bounds = bounds_of_distance(sweep, tools_[sweep.tool], place, reach_);
+    const DistanceBounds bounds = bounds_of_distance(sweep, tools_[sweep.tool], centre, reach_);
     nearest = std::min(nearest, bounds.high);
-    if (bounds.low <= reach_) others_.push_back({bounds.low, &sweep, {}, false});
+    if (bounds.low <= reach_) sloped_.push_back({bounds.low, &sweep, {}, false});
     ++k;
   }
-  keep_near(nearest);
+  discard_far(nearest);
 }
 
-void Nearby::gather(const Nearby& wider, Point3 place) {
-  begin(place);
-  const Point3 moved = place - wider.around_;
+void NearbySweeps::gather(const NearbySweeps& wider, Point3 centre) {
+  clear_around(centre);
+  const Point3 moved = centre - wider.centre_;
   const double far = length(moved);
   double nearest = std::numeric_limits<double>::infinity();
-  for (const Level& level : wider.levels_)
-    if (level.low - far <= std::min(nearest + 2.0 * reach_, reach_))
-      nearest = std::min(nearest, gather_level(&wider.level_[level.first], &wider.lines_[level.first],
-                                               level.end - level.first));
-  for (const Other& other : wider.others_) {
-    if (other.low - far > std::min(nearest + 2.0 * reach_, reach_)) break;
-    Other here = other;
-    if (other.is_known) {
-      here.nearest =
-          nearest_beside(*other.sweep, tools_[other.sweep->tool], place, 2.0 * reach_, other.nearest, moved);
+  for (const LevelGroup& group : wider.groups_)
+    if (group.low - far <= std::min(nearest + 2.0 * reach_, reach_))
+      nearest = std::min(nearest, gather_level(&wider.level_[group.first], &wider.lines_[group.first],
+                                               group.end - group.first));
+  for (const SlopedSweep& sloped : wider.sloped_) {
+    if (sloped.low - far > std::min(nearest + 2.0 * reach_, reach_)) break;
+    SlopedSweep here = sloped;
+    if (sloped.is_computed) {
+      here.nearest = distance_beside(*sloped.sweep, tools_[sloped.sweep->tool], centre, 2.0 * reach_,
+                                     sloped.nearest, moved);
       here.low = here.nearest.distance.value;
       nearest = std::min(nearest, here.low);
     } else {
-      here.low = other.low - far;
+      here.low = sloped.low - far;
     }
-    others_.push_back(here);
+    sloped_.push_back(here);
   }
-  keep_near(nearest);
+  discard_far(nearest);
 }
 
-bool Nearby::holds(Point3 place, double reach) const { return distance(place, around_) + reach <= reach_; }
+bool NearbySweeps::covers(Point3 point, double reach) const {
+  return distance(point, centre_) + reach <= reach_;
+}
 
-Point2 Nearby::nearest_of(const Level& level, Point2 place) const {
+Point2 NearbySweeps::nearest_of(const LevelGroup& group, Point2 point) const {
   Point2 nearest;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t k = level.first; k < level.end; ++k) {
+  for (std::size_t k = group.first; k < group.end; ++k) {
     const Sweep& sweep = *level_[k];
-    const Point2 way = sweep.is_arc ? place - nearest_in_plan(sweep, place) : lines_[k].way_to(place);
-    const double square = dot(way, way);
+    const Point2 vector = sweep.is_arc ? point - nearest_in_plan(sweep, point) : lines_[k].vector_to(point);
+    const double square = dot(vector, vector);
     if (square >= least) continue;
     least = square;
-    nearest = place - way;
+    nearest = point - vector;
   }
   return nearest;
 }
 
-Distance Nearby::at(Point3 place) const {
-  const double moved = distance(place, around_);
+Distance NearbySweeps::at(Point3 point) const {
+  const double moved = distance(point, centre_);
   Distance nearest;
   const auto take = [&](const Distance& distance) {
     if (distance.value < nearest.value) nearest = distance;
   };
-  for (const Level& level : levels_) {
-    if (level.low - moved > nearest.value) continue;
-    const Sweep& like = *level_[level.first];
-    take(distance_to_level(tools_[like.tool], nearest_of(level, place.xy()), like.z, place));
+  for (const LevelGroup& group : groups_) {
+    if (group.low - moved > nearest.value) continue;
+    const Sweep& like = *level_[group.first];
+    take(distance_to_level(tools_[like.tool], nearest_of(group, point.xy()), like.z, point));
   }
-  for (const Other& other : others_) {
-    if (other.low - moved > nearest.value) break;
-    const ToolDistance& tool = tools_[other.sweep->tool];
-    take(other.is_known ? nearest_beside(*other.sweep, tool, place, 2.0 * reach_, other.nearest,
-                                         place - around_, nearest.value)
-                              .distance
-                        : nearest_along(*other.sweep, tool, place, 2.0 * reach_, nearest.value).distance);
+  for (const SlopedSweep& sloped : sloped_) {
+    if (sloped.low - moved > nearest.value) break;
+    const ToolDistance& tool = tools_[sloped.sweep->tool];
+    take(sloped.is_computed
+             ? distance_beside(*sloped.sweep, tool, point, 2.0 * reach_, sloped.nearest, point - centre_,
+                               nearest.value)
+                   .distance
+             : distance_along(*sloped.sweep, tool, point, 2.0 * reach_, nearest.value).distance);
   }
   return nearest;
 }
 
-QueryPoint SweepsByTile::query_at(Point3 place, std::uint32_t number) const {
+QueryPoint SweepsByTile::query_at(Point3 point, std::uint32_t number) const {
   const auto column = [&](double v, int columns) {
     return std::clamp(static_cast<int>(std::floor(v / body_.pitch)), 0, columns - 1);
   };
-  const int i = column(place.x, body_.nx), j = column(place.y, body_.ny);
+  const int i = column(point.x, body_.nx), j = column(point.y, body_.ny);
   const int tile = j / kTileColumns * body_.tiles_x + i / kTileColumns;
   const int block = j % kTileColumns / kBlock * kBlocksAcross + i % kTileColumns / kBlock;
-  const double layer = std::floor(place.z / (kBlock * body_.pitch));
+  const double layer = std::floor(point.z / (kBlock * body_.pitch));
   return {static_cast<std::uint32_t>(tile), static_cast<std::uint32_t>(block),
           static_cast<std::int32_t>(layer), number};
 }
 
 void SweepsByTile::take(const Batch& batch) {
-  std::vector<std::uint32_t> number(batch.sweeps.size(), kNotYet);
+  std::vector<std::uint32_t> number(batch.sweeps.size(), kUnnumbered);
   for (const std::uint32_t sweep : batch.list) number[sweep] = 0;
   for (std::size_t n = 0; n < number.size(); ++n) {
-    if (number[n] == kNotYet) continue;
+    if (number[n] == kUnnumbered) continue;
     number[n] = static_cast<std::uint32_t>(sweeps_.size());
     sweeps_.push_back(batch.sweeps[n]);
   }
@@ -240,7 +252,7 @@ void SweepsByTile::take(const Batch& batch) {
       of_tile_[batch.busy[k]].push_back(number[batch.list[at]]);
 }
 
-/// Takes those of a batch of the simulation that the planner wants.
+/// Takes the sweeps of a kept batch that are in the planner's scope.
 void SweepsByTile::take_kept(const Batch& batch, Planner& planner) {
   Batch wanted;
   auto beside = batch.beside.begin();
@@ -252,70 +264,69 @@ void SweepsByTile::take_kept(const Batch& batch, Planner& planner) {
   take(wanted);
 }
 
-Around::Around(const SweepsByTile& sweeps)
+SweepFinder::SweepFinder(const SweepsByTile& sweeps)
     : sweeps_(sweeps),
-      wider_(sweeps.tools_, sweeps.reach_ + kWider * sweeps.body_.pitch),
+      of_cube_(sweeps.tools_, sweeps.reach_ + kCubeDiagonal * sweeps.body_.pitch),
       nearby_(sweeps.tools_, sweeps.reach_) {}
 
-void Around::go_to(const QueryPoint& query) {
+void SweepFinder::move_to(const QueryPoint& query) {
   const bool is_in_block = query.tile == query_.tile && query.block == query_.block;
   has_block_ = has_block_ && is_in_block;
-  has_wider_ = has_wider_ && is_in_block && query.layer == query_.layer;
+  has_cube_ = has_cube_ && is_in_block && query.layer == query_.layer;
   query_ = query;
 }
 
-/// Of the query point's cube of columns.
-Point3 Around::middle() const {
+Point3 SweepFinder::cube_centre() const {
   const auto tiles_x = static_cast<std::uint32_t>(sweeps_.body_.tiles_x);
   const double i = query_.tile % tiles_x * kTileColumns + (query_.block % kBlocksAcross + 0.5) * kBlock;
   const double j = query_.tile / tiles_x * kTileColumns + (query_.block / kBlocksAcross + 0.5) * kBlock;
   return sweeps_.body_.pitch * Point3{i, j, (query_.layer + 0.5) * kBlock};
 }
 
-void Around::gather_block() {
+void SweepFinder::gather_block() {
   const Workpiece::Body& body = sweeps_.body_;
-  const Point2 middle = this->middle().xy();
+  const Point2 centre = this->cube_centre().xy();
   const double half = std::numbers::sqrt2 * 0.5 * kBlock * body.pitch + sweeps_.reach_;
   reachable_.clear();
   for (const std::uint32_t n : sweeps_.of_tile_[query_.tile]) {
     const Sweep& sweep = sweeps_.sweeps_[n];
-    const Point2 way = middle - nearest_in_plan(sweep, middle);
-    const double most = sweeps_.tools_[sweep.tool].rim() + half;
-    if (dot(way, way) <= most * most) reachable_.push_back({&sweep, way});
+    const Point2 vector = centre - nearest_in_plan(sweep, centre);
+    const double limit = sweeps_.tools_[sweep.tool].rim() + half;
+    if (dot(vector, vector) <= limit * limit) reachable_.push_back({&sweep, vector});
   }
   std::sort(reachable_.begin(), reachable_.end(),
-            [](const Reachable& a, const Reachable& b) { return comes_before(a.sweep, b.sweep); });
+            [](const Reachable& a, const Reachable& b) { return is_gathered_before(a.sweep, b.sweep); });
   of_block_.clear();
   for (std::size_t k = 0; k < reachable_.size();) {
     std::size_t end = k;
-    NearestWay nearest;
+    NearestVector nearest;
     for (; end < reachable_.size() && is_one_level(*reachable_[k].sweep, *reachable_[end].sweep); ++end)
-      nearest.take(reachable_[end].way);
+      nearest.take(reachable_[end].vector);
     if (end == k) of_block_.push_back(reachable_[k++].sweep);
     for (; k < end; ++k)
-      if (nearest.may_change_to(*reachable_[k].sweep, reachable_[k].way, half))
+      if (nearest.may_change_to(*reachable_[k].sweep, reachable_[k].vector, half))
         of_block_.push_back(reachable_[k].sweep);
   }
   has_block_ = true;
 }
 
-const Nearby& Around::wider(Point3 place) {
+const NearbySweeps& SweepFinder::all_of_cube(Point3 point) {
   if (!has_block_) gather_block();
-  if (!has_wider_) wider_.gather(of_block_, middle());
-  has_wider_ = wider_.holds(place, sweeps_.reach_);
-  if (!has_wider_) wider_.gather(of_block_, place);
-  return wider_;
+  if (!has_cube_) of_cube_.gather(of_block_, cube_centre());
+  has_cube_ = of_cube_.covers(point, sweeps_.reach_);
+  if (!has_cube_) of_cube_.gather(of_block_, point);
+  return of_cube_;
 }
 
-const Nearby& Around::all(Point3 place) {
-  nearby_.gather(wider(place), place);
+const NearbySweeps& SweepFinder::all(Point3 point) {
+  nearby_.gather(all_of_cube(point), point);
   return nearby_;
 }
 
-const Nearby& Around::of_columns(Point3 place) {
+const NearbySweeps& SweepFinder::of_columns(Point3 point) {
   const Workpiece::Body& body = sweeps_.body_;
-  const int first_i = static_cast<int>(std::lround(place.x / body.pitch)) - kColumns / 2;
-  const int first_j = static_cast<int>(std::lround(place.y / body.pitch)) - kColumns / 2;
+  const int first_i = static_cast<int>(std::lround(point.x / body.pitch)) - kColumns / 2;
+  const int first_j = static_cast<int>(std::lround(point.y / body.pitch)) - kColumns / 2;
   intervals_.clear();
   for (int j = std::max(first_j, 0); j < std::min(first_j + kColumns, body.ny); ++j)
     for (int i = std::max(first_i, 0); i < std::min(first_i + kColumns, body.nx); ++i) {
@@ -337,8 +348,8 @@ const Nearby& Around::of_columns(Point3 place) {
          at != list.end() && sweeps_.sweeps_[*at].step == step; ++at)
       of_columns_.push_back(&sweeps_.sweeps_[*at]);
   }
-  std::sort(of_columns_.begin(), of_columns_.end(), comes_before);
-  nearby_.gather(of_columns_, place);
+  std::sort(of_columns_.begin(), of_columns_.end(), is_gathered_before);
+  nearby_.gather(of_columns_, point);
   return nearby_;
 }
 

@@ -1,4 +1,8 @@
-// Places on a mesh and the sweeps that can have cut near them, tile by tile.
+// Finds the sweeps near query points of a mesh, and the signed distance to what they removed.
+//
+// A point may be near thousands of sweeps, of which a few bound the material within reach. The lists shrink
+// in four steps: sweeps by tile (SweepsByTile), by block of 8 x 8 columns, by cube of 8 columns (both in
+// SweepFinder), and around the query point itself (NearbySweeps).
 #pragma once
 
 #include <algorithm>
@@ -14,84 +18,91 @@
 
 namespace kerf::sim {
 
-/// Sweeps in the order that Nearby wants them in: level ones of one tool at one height together.
-bool comes_before(const Sweep* a, const Sweep* b);
+/// The order in which NearbySweeps::gather expects sweeps: level ones first, those of one tool at one height
+/// next to each other.
+bool is_gathered_before(const Sweep* a, const Sweep* b);
 
-/// What sweeps leave near a place: the material is where all distances are above 0.
-class Nearby {
+/// The sweeps that can bound the material within `reach` of a centre. Material is where the distances to all
+/// sweeps are above 0, so the distance to the removed volume is their minimum.
+class NearbySweeps {
  public:
-  Nearby(const std::vector<ToolDistance>& tools, double reach) : tools_(tools), reach_(reach) {}
-  /// Those of `sweeps` (in order) that may bound the material within `reach` of a place.
-  void gather(const std::vector<const Sweep*>& sweeps, Point3 place);
-  /// Those of `wider`, which holds all that can be met there.
-  void gather(const Nearby& wider, Point3 place);
-  /// To what is taken away, with the direction into the material.
-  Distance at(Point3 place) const;
-  /// Whether it is all that can be met within `reach` of a place.
-  bool holds(Point3 place, double reach) const;
+  NearbySweeps(const std::vector<ToolDistance>& tools, double reach) : tools_(tools), reach_(reach) {}
+  /// Selects from `sweeps`, which are in the order of is_gathered_before, around a new centre.
+  void gather(const std::vector<const Sweep*>& sweeps, Point3 centre);
+  /// Selects from `wider`, which must cover the reach of the new centre.
+  void gather(const NearbySweeps& wider, Point3 centre);
+  /// Signed distance to the removed volume; the gradient points into the material.
+  Distance at(Point3 point) const;
+  /// Whether all sweeps within `reach` of a point are included.
+  bool covers(Point3 point, double reach) const;
 
  private:
-  struct Level {  // sweeps of one tool at one height: level_[first] to level_[end - 1]
+  /// Sweeps of one tool at one height: level_[first] to level_[end - 1].
+  struct LevelGroup {
     std::size_t first, end;
-    double low;  // the distance of the nearest to the place that all were gathered around
+    double low;  // distance of the centre to the nearest of them
   };
-  struct Line {  // what is needed of a sweep to find its nearest place in plan
+  /// A sweep's path in plan: what nearest_in_plan needs of a line.
+  struct PlanLine {
     double x, y, ux, uy, length;
-    static Line of(const Sweep& sweep) {
+    static PlanLine of(const Sweep& sweep) {
       return {sweep.x, sweep.y, sweep.ux, sweep.uy, sweep.is_arc ? 0.0 : sweep.length};
     }
-    Point2 way_to(Point2 place) const {
-      const double dx = place.x - x, dy = place.y - y;
+    /// From the nearest point of the line to `point`.
+    Point2 vector_to(Point2 point) const {
+      const double dx = point.x - x, dy = point.y - y;
       const double t = std::min(std::max(dx * ux + dy * uy, 0.0), length);
       return {dx - t * ux, dy - t * uy};
     }
   };
-  struct Other {
-    double low;  // not above that distance
+  /// A slope or a plunge.
+  struct SlopedSweep {
+    double low;  // lower bound of its distance to the centre
     const Sweep* sweep;
-    Nearest nearest;  // to that place
-    bool is_known;    // whether it is
+    PathDistance nearest;  // to the centre
+    bool is_computed;      // whether `nearest` is, and `low` exact
   };
-  void begin(Point3 place);
-  double gather_level(const Sweep* const* sweeps, const Line* lines, std::size_t count);
-  void keep_near(double nearest);
-  Point2 nearest_of(const Level& level, Point2 place) const;
+  void clear_around(Point3 centre);
+  double gather_level(const Sweep* const* sweeps, const PlanLine* lines, std::size_t count);
+  void discard_far(double nearest);
+  Point2 nearest_of(const LevelGroup& group, Point2 point) const;
 
   const std::vector<ToolDistance>& tools_;
   double reach_;
-  Point3 around_;  // the place that all were gathered around
-  std::vector<Level> levels_;
+  Point3 centre_;
+  std::vector<LevelGroup> groups_;
   std::vector<const Sweep*> level_;
-  std::vector<Line> lines_;     // of level_; arcs have no length
-  std::vector<Other> others_;   // the nearest first
-  std::vector<Line> of_level_;  // that is being gathered
-  std::vector<Point2> ways_;    // in plan
+  std::vector<PlanLine> lines_;        // of level_; arcs have length 0
+  std::vector<SlopedSweep> sloped_;    // nearest first
+  std::vector<PlanLine> group_lines_;  // scratch of gather
+  std::vector<Point2> vectors_;        // scratch: from each path of a group to the centre, in plan
 };
 
-/// A place that is looked at, in its tile, its block of columns there, and its layer of that.
+/// A query point, located for sorting: its tile, its block of columns in the tile, and its layer (the cube of
+/// the block that contains its Z).
 struct QueryPoint {
   std::uint32_t tile = 0, block = 0;
   std::int32_t layer = 0;
-  std::uint32_t number = 0;  // whose place it is
+  std::uint32_t number = 0;  // of its vertex, corner or edge
   bool operator<(const QueryPoint& other) const {
     return std::tie(tile, block, layer, number) <
            std::tie(other.tile, other.block, other.layer, other.number);
   }
 };
 
-/// All sweeps of a job that come near some tiles.
+/// All sweeps of a job that pass near some tiles.
 class SweepsByTile {
  public:
-  /// `reach`: how far from a place there is something to be found, mm.
+  /// `reach`: maximum distance of a sweep from a query point, mm.
   SweepsByTile(const Workpiece::Body& body, const std::vector<ToolDistance>& tools, double reach)
       : body_(body), tools_(tools), reach_(reach) {}
-  /// Gathers them for the tiles of some query points, from the batches that the simulation has kept or by
-  /// planning its path again. `stop` is asked now and then.
+  /// Gathers them for the tiles of the query points, from the batches that the simulation has kept or by
+  /// planning its toolpath again. `stop` is called between batches.
   template <class Stop>
   void gather(const Simulation& simulation, const std::vector<QueryPoint>& queries, const Stop& stop);
 
-  QueryPoint query_at(Point3 place, std::uint32_t number) const;
-  /// Calls work(n, around) for number n of the query points, which are in order, on all threads.
+  QueryPoint query_at(Point3 point, std::uint32_t number) const;
+  /// Calls work(n, finder) for each query point n on all threads. `queries` must be sorted.
   template <class Work, class Stop>
   void visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work,
              const Stop& stop) const;
@@ -99,7 +110,7 @@ class SweepsByTile {
  private:
   void take(const Batch& batch);
   void take_kept(const Batch& batch, Planner& planner);
-  friend class Around;
+  friend class SweepFinder;
 
   const Workpiece::Body& body_;
   const std::vector<ToolDistance>& tools_;
@@ -108,30 +119,32 @@ class SweepsByTile {
   std::vector<std::vector<std::uint32_t>> of_tile_;
 };
 
-/// What is around the query points of one tile, one after the other.
-class Around {
+/// The sweeps near the query points of one tile, visited in sorted order, so that the lists of a block and of
+/// a cube are computed once.
+class SweepFinder {
  public:
-  explicit Around(const SweepsByTile& sweeps);
-  void go_to(const QueryPoint& query);
-  /// From all sweeps.
-  const Nearby& all(Point3 place);
-  /// The same for one look.
-  const Nearby& wider(Point3 place);
-  /// From those that made the columns around a place: quicker, and as good where the surface is smooth.
-  const Nearby& of_columns(Point3 place);
+  explicit SweepFinder(const SweepsByTile& sweeps);
+  void move_to(const QueryPoint& query);
+  /// All sweeps within reach of a point.
+  const NearbySweeps& all(Point3 point);
+  /// The list of the point's cube: cheaper than `all` if a single distance is needed.
+  const NearbySweeps& all_of_cube(Point3 point);
+  /// Only sweeps of the steps that made the 4 x 4 columns around a point. Faster, and sufficient where the
+  /// surface is smooth.
+  const NearbySweeps& of_columns(Point3 point);
 
  private:
-  Point3 middle() const;
+  Point3 cube_centre() const;
   void gather_block();
 
   struct Reachable {
     const Sweep* sweep;
-    Point2 way;  // from there to the block's middle, in plan
+    Point2 vector;  // from the path to the block's centre, in plan
   };
   const SweepsByTile& sweeps_;
-  Nearby wider_, nearby_;  // the wider ones serve several places
+  NearbySweeps of_cube_, nearby_;
   QueryPoint query_;
-  bool has_block_ = false, has_wider_ = false;
+  bool has_block_ = false, has_cube_ = false;
   std::vector<Reachable> reachable_;
   std::vector<const Sweep*> of_block_, of_columns_;
   std::vector<Interval> intervals_;
@@ -167,18 +180,18 @@ void SweepsByTile::gather(const Simulation& simulation, const std::vector<QueryP
 template <class Work, class Stop>
 void SweepsByTile::visit(const std::vector<QueryPoint>& queries, unsigned threads, const Work& work,
                          const Stop& stop) const {
-  std::vector<std::size_t> begin;
+  std::vector<std::size_t> first;  // query point of each tile
   for (std::size_t n = 0; n < queries.size(); ++n)
-    if (n == 0 || queries[n].tile != queries[n - 1].tile) begin.push_back(n);
-  begin.push_back(queries.size());
+    if (n == 0 || queries[n].tile != queries[n - 1].tile) first.push_back(n);
+  first.push_back(queries.size());
   const auto do_tile = [&](std::size_t k) {
-    Around around(*this);
-    for (std::size_t n = begin[k]; n < begin[k + 1]; ++n) {
-      around.go_to(queries[n]);
-      work(n, around);
+    SweepFinder finder(*this);
+    for (std::size_t n = first[k]; n < first[k + 1]; ++n) {
+      finder.move_to(queries[n]);
+      work(n, finder);
     }
   };
-  parallel_for(threads, begin.size() - 1, do_tile, stop);
+  parallel_for(threads, first.size() - 1, do_tile, stop);
 }
 
 }  // namespace kerf::sim

@@ -1,4 +1,5 @@
-// The place that lies best on several planes: where two meet nearest to where one stands, where three meet.
+// Least-squares intersection of planes: of two planes the nearest point of their line, of three their common
+// point.
 #pragma once
 
 #include <array>
@@ -7,32 +8,34 @@
 
 namespace kerf::sim {
 
-/// The sum of squared distances to planes, as a function of a step from the place that all planes are told
-/// from.
+/// The sum of squared distances to planes, as a function of the displacement d from a reference point:
+/// sum (n_k d - offset_k)^2. Its minimum solves A d = b with A = sum n_k n_k^T, b = sum offset_k n_k. Along
+/// eigenvectors of A with small eigenvalues the planes do not determine d: planes of one edge leave one such
+/// direction, a single plane leaves two.
 class Quadric {
  public:
-  /// Adds a plane with a unit normal, `offset` mm from the place along its normal.
+  /// Adds a plane with a unit normal, `offset` mm from the reference point along its normal.
   void add(Point3 normal, double offset);
-  /// The step holds this axis still.
+  /// Fixes the displacement along an axis at 0.
   void fix(int axis);
 
-  /// The smallest step to where the sum is least, as far as `directions` (1 to 3) strongest directions tell
-  /// it; directions that are weaker than `least_share` of the strongest tell nothing.
-  Point3 step(int directions, double least_share) const;
-  /// How many directions tell something.
-  int directions(double least_share) const;
+  /// The shortest displacement that minimises the sum along the eigenvectors of the `rank` (1 to 3) largest
+  /// eigenvalues. Those below `min_fraction` of the largest are omitted.
+  Point3 solve(int rank, double min_fraction) const;
+  /// The number of eigenvalues of at least `min_fraction` of the largest.
+  int rank(double min_fraction) const;
 
  private:
-  struct Axes {
-    std::array<double, 3> strength{};  // strongest first
-    std::array<Point3, 3> direction{};
+  struct Eigen {
+    std::array<double, 3> value{};  // largest first
+    std::array<Point3, 3> vector{};
   };
-  const Axes& axes() const;
+  const Eigen& eigen() const;
 
-  std::array<double, 6> square_{};  // xx xy xz yy yz zz
-  Point3 pull_;
-  mutable Axes axes_;
-  mutable bool solved_ = false;
+  std::array<double, 6> matrix_{};  // xx xy xz yy yz zz
+  Point3 right_side_;
+  mutable Eigen eigen_;
+  mutable bool is_solved_ = false;
 };
 
 }  // namespace kerf::sim

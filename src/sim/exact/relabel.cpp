@@ -1,5 +1,5 @@
-// A triangle of the columns' mesh is whose its column is. Where vertices have moved to an edge between the
-// stock's surface and a cut, some triangles have come to lie on the other side of it.
+// In the mesh of the columns a triangle has the step of its column. Where vertices have moved to an edge
+// between the stock's surface and a cut, some triangles now lie on the other side of that edge.
 #include "sim/exact/relabel.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 /// Vertices within this of the block's sides are on them, mm; single precision in work coordinates.
 constexpr double kOnBlock = 1e-4;
-/// A triangle that no cut one touches may be reached through others.
+/// A triangle without a neighbour that was cut may get the step of one that has been assigned before.
 constexpr int kMaxRounds = 4;
 
 class Relabeller {
@@ -38,32 +38,32 @@ class Relabeller {
         return true;
     return false;
   }
-  std::vector<std::size_t> find_strays();
-  bool take_steps(std::vector<std::size_t>& strays);
+  std::vector<std::size_t> find_unassigned();
+  bool assign_steps(std::vector<std::size_t>& unassigned);
 
   Mesh& mesh_;
   const Box3& block_;
 };
 
-/// Gives what lies on the block's top and bottom to the block; the triangles of the block that lie nowhere on
-/// it.
-std::vector<std::size_t> Relabeller::find_strays() {
-  std::vector<std::size_t> strays;
+/// Sets kStockSurface on the block's top and bottom. Returns the other triangles with kStockSurface that lie
+/// on no side of the block.
+std::vector<std::size_t> Relabeller::find_unassigned() {
+  std::vector<std::size_t> unassigned;
   for (std::size_t t = 0; t < mesh_.step.size(); ++t) {
     if (mesh_.step[t] == kStockSurface) {
-      if (!lies_on_block(t, 0)) strays.push_back(t);
+      if (!lies_on_block(t, 0)) unassigned.push_back(t);
     } else if (lies_on_block(t, 2)) {
       mesh_.step[t] = kStockSurface;
     }
   }
-  return strays;
+  return unassigned;
 }
 
-/// Of those beside a triangle that was cut; the others stay in the list. False if there was none.
-bool Relabeller::take_steps(std::vector<std::size_t>& strays) {
+/// Assigns and removes those with a neighbour that has a step. False if there is none.
+bool Relabeller::assign_steps(std::vector<std::size_t>& unassigned) {
   std::vector<bool> near(mesh_.positions.size() / 3, false);
   std::unordered_map<std::uint64_t, std::uint32_t> step_beside;
-  for (const std::size_t t : strays)
+  for (const std::size_t t : unassigned)
     for (std::size_t k = 3 * t; k < 3 * t + 3; ++k) near[mesh_.triangles[k]] = true;
   for (std::size_t t = 0; t < mesh_.step.size(); ++t) {
     if (mesh_.step[t] == kStockSurface) continue;
@@ -82,15 +82,15 @@ bool Relabeller::take_steps(std::vector<std::size_t>& strays) {
     }
     return false;
   };
-  const std::size_t before = strays.size();
-  strays.erase(std::remove_if(strays.begin(), strays.end(), takes), strays.end());
-  return strays.size() < before;
+  const std::size_t before = unassigned.size();
+  unassigned.erase(std::remove_if(unassigned.begin(), unassigned.end(), takes), unassigned.end());
+  return unassigned.size() < before;
 }
 
 void Relabeller::run() {
-  std::vector<std::size_t> strays = find_strays();
-  for (int round = 0; round < kMaxRounds && !strays.empty(); ++round)
-    if (!take_steps(strays)) return;
+  std::vector<std::size_t> unassigned = find_unassigned();
+  for (int round = 0; round < kMaxRounds && !unassigned.empty(); ++round)
+    if (!assign_steps(unassigned)) return;
 }
 
 }  // namespace

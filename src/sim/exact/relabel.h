@@ -1,12 +1,12 @@
-// Whose the triangles of a sharpened mesh are.
+// Assigns the triangles of an exact mesh to steps again.
 #pragma once
 
 #include "kerf/mesh.h"
 
 namespace kerf::sim {
 
-/// Triangles that count as the block's own surface but lie on none of its sides take the step of a neighbour
-/// that was cut; those that lie on the block's top or bottom are its own.
+/// Triangles with kStockSurface that lie on no side of the block get the step of a neighbour that has one.
+/// Triangles that lie on the block's top or bottom get kStockSurface.
 void relabel_triangles(Mesh& mesh, const Box3& block);
 
 }  // namespace kerf::sim

@@ -1,4 +1,8 @@
-// How far a place is from what a tool sweeps: what exact meshes are computed from, in double precision.
+// Signed distance of a query point to the volume that a tool sweeps, in double precision.
+//
+// It is the minimum over the path of the distance to the tool at that position (tool_distance.h). For level
+// sweeps and arcs the minimum is at the point of the path that is nearest in plan; for slopes and plunges it
+// is searched for along the path.
 #pragma once
 
 #include "sim/exact/tool_distance.h"
@@ -6,43 +10,43 @@
 
 namespace kerf::sim {
 
-/// Nothing is so far away.
-inline constexpr double kNowhere = 1e30;
+/// The distance where no sweep is within reach, mm.
+inline constexpr double kOutOfReach = 1e30;
 
-/// Distance to a solid, mm, negative inside, and the direction in which it grows.
+/// Signed distance to a solid, mm, negative inside, and its gradient.
 struct Distance {
-  double value = kNowhere;
+  double value = kOutOfReach;
   Point3 gradient;
 };
 
-/// The place of a sweep's path that is nearest, both seen from above.
-Point2 nearest_in_plan(const Sweep& sweep, Point2 place);
+/// The point of a sweep's path that is nearest in plan.
+Point2 nearest_in_plan(const Sweep& sweep, Point2 point);
 
-/// Whether a sweep stays at one height. Of several of one tool at one height the one that is nearest in plan
-/// is nearest.
+/// Whether a sweep has a constant Z. Of several level sweeps with one tool at one Z, the one that is nearest
+/// in plan is the nearest.
 inline bool is_level(const Sweep& sweep) { return sweep.is_arc || sweep.z == sweep.z_end; }
-/// Of a place, in the sweeps' frame, to what a tool takes away along a level sweep at height `z` whose path
-/// is nearest at `nearest`.
-Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, Point3 place);
+/// Distance of a point (block frame) to the volume swept at height `z` by a path whose nearest point in plan
+/// is `nearest`.
+Distance distance_to_level(const ToolDistance& tool, Point2 nearest, double z, Point3 point);
 
-/// The distance to what a tool takes away along a sweep that is not level, and where the tool then is: mm
-/// along the path in plan, or of a plunge the height.
-struct Nearest {
+/// The distance to a sweep that is not level, and the path parameter t of its minimum: mm along the path in
+/// plan; for a plunge the Z of the tip.
+struct PathDistance {
   Distance distance;
-  double where = 0.0;
+  double t = 0.0;
 };
-/// Places further than `reach` may be said to be nowhere, and distances that are not below `enough` need not
-/// be exact.
-Nearest nearest_along(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
-                      double enough = kNowhere);
-/// The same for a place beside another one, `moved` from it, for which it is known already.
-Nearest nearest_beside(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach,
-                       const Nearest& known, Point3 moved, double enough = kNowhere);
+/// The result may be kOutOfReach if the distance exceeds `reach`, and need not be exact if it is not below
+/// `enough`.
+PathDistance distance_along(const Sweep& sweep, const ToolDistance& tool, Point3 point, double reach,
+                            double enough = kOutOfReach);
+/// The same, starting the search from `known`, the result for the point at `point - moved`.
+PathDistance distance_beside(const Sweep& sweep, const ToolDistance& tool, Point3 point, double reach,
+                             const PathDistance& known, Point3 moved, double enough = kOutOfReach);
 
-/// Bounds of that distance for the time of one look at the tool.
+/// Lower and upper bound of that distance, from a single evaluation of the distance to the tool.
 struct DistanceBounds {
-  double low = kNowhere, high = kNowhere;
+  double low = kOutOfReach, high = kOutOfReach;
 };
-DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 place, double reach);
+DistanceBounds bounds_of_distance(const Sweep& sweep, const ToolDistance& tool, Point3 point, double reach);
 
 }  // namespace kerf::sim

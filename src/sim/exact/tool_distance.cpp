@@ -1,4 +1,5 @@
-// The nearest place on the outline of half a tool, and on which side of it a place lies.
+// Distance to a half outline: the minimum over its segments; the sign from the radius of the outline at the
+// point's height.
 #include "sim/exact/tool_distance.h"
 
 #include <algorithm>
@@ -13,22 +14,24 @@
 namespace kerf::sim {
 namespace {
 
-/// Nearer to the outline than this its own normal is the direction, mm: a difference of places has none left.
+/// Within this distance, mm, the gradient is the normal of the outline: the difference of the two points is
+/// only rounding.
 constexpr double kOnOutline = 1e-9;
-/// Pieces that turn right by less than this, radians, go on in one direction: rounding of their ends.
-constexpr double kSameWay = 1e-9;
+/// Right turns between segments below this angle, radians, are rounding of their end points.
+constexpr double kCollinear = 1e-9;
 
 }  // namespace
 
-struct ToolDistance::Nearest {
+struct ToolDistance::NearestOnProfile {
   double distance2 = std::numeric_limits<double>::infinity();
-  double r = 0.0, z = 0.0;                // the place
-  double normal_r = 0.0, normal_z = 0.0;  // of the outline there, outwards; of an arc
-  const ProfileSegment* line = nullptr;   // the segment, if it is a line
-  bool is_end = false;                    // the place is an end of its segment
-  double bend = 0.0;                      // of the distance, if it is none
+  double r = 0.0, z = 0.0;                // the nearest point
+  double normal_r = 0.0, normal_z = 0.0;  // outward normal of the outline there, if it is on an arc
+  const ProfileSegment* line = nullptr;   // its segment, if it is on a line
+  bool is_end = false;                    // it is an end point of its segment
+  double curvature = 0.0;                 // of the distance, unless is_end
 
-  bool take(double from_r, double from_z, double to_r, double to_z) {
+  /// Replaces the point by (to_r, to_z) if that is closer; true if so.
+  bool update(double from_r, double from_z, double to_r, double to_z) {
     const double dr = from_r - to_r, dz = from_z - to_z;
     const double square = dr * dr + dz * dz;
     if (square >= distance2) return false;
@@ -45,18 +48,18 @@ ToolDistance::ToolDistance(const Silhouette& tool) {
   for (const ToolPart part : {ToolPart::cutting, ToolPart::neck, ToolPart::shank, ToolPart::holder}) {
     const Profile& profile = whole.part(part);
     if (profile.empty()) continue;
-    // Parts that stand on each other are one outline: there is no surface between them.
+    // Adjoining parts are one outline: there is no surface between them.
     if (!knots.empty() && profile.bottom() > knots.back().z) {
-      add_region(knots);
+      add_outline(knots);
       knots.clear();
     }
     if (!knots.empty()) knots.back().bulge = 0.0;
     knots.insert(knots.end(), profile.knots.begin(), profile.knots.end());
     rim_ = std::max(rim_, profile.max_radius());
   }
-  add_region(knots);
+  add_outline(knots);
   bottom_ = segments_.empty() ? 0.0 : segments_.front().z0;
-  is_convex_ = turns_left();
+  is_convex_ = is_outline_convex();
 }
 
 double ToolDistance::per_square(const ProfileSegment& segment) {
@@ -64,15 +67,15 @@ double ToolDistance::per_square(const ProfileSegment& segment) {
   return 1.0 / (dr * dr + dz * dz);
 }
 
-/// Whether two pieces, one after the other, are one upright line: flutes and shank of one width.
-bool ToolDistance::goes_on(const ProfileSegment& before, const ProfileSegment& next) {
+/// Whether two consecutive segments form one vertical line, as flutes and a shank of the same diameter do.
+bool ToolDistance::is_one_vertical(const ProfileSegment& before, const ProfileSegment& next) {
   return before.side == 0.0 && next.side == 0.0 && before.r1 == next.r0 && before.z1 == next.z0 &&
          before.r0 == before.r1 && next.r0 == next.r1;
 }
 
-/// Whether the outline is one and never turns right.
-bool ToolDistance::turns_left() const {
-  const auto way_at = [](const ProfileSegment& segment, double r, double z) {
+/// Whether the outline is connected, without concave arcs and without right turns.
+bool ToolDistance::is_outline_convex() const {
+  const auto direction_at = [](const ProfileSegment& segment, double r, double z) {
     return segment.side == 0.0 ? Point2{segment.r1 - segment.r0, segment.z1 - segment.z0}
                                : Point2{segment.centre_z - z, r - segment.centre_r};
   };
@@ -82,19 +85,20 @@ bool ToolDistance::turns_left() const {
     if (k == 0) continue;
     const ProfileSegment& before = segments_[k - 1];
     if (before.r1 != segment.r0 || before.z1 != segment.z0) return false;
-    const Point2 in = way_at(before, before.r1, before.z1), out = way_at(segment, segment.r0, segment.z0);
-    if (cross(in, out) < -kSameWay * length(in) * length(out)) return false;
+    const Point2 in = direction_at(before, before.r1, before.z1),
+                 out = direction_at(segment, segment.r0, segment.z0);
+    if (cross(in, out) < -kCollinear * length(in) * length(out)) return false;
   }
   return !segments_.empty();
 }
 
-void ToolDistance::add_region(const std::vector<Knot>& knots) {
+void ToolDistance::add_outline(const std::vector<Knot>& knots) {
   if (knots.size() < 2) return;
   const auto add = [&](const Knot& a, const Knot& b) {
     if ((a.r == b.r && a.z == b.z) || a.z >= kAboveAll)
-      return;  // nothing is ever near the end of what holds it
+      return;  // the upper end of the holder is out of reach
     ProfileSegment segment = segment_between(a, b);
-    if (!segments_.empty() && goes_on(segments_.back(), segment)) {
+    if (!segments_.empty() && is_one_vertical(segments_.back(), segment)) {
       segment.r0 = segments_.back().r0;
       segment.z0 = segments_.back().z0;
       segment.per_length2 = per_square(segment);
@@ -133,54 +137,54 @@ bool ToolDistance::is_inside(double rho, double z) const {
   return false;
 }
 
-void ToolDistance::look_at_line(const ProfileSegment& segment, double rho, double z, Nearest& nearest) {
+void ToolDistance::add_line(const ProfileSegment& segment, double rho, double z, NearestOnProfile& nearest) {
   const double dr = segment.r1 - segment.r0, dz = segment.z1 - segment.z0;
-  const double share =
+  const double fraction =
       std::clamp(((rho - segment.r0) * dr + (z - segment.z0) * dz) * segment.per_length2, 0.0, 1.0);
-  if (!nearest.take(rho, z, segment.r0 + share * dr, segment.z0 + share * dz)) return;
+  if (!nearest.update(rho, z, segment.r0 + fraction * dr, segment.z0 + fraction * dz)) return;
   nearest.line = &segment;
-  nearest.is_end = share == 0.0 || share == 1.0;
-  nearest.bend = 0.0;
+  nearest.is_end = fraction == 0.0 || fraction == 1.0;
+  nearest.curvature = 0.0;
 }
 
-void ToolDistance::look_at_arc(const ProfileSegment& segment, double rho, double z, Nearest& nearest) {
+void ToolDistance::add_arc(const ProfileSegment& segment, double rho, double z, NearestOnProfile& nearest) {
   const double r = rho - segment.centre_r, h = z - segment.centre_z;
-  const double begin_r = segment.r0 - segment.centre_r, begin_z = segment.z0 - segment.centre_z;
+  const double start_r = segment.r0 - segment.centre_r, start_z = segment.z0 - segment.centre_z;
   const double end_r = segment.r1 - segment.centre_r, end_z = segment.z1 - segment.centre_z;
   const double length = std::sqrt(r * r + h * h);
-  // No arc of a profile is longer than half a circle, as it never goes down.
-  const bool between = segment.side * (begin_r * h - begin_z * r) >= 0.0 &&
+  // z never decreases along a profile, so no arc is longer than a half circle.
+  const bool between = segment.side * (start_r * h - start_z * r) >= 0.0 &&
                        segment.side * (r * end_z - h * end_r) >= 0.0 && length > 0.0;
   const auto set_normal = [&] {
     nearest.line = nullptr;
     nearest.is_end = !between;
-    nearest.bend = between ? segment.side / length : 0.0;
+    nearest.curvature = between ? segment.side / length : 0.0;
     nearest.normal_r = segment.side * (nearest.r - segment.centre_r) / segment.radius;
     nearest.normal_z = segment.side * (nearest.z - segment.centre_z) / segment.radius;
   };
   if (between) {
     const double scale = segment.radius / length;
-    if (nearest.take(rho, z, segment.centre_r + scale * r, segment.centre_z + scale * h)) set_normal();
+    if (nearest.update(rho, z, segment.centre_r + scale * r, segment.centre_z + scale * h)) set_normal();
     return;
   }
-  if (nearest.take(rho, z, segment.r0, segment.z0)) set_normal();
-  if (nearest.take(rho, z, segment.r1, segment.z1)) set_normal();
+  if (nearest.update(rho, z, segment.r0, segment.z0)) set_normal();
+  if (nearest.update(rho, z, segment.r1, segment.z1)) set_normal();
 }
 
-TurnedDistance ToolDistance::at(double rho, double z) const {
-  Nearest nearest;
+ProfileDistance ToolDistance::at(double rho, double z) const {
+  NearestOnProfile nearest;
   for (const ProfileSegment& segment : segments_)
-    segment.side == 0.0 ? look_at_line(segment, rho, z, nearest) : look_at_arc(segment, rho, z, nearest);
+    segment.side == 0.0 ? add_line(segment, rho, z, nearest) : add_arc(segment, rho, z, nearest);
   const double distance = std::sqrt(nearest.distance2);
   const double sign = is_inside(rho, z) ? -1.0 : 1.0;
   const double per_distance = sign / std::max(distance, kOnOutline);
-  const double bend = nearest.is_end ? per_distance : nearest.bend;
+  const double curvature = nearest.is_end ? per_distance : nearest.curvature;
   if (distance >= kOnOutline)
-    return {sign * distance, per_distance * (rho - nearest.r), per_distance * (z - nearest.z), bend};
-  if (nearest.line == nullptr) return {sign * distance, nearest.normal_r, nearest.normal_z, bend};
+    return {sign * distance, per_distance * (rho - nearest.r), per_distance * (z - nearest.z), curvature};
+  if (nearest.line == nullptr) return {sign * distance, nearest.normal_r, nearest.normal_z, curvature};
   const ProfileSegment& line = *nearest.line;
   const double per_length = std::sqrt(line.per_length2);
-  return {sign * distance, per_length * (line.z1 - line.z0), per_length * (line.r0 - line.r1), bend};
+  return {sign * distance, per_length * (line.z1 - line.z0), per_length * (line.r0 - line.r1), curvature};
 }
 
 }  // namespace kerf::sim

@@ -1,5 +1,6 @@
-// Where a vertex goes: surfaces near it are looked for on the triangles around it, each gives a plane, and
-// the vertex goes to where the planes meet; then once more from there with places much nearer to it.
+// Fitting a vertex. Points on the triangles around it are projected onto the surfaces of the sweeps; each
+// gives a plane, and the vertex moves to the intersection of the planes. If the surfaces are curved, this is
+// repeated with points much closer to the new position.
 #include "sim/exact/vertex_fitter.h"
 
 #include <algorithm>
@@ -9,65 +10,69 @@ namespace kerf::sim {
 namespace {
 
 // All in pitches.
-constexpr double kFirstLook = 0.45;  // from the vertex: within the square of its corner
-constexpr double kSecondLook = 0.1;  // from its new place: curves are planes there
+constexpr double kFirstDistance = 0.45;  // of samples from the vertex: within the square of its corner
+constexpr double kSecondDistance = 0.1;  // of samples from its new position: surfaces are nearly flat there
 constexpr double kHalfSquare = 0.5;
-constexpr double kOnSide = 1e-9;  // of the square or the block: no further out
+constexpr double kOnSide = 1e-9;  // excess over the side of the square or the block that is rounding
 constexpr double kMaxMoved = 1.2;
 constexpr double kMaxSpan = 10.0;
 constexpr double kMaxRefined = 0.6;
-constexpr double kMissed = 0.02;  // a new place that is further off all surfaces is none
+constexpr double kMaxError = 0.02;  // of a new position, from the surfaces
 
-/// Places closer to a surface are on it, mm: a tenth of what single precision of a mesh tells.
+/// Points closer to a surface are on it, mm: a tenth of the single precision of a mesh.
 constexpr double kOnSurface = 1e-7;
-/// How far from a surface its normal is looked for, mm: far more than kOnSurface, far less than any radius.
+/// Depth below a surface at which its normal is evaluated, mm: much more than kOnSurface, much less than any
+/// radius.
 constexpr double kIntoMaterial = 1e-5;
-constexpr int kCloserLooks = 3;
+constexpr int kResamples = 3;
 constexpr int kMaxSteps = 12;  // of Newton's method; the distance is nearly linear
-/// Share of the most that a place may move by which it goes into the material at a time, if it is deeper than
-/// the other share in what is cut away.
-constexpr double kInwards = 0.15, kShallow = 1e-3;
-/// A surface that the fixed axes leave less of its slope than this (squared) is met too far away.
+/// A point deeper in the removed volume than kMaxDepth first moves into the material, by kInwardStep at a
+/// time. Both are fractions of the maximum distance.
+constexpr double kInwardStep = 0.15, kMaxDepth = 1e-3;
+/// Minimum squared length of the gradient without the fixed axes: below, the intersection with the surface is
+/// too far away.
 constexpr double kMinGain = 0.05;
-/// The normal of the surface and of the triangle that looks for it agree by at least this cosine.
+/// Minimum cosine of the angle between the normals of a surface and of the triangle projected onto it.
 constexpr double kSameSide = 0.1;
-/// Triangles around a vertex that face so nearly the same way (cosine, 11 degrees) are one surface.
+/// Triangles around a vertex are one surface if their normals are within this angle of the mean (cosine, 11
+/// degrees).
 constexpr double kSmooth = 0.98;
-/// A side of the block, by the larger part of its normal.
-constexpr double kUpright = 0.9999;
-/// And so nearly (1.1 degrees) one plane.
+/// A triangle lies on a side of the block if a component of its normal exceeds this.
+constexpr double kAxisAligned = 0.9999;
+/// Triangles with normals within this angle (cosine, 1.1 degrees) are in one plane.
 constexpr double kOnePlane = 0.9998;
-/// Surfaces that bend less than this share of the tolerance between places are planes.
+/// Surfaces are flat if chord * angle between two samples is at most this fraction of the tolerance.
 constexpr double kFlat = 1.0;
-/// A direction in which planes pull by less than this share of the strongest tells nothing: planes that are
-/// less than 6 degrees apart are one curved surface.
-constexpr double kMinShare = 0.003;
+/// Minimum eigenvalue of a direction that the planes determine, as a fraction of the largest: planes that
+/// differ by less than 6 degrees are one curved surface.
+constexpr double kMinEigenvalue = 0.003;
 
 enum class From : std::uint8_t { either_side, material };
 
-Point3 freed(Point3 way, const std::array<bool, 3>& fixed) {
+Point3 without_fixed(Point3 vector, const std::array<bool, 3>& fixed) {
   for (int axis = 0; axis < 3; ++axis)
-    if (fixed[static_cast<std::size_t>(axis)]) way[axis] = 0.0;
-  return way;
+    if (fixed[static_cast<std::size_t>(axis)]) vector[axis] = 0.0;
+  return vector;
 }
 
-/// Newton's method; `from` the material's side it first goes there.
-bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
-                  const std::array<bool, 3>& fixed, Point3& place, Point3& normal) {
-  Distance distance = nearby.at(place);
+/// Newton's method on the signed distance; From::material first moves the point into the material.
+bool find_surface(const NearbySweeps& nearby, From from, double max_distance, Point3 inwards,
+                  const std::array<bool, 3>& fixed, Point3& point, Point3& normal) {
+  Distance distance = nearby.at(point);
   for (int n = 0; n < kMaxSteps; ++n) {
-    if (std::abs(distance.value) > most) return false;
-    if (from == From::material && distance.value < -kShallow * most) {
-      place = place + (kInwards * most - distance.value) * freed(inwards, fixed);
-      distance = nearby.at(place);
+    if (std::abs(distance.value) > max_distance) return false;
+    if (from == From::material && distance.value < -kMaxDepth * max_distance) {
+      point = point + (kInwardStep * max_distance - distance.value) * without_fixed(inwards, fixed);
+      distance = nearby.at(point);
       continue;
     }
-    const Point3 way = freed(distance.gradient, fixed);
-    const double gain = dot(way, way);
+    const Point3 slope = without_fixed(distance.gradient, fixed);
+    const double gain = dot(slope, slope);
     if (gain < kMinGain) return false;
-    place = place - (distance.value / gain) * way;
-    // A little inside, since an edge of the tool sweeps a surface of its own, which is only told from there.
-    distance = nearby.at(place + kIntoMaterial * inwards);
+    point = point - (distance.value / gain) * slope;
+    // Evaluated slightly inside the material, as the gradient is not defined on a surface that an edge of the
+    // tool sweeps.
+    distance = nearby.at(point + kIntoMaterial * inwards);
     distance.value -= kIntoMaterial * dot(distance.gradient, inwards);
     if (std::abs(distance.value) > kOnSurface) continue;
     const double steepness = length(distance.gradient);
@@ -79,68 +84,71 @@ bool find_surface(const Nearby& nearby, From from, double most, Point3 inwards,
 
 }  // namespace
 
-bool put_on_surface(const Nearby& nearby, double most, Point3 outwards, const std::array<bool, 3>& fixed,
-                    Point3& place, Point3& normal) {
-  const Point3 begin = place;
+bool project_to_surface(const NearbySweeps& nearby, double max_distance, Point3 outwards,
+                        const std::array<bool, 3>& fixed, Point3& point, Point3& normal) {
+  const Point3 start = point;
   const Point3 inwards = (-1.0 / length(outwards)) * outwards;
-  // What is cut away by several sweeps is deeper than any of them tells; then from the material's side.
+  // Inside several sweeps the distance is only a bound of the depth: then from the material's side.
   for (const From from : {From::either_side, From::material}) {
-    place = begin;
-    if (find_surface(nearby, from, most, inwards, fixed, place, normal) && distance(place, begin) <= most &&
-        dot(normal, outwards) >= kSameSide * length(outwards))
+    point = start;
+    if (find_surface(nearby, from, max_distance, inwards, fixed, point, normal) &&
+        distance(point, start) <= max_distance && dot(normal, outwards) >= kSameSide * length(outwards))
       return true;
   }
   return false;
 }
 
-/// The stock's own surface: of a block its side that faces nearly so, else the triangle's plane.
-void Placer::add_stock_plane(Point3 from, Point3 normal) {
+/// Adds the stock's own surface: of a block the side that faces like the triangle, else the triangle's plane.
+void VertexFitter::add_stock_plane(Point3 from, Point3 normal) {
   if (!is_block_) return of_stock_.push_back({from, normal, normal});
-  // Of what is no side of the block the columns have taken the step to the next one for a slope.
+  // Not on X or Y sides: the top or the bottom. If the triangle is slanted, the mesh of the columns took the
+  // step to a neighbouring column for a slope.
   int axis = 2;
   for (const int other : {0, 1})
-    if (std::abs(normal[other]) > kUpright) axis = other;
+    if (std::abs(normal[other]) > kAxisAligned) axis = other;
   Sample side{from, {}, {}};
   side.at[axis] = normal[axis] > 0.0 ? size_[axis] : 0.0;
   side.normal[axis] = std::copysign(1.0, normal[axis]);
-  if (std::abs(side.at[axis] - from[axis]) <= most_moved_) of_stock_.push_back(side);
+  if (std::abs(side.at[axis] - from[axis]) <= max_move_) of_stock_.push_back(side);
 }
 
-void Placer::find_samples(std::uint32_t vertex, Point3 from) {
+void VertexFitter::find_samples(std::uint32_t vertex, Point3 from) {
   samples_.clear();
   of_stock_.clear();
   mesh_.around(vertex, [&](std::uint32_t triangle) {
     const Point3 normal = mesh_.normal(triangle);
     if (dot(normal, normal) == 0.0) return;
     if (mesh_.step(triangle) == kStockSurface) return add_stock_plane(from, normal);
-    // Of triangles in one plane one is enough, if that is the surface's own.
+    // One sample per plane is enough if it is also the plane of the surface.
     for (const Sample& sample : samples_)
-      if (dot(sample.looking, normal) > kOnePlane && dot(sample.normal, normal) > kOnePlane) return;
-    const Point3 way = mesh_.middle(triangle) - from;
-    const double far = length(way);
-    Sample sample{from + std::min(1.0, kFirstLook * pitch_ / far) * way, {}, normal};
-    if (put_on_surface(sample, normal)) samples_.push_back(sample);
+      if (dot(sample.triangle_normal, normal) > kOnePlane && dot(sample.normal, normal) > kOnePlane) return;
+    const Point3 vector = mesh_.centroid(triangle) - from;
+    const double far = length(vector);
+    Sample sample{from + std::min(1.0, kFirstDistance * pitch_ / far) * vector, {}, normal};
+    if (project(sample, normal)) samples_.push_back(sample);
   });
   if (!samples_.empty() || of_stock_.empty()) return;
-  // The columns have taken what was cut for a slope of the stock: the edge between them is near.
+  // All triangles have kStockSurface, but the edge to a steep cut may be near: the mesh of the columns has a
+  // slope of the stock there.
   Point3 outwards;
   mesh_.around(vertex, [&](std::uint32_t triangle) { outwards = outwards + mesh_.normal(triangle); });
   Sample sample{from, {}, {}};
-  if (length(outwards) > 0.0 && put_on_surface(sample, outwards)) samples_.push_back(sample);
+  if (length(outwards) > 0.0 && project(sample, outwards)) samples_.push_back(sample);
 }
 
-double miss_in_block(const Nearby& nearby, Point3 size, Point3 place) {
-  double outside = -nearby.at(place).value;
-  for (int axis = 0; axis < 3; ++axis) outside = std::max({outside, -place[axis], place[axis] - size[axis]});
+double surface_error_in_block(const NearbySweeps& nearby, Point3 size, Point3 point) {
+  double outside = -nearby.at(point).value;
+  for (int axis = 0; axis < 3; ++axis) outside = std::max({outside, -point[axis], point[axis] - size[axis]});
   return std::abs(outside);
 }
 
-double Placer::miss_at(Point3 place) const {
-  return is_block_ ? miss_in_block(*nearby_, size_, place) : std::abs(nearby_->at(place).value);
+double VertexFitter::surface_error(Point3 point) const {
+  return is_block_ ? surface_error_in_block(*nearby_, size_, point) : std::abs(nearby_->at(point).value);
 }
 
-/// What lies on the block's sides stays there, and what lies on its top or bottom if these are left there.
-void Placer::fix_axes(std::uint32_t vertex, Point3 from) {
+/// Fixes the axes of the block's sides that the vertex lies on; Z only if a triangle of the uncut top or
+/// bottom is at the vertex.
+void VertexFitter::fix_axes(std::uint32_t vertex, Point3 from) {
   for (int axis = 0; axis < 3; ++axis) {
     const bool is_low = from[axis] <= kOnBlock, is_high = from[axis] >= size_[axis] - kOnBlock;
     corner_[axis] = std::round(from[axis] / pitch_) * pitch_;
@@ -153,7 +161,7 @@ void Placer::fix_axes(std::uint32_t vertex, Point3 from) {
   }
 }
 
-Quadric Placer::quadric_at(Point3 from, const Fixed& fixed) const {
+Quadric VertexFitter::quadric_at(Point3 from, const Fixed& fixed) const {
   Quadric quadric;
   for (const auto* list : {&samples_, &of_stock_})
     for (const Sample& sample : *list) quadric.add(sample.normal, dot(sample.normal, sample.at - from));
@@ -162,28 +170,29 @@ Quadric Placer::quadric_at(Point3 from, const Fixed& fixed) const {
   return quadric;
 }
 
-/// How far a place is from the planes, at most.
-double Placer::miss_of(Point3 at) const {
-  double most = 0.0;
+/// The largest distance of a point from the planes.
+double VertexFitter::plane_error(Point3 at) const {
+  double largest = 0.0;
   for (const auto* list : {&samples_, &of_stock_})
-    for (const Sample& sample : *list) most = std::max(most, std::abs(dot(sample.normal, at - sample.at)));
-  return most;
+    for (const Sample& sample : *list)
+      largest = std::max(largest, std::abs(dot(sample.normal, at - sample.at)));
+  return largest;
 }
 
-/// The place in the corner's square and in the block that lies best on the planes, as far as so many
-/// directions tell. Where the nearest such place is outside, the vertex goes along the side.
-Point3 Placer::solved(Point3 from, int directions) const {
+/// The least-squares intersection of the planes (see Quadric) within the corner's square and the block. If it
+/// is outside, the axis with the largest excess is fixed at the side and the rest solved again.
+Point3 VertexFitter::intersection(Point3 from, int rank) const {
   Fixed fixed = fixed_;
   Point3 to = from;
   for (int n = 0; n <= 3; ++n) {
-    to = from + quadric_at(from, fixed).step(directions, kMinShare);
+    to = from + quadric_at(from, fixed).solve(rank, kMinEigenvalue);
     int worst = -1;
-    double most = kOnSide * pitch_;
+    double worst_excess = kOnSide * pitch_;
     for (int axis = 0; axis < 3; ++axis) {
-      const double out = std::abs(to[axis] - within(axis, to[axis]));
-      if (fixed[static_cast<std::size_t>(axis)] || out <= most) continue;
+      const double excess = std::abs(to[axis] - within(axis, to[axis]));
+      if (fixed[static_cast<std::size_t>(axis)] || excess <= worst_excess) continue;
       worst = axis;
-      most = out;
+      worst_excess = excess;
     }
     if (worst < 0) break;
     from[worst] = within(worst, to[worst]);
@@ -193,35 +202,35 @@ Point3 Placer::solved(Point3 from, int directions) const {
   return to;
 }
 
-/// A coordinate kept in the corner's square and in the block.
-double Placer::within(int axis, double value) const {
+/// A coordinate clamped to the corner's square and the block.
+double VertexFitter::within(int axis, double value) const {
   if (axis < 2)
     value = std::clamp(value, corner_[axis] - kHalfSquare * pitch_, corner_[axis] + kHalfSquare * pitch_);
   return std::clamp(value, 0.0, size_[axis]);
 }
 
-Point3 Placer::best_step(Point3 from) const {
-  for (int directions = quadric_at(from, fixed_).directions(kMinShare); directions > 0; --directions) {
-    const Point3 to = solved(from, directions);
-    if (distance(from, to) <= most_moved_ && (directions == 1 || miss_of(to) <= kMissed * pitch_)) return to;
+Point3 VertexFitter::best_intersection(Point3 from) const {
+  for (int rank = quadric_at(from, fixed_).rank(kMinEigenvalue); rank > 0; --rank) {
+    const Point3 to = intersection(from, rank);
+    if (distance(from, to) <= max_move_ && (rank == 1 || plane_error(to) <= kMaxError * pitch_)) return to;
   }
   return from;
 }
 
-/// Looks for the surfaces again at places that are nearer, where curved ones are as good as planes.
-void Placer::look_closer(Point3 from) {
+/// Projects again from points closer to `from`, where curved surfaces are nearly flat.
+void VertexFitter::resample_around(Point3 from) {
   std::size_t kept = 0;
   for (const Sample& sample : samples_) {
-    const Point3 way = sample.at - from;
-    const double far = length(way);
-    Sample nearer{far > 0.0 ? from + std::min(1.0, kSecondLook * pitch_ / far) * way : from, {}, {}};
-    if (put_on_surface(nearer, sample.normal)) samples_[kept++] = nearer;
+    const Point3 vector = sample.at - from;
+    const double far = length(vector);
+    Sample nearer{far > 0.0 ? from + std::min(1.0, kSecondDistance * pitch_ / far) * vector : from, {}, {}};
+    if (project(nearer, sample.normal)) samples_[kept++] = nearer;
   }
   samples_.resize(kept);
 }
 
-/// Whether the triangles around a vertex are those of one curved surface, and where it faces.
-bool Placer::is_smooth(std::uint32_t vertex, Point3& outwards) const {
+/// Whether the triangles around a vertex belong to one smooth surface; `outwards`: its normal.
+bool VertexFitter::is_smooth(std::uint32_t vertex, Point3& outwards) const {
   Point3 sum;
   bool stock = false, cut = false;
   mesh_.around(vertex, [&](std::uint32_t triangle) {
@@ -240,60 +249,59 @@ bool Placer::is_smooth(std::uint32_t vertex, Point3& outwards) const {
   return smooth;
 }
 
-Point3 Placer::on_smooth(Point3 from, Point3 outwards) {
+Point3 VertexFitter::fit_smooth(Point3 from, Point3 outwards) {
   Sample sample{from, {}, {}};
-  return sim::put_on_surface(*nearby_, kMaxProjected * pitch_, outwards, fixed_, sample.at, sample.normal)
+  return sim::project_to_surface(*nearby_, kMaxProjected * pitch_, outwards, fixed_, sample.at, sample.normal)
              ? sample.at
              : from;
 }
 
-/// Whether the surfaces bend so little between the places that planes stand for them.
-bool Placer::is_flat_enough() const {
+/// Whether the surfaces between the samples are flat within the tolerance.
+bool VertexFitter::is_flat_enough() const {
   for (const Sample& one : samples_)
     for (const Sample& other : samples_) {
       if (dot(one.normal, other.normal) < kSmooth) continue;
-      // A circle strays from its chord by an eighth of the chord times the angle between its ends; the
-      // vertex may be as far beyond the places as they are apart.
+      // The sagitta is chord * angle / 8, but the vertex may be as far beyond the samples as they are apart.
       if (distance(one.at, other.at) * distance(one.normal, other.normal) > kFlat * tolerance_) return false;
     }
   return true;
 }
 
-/// On steep places columns are far apart in height, and so may a vertex be from where it belongs.
-double Placer::most_moved(std::uint32_t vertex, Point3 from) const {
+/// On steep surfaces neighbouring columns differ much in height, and so may a vertex from its true position.
+double VertexFitter::max_move_of(std::uint32_t vertex, Point3 from) const {
   double span = 0.0;
   mesh_.around(vertex, [&](std::uint32_t triangle) {
-    span = std::max(span, 1.5 * std::abs(mesh_.middle(triangle).z - from.z));
+    span = std::max(span, 1.5 * std::abs(mesh_.centroid(triangle).z - from.z));
   });
   return kMaxMoved * pitch_ + std::min(span, kMaxSpan * pitch_);
 }
 
-Point3 Placer::on_edge(std::uint32_t vertex, Point3 from, Around& around) {
-  most_moved_ = most_moved(vertex, from);
+Point3 VertexFitter::fit_edge(std::uint32_t vertex, Point3 from, SweepFinder& finder) {
+  max_move_ = max_move_of(vertex, from);
   find_samples(vertex, from);
   if (samples_.empty() && of_stock_.empty()) return from;
-  Point3 to = best_step(from);
-  if (distance(from, to) > kFirstLook * pitch_) nearby_ = &around.all(to);
-  for (int n = 0; n < kCloserLooks && !is_flat_enough(); ++n) {
-    look_closer(to);
-    const Point3 better = best_step(to);
+  Point3 to = best_intersection(from);
+  if (distance(from, to) > kFirstDistance * pitch_) nearby_ = &finder.all(to);
+  for (int n = 0; n < kResamples && !is_flat_enough(); ++n) {
+    resample_around(to);
+    const Point3 better = best_intersection(to);
     if (distance(to, better) > kMaxRefined * pitch_) break;
     to = better;
   }
-  const double after = miss_at(to);
-  return after <= kMissed * pitch_ || after < miss_at(from) ? to : from;
+  const double after = surface_error(to);
+  return after <= kMaxError * pitch_ || after < surface_error(from) ? to : from;
 }
 
-Point3 Placer::place(std::uint32_t vertex, Around& around) {
+Point3 VertexFitter::fit(std::uint32_t vertex, SweepFinder& finder) {
   const Point3 from = mesh_.point(vertex);
   fix_axes(vertex, from);
   Point3 outwards;
   if (is_smooth(vertex, outwards)) {
-    nearby_ = &around.of_columns(from);
-    return on_smooth(from, outwards);
+    nearby_ = &finder.of_columns(from);
+    return fit_smooth(from, outwards);
   }
-  nearby_ = &around.all(from);
-  return on_edge(vertex, from, around);
+  nearby_ = &finder.all(from);
+  return fit_edge(vertex, from, finder);
 }
 
 }  // namespace kerf::sim

@@ -233,7 +233,7 @@ class Extraction {
     mesh.triangles.resize(3 * end);
     mesh.step.resize(end);
     meshing::split_shared_edges(mesh, threads_, suspects_, at_walls);
-    meshing::mend_flat_triangles(mesh, threads_, at_walls);  // others are half squares or larger
+    meshing::remove_degenerate_triangles(mesh, threads_, at_walls);  // others are half squares or larger
     return true;
   }
 

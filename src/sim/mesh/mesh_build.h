@@ -248,7 +248,7 @@ void split_shared_edges(Mesh& mesh, unsigned threads, const std::vector<std::uin
 
 /// Takes out triangles without area, after which the mesh is as closed as before. A few may stay where taking
 /// them out would leave an edge to more than two triangles. `among`: all that may be without area, in order.
-void mend_flat_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among);
-void mend_flat_triangles(Mesh& mesh, unsigned threads);
+void remove_degenerate_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among);
+void remove_degenerate_triangles(Mesh& mesh, unsigned threads);
 
 }  // namespace kerf::meshing

@@ -278,9 +278,9 @@ void Mender::run() {
 
 }  // namespace
 
-void mend_flat_triangles(Mesh& mesh, unsigned threads) { Mender(mesh, threads, nullptr).run(); }
+void remove_degenerate_triangles(Mesh& mesh, unsigned threads) { Mender(mesh, threads, nullptr).run(); }
 
-void mend_flat_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among) {
+void remove_degenerate_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among) {
   Mender(mesh, threads, &among).run();
 }
 

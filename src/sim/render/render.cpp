@@ -1,6 +1,6 @@
-// The proof picture: a mesh drawn without a display. Depth first, then light a sample at a time: a key light
-// with shadows, a fill light, sky light dimmed in pockets, thin lines at outlines and creases, on a light
-// ground.
+// Renders a mesh to an image in software. First the depth buffer, then the shading of each sample: a key
+// light with shadows, a fill light, sky light with ambient occlusion, thin lines at silhouettes and creases,
+// on a light ground.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -16,13 +16,13 @@ namespace {
 
 using Colour = Point3;  // linear light, 0 to 1
 
-constexpr double kMargin = 0.06;           // share of the picture around the part
-constexpr double kViewDistance = 3.6;      // of the viewer, in radii of the part
-constexpr int kShadowSize = 3072;          // samples a side of the shadow map
-constexpr double kOcclusionRadius = 0.05;  // of the part's size: how far pockets darken themselves
-constexpr double kSmoothCosine = 0.82;     // faces that turn by less (35 degrees) are shaded as one surface
-constexpr double kCreaseCosine = 0.6;      // sharper turns get a line
-constexpr Colour kMissingColour{0.45, 0.45, 0.45};  // of triangles without one
+constexpr double kMargin = 0.06;           // around the part, as a fraction of the picture
+constexpr double kViewDistance = 3.6;      // from the viewer to the centre, in radii of the part
+constexpr int kShadowSize = 3072;          // samples along a side of the shadow map
+constexpr double kOcclusionRadius = 0.05;  // of ambient occlusion, as a fraction of the part's size
+constexpr double kSmoothCosine = 0.82;     // faces at smaller angles (35 degrees) are shaded as one surface
+constexpr double kCreaseCosine = 0.6;      // faces at larger angles are separated by a line
+constexpr Colour kMissingColour{0.45, 0.45, 0.45};  // of triangles without a colour
 constexpr std::array<std::uint8_t, 3> kSkyTop{250, 251, 252}, kSkyLow{222, 226, 230};  // background, sRGB
 
 double linear(std::uint8_t value) {
@@ -37,19 +37,19 @@ std::uint8_t encoded(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * s));
 }
 
-/// Away from the viewer.
-Point3 looking(const View& view) {
+/// Unit vector away from the viewer.
+Point3 view_direction(const View& view) {
   const double a = view.azimuth.rad(),
                e = std::clamp(view.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
   return {-std::cos(e) * std::sin(a), std::cos(e) * std::cos(a), -std::sin(e)};
 }
 
-/// A section stands so far behind where it is asked for, mm: floors and walls at that very place are not half
-/// in the picture and half out of it. More than meshes stray, less than anybody sees.
-constexpr double kBehindSurfaces = 0.01;
+/// A section is drawn this much behind its specified plane, mm, so that floors and walls in that plane are
+/// not drawn in part. More than the error of meshes, but not visible.
+constexpr double kSectionOffset = 0.01;
 
-/// The direction of the axis that a section stands across.
-Point3 across(const Section& section) {
+/// The axis perpendicular to a section.
+Point3 normal_axis(const Section& section) {
   switch (section.plane) {
     case Plane::xy: return {0, 0, 1};
     case Plane::xz: return {0, 1, 0};
@@ -83,7 +83,7 @@ class Painter {
   Image paint();
 
  private:
-  static constexpr int kDirections = 8, kSteps = 5;  // of the occlusion's looks around
+  static constexpr int kDirections = 8, kSteps = 5;  // of ambient occlusion: rays per pixel, samples per ray
   struct Offset {
     int x, y;
   };
@@ -93,30 +93,30 @@ class Painter {
   };
 
   void aim(const View& view, double radius);
-  void place_section(const Section& section);
+  void set_section(const Section& section);
   std::optional<Cut> cut_in(const Projection& projection) const {
     return section_ ? std::optional<Cut>(Cut(*section_, projection)) : std::nullopt;
   }
   void draw_shadows();
   void smooth_normals();
-  void lay_ground_and_normals();
+  void add_ground_and_normals();
   Point3 normal_at(std::uint32_t triangle, double x, double y) const;
   std::size_t pixel(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
-  void place_pixels();
+  void locate_pixels();
   std::vector<Ray> rays_of(int cell) const;
   float occlusion_at(int x, int y, const std::vector<Ray>& rays) const;
   void occlude();
   void blur_occlusion();
-  double lit_share(Point3 p, Point3 normal) const;
+  double lit_fraction(Point3 p, Point3 normal) const;
   double line_at(int x, int y) const;
   Colour shade(int x, int y) const;
   Colour background(int y) const;
 
   const Mesh& mesh_;
   std::span<const std::array<std::uint8_t, 3>> colours_;
-  int width_, height_, fine_;  // pixels, and samples a pixel's side
+  int width_, height_, fine_;  // pixels; samples along a pixel's side
   Box3 box_;
   double size_ = 1.0;
   bool ground_ = false;
@@ -127,8 +127,8 @@ class Painter {
   std::vector<ScreenVertex> screen_;
   std::vector<std::array<float, 3>> vertex_normals_;
   std::vector<PackedNormal> normals_;
-  std::vector<PixelPoint> places_;  // one a pixel, viewer's frame, mm
-  std::vector<float> occlusion_;    // one a pixel, 0 open to 1 closed
+  std::vector<PixelPoint> pixel_points_;  // per pixel, viewer's frame, mm
+  std::vector<float> occlusion_;          // per pixel, 0 open to 1 closed
 };
 
 Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view)
@@ -144,24 +144,24 @@ Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> 
   aim(view, size_ / 2);
 }
 
-/// Sets up the viewer and the lights. Looking straight along an axis the picture is parallel, so that it
-/// measures true.
+/// Sets up the viewer and the lights. Views along an axis use a parallel projection, so that they are true to
+/// scale.
 void Painter::aim(const View& view, double radius) {
   const double a = view.azimuth.rad(),
                e = std::clamp(view.elevation.rad(), -std::numbers::pi / 2, std::numbers::pi / 2);
   const Point3 ahead{-std::sin(a), std::cos(a), 0};
   eye_.centre = 0.5 * (box_.low + box_.high);
   eye_.right = {std::cos(a), std::sin(a), 0};
-  eye_.into = looking(view);
+  eye_.into = view_direction(view);
   eye_.up = cross(eye_.right, eye_.into);
   const bool square_on = std::abs(std::cos(e)) < 1e-6 || std::abs(std::sin(e)) < 1e-6;
   eye_.nearness = square_on || radius <= 0.0 ? 0.0 : 1.0 / (kViewDistance * radius);
-  if (view.section && faces(view, *view.section)) place_section(*view.section);
+  if (view.section && faces(view, *view.section)) set_section(*view.section);
   eye_.fit(mesh_, section_, width_ * fine_, height_ * fine_, kMargin);
   ground_ = std::sin(e) > 0.1;
 
-  // From the left; from the front for a viewer beside the part, from behind for one above it, as drawings are
-  // lit: a pocket lit from below looks like a boss.
+  // From the left; from the front in side views, from behind in top views, as is usual in drawings: a pocket
+  // lit from below looks like a boss.
   const double above = std::clamp((std::sin(e) - 0.8) / 0.15, 0.0, 1.0);
   const Point3 light = unit(-0.62 * eye_.right + (0.95 * above - 0.42) * ahead + Point3{0, 0, 0.95});
   fill_ = unit(0.75 * eye_.right - 0.45 * ahead + Point3{0, 0, 0.35});
@@ -172,11 +172,11 @@ void Painter::aim(const View& view, double radius) {
   sun_.fit(mesh_, section_, kShadowSize, kShadowSize, 0.01);
 }
 
-/// Leaves out the viewer's side of the plane.
-void Painter::place_section(const Section& section) {
-  CutPlane plane{across(section), section.at};
+/// Removes the viewer's side of the plane.
+void Painter::set_section(const Section& section) {
+  CutPlane plane{normal_axis(section), section.at};
   if (!Cut(plane, eye_).is_before()) plane = {-1.0 * plane.normal, -plane.at};
-  plane.at -= kBehindSurfaces;
+  plane.at -= kSectionOffset;
   section_ = plane;
 }
 
@@ -186,7 +186,7 @@ void Painter::draw_shadows() {
   draw(mesh_, project_all(mesh_, sun_), cut_in(sun_), shadow_);
 }
 
-/// One normal a vertex, the mean of its faces weighted by area.
+/// One normal per vertex, the mean of its faces weighted by area.
 void Painter::smooth_normals() {
   vertex_normals_.assign(mesh_.positions.size() / 3, {});
   for (std::size_t t = 0; t + 2 < mesh_.triangles.size(); t += 3) {
@@ -200,7 +200,7 @@ void Painter::smooth_normals() {
   }
 }
 
-/// The surface's direction at a sample: between the vertices' where those are close to the face's.
+/// Normal at a sample, interpolated between those of the vertices that are close to the face's.
 Point3 Painter::normal_at(std::uint32_t triangle, double x, double y) const {
   const std::uint32_t* v = mesh_.triangles.data() + std::size_t{3} * triangle;
   const Point3 a = vertex(mesh_, v[0]);
@@ -211,17 +211,17 @@ Point3 Painter::normal_at(std::uint32_t triangle, double x, double y) const {
   if (area == 0.0) return face;
   const double wr = ((q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)) / area;
   const double wq = ((x - p.x) * (r.y - p.y) - (y - p.y) * (r.x - p.x)) / area;
-  const std::array<double, 3> share{1.0 - wr - wq, wq, wr};
+  const std::array<double, 3> weight{1.0 - wr - wq, wq, wr};
   Point3 sum{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto& n = vertex_normals_[v[k]];
     const Point3 smooth = unit({n[0], n[1], n[2]});
-    sum = sum + share[k] * (dot(smooth, face) > kSmoothCosine ? smooth : face);
+    sum = sum + weight[k] * (dot(smooth, face) > kSmoothCosine ? smooth : face);
   }
   return unit(sum);
 }
 
-void Painter::lay_ground_and_normals() {
+void Painter::add_ground_and_normals() {
   normals_.resize(seen_.depth.size());
   const double floor = box_.low.z;
   in_bands(seen_.height, [&](int first, int last) {
@@ -249,26 +249,27 @@ void Painter::lay_ground_and_normals() {
   });
 }
 
-/// Where each pixel's surface lies in the viewer's frame: right, up, into.
-void Painter::place_pixels() {
-  places_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+/// The surface point of each pixel in the viewer's frame: right, up, into.
+void Painter::locate_pixels() {
+  pixel_points_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   in_bands(height_, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < width_; ++x) {
         const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
-        PixelPoint& place = places_[pixel(x, y)];
-        place.z = kFarDepth;
+        PixelPoint& point = pixel_points_[pixel(x, y)];
+        point.z = kFarDepth;
         if (depth >= kFarDepth) continue;
         const double far = depth / (1.0 - eye_.nearness * depth),
                      w = (1.0 + eye_.nearness * far) / eye_.scale;
-        place = {static_cast<float>((x * fine_ + 0.5 - eye_.x0) * w),
+        point = {static_cast<float>((x * fine_ + 0.5 - eye_.x0) * w),
                  static_cast<float>((eye_.y0 - y * fine_ - 0.5) * w), static_cast<float>(far)};
       }
     }
   });
 }
 
-/// The pixels around one to look at: a pattern of 4 x 4 turns and lengths, averaged by the blur afterwards.
+/// Sample offsets around a pixel, for one cell of a 4 x 4 pattern of rotations and lengths that the blur
+/// averages out.
 std::vector<Painter::Ray> Painter::rays_of(int cell) const {
   const double reach = kOcclusionRadius * size_ * eye_.scale / fine_;
   const double turn = (cell * 7 % 16) / 16.0, stretch = (cell * 11 % 16 + 0.5) / 16.0;
@@ -276,7 +277,7 @@ std::vector<Painter::Ray> Painter::rays_of(int cell) const {
   for (int d = 0; d < kDirections; ++d) {
     const double angle = 2 * std::numbers::pi * (d + turn) / kDirections;
     for (int s = 0; s < kSteps; ++s) {
-      const double share = (s + stretch) / kSteps, far = std::max(reach * share * share, 1.0 + s);
+      const double fraction = (s + stretch) / kSteps, far = std::max(reach * fraction * fraction, 1.0 + s);
       rays[static_cast<std::size_t>(d)][static_cast<std::size_t>(s)] = {
           static_cast<int>(std::lround(std::cos(angle) * far)),
           static_cast<int>(std::lround(std::sin(angle) * far))};
@@ -285,34 +286,35 @@ std::vector<Painter::Ray> Painter::rays_of(int cell) const {
   return rays;
 }
 
-/// How much of the sky around a pixel's surface is hidden by what stands within the occlusion radius.
+/// The fraction of the sky that surfaces within the occlusion radius hide from a pixel's surface.
 float Painter::occlusion_at(int x, int y, const std::vector<Ray>& rays) const {
-  const PixelPoint& p = places_[pixel(x, y)];
+  const PixelPoint& p = pixel_points_[pixel(x, y)];
   if (p.z >= kFarDepth) return 0.0f;
   const Point3 normal = normals_[seen_.index(x * fine_, y * fine_)].get();
   const PixelPoint n{static_cast<float>(dot(normal, eye_.right)), static_cast<float>(dot(normal, eye_.up)),
                      static_cast<float>(dot(normal, eye_.into))};
   const auto radius = static_cast<float>(kOcclusionRadius * size_);
-  constexpr float kSlant = 0.08f;  // lower horizons are the surface's own unevenness
+  constexpr float kSlant = 0.08f;  // sine; lower horizons are unevenness of the surface itself
   float sum = 0.0f;
   for (const Ray& ray : rays) {
-    float most = 0.0f;
+    float highest = 0.0f;
     for (const Offset& offset : ray) {
       const int qx = x + offset.x, qy = y + offset.y;
       if (qx < 0 || qy < 0 || qx >= width_ || qy >= height_) break;
-      const PixelPoint& q = places_[pixel(qx, qy)];
+      const PixelPoint& q = pixel_points_[pixel(qx, qy)];
       const float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
       const float height = n.x * dx + n.y * dy + n.z * dz, square = dx * dx + dy * dy + dz * dz;
       if (height <= 0.0f || square >= radius * radius) continue;
-      most = std::max(most, (height / std::sqrt(square) - kSlant) * (1.0f - square / (radius * radius)));
+      highest =
+          std::max(highest, (height / std::sqrt(square) - kSlant) * (1.0f - square / (radius * radius)));
     }
-    sum += most;
+    sum += highest;
   }
   return std::min(1.0f, sum / kDirections);
 }
 
 void Painter::occlude() {
-  place_pixels();
+  locate_pixels();
   std::vector<std::vector<Ray>> rays;
   for (int cell = 0; cell < 16; ++cell) rays.push_back(rays_of(cell));
   in_bands(height_, [&](int first, int last) {
@@ -323,7 +325,7 @@ void Painter::occlude() {
   blur_occlusion();
 }
 
-/// Averages over 4 x 4 pixels of about the same depth, which takes the pattern out.
+/// Averages over 4 x 4 pixels of about the same depth, which removes the pattern of rays_of.
 void Painter::blur_occlusion() {
   std::vector<float> blurred(occlusion_.size());
   const double near = 0.01 * size_;
@@ -347,8 +349,8 @@ void Painter::blur_occlusion() {
   occlusion_ = std::move(blurred);
 }
 
-/// Share of the key light that reaches a point, from 5 x 5 samples of the shadow map around it.
-double Painter::lit_share(Point3 p, Point3 normal) const {
+/// Fraction of the key light that reaches a point, from 5 x 5 samples of the shadow map around it.
+double Painter::lit_fraction(Point3 p, Point3 normal) const {
   const double texel = 1.0 / sun_.scale;
   const Point3 q = sun_.project(p + 2.5 * texel * normal);
   const int cx = static_cast<int>(std::floor(q.x)), cy = static_cast<int>(std::floor(q.y));
@@ -367,8 +369,8 @@ double Painter::lit_share(Point3 p, Point3 normal) const {
   return sum / 25.0;
 }
 
-/// 1 where no line is, less at outlines and creases: where the next sample to the right or below is another
-/// thing.
+/// Brightness factor of lines at silhouettes, steps in depth and creases, by comparison with the neighbouring
+/// samples; 1 without a line.
 double Painter::line_at(int x, int y) const {
   const std::size_t at = seen_.index(x, y);
   if (seen_.triangle[at] == kNothing) return 1.0;
@@ -384,9 +386,9 @@ double Painter::line_at(int x, int y) const {
       continue;
     }
     if ((seen_.triangle[other] == kCutFace) != (seen_.triangle[at] == kCutFace)) line = std::min(line, 0.6);
-    const Point3 way = eye_.point(qx + 0.5, qy + 0.5, seen_.depth[other]) - p;
-    const double jump = std::abs(dot(way, eye_.into));
-    // Lines are drawn on the nearer side of a jump that is more than a steep slope.
+    const Point3 step = eye_.point(qx + 0.5, qy + 0.5, seen_.depth[other]) - p;
+    const double jump = std::abs(dot(step, eye_.into));
+    // A line on the nearer side of a step in depth that exceeds that of a steep slope.
     if (jump > 0.012 * size_ && seen_.depth[other] > seen_.depth[at]) line = std::min(line, 0.6);
     if ((dx > 0 || dy > 0) && dot(n, normals_[other].get()) < kCreaseCosine) line = std::min(line, 0.8);
   }
@@ -407,7 +409,7 @@ Colour Painter::shade(int x, int y) const {
   const Point3 n = normals_[at].get();
   const double closed = std::min(1.0, 1.35 * occlusion_[pixel(x / fine_, y / fine_)]);
   const double open = 1.0 - 0.9 * closed;
-  const double lit = lit_share(p, n);
+  const double lit = lit_fraction(p, n);
   if (triangle == kNothing) return (1.0 - (0.28 * (1.0 - lit) + 0.3 * closed)) * background(y);
 
   const Colour albedo = triangle < colours_.size() ? linear(colours_[triangle]) : kMissingColour;
@@ -437,7 +439,7 @@ Image Painter::paint() {
     draw(mesh_, screen_, cut_in(eye_), seen_);
     draw_shadows();
     smooth_normals();
-    lay_ground_and_normals();
+    add_ground_and_normals();
     occlude();
   }
   Image image{width_, height_, {}};
@@ -465,24 +467,24 @@ Image Painter::paint() {
 
 std::optional<View> named_view(std::string_view name) {
   View view;
-  const auto look = [&](double azimuth, double elevation) {
+  const auto from = [&](double azimuth, double elevation) {
     view.azimuth = degrees(azimuth);
     view.elevation = degrees(elevation);
     return view;
   };
-  if (name == "top") return look(0, 90);
-  if (name == "bottom") return look(0, -90);
-  if (name == "front") return look(0, 0);
-  if (name == "back") return look(180, 0);
-  if (name == "left") return look(-90, 0);
-  if (name == "right") return look(90, 0);
+  if (name == "top") return from(0, 90);
+  if (name == "bottom") return from(0, -90);
+  if (name == "front") return from(0, 0);
+  if (name == "back") return from(180, 0);
+  if (name == "left") return from(-90, 0);
+  if (name == "right") return from(90, 0);
   if (name == "iso") return view;
   return std::nullopt;
 }
 
 bool faces(const View& view, const Section& section) {
-  constexpr double kSlightest = 0.02;  // sine of the angle between the view and the plane: about a degree
-  return std::abs(dot(rendering::across(section), rendering::looking(view))) > kSlightest;
+  constexpr double kMinSine = 0.02;  // sine of the angle between the view and the plane: about a degree
+  return std::abs(dot(rendering::normal_axis(section), rendering::view_direction(view))) > kMinSine;
 }
 
 Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view) {

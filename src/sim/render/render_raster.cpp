@@ -1,5 +1,5 @@
-// Projects and fills triangles. Bands of rows are independent, so the picture is the same for any number of
-// threads.
+// Projects and fills triangles. Bands of rows are independent, so the picture does not depend on the number
+// of threads.
 #include "sim/render/render_raster.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace kerf::rendering {
 namespace {
 
-/// A triangle's edge function: above 0 inside. Of a sample upon the edge it tells one of the two triangles
-/// that it is theirs, so that every surface covers a sample once.
+/// Edge function of a triangle, positive inside. A sample exactly on an edge belongs to only one of its two
+/// triangles, so that each surface covers a sample once.
 struct Edge {
   double a, b, c;
   Edge(const ScreenVertex& p, const ScreenVertex& q)
@@ -30,23 +30,23 @@ struct Band {
   int width, first, last;
 };
 
-/// Calls visit(x, y, depth) for each sample of a band that a triangle covers which turns clockwise in the
-/// picture, whose y points down: one that is seen from outside.
+/// Calls visit(x, y, depth) for each sample of a band that a triangle covers, if the triangle is clockwise in
+/// the picture (y downwards), that is, seen from outside.
 template <class Visit>
 void for_each_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Band& band,
                      const Visit& visit) {
   const float low_x = std::min({p.x, q.x, r.x}), high_x = std::max({p.x, q.x, r.x});
   const float low_y = std::min({p.y, q.y, r.y}), high_y = std::max({p.y, q.y, r.y});
-  const int y_begin = std::max(band.first, static_cast<int>(std::ceil(low_y - 0.5f)));
-  const int y_end = std::min(band.last - 1, static_cast<int>(std::floor(high_y - 0.5f)));
-  const int x_begin = std::max(0, static_cast<int>(std::ceil(low_x - 0.5f)));
-  const int x_end = std::min(band.width - 1, static_cast<int>(std::floor(high_x - 0.5f)));
-  if (y_begin > y_end || x_begin > x_end) return;
+  const int y_first = std::max(band.first, static_cast<int>(std::ceil(low_y - 0.5f)));
+  const int y_last = std::min(band.last - 1, static_cast<int>(std::floor(high_y - 0.5f)));
+  const int x_first = std::max(0, static_cast<int>(std::ceil(low_x - 0.5f)));
+  const int x_last = std::min(band.width - 1, static_cast<int>(std::floor(high_x - 0.5f)));
+  if (y_first > y_last || x_first > x_last) return;
   const Edge pq(q, p), qr(r, q), rp(p, r);
   const double area = pq.at(r.x, r.y);
   if (!(area > 0.0)) return;
-  for (int y = y_begin; y <= y_end; ++y) {
-    for (int x = x_begin; x <= x_end; ++x) {
+  for (int y = y_first; y <= y_last; ++y) {
+    for (int x = x_first; x <= x_last; ++x) {
       const double sx = x + 0.5, sy = y + 0.5;
       const double wr = pq.at(sx, sy), wp = qr.at(sx, sy), wq = rp.at(sx, sy);
       if (!pq.owns(wr) || !qr.owns(wp) || !rp.owns(wq)) continue;
@@ -63,7 +63,7 @@ void for_each_triangle(const Mesh& mesh, const std::vector<ScreenVertex>& vertic
           vertices[mesh.triangles[t + 2]]);
 }
 
-/// The nearest of the faces turned to the viewer at each sample of a band.
+/// The nearest of the faces towards the viewer at each sample of a band.
 void draw_faces(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
                 const Band& band, Target& target) {
   for_each_triangle(
@@ -71,15 +71,15 @@ void draw_faces(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, con
       [&](std::uint32_t number, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
         for_each_sample(p, q, r, band, [&](int x, int y, float depth) {
           const std::size_t at = target.index(x, y);
-          if (depth >= target.depth[at] || (cut && cut->leaves_out(x + 0.5, y + 0.5, depth))) return;
+          if (depth >= target.depth[at] || (cut && cut->removes(x + 0.5, y + 0.5, depth))) return;
           target.depth[at] = depth;
           if (!target.triangle.empty()) target.triangle[at] = number;
         });
       });
 }
 
-/// The face of a cut in a band: a place of the plane lies in material where, on the way on from the viewer,
-/// the surface is left once more than it is entered.
+/// The cut face in a band: a point of the plane is inside the material if the line of sight behind it leaves
+/// the mesh more often than it enters it.
 void draw_cut_face(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const Cut& cut,
                    const Band& band, Target& target) {
   const std::size_t from = target.index(0, band.first), samples = target.index(0, band.last) - from;
@@ -88,7 +88,7 @@ void draw_cut_face(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, 
                     [&](std::uint32_t, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
                       const auto count = [&](std::int16_t change) {
                         return [&, change](int x, int y, float depth) {
-                          if (cut.leaves_out(x + 0.5, y + 0.5, depth)) return;
+                          if (cut.removes(x + 0.5, y + 0.5, depth)) return;
                           std::int16_t& sum = left[target.index(x, y) - from];
                           sum = static_cast<std::int16_t>(sum + change);
                         };
@@ -132,8 +132,8 @@ void Projection::fit(const Mesh& mesh, const std::optional<CutPlane>& section, i
 
 std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection) {
   std::vector<ScreenVertex> vertices(mesh.positions.size() / 3);
-  in_bands(static_cast<int>(vertices.size()), [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
+  in_bands(static_cast<int>(vertices.size()), [&](int first, int end) {
+    for (int v = first; v < end; ++v) {
       const Point3 p = projection.project(vertex(mesh, static_cast<std::uint32_t>(v)));
       vertices[static_cast<std::size_t>(v)] = {static_cast<float>(p.x), static_cast<float>(p.y),
                                                static_cast<float>(p.z)};

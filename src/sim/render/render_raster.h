@@ -1,4 +1,4 @@
-// The renderer's lower half: projections, and triangles into a depth buffer.
+// Rasterisation for the renderer: projections, and triangles into a depth buffer.
 #pragma once
 
 #include <algorithm>
@@ -14,24 +14,24 @@
 namespace kerf::rendering {
 
 inline constexpr std::uint32_t kNothing = 0xffffffffu;
-inline constexpr std::uint32_t kCutFace = 0xfffffffeu;  // in the place of a triangle: the face of a section
+inline constexpr std::uint32_t kCutFace = 0xfffffffeu;  // instead of a triangle: the cut face of a section
 inline constexpr float kFarDepth = 3.0e38f;
 
-/// What a section leaves out: all p with dot(normal, p) above `at`.
+/// A section removes all p with dot(normal, p) > at.
 struct CutPlane {
   Point3 normal;  // unit vector
   double at = 0.0;
-  /// The nearest point that is not left out.
+  /// The nearest point that is not removed.
   Point3 kept(Point3 p) const { return p - std::max(0.0, dot(normal, p) - at) * normal; }
 };
 
-/// From mm to samples of a picture and back. Mildly perspective, or parallel where `nearness` is 0. Depth is
-/// affine over the picture for plane faces in both cases.
+/// From mm to samples of a picture and back. A perspective projection, or a parallel one if `nearness` is 0.
+/// Over a plane face, depth is an affine function of x and y in both cases.
 struct Projection {
   Point3 centre;           // mm
   Point3 right, up, into;  // unit vectors of the picture; into: away from the viewer
-  double nearness = 0.0;   // 1 over the viewer's distance from the centre, 1/mm
-  double scale = 1.0;      // samples a mm at the centre
+  double nearness = 0.0;   // 1 / distance of the viewer from the centre, 1/mm
+  double scale = 1.0;      // samples per mm at the centre
   double x0 = 0.0, y0 = 0.0;
 
   /// x, y in samples from the upper left, z the depth.
@@ -44,19 +44,19 @@ struct Projection {
     const double far = depth / (1.0 - nearness * depth), w = 1.0 + nearness * far;
     return centre + (x - x0) * w / scale * right + (y0 - y) * w / scale * up + far * into;
   }
-  /// Places and scales the picture so that what a section leaves of the mesh fills `width` x `height` samples
-  /// but for a margin (share of it).
+  /// Positions and scales the picture so that the mesh, after the section, fills `width` x `height` samples
+  /// except for a margin, a fraction of the picture.
   void fit(const Mesh& mesh, const std::optional<CutPlane>& section, int width, int height, double margin);
 };
 
-/// A section's plane in a picture, where it is a plane as well.
+/// The plane of a section in picture coordinates (x, y, depth), where it is a plane as well.
 class Cut {
  public:
   Cut(const CutPlane& plane, const Projection& projection);
-  bool leaves_out(double x, double y, double depth) const {
+  bool removes(double x, double y, double depth) const {
     return x_ * x + y_ * y + depth_ * depth + constant_ > 0.0;
   }
-  /// Whether what is left out lies before the plane, not behind it.
+  /// Whether the removed side is between the viewer and the plane.
   bool is_before() const { return depth_ < 0.0; }
   /// Depth of the plane at a sample, where it is_before.
   double depth_at(double x, double y) const { return -(x_ * x + y_ * y + constant_) / depth_; }
@@ -70,8 +70,7 @@ struct ScreenVertex {
   float x, y, z;
 };
 
-/// Depth and the number of the triangle seen at each sample; `triangle` is left empty for a depth-only
-/// target.
+/// Depth and number of the visible triangle at each sample; `triangle` is empty for a depth-only target.
 struct Target {
   int width = 0, height = 0;
   std::vector<float> depth;
@@ -82,10 +81,10 @@ struct Target {
 };
 
 std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection);
-/// Draws the triangles that face the viewer, but for what `cut` leaves out, and the cut's face as kCutFace.
+/// Draws the triangles that face the viewer, except for what `cut` removes, and the cut face as kCutFace.
 void draw(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
           Target& target);
-/// Calls work(begin, end) for bands of 0 to count, on as many threads as there are.
+/// Calls work(first, end) for bands of 0 to count, on all threads.
 void in_bands(int count, const std::function<void(int, int)>& work);
 
 inline Point3 vertex(const Mesh& mesh, std::uint32_t v) {

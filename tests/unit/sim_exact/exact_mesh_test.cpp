@@ -1,4 +1,6 @@
-// Sharp meshes: distances to tools, places where planes meet, and parts whose edges are known exactly.
+// Exact meshes: distances to tools, intersections of planes, and parts whose edges are known exactly.
+#include "kerf/exact_mesh.h"
+
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -9,14 +11,12 @@
 #include "sim/exact/sweep_distance.h"
 #include "sim/exact/tool_distance.h"
 
-#include "kerf/exact_mesh.h"
-
 namespace kerf::test {
 namespace {
 
 constexpr double kPitch = 0.1;
 
-TEST(ToolDistance, OfASquareToolIsThatOfItsHalf) {
+TEST(ToolDistance, OfASquareToolIsThatOfItsHalfOutline) {
   const sim::ToolDistance tool(make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}})).silhouette);
   EXPECT_DOUBLE_EQ(tool.at(4.0, 5.0).value, 1.0);
   EXPECT_DOUBLE_EQ(tool.at(4.0, 5.0).by_r, 1.0);
@@ -25,17 +25,17 @@ TEST(ToolDistance, OfASquareToolIsThatOfItsHalf) {
   EXPECT_DOUBLE_EQ(tool.at(6.0, -4.0).value, 5.0);  // from the edge
   EXPECT_DOUBLE_EQ(tool.at(2.5, 4.0).value, -0.5);
   EXPECT_DOUBLE_EQ(tool.at(3.0, 4.0).by_r, 1.0);  // on the flank
-  EXPECT_LT(tool.at(1.0, 200.0).value, 0.0);      // what holds the tool goes on upwards
+  EXPECT_LT(tool.at(1.0, 200.0).value, 0.0);      // the shank is continued upwards
 }
 
-TEST(ToolDistance, OfAHollowArcGoesToTheArc) {
+TEST(ToolDistance, OfAConcaveArcIsMeasuredToTheArc) {
   const sim::ToolDistance tool(
       make_drawn(1, profile({{0, 0, 0}, {0.5, 0, -kQuarter}, {2.5, 2, 0}, {2.5, 6, 0}})).silhouette);
   const double far = std::hypot(2.0 - 2.5, 0.5 - 0.0);  // from the arc's centre
   EXPECT_NEAR(tool.at(2.0, 0.5).value, 2.0 - far, 1e-12);
 }
 
-TEST(ToolDistance, NeverGrowsFasterThanThePlaceMoves) {
+TEST(ToolDistance, ChangesByNoMoreThanThePointMoves) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> r(0.0, 7.0), z(-3.0, 15.0);
   for (const NamedProfile& each : all_profiles()) {
@@ -44,7 +44,7 @@ TEST(ToolDistance, NeverGrowsFasterThanThePlaceMoves) {
       const double r0 = r(random), z0 = z(random), r1 = r(random), z1 = z(random);
       const double grown = tool.at(r1, z1).value - tool.at(r0, z0).value;
       ASSERT_LE(std::abs(grown), std::hypot(r1 - r0, z1 - z0) + 1e-12) << each.name;
-      const sim::TurnedDistance here = tool.at(r0, z0);
+      const sim::ProfileDistance here = tool.at(r0, z0);
       ASSERT_NEAR(std::hypot(here.by_r, here.by_z), 1.0, 1e-9) << each.name;
       if (std::abs(here.value) > 1e-3) {
         const double away = tool.at(r0 + 1e-6 * here.by_r, z0 + 1e-6 * here.by_z).value - here.value;
@@ -54,39 +54,39 @@ TEST(ToolDistance, NeverGrowsFasterThanThePlaceMoves) {
   }
 }
 
-TEST(SweepDistance, TheNearestPlaceOfAnArcIsOnIt) {
+TEST(SweepDistance, NearestPointOfAnArcIsOnIt) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi), at(-9.0, 9.0);
   for (int n = 0; n < 3000; ++n) {
     sim::Sweep arc;
     arc.is_arc = true;
     arc.radius = 5.0;
-    const double begin = angle(random);
-    arc.ux = std::cos(begin);
-    arc.uy = std::sin(begin);
+    const double start = angle(random);
+    arc.ux = std::cos(start);
+    arc.uy = std::sin(start);
     arc.turn = 2.0 * angle(random);
-    const Point2 place{at(random), at(random)};
+    const Point2 point{at(random), at(random)};
     double least = 1e9;
     constexpr int kParts = 2000;
     for (int k = 0; k <= kParts; ++k) {
-      const double a = begin + arc.turn * k / kParts;
-      least = std::min(least, distance(place, {5.0 * std::cos(a), 5.0 * std::sin(a)}));
+      const double a = start + arc.turn * k / kParts;
+      least = std::min(least, distance(point, {5.0 * std::cos(a), 5.0 * std::sin(a)}));
     }
-    const double found = distance(place, sim::nearest_in_plan(arc, place));
+    const double found = distance(point, sim::nearest_in_plan(arc, point));
     EXPECT_LE(found, least + 1e-9) << n;
     EXPECT_GE(found, least - 5.0 * std::abs(arc.turn) / kParts) << n;
   }
 }
 
-struct Seen {
+struct Query {
   sim::Sweep sweep;
-  Point3 place;
+  Point3 point;
 };
-/// A straight sweep, a plunge sometimes, and a place within 2 mm of what it takes away.
+/// A random straight sweep, sometimes a plunge, and a point within about 2 mm of the swept volume.
 template <class In>
-Seen draw(const sim::ToolDistance& tool, const In& in) {
-  Seen seen;
-  sim::Sweep& sweep = seen.sweep;
+Query draw(const sim::ToolDistance& tool, const In& in) {
+  Query query;
+  sim::Sweep& sweep = query.sweep;
   const double angle = in(0.0, 6.3);
   sweep.ux = std::cos(angle);
   sweep.uy = std::sin(angle);
@@ -94,22 +94,22 @@ Seen draw(const sim::ToolDistance& tool, const In& in) {
   sweep.slope = sweep.length > 0.0 ? in(-1.0, 1.0) : 0.0;
   sweep.z_end = sweep.length > 0.0 ? sweep.length * sweep.slope : in(-9.0, 9.0);
   const double t = in(0.0, sweep.length), r = in(0.0, tool.rim() + 2.0), around = in(0.0, 6.3);
-  seen.place = {t * sweep.ux + r * std::cos(around), t * sweep.uy + r * std::sin(around),
-                in(0.0, 1.0) * sweep.z_end + in(-2.0, 12.0)};
-  return seen;
+  query.point = {t * sweep.ux + r * std::cos(around), t * sweep.uy + r * std::sin(around),
+                 in(0.0, 1.0) * sweep.z_end + in(-2.0, 12.0)};
+  return query;
 }
-double least_of_many(const Seen& seen, const sim::ToolDistance& tool) {
+double min_of_samples(const Query& query, const sim::ToolDistance& tool) {
   constexpr int kParts = 4000;
   double least = 1e9;
   for (int k = 0; k <= kParts; ++k) {
-    const double share = static_cast<double>(k) / kParts, t = share * seen.sweep.length;
-    const double rho = std::hypot(seen.place.x - t * seen.sweep.ux, seen.place.y - t * seen.sweep.uy);
-    least = std::min(least, tool.at(rho, seen.place.z - share * seen.sweep.z_end).value);
+    const double fraction = static_cast<double>(k) / kParts, t = fraction * query.sweep.length;
+    const double rho = std::hypot(query.point.x - t * query.sweep.ux, query.point.y - t * query.sweep.uy);
+    least = std::min(least, tool.at(rho, query.point.z - fraction * query.sweep.z_end).value);
   }
   return least;
 }
 
-TEST(SweepDistance, IsThatOfTheNearestOfAllPlacesOfTheTool) {
+TEST(SweepDistance, IsTheMinimumOverAllPositionsOfTheTool) {
   constexpr double kReach = 2.0, kNear = 0.3, kMoved = 0.1;
   std::mt19937_64 random(5);
   const auto in = [&](double low, double high) {
@@ -118,44 +118,44 @@ TEST(SweepDistance, IsThatOfTheNearestOfAllPlacesOfTheTool) {
   for (const NamedProfile& each : all_profiles()) {
     const sim::ToolDistance tool(make_drawn(1, each.profile).silhouette);
     for (int n = 0; n < 1000; ++n) {
-      Seen seen = draw(tool, in);
-      const double step = std::hypot(seen.sweep.length, seen.sweep.z_end) / 4000;
-      const sim::Nearest found = sim::nearest_along(seen.sweep, tool, seen.place, kReach);
-      const sim::DistanceBounds bounds = sim::bounds_of_distance(seen.sweep, tool, seen.place, kReach);
-      const double least = least_of_many(seen, tool);
+      Query query = draw(tool, in);
+      const double step = std::hypot(query.sweep.length, query.sweep.z_end) / 4000;
+      const sim::PathDistance found = sim::distance_along(query.sweep, tool, query.point, kReach);
+      const sim::DistanceBounds bounds = sim::bounds_of_distance(query.sweep, tool, query.point, kReach);
+      const double least = min_of_samples(query, tool);
       if (std::abs(least) > kNear) continue;
-      // Between looks there may be two lowest places of tools that are not convex, seldom: one is as good.
+      // For tools that are not convex there are rarely two minima between samples; either may be found.
       EXPECT_LE(found.distance.value, least + (tool.is_convex() ? 1e-7 : 0.02)) << each.name << " " << n;
       EXPECT_GE(found.distance.value, least - step) << each.name << " " << n;
       EXPECT_LE(bounds.low, least + 1e-7) << each.name << " " << n;
       EXPECT_GE(bounds.high, found.distance.value - 1e-7) << each.name << " " << n;
       const Point3 moved{in(-kMoved, kMoved), in(-kMoved, kMoved), in(-kMoved, kMoved)};
-      seen.place = seen.place + moved;
-      const double afresh = sim::nearest_along(seen.sweep, tool, seen.place, kReach).distance.value;
+      query.point = query.point + moved;
+      const double afresh = sim::distance_along(query.sweep, tool, query.point, kReach).distance.value;
       const double beside =
-          sim::nearest_beside(seen.sweep, tool, seen.place, kReach, found, moved).distance.value;
+          sim::distance_beside(query.sweep, tool, query.point, kReach, found, moved).distance.value;
       EXPECT_LE(std::min(beside, kReach), std::min(afresh, kReach) + 1e-7) << each.name << " " << n;
     }
   }
 }
 
-TEST(Quadric, GoesToWherePlanesMeet) {
+TEST(Quadric, SolvesForTheIntersectionOfPlanes) {
   sim::Quadric quadric;
   quadric.add({1, 0, 0}, 2.0);
-  EXPECT_EQ(quadric.directions(0.01), 1);
-  EXPECT_NEAR(distance(quadric.step(3, 0.01), {2, 0, 0}), 0.0, 1e-12);
+  EXPECT_EQ(quadric.rank(0.01), 1);
+  EXPECT_NEAR(distance(quadric.solve(3, 0.01), {2, 0, 0}), 0.0, 1e-12);
   const double half = std::sqrt(0.5);
   quadric.add({half, half, 0}, 0.0);
-  EXPECT_NEAR(distance(quadric.step(3, 0.01), {2, -2, 0}), 0.0, 1e-12);
+  EXPECT_NEAR(distance(quadric.solve(3, 0.01), {2, -2, 0}), 0.0, 1e-12);
   quadric.add({0, 0, -1}, 3.0);
-  EXPECT_EQ(quadric.directions(0.01), 3);
-  EXPECT_NEAR(distance(quadric.step(3, 0.01), {2, -2, -3}), 0.0, 1e-12);
+  EXPECT_EQ(quadric.rank(0.01), 3);
+  EXPECT_NEAR(distance(quadric.solve(3, 0.01), {2, -2, -3}), 0.0, 1e-12);
   quadric.fix(0);
-  EXPECT_NEAR(quadric.step(3, 0.01).x, 0.0, 1e-12);
+  EXPECT_NEAR(quadric.solve(3, 0.01).x, 0.0, 1e-12);
 }
 
 struct Part {
-  Mesh rough, sharp;
+  Mesh rough, exact;
 };
 Part part_of(const Toolpath& path, const Profile& cutting, const Stock& stock) {
   ToolTable tools;
@@ -164,8 +164,8 @@ Part part_of(const Toolpath& path, const Profile& cutting, const Stock& stock) {
   const auto result = run(path, tools, stock, kPitch, diagnostics);
   Part part;
   if (!result) return part;
-  part.rough = part.sharp = extract_mesh(result->workpiece.grid());
-  EXPECT_TRUE(sharpen_mesh(part.sharp, *result));
+  part.rough = part.exact = extract_mesh(result->workpiece.grid());
+  EXPECT_TRUE(make_mesh_exact(part.exact, *result));
   return part;
 }
 
@@ -174,18 +174,18 @@ Point3 vertex_of(const Mesh& mesh, std::size_t v) {
   return {p[0], p[1], p[2]};
 }
 
-/// The largest error of the vertices for which `error` tells one.
+/// The largest error of the vertices for which `error` returns one.
 template <class Error>
 double largest_error(const Mesh& mesh, const Error& error) {
-  double most = 0.0;
+  double largest = 0.0;
   for (std::size_t v = 0; v < mesh.positions.size() / 3; ++v)
-    most = std::max(most, error(vertex_of(mesh, v)).value_or(0.0));
-  return most;
+    largest = std::max(largest, error(vertex_of(mesh, v)).value_or(0.0));
+  return largest;
 }
 
 const Stock kBlock = block({0, 0, -10}, {40, 30, 0});
 
-TEST(SharpMesh, WallsAndFloorOfASlotAreExact) {
+TEST(ExactMesh, WallsAndFloorOfASlotAreExact) {
   Path path;
   path.tool(1).rapid({7.013, 6.027, 5}).cut({7.013, 6.027, -4}).cut({31.31, 22.77, -4});
   const Part part = part_of(path.path(), profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}}), kBlock);
@@ -198,30 +198,32 @@ TEST(SharpMesh, WallsAndFloorOfASlotAreExact) {
     return rho < 3.0 ? std::min(std::abs(p.z + 4.0), 3.0 - rho) : rho - 3.0;
   };
   EXPECT_GT(largest_error(part.rough, off_wall), 0.03);
-  EXPECT_LT(largest_error(part.sharp, off_wall), 2e-3);
-  EXPECT_EQ(check_mesh(part.sharp).bad_edges, 0u);
+  EXPECT_LT(largest_error(part.exact, off_wall), 2e-3);
+  EXPECT_EQ(check_mesh(part.exact).bad_edges, 0u);
 }
 
-TEST(SharpMesh, AWallInANarrowLastColumnStaysInTheBlock) {
+TEST(ExactMesh, AWallInANarrowLastColumnStaysInTheBlock) {
   constexpr double kWide = 12.02;  // of the last column a fifth is there
   Path path;
   path.tool(1).rapid({-5, 8.027, 5}).cut({-5, 8.027, -2}).cut({9.02, 8.027, -2});
   const Part part =
       part_of(path.path(), profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}}), block({0, 0, -8}, {kWide, 16, 0}));
-  for (const Mesh* mesh : {&part.rough, &part.sharp}) {
-    double most = 0.0;
-    for (std::size_t v = 0; v < mesh->positions.size() / 3; ++v) most = std::max(most, vertex_of(*mesh, v).x);
-    EXPECT_LE(most, kWide + 1e-6);
+  for (const Mesh* mesh : {&part.rough, &part.exact}) {
+    double largest = 0.0;
+    for (std::size_t v = 0; v < mesh->positions.size() / 3; ++v)
+      largest = std::max(largest, vertex_of(*mesh, v).x);
+    EXPECT_LE(largest, kWide + 1e-6);
     EXPECT_EQ(check_mesh(*mesh).bad_edges, 0u);
   }
 }
 
-TEST(SharpMesh, TheBottomOfAGrooveIsSharp) {
+TEST(ExactMesh, TheBottomOfAGrooveIsSharp) {
   Path path;
   path.tool(1).rapid({5, 6.027, 5}).cut({5, 6.027, -2}).cut({31.31, 13.77, -2});
   const Part part = part_of(path.path(), profile({{0, 0, 0}, {4, 4, 0}, {4, 12, 0}}), kBlock);
   const Point2 a{5, 6.027}, b{31.31, 13.77}, way = (1.0 / distance(a, b)) * (b - a);
-  // In most pieces of four pitches along the groove a vertex is on the bottom, and in all nearly.
+  // Of 50 ranges of four pitches along the groove, nearly all have a vertex on the bottom, all one close to
+  // it.
   const auto lowest_along = [&](const Mesh& mesh) {
     std::vector<double> lowest(50, 0.0);
     for (std::size_t v = 0; v < mesh.positions.size() / 3; ++v) {
@@ -234,20 +236,20 @@ TEST(SharpMesh, TheBottomOfAGrooveIsSharp) {
     std::sort(lowest.begin(), lowest.end());
     return lowest;
   };
-  const std::vector<double> rough = lowest_along(part.rough), sharp = lowest_along(part.sharp);
+  const std::vector<double> rough = lowest_along(part.rough), exact = lowest_along(part.exact);
   EXPECT_GT(rough[25], -1.99);
-  EXPECT_LT(sharp[45], -1.999);
-  EXPECT_LT(sharp[49], -1.99);
+  EXPECT_LT(exact[45], -1.999);
+  EXPECT_LT(exact[49], -1.99);
 }
 
-TEST(SharpMesh, WhatIsOnTheBlockStaysOnIt) {
+TEST(ExactMesh, WhatIsOnTheBlockStaysOnIt) {
   Path path;
   path.tool(1).rapid({-5, 6.027, 5}).cut({-5, 6.027, -2}).cut({46, 13.77, -3.3});
   const Part part = part_of(path.path(), profile({{0, 0, kQuarter}, {3, 3, 0}, {3, 12, 0}}), kBlock);
   const auto outside = [](Point3 p) -> std::optional<double> {
     return std::max({-p.x, p.x - 40, -p.y, p.y - 30, -10 - p.z, p.z, 0.0});
   };
-  EXPECT_LT(largest_error(part.sharp, outside), 1e-6);
+  EXPECT_LT(largest_error(part.exact, outside), 1e-6);
   const auto sides = [](const Mesh& mesh) {
     std::size_t count = 0;
     for (std::size_t v = 0; v < mesh.positions.size() / 3; ++v) {
@@ -256,11 +258,11 @@ TEST(SharpMesh, WhatIsOnTheBlockStaysOnIt) {
     }
     return count;
   };
-  EXPECT_GE(sides(part.sharp), sides(part.rough));
-  EXPECT_EQ(check_mesh(part.sharp).bad_edges, 0u);
+  EXPECT_GE(sides(part.exact), sides(part.rough));
+  EXPECT_EQ(check_mesh(part.exact).bad_edges, 0u);
 }
 
-/// A ball so deep that its flanks are upright at the top.
+/// A ball so deep that its walls are vertical at the top.
 Path steep_rims() {
   Path path;
   path.tool(1).rapid({10, 8, 5}).cut({10, 8, -5}).cut({31, 13.77, -3});
@@ -268,24 +270,24 @@ Path steep_rims() {
 }
 const Profile kDeepBall = profile({{0, 0, kQuarter}, {3, 3, 0}, {3, 12, 0}});
 
-/// Triangles of the stock's surface that lie aslant.
-std::size_t strays(const Mesh& mesh) {
+/// Triangles with kStockSurface that are not parallel to a side of the block.
+std::size_t slanted_stock(const Mesh& mesh) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.step.size(); ++t) {
     if (mesh.step[t] != kStockSurface) continue;
     const Point3 a = vertex_of(mesh, mesh.triangles[3 * t]), b = vertex_of(mesh, mesh.triangles[3 * t + 1]),
                  c = vertex_of(mesh, mesh.triangles[3 * t + 2]);
     const Point3 n = cross(b - a, c - a);
-    const double most = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
-    count += most < 0.999 * length(n);
+    const double largest = std::max({std::abs(n.x), std::abs(n.y), std::abs(n.z)});
+    count += largest < 0.999 * length(n);
   }
   return count;
 }
 
-TEST(SharpMesh, SteepRimsBelongToTheCut) {
+TEST(ExactMesh, SteepRimsBelongToTheCut) {
   const Part part = part_of(steep_rims().path(), kDeepBall, kBlock);
-  EXPECT_GT(strays(part.rough), 50u);
-  EXPECT_LE(strays(part.sharp), 2u);
+  EXPECT_GT(slanted_stock(part.rough), 50u);
+  EXPECT_LE(slanted_stock(part.exact), 2u);
 }
 
 TEST(RelabelledMesh, SteepRimsBelongToTheCutToo) {
@@ -298,31 +300,31 @@ TEST(RelabelledMesh, SteepRimsBelongToTheCutToo) {
   const Mesh rough = extract_mesh(MeshColumns(result->workpiece), {});
   Mesh mesh = rough;
   relabel_mesh(mesh, result->workpiece);
-  EXPECT_GT(strays(rough), 50u);
-  EXPECT_EQ(strays(mesh), 0u);
+  EXPECT_GT(slanted_stock(rough), 50u);
+  EXPECT_EQ(slanted_stock(mesh), 0u);
   EXPECT_EQ(mesh.positions, rough.positions);
   EXPECT_EQ(mesh.triangles, rough.triangles);
 }
 
-TEST(SharpMesh, IsTheSameFromKeptSweepsAndFromThePath) {
+TEST(ExactMesh, IsTheSameFromKeptSweepsAndFromThePath) {
   Diagnostics diagnostics;
   auto result =
       run(random_job(6, 150), square_and_keyhole(), block({0, 0, -10}, {50, 40, 0}), 0.5, diagnostics);
   ASSERT_TRUE(result && result->plan->batches.complete());
   const Mesh rough = extract_mesh(MeshColumns(result->workpiece), {});
   Mesh kept = rough, planned = rough;
-  ASSERT_TRUE(sharpen_mesh(kept, *result));
+  ASSERT_TRUE(make_mesh_exact(kept, *result));
   const auto without_batches = std::make_shared<Simulation::Plan>();
   without_batches->survey = result->plan->survey;
   result->plan = without_batches;
-  ASSERT_TRUE(sharpen_mesh(planned, *result));
+  ASSERT_TRUE(make_mesh_exact(planned, *result));
   EXPECT_NE(kept.positions, rough.positions);
   EXPECT_EQ(kept.positions, planned.positions);
   EXPECT_EQ(kept.triangles, planned.triangles);
   EXPECT_EQ(kept.step, planned.step);
 }
 
-TEST(SharpMesh, ADiscardedRunLeavesTheMeshAsItWas) {
+TEST(ExactMesh, ADiscardedRunLeavesTheMeshAsItWas) {
   class Stopped : public Progress {
    public:
     void phase(std::string_view) override {}
@@ -338,7 +340,7 @@ TEST(SharpMesh, ADiscardedRunLeavesTheMeshAsItWas) {
   ASSERT_TRUE(result);
   const Mesh rough = extract_mesh(result->workpiece.grid());
   Mesh mesh = rough;
-  EXPECT_FALSE(sharpen_mesh(mesh, *result, {}, &stopped));
+  EXPECT_FALSE(make_mesh_exact(mesh, *result, {}, &stopped));
   EXPECT_EQ(mesh.positions, rough.positions);
   EXPECT_EQ(mesh.triangles, rough.triangles);
 }

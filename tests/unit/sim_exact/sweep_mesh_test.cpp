@@ -1,5 +1,5 @@
-// The mesh of single sweeps of every tool and every kind of motion against an independent reference: how far
-// its surfaces and its edges lie from the true ones.
+// Meshes of single sweeps of every tool and every kind of motion against an independent reference: the
+// distance of their surfaces and edges from the true ones.
 #include <algorithm>
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -16,14 +16,14 @@ namespace {
 constexpr double kPitch = 0.1;
 constexpr std::size_t kSamples = 150;  // of each kind and job
 
-// What the mesh keeps at columns of 0.1 mm, see docs/decisions/0006-mesh.md: as the columns have it, where
-// walls stand between columns and edges are right to about half a pitch, and sharpened.
+// Limits of the mesh at columns of 0.1 mm, see docs/decisions/0006-mesh.md: as extracted from the columns,
+// with walls and edges accurate to about half a pitch, and as an exact mesh.
 constexpr double kSurfaceLimit = 0.018;  // mm
 constexpr double kEdgeLimit = 1.1 * kPitch;
-constexpr double kSharpSurfaceLimit = 0.012;
-// Of tools without a sharp flank that move on one level: the reference leaves scallops of its own elsewhere.
-// One triangle in a hundred lies at a cusp, where small ones are many.
-constexpr double kSharpEdgeLimit99 = 0.015;
+constexpr double kExactSurfaceLimit = 0.012;
+// For tools without knife edges at constant Z: elsewhere the reference itself leaves scallops. Up to one
+// triangle in a hundred is at a cusp, where there are many small ones.
+constexpr double kExactEdgeLimit99 = 0.015;
 
 struct Face {
   std::size_t number;  // of the triangle
@@ -31,7 +31,7 @@ struct Face {
   double upright = 0.0;  // of its normal, 0 for a wall
 };
 
-/// The triangles that cuts made: walls, and faces that no wall touches.
+/// Triangles of cuts: walls, and faces without a vertex on a wall.
 struct Faces {
   std::vector<Face> walls, surfaces;
 };
@@ -76,7 +76,7 @@ Faces faces_of(const Mesh& mesh) {
   return {thinned(all.walls), thinned(all.surfaces)};
 }
 
-/// The nearest end of what is left above and below a place.
+/// The end of the remaining material's intervals that is nearest to z.
 double nearest_end(const std::vector<Silhouette2::Run>& left, double z) {
   double nearest = 1e9;
   for (const auto& run : left)
@@ -85,21 +85,22 @@ double nearest_end(const std::vector<Silhouette2::Run>& left, double z) {
   return nearest;
 }
 
-/// Whether the true surface has an edge so near that a vertex of the face is between columns on both sides of
-/// it: its ends go on neither way, or bend more than a smooth surface of these tools does.
+/// Whether the true surface has an edge close enough for a vertex of the face to lie between columns on both
+/// sides of it: there is no end at about the face's height, or the curvature exceeds that of the tools'
+/// smooth surfaces.
 bool has_edge_near(const Remainder& left, const Face& face, double height) {
-  constexpr double kReach = 1.5 * kPitch, kBend = 0.2 * kReach;
+  constexpr double kReach = 1.5 * kPitch, kMaxCurvature = 0.2 * kReach;
   if (std::abs(height - face.centre.z) > kPitch) return true;
-  for (const Point2 way :
+  for (const Point2 offset :
        {Point2{kReach, 0}, Point2{0, kReach}, Point2{kReach, kReach}, Point2{kReach, -kReach}}) {
-    const double before = nearest_end(left(face.centre.x - way.x, face.centre.y - way.y), height);
-    const double after = nearest_end(left(face.centre.x + way.x, face.centre.y + way.y), height);
-    if (std::abs(before + after - 2.0 * height) * face.upright > kBend) return true;
+    const double before = nearest_end(left(face.centre.x - offset.x, face.centre.y - offset.y), height);
+    const double after = nearest_end(left(face.centre.x + offset.x, face.centre.y + offset.y), height);
+    if (std::abs(before + after - 2.0 * height) * face.upright > kMaxCurvature) return true;
   }
   return false;
 }
 
-/// How far a face is from where material ends: in plan, or in height if that is less.
+/// Distance of a face from the surface of the material: in plan, or in height if that is less.
 double edge_error(const Remainder& left, Point3 at) {
   double error = std::abs(nearest_end(left(at.x, at.y), at.z) - at.z);
   const bool inside = left.is_removed(at);
@@ -112,8 +113,8 @@ double edge_error(const Remainder& left, Point3 at) {
     double near = 0.0, far = std::min(error, 2.0 * kPitch);
     if (!other(far)) continue;
     for (int n = 0; n < 10; ++n) {
-      const double middle = 0.5 * (near + far);
-      (other(middle) ? far : near) = middle;
+      const double centre = 0.5 * (near + far);
+      (other(centre) ? far : near) = centre;
     }
     error = far;
   }
@@ -171,13 +172,13 @@ TEST_P(MeshOfSweeps, LiesWhereTheReferenceSays) {
     print("rough", tool, motion, rough);
     EXPECT_LE(rough.surfaces.largest, kSurfaceLimit) << motion.name;
     EXPECT_LE(rough.edges.largest, kEdgeLimit) << motion.name;
-    ASSERT_TRUE(sharpen_mesh(mesh, *result));
+    ASSERT_TRUE(make_mesh_exact(mesh, *result));
     EXPECT_EQ(check_mesh(mesh).bad_edges, 0u) << motion.name;
-    const MeshErrors sharp = errors_of(mesh, left);
-    print("sharp", tool, motion, sharp);
-    EXPECT_LE(sharp.surfaces.largest, kSharpSurfaceLimit) << motion.name;
+    const MeshErrors exact = errors_of(mesh, left);
+    print("exact", tool, motion, exact);
+    EXPECT_LE(exact.surfaces.largest, kExactSurfaceLimit) << motion.name;
     if (reference_is_sharp(tool, motion)) {
-      EXPECT_LE(sharp.edges.percentile_99, kSharpEdgeLimit99) << motion.name;
+      EXPECT_LE(exact.edges.percentile_99, kExactEdgeLimit99) << motion.name;
     }
   }
 }
