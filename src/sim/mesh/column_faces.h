@@ -1,4 +1,5 @@
-// The faces of columns, and of the rays of a turned workpiece, from which the volume of their mesh follows.
+// Areas of the faces of columns, and of the rays of a fourth-axis workpiece, from which the volume range of
+// their mesh follows.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +12,14 @@
 
 namespace kerf::meshing {
 
-/// What columns hold, the area of their ends, and the area of their sides that their neighbours leave bare.
+/// Volume of columns, area of their ends, and area of their sides that their neighbours do not cover.
 struct Faces {
   double volume = 0.0, ends = 0.0, sides = 0.0;  // mm3, mm2
 };
 
 inline double height(float low, float high) { return static_cast<double>(high) - static_cast<double>(low); }
 
-/// The measure of what is in one of two columns and not in the other; measure(low, high) of a run.
+/// Sum of measure(low, high) over the symmetric difference of two columns.
 template <class Measure>
 double unshared(Runs a, Runs b, const Measure& measure) {
   if (a.size() == 1 && b.size() == 1 && a[0].low < b[0].high && b[0].low < a[0].high)
@@ -35,12 +36,12 @@ double unshared(Runs a, Runs b, const Measure& measure) {
   return sum;
 }
 
-/// By how much the rounding of coordinates up to `farthest` mm to single precision may move a face.
+/// Maximum movement of a face by rounding coordinates of up to `farthest` mm to single precision.
 inline double rounding(double farthest) {
   return farthest * static_cast<double>(std::numeric_limits<float>::epsilon());
 }
 
-/// The volume within faces that may all be off by `moved` mm, those of the sides by a pitch too.
+/// The range of the volume if all faces may be off by `moved` mm, those of the sides by another pitch.
 VolumeRange volume_range(const Faces& faces, double pitch, double moved);
 
 }  // namespace kerf::meshing

@@ -1,5 +1,5 @@
-// The surface of the columns as a closed mesh: corners row by row, walls, inner caps, then the merged outer
-// caps.
+// Extraction of the surface of columns as a closed mesh: corners row by row, walls, inner caps, then the
+// outer caps with merged triangles.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -20,7 +20,7 @@ using meshing::CornerRow;
 using meshing::FaceLine;
 using meshing::WallFiller;
 
-/// Walls of the faces that stand on the corner row j: between the columns of row j - 1 and of row j.
+/// Walls along corner row j: between the columns of row j - 1 and of row j.
 void add_walls_along_row(WallFiller& walls, const Columns& columns, const CornerPlane& plane, CornerRow& row,
                          int j) {
   for (const int i : row.numbers()) {
@@ -30,8 +30,7 @@ void add_walls_along_row(WallFiller& walls, const Columns& columns, const Corner
   }
 }
 
-/// Walls between the columns (i - 1, j) and (i, j), whose sides run from the corner row below to the one
-/// above.
+/// Walls between the columns (i - 1, j) and (i, j), from corner row `below` to corner row `above`.
 void add_walls_across_row(WallFiller& walls, const CornerPlane& plane, CornerRow& below, CornerRow& above,
                           int j) {
   for (const int i : below.numbers()) {
@@ -41,7 +40,7 @@ void add_walls_across_row(WallFiller& walls, const CornerPlane& plane, CornerRow
   }
 }
 
-/// Floors and ceilings of undercuts: all ends of a column but its lowest and its highest.
+/// Floors and ceilings of undercuts: all ends of a column except the lowest and the highest.
 void add_inner_caps(Builder& builder, CornerRow& below, CornerRow& above, int j) {
   const Columns& columns = builder.columns;
   for (const int i : below.numbers()) {
@@ -60,7 +59,7 @@ void add_inner_caps(Builder& builder, CornerRow& below, CornerRow& above, int j)
   }
 }
 
-/// Walls and inner caps between a row of corners and the one before it.
+/// Walls and inner caps between a row of corners and the previous one.
 void add_walls(WallFiller& walls, Builder& builder, const CornerPlane& plane, CornerRow& below,
                CornerRow& row, int j) {
   add_walls_along_row(walls, builder.columns, plane, row, j);
@@ -69,8 +68,8 @@ void add_walls(WallFiller& walls, Builder& builder, const CornerPlane& plane, Co
   add_inner_caps(builder, below, row, j - 1);
 }
 
-/// The walls of the corner rows of a band, which are made with vertices of their own. Of the row before the
-/// band, which they reach down to, each band has a copy.
+/// The walls of the corner rows of a band, with their own numbering of vertices. Each band has a copy of the
+/// row before it, to which its first walls extend.
 struct WallBand {
   WallBand(const Columns& columns, const MeshOptions& options)
       : builder{columns, options, {}, {}}, before(columns), last(columns) {}
@@ -78,7 +77,7 @@ struct WallBand {
   CornerRow before, last;
 };
 
-/// Does all the work on several threads that can be done so.
+/// Runs the phases of the extraction, each on several threads.
 class Extraction {
  public:
   Extraction(const Columns& columns, const MeshOptions& options, unsigned threads, Progress* progress)
@@ -130,8 +129,8 @@ class Extraction {
     bottom_.take(band.builder, row, j);
   }
 
-  /// From low y to high y, of corners those that are not simple. All rows but the last, which the next band's
-  /// walls reach down to, are then finished.
+  /// Adds the walls of a band, from low y to high y. Afterwards all rows are finished except the last, to
+  /// which walls of the next band extend.
   void make_walls(int number) {
     WallBand& band = walls(number);
     WallFiller filler(band.builder);
@@ -149,8 +148,7 @@ class Extraction {
     if (below == &other) std::swap(band.last, other);
   }
 
-  /// Gives the bands' vertices their numbers in the mesh, those between two bands the same, and finishes the
-  /// last rows.
+  /// Numbers the bands' vertices in the mesh, those between two bands once, and finishes the last rows.
   void join_walls() {
     std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> same(walls_.size());
     for (int b = 0; b < top_.bands(); ++b) {
@@ -163,7 +161,7 @@ class Extraction {
     number_walls(same);
   }
 
-  /// Vertices of the higher band that are vertices of the lower one, with these.
+  /// Pairs of a vertex of the higher band and the same vertex of the lower one.
   static std::vector<std::pair<std::uint32_t, std::uint32_t>> join(WallBand& low, WallBand& high) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> same;
     std::vector<meshing::Sheet>&mine = low.last.sheets(), &copies = high.before.sheets();
@@ -192,17 +190,17 @@ class Extraction {
     }
   }
 
-  /// The two caps.
+  /// Selects the vertices of both caps.
   bool cover() {
     if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.find_errors(band); })) return false;
     if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.propagate(band); })) return false;
     if (!in_parallel(2, [&](int n) { sheet(n).propagate_across(); })) return false;
-    if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.place_vertices(band); })) return false;
+    if (!in_bands_of_both([](CapSheet& sheet, int band) { sheet.add_vertices(band); })) return false;
     report(progress_, 0.7);
     return true;
   }
 
-  /// Puts all into one mesh and makes it a manifold without flat triangles.
+  /// Assembles the mesh, makes it a 2-manifold and removes degenerate triangles.
   bool finish() {
     CapSheet::MeshCounts counts{mesh.positions.size() / 3, 0};
     std::vector<std::size_t> first_of_walls;
@@ -232,8 +230,8 @@ class Extraction {
     for (const int n : {0, 1}) sheet(n).close_gaps(mesh, end, at_walls);
     mesh.triangles.resize(3 * end);
     mesh.step.resize(end);
-    meshing::split_shared_edges(mesh, threads_, suspects_, at_walls);
-    meshing::remove_degenerate_triangles(mesh, threads_, at_walls);  // others are half squares or larger
+    meshing::split_non_manifold(mesh, threads_, suspects_, at_walls);
+    meshing::remove_degenerate_triangles(mesh, threads_, at_walls);  // others have at least half a square
     return true;
   }
 

@@ -1,5 +1,5 @@
-// The parts that make triangles: the mesh under construction, walls, flat-merging caps, and the final split
-// of edges that more than two triangles share. docs/decisions/0006-mesh.md tells the whole method.
+// Building the mesh of columns: the mesh under construction, walls, caps with merged triangles, and the final
+// clean-up of non-manifold edges and degenerate triangles. Algorithm: docs/decisions/0006-mesh.md.
 #pragma once
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 
 namespace kerf::meshing {
 
-/// One number for an edge, whichever way it is walked.
+/// A key of an edge, independent of its direction.
 inline std::uint64_t edge_key(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
 }
 
-/// A triangle of less height than this over its longest side has no area: below what single precision tells
-/// apart, mm.
+/// A triangle with less height over its longest side has no area, mm: below the single precision of
+/// positions.
 inline constexpr double kNoHeight = 1e-6;
 inline bool has_no_area(Point3 a, Point3 b, Point3 c) {
   const Point3 twice = cross(b - a, c - a);
@@ -32,8 +32,8 @@ inline bool has_no_area(Point3 a, Point3 b, Point3 c) {
   return dot(twice, twice) <= kNoHeight * kNoHeight * longest2;
 }
 
-/// A mesh that grows, of a band of rows. Vertices whose edges may be shared by four triangles are remembered
-/// for `split_shared_edges`.
+/// The mesh of a band of rows under construction. Vertices that may have an edge with four triangles are
+/// recorded for `split_non_manifold`.
 struct Builder {
   const Columns& columns;
   const MeshOptions& options;
@@ -41,21 +41,21 @@ struct Builder {
   std::vector<std::uint32_t> suspects;
 
   std::uint32_t add_vertex(double x, double y, double z);
-  /// The vertex of a sheet, made now if no triangle has needed it yet.
+  /// The vertex of a sheet, created when first used.
   std::uint32_t vertex(Sheet& sheet);
   /// Adds a triangle unless two of its vertices are one.
   void add(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t step);
 };
 
-/// One side of a face between two columns: a corner and which of its quadrants the two columns are.
+/// One vertical side of the face between two columns: a corner, and the columns' quadrants around it.
 struct FaceLine {
   CornerRow& row;
   const Corner& corner;
   int quadrant_a, quadrant_b;
 };
 
-/// Fills the face between column A and column B, seen from B with `left` at the left hand, where one of them
-/// has material and the other has none.
+/// Fills the face between columns A and B where only one of them has material. `left` and `right` as seen
+/// from B.
 class WallFiller {
  public:
   explicit WallFiller(Builder& builder) : builder_(builder) {}
@@ -67,7 +67,7 @@ class WallFiller {
  private:
   struct Edge {
     int left, right;  // ranks on the two lines
-    int change;       // to (material in A) - (material in B) when passing upwards
+    int change;       // of (material in A) - (material in B) at this end, upwards
     int end;
     bool of_a;
   };
@@ -81,25 +81,25 @@ class WallFiller {
   std::vector<Edge> edges_;
 };
 
-/// What a cap keeps of the corners of a square, those on its two high sides left out. Only squares where
-/// something happens have one. It is small: that each corner has an entry of its own, needed or not, takes
-/// longer to clear than the rest to fill.
+/// The needed corners of a square, without those on its two high sides. Only squares with needed corners have
+/// one. Entries are stored for needed corners only, as clearing one per corner would take longer than filling
+/// them.
 struct CapBlock {
   CapBlock() { needed.fill(0); }
-  /// Place in the band's entries, of a needed corner.
-  std::size_t place(std::size_t cell) const { return before[cell / kSquare] + needed[cell] - std::size_t{1}; }
-  /// Corners that must be vertices: not 0. Once all are known, their numbers in their rows, from 1.
+  /// Index of a needed corner in the band's entries.
+  std::size_t index(std::size_t cell) const { return before[cell / kSquare] + needed[cell] - std::size_t{1}; }
+  /// Not 0 for corners that must be vertices. Once all are known, their numbers in their rows, from 1.
   std::array<std::uint8_t, kSquareColumns> needed;
   std::array<std::uint32_t, kSquare> before;  // needed corners of the band before each row
 };
 
 /// The caps of all columns on one side, the tops of their highest intervals or the bottoms of their lowest,
 /// with level areas of one step merged: a right-triangulated irregular network over the corners, without
-/// T-junctions. The whole squares of Columns are the largest triangles' squares; a row of them is a band, and
-/// different threads may work on different bands.
+/// T-junctions. Its largest triangles are halves of the squares of Columns; a row of squares is a band, and
+/// threads work on different bands.
 ///
 /// The entry of a corner is a vertex of its band's walls, or kNew + a vertex of the band, or kMany + the
-/// number of a corner whose quadrants have vertices of their own, or kNone.
+/// index of a corner with one vertex per quadrant, or kNone.
 class CapSheet {
  public:
   enum class Side : std::uint8_t { top, bottom };
@@ -108,27 +108,30 @@ class CapSheet {
   int bands() const { return blocks_y_; }
   bool simplifies() const { return options_.tolerance > Length(); }
 
-  /// Notes that a corner is needed; those of whole squares always are.
+  /// Records that a corner is needed; the corners of squares always are.
   void need(int i, int j);
-  /// Takes over those corners of a row that are not simple, and what walls made of simple ones; to be called
-  /// once no wall touches the row any more. `walls` makes the vertices of the row's band.
+  /// Takes the corners of a row that are not simple, and the vertices that walls have at simple ones. To be
+  /// called when all walls at the row are done. `walls` creates vertices of the row's band.
   void take(Builder& walls, CornerRow& row, int j);
-  /// Finds the corners of a row of squares without which the cap would be further off than the tolerance.
+  /// Finds the corners of a band without which the error of the cap would exceed the tolerance.
   void find_errors(int band);
-  /// Finds the corners that needed corners need, in their own band; `propagate_across` finds the rest.
+  /// Adds the corners that needed corners require, within the band; `propagate_across` adds those in other
+  /// bands.
   void propagate(int band);
   void propagate_across();
-  /// Finds the vertices of a band that there are not yet, and makes ready for its triangles.
-  void place_vertices(int band);
-  /// Assigns ranges of the mesh to the vertices and triangles: vertices from `counts.vertices` on, triangles
-  /// from `counts.triangles` on, as many as there can be. Adds their numbers to `counts`.
+  /// Creates the missing vertices of a band and counts its triangles.
+  void add_vertices(int band);
+  /// Assigns ranges of the mesh to the bands: vertices from `counts.vertices` on, triangles from
+  /// `counts.triangles` on, the maximum number of each. Adds their numbers to `counts`.
   struct MeshCounts {
     std::size_t vertices = 0, triangles = 0;
   };
   void assign_ranges(MeshCounts& counts);
-  /// `wall_vertices`: of each band, the vertices in the mesh of its walls' vertices.
+  /// Writes the vertices and triangles of a band. `wall_vertices`: of each band, the numbers in the mesh of
+  /// its walls' vertices.
   void fill(int band, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh);
-  /// Moves the triangles down to `end`, leaving none out, and appends those that have a vertex of a wall.
+  /// Moves the triangles down to `end`, closing the gaps between the bands, and appends those with a vertex
+  /// of a wall to `at_walls`.
   void close_gaps(Mesh& mesh, std::size_t& end, std::vector<std::size_t>& at_walls) const;
 
  private:
@@ -136,21 +139,20 @@ class CapSheet {
     int x, y;
   };
   /// The height of a corner that is not simple.
-  struct Given {
+  struct CornerHeight {
     std::uint16_t cell;
     float z;
   };
   struct Band {
     std::vector<float> positions;
-    std::vector<std::array<std::uint32_t, 4>> parts;  // vertices by quadrant where the cap is torn
-    std::vector<std::pair<GridCorner, std::uint32_t>>
-        taken;                           // corners whose entries are known from the start
-    std::vector<std::uint32_t> entries;  // of the needed corners, those of whole squares left out
+    std::vector<std::array<std::uint32_t, 4>> by_quadrant;    // vertices of kMany corners
+    std::vector<std::pair<GridCorner, std::uint32_t>> taken;  // corners with known entries
+    std::vector<std::uint32_t> entries;  // of the needed corners, without those of squares
     std::vector<GridCorner> beyond;      // needed corners of other bands
-    std::vector<int> above;              // x of the corners on the band's high side that errors need
+    std::vector<int> above;              // x of the needed corners on the band's high side
     std::size_t first_vertex = 0, first_triangle = 0, triangles = 0;
-    std::size_t most_triangles = 0, below = 0;  // of its own squares; more of those of the band below
-    std::vector<std::size_t> at_walls;          // triangles
+    std::size_t max_triangles = 0, below = 0;  // of its own squares; additional ones of the band below
+    std::vector<std::size_t> at_walls;         // triangles
   };
   class Patch;
   class Cover;
@@ -168,7 +170,7 @@ class CapSheet {
     return side_ == Side::bottom ? *square.low : *square.high;
   }
   int end_of(int i, int j) const { return side_ == Side::bottom ? 0 : columns_.ends(i, j) - 1; }
-  void give(int i, int j, double z);
+  void store_height(int i, int j, double z);
   void take_corner(Builder& walls, CornerRow& row, const Corner& corner, int i, int j);
   void take_whole(Builder& walls, Sheet& sheet, int i, int j);
   bool level(int i, int j) const;
@@ -180,7 +182,7 @@ class CapSheet {
   template <class Work>
   void for_needed(int band, const Work& work) const;
   bool is_new_vertex(int i, int j) const;
-  void place_vertex(Band& band, int i, int j);
+  void add_vertex(Band& band, int i, int j);
 
   const Columns& columns_;
   const MeshOptions& options_;
@@ -189,12 +191,12 @@ class CapSheet {
   int blocks_x_, blocks_y_;
   sim::BlockStore<CapBlock> store_;
   std::vector<sim::BlockStore<CapBlock>::Pointer> blocks_;
-  std::vector<std::uint32_t> whole_;       // entries of the corners of whole squares
-  std::vector<std::vector<Given>> given_;  // by block
+  std::vector<std::uint32_t> whole_;                // entries of the corners of whole squares
+  std::vector<std::vector<CornerHeight>> heights_;  // by block
   std::vector<Band> bands_;
 };
 
-/// Calls work(i, j) for the needed corners of a band, whole squares' corners left out.
+/// Calls work(i, j) for the needed corners of a band, without the corners of squares.
 template <class Work>
 void CapSheet::for_needed(int band, const Work& work) const {
   for (int x = 0; x < blocks_x_; ++x) {
@@ -211,18 +213,18 @@ void CapSheet::for_needed(int band, const Work& work) const {
   }
 }
 
-/// What the steps of a corner's columns are compared by: the group of a step, see MeshOptions::step_groups.
-/// No toolpath has so many steps that one of them has a group's number.
+/// Key by which steps are compared: the group of a step, see MeshOptions::step_groups, or the step itself.
+/// Toolpaths have fewer steps than kGroups.
 inline std::uint32_t group_key(const MeshOptions& options, std::uint32_t step) {
   constexpr std::uint32_t kGroups = 0xffff0000u;
   return step < options.step_groups.size() ? kGroups + options.step_groups[step] : step;
 }
 
-/// Finds the simple corners of a band of rows and tells both sheets of those that they need.
+/// Finds the simple corners of a band, and records in both caps the ones that they need.
 void scan_corners(const Columns& columns, const MeshOptions& options, int band, CornerPlane& plane,
                   CapSheet& top, CapSheet& bottom);
 
-/// Numbers below `count` for which test(number) holds, in order, looked for on several threads.
+/// The numbers below `count` for which test(number) is true, in order; tested on several threads.
 template <class Test>
 std::vector<std::size_t> numbers_where(unsigned threads, std::size_t count, const Test& test) {
   constexpr std::size_t kEach = 1 << 14;
@@ -239,15 +241,15 @@ std::vector<std::size_t> numbers_where(unsigned threads, std::size_t count, cons
   return all;
 }
 
-/// Makes every edge the edge of exactly two triangles and every vertex the tip of one fan, by parting
-/// vertices (and, where that does not part an edge, by halving it). All edges must already have as many
-/// triangles on one side as on the other. `near`: all triangles that have a suspect, maybe more; those that
-/// are made are added.
-void split_shared_edges(Mesh& mesh, unsigned threads, const std::vector<std::uint32_t>& suspects,
+/// Makes the mesh a 2-manifold, in which each edge has exactly two triangles and each vertex one fan, by
+/// splitting vertices, and by halving edges where that is not sufficient. Each edge must have as many
+/// triangles in one direction as in the other. `near`: all triangles with a suspect vertex, possibly more;
+/// new triangles are added.
+void split_non_manifold(Mesh& mesh, unsigned threads, const std::vector<std::uint32_t>& suspects,
                         std::vector<std::size_t>& near);
 
-/// Takes out triangles without area, after which the mesh is as closed as before. A few may stay where taking
-/// them out would leave an edge to more than two triangles. `among`: all that may be without area, in order.
+/// Removes triangles without area; the mesh stays closed. Those whose removal would leave an edge with more
+/// than two triangles stay. `among`: all that may have no area, in order.
 void remove_degenerate_triangles(Mesh& mesh, unsigned threads, const std::vector<std::size_t>& among);
 void remove_degenerate_triangles(Mesh& mesh, unsigned threads);
 

@@ -1,5 +1,5 @@
-// Caps: the upper and lower surfaces of the columns. Where the columns around a corner are level and cut by
-// the same step the corner is dropped; right triangles are halved only as far as the needed corners ask.
+// Caps: the upper and lower surfaces of the columns. A corner is not needed if the columns around it are
+// level and have one step; right triangles are only halved at needed corners.
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace kerf::meshing {
 namespace {
 
-/// Marks of entries, see CapSheet.
+/// Flags of entries, see CapSheet.
 constexpr std::uint32_t kMany = 0x80000000u, kNew = 0x40000000u;
 
 }  // namespace
@@ -24,7 +24,7 @@ CapSheet::CapSheet(const Columns& columns, const MeshOptions& options, const Cor
       blocks_y_(columns.squares_y() + 1),
       blocks_(static_cast<std::size_t>(blocks_x_) * static_cast<std::size_t>(blocks_y_)),
       whole_(blocks_.size(), kNone),
-      given_(blocks_.size()),
+      heights_(blocks_.size()),
       bands_(static_cast<std::size_t>(blocks_y_)) {}
 
 CapBlock& CapSheet::block(int i, int j) {
@@ -46,28 +46,28 @@ void CapSheet::take_entry(int i, int j, std::uint32_t entry) {
   bands_[static_cast<std::size_t>(j / kSquare)].taken.push_back({{i, j}, entry});
 }
 
-/// To be asked of whole squares' corners and of corners that are needed.
+/// For corners of squares and for needed corners only.
 std::uint32_t& CapSheet::entry(int i, int j) {
   const std::size_t block = block_number(i, j);
   if (is_whole(i, j)) return whole_[block];
-  return bands_[static_cast<std::size_t>(j / kSquare)].entries[blocks_[block]->place(Columns::cell(i, j))];
+  return bands_[static_cast<std::size_t>(j / kSquare)].entries[blocks_[block]->index(Columns::cell(i, j))];
 }
 
-void CapSheet::give(int i, int j, double z) {
+void CapSheet::store_height(int i, int j, double z) {
   if (!simplifies()) return;
-  given_[block_number(i, j)].push_back(
+  heights_[block_number(i, j)].push_back(
       {static_cast<std::uint16_t>(Columns::cell(i, j)), static_cast<float>(z)});
 }
 
-/// A corner with one surface all around that is not a simple one.
+/// Takes a corner at which one surface has all four columns, but that is not simple.
 void CapSheet::take_whole(Builder& walls, Sheet& sheet, int i, int j) {
   const bool is_level = level(i, j);
   const bool has_moved =
       sheet.x != columns_.corner_x(i) || sheet.y != columns_.corner_y(j) || columns_.uneven(i, j);
-  const bool may_go = simplifies() ? is_level || (!has_moved && of_one_group(i, j)) : is_level;
-  give(i, j, sheet.z);
-  const std::uint32_t vertex = has_moved && !may_go ? walls.vertex(sheet) : sheet.vertex;
-  if (vertex == kNone && may_go) return;
+  const bool is_optional = simplifies() ? is_level || (!has_moved && of_one_group(i, j)) : is_level;
+  store_height(i, j, sheet.z);
+  const std::uint32_t vertex = has_moved && !is_optional ? walls.vertex(sheet) : sheet.vertex;
+  if (vertex == kNone && is_optional) return;
   take_entry(i, j, vertex);
 }
 
@@ -88,13 +88,13 @@ void CapSheet::take_corner(Builder& walls, CornerRow& row, const Corner& corner,
   const int highest = *std::max_element(ranks.begin(), ranks.end());
   const bool one_surface =
       std::all_of(ranks.begin(), ranks.end(), [&](int r) { return r < 0 || r == highest; });
-  if (one_surface) give(i, j, row.sheet(corner, highest).z);
-  std::array<std::uint32_t, 4> part{kNone, kNone, kNone, kNone};
+  if (one_surface) store_height(i, j, row.sheet(corner, highest).z);
+  std::array<std::uint32_t, 4> vertices{kNone, kNone, kNone, kNone};
   for (std::size_t q = 0; q < 4; ++q)
-    if (ranks[q] >= 0) part[q] = walls.vertex(row.sheet(corner, ranks[q]));
-  auto& parts = bands_[static_cast<std::size_t>(j / kSquare)].parts;
-  take_entry(i, j, kMany + static_cast<std::uint32_t>(parts.size()));
-  parts.push_back(part);
+    if (ranks[q] >= 0) vertices[q] = walls.vertex(row.sheet(corner, ranks[q]));
+  auto& by_quadrant = bands_[static_cast<std::size_t>(j / kSquare)].by_quadrant;
+  take_entry(i, j, kMany + static_cast<std::uint32_t>(by_quadrant.size()));
+  by_quadrant.push_back(vertices);
 }
 
 void CapSheet::take(Builder& walls, CornerRow& row, int j) {
@@ -110,7 +110,7 @@ void CapSheet::take(Builder& walls, CornerRow& row, int j) {
   }
 }
 
-/// The four columns around a corner (all of them have material) end at one height, by one step.
+/// Whether the ends of the four columns around a corner, none of them empty, have one height and one step.
 bool CapSheet::level(int i, int j) const {
   const int end = end_of(i, j);
   const double z = columns_.z(i, j, end);
@@ -131,8 +131,8 @@ bool CapSheet::of_one_group(int i, int j) const {
   return group == group_at(1) && group == group_at(2) && group == group_at(3);
 }
 
-/// Whether triangles will meet a corner that has no vertex yet, and that is needed or the corner of a whole
-/// square. Where it has material on all sides they do.
+/// Whether a corner without a vertex, which is needed or the corner of a square, will have triangles: none of
+/// its four columns is empty.
 bool CapSheet::is_new_vertex(int i, int j) const {
   if (plane_.simple(i, j)) return true;
   for (int q = 0; q < 4; ++q)
@@ -140,7 +140,7 @@ bool CapSheet::is_new_vertex(int i, int j) const {
   return true;
 }
 
-void CapSheet::place_vertex(Band& band, int i, int j) {
+void CapSheet::add_vertex(Band& band, int i, int j) {
   if (i > columns_.nx() || j > columns_.ny()) return;
   std::uint32_t& mine = entry(i, j);
   if (mine != kNone || !is_new_vertex(i, j)) return;
@@ -154,7 +154,7 @@ void CapSheet::place_vertex(Band& band, int i, int j) {
   for (int axis = 0; axis < 3; ++axis) band.positions.push_back(static_cast<float>(at[axis]));
 }
 
-/// Gives each needed corner of a band a place for its entry.
+/// Allocates the entries of a band's needed corners and numbers them by row.
 void CapSheet::number_corners(Band& band, int number) {
   std::uint32_t count = 0;
   for (int x = 0; x < blocks_x_; ++x) {
@@ -178,18 +178,18 @@ void CapSheet::number_corners(Band& band, int number) {
   for (const auto& [at, entry] : band.taken) this->entry(at.x, at.y) = entry;
 }
 
-/// Halving a square's triangles at a corner makes two more of them, or on its side one of its own and one of
-/// the square beside it.
-void CapSheet::place_vertices(int number) {
+/// Halving the triangles at an inner corner of a square adds two triangles; at a corner on its side, one in
+/// each of the two squares.
+void CapSheet::add_vertices(int number) {
   Band& band = bands_[static_cast<std::size_t>(number)];
   number_corners(band, number);
-  for (int x = 0; x < blocks_x_; ++x) place_vertex(band, x * kSquare, number * kSquare);
-  band.most_triangles = 2 * static_cast<std::size_t>(columns_.squares_x());
+  for (int x = 0; x < blocks_x_; ++x) add_vertex(band, x * kSquare, number * kSquare);
+  band.max_triangles = 2 * static_cast<std::size_t>(columns_.squares_x());
   for_needed(number, [&](int i, int j) {
     const bool on_side = j % kSquare == 0;
-    band.most_triangles += on_side ? 1 : 2;
+    band.max_triangles += on_side ? 1 : 2;
     band.below += on_side ? 1 : 0;
-    place_vertex(band, i, j);
+    add_vertex(band, i, j);
   });
 }
 
@@ -199,11 +199,11 @@ void CapSheet::assign_ranges(MeshCounts& counts) {
     band.first_vertex = counts.vertices;
     band.first_triangle = counts.triangles;
     counts.vertices += band.positions.size() / 3;
-    if (b + 1 < bands_.size()) counts.triangles += band.most_triangles + bands_[b + 1].below;
+    if (b + 1 < bands_.size()) counts.triangles += band.max_triangles + bands_[b + 1].below;
   }
 }
 
-/// The triangles of a whole square; places count from its low corner.
+/// The triangles of a square. Corners are numbered from its low corner.
 class CapSheet::Cover {
  public:
   Cover(CapSheet& sheet, int square_x, int number, std::span<const std::vector<std::uint32_t>> wall_vertices,
@@ -239,7 +239,7 @@ class CapSheet::Cover {
   }
 
  private:
-  /// What a block knows that a corner of the square belongs to.
+  /// Data of the block and the band that a corner of the square belongs to.
   struct Known {
     const CapBlock* block = nullptr;
     const std::uint32_t* entries = nullptr;
@@ -270,11 +270,11 @@ class CapSheet::Cover {
 };
 
 void CapSheet::Cover::cover(GridCorner a, GridCorner b, GridCorner apex) {
-  const GridCorner middle{(a.x + b.x) / 2, (a.y + b.y) / 2};
+  const GridCorner midpoint{(a.x + b.x) / 2, (a.y + b.y) / 2};
   const bool smallest = std::abs(a.x - b.x) == 1;
-  if (!smallest && is_needed(middle)) {
-    cover(apex, a, middle);
-    cover(b, apex, middle);
+  if (!smallest && is_needed(midpoint)) {
+    cover(apex, a, midpoint);
+    cover(b, apex, midpoint);
     return;
   }
   leaf(a, b, apex);
@@ -282,7 +282,7 @@ void CapSheet::Cover::cover(GridCorner a, GridCorner b, GridCorner apex) {
 
 void CapSheet::Cover::leaf(GridCorner a, GridCorner b, GridCorner apex) {
   const int sx = a.x + b.x + apex.x, sy = a.y + b.y + apex.y;
-  // The column beside a corner of the triangle that lies inside it.
+  // The column at a corner of the triangle that is inside the triangle.
   const auto inner = [&](GridCorner n) {
     return GridCorner{3 * n.x <= sx ? n.x : n.x - 1, 3 * n.y <= sy ? n.y : n.y - 1};
   };
@@ -308,13 +308,13 @@ std::uint32_t CapSheet::Cover::vertex(GridCorner corner, GridCorner column, bool
   const Known& known = this->known(corner);
   const std::size_t cell = Columns::cell(corner.x, corner.y);
   assert(cell == 0 || known.block != nullptr);
-  const std::uint32_t entry = cell == 0 ? known.whole : known.entries[known.block->place(cell)];
+  const std::uint32_t entry = cell == 0 ? known.whole : known.entries[known.block->index(cell)];
   assert(entry != kNone);
   if ((entry & (kNew | kMany)) == kNew) return known.first_vertex + entry - kNew;
   at_wall = true;
   if (entry < kNew) return known.wall_vertices[entry];
   const auto quadrant = static_cast<std::size_t>((column.x - corner.x + 1) + 2 * (column.y - corner.y + 1));
-  return known.wall_vertices[known.band->parts[entry - kMany][quadrant]];
+  return known.wall_vertices[known.band->by_quadrant[entry - kMany][quadrant]];
 }
 
 void CapSheet::fill(int number, std::span<const std::vector<std::uint32_t>> wall_vertices, Mesh& mesh) {

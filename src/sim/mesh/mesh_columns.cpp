@@ -1,4 +1,4 @@
-// Takes the columns of a workpiece or a grid apart into squares.
+// Copies the columns of a workpiece or a grid into squares.
 #include "sim/mesh/mesh_columns.h"
 
 #include <cstring>
@@ -9,8 +9,8 @@
 namespace kerf::meshing {
 namespace {
 
-/// A last column that lacks less than this share of a pitch is a whole one, but for rounding.
-constexpr double kNarrower = 1e-6;
+/// A last column is narrower only if it lacks more than this fraction of a pitch.
+constexpr double kRounding = 1e-6;
 
 static_assert(kSquare == sim::kTileColumns, "a tile becomes a square");
 
@@ -36,8 +36,8 @@ Columns::Columns(ColumnGrid frame, float full_height)
       size_x_(frame_.bounds.high.x - frame_.bounds.low.x),
       size_y_(frame_.bounds.high.y - frame_.bounds.low.y),
       height_(frame_.bounds.high.z - frame_.bounds.low.z),
-      narrow_x_(frame_.nx * frame_.pitch > size_x_ + kNarrower * frame_.pitch),
-      narrow_y_(frame_.ny * frame_.pitch > size_y_ + kNarrower * frame_.pitch),
+      narrow_x_(frame_.nx * frame_.pitch > size_x_ + kRounding * frame_.pitch),
+      narrow_y_(frame_.ny * frame_.pitch > size_y_ + kRounding * frame_.pitch),
       squares_(static_cast<std::size_t>(squares_x()) * static_cast<std::size_t>(squares_y())),
       own_(squares_.size()),
       many_(squares_.size()),

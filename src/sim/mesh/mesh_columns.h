@@ -1,5 +1,5 @@
-// The material columns as the mesh reads them: squares of 64 x 64 columns, row by row, of which a square that
-// nothing has touched takes no memory, and one without undercuts and through cuts two numbers a column.
+// The columns for meshing: squares of 64 x 64 columns, row by row. An uncut square takes no memory, one
+// without undercuts and through cuts two heights and two steps per column.
 #pragma once
 
 #include <algorithm>
@@ -20,27 +20,27 @@ inline constexpr int kSquareColumns = kSquare * kSquare;
 
 /// One end of each column of a square.
 struct Ends {
-  Ends() {}  // not cleared: they are filled at once
+  Ends() {}  // not cleared, as all are filled next
   std::array<float, kSquareColumns> z;
   std::array<std::uint32_t, kSquareColumns> step;
 };
 
-/// The columns of a square that are not all of one interval: column c has runs[first[c]] to
+/// The columns of a square in which not every column has exactly one interval: column c has runs[first[c]] to
 /// runs[first[c + 1] - 1].
 struct ManyRuns {
   std::array<std::uint32_t, kSquareColumns + 1> first;
   std::vector<Interval> runs;
 };
 
-/// The lowest and the highest end of each column, which caps are made of. Where a column is empty the step of
-/// the high one is who took its last material.
+/// The lowest and the highest end of each column, of which the caps are made. The high end of an empty column
+/// has the step that removed its last material.
 struct ColumnSquare {
   const Ends* low = nullptr;
   const Ends* high = nullptr;
   const ManyRuns* many = nullptr;  // null: each column is one interval
-  // Whether all these ends are at one height, by the same step.
+  // Whether all these ends have the same height and step.
   bool is_low_level = false, is_high_level = false;
-  /// All columns are of one interval, and alike.
+  /// All columns have one interval, the same one.
   bool is_uniform() const { return many == nullptr && is_low_level && is_high_level; }
 };
 
@@ -66,7 +66,7 @@ class Columns {
   /// side.
   double corner_x(int i) const { return i >= nx() ? size_x_ : std::min(i * pitch(), size_x_); }
   double corner_y(int j) const { return j >= ny() ? size_y_ : std::min(j * pitch(), size_y_); }
-  /// Whether the four columns around a corner inside the grid stand unevenly around it: one is narrower.
+  /// Whether some of the four columns around an inner corner are narrower than a pitch.
   bool uneven(int i, int j) const { return (i == nx() - 1 && narrow_x_) || (j == ny() - 1 && narrow_y_); }
   bool has_narrow() const { return narrow_x_ || narrow_y_; }
 
@@ -86,8 +86,8 @@ class Columns {
     return std::size_t{static_cast<unsigned>(j) % kSquare * kSquare + static_cast<unsigned>(i) % kSquare};
   }
 
-  /// Whether all columns from `low` to `high` along both axes, as far as they are in the grid, stand on one
-  /// level.
+  /// Whether all columns from `low` to `high` along both axes that are in the grid have their lowest ends at
+  /// one height.
   bool have_level_floor(int low_i, int low_j, int high_i, int high_j) const {
     const int first_x = std::max(low_i, 0) / kSquare, last_x = std::min(high_i, nx() - 1) / kSquare;
     const int first_y = std::max(low_j, 0) / kSquare, last_y = std::min(high_j, ny() - 1) / kSquare;
@@ -107,8 +107,8 @@ class Columns {
     const std::size_t c = cell(i, j);
     return 2 * static_cast<int>(s.many->first[c + 1] - s.many->first[c]);
   }
-  /// The intervals of a column, none outside the grid; `one` is where that of a column is put of which no
-  /// intervals are kept.
+  /// The intervals of a column, none outside the grid. `one`: storage for the interval of a column without a
+  /// list.
   Runs runs(int i, int j, Interval& one) const {
     if (!inside(i, j)) return {};
     const ColumnSquare& s = square_of(i, j);
@@ -132,7 +132,7 @@ class Columns {
     const Interval& run = s.many->runs[s.many->first[c] + static_cast<std::size_t>(end / 2)];
     return end % 2 == 0 ? run.low_step : run.high_step;
   }
-  /// The step that took the last material of a column without any.
+  /// The step that removed the last material of an empty column.
   std::uint32_t cut_through(int i, int j) const {
     return inside(i, j) ? square_of(i, j).high->step[cell(i, j)] : kStockSurface;
   }
@@ -145,8 +145,8 @@ class Columns {
   Ends& own(std::size_t square, int end);
   void read_tile(const Workpiece::Body& body, std::size_t number);
   void read_grid(const ColumnGrid& grid, std::size_t number);
-  /// Calls add(x, y, runs) for each column of a square, which appends the column's intervals and returns who
-  /// took the last of a column without any.
+  /// Calls add(x, y, runs) for each column of a square; add appends the column's intervals and returns the
+  /// step that cut through an empty column.
   template <class Add>
   void fill_many(std::size_t number, const Add& add);
   template <class Read>
@@ -160,17 +160,18 @@ class Columns {
   bool has_material_ = false;
   std::vector<ColumnSquare> squares_;
   sim::BlockStore<Ends> store_;
-  // What the squares point to: ends of their own, or those that all share.
+  // Storage of the squares' pointers: ends of their own, or common ones.
   std::vector<std::array<sim::BlockStore<Ends>::Pointer, 2>> own_;
   std::vector<std::unique_ptr<const ManyRuns>> many_;
-  sim::BlockStore<Ends>::Pointer floor_, full_;  // of columns on the floor; of those that nothing has cut
+  sim::BlockStore<Ends>::Pointer floor_,
+      full_;  // low ends of columns on the floor; high ends of uncut columns
 };
 
 }  // namespace kerf::meshing
 
 namespace kerf {
 
-/// What is behind MeshColumns.
+/// Implementation of MeshColumns.
 struct MeshColumns::Body {
   template <class From>
   Body(const From& from, unsigned threads) : columns(from, threads) {}

@@ -1,4 +1,4 @@
-// Joins the surfaces of the four columns around each corner and places their vertices.
+// Joins the interval ends of the four columns around each corner into surfaces and computes their vertices.
 #include "sim/mesh/mesh_corners.h"
 
 #include <algorithm>
@@ -16,11 +16,11 @@ constexpr double kFar = std::numeric_limits<double>::infinity();
 }  // namespace
 
 int facing_end(Runs mine, int end, Runs other) {
-  if (mine.size() == 1 && other.size() == 1)  // as mostly
+  if (mine.size() == 1 && other.size() == 1)  // the usual case
     return other[0].low < mine[0].high && mine[0].low < other[0].high ? end : -1;
   const auto k = static_cast<std::size_t>(end / 2);
   const float low = mine[k].low, high = mine[k].high;
-  // Void bounded by this end: above a high end, below a low end.
+  // The void at this end: above a high end, below a low end.
   const double void_low = end % 2 == 1 ? high : k > 0 ? mine[k - 1].high : -kFar;
   const double void_high = end % 2 == 0 ? low : k + 1 < mine.size() ? mine[k + 1].low : kFar;
   for (std::size_t n = 0; n < other.size() && other[n].low < high; ++n) {
@@ -39,11 +39,11 @@ int facing_end(Runs mine, int end, Runs other) {
 
 bool continues(const ColumnLine& line, int end, int other_end, double pitch) {
   const double mine = z_of(line.mine, end), other = z_of(line.other, other_end), rise = other - mine;
-  if (std::abs(rise) <= kSlopeShare * pitch) return true;
+  if (std::abs(rise) <= kSlopeFraction * pitch) return true;
   const int before = facing_end(line.mine, end, line.before);
-  if (before >= 0 && goes_on(rise, mine - z_of(line.before, before))) return true;
+  if (before >= 0 && continues_rise(rise, mine - z_of(line.before, before))) return true;
   const int after = facing_end(line.other, other_end, line.after);
-  return after >= 0 && goes_on(rise, z_of(line.after, after) - other);
+  return after >= 0 && continues_rise(rise, z_of(line.after, after) - other);
 }
 
 double Neighbourhood::slope(int i, int j, int end, int dx, int dy) {
@@ -58,7 +58,7 @@ double Neighbourhood::slope(int i, int j, int end, int dx, int dy) {
     const int facing = facing_end(mine, end, other);
     if (facing < 0) continue;
     const double step = z_of(other, facing) - z;
-    if (std::abs(step) > kSlopeShare * pitch() &&
+    if (std::abs(step) > kSlopeFraction * pitch() &&
         !continues(line(i, j, side * dx, side * dy), end, facing, pitch()))
       continue;
     rise += side * step;
@@ -90,7 +90,7 @@ void CornerPlane::wanted(int j, std::vector<int>& out) const {
 
 namespace {
 
-/// Quadrants that are neighbours.
+/// Neighbouring quadrants.
 constexpr std::pair<int, int> kNeighbours[] = {{0, 1}, {0, 2}, {1, 3}, {2, 3}};
 
 }  // namespace
@@ -116,8 +116,8 @@ void CornerRow::build(const CornerPlane& plane, int j) {
   }
 }
 
-/// How many ends each of the four columns around a corner has, if no step between them is a wall and each
-/// surface lies wholly above the one below; else 0.
+/// The number of ends of each of the four columns around a corner, if it is the same, no step between them is
+/// a wall, and each surface is entirely above the one below; else 0.
 int CornerRow::layers_around(int i, int j) {
   const std::array<Runs, 4> around{runs(i, j, 0), runs(i, j, 1), runs(i, j, 2), runs(i, j, 3)};
   const std::size_t count = around[0].size();
@@ -130,7 +130,7 @@ int CornerRow::layers_around(int i, int j) {
         four_heights(around[0][k].low, around[1][k].low, around[2][k].low, around[3][k].low);
     const FourHeights high =
         four_heights(around[0][k].high, around[1][k].high, around[2][k].high, around[3][k].high);
-    const double wall = kSlopeShare * columns_->pitch();
+    const double wall = kSlopeFraction * columns_->pitch();
     if (!(below < low.low && low.high < high.low) || low.high - low.low > wall || high.high - high.low > wall)
       return 0;
     below = high.high;
@@ -138,7 +138,7 @@ int CornerRow::layers_around(int i, int j) {
   return 2 * static_cast<int>(count);
 }
 
-/// A corner that all surfaces go around.
+/// A corner at which each surface has all four columns.
 void CornerRow::build_layers(int i, int j, int layers) {
   Corner corner;
   corner.first_sheet = static_cast<std::uint32_t>(sheets_.size());
@@ -159,8 +159,8 @@ void CornerRow::build_any(int i, int j) {
   bool is_spiral = false;
   for (const auto& [q, other] : kNeighbours) is_spiral = !join(i, j, q, other) || is_spiral;
   sort_groups(i, j);
-  // Surfaces above each other, or a spiral, can meet in a vertex without sharing an edge; not where all of
-  // them go all around.
+  // Several surfaces, or a spiral, can have a common vertex without a common edge, unless each surface has
+  // all four columns.
   const bool is_high =
       std::any_of(group_of_.begin(), group_of_.end(), [](auto& ends) { return ends.size() > 2; });
   const bool suspect = is_spiral || (is_high && !std::all_of(groups_.begin(), groups_.end(), is_whole));
@@ -175,11 +175,11 @@ void CornerRow::build_any(int i, int j) {
   }
   for (const Group& group : groups_) sheets_.push_back({0.0, 0.0, group.mean, kNone, suspect});
   const Shift shift = shift_of(i, j, corner);
-  place(i, j, corner, shift);
+  set_positions(i, j, corner, shift);
   corners_[static_cast<std::size_t>(i)] = corner;
 }
 
-/// Every end of the four columns becomes a group of its own.
+/// Makes one group per end of the four columns.
 void CornerRow::gather(int i, int j) {
   groups_.clear();
   for (std::size_t q = 0; q < 4; ++q) {
@@ -193,8 +193,8 @@ void CornerRow::gather(int i, int j) {
   }
 }
 
-/// Joins the groups of neighbouring quadrants whose surfaces continue each other. A group never takes two
-/// ends of one column, so a spiral ramp around the corner stays open on one side; false where that happened.
+/// Joins the groups of two neighbouring quadrants whose surfaces continue each other. A group has at most one
+/// end of each column, so a spiral ramp around the corner stays open on one side; returns false in that case.
 bool CornerRow::join(int i, int j, int q, int other) {
   const int qi = column_x(i, q), qj = column_y(j, q);
   const ColumnLine line = around_.line(qi, qj, column_x(i, other) - qi, column_y(j, other) - qj);
@@ -204,10 +204,10 @@ bool CornerRow::join(int i, int j, int q, int other) {
     const int f = facing_end(line.mine, e, line.other);
     if (f < 0 || !continues(line, e, f, columns_->pitch())) continue;
     const int keep = mine[static_cast<std::size_t>(e)];
-    const int gone = group_of_[static_cast<std::size_t>(other)][static_cast<std::size_t>(f)];
-    if (keep == gone) continue;
+    const int merged = group_of_[static_cast<std::size_t>(other)][static_cast<std::size_t>(f)];
+    if (keep == merged) continue;
     Group& a = groups_[static_cast<std::size_t>(keep)];
-    Group& b = groups_[static_cast<std::size_t>(gone)];
+    Group& b = groups_[static_cast<std::size_t>(merged)];
     bool clash = false;
     for (std::size_t k = 0; k < 4; ++k) clash = clash || (a.end[k] >= 0 && b.end[k] >= 0);
     if (clash) {
@@ -224,7 +224,7 @@ bool CornerRow::join(int i, int j, int q, int other) {
   return all;
 }
 
-/// Drops the groups that were joined to others, sorts the rest by height and renumbers.
+/// Removes the groups that were joined to others, sorts the rest by height and renumbers them.
 void CornerRow::sort_groups(int i, int j) {
   std::size_t kept = 0;
   for (Group& group : groups_) {
@@ -244,15 +244,15 @@ void CornerRow::sort_groups(int i, int j) {
     groups_[kept++] = group;
   }
   groups_.resize(kept);
-  // Equal heights: the material that ends there comes before the material that begins there.
-  const auto begins = [](const Group& g) {
+  // At equal heights, high ends (material below) come before low ends (material above).
+  const auto is_low_end = [](const Group& g) {
     for (const int e : g.end)
       if (e >= 0) return e % 2 == 0;
     return false;
   };
   sort_few(groups_, [&](const Group& a, const Group& b) {
     if (a.mean != b.mean) return a.mean < b.mean;
-    return begins(a) < begins(b);
+    return is_low_end(a) < is_low_end(b);
   });
   for (std::size_t g = 0; g < groups_.size(); ++g)
     for (std::size_t q = 0; q < 4; ++q)
@@ -260,10 +260,10 @@ void CornerRow::sort_groups(int i, int j) {
         group_of_[q][static_cast<std::size_t>(groups_[g].end[q])] = static_cast<int>(g);
 }
 
-/// Where the corner's line is moved to, so that walls run smoothly past the columns' squares: to the middle
-/// of the points half way between the columns that a wall divides (surface nets in plan), weighted by the
-/// walls' heights. Marks the sheets between which four walls meet. Corners on the block's sides stay, and
-/// those before a narrow last column go no more than half way to the side.
+/// The shift of the corner's line in plan that makes walls smooth: to the centroid of the midpoints between
+/// columns that a wall separates (surface nets), weighted by the heights of the walls. Marks the sheets
+/// between which there are four walls as suspect. Corners on the block's sides do not move, and those before
+/// a narrow last column move at most half way to the side.
 CornerRow::Shift CornerRow::shift_of(int i, int j, Corner& corner) {
   std::array<int, 4> material{};
   std::array<int, 4> next{};
@@ -295,10 +295,10 @@ CornerRow::Shift CornerRow::shift_of(int i, int j, Corner& corner) {
           std::min(sum.y / weight * columns_->pitch(), room_y) / 2};
 }
 
-/// Gives each sheet its point. A sheet with all four columns around an unmoved corner has their mean height;
-/// others are continued to the corner by their slopes, never past half way to the next sheet in the corner's
-/// line.
-void CornerRow::place(int i, int j, const Corner& corner, Shift shift) {
+/// Computes the position of each sheet. A sheet with all four columns around an unmoved corner has their mean
+/// height; others are extrapolated to the corner by their slopes, at most half way to the next sheet on the
+/// corner's line.
+void CornerRow::set_positions(int i, int j, const Corner& corner, Shift shift) {
   const double x = columns_->corner_x(i) + shift.x, y = columns_->corner_y(j) + shift.y;
   for (std::uint32_t r = 0; r < corner.sheets; ++r) {
     const Group& group = groups_[r];
@@ -320,9 +320,9 @@ void CornerRow::place(int i, int j, const Corner& corner, Shift shift) {
     const double below = r > 0 ? (groups_[r - 1].mean + group.mean) / 2 : std::min(0.0, group.mean);
     const double above = r + 1 < corner.sheets ? (groups_[r + 1].mean + group.mean) / 2
                                                : std::max(columns_->height(), group.mean);
-    // Steeper than that there are walls, and what goes on beyond them is a guess.
-    const double most = columns_->pitch();
-    sheet.z = std::clamp(group.mean + std::clamp(change / members, -most, most), below, above);
+    // Steeper surfaces are walls; extrapolation beyond them is unreliable.
+    const double limit = columns_->pitch();
+    sheet.z = std::clamp(group.mean + std::clamp(change / members, -limit, limit), below, above);
   }
 }
 

@@ -1,5 +1,5 @@
-// The corners of the columns, as the mesh sees them: which surfaces of the four columns around a corner are
-// one surface there, and where its vertex lies. docs/decisions/0006-mesh.md tells the whole method.
+// The corners of the columns: which interval ends of the four columns around a corner form one surface, and
+// the position of its vertex. Algorithm: docs/decisions/0006-mesh.md.
 #pragma once
 
 #include <algorithm>
@@ -16,18 +16,16 @@ namespace kerf::meshing {
 /// No vertex yet, or no such end.
 inline constexpr std::uint32_t kNone = 0xffffffffu;
 
-/// Steps lower than this share of the pitch are never walls: no column grid can tell them from a slope.
-inline constexpr double kSlopeShare = 0.5;
-/// A higher step is a slope, not a wall, if the step before or after it in the same direction is at least its
-/// height divided by this: smooth surfaces change their rise by less from column to column until they are
-/// walls.
+/// Steps up to this fraction of the pitch are slopes, not walls: columns cannot distinguish the two.
+inline constexpr double kSlopeFraction = 0.5;
+/// A higher step is a slope if the step before or after it, in the same direction, has at least 1 /
+/// kRiseRatio of its height: the rise of smooth surfaces changes by less from column to column.
 inline constexpr double kRiseRatio = 2.5;
-inline bool goes_on(double rise, double step) {
+inline bool continues_rise(double rise, double step) {
   return step * rise > 0.0 && std::abs(rise) <= kRiseRatio * std::abs(step);
 }
 
-/// Puts a few things in order; those that are alike stay as they are to each other. No memory is asked for,
-/// unless there are many.
+/// Stable sort of a few elements without allocation.
 template <class Thing, class Before>
 void sort_few(std::vector<Thing>& things, const Before& before) {
   constexpr std::size_t kFew = 16;
@@ -40,17 +38,17 @@ void sort_few(std::vector<Thing>& things, const Before& before) {
       std::swap(things[n], things[n - 1]);
 }
 
-/// The end of `other` that faces the same void as `end` of `mine` does, with material behind both; -1: none.
+/// The end of `other` that bounds the same void as `end` of `mine`, with material behind both; -1: none.
 int facing_end(Runs mine, int end, Runs other);
 
-/// Of four columns in a line: whether `end` of the second and `other_end` of the third (from facing_end) are
-/// one surface, or a wall stands between.
+/// Whether `end` of the second of four columns in a row and `other_end` of the third (from facing_end) form
+/// one surface; if not, there is a wall between them.
 struct ColumnLine {
   Runs before, mine, other, after;
 };
 bool continues(const ColumnLine& line, int end, int other_end, double pitch);
 
-/// The columns around a corner, each read when it is asked for first.
+/// The columns around a corner, each read on first use.
 class Neighbourhood {
  public:
   explicit Neighbourhood(const Columns& columns) : columns_(&columns) {}
@@ -60,7 +58,7 @@ class Neighbourhood {
     known_ = 0;
     is_floor_level_ = columns_->have_level_floor(i_, j_, i_ + kSide - 1, j_ + kSide - 1);
   }
-  /// A column that touches the corner or is one of the next two of these along X or Y.
+  /// A column at the corner, or one of the next two along X or Y.
   Runs runs(int i, int j) {
     const auto n = static_cast<std::size_t>(kSide * (j - j_) + (i - i_));
     if ((known_ >> n & 1u) == 0) {
@@ -70,8 +68,8 @@ class Neighbourhood {
     return runs_[n];
   }
   double pitch() const { return columns_->pitch(); }
-  /// Rise of the surface a mm along x (dx = 1, dy = 0) or y at the end of a column that touches the corner,
-  /// from the neighbours that continue it.
+  /// Rise of the surface per mm along x (dx = 1, dy = 0) or y at an end of a column at the corner, from the
+  /// neighbours that continue it.
   double slope(int i, int j, int end, int dx, int dy);
   ColumnLine line(int i, int j, int dx, int dy) {
     return {runs(i - dx, j - dy), runs(i, j), runs(i + dx, j + dy), runs(i + 2 * dx, j + 2 * dy)};
@@ -82,7 +80,7 @@ class Neighbourhood {
   const Columns* columns_;
   int i_ = 0, j_ = 0;
   bool is_floor_level_ = false;  // all lowest ends are at one height
-  std::uint64_t known_ = 0;      // a bit a column
+  std::uint64_t known_ = 0;      // one bit per column
   std::array<Runs, kSide * kSide> runs_;
   std::array<Interval, kSide * kSide> one_;
 };
@@ -92,11 +90,11 @@ inline double z_of(Runs runs, int end) {
   return static_cast<double>(end % 2 == 0 ? run.low : run.high);
 }
 
-/// One surface (or several ends of one column each) at a corner: one vertex.
+/// One surface at a corner, with one end of each of its columns: one vertex.
 struct Sheet {
   double x = 0.0, y = 0.0, z = 0.0;  // mm from the block's low corner
-  std::uint32_t vertex = kNone;      // made when the first triangle needs it
-  bool suspect = false;              // more than one fan of triangles may meet here, or four walls
+  std::uint32_t vertex = kNone;      // created with the first triangle
+  bool suspect = false;              // may have several fans of triangles or four walls
 };
 
 /// The sheets at a corner, lowest first, and for each end of the four columns around (quadrant 0: low x and
@@ -110,7 +108,7 @@ struct Corner {
   bool simple = false;
 };
 
-/// Which corners are simple, one byte each: far the most, so that all others can be found quickly.
+/// Which corners are simple, one byte each. Most are, and the others are found eight at a time.
 class CornerPlane {
  public:
   explicit CornerPlane(const Columns& columns);
@@ -118,7 +116,7 @@ class CornerPlane {
   /// The corners with one y, writable by several threads.
   std::uint8_t* row(int j) { return bytes_.data() + offset(j); }
   const std::uint8_t* row(int j) const { return bytes_.data() + offset(j); }
-  /// Whether eight corners beside each other, from a place in a row, are simple.
+  /// Whether eight consecutive corners of a row are simple.
   static bool eight_simple(const std::uint8_t* corners) { return eight(corners) == kAllSimple; }
   /// Replaces `out` by the corners of a row that are not simple or have such a neighbour along X or Y.
   void wanted(int j, std::vector<int>& out) const;
@@ -156,19 +154,19 @@ inline FourHeights four_heights(float a, float b, float c, float d) {
   return four;
 }
 
-/// Those corners with one y that walls or inner caps may need. Vectors are kept from row to row, so that no
-/// memory is asked for in the long run.
+/// The corners of one row that walls or inner caps may need. Vectors are reused from row to row to avoid
+/// allocations.
 class CornerRow {
  public:
   explicit CornerRow(const Columns& columns) : columns_(&columns), around_(columns) {}
   void build(const CornerPlane& plane, int j);
-  /// The corners that are here, in order.
+  /// Numbers (i) of these corners, in order.
   const std::vector<int>& numbers() const { return numbers_; }
   const Corner& corner(int i) const { return corners_[static_cast<std::size_t>(i)]; }
   Sheet& sheet(const Corner& corner, int rank) {
     return sheets_[corner.first_sheet + static_cast<std::uint32_t>(rank)];
   }
-  /// Of all corners: the same however often a row is built.
+  /// Of all corners; the same whenever the row is built again.
   std::vector<Sheet>& sheets() { return sheets_; }
   int rank(const Corner& corner, int quadrant, int end) const {
     return ranks_[corner.first_rank[static_cast<std::size_t>(quadrant)] + static_cast<std::uint32_t>(end)];
@@ -194,7 +192,7 @@ class CornerRow {
   bool join(int i, int j, int q, int other);
   void sort_groups(int i, int j);
   Shift shift_of(int i, int j, Corner& corner);
-  void place(int i, int j, const Corner& corner, Shift shift);
+  void set_positions(int i, int j, const Corner& corner, Shift shift);
 
   const Columns* columns_;
   std::vector<int> numbers_;

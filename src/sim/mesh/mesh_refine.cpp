@@ -1,5 +1,5 @@
-// Which corners the caps need: where the surface would be further off than the tolerance without them, and
-// those that needed corners need.
+// Selects the corners that the caps need: those without which the error of the surface would exceed the
+// tolerance, and those that needed corners require.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,20 +9,22 @@
 namespace kerf::meshing {
 namespace {
 
-/// Of a corner beside which there is no material, or where the cap is torn: what refers to it is not merged.
+/// Height of a corner without material on one side or with several vertices: triangles that use it are not
+/// merged.
 constexpr float kUnknown = std::numeric_limits<float>::infinity();
 
 constexpr int kPatch = kSquare + 1;  // corners along a whole square's side
 
-/// Neighbours of a place in a patch, mirrored at its sides.
-struct Beside {
-  Beside(int at, int by) : low(at < by ? at + by : at - by), high(at + by > kSquare ? at - by : at + by) {}
+/// The two neighbours of a corner along one axis of a patch, mirrored at its sides.
+struct Neighbours {
+  Neighbours(int at, int by)
+      : low(at < by ? at + by : at - by), high(at + by > kSquare ? at - by : at + by) {}
   int low, high;
 };
 
 }  // namespace
 
-/// The heights of the corners of a whole square, and how far its triangles are off where they are not halved.
+/// The heights of the corners of a square, and the errors of its triangles if they are not halved.
 class CapSheet::Patch {
  public:
   Patch(const CapSheet& sheet, int square_x, int square_y)
@@ -31,26 +33,26 @@ class CapSheet::Patch {
       for (const int x : {0, kSquare}) error_[at(x, y)] = 0.0f;  // they halve no triangle
   }
 
-  /// Calls need(x, y), from the square's low corner, for each corner without which the triangles that it
-  /// halves would be further off than the tolerance.
+  /// Calls need(x, y), counted from the square's low corner, for each corner without which the error of the
+  /// triangles that it halves would exceed the tolerance.
   template <class Need>
   void find(float tolerance, const Need& need) {
     read_heights();
-    begin();
+    find_smallest();
     for (int s = 2; s < kSquare; s *= 2) {
       halve_sides(s);
       halve_diagonals(s);
     }
     for (int y = 0; y < kPatch; ++y) {
-      for (int x = 0; x < kSquare; x += kSome)
-        if (any_above(error_.data() + at(x, y), tolerance)) find_some(x, y, kSome, tolerance, need);
-      find_some(kSquare, y, 1, tolerance, need);
+      for (int x = 0; x < kSquare; x += kBatch)
+        if (any_above(error_.data() + at(x, y), tolerance)) find_in_batch(x, y, kBatch, tolerance, need);
+      find_in_batch(kSquare, y, 1, tolerance, need);
     }
   }
 
  private:
-  /// What is known of the triangles that a corner halves: the bound of their error, that bound from half as
-  /// far back, and the largest bound of the triangles below them.
+  /// Maxima over the triangles one level below: their error, their own height plus the error of the triangles
+  /// below them, and the latter alone. See put.
   struct Below {
     float error = 0.0f, one_level = 0.0f, below = 0.0f;
     void take(const Patch& patch, std::size_t corner) {
@@ -60,29 +62,29 @@ class CapSheet::Patch {
     }
   };
 
-  static constexpr int kSome = 8;  // are compared at a time
+  static constexpr int kBatch = 8;  // are compared at a time
   static bool any_above(const float* errors, float tolerance) {
     int any = 0;
-    for (int k = 0; k < kSome; ++k) any |= static_cast<int>(errors[k] > tolerance);
+    for (int k = 0; k < kBatch; ++k) any |= static_cast<int>(errors[k] > tolerance);
     return any != 0;
   }
   template <class Need>
-  void find_some(int first_x, int y, int count, float tolerance, const Need& need) const {
+  void find_in_batch(int first_x, int y, int count, float tolerance, const Need& need) const {
     for (int x = first_x; x < first_x + count; ++x)
       if (error_[at(x, y)] > tolerance) need(x, y);
   }
   static std::size_t at(int x, int y) { return static_cast<std::size_t>(y * kPatch + x); }
   void read_heights();
   void read_row(int y, std::array<float, kPatch + 1>& row) const;
-  void put_given();
-  float own(std::size_t middle, std::size_t a, std::size_t b) const {
-    const float height = height_[middle];
+  void put_stored_heights();
+  float own(std::size_t midpoint, std::size_t a, std::size_t b) const {
+    const float height = height_[midpoint];
     return height == kUnknown ? 0.0f : std::abs(height - 0.5f * (height_[a] + height_[b]));
   }
-  void begin();
+  void find_smallest();
   void halve_sides(int s);
   void halve_diagonals(int s);
-  void put(std::size_t middle, std::size_t a, std::size_t b, const Below& below);
+  void put(std::size_t midpoint, std::size_t a, std::size_t b, const Below& below);
 
   const CapSheet& sheet_;
   int first_x_, first_y_;
@@ -90,7 +92,7 @@ class CapSheet::Patch {
   Numbers height_, error_, one_level_, below_;
 };
 
-/// The ends of the columns from the one before the square to the one behind it.
+/// The ends of the columns of a row, from the one before the square to the one after it.
 void CapSheet::Patch::read_row(int y, std::array<float, kPatch + 1>& row) const {
   const Columns& columns = sheet_.columns_;
   const int j = first_y_ + y;
@@ -118,21 +120,21 @@ void CapSheet::Patch::read_heights() {
     const std::uint8_t* const simple = sheet_.plane_.row(first_y_ + y) + first_x_;
     for (std::size_t k = 0; k < static_cast<std::size_t>(corners); ++k)
       out[k] = 0.25f * ((south[k] + south[k + 1]) + (north[k] + north[k + 1]));
-    for (int x = 0; x < corners; x += kSome) {
+    for (int x = 0; x < corners; x += kBatch) {
       if (CornerPlane::eight_simple(simple + x)) continue;
-      for (int k = x; k < std::min(x + kSome, corners); ++k)
+      for (int k = x; k < std::min(x + kBatch, corners); ++k)
         if (simple[k] == 0) out[k] = kUnknown;
     }
     south = north;
   }
-  put_given();
+  put_stored_heights();
 }
 
-void CapSheet::Patch::put_given() {
+void CapSheet::Patch::put_stored_heights() {
   for (const int dy : {0, 1}) {
     for (const int dx : {0, 1}) {
-      for (const Given& given :
-           sheet_.given_[sheet_.block_number(first_x_ + dx * kSquare, first_y_ + dy * kSquare)]) {
+      for (const CornerHeight& given :
+           sheet_.heights_[sheet_.block_number(first_x_ + dx * kSquare, first_y_ + dy * kSquare)]) {
         const int x = given.cell % kSquare + dx * kSquare, y = given.cell / kSquare + dy * kSquare;
         if (x < kPatch && y < kPatch) height_[at(x, y)] = given.z;
       }
@@ -140,18 +142,18 @@ void CapSheet::Patch::put_given() {
   }
 }
 
-/// A triangle is off by no more than its middle's height over the halved side plus what its halves are off.
-/// But what the middle adds fades out towards the sides on which the halves have their middles, so that of
-/// two levels only the larger one counts.
-void CapSheet::Patch::put(std::size_t middle, std::size_t a, std::size_t b, const Below& below) {
-  const float mine = own(middle, a, b);
-  one_level_[middle] = mine + below.error;
-  below_[middle] = below.error;
-  error_[middle] = std::min(mine + below.error, std::max(mine + below.below, below.one_level));
+/// The error of a triangle is at most the height of its midpoint over the halved side plus the error of its
+/// halves. But the contribution of the midpoint decreases to 0 towards the sides that contain the midpoints
+/// of the halves, so that only the larger of two consecutive levels counts.
+void CapSheet::Patch::put(std::size_t midpoint, std::size_t a, std::size_t b, const Below& below) {
+  const float mine = own(midpoint, a, b);
+  one_level_[midpoint] = mine + below.error;
+  below_[midpoint] = below.error;
+  error_[midpoint] = std::min(mine + below.error, std::max(mine + below.below, below.one_level));
 }
 
-/// The two smallest levels, three quarters of all, of which the first has none below it.
-void CapSheet::Patch::begin() {
+/// The two smallest levels, three quarters of all corners; the first has no level below it.
+void CapSheet::Patch::find_smallest() {
   for (int y = 0; y < kPatch; ++y) {
     const bool along_y = y % 2 != 0;
     const std::size_t by = along_y ? kPatch : 1;
@@ -173,7 +175,7 @@ void CapSheet::Patch::begin() {
   }
 }
 
-/// Middles of the sides of length 2 s along X or Y.
+/// Midpoints of the sides of length 2 s along X or Y.
 void CapSheet::Patch::halve_sides(int s) {
   const int half = s / 2;  // s is at least 2
   for (int y = 0; y < kPatch; y += s) {
@@ -181,7 +183,7 @@ void CapSheet::Patch::halve_sides(int s) {
     const int ax = along_y ? 0 : s, ay = along_y ? s : 0;
     for (int x = along_y ? 0 : s; x < kPatch; x += 2 * s) {
       Below below;
-      const Beside bx(x, half), by(y, half);
+      const Neighbours bx(x, half), by(y, half);
       for (const int cy : {by.low, by.high})
         for (const int cx : {bx.low, bx.high}) below.take(*this, at(cx, cy));
       put(at(x, y), at(x - ax, y - ay), at(x + ax, y + ay), below);
@@ -189,8 +191,8 @@ void CapSheet::Patch::halve_sides(int s) {
   }
 }
 
-/// Middles of the diagonals of squares of side 2 s, which go from a corner of a square of side 4 s to its
-/// centre; that of the whole square is the one that Cover begins with.
+/// Midpoints of the diagonals of squares of side 2 s, which run from a corner of a square of side 4 s to its
+/// centre; the diagonal of the whole square is the one that Cover starts with.
 void CapSheet::Patch::halve_diagonals(int s) {
   const int d = 2 * s;
   for (int y = s; y < kPatch; y += d) {
@@ -204,7 +206,7 @@ void CapSheet::Patch::halve_diagonals(int s) {
   }
 }
 
-/// Whether a square and all around it are level at one height: nothing to be found there.
+/// Whether a square and its eight neighbours are level at one height, so that it needs no corners.
 bool CapSheet::is_plain(int square_x, int square_y) const {
   if (square_x == 0 || square_y == 0 || square_x + 1 >= columns_.squares_x() ||
       square_y + 1 >= columns_.squares_y())
@@ -244,7 +246,7 @@ void CapSheet::find_errors(int number) {
   }
 }
 
-/// The apexes of the two triangles that a corner halves, which is no corner of a whole square.
+/// The apexes of the two triangles that a corner (not one of a square) halves.
 std::array<CapSheet::GridCorner, 2> CapSheet::parents(GridCorner n) {
   const int both = n.x | n.y, s = both & -both;
   const bool odd_x = (n.x & s) != 0, odd_y = (n.y & s) != 0;
@@ -256,7 +258,7 @@ std::array<CapSheet::GridCorner, 2> CapSheet::parents(GridCorner n) {
   return {GridCorner{n.x, n.y - s}, GridCorner{n.x, n.y + s}};
 }
 
-/// Notes all that a needed corner needs; beyond(n) what is in other bands.
+/// Records the corners that a needed corner requires; calls beyond(n) for those in other bands.
 template <class Beyond>
 void CapSheet::need_parents(GridCorner n, int band, std::vector<GridCorner>& work, const Beyond& beyond) {
   work.assign(1, n);

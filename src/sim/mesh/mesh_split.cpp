@@ -1,7 +1,7 @@
-// Parts edges that more than two triangles share, as where two columns touch along a line only, and vertices
-// in which more than one fan of triangles meet. The triangles at such an edge are paired so that the material
-// between them stays together; vertices are then parted into the fans that the pairs leave connected. An edge
-// whose two pairs still meet at both ends is halved, once a pair.
+// Splits non-manifold edges and vertices: edges with more than two triangles, as where two columns touch
+// along a line only, and vertices with more than one fan of triangles. The triangles at such an edge are
+// paired across the material between them; vertices are then split into the fans that the pairs connect. An
+// edge whose pairs still have both end points in common is halved once per pair.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,13 +14,13 @@
 namespace kerf::meshing {
 namespace {
 
-/// A side of a triangle, by its vertices and by the corner from which it runs to the triangle's next one.
-/// Corner k of triangle n of those that are looked at has the number 3 n + k.
+/// A side of a triangle: its vertices, and the corner from which it runs to the next one. Corner k of the
+/// n-th examined triangle has the number 3 n + k.
 struct Side {
   std::uint32_t low, high, corner;
 };
 
-/// Numbers of the sides that are one edge.
+/// Numbers of the two sides of one edge.
 struct Pair {
   std::uint32_t forward, backward;
 };
@@ -48,17 +48,17 @@ class Splitter {
   void collect();
   void sort_sides();
   void pair_up();
-  void pair_shared(std::uint32_t begin, std::uint32_t end);
+  void pair_shared(std::uint32_t first, std::uint32_t end);
   std::uint32_t root(std::uint32_t corner);
   void join(const Side& a, const Side& b);
-  void part_vertices();
+  void split_vertices();
   bool halve();
-  void halve_side(const Side& side, std::uint32_t middle);
+  void halve_side(const Side& side, std::uint32_t midpoint);
 
   Mesh& mesh_;
   unsigned threads_;
   std::vector<std::size_t>& near_;      // numbers of all triangles that may have a suspect vertex
-  std::vector<std::uint8_t> suspect_;   // one a vertex
+  std::vector<std::uint8_t> suspect_;   // per vertex
   std::vector<std::size_t> triangles_;  // those with a suspect vertex
   std::vector<std::uint32_t> corners_;  // their vertices
   std::vector<Side> sides_;             // of these, with a suspect end
@@ -108,7 +108,8 @@ void Splitter::collect() {
   sort_sides();
 }
 
-/// By edge, and the sides of an edge by triangle: first all under their lower vertex, then the few of each.
+/// Sorts by edge, and the sides of an edge by triangle: a counting sort by lower vertex, then the few of
+/// each.
 void Splitter::sort_sides() {
   std::vector<std::uint32_t> next(suspect_.size() + 1, 0);
   for (const Side& side : sides_) ++next[side.low + std::size_t{1}];
@@ -116,44 +117,44 @@ void Splitter::sort_sides() {
   std::vector<Side> sorted(sides_.size());
   for (const Side& side : sides_) sorted[next[side.low]++] = side;
   sides_ = std::move(sorted);
-  for (std::size_t begin = 0, end = 0; begin < sides_.size(); begin = end) {
-    end = next[sides_[begin].low];
-    std::sort(sides_.data() + begin, sides_.data() + end, [](const Side& a, const Side& b) {
+  for (std::size_t first = 0, end = 0; first < sides_.size(); first = end) {
+    end = next[sides_[first].low];
+    std::sort(sides_.data() + first, sides_.data() + end, [](const Side& a, const Side& b) {
       return std::tie(a.high, a.corner) < std::tie(b.high, b.corner);
     });
   }
 }
 
-/// Pairs the two triangles of each edge; of shared edges the ones with material between them.
+/// Pairs the two triangles of each edge; at edges with more triangles, those with material between them.
 void Splitter::pair_up() {
   pairs_.clear();
   shared_pairs_.clear();
   const auto count = static_cast<std::uint32_t>(sides_.size());
-  for (std::uint32_t begin = 0, end = 0; begin < count; begin = end) {
-    while (end < count && sides_[end].low == sides_[begin].low && sides_[end].high == sides_[begin].high)
+  for (std::uint32_t first = 0, end = 0; first < count; first = end) {
+    while (end < count && sides_[end].low == sides_[first].low && sides_[end].high == sides_[first].high)
       ++end;
-    if (end - begin > 2) {
-      pair_shared(begin, end);
-    } else if (end - begin == 2) {
-      pairs_.push_back({begin, begin + 1});
+    if (end - first > 2) {
+      pair_shared(first, end);
+    } else if (end - first == 2) {
+      pairs_.push_back({first, first + 1});
     }
   }
 }
 
-void Splitter::pair_shared(std::uint32_t begin, std::uint32_t end) {
+void Splitter::pair_shared(std::uint32_t first, std::uint32_t end) {
   constexpr double kTurn = 2 * std::numbers::pi;
   std::vector<std::pair<double, std::uint32_t>> forward, backward;
-  for (std::uint32_t k = begin; k < end; ++k)
+  for (std::uint32_t k = first; k < end; ++k)
     (is_forward(sides_[k]) ? forward : backward).emplace_back(angle(sides_[k]), k);
   for (const auto& [turn, side] : forward) {
     if (backward.empty()) return;
     std::size_t best = 0;
-    double least = 2 * kTurn;
+    double smallest = 2 * kTurn;
     for (std::size_t k = 0; k < backward.size(); ++k) {
       double gap = turn - backward[k].first;
       if (gap < 0.0) gap += kTurn;
-      if (gap < least) {
-        least = gap;
+      if (gap < smallest) {
+        smallest = gap;
         best = k;
       }
     }
@@ -180,7 +181,7 @@ void Splitter::join(const Side& a, const Side& b) {
 }
 
 /// Gives each fan of triangles around a suspect vertex a vertex of its own; the first fan keeps the old one.
-void Splitter::part_vertices() {
+void Splitter::split_vertices() {
   parent_.resize(3 * triangles_.size());
   std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
   for (const Pair& pair : pairs_) join(sides_[pair.forward], sides_[pair.backward]);
@@ -203,7 +204,7 @@ void Splitter::part_vertices() {
   }
 }
 
-/// Halves the edges that are still shared after parting. True if there were any.
+/// Halves the edges that still have more than two triangles after split_vertices. True if there are any.
 bool Splitter::halve() {
   if (shared_pairs_.empty()) return false;
   using Key = std::tuple<std::uint32_t, std::uint32_t, std::size_t>;
@@ -229,19 +230,19 @@ bool Splitter::halve() {
     if (first != 0 || second != 0) continue;  // its turn comes in the next round
     first = second = 1;
     const Point3 a = point(std::get<0>(keys[k])), b = point(std::get<1>(keys[k]));
-    const auto middle = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
+    const auto midpoint = static_cast<std::uint32_t>(mesh_.positions.size() / 3);
     for (int axis = 0; axis < 3; ++axis)
       mesh_.positions.push_back(static_cast<float>((a[axis] + b[axis]) / 2));
-    halve_side(forward, middle);
-    halve_side(backward, middle);
+    halve_side(forward, midpoint);
+    halve_side(backward, midpoint);
   }
   return any;
 }
 
-void Splitter::halve_side(const Side& side, std::uint32_t middle) {
+void Splitter::halve_side(const Side& side, std::uint32_t midpoint) {
   const std::uint32_t end = next_corner(side.corner), to = vertex(end), apex = vertex(next_corner(end));
-  set_vertex(end, middle);
-  for (const std::uint32_t v : {middle, to, apex}) mesh_.triangles.push_back(v);
+  set_vertex(end, midpoint);
+  for (const std::uint32_t v : {midpoint, to, apex}) mesh_.triangles.push_back(v);
   near_.push_back(mesh_.step.size());
   mesh_.step.push_back(mesh_.step[triangles_[side.corner / 3]]);
 }
@@ -249,13 +250,13 @@ void Splitter::halve_side(const Side& side, std::uint32_t middle) {
 bool Splitter::round() {
   collect();
   pair_up();
-  part_vertices();
+  split_vertices();
   return halve();
 }
 
 }  // namespace
 
-void split_shared_edges(Mesh& mesh, unsigned threads, const std::vector<std::uint32_t>& suspects,
+void split_non_manifold(Mesh& mesh, unsigned threads, const std::vector<std::uint32_t>& suspects,
                         std::vector<std::size_t>& near) {
   if (suspects.empty()) return;
   Splitter splitter(mesh, threads, suspects, near);

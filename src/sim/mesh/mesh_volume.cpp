@@ -1,4 +1,4 @@
-// What a mesh should hold, told by the columns that it is made of.
+// The volume that a mesh should enclose, from the columns that it was made of.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,15 +13,15 @@ namespace kerf {
 namespace meshing {
 
 VolumeRange volume_range(const Faces& faces, double pitch, double moved) {
-  // How far the side faces of columns may all be from where the mesh has them, in pitches. Why one is enough,
-  // and how far they are: docs/decisions/0006-mesh.md.
-  constexpr double kSideShare = 1.0;
-  return {mm3(faces.volume), mm3(kSideShare * pitch * faces.sides + moved * (faces.ends + faces.sides))};
+  // Bound of the distance between the sides of columns and the walls of the mesh, in pitches; derivation in
+  // docs/decisions/0006-mesh.md.
+  constexpr double kSideFraction = 1.0;
+  return {mm3(faces.volume), mm3(kSideFraction * pitch * faces.sides + moved * (faces.ends + faces.sides))};
 }
 
 namespace {
 
-/// What is in one of two columns of one interval each and not in the other, in height.
+/// Total height of the symmetric difference of two columns with one interval each.
 double unshared_height(float low_a, float high_a, float low_b, float high_b) {
   if (low_a < high_b && low_b < high_a)
     return std::abs(height(low_a, low_b)) + std::abs(height(high_a, high_b));
@@ -32,7 +32,7 @@ class BlockFaces {
  public:
   explicit BlockFaces(const Columns& columns) : columns_(columns), size_(columns.frame().bounds.size()) {}
 
-  /// Of the squares of a row of squares.
+  /// The faces of a row of squares.
   Faces of_squares(int square_y) const {
     Faces faces;
     for (int square_x = 0; square_x < columns_.squares_x(); ++square_x) add_square(square_x, square_y, faces);
@@ -44,7 +44,7 @@ class BlockFaces {
     const int first_i = square_x * kSquare, end_i = std::min(first_i + kSquare, columns_.nx());
     const int first_j = square_y * kSquare, end_j = std::min(first_j + kSquare, columns_.ny());
     for (int j = first_j; j < end_j; ++j) {
-      // Within a square, of columns of whole width, the numbers lie side by side.
+      // Columns of full width with both neighbours in the same square: their numbers are contiguous.
       const int inner_end = j + 1 < end_j ? end_i - 1 : first_i;
       if (columns_.square(square_x, square_y).many == nullptr) {
         add_plain(first_i, inner_end, j, faces);
@@ -65,14 +65,16 @@ class BlockFaces {
     double length = count * height(low[0], high[0]), bare = 0.0;
     if (!square.is_uniform()) {
       const auto columns = static_cast<std::size_t>(end - first);
-      length = square.is_low_level ? standing(high, low[0], columns, bare) : any(low, high, columns, bare);
+      length =
+          square.is_low_level ? on_one_floor(high, low[0], columns, bare) : any(low, high, columns, bare);
     }
     faces.volume += pitch * pitch * length;
     faces.ends += 2.0 * pitch * pitch * count;
     faces.sides += pitch * bare;
   }
 
-  /// Columns of which some are of one interval, as their neighbours to the right and above are.
+  /// Columns with any number of intervals; faster for those with one interval whose neighbours to the right
+  /// and above have one, too.
   void add_mixed(int first, int end, int j, Faces& faces) const {
     const ColumnSquare& square = columns_.square_of(first, j);
     const auto is_one = [&](std::size_t c) { return square.many->first[c + 1] - square.many->first[c] == 1; };
@@ -92,7 +94,7 @@ class BlockFaces {
     faces.sides += pitch * bare;
   }
 
-  /// Length of columns, and of what is bare of their sides.
+  /// Total length of columns; adds the uncovered length of their sides to `bare`.
   static double any(const float* low, const float* high, std::size_t count, double& bare) {
     double length = 0.0;
     for (std::size_t c = 0; c < count; ++c) {
@@ -103,8 +105,8 @@ class BlockFaces {
     return length;
   }
 
-  /// The same of columns that stand on one floor, without branches, several at a time.
-  static double standing(const float* high, float floor, std::size_t count, double& bare) {
+  /// The same for columns with low ends at one height, without branches, so that it is vectorised.
+  static double on_one_floor(const float* high, float floor, std::size_t count, double& bare) {
     constexpr std::size_t kLanes = 4;
     std::array<double, kLanes> lengths{}, sides{};
     const auto add = [&](std::size_t c, std::size_t lane) {
@@ -157,10 +159,10 @@ Faces faces_of(const Columns& columns, unsigned threads) {
 
 double farthest(const Box3& box) {
   if (box.empty()) return 0.0;
-  double most = 0.0;
+  double largest = 0.0;
   for (int axis = 0; axis < 3; ++axis)
-    most = std::max({most, std::abs(box.low[axis]), std::abs(box.high[axis])});
-  return most;
+    largest = std::max({largest, std::abs(box.low[axis]), std::abs(box.high[axis])});
+  return largest;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// Walls between neighbouring columns. Each column's side is a band of edges between its two corner lines; the
-// wall is the difference of the two columns' sides, cut at every vertex of the lines, so that all faces
-// around a corner's line use the same pieces of it and the surface closes whatever the columns are.
+// Walls between neighbouring columns. Each column's side is a set of edges between its two corner lines; the
+// wall is the difference of the two columns' sides, split at each vertex of both lines. So all faces at a
+// corner's line use the same segments of it, and the surface is closed for any columns.
 #include <algorithm>
 #include <cassert>
 
@@ -43,7 +43,7 @@ void WallFiller::fill(ColumnAt a, ColumnAt b, FaceLine left, FaceLine right) {
   }
 }
 
-/// True if every end of A is one sheet with an end of B on both lines: no wall.
+/// Whether each end of A is on the same sheet as the end of B on both lines: no wall.
 bool WallFiller::all_joined(const FaceLine& left, const FaceLine& right) const {
   const int ends = left.corner.ends[static_cast<std::size_t>(left.quadrant_a)];
   if (ends != left.corner.ends[static_cast<std::size_t>(left.quadrant_b)]) return false;
@@ -57,8 +57,8 @@ bool WallFiller::all_joined(const FaceLine& left, const FaceLine& right) const {
   return true;
 }
 
-/// Collects the edges of both columns from below. True if some cross or coincide in a way that may leave an
-/// edge to more than two triangles.
+/// Collects the edges of both columns from bottom to top. True if some cross or coincide so that an edge may
+/// get more than two triangles.
 bool WallFiller::gather(const FaceLine& left, const FaceLine& right) {
   edges_.clear();
   for (const bool of_a : {true, false}) {
@@ -89,8 +89,8 @@ bool WallFiller::gather(const FaceLine& left, const FaceLine& right) {
   return suspect;
 }
 
-/// Who made the wall above edge `above - 1`: the cut whose floor lies below it in the column that has no
-/// material there, else the cut whose ceiling lies above, else the cut that went through.
+/// The step of the wall above edge `above - 1`: in the column without material there, that of the floor
+/// below, else that of the ceiling above, else the one that cut through.
 std::uint32_t WallFiller::step_of(ColumnAt column, bool is_a, std::size_t above) const {
   const Columns& columns = builder_.columns;
   for (std::size_t k = above; k-- > 0;)
@@ -102,7 +102,8 @@ std::uint32_t WallFiller::step_of(ColumnAt column, bool is_a, std::size_t above)
   return columns.cut_through(column.i, column.j);
 }
 
-/// Triangles between the two lines from edge `low` up to edge `high`, outward to B for positive `times`.
+/// Adds triangles between the two lines from edge `low` up to edge `high`, |times| times, facing B if `times`
+/// is positive.
 void WallFiller::ladder(const Edge& low, const Edge& high, int times, std::uint32_t step, FaceLine left,
                         FaceLine right, bool suspect) {
   const int left_way = high.left >= low.left ? 1 : -1, right_way = high.right >= low.right ? 1 : -1;
