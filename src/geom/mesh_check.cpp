@@ -1,4 +1,4 @@
-// Is a mesh closed, and what does it hold: edges counted by sorting them under their lower vertex.
+// Checks whether a mesh is closed, by sorting its edges by their lower vertex, and computes its volume.
 #include "kerf/mesh_check.h"
 
 #include <algorithm>
@@ -23,16 +23,16 @@ using Positions = std::span<const float>;
 using Triangles = std::span<const std::uint32_t>;
 
 constexpr std::size_t kChunk = std::size_t{3} << 14;  // indices
-/// Each share of the triangles counts the sides of all vertices: with more of them there is nothing to be
-/// won.
-constexpr std::size_t kMostShares = 4;
-/// Of a vertex's number one bit is left for the way in which a side goes; sides are counted in 32 bits.
-constexpr std::size_t kMostVertices = std::size_t{1} << 31, kMostSides = 0xffffffffu;
+/// Maximum number of parts of the triangle list that are counted in parallel. Each part has a counter per
+/// vertex, so that more parts are not faster.
+constexpr std::size_t kMaxParts = 4;
+/// One bit of a vertex number is used for the direction of a side; sides are counted in 32 bits.
+constexpr std::size_t kMaxVertices = std::size_t{1} << 31, kMaxSides = 0xffffffffu;
 
 bool never() { return false; }
 
-/// Six times the signed volume of the tetrahedra from a place, in double precision: no digit is lost far from
-/// zero.
+/// Six times the signed volume of the tetrahedra with apex `from`. A nearby apex avoids cancellation far from
+/// the origin.
 double six_volumes(Positions positions, Triangles triangles, Point3 from) {
   const auto at = [&](std::uint32_t v) {
     const float* p = positions.data() + std::size_t{3} * v;
@@ -47,7 +47,7 @@ double six_volumes(Positions positions, Triangles triangles, Point3 from) {
   return six;
 }
 
-/// In chunks that are summed in order, whatever the threads.
+/// Enclosed volume, summed in chunks in a fixed order, so that it does not depend on the number of threads.
 double enclosed(Positions positions, Triangles triangles, unsigned threads) {
   if (triangles.empty()) return 0.0;
   const float* const p = positions.data() + std::size_t{3} * triangles[0];
@@ -63,12 +63,12 @@ double enclosed(Positions positions, Triangles triangles, unsigned threads) {
   return std::accumulate(chunks.begin(), chunks.end(), 0.0) / 6.0;
 }
 
-/// A triangle's side under the lower of its two vertices: twice the other one, and one more if it goes down
-/// in number.
+/// A side of a triangle, stored with the lower of its two vertices: 2 * the higher one, + 1 if it runs from
+/// the higher to the lower.
 using Side = std::uint32_t;
 
-/// Whether each of a few sides has just one that is the same edge, in the opposite direction. Without
-/// branches that depend on them.
+/// Whether a few sides form pairs of opposite directions, with no other side on the same edge. Without
+/// data-dependent branches.
 bool are_pairs(const Side* sides, std::size_t count) {
   std::size_t opposite = 0, same = 0;
   for (std::size_t k = 1; k < count; ++k) {
@@ -81,39 +81,39 @@ bool are_pairs(const Side* sides, std::size_t count) {
   return same == 0 && 2 * opposite == count;
 }
 
-/// Edges of one lower vertex without two triangles in opposite directions.
-std::size_t count_bad(Side* begin, Side* end) {
+/// The number of edges with one lower vertex that do not have exactly two triangles in opposite directions.
+std::size_t count_bad(Side* first, Side* end) {
   constexpr std::ptrdiff_t kFew = 16;
-  if (end - begin <= kFew && are_pairs(begin, static_cast<std::size_t>(end - begin))) return 0;
-  std::sort(begin, end);
+  if (end - first <= kFew && are_pairs(first, static_cast<std::size_t>(end - first))) return 0;
+  std::sort(first, end);
   std::size_t bad = 0;
-  while (begin != end) {
-    Side* last = begin;
+  while (first != end) {
+    Side* last = first;
     int downwards = 0;
-    for (; last != end && *last / 2 == *begin / 2; ++last) downwards += static_cast<int>(*last % 2);
-    if (last - begin != 2 || downwards != 1) ++bad;
-    begin = last;
+    for (; last != end && *last / 2 == *first / 2; ++last) downwards += static_cast<int>(*last % 2);
+    if (last - first != 2 || downwards != 1) ++bad;
+    first = last;
   }
   return bad;
 }
 
-/// Sorts the sides of all triangles by their lower vertices. Each thread takes a share of the triangles.
+/// Sorts the sides of all triangles by their lower vertices (counting sort, the triangle list in parts).
 class Edges {
  public:
   Edges(Triangles triangles, std::size_t vertices, unsigned threads)
       : triangles_(triangles),
         vertices_(vertices),
         threads_(threads),
-        next_(std::min<std::size_t>(threads, kMostShares)) {}
+        next_(std::min<std::size_t>(threads, kMaxParts)) {}
 
-  /// Edges without two triangles in opposite directions; nothing where the triangles have vertices that there
-  /// are not.
+  /// The number of edges without exactly two triangles in opposite directions; nothing if a triangle has a
+  /// vertex that does not exist.
   std::optional<std::size_t> bad() {
-    std::vector<std::uint8_t> sound(next_.size());
+    std::vector<std::uint8_t> valid(next_.size());
     parallel_for(
-        threads_, next_.size(), [&](std::size_t n) { sound[n] = count(n) ? 1 : 0; }, never);
-    if (std::find(sound.begin(), sound.end(), 0) != sound.end()) return std::nullopt;
-    find_places();
+        threads_, next_.size(), [&](std::size_t n) { valid[n] = count(n) ? 1 : 0; }, never);
+    if (std::find(valid.begin(), valid.end(), 0) != valid.end()) return std::nullopt;
+    find_positions();
     parallel_for(
         threads_, next_.size(), [&](std::size_t n) { put(n); }, never);
     std::vector<std::size_t> bad(vertices_ / kEach + 1);
@@ -127,10 +127,10 @@ class Edges {
  private:
   static constexpr std::size_t kEach = std::size_t{1} << 14;  // vertices
 
-  Triangles share(std::size_t n) const {
+  Triangles part(std::size_t n) const {
     const std::size_t count = triangles_.size() / 3;
-    const std::size_t begin = n * count / next_.size(), end = (n + 1) * count / next_.size();
-    return triangles_.subspan(3 * begin, 3 * (end - begin));
+    const std::size_t first = n * count / next_.size(), end = (n + 1) * count / next_.size();
+    return triangles_.subspan(3 * first, 3 * (end - first));
   }
   template <class Visit>
   static void each_side(Triangles triangles, const Visit& visit) {
@@ -141,9 +141,9 @@ class Edges {
     }
   }
 
-  /// Counts the sides of each vertex in a share; false if there is no such vertex.
+  /// Counts the sides of each vertex in a part; false if a vertex does not exist.
   bool count(std::size_t n) {
-    const Triangles mine = share(n);
+    const Triangles mine = part(n);
     next_[n].assign(vertices_, 0);
     for (std::size_t first = 0; first < mine.size(); first += kChunk) {
       const Triangles chunk = mine.subspan(first, std::min(kChunk, mine.size() - first));
@@ -152,29 +152,29 @@ class Edges {
     }
     return true;
   }
-  /// Sides are sorted by vertex, those of a vertex by share.
-  void find_places() {
-    std::uint32_t place = 0;
+  /// Computes the positions of the sides, sorted by vertex and then by part.
+  void find_positions() {
+    std::uint32_t position = 0;
     for (std::size_t v = 0; v < vertices_; ++v)
-      for (std::vector<std::uint32_t>& next : next_) place += std::exchange(next[v], place);
-    sides_.reset(new Side[place]);  // not cleared: all are put there
-    use_huge_pages(sides_.get(), place * sizeof(Side));
+      for (std::vector<std::uint32_t>& next : next_) position += std::exchange(next[v], position);
+    sides_.reset(new Side[position]);  // not cleared, as all are written
+    use_huge_pages(sides_.get(), position * sizeof(Side));
   }
   void put(std::size_t n) {
-    each_side(share(n), [&](std::uint32_t low, Side side) { sides_[next_[n][low]++] = side; });
+    each_side(part(n), [&](std::uint32_t low, Side side) { sides_[next_[n][low]++] = side; });
   }
   std::size_t count_bad_of(std::size_t first, std::size_t end) const {
     std::size_t bad = 0;
-    std::uint32_t begin = first == 0 ? 0 : next_.back()[first - 1];
+    std::uint32_t start = first == 0 ? 0 : next_.back()[first - 1];
     for (std::size_t v = first; v < end; ++v)
-      bad += count_bad(sides_.get() + std::exchange(begin, next_.back()[v]), sides_.get() + next_.back()[v]);
+      bad += count_bad(sides_.get() + std::exchange(start, next_.back()[v]), sides_.get() + next_.back()[v]);
     return bad;
   }
 
   Triangles triangles_;
   std::size_t vertices_;
   unsigned threads_;
-  std::vector<std::vector<std::uint32_t>> next_;  // by share: of each vertex, where its next side goes
+  std::vector<std::vector<std::uint32_t>> next_;  // by part: of each vertex, the position of its next side
   std::unique_ptr<Side[]> sides_;
 };
 
@@ -187,9 +187,9 @@ MeshCheck check_mesh(Positions positions, Triangles triangles, unsigned threads)
   if (triangles.empty()) return check;
   threads = thread_count(threads);
   std::optional<std::size_t> bad;
-  if (vertices <= kMostVertices && triangles.size() <= kMostSides)
+  if (vertices <= kMaxVertices && triangles.size() <= kMaxSides)
     bad = Edges(triangles, vertices, threads).bad();
-  check.bad_edges = bad.value_or(triangles.size());  // without a number: not a mesh at all
+  check.bad_edges = bad.value_or(triangles.size());  // invalid vertex numbers
   if (bad) check.volume = mm3(enclosed(positions, triangles, threads));
   return check;
 }
@@ -199,16 +199,15 @@ bool verify_mesh(std::span<const float> positions, std::span<const std::uint32_t
   const MeshCheck check = check_mesh(positions, triangles);
   std::string fault;
   if (check.bad_edges != 0) {
-    fault = fmt::format("{} edges are not shared by two triangles", check.bad_edges);
+    fault = fmt::format("{} edges do not have exactly two triangles", check.bad_edges);
   } else if (!(std::abs((check.volume - volume.expected).mm3()) <= volume.tolerance.mm3())) {
-    fault = fmt::format("it holds {} mm3 instead of {}, which may differ by {}",
-                        number_text(check.volume.mm3(), 3), number_text(volume.expected.mm3(), 3),
-                        number_text(volume.tolerance.mm3(), 3));
+    fault = fmt::format("its volume is {} mm3, expected are {} +- {}", number_text(check.volume.mm3(), 3),
+                        number_text(volume.expected.mm3(), 3), number_text(volume.tolerance.mm3(), 3));
   } else {
     return true;
   }
-  diagnostics.error(Code::mesh_unsound, {}, "the mesh is not written, as it is not sound: " + fault).hint =
-      "this is a fault of Kerf; please report it with the program. Another --resolution may help meanwhile";
+  diagnostics.error(Code::mesh_unsound, {}, "the mesh is not written, as it is not valid: " + fault).hint =
+      "this is a defect of Kerf; please report it with the program. Another --resolution may avoid it";
   return false;
 }
 

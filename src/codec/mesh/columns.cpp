@@ -1,4 +1,4 @@
-// .kstock: see column_files.h.
+// Reads and writes .kstock files, see column_files.h.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -76,7 +76,7 @@ bool valid_head(const ColumnData& data) {
          data.pitch > 0.0 && data.pitch <= limits::kMaxCoordinate && data.nx > 0 && data.ny > 0;
 }
 
-/// The runs of a column: within the block, in order, separate.
+/// Whether the runs of a column are within the block, in order and separate.
 bool read_runs(Bytes& bytes, std::uint64_t count, float height, std::vector<std::array<float, 2>>& runs) {
   float above = 0.0f;
   for (std::uint64_t k = 0; k < count; ++k) {
@@ -139,7 +139,8 @@ std::optional<ColumnData> read_columns(std::string_view bytes, const std::string
     diagnostics.error(Code::stock_left_file, TextSpot{name, 0, 0}, std::move(message));
     return std::nullopt;
   };
-  if (bytes.substr(0, kMagic.size()) != kMagic) return refuse("the file does not start like left-over stock");
+  if (bytes.substr(0, kMagic.size()) != kMagic)
+    return refuse("the file does not start as left-over stock does");
   Bytes rest(bytes.substr(kMagic.size()));
   ColumnData data;
   for (double& v : data.low) v = rest.real();

@@ -1,6 +1,6 @@
-// GLB (glTF 2.0, binary): one primitive a colour, vertices of their own for each triangle, so that every
-// vertex can carry the step of its triangle. Without normals viewers shade faces flat, as glTF asks, in half
-// the bytes. The node turns Z up into Y up and mm into metres.
+// Writes GLB (glTF 2.0, binary): one primitive per colour, and separate vertices for each triangle, so that
+// each vertex can have the step of its triangle. There are no normals: glTF requires flat shading then, and
+// the file has half the size. The node converts Z up to Y up and mm to metres.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,9 +18,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kArrayBuffer = 34962;
 constexpr int kFloat = 5126;
-constexpr double kMetres = 0.001;  // of a mm
+constexpr double kMetres = 0.001;  // per mm
 
-/// sRGB 0 to 255 to linear light, as glTF wants colours of materials.
+/// sRGB 0 to 255 to linear light, as glTF requires for colours of materials.
 double linear(std::uint8_t value) {
   const double s = value / 255.0;
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
@@ -46,7 +46,7 @@ class Triangles {
   std::vector<std::uint32_t> numbers_;  // empty: all
 };
 
-/// Work is shared out by so many triangles.
+/// Triangles per work item of a thread.
 constexpr std::size_t kPiece = std::size_t{1} << 14;
 
 /// Calls work(piece, first, end) for pieces of the triangles, on several threads.
@@ -58,11 +58,11 @@ void in_pieces(std::size_t triangles, const Work& work) {
       [] { return false; });
 }
 
-/// A GLB's description, which comes before the numbers that it describes.
+/// The JSON part of a GLB, which precedes the binary part that it describes.
 class Asset {
  public:
   explicit Asset(const MeshView& mesh) : mesh_(mesh) {}
-  /// Adds triangles as a primitive; no colour: the default material.
+  /// Adds triangles as a primitive; without a colour they get the default material.
   void add_primitive(const Triangles& triangles, std::size_t colour);
   /// Bytes of all primitives' numbers, in the order in which they were added: positions, then steps.
   std::size_t binary_size() const { return binary_size_; }
@@ -212,7 +212,7 @@ std::string write_glb(const MeshView& mesh) {
   const std::vector<Triangles> by_colour = sort_by_colour(mesh);
   Asset asset(mesh);
   for (std::size_t c = 0; c < by_colour.size(); ++c) asset.add_primitive(by_colour[c], c);
-  // Lengths in a GLB have 32 bits; the description takes well under the last 16 MiB.
+  // Lengths in a GLB have 32 bits; 16 MiB are reserved for the JSON part, which is much smaller.
   if (asset.binary_size() > std::numeric_limits<std::uint32_t>::max() - (std::size_t{16} << 20)) return {};
   const std::string json = asset.json();
   const bool has_binary = asset.binary_size() != 0;

@@ -1,4 +1,4 @@
-// Which format, which writer, and what the writers share.
+// Selects the format and its writer; functions that several writers use.
 #include "kerf/mesh_files.h"
 
 #include <cassert>

@@ -1,4 +1,4 @@
-// Wavefront OBJ: text, vertices and faces, no colours.
+// Writes Wavefront OBJ: vertices and faces as text, without colours.
 #include <fmt/format.h>
 #include <iterator>
 

@@ -1,6 +1,6 @@
-// GLB (glTF 2.0, binary): the triangles of the scene, with the transforms of its nodes, metres with Y up
-// converted to mm with Z up. Positions other than floats, buffers in other files and compressed meshes are
-// refused.
+// Reads GLB (glTF 2.0, binary): the triangles of the scene with the transforms of its nodes, converted from
+// metres with Y up to mm with Z up. Positions that are not floats, buffers in other files and compressed
+// meshes are errors.
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 constexpr int kTriangles = 4, kStrip = 5;                               // modes of a primitive
 constexpr int kByte = 5121, kShort = 5123, kInt = 5125, kFloat = 5126;  // component types
-constexpr double kMillimetres = 1000.0;                                 // of a metre
+constexpr double kMillimetres = 1000.0;                                 // per metre
 
 /// A range of the binary part that holds `count` values `stride` bytes apart.
 struct Accessor {
@@ -24,7 +24,7 @@ struct Accessor {
   int component = 0;
 };
 
-/// Reads the description. Anything of an unexpected kind throws, and is caught at the door.
+/// Reads the JSON part. Values of unexpected types throw; read_glb catches the exception.
 class Scene {
  public:
   Scene(const Json& json, std::string_view binary, MeshMaker& out)
@@ -32,7 +32,7 @@ class Scene {
 
   bool read() {
     if (json_.contains("extensionsRequired") && !json_["extensionsRequired"].empty())
-      return out_.fail(fmt::format("the file needs the extension {}, which is not read",
+      return out_.fail(fmt::format("the file requires the extension {}, which is not supported",
                                    json_["extensionsRequired"].at(0).get<std::string>()));
     Affine upright;  // glTF's x, y, z in metres to x, -z, y in mm
     const double turned[3][4] = {{kMillimetres, 0, 0, 0}, {0, 0, -kMillimetres, 0}, {0, kMillimetres, 0, 0}};
@@ -88,7 +88,7 @@ Affine transform_of(const Json& node) {
 
 bool Scene::visit(std::size_t number, const Affine& parent, int depth) {
   if (depth > limits::kMaxSceneDepth || ++visits_ > limits::kMaxSceneNodes)
-    return out_.fail("the scene's nodes are nested too deeply, or hold each other");
+    return out_.fail("the scene's nodes are nested too deeply, or contain each other");
   const Json& node = json_.at("nodes").at(number);
   const Affine transform = parent.after(transform_of(node));
   if (node.contains("mesh"))
@@ -106,13 +106,13 @@ std::optional<Accessor> Scene::accessor(std::size_t number, const char* type) {
     out_.fail(why);
     return std::nullopt;
   };
-  if (a.contains("sparse") || !a.contains("bufferView")) return refuse("sparse accessors are not read");
+  if (a.contains("sparse") || !a.contains("bufferView")) return refuse("sparse accessors are not supported");
   if (a.at("type").get<std::string>() != type)
-    return refuse("an accessor is not of the type that it is used as");
+    return refuse("an accessor has a type that does not fit its use");
   const Json& view = json_.at("bufferViews").at(a["bufferView"].get<std::size_t>());
   const Json& buffer = json_.at("buffers").at(view.at("buffer").get<std::size_t>());
   if (buffer.contains("uri") || view["buffer"].get<std::size_t>() != 0)
-    return refuse("a buffer lies in another file, which is not read");
+    return refuse("a buffer is in another file, which is not supported");
   Accessor out;
   out.component = a.at("componentType").get<int>();
   const std::size_t width = out.component == kByte ? 1 : out.component == kShort ? 2 : 4;
@@ -122,12 +122,12 @@ std::optional<Accessor> Scene::accessor(std::size_t number, const char* type) {
   const std::size_t in_view = a.value("byteOffset", std::size_t{0});
   const std::size_t begin = view.value("byteOffset", std::size_t{0});
   const std::size_t length = view.at("byteLength").get<std::size_t>();
-  // Each test leaves numbers small enough for the next one.
+  // Each test bounds the numbers, so that the next one does not overflow.
   const std::size_t available = binary_.size();
   const bool fits = begin <= available && length <= available - begin && in_view <= length &&
                     out.stride <= available && out.stride >= size && out.count <= available / size &&
                     (out.count == 0 || (out.count - 1) * out.stride + size <= length - in_view);
-  if (!fits) return refuse("an accessor reaches beyond the end of the data");
+  if (!fits) return refuse("an accessor extends beyond the end of the data");
   out.at = begin + in_view;
   return out;
 }
@@ -141,11 +141,11 @@ std::uint64_t Scene::index_at(const Accessor& a, std::size_t k) const {
 
 bool Scene::add_primitive(const Json& primitive, const Affine& transform) {
   const int mode = primitive.value("mode", kTriangles);
-  if (mode < kTriangles) return true;  // points and lines enclose nothing
-  if (mode >= kStrip) return out_.fail("strips and fans of triangles are not read");
+  if (mode < kTriangles) return true;  // points and lines are ignored
+  if (mode >= kStrip) return out_.fail("strips and fans of triangles are not supported");
   const auto positions = accessor(primitive.at("attributes").at("POSITION").get<std::size_t>(), "VEC3");
   if (!positions) return false;
-  if (positions->component != kFloat) return out_.fail("positions that are no floats are not read");
+  if (positions->component != kFloat) return out_.fail("positions that are not floats are not supported");
   const std::size_t first = out_.vertices();
   for (std::size_t k = 0; k < positions->count; ++k) {
     const std::size_t at = positions->at + k * positions->stride;
@@ -160,7 +160,7 @@ bool Scene::add_primitive(const Json& primitive, const Affine& transform) {
     indices = accessor(primitive["indices"].get<std::size_t>(), "SCALAR");
     if (!indices) return false;
     if (indices->component != kByte && indices->component != kShort && indices->component != kInt)
-      return out_.fail("indices are of a type that they cannot have");
+      return out_.fail("indices have an invalid type");
   }
   return add_triangles(indices, first, indices ? indices->count : positions->count, transform.mirrors());
 }
@@ -181,8 +181,8 @@ constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
 bool read_glb(std::string_view bytes, MeshMaker& out) {
   if (bytes.size() < 20 || bytes.substr(0, 4) != "glTF")
-    return out.fail("the file does not start like a GLB");
-  if (little_at<std::uint32_t>(bytes, 4) != 2) return out.fail("the file is not of glTF's version 2");
+    return out.fail("the file does not start as a GLB does");
+  if (little_at<std::uint32_t>(bytes, 4) != 2) return out.fail("the file is not glTF version 2");
   std::string_view chunks[2];
   for (std::size_t at = 12, n = 0; n < 2 && at + 8 <= bytes.size(); ++n) {
     const std::size_t length = little_at<std::uint32_t>(bytes, at);
@@ -193,12 +193,11 @@ bool read_glb(std::string_view bytes, MeshMaker& out) {
     at += 8 + (length + 3) / 4 * 4;
   }
   const Json json = Json::parse(chunks[0], nullptr, false);
-  if (json.is_discarded() || !json.is_object())
-    return out.fail("the description in the file is no JSON object");
+  if (json.is_discarded() || !json.is_object()) return out.fail("the JSON part of the file is not an object");
   try {
     return Scene(json, chunks[1], out).read();
   } catch (const Json::exception& problem) {
-    return out.fail(fmt::format("the description in the file is not as glTF asks ({})", problem.what()));
+    return out.fail(fmt::format("the JSON part of the file is not valid glTF ({})", problem.what()));
   }
 }
 

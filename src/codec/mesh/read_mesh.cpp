@@ -1,4 +1,4 @@
-// Selects the reader of a format; limits of all readers.
+// Selects the reader of a format, and checks the limits of all readers.
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -11,7 +11,8 @@ namespace kerf {
 namespace mesh_format {
 namespace {
 
-/// A closed mesh has half as many vertices as triangles; with three each none is shared.
+/// Maximum: each triangle has its own vertices. A closed mesh with common vertices has half as many as
+/// triangles.
 constexpr std::size_t kVerticesPerTriangle = 3;
 
 }  // namespace
@@ -29,10 +30,10 @@ bool MeshMaker::too_large(const std::string& what) {
 }
 
 bool MeshMaker::add_vertex(double x, double y, double z, std::uint32_t line) {
-  // Written so that what is not a number fails too.
+  // In this form NaN fails too.
   const bool good = std::abs(x) <= limits::kMaxCoordinate && std::abs(y) <= limits::kMaxCoordinate &&
                     std::abs(z) <= limits::kMaxCoordinate;
-  if (!good) return fail("a vertex is not finite, or farther than 10 km from the origin", line);
+  if (!good) return fail("a vertex is not finite or more than 10 km from the origin", line);
   if (vertices() >= kVerticesPerTriangle * limits_.triangles)
     return too_large(
         fmt::format("the mesh has more than {} vertices", kVerticesPerTriangle * limits_.triangles));

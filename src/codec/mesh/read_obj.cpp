@@ -1,5 +1,5 @@
-// Wavefront OBJ: vertices and faces; faces of more than three vertices become fans. Everything else is
-// ignored.
+// Reads Wavefront OBJ: vertices and faces; faces with more than three vertices become fans. Everything else
+// is ignored.
 #include "codec/mesh/read_text.h"
 #include "codec/mesh/readers.h"
 
@@ -8,7 +8,7 @@
 namespace kerf::mesh_format {
 namespace {
 
-/// The vertex that "7", "7/1", "7//3" or "-1" (the last one) names; nothing where it names none.
+/// The vertex of "7", "7/1", "7//3" or "-1" (the last one); nothing if it does not exist.
 std::optional<std::uint64_t> vertex_of(std::string_view word, std::size_t count) {
   const auto number = parse_number(word.substr(0, word.find('/')));
   if (!number) return std::nullopt;
@@ -22,7 +22,7 @@ bool read_face(Words& words, MeshMaker& out) {
   int corners = 0;
   for (std::string_view word = words.next_in_line(); !word.empty(); word = words.next_in_line()) {
     const auto vertex = vertex_of(word, out.vertices());
-    if (!vertex) return out.fail("a face names a vertex that does not exist", words.line());
+    if (!vertex) return out.fail("a face uses a vertex that does not exist", words.line());
     if (corners == 0) first = *vertex;
     if (corners >= 2 && !out.add_triangle(first, last, *vertex, words.line())) return false;
     last = *vertex;

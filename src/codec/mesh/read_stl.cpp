@@ -1,4 +1,4 @@
-// STL, binary and text. A binary file may start with "solid" too, so its length is checked first.
+// Reads STL, binary and text. A binary file may start with "solid" too, so its length is checked first.
 #include <fmt/format.h>
 
 #include "codec/mesh/read_text.h"
@@ -15,7 +15,7 @@ constexpr std::size_t kNormal = 12;                // bytes of a record before i
 bool read_binary(std::string_view bytes, std::size_t count, MeshMaker& out) {
   if (count > out.limits().triangles)
     return out.too_large(
-        fmt::format("the file has {} triangles; at most {} are read", count, out.limits().triangles));
+        fmt::format("the file has {} triangles; the maximum is {}", count, out.limits().triangles));
   for (std::size_t t = 0; t < count; ++t) {
     const std::size_t at = kHeader + t * kRecord + kNormal;
     for (std::size_t corner = 0; corner < 3; ++corner) {
@@ -44,7 +44,7 @@ bool read_text(std::string_view bytes, MeshMaker& out) {
   std::size_t first = 0;  // vertex of the open loop
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     if (word == "solid" || word == "endsolid") {
-      words.skip_line();  // a name, which may hold any words
+      words.skip_line();  // a name, which may contain any words
     } else if (word == "loop") {
       first = out.vertices();
     } else if (word == "vertex") {
@@ -69,7 +69,7 @@ bool read_stl(std::string_view bytes, MeshMaker& out) {
     return read_binary(bytes, count, out);
   if (starts_as_text) return read_text(bytes, out);
   if (!has_count) return out.fail("the file is too short for an STL, and does not start with \"solid\"");
-  return out.fail(fmt::format("the file says that it has {} triangles, which take {} bytes, but it has {}",
+  return out.fail(fmt::format("the header gives {} triangles, which take {} bytes, but the file has {}",
                               count, needed, bytes.size()));
 }
 

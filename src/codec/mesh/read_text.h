@@ -1,4 +1,4 @@
-// Words of a text with line numbers, for the mesh formats that are text.
+// Splits text into words with line numbers, for STL and OBJ.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ class Words {
   explicit Words(std::string_view text) : text_(text) {}
 
   std::uint32_t line() const { return line_; }
-  /// The next word, of whichever line; empty at the end of the text.
+  /// The next word, on this line or a later one; empty at the end of the text.
   std::string_view next() {
     while (at_ < text_.size() && is_blank(text_[at_])) {
       if (text_[at_] == '\n') ++line_;

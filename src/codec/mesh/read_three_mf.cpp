@@ -1,5 +1,5 @@
-// 3MF: the parts of a zip, the model's XML read as a stream, and the build's items put together. Objects may
-// be in other parts of the same file (the production extension); other extensions are ignored.
+// Reads 3MF: a zip of XML parts, read as streams; the items of the build are combined. Objects may be in
+// other parts of the same file (the production extension); other extensions are ignored.
 #if KERF_WITH_3MF
 
 #include <algorithm>
@@ -37,7 +37,7 @@ class Attributes {
     return {};
   }
   std::optional<double> number(std::string_view name) const { return parse_number(text(name)); }
-  /// A whole number from 0 up.
+  /// A non-negative integer.
   std::optional<std::uint64_t> index(std::string_view name) const {
     const auto value = number(name);
     if (!value || !(*value >= 0.0) || !(*value < 4.0e9) || std::floor(*value) != *value) return std::nullopt;
@@ -64,7 +64,7 @@ struct Object {
   bool is_solid = true;  // not a support
 };
 
-/// What has been read of all parts.
+/// The contents of all parts.
 struct Model {
   std::map<Key, Object> objects;
   std::vector<Use> build;  // of the first part
@@ -127,13 +127,13 @@ class PartReader {
   bool take(std::string_view piece, bool is_last) {
     bytes_ += piece.size();
     if (bytes_ > out_.limits().text_bytes || bytes_ > max_bytes_)
-      return out_.too_large("the model unpacks to more text than is read");
+      return out_.too_large("the unpacked model is larger than the limit");
     if (XML_Parse(parser_, piece.data(), static_cast<int>(piece.size()), is_last ? 1 : 0) == XML_STATUS_ERROR)
       return fail(fmt::format("the model is not valid XML ({})", XML_ErrorString(XML_GetErrorCode(parser_))));
     return !out_.failed();
   }
   void set_max_bytes(std::size_t bytes) { max_bytes_ = bytes; }
-  /// Other parts that objects of this one lie in.
+  /// Other parts that contain objects of this one.
   const std::set<std::string>& other_parts() const { return other_parts_; }
 
  private:
@@ -168,13 +168,13 @@ void PartReader::begin(std::string_view name, const Attributes& attributes) {
   if (name == "item" && is_first_) return add_use(attributes, model_.build);
   if (name != "model" || !is_first_) return;
   const auto unit = unit_of(attributes.text("unit"));
-  if (!unit) fail("the model's unit is none that 3MF knows");
+  if (!unit) fail("the model's unit is not one of 3MF");
   model_.unit = unit.value_or(1.0);
 }
 
 void PartReader::start_object(const Attributes& attributes) {
   if (model_.objects.size() >= limits::kMaxMeshParts) {
-    out_.too_large("the file has more objects than are read");
+    out_.too_large("the file has more objects than the limit");
     return;
   }
   object_ = &model_.objects[{part_, std::string(attributes.text("id"))}];
@@ -185,11 +185,11 @@ void PartReader::start_object(const Attributes& attributes) {
 void PartReader::add_vertex(const Attributes& attributes) {
   const auto x = attributes.number("x"), y = attributes.number("y"), z = attributes.number("z");
   if (!x || !y || !z) {
-    fail("a vertex lacks x, y or z, or they are no numbers");
+    fail("x, y or z of a vertex is missing or not a number");
     return;
   }
   if (++model_.vertices > 3 * out_.limits().triangles) {
-    out_.too_large("the file has more vertices than are read");
+    out_.too_large("the file has more vertices than the limit");
     return;
   }
   object_->mesh.positions.insert(object_->mesh.positions.end(), {*x, *y, *z});
@@ -198,7 +198,7 @@ void PartReader::add_vertex(const Attributes& attributes) {
 void PartReader::add_triangle(const Attributes& attributes) {
   const auto a = attributes.index("v1"), b = attributes.index("v2"), c = attributes.index("v3");
   if (!a || !b || !c) {
-    fail("a triangle lacks v1, v2 or v3, or they are no indices");
+    fail("v1, v2 or v3 of a triangle is missing or not an index");
     return;
   }
   if (++model_.triangles > out_.limits().triangles) {
@@ -210,7 +210,7 @@ void PartReader::add_triangle(const Attributes& attributes) {
 
 void PartReader::add_use(const Attributes& attributes, std::vector<Use>& uses) {
   if (++model_.uses > limits::kMaxMeshParts) {
-    out_.too_large("the file puts together more objects than are read");
+    out_.too_large("the file has more components and build items than the limit");
     return;
   }
   Use use;
@@ -224,7 +224,7 @@ void PartReader::add_use(const Attributes& attributes, std::vector<Use>& uses) {
 
 // ---- the file
 
-/// The part that _rels/.rels names as the model; the usual one where that does not help.
+/// The part that _rels/.rels names as the model; by default the usual one.
 std::string model_part(zip::Reader& package) {
   struct Found {
     std::string target = "3D/3dmodel.model";
@@ -251,11 +251,11 @@ std::string model_part(zip::Reader& package) {
   return found.target;
 }
 
-/// Adds an object where it is used, and what it is made of.
+/// Adds an object with its components, transformed as used.
 bool add_object(const Model& model, const Use& use, const Affine& outer, int depth, std::size_t& visits,
                 MeshMaker& out) {
   if (depth > limits::kMaxMeshPartDepth || ++visits > limits::kMaxMeshParts)
-    return out.fail("objects are nested too deeply, or hold each other");
+    return out.fail("objects are nested too deeply, or contain each other");
   const auto it = model.objects.find(use.object);
   if (it == model.objects.end())
     return out.fail(
@@ -284,7 +284,7 @@ bool add_object(const Model& model, const Use& use, const Affine& outer, int dep
 
 bool read_three_mf(std::string_view bytes, MeshMaker& out) {
   zip::Reader package(bytes);
-  if (!package.is_zip()) return out.fail("the file is no zip, as a 3MF is");
+  if (!package.is_zip()) return out.fail("the file is not a zip, which a 3MF is");
   Model model;
   std::set<std::string> done, open{model_part(package)};
   while (!open.empty()) {

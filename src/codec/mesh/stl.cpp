@@ -1,4 +1,4 @@
-// Binary STL: 80 bytes of header, the count, then 50 bytes per triangle.
+// Writes binary STL: 80 bytes of header, the count, then 50 bytes per triangle.
 #include "codec/mesh/writers.h"
 
 namespace kerf::mesh_format {

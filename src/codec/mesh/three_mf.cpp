@@ -1,5 +1,5 @@
-// 3MF: a zip of XML parts. The model is written through the compressor piece by piece; colours are base
-// materials, which every reader knows. Dates are fixed, so that the same mesh gives the same bytes.
+// Writes 3MF: a zip of XML parts. The model is compressed as it is written; colours are base materials, which
+// all readers support. Dates are fixed, so that the same mesh gives the same bytes.
 #if KERF_WITH_3MF
 
 #include <algorithm>

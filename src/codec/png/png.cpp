@@ -1,5 +1,5 @@
-// PNG through libpng. libpng leaves a failed call by longjmp, which must not cross C++ objects: the frame
-// that libpng jumps back to has plain pointers only, and the objects belong to the caller.
+// Writes PNG with libpng. libpng leaves a failed call by longjmp, which must not cross C++ objects: the frame
+// that it returns to has plain pointers only, and the caller owns the objects.
 #include <csetjmp>
 #include <png.h>
 #include <vector>
@@ -17,7 +17,7 @@ void flush_nothing(png_structp) {}
 void ignore_warning(png_structp, png_const_charp) {}
 void leave(png_structp png, png_const_charp) { png_longjmp(png, 1); }
 
-/// The calls that can jump. The caller creates and destroys all objects that they use.
+/// The calls that may end with longjmp. The caller creates and destroys all objects that they use.
 bool write_rows(png_structp png, png_infop info, const ImageView& image, png_bytepp rows, std::string* out) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, out, append_bytes, flush_nothing);

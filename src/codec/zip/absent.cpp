@@ -1,4 +1,4 @@
-// In place of the reader where there is no minizip: no archive opens.
+// Replaces the reader where minizip is not available: no archive opens.
 #if !KERF_WITH_ZIP
 
 #include "codec/zip/zip.h"

@@ -1,4 +1,4 @@
-// A minizip file in memory: the callbacks of reading and writing.
+// A minizip file in memory: the callbacks for reading and writing.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@ struct Memory {
   std::size_t at = 0;
 
   zlib_filefunc64_def calls(write_file_func write) {
-    return {open, read, write, tell, seek, nothing, nothing, this};
+    return {open, read, write, position, seek, nothing, nothing, this};
   }
   static Memory& of(voidpf stream) { return *static_cast<Memory*>(stream); }
 
@@ -28,7 +28,7 @@ struct Memory {
     memory.at += n;
     return static_cast<uLong>(n);
   }
-  static ZPOS64_T tell(voidpf, voidpf stream) { return of(stream).at; }
+  static ZPOS64_T position(voidpf, voidpf stream) { return of(stream).at; }
   static long seek(voidpf, voidpf stream, ZPOS64_T offset, int origin) {
     Memory& memory = of(stream);
     const std::size_t size = memory.bytes.size();

@@ -66,8 +66,7 @@ T number_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// For looking at the files with other programs: they are written to the folder KERF_KEEP names, if it is
-/// set.
+/// Writes a file to the folder that KERF_KEEP names, if set, to open it with other programs.
 void keep(const std::string& name, const std::string& bytes) {
   if (const char* folder = std::getenv("KERF_KEEP"))
     std::ofstream(std::string(folder).append("/").append(name), std::ios::binary) << bytes;
@@ -132,7 +131,7 @@ TEST(MeshFiles, StlReadsBack) {
     for (std::size_t k = 0; k < 9; ++k) triangles[t][k / 3][k % 3] = number_at<float>(bytes, at + 12 + 4 * k);
     EXPECT_EQ(number_at<std::uint16_t>(bytes, at + 48), 0);
   }
-  EXPECT_EQ(number_at<float>(bytes, 84 + 2 * 50 + 8), 1.0f);  // the top looks up
+  EXPECT_EQ(number_at<float>(bytes, 84 + 2 * 50 + 8), 1.0f);  // the top faces up
   expect_box(triangles);
 }
 
@@ -232,7 +231,7 @@ TEST(MeshFiles, GlbReadsBack) {
     }
   }
   expect_box(triangles);
-  const auto m = json["nodes"][0]["matrix"];  // columns; a point on top (z = 10 mm) comes to y = 0.01 m
+  const auto m = json["nodes"][0]["matrix"];  // columns; a point on top (z = 10 mm) has y = 0.01 m
   EXPECT_DOUBLE_EQ(m[9].get<double>() * 10, 0.01);
   EXPECT_DOUBLE_EQ(m[6].get<double>() * 10, -0.01);
 }

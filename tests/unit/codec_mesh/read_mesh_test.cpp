@@ -1,4 +1,4 @@
-// Reading meshes: what write_mesh has written, files of other programs in short, and damaged ones.
+// Reading meshes: those of write_mesh, short files in the style of other programs, and damaged ones.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <minizip/zip.h>
@@ -8,7 +8,7 @@
 namespace kerf {
 namespace {
 
-/// A tetrahedron with corners that single precision holds exactly.
+/// A tetrahedron with corners that are exact in single precision.
 struct Tetrahedron {
   std::vector<float> positions{0, 0, 0, 8, 0, 0, 0, 4, 0, 0.5f, 0.25f, -2};
   std::vector<std::uint32_t> triangles{0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
@@ -41,7 +41,7 @@ void expect_code(const std::string& bytes, MeshFormat format, Code code, const s
   EXPECT_NE(diagnostics.list()[0].message.find(part), std::string::npos) << diagnostics.list()[0].message;
 }
 
-TEST(ReadMesh, TakesBackWhatWasWritten) {
+TEST(ReadMesh, ReadsWhatWasWritten) {
   const Tetrahedron solid;
   for (const MeshFormat format : {MeshFormat::stl, MeshFormat::three_mf, MeshFormat::glb, MeshFormat::obj}) {
     Diagnostics diagnostics;
@@ -74,7 +74,7 @@ TEST(ReadMesh, TextStlWithAnyName) {
   EXPECT_EQ(mesh->positions[7], 1.5);
 }
 
-TEST(ReadMesh, BinaryStlThatBeginsAsText) {
+TEST(ReadMesh, BinaryStlThatStartsAsText) {
   std::string bytes = write_mesh(Tetrahedron().view(), MeshFormat::stl);
   bytes.replace(0, 5, "solid");
   Diagnostics diagnostics;
@@ -116,7 +116,7 @@ TEST(ReadMesh, DamagedObjAndGlb) {
   expect_code("v 0 0 0\nv 1 0 0\nf 1 2 3\n", MeshFormat::obj, Code::mesh_file, "does not exist");
   expect_code("v 0 0 0\nv 1 0 0\nf 1 2\n", MeshFormat::obj, Code::mesh_file, "fewer than three");
   expect_code("v 0 0 x\n", MeshFormat::obj, Code::mesh_file, "three numbers");
-  expect_code("glTX", MeshFormat::glb, Code::mesh_file, "start like a GLB");
+  expect_code("glTX", MeshFormat::glb, Code::mesh_file, "start as a GLB");
   std::string good = write_mesh(Tetrahedron().view(), MeshFormat::glb);
   expect_code(good.substr(0, good.size() - 8), MeshFormat::glb, Code::mesh_file, "within a chunk");
   const auto changed = [&good](const std::string& from, const std::string& to) {
@@ -124,9 +124,9 @@ TEST(ReadMesh, DamagedObjAndGlb) {
     bytes.replace(bytes.find(from), from.size(), to);
     return bytes;
   };
-  expect_code(changed("\"asset\"", "\"asset'"), MeshFormat::glb, Code::mesh_file, "no JSON");
+  expect_code(changed("\"asset\"", "\"asset'"), MeshFormat::glb, Code::mesh_file, "JSON part");
   expect_code(changed("\"count\":12", "\"count\":13"), MeshFormat::glb, Code::mesh_file, "beyond the end");
-  expect_code(changed("\"meshes\"", "\"mashes\""), MeshFormat::glb, Code::mesh_file, "not as glTF asks");
+  expect_code(changed("\"meshes\"", "\"mashes\""), MeshFormat::glb, Code::mesh_file, "not valid glTF");
   expect_code(changed("\"mode\":4", "\"mode\":5"), MeshFormat::glb, Code::mesh_file, "strips");
 }
 
@@ -159,26 +159,26 @@ std::string model_with(const std::string& build, const std::string& unit = "inch
          build + "</build></model>";
 }
 
-TEST(ReadMesh, PutsTogetherThePartsOfA3mf) {
+TEST(ReadMesh, CombinesThePartsOfA3mf) {
   Diagnostics diagnostics;
   const auto mesh = read(package(model_with("<item objectid=\"2\" transform=\"-1 0 0 0 1 0 0 0 1 5 0 0\"/>")),
                          MeshFormat::three_mf, diagnostics);
   ASSERT_TRUE(mesh);
   ASSERT_EQ(mesh->triangles.size(), 6u);
-  EXPECT_EQ(mesh->triangles[1], 2u);  // the mirror turns triangles round
+  EXPECT_EQ(mesh->triangles[1], 2u);  // mirroring reverses triangles
   EXPECT_DOUBLE_EQ(mesh->positions[3], 4.0 * 25.4);
   EXPECT_DOUBLE_EQ(mesh->positions[5], 2.0 * 25.4);
   EXPECT_DOUBLE_EQ(mesh->positions[14], 0.0);
 }
 
 TEST(ReadMesh, Damaged3mf) {
-  expect_code("PK nothing", MeshFormat::three_mf, Code::mesh_file, "no zip");
+  expect_code("PK nothing", MeshFormat::three_mf, Code::mesh_file, "not a zip");
   expect_code(package("<model/>", "other"), MeshFormat::three_mf, Code::mesh_file, "missing");
   expect_code(package("<model><unclosed></model>"), MeshFormat::three_mf, Code::mesh_file, "not valid XML");
   expect_code(package(model_with("<item objectid=\"9\"/>")), MeshFormat::three_mf, Code::mesh_file,
               "object 9");
   expect_code(package(model_with("<item objectid=\"3\"/>")), MeshFormat::three_mf, Code::mesh_file,
-              "hold each other");
+              "contain each other");
   expect_code(package(model_with("<item objectid=\"1\" transform=\"1 2\"/>")), MeshFormat::three_mf,
               Code::mesh_file, "twelve");
   expect_code(package(model_with("", "yard")), MeshFormat::three_mf, Code::mesh_file, "unit");

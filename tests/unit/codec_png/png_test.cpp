@@ -1,4 +1,4 @@
-// PNG files: read back by libpng's simple interface, and refused where there is no picture.
+// PNG files: read back by libpng's simplified API, and nothing for invalid images.
 #include <gtest/gtest.h>
 #include <png.h>
 #include <vector>
@@ -25,7 +25,7 @@ TEST(Png, ReadsBack) {
   EXPECT_EQ(read, pixels);
 }
 
-TEST(Png, RefusesWhatIsNoPicture) {
+TEST(Png, RefusesInvalidImages) {
   const std::vector<std::uint8_t> pixels(40);
   EXPECT_EQ(write_png({}), "");
   EXPECT_EQ(write_png({-1, 4, pixels}), "");

@@ -1,4 +1,4 @@
-// Zip archives: what was written is read, what is damaged is not.
+// Zip archives: written ones are read back, damaged ones are refused.
 #include "codec/zip/zip.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ std::string unpacked(Reader& reader, const std::string& name, bool& whole) {
   return out;
 }
 
-TEST(Zip, WhatWasWrittenIsRead) {
+TEST(Zip, ReadsBack) {
   const std::string bytes = archive();
   Reader reader(bytes);
   ASSERT_TRUE(reader.is_zip());

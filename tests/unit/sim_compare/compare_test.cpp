@@ -18,14 +18,15 @@ std::shared_ptr<const StockBody> target_of(const Triangles& mesh) {
   return body;
 }
 
-/// A block of 40 x 20 x 8 with a step: the half of low x is cut down to `height` above the floor.
+/// A block of 40 x 20 x 8 with a step: the half at low x is cut down to `height` above the floor.
 Triangles stepped(double height) {
   Triangles out = box_mesh({0, 0, -8}, {20, 20, -8 + height});
   out.add(box_mesh({20, 0, -8}, {40, 20, 0}));
   return out;
 }
 
-/// A part of the block on columns of 0.1 mm: of material from its floor up to top(x, y), in work coordinates.
+/// A workpiece with columns of 0.1 mm: material from the floor of the block up to top(x, y), in work
+/// coordinates.
 template <class Top>
 Workpiece part_of(const Top& top) {
   LeftColumns left;
@@ -48,7 +49,7 @@ Workpiece part_of(const Top& top) {
   return part;
 }
 
-/// The block with its half of low x cut down to z, as far as `wall`.
+/// The block cut down to z at low x, up to x = `wall`.
 Workpiece cut_step(double z, double wall) {
   return part_of([=](double x, double) { return x < wall ? z : 0.0; });
 }
@@ -81,11 +82,11 @@ TEST(Compare, AFloorCutTooDeepIsAGougeOfThatDepth) {
   EXPECT_NEAR(c.rest.mm3(), 0.0, 1e-6);
 }
 
-TEST(Compare, AWallThatStandsOffCountsByItsDistanceNotItsHeight) {
+TEST(Compare, TheDepthOfAWallIsItsDistanceNotItsHeight) {
   const Comparison c = compared(cut_step(-3, 19.5), stepped(5));
   ASSERT_EQ(c.region_count, 1u);
   EXPECT_EQ(c.regions[0].kind, DifferenceKind::rest);
-  EXPECT_NEAR(c.regions[0].depth.mm(), 0.45, 1e-3);  // the last column's middle
+  EXPECT_NEAR(c.regions[0].depth.mm(), 0.45, 1e-3);  // the centre of the last column
   EXPECT_NEAR(c.rest_beyond.mm3(), 0.5 * 20 * 3, 0.2);
   EXPECT_NEAR(c.regions[0].bounds.low.x, 19.55, 1e-6);
   const std::size_t row = 100 * 400;
@@ -94,14 +95,14 @@ TEST(Compare, AWallThatStandsOffCountsByItsDistanceNotItsHeight) {
   EXPECT_TRUE(c.in_target[row]);
 }
 
-TEST(Compare, DifferencesWithinTheToleranceAreCountedButNotTold) {
+TEST(Compare, DifferencesWithinTheToleranceAreCountedButNotReported) {
   const Comparison c = compared(cut_step(-3.2, 20), stepped(5), 0.3);
   EXPECT_EQ(c.region_count, 0u);
   EXPECT_NEAR(c.gouge.mm3(), 80.0, 0.1);
   EXPECT_EQ(c.gouge_beyond.mm3(), 0.0);
 }
 
-TEST(Compare, SeparatePlacesAreSeparateAndTheDeepestIsFirst) {
+TEST(Compare, SeparateDifferencesAreSeparateRegionsDeepestFirst) {
   Triangles target = box_mesh({0, 0, -8}, {40, 20, 0});
   const Workpiece part = part_of([](double x, double y) {  // two holes of 6 mm
     if (distance(Point2{x, y}, Point2{10, 10}) < 3.0) return -1.0;
@@ -121,7 +122,7 @@ TEST(Compare, SeparatePlacesAreSeparateAndTheDeepestIsFirst) {
   EXPECT_GT(pixel(200, 100)[1], pixel(200, 100)[0]);      // green between
 }
 
-TEST(Compare, ATargetOutsideTheStockIsTold) {
+TEST(Compare, ATargetOutsideTheStockIsReported) {
   const auto part = cut_step(-3, 20);
   const auto body = target_of(box_mesh({0, 0, -8}, {41, 20, 0}));
   Diagnostics diagnostics;

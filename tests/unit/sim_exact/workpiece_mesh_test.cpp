@@ -1,4 +1,4 @@
-// Meshes of workpieces that were cut.
+// Meshes of cut workpieces.
 #include <gtest/gtest.h>
 
 #include "../sim_cut/cut_jobs.h"
@@ -11,7 +11,7 @@ namespace kerf::test {
 namespace {
 
 TEST(WorkpieceMesh, IsThatOfItsGrid) {
-  // Tiles that nothing has cut, undercuts, holes, and narrower columns at the high sides.
+  // Uncut tiles, undercuts, holes, and narrower columns at the high sides.
   const Stock stock = block({-30, 0, -10}, {50, 40, 0});
   Path path;
   path.tool(1).rapid({10, 20, 2}).cut({10, 20, -11}).cut({30, 20, -11});
@@ -34,7 +34,7 @@ TEST(WorkpieceMesh, IsThatOfItsGrid) {
   }
 }
 
-TEST(WorkpieceMesh, OfASlotThroughASphereIsClosedAndHoldsTheColumnsVolume) {
+TEST(WorkpieceMesh, OfASlotThroughASphereIsClosedAndHasTheColumnsVolume) {
   const Triangles sphere = sphere_mesh({0, 0, 0}, 10, 300);
   Diagnostics diagnostics;
   const auto body = make_mesh_body(sphere.positions, sphere.triangles, "sphere.stl", diagnostics);

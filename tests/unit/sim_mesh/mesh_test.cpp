@@ -1,5 +1,4 @@
-// The columns' surface: closed for every configuration, right in volume and place, with the steps that made
-// it.
+// Meshes of columns: closed for any columns, with the correct volume, positions and steps.
 #include "kerf/mesh.h"
 
 #include <array>
@@ -42,11 +41,11 @@ double column_volume(const ColumnGrid& grid) {
   return sum * grid.pitch * grid.pitch;
 }
 
-/// A seed of this run, or the one KERF_SEED names, to repeat a failure.
+/// A random seed, or KERF_SEED to repeat a failure.
 unsigned chosen_seed() {
-  const char* told = std::getenv("KERF_SEED");
+  const char* text = std::getenv("KERF_SEED");
   const unsigned seed =
-      told != nullptr ? static_cast<unsigned>(std::strtoul(told, nullptr, 10)) : std::random_device{}();
+      text != nullptr ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : std::random_device{}();
   std::printf("seed %u\n", seed);
   return seed;
 }
@@ -82,7 +81,7 @@ bool one_fan_a_vertex(const Mesh& mesh) {
   return true;
 }
 
-/// Triangles without area, as programs see them that read single precision.
+/// Triangles without area in single precision.
 std::size_t flat_triangles(const Mesh& mesh) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
@@ -97,7 +96,7 @@ std::size_t flat_triangles(const Mesh& mesh) {
   return count;
 }
 
-void expect_sound(const ColumnGrid& grid, const Mesh& mesh) {
+void expect_valid(const ColumnGrid& grid, const Mesh& mesh) {
   EXPECT_EQ(mesh.triangles.size(), 3 * mesh.step.size());
   const MeshCheck check = check_mesh(mesh);
   const VolumeRange range = mesh_volume(grid, {.tolerance = mm(0.01)});
@@ -111,7 +110,7 @@ void expect_sound(const ColumnGrid& grid, const Mesh& mesh) {
   }
 }
 
-TEST(Mesh, NothingLeftIsAnEmptyMesh) {
+TEST(Mesh, NoMaterialIsAnEmptyMesh) {
   const ColumnGrid grid = make_grid(3, 2, 1, 5, [](double, double) { return Column{}; });
   EXPECT_TRUE(extract_mesh(grid).triangles.empty());
   EXPECT_TRUE(extract_mesh(ColumnGrid{}).triangles.empty());
@@ -122,7 +121,7 @@ TEST(Mesh, OneColumnIsABox) {
     return Column{{0, 5, kStockSurface, 7}};
   });
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_EQ(mesh.step.size(), 12u);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 20.0, 1e-4);
   EXPECT_EQ(std::count(mesh.step.begin(), mesh.step.end(), 7u), 2);
@@ -132,11 +131,11 @@ TEST(Mesh, UncutBlockIsExactAndMerged) {
   ColumnGrid grid = make_grid(300, 200, 0.1, 8, [](double, double) { return Column{{0, 8}}; });
   grid.bounds.high.x -= 0.03;  // the pitch does not divide the block
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 29.97 * 20 * 8, 0.01);
   EXPECT_EQ(bounds_of(mesh).low, (Point3{10, 20, -8}));
   EXPECT_NEAR(bounds_of(mesh).high.x, grid.bounds.high.x, 1e-5);
-  EXPECT_LT(mesh.step.size(), 4u * 300u * 200u / 20u);  // a twentieth of two triangles a column and side
+  EXPECT_LT(mesh.step.size(), 4u * 300u * 200u / 20u);  // a twentieth of two triangles per column and side
   for (const std::uint32_t step : mesh.step) EXPECT_EQ(step, kStockSurface);
 }
 
@@ -146,7 +145,7 @@ TEST(Mesh, PocketHasLevelFloorExactVolumeAndWallsOfTheCut) {
     return Column{{0, in ? 2.0f : 6.0f, kStockSurface, in ? 5u : kStockSurface}};
   });
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.1 * 16 * 4);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 4 * 0.1 * 0.1 * 4);
   double floor = 0, walls = 0;
@@ -170,14 +169,13 @@ TEST(Mesh, PocketHasLevelFloorExactVolumeAndWallsOfTheCut) {
 }
 
 TEST(Mesh, SlopesAreSmooth) {
-  // A roof with slopes of 1 in 1 and 3 in 1, up to the block's sides: every vertex of a cut face lies on the
-  // surface.
+  // A roof with slopes of 1:1 and 3:1, up to the block's sides: each vertex of a cut face is on the surface.
   const auto surface = [](double x, double y) { return std::min(1.0 + x, 30.0 - 3 * x) + 0.2 * y; };
   const ColumnGrid grid = make_grid(90, 60, 0.1, 12, [&](double x, double y) {
     return Column{{0, static_cast<float>(surface(x, y)), kStockSurface, 1}};
   });
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   double worst = 0;
   for (std::size_t t = 0; t < mesh.step.size(); ++t) {
     if (mesh.step[t] != 1) continue;
@@ -198,7 +196,7 @@ TEST(Mesh, BallGrooveIsRoundToColumnAccuracy) {
     return Column{{0, static_cast<float>(std::min(z, 5.0)), kStockSurface, d < r ? 3u : kStockSurface}};
   });
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.05 * 6 * 2.5);
   double worst = 0;
   for (std::size_t v = 0; v < mesh.positions.size(); v += 3) {
@@ -209,7 +207,7 @@ TEST(Mesh, BallGrooveIsRoundToColumnAccuracy) {
   EXPECT_LT(worst, 0.002);
 }
 
-TEST(Mesh, KeyholeUndercutIsHollow) {
+TEST(Mesh, KeyholeUndercutIsEmpty) {
   // A slot 2 wide above a chamber 5 wide.
   const ColumnGrid grid = make_grid(80, 50, 0.1, 6, [](double x, double) {
     const double d = std::abs(x - 4.0);
@@ -218,25 +216,25 @@ TEST(Mesh, KeyholeUndercutIsHollow) {
     return Column{{0, 6}};
   });
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), (8 * 6 - 2 * 3 - 5 * 2) * 5.0, 0.01);
 }
 
-TEST(Mesh, ThroughCutWallsKnowTheirStep) {
+TEST(Mesh, WallsOfThroughCutsHaveTheirStep) {
   ColumnGrid grid = make_grid(30, 30, 0.2, 2, [](double x, double y) {
     return std::hypot(x - 3, y - 3) < 1.5 ? Column{} : Column{{0, 2}};
   });
   grid.cut_through.assign(900, 11);
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_GT(std::count(mesh.step.begin(), mesh.step.end(), 11u), 20);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.2 * 9.4 * 2);
   grid.cut_through.clear();
   for (const std::uint32_t step : extract_mesh(grid).step) EXPECT_EQ(step, kStockSurface);
 }
 
-TEST(Mesh, DiagonalTouchIsParted) {
-  // Two columns that touch along a line only, free, on a common floor, under a common lid, and both.
+TEST(Mesh, ColumnsTouchingDiagonallyAreSplit) {
+  // Two columns that touch along a line only: separate, on a common floor, under a common ceiling, and both.
   for (const int kind : {0, 1, 2, 3}) {
     const ColumnGrid grid = make_grid(2, 2, 1, 6, [&](double x, double y) {
       const float low = kind == 1 || kind == 3 ? 2.0f : 0.0f, high = kind >= 2 ? 4.0f : 6.0f;
@@ -249,21 +247,21 @@ TEST(Mesh, DiagonalTouchIsParted) {
     });
     const Mesh mesh = extract_mesh(grid);
     SCOPED_TRACE(kind);
-    expect_sound(grid, mesh);
+    expect_valid(grid, mesh);
     EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 1e-4);
   }
 }
 
-TEST(Mesh, AnyColumnsMakeAClosedMesh) {
+TEST(Mesh, AnyColumnsGiveAClosedMesh) {
   const unsigned seed = chosen_seed();
   std::mt19937 random(seed);
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int round = 0; round < 1500; ++round) {
-    const int nx = 1 + pick(9), ny = 1 + pick(9), levels = 2 + pick(9), most = 1 + pick(4);
+    const int nx = 1 + pick(9), ny = 1 + pick(9), levels = 2 + pick(9), max_intervals = 1 + pick(4);
     const double pitch = std::array{0.05, 0.3, 1.0, 4.0}[static_cast<std::size_t>(pick(4))];
     const ColumnGrid grid = make_grid(nx, ny, pitch, levels, [&](double, double) {
       std::set<int> ends;
-      for (int n = 2 * pick(most + 1); n > 0; --n) ends.insert(pick(levels + 1));
+      for (int n = 2 * pick(max_intervals + 1); n > 0; --n) ends.insert(pick(levels + 1));
       if (ends.size() % 2 == 1) ends.erase(ends.begin());
       Column column;
       for (auto it = ends.begin(); it != ends.end(); std::advance(it, 2)) {
@@ -276,14 +274,14 @@ TEST(Mesh, AnyColumnsMakeAClosedMesh) {
     SCOPED_TRACE(testing::Message() << "seed " << seed << " round " << round);
     const Mesh mesh = extract_mesh(grid);
     if (grid.intervals.empty()) continue;
-    expect_sound(grid, mesh);
+    expect_valid(grid, mesh);
     if (HasFailure()) return;
   }
 }
 
 TEST(Mesh, RandomHeightsKeepTheVolume) {
   std::mt19937 random(chosen_seed());
-  // Random pockets of random depth, as a job of flat tools leaves them.
+  // Random pockets of random depth, as flat tools leave them.
   struct Pocket {
     double x0, y0, x1, y1, z;
   };
@@ -307,7 +305,7 @@ TEST(Mesh, RandomHeightsKeepTheVolume) {
     return Column{run};
   });
   const Mesh mesh = extract_mesh(grid);
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), column_volume(grid), 0.2 * 0.1 * outline_depth);
 }
 
@@ -349,7 +347,7 @@ TEST(CheckMesh, CountsOpenAndDoubledEdges) {
   mesh.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
   EXPECT_EQ(check_mesh(mesh).bad_edges, 0u);
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), 1.0 / 6, 1e-9);
-  std::swap(mesh.triangles[0], mesh.triangles[1]);  // one triangle turned over
+  std::swap(mesh.triangles[0], mesh.triangles[1]);  // one reversed triangle
   for (const unsigned threads : {1u, 2u, 3u, 7u})
     EXPECT_EQ(check_mesh(mesh.positions, mesh.triangles, threads).bad_edges, 3u);
   mesh.triangles.resize(9);
@@ -360,7 +358,7 @@ TEST(CheckMesh, CountsOpenAndDoubledEdges) {
 }
 
 TEST(CheckMesh, FindsEdgesOfFourTriangles) {
-  Mesh mesh;  // two tetrahedra that share the edge from 0 to 1, and nothing else
+  Mesh mesh;  // two tetrahedra with only the edge from 0 to 1 in common
   mesh.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1};
   mesh.triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 4, 1, 0, 1, 5, 1, 4, 5, 4, 0, 5};
   for (const unsigned threads : {1u, 2u, 7u})
@@ -383,44 +381,44 @@ TEST(CheckMesh, CountsEdgesAroundVerticesOfManyTriangles) {
   EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
 }
 
-/// The code of the only error, or nothing where the mesh may be written.
+/// The code of the only error, or nothing if the mesh may be written.
 std::optional<Code> refusal(const Mesh& mesh, const VolumeRange& volume) {
   Diagnostics diagnostics;
-  const bool sound = verify_mesh(mesh, volume, diagnostics);
-  EXPECT_EQ(sound, !diagnostics.has_errors());
-  return sound ? std::nullopt : std::optional<Code>(diagnostics.list().at(0).code);
+  const bool valid = verify_mesh(mesh, volume, diagnostics);
+  EXPECT_EQ(valid, !diagnostics.has_errors());
+  return valid ? std::nullopt : std::optional<Code>(diagnostics.list().at(0).code);
 }
 
-TEST(Mesh, OnlySoundMeshesMayBeWritten) {
+TEST(Mesh, OnlyValidMeshesMayBeWritten) {
   const ColumnGrid grid = make_grid(12, 8, 0.5, 5, [](double x, double y) {
     return Column{{0, x > 2 && x < 4 && y > 1 && y < 3 ? 2.0f : 5.0f, kStockSurface, 3}};
   });
-  const Mesh sound = extract_mesh(grid);
+  const Mesh valid = extract_mesh(grid);
   const VolumeRange range = mesh_volume(grid);
   EXPECT_NEAR(range.expected.mm3(), 6 * 4 * 5 - 2 * 2 * 3, 1e-9);
   EXPECT_NEAR(range.tolerance.mm3(), 0.5 * (4 * 2 * 3), 0.01);  // a pitch of the pocket's walls
-  EXPECT_EQ(refusal(sound, range), std::nullopt);
+  EXPECT_EQ(refusal(valid, range), std::nullopt);
 
-  Mesh open = sound;
+  Mesh open = valid;
   open.triangles.resize(open.triangles.size() - 3);
   EXPECT_EQ(refusal(open, range), Code::mesh_unsound);
-  Mesh turned = sound;
+  Mesh turned = valid;
   std::swap(turned.triangles[0], turned.triangles[1]);
   EXPECT_EQ(refusal(turned, range), Code::mesh_unsound);
-  Mesh inside_out = sound;
+  Mesh inside_out = valid;
   for (std::size_t t = 0; t < inside_out.triangles.size(); t += 3)
     std::swap(inside_out.triangles[t], inside_out.triangles[t + 1]);
   EXPECT_EQ(check_mesh(inside_out).bad_edges, 0u);
   EXPECT_EQ(refusal(inside_out, range), Code::mesh_unsound);
-  Mesh higher = sound;
+  Mesh higher = valid;
   for (std::size_t k = 2; k < higher.positions.size(); k += 3)
     if (higher.positions[k] == 0.0f) higher.positions[k] = 1.0f;
   EXPECT_EQ(check_mesh(higher).bad_edges, 0u);
   EXPECT_EQ(refusal(higher, range), Code::mesh_unsound);
-  Mesh lost = sound;
+  Mesh lost = valid;
   lost.positions[3] = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(refusal(lost, range), Code::mesh_unsound);
-  Mesh beyond = sound;
+  Mesh beyond = valid;
   beyond.triangles[5] = static_cast<std::uint32_t>(beyond.positions.size());
   EXPECT_EQ(refusal(beyond, range), Code::mesh_unsound);
 
@@ -429,7 +427,7 @@ TEST(Mesh, OnlySoundMeshesMayBeWritten) {
 }
 
 TEST(Mesh, NoTriangleIsWithoutArea) {
-  // Walls at 45 degrees put three corners of a level face on one line; a disc has walls of every direction.
+  // Walls at 45 degrees have three corners of a level face in one line; a disc has walls in all directions.
   for (const double pitch : {0.1, 0.13}) {
     const ColumnGrid grid = make_grid(80, 60, pitch, 5, [&](double x, double y) {
       if (x + y > 8 && x + y < 9.5) return Column{{0, 2}};
@@ -437,13 +435,13 @@ TEST(Mesh, NoTriangleIsWithoutArea) {
       return Column{{0, 5}};
     });
     const Mesh mesh = extract_mesh(grid);
-    expect_sound(grid, mesh);
+    expect_valid(grid, mesh);
     EXPECT_EQ(flat_triangles(mesh), 0u);
   }
 }
 
 /// Largest distance in height between the upper surface of `mesh` and `height(x, y)` at the corners of the
-/// columns, of which it sets `seen` to the number.
+/// columns. Sets `seen` to their number.
 template <class Height>
 double worst_height(const Mesh& mesh, double pitch, const Height& height, std::size_t& seen) {
   double worst = 0.0;
@@ -455,7 +453,7 @@ double worst_height(const Mesh& mesh, double pitch, const Height& height, std::s
       p[k] = {v[0], v[1], v[2]};
     }
     const double area = (p[1].x - p[0].x) * (p[2].y - p[0].y) - (p[2].x - p[0].x) * (p[1].y - p[0].y);
-    if (!(area > 1e-9)) continue;  // a wall, or seen from below
+    if (!(area > 1e-9)) continue;  // a wall, or facing down
     const auto first = [&](double a, double b, double c) {
       return std::ceil(std::min({a, b, c}) / pitch - 1e-6);
     };
@@ -477,7 +475,7 @@ double worst_height(const Mesh& mesh, double pitch, const Height& height, std::s
   return worst;
 }
 
-/// The heights of the corners of columns of 0.1 mm, in the mesh that merges nothing.
+/// The heights of the corners of columns of 0.1 mm in a mesh without merging.
 std::map<std::pair<int, int>, double> corner_heights(const Mesh& full) {
   std::map<std::pair<int, int>, double> corner;
   for (std::size_t k = 0; k < full.positions.size(); k += 3) {
@@ -507,7 +505,7 @@ TEST(Mesh, MergesWithinATolerance) {
   std::size_t before = full.step.size();
   for (const double tolerance : {0.001, 0.005, 0.05}) {
     const Mesh mesh = extract_mesh(grid, {.tolerance = mm(tolerance)});
-    expect_sound(grid, mesh);
+    expect_valid(grid, mesh);
     std::size_t seen = 0;
     EXPECT_LE(worst_height(mesh, kPitch, height, seen), tolerance + 1e-6);
     EXPECT_GE(seen, static_cast<std::size_t>(kX * kY));
@@ -518,7 +516,7 @@ TEST(Mesh, MergesWithinATolerance) {
 }
 
 TEST(Mesh, MergesTheLargestSquaresWithinATolerance) {
-  // Bent along one diagonal of the squares only, by a little more than the tolerance.
+  // Curved along one diagonal of the squares only, by slightly more than the tolerance.
   const ColumnGrid grid = make_grid(192, 192, 0.1, 8, [&](double x, double y) {
     return Column{{0, static_cast<float>(2 + 0.0015 * (x + y) * (x + y))}};
   });
@@ -535,13 +533,13 @@ TEST(Mesh, MergesTheLargestSquaresWithinATolerance) {
 }
 
 TEST(Mesh, MergesOnlyStepsOfOneGroup) {
-  // Two level halves, cut by steps 0 and 1 in turn on the left and by 2 on the right.
+  // Two level halves, cut by steps 0 and 1 alternately on the left and by 2 on the right.
   ColumnGrid grid = make_grid(64, 64, 0.1, 5, [](double, double) { return Column{{0, 3}}; });
   for (std::size_t n = 0; n < grid.intervals.size(); ++n)
     grid.intervals[n].high_step = n % 64 < 32 ? static_cast<std::uint32_t>(n / 64 % 2) : 2;
   const std::vector<std::uint8_t> groups = {7, 7, 9};
   const Mesh mesh = extract_mesh(grid, {.tolerance = mm(0.001), .step_groups = groups});
-  expect_sound(grid, mesh);
+  expect_valid(grid, mesh);
   EXPECT_LT(mesh.step.size(), extract_mesh(grid, {.tolerance = mm(0.001)}).step.size());
   int tops = 0;
   for (std::size_t t = 0; t < mesh.step.size(); ++t) {

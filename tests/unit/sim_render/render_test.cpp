@@ -1,5 +1,4 @@
-// Proof pictures: views by name, where the part lies in the picture, light on its faces, and the same picture
-// twice.
+// Pictures: views by name, the position and scale of the part, shading of its faces, and reproducibility.
 #include "kerf/render.h"
 
 #include <array>
@@ -11,7 +10,8 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// A block 20 x 10 x 5 mm of columns 0.5 mm wide; runs_at(i) tells what the columns of a row along Y hold.
+/// A block 20 x 10 x 5 mm of columns 0.5 mm wide; runs_at(i) returns the intervals of a row of columns along
+/// Y.
 template <class RunsAt>
 Mesh block_of_rows(const RunsAt& runs_at) {
   ColumnGrid grid;
@@ -77,7 +77,7 @@ View small(const char* name) {
   return view;
 }
 
-TEST(Render, KnowsItsViews) {
+TEST(Render, HasNamedViews) {
   for (const char* name : {"top", "bottom", "front", "back", "left", "right", "iso"})
     EXPECT_TRUE(named_view(name)) << name;
   EXPECT_FALSE(named_view("below"));
@@ -87,10 +87,10 @@ TEST(Render, KnowsItsViews) {
   EXPECT_DOUBLE_EQ(named_view("front")->azimuth.deg(), 0);
 }
 
-TEST(Render, TopMeasuresTrueAndIsFitted) {
+TEST(Render, TopIsTrueToScaleAndFitted) {
   const Mesh mesh = stepped_block(1);
   const Seen seen = look(render(mesh, colours_of(mesh), small("top")));
-  // 20 x 10 mm in 88 % of 400 pixels: 352 x 176 pixels in the middle, half of it cut.
+  // 20 x 10 mm in 88 % of 400 pixels: 352 x 176 pixels in the centre, half of it cut.
   EXPECT_NEAR(seen.right - seen.left + 1, 352, 3);
   EXPECT_NEAR(seen.bottom - seen.top + 1, 176, 3);
   EXPECT_NEAR(seen.left + seen.right, 399, 3);
@@ -99,10 +99,10 @@ TEST(Render, TopMeasuresTrueAndIsFitted) {
   EXPECT_NEAR(seen.red, 176 * 176, 1000);
 }
 
-TEST(Render, SidesShowWhatStandsThere) {
+TEST(Render, SidesShowTheirFaces) {
   const Mesh mesh = stepped_block(3);
   const auto colours = colours_of(mesh);
-  // From the front the lower half is at the left, from behind at the right; nothing of the cut faces is seen.
+  // From the front the lower half is at the left, from behind at the right; the cut faces are not visible.
   const Image front = render(mesh, colours, small("front")), back = render(mesh, colours, small("back"));
   const auto red_at = [](const Image& image, int x, int y) {
     const std::uint8_t* p = image.rgba.data() + 4 * (y * image.width + x);
@@ -113,7 +113,7 @@ TEST(Render, SidesShowWhatStandsThere) {
   EXPECT_TRUE(red_at(front, 300, 120));
   EXPECT_TRUE(red_at(back, 100, 120));
   EXPECT_FALSE(red_at(back, 300, 120));
-  // From the left the wall of the step is seen above the low side, from the right the stock only.
+  // From the left the wall is visible above the low side, from the right only the stock.
   EXPECT_GT(look(render(mesh, colours, small("left"))).blue, 2000);
   EXPECT_EQ(look(render(mesh, colours, small("right"))).blue, 0);
 }
@@ -141,7 +141,7 @@ Mesh undercut_block() {
   });
 }
 
-/// Pixels of a section's face: all else is blue here.
+/// Pixels of a section's face; everything else is blue here.
 int section_pixels(const Mesh& mesh, View view, const Section& section) {
   view.section = section;
   return look(render(mesh, std::vector<Rgb>(mesh.step.size(), Rgb{40, 60, 220}), view)).red;
@@ -149,8 +149,8 @@ int section_pixels(const Mesh& mesh, View view, const Section& section) {
 
 TEST(Render, ASectionShowsTheProfileOfAnUndercut) {
   const Mesh mesh = undercut_block();
-  const double square = 17.6 * 17.6;  // pixels a mm2: 20 mm in 88 % of 400 pixels
-  // 20 x 5 mm without the head of 4 x 2 mm and the neck of 2 x 2 mm; one mm in, it is the same.
+  const double square = 17.6 * 17.6;  // pixels per mm2: 20 mm in 88 % of 400 pixels
+  // 20 x 5 mm without the head of 4 x 2 mm and the neck of 2 x 2 mm; the same 1 mm further inside.
   for (const double y : {0.25, 5.0, 9.75})
     EXPECT_NEAR(section_pixels(mesh, small("front"), {Plane::xz, y}), (100 - 12) * square, 500) << y;
   EXPECT_NEAR(section_pixels(mesh, small("back"), {Plane::xz, 5.0}), (100 - 12) * square, 500);
@@ -161,14 +161,14 @@ TEST(Render, ASectionShowsTheProfileOfAnUndercut) {
   EXPECT_GT(section_pixels(mesh, small("iso"), {Plane::yz, 5.0}), 3000);
 }
 
-TEST(Render, ASectionLeavesOutTheViewersSide) {
-  // The half at low x is lower. Across it from the left that one is left out, so that all of the high one's
-  // height is seen; from the right the low one's.
+TEST(Render, ASectionRemovesTheViewersSide) {
+  // The half at low x is lower. Seen from the left, the section removes it, so that the full height of the
+  // high half is visible; from the right, that of the low half.
   const Mesh mesh = stepped_block(3);
-  const double square = 35.2 * 35.2;  // pixels a mm2: now 10 mm in 88 % of 400 pixels
+  const double square = 35.2 * 35.2;  // pixels per mm2: now 10 mm in 88 % of 400 pixels
   EXPECT_NEAR(section_pixels(mesh, small("left"), {Plane::yz, 15.0}), 50 * square, 1500);
   EXPECT_NEAR(section_pixels(mesh, small("right"), {Plane::yz, 5.0}), 20 * square, 1500);
-  // A view along the plane cuts nothing.
+  // In a view along the plane there is no section.
   EXPECT_FALSE(faces(small("top"), {Plane::yz, 10.0}));
   EXPECT_TRUE(faces(small("iso"), {Plane::yz, 10.0}));
   EXPECT_EQ(section_pixels(mesh, small("top"), {Plane::yz, 10.0}), 0);
