@@ -1,4 +1,4 @@
-// Mesh files read back with small readers of the tests' own: counts, bounds, volumes, colours and steps.
+// Mesh files read back by small independent readers: counts, bounds, volumes, colours and steps.
 #include "kerf/mesh_files.h"
 
 #include <cmath>
@@ -66,7 +66,7 @@ T number_at(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// Writes a file to the folder that KERF_KEEP names, if set, to open it with other programs.
+/// Writes the file to the folder that KERF_KEEP names, if it is set, to open it in other programs.
 void keep(const std::string& name, const std::string& bytes) {
   if (const char* folder = std::getenv("KERF_KEEP"))
     std::ofstream(std::string(folder).append("/").append(name), std::ios::binary) << bytes;
@@ -131,7 +131,7 @@ TEST(MeshFiles, StlReadsBack) {
     for (std::size_t k = 0; k < 9; ++k) triangles[t][k / 3][k % 3] = number_at<float>(bytes, at + 12 + 4 * k);
     EXPECT_EQ(number_at<std::uint16_t>(bytes, at + 48), 0);
   }
-  EXPECT_EQ(number_at<float>(bytes, 84 + 2 * 50 + 8), 1.0f);  // the top faces up
+  EXPECT_EQ(number_at<float>(bytes, 84 + 2 * 50 + 8), 1.0f);  // the normal of the top
   expect_box(triangles);
 }
 

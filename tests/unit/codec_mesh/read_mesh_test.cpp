@@ -1,4 +1,4 @@
-// Reading meshes: those of write_mesh, short files in the style of other programs, and damaged ones.
+// Reading meshes: the output of write_mesh, short files in the forms of other programs, and damaged ones.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <minizip/zip.h>
@@ -74,7 +74,7 @@ TEST(ReadMesh, TextStlWithAnyName) {
   EXPECT_EQ(mesh->positions[7], 1.5);
 }
 
-TEST(ReadMesh, BinaryStlThatStartsAsText) {
+TEST(ReadMesh, BinaryStlWithATextHeader) {
   std::string bytes = write_mesh(Tetrahedron().view(), MeshFormat::stl);
   bytes.replace(0, 5, "solid");
   Diagnostics diagnostics;
@@ -159,7 +159,7 @@ std::string model_with(const std::string& build, const std::string& unit = "inch
          build + "</build></model>";
 }
 
-TEST(ReadMesh, CombinesThePartsOfA3mf) {
+TEST(ReadMesh, AssemblesThePartsOfA3mf) {
   Diagnostics diagnostics;
   const auto mesh = read(package(model_with("<item objectid=\"2\" transform=\"-1 0 0 0 1 0 0 0 1 5 0 0\"/>")),
                          MeshFormat::three_mf, diagnostics);

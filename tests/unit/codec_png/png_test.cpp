@@ -1,4 +1,4 @@
-// PNG files: read back by libpng's simplified API, and nothing for invalid images.
+// PNG files: read back by libpng's simple interface; invalid images are refused.
 #include <gtest/gtest.h>
 #include <png.h>
 #include <vector>

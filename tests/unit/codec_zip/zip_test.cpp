@@ -6,7 +6,7 @@
 namespace kerf::zip {
 namespace {
 
-const std::string kLong(200'000, 'x');  // more than one piece
+const std::string kLong(200'000, 'x');  // more than one buffer
 
 std::string archive() {
   Writer writer;
@@ -40,7 +40,7 @@ TEST(Zip, ReadsBack) {
   EXPECT_TRUE(whole);
   unpacked(reader, "third.txt", whole);
   EXPECT_FALSE(whole);
-  EXPECT_EQ(archive(), bytes);  // no date in it
+  EXPECT_EQ(archive(), bytes);  // without a date
 }
 
 TEST(Zip, TheFirstFileUpToALimit) {
@@ -49,7 +49,7 @@ TEST(Zip, TheFirstFileUpToALimit) {
   EXPECT_EQ(Reader(bytes).first(7), std::nullopt);
 }
 
-TEST(Zip, APieceMayBeEnough) {
+TEST(Zip, ReadingCanStopEarly) {
   const std::string bytes = archive();
   Reader reader(bytes);
   std::size_t got = 0;

@@ -18,7 +18,7 @@ std::shared_ptr<const StockBody> target_of(const Triangles& mesh) {
   return body;
 }
 
-/// A block of 40 x 20 x 8 with a step: the half at low x is cut down to `height` above the floor.
+/// A block of 40 x 20 x 8 with a step: the half at low x is `height` high.
 Triangles stepped(double height) {
   Triangles out = box_mesh({0, 0, -8}, {20, 20, -8 + height});
   out.add(box_mesh({20, 0, -8}, {40, 20, 0}));
@@ -49,7 +49,7 @@ Workpiece part_of(const Top& top) {
   return part;
 }
 
-/// The block cut down to z at low x, up to x = `wall`.
+/// The block, cut down to z for x below `wall`.
 Workpiece cut_step(double z, double wall) {
   return part_of([=](double x, double) { return x < wall ? z : 0.0; });
 }
@@ -82,7 +82,7 @@ TEST(Compare, AFloorCutTooDeepIsAGougeOfThatDepth) {
   EXPECT_NEAR(c.rest.mm3(), 0.0, 1e-6);
 }
 
-TEST(Compare, TheDepthOfAWallIsItsDistanceNotItsHeight) {
+TEST(Compare, AWallCountsByItsDistanceNotItsHeight) {
   const Comparison c = compared(cut_step(-3, 19.5), stepped(5));
   ASSERT_EQ(c.region_count, 1u);
   EXPECT_EQ(c.regions[0].kind, DifferenceKind::rest);
@@ -95,14 +95,14 @@ TEST(Compare, TheDepthOfAWallIsItsDistanceNotItsHeight) {
   EXPECT_TRUE(c.in_target[row]);
 }
 
-TEST(Compare, DifferencesWithinTheToleranceAreCountedButNotReported) {
+TEST(Compare, DifferencesWithinTheToleranceHaveVolumeButNoRegion) {
   const Comparison c = compared(cut_step(-3.2, 20), stepped(5), 0.3);
   EXPECT_EQ(c.region_count, 0u);
   EXPECT_NEAR(c.gouge.mm3(), 80.0, 0.1);
   EXPECT_EQ(c.gouge_beyond.mm3(), 0.0);
 }
 
-TEST(Compare, SeparateDifferencesAreSeparateRegionsDeepestFirst) {
+TEST(Compare, SeparateRegionsAreSortedByDepth) {
   Triangles target = box_mesh({0, 0, -8}, {40, 20, 0});
   const Workpiece part = part_of([](double x, double y) {  // two holes of 6 mm
     if (distance(Point2{x, y}, Point2{10, 10}) < 3.0) return -1.0;

@@ -1,6 +1,4 @@
-// Exact meshes: distances to tools, intersections of planes, and parts whose edges are known exactly.
-#include "kerf/exact_mesh.h"
-
+// Exact meshes: distances to tools and sweeps, intersections of planes, and parts with known edges.
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -11,12 +9,14 @@
 #include "sim/exact/sweep_distance.h"
 #include "sim/exact/tool_distance.h"
 
+#include "kerf/exact_mesh.h"
+
 namespace kerf::test {
 namespace {
 
 constexpr double kPitch = 0.1;
 
-TEST(ToolDistance, OfASquareToolIsThatOfItsHalfOutline) {
+TEST(ToolDistance, OfASquareToolIsThatOfItsHalfProfile) {
   const sim::ToolDistance tool(make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 12, 0}})).silhouette);
   EXPECT_DOUBLE_EQ(tool.at(4.0, 5.0).value, 1.0);
   EXPECT_DOUBLE_EQ(tool.at(4.0, 5.0).by_r, 1.0);
@@ -25,7 +25,7 @@ TEST(ToolDistance, OfASquareToolIsThatOfItsHalfOutline) {
   EXPECT_DOUBLE_EQ(tool.at(6.0, -4.0).value, 5.0);  // from the edge
   EXPECT_DOUBLE_EQ(tool.at(2.5, 4.0).value, -0.5);
   EXPECT_DOUBLE_EQ(tool.at(3.0, 4.0).by_r, 1.0);  // on the flank
-  EXPECT_LT(tool.at(1.0, 200.0).value, 0.0);      // the shank is continued upwards
+  EXPECT_LT(tool.at(1.0, 200.0).value, 0.0);      // the topmost part is extended upwards
 }
 
 TEST(ToolDistance, OfAConcaveArcIsMeasuredToTheArc) {
@@ -35,7 +35,7 @@ TEST(ToolDistance, OfAConcaveArcIsMeasuredToTheArc) {
   EXPECT_NEAR(tool.at(2.0, 0.5).value, 2.0 - far, 1e-12);
 }
 
-TEST(ToolDistance, ChangesByNoMoreThanThePointMoves) {
+TEST(ToolDistance, NeverChangesFasterThanThePosition) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> r(0.0, 7.0), z(-3.0, 15.0);
   for (const NamedProfile& each : all_profiles()) {
@@ -54,7 +54,7 @@ TEST(ToolDistance, ChangesByNoMoreThanThePointMoves) {
   }
 }
 
-TEST(SweepDistance, NearestPointOfAnArcIsOnIt) {
+TEST(SweepDistance, TheNearestPointOfAnArcIsOnIt) {
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> angle(-std::numbers::pi, std::numbers::pi), at(-9.0, 9.0);
   for (int n = 0; n < 3000; ++n) {
@@ -65,24 +65,24 @@ TEST(SweepDistance, NearestPointOfAnArcIsOnIt) {
     arc.ux = std::cos(start);
     arc.uy = std::sin(start);
     arc.turn = 2.0 * angle(random);
-    const Point2 point{at(random), at(random)};
-    double least = 1e9;
+    const Point2 query{at(random), at(random)};
+    double nearest = 1e9;
     constexpr int kParts = 2000;
     for (int k = 0; k <= kParts; ++k) {
       const double a = start + arc.turn * k / kParts;
-      least = std::min(least, distance(point, {5.0 * std::cos(a), 5.0 * std::sin(a)}));
+      nearest = std::min(nearest, distance(query, {5.0 * std::cos(a), 5.0 * std::sin(a)}));
     }
-    const double found = distance(point, sim::nearest_in_plan(arc, point));
-    EXPECT_LE(found, least + 1e-9) << n;
-    EXPECT_GE(found, least - 5.0 * std::abs(arc.turn) / kParts) << n;
+    const double found = distance(query, sim::nearest_in_plan(arc, query));
+    EXPECT_LE(found, nearest + 1e-9) << n;
+    EXPECT_GE(found, nearest - 5.0 * std::abs(arc.turn) / kParts) << n;
   }
 }
 
 struct Query {
   sim::Sweep sweep;
-  Point3 point;
+  Point3 at;
 };
-/// A random straight sweep, sometimes a plunge, and a point within about 2 mm of the swept volume.
+/// A straight sweep, sometimes a plunge, and a query point near what it removes.
 template <class In>
 Query draw(const sim::ToolDistance& tool, const In& in) {
   Query query;
@@ -94,19 +94,19 @@ Query draw(const sim::ToolDistance& tool, const In& in) {
   sweep.slope = sweep.length > 0.0 ? in(-1.0, 1.0) : 0.0;
   sweep.z_end = sweep.length > 0.0 ? sweep.length * sweep.slope : in(-9.0, 9.0);
   const double t = in(0.0, sweep.length), r = in(0.0, tool.rim() + 2.0), around = in(0.0, 6.3);
-  query.point = {t * sweep.ux + r * std::cos(around), t * sweep.uy + r * std::sin(around),
-                 in(0.0, 1.0) * sweep.z_end + in(-2.0, 12.0)};
+  query.at = {t * sweep.ux + r * std::cos(around), t * sweep.uy + r * std::sin(around),
+              in(0.0, 1.0) * sweep.z_end + in(-2.0, 12.0)};
   return query;
 }
-double min_of_samples(const Query& query, const sim::ToolDistance& tool) {
+double sampled_distance(const Query& query, const sim::ToolDistance& tool) {
   constexpr int kParts = 4000;
-  double least = 1e9;
+  double nearest = 1e9;
   for (int k = 0; k <= kParts; ++k) {
     const double fraction = static_cast<double>(k) / kParts, t = fraction * query.sweep.length;
-    const double rho = std::hypot(query.point.x - t * query.sweep.ux, query.point.y - t * query.sweep.uy);
-    least = std::min(least, tool.at(rho, query.point.z - fraction * query.sweep.z_end).value);
+    const double rho = std::hypot(query.at.x - t * query.sweep.ux, query.at.y - t * query.sweep.uy);
+    nearest = std::min(nearest, tool.at(rho, query.at.z - fraction * query.sweep.z_end).value);
   }
-  return least;
+  return nearest;
 }
 
 TEST(SweepDistance, IsTheMinimumOverAllPositionsOfTheTool) {
@@ -120,26 +120,26 @@ TEST(SweepDistance, IsTheMinimumOverAllPositionsOfTheTool) {
     for (int n = 0; n < 1000; ++n) {
       Query query = draw(tool, in);
       const double step = std::hypot(query.sweep.length, query.sweep.z_end) / 4000;
-      const sim::PathDistance found = sim::distance_along(query.sweep, tool, query.point, kReach);
-      const sim::DistanceBounds bounds = sim::bounds_of_distance(query.sweep, tool, query.point, kReach);
-      const double least = min_of_samples(query, tool);
-      if (std::abs(least) > kNear) continue;
-      // For tools that are not convex there are rarely two minima between samples; either may be found.
-      EXPECT_LE(found.distance.value, least + (tool.is_convex() ? 1e-7 : 0.02)) << each.name << " " << n;
-      EXPECT_GE(found.distance.value, least - step) << each.name << " " << n;
-      EXPECT_LE(bounds.low, least + 1e-7) << each.name << " " << n;
+      const sim::PathDistance found = sim::distance_along(query.sweep, tool, query.at, kReach);
+      const sim::DistanceBounds bounds = sim::bounds_of_distance(query.sweep, tool, query.at, kReach);
+      const double nearest = sampled_distance(query, tool);
+      if (std::abs(nearest) > kNear) continue;
+      // Tools that are not convex may have two minima between two samples; either is accepted.
+      EXPECT_LE(found.distance.value, nearest + (tool.is_convex() ? 1e-7 : 0.02)) << each.name << " " << n;
+      EXPECT_GE(found.distance.value, nearest - step) << each.name << " " << n;
+      EXPECT_LE(bounds.low, nearest + 1e-7) << each.name << " " << n;
       EXPECT_GE(bounds.high, found.distance.value - 1e-7) << each.name << " " << n;
       const Point3 moved{in(-kMoved, kMoved), in(-kMoved, kMoved), in(-kMoved, kMoved)};
-      query.point = query.point + moved;
-      const double afresh = sim::distance_along(query.sweep, tool, query.point, kReach).distance.value;
+      query.at = query.at + moved;
+      const double afresh = sim::distance_along(query.sweep, tool, query.at, kReach).distance.value;
       const double beside =
-          sim::distance_beside(query.sweep, tool, query.point, kReach, found, moved).distance.value;
+          sim::distance_beside(query.sweep, tool, query.at, kReach, found, moved).distance.value;
       EXPECT_LE(std::min(beside, kReach), std::min(afresh, kReach) + 1e-7) << each.name << " " << n;
     }
   }
 }
 
-TEST(Quadric, SolvesForTheIntersectionOfPlanes) {
+TEST(Quadric, StepsToTheIntersectionOfPlanes) {
   sim::Quadric quadric;
   quadric.add({1, 0, 0}, 2.0);
   EXPECT_EQ(quadric.rank(0.01), 1);
@@ -174,7 +174,7 @@ Point3 vertex_of(const Mesh& mesh, std::size_t v) {
   return {p[0], p[1], p[2]};
 }
 
-/// The largest error of the vertices for which `error` returns one.
+/// The largest error of the vertices; `error` has none for vertices that do not count.
 template <class Error>
 double largest_error(const Mesh& mesh, const Error& error) {
   double largest = 0.0;
@@ -203,7 +203,7 @@ TEST(ExactMesh, WallsAndFloorOfASlotAreExact) {
 }
 
 TEST(ExactMesh, AWallInANarrowLastColumnStaysInTheBlock) {
-  constexpr double kWide = 12.02;  // of the last column a fifth is there
+  constexpr double kWide = 12.02;  // the last column has a fifth of its width
   Path path;
   path.tool(1).rapid({-5, 8.027, 5}).cut({-5, 8.027, -2}).cut({9.02, 8.027, -2});
   const Part part =
@@ -222,8 +222,7 @@ TEST(ExactMesh, TheBottomOfAGrooveIsSharp) {
   path.tool(1).rapid({5, 6.027, 5}).cut({5, 6.027, -2}).cut({31.31, 13.77, -2});
   const Part part = part_of(path.path(), profile({{0, 0, 0}, {4, 4, 0}, {4, 12, 0}}), kBlock);
   const Point2 a{5, 6.027}, b{31.31, 13.77}, way = (1.0 / distance(a, b)) * (b - a);
-  // Of 50 ranges of four pitches along the groove, nearly all have a vertex on the bottom, all one close to
-  // it.
+  // Nearly every section of four pitches along the groove has a vertex at the bottom.
   const auto lowest_along = [&](const Mesh& mesh) {
     std::vector<double> lowest(50, 0.0);
     for (std::size_t v = 0; v < mesh.positions.size() / 3; ++v) {
@@ -262,7 +261,7 @@ TEST(ExactMesh, WhatIsOnTheBlockStaysOnIt) {
   EXPECT_EQ(check_mesh(part.exact).bad_edges, 0u);
 }
 
-/// A ball so deep that its walls are vertical at the top.
+/// A ball so deep that its flanks are vertical at the top.
 Path steep_rims() {
   Path path;
   path.tool(1).rapid({10, 8, 5}).cut({10, 8, -5}).cut({31, 13.77, -3});
@@ -270,8 +269,8 @@ Path steep_rims() {
 }
 const Profile kDeepBall = profile({{0, 0, kQuarter}, {3, 3, 0}, {3, 12, 0}});
 
-/// Triangles with kStockSurface that are not parallel to a side of the block.
-std::size_t slanted_stock(const Mesh& mesh) {
+/// The number of oblique triangles with the step of the stock's surface.
+std::size_t oblique(const Mesh& mesh) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.step.size(); ++t) {
     if (mesh.step[t] != kStockSurface) continue;
@@ -286,8 +285,8 @@ std::size_t slanted_stock(const Mesh& mesh) {
 
 TEST(ExactMesh, SteepRimsBelongToTheCut) {
   const Part part = part_of(steep_rims().path(), kDeepBall, kBlock);
-  EXPECT_GT(slanted_stock(part.rough), 50u);
-  EXPECT_LE(slanted_stock(part.exact), 2u);
+  EXPECT_GT(oblique(part.rough), 50u);
+  EXPECT_LE(oblique(part.exact), 2u);
 }
 
 TEST(RelabelledMesh, SteepRimsBelongToTheCutToo) {
@@ -300,8 +299,8 @@ TEST(RelabelledMesh, SteepRimsBelongToTheCutToo) {
   const Mesh rough = extract_mesh(MeshColumns(result->workpiece), {});
   Mesh mesh = rough;
   relabel_mesh(mesh, result->workpiece);
-  EXPECT_GT(slanted_stock(rough), 50u);
-  EXPECT_EQ(slanted_stock(mesh), 0u);
+  EXPECT_GT(oblique(rough), 50u);
+  EXPECT_EQ(oblique(mesh), 0u);
   EXPECT_EQ(mesh.positions, rough.positions);
   EXPECT_EQ(mesh.triangles, rough.triangles);
 }

@@ -1,5 +1,5 @@
-// Meshes of single sweeps of every tool and every kind of motion against an independent reference: the
-// distance of their surfaces and edges from the true ones.
+// The mesh of single sweeps of every tool and every kind of motion against an independent reference: the
+// errors of its surfaces and edges.
 #include <algorithm>
 #include <cstdio>
 #include <gtest/gtest.h>
@@ -16,13 +16,13 @@ namespace {
 constexpr double kPitch = 0.1;
 constexpr std::size_t kSamples = 150;  // of each kind and job
 
-// Limits of the mesh at columns of 0.1 mm, see docs/decisions/0006-mesh.md: as extracted from the columns,
-// with walls and edges accurate to about half a pitch, and as an exact mesh.
+// Limits at columns of 0.1 mm, see docs/decisions/0006-mesh.md: as extracted, with walls between columns and
+// edges accurate to about half a pitch, and of the exact mesh.
 constexpr double kSurfaceLimit = 0.018;  // mm
 constexpr double kEdgeLimit = 1.1 * kPitch;
 constexpr double kExactSurfaceLimit = 0.012;
-// For tools without knife edges at constant Z: elsewhere the reference itself leaves scallops. Up to one
-// triangle in a hundred is at a cusp, where there are many small ones.
+// For tools without a sharp flank at constant height; elsewhere the reference has scallops itself. The 99th
+// percentile, because a cusp has many small triangles.
 constexpr double kExactEdgeLimit99 = 0.015;
 
 struct Face {
@@ -31,7 +31,7 @@ struct Face {
   double upright = 0.0;  // of its normal, 0 for a wall
 };
 
-/// Triangles of cuts: walls, and faces without a vertex on a wall.
+/// The triangles made by cuts: walls, and faces without a vertex on a wall.
 struct Faces {
   std::vector<Face> walls, surfaces;
 };
@@ -76,7 +76,7 @@ Faces faces_of(const Mesh& mesh) {
   return {thinned(all.walls), thinned(all.surfaces)};
 }
 
-/// The end of the remaining material's intervals that is nearest to z.
+/// The end of the intervals `left` that is nearest to z.
 double nearest_end(const std::vector<Silhouette2::Run>& left, double z) {
   double nearest = 1e9;
   for (const auto& run : left)
@@ -85,22 +85,21 @@ double nearest_end(const std::vector<Silhouette2::Run>& left, double z) {
   return nearest;
 }
 
-/// Whether the true surface has an edge close enough for a vertex of the face to lie between columns on both
-/// sides of it: there is no end at about the face's height, or the curvature exceeds that of the tools'
-/// smooth surfaces.
+/// True if the true surface has an edge so near that a vertex of the face lies between columns on both sides
+/// of it: the heights are not continuous, or curve more than a smooth surface of these tools.
 bool has_edge_near(const Remainder& left, const Face& face, double height) {
-  constexpr double kReach = 1.5 * kPitch, kMaxCurvature = 0.2 * kReach;
+  constexpr double kReach = 1.5 * kPitch, kMaxCurve = 0.2 * kReach;
   if (std::abs(height - face.centre.z) > kPitch) return true;
   for (const Point2 offset :
        {Point2{kReach, 0}, Point2{0, kReach}, Point2{kReach, kReach}, Point2{kReach, -kReach}}) {
     const double before = nearest_end(left(face.centre.x - offset.x, face.centre.y - offset.y), height);
     const double after = nearest_end(left(face.centre.x + offset.x, face.centre.y + offset.y), height);
-    if (std::abs(before + after - 2.0 * height) * face.upright > kMaxCurvature) return true;
+    if (std::abs(before + after - 2.0 * height) * face.upright > kMaxCurve) return true;
   }
   return false;
 }
 
-/// Distance of a face from the surface of the material: in plan, or in height if that is less.
+/// The distance of a point from the end of the material: the minimum of that in plan and in height.
 double edge_error(const Remainder& left, Point3 at) {
   double error = std::abs(nearest_end(left(at.x, at.y), at.z) - at.z);
   const bool inside = left.is_removed(at);
@@ -113,8 +112,8 @@ double edge_error(const Remainder& left, Point3 at) {
     double near = 0.0, far = std::min(error, 2.0 * kPitch);
     if (!other(far)) continue;
     for (int n = 0; n < 10; ++n) {
-      const double centre = 0.5 * (near + far);
-      (other(centre) ? far : near) = centre;
+      const double half = 0.5 * (near + far);
+      (other(half) ? far : near) = half;
     }
     error = far;
   }
@@ -161,7 +160,7 @@ bool reference_is_sharp(const NamedProfile& tool, const Motion& motion) {
                                  "arc_cw_short", "circle", "small_circle"});
 }
 
-TEST_P(MeshOfSweeps, LiesWhereTheReferenceSays) {
+TEST_P(MeshOfSweeps, MatchesTheReference) {
   const NamedProfile tool = all_profiles()[GetParam()];
   for (const Motion& motion : motions()) {
     const auto result = cut(tool, motion, kPitch);

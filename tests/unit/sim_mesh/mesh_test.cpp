@@ -1,4 +1,5 @@
-// Meshes of columns: closed for any columns, with the correct volume, positions and steps.
+// The columns' surface: closed for every configuration, right in volume and position, with the steps that
+// made it.
 #include "kerf/mesh.h"
 
 #include <array>
@@ -41,11 +42,11 @@ double column_volume(const ColumnGrid& grid) {
   return sum * grid.pitch * grid.pitch;
 }
 
-/// A random seed, or KERF_SEED to repeat a failure.
+/// A random seed, or that of KERF_SEED, to repeat a failure.
 unsigned chosen_seed() {
-  const char* text = std::getenv("KERF_SEED");
+  const char* given = std::getenv("KERF_SEED");
   const unsigned seed =
-      text != nullptr ? static_cast<unsigned>(std::strtoul(text, nullptr, 10)) : std::random_device{}();
+      given != nullptr ? static_cast<unsigned>(std::strtoul(given, nullptr, 10)) : std::random_device{}();
   std::printf("seed %u\n", seed);
   return seed;
 }
@@ -58,7 +59,7 @@ Box3 bounds_of(const Mesh& mesh) {
 }
 
 /// Each vertex is used, and its triangles form one fan: the mesh is a 2-manifold.
-bool one_fan_a_vertex(const Mesh& mesh) {
+bool one_fan_per_vertex(const Mesh& mesh) {
   std::vector<std::map<std::uint32_t, std::uint32_t>> next(mesh.positions.size() / 3);
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3)
     for (std::size_t k = 0; k < 3; ++k)
@@ -81,8 +82,8 @@ bool one_fan_a_vertex(const Mesh& mesh) {
   return true;
 }
 
-/// Triangles without area in single precision.
-std::size_t flat_triangles(const Mesh& mesh) {
+/// The number of triangles without area in single precision.
+std::size_t degenerate_triangles(const Mesh& mesh) {
   std::size_t count = 0;
   for (std::size_t t = 0; t < mesh.triangles.size(); t += 3) {
     const auto at = [&](std::size_t k) {
@@ -102,7 +103,7 @@ void expect_valid(const ColumnGrid& grid, const Mesh& mesh) {
   const VolumeRange range = mesh_volume(grid, {.tolerance = mm(0.01)});
   EXPECT_EQ(check.bad_edges, 0u);
   EXPECT_NEAR(check.volume.mm3(), range.expected.mm3(), range.tolerance.mm3());
-  EXPECT_TRUE(one_fan_a_vertex(mesh));
+  EXPECT_TRUE(one_fan_per_vertex(mesh));
   const Box3 box = bounds_of(mesh);
   for (int axis = 0; axis < 3; ++axis) {
     EXPECT_GE(box.low[axis], grid.bounds.low[axis] - 1e-5);
@@ -207,7 +208,7 @@ TEST(Mesh, BallGrooveIsRoundToColumnAccuracy) {
   EXPECT_LT(worst, 0.002);
 }
 
-TEST(Mesh, KeyholeUndercutIsEmpty) {
+TEST(Mesh, KeyholeUndercutHasItsVolume) {
   // A slot 2 wide above a chamber 5 wide.
   const ColumnGrid grid = make_grid(80, 50, 0.1, 6, [](double x, double) {
     const double d = std::abs(x - 4.0);
@@ -220,7 +221,7 @@ TEST(Mesh, KeyholeUndercutIsEmpty) {
   EXPECT_NEAR(check_mesh(mesh).volume.mm3(), (8 * 6 - 2 * 3 - 5 * 2) * 5.0, 0.01);
 }
 
-TEST(Mesh, WallsOfThroughCutsHaveTheirStep) {
+TEST(Mesh, ThroughCutWallsHaveTheirStep) {
   ColumnGrid grid = make_grid(30, 30, 0.2, 2, [](double x, double y) {
     return std::hypot(x - 3, y - 3) < 1.5 ? Column{} : Column{{0, 2}};
   });
@@ -233,8 +234,8 @@ TEST(Mesh, WallsOfThroughCutsHaveTheirStep) {
   for (const std::uint32_t step : extract_mesh(grid).step) EXPECT_EQ(step, kStockSurface);
 }
 
-TEST(Mesh, ColumnsTouchingDiagonallyAreSplit) {
-  // Two columns that touch along a line only: separate, on a common floor, under a common ceiling, and both.
+TEST(Mesh, DiagonalContactIsSplit) {
+  // Two columns that touch along a line only, free, on a common floor, under a common lid, and both.
   for (const int kind : {0, 1, 2, 3}) {
     const ColumnGrid grid = make_grid(2, 2, 1, 6, [&](double x, double y) {
       const float low = kind == 1 || kind == 3 ? 2.0f : 0.0f, high = kind >= 2 ? 4.0f : 6.0f;
@@ -257,11 +258,11 @@ TEST(Mesh, AnyColumnsGiveAClosedMesh) {
   std::mt19937 random(seed);
   const auto pick = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   for (int round = 0; round < 1500; ++round) {
-    const int nx = 1 + pick(9), ny = 1 + pick(9), levels = 2 + pick(9), max_intervals = 1 + pick(4);
+    const int nx = 1 + pick(9), ny = 1 + pick(9), levels = 2 + pick(9), max_ends = 1 + pick(4);
     const double pitch = std::array{0.05, 0.3, 1.0, 4.0}[static_cast<std::size_t>(pick(4))];
     const ColumnGrid grid = make_grid(nx, ny, pitch, levels, [&](double, double) {
       std::set<int> ends;
-      for (int n = 2 * pick(max_intervals + 1); n > 0; --n) ends.insert(pick(levels + 1));
+      for (int n = 2 * pick(max_ends + 1); n > 0; --n) ends.insert(pick(levels + 1));
       if (ends.size() % 2 == 1) ends.erase(ends.begin());
       Column column;
       for (auto it = ends.begin(); it != ends.end(); std::advance(it, 2)) {
@@ -331,7 +332,7 @@ TEST(Mesh, TheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(Mesh, StopsWhenAsked) {
+TEST(Mesh, StopsOnRequest) {
   struct Stop : Progress {
     void phase(std::string_view) override {}
     void report(double) override {}
@@ -381,7 +382,7 @@ TEST(CheckMesh, CountsEdgesAroundVerticesOfManyTriangles) {
   EXPECT_EQ(check_mesh(mesh).bad_edges, 3u);
 }
 
-/// The code of the only error, or nothing if the mesh may be written.
+/// The code of the only error; none if the mesh is valid.
 std::optional<Code> refusal(const Mesh& mesh, const VolumeRange& volume) {
   Diagnostics diagnostics;
   const bool valid = verify_mesh(mesh, volume, diagnostics);
@@ -389,7 +390,7 @@ std::optional<Code> refusal(const Mesh& mesh, const VolumeRange& volume) {
   return valid ? std::nullopt : std::optional<Code>(diagnostics.list().at(0).code);
 }
 
-TEST(Mesh, OnlyValidMeshesMayBeWritten) {
+TEST(Mesh, OnlyValidMeshesPassVerification) {
   const ColumnGrid grid = make_grid(12, 8, 0.5, 5, [](double x, double y) {
     return Column{{0, x > 2 && x < 4 && y > 1 && y < 3 ? 2.0f : 5.0f, kStockSurface, 3}};
   });
@@ -426,8 +427,8 @@ TEST(Mesh, OnlyValidMeshesMayBeWritten) {
   EXPECT_EQ(refusal(Mesh{}, range), Code::mesh_unsound);
 }
 
-TEST(Mesh, NoTriangleIsWithoutArea) {
-  // Walls at 45 degrees have three corners of a level face in one line; a disc has walls in all directions.
+TEST(Mesh, NoTriangleIsDegenerate) {
+  // Walls at 45 degrees put three corners of a level face on one line; a disc has walls of every direction.
   for (const double pitch : {0.1, 0.13}) {
     const ColumnGrid grid = make_grid(80, 60, pitch, 5, [&](double x, double y) {
       if (x + y > 8 && x + y < 9.5) return Column{{0, 2}};
@@ -436,7 +437,7 @@ TEST(Mesh, NoTriangleIsWithoutArea) {
     });
     const Mesh mesh = extract_mesh(grid);
     expect_valid(grid, mesh);
-    EXPECT_EQ(flat_triangles(mesh), 0u);
+    EXPECT_EQ(degenerate_triangles(mesh), 0u);
   }
 }
 
@@ -516,7 +517,7 @@ TEST(Mesh, MergesWithinATolerance) {
 }
 
 TEST(Mesh, MergesTheLargestSquaresWithinATolerance) {
-  // Curved along one diagonal of the squares only, by slightly more than the tolerance.
+  // Curved along one diagonal of the squares only, by a little more than the tolerance.
   const ColumnGrid grid = make_grid(192, 192, 0.1, 8, [&](double x, double y) {
     return Column{{0, static_cast<float>(2 + 0.0015 * (x + y) * (x + y))}};
   });

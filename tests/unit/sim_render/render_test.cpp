@@ -1,4 +1,4 @@
-// Pictures: views by name, the position and scale of the part, shading of its faces, and reproducibility.
+// Pictures: views by name, the position of the part in the picture, shading, sections, reproducibility.
 #include "kerf/render.h"
 
 #include <array>
@@ -10,8 +10,7 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-/// A block 20 x 10 x 5 mm of columns 0.5 mm wide; runs_at(i) returns the intervals of a row of columns along
-/// Y.
+/// A block 20 x 10 x 5 mm of columns 0.5 mm wide; runs_at(i): the runs of the columns of a row along Y.
 template <class RunsAt>
 Mesh block_of_rows(const RunsAt& runs_at) {
   ColumnGrid grid;
@@ -87,7 +86,7 @@ TEST(Render, HasNamedViews) {
   EXPECT_DOUBLE_EQ(named_view("front")->azimuth.deg(), 0);
 }
 
-TEST(Render, TopIsTrueToScaleAndFitted) {
+TEST(Render, TopViewIsToScaleAndFitted) {
   const Mesh mesh = stepped_block(1);
   const Seen seen = look(render(mesh, colours_of(mesh), small("top")));
   // 20 x 10 mm in 88 % of 400 pixels: 352 x 176 pixels in the centre, half of it cut.
@@ -99,10 +98,10 @@ TEST(Render, TopIsTrueToScaleAndFitted) {
   EXPECT_NEAR(seen.red, 176 * 176, 1000);
 }
 
-TEST(Render, SidesShowTheirFaces) {
+TEST(Render, SideViewsShowTheirSides) {
   const Mesh mesh = stepped_block(3);
   const auto colours = colours_of(mesh);
-  // From the front the lower half is at the left, from behind at the right; the cut faces are not visible.
+  // From the front the lower half is at the left, from the back at the right; cut faces are not visible.
   const Image front = render(mesh, colours, small("front")), back = render(mesh, colours, small("back"));
   const auto red_at = [](const Image& image, int x, int y) {
     const std::uint8_t* p = image.rgba.data() + 4 * (y * image.width + x);
@@ -113,12 +112,12 @@ TEST(Render, SidesShowTheirFaces) {
   EXPECT_TRUE(red_at(front, 300, 120));
   EXPECT_TRUE(red_at(back, 100, 120));
   EXPECT_FALSE(red_at(back, 300, 120));
-  // From the left the wall is visible above the low side, from the right only the stock.
+  // From the left the wall of the step is visible above the low side, from the right only the stock.
   EXPECT_GT(look(render(mesh, colours, small("left"))).blue, 2000);
   EXPECT_EQ(look(render(mesh, colours, small("right"))).blue, 0);
 }
 
-TEST(Render, IsoShowsLightAndShade) {
+TEST(Render, IsoViewIsShaded) {
   const Mesh mesh = stepped_block(3);
   const Image image = render(mesh, {}, small("iso"));
   std::array<int, 256> grey{};
@@ -141,7 +140,7 @@ Mesh undercut_block() {
   });
 }
 
-/// Pixels of a section's face; everything else is blue here.
+/// Pixels of the cut face of a section: all others are blue here.
 int section_pixels(const Mesh& mesh, View view, const Section& section) {
   view.section = section;
   return look(render(mesh, std::vector<Rgb>(mesh.step.size(), Rgb{40, 60, 220}), view)).red;
@@ -150,7 +149,7 @@ int section_pixels(const Mesh& mesh, View view, const Section& section) {
 TEST(Render, ASectionShowsTheProfileOfAnUndercut) {
   const Mesh mesh = undercut_block();
   const double square = 17.6 * 17.6;  // pixels per mm2: 20 mm in 88 % of 400 pixels
-  // 20 x 5 mm without the head of 4 x 2 mm and the neck of 2 x 2 mm; the same 1 mm further inside.
+  // 20 x 5 mm without the head of 4 x 2 mm and the neck of 2 x 2 mm; one mm in, it is the same.
   for (const double y : {0.25, 5.0, 9.75})
     EXPECT_NEAR(section_pixels(mesh, small("front"), {Plane::xz, y}), (100 - 12) * square, 500) << y;
   EXPECT_NEAR(section_pixels(mesh, small("back"), {Plane::xz, 5.0}), (100 - 12) * square, 500);
@@ -162,8 +161,8 @@ TEST(Render, ASectionShowsTheProfileOfAnUndercut) {
 }
 
 TEST(Render, ASectionRemovesTheViewersSide) {
-  // The half at low x is lower. Seen from the left, the section removes it, so that the full height of the
-  // high half is visible; from the right, that of the low half.
+  // The half at low x is lower. From the left it is removed, so that the full height of the other half is
+  // visible; from the right the height of the lower one.
   const Mesh mesh = stepped_block(3);
   const double square = 35.2 * 35.2;  // pixels per mm2: now 10 mm in 88 % of 400 pixels
   EXPECT_NEAR(section_pixels(mesh, small("left"), {Plane::yz, 15.0}), 50 * square, 1500);
