@@ -1,4 +1,6 @@
 // Exact meshes: distances to tools and sweeps, intersections of planes, and parts with known edges.
+#include "kerf/exact_mesh.h"
+
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -8,8 +10,6 @@
 #include "sim/exact/quadric.h"
 #include "sim/exact/sweep_distance.h"
 #include "sim/exact/tool_distance.h"
-
-#include "kerf/exact_mesh.h"
 
 namespace kerf::test {
 namespace {
