@@ -164,7 +164,7 @@ def is_mesh(e):
 
 
 def entities(layout):
-    """Each entity of a layout or block, attributes behind their INSERT; those without a shape have none."""
+    """Each entity of a layout or block, attributes after their INSERT; other types have an empty shape."""
     made = []
     for e in layout:
         shape = SHAPES.get(e.dxftype()) if not is_mesh(e) else None

@@ -1,7 +1,7 @@
-"""Random programs of G-code that every word's rules meet in: what LinuxCNC takes, and what it refuses."""
+"""Random G-code programs that combine many words; LinuxCNC accepts some of them and refuses others."""
 import random
 
-SCALE = 100.0  # sizes in mm; large, so that four printed decimals tell a millionth of them
+SCALE = 100.0  # mm; large, so that the fourth printed decimal is a millionth of it
 
 
 class Maker:
@@ -9,102 +9,102 @@ class Maker:
         self.random = random.Random(seed)
         self.lines = []
 
-    def say(self, *words):
+    def line(self, *words):
         self.lines.append(" ".join(word for word in words if word))
 
     def number(self, low=-1.0, high=1.0):
         return round(self.random.uniform(low, high) * SCALE, 3)
 
-    def word(self, letter, low=-1.0, high=1.0, share=1.0):
-        return f"{letter}{self.number(low, high)}" if self.random.random() < share else ""
+    def word(self, letter, low=-1.0, high=1.0, chance=1.0):
+        return f"{letter}{self.number(low, high)}" if self.random.random() < chance else ""
 
     def either(self, *choices):
         return self.random.choice(choices)
 
-    def axes(self, share=0.6):
-        words = [self.word(letter, share=share) for letter in "XYZ"]
+    def axes(self, chance=0.6):
+        words = [self.word(letter, chance=chance) for letter in "XYZ"]
         return " ".join(w for w in words if w) or self.word("X")
 
     def header(self):
-        self.say("G21 G90 G94 G17 G40 G49 G54 G80 F500 S1000")
-        self.say("G0", "X0 Y0 Z0")
+        self.line("G21 G90 G94 G17 G40 G49 G54 G80 F500 S1000")
+        self.line("G0", "X0 Y0 Z0")
 
     def text(self):
         return "\n".join([*self.lines, "M2", ""])
 
 
 def moves(seed):
-    """Straight moves, distance modes, systems, shifts. Systems are turned where nothing is shifted by G92
-    or G52: LinuxCNC forgets the shift when it works out anew where it stands."""
+    """Straight moves, distance modes, work offsets, shifts. Systems are rotated only without G92 and G52:
+    LinuxCNC drops that shift when it recomputes its position."""
     make = Maker(seed)
     make.header()
-    make.say("G28.1")
-    make.say("G30.1")
+    make.line("G28.1")
+    make.line("G30.1")
     turns = seed % 2 == 1
     for _ in range(25):
         kind = make.random.randrange(14)
         if kind < 5:
-            make.say(make.either("G0", "G1", "G1", ""), make.axes())
+            make.line(make.either("G0", "G1", "G1", ""), make.axes())
         elif kind == 5:
-            make.say(make.either("G90", "G91"))
+            make.line(make.either("G90", "G91"))
         elif kind == 6:
-            make.say(make.either("G54", "G55", "G56", "G59.1", "G59.3"))
+            make.line(make.either("G54", "G55", "G56", "G59.1", "G59.3"))
         elif kind == 7:
             turn = make.either("", "R0", "R30") if turns else ""
-            make.say("G10 L2", make.either("P0", "P1", "P2", "P9"), make.axes(), turn)
-            make.say("G17")
+            make.line("G10 L2", make.either("P0", "P1", "P2", "P9"), make.axes(), turn)
+            make.line("G17")
         elif kind == 8:
-            make.say("G10 L20", make.either("P1", "P2"), make.axes())
+            make.line("G10 L20", make.either("P1", "P2"), make.axes())
         elif kind == 9 and not turns:
-            make.say(make.either("G92", "G52"), make.axes())
+            make.line(make.either("G92", "G52"), make.axes())
         elif kind == 10:
-            make.say(make.either("G92.1", "G92.2", "G92.3"))
+            make.line(make.either("G92.1", "G92.2", "G92.3"))
         elif kind == 11:
-            make.say(make.either("G28", "G30"), make.either("", make.word("Z"), make.word("X")))
+            make.line(make.either("G28", "G30"), make.either("", make.word("Z"), make.word("X")))
         elif kind == 12:
-            make.say(make.either("G28.1", "G30.1"))
+            make.line(make.either("G28.1", "G30.1"))
         else:
-            make.say("G1", f"@{abs(make.number()) + 1} ^{make.number()}")
+            make.line("G1", f"@{abs(make.number()) + 1} ^{make.number()}")
     return make.text()
 
 
 def arcs(seed):
     make = Maker(seed)
     make.header()
-    make.say("G1", make.axes(1.0))
+    make.line("G1", make.axes(1.0))
     planes = {"G17": ("XY", "IJ", "Z"), "G18": ("XZ", "IK", "Y"), "G19": ("YZ", "JK", "X")}
     for _ in range(12):
         plane = make.either(*planes)
         (first, second), (i, j), third = planes[plane]
         turn = make.either("G2", "G3")
-        make.say(plane, "G91.1")
+        make.line(plane, "G91.1")
         way = make.random.randrange(4)
         if way == 0:  # a full circle, or several
-            make.say(turn, make.word(i), make.word(j), make.word(third, share=0.5),
-                     make.either("", "P2", "P3"))
+            make.line(turn, make.word(i), make.word(j), make.word(third, chance=0.5),
+                      make.either("", "P2", "P3"))
         elif way == 1:  # half circles with both words
             u, v = make.number(), make.number()
-            make.say("G91", turn, f"{first}{2 * u:.3f} {second}{2 * v:.3f} {i}{u} {j}{v}",
-                     make.word(third, share=0.5), make.either("", "", "P2"))
-            make.say("G90")
+            make.line("G91", turn, f"{first}{2 * u:.3f} {second}{2 * v:.3f} {i}{u} {j}{v}",
+                      make.word(third, chance=0.5), make.either("", "", "P2"))
+            make.line("G90")
         elif way == 2:
             u, v = make.number(0.1, 1), make.number(0.1, 1)
             radius = round((u * u + v * v) ** 0.5 * make.random.uniform(0.51, 3), 3) * make.either(1, -1)
-            make.say("G91", turn, f"{first}{u} {second}{v} R{radius}", make.word(third, share=0.5))
-            make.say("G90")
+            make.line("G91", turn, f"{first}{u} {second}{v} R{radius}", make.word(third, chance=0.5))
+            make.line("G90")
         else:
-            make.say("G1", make.axes())
+            make.line("G1", make.axes())
     return make.text()
 
 
 def cycles(seed):
     make = Maker(seed)
     make.header()
-    make.say("M3")
-    make.say("G0 Z", str(make.number(0.5, 1)))
+    make.line("M3")
+    make.line("G0 Z", str(make.number(0.5, 1)))
     for _ in range(8):
-        make.say(make.either("G98", "G99", ""))
-        make.say(make.either("G90", "G91"))
+        make.line(make.either("G98", "G99", ""))
+        make.line(make.either("G90", "G91"))
         code = make.either("G81", "G82", "G83", "G73", "G85", "G86", "G89")
         incremental = make.lines[-1] == "G91"
         r = make.number(-0.3, 0.4)
@@ -114,13 +114,13 @@ def cycles(seed):
             extra = "P0.5"
         elif code in ("G83", "G73"):
             extra = f"Q{abs(make.number(0.1, 0.5))}"
-        make.say(code, make.word("X"), make.word("Y", share=0.7), f"Z{bottom} R{r}", extra,
-                 make.either("", "", "L2", "L3"))
+        make.line(code, make.word("X"), make.word("Y", chance=0.7), f"Z{bottom} R{r}", extra,
+                  make.either("", "", "L2", "L3"))
         for _ in range(make.random.randrange(3)):
-            make.say(make.word("X"), make.word("Y", share=0.5))
-        make.say("G80")
+            make.line(make.word("X"), make.word("Y", chance=0.5))
+        make.line("G80")
         if make.random.random() < 0.5:
-            make.say("G90 G0", make.axes())
+            make.line("G90 G0", make.axes())
     return make.text()
 
 
@@ -142,63 +142,64 @@ def computed(seed):
         return "[" + f" {make.either(*binary)} ".join(terms) + "]"
 
     for number in range(1, 6):
-        make.say(f"#{number} = {make.number()}")
+        make.line(f"#{number} = {make.number()}")
     for label in range(100, 112):
         kind = make.random.randrange(6)
         if kind == 0:
-            make.say(f"o{label} if [{value()} GT {value()}]")
-            make.say(f"G1 X[{value()} MOD 90]")
-            make.say(f"o{label} else")
-            make.say(f"G1 Y[{value()} MOD 90]")
-            make.say(f"o{label} endif")
+            make.line(f"o{label} if [{value()} GT {value()}]")
+            make.line(f"G1 X[{value()} MOD 90]")
+            make.line(f"o{label} else")
+            make.line(f"G1 Y[{value()} MOD 90]")
+            make.line(f"o{label} endif")
         elif kind == 1:
-            make.say(f"o{label} repeat [{make.random.randrange(4)}]")
-            make.say(f"G91 G1 X[{value()} MOD 50] Y1")
-            make.say("G90")
-            make.say(f"o{label} endrepeat")
+            make.line(f"o{label} repeat [{make.random.randrange(4)}]")
+            make.line(f"G91 G1 X[{value()} MOD 50] Y1")
+            make.line("G90")
+            make.line(f"o{label} endrepeat")
         elif kind == 2:
-            make.say("#9 = 0")
-            make.say(f"o{label} while [#9 LT {make.random.randrange(5)}]")
-            make.say("#9 = [#9 + 1]")
-            make.say(f"G1 Z[#9 * {value()} MOD 70]")
-            make.say(f"o{label} endwhile")
+            make.line("#9 = 0")
+            make.line(f"o{label} while [#9 LT {make.random.randrange(5)}]")
+            make.line("#9 = [#9 + 1]")
+            make.line(f"G1 Z[#9 * {value()} MOD 70]")
+            make.line(f"o{label} endwhile")
         elif kind == 3:
-            make.say(f"o{label} sub")
-            make.say("G1 X[#1 MOD 80] Y[#2 MOD 60]")
-            make.say(f"o{label} endsub [#1 + #2]")
-            make.say(f"o{label} call [{value()}] [{value()}]")
-            make.say("G1 Z[#<_value> MOD 30]")
+            make.line(f"o{label} sub")
+            make.line("G1 X[#1 MOD 80] Y[#2 MOD 60]")
+            make.line(f"o{label} endsub [#1 + #2]")
+            make.line(f"o{label} call [{value()}] [{value()}]")
+            make.line("G1 Z[#<_value> MOD 30]")
         else:
-            make.say(f"#{make.random.randrange(1, 6)} = [{value()} MOD 100]")
-            make.say(f"G1 X[{value()} MOD 100] Y[[{value()}] MOD 100] (remark)")
+            make.line(f"#{make.random.randrange(1, 6)} = [{value()} MOD 100]")
+            make.line(f"G1 X[{value()} MOD 100] Y[[{value()}] MOD 100] (comment)")
     return make.text()
 
 
 def compensated(seed):
-    """A contour beside which a tool runs; many of them cannot be cut."""
+    """A contour with cutter compensation; many of them cannot be cut."""
     make = Maker(seed)
     make.header()
     radius = round(abs(make.number(0.005, 0.12)), 3)
-    make.say(f"{make.either('G41.1', 'G42.1')} D{2 * radius}")
+    make.line(f"{make.either('G41.1', 'G42.1')} D{2 * radius}")
     if make.random.random() < 0.8:
-        make.say("G1 X60", make.word("Y", -0.5, 0.5))
+        make.line("G1 X60", make.word("Y", -0.5, 0.5))
     else:
-        make.say("G3 X40 Y40 J40")
+        make.line("G3 X40 Y40 J40")
     for _ in range(8):
         kind = make.random.randrange(10)
         if kind < 5:
-            make.say(make.either("G1", "G1", "G0"), make.word("X"), make.word("Y"), make.word("Z", share=0.3))
+            make.line(make.either("G1", "G1", "G0"), make.word("X"), make.word("Y"),
+                      make.word("Z", chance=0.3))
         elif kind < 8:
             u, v = make.number(), make.number()
-            make.say("G91", make.either("G2", "G3"), f"X{2 * u:.3f} Y{2 * v:.3f} I{u} J{v}",
-                     make.word("Z", share=0.2))
-            make.say("G90")
+            make.line("G91", make.either("G2", "G3"), f"X{2 * u:.3f} Y{2 * v:.3f} I{u} J{v}",
+                      make.word("Z", chance=0.2))
+            make.line("G90")
         elif kind == 8:
-            make.say("G1", make.word("Z"))
+            make.line("G1", make.word("Z"))
         else:
-            make.say(make.either("G2", "G3"), make.word("I"), make.word("J"))
-    make.say("G40")
-    make.say("G1 X200 Y200")
+            make.line(make.either("G2", "G3"), make.word("I"), make.word("J"))
+    make.line("G40")
+    make.line("G1 X200 Y200")
     return make.text()
 
 

@@ -1,5 +1,5 @@
-"""What LinuxCNC's interpreter makes of a program: its moves in mm, in coordinates of G54 as they were when
-the program began.  python3 rs274.py FILE... prints them, in the notation of tests/data/gcode/moves.txt."""
+"""The moves that LinuxCNC's interpreter makes of a program, in mm, in the coordinates of G54 at its
+start.  python3 rs274.py FILE... prints them, in the notation of tests/data/gcode/moves.txt."""
 import math
 import os
 import re
@@ -19,8 +19,8 @@ def is_installed():
 
 
 def at_home_in(folder):
-    """The environment of an interpreter that runs in this folder.  It keeps its table of tools in a file of
-    the home folder; two that run at the same time must not share it."""
+    """The environment of an interpreter that runs in this folder.  It keeps its tool table in the home
+    folder; two that run at the same time need one each."""
     return {**os.environ, "HOME": str(folder)}
 
 
@@ -35,7 +35,7 @@ class Canon:
         c, s = math.cos(math.radians(self.turn)), math.sin(math.radians(self.turn))
         return x * c - y * s, x * s + y * c
 
-    def place(self, p):
+    def position(self, p):
         x, y = self.rotate(p[0] + self.shift[0], p[1] + self.shift[1])
         return (x + self.system[0], y + self.system[1], p[2] + self.shift[2] + self.system[2])
 
@@ -55,7 +55,7 @@ class Canon:
             self.turn = float(text)
         elif name in ("STRAIGHT_TRAVERSE", "STRAIGHT_FEED"):
             kind = "R" if name.endswith("TRAVERSE") else "C"
-            self.moves.append((kind, *self.place([v * self.scale for v in self.numbers(text)[:3]])))
+            self.moves.append((kind, *self.position([v * self.scale for v in self.numbers(text)[:3]])))
         elif name == "ARC_FEED":
             self.arc(self.numbers(text))
         elif name == "DWELL" and float(text) > 0:
@@ -66,13 +66,13 @@ class Canon:
         end, centre = [0.0] * 3, [0.0] * 3
         end[first], end[second], end[third] = (v[i] * self.scale for i in (0, 1, 5))
         centre[first], centre[second] = v[2] * self.scale, v[3] * self.scale
-        centre = self.place(centre)
+        centre = self.position(centre)
         in_name_order = [centre["XYZ".index(letter)] for letter in self.plane]
-        self.moves.append(("A", *self.place(end), *in_name_order, int(v[4])))
+        self.moves.append(("A", *self.position(end), *in_name_order, int(v[4])))
 
 
 class Events(Canon):
-    """All that a program does, in the notation of tests/data/gcode/words.txt."""
+    """The events of a program, in the notation of tests/data/gcode/words.txt."""
 
     STOPS = {"PROGRAM_STOP": "M0", "OPTIONAL_PROGRAM_STOP": "M1", "PALLET_SHUTTLE": "M60"}
     PATHS = {"CANON_EXACT_PATH": "exact path", "CANON_EXACT_STOP": "exact stop", "CANON_CONTINUOUS": "blend"}
@@ -81,7 +81,7 @@ class Events(Canon):
         super().__init__()
         self.events, self.feed, self.per_turn = [], 0.0, False
         self.speed, self.turn_of_spindle, self.spindle = 0.0, "off", "S 0 off"
-        self.synchronous = 0.0  # units a turn of the spindle, of G33 and G76
+        self.synchronous = 0.0  # units per turn of the spindle, of G33 and G76
         self.mist = self.flood = False
         self.coolant = "K off"
         self.at, self.rotary = (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
@@ -104,18 +104,18 @@ class Events(Canon):
         elif name == "NURBS_FEED":
             self.events.append("N")
         elif name == "RIGID_TAP":
-            self.tap(self.place([v * self.scale for v in self.numbers(text)[:3]]))
+            self.tap(self.position([v * self.scale for v in self.numbers(text)[:3]]))
         elif name == "STRAIGHT_PROBE":
-            place = self.place([v * self.scale for v in self.numbers(text)[:3]])
-            self.events.append(" ".join(["Q", *map(number, place)]) + self.feed_text())
+            to = self.position([v * self.scale for v in self.numbers(text)[:3]])
+            self.events.append(" ".join(["Q", *map(number, to)]) + self.feed_text())
         else:
             self.set_state(name, text)
 
     def tap(self, bottom):
-        """In, and out again with the spindle reversed."""
+        """Cuts in, and out again with the spindle reversed."""
         turns = [self.spindle, self.spindle.replace("ccw", "x").replace("cw", "ccw").replace("x", "cw")]
-        for place, spindle in ((bottom, turns[1]), (self.at, turns[0])):
-            self.events += [" ".join(["C", *map(number, place)]) + self.feed_text(), spindle]
+        for to, spindle in ((bottom, turns[1]), (self.at, turns[0])):
+            self.events += [" ".join(["C", *map(number, to)]) + self.feed_text(), spindle]
 
     def set_state(self, name, text):
         if name == "SET_FEED_RATE":
@@ -137,9 +137,9 @@ class Events(Canon):
                 return  # FLOOD_OFF follows
         elif name in ("FLOOD_ON", "FLOOD_OFF"):
             self.flood = name.endswith("ON")
-        self.tell_changes()
+        self.add_changes()
 
-    def tell_changes(self):
+    def add_changes(self):
         turns = self.turn_of_spindle != "off"
         spindle = f"S {number(self.speed) if turns else 0} {self.turn_of_spindle}"
         coolant = "K" + (" mist" * self.mist + " flood" * self.flood or " off")
@@ -168,21 +168,21 @@ class Events(Canon):
 
 
 def events_of(text, canon=None):
-    """What a program does, and the interpreter's complaint or None."""
+    """The events of a program, and the interpreter's error message or None."""
     canon = canon or Events()
-    complaint = follow(text, canon)
-    return canon.events, complaint
+    error = follow(text, canon)
+    return canon.events, error
 
 
 def moves_of(text):
-    """The moves of a program, and the interpreter's complaint or None."""
+    """The moves of a program, and the interpreter's error message or None."""
     canon = Canon()
-    complaint = follow(text, canon)
-    return canon.moves, complaint
+    error = follow(text, canon)
+    return canon.moves, error
 
 
 def follow(text, canon):
-    """Runs a program through the interpreter; `canon` hears its calls. The complaint or None."""
+    """Runs a program in the interpreter, whose calls go to `canon`; returns the error message or None."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "tool.tbl").write_text(TOOLS)
         Path(folder, "v.var").write_text("")
@@ -193,8 +193,8 @@ def follow(text, canon):
         match = CALL.match(line)
         if match:
             canon.call(*match.groups())
-    complaint = done.stderr.replace("executing", "").strip()
-    return complaint or (None if done.returncode == 0 else "refused")
+    error = done.stderr.replace("executing", "").strip()
+    return error or (None if done.returncode == 0 else "refused")
 
 
 def number(value):

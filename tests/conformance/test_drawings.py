@@ -1,4 +1,4 @@
-"""Drawings of toolpaths, read by ezdxf: sound files, the same geometry in both versions, and in the SVG."""
+"""Drawings of toolpaths, read by ezdxf: valid files, the same geometry in both versions, and in the SVG."""
 import math
 import os
 import re
@@ -15,7 +15,7 @@ KERF = os.environ["KERF"]
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
 FILES = sorted(p for p in CASES.glob("*.*") if p.suffix in (".nc", ".ngc", ".gcode"))
 
-# Lines, arcs, a circle, a helix, an arc that stands upright, a hole, two tools and a rapid between.
+# Lines, arcs, a circle, a helix, an arc in the XZ plane, a hole, two tools and a rapid between.
 SHAPES = """G21 G90 G17
 T1 M6
 M3 S1000
@@ -138,7 +138,7 @@ def test_real_programs(path, tmp_path):
     assert math.isfinite(new.header["$EXTMAX"][0])
     svg = draw(path, tmp_path / "new.svg").read_text()
     assert len(re.findall(r"<(?:path|circle) ", svg)) == len(new.modelspace()) > 0
-    if len(new.modelspace()) > 5000:  # ezdxf takes its time
+    if len(new.modelspace()) > 5000:  # too slow in ezdxf
         return
     old = opened(draw(path, tmp_path / "old.dxf", "--dxf-version", "r12"))
     assert len(new.modelspace()) == len(old.modelspace())

@@ -1,4 +1,4 @@
-"""The hand-made DXF files of tests/data/dxf: what is read of each, and what is reported with which line."""
+"""The hand-made DXF files of tests/data/dxf: their contents, and the diagnostics with their lines."""
 
 import json
 import math
@@ -75,7 +75,7 @@ def test_the_files_are_those_of_the_script(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["dwg", "utf16", "empty", "svg", "numbers"])
-def test_what_is_no_dxf_is_refused(name):
+def test_other_files_are_refused(name):
     read = dump(name)
     assert not read["read"] and reports(read)[-1] == ("dxf_not_dxf", 0)
 
@@ -118,7 +118,7 @@ def test_repeated_handles_are_counted():
     assert [e["handle"] for e in read["entities"]] == ["2F", "30", "2F"]
 
 
-def test_counts_are_not_believed():
+def test_wrong_counts_are_ignored():
     read = dump("huge_counts")
     assert [e["type"] for e in read["entities"]] == ["LWPOLYLINE", "SPLINE", "INSERT"]
     assert [len(s) for s in (shapes(read)[0]["vertices"], shapes(read)[1]["control"])] == [3, 4]
@@ -132,7 +132,7 @@ def close(points, expected):
 def test_inserts_are_mirrored_and_repeated():
     placed = [e["points"] for e in dump("mirrored_inserts", "--placed")["entities"]]
     half = math.sqrt(0.5)
-    # An extrusion of -z turns x round: the block's +x, rotated by 90 degrees, is +y, and its +y is +x.
+    # An extrusion of -z mirrors x: the block's +x, rotated by 90 degrees, is +y, and its +y is +x.
     assert close(placed[0], [[-10, 5, 0], [-10, 8, 0]])
     assert close(
         placed[1],
@@ -172,12 +172,12 @@ def test_splines():
     assert reports(dump("bad_splines")) == [("dxf_value", 23), ("dxf_value", 69), ("dxf_value", 89)]
 
 
-def test_embedded_objects_and_other_programs_data_are_not_taken_for_the_entity():
+def test_embedded_objects_and_application_data_are_skipped():
     shape = shapes(dump("embedded_object"))[0]
     assert (shape["text"], shape["at"], shape["height"]) == ("right", [1, 2, 0], 2.5)
 
 
-def test_what_is_not_understood_is_counted():
+def test_unsupported_entities_and_tags_are_counted():
     read = dump("unknown_entities")
     assert read["others"] == {"HATCH": 2, "DIMENSION": 1}
     assert read["unused"] == [["LINE", 39, 2]]
@@ -188,7 +188,7 @@ def test_what_is_not_understood_is_counted():
 def test_characters():
     first, second = dump("characters")["entities"]
     assert first["layer"] == "Lage ä"
-    assert first["shape"]["text"] == "\u2300 5\U0001f600\\U+00 \u3042 \\M+9"  # three kinds; two that are none
+    assert first["shape"]["text"] == "\u2300 5\U0001f600\\U+00 \u3042 \\M+9"  # three escapes, two invalid
     assert second["shape"]["plain"] == "Ø8±0.1 \u00f8% %%x \n^"
     assert shapes(dump("cad_2007_is_utf8"))[0]["text"] == "Ø 日本"
     read = dump("unknown_code_page")

@@ -39,7 +39,7 @@ def compare_entities(ours, theirs, where):
         shape = lowered(mine["shape"])
         for key, value in other["shape"].items():
             if key == "plain" and other["type"] == "MTEXT":
-                shape[key] = shape[key].replace("\t", "    ").rstrip("\n")  # as ezdxf's has it
+                shape[key] = shape[key].replace("\t", "    ").rstrip("\n")  # as ezdxf has it
             if key == "rotation" and other["type"] == "MTEXT":
                 assert shape[key] == pytest.approx(value, abs=1e-9), f"{what}: {key}"
             else:

@@ -10,7 +10,7 @@ KERF = os.environ["KERF"]
 CASES = os.environ.get("KERF_CASES_DIR", "")
 SEED = Path(CASES, "gcmc", "seed")
 pytestmark = pytest.mark.skipif(not CASES or not SEED.is_dir(),
-                                reason="KERF_CASES_DIR names no folder of cases; left out")
+                                reason="KERF_CASES_DIR names no folder of cases; skipped")
 
 PROGRAMS = ["canned", "engrave", "tracepath", "tracepath_comp", "varcs", "vbezier"]
 MODES = {".ngc": [], ".imperial.ngc": ["-i"], ".relative.ngc": ["-r"], ".P4q.ngc": ["-P4", "-q"],

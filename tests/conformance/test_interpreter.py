@@ -1,4 +1,4 @@
-"""Random programs: Kerf's moves are those of LinuxCNC's interpreter, what that refuses is an error here."""
+"""Random programs: Kerf's moves equal those of LinuxCNC's interpreter; what it refuses is an error."""
 import json
 import os
 import subprocess
@@ -11,9 +11,9 @@ if not rs274.is_installed():
     pytest.skip("rs274 is not installed (linuxcnc-uspace)", allow_module_level=True)
 
 PROGRAMS = 80
-SLACK = 2e-4  # mm at sizes of random_gcode.SCALE: what four printed decimals leave
-# Of compensated paths, those that one of the two thinks cut into the part: LinuxCNC does not look at each
-# piece that is cut back beyond its begin, and refuses some that a thinner look would take.
+SLACK = 2e-4  # mm at sizes of random_gcode.SCALE: rounding to four printed decimals
+# Compensated paths that only one of the two refuses as gouges: LinuxCNC does not examine every segment that
+# is shortened beyond its start point, and its test is coarser.
 OTHER_VERDICTS = {"compensated": 4}
 
 
@@ -48,11 +48,11 @@ def test_moves(family, tmp_path):
         text = random_gcode.FAMILIES[family](seed)
         path.write_text(text)
         wanted, refused = rs274.moves_of(text)
-        found, status, said = kerf_moves(path)
+        found, status, messages = kerf_moves(path)
         if refused == "Command too long":
             continue  # its limit of 255 characters is not Kerf's
         if bool(refused) != (status != 0):
-            other_verdicts.append((seed, refused, said))
+            other_verdicts.append((seed, refused, messages))
             continue
         if refused:
             continue

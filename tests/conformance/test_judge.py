@@ -1,4 +1,4 @@
-"""The given cases: figures of real G-code files, and exact removed volumes, through the judge beside them."""
+"""The given cases: figures of real G-code files, and exact removed volumes, through judge.py of the cases."""
 import os
 import subprocess
 import sys
@@ -9,7 +9,7 @@ import pytest
 KERF = os.environ["KERF"]
 CASES = os.environ.get("KERF_CASES_DIR", "")
 pytestmark = pytest.mark.skipif(not CASES or not Path(CASES, "judge.py").exists(),
-                                reason="KERF_CASES_DIR names no folder of cases; left out")
+                                reason="KERF_CASES_DIR names no folder of cases; skipped")
 
 
 # Known differences, each with its reason. The list may only become shorter.

@@ -1,5 +1,5 @@
-"""Given programs written again by the posts: LinuxCNC's interpreter takes them where it took the original,
-and finds the same lengths, bounds and counts in them."""
+"""Real programs written by the posts: LinuxCNC's interpreter accepts them where it accepts the original, with
+the same lengths, bounds and counts."""
 import importlib.util
 import json
 import math
@@ -17,7 +17,7 @@ if not FILES:
     pytest.skip("the given cases are not here (KERF_CASES_DIR)", allow_module_level=True)
 if not rs274.is_installed():
     pytest.skip("rs274 is not installed (linuxcnc-uspace)", allow_module_level=True)
-# Programs with moves that no feed belongs to: LinuxCNC refuses them, and so does the post without --feed.
+# Some programs have cuts without a feed: LinuxCNC refuses them, and so does the post without --feed.
 FEED = ["--feed", "500"]
 
 
@@ -32,7 +32,7 @@ def figures(path, folder):
     with pytest.MonkeyPatch.context() as patch:
         for name, value in {**rs274.at_home_in(folder), "TOOL_TBL": str(CASES / "tool.tbl")}.items():
             patch.setenv(name, value)
-        patch.chdir(folder)  # the interpreter keeps a file of parameters where it runs
+        patch.chdir(folder)  # the interpreter writes its parameter file there
         return canon().run(str(path), timeout=300)
 
 

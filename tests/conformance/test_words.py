@@ -1,5 +1,5 @@
-"""Every word of LinuxCNC's quick reference: what tests/data/gcode/words.txt expects of Kerf is what LinuxCNC
-does, or the row says why not."""
+"""Every word of LinuxCNC's quick reference: the expectations of tests/data/gcode/words.txt are what LinuxCNC
+does, or the row explains the difference."""
 import re
 from pathlib import Path
 
@@ -27,8 +27,8 @@ def rows():
 
 
 def comparable(events, program):
-    """Without what is the interpreter's own: path modes that its cycles switch, a stop before each reversal
-    of the spindle, what an end switches off, and where a curve goes."""
+    """Without what only the interpreter has: path modes switched by its cycles, a stop before each reversal
+    of the spindle, what the end switches off, and the points of curves."""
     kept = []
     for event in events:
         if event.startswith("P ") and not re.search(r"G6[14]", program):
