@@ -1,4 +1,4 @@
-"""What the tests of the command share: how it is run, and a program that is known to be sound."""
+"""Common to the tests of the command: running it, and a valid program."""
 import json
 import os
 import subprocess
@@ -9,7 +9,7 @@ import pytest
 KERF = os.environ["KERF"]
 
 # Tool 102 of the built-in table: square, 3.175 mm, flute 12.7 mm. A plunge, a line, a half circle: 1 mm deep.
-SOUND = """(a little job)
+VALID = """(a little job)
 (stockMin:0.00mm, 0.00mm, -6.00mm)
 (stockMax:40.00mm, 30.00mm, 0.00mm)
 G21 G90 G17
@@ -58,9 +58,9 @@ def kerf(tmp_path):
 
 @pytest.fixture
 def program(tmp_path):
-    """program(text): writes it to a file of the test's folder and gives the path."""
+    """program(text): writes it to a file of the test's folder and returns the path."""
 
-    def write(text=SOUND, name="part.nc"):
+    def write(text=VALID, name="part.nc"):
         path = Path(tmp_path, name)
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
         return path

@@ -1,13 +1,13 @@
-"""Stock from files, fixtures, kerf compare and the fourth axis, as the command does them."""
+"""Stock from files, fixtures, kerf compare and the fourth axis."""
 import math
 import struct
 
 import pytest
-from conftest import SOUND
+from conftest import VALID
 
 BOX = [0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
        1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7]
-REMOVED = 2 * 3.175 / 2 * 10 + math.pi * 5 * 3.175 + math.pi * 3.175**2 / 4  # by SOUND, 1 mm deep
+REMOVED = 2 * 3.175 / 2 * 10 + math.pi * 5 * 3.175 + math.pi * 3.175**2 / 4  # by VALID, 1 mm deep
 BLOCK = ((0, 0, -6), (40, 30, 0))
 
 
@@ -61,7 +61,7 @@ def test_left_over_stock_and_the_second_side(kerf, program, files):
     assert kept.status == 2 and "input" in kept.err
 
 
-def test_wrong_words(kerf, program):
+def test_invalid_option_values(kerf, program):
     path = program()
     for option, value, code in (("--flip", "z", 4117), ("--shift", "1,2", 4117), ("--fixture", "here", 4118),
                                 ("--rotary", "40", 4119)):
@@ -75,7 +75,7 @@ def test_fixtures_are_hazards(kerf, program, box):
     clamp = box("clamp.stl", (18, 8, 0), (30, 12, 4))
     run = kerf("check", "--json", "--fixture", clamp, "--fixture", "0,0,0 to 5,5,4", path)
     assert run.status == 3
-    hazards = run.json["hazards"]  # the line that ends at X20 Y10, and the arc that begins there
+    hazards = run.json["hazards"]  # the line that ends at X20 Y10, and the arc that starts there
     assert {h["kind"] for h in hazards} == {"fixture_contact"}
     assert [h["origin"]["line"] for h in hazards] == [9, 10]
     for hazard in hazards:
@@ -87,7 +87,7 @@ CLAMPED = ("G21 G90\nM6 T102\nM3 S9000\nG0 X-10 Y5 Z20\nG0 Z-2\nG1 X10 F500\nG0 
            "G0 X5\nG0 Z-2\nG0 Z20\nM2\n")
 
 
-def test_every_move_through_a_clamp_is_told(kerf, program):
+def test_every_move_through_a_clamp_is_reported(kerf, program):
     path = program(CLAMPED)
     job = ("check", "--stock", "0,0,-30 to 60,40,-20", "--fixture", "0,0,-5 to 6,10,0",
            "--fixture", "20,0,-5 to 26,10,0")
@@ -105,7 +105,7 @@ def test_fixtures_on_a_fourth_axis_are_refused(kerf, program):
     assert run.status == 2 and "not looked for on a fourth axis" in run.err
 
 
-def test_a_fourth_axis_says_the_distance_that_it_chose(kerf, program):
+def test_a_fourth_axis_reports_its_default_resolution(kerf, program):
     path = program(WRAP)
     run = kerf("simulate", "--json", "--rotary", "d=10 length=60", path)
     assert run.json["resolution_mm"] == pytest.approx(0.137, abs=1e-3)

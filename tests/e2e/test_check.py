@@ -1,13 +1,13 @@
-"""kerf check: exit status 3 with the hazards of the path and of the material; 0 for a sound program."""
+"""kerf check: exit status 3 with the hazards of the path and of the material; 0 for a valid one."""
 import pytest
-from conftest import SOUND
+from conftest import VALID
 
 
 def kinds(run):
     return sorted({h["kind"] for h in run.json["hazards"]})
 
 
-def test_a_sound_program(kerf, program, files):
+def test_a_valid_program(kerf, program, files):
     run = kerf("check", "--json", program())
     assert run.status == 0, run.out
     assert run.json["hazards"] == []
@@ -27,8 +27,8 @@ def test_a_sound_program(kerf, program, files):
     ("G1 Z-1", "G1 Z-8", "below_floor"),
 ])
 def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
-    assert old in SOUND
-    run = kerf("check", "--json", program(SOUND.replace(old, new)))
+    assert old in VALID
+    run = kerf("check", "--json", program(VALID.replace(old, new)))
     assert run.status == 3, run.out
     assert kind in kinds(run)
     for hazard in run.json["hazards"]:
@@ -37,7 +37,7 @@ def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
 
 
 def test_the_result_is_the_same_for_any_number_of_threads(kerf, program):
-    path = program(SOUND.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5"))
+    path = program(VALID.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5"))
     one, four = (kerf("check", "--json", "--threads", n, path).json for n in ("1", "4"))
     assert one == four and one["hazards"]
 
@@ -61,7 +61,7 @@ SMALL_MILL = "travel_x = [0, 8]\nspindle = [100, 8000]\n"
 ])
 def test_each_hazard_has_its_line_and_a_hint(kerf, program, old, new, options, kind, line, hint):
     program(SMALL_MILL, "mill.toml")
-    run = kerf("check", "--json", *options, program(SOUND.replace(old, new) if old else SOUND))
+    run = kerf("check", "--json", *options, program(VALID.replace(old, new) if old else VALID))
     assert run.status == 3, run.out
     found = next(h for h in run.json["hazards"] if h["kind"] == kind)
     assert found["origin"]["line"] == line
@@ -80,44 +80,44 @@ def test_hazards_of_the_machine(kerf, program, machine, kind):
 
 
 def test_hazards_of_the_material(kerf, program):
-    fast = program(SOUND.replace("F400", "F8000"))
+    fast = program(VALID.replace("F400", "F8000"))
     assert kinds(kerf("check", "--json", "--material", "steel", fast)) == ["chip_load"]
     assert kerf("check", "--material", "cheese", fast).status == 2
 
 
 def test_a_tool_change_in_the_stock(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("G0 Z5\nM5\n", "M5\nM6 T201\nG0 Z5\n")))
+    run = kerf("check", "--json", program(VALID.replace("G0 Z5\nM5\n", "M5\nM6 T201\nG0 Z5\n")))
     assert "tool_change_low" in kinds(run)
 
 
 def test_a_cut_deeper_than_the_flute(kerf, program):
-    text = SOUND.replace("-6.00mm", "-30.00mm").replace("G1 Z-1", "G1 Z-20")
+    text = VALID.replace("-6.00mm", "-30.00mm").replace("G1 Z-1", "G1 Z-20")
     run = kerf("check", "--json", program(text))
     assert run.status == 3
     assert {"over_flute", "shank_contact"} & set(kinds(run))
 
 
 def test_hazards_as_text_name_file_and_line(kerf, program):
-    path = program(SOUND.replace("M3 S10000\n", ""))
+    path = program(VALID.replace("M3 S10000\n", ""))
     run = kerf("check", path)
     assert run.status == 3
     assert f"{path}:7" in run.out and "[spindle_off]" in run.out
 
 
 def test_hazards_of_path_and_material_are_in_the_order_of_steps(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("G0 Z5\nM5\nM2\n", "G0 X30\nM5\nG1 X31\n")))
+    run = kerf("check", "--json", program(VALID.replace("G0 Z5\nM5\nM2\n", "G0 X30\nM5\nG1 X31\n")))
     steps = [h["step"] for h in run.json["hazards"]]
     assert steps == sorted(steps) and len(steps) >= 3
 
 
 def test_errors_of_the_program_come_before_hazards(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("F400", "Fnan")))
+    run = kerf("check", "--json", program(VALID.replace("F400", "Fnan")))
     assert run.status == 1
     assert any(d["severity"] == "error" for d in run.json["diagnostics"])
 
 
 def test_an_unknown_tool_is_a_hazard_and_the_rest_is_checked(kerf, program):
-    two = SOUND.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM6 T77\nM3 S9000\nG1 Z-1\nG1 X35 Z-20\nG0 Z5\nM5")
+    two = VALID.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM6 T77\nM3 S9000\nG1 Z-1\nG1 X35 Z-20\nG0 Z5\nM5")
     run = kerf("check", "--json", program(two))
     assert run.status == 3
     assert kinds(run) == ["rapid_in_stock", "unknown_tool"]
@@ -128,7 +128,7 @@ def test_an_unknown_tool_is_a_hazard_and_the_rest_is_checked(kerf, program):
 
 
 def test_a_program_with_an_unknown_tool_only(kerf, program):
-    path = program(SOUND.replace("T102", "T77"))
+    path = program(VALID.replace("T102", "T77"))
     run = kerf("check", "--json", path)
     assert run.status == 3
     assert kinds(run) == ["unknown_tool"]
@@ -141,18 +141,18 @@ def test_an_empty_program_is_an_error(kerf, program):
     assert "nothing_to_cut" in run.codes()
 
 
-def test_without_any_tool_the_material_is_left_out_and_said_so(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("M6 T102\n", "")))
+def test_without_a_tool_the_simulation_is_skipped_with_a_note(kerf, program):
+    run = kerf("check", "--json", program(VALID.replace("M6 T102\n", "")))
     assert run.status == 3
     assert kinds(run) == ["no_tool"]
     assert "not_simulated" in run.codes()
 
 
-# 9.5 mm deep; --tool "square d=3" has no flute, so that Kerf takes 3 diameters.
-DEEP = SOUND.replace("-6.00mm", "-12.00mm").replace("G1 Z-1", "G1 Z-9.5")
+# 9.5 mm deep; --tool "square d=3" has no flute length, so Kerf assumes 3 diameters.
+DEEP = VALID.replace("-6.00mm", "-12.00mm").replace("G1 Z-1", "G1 Z-9.5")
 
 
-def test_a_flute_that_nobody_told_is_a_warning(kerf, program):
+def test_a_cut_beyond_an_assumed_flute_is_a_warning(kerf, program):
     path = program(DEEP)
     run = kerf("check", "--json", "-t", "square d=3", path)
     assert run.status == 0 and run.json["hazards"] == []
@@ -160,14 +160,14 @@ def test_a_flute_that_nobody_told_is_a_warning(kerf, program):
     assert warning["severity"] == "warning" and warning["origin"]["line"] == 9
     assert "0.5 mm deeper" in warning["message"] and "9 mm are assumed (3 diameters)" in warning["message"]
     assert "flute=20" in warning["hint"]
-    told = kerf("check", "--json", "-t", "square d=3 flute=9", path)
-    assert told.status == 3 and kinds(told) == ["over_flute"]
+    given = kerf("check", "--json", "-t", "square d=3 flute=9", path)
+    assert given.status == 3 and kinds(given) == ["over_flute"]
     shank = kerf("check", "--json", "-t", "square d=3 shank=6", path)
     assert shank.status == 3 and kinds(shank) == ["shank_contact"]
     assert all("flute=" in h["hint"] for h in shank.json["hazards"])
 
 
-def test_simulate_and_info_tell_of_an_assumed_flute_too(kerf, program):
+def test_simulate_and_info_report_an_assumed_flute_too(kerf, program):
     path = program(DEEP)
     simulated = kerf("simulate", "--json", "--resolution", "0.5", "-t", "square d=3", path)
     assert simulated.json["hazards"] == [] and "flute_assumed" in simulated.codes()
@@ -204,53 +204,53 @@ def test_z_downwards_is_one_hazard(kerf, program):
     assert "Z downwards" in kerf("info", *tool, program(DOWNWARDS)).err
 
 
-def test_a_program_stopped_at_a_limit_is_not_told_to_lack_its_end(kerf, program):
+def test_a_program_stopped_at_a_limit_has_no_missing_end(kerf, program):
     run = kerf("check", "--json", program("M6 T102\nM3 S1000\nO1 while [1]\nG0 X1\nO1 endwhile\n"))
     assert run.status == 1
     assert run.json["hazards"] == [] and run.codes() == ["too_many_steps"]
 
 
 def test_inverse_time_without_a_feed_is_a_hazard(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("G1 X20 F400", "G93 G1 X15 F2\nG1 X20\nG94 F400")))
+    run = kerf("check", "--json", program(VALID.replace("G1 X20 F400", "G93 G1 X15 F2\nG1 X20\nG94 F400")))
     assert run.status == 3 and kinds(run) == ["no_feed"]
     assert [h["origin"]["line"] for h in run.json["hazards"]] == [10]
 
 
 @pytest.mark.parametrize("code, dialect", [("G65 P100", "linuxcnc"), ("G12 I5", "mach3")])
-def test_a_code_that_nobody_knows_is_a_hazard(kerf, program, code, dialect):
-    part = program(SOUND.replace("G1 Z-1", f"{code}\nG1 Z-1"))
+def test_an_unknown_g_code_is_a_hazard(kerf, program, code, dialect):
+    part = program(VALID.replace("G1 Z-1", f"{code}\nG1 Z-1"))
     run = kerf("check", "--json", "--dialect", dialect, part)
     assert run.status == 3, run.out
     found = next(h for h in run.json["hazards"] if h["kind"] == "left_out")
     line = 1 + part.read_text().splitlines().index(code)
     assert found["origin"]["line"] == line and code.split()[0] in found["message"]
-    assert not [d for d in run.json["diagnostics"] if d["name"] == "unknown_g_code"]  # told once
+    assert not [d for d in run.json["diagnostics"] if d["name"] == "unknown_g_code"]  # reported once
     assert "no hazard found" not in kerf("check", part).out
 
 
-def test_an_m_code_that_nobody_knows_is_none(kerf, program):
-    run = kerf("check", "--json", program(SOUND.replace("G1 Z-1", "M77\nG1 Z-1")))
+def test_an_unknown_m_code_is_no_hazard(kerf, program):
+    run = kerf("check", "--json", program(VALID.replace("G1 Z-1", "M77\nG1 Z-1")))
     assert run.status == 0, run.out
     assert [d["severity"] for d in run.json["diagnostics"] if d["name"] == "unknown_m_code"] == ["warning"]
 
 
 def test_no_tool_names_the_option_without_a_number(kerf, program):
-    text = SOUND.replace("M6 T102\n", "")
+    text = VALID.replace("M6 T102\n", "")
     run = kerf("check", "--json", "-t", "1=square d=3", "-t", "2=square d=6", program(text))
     hazard = next(h for h in run.json["hazards"] if h["kind"] == "no_tool")
     assert "--tool SPEC, without a number" in hazard["hint"]
 
 
-def test_a_stock_that_is_cut_away_wholly_is_warned_of(kerf, tmp_path):
+def test_a_stock_that_is_cut_away_wholly_is_a_warning(kerf, tmp_path):
     path = tmp_path / "all.nc"
     path.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X-5 Y5 Z5\nG1 Z-1 F200\nG1 X15\nG0 Z5\nM5\nM30\n")
-    for depth, said in ((1, True), (2, False)):
+    for depth, warned in ((1, True), (2, False)):
         run = kerf("simulate", path, "--tool", "1=square d=40 flute=20", "--stock", f"10x10x{depth}",
                    "-o", tmp_path / "part.stl", "--json")
-        assert ("nothing_left" in run.codes()) == said
+        assert ("nothing_left" in run.codes()) == warned
 
 
-def test_a_program_beside_its_stock_is_warned_of(kerf, tmp_path):
+def test_a_program_beside_its_stock_is_a_warning(kerf, tmp_path):
     path = tmp_path / "beside.nc"
     path.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X500 Y5 Z5\nG1 Z-3 F200\nG1 X540\nG0 Z5\nM5\nM30\n")
     options = ("--tool", "1=square d=6 flute=20", "--stock", "60x40x20")
@@ -258,7 +258,7 @@ def test_a_program_beside_its_stock_is_warned_of(kerf, tmp_path):
         run = kerf(command, path, *options, "--json")
         assert "stock_untouched" in run.codes(), command
     assert "stock_untouched" not in kerf("check", path, *options[:2], "--json").codes()
-    between = tmp_path / "between.nc"  # narrower than the columns are apart, not beside the stock
+    between = tmp_path / "between.nc"  # narrower than the distance of the columns, not beside the stock
     between.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X2 Y2 Z5\nG1 Z-1 F200\nG1 X8\nG0 Z5\nM5\nM30\n")
     run = kerf("simulate", between, "--tool", "1=square d=3 flute=20", "--stock", "10x10x5",
                "--resolution", "10", "--json")

@@ -17,7 +17,7 @@ RUNS = {
 
 @pytest.fixture
 def expected(kerf, tmp_path):
-    """G-code, picture and number of steps as the command has them."""
+    """G-code, picture and number of steps as the command writes them."""
     assert kerf("post", "--to", "grbl", PROGRAM, *DEFINE, "-o", "kerf.nc").status == 0
     run = kerf("simulate", PROGRAM, *DEFINE, "--resolution", "0.2", "--view", "iso", "-o", "kerf.png")
     assert run.status == 0, run.err

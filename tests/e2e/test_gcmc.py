@@ -1,4 +1,4 @@
-"""kerf gcmc: options, messages and exit statuses of the drop-in, and gcmc programs as a way in."""
+"""kerf gcmc: options, messages and exit statuses of the drop-in, and gcmc programs as input."""
 import json
 import os
 import re
@@ -14,7 +14,7 @@ MOVE = "feedrate(100); goto([1, 2, 3]); move([4]);\n"
 WORDS = "F100.00000000\nG0 X1.00000000 Y2.00000000 Z3.00000000\nG1 X4.00000000\n"
 
 
-def test_the_usual_text(kerf, program):
+def test_default_output(kerf, program):
     run = kerf("gcmc", program(MOVE, "p.gcmc"))
     assert run.status == 0 and run.err == ""
     assert WORDS in run.out
@@ -94,7 +94,7 @@ def test_help_and_version(kerf):
     assert run.status == 0 and len(run.out.splitlines()) == 2
 
 
-def test_own_head_and_end(kerf, program):
+def test_own_prologue_and_epilogue(kerf, program):
     program("(head)\n", "h")
     program("(end)\n", "e")
     assert kerf("gcmc", "-q", "-G", "h", "-g", "e", stdin=MOVE.encode()).out == "(head)\n" + WORDS + "(end)\n"
@@ -122,7 +122,7 @@ def test_a_file_appears_whole_or_not_at_all(kerf, program, files, tmp_path):
     program("old\n", "out.ngc")
     assert kerf("gcmc", "-o", "out.ngc", stdin=b"move([1]); x = 1/0;").status == 1
     assert (tmp_path / "out.ngc").read_text() == "old\n" and files() == ["out.ngc"]
-    assert kerf("gcmc", "-qo", "out.ngc", stdin=b"error(\"told\"); move([1]);").status == 1
+    assert kerf("gcmc", "-qo", "out.ngc", stdin=b"error(\"reported\"); move([1]);").status == 1
     assert (tmp_path / "out.ngc").read_text() == "G1 X1.00000000\n" and files() == ["out.ngc"]
     run = kerf("gcmc", "-o", "no/such/folder.ngc", stdin=b"")
     assert run.status == 1 and "cannot write" in run.err
@@ -144,7 +144,7 @@ def test_output_is_limited(kerf, program, files):
     assert run.status == 1 and 2**20 <= len(run.out) < 2**21
     assert run.err.startswith("p.gcmc:2:") and "error: More than 1 MB of output" in run.err
     assert kerf("gcmc", "-q", "--max-output=1", "-o", "out.ngc", "p.gcmc").status == 1
-    assert files() == ["p.gcmc"]  # nothing of it is left behind
+    assert files() == ["p.gcmc"]  # no partial output
     run = kerf("gcmc", "--max-output", "0", "p.gcmc")
     assert run.status == 1 and "Output limit must be a number of MB" in run.err
 
@@ -206,12 +206,12 @@ def test_explanations(kerf, program):
     assert "hint: did you mean 'feedrate'?" in kerf("gcmc", "--explain", stdin=b"feedrat(1);").err
 
 
-def test_programs_that_ask_too_much_end(kerf):
+def test_programs_beyond_a_limit_end(kerf):
     assert "nested too deeply" in kerf("gcmc", stdin=b"function f() { f(); } f();").err
     assert "more than 2048 MB" in kerf("gcmc", stdin=b"s = \"a\"; while(1) { s += s; }").err
 
 
-def test_gcmc_is_a_way_in(kerf, program):
+def test_gcmc_programs_are_read_by_steps_and_info(kerf, program):
     program("toolchange(102); spindle(10000); feedrate(400); goto([0, 0, 5]); move([0, 0, -1]); move([10]);"
             "goto([-, -, 5]);\n", "p.gcmc")
     steps = [json.loads(line) for line in kerf("steps", "p.gcmc").out.splitlines()]
@@ -242,13 +242,13 @@ sink();
     assert simulated["stock"]["source"] == "program" and simulated["hazards"][0]["origin"]["line"] == 6
 
 
-def test_a_program_finds_what_lies_beside_it(kerf, tmp_path):
+def test_includes_are_found_beside_the_program(kerf, tmp_path):
     folder = tmp_path / "parts"
     folder.mkdir()
     (folder / "lib.inc.gcmc").write_text("function f() { move([1, 2, -1]); }\n")
     (folder / "p.gcmc").write_text('include("lib.inc.gcmc"); f();\n')
     assert kerf("steps", "parts/p.gcmc").out.count('"cut"') == 1
-    assert "cannot be found" in kerf("gcmc", "parts/p.gcmc").err  # as the real program: beside the user
+    assert "cannot be found" in kerf("gcmc", "parts/p.gcmc").err  # only the working folder
 
 
 def test_a_link_named_gcmc_is_gcmc(tmp_path):

@@ -1,5 +1,5 @@
-"""A gcmc program read directly gives what the G-code gives that `kerf gcmc` writes for it: the same motions,
-with the same tool and spindle, and in the simulator the same volumes and hazards."""
+"""A gcmc program read directly and the G-code that `kerf gcmc` writes for it have the same motions with the
+same tool and spindle, and in the simulator the same volumes and hazards."""
 import json
 import math
 import os
@@ -19,7 +19,7 @@ def near(a, b, tolerance=NEAR):
 
 
 def motions(steps):
-    """The motions with the tool and the spindle that they are made with."""
+    """The motions with their tool and spindle."""
     spindle, found = ("off", 0.0), []
     for line in steps.splitlines()[1:]:
         step = json.loads(line)
@@ -44,7 +44,7 @@ def assert_same_motion(direct, read):
 
 
 def same_motions(kerf, source, folder):
-    """Compares the steps of both routes; the G-code's path, or nothing for a program that makes none."""
+    """Compares the steps of both routes; the path of the G-code, or None where nothing is cut."""
     text = folder / "written.ngc"
     written = kerf("gcmc", "-I", source.parent, "-o", text, source)
     if written.status != 0 or text.stat().st_size > LARGEST:
@@ -72,7 +72,8 @@ def same_results(kerf, source, text):
     assert len(a.json["hazards"]) == len(b.json["hazards"])
     for one, other in zip(a.json["hazards"], b.json["hazards"]):
         assert one["kind"] == other["kind"]
-        assert near(one.get("volume_mm3", 0), other.get("volume_mm3", 0))
+        for key in ("depth_mm", "removed_mm3"):
+            assert near(one[key], other[key]), key
 
 
 @pytest.mark.parametrize("source", OWN, ids=lambda p: p.stem)
@@ -134,7 +135,7 @@ def test_comments_describe_tools_and_stock_on_both_routes(kerf, program, tmp_pat
     ("G1 Z-20 F100", "G1 changes the motion in force"),
 ])
 def test_a_line_that_a_toolpath_cannot_hold(kerf, program, tmp_path, line, why):
-    """Refused with its line wherever a toolpath is made; the G-code holds it, and the simulator obeys it."""
+    """Refused with its line wherever a toolpath is made; written to the G-code, which can be simulated."""
     source = program(f'feedrate(100);\ngoto([0, 0, 5]);\nliteral("{line}\\n");\nmove([1, 1, 1]);\n', "p.gcmc")
     for command in (["steps"], ["simulate"], ["check"], ["post", "--to", "linuxcnc"]):
         run = kerf(*command, source)

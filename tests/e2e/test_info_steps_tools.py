@@ -1,9 +1,9 @@
-"""kerf info, steps and tools: the shapes of their JSON and what people read."""
+"""kerf info, steps and tools: their JSON and text."""
 import json
 import math
 
 import pytest
-from conftest import SOUND
+from conftest import VALID
 
 GRBL = "$0=10\n$110=1000.000 (x max rate)\n$111=2000\n$112=500\n"
 
@@ -43,7 +43,7 @@ def test_info_of_inches(kerf, program):
 
 
 def test_info_warns_of_an_unknown_tool(kerf, program):
-    run = kerf("info", "--json", program(SOUND.replace("T102", "T77")))
+    run = kerf("info", "--json", program(VALID.replace("T102", "T77")))
     assert run.status == 0
     assert "no_tool_shape" in run.codes()
     assert run.json["tools"][0]["known"] is False
@@ -70,7 +70,7 @@ def test_info_plans_with_a_profile(kerf, program):
 
 
 def test_a_grbl_reads_on_after_m2(kerf, program):
-    path = program(SOUND + "G0 X30\n")
+    path = program(VALID + "G0 X30\n")
     machine = program(GRBL, "grbl.txt")
     stopped = kerf("info", "--json", path).json["motion"]["rapids"]
     assert kerf("info", "--json", "--machine", machine, path).json["motion"]["rapids"] == stopped + 1
@@ -81,7 +81,7 @@ def test_a_grbl_reads_on_after_m2(kerf, program):
     ("$110=nan\n", "machine_value"), ("$110=1e999\n", "machine_value"),
     ("rates = 5\n", "machine_key_unknown"),
 ])
-def test_a_machine_file_that_is_none_is_an_error(kerf, program, text, code):
+def test_an_invalid_machine_file_is_an_error(kerf, program, text, code):
     run = kerf("info", "--json", "--machine", program(text, "grbl.txt"), program())
     assert run.status == 1
     assert run.codes() == [code]
@@ -102,14 +102,14 @@ def test_tools_are_imported_and_exported(kerf, program, tmp_path):
     assert (tmp_path / "tool.tbl").read_text() == "T7 P1 Z0 D0.25 ;square 6.35 mm, quarter inch\n"
 
 
-def test_what_is_no_tool_library_is_not_imported(kerf, program, files):
+def test_other_files_are_not_imported(kerf, program, files):
     run = kerf("tools", "import", "--json", program("hello", "x.csv"), "-o", "mine.toml")
     assert run.status == 1 and run.codes() == ["tool_library_unknown"]
     assert files() == ["x.csv"]
     assert kerf("tools", "import", program(FUSION, "f.json"), "-o", "mine.xyz").status == 2
 
 
-def test_the_wrong_kind_of_file_is_told_first(kerf, program):
+def test_the_wrong_kind_of_file_is_reported_first(kerf, program):
     run = kerf("tools", "import", program())
     assert run.status == 1 and "[3022]" in run.err and "--output" not in run.err  # tool_library_unknown
     run = kerf("tools", "import", program(FUSION, "f.json"))
@@ -131,8 +131,8 @@ def test_tools_shapes_lists_every_key(kerf):
     assert "kerf tools shapes" in kerf("simulate", "--help").out
 
 
-def test_info_still_tells_of_a_program_with_errors(kerf, program):
-    run = kerf("info", "--json", program(SOUND.replace("G1 X20 F400", "G1 X20 F400 X")))
+def test_info_has_the_figures_of_a_program_with_errors(kerf, program):
+    run = kerf("info", "--json", program(VALID.replace("G1 X20 F400", "G1 X20 F400 X")))
     assert run.status == 1
     assert run.json["motion"]["lines"] >= 1
     error = next(d for d in run.json["diagnostics"] if d["severity"] == "error")
@@ -193,12 +193,12 @@ def test_tools_show_an_unknown_one(kerf):
     assert run.json["diagnostics"]
 
 
-def test_a_tool_told_in_words_has_its_shape_for_a_title(kerf):
+def test_the_title_of_a_specification_is_its_shape(kerf):
     assert kerf("tools", "show", "square d=3").out.startswith("square 3 mm\n")
     assert kerf("tools", "show", "102").out.startswith("102 ")
 
 
-def test_measures_that_cannot_be_are_told_with_those_that_can(kerf):
+def test_impossible_measures_are_reported_with_the_valid_keys(kerf):
     run = kerf("tools", "show", "square d=3 flute=0")
     assert run.status == 1
     assert run.err.startswith('"square d=3 flute=0": error: flute must be above 0')

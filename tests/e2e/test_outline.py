@@ -31,7 +31,7 @@ def test_a_file_is_cut_and_drawn(kerf, plate, tmp_path):
     assert "LWPOLYLINE" in (tmp_path / "plate.dxf").read_text()
 
 
-def test_json_tells_every_corner(kerf, plate):
+def test_json_lists_every_corner(kerf, plate):
     run = kerf("outline", plate, "--json")
     outline = run.json["outlines"][0]
     assert outline["closed"] and [c["outcome"] for c in outline["corners"]] == [
@@ -65,13 +65,13 @@ def test_bad_files_are_refused(kerf, tmp_path, text, code):
 
 
 @pytest.mark.parametrize("text", ["raise SystemExit(3)", "pass"])
-def test_scripts_that_fail_or_cut_nothing_are_said(kerf, tmp_path, text):
+def test_scripts_that_fail_or_cut_nothing_are_errors(kerf, tmp_path, text):
     (tmp_path / "bad.py").write_text(text)
     run = kerf("outline", "bad.py", "--json", env={"KERF_PYTHON": sys.executable})
     assert run.status == 1 and run.codes() == ["script_failed"]
 
 
-def test_a_python_that_is_not_there_is_said(kerf, tmp_path):
+def test_a_missing_python_is_an_error(kerf, tmp_path):
     (tmp_path / "a.py").write_text("")
     run = kerf("outline", "a.py", "--json", env={"KERF_PYTHON": "/nowhere/python"})
     assert run.status == 1 and run.codes() == ["script_failed"] and "KERF_PYTHON" in run.out

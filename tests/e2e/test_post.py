@@ -4,12 +4,12 @@ import re
 from pathlib import Path
 
 import pytest
-from conftest import SOUND
+from conftest import VALID
 
 POSTS = ["carbide", "grbl", "grblhal", "klipper", "laser", "linuxcnc", "mach3", "marlin"]
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
 FILES = sorted(p for p in CASES.glob("*.*") if p.suffix in (".nc", ".ngc", ".gcode"))
-# What a controller cannot do, and Kerf says so.
+# Programs with features that the controller lacks.
 REFUSED = {
     ("mach3", "carbide_create_sample_102_390.nc"): "post_cannot",  # tool 390; Mach3 has 255
     ("carbide", "gsender_laser_best_cnc.nc"): "post_cannot",  # M4, which Carbide Motion lacks
@@ -57,7 +57,7 @@ def words_of(line):
 
 
 def check_grbl_lines(text):
-    """What GRBL demands of any line, seen from outside: 79 characters that count, arcs with all words."""
+    """GRBL's rules for any line: at most 79 characters that count, arcs with all words."""
     plane = "XY"
     for line in text.splitlines():
         counted = re.sub(r"\([^)]*\)|;.*|\s", "", line)
@@ -74,7 +74,7 @@ def check_grbl_lines(text):
             assert set(plane + centre) <= set(letters) and "R" not in letters, line
 
 
-# For each post a tool change that makes one file of the program.
+# The tool change with which a post writes one file.
 ONE_FILE = {"klipper": "pause", "laser": "ignore"}
 
 
@@ -83,7 +83,7 @@ def expect_same_motion(before, after, post):
     slack = 0.05 + 0.0005 * (before["lines"] + before["arcs"])
     for length in ("cut_mm", "rapid_mm"):
         assert after[length] == pytest.approx(before[length], rel=1e-3, abs=slack), post
-    # An arc's bounds hold its begin, a straight cut's only its end.
+    # The bounds of an arc contain its start point, those of a straight cut only its end point.
     for mine, theirs in zip(after["cut_bounds_mm"] or [], before["cut_bounds_mm"] or []):
         assert mine == pytest.approx(theirs, abs=0.02 if post == "klipper" else 0.006), post
     assert after["rapids"] == before["rapids"], post
@@ -94,7 +94,7 @@ def expect_same_motion(before, after, post):
 @pytest.mark.parametrize("path", FILES, ids=lambda p: p.stem)
 def test_real_programs(kerf, tmp_path, path):
     before = motion_of(kerf, path)
-    homes = re.search(r"G(28|30)", path.read_text()) is not None  # through a point, which counts as a move
+    homes = re.search(r"G(28|30)", path.read_text()) is not None  # by way of a point, which counts as a move
     for post in POSTS:
         out = tmp_path / f"{post}.nc"
         policy = ["--tool-change", ONE_FILE[post]] if post in ONE_FILE else []
@@ -127,7 +127,7 @@ def test_inches(kerf, program):
     assert both.status == 2
 
 
-def test_inches_are_refused_where_there_are_none(kerf, program, tmp_path):
+def test_inches_are_refused_where_the_controller_has_none(kerf, program, tmp_path):
     run = kerf("post", "--to", "klipper", "--inch", program(), "-o", "out.gcode", "--json")
     assert run.status == 1 and "lint_code" in run.codes()
     assert not (tmp_path / "out.gcode").exists()
@@ -178,7 +178,7 @@ class TestToolChanges:
         lines = self.lines(kerf, program, "command")
         changes = [line for line in lines if "M6" in line]
         assert changes == ["T1 M6", "T2 M6", "T1 M6"]
-        for change in changes[1:]:  # the spindle stands while tools are changed
+        for change in changes[1:]:  # the spindle is stopped during the change
             at = lines.index(change, lines.index(changes[0]) + 1)
             assert lines[at - 1] == "M5"
 
@@ -202,7 +202,7 @@ class TestToolChanges:
             assert f"(tools {tool})\n" in text and f"(tool {tool})\n" in text
             assert text.count("M3 ") == 1 and f"M3 S{speed}\n" in text
             assert text.endswith("M5\nM30\n")
-        # A further file goes up before it goes across, from where the tool before it stopped.
+        # A further file first retracts, then moves across, from the last position of the tool before it.
         assert "G0 Z5\nX10 Y0\nX5 Y5\nG1 Z-2" in texts[1]
         # The header is the file's own.
         assert "(cuts within X 5 to 20 Y 5 to 5 Z -2 to -2 mm)" in texts[1]
@@ -223,7 +223,7 @@ class TestFiles:
     def test_the_input_stays(self, kerf, program):
         path = program()
         run = kerf("post", "--to", "grbl", path, "-o", path)
-        assert run.status == 2 and path.read_text() == SOUND
+        assert run.status == 2 and path.read_text() == VALID
 
     def test_all_or_none(self, kerf, program, tmp_path, files):
         (tmp_path / "out-T2.nc").mkdir()  # the second file cannot be written
@@ -270,7 +270,7 @@ footer = ["G53 G0 Z-1", "M30"]
 
     def test_short_lines(self, kerf, program):
         path = program('base = "grbl"\nname = "mine"\n[line]\nlongest = 20\n', "mine.toml")
-        part = program(SOUND.replace("G1 X20", "G1 X20.001 Y20.001 Z-1.001"))
+        part = program(VALID.replace("G1 X20", "G1 X20.001 Y20.001 Z-1.001"))
         run = kerf("post", "--post", path, part, "--json")
         assert run.status == 1 and "post_line_long" in run.codes()
 
@@ -286,7 +286,7 @@ footer = ["G53 G0 Z-1", "M30"]
         assert run.json["diagnostics"][0]["origin"]["file"].endswith("mine.toml")
 
 
-def test_passes_say_what_they_save(kerf, program):
+def test_passes_report_their_savings(kerf, program):
     chords = "".join(f"X{10 * i / 50:.4f}\n" for i in range(1, 51))
     path = program("G21\nT1 M6\nM3 S1000\nG0 X0 Y0 Z5\nG0 Z9\nG0 Z5\nG1 Z-1 F100\n" + chords + "G0 Z5\nM2\n")
     run = kerf("post", "--to", "grbl", "--join", "0.001", "--shorten-rapids", path, "-o", "out.nc", "--json")
@@ -314,8 +314,8 @@ M30
 
 def test_compensation_takes_the_tool_of_the_options(kerf, program):
     part = program(COMPENSATED)
-    untold = kerf("post", "--to", "grbl", part)
-    assert untold.status == 1 and "[2045]" in untold.err and "--tool 77=" in untold.err
+    without_tool = kerf("post", "--to", "grbl", part)
+    assert without_tool.status == 1 and "[2045]" in without_tool.err and "--tool 77=" in without_tool.err
     with_option = kerf("post", "--to", "grbl", "--tool", "77=square d=6", part)
     assert with_option.status == 0, with_option.err
     assert "X-3" in with_option.out  # the tool's radius beside X0

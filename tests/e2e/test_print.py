@@ -1,21 +1,21 @@
-"""kerf simulate on printing programs: the volumes of a box, what goes wrong, files, refusals."""
+"""kerf simulate on printing programs: the volumes of a box, hazards, files, refusals."""
 import math
 import struct
 from pathlib import Path
 
 import pytest
-from conftest import SOUND
+from conftest import VALID
 
 BOX = Path(__file__).parent.parent / "data" / "gcode" / "print_box.gcode"
-AREA = (0.45 - 0.2) * 0.2 + math.pi * 0.1**2  # of a road, mm2
+AREA = (0.45 - 0.2) * 0.2 + math.pi * 0.1**2  # of a bead, mm2
 FILAMENT = math.pi / 4 * 1.75**2
 
 HEAD = "M104 S210\nM109 S210\nG28\nG90\nM83\n"
 
 
 def extruded_in(text):
-    """mm3 that relative E words push while the nozzle moves, and on the spot."""
-    moving = standing = 0.0
+    """mm3 extruded by relative E words while the nozzle moves, and at rest."""
+    moving = at_rest = 0.0
     for line in text.splitlines():
         words = line.split(";")[0].split()
         e = [float(w[1:]) for w in words if w[0] == "E"]
@@ -23,19 +23,19 @@ def extruded_in(text):
             if any(w[0] in "XY" for w in words):
                 moving += e[0] * FILAMENT
             else:
-                standing += e[0] * FILAMENT
-    return moving, standing
+                at_rest += e[0] * FILAMENT
+    return moving, at_rest
 
 
 def test_the_box(kerf, program):
     run = kerf("simulate", "--json", "--resolution", "0.03", BOX)
     assert run.status == 0, run.err
     got = run.json
-    roads, on_the_spot = extruded_in(BOX.read_text())
+    moving, at_rest = extruded_in(BOX.read_text())
     drawn_back = 2 * 0.8 * FILAMENT  # before each of the two layers
     assert got["kind"] == "print"
-    assert got["blobs_mm3"] == pytest.approx(on_the_spot - drawn_back, rel=1e-6)
-    assert got["extruded_mm3"] == pytest.approx(roads + got["blobs_mm3"], rel=1e-6)
+    assert got["blobs_mm3"] == pytest.approx(at_rest - drawn_back, rel=1e-6)
+    assert got["extruded_mm3"] == pytest.approx(moving + got["blobs_mm3"], rel=1e-6)
     assert got["laid_mm3"] == pytest.approx(
         got["extruded_mm3"] - got["blobs_mm3"] - got["overlap_mm3"] + got["ends_mm3"], rel=1e-9)
     assert [layer["z_mm"] for layer in got["layers"]] == [0.2, 0.4]
@@ -80,12 +80,12 @@ def test_summary_meshes_and_pictures(kerf, files, tmp_path):
         volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
                    + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
     laid = kerf("simulate", "--json", BOX).json["laid_mm3"]
-    assert volume == pytest.approx(laid, rel=0.1)  # with the grooves between roads closed
+    assert volume == pytest.approx(laid, rel=0.1)  # with the grooves between beads closed
     assert kerf("simulate", BOX, "-o", "grooved.stl", "--grooves").status == 0
     assert Path(tmp_path, "grooved.stl").stat().st_size > 1.3 * len(data)
 
 
-def test_what_goes_wrong_is_told_with_its_line(kerf, program):
+def test_hazards_have_their_lines(kerf, program):
     wall = "".join(f"G1 Z{0.2 * n:.1f} F600\nG1 X0 Y0 F9000\nG1 X20 Y0 E0.7 F1800\n" for n in range(1, 11))
     text = HEAD + "G1 Z0.2 F600\nG1 X0 Y0 F9000\n" + wall
     lines = text.count("\n")
@@ -102,7 +102,7 @@ def test_what_goes_wrong_is_told_with_its_line(kerf, program):
     assert text.index("[nozzle_contact]") < text.index("[in_air]")
 
 
-def test_the_filament_and_the_layer_can_be_told(kerf, program):
+def test_filament_and_layer_height_can_be_given(kerf, program):
     path = program(HEAD + "G1 Z0.3 F600\nG1 X0 Y0 F9000\nG1 X20 E1 F1800\n", "print.gcode")
     thin = kerf("simulate", "--json", path).json
     assert thin["extruded_mm3"] == pytest.approx(FILAMENT, rel=1e-6)
@@ -111,8 +111,8 @@ def test_the_filament_and_the_layer_can_be_told(kerf, program):
     assert thick["extruded_mm3"] == pytest.approx(math.pi / 4 * 2.85**2, rel=1e-6)
     assert thick["layers"][0]["height_mm"] == pytest.approx(0.25)
     setting = "; filament_diameter = 2.85\n"
-    told = kerf("simulate", "--json", program(setting + path.read_text(), "told.gcode"))
-    assert told.json["extruded_mm3"] == pytest.approx(thick["extruded_mm3"], rel=1e-6)
+    given = kerf("simulate", "--json", program(setting + path.read_text(), "given.gcode"))
+    assert given.json["extruded_mm3"] == pytest.approx(thick["extruded_mm3"], rel=1e-6)
     wrong = program(HEAD + "G1 Z0.2\nG1 X0 Y0\n;WIDTH:0.45\n;HEIGHT:0.2\nG1 X20 E0.25\n", "wrong.gcode")
     assert "print_width_differs" in kerf("simulate", "--json", wrong).codes()
 
@@ -124,7 +124,7 @@ def test_refusals_and_unused_options(kerf, program):
     assert run.status == 1 and "--stock-mesh" in run.err
     both = program(HEAD + "T102 M6\nM3 S9000\nG1 Z0.3 F600\nG1 X0 Y0 F9000\nG1 X20 E1 F1800\n", "both.gcode")
     assert "extrusion_not_simulated" in kerf("simulate", "--json", "--stock", "20x20x5", both).codes()
-    assert "option_unused" in kerf("simulate", "--json", "--grooves", program(SOUND)).codes()
+    assert "option_unused" in kerf("simulate", "--json", "--grooves", program(VALID)).codes()
     far = program(HEAD + "G1 Z0.3 F600\nG1 X0 Y0 F9000\nG1 X200000 E1000 F1800\n", "far.gcode")
     run = kerf("simulate", "--json", far)
     assert run.status == 1 and "print_too_large" in run.codes()

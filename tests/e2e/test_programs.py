@@ -1,4 +1,4 @@
-"""Reading programs: the options that all commands share, and the files that a program was read from."""
+"""Reading programs: the options of all commands, and the files that a program was read from."""
 import pytest
 
 FEED = 'feedrate(200mm);\ntoolchange(102);\ngoto([-, -, 5mm]);\n'

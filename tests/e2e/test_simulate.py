@@ -1,19 +1,19 @@
-"""kerf simulate: figures, tools, stock, files, and the ways in which it must refuse."""
+"""kerf simulate: figures, tools, stock, files, and refusals."""
 import json
 import math
 import struct
 
 import pytest
-from conftest import SOUND
+from conftest import VALID
 
 
 def exact_removed():
-    """mm3 that the sound program removes, 1 mm deep: a strip, half a ring, half a disc at both ends."""
+    """mm3 that the valid program removes, 1 mm deep: a strip, half a ring, half a disc at both ends."""
     r = 3.175 / 2
     return 2 * r * 10 + math.pi * 5 * 2 * r + math.pi * r * r
 
 
-def test_figures_of_a_sound_program(kerf, program):
+def test_figures_of_a_valid_program(kerf, program):
     run = kerf("simulate", "--json", "--resolution", "0.02", program())
     assert run.status == 0, run.err
     got = run.json
@@ -31,15 +31,15 @@ def test_figures_of_a_sound_program(kerf, program):
     assert run.err == ""
 
 
-def test_the_summary_is_for_people_and_quiet_leaves_it_out(kerf, program):
+def test_quiet_omits_the_summary(kerf, program):
     run = kerf("simulate", program())
     assert run.status == 0
     assert "removed" in run.out and "hazards  none" in run.out
     assert kerf("simulate", "--quiet", program()).out == ""
 
 
-def test_a_rapid_through_the_stock_is_told_with_its_line(kerf, program):
-    path = program(SOUND.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5"))
+def test_a_rapid_through_the_stock_is_reported_with_its_line(kerf, program):
+    path = program(VALID.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5"))
     run = kerf("simulate", "--json", path)
     assert run.status == 0
     hazard, = [h for h in run.json["hazards"] if h["kind"] == "rapid_in_stock"]
@@ -88,7 +88,7 @@ def test_a_section_changes_the_picture_alone(kerf, program, folder_bytes, plane,
 
 
 @pytest.mark.parametrize("plane", ["w=3", "x", "x=", "x=left", "25", "x>25", "x=nan"])
-def test_a_section_that_is_no_plane_is_wrong_usage(kerf, program, files, plane):
+def test_an_invalid_section_is_wrong_usage(kerf, program, files, plane):
     run = kerf("simulate", program(), "-o", "v.png", "--section", plane)
     assert run.status == 2
     assert "--section" in run.err and "x=25" in run.err
@@ -108,7 +108,7 @@ def test_a_section_beside_the_part(kerf, program, files):
     assert files() == ["part.nc"]
 
 
-def test_a_section_without_a_picture_is_told(kerf, program):
+def test_a_section_without_a_picture_is_an_unused_option(kerf, program):
     assert "option_unused" in kerf("simulate", "--json", program(), "--section", "x=20").codes()
 
 
@@ -119,7 +119,7 @@ def test_the_result_is_the_same_for_any_number_of_threads(kerf, program):
     assert one["removed_mm3"] == four["removed_mm3"]
 
 
-def test_a_block_of_a_few_columns_is_written_as_they_are(kerf, program, files):
+def test_a_block_of_a_few_columns_is_written_with_a_warning(kerf, program, files):
     path = program("G21 G90\nM6 T1\nM3 S1000\nG0 X-0.18 Y4.7 Z5\nG1 Z-1.2 F100\nG0 Z9\nM30\n")
     run = kerf("simulate", "--json", "--tool", "roundover tip=2 radius=3 flute=9", "--stock",
                "0,0,-3 to 6,8,0", "--resolution", "2", path, "-o", "o.stl")
@@ -131,7 +131,7 @@ def test_a_block_of_a_few_columns_is_written_as_they_are(kerf, program, files):
 
 
 def test_standard_input_is_gcode(kerf):
-    run = kerf("simulate", "--json", "-", stdin=SOUND.encode())
+    run = kerf("simulate", "--json", "-", stdin=VALID.encode())
     assert run.status == 0, run.err
     assert run.json["source"] == "<stdin>" and run.json["removed_mm3"] > 0
 
@@ -142,8 +142,8 @@ def test_stock_option_wins_over_comments(kerf, program):
     assert run.json["stock"] == {"block_mm": [[0, 0, -10], [50, 50, 0]], "source": "option"}
 
 
-def test_a_stock_is_assumed_around_the_cuts_and_said_so(kerf, program):
-    text = "\n".join(line for line in SOUND.split("\n") if "stock" not in line)
+def test_an_assumed_stock_lies_around_the_cuts(kerf, program):
+    text = "\n".join(line for line in VALID.split("\n") if "stock" not in line)
     run = kerf("simulate", "--json", program(text))
     assert run.status == 0
     assert "stock_assumed" in run.codes()
@@ -154,7 +154,7 @@ def test_a_stock_is_assumed_around_the_cuts_and_said_so(kerf, program):
 
 
 def test_an_unknown_tool_is_an_error_with_an_example(kerf, program, files):
-    run = kerf("simulate", program(SOUND.replace("T102", "T77")), "-o", "part.stl")
+    run = kerf("simulate", program(VALID.replace("T102", "T77")), "-o", "part.stl")
     assert run.status == 1
     assert "part.nc:5" in run.err and "[1009]" in run.err  # no_tool_shape
     assert '--tool 77="square d=3.175 flute=12.7"' in run.err
@@ -162,7 +162,7 @@ def test_an_unknown_tool_is_an_error_with_an_example(kerf, program, files):
 
 
 def test_tool_options(kerf, program):
-    path = program(SOUND.replace("T102", "T77"))
+    path = program(VALID.replace("T102", "T77"))
     by_number = kerf("simulate", "--json", path, "--tool", "77=square d=3.175 flute=12.7").json
     for_all = kerf("simulate", "--json", path, "--tool", "square d=3.175 flute=12.7").json
     of_table = kerf("simulate", "--json", path, "--tool", "77=102").json
@@ -173,13 +173,13 @@ def test_tool_options(kerf, program):
 
 
 def test_one_tool_option_for_several_tools_is_noted(kerf, program):
-    two = SOUND.replace("M5\n", "M6 T101\nG1 X30 F100\nM5\n")
+    two = VALID.replace("M5\n", "M6 T101\nG1 X30 F100\nM5\n")
     run = kerf("simulate", "--json", program(two), "--tool", "square d=3 flute=9")
     assert "tool_option_wide" in run.codes()
 
 
 def test_a_program_without_a_tool_change(kerf, program):
-    path = program(SOUND.replace("M6 T102\n", ""))
+    path = program(VALID.replace("M6 T102\n", ""))
     run = kerf("simulate", path)
     assert run.status == 1
     assert "[1009]" in run.err and "--tool" in run.err  # no_tool_shape
@@ -190,12 +190,12 @@ def test_a_program_without_a_tool_change(kerf, program):
 
 def test_tools_from_a_file(kerf, program):
     shop = program('[[tool]]\nnumber = 77\nshape = "square"\ndiameter = 6.0\nflute = 12.0\n', "shop.toml")
-    run = kerf("simulate", "--json", program(SOUND.replace("T102", "T77")), "--tools", shop)
+    run = kerf("simulate", "--json", program(VALID.replace("T102", "T77")), "--tools", shop)
     assert run.status == 0, run.out
     assert run.json["tools"][0]["source"] == "tool file"
 
 
-def test_a_broken_tool_file_is_an_error_with_its_place(kerf, program):
+def test_a_broken_tool_file_is_an_error_with_its_line(kerf, program):
     run = kerf("simulate", program(), "--tools", program("[[tool]\nnumber=", "shop.toml"))
     assert run.status == 1
     assert "shop.toml:1" in run.err
@@ -207,7 +207,7 @@ def test_nothing_to_cut(kerf, program):
     assert "nothing_to_cut" in run.codes()
 
 
-def test_a_resolution_too_fine_says_which_would_do(kerf, program):
+def test_a_resolution_that_is_too_fine_is_an_error(kerf, program):
     run = kerf("simulate", program(), "--stock", "5000x5000x10", "--resolution", "0.001")
     assert run.status == 1
     assert "[6004]" in run.err  # too_many_columns
@@ -219,7 +219,7 @@ def test_a_resolution_in_inches(kerf, program):
 
 
 def test_the_count_of_hazards_is_that_of_the_lines(kerf, program):
-    text = SOUND.replace("M3 S10000\n", "M5\n")
+    text = VALID.replace("M3 S10000\n", "M5\n")
     text = text.replace("G1 X20 F400\n", "G1 X20 F400\nG0 Z5\nG0 X20\nG1 Z-1\n")
     run = kerf("simulate", program(text))
     lines = [line for line in run.out.split("\n") if line.endswith("]")]
@@ -228,19 +228,19 @@ def test_the_count_of_hazards_is_that_of_the_lines(kerf, program):
 
 
 def test_a_tool_that_cuts_nothing_has_no_line(kerf, program):
-    run = kerf("simulate", program(SOUND.replace("M6 T102\n", "M6 T101\nG0 X0\nM6 T102\n")))
+    run = kerf("simulate", program(VALID.replace("M6 T102\n", "M6 T101\nG0 X0\nM6 T102\n")))
     assert "tool 102" in run.out and "tool 101" not in run.out
 
 
 def test_the_materials_of_a_glb_name_the_tools(kerf, program, tmp_path):
-    two = SOUND.replace("M5\n", "G0 X30 Y5\nM6 T101\nM3 S9000\nG1 Z-1\nG0 Z5\nM5\n")
+    two = VALID.replace("M5\n", "G0 X30 Y5\nM6 T101\nM3 S9000\nG1 Z-1\nG0 Z5\nM5\n")
     kerf("simulate", program(two), "-o", "part.glb")
     data = (tmp_path / "part.glb").read_bytes()
     scene = json.loads(data[20:20 + int.from_bytes(data[12:16], "little")])
     assert {"stock", "tool 102", "tool 101"} <= {m["name"] for m in scene["materials"]}
 
 
-WITHOUT_STOCK = "\n".join(line for line in SOUND.split("\n") if "stock" not in line)
+WITHOUT_STOCK = "\n".join(line for line in VALID.split("\n") if "stock" not in line)
 
 
 def test_feeds_that_lift_do_not_raise_the_assumed_stock(kerf, program):
@@ -257,8 +257,8 @@ def test_a_program_with_zero_on_the_bed_is_simulated_with_a_warning(kerf, progra
     assert (low[2], high[2]) == (0, 8)
     exact = 8 * (10 * 3.175 + math.pi * 3.175**2 / 4)
     assert run.json["removed_mm3"] == pytest.approx(exact, rel=0.01)
-    told = next(d for d in run.json["diagnostics"] if d["name"] == "stock_assumed")
-    assert told["severity"] == "warning" and "--stock" in told["hint"]
+    assumed = next(d for d in run.json["diagnostics"] if d["name"] == "stock_assumed")
+    assert assumed["severity"] == "warning" and "--stock" in assumed["hint"]
 
 
 def test_the_hint_of_an_assumed_stock_gives_the_same_one(kerf, program):
@@ -269,7 +269,7 @@ def test_the_hint_of_an_assumed_stock_gives_the_same_one(kerf, program):
     assert again.json["removed_mm3"] == pytest.approx(run.json["removed_mm3"], rel=1e-3)
 
 
-def test_a_program_that_cuts_nothing_below_zero_says_so(kerf, program):
+def test_a_program_that_cuts_nothing_below_zero_is_reported(kerf, program):
     run = kerf("simulate", program(WITHOUT_STOCK.replace("Z-1", "Z0")))
     assert run.status == 0
     assert "cuts nothing below Z0" in run.err and "[1011]" in run.err  # stock_assumed

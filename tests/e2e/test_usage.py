@@ -2,7 +2,7 @@
 import re
 
 import pytest
-from conftest import SOUND
+from conftest import VALID
 
 COMMANDS = ["simulate", "check", "info", "steps", "tools list", "tools show"]
 
@@ -38,7 +38,7 @@ def test_every_command_has_help_with_examples(kerf, command):
     (["check", "part.nc", "--jsom"], "--json"),
     (["simulate", "part.nc", "--view", "tpo"], "top"),
 ])
-def test_slips_of_the_fingers(kerf, program, arguments, meant):
+def test_misspelt_words_are_corrected(kerf, program, arguments, meant):
     program()
     run = kerf(*arguments)
     assert run.status == 2
@@ -105,7 +105,7 @@ def test_an_output_of_unknown_kind_lists_the_known_ones(kerf, program):
     assert "[1007]" in run.err and ".stl" in run.err and ".png" in run.err  # output_kind_unknown
 
 
-def test_wrong_option_values_stand_in_the_json_too(kerf, program):
+def test_wrong_option_values_are_in_the_json_too(kerf, program):
     run = kerf("simulate", "--json", program(), "--stock", "much")
     assert run.status == 2
     assert run.codes() == ["stock_option"]
@@ -127,26 +127,26 @@ def test_a_bad_tool_option_is_shown_with_what_is_wrong(kerf, program, spec, word
     assert run.err.startswith(f'--tool "{spec}": error: ') and words in run.err and "hint: " in run.err
 
 
-def test_an_unknown_place_of_zero_lists_the_places(kerf, program):
-    run = kerf("simulate", program(), "--stock", "100x60x12 at middle")
+def test_an_unknown_position_of_zero_lists_the_positions(kerf, program):
+    run = kerf("simulate", program(), "--stock", "100x60x12 at edge")
     assert run.status == 2
     for word in ("lower-left", "centre", "top-right", "top or bottom"):
         assert word in run.err
 
 
-def test_help_of_a_command_passes_over_what_stands_behind_it(kerf, program):
+def test_help_of_a_command_ignores_further_arguments(kerf, program):
     assert kerf("help", "simulate", program()).out == kerf("simulate", "--help").out
 
 
-def test_options_without_effect_are_told(kerf, program):
+def test_options_without_effect_are_reported(kerf, program):
     run = kerf("simulate", "--json", program(), "--tool", "2=301", "--view", "top", "--size", "100x100")
     assert run.status == 0
-    told = [d for d in run.json["diagnostics"] if d["name"] == "option_unused"]
-    assert [d["origin"]["call"] for d in told] == ["--view", "--size", "--tool 2=..."]
-    assert "102" in told[-1]["hint"]
+    unused = [d for d in run.json["diagnostics"] if d["name"] == "option_unused"]
+    assert [d["origin"]["call"] for d in unused] == ["--view", "--size", "--tool 2=..."]
+    assert "102" in unused[-1]["hint"]
 
 
 def test_a_tool_option_for_a_program_without_tool_changes_is_used(kerf, program):
-    path = program(SOUND.replace("M6 T102\n", ""))
+    path = program(VALID.replace("M6 T102\n", ""))
     run = kerf("simulate", "--json", path, "--tool", "5=square d=3 flute=9")
     assert "option_unused" not in run.codes() and run.json["removed_mm3"] > 0
