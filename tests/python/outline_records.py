@@ -1,4 +1,4 @@
-"""Brings a cut outline into the form that verify.py of the given cases checks: one record a corner."""
+"""Brings a cut outline into the form that verify.py of the given cases checks: one record per corner."""
 import math
 
 
@@ -11,18 +11,18 @@ def circle_of(a, b, c):
     return b[0] + (vy * uu - uy * vv) / d, b[1] + (ux * vv - vx * uu) / d, 1 if d < 0 else -1
 
 
-def middle(row, start, a, b):
-    """A point in the middle of the part a..b of the segment that `row` describes, which begins at
-    `start`; None for a line."""
+def midpoint(row, start, a, b):
+    """The midpoint of the part a..b of the arc that `row` describes, which starts at `start`; None for a
+    line."""
     if len(row) != 5:
         return None
     circle = circle_of(start, row[:2], row[2:4])
     if circle is None:
         return None
     x, y, turn = circle
-    begin = math.atan2(a[1] - y, a[0] - x)
-    sweep = (turn * (math.atan2(b[1] - y, b[0] - x) - begin)) % (2 * math.pi)
-    angle, radius = begin + turn * sweep / 2, math.hypot(start[0] - x, start[1] - y)
+    start_angle = math.atan2(a[1] - y, a[0] - x)
+    sweep = (turn * (math.atan2(b[1] - y, b[0] - x) - start_angle)) % (2 * math.pi)
+    angle, radius = start_angle + turn * sweep / 2, math.hypot(start[0] - x, start[1] - y)
     return x + radius * math.cos(angle), y + radius * math.sin(angle)
 
 
@@ -53,6 +53,6 @@ def corner_records(outline, result, reports):
         if report:
             request = outline[i][-1]
             records.append({"corner": i, "at": at, "request": request, "out": out, "pre": pre, "post": post,
-                            "pre_mid": middle(outline[before], start, pre, at),
-                            "post_mid": middle(outline[i + 1], at, at, post), "report": report})
+                            "pre_mid": midpoint(outline[before], start, pre, at),
+                            "post_mid": midpoint(outline[i + 1], at, at, post), "report": report})
     return records

@@ -2,8 +2,7 @@
 
     PYTHONPATH=build/python build/venv/bin/python tests/python/region_shapely.py [COUNT] [SEED]
 
-Prints the seed, and each region that differs by more than flattening explains, as arguments that make it
-again.
+Prints the seed, and each region that differs by more than flattening explains, as arguments that repeat it.
 Exit status 1 if any does.
 """
 import math
@@ -22,10 +21,10 @@ GRID = 1e-7  # mm; without, GEOS now and then takes a part of nearly equal polyg
 
 def random_outline(rng, size, on_grid):
     """A simple or self-crossing closed outline of lines and arcs."""
-    def place():
+    def random_point():
         x, y = rng.uniform(-size, size), rng.uniform(-size, size)
         return (round(x), round(y)) if on_grid else (x, y)
-    points = [place() for _ in range(rng.randint(3, 9))]
+    points = [random_point() for _ in range(rng.randint(3, 9))]
     outline = points[:1]
     for x, y in points[1:] + points[:1]:
         x0, y0 = outline[-1][-2:]

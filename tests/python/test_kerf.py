@@ -1,4 +1,4 @@
-"""The Python module: building a toolpath, cutting it, and being told what is wrong."""
+"""The Python module: building a toolpath, cutting it, and errors."""
 import copy
 import math
 
@@ -24,7 +24,7 @@ def test_the_mesh_is_closed_and_encloses_what_is_left():
     volume = (a * __import__("numpy").cross(b, c)).sum() / 6
     assert volume == pytest.approx(result.left_mm3, rel=5e-3)
     assert len(step) == len(triangles)
-    assert {3, 4} & set(step.tolist()), "the cuts' own steps made faces"
+    assert {3, 4} & set(step.tolist()), "no face has the step of a cut"
 
 
 def test_a_rapid_through_stock_names_the_line_of_the_script():
@@ -65,7 +65,7 @@ def test_wrong_types_are_type_errors():
         kerf.Toolpath().rapid((0, "x", 0))
 
 
-def test_gcode_errors_carry_their_places():
+def test_gcode_errors_have_their_lines():
     with pytest.raises(kerf.Error) as caught:
         kerf.read_gcode("G21\nG1 X1 F100\nG1 Xnan\nG2 X5 Y5\nM2\n", "bad.nc")
     lines = sorted({d.line for d in caught.value.diagnostics if d.severity == "error"})

@@ -67,7 +67,7 @@ def test_gcmc_programs_take_defines_and_include_folders(write, tmp_path):
     assert program.files == [str(path), str(tmp_path / "library") + "/depth.gcmc"]
 
 
-def test_reading_can_go_on_and_be_strict(write):
+def test_reading_can_continue_after_the_end(write):
     path = write("two.nc", PROGRAM + "G0 X9\nM2\n")
     with pytest.warns(UserWarning, match="--read-on"):
         first = kerf.load(path)

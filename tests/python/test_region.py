@@ -1,4 +1,4 @@
-"""kerf.Region and its companions: shapely's answers, known shapes, and bad input."""
+"""kerf.Region and its companions: comparison with shapely, known shapes, bad input."""
 import math
 import random
 
@@ -11,7 +11,7 @@ NAN = math.nan
 
 
 def test_shapely_agrees_on_random_regions():
-    pytest.importorskip("shapely", reason="shapely is not installed; left out")
+    pytest.importorskip("shapely", reason="shapely is not installed; skipped")
     from region_shapely import differences
     seed = 20261121  # `./dev test --long` draws others
     for i in range(200):
@@ -68,7 +68,7 @@ def test_a_circle_is_a_path():
             kerf.self_meetings(path)
 
 
-@pytest.mark.parametrize("call, said", [
+@pytest.mark.parametrize("call, words", [
     (lambda r: kerf.widen(SQUARE, -1), "must be above 0"),
     (lambda r: kerf.widen(SQUARE, 0), "must be above 0"),
     (lambda r: kerf.parallel(SQUARE, 0), "must not be 0"),
@@ -79,8 +79,8 @@ def test_a_circle_is_a_path():
     (lambda r: kerf.fit_bezier(SQUARE, math.inf), "must be above 0 and at most 1e60, not inf"),
     (lambda r: kerf.fit_bezier([(0, 0), (1e300, 0)], 1), "point 1: a number is not finite or beyond 1e60"),
 ], ids=range(9))
-def test_a_bad_number_is_answered_with_its_range(call, said):
-    with pytest.raises((kerf.Error, ValueError), match=said):
+def test_a_bad_number_is_reported_with_its_range(call, words):
+    with pytest.raises((kerf.Error, ValueError), match=words):
         call(kerf.Region([SQUARE]))
 
 

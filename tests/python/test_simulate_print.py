@@ -1,4 +1,4 @@
-"""Printing in Python: roads laid call by call and read from G-code."""
+"""Printing in Python: beads added by calls and read from G-code."""
 import math
 import warnings
 
@@ -53,7 +53,7 @@ def test_hazards_name_the_line_of_the_script():
 def test_steps_and_g_code():
     text = "M104 S200\nM109 S200\nM83\nG1 X0 Y0 Z0.2 F600\nG1 X10 E1\n"
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # the text has no end, and is said to be a printer's
+        warnings.simplefilter("ignore")  # no program end; the dialect is guessed
         path = kerf.read_gcode(text, filament=2.0)
     assert path[len(path) - 1]["volume"] == pytest.approx(math.pi)
     assert wall(1)[1]["width"] == 0.5 and wall(1)[1]["volume"] == pytest.approx(AREA * math.hypot(20, 3))
