@@ -1,7 +1,6 @@
-// One meaning for every hole. Random canned cycles of G-code make the moves of the sequence that LinuxCNC
-// documents, which this test writes out by itself; and random gcmc programs with drill() and other statements
-// around it have the toolpath of the G-code that is written for them. The seed of a failure is in its
-// message; KERF_SEED repeats it.
+// Random canned cycles of G-code become the moves that LinuxCNC documents, which this test writes out
+// independently; random gcmc programs with drill() have the same toolpath as the G-code that is written for
+// them. The seed of a failure is in its message; KERF_SEED repeats it.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -30,7 +29,7 @@ class Dice {
   explicit Dice(unsigned seed) : random_(seed) {}
   int whole(int low, int high) { return std::uniform_int_distribution(low, high)(random_); }
   bool often(double chance) { return std::uniform_real_distribution(0.0, 1.0)(random_) < chance; }
-  /// With three decimals; a round number or zero now and then.
+  /// With three decimals; sometimes a whole number.
   double number(double low, double high) {
     if (often(0.2)) return std::round(low + (high - low) * 0.5);
     return std::round(std::uniform_real_distribution(low, high)(random_) * 1000) / 1000;
@@ -44,9 +43,8 @@ class Dice {
   std::mt19937 random_;
 };
 
-/// What of a toolpath decides how it cuts, as text: each motion with its feed, spindle, tool and unknown
-/// axes.
-enum class Resting : bool { keep, skip };  // straight motions that go nowhere; brief text omits them
+enum class Resting : bool { keep, skip };  // straight motions of length 0; brief text omits them
+/// The motions of a toolpath as text, each with feed, spindle, tool and unknown axes; dwells and pauses.
 std::vector<std::string> essence_of(const Toolpath& path, Resting resting) {
   std::vector<std::string> all;
   const auto number = [](double v) { return std::round(v * 1e5) / 1e5 + 0.0; };
@@ -102,7 +100,7 @@ void expect_same(const Toolpath& found, const Toolpath& wanted, const std::strin
   }
 }
 
-// ---- canned cycles of G-code, beside the same moves written out
+// ---- canned cycles of G-code, and the same moves written out
 
 /// Writes random cycles twice: as cycles, and as the moves that LinuxCNC documents for them.
 class CycleProgram {
@@ -112,7 +110,7 @@ class CycleProgram {
     level_ = dice_.number(-2, 8);
     both(fmt::format("G0 X0 Y0 Z{}", level_));
     if (dice_.often(0.15)) {
-      cycles_ += "G95\n";  // 0.1 mm a turn at 1000 turns
+      cycles_ += "G95\n";  // 0.1 mm per turn at 1000 rpm
       cycles_ += "F0.1\n", moves_ += "F100\n";
     }
     for (int i = dice_.whole(1, 4); i > 0; --i) series();
@@ -126,17 +124,17 @@ class CycleProgram {
     cycles_ += line + "\n";
     moves_ += line + "\n";
   }
-  void say(const std::string& line) { moves_ += line + "\n"; }
-  void rapid(double z) { say(fmt::format("G0 X{} Y{} Z{:.6f}", x_, y_, level_ = z)); }
-  void feed(double z) { say(fmt::format("G1 X{} Y{} Z{:.6f}", x_, y_, level_ = z)); }
+  void add_move(const std::string& line) { moves_ += line + "\n"; }
+  void rapid(double z) { add_move(fmt::format("G0 X{} Y{} Z{:.6f}", x_, y_, level_ = z)); }
+  void feed(double z) { add_move(fmt::format("G1 X{} Y{} Z{:.6f}", x_, y_, level_ = z)); }
 
-  /// Cycles that follow each other without another motion: they share the level before the first.
+  /// Consecutive cycles without another motion; the start level of all is that before the first.
   void series() {
     start_ = level_;
     for (int i = dice_.whole(1, 4); i > 0; --i) one();
     if (dice_.often(0.5)) return cycles_ += "G80\n", void();
     cycles_ += fmt::format("G0 Z{}\n", level_ = dice_.number(-2, 8));
-    say(fmt::format("G0 Z{}", level_));
+    add_move(fmt::format("G0 Z{}", level_));
   }
 
   void one() {
@@ -182,24 +180,24 @@ class CycleProgram {
       }
     feed(bottom_);
     const bool taps = code == 74 || code == 84;
-    if (taps) say(code == 74 ? "M3" : "M4");
+    if (taps) add_move(code == 74 ? "M3" : "M4");
     if ((taps || code == 82 || code == 86 || code == 88 || code == 89) && dwell_ > 0)
-      say(fmt::format("G4 P{}", dwell_));
-    if (code == 86 || code == 88) say("M5");
-    if (code == 88) say("M0");
+      add_move(fmt::format("G4 P{}", dwell_));
+    if (code == 86 || code == 88) add_move("M5");
+    if (code == 88) add_move("M0");
     if (code == 85) feed(plane_);
     taps || code == 89 ? feed(clear_) : rapid(clear_);
     if (taps) turn_ = code == 74 ? "M4" : "M3";
-    if (taps || code == 86 || code == 88) say(turn_);
+    if (taps || code == 86 || code == 88) add_move(turn_);
   }
 
   void back_bore() {
     const double x = x_, y = y_;
     const auto aside = [&] { x_ = x + aside_x_, y_ = y + aside_y_; };
-    aside(), rapid(plane_), say("M5"), rapid(bottom_);
-    x_ = x, y_ = y, rapid(bottom_), say(turn_), feed(back_), feed(bottom_), say("M5");
+    aside(), rapid(plane_), add_move("M5"), rapid(bottom_);
+    x_ = x, y_ = y, rapid(bottom_), add_move(turn_), feed(back_), feed(bottom_), add_move("M5");
     aside(), rapid(bottom_), rapid(clear_);
-    x_ = x, y_ = y, rapid(clear_), say(turn_);
+    x_ = x, y_ = y, rapid(clear_), add_move(turn_);
   }
 
   Dice dice_;
@@ -220,7 +218,7 @@ TEST(Cycles, AreTheMovesThatLinuxCncDocuments) {
   }
 }
 
-// ---- drill() of gcmc, beside the G-code that is written for it
+// ---- drill() of gcmc, and the G-code that is written for it
 
 class DrillProgram {
  public:
@@ -297,7 +295,7 @@ TEST(Drill, IsTheCycleOfTheGcodeThatIsWritten) {
     const GcmcRun ran = run_gcmc(program.text(), program.options(), output, gcmc_errors);
     const std::string about = fmt::format("seed {}\n{}\n{}", seed, program.text(), output.gcode);
     const GcodeProgram gcode = read(output.gcode, gcode_errors);
-    if (!ran.completed) {  // what a controller would refuse too
+    if (!ran.completed) {  // a controller refuses it too
       EXPECT_TRUE(gcode.path.size() != ran.path.size() || gcode_errors.has_errors())
           << about << output.messages;
       continue;

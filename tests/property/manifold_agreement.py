@@ -2,9 +2,9 @@
 
     python tests/property/manifold_agreement.py KERF [COUNT] [SEED]
 
-Needs the package manifold3d. The booleans know tools as polygons; each job is computed with two numbers of
-corners, and the error, which goes with the square of the corners' angle, is taken off. Exit status 1 if a job
-differs by more than 2e-4 of its removed volume, 77 if manifold3d is not installed.
+Needs the package manifold3d. The booleans use polygonal tools; each job is computed with two numbers of
+corners, and the error, proportional to the square of the corners' angle, is extrapolated to zero. Exit
+status 1 if a job differs by more than 2e-4 of its removed volume, 77 if manifold3d is not installed.
 """
 import json
 import math
@@ -25,7 +25,7 @@ RESOLUTION = 0.02  # mm
 TOLERANCE = 2e-4  # of the removed volume
 BLOCK = (14.0, 11.0, 6.0)
 
-# Convex pieces as half profiles [(r, z), ...] from the tip upwards, or a ball of a radius up to a height.
+# Convex parts as half profiles [(r, z), ...] from the tip upwards, or a ball of a radius up to a height.
 TOOLS = {
     "square d=3 flute=20": [[(1.5, 0), (1.5, 20)]],
     "ball d=3 flute=20": [["ball", 1.5, 20]],
@@ -60,8 +60,8 @@ def removed_exactly(tool, moves, corners):
     sweeps = []
     for piece in TOOLS[tool]:
         points = piece_points(piece, corners)
-        for begin, end in moves:
-            sweeps.append(manifold3d.Manifold.hull_points(numpy.concatenate([points + begin, points + end])))
+        for start, end in moves:
+            sweeps.append(manifold3d.Manifold.hull_points(numpy.concatenate([points + start, points + end])))
     left = manifold3d.Manifold.batch_boolean([block] + sweeps, manifold3d.OpType.Subtract)
     return block.volume() - left.volume()
 
@@ -74,14 +74,14 @@ def extrapolated(tool, moves):
 
 def random_moves(rng, tool):
     """Cuts that follow each other; the first goes straight down. Undercutting tools stay level."""
-    def place(z=None):
+    def point(z=None):
         return numpy.array([rng.uniform(-1, BLOCK[0] + 1), rng.uniform(-1, BLOCK[1] + 1),
                             z if z is not None else rng.uniform(-4.5, -0.3)])
     level = tool.startswith(("keyhole", "dovetail"))
-    at = place(rng.uniform(-3.9, -0.3) if level else None)  # a dovetail's flutes are 4 mm long
+    at = point(rng.uniform(-3.9, -0.3) if level else None)  # a dovetail's flutes are 4 mm long
     moves = [(numpy.array([at[0], at[1], 5.0]), at)]
     for _ in range(rng.randint(1, 8)):
-        to = place(at[2] if level or rng.random() < 0.3 else None)
+        to = point(at[2] if level or rng.random() < 0.3 else None)
         moves.append((at, to))
         at = to
     return moves
@@ -89,9 +89,9 @@ def random_moves(rng, tool):
 
 def removed_by_kerf(kerf, tool, moves, folder):
     lines = ["G21 G90 G17", "T1 M6", "S9000 M3"]
-    begin = moves[0][0]
-    lines.append(f"G0 Z{begin[2]:.4f}")
-    lines.append(f"G0 X{begin[0]:.6f} Y{begin[1]:.6f}")
+    start = moves[0][0]
+    lines.append(f"G0 Z{start[2]:.4f}")
+    lines.append(f"G0 X{start[0]:.6f} Y{start[1]:.6f}")
     lines += [f"G1 X{to[0]:.6f} Y{to[1]:.6f} Z{to[2]:.6f} F500" for _, to in moves]
     program = Path(folder) / "job.nc"
     program.write_text("\n".join(lines + ["M30", ""]))
@@ -110,7 +110,7 @@ def main():
         for number in range(seed, seed + count):
             rng = random.Random(number)
             tool = rng.choice(sorted(TOOLS))
-            moves = [(begin.round(6), end.round(6)) for begin, end in random_moves(rng, tool)]
+            moves = [(start.round(6), end.round(6)) for start, end in random_moves(rng, tool)]
             want, have = extrapolated(tool, moves), removed_by_kerf(kerf, tool, moves, folder)
             error = abs(have - want) / max(want, 1e-9)
             worst = max(worst, error)

@@ -1,5 +1,5 @@
-// Geometric checks of cut outlines that share nothing with the code that cuts: a property must hold, whoever
-// made the result. Positions along a segment are arc lengths from its begin.
+// Geometric checks of cut outlines, independent of the code that cuts. Positions along a segment are arc
+// lengths from its start point.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using kerf::Point2;
 
 inline constexpr double kSlack = 1e-6;      // mm, of positions
 inline constexpr double kTangent = 1.7e-5;  // radians, a thousandth of a degree
-inline constexpr double kFlat = 4e-3;       // radians: corners nearer to straight or to a fold are not judged
+inline constexpr double kFlat = 4e-3;       // radians; corners closer to straight or folded are not checked
 
 inline Point2 unit(Point2 v) {
   const double n = std::hypot(v.x, v.y);
@@ -30,12 +30,12 @@ inline double full(double angle) {
 }
 inline double angle_between(Point2 a, Point2 b) { return std::atan2(cross(a, b), dot(a, b)); }
 
-/// A line or an arc, made from points alone.
-struct Piece {
+/// A line or an arc, computed from its points alone.
+struct CheckedSegment {
   Point2 from, to, direction, centre;
   double radius = 0.0, sense = 0.0, sweep = 0.0, length = 0.0;
 
-  Piece(Point2 a, Point2 b, std::optional<Point2> via) : from(a), to(b) {
+  CheckedSegment(Point2 a, Point2 b, std::optional<Point2> via) : from(a), to(b) {
     if (via) {
       const Point2 u = a - *via, v = b - *via;
       const double d = 2.0 * cross(u, v), uu = dot(u, u), vv = dot(v, v);
@@ -65,19 +65,19 @@ struct Piece {
   Point2 tangent(Point2 p) const { return arc() ? sense * left(unit(p - centre)) : direction; }
 };
 
-/// Whether an arc of radius r exists that touches both pieces on the inside of the corner between them.
-inline bool can_be_smoothed(const Piece& in, const Piece& out, double r) {
+/// Whether an arc of radius r exists that touches both segments on the inside of the corner between them.
+inline bool can_be_smoothed(const CheckedSegment& in, const CheckedSegment& out, double r) {
   const double turn = angle_between(in.tangent(in.to), out.tangent(out.from));
   if (std::abs(turn) < kFlat || std::numbers::pi - std::abs(turn) < kFlat) return false;
   const double side = turn > 0.0 ? 1.0 : -1.0;
-  const auto locus = [&](const Piece& p) { return p.radius - p.sense * side * r; };
+  const auto locus = [&](const CheckedSegment& p) { return p.radius - p.sense * side * r; };
   if ((in.arc() && locus(in) <= 0.0) || (out.arc() && locus(out) <= 0.0)) return false;
   std::vector<Point2> centres;
-  const auto line_begin = [&](const Piece& p) { return p.from + (side * r) * left(p.direction); };
+  const auto line_start = [&](const CheckedSegment& p) { return p.from + (side * r) * left(p.direction); };
   if (!in.arc() && !out.arc()) {
     const double k =
-        cross(line_begin(out) - line_begin(in), out.direction) / cross(in.direction, out.direction);
-    centres.push_back(line_begin(in) + k * in.direction);
+        cross(line_start(out) - line_start(in), out.direction) / cross(in.direction, out.direction);
+    centres.push_back(line_start(in) + k * in.direction);
   } else if (in.arc() && out.arc()) {
     const Point2 between = out.centre - in.centre;
     const double d = std::hypot(between.x, between.y);
@@ -88,17 +88,17 @@ inline bool can_be_smoothed(const Piece& in, const Piece& out, double r) {
     for (const double h : {std::sqrt(h2), -std::sqrt(h2)})
       centres.push_back(in.centre + (x / d) * between + (h / d) * left(between));
   } else {
-    const Piece& line = in.arc() ? out : in;
-    const Piece& arc = in.arc() ? in : out;
-    const Point2 w = arc.centre - line_begin(line);
+    const CheckedSegment& line = in.arc() ? out : in;
+    const CheckedSegment& arc = in.arc() ? in : out;
+    const Point2 w = arc.centre - line_start(line);
     const double k = dot(w, line.direction), h = cross(line.direction, w);
     const double d2 = locus(arc) * locus(arc) - h * h;
     if (d2 < 0.0) return false;
     for (const double e : {std::sqrt(d2), -std::sqrt(d2)})
-      centres.push_back(line_begin(line) + (k + e) * line.direction);
+      centres.push_back(line_start(line) + (k + e) * line.direction);
   }
-  // Well within both pieces: at the very end rounding may decide.
-  const auto touches = [&](const Piece& p, Point2 s) {
+  // Clearly within both segments: at an end point the result depends on rounding.
+  const auto touches = [&](const CheckedSegment& p, Point2 s) {
     const Point2 foot = p.arc() ? p.centre + p.radius * unit(s - p.centre)
                                 : p.from + dot(p.direction, s - p.from) * p.direction;
     const double t = p.along(foot);
@@ -108,10 +108,11 @@ inline bool can_be_smoothed(const Piece& in, const Piece& out, double r) {
                      [&](Point2 s) { return touches(in, s) && touches(out, s); });
 }
 
-/// What is wrong with a replaced corner: `made` are its points and arcs, from the one on `in` to the one on
-/// `out`.
-std::string wrong_with_corner(const Piece& in, const Piece& out, double request, const kerf::Outline& made);
-/// What is wrong with a whole result; empty if nothing. `even` leaves corners sharp that could be cut.
+/// The fault of a replaced corner, empty if there is none: `made` are its points and arcs, from the one on
+/// `in` to the one on `out`.
+std::string wrong_with_corner(const CheckedSegment& in, const CheckedSegment& out, double request,
+                              const kerf::Outline& made);
+/// The fault of a whole result, empty if there is none. `even` leaves corners sharp that could be cut.
 std::string wrong_with_cut(const kerf::Outline& outline, const kerf::CutOutline& cut, bool even);
 
 }  // namespace outline_checks

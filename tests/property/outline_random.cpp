@@ -18,7 +18,7 @@ class Drawer {
   explicit Drawer(std::uint64_t seed) : random_(seed) {}
   Outline outline();
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  bool chance(double share) { return in(0.0, 1.0) < share; }
+  bool chance(double probability) { return in(0.0, 1.0) < probability; }
 
  private:
   std::mt19937_64 random_;
@@ -32,14 +32,14 @@ Outline Drawer::outline() {
   const auto request = [&] {
     return mm(chance(0.15) ? 0.0 : (chance(0.5) ? 1.0 : -1.0) * in(0.02, largest));
   };
-  const auto place = [&] { return Point2{in(-size, size), in(-size, size)}; };
+  const auto random_point = [&] { return Point2{in(-size, size), in(-size, size)}; };
   Outline made;
-  made.start = place();
+  made.start = random_point();
   if (closed) made.start_corner = request();
   for (int i = 1; i < corners + (closed ? 1 : 0); ++i) {
     Segment segment;
     const Point2 from = made.point(made.segments.size());
-    segment.to = i == corners ? made.start : place();
+    segment.to = i == corners ? made.start : random_point();
     if (i < corners - (closed ? 0 : 1)) segment.corner = request();
     if (chance(0.5)) {  // from nearly flat arcs to nearly whole circles
       const double bulge = (chance(0.5) ? 1.0 : -1.0) * std::exp(in(-5.0, 2.0));

@@ -1,6 +1,5 @@
-// What passes must not do: stray from the path by more than their tolerance (measured here from both paths'
-// own points, not by what the passes computed), change feeds, drop other steps, or let a rapid go where none
-// went before. The seed of a failure is in its message.
+// Passes stay within their tolerance of the path (measured here between the points of both paths), keep feeds
+// and other steps, and move at rapid only where the path did. The seed of a failure is in its message.
 #include "kerf/passes.h"
 
 #include <algorithm>
@@ -14,9 +13,9 @@ namespace {
 
 constexpr unsigned kRuns = 40;
 constexpr double kTolerance = 0.01;  // mm, of the passes
-constexpr double kSampling = 5e-4;   // mm that a sampled arc leaves the true one
+constexpr double kSampling = 5e-4;   // mm, chord tolerance of sampled arcs
 
-/// Paths of what CAM programs write: circles and helices in chords, lines in pieces, with some noise.
+/// Paths as CAM programs write them: circles and helices as chords, divided lines, with some noise.
 class ChordPath {
  public:
   explicit ChordPath(unsigned seed) : random_(seed) {}
@@ -84,14 +83,14 @@ class ChordPath {
   double noise_ = 0.0;
 };
 
-struct Piece {
+struct Chord {
   Point3 a, b;
   double feed;  // 0: a rapid
 };
 
-/// The path in straight pieces; arcs become chords.
-std::vector<Piece> pieces_of(const Toolpath& path) {
-  std::vector<Piece> list;
+/// The path as straight chords.
+std::vector<Chord> chords_of(const Toolpath& path) {
+  std::vector<Chord> list;
   Point3 from;
   for (const Step& s : path.steps()) {
     if (!s.is_motion()) continue;
@@ -108,32 +107,32 @@ std::vector<Piece> pieces_of(const Toolpath& path) {
   return list;
 }
 
-double distance_to(const Piece& piece, Point3 p) {
-  const Point3 way = piece.b - piece.a;
+double distance_to(const Chord& chord, Point3 p) {
+  const Point3 way = chord.b - chord.a;
   const double square = dot(way, way);
-  const double t = square > 0.0 ? std::clamp(dot(p - piece.a, way) / square, 0.0, 1.0) : 0.0;
-  return distance(p, piece.a + t * way);
+  const double t = square > 0.0 ? std::clamp(dot(p - chord.a, way) / square, 0.0, 1.0) : 0.0;
+  return distance(p, chord.a + t * way);
 }
 
-/// Farthest that a point of `of` lies from the pieces of `from` that have its feed.
-double strays(const std::vector<Piece>& of, const std::vector<Piece>& from) {
+/// Maximum distance of the points of `of` from the chords of `from` with the same feed.
+double max_distance(const std::vector<Chord>& of, const std::vector<Chord>& from) {
   double worst = 0.0;
-  for (const Piece& piece : of) {
+  for (const Chord& chord : of) {
     for (const double t : {0.0, 0.5, 1.0}) {
-      const Point3 p = piece.a + t * (piece.b - piece.a);
+      const Point3 p = chord.a + t * (chord.b - chord.a);
       double nearest = 1e300;
-      for (const Piece& other : from)
-        if (other.feed == piece.feed) nearest = std::min(nearest, distance_to(other, p));
+      for (const Chord& other : from)
+        if (other.feed == chord.feed) nearest = std::min(nearest, distance_to(other, p));
       worst = std::max(worst, nearest);
     }
   }
   return worst;
 }
 
-std::vector<Piece> rapids_of(std::vector<Piece> pieces) {
-  pieces.erase(std::remove_if(pieces.begin(), pieces.end(), [](const Piece& p) { return p.feed != 0.0; }),
-               pieces.end());
-  return pieces;
+std::vector<Chord> rapids_of(std::vector<Chord> chords) {
+  chords.erase(std::remove_if(chords.begin(), chords.end(), [](const Chord& p) { return p.feed != 0.0; }),
+               chords.end());
+  return chords;
 }
 
 std::size_t others(const Toolpath& path) {
@@ -141,14 +140,14 @@ std::size_t others(const Toolpath& path) {
       std::count_if(path.steps().begin(), path.steps().end(), [](const Step& s) { return !s.is_motion(); }));
 }
 
-void expect_sound(const Toolpath& before, const PassResult& result, double tolerance) {
+void expect_near(const Toolpath& before, const PassResult& result, double tolerance) {
   EXPECT_EQ(result.before.steps, before.size());
   EXPECT_EQ(result.after.steps, result.path.size());
   EXPECT_EQ(others(result.path), others(before));
-  const std::vector<Piece> was = pieces_of(before), is = pieces_of(result.path);
-  EXPECT_LE(strays(is, was), tolerance);
-  EXPECT_LE(strays(was, is), tolerance);
-  EXPECT_LE(strays(rapids_of(is), rapids_of(was)), 1e-9) << "a rapid goes where none went before";
+  const std::vector<Chord> was = chords_of(before), is = chords_of(result.path);
+  EXPECT_LE(max_distance(is, was), tolerance);
+  EXPECT_LE(max_distance(was, is), tolerance);
+  EXPECT_LE(max_distance(rapids_of(is), rapids_of(was)), 1e-9) << "a rapid where the path had none";
 }
 
 class Passes : public testing::TestWithParam<unsigned> {
@@ -158,27 +157,27 @@ class Passes : public testing::TestWithParam<unsigned> {
 
 TEST_P(Passes, fitted_arcs_keep_to_the_path) {
   const PassResult result = chords_to_arcs(path_, {.tolerance = mm(kTolerance)});
-  expect_sound(path_, result, kTolerance + 2.0 * kSampling);
+  expect_near(path_, result, kTolerance + 2.0 * kSampling);
   EXPECT_LT(result.after.steps, result.before.steps);
   EXPECT_NEAR(result.after.cut_mm, result.before.cut_mm, 0.02 * result.before.cut_mm);
 }
 
 TEST_P(Passes, joined_cuts_keep_to_the_path) {
   const PassResult result = join_straight(path_, mm(kTolerance));
-  expect_sound(path_, result, kTolerance + 1e-9);
+  expect_near(path_, result, kTolerance + 1e-9);
   EXPECT_LT(result.after.steps, result.before.steps);
 }
 
 TEST_P(Passes, chords_keep_to_their_arcs) {
   const Toolpath arcs = chords_to_arcs(path_, {.tolerance = mm(kTolerance)}).path;
   const PassResult result = arcs_to_chords(arcs, mm(kTolerance));
-  expect_sound(arcs, result, kTolerance + 2.0 * kSampling);
+  expect_near(arcs, result, kTolerance + 2.0 * kSampling);
 }
 
 TEST_P(Passes, rapids_go_only_where_rapids_went) {
   const PassResult result = shorten_rapids(path_);
-  const std::vector<Piece> was = pieces_of(path_), is = pieces_of(result.path);
-  EXPECT_LE(strays(rapids_of(is), rapids_of(was)), 1e-9);
+  const std::vector<Chord> was = chords_of(path_), is = chords_of(result.path);
+  EXPECT_LE(max_distance(rapids_of(is), rapids_of(was)), 1e-9);
   EXPECT_LE(result.after.rapid_mm, result.before.rapid_mm);
   EXPECT_EQ(result.after.cut_mm, result.before.cut_mm);
 }

@@ -1,5 +1,5 @@
-// The closed loop: a random toolpath, written by every post and read back, is the same toolpath; and the
-// linter finds nothing in what was written. The seed of a failure is in its message; KERF_SEED repeats it,
+// A random toolpath, written by every post and read back, is the same toolpath, and the linter accepts what
+// was written. The seed of a failure is in its message; KERF_SEED repeats it,
 // and KERF_SHOW names a file that gets the G-code.
 #include <algorithm>
 #include <cmath>
@@ -17,13 +17,13 @@
 namespace kerf {
 namespace {
 
-constexpr unsigned kRuns = 40;           // random paths a post
-constexpr double kSmallestRadius = 0.2;  // mm; what is smaller is hard to tell from straight pieces in text
+constexpr unsigned kRuns = 40;           // random paths per post
+constexpr double kSmallestRadius = 0.2;  // mm; in text, smaller arcs are hard to distinguish from chords
 constexpr double kTinyRadius = 0.0005;   // mm
 constexpr double kVolumeSlack = 2e-3;    // mm3; E words have 5 decimals, of mm or inches
 
-/// What the random program is for: a laser has a beam in place of a spindle, a printer beads and heaters
-/// besides.
+/// The machine of the random program: a laser has a beam instead of a spindle, a printer also beads, heaters
+/// and fans.
 enum class Work { mill, laser, print };
 
 class RandomPath {
@@ -34,13 +34,13 @@ class RandomPath {
   Toolpath make() {
     path_.add(step::ToolChange{1}, OriginId::none);
     drive();
-    go(step::Rapid{place()});
+    go(step::Rapid{point()});
     for (int i = 0; i < 120; ++i) add_step();
     return std::move(path_);
   }
 
  private:
-  /// The spindle at some speed, or the beam at some power.
+  /// The spindle at a random speed, or the beam at a random power.
   void drive() {
     const int speed = whole(1000, 24000);
     if (work_ != Work::laser) {
@@ -59,16 +59,16 @@ class RandomPath {
         path_.add(step::Temperature{static_cast<Heater>(whole(0, 1)), 0.5 * whole(20, 500), whole(0, 1) == 0},
                   OriginId::none);
         return;
-      case 2:  // filament drawn back or pushed where the nozzle stands
+      case 2:  // filament retracted or extruded while the nozzle is at rest
         go(step::Extrude{at_, Volume::raw(real(-10, 10)), {}, {}, feed()});
         return;
-      default: go(step::Extrude{place(), Volume::raw(real(0.001, 5)), {}, {}, feed()});
+      default: go(step::Extrude{point(), Volume::raw(real(0.001, 5)), {}, {}, feed()});
     }
   }
 
   int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
   double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  Point3 place() {
+  Point3 point() {
     const double size = whole(0, 3) == 0 ? 0.01 : 100.0;  // also moves near the last decimal
     return {at_.x + real(-size, size), at_.y + real(-size, size), at_.z + real(-0.1 * size, 0.1 * size)};
   }
@@ -100,7 +100,7 @@ class RandomPath {
   void add_step() {
     if (work_ == Work::print && whole(0, 1) == 0) return add_printing();
     switch (whole(0, 11)) {
-      case 0: return go(step::Rapid{place()});
+      case 0: return go(step::Rapid{point()});
       case 1: path_.add(step::Dwell{seconds(0.25 * whole(1, 8))}, OriginId::none); return;
       case 2: return drive();
       case 3: path_.add(step::ToolChange{whole(1, 3)}, OriginId::none); return;
@@ -108,7 +108,7 @@ class RandomPath {
       case 5:
       case 6:
       case 7: return add_arc();
-      default: return go(step::Cut{place(), feed()});
+      default: return go(step::Cut{point(), feed()});
     }
   }
 
@@ -119,13 +119,13 @@ class RandomPath {
   Point3 at_;
 };
 
-/// What a motion is and what holds while it is made.
+/// A motion and the state in force during it.
 struct Motion {
   const Step* step;
   Point3 from;
   step::Spindle spindle;
   step::LaserPower beam;
-  double laid;  // mm3 of filament pushed, in all
+  double laid;  // mm3 of filament extruded so far
 };
 
 std::vector<Motion> motions_of(const Toolpath& path) {
@@ -146,8 +146,8 @@ std::vector<Motion> motions_of(const Toolpath& path) {
   return list;
 }
 
-/// Farthest that a point of `m` (sampled) lies from the arc's or line's true curve.
-double strays(const Motion& m, const Motion& original) {
+/// Maximum distance of points of `m` (sampled) from the arc or line `original`.
+double deviation(const Motion& m, const Motion& original) {
   const auto at = [](const Motion& motion, double t) {
     if (motion.step->kind() == StepKind::arc) return walk_of(*motion.step, motion.from).at(t);
     return motion.from + t * (motion.step->to() - motion.from);
@@ -175,7 +175,7 @@ double length_of(const Motion& m) {
   return distance(m.from, m.step->to());
 }
 
-std::string said(const Motion& m) {
+std::string text_of(const Motion& m) {
   std::string text(name_of(m.step->kind()));
   for (const Point3 p : {m.from, m.step->to()})
     text += " " + exact_text(p.x) + "," + exact_text(p.y) + "," + exact_text(p.z);
@@ -186,29 +186,29 @@ std::string said(const Motion& m) {
          exact_text(walk.v);
 }
 
-/// True if two places are written with the same numbers.
+/// True if two positions are written with the same numbers.
 bool same_counts(Point3 a, Point3 b, double unit) {
   for (int axis = 0; axis < 3; ++axis)
     if (std::abs(a[axis] - b[axis]) > 0.5 * unit + 1e-9) return false;
   return true;
 }
 
-/// What holds while two motions are made: kind, feed, spindle or beam, and the filament pushed until then.
+/// Kind, feed, spindle or beam, and the filament extruded until then.
 void expect_same_state(const Motion& read, const Motion& written, std::size_t w) {
-  SCOPED_TRACE("motion " + std::to_string(w) + " (" + said(written) + ") read as " + said(read));
+  SCOPED_TRACE("motion " + std::to_string(w) + " (" + text_of(written) + ") read as " + text_of(read));
   const StepKind kind = written.step->kind();
   for (const StepKind k : {StepKind::rapid, StepKind::extrude}) ASSERT_EQ(read.step->kind() == k, kind == k);
   ASSERT_NEAR(read.step->feed().mm_per_min(), written.step->feed().mm_per_min(), 0.02);
   ASSERT_EQ(read.spindle.turn, written.spindle.turn);
   ASSERT_NEAR(read.spindle.speed.rpm(), written.spindle.speed.rpm(), 0.01);
   ASSERT_EQ(read.beam.mode, written.beam.mode);
-  if (kind != StepKind::rapid) {  // a rapid shows none
+  if (kind != StepKind::rapid) {  // not written with a rapid
     ASSERT_NEAR(read.beam.power, written.beam.power, 0.01);
   }
   ASSERT_NEAR(read.laid, written.laid, kVolumeSlack);
 }
 
-/// Heaters and fans in their order, said in words.
+/// Heaters and fans in their order, as text.
 std::vector<std::string> printing_of(const Toolpath& path) {
   std::vector<std::string> list;
   for (const Step& s : path.steps()) {
@@ -223,16 +223,16 @@ std::vector<std::string> printing_of(const Toolpath& path) {
   return list;
 }
 
-/// Compares the motions read with those written: each that was written is made by one or more that were read,
-/// which keep to its curve, have its length, its feed and its spindle.
+/// Compares the motions read with those written: each written motion is read as one or more, which follow its
+/// curve and have its length, feed and spindle.
 void expect_same(const Toolpath& written, const Toolpath& read, double unit, double chord) {
   const std::vector<Motion> want = motions_of(written), got = motions_of(read);
   std::size_t g = 0;
   for (std::size_t w = 0; w < want.size(); ++w) {
     double made = 0.0;
-    bool taken = false;  // also moves that lead nowhere are moves
+    bool taken = false;  // motions of length 0 count as well
     const double total = length_of(want[w]);
-    // Consume what was read until the end is reached, by place and by length.
+    // Consume motions until position and length reach the end.
     while (g < got.size()) {
       const bool there = same_counts(g == 0 ? Point3{} : got[g - 1].step->to(), want[w].step->to(), unit);
       const double slack = 0.01 * total + 40.0 * unit;
@@ -240,8 +240,8 @@ void expect_same(const Toolpath& written, const Toolpath& read, double unit, dou
       const Motion& m = got[g++];
       taken = true;
       made += length_of(m);
-      ASSERT_LE(strays(m, want[w]), 4.0 * unit + 1.1 * chord)
-          << "motion " << w << " (" << said(want[w]) << ") read as " << said(m);
+      ASSERT_LE(deviation(m, want[w]), 4.0 * unit + 1.1 * chord)
+          << "motion " << w << " (" << text_of(want[w]) << ") read as " << text_of(m);
       expect_same_state(m, want[w], w);
       if (testing::Test::HasFatalFailure()) return;
       ASSERT_LE(made, total + slack) << "motion " << w;
@@ -260,13 +260,13 @@ double dwell_of(const Toolpath& path) {
 }
 
 std::vector<unsigned> seeds() {
-  if (const char* told = std::getenv("KERF_SEED")) return {static_cast<unsigned>(std::atoi(told))};
+  if (const char* seed = std::getenv("KERF_SEED")) return {static_cast<unsigned>(std::atoi(seed))};
   std::vector<unsigned> list;
   for (unsigned seed = 1; seed <= kRuns; ++seed) list.push_back(seed);
   return list;
 }
 
-/// A post and what its programs are read back as, without being told.
+/// A post and the dialect that its programs are recognised as.
 struct Loop {
   const char* post;
   GcodeDialect dialect;
@@ -276,7 +276,7 @@ void PrintTo(const Loop& one, std::ostream* out) { *out << one.post; }
 
 class ClosedLoop : public testing::TestWithParam<Loop> {};
 
-/// Writes `path` as one file in which the linter finds nothing, and reads it again.
+/// Writes `path` as one file that the linter accepts, and reads it again.
 GcodeProgram looped(const Toolpath& path, const PostProfile& profile, PostOptions options) {
   options.program_name = "loop";
   // One file, so that it reads as one program.
@@ -308,7 +308,7 @@ void expect_loop(const Loop& loop, LengthUnit unit, unsigned seed) {
   EXPECT_EQ(printing_of(program.path), printing_of(path));
 }
 
-TEST_P(ClosedLoop, gives_the_same_toolpath) {
+TEST_P(ClosedLoop, returns_the_same_toolpath) {
   const bool inches = find_post(GetParam().post)->has_g(200);
   for (const unsigned seed : seeds()) {
     for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::inch}) {

@@ -1,7 +1,7 @@
-// Random regions: boolean operations and offsets judged by what must hold for each, whatever the shapes.
+// Random regions: boolean operations and offsets checked by properties that hold for all shapes.
 //   property_region [COUNT] [SEED]
-// Outlines cross themselves and each other; a third of them has its points on a coarse grid, so that corners,
-// overlaps and tangent arcs meet exactly. Prints the seed, and each case that fails with the seed that makes
+// Outlines cross themselves and each other; a third of them has its points on a coarse grid, for coincident
+// corners, overlaps and tangent arcs. Prints the seed, and for each case that fails a seed that repeats
 // it alone. Exit status 1 if any does.
 #include <cmath>
 #include <cstdio>
@@ -19,14 +19,14 @@ class Drawer {
  public:
   explicit Drawer(std::uint64_t seed) : random_(seed) {}
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  bool chance(double share) { return in(0.0, 1.0) < share; }
+  bool chance(double probability) { return in(0.0, 1.0) < probability; }
   Outline outline(double size, bool on_grid);
   std::vector<Outline> outlines(double size, bool on_grid) {
     std::vector<Outline> made;
     for (int n = 1 + static_cast<int>(in(0.0, 2.5)); n > 0; --n) made.push_back(outline(size, on_grid));
     return made;
   }
-  Point2 place(double size, bool on_grid) {
+  Point2 point(double size, bool on_grid) {
     const Point2 p{in(-size, size), in(-size, size)};
     return on_grid ? Point2{std::round(p.x), std::round(p.y)} : p;
   }
@@ -38,10 +38,10 @@ class Drawer {
 Outline Drawer::outline(double size, bool on_grid) {
   const int corners = 2 + static_cast<int>(in(0.0, 9.0));
   Outline made;
-  made.start = place(size, on_grid);
+  made.start = point(size, on_grid);
   for (int i = 1; i <= corners; ++i) {
     const Point2 from = made.point(made.segments.size());
-    Segment segment{i == corners ? made.start : place(size, on_grid), {}, {}};
+    Segment segment{i == corners ? made.start : point(size, on_grid), {}, {}};
     if (segment.to == from) continue;
     if (chance(0.5)) {
       // Half circles on the grid touch each other and the lines.
@@ -55,7 +55,7 @@ Outline Drawer::outline(double size, bool on_grid) {
   return made;
 }
 
-/// One case: two regions, an offset, and points to ask about.
+/// One case: two regions, an offset, and query points.
 class Case {
  public:
   explicit Case(std::uint64_t seed) : drawer_(seed) {
@@ -63,7 +63,7 @@ class Case {
     on_grid_ = drawer_.chance(0.33);
     if (on_grid_) size_ = 6.0;
   }
-  /// What is wrong; empty if nothing.
+  /// The fault; empty if there is none.
   std::string run();
 
  private:
@@ -78,7 +78,7 @@ class Case {
   bool on_grid_ = false;
 };
 
-/// The winding number of an outline around a point, from angles alone; far off an integer near the outline.
+/// The winding number of an outline around a point, from angles alone; not an integer near the outline.
 double turns_around(const Outline& outline, Point2 p) {
   double turns = 0.0;
   Point2 from = outline.start;
@@ -106,7 +106,7 @@ double turns_around(const Outline& outline, Point2 p) {
   return turns;
 }
 
-/// How near to an outline's chords (256 an arc) a point may lie so that they tell which side it is on.
+/// True if a point is so far from all outlines that their chords (256 per arc) determine its side.
 bool is_clear(const RegionSearch& search, Point2 p, double margin) {
   const auto nearest = search.nearest(p);
   return !nearest || nearest->distance.mm() > margin;
@@ -115,7 +115,7 @@ bool is_clear(const RegionSearch& search, Point2 p, double margin) {
 std::string Case::membership(const std::vector<Outline>& outlines, const Region& made, FillRule rule) {
   const RegionSearch search(made), raw(Region{outlines});
   for (int i = 0; i < 10; ++i) {
-    const Point2 p = drawer_.place(1.5 * size_, false);
+    const Point2 p = drawer_.point(1.5 * size_, false);
     if (!is_clear(raw, p, 1e-3 * size_)) continue;
     long winding = 0;
     for (const Outline& o : outlines) winding += std::lround(turns_around(o, p));
@@ -126,8 +126,8 @@ std::string Case::membership(const std::vector<Outline>& outlines, const Region&
       return fmt::format("({}, {}) is on the wrong side of made regions", p.x, p.y);
   }
   for (const Outline& loop : made.loops) {
-    const auto meetings = self_meetings(loop, {}, diagnostics_);
-    if (!meetings) return "self meetings failed";
+    const auto found = self_meetings(loop, {}, diagnostics_);
+    if (!found) return "self-intersections failed";
   }
   return "";
 }
@@ -140,7 +140,7 @@ std::string Case::booleans(const Region& a, const Region& b) {
     const auto combined = combine(a, b, kinds[k], {}, diagnostics_);
     if (!combined) return fmt::format("boolean {} failed", k);
     made[k] = area(combined->region);
-    // Made again it stays as it is.
+    // A region made of the result is equal to it.
     const auto again = make_region(combined->region.loops, FillRule::positive, {}, diagnostics_);
     if (!again) return fmt::format("boolean {} cannot be made again", k);
     if (std::abs(area(*again) - made[k]) > slack(perimeter)) return fmt::format("boolean {} changes", k);
@@ -166,13 +166,13 @@ std::string Case::offsets(const Region& a) {
     return before.locate(p, {}) == Place::inside ? -nearest->distance.mm() : nearest->distance.mm();
   };
   for (int i = 0; i < 20; ++i) {
-    const Point2 p = drawer_.place(1.8 * size_, false);
+    const Point2 p = drawer_.point(1.8 * size_, false);
     const double off = signed_distance(p) - by;
     if (std::abs(off) < 1e-5) continue;
     if ((off < 0.0) != (after.locate(p, {}) == Place::inside))
       return fmt::format("offset by {}: ({}, {}) is {} off and on the wrong side", by, p.x, p.y, off);
   }
-  for (const Outline& loop : made->region.loops)  // every point of it is just as far
+  for (const Outline& loop : made->region.loops)  // every point of it has the distance
     for (const Segment& s : loop.segments)
       for (const Point2 p : {s.to, s.via.value_or(s.to)})
         if (std::abs(signed_distance(p) - by) > 2e-5)
