@@ -1,5 +1,4 @@
-// Goes through every module of the library once in WebAssembly and says what it found; exit status 1 if that
-// is wrong.
+// Uses every module of the library once in WebAssembly and prints the results; exit status 1 if one is wrong.
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -34,7 +33,7 @@ void check_base_and_geom() {
   expect(number_text(-0.0001, 3) == "0" && parse_number("-2.5e-1") == -0.25, "numbers as text and back");
   Diagnostics diagnostics;
   diagnostics.error(Code::file_unreadable, TextSpot{"part.nc", 3, 7}, "made up");
-  expect(to_string(diagnostics.list().front()).rfind("part.nc:3:7", 0) == 0, "a diagnostic with its place");
+  expect(to_string(diagnostics.list().front()).rfind("part.nc:3:7", 0) == 0, "a diagnostic with its line");
   const ArcWalk arc = walk_arc({1, 0, 0}, {-1, 0, 0}, {0, 0}, Plane::xy, Turn::ccw, 0);
   expect(std::abs(arc.length() - std::numbers::pi) < 1e-12, "length of half a circle");
 }

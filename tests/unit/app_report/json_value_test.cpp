@@ -20,7 +20,7 @@ TEST(JsonValue, WritesEveryKind) {
   EXPECT_EQ(line(Json::object()), "{}");
 }
 
-TEST(JsonValue, NumbersThatAreNotWholeTypesHaveAPointOrAnExponent) {
+TEST(JsonValue, FloatingNumbersHaveAPointOrAnExponent) {
   EXPECT_EQ(line(Json(2.0)), "2.0");
   EXPECT_EQ(line(Json(-1200.0)), "-1200.0");
   EXPECT_EQ(line(Json(0.1)), "0.1");
@@ -57,7 +57,7 @@ TEST(JsonValue, StringsAreEscapedAndAlwaysUtf8) {
   EXPECT_EQ(line(Json{{"k\n", 1}}), R"({"k\n":1})");
 }
 
-TEST(JsonValue, IndentsForPeople) {
+TEST(JsonValue, IndentsOnRequest) {
   const Json json{{"a", Json::array()}, {"b", {1, 2}}};
   EXPECT_EQ(json.text(Json::Layout::indented), "{\n  \"a\": [],\n  \"b\": [\n    1,\n    2\n  ]\n}");
 }

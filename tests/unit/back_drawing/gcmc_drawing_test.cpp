@@ -25,7 +25,7 @@ TEST(GcmcSvg, PathsRunFromRapidToRapid) {
                   "d=\"M 10.000000,0.000000 L 10.000000,0.000000 L 20.000000,0.000000 "
                   "A 5.000000,5.000000 0 0,1 20.000000,10.000000\"/>"));
   EXPECT_TRUE(has(svg, "#ff0000"));
-  EXPECT_TRUE(has(svg, "width=\"28.000000mm\""));  // 25 to the arc's side, and the tool
+  EXPECT_TRUE(has(svg, "width=\"28.000000mm\""));  // X to 25 on the arc, and the tool width
   EXPECT_TRUE(has(svg, "height=\"13.000000mm\""));
   EXPECT_TRUE(has(svg, "translate(1.500000 11.500000) scale(1 -1)"));
 }

@@ -1,4 +1,4 @@
-// What a toolpath's drawing consists of.
+// The entities of a toolpath's drawing.
 #include "kerf/toolpath_drawing.h"
 
 #include <cmath>
@@ -95,7 +95,7 @@ TEST_F(ToolpathDrawing, more_than_half_a_circle_is_two_bulges) {
                 1e-12);
 }
 
-TEST_F(ToolpathDrawing, arcs_that_stand_upright_are_seen_from_above) {
+TEST_F(ToolpathDrawing, upright_arcs_are_seen_from_above) {
   rapid({0, 0, 0});
   arc({10, 0, 0}, {5, 0}, Turn::cw, 0, Plane::xz);
   const auto bounds = drawing_bounds(toolpath_drawing(path_, {}));
@@ -115,7 +115,7 @@ TEST_F(ToolpathDrawing, a_hole_is_a_circle_of_the_tool) {
   EXPECT_EQ(drawing.layers.at(drawing.entities[0].layer).name, "T7 drill");
 }
 
-TEST_F(ToolpathDrawing, layers_are_named_or_of_tools) {
+TEST_F(ToolpathDrawing, layers_have_names_or_tools) {
   path_.add(step::ToolChange{1}, OriginId::none);
   rapid({0, 0, 0});
   cut({1, 0, 0});
@@ -144,7 +144,7 @@ TEST_F(ToolpathDrawing, rapids_and_a_beam_without_power_cut_nothing) {
   EXPECT_EQ(both.layers.at(both.entities[0].layer).name, "rapids");
 }
 
-TEST_F(ToolpathDrawing, unknown_places_are_left_out) {
+TEST_F(ToolpathDrawing, unknown_positions_are_skipped) {
   path_.set_unknown_axes(path_.add(step::Rapid{{0, 0, 0}}, OriginId::none), 7);
   cut({5, 5, 0});
   EXPECT_TRUE(toolpath_drawing(path_, {}).entities.empty());

@@ -1,4 +1,4 @@
-// The linter against the lines that GRBL takes and refuses, and each of its codes.
+// The linter against lines that GRBL accepts and refuses, and each of its codes.
 #include "back/gcode/lint.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ enum class Before { feed, no_feed };
 struct Line {
   Before before;
   std::string_view text;
-  int error;  // GRBL's number, 0: taken
+  int error;  // GRBL's number, 0: accepted
 };
 constexpr Line kLines[] = {
 #include "grbl_lines.inc"
 };
 
-bool taken(const Line& line) {
+bool accepted(const Line& line) {
   Diagnostics diagnostics;
   std::string text = line.before == Before::feed ? "G21G90G94F100\n" : "";
   text += line.text;
@@ -30,15 +30,15 @@ bool taken(const Line& line) {
 
 TEST(Lint, refuses_every_line_that_grbl_refuses) {
   for (const Line& line : kLines)
-    EXPECT_TRUE(line.error == 0 || !taken(line)) << line.text << ", GRBL says error " << line.error;
+    EXPECT_TRUE(line.error == 0 || !accepted(line)) << line.text << ", GRBL says error " << line.error;
 }
 
-TEST(Lint, takes_the_lines_that_grbl_takes) {
-  // Said by the linter although GRBL lets them pass: they act on no machine as their writer meant.
+TEST(Lint, accepts_the_lines_that_grbl_accepts) {
+  // Refused by the linter although GRBL accepts them: no machine does what they mean.
   const std::string_view stricter[] = {"M1", "T1.5", "M30\x1a"};
   for (const Line& line : kLines) {
     const bool known = std::find(std::begin(stricter), std::end(stricter), line.text) != std::end(stricter);
-    EXPECT_TRUE(line.error != 0 || known || taken(line)) << line.text;
+    EXPECT_TRUE(line.error != 0 || known || accepted(line)) << line.text;
   }
 }
 
@@ -47,7 +47,7 @@ struct Case {
   Code code;
 };
 
-TEST(Lint, says_what_is_wrong) {
+TEST(Lint, reports_each_code) {
   const Case cases[] = {
       {"grbl", "G0 A1", Code::lint_letter},
       {"grbl", "M6", Code::lint_code},
@@ -59,7 +59,7 @@ TEST(Lint, says_what_is_wrong) {
       {"grbl", "G0 X1.00000000000000000000000000000000000000000000000000000000000000000000000000000000000",
        Code::lint_line},
       {"grbl", "(what?)", Code::lint_comment},
-      {"marlin", "(brackets)", Code::lint_comment},
+      {"marlin", "(comment)", Code::lint_comment},
       {"grbl", "%", Code::lint_syntax},
       {"grbl", "O100 call", Code::lint_syntax},
       {"marlin", "PAUSE", Code::lint_syntax},
@@ -89,7 +89,7 @@ TEST(Lint, a_foreign_line_neither_moves_nor_changes_a_mode) {
   EXPECT_EQ(code_of("marlin", "G91"), Code::lint_mode);
 }
 
-TEST(Lint, takes_commands_in_words_where_there_are_some) {
+TEST(Lint, accepts_named_commands_of_klipper_and_marlin) {
   for (const auto& [post, text] :
        {std::pair("klipper", "PAUSE\nSET_FAN_SPEED FAN=box SPEED=0.5"),
         std::pair("klipper", "T1\nM117 half done"), std::pair("marlin", "M117 x=1")}) {

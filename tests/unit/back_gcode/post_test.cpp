@@ -1,4 +1,4 @@
-// What the posts write, line by line; and everything they refuse.
+// The output of the posts, line by line, and what they refuse.
 #include "kerf/post.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace kerf {
 namespace {
 
-/// A profile without templates, so that a test sees the steps' own lines only.
+/// A profile without templates: only the lines of the steps.
 PostProfile bare(std::string_view name) {
   PostProfile profile = *find_post(name);
   profile.header.clear();
@@ -69,7 +69,7 @@ TEST(Post, writes_only_what_changes) {
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG1 Z-1 F600\nX10\nY2.5 F300\n");
 }
 
-TEST(Post, moves_that_lead_nowhere_stay_moves) {
+TEST(Post, moves_of_length_zero_are_written) {
   Toolpath path = at_origin();
   path.add(step::Cut{{0, 0, 5}, kFeed}, OriginId::none);
   path.add(step::Rapid{{0, 0.0001, 5}}, OriginId::none);
@@ -112,7 +112,7 @@ TEST(Post, arcs_in_other_planes) {
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG18 G3 X10 Z5 I5 K0 F600\n");
 }
 
-TEST(Post, arcs_become_chords_where_the_controller_has_none) {
+TEST(Post, arcs_become_chords_for_controllers_without_arcs) {
   Toolpath path = at_origin();
   path.add(step::Arc{.to = {10, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
   const Posted out = posted(path, bare("klipper"));
@@ -120,7 +120,7 @@ TEST(Post, arcs_become_chords_where_the_controller_has_none) {
   EXPECT_GT(out.files.front().lines, 20u);
 }
 
-TEST(Post, an_uneven_arc_becomes_chords_and_is_said) {
+TEST(Post, an_uneven_arc_becomes_chords_with_a_warning) {
   Toolpath path = at_origin();
   path.add(step::Arc{.to = {11, 0, 5}, .centre = {5, 0}, .turn = Turn::cw, .feed = kFeed}, OriginId::none);
   const Posted out = posted(path, bare("grbl"));
@@ -141,7 +141,7 @@ TEST(Post, spindle_stops_before_a_tool_change_and_starts_again) {
             "M3 S12000\nG0 X0 Y0 Z5\nM5\n(change to tool 2)\nM0\nM3 S12000\nG0 X1 Y0 Z5\nM5\n");
 }
 
-TEST(Post, a_file_a_tool_begins_above_the_last_place) {
+TEST(Post, each_file_of_a_tool_starts_above_the_last_position) {
   Toolpath path;
   path.add(step::ToolChange{1}, OriginId::none);
   path.add(step::Rapid{{3, 4, 5}}, OriginId::none);
@@ -168,7 +168,7 @@ TEST(Post, spindle_waits_unless_the_program_does) {
   EXPECT_EQ(posted(path, bare("marlin")).text(), "M3 S100\nG4 P500\nM5\n");
 }
 
-TEST(Post, laser_power_rides_on_the_moves) {
+TEST(Post, laser_power_is_written_with_the_moves) {
   Toolpath path = at_origin();
   path.add(step::LaserPower{LaserMode::dynamic, 100}, OriginId::none);
   path.add(step::Cut{{1, 0, 5}, kFeed}, OriginId::none);
@@ -178,7 +178,7 @@ TEST(Post, laser_power_rides_on_the_moves) {
   EXPECT_EQ(posted(path, bare("laser")).text(), "G0 X0 Y0 Z5\nM4 S100\nG1 X1 F600\nX2 S200\nM5\n");
 }
 
-TEST(Post, a_power_told_with_its_mode_drops_an_older_one) {
+TEST(Post, a_power_with_its_mode_replaces_an_older_one) {
   Toolpath path = at_origin();
   path.add(step::LaserPower{LaserMode::dynamic, 100}, OriginId::none);
   path.add(step::LaserPower{LaserMode::dynamic, 200}, OriginId::none);
@@ -187,7 +187,7 @@ TEST(Post, a_power_told_with_its_mode_drops_an_older_one) {
   EXPECT_EQ(posted(path, bare("laser")).text(), "G0 X0 Y0 Z5\nM4 S100\nM3 S300\nG1 X1 F600\nM5\n");
 }
 
-TEST(Post, printers_get_one_command_a_line) {
+TEST(Post, printers_get_one_command_per_line) {
   Toolpath path = at_origin();
   path.add(step::Cut{{1, 0, 5}, kFeed}, OriginId::none);
   path.add(step::Cut{{2, 0, 5}, kFeed}, OriginId::none);
@@ -209,7 +209,7 @@ TEST(Post, beads_for_printers_only) {
   EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));
 }
 
-TEST(Post, machine_places_stay_machine_places) {
+TEST(Post, machine_coordinates_are_kept) {
   Toolpath path = at_origin();
   const std::size_t up = path.add(step::Rapid{{0, 0, -3}}, OriginId::none);
   path.set_unknown_axes(up, 4);
@@ -222,7 +222,7 @@ TEST(Post, machine_places_stay_machine_places) {
             "G0 X0 Y0 Z5\nG53 G0 Z-3\nG91 G28 X0 Y0 Z0\nG90\nG0 X0 Y0 Z0\n");
 }
 
-TEST(Post, foreign_lines_change_nothing_that_others_rely_on) {
+TEST(Post, foreign_lines_with_lasting_effects_are_refused) {
   for (const char* line : {"G91",   "G20",    "G18",           "G41 D1", "G55",     "G93",       "G99",
                            "G0 X1", "X1",     "G81 X1 Z-1 R1", "F100",   "S100",    "T2",        "M5",
                            "M30",   "G92 X0", "G53 G0 Z0",     "#1=2",   "/M64 P1", "o<a> call", "%"}) {
@@ -261,7 +261,7 @@ TEST(Post, printers_run_to_their_end_switches) {
   EXPECT_TRUE(posted(path, bare("linuxcnc")).reports(Code::post_left_out));  // G28 leads elsewhere there
 }
 
-TEST(Post, an_arc_needs_a_known_begin) {
+TEST(Post, an_arc_needs_a_known_start_point) {
   Toolpath path = at_origin();
   const step::Arc arc{.to = {10, 0, 5}, .centre = {5, 0}, .feed = kFeed};
   path.add(arc, OriginId::none);
@@ -273,17 +273,17 @@ TEST(Post, an_arc_needs_a_known_begin) {
   EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_place_unknown));
 }
 
-TEST(Post, after_a_probe_every_axis_is_told) {
+TEST(Post, after_a_probe_every_axis_is_written) {
   Toolpath path = at_origin();
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
   path.add(step::Rapid{{0, 0, -5}}, OriginId::none);
   EXPECT_EQ(posted(path, bare("grbl")).text(), "G0 X0 Y0 Z5\nG38.3 Z-5 F600\nG0 X0 Y0 Z-5\n");
-  path.add(step::Note{"after which all axes are told again"}, OriginId::none);
+  path.add(step::Note{"after which all axes are written again"}, OriginId::none);
   path.add(step::Probe{{0, 0, -5}, kFeed, ProbeKind::contact}, OriginId::none);
-  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));  // goes nowhere
+  EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));  // length 0
 }
 
-TEST(Post, comments_hold_nothing_that_acts) {
+TEST(Post, comments_have_no_active_characters) {
   Toolpath path;
   path.add(step::Note{"slot (2x)! ready? caf\xC3\xA9"}, OriginId::none);
   EXPECT_EQ(posted(path, bare("grbl")).text(), "(slot [2x]. ready. caf_)\n");
@@ -304,7 +304,7 @@ TEST(Post, pauses_in_the_controllers_own_way) {
   EXPECT_TRUE(posted(path, endless).reports(Code::post_cannot));
 }
 
-TEST(Post, says_what_a_controller_lacks) {
+TEST(Post, reports_what_a_controller_lacks) {
   Toolpath path;
   path.add(step::Coolant{true, false}, OriginId::none);
   EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_left_out));
@@ -330,7 +330,7 @@ TEST(Post, says_what_a_controller_lacks) {
   EXPECT_TRUE(posted(far, narrow).reports(Code::post_placeholder));
 }
 
-TEST(Post, a_long_program_is_not_pushed_into_memory_by_one_arc) {
+TEST(Post, one_arc_does_not_fill_the_memory) {
   Toolpath path = at_origin();
   path.add(step::Arc{.to = {0, 0, 5}, .centre = {1e6, 0}, .extra_turns = 9999, .feed = kFeed},
            OriginId::none);

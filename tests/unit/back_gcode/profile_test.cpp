@@ -1,4 +1,4 @@
-// Post files: what is read, what is refused, and that the built-in ones are whole.
+// Post files: what is read, what is refused, and that the built-in ones are complete.
 #include <gtest/gtest.h>
 #include <string_view>
 
@@ -26,7 +26,7 @@ TEST(Profile, the_built_in_ones_are_there) {
   EXPECT_EQ(find_post("LinuxCNC"), find_post("linuxcnc"));
 }
 
-TEST(Profile, begins_from_another) {
+TEST(Profile, starts_from_a_base) {
   Diagnostics diagnostics;
   const auto profile = read_post_profile("base = \"grbl\"\nname = \"mine\"\n[line]\nend = \"crlf\"\n",
                                          "post.toml", diagnostics);
@@ -36,7 +36,7 @@ TEST(Profile, begins_from_another) {
   EXPECT_EQ(profile->longest_line, 79u);
 }
 
-TEST(Profile, faults_are_said) {
+TEST(Profile, faults_are_reported) {
   EXPECT_EQ(first_code("name = "), Code::post_file_syntax);
   EXPECT_EQ(first_code("nmae = \"x\""), Code::post_key_unknown);
   EXPECT_EQ(first_code("name = \"x\"\n[arcs]\npolicy = \"round\""), Code::post_value_bad);

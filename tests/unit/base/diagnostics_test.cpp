@@ -1,4 +1,4 @@
-// Diagnostics and origins: text form, the limit a code, the compact table of places.
+// Diagnostics and origins: text form, the limit per code, the compact table of origins.
 #include "kerf/diagnostics.h"
 
 #include <gtest/gtest.h>
@@ -8,14 +8,14 @@
 namespace kerf {
 namespace {
 
-TEST(Diagnostic, SaysWhereWhatAndHowToMendIt) {
+TEST(Diagnostic, TextHasOriginMessageNotesAndHint) {
   Diagnostics diagnostics;
   Diagnostic& d = diagnostics.warning(Code::file_unreadable, TextSpot{"part.nc", 3, 7}, "no number after X");
-  d.notes.push_back({TextSpot{"part.nc", 1, 0}, "the program begins here"});
+  d.notes.push_back({TextSpot{"part.nc", 1, 0}, "the program starts here"});
   d.hint = "write X0";
   EXPECT_EQ(to_string(d),
             "part.nc:3:7: warning: no number after X [1001]\n"
-            "  note: part.nc:1: the program begins here\n"
+            "  note: part.nc:1: the program starts here\n"
             "  hint: write X0");
   EXPECT_EQ(to_string(Diagnostic{Severity::error, Code::file_unreadable, {}, "bad", {}, {}}),
             "error: bad [1001]");
@@ -52,7 +52,7 @@ TEST(Origin, IsWrittenAsEditorsReadIt) {
   EXPECT_EQ(to_string(Origin{CallSpot{"job.py", 7, "cutline"}}), "job.py:7 (cutline)");
 }
 
-TEST(OriginTable, GivesBackWhatWasPutIn) {
+TEST(OriginTable, ResolvesWhatWasAdded) {
   OriginTable table;
   const Origin text = TextSpot{"part.nc", 12, 5};
   const Origin drawing = DxfSpot{"plate.dxf", "8999", "2F", 10, 20};
@@ -70,10 +70,10 @@ TEST(OriginTable, GivesBackWhatWasPutIn) {
 TEST(OriginTable, NamesCallersInnermostFirst) {
   OriginTable table;
   const OriginId outer = table.add(TextSpot{"main.ngc", 2, 0});
-  const OriginId middle = table.add(TextSpot{"sub.ngc", 5, 0});
+  const OriginId caller = table.add(TextSpot{"sub.ngc", 5, 0});
   const OriginId inner = table.add(TextSpot{"deep.ngc", 9, 0});
-  table.set_caller(middle, outer);
-  table.set_caller(inner, middle);
+  table.set_caller(caller, outer);
+  table.set_caller(inner, caller);
   const std::vector<Origin> expected{TextSpot{"sub.ngc", 5, 0}, TextSpot{"main.ngc", 2, 0}};
   EXPECT_EQ(table.callers(inner), expected);
   EXPECT_TRUE(table.callers(outer).empty());

@@ -1,4 +1,4 @@
-// Files: what cannot be read is an error with its path, and outputs appear whole and together or not at all.
+// Files: unreadable ones are errors with their path; outputs appear complete and together or not at all.
 #include "kerf/files.h"
 
 #include <fcntl.h>
@@ -132,7 +132,7 @@ TEST_F(Files, WithoutACommitNothingIsLeft) {
   EXPECT_EQ(count(), 0u);
 }
 
-TEST_F(Files, AnUnwritablePlaceIsAnError) {
+TEST_F(Files, AnUnwritableFolderIsAnError) {
   {
     OutputSet outputs;
     EXPECT_FALSE(outputs.write(path("no/such/folder/a.txt"), "x", diagnostics_));

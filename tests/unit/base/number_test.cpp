@@ -24,7 +24,7 @@ TEST(Number, FixedIsRoundedAsPrintfDoes) {
   for (int i = 0; i < 200'000; ++i) {
     const int decimals = static_cast<int>(random() % 16);
     double v = std::pow(10.0, exponent(random)) * (random() % 2 == 0 ? 1 : -1);
-    if (i % 3 == 0) v = std::round(v * 2000.0) / 2000.0;  // halves of the last place
+    if (i % 3 == 0) v = std::round(v * 2000.0) / 2000.0;  // halves of the last decimal
     char expected[400];
     std::snprintf(expected, sizeof expected, "%.*f", decimals, v);
     std::string text;

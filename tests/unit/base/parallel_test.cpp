@@ -1,4 +1,4 @@
-// Threads that share numbered pieces of work.
+// Numbered items of work on several threads.
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@ namespace {
 
 const auto kNeverStop = [] { return false; };
 
-TEST(Parallel, EveryPieceIsDoneOnce) {
+TEST(Parallel, EveryItemIsDoneOnce) {
   for (const unsigned threads : {1u, 2u, 7u}) {
     for (const std::size_t count : {0u, 1u, 2u, 1000u}) {
       std::vector<int> done(count, 0);
@@ -32,7 +32,7 @@ TEST(Parallel, ATeamDoesManyRounds) {
     for (std::size_t i = 0; i < done.size(); ++i) {
       int wanted = 0;
       for (int round = 0; round < 2000; ++round) wanted += i < static_cast<std::size_t>(round % 65) ? 1 : 0;
-      EXPECT_EQ(done[i], wanted) << threads << " threads, piece " << i;
+      EXPECT_EQ(done[i], wanted) << threads << " threads, item " << i;
     }
   }
 }
@@ -42,7 +42,7 @@ TEST(Parallel, HelpersTakePart) {
   std::set<std::thread::id> seen;
   std::atomic<int> arrived{0};
   std::vector<std::thread::id> who(3);
-  // Each piece waits for the two others, so that no thread can do two.
+  // Each item waits for the two others, so that no thread can do two.
   team.run(
       3,
       [&](std::size_t i) {
@@ -69,14 +69,14 @@ TEST(Parallel, AStoppedRoundEndsAndTheNextIsWhole) {
   EXPECT_EQ(done, 100u);
 }
 
-TEST(Parallel, WhatAPieceThrowsComesOut) {
+TEST(Parallel, ExceptionsOfItemsAreRethrown) {
   for (const unsigned threads : {1u, 2u, 5u}) {
     Team team(threads);
     for (const std::size_t bad : {0u, 37u, 999u}) {
       const auto work = [&](std::size_t i) {
         if (i == bad) throw std::bad_alloc();
       };
-      EXPECT_THROW(team.run(1000, work, kNeverStop), std::bad_alloc) << threads << " threads, piece " << bad;
+      EXPECT_THROW(team.run(1000, work, kNeverStop), std::bad_alloc) << threads << " threads, item " << bad;
     }
     std::atomic<std::size_t> done{0};
     team.run(

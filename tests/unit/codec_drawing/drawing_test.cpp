@@ -1,4 +1,4 @@
-// Drawings as DXF and SVG: what stands in the files.
+// Drawings as DXF and SVG: the content of the files.
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(Drawing, BoundsFollowArcsAndBulges) {
   const auto b = drawing_bounds(sample());
-  EXPECT_NEAR(b[0], 10 * std::cos(100 * 3.14159265358979 / 180), 1.8);  // -2 of the circle is further left
+  EXPECT_NEAR(b[0], 10 * std::cos(100 * 3.14159265358979 / 180), 1.8);  // the circle reaches -2
   EXPECT_DOUBLE_EQ(b[0], -2.0);
   EXPECT_NEAR(b[1], -5.0, 1e-12);  // a bulge of 1 is half a circle, to the right of its chord
   EXPECT_NEAR(b[2], 10.0, 1e-12);
@@ -55,7 +55,7 @@ TEST(Drawing, R12HasNeitherSubclassesNorLightPolylines) {
   EXPECT_EQ(count(dxf, "\nVERTEX\n"), 3u);
 }
 
-TEST(Drawing, DxfTellsOtherLettersByTheirNumber) {
+TEST(Drawing, DxfEscapesNonAsciiLetters) {
   Drawing drawing;
   drawing.layers = {{"N\xC3\xA4he \xE2\x82\xAC", 1, {}, 0.5, LineKind::solid}};
   drawing.entities = {{0, drawing::Text{0, 0, 2, "\xC3\xA9 \xFF \xC3"}}};

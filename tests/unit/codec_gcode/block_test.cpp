@@ -1,4 +1,4 @@
-// Blocks of words: every spelling that is fine, every fault with its place, and bounded work on junk.
+// Blocks of words: every valid spelling, every fault with its location, and bounded work on junk.
 #include "codec/gcode/block.h"
 
 #include <cmath>
@@ -51,7 +51,7 @@ TEST(Block, LineEndsOfAllKindsCountOnce) {
   EXPECT_TRUE(read("").blocks.empty());
 }
 
-TEST(Block, KeepsWhatStandsAroundTheWords) {
+TEST(Block, KeepsWhatSurroundsTheWords) {
   const Reading r = read("/N10 G1 (one) X2 ; two (2)\n%prog\nN 20.5 /G0\nO1000 (name)\nN3 G1 X5*71");
   ASSERT_EQ(r.blocks.size(), 5u);
   const Block& b = r.blocks[0];
@@ -70,13 +70,13 @@ TEST(Block, KeepsWhatStandsAroundTheWords) {
   EXPECT_EQ(r.blocks[4].words.back().letter, '*');
 }
 
-TEST(Block, BytesOfAnyKindMayStandInComments) {
+TEST(Block, CommentsMayHoldAnyBytes) {
   const Reading r = read("(M\xC3\xBCller \xFF\x01) G0\n; \xE5\xB9\xB3");
   EXPECT_TRUE(r.diagnostics.list().empty());
   EXPECT_EQ(words_of(r.blocks[0]), "G0.000000");
 }
 
-TEST(Block, RecognisesWhatIsToBeComputed) {
+TEST(Block, RecognisesExpressions) {
   const Reading r = read(
       "#1=2 #<depth> = [#1 * [2 + 1]] G1 X#1 Y[1+2] Z-#<z_safe> I-[2] F##2 Jatan[1]/[2] K abs[-1]\nO100 "
       "sub\no<x> call [1] (c)");
@@ -112,7 +112,7 @@ struct Fault {
   std::uint32_t column;
 };
 
-TEST(Block, FaultsHaveTheirPlaceAndReadingGoesOn) {
+TEST(Block, FaultsHaveTheirLocationAndReadingContinues) {
   const Fault faults[] = {
       {"G1 X", Code::number_missing, 4},
       {"G1 X Y2", Code::number_missing, 4},
@@ -153,7 +153,7 @@ TEST(Block, FaultsHaveTheirPlaceAndReadingGoesOn) {
   EXPECT_EQ(read(digits).diagnostics.list()[0].code, Code::number_too_large);
 }
 
-TEST(Block, UnusualCommentsAreSaidAndErrorsWhenStrict) {
+TEST(Block, UnusualCommentsAreWarningsOrStrictErrors) {
   for (const bool strict : {false, true}) {
     const Severity severity = strict ? Severity::error : Severity::warning;
     const Reading open = read("G0 (open X1", {"<text>", 1000, strict});
@@ -179,7 +179,7 @@ TEST(Block, LongLinesAreRefused) {
   EXPECT_EQ(words_of(r.blocks[1]), "G0.000000");
 }
 
-/// Texts on which a reader that looks ahead from every place would take time by the square of their length.
+/// Texts that take quadratic time if the reader looks ahead from every position.
 TEST(Block, HostileTextsTakeLinearTime) {
   const auto repeated = [](std::string_view part, std::size_t bytes) {
     std::string text;

@@ -1,4 +1,4 @@
-// Every built-in function: its value, and what it says where its arguments do not fit.
+// Every built-in function: its value, and its messages for arguments that do not fit.
 #include <gtest/gtest.h>
 
 #include "gcmc_run.h"
@@ -7,7 +7,7 @@ namespace kerf::test {
 namespace {
 
 class Value : public ValueTest {};
-TEST_P(Value, IsAsTheLanguageSays) { expect_value(); }
+TEST_P(Value, IsThatOfTheRealProgram) { expect_value(); }
 
 const std::vector<Case> kNumbers{
     {"pi()", "3.142"},
@@ -227,9 +227,9 @@ struct Written {
   const char* text;
 };
 class Text : public testing::TestWithParam<Written> {};
-TEST_P(Text, IsWordForWord) {
+TEST_P(Text, IsThatOfTheRealProgram) {
   GcmcOptions options = bare();
-  options.want_path = false;  // literal() here prints values, which no toolpath takes
+  options.want_path = false;  // literal() prints values here, which are invalid in a toolpath
   const auto ran = run(GetParam().program, options);
   EXPECT_EQ(ran.text, GetParam().text);
   EXPECT_EQ(ran.run.status, 0) << (ran.lines.empty() ? "" : ran.lines.front());
@@ -292,7 +292,7 @@ const std::vector<Written> kState{
 INSTANTIATE_TEST_SUITE_P(State, Text, testing::ValuesIn(kState));
 
 class Refusal : public MessageTest {};
-TEST_P(Refusal, SaysWhy) { expect_messages(); }
+TEST_P(Refusal, HasItsMessage) { expect_messages(); }
 
 const std::vector<Case> kMachine{
     {"goto([-, -]);", "error: All coordinates in goto() undefined"},
@@ -362,7 +362,7 @@ TEST(GcmcTypeset, BlankHasTheWidthOfTheLanguage) {
   EXPECT_EQ(value_of("typeset(\"\", FONT_HTIMES)"), "{[-,-,1.000],[0.000,0.000,-],[0.000,0.000,-]}");
 }
 
-TEST(GcmcTypeset, MissingGlyphsAndFontsAreSaid) {
+TEST(GcmcTypeset, MissingGlyphsAndFontsAreWarnings) {
   EXPECT_EQ(value_of("typeset(\"\\x07\", FONT_HSANS_1)"),
             "warning: Glyph for codepoint 0x00000007 not available, replacing with ' '|"
             "{[-,-,1.000],[0.000,0.000,-],[0.571,0.000,-],[0.571,0.000,-]}");

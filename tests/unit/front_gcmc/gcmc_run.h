@@ -1,4 +1,4 @@
-// Runs gcmc programs for tests: what they said, what they wrote, what toolpath they made.
+// Runs gcmc programs for tests: their messages, their text, their toolpath.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ struct Ran {
   Diagnostics diagnostics;
 };
 
-inline TextSpot spot_of(const Diagnostic& message) { return std::get<TextSpot>(message.where); }
+inline TextSpot location_of(const Diagnostic& message) { return std::get<TextSpot>(message.where); }
 
 class Collector final : public GcmcOutput {
  public:
@@ -49,8 +49,8 @@ inline Ran run(const std::string& program, const GcmcOptions& options = bare(),
   return ran;
 }
 
-/// All that a program said, joined by '|', messages without their head.
-inline std::string spoken_by(const std::string& program, const GcmcOptions& options = bare()) {
+/// All messages of a program, joined by '|', those of message() without their head.
+inline std::string output_of(const std::string& program, const GcmcOptions& options = bare()) {
   const std::string head = "Runtime message(): ";
   const Ran ran = run(program, options);
   std::string all;
@@ -62,10 +62,10 @@ inline std::string spoken_by(const std::string& program, const GcmcOptions& opti
 }
 
 inline std::string value_of(const std::string& expression, const GcmcOptions& options = bare()) {
-  return spoken_by("message(" + expression + ");", options);
+  return output_of("message(" + expression + ");", options);
 }
 
-/// All that a program said, joined by '|'.
+/// All messages of a program, joined by '|'.
 inline std::string messages_of(const std::string& program, const GcmcOptions& options = bare()) {
   const Ran ran = run(program, options);
   std::string all;
@@ -73,7 +73,7 @@ inline std::string messages_of(const std::string& program, const GcmcOptions& op
   return all;
 }
 
-/// An expression and its value, a program and what it says: rows of the tables that the tests are made of.
+/// An expression and its value, or a program and its messages: a row of the test tables.
 struct Case {
   const char* given;
   const char* wanted;

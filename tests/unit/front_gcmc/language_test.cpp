@@ -164,7 +164,7 @@ TEST(GcmcLanguage, ConstantsOfTheLanguage) {
 }
 
 class Runs : public testing::TestWithParam<Case> {};
-TEST_P(Runs, AndSays) { EXPECT_EQ(spoken_by(GetParam().given), GetParam().wanted); }
+TEST_P(Runs, WithTheMessages) { EXPECT_EQ(output_of(GetParam().given), GetParam().wanted); }
 
 const std::vector<Case> kStatements{
     {"if(0) {} elif(0) {} else { message(\"E\"); }", "E"},
@@ -257,7 +257,7 @@ const std::vector<Case> kAppending{
 };
 INSTANTIATE_TEST_SUITE_P(Appending, Runs, testing::ValuesIn(kAppending));
 
-// A small integer on the right is part of the instruction: the rules are the same.
+// A small integer on the right is part of the instruction; the rules are the same.
 const std::vector<Case> kSmallIntegers{
     {"x = 5mm; x = x + 1; message(x, x - 2, x * 3, x / 4, x % 4);", "6mm4mm18mm1mm2mm"},
     {"x = 2147483647; x = x + 1; message(x); x = x - 1; message(x * 2);", "-2147483648|-2"},
@@ -444,7 +444,7 @@ TEST(GcmcLanguage, ReturnAtTheTopIsTheExitStatus) {
   EXPECT_EQ(run("error(1); return 3;").run.status, 1);
 }
 
-TEST(GcmcLanguage, AnErrorOfSyntaxRunsNothing) {
+TEST(GcmcLanguage, ASyntaxErrorRunsNothing) {
   const auto ran = run("goto([1]); x = ;");
   EXPECT_EQ(ran.text, "");
   EXPECT_EQ(ran.run.status, 1);
@@ -452,15 +452,15 @@ TEST(GcmcLanguage, AnErrorOfSyntaxRunsNothing) {
   EXPECT_TRUE(ran.diagnostics.has_errors());
 }
 
-TEST(GcmcLanguage, AllErrorsAreToldInOneRun) {
+TEST(GcmcLanguage, AllErrorsAreReportedInOneRun) {
   const auto ran = run("x = ;\ny = 3\nfunction f( {}\nfoo bar;\n");
   EXPECT_GE(ran.lines.size(), 4u);
-  EXPECT_EQ(spot_of(ran.messages[1]).line, 3u);
+  EXPECT_EQ(location_of(ran.messages[1]).line, 3u);
 }
 
-TEST(GcmcLanguage, PlacesAreThoseOfTheRealProgram) {
+TEST(GcmcLanguage, LocationsAreThoseOfTheRealProgram) {
   const auto at = [](const char* program) {
-    const auto where = spot_of(run(program).messages.at(0));
+    const auto where = location_of(run(program).messages.at(0));
     return std::to_string(where.line) + ":" + std::to_string(where.column);
   };
   EXPECT_EQ(at("x = 1%0;"), "1:8");
@@ -544,11 +544,11 @@ TEST(GcmcLanguage, DefinesRunFirst) {
 
 TEST(GcmcErrors, AStringWithoutEndHidesNothing) {
   const Ran ran = run("x=1mm;\ny=\"abc;\n5=3;\nz.q=1;\n");
-  std::vector<std::string> places;
-  for (const Diagnostic& m : ran.messages) places.push_back(to_string(m.where));
-  EXPECT_EQ(places, (std::vector<std::string>{"t.gcmc:2:9", "t.gcmc:3:5", "t.gcmc:4:4"}));
+  std::vector<std::string> locations;
+  for (const Diagnostic& m : ran.messages) locations.push_back(to_string(m.where));
+  EXPECT_EQ(locations, (std::vector<std::string>{"t.gcmc:2:9", "t.gcmc:3:5", "t.gcmc:4:4"}));
   const Ran end = run("x=1;\ny=\"abc");
-  EXPECT_EQ(to_string(end.messages.at(0).where), "t.gcmc:2:7");  // behind the last character
+  EXPECT_EQ(to_string(end.messages.at(0).where), "t.gcmc:2:7");  // after the last character
 }
 
 // ---- limits
@@ -565,7 +565,7 @@ TEST(GcmcLimits, EndlessLoopsEnd) {
   EXPECT_NE(
       messages_of("function f() { return f; } f = 0; for(;1;) { f(); }", options).find("an endless loop?"),
       std::string::npos);
-  EXPECT_EQ(messages_of("repeat(1000000; i) { move([i]); }", options), "");  // who writes is not lost
+  EXPECT_EQ(messages_of("repeat(1000000; i) { move([i]); }", options), "");  // output resets the count
 }
 
 TEST(GcmcLimits, OutputIsBounded) {
@@ -577,7 +577,7 @@ TEST(GcmcLimits, OutputIsBounded) {
     const Ran ran = run(program, options);
     EXPECT_EQ(ran.lines,
               std::vector<std::string>{"error: More than 1 MB of output and messages: an endless loop?"});
-    EXPECT_EQ(spot_of(ran.messages.at(0)).line, 2u);
+    EXPECT_EQ(location_of(ran.messages.at(0)).line, 2u);
     EXPECT_EQ(ran.messages.at(0).code, Code::gcmc_limit);
     EXPECT_EQ(ran.run.status, 1);
     EXPECT_LT(ran.text.size(), std::size_t{1} << 21);
@@ -610,28 +610,28 @@ TEST(GcmcLimits, MemoryIsBounded) {
         << program;
 }
 
-/// Takes so many pieces of text, and no more.
+/// Accepts a limited number of writes.
 class FullDisk final : public GcmcOutput {
  public:
-  explicit FullDisk(int room) : room_(room) {}
-  void message(const Diagnostic& m) override { spoken += gcmc_line(m); }
-  void text(std::string_view) override { ++pieces; }
-  bool is_broken() const override { return pieces > room_; }
-  int pieces = 0;
-  std::string spoken;
+  explicit FullDisk(int capacity) : capacity_(capacity) {}
+  void message(const Diagnostic& m) override { messages += gcmc_line(m); }
+  void text(std::string_view) override { ++writes; }
+  bool is_broken() const override { return writes > capacity_; }
+  int writes = 0;
+  std::string messages;
 
  private:
-  int room_;
+  int capacity_;
 };
 
-TEST(GcmcLimits, AProgramEndsWhereItsTextCannotBeTaken) {
+TEST(GcmcLimits, AProgramEndsWhereItsTextCannotBeWritten) {
   for (const char* program : {"while(1) { move([1, 2]); }",
                               "s = \"0123456789\"; repeat(11) { s += s; } while(1) { literal(s); }"}) {
     FullDisk disk(3);
     Diagnostics diagnostics;
     const GcmcRun ran = run_gcmc(program, bare(), disk, diagnostics);
-    EXPECT_EQ(disk.pieces, 4) << program;  // the one that fails is the last
-    EXPECT_EQ(disk.spoken, "");
+    EXPECT_EQ(disk.writes, 4) << program;  // the one that fails is the last
+    EXPECT_EQ(disk.messages, "");
     EXPECT_EQ(ran.status, 1);
     EXPECT_FALSE(ran.completed);
   }
@@ -640,11 +640,11 @@ TEST(GcmcLimits, AProgramEndsWhereItsTextCannotBeTaken) {
   FullDisk disk(0);
   Diagnostics diagnostics;
   EXPECT_EQ(run_gcmc("message(1);", options, disk, diagnostics).status, 1);
-  EXPECT_EQ(disk.spoken, "");
+  EXPECT_EQ(disk.messages, "");
 }
 
-// What a function held is let go when it ends: a copy of the list would otherwise be kept, and made again.
-TEST(GcmcLimits, FunctionsLetGoWhatTheyHeld) {
+// The values of a function are released when it ends; otherwise each call would keep a copy of the list.
+TEST(GcmcLimits, FunctionsReleaseTheirValues) {
   GcmcOptions options = bare();
   options.max_memory = 3 << 20;
   const std::string list = "l = {}; repeat(20000; i) { l += {[i, 2, 3]}; } ";

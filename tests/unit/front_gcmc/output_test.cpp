@@ -17,7 +17,7 @@ GcmcOptions with(void (*change)(GcmcOptions&)) {
 
 // ---- text
 
-TEST(GcmcText, HeadAndEnd) {
+TEST(GcmcText, PrologueAndEpilogue) {
   GcmcOptions options = bare();
   options.frame = GcmcFrame::usual;
   options.date = "2026-01-31 12:00:00";
@@ -63,7 +63,7 @@ TEST(GcmcText, OffsetsAndUvw) {
             "G0 X11.000 Y2.000 Z3.000 A9.000 B5.000 C6.000 U8.000 V8.000 W9.000\n");
 }
 
-TEST(GcmcText, BriefLeavesOutWhatIsInForce) {
+TEST(GcmcText, BriefOmitsWhatIsInForce) {
   const GcmcOptions options = with([](GcmcOptions& o) { o.brief = true; });
   EXPECT_EQ(
       run("feedrate(10); feedrate(10); goto([1, 2, 3]); goto([1, 2, 4]); move([1, 2, 4]); move([2, 2], 10);"
@@ -73,7 +73,7 @@ TEST(GcmcText, BriefLeavesOutWhatIsInForce) {
       "F10.000\nG0 X1.000 Y2.000 Z3.000\nZ4.000\nG1\nX2.000\nG2 X4.000 Y2.000 I1.000 J0.000\nG1 Y3.000\n");
 }
 
-TEST(GcmcText, BriefKnowsWhatRelocationLeavesBehind) {
+TEST(GcmcText, BriefFollowsRelocation) {
   const GcmcOptions options = with([](GcmcOptions& o) { o.brief = true; });
   // After relocate() the machine is still at X1; the first line names Y only, so X has to be written later.
   EXPECT_EQ(run("goto([1, 1]); relocate([2, 2]); goto([-, 3]); goto([1, 3]);", options).text,
@@ -86,7 +86,7 @@ TEST(GcmcText, NumbersKeepTheirSignAndRounding) {
             "G1 X-0.00000000 Y0.00000000 Z123456.78901235\n");
 }
 
-TEST(GcmcText, WhatWasWrittenBeforeAnErrorStands) {
+TEST(GcmcText, TextBeforeAnErrorIsKept) {
   const auto ran = run("goto([1]); goto([-]);");
   EXPECT_EQ(ran.text, "G0 X1.000\nG0\n");
   EXPECT_EQ(ran.run.status, 1);
@@ -124,7 +124,7 @@ TEST(GcmcPath, ArcsHaveAbsoluteCentres) {
   EXPECT_NEAR(walk.at(0.5).x, 5, 1e-9);
 }
 
-TEST(GcmcPath, EverythingElseHasItsStep) {
+TEST(GcmcPath, OtherCallsHaveTheirSteps) {
   const auto ran =
       run("spindle(-100); spindlespeed(50); coolant(3); pathmode(1); pathmode(0.5, 1); pause(1);"
           "comment(\"c\"); literal(\"G4\", \" P1\\n\"); layerstack(\"a\"); layer(\"a\"); feedmode(2); "
@@ -142,7 +142,7 @@ TEST(GcmcPath, EverythingElseHasItsStep) {
   EXPECT_EQ(p.text(6), "c");
   EXPECT_DOUBLE_EQ(p[7].dwell().time.seconds(), 1.0);
   EXPECT_EQ(p.layer(8).name, "a");
-  EXPECT_DOUBLE_EQ(p[9].feed().mm_per_min(), 100);  // 2 mm a turn at 50 turns
+  EXPECT_DOUBLE_EQ(p[9].feed().mm_per_min(), 100);  // 2 mm per turn at 50 rpm
   EXPECT_EQ(p[10].kind(), StepKind::close_path);
   EXPECT_EQ(p[11].store_home().home, Reference::second_home);
   EXPECT_EQ((*p.extra(12)->abc)[2], 90);
@@ -153,7 +153,7 @@ TEST(GcmcPath, EverythingElseHasItsStep) {
 double feed_at(const Ran& ran, std::size_t i) { return ran.run.path[i].feed().mm_per_min(); }
 
 TEST(GcmcPath, FeedModesBecomeFeedsPerMinute) {
-  // Inverse time: a feed counts for its own move only, times its length. A new mode forgets the feed.
+  // Inverse time: a feed counts for its own move only, times its length. A new mode clears the feed.
   const auto inverse =
       run("feedrate(100); goto([0, 0, 0]); feedmode(0); move([30, 40], 2); move([60, 80]);"
           "feedrate(3); move([0, 0]); feedmode(1); move([1]); feedmode(1); feedrate(50); move([2]);");
@@ -170,8 +170,8 @@ TEST(GcmcPath, FeedModesBecomeFeedsPerMinute) {
   EXPECT_EQ(messages_of("feedrate(-1);"), "error: A feed cannot be negative (-1)");
 }
 
-TEST(GcmcPath, AxesThatACallDoesNotNameStay) {
-  // As the text has it: the words X2 Y0 leave Z alone, wherever relocate() has put the program.
+TEST(GcmcPath, AxesThatAreNotNamedStayAfterRelocation) {
+  // As in the text: the words X2 Y0 do not move Z, whatever relocate() has set.
   const auto ran =
       run("goto([0, 0, 5]); relocate([0, 0, 10]); goto([2, 0]); goto([3, 0, 1]); circle_cw([1, 0]);");
   EXPECT_EQ(ran.run.path[1].to(), (Point3{2, 0, 5}));
@@ -179,7 +179,7 @@ TEST(GcmcPath, AxesThatACallDoesNotNameStay) {
 }
 
 TEST(GcmcPath, StoredPositions) {
-  // Only the named axes go home. A home that the program has not stored is not known.
+  // Only the named axes go home. A home that the program has not stored is unknown.
   const auto ran =
       run("goto([1, 2, 3]); fixpos_store(0); goto([9, 9, 9]); fixpos_restore(0, [5]);"
           "fixpos_restore(0); fixpos_set(1, [7, 7, 7]); fixpos_restore(1); goto([4]);");
@@ -247,7 +247,7 @@ TEST(GcmcPath, LiteralLinesThatMoveOrChangeModesAreRefused) {
     const auto ran = run(std::string("goto([1]);\n literal(\"") + line + "\\n\"); goto([2]);");
     ASSERT_EQ(ran.messages.size(), 1u) << line;
     EXPECT_EQ(ran.messages[0].code, Code::gcmc_literal) << line;
-    EXPECT_EQ(spot_of(ran.messages[0]).line, 2u) << line;
+    EXPECT_EQ(location_of(ran.messages[0]).line, 2u) << line;
     EXPECT_EQ(ran.run.path.size(), 1u) << line;
     EXPECT_NE(ran.messages[0].message.find(line), std::string::npos) << ran.messages[0].message;
   }
@@ -301,16 +301,16 @@ TEST(GcmcPath, OriginsNameLineAndCalls) {
   const auto calls = p.origins().callers(p[0].origin());
   ASSERT_EQ(calls.size(), 1u);
   EXPECT_EQ(to_string(calls[0]), "t.gcmc:4:3");
-  EXPECT_EQ(p[1].origin(), p[3].origin());  // one place is one origin
+  EXPECT_EQ(p[1].origin(), p[3].origin());  // one location is one origin
   EXPECT_EQ(to_string(p.origins().callers(p[4].origin()).at(0)), "t.gcmc:6:3");
 }
 
 TEST(GcmcPath, OriginsReachThroughTheLibrary) {
   const auto ran = run("include(\"tracepath.inc.gcmc\");\ntracepath({[1, 1], [2, 2]}, -1mm);");
   const Toolpath& p = ran.run.path;
-  const auto* spot = std::get_if<TextSpot>(&p.origins().callers(p[1].origin()).at(0));
-  ASSERT_NE(spot, nullptr);
-  EXPECT_EQ(spot->line, 2u);
+  const auto* location = std::get_if<TextSpot>(&p.origins().callers(p[1].origin()).at(0));
+  ASSERT_NE(location, nullptr);
+  EXPECT_EQ(location->line, 2u);
 }
 
 TEST(GcmcPath, TheNumberOfStepsIsLimited) {
@@ -322,7 +322,7 @@ TEST(GcmcPath, TheNumberOfStepsIsLimited) {
 
 // ---- include
 
-TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
+TEST(GcmcInclude, PathsAreSearchedInOrder) {
   const std::string folder = testing::TempDir();
   const std::string file = folder + "kerf_gcmc_included.gcmc";
   std::ofstream(file) << "inside = 7;\nmessage(oops);\n";
@@ -336,20 +336,20 @@ TEST(GcmcInclude, PathsAreLookedThroughInOrder) {
   std::remove(file.c_str());
 }
 
-TEST(GcmcInclude, WhatCannotBeReadIsToldWhatItIs) {
+TEST(GcmcInclude, UnreadableIncludesAreNamed) {
   EXPECT_EQ(messages_of("include(\"/\");"), "error: Include file '/': cannot read the file: it is a folder");
   EXPECT_EQ(run("include(\"/\");").messages.at(0).code, Code::file_unreadable);
   EXPECT_EQ(messages_of("include(\"/dev/zero\");"),
             "error: Include file '/dev/zero': it is a device, not an ordinary file");
   const std::filesystem::path large = std::filesystem::path(testing::TempDir()) / "kerf_large.gcmc";
   std::ofstream(large) << ";";
-  std::filesystem::resize_file(large, std::uintmax_t{1} << 30);  // a hole, which takes no room
-  const std::string said = messages_of("include(\"" + large.string() + "\");");
-  EXPECT_NE(said.find("kerf_large.gcmc': the file is larger than the limit of 268435456 bytes"),
+  std::filesystem::resize_file(large, std::uintmax_t{1} << 30);  // sparse
+  const std::string message = messages_of("include(\"" + large.string() + "\");");
+  EXPECT_NE(message.find("kerf_large.gcmc': the file is larger than the limit of 268435456 bytes"),
             std::string::npos)
-      << said;
+      << message;
   std::filesystem::remove(large);
-  // A folder of the name does not hide the file that is looked for further on.
+  // A folder of that name does not hide a file later in the search order.
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "kerf_hides";
   std::filesystem::create_directories(folder / "varcs.inc.gcmc");
   GcmcOptions options = bare();

@@ -1,5 +1,4 @@
-// One program for each thing that the reader says, with its place, its severity, and what is read all the
-// same.
+// One program for each diagnostic of the reader, with its location, severity, and the number of motions read.
 #include <algorithm>
 #include <gtest/gtest.h>
 
@@ -13,7 +12,7 @@ struct Case {
   Code code;
   Severity severity;
   std::uint32_t line, column;
-  std::size_t motions;  // that are read all the same
+  std::size_t motions;  // that are read nevertheless
 };
 
 constexpr Severity kWarning = Severity::warning, kError = Severity::error, kNote = Severity::note;
@@ -119,7 +118,7 @@ std::size_t motions_of(const Toolpath& path) {
   return count;
 }
 
-TEST(GcodeDiagnostics, EachIsSaidAtItsPlace) {
+TEST(GcodeDiagnostics, EachHasItsLocation) {
   for (const Case& c : kCases) {
     Diagnostics diagnostics;
     const GcodeProgram program =
@@ -142,7 +141,7 @@ std::size_t count_of(Code code, std::string_view text) {
                                                 [&](const Diagnostic& d) { return d.code == code; }));
 }
 
-TEST(GcodeDiagnostics, AnOffsetIsAskedForWhereTheProgramMovesInTwoSystems) {
+TEST(GcodeDiagnostics, OffsetsAreNeededForMovesInTwoSystems) {
   EXPECT_EQ(count_of(Code::offset_unknown, "G54\nG55 G0 X1\nX2"), 0u);
   EXPECT_EQ(count_of(Code::offset_unknown, "G0 G53 Z0\nG55 G0 X1\nG54"), 0u);  // no move in G54
   EXPECT_EQ(count_of(Code::offset_unknown, "G10 L2 P2 X0\nG0 X1\nG55 X1"), 0u);
@@ -150,7 +149,7 @@ TEST(GcodeDiagnostics, AnOffsetIsAskedForWhereTheProgramMovesInTwoSystems) {
   EXPECT_EQ(count_of(Code::offset_unknown, "G0 X1\nG55 X1\nG56 X1\nG55 X2"), 1u);
 }
 
-TEST(GcodeDiagnostics, ARadiusTooSmallSaysWhichWouldDo) {
+TEST(GcodeDiagnostics, ARadiusTooSmallNamesTheSmallestPossible) {
   Diagnostics diagnostics;
   read_gcode("G0 X5 Y5\nG1 Z-3 F200\nG2 X30 Y5 R5\nM2\n", {}, diagnostics);
   ASSERT_EQ(diagnostics.errors(), 1u);
@@ -158,7 +157,7 @@ TEST(GcodeDiagnostics, ARadiusTooSmallSaysWhichWouldDo) {
   EXPECT_EQ(count_of(Code::arc_radius_too_small, "F9 G0 X5 Y5\nG2 X30 Y5 R12.49"), 0u);  // rounded
 }
 
-TEST(GcodeDiagnostics, ALongDwellSaysHowPIsRead) {
+TEST(GcodeDiagnostics, ALongDwellNamesTheUnitOfP) {
   EXPECT_EQ(count_of(Code::dwell_long, "G4 P60"), 0u);
   EXPECT_EQ(count_of(Code::dwell_long, "G4 P2000\nG4 P2000"), 1u);
   Diagnostics diagnostics;
@@ -169,7 +168,7 @@ TEST(GcodeDiagnostics, ALongDwellSaysHowPIsRead) {
   EXPECT_EQ(printer.list().size(), 0u);
 }
 
-TEST(GcodeDiagnostics, AnOInThePlaceOfAZeroHasAHint) {
+TEST(GcodeDiagnostics, AnOInsteadOfAZeroHasAHint) {
   for (const char* text : {"G0 X4O", "G0 XO", "G0 X4.O Y1", "G0 X4O5"}) {
     Diagnostics diagnostics;
     read_gcode(std::string(text) + "\nM2\n", {}, diagnostics);
@@ -197,7 +196,7 @@ TEST(GcodeDiagnostics, APlainProgramHasNone) {
   EXPECT_TRUE(program.ended);
 }
 
-TEST(GcodeDiagnostics, EndsThatLack) {
+TEST(GcodeDiagnostics, MissingEnds) {
   Diagnostics none;
   EXPECT_FALSE(read_gcode("G0 X1\n", {}, none).ended);
   ASSERT_EQ(none.list().size(), 1u);
@@ -208,7 +207,7 @@ TEST(GcodeDiagnostics, EndsThatLack) {
   EXPECT_EQ(lone.list()[0].code, Code::lone_percent);
 }
 
-TEST(GcodeDiagnostics, ASpeedBehindM3IsEnough) {
+TEST(GcodeDiagnostics, ASpeedAfterM3IsEnough) {
   Diagnostics diagnostics;
   read_gcode("M3\nS1000\nG0 X1\nM2\n", {}, diagnostics);
   EXPECT_TRUE(diagnostics.list().empty()) << to_string(diagnostics.list().front());
@@ -229,7 +228,7 @@ struct NoText {
   std::string_view word;  // of the message
 };
 
-TEST(GcodeDiagnostics, WhatIsNoTextIsOneError) {
+TEST(GcodeDiagnostics, BinaryFilesAreOneError) {
   using namespace std::string_view_literals;
   const NoText cases[] = {
       {"\xFF\xFEG\0"

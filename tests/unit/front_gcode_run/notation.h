@@ -1,5 +1,4 @@
-// Toolpaths as the words of the tables in tests/data/gcode: how their tests take a table's lines apart, and
-// how numbers are compared.
+// The notation of the tables in tests/data/gcode: splitting lines, and comparing numbers.
 #pragma once
 
 #include <cmath>
@@ -11,11 +10,11 @@ namespace kerf {
 
 inline std::vector<std::string> split(const std::string& text, const std::string& separator) {
   std::vector<std::string> parts;
-  std::size_t begin = 0;
-  for (std::size_t end; (end = text.find(separator, begin)) != std::string::npos;
-       begin = end + separator.size())
-    parts.push_back(text.substr(begin, end - begin));
-  parts.push_back(text.substr(begin));
+  std::size_t start = 0;
+  for (std::size_t end; (end = text.find(separator, start)) != std::string::npos;
+       start = end + separator.size())
+    parts.push_back(text.substr(start, end - start));
+  parts.push_back(text.substr(start));
   return parts;
 }
 
@@ -32,7 +31,7 @@ inline bool same(const std::string& a, const std::string& b, double slack) {
   return true;
 }
 
-/// A program of a table: '|' stands for a line end.
+/// A program of a table: '|' is a line end.
 inline std::string program_text(std::string program) {
   for (char& c : program)
     if (c == '|') c = '\n';

@@ -1,5 +1,5 @@
-// Programs that compute: parameters, expressions, O-words, subroutines, offsets. The places that the moves
-// reach are those that LinuxCNC's interpreter gives for the same text.
+// Programs that compute: parameters, expressions, O-words, subroutines, offsets. The end points are those of
+// LinuxCNC's interpreter for the same text.
 #include <gtest/gtest.h>
 
 #include "kerf/gcode.h"
@@ -63,7 +63,7 @@ std::vector<Point3> ends_of(const Toolpath& path) {
   return ends;
 }
 
-TEST(GcodeProgram, MovesGoWhereTheControllersGo) {
+TEST(GcodeProgram, EndPointsAreThoseOfTheControllers) {
   for (const Case& c : kCases) {
     Diagnostics diagnostics;
     const GcodeProgram program = read_gcode(std::string(c.text) + "\nM2\n", {}, diagnostics);
@@ -76,7 +76,7 @@ TEST(GcodeProgram, MovesGoWhereTheControllersGo) {
   }
 }
 
-TEST(GcodeProgram, SubroutinesStandInFilesBesideTheProgram) {
+TEST(GcodeProgram, SubroutinesAreReadFromFilesBesideTheProgram) {
   GcodeReadOptions options;
   std::vector<std::string> asked;
   options.read_file = [&](const std::string& name) -> std::optional<std::string> {
@@ -106,7 +106,7 @@ TEST(GcodeProgram, ALaserSwitchesItsBeam) {
   EXPECT_EQ(powers, (std::vector<double>{0, 200, 0, 0}));
 }
 
-TEST(GcodeProgram, APrinterPushesFilament) {
+TEST(GcodeProgram, APrinterExtrudesFilament) {
   Diagnostics diagnostics;
   GcodeReadOptions options;
   options.dialect = GcodeDialect::marlin;
@@ -148,7 +148,7 @@ TEST(GcodeProgram, SplinesStayNearTheirCurve) {
   EXPECT_EQ(last, (Point3{7, 3, 0}));
 }
 
-TEST(GcodeProgram, RemarksTellTools) {
+TEST(GcodeProgram, CommentsDescribeTools) {
   Diagnostics diagnostics;
   const auto program = read_gcode(
       "(T1  D=6. CR=1. - ZMIN=-2. - bullnose end mill)\n( T3 : 0.25 )\n( Tool #5 \"x\" / Diameter 3.175 mm "

@@ -53,7 +53,7 @@ TEST(ReadGcode, SettingsBecomeStepsInTheOrderOfTheirEffect) {
   EXPECT_TRUE(r.program.ended);
 }
 
-TEST(ReadGcode, StepsKnowTheirLineAndColumn) {
+TEST(ReadGcode, StepsHaveTheirLineAndColumn) {
   const Reading r = read("\n  G0 X1\n\n N5 G81 X1 Z-1 R1 F50\nM2");
   EXPECT_EQ(to_string(r.program.path.origin_of(0)), "<text>:2:3");
   EXPECT_EQ(to_string(r.program.path.origin_of(1)), "<text>:4:5");
@@ -101,7 +101,7 @@ TEST(ReadGcode, ShiftedZeroKeepsTheFrameOfWhatWasCutBefore) {
   EXPECT_EQ(r[3].to().x, 5);
   EXPECT_EQ(r[4].to().x, 15);
   EXPECT_EQ(r[5].to().x, 5);
-  const Reading first = read("G92 X3 Y4\nG91 G0 X1\nM2");  // nothing was known before: simply the coordinates
+  const Reading first = read("G92 X3 Y4\nG91 G0 X1\nM2");  // unknown before: the coordinates as given
   EXPECT_EQ(first[0].to(), (Point3{4, 4, 0}));
   EXPECT_EQ(first[0].unknown_axes(), 4u);
 }
@@ -222,12 +222,12 @@ TEST(ReadGcode, PlainLinesAreReadAsAllOthers) {
                                           "M2",
                                           "X1",
                                           "X2"};
-  std::string plain, remarked;  // a remark sends a line the long way
+  std::string plain, commented;  // a comment prevents the fast path
   for (const std::string& line : lines) {
     plain += line + "\n";
-    remarked += line + " (remark)\n";
+    commented += line + " (comment)\n";
   }
-  const Reading fast = read(plain), slow = read(remarked);
+  const Reading fast = read(plain), slow = read(commented);
   EXPECT_EQ(fast.diagnostics.list().size(), slow.diagnostics.list().size());
   ASSERT_EQ(kinds(fast.program.path), kinds(slow.program.path));
   for (std::size_t i = 0; i < fast.size(); ++i) {
@@ -242,10 +242,10 @@ TEST(ReadGcode, PlainLinesAreReadAsAllOthers) {
 TEST(ReadGcode, SeveralProgramsOfAFileAreRead) {
   const Reading r = read(
       "%\nO1000\nG0 X1\nM98 P3000\nM30\nO2000 (again)\nG0 X2\nM2\nO3000\nG0 X3 (M30)\nM99\nG0 X4\nM30\n%");
-  std::string places;
+  std::string ends;
   for (const Step& s : r.program.path.steps())
-    if (s.is_motion()) places += std::to_string(static_cast<int>(s.to().x));
-  EXPECT_EQ(places, "1324");  // the subprogram only where it is called
+    if (s.is_motion()) ends += std::to_string(static_cast<int>(s.to().x));
+  EXPECT_EQ(ends, "1324");  // the subprogram only where it is called
   EXPECT_EQ(r.diagnostics.errors() + r.diagnostics.warnings(), 0u);
 }
 
@@ -256,7 +256,7 @@ TEST(ReadGcode, LimitsAreErrors) {
   ASSERT_EQ(r.diagnostics.list().size(), 1u);  // not also that the end is missing
   EXPECT_EQ(r.diagnostics.list()[0].code, Code::too_many_steps);
   const Reading many = read("F1 G91 G83 X1 Z-1000 R0 Q0.02 L10000\nM2", {.max_steps = 1000});
-  EXPECT_EQ(many.size(), 0u);  // counted before any of them is made
+  EXPECT_EQ(many.size(), 0u);  // counted before the first is added
   EXPECT_EQ(many.diagnostics.list()[0].code, Code::too_many_steps);
 }
 
@@ -267,15 +267,15 @@ TEST(ReadGcode, AShortProgramDoesNotFillTheMemory) {
   EXPECT_LT(loop.size(), 1100u);
   std::string plain;
   for (int i = 0; i < 50'000; ++i) plain += i % 2 == 0 ? "G0X1\n" : "X2\n";
-  const Reading told = read(plain + "M2", few);
-  EXPECT_EQ(told.size(), 50'001u);
-  EXPECT_EQ(told.diagnostics.errors(), 0u);
+  const Reading written = read(plain + "M2", few);
+  EXPECT_EQ(written.size(), 50'001u);
+  EXPECT_EQ(written.diagnostics.errors(), 0u);
 }
 
 class Stopper : public Progress {
  public:
   void phase(std::string_view) override {}
-  void report(double share) override { last = share; }
+  void report(double fraction) override { last = fraction; }
   bool stop_requested() override { return true; }
   double last = -1.0;
 };

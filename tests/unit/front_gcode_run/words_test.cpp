@@ -1,5 +1,5 @@
-// Every word of LinuxCNC's quick reference (tests/data/gcode/words.txt, which tells the notation): what a
-// small program with it does, and what is said of it.
+// Every word of LinuxCNC's quick reference (tests/data/gcode/words.txt explains the notation): the events and
+// diagnostics of a small program with it.
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -26,7 +26,7 @@ struct Table {
   std::vector<Row> rows;
 };
 
-/// The part of a line behind its keyword.
+/// The part of a line after its keyword.
 std::string rest_of(const std::string& line) {
   const std::size_t blank = line.find(' ');
   const std::size_t text = line.find_first_not_of(' ', blank);
@@ -77,7 +77,7 @@ std::string text_of(const step::Pause& p) {
   return p.kind == PauseKind::always ? "M0" : p.kind == PauseKind::optional ? "M1" : "M60";
 }
 
-/// A move, without the chords of curves, which are N.
+/// A move that is no chord of a curve; curves are N.
 std::string move_text(const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   const Point3 to = s.to();
@@ -112,7 +112,7 @@ std::string event_text(const Toolpath& path, std::size_t i) {
   }
 }
 
-/// What an end switches off is not told, nor a second word of the same state.
+/// Adds an event; what an end switches off is omitted.
 void add_event(std::vector<std::string>& events, const std::string& event) {
   if (event.empty()) return;
   if (event == "end")
@@ -123,14 +123,14 @@ void add_event(std::vector<std::string>& events, const std::string& event) {
 double distance_to(Point2 p, Point2 a, Point2 b) {
   const Point2 way = b - a;
   const double size = dot(way, way);
-  const double share = size > 0.0 ? std::clamp(dot(p - a, way) / size, 0.0, 1.0) : 0.0;
-  return distance(p, a + share * way);
+  const double t = size > 0.0 ? std::clamp(dot(p - a, way) / size, 0.0, 1.0) : 0.0;
+  return distance(p, a + t * way);
 }
 
-/// Takes the chords of one line, which begin at step `i` of a path, for a curve: whether they end at the
-/// place of "N x y z via u v ..." and pass its points; i becomes the last of them.
+/// True if the chords of one line, from step `i` of a path, are the curve "N x y z via u v ...": they end at
+/// x y z and pass its points. i becomes the last of them.
 bool is_curve(const Toolpath& path, std::size_t& i, const std::string& wanted) {
-  constexpr double kNear = 0.01;  // mm; the chords stray less
+  constexpr double kNear = 0.01;  // mm; the chords are nearer
   std::istringstream in(wanted.substr(1));
   Point3 end;
   std::string via;
@@ -166,10 +166,10 @@ std::vector<std::string> events_of(const Toolpath& path, const std::vector<std::
 }
 
 /// "warning 2018 4:1"
-std::string said(const Diagnostic& d) {
+std::string text_of(const Diagnostic& d) {
   std::string text = std::string(to_string(d.severity)) + " " + std::to_string(static_cast<int>(d.code));
-  if (const auto* spot = std::get_if<TextSpot>(&d.where))
-    text += " " + std::to_string(spot->line) + ":" + std::to_string(spot->column);
+  if (const auto* location = std::get_if<TextSpot>(&d.where))
+    text += " " + std::to_string(location->line) + ":" + std::to_string(location->column);
   return text;
 }
 
@@ -194,7 +194,7 @@ void check(const Row& row) {
   for (std::size_t i = 0; agree && i < got.size(); ++i) agree = same(got[i], row.events[i], kSlack);
   EXPECT_TRUE(agree) << where << "\ngot    " << joined(got) << "\nwanted " << joined(row.events);
   std::vector<std::string> messages;
-  for (const Diagnostic& d : diagnostics.list()) messages.push_back(said(d));
+  for (const Diagnostic& d : diagnostics.list()) messages.push_back(text_of(d));
   EXPECT_EQ(joined(messages), joined(row.says))
       << where << (diagnostics.list().empty() ? "" : "\n" + to_string(diagnostics.list().front()));
 }
@@ -203,8 +203,8 @@ TEST(Words, DoWhatLinuxCncDocuments) {
   for (const Row& row : read_table().rows) check(row);
 }
 
-/// The word as it stands in a program; G10L20 is two.
-bool stands_in(const std::string& program, const std::string& word) {
+/// True if the program contains the word; G10L20 is two words.
+bool contains(const std::string& program, const std::string& word) {
   std::string capitals = program;
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   if (word.rfind("G10L", 0) == 0) return capitals.find("G10 " + word.substr(3)) != std::string::npos;
@@ -225,7 +225,7 @@ TEST(Words, NoneIsWithoutAProgram) {
   for (const Row& row : table.rows) {
     shown.insert(row.word);
     EXPECT_TRUE(table.words.count(row.word) == 1) << row.word << " is no word of the list";
-    EXPECT_TRUE(stands_in(row.program, row.word)) << row.word << " does not stand in " << row.program;
+    EXPECT_TRUE(contains(row.program, row.word)) << row.word << " is not in " << row.program;
   }
   for (const std::string& word : table.words) EXPECT_EQ(shown.count(word), 1u) << word << " has no program";
 }

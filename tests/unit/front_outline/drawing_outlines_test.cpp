@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// A drawing of the given sections, in mm unless `unit` says otherwise.
+/// A drawing of the given sections in the unit of $INSUNITS `unit`; 4 is mm.
 std::string file_of(const std::string& entities, const std::string& blocks = "", int unit = 4) {
   std::string text = "0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1015\n";
   if (unit >= 0) text += "9\n$INSUNITS\n70\n" + std::to_string(unit) + "\n";
@@ -52,7 +52,7 @@ Drawn draw(const std::string& text, DrawingOutlineOptions options = {}) {
   return drawn;
 }
 
-TEST(DrawingOutlines, TheUnitIsTheDrawingsOrAskedFor) {
+TEST(DrawingOutlines, TheUnitIsThatOfTheDrawingOrRequired) {
   EXPECT_NEAR(draw(file_of(kSquare, "", 1)).made->unit.mm(), 25.4, 0);
   EXPECT_NEAR(area(draw(file_of(kSquare, "", 5)).outline()), 200.0 * 100.0, 1e-9);  // cm
   for (const int unit : {-1, 0, 99}) {

@@ -1,4 +1,4 @@
-// Outline files: what they mean, and what is said about bad ones.
+// Outline files: their meaning, and the diagnostics of bad ones.
 #include <gtest/gtest.h>
 
 #include "kerf/outline_files.h"
@@ -31,7 +31,7 @@ Diagnostic complaint(const char* text) {
   return diagnostics.list().empty() ? Diagnostic{} : diagnostics.list()[0];
 }
 
-TEST(OutlineFile, BadJsonIsRefusedWithItsPlace) {
+TEST(OutlineFile, BadJsonIsRefusedWithItsLine) {
   const Diagnostic d = complaint("{\"outlines\":\n [1,}");
   EXPECT_EQ(d.code, Code::outline_file_syntax);
   EXPECT_EQ(std::get<TextSpot>(d.where).line, 2u);

@@ -1,4 +1,4 @@
-// Stock from files, left-over stock there and back, flips and shifts in words.
+// Stock from files, left-over stock written and read, options for flips, bars and shifts.
 #include <gtest/gtest.h>
 
 #include "kerf/mesh_files.h"
@@ -15,7 +15,7 @@ LeftColumns three_columns() {
   return left;
 }
 
-TEST(StockFile, LeftOverStockThereAndBack) {
+TEST(StockFile, LeftOverStockReadsBack) {
   Diagnostics diagnostics;
   const std::string bytes = write_left_file(three_columns());
   const auto stock = read_stock_file(bytes, "part.KSTOCK", diagnostics);

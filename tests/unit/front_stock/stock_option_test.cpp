@@ -1,4 +1,4 @@
-// Stock told in words: every form that the manual lists, and texts that are none.
+// The option --stock: every form of the manual, and invalid texts.
 #include <gtest/gtest.h>
 
 #include "kerf/stock_files.h"
@@ -20,7 +20,7 @@ Box3 box(Point3 low, Point3 high) {
   return b;
 }
 
-TEST(StockOption, ZeroIsLowerLeftOnTopUnlessTold) {
+TEST(StockOption, ZeroIsLowerLeftOnTopByDefault) {
   const Box3 want = box({0, 0, -12}, {100, 60, 0});
   for (const char* text :
        {"100x60x12", "100 60 12", "100 x 60 x 12", "100,60,12", "100mm x60mmX12mm", "block 100 60 12",
@@ -41,7 +41,7 @@ TEST(StockOption, InchesAreConverted) {
   EXPECT_EQ(block("4\" 2\" 0.5\""), box({0, 0, -12.7}, {101.6, 50.8, 0}));
 }
 
-TEST(StockOption, AUnitBehindTheLastLengthIsThatOfAll) {
+TEST(StockOption, AUnitAfterTheLastLengthAppliesToAll) {
   for (const char* text : {"4x2x0.5in", "4 x 2 x 0.5 in", "4x2x0.5\"", "4 2 0.5 inches",
                            "4in x 50.8mm x 0.5 inch", "4 in x 2 in x 0.5 in at lower-left top"})
     EXPECT_EQ(block(text), box({0, 0, -12.7}, {101.6, 50.8, 0})) << text;
@@ -79,7 +79,7 @@ TEST(StockOption, AnythingElseIsAnErrorWithAHint) {
                            "nanx1x1",
                            "1e308x1x1",
                            "100x60x12 at",
-                           "100x60x12 at middle",
+                           "100x60x12 at edge",
                            "100x60x12 top bottom",
                            "0,0,0 to 1,1",
                            "0,0,0 to 1,1,0",
@@ -97,7 +97,7 @@ TEST(StockOption, AnythingElseIsAnErrorWithAHint) {
   }
 }
 
-TEST(StockOption, AHugeTextIsRefusedShortly) {
+TEST(StockOption, AHugeTextIsRefusedWithAShortMessage) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_stock_option(std::string(1'000'000, '1'), {}, diagnostics));
   EXPECT_LT(diagnostics.list()[0].message.size(), 400u);

@@ -1,5 +1,5 @@
-// Tool libraries of other programs: each kind's measures, what is left out, damaged files, and the round
-// trip.
+// Tool libraries of other programs: each kind's measures, what is skipped, damaged files, and writing and
+// reading.
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
@@ -30,7 +30,8 @@ struct Read {
 };
 
 TEST(ToolLibrary, LinuxCncTable) {
-  const Read read(";a remark\nT1 P17 Z0 D0.25 I45 J45 Q0 ;quarter inch\nt20 p2 d.125\nT3 P3 Z1\n", {25.4, 1});
+  const Read read(";a comment\nT1 P17 Z0 D0.25 I45 J45 Q0 ;quarter inch\nt20 p2 d.125\nT3 P3 Z1\n",
+                  {25.4, 1});
   EXPECT_EQ(library_kind_of("T1 P1 D1\n"), ToolLibraryKind::linuxcnc);
   ASSERT_EQ(read.table.tools().size(), 2u);
   EXPECT_DOUBLE_EQ(read.table.find(1)->diameter.mm(), 6.35);
@@ -113,7 +114,7 @@ TEST(ToolLibrary, Camotics) {
   EXPECT_TRUE(read.says(Code::tool_library_shape));  // the spheroid
 }
 
-TEST(ToolLibrary, WhatIsNoLibrary) {
+TEST(ToolLibrary, OtherFilesAreRefused) {
   for (const char* text : {"", "hello", "{", "{}", "[]", "{\"data\": 5}", "\x00\x01"})
     EXPECT_TRUE(Read(text).says(Code::tool_library_unknown)) << text;
   EXPECT_TRUE(Read("PK\x03\x04 no zip").says(Code::tool_library_unreadable));
@@ -150,7 +151,7 @@ void expect_same(const Profile& a, const Profile& b, int number) {
   }
 }
 
-TEST(ToolLibrary, TheToolFileGivesTheSameTools) {
+TEST(ToolLibrary, TheToolFileReadsBackAsTheSameTools) {
   const std::string text = write_tool_file(built_in_tools());
   ToolTable again;
   Diagnostics diagnostics;

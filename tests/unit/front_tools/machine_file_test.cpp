@@ -1,4 +1,4 @@
-// Machine files of both kinds, material files: values, and every fault with its place.
+// Machine files of both kinds, material files: values, and every fault with its location.
 #include <gtest/gtest.h>
 
 #include "kerf/machine_files.h"
@@ -39,7 +39,7 @@ TEST(MachineFile, GrblsSettings) {
   EXPECT_EQ(machine->fastest_spindle, rpm(24000));
 }
 
-TEST(MachineFile, FiguresAsDeliveredAreNone) {
+TEST(MachineFile, FactoryDefaultsAreIgnored) {
   Diagnostics diagnostics;
   const auto machine = read_machine_file("$1=255\n$20=0\n$30=1000\n$130=200\n$110=500\n", "g", diagnostics);
   ASSERT_TRUE(machine);
@@ -79,7 +79,7 @@ TEST(MachineFile, Profile) {
   EXPECT_EQ(machine->work_zero, (Point3{1, 2, -3}));
 }
 
-TEST(MachineFile, FaultsOfProfilesHaveTheirPlace) {
+TEST(MachineFile, FaultsOfProfilesHaveTheirLocation) {
   Diagnostics diagnostics;
   EXPECT_FALSE(read_machine_file("name = \"x\"\nrates = [1, 2, 3]\nlook_ahead = 0\n", "m", diagnostics));
   ASSERT_EQ(diagnostics.list().size(), 2u);
@@ -89,7 +89,7 @@ TEST(MachineFile, FaultsOfProfilesHaveTheirPlace) {
   EXPECT_EQ(to_string(diagnostics.list()[1].where), "m:2:1");
 }
 
-TEST(MachineFile, WhatIsNoMachine) {
+TEST(MachineFile, OtherFilesAreRefused) {
   EXPECT_EQ(codes_of(""), Codes{Code::machine_file});
   EXPECT_EQ(codes_of("hello\n"), Codes{Code::machine_file});
   EXPECT_EQ(codes_of(std::string(2 << 20, ' ')), Codes{Code::machine_file});
@@ -98,7 +98,7 @@ TEST(MachineFile, WhatIsNoMachine) {
     EXPECT_EQ(codes_of(text), Codes{Code::machine_value}) << text;
 }
 
-TEST(MaterialFile, BuiltInOnesAreSound) {
+TEST(MaterialFile, BuiltInOnesAreFoundByName) {
   EXPECT_GE(built_in_materials().size(), 8u);
   Diagnostics diagnostics;
   const auto oak = material_named("Oak", diagnostics);

@@ -35,7 +35,7 @@ TEST(BuiltInTools, TheFileHasNoFault) {
   EXPECT_GT(table.tools().size(), 80u);
 }
 
-TEST(BuiltInTools, EveryNumberIsThere) {
+TEST(BuiltInTools, HasEveryNumber) {
   for (const int number :
        {102,    100036, 201,    100047, 112,    100024, 122,    100012, 324,    205,   100048, 282,
         100204, 274,    278,    202,    204047, 101,    203036, 111,    202024, 121,   201012, 325,
@@ -49,7 +49,7 @@ TEST(BuiltInTools, EveryNumberIsThere) {
   }
 }
 
-TEST(BuiltInTools, AreSolidTools) {
+TEST(BuiltInTools, HaveNamesFlutesAndShanks) {
   for (const auto& [number, t] : built_in_tools().tools()) {
     EXPECT_EQ(t.number, number);
     EXPECT_FALSE(t.description.empty()) << number;
@@ -68,8 +68,7 @@ TEST(BuiltInTools, SixDigitNumbersAreThoseOfTheScheme) {
   for (const auto& [number, t] : built_in_tools().tools()) {
     const auto generated = encode_tool_number(t);
     if (!generated) continue;
-    const bool other =
-        *generated / 10 % 100 == 9;  // "above an inch or other": no tool needs to stand under it
+    const bool other = *generated / 10 % 100 == 9;  // "above an inch or other": needs no tool
     if (other && built_in_tools().find(*generated) == nullptr) continue;
     const Tool& plain = tool(*generated);
     EXPECT_EQ(encode_tool_number(plain), generated) << number;
@@ -129,7 +128,7 @@ std::vector<Segment> segments_of(const nlohmann::json& profile) {
   return segments;
 }
 
-/// Checks a cutting part against the given one, knot by knot.
+/// Compares a cutting part with the given one, knot by knot.
 void expect_profile(const Profile& ours, const nlohmann::json& given, double within,
                     const std::string& what) {
   const std::vector<Segment> segments = segments_of(given["profile_rz"]);
@@ -157,16 +156,16 @@ TEST(BuiltInTools, EqualTheGivenExactProfiles) {
     Diagnostics diagnostics;
     const auto shape = read_tool_comment(comment, 1.0, {}, diagnostics);
     ASSERT_TRUE(shape) << comment;
-    const auto told = make_tool(known.number, *shape, {}, {}, diagnostics);
-    ASSERT_TRUE(told) << comment;
-    EXPECT_EQ(choose_tool(&known, &*told, {}, diagnostics), &known) << comment;
+    const auto described = make_tool(known.number, *shape, {}, {}, diagnostics);
+    ASSERT_TRUE(described) << comment;
+    EXPECT_EQ(choose_tool(&known, &*described, {}, diagnostics), &known) << comment;
     EXPECT_TRUE(diagnostics.list().empty()) << comment;
     const auto again = read_tool_comment(*write_tool_comment(known.shape), 1.0, {}, diagnostics);
     ASSERT_TRUE(again) << number;
     EXPECT_EQ(again->index(), shape->index()) << number;
-    for (const double share : {0.1, 0.3, 0.5, 0.7, 0.9}) {
-      const double z = share * std::min(told->flute, known.flute).mm();
-      EXPECT_NEAR(told->silhouette.cutting.radius_at(z), known.silhouette.cutting.radius_at(z), 5e-5)
+    for (const double fraction : {0.1, 0.3, 0.5, 0.7, 0.9}) {
+      const double z = fraction * std::min(described->flute, known.flute).mm();
+      EXPECT_NEAR(described->silhouette.cutting.radius_at(z), known.silhouette.cutting.radius_at(z), 5e-5)
           << comment;
     }
   }

@@ -1,4 +1,4 @@
-// Tool files: units, keys, and every kind of fault with its place.
+// Tool files: units, keys, and every kind of fault with its location.
 #include <gtest/gtest.h>
 
 #include "kerf/tool_files.h"
@@ -47,7 +47,7 @@ description = "a test"
   EXPECT_FALSE(tool->plunges);
   EXPECT_EQ(tool->description, "a test");
   EXPECT_EQ(tool->silhouette.shank.knots[1], (Knot{4, 13.7, 0}));
-  EXPECT_EQ(tool->silhouette.shank.top(), 32.7);  // 20 mm where no length is told
+  EXPECT_EQ(tool->silhouette.shank.top(), 32.7);  // 20 mm by default
   EXPECT_EQ(file.table.find_name("mine")->diameter, mm(6));
 }
 
@@ -178,7 +178,7 @@ corner_radius = 4
 TEST(ToolFile, JunkAndDeepNestingEndInAnError) {
   EXPECT_TRUE(read(std::string_view("\xff\xfe\x00\x01", 4)).diagnostics.has_errors());
   EXPECT_TRUE(read("a = " + std::string(100000, '[')).diagnostics.has_errors());
-  EXPECT_EQ(first_code(read("[=]")), Code::tool_file_syntax);  // the parser's own assertion is wrong here
+  EXPECT_EQ(first_code(read("[=]")), Code::tool_file_syntax);  // the parser's own assertion fails here
   EXPECT_EQ(first_code(read(std::string_view("[[\0tool]]", 9))), Code::tool_file_syntax);
   EXPECT_EQ(first_code(read("\xc3\xa9 = 1")), Code::tool_file_syntax);  // a letter outside ASCII
   EXPECT_TRUE(read("").diagnostics.list().empty());

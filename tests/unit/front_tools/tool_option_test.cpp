@@ -1,4 +1,4 @@
-// Tools told on the command line.
+// Tools given on the command line.
 #include <gtest/gtest.h>
 
 #include "kerf/tool_files.h"
@@ -48,7 +48,7 @@ TEST(ToolOption, NumbersAndNamesOfTheTable) {
   EXPECT_EQ(read("100046").flute, mm(12.7));  // not in the table, but its digits say 1/4" and 1/2"
 }
 
-TEST(ToolOption, FaultsSayWhatWasMeant) {
+TEST(ToolOption, FaultsNameWhatWasMeant) {
   EXPECT_EQ(faults("squar d=3").list()[0].hint, "did you mean square?");
   EXPECT_EQ(faults("square diamter=3").list()[0].hint, "did you mean diameter?");
   const Diagnostics unknown = faults("1022");
@@ -62,7 +62,7 @@ TEST(ToolOption, FaultsSayWhatWasMeant) {
   EXPECT_EQ(faults("square").list()[0].code, Code::tool_measure_bad);
 }
 
-TEST(ToolOption, AllFaultsAtOnceAtThePlaceTold) {
+TEST(ToolOption, AllFaultsAreReportedWithTheOption) {
   const Diagnostics found = faults("V d=x angel=90 flute=1e");
   ASSERT_EQ(found.list().size(), 3u);
   for (const Diagnostic& fault : found.list()) EXPECT_EQ(to_string(fault.where), "--tool");

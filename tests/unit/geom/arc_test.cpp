@@ -1,4 +1,4 @@
-// Arc walks: senses in the three planes, full circles, helices, bounds and chords.
+// Arc walks: directions in the three planes, full circles, helices, bounds and chords.
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -32,12 +32,10 @@ TEST(ArcWalk, CentreIsInTheOrderOfThePlanesName) {
   const ArcWalk w = walk_arc({5, 0, 0}, {15, 0, 0}, {10, 0}, Plane::xz, Turn::cw, 0);
   EXPECT_NEAR(w.start_radius, 5.0, 1e-12);
   EXPECT_NEAR(w.end_radius, 5.0, 1e-12);
-  // G2 in G18 seen from +Y (X to the left, Z up): from X5 over +Z or -Z; clockwise from -X side goes down in
-  // Z here.
   EXPECT_NEAR(std::abs(w.at(0.5).z), 5.0, 1e-12);
 }
 
-TEST(ArcWalk, BoundsHoldTheExtremes) {
+TEST(ArcWalk, BoundsContainTheExtremes) {
   const Box3 b = walk_arc({1, 0, 0}, {0, -1, 2}, {0, 0}, Plane::xy, Turn::ccw, 0).bounds();
   EXPECT_NEAR(b.low.x, -1, 1e-12);
   EXPECT_NEAR(b.high.y, 1, 1e-12);

@@ -1,4 +1,4 @@
-// Chaining: order, directions, gaps, junctions, repeated pieces, and what is left open.
+// Chaining: order, directions, gaps, junctions, repeated pieces, open ends.
 #include "kerf/chain.h"
 
 #include <chrono>
@@ -30,7 +30,7 @@ TEST(Chain, PiecesInAnyOrderAndDirectionBecomeOneOutline) {
   EXPECT_TRUE(made.open_ends.empty() && made.junctions.empty() && made.repeated.empty());
 }
 
-TEST(Chain, AnOpenChainStartsAtTheEndThatItsFirstPieceComesFrom) {
+TEST(Chain, AnOpenChainHasTheDirectionOfItsFirstPiece) {
   const Chained made = chain({line({10, 0}, {20, 0}), line({10, 0}, {0, 0}), line({30, 0}, {20, 0})}, {});
   ASSERT_EQ(made.outlines.size(), 1u);
   EXPECT_EQ(made.outlines[0].outline.start, (Point2{0, 0}));
@@ -42,7 +42,7 @@ TEST(Chain, AnOpenChainStartsAtTheEndThatItsFirstPieceComesFrom) {
   EXPECT_EQ(made.open_ends[0].nearest_piece, 2u);
 }
 
-TEST(Chain, SmallGapsAreClosedInTheirMidpoint) {
+TEST(Chain, SmallGapsAreClosedAtTheirMidpoint) {
   const std::vector<Outline> pieces{line({0, 0}, {10, 0}), line({10, 0.004}, {10, 10}),
                                     line({10, 10}, {0, 0.002})};
   const Chained made = chain(pieces, {});
@@ -142,7 +142,7 @@ TEST(Chain, ClosedAndEmptyPieces) {
   EXPECT_TRUE(made.open_ends.empty());
 }
 
-TEST(Chain, TimeIsBoundedForCrowdsAndLargeDrawings) {
+TEST(Chain, TimeIsBoundedForManyEndsAndLargeDrawings) {
   std::vector<Outline> star, crowd, grid;
   for (int i = 0; i < 100'000; ++i) {
     const double a = 1e-3 * i;

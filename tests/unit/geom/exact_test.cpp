@@ -1,4 +1,4 @@
-// Orientation where plain arithmetic has no answer.
+// Orientation of points where floating-point rounding would decide.
 #include "geom/exact.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ TEST(Orientation, OfPlainTriangles) {
   EXPECT_EQ(orientation({0, 0}, {1, 1}, {2, 2}), 0.0);
 }
 
-TEST(Orientation, OfPointsOneUnitOfRoundingOffALine) {
+TEST(Orientation, OfPointsOneRoundingUnitOffALine) {
   // Steps of one unit of rounding around a point of the diagonal: the sign is that of y - x, exactly.
   const double unit = 0x1p-53;
   for (int i = -8; i <= 8; ++i)

@@ -45,7 +45,7 @@ TEST(Extrude, APlateWithHolesHasItsVolume) {
   EXPECT_NEAR(volume(*mesh), 5.0 * (1600 - 25 - 100 * std::numbers::pi - 1 - 4), 0.05);
 }
 
-TEST(Extrude, WhatHasNoInsideIsRefused) {
+TEST(Extrude, FiguresWithoutAnInsideAreRefused) {
   Outline open = box(0, 10);
   open.segments.pop_back();
   for (const Figure& figure : {Figure{}, Figure{open}, Figure{Circle{{0, 0}, mm(-1)}}}) {

@@ -15,11 +15,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 double off(const Outline& outline, Point2 p) {
-  double least = 1e300;
+  double nearest = 1e300;
   for (std::size_t i = 0; i < outline.segments.size(); ++i)
-    least = std::min(
-        least, distance_to(outline_detail::make_carrier(outline.point(i), outline.segments[i], 0.0), p));
-  return least;
+    nearest = std::min(
+        nearest, distance_to(outline_detail::make_carrier(outline.point(i), outline.segments[i], 0.0), p));
+  return nearest;
 }
 
 std::vector<Point2> round_slot(
@@ -46,11 +46,11 @@ TEST(FitArcs, FindsTheArcsThatWereFlattened) {
   EXPECT_LE(made->segments.size(), 6u);
   for (const Point2 p : points) EXPECT_LT(off(*made, p), 0.01);
   for (const Point2 p : flattened(*made, mm(1e-4))) {
-    double least = 1e300;
+    double nearest = 1e300;
     for (std::size_t i = 0; i + 1 < points.size(); ++i)
-      least = std::min(least,
-                       distance_to(outline_detail::make_carrier(points[i], {points[i + 1], {}, {}}, 0.0), p));
-    EXPECT_LT(least, 0.01);
+      nearest = std::min(
+          nearest, distance_to(outline_detail::make_carrier(points[i], {points[i + 1], {}, {}}, 0.0), p));
+    EXPECT_LT(nearest, 0.01);
   }
 }
 
@@ -77,7 +77,7 @@ TEST(FitBezier, StaysWithinTheTolerance) {
       {{0, 0}, {30, 20}, {-10, 20}, {20, 0}},             // a loop
       {{0, 0}, {20, 20}, {0, 20}, {20, 0}},               // a cusp
       {{0, 0}, {5, 5}, {10, 0}},                          // a parabola
-      {{0, 0}, {0, 0}, {10, 10}, {10, 0}},                // no direction at the begin
+      {{0, 0}, {0, 0}, {10, 10}, {10, 0}},                // no direction at the start
       {{0, 0}, {7, 1}, {9, 9}, {3, 12}, {-4, 8}, {0, 0}}  // closed
   };
   for (const auto& control : curves)
@@ -116,7 +116,7 @@ TEST(FitSpline, MakesAnExactCircleOfWeights) {
 
 TEST(FitSpline, OfUniformKnotsFollowsTheBasis) {
   Diagnostics diagnostics;
-  Spline spline;  // cubic, not clamped: begins at (P0 + 4 P1 + P2) / 6
+  Spline spline;  // cubic, not clamped: starts at (P0 + 4 P1 + P2) / 6
   spline.control = {{0, 0}, {6, 12}, {12, -6}, {18, 6}, {24, 0}};
   spline.knots = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   const auto made = fit_spline(spline, mm(0.001), {}, diagnostics);
@@ -163,8 +163,8 @@ double off_chords(const std::vector<Point2>& points, Point2 p) {
 }
 
 TEST(Flattened, ASplineThatIsAParabola) {
-  // y = x^2 / 10 from x = -10 to 10; its second derivative by the parameter is 80 mm, so n chords stray 10 /
-  // n^2.
+  // y = x^2 / 10 from x = -10 to 10; its second derivative by the parameter is 80 mm, so n chords deviate
+  // by 10 / n^2.
   const Spline parabola = clamped_spline(2, {{-10, 10}, {0, -10}, {10, 10}});
   EXPECT_EQ(parabola.knots, (std::vector<double>{0, 0, 0, 1, 1, 1}));
   const std::vector<Point2> points = flattened(parabola, mm(0.1), 1000);

@@ -1,4 +1,4 @@
-// Corners of outlines: each kind by its geometry, each reason why one stays sharp, order of work, transforms.
+// Corners of outlines: the geometry of each kind, each reason to stay sharp, their order, transforms.
 #include "kerf/outline.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ CutOutline cut(const Outline& outline, CornerOptions options = {}) {
 }
 
 /// The only diagnostic of cutting an outline.
-Diagnostic complaint(const Outline& outline, CornerOptions options = {}) {
+Diagnostic diagnostic_of(const Outline& outline, CornerOptions options = {}) {
   Diagnostics diagnostics;
   options.name = "plate";
   cut_corners(outline, options, diagnostics);
@@ -75,7 +75,7 @@ TEST(Corners, EnlargingARightAngleMakesOneArcThroughTheCorner) {
 }
 
 TEST(Corners, EnlargingAnAcuteAngleMakesAChannelAsWideAsTheBit) {
-  // The two lines meet under 60 degrees, so the channel's walls start r / sin(30) from the corner.
+  // The angle is 60 degrees, so the channel's walls start r / sin(30) from the corner.
   const Outline made = cut(corner({-20, 0}, {}, -1, {}, {-10, 10 * std::sqrt(3.0)})).outline;
   ASSERT_EQ(made.segments.size(), 5u);
   expect_point(made.segments[0].to, {-2, 0});
@@ -157,7 +157,7 @@ TEST(Corners, SharedEvenlyTheResultDoesNotDependOnTheStart) {
   EXPECT_EQ(made->corners[1].outcome, CornerOutcome::smoothed);  // 4 of 10: within its half
   EXPECT_EQ(made->corners[0].reason, SharpReason::shared);
   EXPECT_EQ(diagnostics.list()[0].code, Code::corner_shared);
-  // What is said to be the largest radius fits where it is used.
+  // The largest radius of the report fits.
   for (const CornerReport& report : made->corners) {
     if (report.outcome != CornerOutcome::sharp) continue;
     Outline smaller = outline;
@@ -167,7 +167,7 @@ TEST(Corners, SharedEvenlyTheResultDoesNotDependOnTheStart) {
   }
 }
 
-TEST(Corners, SharedEvenlyTheMessageSaysByHowMuch) {
+TEST(Corners, SharedEvenlyTheMessageHasTheExcess) {
   Diagnostics diagnostics;
   const CornerOptions options{.sharing = EdgeSharing::even, .name = "plate"};
   const auto made = cut_corners(square(10, 6), options, diagnostics);
@@ -178,7 +178,7 @@ TEST(Corners, SharedEvenlyTheMessageSaysByHowMuch) {
         << d.message;
 }
 
-TEST(Corners, ALargestRadiusIsSaidWithDigitsThatFit) {
+TEST(Corners, TheLargestRadiusOfAMessageFits) {
   for (const double request : {12.0, 20.0, 1e3, 1e7}) {
     Diagnostics diagnostics;
     const Outline outline = corner({-10, 0}, {}, request, {}, {0, 10});
@@ -198,14 +198,14 @@ TEST(Corners, ALargestRadiusIsSaidWithDigitsThatFit) {
   }
 }
 
-TEST(Corners, EachReasonToStaySharpIsSaid) {
-  EXPECT_EQ(complaint(corner({-10, 0}, {}, 1, {}, {10, 0.001})).code, Code::corner_straight);
-  EXPECT_EQ(complaint(corner({-10, 0}, {}, 1, {}, {-10, 0.001})).code, Code::corner_folded);
-  EXPECT_EQ(complaint(corner({-1, 0}, {}, 5, {}, {0, 10})).code, Code::corner_too_large);
-  EXPECT_EQ(complaint(corner({0, 0}, {}, 1, {}, {0, 10})).code, Code::corner_no_neighbour);
-  EXPECT_EQ(complaint(corner({-1, 0}, {}, 1e-9, {}, {0, 10})).code, Code::corner_radius_tiny);
+TEST(Corners, EachReasonToStaySharpHasItsCode) {
+  EXPECT_EQ(diagnostic_of(corner({-10, 0}, {}, 1, {}, {10, 0.001})).code, Code::corner_straight);
+  EXPECT_EQ(diagnostic_of(corner({-10, 0}, {}, 1, {}, {-10, 0.001})).code, Code::corner_folded);
+  EXPECT_EQ(diagnostic_of(corner({-1, 0}, {}, 5, {}, {0, 10})).code, Code::corner_too_large);
+  EXPECT_EQ(diagnostic_of(corner({0, 0}, {}, 1, {}, {0, 10})).code, Code::corner_no_neighbour);
+  EXPECT_EQ(diagnostic_of(corner({-1, 0}, {}, 1e-9, {}, {0, 10})).code, Code::corner_radius_tiny);
   // A circle of radius 12 does not fit into an arc of radius 10.
-  EXPECT_EQ(complaint(corner({-30, 0}, {}, 12, Point2{-3, 7}, {-10, 10})).code, Code::corner_too_large);
+  EXPECT_EQ(diagnostic_of(corner({-30, 0}, {}, 12, Point2{-3, 7}, {-10, 10})).code, Code::corner_too_large);
 }
 
 TEST(Corners, ATangentPointNeverLiesOffItsLine) {
@@ -220,30 +220,30 @@ TEST(Corners, ATangentPointNeverLiesOffItsLine) {
 TEST(Corners, RequestsAtOpenEndsAreIgnoredWithAWarning) {
   Outline outline = corner({-10, 0}, {}, 1, {}, {0, 10});
   outline.start_corner = mm(3);
-  EXPECT_EQ(complaint(outline).code, Code::outline_end_request);
+  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_end_request);
   outline = square(10, 1);
   outline.segments.back().corner = mm(3);
-  EXPECT_EQ(complaint(outline).code, Code::outline_end_request);
+  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_end_request);
   EXPECT_EQ(outline.segments.back().corner, mm(3));
 }
 
 TEST(Corners, AStraightArcBecomesALineWithAWarning) {
   const Outline outline = corner({-10, 0}, Point2{-5, 0}, 1, {}, {0, 10});
-  EXPECT_EQ(complaint(outline).code, Code::outline_arc_straight);
+  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_arc_straight);
   EXPECT_EQ(cut(outline).outline.segments.size(), 3u);
 }
 
 TEST(Corners, MalformedOutlinesAreRefusedByElement) {
-  EXPECT_EQ(complaint({}).code, Code::outline_malformed);
+  EXPECT_EQ(diagnostic_of({}).code, Code::outline_malformed);
   Outline outline = square(10, 1);
   outline.segments[2].to.x = std::nan("");
-  const Diagnostic d = complaint(outline);
+  const Diagnostic d = diagnostic_of(outline);
   EXPECT_EQ(d.code, Code::outline_not_finite);
   EXPECT_NE(d.message.find("\"plate\", element 3"), std::string::npos) << d.message;
   outline = square(10, 1);
   outline.segments[1].corner = mm(std::numeric_limits<double>::infinity());
-  EXPECT_EQ(complaint(outline).code, Code::outline_not_finite);
-  EXPECT_EQ(complaint(corner({0, 0}, Point2{5, 5}, 0, {}, {0, 10})).code, Code::outline_arc_undetermined);
+  EXPECT_EQ(diagnostic_of(outline).code, Code::outline_not_finite);
+  EXPECT_EQ(diagnostic_of(corner({0, 0}, Point2{5, 5}, 0, {}, {0, 10})).code, Code::outline_arc_undetermined);
 }
 
 TEST(Corners, ScalingEverythingScalesTheResult) {
@@ -277,7 +277,7 @@ TEST(Transforms, ACurveTurnsItsTangents) {
   EXPECT_NEAR(turned[0].heading.rad(), 0.5 + std::numbers::pi / 2, kNear);
   const Curve back = reversed(curve);
   EXPECT_NEAR(back[0].heading.rad(), std::numbers::pi - 0.5, kNear);
-  // Mirrored in x it runs the other way, so that its order is turned round: the shape stays.
+  // Mirroring in x reverses its direction, so its order is reversed: the shape stays.
   const Curve mirrored = placed(curve, {{0, 0}, {-1, 1}});
   expect_point(mirrored[0].at, {-10, 0});
   EXPECT_NEAR(mirrored[0].heading.rad(), 0.5, kNear);
@@ -299,7 +299,7 @@ Curve circle_samples(double r, int count) {
 }
 
 TEST(Curves, SamplesOfACircleGiveArcsOfItsRadius) {
-  for (const int count : {4, 12, 499, 501, 900}) {  // beyond 499 the original gives up
+  for (const int count : {4, 12, 499, 501, 900}) {  // the original fails beyond 499
     Diagnostics diagnostics;
     const auto made = smooth_curve(circle_samples(10, count), {}, diagnostics);
     ASSERT_TRUE(made) << count;
@@ -333,7 +333,7 @@ Code code_of_curve(const Curve& curve, CurveOptions options = {}) {
   return diagnostics.list().empty() ? Code{} : diagnostics.list()[0].code;
 }
 
-TEST(Curves, EachComplaintHasItsCode) {
+TEST(Curves, EachErrorHasItsCode) {
   EXPECT_EQ(code_of_curve({{{0, 0}, {}}}), Code::curve_malformed);
   EXPECT_EQ(code_of_curve({{{0, 0}, {}}, {{0, 0}, {}}}), Code::curve_malformed);
   EXPECT_EQ(code_of_curve({{{0, 0}, radians(2)}, {{10, 0}, radians(-0.5)}}), Code::curve_turns_fast);
@@ -348,7 +348,7 @@ TEST(Curves, EachComplaintHasItsCode) {
   EXPECT_EQ(diagnostics.list()[0].code, Code::curve_turns_fast);
 }
 
-TEST(Curves, MillionsOfSharpCornersCostFewMessages) {
+TEST(Curves, ManySharpCornersGiveFewMessages) {
   Outline outline;
   for (int i = 1; i <= 2000; ++i)
     outline.segments.push_back({{1.0 * i, i % 2 == 0 ? 0.0 : 1.0}, std::nullopt, mm(i < 2000 ? 50 : 0)});

@@ -1,4 +1,4 @@
-// Regions whose areas and shapes are known: boolean operations, offsets, and questions.
+// Regions whose areas and shapes are known: boolean operations, offsets, and queries.
 #include "kerf/region.h"
 
 #include <cmath>
@@ -56,7 +56,7 @@ TEST_F(Regions, HaveTheirInsideOnTheLeft) {
 }
 
 TEST_F(Regions, OfAnOutlineThatCrossesItselfFollowTheRule) {
-  // Two turns around a square in the middle of a pentagram-like double square.
+  // Goes around the inner square twice.
   const Outline twice{{0, 0},
                       {},
                       {{{4, 0}, {}, {}},
@@ -68,15 +68,15 @@ TEST_F(Regions, OfAnOutlineThatCrossesItselfFollowTheRule) {
                        {{0, 3}, {}, {}},
                        {{0, 0}, {}, {}}}};
   const double even = area(made({twice}, FillRule::even_odd)), any = area(made({twice}));
-  EXPECT_DOUBLE_EQ(any, 15.0);   // all but a corner
-  EXPECT_DOUBLE_EQ(even, 11.0);  // and without the part that is gone around twice
+  EXPECT_DOUBLE_EQ(any, 15.0);   // without one corner
+  EXPECT_DOUBLE_EQ(even, 11.0);  // also without the square with winding number 2
   EXPECT_DOUBLE_EQ(area(made({reversed(twice)}, FillRule::positive)), 0.0);
 }
 
 TEST_F(Regions, OfCirclesAreExact) {
   const Region two = made({circle(0, 0, 5), circle(6, 0, 5)});
   ASSERT_EQ(two.loops.size(), 1u);
-  EXPECT_EQ(two.loops[0].segments.size(), 4u);  // of each circle what is left of its two halves
+  EXPECT_EQ(two.loops[0].segments.size(), 4u);  // the rest of the two halves of each circle
   const double lens = 50.0 * std::acos(0.6) - 24.0;
   EXPECT_NEAR(area(two), 50.0 * kPi - lens, 1e-11);
 }
@@ -91,7 +91,7 @@ TEST_F(Regions, CombineAsSetsDo) {
   EXPECT_DOUBLE_EQ(area(*unite({a, b, made({rectangle(-1, -1, 1, 1)})}, {}, diagnostics)), 21.0);
 }
 
-TEST_F(Regions, TellHowTheyLieToEachOther) {
+TEST_F(Regions, HaveARelation) {
   const Region large = made({rectangle(0, 0, 10, 10)}), small = made({circle(5, 5, 2)});
   combined(large, small, Boolean::subtract);
   EXPECT_EQ(relation, Relation::second_inside_first);
@@ -100,11 +100,11 @@ TEST_F(Regions, TellHowTheyLieToEachOther) {
   EXPECT_TRUE(combined(large, large, Boolean::exclude).empty());
   EXPECT_EQ(relation, Relation::equal);
   const Region beside = made({rectangle(10, 0, 3, 10)});
-  EXPECT_EQ(combined(large, beside, Boolean::unite).loops.size(), 1u);  // the common side is gone
+  EXPECT_EQ(combined(large, beside, Boolean::unite).loops.size(), 1u);  // the common side is removed
   EXPECT_EQ(relation, Relation::disjoint);
 }
 
-TEST_F(Regions, ThatTouchInAPointStayApart) {
+TEST_F(Regions, ThatTouchInAPointStaySeparate) {
   const Region two = made({rectangle(0, 0, 1, 1), rectangle(1, 1, 1, 1)});
   EXPECT_EQ(two.loops.size(), 2u);
   const Region tangent = combined(made({circle(0, 0, 2)}), made({circle(4, 0, 2)}), Boolean::unite);
@@ -125,18 +125,18 @@ TEST_F(Regions, OfCirclesGrowByTheRadius) {
   const Region ring = made({circle(0, 0, 10), circle(0, 0, 4)}, FillRule::even_odd);
   EXPECT_NEAR(area(offset_by(ring, 1.0)), kPi * (121.0 - 9.0), 1e-10);
   EXPECT_NEAR(area(offset_by(ring, -2.5)), kPi * (7.5 * 7.5 - 6.5 * 6.5), 1e-10);
-  EXPECT_NEAR(area(offset_by(ring, 5.0)), kPi * 225.0, 1e-10);  // the hole is gone
+  EXPECT_NEAR(area(offset_by(ring, 5.0)), kPi * 225.0, 1e-10);  // the hole is filled
   EXPECT_EQ(vanished, 1u);
   EXPECT_TRUE(offset_by(ring, -3.5).empty());
 }
 
-TEST_F(Regions, ThatShrinkFallApart) {
+TEST_F(Regions, ThatShrinkAreSplit) {
   // Two squares of 10 with a bridge of 2 between.
   const Region barbell = combined(made({rectangle(0, 0, 10, 10), rectangle(20, 0, 10, 10)}),
                                   made({rectangle(9, 4, 12, 2)}), Boolean::unite);
   const Region two = offset_by(barbell, -1.5);
   EXPECT_EQ(two.loops.size(), 2u);
-  const Region grown = offset_by(two, 1.5);  // without the bridge, and nowhere beyond what was there
+  const Region grown = offset_by(two, 1.5);  // without the bridge, and within the barbell
   EXPECT_EQ(grown.loops.size(), 2u);
   EXPECT_TRUE(combined(grown, barbell, Boolean::subtract).empty());
   EXPECT_LT(area(grown), 200.0);
@@ -161,10 +161,10 @@ TEST_F(Regions, ScaleWithTheirTolerance) {
 
 TEST_F(Regions, OfPathsHaveRoundOrButtEnds) {
   const Outline path{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}}};
-  const double bend =
+  const double corner_area =
       40.0 + 0.25 * kPi - 1.0 + 0.0;  // two strips of 20, less the inner overlap, and the corner
-  EXPECT_NEAR(area(*widen(path, mm(1.0), PathEnds::butt, {}, diagnostics)), bend, 1e-11);
-  EXPECT_NEAR(area(*widen(path, mm(1.0), PathEnds::round, {}, diagnostics)), bend + kPi, 1e-11);
+  EXPECT_NEAR(area(*widen(path, mm(1.0), PathEnds::butt, {}, diagnostics)), corner_area, 1e-11);
+  EXPECT_NEAR(area(*widen(path, mm(1.0), PathEnds::round, {}, diagnostics)), corner_area + kPi, 1e-11);
   const auto ring = widen(circle(0, 0, 5), mm(1.0), PathEnds::round, {}, diagnostics);
   EXPECT_NEAR(area(*ring), kPi * 20.0, 1e-10);
   EXPECT_NEAR(area(*widen(circle(0, 0, 5), mm(6.0), PathEnds::round, {}, diagnostics)), kPi * 121.0, 1e-9);
@@ -194,7 +194,7 @@ TEST_F(Regions, BecomeFiguresWithTheirHoles) {
   EXPECT_NEAR(area(*make_region(parts[1], {}, diagnostics)), 25.0 - kPi, 1e-12);
 }
 
-TEST_F(Regions, KnowWhereAPointLies) {
+TEST_F(Regions, LocatePoints) {
   const RegionSearch search(made({circle(0, 0, 10), rectangle(-2, -2, 4, 4)}, FillRule::even_odd));
   EXPECT_EQ(search.locate({5, 0}, {}), Place::inside);
   EXPECT_EQ(search.locate({0, 0}, {}), Place::outside);
@@ -207,7 +207,7 @@ TEST_F(Regions, KnowWhereAPointLies) {
   EXPECT_FALSE(RegionSearch(Region{}).nearest({0, 0}).has_value());
 }
 
-TEST_F(Regions, ReportWhereAnOutlineMeetsItself) {
+TEST_F(Regions, ReportSelfIntersections) {
   const Outline bow{{0, 0}, {}, {{{4, 4}, {}, {}}, {{4, 0}, {}, {}}, {{0, 4}, {}, {}}, {{0, 0}, {}, {}}}};
   const auto found = self_meetings(bow, {}, diagnostics);
   ASSERT_EQ(found->size(), 1u);

@@ -1,4 +1,4 @@
-// Splines made of ellipses and of points.
+// Splines of ellipses and through points.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -12,13 +12,13 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 double distance_to(const std::vector<Point2>& chain, Point2 p) {
-  double least = 1e300;
+  double nearest = 1e300;
   for (std::size_t i = 1; i < chain.size(); ++i) {
     const Point2 way = chain[i] - chain[i - 1];
     const double t = std::clamp(dot(p - chain[i - 1], way) / std::max(dot(way, way), 1e-300), 0.0, 1.0);
-    least = std::min(least, distance(p, chain[i - 1] + t * way));
+    nearest = std::min(nearest, distance(p, chain[i - 1] + t * way));
   }
-  return least;
+  return nearest;
 }
 
 TEST(EllipseSpline, FollowsTheEllipseInItsDirection) {

@@ -74,7 +74,7 @@ TEST_F(JobTest, ListsSubroutinesBesideAGcodeProgram) {
   EXPECT_EQ(program->files, (std::vector<std::string>{main, sub}));
 }
 
-TEST_F(JobTest, KnowsWhereToolsAndStockComeFrom) {
+TEST_F(JobTest, HasTheSourcesOfToolsAndStock) {
   const Job job = job_of(kProgram);
   EXPECT_EQ(job.tool_sources.at(102), ToolSource::built_in);
   EXPECT_EQ(job.stock_source, StockSource::program);
@@ -123,7 +123,7 @@ TEST_F(JobTest, ChecksTheJob) {
   EXPECT_EQ(to_string(findings.front().origin).substr(path_of("part.nc").size(), 3), ":6:");
 }
 
-TEST_F(JobTest, AnUnknownToolIsAFindingAndNoMessage) {
+TEST_F(JobTest, AnUnknownToolIsAFindingWithoutADiagnostic) {
   std::string text = kProgram;
   text.replace(text.find("T102"), 4, "T9");
   const Job job = job_of(text, {}, UnknownTool::unreported);
@@ -165,7 +165,7 @@ TEST_F(JobTest, PostsForControllersAndAsDrawings) {
             (std::vector<std::string>{"part-T1.nc", "part-T2.nc", "part-T1-2.nc"}));
 }
 
-TEST_F(JobTest, PassesSayWhatTheySave) {
+TEST_F(JobTest, PassesReportTheirSavings) {
   const std::string text = "G21 G90\nG0 X0 Y0 Z2\nG1 Z-1 F100\nG1 X1\nG1 X2\nG1 X3\nG0 Z2\nM2\n";
   auto program = load_program(write("part.nc", text), kDefaults, diagnostics_);
   const auto savings = improve(program->path, {.join = mm(0.01)});

@@ -119,7 +119,7 @@ TEST(CutterCompensation, SpikesTurnOutsideUnlessTheirSidesCurveAway) {
   expect_point(back->corner->to, {0, -1});
 }
 
-TEST(CutterCompensation, ChangesItsSideFromTheNextElementOn) {
+TEST(CutterCompensation, ChangesItsSideWithTheNextElement) {
   CutterCompensation cutter(1, kFar);
   cutter.add(line_between({-10, 0}, {0, 0}));
   cutter.change(-3);

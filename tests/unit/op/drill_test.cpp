@@ -11,8 +11,8 @@ namespace {
 /// "R x y z" rapid, "C x y z" cut, "D s" dwell, "S off|cw|ccw" spindle, "M0" pause.
 class Recorder final : public DrillSink {
  public:
-  void rapid(Point3 to) override { say("R", to); }
-  void cut(Point3 to) override { say("C", to); }
+  void rapid(Point3 to) override { add_move("R", to); }
+  void cut(Point3 to) override { add_move("C", to); }
   void dwell(Duration time) override { add(fmt::format("D {:g}", time.seconds())); }
   void spindle(SpindleTurn turn) override {
     add(turn == SpindleTurn::off ? "S off" : turn == SpindleTurn::cw ? "S cw" : "S ccw");
@@ -25,7 +25,9 @@ class Recorder final : public DrillSink {
   int steps_ = 0;
 
  private:
-  void say(const char* word, Point3 to) { add(fmt::format("{} {:g} {:g} {:g}", word, to.x, to.y, to.z)); }
+  void add_move(const char* word, Point3 to) {
+    add(fmt::format("{} {:g} {:g} {:g}", word, to.x, to.y, to.z));
+  }
   void add(const std::string& step) {
     text += (text.empty() ? "" : "; ") + step;
     ++steps_;
@@ -102,7 +104,7 @@ TEST(DrillCycle, RisesToTheRetractPlaneFirst) {
 
 TEST(DrillCycle, ALaterHoleOfASeriesStartsWhereTheLastOneEnded) {
   DrillCycle cycle = hole(DrillKind::plain);
-  cycle.retract_plane = 3;  // the first hole had 2: the way to this one rises
+  cycle.retract_plane = 3;  // that of the first hole was 2: the tool rises on the way
   EXPECT_EQ(moves_of(cycle, {1, 0, 2}), "R 10 0 3; C 10 0 -3; R 10 0 3");
   cycle.retract_plane = 1;
   EXPECT_EQ(moves_of(cycle, {1, 0, 2}), "R 10 0 2; R 10 0 1; C 10 0 -3; R 10 0 1");
@@ -110,7 +112,7 @@ TEST(DrillCycle, ALaterHoleOfASeriesStartsWhereTheLastOneEnded) {
   EXPECT_EQ(moves_of(cycle, {1, 0, 2}), "R 10 0 5; R 10 0 1; C 10 0 -3; R 10 0 5");
 }
 
-TEST(DrillCycle, RepeatsGoOnByTheIncrement) {
+TEST(DrillCycle, RepeatsMoveByTheIncrement) {
   DrillCycle cycle = hole(DrillKind::plain);
   cycle.holes = 3;
   EXPECT_EQ(moves_of(cycle),
@@ -158,7 +160,7 @@ TEST(DrillCycle, DegeneratePecks) {
   EXPECT_EQ(moves_of(cycle), "R 10 0 5; R 10 0 2; C 10 0 1.95; R 10 0 2.204; C 10 0 1.9; R 10 0 2");
 }
 
-TEST(DrillCycle, NoDwellOfNoTime) {
+TEST(DrillCycle, NoDwellOfZeroSeconds) {
   DrillCycle cycle = hole(DrillKind::dwell);
   cycle.dwell = {};
   EXPECT_EQ(moves_of(cycle), "R 10 0 5; R 10 0 2; C 10 0 -3; R 10 0 2");

@@ -276,7 +276,7 @@ TEST(CheckPath, AToolChangeBelowTheStocksTop) {
   EXPECT_EQ(found[0].step, 4u);
 }
 
-TEST(CheckPath, WhereXAndYAreNotKnownALowToolMayBeInTheStock) {
+TEST(CheckPath, ALowToolWithUnknownXAndYMayBeInTheStock) {
   constexpr unsigned kXY = 3;
   Box3 stock;
   stock.add(Point3{0, 0, -10});

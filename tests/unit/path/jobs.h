@@ -1,5 +1,5 @@
-// Tools and single-motion jobs for the simulator's tests: silhouettes drawn by hand, so that these tests
-// depend on nothing else, and the exact half-profile queries that the reference needs.
+// Tools and single-motion jobs for the simulator's tests: silhouettes given as knots, so that these tests
+// depend on nothing else.
 #pragma once
 
 #include <cmath>
@@ -93,7 +93,7 @@ inline ToolTable square_and_keyhole() {
   return tools;
 }
 
-/// Moves of all kinds with three tools all over a block of 50 x 40 x 10 whose top is Z0.
+/// Moves of all kinds with three tools over a block of 50 x 40 x 10 whose top is Z0.
 inline Toolpath random_job(unsigned seed, int moves) {
   std::mt19937 random(seed);
   const auto between = [&](double low, double high) {

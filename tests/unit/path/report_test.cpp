@@ -1,4 +1,4 @@
-// Motion figures: counts, lengths, bounds and times, in all and for each tool.
+// Motion figures: counts, lengths, bounds and times, in total and per tool.
 #include "kerf/report.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Report, OfAnEmptyPathIsEmpty) {
   EXPECT_TRUE(report.all.feed.empty());
 }
 
-TEST(Report, ARapidTakesWhatItsSlowestAxisTakes) {
+TEST(Report, ARapidTakesTheTimeOfItsSlowestAxis) {
   Toolpath path;
   path.add(step::Rapid{{30, 40, 0}}, OriginId::none);
   path.add(step::Rapid{{30, 40, -10}}, OriginId::none);

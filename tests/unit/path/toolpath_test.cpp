@@ -76,7 +76,7 @@ TEST(Toolpath, KeepsEveryKindOfStep) {
   EXPECT_EQ(to_string(copy.origin_of(2)), "a.nc:3:1");
 }
 
-TEST(Toolpath, WalksMotionsWithTheirState) {
+TEST(Toolpath, VisitsMotionsWithTheirState) {
   Toolpath path;
   path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
   path.set_unknown_axes(0, 3);

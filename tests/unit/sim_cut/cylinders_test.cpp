@@ -75,13 +75,13 @@ TEST_P(Cylinders, TheFirstMotionOverAColumnCutsIt) {
       run(path.path(), tools, block({0, 0, 0}, {24, 18, kHeight}), GetParam(), diagnostics, 2);
   ASSERT_TRUE(result);
   const ColumnGrid grid = result->workpiece.grid();
-  int looked_at = 0, hung = 0;
+  int checked = 0, roofed = 0;
   for (int j = 0; j < grid.ny; ++j) {
     for (int i = 0; i < grid.nx; ++i) {
       const double x = grid.column_x(i), y = grid.column_y(j);
       const First head = first_over(moves, kHead, x, y), neck = first_over(moves, kNeck, x, y);
       if (head.is_doubtful || neck.is_doubtful) continue;
-      ++looked_at;
+      ++checked;
       const std::vector<Interval> runs = result->workpiece.column(i, j);
       const std::size_t expected = head.step != kNone && neck.step == kNone ? 2 : 1;
       ASSERT_EQ(runs.size(), expected) << x << " " << y;
@@ -92,14 +92,14 @@ TEST_P(Cylinders, TheFirstMotionOverAColumnCutsIt) {
       ASSERT_EQ(runs[0].high_step, head.step) << x << " " << y;
       ASSERT_NEAR(runs[0].high, kFloor, 1e-5);
       if (expected == 1) continue;
-      ++hung;
+      ++roofed;
       ASSERT_EQ(runs[1].low_step, head.step) << x << " " << y;
       ASSERT_NEAR(runs[1].low, kShoulder, 1e-5);
       ASSERT_NEAR(runs[1].high, kHeight, 1e-5);
     }
   }
-  EXPECT_GT(looked_at, 0.99 * grid.nx * grid.ny);
-  EXPECT_GT(hung, 0.05 * looked_at);
+  EXPECT_GT(checked, 0.99 * grid.nx * grid.ny);
+  EXPECT_GT(roofed, 0.05 * checked);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pitches, Cylinders, testing::Values(0.13, 0.25, 0.6));

@@ -117,7 +117,7 @@ TEST(Hazards, RapidInAPocketWhoseWallsOnlyTheHolderTouches) {
       EXPECT_TRUE(result->hazards.empty());
       continue;
     }
-    ASSERT_EQ(result->hazards.size(), 2u);  // coming down, and moving on
+    ASSERT_EQ(result->hazards.size(), 2u);  // the plunge, and the move after it
     EXPECT_EQ(result->hazards[0].step, last - 1);
     EXPECT_EQ(result->hazards[1].step, last);
     for (const Hazard& h : result->hazards) {
@@ -168,7 +168,7 @@ TEST(Hazards, FollowingWallsAndCirclesCutBeforeIsNone) {
   EXPECT_TRUE(hazards_of(path).empty());
 }
 
-TEST(Hazards, DeepPassesInAWidenedSlotAreNone) {
+TEST(Hazards, PassesDeeperThanTheFluteAreNone) {
   // 18 mm deep in steps of 6: the neck is thinner, and everything beside the flutes has been cut.
   Path path;
   path.tool(1).rapid({10, 20, 2});
@@ -177,7 +177,7 @@ TEST(Hazards, DeepPassesInAWidenedSlotAreNone) {
   EXPECT_TRUE(hazards_of(path).empty());
 }
 
-TEST(Hazards, CuttingDeeperThanTheFluteInOneGo) {
+TEST(Hazards, CuttingDeeperThanTheFluteInOnePass) {
   Path path;
   path.tool(1).rapid({-10, 20, 2}).cut({-10, 20, -12}).cut({30, 20, -12});
   const auto hazards = hazards_of(path);
@@ -191,7 +191,7 @@ TEST(Hazards, CuttingDeeperThanTheFluteInOneGo) {
   }
 }
 
-TEST(Hazards, TooDeepACutHasNoConsequences) {
+TEST(Hazards, ACutThatIsTooDeepIsReportedOnce) {
   // An end mill whose shank is as thick as its flutes; material above the flutes is removed with the cut.
   Tool tool = make_drawn(1, profile({{0, 0, 0}, {3, 0, 0}, {3, 10, 0}}));
   for (const bool has_shank : {true, false}) {
@@ -233,7 +233,7 @@ TEST(Hazards, NothingIsTouchedBesideABlockThatThePitchDoesNotDivide) {
   ToolTable tools;
   tools.set(1, whole_tool(1));
   const double x = 62.93, y = 42.94;  // a radius beside the block
-  const auto walk_round = [&](double inwards, Path& path, bool at_feed) {
+  const auto move_around = [&](double inwards, Path& path, bool at_feed) {
     const auto go = [&](Point3 to) { at_feed ? path.cut(to) : path.rapid(to); };
     path.tool(1).rapid({x + 5, -10, 5}).rapid({x + 5, -10, -5});
     go({x - inwards, -10, -5});
@@ -244,8 +244,8 @@ TEST(Hazards, NothingIsTouchedBesideABlockThatThePitchDoesNotDivide) {
   };
   for (const bool at_feed : {false, true}) {
     Path tangent, inside;
-    walk_round(0.0, tangent, at_feed);
-    walk_round(0.03, inside, at_feed);  // the last columns are 0.015 and 0.02 mm from the sides of the block
+    move_around(0.0, tangent, at_feed);
+    move_around(0.03, inside, at_feed);  // the last columns are 0.015 and 0.02 mm from the sides of the block
     Diagnostics diagnostics;
     const auto none = run(tangent.path(), tools, odd, kPitch, diagnostics);
     const auto some = run(inside.path(), tools, odd, kPitch, diagnostics);
@@ -312,7 +312,7 @@ TEST(Hazards, SpindleOff) {
       .cut({10, 20, -2})
       .spindle(SpindleTurn::off)
       .cut({20, 20, -2});
-  off.cut({15, 20, -2});  // through what is cut: nothing to report
+  off.cut({15, 20, -2});  // material already removed: no hazard
   const auto hazards = hazards_of(off);
   ASSERT_EQ(hazards.size(), 1u);
   EXPECT_EQ(hazards[0].kind, HazardKind::spindle_off);

@@ -159,7 +159,7 @@ TEST_P(LiveEdits, MatchThePlainSimulation) {
 }
 INSTANTIATE_TEST_SUITE_P(Seeds, LiveEdits, ::testing::Range(1u, 25u));
 
-TEST(Live, AnEditTouchesOnlyItsTiles) {
+TEST(Live, AnEditAffectsOnlyItsTiles) {
   std::vector<Move> moves;
   for (int k = 0; k < 10; ++k) {
     moves.push_back({StepKind::rapid, {5.0 * k, 2, 5}, 0, false});

@@ -230,7 +230,7 @@ class Stopper : public Progress {
   double fraction_ = -1;
 };
 
-TEST(Simulate, StopsWhenAsked) {
+TEST(Simulate, StopsOnRequest) {
   Stopper stopper;
   Diagnostics diagnostics;
   SimulationOptions options;

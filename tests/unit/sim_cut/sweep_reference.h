@@ -1,6 +1,6 @@
 // Every kind of motion, and an independent reference of what a tool removes along it: the tool's position is
-// sampled densely along the true curve, and each end of what it removes above a column is refined, all in
-// double.
+// sampled densely along the true curve, and each end of the removed intervals of a column is refined, all in
+// double precision.
 #pragma once
 
 #include <algorithm>
@@ -49,8 +49,7 @@ class Silhouette2 {
       const double w = std::sqrt(std::max(0.0, q * q - (z - cz) * (z - cz)));
       return bulge > 0 ? cr + w : cr - w;
     }
-    /// All segments used here have radii that rise to one peak (or only rise or fall), so that one run
-    /// remains.
+    /// The radii of all segments here rise to one peak, or only rise or fall: there is one run.
     std::optional<Run> run(double rho) const {
       double peak = r0 > r1 ? z0 : z1;
       if (bulge > 0 && cz > z0 && cz < z1) peak = cz;
@@ -141,7 +140,7 @@ class Reference {
   }
   Point3 at(double t) const { return walk_ ? walk_->at(t) : motion_.from + t * (motion_.to - motion_.from); }
 
-  /// Whether a point is removed, by the samples alone: good for walls, up to a step of the samples on slopes.
+  /// True if a point is removed, by the samples alone: exact at walls, within a sample step on slopes.
   bool removes(Point3 p) const {
     for (const Point3& tip : points_) {
       const double rho = std::sqrt((p.x - tip.x) * (p.x - tip.x) + (p.y - tip.y) * (p.y - tip.y));
@@ -183,7 +182,7 @@ class Reference {
     const std::optional<Run> r = tool_.run(rho, segment);
     return r ? std::optional(Run{r->low + p.z, r->high + p.z, segment}) : std::nullopt;
   }
-  /// What one segment of the profile removes: while it reaches the column without a break, that is one run.
+  /// The runs that one segment of the profile removes: one while it reaches the column without a break.
   void add_segment(double x, double y, int segment, std::vector<Sample>& all) const {
     std::optional<Sample> current;
     const auto join = [&](double t) {
@@ -276,7 +275,7 @@ class Remainder {
   Remainder(const NamedProfile& tool, const Motion& motion)
       : approach_{"approach",
                   {motion.from.x, motion.from.y,
-                   std::max(motion.from.z, kTop) + 0.1},  // the tip is above all
+                   std::max(motion.from.z, kTop) + 0.1},  // the tip is above the block
                   {},
                   motion.from},
         down_(tool.profile, approach_),

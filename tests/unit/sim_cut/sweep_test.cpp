@@ -1,5 +1,5 @@
-// Single sweeps of every tool and every kind of motion against an independent reference: the columns' ends,
-// and the mesh's surfaces and edges.
+// Single sweeps of every tool and every kind of motion against an independent reference: the ends of the
+// columns' intervals.
 #include <cstdio>
 #include <gtest/gtest.h>
 
@@ -47,7 +47,7 @@ std::string text_of(const Runs& runs) {
   return text;
 }
 
-/// Errors of the columns that the job touches; reports those that are worse than a micron.
+/// Errors of the columns that the job cuts; reports the first above a micron.
 Errors errors_of(const NamedProfile& tool, const Motion& motion, const Workpiece& workpiece) {
   const Remainder left(tool, motion);
   const double pitch = workpiece.pitch().mm();

@@ -1,4 +1,4 @@
-// Volumes beside walls: against exact formulas, and against a much finer run.
+// Volumes at walls: against exact formulas, and against a much finer run.
 #include <gtest/gtest.h>
 #include <numbers>
 #include <random>
@@ -81,11 +81,7 @@ TEST_P(Walls, PlungesAndRings) {
     circle.tool(1)
         .rapid({start.x, start.y, 5})
         .cut(start)
-        .arc({.to = start,
-              .centre = {centre.x, centre.y},
-              .turn = Turn::ccw,
-
-              .feed = mm_per_min(100)});
+        .arc({.to = start, .centre = {centre.x, centre.y}, .turn = Turn::ccw, .feed = mm_per_min(100)});
     const Stock stock = block({0, 0, -10}, {30, 30, 0});
     const double deep = std::min(depth, 10.0);  // some reach through the floor
     EXPECT_NEAR(simulated(plunge.path(), end_mill(r), stock, pitch).removed.mm3(), kPi * r * r * deep,
@@ -95,7 +91,7 @@ TEST_P(Walls, PlungesAndRings) {
   }
 }
 
-TEST_P(Walls, AKeyholeSlotsRoofsCountToo) {
+TEST_P(Walls, RoofsOfAKeyholeSlotCountToo) {
   const double pitch = GetParam();
   ToolTable tools;
   tools.set(1, make_drawn(1, profile({{0, 0, 0}, {4, 0, 0}, {4, 2.5, 0}, {2, 2.5, 0}, {2, 9, 0}})));

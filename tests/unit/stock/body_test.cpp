@@ -72,7 +72,7 @@ TEST(StockBody, HeightsOfASphereAreExact) {
   }
 }
 
-TEST(StockBody, LinesThroughCornersAndEdgesNeitherLeakNorDouble) {
+TEST(StockBody, LinesThroughCornersAndEdgesAreCountedOnce) {
   // Every line passes through vertices and edges of the triangles.
   Triangles steps;
   for (int k = 0; k < 3; ++k)

@@ -74,7 +74,7 @@ TEST(StockComments, InchesAndUnits) {
              {25.4, 50, 0});
 }
 
-TEST(StockComments, OtherCommentsAreNotOfTheStock) {
+TEST(StockComments, OtherCommentsAreIgnored) {
   StockComments reader;
   Diagnostics diagnostics;
   for (const char* comment :
@@ -98,7 +98,7 @@ TEST(StockComments, MalformedCommentsAreErrors) {
   EXPECT_EQ(flat.diagnostics.list().at(0).code, Code::stock_impossible);
 }
 
-TEST(StockComments, AStockMaxBelowStockMinLeavesTheBlock) {
+TEST(StockComments, AStockMaxBelowStockMinIsIgnored) {
   const Comments found = read({"stockMin:0.00mm, -30.0mm, 0.00mm", "stockMax:100mm, 30.0mm, -12.7mm",
                                "STOCK/BLOCK, 100, 60, 12.7, 0.00, 30.0, 0.00mm"});
   EXPECT_EQ(found.diagnostics.errors(), 0u);

@@ -59,7 +59,7 @@ TEST(ReadToolComment, HeightZeroIsFilledInByMakeTool) {
   EXPECT_NEAR(made(1, *read("TOOL/MILL,0.0, 0.00, 0.00, 45.00")).diameter.mm(), 12.7, 1e-9);
 }
 
-TEST(ReadToolComment, VeesAsTheirWritersMeanThem) {
+TEST(ReadToolComment, VeesOfThreeTips) {
   const auto pointed = as<shape::Vee>(read("TOOL/MILL, 0.00, 0.00, 6.35, 45.00"));
   EXPECT_NEAR(pointed.diameter.mm(), 12.7, 1e-12);
   EXPECT_NEAR(pointed.included_angle.deg(), 90.0, 1e-12);
@@ -98,7 +98,7 @@ TEST(ReadToolComment, InchProgramsScaleLengthsOnly) {
   EXPECT_NEAR(vee.diameter.mm(), 12.7, 1e-12);
 }
 
-TEST(ReadToolComment, CommentsWithoutAShapeAreSilent) {
+TEST(ReadToolComment, CommentsWithoutAShapeAreIgnored) {
   for (const char* comment :
        {"", "hello", "tool 374 keyhole", "TOOL/ID=5", "TOOL/Description=1/4, flat", "COLOR,255,0,0",
         "FROM/0,0,10", "TOOL/", "TOOL/LASER, 1, 2", "T1  D=6.35 CR=0 - flat end mill"}) {
@@ -118,7 +118,7 @@ TEST(ReadToolComment, MalformedOnesAreErrors) {
   }
 }
 
-TEST(ReadToolComment, FieldsInAnotherOrderArePassedOverWithAWarning) {
+TEST(ReadToolComment, FieldsInAnotherOrderAreSkippedWithAWarning) {
   for (const char* comment :
        {"TOOL/MILL, 12.7, 6.367, 12.7, 0.00", "TOOL/MILL, 11.1125, 8, 3.175, 0.00",
         "TOOL/CRMILL, 6, 2, 1, 4, 5", "TOOL/MILL, 0, 0, 5, 0", "TOOL/CHAMFER, 2, 90, 9, 8"}) {
@@ -165,13 +165,13 @@ TEST(WriteToolComment, FormIsThatOfRealPrograms) {
   EXPECT_FALSE(write_tool_comment(shape::Dovetail{mm(12.7), mm(12.7), degrees(14)}));
 }
 
-/// Which of the two is chosen: 't'able or 'c'omment, 'w' after it where a warning was given.
+/// The one that is chosen: 't'able or 'c'omment, followed by 'w' if there is a warning.
 std::string choice(const ToolShape& table, std::string_view comment) {
   const Tool known = made(9, table);
-  const Tool told = made(9, *read(comment));
+  const Tool described = made(9, *read(comment));
   Diagnostics diagnostics;
-  const Tool* chosen = choose_tool(&known, &told, {}, diagnostics);
-  for (const Diagnostic& said : diagnostics.list()) EXPECT_EQ(said.code, Code::tool_comment_differs);
+  const Tool* chosen = choose_tool(&known, &described, {}, diagnostics);
+  for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.code, Code::tool_comment_differs);
   return std::string(chosen == &known ? "t" : "c") + (diagnostics.warnings() > 0 ? "w" : "");
 }
 
@@ -185,7 +185,7 @@ TEST(ChooseTool, TheTableWhereBothAgree) {
   EXPECT_EQ(choice(keyhole, "TOOL/MILL, 9.53, 0.00, 3.17, 0.00"), "t");
   const shape::Bowl bowl{mm(19.05), mm(15.875), mm(6.35)};
   EXPECT_EQ(choice(bowl, "TOOL/MILL, 15.875, 6.35, 19.05, 0.00"),
-            "t");  // diameter and height have changed places
+            "t");  // diameter and height are interchanged
   EXPECT_EQ(choice(shape::TaperedBall{mm(3.175), mm(5.561), degrees(30), mm(0.254)},
                    "TOOL/MILL,0.03, 0.00, 10.00, 30.00"),
             "t");  // the full angle
@@ -199,7 +199,7 @@ TEST(ChooseTool, TheCommentWhereTheyDiffer) {
   EXPECT_EQ(choice(vee, "TOOL/MILL, 6.35, 0.00, 6.35, 45.00"), "cw");
 }
 
-TEST(ChooseTool, RoundoversToldWithTheirNominalRadius) {
+TEST(ChooseTool, RoundoversWithTheirNominalRadius) {
   const shape::Roundover small{mm(0.508), mm(1.3335), mm(4.2545)};
   EXPECT_EQ(choice(small, "TOOL/CRMILL, 0.508, 3.175, 1.3335, 4.2545, 4.2545"), "t");
   EXPECT_EQ(choice(small, "TOOL/CRMILL, 0.508, 3.571875, 1.5875, 5.55625, 1.5875"), "t");
@@ -233,7 +233,7 @@ TEST(ToolComments, BelongToTheChangeBeforeThemOrToTheNext) {
   comments.motion();
   comments.read("milling tool", 1.0, {}, diagnostics);
   EXPECT_TRUE(diagnostics.list().empty());
-  mill("4");  // of no change
+  mill("4");  // without a later change
   comments.finish(diagnostics);
   ASSERT_EQ(diagnostics.list().size(), 1u);
   EXPECT_EQ(diagnostics.list()[0].code, Code::tool_comment_unused);

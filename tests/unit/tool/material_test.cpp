@@ -1,4 +1,4 @@
-// Chip loads between, below and above those of a table.
+// Chip loads for diameters between, below and above those of a table.
 #include "kerf/material.h"
 
 #include <gtest/gtest.h>

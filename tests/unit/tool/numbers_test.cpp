@@ -52,7 +52,7 @@ TEST(EncodeToolNumber, ShapesWithoutACode) {
   EXPECT_FALSE(encoded(shape::Bowl{mm(12.7), mm(12.7), mm(3.175)}, 5));
 }
 
-TEST(DecodeToolNumber, SaysTheSizesOfItsDigits) {
+TEST(DecodeToolNumber, GivesTheSizesOfItsDigits) {
   const auto square = std::get<shape::Square>(*decoded(100036));
   EXPECT_EQ(square.diameter, mm(3.175));
   EXPECT_EQ(square.flute, mm(12.7));
@@ -83,7 +83,7 @@ TEST(DecodeToolNumber, EveryNumberThatDecodesMakesATool) {
     const auto again = encode_tool_number(*tool);
     if (!again) continue;
     ASSERT_EQ(*again / 100000, number / 100000) << number;
-    const bool eight = number / 10 % 100 == 80 || number / 1000 % 100 == 80;  // shares the code of 5/16"
+    const bool eight = number / 10 % 100 == 80 || number / 1000 % 100 == 80;  // same code as 5/16"
     if (number / 100000 < 3 && !eight) {
       ASSERT_EQ(*again / 10, number / 10) << number;
     }

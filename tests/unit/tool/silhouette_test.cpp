@@ -46,13 +46,13 @@ TEST(Silhouette, SquareIsACylinder) {
   EXPECT_EQ(tool.number, 7);
 }
 
-TEST(Silhouette, AFluteThatNobodyToldIsMarked) {
+TEST(Silhouette, AnAssumedFluteIsMarked) {
   EXPECT_TRUE(made(shape::Square{mm(3.0), {}}).flute_assumed);
   EXPECT_TRUE(made(shape::Ball{mm(3.0), {}}).flute_assumed);
   EXPECT_TRUE(made(shape::BullNose{mm(3.0), {}, mm(0.5)}).flute_assumed);
   EXPECT_TRUE(made(shape::Drill{mm(3.0), {}, degrees(118)}).flute_assumed);
   EXPECT_FALSE(made(shape::Square{mm(3.0), mm(9.0)}).flute_assumed);
-  EXPECT_FALSE(made(shape::Vee{mm(3.0), {}, degrees(90), {}, {}}).flute_assumed);  // the cone's end
+  EXPECT_FALSE(made(shape::Vee{mm(3.0), {}, degrees(90), {}, {}}).flute_assumed);  // ends with the cone
 }
 
 TEST(Silhouette, BallRadiusAtHeight) {
@@ -123,7 +123,7 @@ TEST(Silhouette, ConeShorterThanItsDiameterIsCutOffWithAWarning) {
   EXPECT_EQ(diagnostics.list()[0].code, Code::tool_flute_short);
 }
 
-TEST(Silhouette, CatalogueRoundingOfAConeIsMadeGood) {
+TEST(Silhouette, CatalogueRoundingOfAConeIsCorrected) {
   Diagnostics diagnostics;
   const auto tool =
       make_tool(1, shape::Vee{mm(6.35), mm(11.849), degrees(30.0), Length(), Length()}, {}, {}, diagnostics);
