@@ -1,4 +1,4 @@
-// Printers' programs: what is pushed and drawn back, and what slicers tell in remarks.
+// Printers' programs: extrusion and retraction, and the comments of slicers.
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -38,7 +38,7 @@ TEST(Printer, HomingLeavesItsAxesUnknown) {
   homing(2, 7);
 }
 
-TEST(Printer, FilamentIsDrawnBackWhileMovingToo) {
+TEST(Printer, FilamentIsRetractedWhileMovingToo) {
   const auto b = beads(kHead + "M83\nG1 X10 E1\nG1 X5 E-0.5\nG1 E-0.25\nG1 X5\n");
   ASSERT_EQ(b.size(), 3u);
   EXPECT_NEAR(b[1].volume.mm3(), -0.5 * kUsual, 1e-9);
@@ -57,7 +57,7 @@ TEST(Printer, RelativeMovesOfMarlinAreThoseOfTheFilamentToo) {
   EXPECT_NEAR(beads(text, options)[0].volume.mm3(), -4.0 * kUsual, 1e-9);
 }
 
-TEST(Printer, VolumesCanBeToldDirectly) {
+TEST(Printer, VolumesCanBeGivenDirectly) {
   const auto b = beads(kHead + "M83\nM200 D1.75\nG1 X10 E3\nM200 D0\nG1 X20 E3\nM200 S1\nG1 X30 E2\n");
   ASSERT_EQ(b.size(), 3u);
   EXPECT_NEAR(b[0].volume.mm3(), 3.0, 1e-9);
@@ -65,7 +65,7 @@ TEST(Printer, VolumesCanBeToldDirectly) {
   EXPECT_NEAR(b[2].volume.mm3(), 2.0, 1e-9);
 }
 
-TEST(Printer, RemarksTellTheNextRoads) {
+TEST(Printer, CommentsGiveTheSizesOfBeads) {
   const auto b = beads(kHead +
                        "M83\nG1 X10 E1\n;HEIGHT:0.3\n;WIDTH:0.45\nG1 X20 E1\n; LAYER_HEIGHT: 0.2\n"
                        "; LINE_WIDTH: 0.42\nG1 X30 E1\n;Layer height: 0.1\n;HEIGHT:nonsense\nG1 X40 E1\n");
@@ -93,7 +93,7 @@ TEST(Printer, TheFilamentDiameterIsThatOfTheOptionsElseOfTheComments) {
   const double area = std::numbers::pi / 4.0 * 2.85 * 2.85;
   EXPECT_NEAR(beads("; filament_diameter = 2.85\n" + kHead + "M83\nG1 X10 E1\n")[0].volume.mm3(), area, 1e-9);
   GcodeReadOptions options;
-  options.filament_diameter = 1.0;  // the caller's word is the last
+  options.filament_diameter = 1.0;  // the caller's value has precedence
   EXPECT_NEAR(beads("; filament_diameter = 2.85\n" + kHead + "M83\nG1 X10 E1\n", options)[0].volume.mm3(),
               std::numbers::pi / 4.0, 1e-9);
 }
