@@ -1,4 +1,4 @@
-// The kerf command: finds the subcommand, runs it, and turns what it says into an exit status.
+// The kerf command: selects and runs the subcommand, and returns its exit status.
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -19,28 +19,27 @@ namespace {
 const char* const kExamples = R"(
 Examples:
   kerf simulate part.nc -o part.png    what a program cuts, as a picture
-  kerf check part.nc                   what would go wrong; exit status 3 if anything
+  kerf check part.nc                   its hazards; exit status 3 if there are any
   kerf info part.nc                    size, time, tools, feeds, stock
   kerf post --to grbl part.ngc         the program for another controller
-  kerf tools show 102                  a tool that Kerf knows
-  kerf help simulate                   all about one command
+  kerf tools show 102                  a tool of the built-in table
+  kerf help simulate                   the options of a command
 
-Exit status: 0 done (warnings allowed), 1 errors in the input, 2 wrong usage, 3 check found hazards.
+Exit status: 0 success, warnings included; 1 errors in the input; 2 wrong usage; 3 hazards found by check.
 )";
 
 const char* const kToolsExamples = R"(
 Examples:
-  kerf tools list                      number, shape, size and names of every tool
-  kerf tools show 102                  one tool: its measures, its profile, a sketch
-  kerf tools show "V d=12.7 angle=90"  a tool told in words, as --tool takes it
-  kerf tools shapes                    the shapes, and all keys for such words
+  kerf tools list                      number, shape, dimensions and names of every tool
+  kerf tools show 102                  one tool: its dimensions, its profile, a sketch
+  kerf tools show "V d=12.7 angle=90"  a tool given as for --tool
+  kerf tools shapes                    the shapes and keys of such a description
 )";
 
 std::vector<Command> add_commands(CommandParser& root) {
   std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root)};
-  CommandParser tools =
-      root.add_command("tools", "The tools that Kerf knows: list, show, shapes, import, export");
+  CommandParser tools = root.add_command("tools", "The tool table: list, show, shapes, import, export");
   tools.require_command();
   tools.set_footer(kToolsExamples);
   commands.push_back(add_tools_list(tools));
@@ -48,7 +47,7 @@ std::vector<Command> add_commands(CommandParser& root) {
   commands.push_back(add_tools_shapes(tools));
   commands.push_back(add_tools_import(tools));
   commands.push_back(add_tools_export(tools));
-  root.add_command("gcmc", "Compile a gcmc program (takes gcmc's own options; see kerf gcmc --help)");
+  root.add_command("gcmc", "Compile a gcmc program (has gcmc's options; see kerf gcmc --help)");
   return commands;
 }
 
@@ -59,14 +58,14 @@ Status run_asked(const std::vector<Command>& commands) {
     Console console(*command.output);
     const Status status = command.run(console);
     if (console.finish()) return status;
-    console.complain("cannot write to standard output");
+    console.error("cannot write to standard output");
     return Status::input_errors;
   }
   return Status::wrong_usage;
 }
 
-/// Commands that take the arguments of the program that they stand in for, which no common parser
-/// understands. A link to kerf with that program's name is that program.
+/// Drop-in commands: they have the arguments of the program that they replace, which CommandLine cannot
+/// parse. A link to kerf with that program's name runs the command.
 std::optional<int> run_drop_in(int argc, char** argv) {
   const std::string called = argc > 0 ? argv[0] : "";
   const bool is_link = std::filesystem::path(called).filename() == "gcmc";
@@ -78,16 +77,16 @@ std::optional<int> run_drop_in(int argc, char** argv) {
 
 int run(int argc, char** argv) {
   if (const auto status = run_drop_in(argc, argv)) return *status;
-  CommandLine root(
-      "kerf", "Kerf: describe what a router, mill, laser or printer shall make; see it cut before it is cut.",
-      "kerf " KERF_VERSION);
+  CommandLine root("kerf",
+                   "Kerf: toolpaths for routers, mills, lasers and printers: simulated, checked, written.",
+                   "kerf " KERF_VERSION);
   root.set_footer(kExamples);
   root.require_command();
   const std::vector<Command> commands = add_commands(root);
   const CommandLine::Result result = root.parse({argv + 1, argv + argc});
   if (result.outcome == CommandLine::Outcome::answered) return static_cast<int>(Status::done);
   if (result.outcome == CommandLine::Outcome::parsed) return static_cast<int>(run_asked(commands));
-  Console({}).complain(result.problem);
+  Console({}).error(result.problem);
   fmt::print(stderr, "try: kerf {}{}--help\n", result.command, result.command.empty() ? "" : " ");
   return static_cast<int>(Status::wrong_usage);
 }
@@ -99,7 +98,7 @@ int main(int argc, char** argv) {
   try {
     return kerf::app::run(argc, argv);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "kerf: error: not enough memory for this work\n");
+    fmt::print(stderr, "kerf: error: out of memory\n");
   } catch (const std::exception& error) {
     fmt::print(stderr, "kerf: error: {}\n", error.what());
   }

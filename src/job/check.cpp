@@ -1,4 +1,4 @@
-// The check of a whole job: its toolpath, and the material and the fixtures by a coarse simulation.
+// The check of a job: its toolpath, and by a coarse simulation the stock and the fixtures.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,10 +11,10 @@
 namespace kerf {
 namespace {
 
-constexpr double kColumns = 500'000;        // of the coarse simulation that finds hazards
+constexpr double kColumns = 500'000;        // of the coarse simulation
 constexpr double kFinestDefault = 0.05;     // mm
 constexpr double kCoarsestDefault = 1.0;    // mm
-constexpr double kMaxColumns = 50'000'000;  // more only at a resolution that is given
+constexpr double kMaxColumns = 50'000'000;  // at the default resolution
 
 Length resolution_for(const Stock& stock, Length given) {
   if (given > Length()) return given;
@@ -27,15 +27,15 @@ Length resolution_for(const Stock& stock, Length given) {
 /// Calls visit(step, context) for every cut with a tool of unknown shape.
 template <class Visit>
 void for_each_unknown_cut(const Job& job, Visit&& visit) {
-  const bool one_tool = job.tools.tools().size() == 1;  // in force until the program chooses one
+  const bool one_tool = job.tools.tools().size() == 1;  // in force before the first tool change
   for_each_motion(job.program.path, [&](const Step& s, const MotionContext& context) {
     if (s.is_cutting() && (context.tool ? job.tools.find(*context.tool) == nullptr : !one_tool))
       visit(s, context);
   });
 }
 
-/// A hazard for each tool of unknown shape, since what it cuts cannot be checked. Cuts before any tool change
-/// are a hazard of the toolpath.
+/// A hazard for each tool of unknown shape, since its cuts cannot be checked. Cuts before the first tool
+/// change are a hazard of the toolpath.
 std::vector<Finding> unknown_tools(const Job& job) {
   std::map<int, Finding> found;
   for_each_unknown_cut(job, [&](const Step& s, const MotionContext& context) {
@@ -46,7 +46,7 @@ std::vector<Finding> unknown_tools(const Job& job) {
                   .step = context.index,
                   .at = s.to(),
                   .origin = job.program.path.origin_of(context.index),
-                  .message = fmt::format("nobody knows the shape of tool {}, which cuts here", *context.tool),
+                  .message = fmt::format("a cut with tool {}, whose shape is unknown", *context.tool),
                   .callers = job.program.path.origins().callers(s.origin()),
                   .hint = hint_for_unknown(*context.tool)};
   });
@@ -55,7 +55,7 @@ std::vector<Finding> unknown_tools(const Job& job) {
   return list;
 }
 
-/// A hazard for each unknown G code: it may be a motion, and the toolpath is checked without it.
+/// A hazard for each unknown G code: it may be a motion that the toolpath lacks.
 std::vector<Finding> skipped_codes(const Diagnostics& diagnostics) {
   std::vector<Finding> list;
   for (const Diagnostic& d : diagnostics.list())
@@ -63,33 +63,34 @@ std::vector<Finding> skipped_codes(const Diagnostics& diagnostics) {
       list.push_back({.kind = "left_out",
                       .at = {},
                       .origin = d.where,
-                      .message = d.message + ", and nobody knows whether it moves the tool",
+                      .message = d.message + "; it may be a motion",
                       .callers = {},
                       .hint = d.hint});
   return list;
 }
 
 bool is_at_or_after(const Origin& origin, const Origin& other) {
-  const auto *at = std::get_if<TextSpot>(&origin), *spot = std::get_if<TextSpot>(&other);
-  return at != nullptr && spot != nullptr && at->line >= spot->line && at->file == spot->file;
+  const auto *a = std::get_if<TextSpot>(&origin), *b = std::get_if<TextSpot>(&other);
+  return a != nullptr && b != nullptr && a->line >= b->line && a->file == b->file;
 }
 
-/// Gives findings that have a line only their step: the next motion, else the last one.
-void place_on_path(std::vector<Finding>& findings, const Toolpath& path) {
-  std::size_t placed = 0;  // they are in the order of lines
-  for (std::size_t i = 0; i < path.size() && placed < findings.size(); ++i) {
+/// Sets step and position of findings that have a line only: the next motion, else the last one. The findings
+/// are in the order of lines.
+void assign_steps(std::vector<Finding>& findings, const Toolpath& path) {
+  std::size_t done = 0;
+  for (std::size_t i = 0; i < path.size() && done < findings.size(); ++i) {
     if (!path[i].is_motion()) continue;
     const Origin origin = path.origin_of(i);
-    for (std::size_t k = placed; k < findings.size(); ++k) {
+    for (std::size_t k = done; k < findings.size(); ++k) {
       findings[k].step = i;
       findings[k].at = path[i].to();
     }
-    while (placed < findings.size() && is_at_or_after(origin, findings[placed].origin)) ++placed;
+    while (done < findings.size() && is_at_or_after(origin, findings[done].origin)) ++done;
   }
 }
 
-/// The toolpath up to the first cut with an unknown tool, after which it is unknown what is left of the
-/// stock, with a warning; nothing where every cut has a known tool.
+/// The toolpath before the first cut with an unknown tool, with a warning: after it the workpiece is unknown.
+/// Nothing if every cut has a known tool.
 std::optional<Toolpath> known_part(const Job& job, Diagnostics& diagnostics) {
   const Toolpath& path = job.program.path;
   std::size_t end = path.size();
@@ -99,20 +100,20 @@ std::optional<Toolpath> known_part(const Job& job, Diagnostics& diagnostics) {
   const bool any = std::any_of(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(end),
                                [](const Step& s) { return s.is_cutting(); });
   diagnostics.warning(Code::not_simulated, path.origin_of(end),
-                      any ? "from here on the material was not looked at, because the tool is not known"
-                          : "the material was not looked at, because the tool is not known");
+                      any ? "the material is not checked from here on, because the tool is unknown"
+                          : "the material is not checked, because the tool is unknown");
   Toolpath part;
   part.origins() = path.origins();
   for (std::size_t i = 0; any && i < end; ++i) part.add_copy(path, i);
   return part;
 }
 
-/// The hazards met in the material, as far as it can be simulated (`diagnostics` says how far).
+/// The hazards in the material, as far as it can be simulated; a warning if not completely.
 std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions& options,
                                           Diagnostics& diagnostics, Progress* progress) {
   if (!job.stock && !job.bar) {
     diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
-                        "nothing is cut and no stock is told, so the material was not looked at");
+                        "the material is not checked, because nothing is cut and no stock is given");
     return {};
   }
   const std::optional<Toolpath> part = known_part(job, diagnostics);
@@ -145,11 +146,11 @@ std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& opt
   std::vector<Finding> findings =
       merged(findings_of(check_path(job.program.path, checks), job.program.path), unknown_tools(job));
   std::vector<Finding> skipped = skipped_codes(diagnostics);
-  place_on_path(skipped, job.program.path);
+  assign_steps(skipped, job.program.path);
   return merged(std::move(findings), std::move(skipped));
 }
 
-/// Removes what is a finding of its own: a missing feed or end, a code that is skipped are reported once.
+/// Removes the diagnostics that are also findings, so that each is reported once.
 void remove_hazards(Diagnostics& diagnostics) {
   diagnostics.remove_if([](const Diagnostic& d) {
     const bool is_hazard =
@@ -165,7 +166,7 @@ std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, D
   std::vector<Finding> findings = findings_in_path(job, options, diagnostics);
   if (job.z_downwards && !diagnostics.has_errors()) {
     diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
-                        "the material was not looked at, as Z seems to count downwards");
+                        "the material is not checked, because Z seems to count downwards");
   } else if (!diagnostics.has_errors()) {
     std::vector<Finding> in_material = findings_in_material(job, options, diagnostics, progress);
     warn_assumed_flutes(in_material, job.program.path, job.tools, diagnostics);

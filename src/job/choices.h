@@ -1,14 +1,14 @@
-// The steps of make_job.
+// Choosing the tools and the stock of a job, for make_job.
 #pragma once
 
 #include "kerf/job.h"
 
 namespace kerf {
 
-/// Fills in tools and their sources; where motions precede the first tool change and a tool is given for
-/// them, the path gets a tool change in front.
+/// Sets the tools and their sources. If motions precede the first tool change and a tool is given for them, a
+/// tool change is inserted at the start of the path.
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics);
-/// Fills in stock or bar, and fixtures. The tools must have been chosen.
+/// Sets stock or bar, and fixtures; after choose_tools.
 void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics);
 
 }  // namespace kerf

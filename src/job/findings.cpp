@@ -16,30 +16,28 @@ namespace {
 std::string message_of(const Hazard& hazard) {
   const std::string depth = number_text(hazard.depth.mm(), 3);
   switch (hazard.kind) {
-    case HazardKind::rapid_in_stock:
-      return fmt::format("a rapid move goes {} mm deep through the stock", depth);
+    case HazardKind::rapid_in_stock: return fmt::format("a rapid passes {} mm deep through the stock", depth);
     case HazardKind::neck_contact: return fmt::format("the tool's neck rubs {} mm deep in the stock", depth);
-    case HazardKind::shank_contact:
-      return fmt::format("the tool's shank goes {} mm deep into the stock", depth);
+    case HazardKind::shank_contact: return fmt::format("the tool's shank is {} mm deep in the stock", depth);
     case HazardKind::holder_contact:
-      return fmt::format("the tool's holder goes {} mm deep into the stock", depth);
-    case HazardKind::over_flute: return fmt::format("a cut {} mm deeper than the flute is long", depth);
+      return fmt::format("the tool's holder is {} mm deep in the stock", depth);
+    case HazardKind::over_flute: return fmt::format("a cut {} mm deeper than the flute length", depth);
     case HazardKind::below_floor: return fmt::format("a cut {} mm below the floor of the stock", depth);
     case HazardKind::spindle_off: break;
   }
-  return "the spindle stands still while the tool is in the stock";
+  return "the spindle is stopped while the tool is in the stock";
 }
 
 std::string_view hint_of(HazardKind kind) {
   switch (kind) {
     case HazardKind::rapid_in_stock:
-      return "lift the tool before the rapid; if the stock is another one, tell it with --stock";
+      return "retract the tool before the rapid; if the stock is different, specify it with --stock";
     case HazardKind::neck_contact:
     case HazardKind::shank_contact:
     case HazardKind::holder_contact: return "use a longer tool, or clear the material beside it first";
-    case HazardKind::over_flute: return "use a tool with a longer flute, or cut less deep at a time";
+    case HazardKind::over_flute: return "use a tool with a longer flute, or a smaller stepdown";
     case HazardKind::below_floor:
-      return "cut less deep; if the stock is thicker or lies elsewhere, tell it with --stock";
+      return "reduce the depth; if the stock is thicker or at another position, specify it with --stock";
     case HazardKind::spindle_off: break;
   }
   return "start the spindle (S10000 M3) before the cut";
@@ -49,16 +47,16 @@ std::string message_of(const PrintHazard& hazard) {
   const std::string length = number_text(hazard.length.mm(), 2);
   switch (hazard.kind) {
     case PrintHazardKind::nozzle_contact:
-      return fmt::format("the nozzle goes {} mm deep through printed material or the bed",
+      return fmt::format("the nozzle passes {} mm deep through printed material or the bed",
                          number_text(hazard.depth.mm(), 3));
-    case PrintHazardKind::in_air: return fmt::format("{} mm of road are printed in the air", length);
-    case PrintHazardKind::unsupported: return fmt::format("{} mm of road have nothing below", length);
+    case PrintHazardKind::in_air: return fmt::format("{} mm of bead printed in the air", length);
+    case PrintHazardKind::unsupported: return fmt::format("{} mm of bead without support below", length);
     case PrintHazardKind::blob: break;
   }
-  return fmt::format("{} mm3 of filament are pushed on the spot", number_text(hazard.volume.mm3(), 3));
+  return fmt::format("{} mm3 of filament extruded without a motion", number_text(hazard.volume.mm3(), 3));
 }
 
-/// What meets the fixture; empty for a tool as a whole, at rapid speed.
+/// The part of the tool that touches the fixture; empty for a rapid.
 std::string part_name(const FixtureContact& contact) {
   if (contact.part == ToolPart::cutting) return "cutting edge";
   return contact.part ? std::string(to_string(*contact.part)) : std::string();
@@ -66,25 +64,25 @@ std::string part_name(const FixtureContact& contact) {
 
 std::string message_of(const FixtureContact& contact, const Fixture& fixture) {
   const std::string part = part_name(contact);
-  const std::string where = fmt::format("{} mm deep into the fixture \"{}\"",
+  const std::string where = fmt::format("{} mm deep in the fixture \"{}\"",
                                         number_text(contact.depth.mm(), 3), fixture.name.substr(0, 60));
-  if (part.empty()) return "a rapid move goes " + where;
-  return fmt::format("the tool's {} goes {}", part, where);
+  if (part.empty()) return "a rapid is " + where;
+  return fmt::format("the tool's {} is {}", part, where);
 }
 
-/// Whether a finding goes on with a line's: its step is the next one, or it says that the spindle stands
-/// still, which is one slip however many cuts follow.
-bool goes_on(const Finding& line, const Finding& f) {
+/// Whether a finding belongs to the same line of the report: its step is the next one, or it is a stopped
+/// spindle, which has one cause for all cuts that follow.
+bool is_continued(const Finding& line, const Finding& f) {
   return line.step + line.steps >= f.step ||
          (f.kind == to_string(HazardKind::spindle_off) && f.message == line.message);
 }
 
 std::string hint_for_flute(const Tool& tool) {
-  return fmt::format("tell the flute's length, as in --tool {}=\"{} d={} flute=20\"", tool.number,
+  return fmt::format("specify the flute length, e.g. --tool {}=\"{} d={} flute=20\"", tool.number,
                      name_of(tool.shape), number_text(tool.diameter.mm(), 3));
 }
 
-/// The tools of the findings' steps, in their order; findings are in the order of steps.
+/// The tool in force at each finding; the findings are in the order of steps.
 std::vector<const Tool*> tools_of(const std::vector<Finding>& findings, const Toolpath& path,
                                   const ToolTable& tools) {
   std::vector<const Tool*> out;
@@ -99,13 +97,13 @@ std::vector<const Tool*> tools_of(const std::vector<Finding>& findings, const To
 }
 
 void warn_of_flute(const Finding& f, const Tool& tool, Diagnostics& diagnostics) {
-  const std::string moves = f.steps > 1 ? fmt::format(", in {} moves", f.steps) : "";
+  const std::string motions = f.steps > 1 ? fmt::format(", in {} motions", f.steps) : "";
   diagnostics
       .warning(Code::flute_assumed, f.origin,
-               fmt::format("a cut {} mm deeper than the flute of tool {}, which nobody told: {} mm are "
-                           "assumed ({}){}",
+               fmt::format("a cut {} mm deeper than the flute of tool {}; no flute length is given, assuming "
+                           "{} mm ({}){}",
                            number_text(f.depth_mm, 3), tool.number, number_text(tool.flute.mm(), 3),
-                           reason_of_flute(tool), moves))
+                           reason_of_flute(tool), motions))
       .hint = hint_for_flute(tool);
 }
 
@@ -180,7 +178,7 @@ std::vector<Finding> grouped(const std::vector<Finding>& findings) {
   std::map<std::pair<std::string, std::string>, std::size_t> open;
   for (const Finding& f : findings) {
     const auto it = open.find({f.kind, f.about});
-    if (it != open.end() && goes_on(lines[it->second], f)) {
+    if (it != open.end() && is_continued(lines[it->second], f)) {
       Finding& line = lines[it->second];
       line.steps += f.steps;
       line.removed_mm3 += f.removed_mm3;
@@ -224,7 +222,7 @@ void warn_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, c
 std::vector<Finding> findings_at_fixtures(const Toolpath& path, const Job& job, const SimulationOptions& how,
                                           Diagnostics& diagnostics, Progress* progress) {
   if (job.fixtures.empty()) return {};
-  if (progress != nullptr) progress->phase("looking at fixtures");
+  if (progress != nullptr) progress->phase("checking fixtures");
   const auto contacts = find_fixture_contacts(path, job.tools, job.fixtures, how, diagnostics, progress);
   return contacts ? findings_of(*contacts, job.fixtures, path) : std::vector<Finding>{};
 }

@@ -7,8 +7,7 @@
 
 namespace kerf {
 
-/// None where there are no fixtures, or where the contacts could not be computed (`diagnostics` has the
-/// error).
+/// Empty without fixtures, or with an error if the contacts could not be computed.
 std::vector<Finding> findings_at_fixtures(const Toolpath& path, const Job& job, const SimulationOptions& how,
                                           Diagnostics& diagnostics, Progress* progress);
 

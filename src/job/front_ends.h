@@ -1,4 +1,4 @@
-// The front ends that program.cpp chooses from, and what they share.
+// The table of front ends that program.cpp selects from.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace kerf {
 FrontEnd gcode_front_end();
 FrontEnd gcmc_front_end();
 
-/// The folder of a file with its last slash; empty for the current one.
+/// The folder of a file, including its last slash; empty for the current one.
 std::string folder_of(const std::string& file);
 
 }  // namespace kerf

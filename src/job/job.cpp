@@ -1,4 +1,4 @@
-// Puts a job together and carries it out.
+// Making a job from a program and its settings, and running it.
 #include "kerf/job.h"
 
 #include <utility>
@@ -9,8 +9,8 @@
 namespace kerf {
 namespace {
 
-/// What went wrong in the material and at the fixtures. Of a program whose Z counts downwards only that is
-/// reported, as all else follows from it.
+/// The hazards in the material and at the fixtures. If Z counts downwards, only that is reported: the other
+/// hazards follow from it.
 std::vector<Finding> findings_of_milling(const Job& job, const Simulation& simulation,
                                          const SimulationOptions& how, Diagnostics& diagnostics,
                                          Progress* progress) {
@@ -87,7 +87,7 @@ std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnos
         run = run_milling(job, how, diagnostics, progress);
       } else {
         diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
-                          "the program cuts nothing and tells no stock, so there is nothing to simulate");
+                          "no stock is given and the program cuts nothing: nothing to simulate");
       }
   }
   if (diagnostics.has_errors() || (progress != nullptr && progress->stop_requested())) return std::nullopt;

@@ -11,7 +11,7 @@
 namespace kerf {
 namespace {
 
-/// A file name that does not exist yet, removed again in the end.
+/// A new empty file in the folder for temporary files, removed by the destructor.
 class TemporaryFile {
  public:
   TemporaryFile() {
@@ -33,18 +33,18 @@ class TemporaryFile {
   std::string path_;
 };
 
-/// Runs a script and takes the outlines that it cuts with cnc25d_api.
+/// Runs a script and returns the outlines that it cuts with cnc25d_api.
 std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnostics& diagnostics) {
   const TemporaryFile noted;
   const auto fail = [&](const std::string& message) {
     diagnostics.error(Code::script_failed, TextSpot{script, 0, 0}, message);
     return std::vector<NamedOutline>();
   };
-  if (noted.path().empty()) return fail("no temporary file can be made");
+  if (noted.path().empty()) return fail("cannot create a temporary file");
   if (!InputFile::open(script, diagnostics)) return {};
   const int status = run_python(script, {{"KERF_OUTLINES", noted.path()}}, diagnostics);
   if (status < 0) return {};
-  if (status != 0) return fail(fmt::format("the script ended with status {}", status));
+  if (status != 0) return fail(fmt::format("the script ended with exit status {}", status));
   const auto file = InputFile::open(noted.path(), diagnostics);
   if (!file) return {};
   if (file->bytes().empty()) return fail("the script cut no outline with cnc25d_api.cnc_cut_outline()");

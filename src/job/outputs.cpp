@@ -18,7 +18,7 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
 
-// Index 0 is the stock's own surface, 1 a surface made by a hazard, the rest one a tool (and round again).
+// Index 0: surface of the stock; 1: surface cut by a hazard; from 2: one per tool, cyclically.
 constexpr std::array<Colour, 12> kPalette{{{222, 196, 156},
                                            {214, 40, 40},
                                            {86, 140, 190},
@@ -34,10 +34,10 @@ constexpr std::array<Colour, 12> kPalette{{{222, 196, 156},
 constexpr std::uint8_t kStockColour = 0;
 constexpr std::uint8_t kHazardColour = 1;
 constexpr std::size_t kFirstToolColour = 2;
-constexpr int kMapPixels = 1600;  // a side of a comparison's map
+constexpr int kMapPixels = 1600;  // width and height of the map of a comparison
 
 constexpr std::string_view kAxes = "xyz";
-constexpr std::array<Plane, 3> kAcross{Plane::yz, Plane::xz, Plane::xy};  // by the axis
+constexpr std::array<Plane, 3> kAcross{Plane::yz, Plane::xz, Plane::xy};  // normal to X, Y and Z
 
 bool is_png(const std::string& path) {
   std::string ending = std::filesystem::path(path).extension().string();
@@ -45,7 +45,7 @@ bool is_png(const std::string& path) {
   return ending == ".png";
 }
 
-/// Indices into the palette, and what they stand for.
+/// Indices into the palette, and their meaning.
 struct StepColours {
   std::vector<std::uint8_t> of_step;  // of the tool in force, or of a hazard
   std::vector<std::string> names;     // of the palette, as far as it is used
@@ -91,7 +91,7 @@ std::vector<std::uint32_t> steps_of(const Hazards& hazards) {
   return steps;
 }
 
-/// The steps whose surface is red. Of a print those that break something; bridges are as they should be.
+/// The steps whose surface is red. Of a print only those that damage something: bridges are permitted.
 std::vector<std::uint32_t> red_steps(const Simulation& s) { return steps_of(s.hazards); }
 std::vector<std::uint32_t> red_steps(const RotarySimulation& s) { return steps_of(s.hazards); }
 std::vector<std::uint32_t> red_steps(const PrintSimulation& s) {
@@ -138,7 +138,7 @@ std::string mesh_bytes(const PartSurface& surface, MeshFormat format, std::strin
   return write_mesh(view, format);
 }
 
-/// Whether the columns would show: in a mesh, and in a picture where they are larger than its pixels.
+/// Whether the columns would be visible: in a mesh, or in a picture with pixels smaller than the columns.
 bool shows_columns(const std::vector<PartFile>& files, const Workpiece& workpiece, const View& view) {
   const auto is_mesh = [](const PartFile& file) { return file.mesh.has_value(); };
   if (std::any_of(files.begin(), files.end(), is_mesh)) return true;
@@ -153,8 +153,8 @@ std::vector<PartFile> without_left(const std::vector<PartFile>& files) {
   return out;
 }
 
-/// False, with an error, where the section of a picture does not go through what is drawn.
-bool section_meets(const Mesh& mesh, const View& view, Diagnostics& diagnostics) {
+/// False, with an error, if the section plane does not intersect the mesh.
+bool section_intersects(const Mesh& mesh, const View& view, Diagnostics& diagnostics) {
   if (!view.section) return true;
   const auto axis = static_cast<std::size_t>(axes_of(view.section->plane).w);
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -163,15 +163,15 @@ bool section_meets(const Mesh& mesh, const View& view, Diagnostics& diagnostics)
     high = std::max<double>(high, mesh.positions[k]);
   }
   if (view.section->at > low && view.section->at < high) return true;
-  const std::string part = low < high ? fmt::format("the part, which lies from {}={} to {}", kAxes[axis],
+  const std::string part = low < high ? fmt::format("the part, which extends from {}={} to {}", kAxes[axis],
                                                     number_text(low, 3), number_text(high, 3))
-                                      : "anything: nothing is left";
+                                      : "anything: no material is left";
   diagnostics.error(Code::section_outside, CallSpot{"", 0, "--section"},
-                    fmt::format("{} does not go through {}", to_string(*view.section), part));
+                    fmt::format("{} does not intersect {}", to_string(*view.section), part));
   return false;
 }
 
-/// The part's surface in the colours of the comparison's map.
+/// The colour of each triangle, from the comparison's map.
 std::vector<Colour> comparison_colours(const Mesh& mesh, const Simulation& simulation, const Comparison& c,
                                        Length full) {
   constexpr Colour kOnTarget{176, 206, 160};
@@ -218,7 +218,7 @@ std::span<const std::array<std::uint8_t, 3>> part_palette() { return kPalette; }
 
 std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const SurfaceOptions& how,
                                         Diagnostics& diagnostics, Progress* progress) {
-  if (progress != nullptr) progress->phase("making the surface");
+  if (progress != nullptr) progress->phase("extracting the surface");
   StepColours colours = std::visit(
       [&](const auto& result) { return colour_steps(job.program.path, red_steps(result)); }, run.result);
   const MeshOptions options{.tolerance = kMeshTolerance, .step_groups = colours.of_step};
@@ -230,8 +230,8 @@ std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const
   if (surface.mesh.triangles.empty())
     diagnostics
         .warning(Code::nothing_left, TextSpot{job.program.source, 0, 0},
-                 "nothing of the stock is left, so that meshes and pictures are empty")
-        .hint = "look at the stock's size and place, and at the program's units";
+                 "the whole stock is cut away; meshes and pictures are empty")
+        .hint = "check size and position of the stock, and the units of the program";
   return surface;
 }
 
@@ -243,7 +243,7 @@ std::optional<std::string> mesh_file(const PartSurface& surface, MeshFormat form
 
 std::optional<std::string> picture_file(const PartSurface& surface, const View& view,
                                         Diagnostics& diagnostics) {
-  if (!section_meets(surface.mesh, view, diagnostics)) return std::nullopt;
+  if (!section_intersects(surface.mesh, view, diagnostics)) return std::nullopt;
   std::vector<Colour> rgb;
   rgb.reserve(surface.colours.size());
   for (const std::uint8_t c : surface.colours) rgb.push_back(kPalette[c]);
@@ -256,7 +256,7 @@ std::optional<std::string> comparison_picture(const Simulation& simulation, cons
   if (!view) return png_of(draw_map(comparison, full, kMapPixels));
   const Mesh mesh = extract_mesh(MeshColumns(simulation.workpiece), {}, progress);
   if (progress != nullptr && progress->stop_requested()) return std::nullopt;
-  if (!section_meets(mesh, *view, diagnostics)) return std::nullopt;
+  if (!section_intersects(mesh, *view, diagnostics)) return std::nullopt;
   return png_of(render(mesh, comparison_colours(mesh, simulation, comparison, full), *view));
 }
 
@@ -274,9 +274,9 @@ bool can_write(const std::vector<PartFile>& files, JobKind kind, Diagnostics& di
     can = false;
     diagnostics
         .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
-               fmt::format("\"{}\": {} cannot be the stock of a next job yet", file.path,
-                           kind == JobKind::print ? "a print" : "what is left of a bar"))
-        .hint = "write it as a mesh, and take that as --stock-mesh";
+               fmt::format("\"{}\": {} cannot be stored as left-over stock", file.path,
+                           kind == JobKind::print ? "a print" : "the rest of a bar"))
+        .hint = "write a mesh instead, and use it with --stock-mesh";
   }
   return can;
 }

@@ -1,4 +1,4 @@
-// Programs for controllers and as drawings.
+// Writing programs for controllers and as drawings.
 #include "kerf/posting.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   out.missing_feed = options.missing_feed;
   for (const auto& [number, tool] : options.tools) {
     out.tool_names[number] = short_name(tool);
-    // Such comments are in the program's units; their rounding is for mm.
+    // The comments are in the program's units, and are rounded for mm.
     if (const auto text = write_tool_comment(tool.shape); text && unit == LengthUnit::mm)
       out.tool_comments[number] = *text;
   }

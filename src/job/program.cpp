@@ -30,17 +30,17 @@ const FrontEnd* by_ending(std::string_view ending) {
   return nullptr;
 }
 
-/// For a file with an unknown ending: by its text, with a note.
+/// The front end of a file with an unknown ending, by its text, with a note.
 const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   for (const FrontEnd& f : front_ends()) {
     if (!f.looks_like(file.bytes().substr(0, kFirstBytes))) continue;
     diagnostics.note(Code::input_kind_guessed, TextSpot{file.path(), 0, 0},
-                     fmt::format("the file's ending is not known; it looks like {} and is read so", f.name));
+                     fmt::format("unknown file ending; the text is read as {}", f.name));
     return &f;
   }
   diagnostics
       .error(Code::input_kind_unknown, TextSpot{file.path(), 0, 0},
-             "cannot tell what kind of file this is, neither by its ending nor by its text")
+             "unknown type of file: neither its ending nor its text is known")
       .hint = "known endings: " + known_endings();
   return nullptr;
 }
@@ -80,7 +80,7 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   program.files.insert(program.files.begin(), file->path());
   if (program.path.size() == 0 && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextSpot{program.source, 0, 0},
-                      "the program is empty: nothing in it makes a step");
+                      "the program is empty: it has no steps");
   return program;
 }
 

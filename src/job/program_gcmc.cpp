@@ -1,4 +1,4 @@
-// gcmc programs as a way in.
+// The front end for gcmc programs.
 #include <optional>
 #include <string>
 #include <utility>
@@ -26,7 +26,7 @@ bool looks_like_gcmc(std::string_view text) {
   return false;
 }
 
-/// Takes the tools and the stock from the program's comments, as those of G-code do.
+/// Reads tools and stock from the comments of the program, as for G-code.
 void read_comments(Program& program, Diagnostics& diagnostics) {
   StockComments stock;
   ToolComments tools(program.tools);
@@ -42,7 +42,7 @@ void read_comments(Program& program, Diagnostics& diagnostics) {
   program.stock = stock.stock();
 }
 
-/// The files among the texts of a run: not the defines, nor Kerf's own library.
+/// The files among the sources of a run, without the defines and the built-in library.
 std::vector<std::string> files_of(const GcmcRun& run, const std::string& program) {
   std::vector<std::string> files;
   for (const auto& [name, text] : run.sources)

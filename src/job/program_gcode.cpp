@@ -1,4 +1,4 @@
-// G-code as a way in.
+// The front end for G-code.
 #include <algorithm>
 #include <cctype>
 #include <optional>
@@ -33,7 +33,7 @@ bool looks_like_gcode(std::string_view text) {
   return false;
 }
 
-/// Text of a subroutine's file beside the program; nothing where there is none.
+/// The text of a subroutine's file in the folder of the program; nothing if there is none.
 std::optional<std::string> read_beside(const std::string& program, const std::string& name,
                                        std::vector<std::string>& files) {
   constexpr std::size_t kLargestSub = std::size_t{64} << 20;

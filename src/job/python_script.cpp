@@ -1,4 +1,4 @@
-// Running Python: which one, with which path, and how it ended.
+// Running Python: choice of the interpreter, its environment and its exit status.
 #include "job/python_script.h"
 
 #include <cstdlib>
@@ -17,13 +17,12 @@ std::string variable(const char* name) {
 }
 
 std::string interpreter() {
-  if (const std::string told = variable("KERF_PYTHON"); !told.empty()) return told;
+  if (const std::string given = variable("KERF_PYTHON"); !given.empty()) return given;
   if (const std::string venv = variable("VIRTUAL_ENV"); !venv.empty()) return venv + "/bin/python";
   return "python3";
 }
 
-/// The folder of Kerf's Python modules beside the command, as a build leaves it; empty where they are
-/// installed.
+/// The folder of Kerf's Python modules in a build folder, next to the command; empty if they are installed.
 std::string module_folder() {
   std::error_code failed;
   const auto command = std::filesystem::read_symlink("/proc/self/exe", failed);
@@ -68,18 +67,18 @@ int run_python(const std::string& script, const std::vector<std::pair<std::strin
     return -1;
   };
   const pid_t child = fork();
-  if (child < 0) return fail("no process can be started");
+  if (child < 0) return fail("cannot start a process");
   if (child == 0) {
     dup2(STDERR_FILENO, STDOUT_FILENO);
     execvpe(arguments[0], arguments.data(), environment_texts.data());
-    _exit(127);  // as a shell does for a command that is not there
+    _exit(127);  // the status of a shell for a missing command
   }
   int status = 0;
   while (waitpid(child, &status, 0) < 0)
-    if (errno != EINTR) return fail("the script's end cannot be waited for");
+    if (errno != EINTR) return fail("cannot wait for the end of the script");
   if (!WIFEXITED(status)) return fail(fmt::format("the script was ended by signal {}", WTERMSIG(status)));
   if (WEXITSTATUS(status) == 127)
-    return fail(fmt::format("\"{}\" cannot be run; KERF_PYTHON names a Python", words[0]));
+    return fail(fmt::format("cannot run \"{}\"; set KERF_PYTHON to a Python interpreter", words[0]));
   return WEXITSTATUS(status);
 }
 

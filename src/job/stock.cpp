@@ -1,4 +1,4 @@
-// The stock of a job: given, described by the program, or assumed around its cuts.
+// The stock of a job: given, described in the program's comments, or assumed around its cuts.
 #include <algorithm>
 #include <fmt/format.h>
 
@@ -17,15 +17,15 @@ const Length kStockFloor = mm(1);   // of an assumed block, below the deepest cu
 std::string_view reason_of(AssumedTop top) {
   switch (top) {
     case AssumedTop::passes: return "a pass above the highest one";
-    case AssumedTop::plunge: return "where the plunges begin";
+    case AssumedTop::plunge: return "at the start of the plunges";
     case AssumedTop::cuts: return "at the highest cut";
     case AssumedTop::zero: break;
   }
   return "at Z0";
 }
 
-/// Says which block is taken, and why its top is where it is. That is all but sure with Z0 on top; else the
-/// user should look at it.
+/// Reports the assumed block and the reason for its top: a note if that is Z0, else a warning, because other
+/// tops are less certain.
 void report_assumed_stock(const AssumedStock& assumed, const Job& job, Diagnostics& diagnostics) {
   const Box3& b = assumed.stock.block;
   const Point3 size = b.size();
@@ -33,31 +33,28 @@ void report_assumed_stock(const AssumedStock& assumed, const Job& job, Diagnosti
     return fmt::format(fmt::runtime(form), number_text(p.x, 3), number_text(p.y, 3), number_text(p.z, 3));
   };
   const std::string block =
-      fmt::format("assumed {} around the cuts, from {} to {}", text(size, "{} x {} x {} mm"),
+      fmt::format("assuming a block of {} around the cuts, from {} to {}", text(size, "{} x {} x {} mm"),
                   text(b.low, "X{} Y{} Z{}"), text(b.high, "X{} Y{} Z{}"));
   const Origin where = TextSpot{job.program.source, 0, 0};
   const Box3& cuts = job.report.all.cut_bounds;
   Diagnostic* reported = nullptr;
   if (job.z_downwards)
-    reported = &diagnostics.note(Code::stock_assumed, where,
-                                 fmt::format("the program does not tell its stock; {}", block));
+    reported = &diagnostics.note(Code::stock_assumed, where, fmt::format("no stock given; {}", block));
   else if (assumed.top != AssumedTop::zero)
-    reported = &diagnostics.warning(
-        Code::stock_assumed, where,
-        fmt::format("the program does not tell its stock, and Z0 seems not to be its top; {}, its top {}",
-                    block, reason_of(assumed.top)));
+    reported =
+        &diagnostics.warning(Code::stock_assumed, where,
+                             fmt::format("no stock given, and Z0 does not seem to be its top; {}, top {}",
+                                         block, reason_of(assumed.top)));
   else if (cuts.low.z >= b.high.z)
     reported = &diagnostics.warning(
         Code::stock_assumed, where,
-        fmt::format("the program does not tell its stock, and cuts nothing below Z0; {}, of which it removes "
-                    "nothing",
+        fmt::format("no stock given, and the program does not cut below Z0; {}, of which nothing is removed",
                     block));
   else
-    reported = &diagnostics.note(
-        Code::stock_assumed, where,
-        fmt::format("the program does not tell its stock; {}, its top {}", block, reason_of(assumed.top)));
+    reported = &diagnostics.note(Code::stock_assumed, where,
+                                 fmt::format("no stock given; {}, top {}", block, reason_of(assumed.top)));
   reported->hint =
-      fmt::format("tell it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
+      fmt::format("specify it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
 }
 
 void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
@@ -111,10 +108,11 @@ void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
                          cuts.low.y > block.high.y || cuts.high.y < block.low.y || cuts.low.z >= block.high.z;
   diagnostics
       .warning(Code::stock_untouched, TextSpot{job.program.source, 0, 0},
-               fmt::format("the program cuts nothing of the stock: it cuts from {}, the stock lies from {}",
+               fmt::format("the program removes nothing: its cuts extend from {}, the stock from {}",
                            text(cuts), text(block)))
-      .hint = are_apart ? "look at the program's zero, its units, and the stock's place"
-                        : "its cuts may be narrower than the columns are apart: try a finer --resolution";
+      .hint = are_apart
+                  ? "check the work zero, the units, and the position of the stock"
+                  : "its cuts may be narrower than the distance of the columns: use a finer --resolution";
 }
 
 std::string_view to_string(StockSource source) {

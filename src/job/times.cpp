@@ -1,4 +1,4 @@
-// How long a job takes.
+// The machining time of a job.
 #include "kerf/job.h"
 
 namespace kerf {

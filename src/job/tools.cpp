@@ -1,4 +1,4 @@
-// Which tools a job uses, and where they come from.
+// The tools of a job, and their sources.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -15,14 +15,14 @@ namespace {
 
 constexpr int kHighestToolNumber = 999'999'999;
 
-/// "[N=]SPEC" taken apart.
+/// "[N=]SPEC", split.
 struct ToolOption {
   std::optional<int> number;
   std::string_view spec;
 };
 
-/// Splits "102=square d=3" or "102 = square d=3" into 102 and the rest; no number where words stand before
-/// the first '='. Nothing, with an error, where the number or the tool is missing or cannot be.
+/// Splits "102=square d=3" or "102 = square d=3" into 102 and the rest; no number if there is a word before
+/// the first '='. Nothing, with an error, if the number or the tool is missing or invalid.
 std::optional<ToolOption> split_tool_option(std::string_view text, const Origin& where,
                                             Diagnostics& diagnostics) {
   const auto wrong = [&](std::string message) {
@@ -38,10 +38,10 @@ std::optional<ToolOption> split_tool_option(std::string_view text, const Origin&
   if (before.find_first_not_of("0123456789+-.") != std::string_view::npos) return ToolOption{{}, text};
   const auto number = parse_number(before);
   if (!number || *number < 0.0 || *number > kHighestToolNumber || *number != std::floor(*number))
-    return wrong(fmt::format("{} is no tool number: expected a whole number from 0 to {}",
+    return wrong(fmt::format("{} is not a tool number: expected a whole number from 0 to {}",
                              before.substr(0, 40), kHighestToolNumber));
   const std::string_view spec = trim(text.substr(equals + 1));
-  if (spec.empty()) return wrong(fmt::format("what tool {} is does not stand behind \"=\"", before));
+  if (spec.empty()) return wrong(fmt::format("the shape of tool {} is missing after \"=\"", before));
   return ToolOption{static_cast<int>(*number), spec};
 }
 
@@ -71,7 +71,7 @@ void add_tool_file(const std::string& name, ToolChoices& choices, Diagnostics& d
   }
 }
 
-/// As choose(), before the program is read.
+/// The diameters as choose() will find them, before the program is read.
 decltype(ProgramOptions::tool_diameter) diameters_of(const ToolChoices& choices) {
   return [numbered = choices.numbered, any = choices.any_number, table = choices.table](
              int number, const Tool* described) -> std::optional<double> {
@@ -87,8 +87,7 @@ decltype(ProgramOptions::tool_diameter) diameters_of(const ToolChoices& choices)
 
 namespace {
 
-/// The tool numbers of a path in order of first use, and whether something is cut before the first tool
-/// change.
+/// The tool numbers of a path in order of first use, and whether it cuts before the first tool change.
 struct Uses {
   std::vector<int> numbers;
   bool cuts_before = false;
@@ -110,8 +109,8 @@ Uses uses_of(const Toolpath& path) {
   return uses;
 }
 
-/// The tool for what comes before any tool change: the one option, else the one tool that the program
-/// describes.
+/// The tool before the first tool change: the only one of the options, else the only one described by the
+/// program.
 std::optional<std::pair<Tool, ToolSource>> tool_for_start(const Program& program, const JobSettings& settings,
                                                           const Uses& uses) {
   if (settings.tools.any_number) return {{*settings.tools.any_number, ToolSource::option}};
@@ -132,7 +131,7 @@ Toolpath with_tool_before(const Toolpath& path, int number) {
   return out;
 }
 
-/// Gives motions before the first tool change a tool, where it is known which.
+/// Inserts a tool change before the first motion if the tool is known.
 void give_start_tool(Job& job, const JobSettings& settings, const Uses& uses) {
   if (!uses.motions_before) return;
   const auto chosen = tool_for_start(job.program, settings, uses);
@@ -149,7 +148,7 @@ struct Choice {
   ToolSource source = ToolSource::unknown;
 };
 
-/// Where the program first asks for a tool.
+/// The origin of the first tool change to a tool.
 Origin first_use_of(int number, const Toolpath& path) {
   for (std::size_t i = 0; i < path.size(); ++i)
     if (path[i].kind() == StepKind::tool_change && path[i].tool_change().tool == number)
@@ -170,7 +169,7 @@ Choice choose(int number, const Program& program, const ToolChoices& choices, Di
   return {chosen, choices.from_file.count(number) > 0 ? ToolSource::file : ToolSource::built_in};
 }
 
-/// A --tool N=... for a tool that the program does not use is most often a slip in the number.
+/// Warns of --tool N=... with an N that the program does not use: most likely a wrong number.
 void warn_unused_tools(const Job& job, const JobSettings& settings, const Uses& uses,
                        Diagnostics& diagnostics) {
   const bool for_start =
@@ -182,12 +181,12 @@ void warn_unused_tools(const Job& job, const JobSettings& settings, const Uses& 
     diagnostics
         .warning(Code::option_unused, CallSpot{"", 0, fmt::format("--tool {}=...", number)},
                  fmt::format("the program never uses tool {}", number))
-        .hint = used.empty() ? "it has no tool change at all; --tool SPEC, without a number, is for all tools"
+        .hint = used.empty() ? "it has no tool change; --tool SPEC, without a number, is for all tools"
                              : "it uses tool " + list_text(used);
   }
 }
 
-/// An unknown shape: an error where it is needed, else a warning.
+/// Reports an unknown shape: as an error if it is required, else as a warning.
 Diagnostic& report_unknown_tool(UnknownTool unknown, Origin where, std::string message,
                                 Diagnostics& diagnostics) {
   if (unknown == UnknownTool::error) return diagnostics.error(Code::no_tool_shape, std::move(where), message);
@@ -198,8 +197,8 @@ void report_no_tool(const Toolpath& path, UnknownTool unknown, Diagnostics& diag
   const auto& steps = path.steps();
   const auto first = std::find_if(steps.begin(), steps.end(), [](const Step& s) { return s.is_cutting(); });
   report_unknown_tool(unknown, path.origin_of(static_cast<std::size_t>(first - steps.begin())),
-                      "the program cuts before any tool change, and does not describe its tool", diagnostics)
-      .hint = "tell the tool, e.g. --tool \"square d=3.175 flute=12.7\"";
+                      "a cut before the first tool change, with a tool of unknown shape", diagnostics)
+      .hint = "specify the tool, e.g. --tool \"square d=3.175 flute=12.7\"";
 }
 
 }  // namespace
@@ -209,7 +208,7 @@ std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choice
   for (const auto& [number, tool] : program.tools) numbers.insert(number);
   for (const Step& s : program.path.steps())
     if (s.kind() == StepKind::tool_change) numbers.insert(s.tool_change().tool);
-  Diagnostics ignored;  // a comment that differs from the table is reported where shapes count
+  Diagnostics ignored;  // choose_tools reports comments that differ from the table
   std::map<int, Tool> tools;
   for (const int number : numbers)
     if (const Choice choice = choose(number, program, choices, ignored); choice.tool != nullptr)
@@ -228,7 +227,7 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
     if (choice.tool == nullptr && unknown == UnknownTool::unreported) continue;
     if (choice.tool == nullptr) {
       report_unknown_tool(unknown, first_use_of(number, job.program.path),
-                          fmt::format("nobody knows the shape of tool {}", number), diagnostics)
+                          fmt::format("the shape of tool {} is unknown", number), diagnostics)
           .hint = hint_for_unknown(number);
       continue;
     }
@@ -239,12 +238,12 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
   warn_unused_tools(job, settings, uses, diagnostics);
   if (settings.tools.any_number && uses.numbers.size() > 1 + settings.tools.numbered.size())
     diagnostics.note(Code::tool_option_wide, {},
-                     fmt::format("--tool without a number stands for {} tool numbers of the program",
+                     fmt::format("--tool without a number applies to {} tool numbers of the program",
                                  uses.numbers.size()));
 }
 
 std::string hint_for_unknown(int tool) {
-  return fmt::format("tell it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", tool);
+  return fmt::format("specify it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", tool);
 }
 
 std::string_view to_string(ToolSource source) {

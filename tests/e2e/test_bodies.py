@@ -97,12 +97,12 @@ def test_every_move_through_a_clamp_is_reported(kerf, program):
     first, second = "0,0,-5 to 6,10,0", "20,0,-5 to 26,10,0"
     assert found == [(6, first), (7, second), (11, first), (12, first)]
     lines = [line for line in kerf(*job, path).out.splitlines() if "[fixture_contact]" in line]
-    assert len(lines) == 3 and "in 2 moves" in lines[2]  # the two clamps are never one line
+    assert len(lines) == 3 and "in 2 motions" in lines[2]  # the two clamps are never one line
 
 
 def test_fixtures_on_a_fourth_axis_are_refused(kerf, program):
     run = kerf("check", "--rotary", "d=20 length=30", "--fixture", "0,0,0 to 5,5,5", program(WRAP))
-    assert run.status == 2 and "not looked for on a fourth axis" in run.err
+    assert run.status == 2 and "cannot be found on a fourth axis" in run.err
 
 
 def test_a_fourth_axis_reports_its_default_resolution(kerf, program):
@@ -135,7 +135,7 @@ def test_compare(kerf, program, box, files):
     assert kerf("compare", path, target, "-o", "cut.png", "--view", "iso", "--section", "x=10").status == 0
     beside = kerf("compare", path, target, "-o", "beside.png", "--view", "iso", "--section", "x=-1")
     assert beside.status == 1 and "[1017]" in beside.err and "beside.png" not in files()  # section_outside
-    assert "full from 0.25 mm" in kerf("compare", path, target, "-o", "map.png").out
+    assert "saturated from 0.25 mm" in kerf("compare", path, target, "-o", "map.png").out
 
 
 WRAP = ("G21 G90\nM6 T102\nM3 S9000\nG0 X15 Y0 Z20 A0\nG1 Z8 F200\nG1 A360 F2000\n"

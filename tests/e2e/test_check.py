@@ -56,7 +56,7 @@ SMALL_MILL = "travel_x = [0, 8]\nspindle = [100, 8000]\n"
     ("", "", ["-t", "square d=3 flute=12 plunges=false"], "plunge", 8, "ramp"),
     ("F400", "F8000", ["--material", "steel"], "chip_load", 9, "feed"),
     ("M2\n", "", [], "no_program_end", 12, "M2"),
-    ("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5", [], "rapid_in_stock", 11, "lift"),
+    ("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5", [], "rapid_in_stock", 11, "retract"),
     ("G1 Z-1", "G1 Z-8", [], "below_floor", 8, "--stock"),
 ])
 def test_each_hazard_has_its_line_and_a_hint(kerf, program, old, new, options, kind, line, hint):
@@ -158,7 +158,7 @@ def test_a_cut_beyond_an_assumed_flute_is_a_warning(kerf, program):
     assert run.status == 0 and run.json["hazards"] == []
     warning, = [d for d in run.json["diagnostics"] if d["name"] == "flute_assumed"]
     assert warning["severity"] == "warning" and warning["origin"]["line"] == 9
-    assert "0.5 mm deeper" in warning["message"] and "9 mm are assumed (3 diameters)" in warning["message"]
+    assert "0.5 mm deeper" in warning["message"] and "assuming 9 mm (3 diameters)" in warning["message"]
     assert "flute=20" in warning["hint"]
     given = kerf("check", "--json", "-t", "square d=3 flute=9", path)
     assert given.status == 3 and kinds(given) == ["over_flute"]

@@ -32,7 +32,7 @@ def test_info_json(kerf, program):
 def test_info_text(kerf, program):
     run = kerf("info", program())
     assert run.status == 0
-    for word in ("Moves", "Time", "T102", "square 3.175 mm", "100 to 400 mm/min", "10000 rpm"):
+    for word in ("Motions", "Time", "T102", "square 3.175 mm", "100 to 400 mm/min", "10000 rpm"):
         assert word in run.out
 
 

@@ -223,8 +223,8 @@ def test_the_count_of_hazards_is_that_of_the_lines(kerf, program):
     text = text.replace("G1 X20 F400\n", "G1 X20 F400\nG0 Z5\nG0 X20\nG1 Z-1\n")
     run = kerf("simulate", program(text))
     lines = [line for line in run.out.split("\n") if line.endswith("]")]
-    assert len(lines) == 1 and "[spindle_off]" in lines[0] and "in 3 moves" in lines[0]
-    assert "hazards  1 in 3 moves\n" in run.out
+    assert len(lines) == 1 and "[spindle_off]" in lines[0] and "in 3 motions" in lines[0]
+    assert "hazards  1 in 3 motions\n" in run.out
 
 
 def test_a_tool_that_cuts_nothing_has_no_line(kerf, program):
@@ -272,7 +272,7 @@ def test_the_hint_of_an_assumed_stock_gives_the_same_one(kerf, program):
 def test_a_program_that_cuts_nothing_below_zero_is_reported(kerf, program):
     run = kerf("simulate", program(WITHOUT_STOCK.replace("Z-1", "Z0")))
     assert run.status == 0
-    assert "cuts nothing below Z0" in run.err and "[1011]" in run.err  # stock_assumed
+    assert "does not cut below Z0" in run.err and "[1011]" in run.err  # stock_assumed
 
 
 def test_a_huge_stock_gets_a_coarser_resolution(kerf, program):

@@ -112,12 +112,12 @@ def test_wrong_option_values_are_in_the_json_too(kerf, program):
 
 
 @pytest.mark.parametrize("spec, words", [
-    ("-1=301", "-1 is no tool number: expected a whole number from 0"),
-    ("1.5=301", "1.5 is no tool number"),
-    ("9999999999=301", "9999999999 is no tool number"),
+    ("-1=301", "-1 is not a tool number: expected a whole number from 0"),
+    ("1.5=301", "1.5 is not a tool number"),
+    ("9999999999=301", "9999999999 is not a tool number"),
     ("=301", 'no tool number before "="'),
     ("=", 'no tool number before "="'),
-    ("1=", 'what tool 1 is does not stand behind "="'),
+    ("1=", 'the shape of tool 1 is missing after "="'),
     ("", "the tool is missing"),
     ("2=spoon d=3", 'no tool shape is called "spoon"'),
 ])

@@ -269,7 +269,7 @@ def test_wrong_outputs_are_refused(program, tmp_path):
 
 def test_warnings_reach_python(write):
     path = write("dry.nc", PROGRAM.replace("X5 Y5", "X95 Y5"))
-    with pytest.warns(UserWarning, match="cuts nothing of the stock"):
+    with pytest.warns(UserWarning, match="the program removes nothing"):
         kerf.simulate(kerf.load(path), resolution=0.5)
     with warnings.catch_warnings():
         warnings.simplefilter("error")

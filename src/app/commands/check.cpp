@@ -1,4 +1,4 @@
-// kerf check: what would break a tool, a part or the machine's patience, found without writing any file.
+// kerf check: the hazards of a program, without writing files.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -71,16 +71,16 @@ Status run(Console& console, const Options& options) {
 }
 
 const char* const kExamples =
-    R"(  kerf check part.nc && echo "good to cut"
+    R"(  kerf check part.nc && echo "no hazard found"
   kerf check part.nc --json --stock "100x60x12 at lower-left top"
   kerf check part.nc --machine data/machines/grbl_router.toml --material plywood
 
-Looks for rapids through the stock, shank and holder contact, cuts deeper than the flute or below the floor,
-cuts without feed, tool or turning spindle, arcs that controllers refuse, plunges with tools that cannot,
-tool changes below the stock's top, G codes that nobody knows, a missing program end; with --machine also
-moves out of its travel and speeds that its spindle has not; with --material feeds that the teeth cannot
-take.
-Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
+Reports rapids through the stock, contact of neck, shank or holder, cuts deeper than the flute or below the
+floor, cuts without feed, without a tool or with the spindle stopped, arcs that controllers refuse, plunges of
+tools that do not cut at their centre, tool changes below the stock's top, unknown G codes and a missing
+program end; with --machine also motions outside its travel and spindle speeds outside its range; with
+--material also feeds that exceed the chip load.
+Exit status: 0 no hazard, 1 errors in the program, 2 wrong usage, 3 hazards.
 )";
 
 }  // namespace
@@ -88,7 +88,7 @@ Exit status: 0 nothing found, 1 errors in the program, 2 wrong usage, 3 hazards.
 Command add_check(CommandParser& root) {
   auto options = std::make_shared<Options>();
   CommandParser parser =
-      new_command(root, "check", "Look for hazards in a program, without writing files; status 3 if any",
+      new_command(root, "check", "Report the hazards of a program; exit status 3 if there are any",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
   add_body_options(parser, options->job.bodies);
@@ -96,10 +96,10 @@ Command add_check(CommandParser& root) {
   add_machine_option(parser, options->job);
   parser
       .add_text("--material", options->material,
-                "The stock's material, for the chip load: plywood, aluminium ...")
+                "Material of the stock, for the chip load: plywood, aluminium ...")
       .value_name("NAME");
   add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
-             "Distance of the material columns, mm or 0.01in (default: coarse, by the stock's size)");
+             "Distance of the dexel columns, e.g. 0.2 or 0.01in (default: coarse, by the stock's size)");
   add_threads(parser, options->threads);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }

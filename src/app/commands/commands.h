@@ -10,7 +10,7 @@
 namespace kerf::app {
 
 struct Command {
-  CommandParser parser;  // knows whether it is given
+  CommandParser parser;
   OutputOptions* output = nullptr;
   std::function<Status(Console&)> run;
 };

@@ -1,4 +1,4 @@
-// kerf compare: how a cut part differs from the mesh that it was to become.
+// kerf compare: the differences between a cut part and its target mesh.
 #include "kerf/compare.h"
 
 #include <algorithm>
@@ -18,11 +18,11 @@
 namespace kerf::app {
 namespace {
 
-constexpr double kColumns = 1e6;                                  // of the usual resolution
-constexpr double kFinest = 0.0005, kCoarsest = 50.0;              // mm, --resolution
-constexpr double kLeastTolerance = 1e-4, kMostTolerance = 100.0;  // mm
-constexpr double kFullColour = 5.0;                               // times the tolerance
-constexpr std::size_t kMostLines = 12;                            // of regions as text
+constexpr double kColumns = 1e6;                               // at the default resolution
+constexpr double kFinest = 0.0005, kCoarsest = 50.0;           // mm, --resolution
+constexpr double kMinTolerance = 1e-4, kMaxTolerance = 100.0;  // mm
+constexpr double kFullColour = 5.0;                            // times the tolerance
+constexpr std::size_t kMaxLines = 12;                          // of regions as text; JSON has them all
 
 struct Options {
   OutputOptions output;
@@ -32,7 +32,7 @@ struct Options {
   std::vector<std::string> outputs;
   double resolution = 0.0, threads = 0.0;
   double tolerance = 0.05;
-  PictureOptions picture = {.view = ""};  // without a view the map from above is drawn, not the part
+  PictureOptions picture = {.view = ""};  // no view: the map from above instead of the part
 };
 
 struct Result {
@@ -96,20 +96,21 @@ void show_summary(Console& console, const Result& result) {
                               number_text(c.rest_beyond.mm3(), 3), number_text(result.options.tolerance, 4)));
   show_written(console, result.outputs);
   if (!result.outputs.empty())
-    console.summary(fmt::format("colours  red gouged, blue rest, full from {} mm on; green as the target",
-                                number_text(full_colour(result.options).mm(), 4)));
-  for (std::size_t k = 0; k < std::min(c.regions.size(), kMostLines); ++k) {
+    console.summary(
+        fmt::format("colours  red gouged, blue rest, saturated from {} mm; green within tolerance",
+                    number_text(full_colour(result.options).mm(), 4)));
+  for (std::size_t k = 0; k < std::min(c.regions.size(), kMaxLines); ++k) {
     const DifferenceRegion& r = c.regions[k];
     console.print(fmt::format("{} of {} mm at X{} Y{} Z{}, {} mm3\n", to_string(r.kind),
                               number_text(r.depth.mm(), 3), number_text(r.at.x, 3), number_text(r.at.y, 3),
                               number_text(r.at.z, 3), number_text(r.volume.mm3(), 3)));
   }
-  if (c.region_count > kMostLines)
-    console.print(fmt::format("... and {} more places\n", c.region_count - kMostLines));
-  if (c.region_count == 0) console.summary("the part is its target, within the tolerance");
+  if (c.region_count > kMaxLines)
+    console.print(fmt::format("... and {} more regions\n", c.region_count - kMaxLines));
+  if (c.region_count == 0) console.summary("the part matches its target within the tolerance");
 }
 
-/// All pictures are of one view, so that they are drawn once.
+/// All pictures have one view: it is drawn once.
 bool write_pictures(const Result& result, const std::optional<View>& view, OutputSet& set,
                     Diagnostics& diagnostics, Progress& progress) {
   if (result.outputs.empty()) return true;
@@ -121,8 +122,8 @@ bool write_pictures(const Result& result, const std::optional<View>& view, Outpu
   return true;
 }
 
-Length resolution_for(const Stock& stock, double told) {
-  if (told > 0.0) return mm(told);
+Length resolution_for(const Stock& stock, double given) {
+  if (given > 0.0) return mm(given);
   const Point3 size = stock.block.size();
   return mm(std::max(std::sqrt(size.x * size.y / kColumns), 0.02));
 }
@@ -146,7 +147,7 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   const Job job = make_job(std::move(*program), inputs.job, UnknownTool::error, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
-                      "the program cuts nothing and tells no stock, so there is nothing to compare");
+                      "no stock is given and the program cuts nothing: nothing to compare");
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   SimulationOptions how;
   how.resolution = resolution_for(*job.stock, options.resolution);
@@ -173,14 +174,14 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   return Status::done;
 }
 
-/// Only pictures are written; the part itself is kerf simulate's.
+/// Only pictures are written; meshes are written by kerf simulate.
 void refuse_meshes(const std::vector<PartFile>& outputs, Diagnostics& usage) {
   for (const PartFile& file : outputs)
     if (!file.is_picture())
       usage
           .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
-                 fmt::format("\"{}\" is no picture", file.path))
-          .hint = "kerf compare writes .png; the part itself is written by kerf simulate";
+                 fmt::format("\"{}\" is not a picture", file.path))
+          .hint = "kerf compare writes .png; kerf simulate writes the part";
 }
 
 Status run(Console& console, const Options& options) {
@@ -194,7 +195,7 @@ Status run(Console& console, const Options& options) {
   std::string problem;
   std::optional<View> view;
   if (!options.picture.view.empty()) view = read_view(options.picture, problem);
-  if (!problem.empty()) console.complain(problem);
+  if (!problem.empty()) console.error(problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!problem.empty()) return Status::wrong_usage;
   if (!target || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -202,12 +203,12 @@ Status run(Console& console, const Options& options) {
 }
 
 const char* const kExamples =
-    R"(  kerf compare part.nc target.stl                    where material lacks or stands, by how much
-  kerf compare part.nc target.stl -o map.png         the map from above: red gouged, blue left standing
+    R"(  kerf compare part.nc target.stl                    regions with missing or left-over material
+  kerf compare part.nc target.stl -o map.png         the map from above: red gouged, blue left over
   kerf compare part.nc target.stl -o part.png --view iso --section y=20
   kerf compare part.nc target.3mf --tolerance 0.1 --json --target-shift 0,0,-12
 
-The target is a closed mesh in the program's work coordinates. Depths are distances from its surface.
+The target is a closed mesh in the program's work coordinates. Depths are distances to its surface.
 )";
 
 }  // namespace
@@ -218,20 +219,21 @@ Command add_compare(CommandParser& root) {
       new_command(root, "compare", "Compare the cut part with a target mesh: gouges and rests",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp, options->output);
   add_job_options(parser, options->job);
-  parser.add_text("TARGET", options->target, "What the part is to be: a mesh, .stl .3mf .glb .obj")
+  parser.add_text("TARGET", options->target, "The nominal part, a closed mesh: .stl .3mf .glb .obj")
       .required();
   add_body_options(parser, options->job.bodies);
   parser.add_text("--target-shift", options->target_shift, "Move the target by X,Y,Z mm").value_name("X,Y,Z");
-  add_repeated(parser, "-o,--output", options->outputs, "PATH", "Write a picture: .png, the map from above");
-  add_length(parser, "--tolerance", options->tolerance, kLeastTolerance, kMostTolerance,
-             "Differences no deeper than this are none, mm or 0.002in (default: 0.05)");
+  add_repeated(parser, "-o,--output", options->outputs, "PATH", "Write a picture (.png): the map from above");
+  add_length(parser, "--tolerance", options->tolerance, kMinTolerance, kMaxTolerance,
+             "Differences up to this depth are ignored, e.g. 0.1 or 0.002in (default: 0.05)");
   add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
-             "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
+             "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
   Option view = parser.add_text("--view", options->picture.view,
-                                "Draw the part in the map's colours instead, from: top, iso ...");
+                                "Draw the part in the map's colours, seen from: top, iso ...");
   view.value_name("VIEW");
   parser
-      .add_text("--size", options->picture.size, "That picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+      .add_text("--size", options->picture.size,
+                "WIDTHxHEIGHT of that picture in pixels (default: 1600x1000)")
       .value_name("WxH")
       .needs(view);
   add_section(parser, options->picture).needs(view);

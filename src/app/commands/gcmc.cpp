@@ -1,4 +1,4 @@
-// `kerf gcmc`.
+// `kerf gcmc`: runs the compiler as the command gcmc does.
 #include "app/commands/gcmc.h"
 
 #include <cstdio>
@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kLargestProgram = std::size_t{4} << 30;  // bytes
 
-bool stderr_is_for_people() {
+bool stderr_is_terminal() {
 #if defined(__unix__) || defined(__APPLE__)
   return isatty(STDERR_FILENO) != 0;
 #else
@@ -46,7 +46,7 @@ std::string date_now() {
   return text;
 }
 
-/// Text that flows to standard output, or into a file that appears whole at the end or not at all.
+/// Text for standard output, or for a file that is renamed to its name by finish().
 class TextOut {
  public:
   explicit TextOut(const std::string& path) : to_file_(!path.empty()) {
@@ -59,10 +59,10 @@ class TextOut {
                                : std::fwrite(text.data(), 1, text.size(), stdout) == text.size());
   }
   bool good() const { return good_; }
-  /// Puts the file into place; false where something could not be written.
+  /// Renames the file to its name; false if anything could not be written.
   bool finish() { return good_ && (to_file_ ? file_->commit(diagnostics_) : std::fflush(stdout) == 0); }
-  /// What went wrong.
-  std::string complaint() const {
+  /// The error, if finish() or good() is false.
+  std::string error_text() const {
     return to_file_ ? to_string(diagnostics_.list().front()) : "cannot write to standard output";
   }
 
@@ -73,12 +73,14 @@ class TextOut {
   std::optional<OutputFile> file_;
 };
 
-/// Messages to stderr, in the form that other programs read; for people with the line and what helps.
-class Listener final : public GcmcOutput {
+/// The compiler's text to `out`, its messages to stderr in gcmc's form; with `explain` followed by the source
+/// line, notes and hint.
+class CommandOutput final : public GcmcOutput {
  public:
-  Listener(TextOut& out, bool explain) : out_(out), explain_(explain) {}
+  CommandOutput(TextOut& out, bool explain) : out_(out), explain_(explain) {}
 
-  void know(const std::string& name, std::string_view text) { texts_[name] = text; }
+  /// Text of a source that is not a file, for `explain`.
+  void add_source(const std::string& name, std::string_view text) { texts_[name] = text; }
   void message(const Diagnostic& m) override {
     if (silent) return;
     std::fflush(stdout);
@@ -96,11 +98,11 @@ class Listener final : public GcmcOutput {
     const auto* where = std::get_if<TextSpot>(&m.where);
     const std::string line = where == nullptr ? "" : line_of(*where);
     if (!line.empty() && where->column > 0) {
-      // Errors of syntax are reported after the word they mean.
-      const bool behind = m.code == Code::gcmc_syntax || m.code == Code::gcmc_word ||
-                          m.code == Code::gcmc_text_end || m.code == Code::gcmc_defined_twice;
+      // gcmc reports errors of syntax at the column after the word.
+      const bool is_after = m.code == Code::gcmc_syntax || m.code == Code::gcmc_word ||
+                            m.code == Code::gcmc_text_end || m.code == Code::gcmc_defined_twice;
       const std::size_t at =
-          std::min<std::size_t>(where->column - (behind && where->column > 1 ? 2 : 1), line.size());
+          std::min<std::size_t>(where->column - (is_after && where->column > 1 ? 2 : 1), line.size());
       std::string space = line.substr(0, at);
       for (char& c : space) c = c == '\t' ? '\t' : ' ';
       text += fmt::format("    {}\n    {}^\n", line, space);
@@ -112,7 +114,7 @@ class Listener final : public GcmcOutput {
   }
 
   std::string line_of(const TextSpot& where) {
-    constexpr std::size_t kLongest = 200;
+    constexpr std::size_t kMaxLength = 200;
     auto known = texts_.find(where.file);
     if (known == texts_.end()) {
       Diagnostics ignored;
@@ -120,13 +122,13 @@ class Listener final : public GcmcOutput {
       known = texts_.emplace(where.file, file ? std::string(file->bytes()) : std::string()).first;
     }
     const std::string& text = known->second;
-    std::size_t begin = 0;
+    std::size_t start = 0;
     for (std::uint32_t i = 1; i < where.line; ++i) {
-      begin = text.find('\n', begin);
-      if (begin == std::string::npos) return {};
-      ++begin;
+      start = text.find('\n', start);
+      if (start == std::string::npos) return {};
+      ++start;
     }
-    return text.substr(begin, std::min(std::min(text.find('\n', begin), text.size()) - begin, kLongest));
+    return text.substr(start, std::min(std::min(text.find('\n', start), text.size()) - start, kMaxLength));
   }
 
   TextOut& out_;
@@ -153,11 +155,11 @@ bool read_text(const std::string& path, std::string& text) {
   return true;
 }
 
-/// What an editor asks: the diagnostics of a file, as lines or as JSON.
-int check(const GcmcCommandLine& line, std::string_view text, Listener& listener) {
+/// --check: the diagnostics of a file, as lines or as JSON, for editors.
+int check(const GcmcCommandLine& line, std::string_view text, CommandOutput& output) {
   Diagnostics diagnostics(1000);
-  listener.silent = line.json;
-  const bool good = check_gcmc(text, line.run, listener, diagnostics);
+  output.silent = line.json;
+  const bool good = check_gcmc(text, line.run, output, diagnostics);
   if (line.json) {
     Json list = Json::array();
     for (const Diagnostic& d : diagnostics.list()) {
@@ -177,14 +179,14 @@ int check(const GcmcCommandLine& line, std::string_view text, Listener& listener
   return good ? 0 : 1;
 }
 
-int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, Listener& listener,
+int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, CommandOutput& output,
                 Progress* progress) {
   const bool draws = line.run.target != GcmcTarget::gcode;
   line.run.want_path = draws;
   line.run.want_text = !draws;
   line.run.date = date_now();
   Diagnostics diagnostics;
-  const GcmcRun run = run_gcmc(text, line.run, listener, diagnostics, progress);
+  const GcmcRun run = run_gcmc(text, line.run, output, diagnostics, progress);
   const bool complete = run.completed;
   if (complete && draws) {
     line.drawing.layers = run.layers;
@@ -193,7 +195,7 @@ int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, List
   }
   if (!complete && !line.output.empty() && out.good()) return run.status;  // nothing is written
   if (!out.finish()) {
-    complain(out.complaint());
+    complain(out.error_text());
     return 1;
   }
   if (complete && line.warnings_are_errors && run.warnings > 0) {
@@ -209,7 +211,7 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
   GcmcCommandLine line = parse_gcmc_options(arguments);
   if (line.version) {
     fmt::print(
-        "gcmc version 1.0.0-oracle, as Kerf understands it\nKerf is licensed under the Apache License 2.0\n");
+        "gcmc version 1.0.0-oracle, as implemented by Kerf\nKerf is licensed under the Apache License 2.0\n");
     return 0;
   }
   for (const std::string& error : line.errors) complain(error);
@@ -229,18 +231,18 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
   }
   if (!line.input.empty()) line.run.file_name = line.input;
   if (is_same_file(line.input, line.output)) {
-    complain(fmt::format("{} is the program itself and would be overwritten", line.output));
+    complain(fmt::format("the output {} would replace the program", line.output));
     return 1;
   }
   TextOut out(line.check ? std::string() : line.output);
   if (!out.good()) {
-    complain(out.complaint());
+    complain(out.error_text());
     return 1;
   }
-  Listener listener(out, line.explain || stderr_is_for_people());
-  listener.know(line.run.file_name, file->bytes());
-  if (line.check) return check(line, file->bytes(), listener);
-  return run_program(line, file->bytes(), out, listener, progress);
+  CommandOutput output(out, line.explain || stderr_is_terminal());
+  output.add_source(line.run.file_name, file->bytes());
+  if (line.check) return check(line, file->bytes(), output);
+  return run_program(line, file->bytes(), out, output, progress);
 }
 
 }  // namespace kerf::app

@@ -8,8 +8,8 @@
 
 namespace kerf::app {
 
-/// Runs the command; `arguments` stand behind "kerf gcmc". Returns the exit status. `progress` may be null;
-/// its stop_requested() ends an endless program.
+/// Runs the command with the arguments after "kerf gcmc". Returns the exit status. `progress` may be null;
+/// its stop_requested() stops the run.
 int gcmc_command(const std::vector<std::string>& arguments, Progress* progress);
 
 }  // namespace kerf::app

@@ -1,4 +1,4 @@
-// kerf info: what a program does, in numbers: size, time, tools, feeds, stock.
+// kerf info: the size, machining time, tools, feeds and stock of a program.
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -17,9 +17,9 @@ namespace kerf::app {
 namespace {
 
 constexpr const char* kPlainMethod = "programmed feeds and rapid rates, without acceleration";
-constexpr const char* kPlannedMethod = "planned as the machine's controller does";
-constexpr double kNoTime = 0.5;              // seconds that "0:00" stands for
-constexpr std::size_t kMostOperations = 30;  // shown as text; JSON has them all
+constexpr const char* kPlannedMethod = "planned with the accelerations of the machine profile";
+constexpr double kNoTime = 0.5;             // seconds; less is printed as "0:00"
+constexpr std::size_t kMaxOperations = 30;  // printed as text; JSON has them all
 
 struct Options {
   OutputOptions output;
@@ -118,7 +118,7 @@ Json info_json(const Job& job, const JobTimes& times, const Diagnostics& diagnos
 // ---- text
 
 std::string range_text(const Range& range, std::string_view unit) {
-  if (range.empty()) return "none told";
+  if (range.empty()) return "not given";
   if (range.low == range.high) return fmt::format("{} {}", number_text(range.low, 2), unit);
   return fmt::format("{} to {} {}", number_text(range.low, 2), number_text(range.high, 2), unit);
 }
@@ -141,12 +141,12 @@ void print_tools(Console& console, const Job& job, const JobTimes& times) {
   console.print("\nTools\n");
   for (const ToolFigures& t : job.report.tools) {
     const double seconds = times.of_tool(t.tool).total().seconds();
-    if (!t.tool && t.figures.cut_mm == 0.0 && seconds < kNoTime) continue;  // only on the way to the first
+    if (!t.tool && t.figures.cut_mm == 0.0 && seconds < kNoTime) continue;  // rapids only
     const Tool* tool = t.tool ? job.tools.find(*t.tool) : nullptr;
     std::string line = t.tool ? fmt::format("  T{:<6}", *t.tool) : std::string("  none   ");
     line += fmt::format("{:<28}", tool != nullptr ? short_name(*tool)
                                   : t.tool        ? "unknown shape"
-                                                  : "before any change");
+                                                  : "before the first tool change");
     line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1), clock_text(seconds));
     if (t.deepest) line += fmt::format(", deepest Z {}", number_text(*t.deepest, 3));
     if (tool != nullptr) line += ", " + flute_text(*tool);
@@ -158,15 +158,15 @@ void print_tools(Console& console, const Job& job, const JobTimes& times) {
 
 void print_time(Console& console, const JobTimes& times) {
   const TimeFigures& all = times.estimate.all;
-  std::string parts = fmt::format("{} cutting, {} rapid, {} waiting", clock_text(all.cutting().seconds()),
+  std::string parts = fmt::format("{} cutting, {} rapid, {} dwell", clock_text(all.cutting().seconds()),
                                   clock_text(all.rapid.seconds()), clock_text(all.dwell.seconds()));
   if (all.stops > 0 && all.halts.seconds() > 0.0)
     parts += fmt::format(", {} at {} full stops", clock_text(all.halts.seconds()), all.stops);
   console.print(fmt::format("Time      about {}: {}\n", clock_text(all.total().seconds()), parts));
   console.print(times.planned()
-                    ? fmt::format("          on {}, {} ({} moves, {} full stops)\n", times.machine,
+                    ? fmt::format("          on {}, {} ({} motions, {} full stops)\n", times.machine,
                                   kPlannedMethod, times.estimate.moves, all.stops)
-                    : fmt::format("          {}; --machine tells how yours takes it\n", kPlainMethod));
+                    : fmt::format("          {}; --machine plans with accelerations\n", kPlainMethod));
 }
 
 void print_operations(Console& console, const JobTimes& times) {
@@ -175,15 +175,15 @@ void print_operations(Console& console, const JobTimes& times) {
     if (o.tool || !o.name.empty() || o.time.total().seconds() >= kNoTime) shown.push_back(&o);
   if (shown.size() < 2) return;
   console.print("\nOperations\n");
-  for (std::size_t i = 0; i < std::min(shown.size(), kMostOperations); ++i) {
+  for (std::size_t i = 0; i < std::min(shown.size(), kMaxOperations); ++i) {
     const OperationTime& o = *shown[i];
     std::string line = fmt::format("  {:<9}{:>9}", o.tool ? fmt::format("T{}", *o.tool) : "no tool",
                                    clock_text(o.time.total().seconds()));
     if (!o.name.empty()) line += "  " + o.name;
     console.print(line + "\n");
   }
-  if (shown.size() > kMostOperations)
-    console.print(fmt::format("  ... and {} more (--json lists them)\n", shown.size() - kMostOperations));
+  if (shown.size() > kMaxOperations)
+    console.print(fmt::format("  ... and {} more (--json lists them)\n", shown.size() - kMaxOperations));
 }
 
 void print_info(Console& console, const Job& job, const JobTimes& times) {
@@ -191,7 +191,7 @@ void print_info(Console& console, const Job& job, const JobTimes& times) {
   console.print(fmt::format("{}: {}, {}, {} steps\n\n", job.program.source, job.program.front_end,
                             job.program.units == ProgramUnits::inch ? "inches" : "mm",
                             job.program.path.size()));
-  console.print(fmt::format("Moves     {} lines, {} arcs, {} rapids\n", all.lines, all.arcs, all.rapids));
+  console.print(fmt::format("Motions   {} lines, {} arcs, {} rapids\n", all.lines, all.arcs, all.rapids));
   console.print(fmt::format("Length    {} mm cut, {} mm rapid\n", number_text(all.cut_mm, 1),
                             number_text(all.rapid_mm, 1)));
   if (!all.cut_bounds.empty()) console.print(fmt::format("Cuts      {}\n", box_text(all.cut_bounds)));
@@ -234,7 +234,7 @@ Status run(Console& console, const Options& options) {
 const char* const kExamples =
     R"(  kerf info part.nc
   kerf info --json part.nc
-  kerf info part.nc --machine grbl_settings.txt      times as a GRBL with these $$ settings takes
+  kerf info part.nc --machine grbl_settings.txt      times of a GRBL with these $$ settings
   kerf info part.nc --machine data/machines/grbl_router.toml
 )";
 
@@ -242,8 +242,9 @@ const char* const kExamples =
 
 Command add_info(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CommandParser parser = new_command(root, "info", "Tell a program's size, time, tools, feeds and stock",
-                                     kExamples + std::string(kToolHelp) + kStockHelp, options->output);
+  CommandParser parser =
+      new_command(root, "info", "Print the size, time, tools, feeds and stock of a program",
+                  kExamples + std::string(kToolHelp) + kStockHelp, options->output);
   add_job_options(parser, options->job);
   add_machine_option(parser, options->job);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};

@@ -1,5 +1,5 @@
-// kerf outline: cuts the corners of outlines from a JSON file or a Python script, and draws what changed. For
-// drawings see outline_drawing.h.
+// kerf outline: rounds the inside corners of outlines for a router bit and draws the changes. The outlines
+// are from a JSON file or a Python script; for drawings see outline_drawing.h.
 #include <filesystem>
 #include <fmt/format.h>
 #include <memory>
@@ -96,17 +96,17 @@ void show_result(Console& console, const Options& options, const Result& result,
 
 void write_files(const Options& options, const Result& result, Diagnostics& diagnostics) {
   OutputSet set;
-  bool sound = true;
+  bool written = true;
   if (!options.svg.empty()) {
     const std::string title = std::filesystem::path(options.file).filename().string();
-    sound = set.write(options.svg, write_svg(corner_picture(result.pairs, title)), diagnostics);
+    written = set.write(options.svg, write_svg(corner_picture(result.pairs, title)), diagnostics);
   }
-  if (sound && !options.dxf.empty()) {
+  if (written && !options.dxf.empty()) {
     Drawing drawing;
     for (const CutPair& pair : result.pairs) draw(drawing, 0, pair.cut.outline, OutlineEntities::polyline);
-    sound = set.write(options.dxf, write_dxf(drawing), diagnostics);
+    written = set.write(options.dxf, write_dxf(drawing), diagnostics);
   }
-  if (sound) set.commit(diagnostics);
+  if (written) set.commit(diagnostics);
 }
 
 Status run(Console& console, const Options& options, const std::vector<std::string>& drawing_only) {
@@ -124,22 +124,22 @@ Status run(Console& console, const Options& options, const std::vector<std::stri
 
 const char* const kExamples = R"(  kerf outline plate.json --svg plate.svg
   kerf outline design.py --svg design.svg     the outlines that a script cuts with cnc25d_api
-  kerf outline plate.json --json              the cut outlines and what became of each corner
-  kerf outline part.dxf --list-layers         the layers of a drawing and what is on them
+  kerf outline plate.json --json              the cut outlines and the result at each corner
+  kerf outline part.dxf --list-layers         the layers of a drawing and their entities
   kerf outline part.dxf --layer CUT --json    the outlines of a layer; open ends with their coordinates
   kerf outline part.dxf --layer CUT --region --dxf clean.dxf
 
 The picture shows the ideal outlines (dashed), the cut ones over them, and the router bit's circle at each
-changed corner. A corner that cannot be cut stays sharp, with a warning that says why.
+changed corner. A corner that cannot be cut stays sharp, with a warning that gives the reason.
 )";
 
 }  // namespace
 
 Command add_outline(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CommandParser parser =
-      new_command(root, "outline", "Make the corners of outlines millable, and take outlines from drawings",
-                  kExamples, options->output);
+  CommandParser parser = new_command(
+      root, "outline", "Round the inside corners of outlines for a router bit; read outlines from DXF",
+      kExamples, options->output);
   parser
       .add_text("FILE", options->file,
                 "Outlines as JSON, a Python script (.py) that cuts outlines, or a drawing (.dxf)")
@@ -147,9 +147,9 @@ Command add_outline(CommandParser& root) {
       .value_name("");
   parser.add_text("--svg", options->svg, "Write the picture of the corners").value_name("PATH");
   parser.add_text("--dxf", options->dxf, "Write the cut outlines as polylines with arcs").value_name("PATH");
-  parser.add_flag(
-      "--fair", options->fair,
-      "Share an edge that is too short for both of its corners evenly, instead of first come first served");
+  parser.add_flag("--fair", options->fair,
+                  "Divide an edge that is too short for both of its corners evenly (default: the first "
+                  "corner has priority)");
   add_drawing_options(parser, options->drawing);
   return {parser, &options->output, [options, parser](Console& console) {
             return run(console, *options, given_drawing_options(parser));

@@ -21,7 +21,7 @@ namespace {
 
 const char* const kNames[] = {"--layer", "--unit", "--tolerance", "--join", "--region", "--list-layers"};
 
-/// What a run has made; nothing of it where that failed.
+/// The results of a run; members are empty after an error.
 struct Result {
   std::optional<dxf::Drawing> drawing;
   std::optional<DrawingOutlines> drawn;
@@ -248,7 +248,7 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
             options.mm_per_unit = *scale;
             return {};
           },
-          "Of a DXF: its unit, mm or inch, where it specifies none or a wrong one")
+          "Of a DXF: its unit, mm or inch, if it specifies none or a wrong one")
       .value_name("UNIT");
   add_length(parser, "--tolerance", options.within, 1e-6, 10.0,
              "Of a DXF: maximum deviation of arcs from ellipses and splines (default: 0.01)");
@@ -256,7 +256,7 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
              "Of a DXF: maximum gap between entities that are joined (default: 0.01)");
   parser.add_flag("--region", options.region,
                   "Of a DXF: unite the outlines to a region, outlines inside as holes");
-  parser.add_flag("--list-layers", options.list_layers, "Of a DXF: list the layers and what is on them");
+  parser.add_flag("--list-layers", options.list_layers, "Of a DXF: list the layers and their entities");
 }
 
 std::vector<std::string> given_drawing_options(const CommandParser& parser) {

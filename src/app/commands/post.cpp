@@ -1,4 +1,4 @@
-// kerf post: a program written for a controller, or drawn.
+// kerf post: writes a program for a controller, or as a drawing.
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -48,14 +48,14 @@ std::optional<PostTarget> choose_target(const Options& options, Diagnostics& usa
   if (auto target = find_post_target(options.to)) return target;
   Diagnostic& d =
       usage.error(Code::post_unknown, CallSpot{"", 0, "--to"},
-                  options.to.empty() ? "say with --to for which controller"
-                                     : fmt::format("no post is called \"{}\"", options.to.substr(0, 60)));
+                  options.to.empty() ? "no controller is given; specify one with --to"
+                                     : fmt::format("there is no post \"{}\"", options.to.substr(0, 60)));
   const auto meant = did_you_mean(options.to, post_target_names());
-  d.hint = meant ? fmt::format("did you mean \"{}\"?", *meant) : "kerf post --list shows them";
+  d.hint = meant ? fmt::format("did you mean \"{}\"?", *meant) : "kerf post --list prints their names";
   return std::nullopt;
 }
 
-/// Applies the passes and reports what each has saved.
+/// Applies the passes and reports the savings of each.
 Json improved(Toolpath& path, const Options& options, Console& console) {
   Json savings = Json::array();
   const PassChoices passes{mm(options.fit_arcs), mm(options.join), options.shorten};
@@ -97,17 +97,17 @@ Status write(Console& console, const Options& options, const std::vector<PostedF
 
 void check_usage(const Options& options, Diagnostics& usage) {
   if (options.file.empty())
-    usage.error(Code::file_unreadable, CallSpot{"", 0, "FILE"}, "say which program to write");
+    usage.error(Code::file_unreadable, CallSpot{"", 0, "FILE"}, "no program is given");
   if (!options.out.empty() && is_same_file(options.out, options.file))
     usage.error(Code::output_is_input, CallSpot{"", 0, "-o"}, "the output would replace the input");
   if (!options.tool_change.empty() && !tool_change_policy_named(options.tool_change))
     usage.error(Code::post_value_bad, CallSpot{"", 0, "--tool-change"},
-                "say command, pause, files or ignore");
+                "expected command, pause, files or ignore");
   if (!dxf_version_named(options.dxf_version))
-    usage.error(Code::post_value_bad, CallSpot{"", 0, "--dxf-version"}, "say r2000 or r12");
+    usage.error(Code::post_value_bad, CallSpot{"", 0, "--dxf-version"}, "expected r2000 or r12");
 }
 
-/// An error where the output would replace a file that the program includes.
+/// An error if the output would replace a file that the program includes.
 void refuse_input(const Options& options, const Program& program, Diagnostics& usage) {
   if (options.out.empty()) return;
   if (std::any_of(program.files.begin(), program.files.end(),
@@ -150,7 +150,7 @@ Status run(Console& console, const Options& options) {
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   if (options.out.empty() && files.size() > 1) {
     usage.error(Code::file_unwritable, CallSpot{"", 0, "-o"},
-                "each tool gets a file of its own; say with -o which");
+                "one file per tool is written; specify their name with -o");
     return fail(console, usage, Status::wrong_usage);
   }
   return write(console, options, files, std::move(result), diagnostics);
@@ -160,20 +160,20 @@ const char* const kExamples =
     R"(  kerf post --to grbl part.ngc -o part.nc           for GRBL
   kerf post --to linuxcnc --inch part.nc -o part.ngc
   kerf post --to grbl --tool-change files part.nc -o part.nc    part-T1.nc, part-T2.nc ...
-  kerf post --post mymill.toml part.nc -o out.nc    for a machine of one's own
+  kerf post --post mymill.toml part.nc -o out.nc    with your own post file
   kerf post --to grbl --tool 1="square d=6" part.nc -o out.nc    G41 and G42 need the tool
-  kerf post --to dxf part.nc -o part.dxf            the cuts as seen from above
+  kerf post --to dxf part.nc -o part.dxf            the cuts seen from above
   kerf post --list
 
-The controller's rules are checked on what is written; nothing is written where one is broken.
+The result is checked against the rules of the controller; if it violates one, nothing is written.
 )";
 
 void add_pass_options(CommandParser& parser, Options& options) {
   add_number(parser, "--fit-arcs", options.fit_arcs, 1e-4, 1, "MM",
-             "Turn chains of chords into arcs that stray no more than MM");
+             "Replace chains of chords by arcs that deviate by at most MM");
   add_number(parser, "--join", options.join, 1e-6, 1, "MM",
-             "Join straight cuts whose corners stray no more than MM");
-  parser.add_flag("--shorten-rapids", options.shorten, "Leave out rapids that come back to where they began");
+             "Join straight cuts whose corners deviate by at most MM");
+  parser.add_flag("--shorten-rapids", options.shorten, "Remove rapids that return to their start point");
 }
 
 void add_drawing_options(CommandParser& parser, Options& options) {
@@ -188,10 +188,10 @@ Command add_post(CommandParser& root) {
   CommandParser parser = new_command(root, "post", "Write a program for a controller",
                                      kExamples + std::string(kToolHelp), options->output);
   add_program(parser, options->file).optional();
-  parser.add_text("--to", options->to, "The controller: a name of --list").value_name("POST");
-  parser.add_text("--post", options->post_file, "A post file of one's own instead").value_name("FILE");
-  parser.add_flag("--list", options->list, "Show the posts that Kerf knows");
-  parser.add_text("-o,--output", options->out, "Where to write (default: standard output)")
+  parser.add_text("--to", options->to, "The controller: a name from --list").value_name("POST");
+  parser.add_text("--post", options->post_file, "Your own post file instead").value_name("FILE");
+  parser.add_flag("--list", options->list, "List the built-in posts");
+  parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")
       .value_name("PATH");
   const Option inch = parser.add_flag("--inch", options->inch, "Write in inches");
   parser.add_flag("--mm", options->mm, "Write in mm").excludes(inch);
@@ -199,7 +199,7 @@ Command add_post(CommandParser& root) {
       .add_text("--tool-change", options->tool_change,
                 "command, pause, files or ignore (default: the post's)")
       .value_name("HOW");
-  add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "For cutting moves that have no feed");
+  add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "Feed of cuts that have none");
   add_pass_options(parser, *options);
   add_drawing_options(parser, *options);
   add_tool_options(parser, options->tools);

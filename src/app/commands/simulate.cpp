@@ -1,5 +1,5 @@
-// kerf simulate: cuts a program out of its stock, tells what was removed and what went wrong, writes meshes
-// and pictures.
+// kerf simulate: simulates a program on its stock, prints the volumes and the hazards, writes meshes and
+// pictures.
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
@@ -28,9 +28,9 @@ struct Options {
   PictureOptions picture;
   double layer_height = 0.0;
   bool grooves = false;
-  std::vector<Option> picture_options;   // those that only pictures use
-  std::vector<Option> cutting_options;   // those that say nothing of a print
-  std::vector<Option> printing_options;  // those that only prints use
+  std::vector<Option> picture_options;   // without effect where no picture is written
+  std::vector<Option> cutting_options;   // without effect on a print
+  std::vector<Option> printing_options;  // without effect on a milling job
 };
 
 void warn_unused(const std::vector<Option>& options, const std::string& why, const std::string& hint,
@@ -40,7 +40,7 @@ void warn_unused(const std::vector<Option>& options, const std::string& why, con
       diagnostics.warning(Code::option_unused, CallSpot{"", 0, option.name()}, why).hint = hint;
 }
 
-/// A job of the program, with a warning for each option that is of no use to it.
+/// The job of a program, with a warning for each given option that has no effect on it.
 Job make_job_of(const Options& options, const JobSettings& settings, Program program,
                 Diagnostics& diagnostics) {
   if (is_print(program.path)) {
@@ -90,25 +90,24 @@ Status run(Console& console, const Options& options) {
   const auto outputs = read_outputs(options.outputs, input_files(options.job), usage, diagnostics);
   std::string problem;
   const auto view = read_view(options.picture, problem);
-  if (!view) console.complain(problem);
+  if (!view) console.error(problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (!view) return Status::wrong_usage;
   if (std::none_of(outputs.begin(), outputs.end(), [](const PartFile& f) { return f.is_picture(); }))
-    warn_unused(options.picture_options, "no picture is written", "ask for one with -o FILE.png",
-                diagnostics);
+    warn_unused(options.picture_options, "no picture is written", "write one with -o FILE.png", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   return simulate_job(console, options, inputs, outputs, *view, diagnostics);
 }
 
 const char* const kExamples =
-    R"(  kerf simulate part.nc                              what is removed, and what goes wrong
+    R"(  kerf simulate part.nc                              the volumes and the hazards
   kerf simulate part.nc -o part.stl -o part.png      the part as a mesh and as a picture
   kerf simulate part.nc -o top.png --view top --size 1200x800
-  kerf simulate part.nc -o slot.png --view front --section y=20     cut open, to see an undercut
+  kerf simulate part.nc -o slot.png --view front --section y=20     a cross-section
   kerf simulate part.nc --tool "ball d=3.175 flute=12.7" --stock "100x60x12 at lower-left top"
-  kerf simulate side1.nc -o left.kstock              what is left, as the stock of the next job:
+  kerf simulate side1.nc -o left.kstock              the left-over stock, for the next job:
   kerf simulate side2.nc --stock-left left.kstock --flip x
-  kerf simulate print.gcode -o print.png             a print: roads laid, overlap, bridges, collisions
+  kerf simulate print.gcode -o print.png             a print: beads, overlap, bridges, collisions
   cat part.nc | kerf simulate - --json --resolution 0.05
 )";
 
@@ -117,30 +116,32 @@ const char* const kExamples =
 Command add_simulate(CommandParser& root) {
   auto options = std::make_shared<Options>();
   CommandParser parser =
-      new_command(root, "simulate", "Cut a program out of its stock: the part as a mesh or a picture",
+      new_command(root, "simulate", "Simulate a program on its stock; write the part as a mesh or a picture",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
   add_body_options(parser, options->job.bodies);
   add_rotary_option(parser, options->job.bodies);
   add_repeated(parser, "-o,--output", options->outputs, "PATH",
-               "Write the part: .stl .3mf .glb .obj, a picture: .png, the stock of the next job: .kstock");
+               "Write the part as a mesh (.stl .3mf .glb .obj), as a picture (.png), or as the stock of the "
+               "next job (.kstock)");
   add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
-             "Distance of the material columns, mm or 0.002in (default: by the stock's size)");
+             "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
   options->picture_options = {
       parser
           .add_text("--view", options->picture.view,
-                    "Picture from: top, bottom, front, back, left, right, iso, or "
+                    "Picture seen from: top, bottom, front, back, left, right, iso, or "
                     "AZIMUTH,ELEVATION (default: -35,50)")
           .value_name("VIEW"),
       parser
-          .add_text("--size", options->picture.size, "Picture's WIDTHxHEIGHT in pixels (default: 1600x1000)")
+          .add_text("--size", options->picture.size,
+                    "WIDTHxHEIGHT of the picture in pixels (default: 1600x1000)")
           .value_name("WxH"),
       add_section(parser, options->picture)};
   options->printing_options = {
       add_length(parser, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,
-                 "Of a print: the layers' height, mm (default: the program's comments, else its steps in Z)"),
+                 "Of a print: layer height in mm (default: from comments, else the steps in Z)"),
       parser.add_flag("--grooves", options->grooves,
-                      "Of a print: keep the grooves between roads in meshes and pictures, which get large")};
+                      "Of a print: keep the grooves between beads in meshes and pictures; larger files")};
   for (const char* name : {"--tool", "--tools", "--stock", "--stock-mesh", "--stock-left", "--flip",
                            "--shift", "--fixture", "--rotary"})
     options->cutting_options.push_back(parser.option(name));

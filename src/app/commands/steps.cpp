@@ -1,4 +1,4 @@
-// kerf steps: a program's toolpath as JSON lines, for other programs to read.
+// kerf steps: the toolpath of a program as JSON lines, for other programs.
 #include <memory>
 
 #include "app/commands/commands.h"
@@ -13,7 +13,7 @@
 namespace kerf::app {
 namespace {
 
-constexpr std::size_t kStepsBetweenLooks = 4096;  // at the interrupt flag
+constexpr std::size_t kStepsBetweenInterrupts = 4096;  // checks of the interrupt flag
 constexpr std::size_t kBufferBytes = 1 << 16;
 
 struct Options {
@@ -33,7 +33,7 @@ Status run(Console& console, const Options& options) {
       load_program(options.file, program_options(options.reading, tools), diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
-  console.show(diagnostics, Console::Channel::always_text);  // the lines are for another program
+  console.show(diagnostics, Console::Channel::always_text);  // stdout is only for steps
   if (!program || diagnostics.has_errors()) return Status::input_errors;
 
   std::string buffer =
@@ -42,7 +42,7 @@ Status run(Console& console, const Options& options) {
   for (std::size_t i = 0; i < program->path.size(); ++i) {
     if (program->path[i].kind() == StepKind::tool_change) tool = program->path[i].tool_change().tool;
     buffer += text_of(step_json(program->path, i, tool), Layout::line);
-    if (i % kStepsBetweenLooks == 0 && interrupted()) return report_stopped(console);
+    if (i % kStepsBetweenInterrupts == 0 && interrupted()) return report_stopped(console);
     if (buffer.size() < kBufferBytes) continue;
     console.print_json(buffer);
     buffer.clear();
@@ -56,18 +56,18 @@ const char* const kExamples =
   kerf steps part.nc --tool 1="square d=6"      G41 and G42 need the tool
   kerf steps part.nc | grep '"step":"tool"'
 
-Prints a line {"kerf_steps":1,"units":"mm","source":FILE}, then one JSON object a step: positions complete,
-absolute and in mm, feeds in mm/min, and where in the file the step comes from. Nothing is printed for a
-program with errors.
+Prints a line {"kerf_steps":1,"units":"mm","source":FILE}, then one JSON object per step: complete absolute
+positions in mm, feeds in mm/min, and the file, line and column of the step. Nothing is printed for a program
+with errors.
 )";
 
 }  // namespace
 
 Command add_steps(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CommandParser parser = new_command(root, "steps", "Print a program's toolpath as JSON lines",
+  CommandParser parser = new_command(root, "steps", "Print the toolpath of a program as JSON lines",
                                      kExamples + std::string(kToolHelp), options->output);
-  parser.option("--json").description("Changes nothing here: each step is a JSON object in any case");
+  parser.option("--json").description("No effect: each step is a JSON object in any case");
   parser.option("--quiet").description("No progress bar or notes; warnings and errors stay");
   add_program(parser, options->file);
   add_tool_options(parser, options->tools);

@@ -1,4 +1,4 @@
-// kerf tools: the tools that Kerf knows, and what one of them looks like.
+// kerf tools list, kerf tools show: the tool table, and one tool with its profile.
 #include <fmt/format.h>
 #include <memory>
 
@@ -162,22 +162,21 @@ const char* const kShowExamples = R"(  kerf tools show 102
 
 Command add_tools_list(CommandParser& tools) {
   auto options = std::make_shared<Options>();
-  CommandParser parser =
-      new_command(tools, "list", "List the tools that Kerf knows", kListExamples, options->output);
-  add_repeated(parser, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
+  CommandParser parser = new_command(tools, "list", "List the tool table", kListExamples, options->output);
+  add_repeated(parser, "--tools", options->files, "PATH", "A tool file (TOML) to add");
   return {parser, &options->output, [options](Console& console) { return run_list(console, *options); }};
 }
 
 Command add_tools_show(CommandParser& tools) {
   auto options = std::make_shared<Options>();
-  CommandParser parser = new_command(tools, "show", "Show one tool: its measures, its profile, a sketch",
+  CommandParser parser = new_command(tools, "show", "Show one tool: its dimensions, its profile, a sketch",
                                      kShowExamples, options->output);
   parser
       .add_text("TOOL", options->asked,
-                "A number or a vendor's name of the list, or a shape: \"square d=3.175\"")
+                "A number or vendor's name in the table, or a description: \"square d=3.175\"")
       .required()
       .value_name("");
-  add_repeated(parser, "--tools", options->files, "PATH", "A file of tools (TOML) to add");
+  add_repeated(parser, "--tools", options->files, "PATH", "A tool file (TOML) to add");
   return {parser, &options->output, [options](Console& console) { return run_show(console, *options); }};
 }
 

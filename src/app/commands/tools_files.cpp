@@ -1,4 +1,4 @@
-// kerf tools import, kerf tools export: tools from and to the files of other programs.
+// kerf tools import, kerf tools export: reads tools from files of other programs and writes tools for them.
 #include <fmt/format.h>
 #include <memory>
 
@@ -31,7 +31,7 @@ bool ends_with(const std::string& text, std::string_view ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// The tools as text of the target's kind; Kerf's own for standard output.
+/// The tools in the format of the target's ending; a tool file for standard output.
 std::string written(const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
   if (ends_with(options.target, ".tbl")) return write_linuxcnc_table(table, unit_mm(options), diagnostics);
   return write_tool_file(table);
@@ -70,8 +70,8 @@ Status write(Console& console, const ToolTable& table, const Options& options, D
   return show_result(console, table, options, diagnostics);
 }
 
-/// Wrong usage, if there is any, before anything is read.
-bool usable(const Options& options, Diagnostics& usage) {
+/// Checks the options before any file is read; false, with an error, if they are wrong.
+bool check_usage(const Options& options, Diagnostics& usage) {
   if (!options.target.empty() && !ends_with(options.target, ".toml") && !ends_with(options.target, ".tbl"))
     usage.error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
                 "tools are written as .toml (Kerf's tool file) or .tbl (LinuxCNC's tool table)");
@@ -83,7 +83,7 @@ bool usable(const Options& options, Diagnostics& usage) {
 
 Status run_import(Console& console, const Options& options) {
   Diagnostics diagnostics;
-  if (!usable(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
+  if (!check_usage(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
   ToolTable table;
   const ToolLibraryOptions how{unit_mm(options), static_cast<int>(options.first)};
   for (const std::string& name : options.files)
@@ -94,7 +94,7 @@ Status run_import(Console& console, const Options& options) {
 
 Status run_export(Console& console, const Options& options) {
   Diagnostics diagnostics;
-  if (!usable(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
+  if (!check_usage(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
   ToolTable table;
   for (const std::string& name : options.files)
     if (const auto file = InputFile::open(name, diagnostics))
@@ -116,8 +116,8 @@ const char* const kImportExamples = R"(  kerf tools import library.json -o tools
   kerf tools import tool.tbl --unit inch -o tools.toml
   kerf simulate part.nc --tools tools.toml -o part.png
 
-Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb, CAMotics' JSON;
-which it is tells the text. Tools that cannot be made are left out with a warning that says why.
+Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb and CAMotics' JSON.
+The format is detected from the content. Tools of unsupported shapes are skipped with a warning.
 )";
 const char* const kExportExamples = R"(  kerf tools export -o tool.tbl --unit inch
   kerf tools export --tools tools.toml -o tool.tbl
@@ -127,22 +127,22 @@ const char* const kExportExamples = R"(  kerf tools export -o tool.tbl --unit in
 
 Command add_tools_import(CommandParser& tools) {
   auto options = std::make_shared<Options>();
-  CommandParser parser = new_command(tools, "import", "Make a tool file of another program's tool library",
-                                     kImportExamples, options->output);
+  CommandParser parser =
+      new_command(tools, "import", "Convert the tool library of another program to a tool file",
+                  kImportExamples, options->output);
   parser.add_texts("FILE", options->files, "Tool libraries").required().value_name("");
   add_target(parser, *options);
   add_number(parser, "--first", options->first, 0, kHighestNumber, "N",
-             "Number of the first tool that has none of its own (default 1)");
+             "Number for the first tool without one (default 1)");
   return {parser, &options->output, [options](Console& console) { return run_import(console, *options); }};
 }
 
 Command add_tools_export(CommandParser& tools) {
   auto options = std::make_shared<Options>();
   CommandParser parser =
-      new_command(tools, "export", "Write the built-in tools or those of files for other programs",
+      new_command(tools, "export", "Write the built-in tools or tool files in the format of other programs",
                   kExportExamples, options->output);
-  add_repeated(parser, "--tools", options->files, "PATH",
-               "A file of tools (TOML) instead of the built-in ones");
+  add_repeated(parser, "--tools", options->files, "PATH", "A tool file (TOML) instead of the built-in tools");
   add_target(parser, *options);
   return {parser, &options->output, [options](Console& console) { return run_export(console, *options); }};
 }

@@ -1,4 +1,4 @@
-// kerf tools shapes: the shapes that a tool can have, and every key that tells one.
+// kerf tools shapes: the shapes of tools and the keys that describe them.
 #include <fmt/format.h>
 #include <memory>
 
@@ -24,7 +24,7 @@ std::string measures_text(const ToolShape& shape) {
     const std::string key = key_text(p.name, shape);
     texts.push_back(p.need == ShapeParameter::Need::optional ? "[" + key + "]" : key);
   }
-  if (texts.empty()) texts.emplace_back("profile (in files only: a list of points)");
+  if (texts.empty()) texts.emplace_back("profile (only in tool files: a list of points)");
   return joined(texts, " ");
 }
 
@@ -46,16 +46,16 @@ Json shapes_json() {
 }
 
 void print_shapes(Console& console) {
-  console.print("shape            measures; those in brackets may be left out\n");
+  console.print("shape            dimensions; those in square brackets are optional\n");
   for (const std::string& name : shape_names())
     console.print(fmt::format("{:<16} {}\n", name, measures_text(*shape_named(name))));
-  console.print("\nfor every shape\n");
+  console.print("\nkeys of every shape\n");
   const ToolShape any = *shape_named(shape_names().front());
   for (const ToolKey& key : tool_keys())
     console.print(fmt::format("{:<32} {}\n", key_text(key.name, any), key.meaning));
   console.print(
-      "\nLengths are mm, or carry a unit: d=1/4in; angles are degrees. A flute that is left out is "
-      "assumed.\n");
+      "\nLengths are in mm or have a unit (d=1/4in), angles are in degrees. A flute length that is not given "
+      "is assumed.\n");
 }
 
 const char* const kExamples = R"(  kerf tools shapes
@@ -67,8 +67,8 @@ const char* const kExamples = R"(  kerf tools shapes
 
 Command add_tools_shapes(CommandParser& tools) {
   auto output = std::make_shared<OutputOptions>();
-  CommandParser parser = new_command(tools, "shapes", "List the shapes of tools, and the keys that tell one",
-                                     kExamples, *output);
+  CommandParser parser =
+      new_command(tools, "shapes", "List the shapes of tools and their keys", kExamples, *output);
   return {parser, output.get(), [output](Console& console) {
             if (console.json())
               console.print_json(text_of(shapes_json(), Layout::indented));

@@ -14,13 +14,13 @@ CommandParser new_command(CommandParser& parent, const std::string& name, const 
   parser.set_footer("\nExamples:\n" + examples);
   parser.add_flag("--json", output.json, "Print one JSON object (messages included) instead of text");
   parser.add_flag("-q,--quiet", output.quiet,
-                  "No progress bar, notes or summary; warnings, errors and hazards stay");
+                  "Print warnings, errors and hazards only, no progress bar, notes or summary");
   return parser;
 }
 
 namespace {
 
-/// An option whose text `parse` makes a number; the error of another text names `kind` and the range.
+/// An option with a number that `parse` reads; the error of an invalid value names `kind` and the range.
 template <class Parse>
 Option add_parsed(CommandParser& parser, const std::string& name, double& value, double low, double high,
                   const std::string& kind, const std::string& summary, Parse parse) {
@@ -52,7 +52,7 @@ Option add_length(CommandParser& parser, const std::string& name, double& mm, do
 Option add_threads(CommandParser& parser, double& threads) {
   constexpr double kMaxThreads = 1024;
   return add_number(parser, "--threads", threads, 0, kMaxThreads, "N",
-                    "Threads to use (default: all; same result)");
+                    "Number of threads (default: all); the result does not depend on it");
 }
 
 Option add_program(CommandParser& parser, std::string& file) {

@@ -9,8 +9,7 @@
 
 namespace kerf::app {
 
-/// Makes a subcommand with its examples below the options in the help, and the options all have (--json,
-/// --quiet).
+/// Adds a subcommand with --json and --quiet, and with its examples below the options in the help.
 CommandParser new_command(CommandParser& parent, const std::string& name, const std::string& summary,
                           const std::string& examples, OutputOptions& output);
 
@@ -20,7 +19,7 @@ Option add_number(CommandParser& parser, const std::string& name, double& value,
 /// An option whose value is a length from `low` to `high` mm, in mm or with its unit ("0.01in").
 Option add_length(CommandParser& parser, const std::string& name, double& mm, double low, double high,
                   const std::string& summary);
-/// The option --threads; 0 stands for all.
+/// The option --threads; 0: all.
 Option add_threads(CommandParser& parser, double& threads);
 /// The positional FILE of the commands that read a program.
 Option add_program(CommandParser& parser, std::string& file);

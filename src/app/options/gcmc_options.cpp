@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLargestOffset = 1e6;
 constexpr double kBytesPerMegabyte = 1 << 20;
-constexpr double kMostOutput = 1e9;  // MB; beyond any disk, and far from what 64 bits count
+constexpr double kMaxOutput = 1e9;  // MB; their number of bytes fits 64 bits
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
 enum class Id : std::uint8_t {
@@ -78,20 +78,20 @@ constexpr Option kOptions[] = {
     {'\0', "dxf", "", Id::dxf, "Write a DXF drawing"},
     {'\0', "svg", "", Id::svg, "Write an SVG drawing"},
     {'\0', "gcode", "", Id::gcode, "Write G-code (default)"},
-    {'G', "prologue", "file", Id::prologue, "Write this file instead of the usual head"},
-    {'g', "epilogue", "file", Id::epilogue, "Write this file instead of the usual end"},
+    {'G', "prologue", "file", Id::prologue, "Write this file instead of the default prologue"},
+    {'g', "epilogue", "file", Id::epilogue, "Write this file instead of the default epilogue"},
     {'\0', "gcode-function", "fn", Id::function, "Write an O-word subroutine of this name"},
-    {'\0', "gcode-nom2", "", Id::no_m2, "No M2 behind the subroutine"},
+    {'\0', "gcode-nom2", "", Id::no_m2, "No M2 after the subroutine"},
     {'h', "help", "", Id::help, "This message"},
-    {'I', "include", "path", Id::include, "Look for included files here too (may be repeated)"},
-    {'i', "imperial", "", Id::imperial, "Inch instead of mm"},
-    {'o', "output", "file", Id::output, "Write here instead of standard output"},
+    {'I', "include", "path", Id::include, "Folder to search for included files (may be repeated)"},
+    {'i', "imperial", "", Id::imperial, "Inches instead of mm"},
+    {'o', "output", "file", Id::output, "Write this file instead of standard output"},
     {'\0', "pedantic", "", Id::pedantic, "Accepted for compatibility"},
     {'P', "precision", "n", Id::precision, "Decimals, 1 to 15 (default 8)"},
-    {'p', "plane", "p", Id::plane, "Plane at the begin: 0, 1, 2 or XY, XZ, YZ"},
-    {'q', "bare", "", Id::quiet, "Neither head nor end"},
+    {'p', "plane", "p", Id::plane, "Initial plane: 0, 1, 2 or XY, XZ, YZ"},
+    {'q', "bare", "", Id::quiet, "No prologue and no epilogue"},
     {'r', "relative", "", Id::relative, "Relative coordinates (G91)"},
-    {'\0', "svg-no-flip", "", Id::no_flip, "Do not turn Y upwards"},
+    {'\0', "svg-no-flip", "", Id::no_flip, "Do not mirror Y"},
     {'\0', "svg-no-movelayer", "", Id::no_moves, "Do not draw rapids"},
     {'\0', "svg-no-grid", "", Id::no_grid, "No grid"},
     {'\0', "svg-toolwidth", "w", Id::tool_width, "Width of the strokes (default 3.0mm or 0.125in)"},
@@ -99,15 +99,15 @@ constexpr Option kOptions[] = {
     {'U', "uvw", "", Id::uvw, "Write U, V and W words"},
     {'V', "version", "", Id::version, "Print the version"},
     {'W', "error", "", Id::warnings, "Warnings are errors"},
-    {'\0', "brief", "", Id::brief, "Leave out words that repeat what is in force (Kerf)"},
-    {'\0', "check", "", Id::check, "Look for syntax errors only (Kerf)"},
-    {'\0', "json", "", Id::json, "With --check: what was found as JSON (Kerf)"},
-    {'\0', "explain", "", Id::explain, "Show lines, hints and calls with each message (Kerf)"},
-    {'\0', "max-output", "MB", Id::max_output, "End the program behind so much output (Kerf, default 2048)"},
-    {'\0', "hex-handles", "", Id::hex_handles, "DXF entities with the handles that AutoCAD wants (Kerf)"},
+    {'\0', "brief", "", Id::brief, "Omit words that repeat a modal value (Kerf)"},
+    {'\0', "check", "", Id::check, "Report syntax errors only (Kerf)"},
+    {'\0', "json", "", Id::json, "With --check: print the diagnostics as JSON (Kerf)"},
+    {'\0', "explain", "", Id::explain, "Print source line, hint and calls of each message (Kerf)"},
+    {'\0', "max-output", "MB", Id::max_output, "Maximum output in MB (Kerf, default 2048)"},
+    {'\0', "hex-handles", "", Id::hex_handles, "DXF entities with handles, as AutoCAD requires (Kerf)"},
 };
 
-/// A number with an optional unit: what offsets and widths are given as.
+/// A number with an optional unit: an offset or a width.
 struct Quantity {
   double value = 0.0;
   std::string unit;
@@ -294,8 +294,8 @@ class Reader {
 
   void max_output(const std::string& text) {
     const auto megabytes = parse_number(text);
-    if (!megabytes || *megabytes <= 0.0 || *megabytes > kMostOutput)
-      return error(fmt::format("Output limit must be a number of MB above 0 and up to {}", kMostOutput));
+    if (!megabytes || *megabytes <= 0.0 || *megabytes > kMaxOutput)
+      return error(fmt::format("Output limit must be a number of MB above 0 and up to {}", kMaxOutput));
     out_.run.max_output = static_cast<std::uint64_t>(*megabytes * kBytesPerMegabyte);
   }
 
@@ -305,7 +305,7 @@ class Reader {
     out_.drawing.opacity = *n;
   }
 
-  /// What depends on other options, which may stand later.
+  /// Evaluates the options that depend on others, wherever those are on the command line.
   void finish() {
     static constexpr std::string_view kAxes = "xyzabcuvw";
     GcmcOptions& run = out_.run;

@@ -1,4 +1,4 @@
-// The options of `kerf gcmc`, read as getopt_long reads them: clusters, values behind '=', unique beginnings.
+// The options of `kerf gcmc`, parsed as by getopt_long: combined letters, values after '=', unique prefixes.
 #pragma once
 
 #include <string>

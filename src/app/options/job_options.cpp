@@ -13,34 +13,35 @@ namespace kerf::app {
 
 const char* const kToolHelp =
     R"(
-Tools (--tool), the last word over tool files, the program's comments and the built-in table:
-  --tool "square d=3.175 flute=12.7"   for every tool number that has no --tool N=... of its own,
-                                       and for programs without a tool change
+Tools (--tool), with priority over the program's comments, tool files and the built-in table:
+  --tool "square d=3.175 flute=12.7"   for every tool number without a --tool N=... and for programs
+                                       without a tool change
   --tool 2="V d=12.7 angle=90"         for tool 2
   --tool 2=301                         tool 2 is the built-in tool 301 (see: kerf tools list)
-                                       all shapes and keys (neck_length, teeth ...): kerf tools shapes
+                                       shapes and keys (neck_length, teeth ...): see kerf tools shapes
 )";
 
 const char* const kStockHelp =
-    R"(Stock (--stock), lengths in mm or with "in"; else the program's comments, else a block around the cuts:
-  --stock "100x60x12"                  program zero at the lower left of the top
+    R"(Stock (--stock), lengths in mm or with "in"; default: program comments, else a block around the cuts:
+  --stock "100x60x12"                  work zero at the lower left corner of the top
   --stock "100x60x12 at centre bottom" or lower-left, top-right ..., top or bottom
-  --stock "0,0,-12 to 100,60,0"        lowest and highest corner
+  --stock "0,0,-12 to 100,60,0"        lower and upper corner
 )";
 const char* const kBodyHelp =
     R"(Stock from a file, in the program's work coordinates, instead of --stock:
   --stock-mesh casting.stl             a closed mesh: .stl .3mf .glb .obj
-  --stock-left side1.kstock            what an earlier job has left (-o side1.kstock)
-  --flip x                             half a turn about an axis along X through the block's middle
-  --flip "x y=30 z=-6"                 ... through Y30 Z-6; likewise "y x=50"
-  --shift 0,0,3                        then moved by so many mm
+  --stock-left side1.kstock            the left-over stock of an earlier job (-o side1.kstock)
+  --flip x                             turned by 180 degrees about an axis along X through its centre
+  --flip "x y=30 z=-6"                 the same about an axis through Y30 Z-6; likewise "y x=50"
+  --shift 0,0,3                        moved by X,Y,Z mm, after --flip
 Fixtures (--fixture), which no part of a tool may touch:
-  --fixture "0,0,-12 to 20,15,6"       a box, from its lowest to its highest corner
+  --fixture "0,0,-12 to 20,15,6"       a box, from its lower to its upper corner
   --fixture vice.stl                   a closed mesh
 )";
 const char* const kRotaryHelp =
-    R"(A fourth axis (--rotary), the bar from X0 on, turned by A about an axis along X:
-  --rotary "d=40 length=100"           axis at Y0 Z0; "x=-5 y=0 z=12" where it begins and stands elsewhere
+    R"(A fourth axis (--rotary): a round bar that A turns about an axis along X:
+  --rotary "d=40 length=100"           from X0, axis at Y0 Z0
+  --rotary "d=40 length=100 x=-5 z=12" from X-5, axis at Y0 Z12
 )";
 
 namespace {
@@ -54,12 +55,12 @@ std::optional<Fixture> read_fixture(const std::string& text, Diagnostics& usage,
   if (const auto box = read_stock_option(text, {}, ignored)) return Fixture{text, *box};
   usage
       .error(Code::fixture_option, CallSpot{"", 0, "--fixture"},
-             fmt::format("\"{}\" is no fixture", text.substr(0, 60)))
-      .hint = "expected a box from corner to corner, \"0,0,-12 to 20,15,6\", or a mesh, clamp.stl";
+             fmt::format("\"{}\" is not a fixture", text.substr(0, 60)))
+      .hint = "expected a box, such as \"0,0,-12 to 20,15,6\", or a mesh file, such as clamp.stl";
   return std::nullopt;
 }
 
-/// Stock from files, its movement, fixtures and the bar.
+/// Stock from files, --flip and --shift, fixtures and the bar.
 void read_body_options(const BodyOptions& options, JobSettings& settings, Diagnostics& usage,
                        Diagnostics& diagnostics) {
   for (const std::string& path : {options.mesh, options.left})
@@ -77,22 +78,22 @@ void read_body_options(const BodyOptions& options, JobSettings& settings, Diagno
   if (options.rotary && !options.fixtures.empty())
     usage
         .error(Code::fixture_option, CallSpot{"", 0, "--fixture"},
-               "contacts with fixtures are not looked for on a fourth axis (--rotary)")
-        .hint = "leave --fixture out, and look after the chuck and the clamps yourself";
+               "contacts with fixtures cannot be found on a fourth axis (--rotary)")
+        .hint = "remove --fixture and check the clearance to chuck and clamps yourself";
 }
 
 }  // namespace
 
 void add_tool_options(CommandParser& parser, ToolOptions& options) {
   add_repeated(parser, "-t,--tool", options.specs, "SPEC",
-               "A tool's shape, for tool N or for all: [N=]SPEC (see below)");
-  add_repeated(parser, "--tools", options.files, "PATH", "A file of tools (TOML)");
+               "Shape of tool N, or of all tools: [N=]SPEC (see below)");
+  add_repeated(parser, "--tools", options.files, "PATH", "A tool file (TOML)");
 }
 
 void add_job_options(CommandParser& parser, JobOptions& options) {
   add_program(parser, options.file);
   add_tool_options(parser, options.tools);
-  parser.add_text("--stock", options.stock, "The stock: SIZE [at PLACE] or LOW to HIGH (see below)")
+  parser.add_text("--stock", options.stock, "The stock: SIZE [at POSITION] or LOW to HIGH (see below)")
       .value_name("SPEC");
   add_reading_options(parser, options.reading);
 }
@@ -104,13 +105,14 @@ std::vector<std::string> input_files(const JobOptions& options) {
 }
 
 void add_machine_option(CommandParser& parser, JobOptions& options) {
-  parser.add_text("--machine", options.machine, "The machine: a profile (TOML) or what GRBL answers to $$")
+  parser.add_text("--machine", options.machine, "Machine profile (TOML), or GRBL's answer to $$")
       .value_name("PATH");
 }
 
 void add_body_options(CommandParser& parser, BodyOptions& options) {
   Option mesh = parser.add_text("--stock-mesh", options.mesh, "The stock as a closed mesh (see below)");
-  Option left = parser.add_text("--stock-left", options.left, "The stock that an earlier job left (.kstock)");
+  Option left =
+      parser.add_text("--stock-left", options.left, "The left-over stock of an earlier job (.kstock)");
   mesh.value_name("PATH");
   left.value_name("PATH").excludes(mesh);
   if (const auto block = parser.find_option("--stock")) {
@@ -121,7 +123,7 @@ void add_body_options(CommandParser& parser, BodyOptions& options) {
       .value_name("SPEC");
   parser.add_text("--shift", options.shift, "Move the stock by X,Y,Z mm, after a flip").value_name("X,Y,Z");
   add_repeated(parser, "--fixture", options.fixtures, "SPEC",
-               "What the tool may not touch: LOW to HIGH, or a mesh");
+               "A body that the tool must not touch: LOW to HIGH, or a mesh");
 }
 
 void add_rotary_option(CommandParser& parser, BodyOptions& options) {

@@ -42,7 +42,7 @@ void add_tool_options(CommandParser& parser, ToolOptions& options);
 void add_body_options(CommandParser& parser, BodyOptions& options);
 /// --rotary, for the commands that support a fourth axis; after add_body_options.
 void add_rotary_option(CommandParser& parser, BodyOptions& options);
-/// --machine, for the commands that make use of one.
+/// --machine, for the commands that use a machine profile.
 void add_machine_option(CommandParser& parser, JobOptions& options);
 // For the help of the commands that take these options.
 extern const char* const kToolHelp;
@@ -50,7 +50,7 @@ extern const char* const kStockHelp;
 extern const char* const kBodyHelp;
 extern const char* const kRotaryHelp;
 
-/// The options read: what load_program and make_job take.
+/// The options as arguments of load_program and make_job.
 struct JobInputs {
   JobSettings job;
   ProgramOptions program;
@@ -58,7 +58,7 @@ struct JobInputs {
 /// Reads the options. Errors of the command line go to `usage`, errors of files to `diagnostics`.
 JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagnostics& diagnostics);
 ToolChoices read_tool_options(const ToolOptions& options, Diagnostics& usage, Diagnostics& diagnostics);
-/// How to read a program that is made with these tools.
+/// The reading options of a program that uses these tools.
 ProgramOptions program_options(const ReadingOptions& options, const ToolChoices& tools);
 /// The program and the files of stock and fixtures, which no output may replace.
 std::vector<std::string> input_files(const JobOptions& options);

@@ -1,4 +1,4 @@
-// The options of what is written.
+// The options of the outputs.
 #include "app/options/output_options.h"
 
 #include <algorithm>
@@ -13,9 +13,9 @@
 namespace kerf::app {
 namespace {
 
-constexpr int kMaxPixels = 16384;  // a side of a picture
+constexpr int kMaxPixels = 16384;  // of width and height of a picture
 
-/// Reports before a long simulation what would otherwise be reported after it.
+/// Checks before a long simulation whether the file can be written after it.
 void test_folder(const std::string& path, Diagnostics& diagnostics) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) {
@@ -26,11 +26,10 @@ void test_folder(const std::string& path, Diagnostics& diagnostics) {
   if (folder.empty()) folder = ".";
   if (!std::filesystem::is_directory(folder, ignored)) {
     diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
-                      fmt::format("cannot write the file: there is no folder {}", folder.string()));
+                      fmt::format("cannot write the file: the folder {} does not exist", folder.string()));
   } else if (access(folder.c_str(), W_OK) != 0) {
-    diagnostics.error(
-        Code::file_unwritable, TextSpot{path, 0, 0},
-        fmt::format("cannot write the file: the folder {} may not be written to", folder.string()));
+    diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0},
+                      fmt::format("cannot write the file: the folder {} is not writable", folder.string()));
   }
 }
 
@@ -47,13 +46,13 @@ bool read_section(const std::string& text, View& view, std::string& problem) {
   view.section = parse_section(text);
   if (!view.section) {
     problem = fmt::format(
-        "--section: \"{}\" is no plane; expected an axis and a place on it in mm or with \"in\", as x=25, "
-        "y=-3.5 or z=0.25in",
+        "--section: \"{}\" is not a plane; expected x, y or z and a position in mm or with \"in\", such as "
+        "x=25, y=-3.5 or z=0.25in",
         text.substr(0, 40));
     return false;
   }
   if (faces(view, *view.section)) return true;
-  problem = fmt::format("--section: this view sees no more of {} than its edge; choose another --view",
+  problem = fmt::format("--section: the view is parallel to the plane {}; choose another --view",
                         to_string(*view.section));
   return false;
 }
@@ -75,10 +74,10 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
     if (!file) {
       usage
           .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
-                 fmt::format("\"{}\" ends in no format that can be written", name))
+                 fmt::format("\"{}\" has an ending of no supported format", name))
           .hint =
-          "known endings: .stl .3mf .glb .obj for the part's surface, .png for a picture, .kstock for the "
-          "next job";
+          "supported: .stl .3mf .glb .obj (mesh of the part), .png (picture), .kstock (stock of the next "
+          "job)";
       continue;
     }
     const auto is_name = [&name](const std::string& input) {
@@ -88,7 +87,7 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
     if (std::any_of(inputs.begin(), inputs.end(), is_name) ||
         std::any_of(files.begin(), files.end(), again)) {
       usage.error(Code::output_is_input, CallSpot{"", 0, "-o"},
-                  fmt::format("\"{}\" is an input, or stands twice among the outputs", name));
+                  fmt::format("\"{}\" is an input, or is given twice as an output", name));
       continue;
     }
     test_folder(name, diagnostics);
@@ -103,7 +102,7 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
     out = *named;
   } else if (const auto angles = split_pair(options.view, ',')) {
     if (std::abs(angles->first) > 360.0 || std::abs(angles->second) > 90.0) {
-      problem = "--view: the azimuth goes from -360 to 360 degrees and the elevation from -90 to 90";
+      problem = "--view: the azimuth must be from -360 to 360 degrees, the elevation from -90 to 90";
       return std::nullopt;
     }
     out.azimuth = degrees(angles->first);
@@ -122,7 +121,7 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
     return v >= 16 && v <= kMaxPixels && v == static_cast<double>(static_cast<int>(v));
   };
   if (!pixels || !good(pixels->first) || !good(pixels->second)) {
-    problem = fmt::format("--size: \"{}\" is no WIDTHxHEIGHT in pixels, each from 16 to {}",
+    problem = fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels, each from 16 to {}",
                           options.size.substr(0, 40), kMaxPixels);
     return std::nullopt;
   }
@@ -135,7 +134,7 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
 Option add_section(CommandParser& parser, PictureOptions& options) {
   return parser
       .add_text("--section", options.section,
-                "Picture of the part cut open at x=25, y=-3.5 or z=1in: without the viewer's side of that")
+                "Section plane of the picture, such as x=25, y=-3.5 or z=1in; the viewer's side is removed")
       .value_name("PLANE");
 }
 

@@ -1,4 +1,4 @@
-// The options of what is written: -o, --view, --size and --section.
+// The options of the outputs: -o, --view, --size and --section.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@
 namespace kerf::app {
 
 /// Reads the names of -o. Errors (an unknown ending, a name twice, the name of an input) go to `usage`; a
-/// folder that is missing or not writable goes to `diagnostics`, before any work is done.
+/// folder that is missing or not writable goes to `diagnostics`.
 std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
                                    const std::vector<std::string>& inputs, Diagnostics& usage,
                                    Diagnostics& diagnostics);
@@ -23,10 +23,10 @@ bool is_same_file(const std::string& a, const std::string& b);
 struct PictureOptions {
   std::string view = "-35,50";     // "top", "iso" ... or "AZIMUTH,ELEVATION" in degrees
   std::string size = "1600x1000";  // pixels
-  std::string section = "";        // "x=25"; empty: the part is not cut open
+  std::string section = "";        // "x=25"; empty: no section
 };
 Option add_section(CommandParser& parser, PictureOptions& options);
-/// Nothing, with the text of what is wrong in `problem`, where they are not understood.
+/// Nothing, with the error message in `problem`, if they are invalid.
 std::optional<View> read_view(const PictureOptions& options, std::string& problem);
 
 }  // namespace kerf::app

@@ -1,4 +1,4 @@
-// The command line by CLI11, and what is said of words that it does not understand.
+// The command line by CLI11, and the messages for arguments that it rejects.
 #include "app/options/parser.h"
 
 #include <CLI/CLI.hpp>
@@ -29,7 +29,7 @@ std::string with_guess(std::string message, const std::string& word, const std::
   return message;
 }
 
-/// A word that was left over: an option that does not exist, a command that does not, or a file too many.
+/// An argument that was not consumed: an unknown option, an unknown command, or one argument too many.
 std::string about_extra(const CLI::App& app, const std::string& word) {
   const std::string shown = word.substr(0, 80);
   if (word.size() > 1 && word[0] == '-') {
@@ -38,10 +38,10 @@ std::string about_extra(const CLI::App& app, const std::string& word) {
   }
   const std::vector<std::string> commands = command_names(app);
   if (!commands.empty()) return with_guess(fmt::format("unknown command \"{}\"", shown), word, commands);
-  return fmt::format("\"{}\" is one argument too many", shown);
+  return fmt::format("unexpected argument \"{}\"", shown);
 }
 
-/// The subcommand that the words on the command line reached before something was wrong.
+/// The last subcommand that was parsed before the error.
 const CLI::App& reached(const CLI::App& root) {
   const std::vector<CLI::App*> parsed = root.get_subcommands();
   return parsed.empty() ? root : reached(*parsed.front());
@@ -53,7 +53,7 @@ std::string usage_message(const CLI::App& root, const CLI::ParseError& error) {
   if (!left.empty()) return about_extra(app, left.front());
   const std::vector<std::string> commands = command_names(app);
   if (!commands.empty() && dynamic_cast<const CLI::RequiredError*>(&error) != nullptr)
-    return "a command is needed: " + joined(commands, ", ");
+    return "a command is required: " + joined(commands, ", ");
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return error.what();
   const std::string what = error.what();  // "--output: 1 required PATH missing", and the like
   return what.substr(0, what.find(':')) + " needs one value";
@@ -66,8 +66,8 @@ std::string full_name(const CLI::App& root, const CLI::App& app) {
   return parent.empty() ? app.get_name() : parent + " " + app.get_name();
 }
 
-/// What `kerf help simulate` stands for: `kerf simulate --help`. A word that is no command ends it without
-/// --help, so that the parser says what is wrong; words behind a whole command are skipped.
+/// The arguments of `kerf help simulate`: `simulate --help`. Stops at a word that is not a command, without
+/// --help, so that the parser reports it; words after a complete command are ignored.
 std::vector<std::string> help_words(const CLI::App& root, const std::vector<std::string>& asked) {
   std::vector<std::string> words;
   const CLI::App* app = &root;

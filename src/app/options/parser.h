@@ -18,7 +18,7 @@ namespace kerf::app {
 /// An option or a positional argument: a handle, valid as long as its CommandLine.
 class Option {
  public:
-  /// What the help calls the value; empty: nothing.
+  /// Name of the value in the help; empty: none.
   Option& value_name(const std::string& name);
   Option& description(const std::string& text);
   Option& required();
@@ -26,7 +26,7 @@ class Option {
   Option& excludes(const Option& other);
   Option& needs(const Option& other);
   Option& one_of(const std::vector<std::string>& values);
-  /// `problem_of` says what is wrong with a value; empty: nothing.
+  /// `problem_of` returns the error of a value; empty: valid.
   Option& check(std::function<std::string(const std::string&)> problem_of);
 
   /// Whether the command line has it; after CommandLine::parse.
@@ -56,14 +56,14 @@ class CommandParser {
   /// May be given several times, one value each time.
   Option add_repeated(const std::string& name, std::vector<std::string>& values, const std::string& summary);
   Option add_flag(const std::string& name, bool& value, const std::string& summary);
-  /// `read` takes the value's text and returns what is wrong with it; empty: nothing.
+  /// `read` parses the value and returns its error; empty: valid.
   Option add_parsed(const std::string& name, std::function<std::string(const std::string&)> read,
                     const std::string& summary);
 
-  /// The option of a name that must have been added.
+  /// The option of this name, which must have been added.
   Option option(const std::string& name) const;
   std::optional<Option> find_option(const std::string& name) const;
-  /// Whether the command line asks for this command; after CommandLine::parse.
+  /// Whether the command line has this command; after CommandLine::parse.
   bool is_given() const;
 
  protected:
@@ -81,15 +81,15 @@ class CommandLine : public CommandParser {
 
   enum class Outcome {
     parsed,
-    answered,  // the help or the version was asked for and has been printed
+    answered,  // help or version has been printed
     wrong
   };
   struct Result {
     Outcome outcome = Outcome::parsed;
     std::string problem;  // "unknown option --resolutoin; did you mean --resolution?"
-    std::string command;  // the one that the words reached: "tools list"; empty: none
+    std::string command;  // the last valid one of the command line: "tools list"; empty: none
   };
-  /// Reads the words behind the program's name. `help simulate` is `simulate --help`, and no word at all is
+  /// Parses the arguments after the program's name. `help simulate` is `simulate --help`; no argument is
   /// --help.
   Result parse(const std::vector<std::string>& words);
 

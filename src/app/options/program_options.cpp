@@ -1,4 +1,4 @@
-// The options of reading a program.
+// The reading options of a program.
 #include "app/options/program_options.h"
 
 #include <fmt/format.h>
@@ -19,24 +19,24 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   const auto known = [](const std::string& name) {
     if (dialect_named(name)) return std::string();
     const auto meant = did_you_mean(name, dialect_names());
-    return fmt::format("\"{}\" is no controller that is known; {}expected {}", name,
+    return fmt::format("unknown controller \"{}\"; {}expected {}", name,
                        meant ? fmt::format("did you mean {}? ", *meant) : "", joined(dialect_names(), ", "));
   };
   parser
       .add_text("--dialect", options.dialect,
-                "The controller a G-code program is for (default: told by its text): " +
+                "The controller of a G-code program (default: detected from its text): " +
                     joined(dialect_names(), ", "))
       .value_name("NAME")
       .check(known);
   parser.add_flag("--read-on", options.read_on,
-                  "Read a G-code file to its end, the programs behind M2 and M30 too, as senders do");
+                  "Read a G-code file to its end, including text after M2 and M30, as senders do");
   add_length(parser, "--filament", options.filament, kThinnestFilament, kThickestFilament,
-             "Diameter of a printer's filament, mm (default: told by the program, else 1.75)");
-  parser.add_flag("--strict", options.strict, "Take what is unusual in a G-code program as an error");
+             "Diameter of a printer's filament, mm (default: from comments, else 1.75)");
+  parser.add_flag("--strict", options.strict, "Report suspicious G-code as errors instead of warnings");
   add_repeated(parser, "-D,--define", options.defines, "STMT",
-               "A statement that a gcmc program runs first, such as depth=5mm");
+               "A statement to run before a gcmc program, such as depth=5mm");
   add_repeated(parser, "-I,--include", options.include_paths, "PATH",
-               "A folder to search for the files that a gcmc program includes");
+               "A folder to search for files included by a gcmc program");
 }
 
 ProgramOptions read_reading_options(const ReadingOptions& options) {

@@ -1,4 +1,4 @@
-// The options of reading a program, which every command that reads one takes.
+// The reading options of the commands that have a program.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Printing: plain stdio, so that nothing is buffered twice and a failed write is seen.
+// Printing with stdio, so that nothing is buffered twice and failed writes are detected.
 #include "app/report/console.h"
 
 #include <cstdio>
@@ -33,69 +33,69 @@ bool dumb_terminal() {
   return term == nullptr || std::string_view(term) == "dumb";
 }
 
-/// Control bytes of a hostile file must not reach the terminal; line ends and letters of any script may.
+/// Replaces control characters except line end and tab; bytes of UTF-8 stay.
 std::string printable(std::string text) {
   for (char& c : text)
     if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7f) c = '?';
   return text;
 }
 
-/// Diagnostics that say the same of different lines.
-struct Kind {
+/// Diagnostics with the same code and message at different lines.
+struct Group {
   std::vector<const Diagnostic*> same;
-  std::size_t not_kept = 0;  // those that were only counted
-  std::size_t others = 0;    // other texts of the same code, beyond those that are shown
+  std::size_t not_kept = 0;  // counted by Diagnostics, but not kept
+  std::size_t others = 0;    // with the same code and other messages, beyond kMaxTextsOfCode
 };
 
-/// The line of a text; 0 for places of other kinds.
+/// The line of a location in a text; 0 for other origins.
 std::uint32_t line_of(const Diagnostic& diagnostic) {
-  const auto* spot = std::get_if<TextSpot>(&diagnostic.where);
-  return spot == nullptr ? 0 : spot->line;
+  const auto* where = std::get_if<TextSpot>(&diagnostic.where);
+  return where == nullptr ? 0 : where->line;
 }
 
-/// Of one code, so many texts are shown; junk makes a different one of each line.
-constexpr std::size_t kMostTextsOfCode = 10;
+/// Maximum number of different messages of one code; invalid input gives a different one at each line.
+constexpr std::size_t kMaxTextsOfCode = 10;
 
-/// In the order of each kind's first one. What has no line, or notes of its own, stands alone.
-std::vector<Kind> kinds_of(const Diagnostics& diagnostics) {
-  std::vector<Kind> kinds;
-  std::map<std::pair<Code, std::string_view>, std::size_t> place;
+/// In the order of the first diagnostic of each group. One without a line, or with notes, is its own group.
+std::vector<Group> groups_of(const Diagnostics& diagnostics) {
+  std::vector<Group> groups;
+  std::map<std::pair<Code, std::string_view>, std::size_t> index;
   std::map<Code, std::size_t> last_of_code;
   std::map<Code, std::size_t> texts;
   for (const Diagnostic& d : diagnostics.list()) {
-    if (texts[d.code] == kMostTextsOfCode && line_of(d) != 0 && place.count({d.code, d.message}) == 0) {
-      ++kinds[last_of_code[d.code]].others;
+    if (texts[d.code] == kMaxTextsOfCode && line_of(d) != 0 && index.count({d.code, d.message}) == 0) {
+      ++groups[last_of_code[d.code]].others;
       continue;
     }
-    const auto [it, is_new] = place.try_emplace({d.code, d.message}, kinds.size());
+    const auto [it, is_new] = index.try_emplace({d.code, d.message}, groups.size());
     if (is_new || !d.notes.empty() || line_of(d) == 0) {
-      last_of_code[d.code] = kinds.size();
+      last_of_code[d.code] = groups.size();
       if (line_of(d) != 0) ++texts[d.code];
-      kinds.push_back({{&d}});
+      groups.push_back({{&d}});
     } else {
-      kinds[it->second].same.push_back(&d);
+      groups[it->second].same.push_back(&d);
     }
   }
   for (const Code code : diagnostics.dropped_codes())
     if (const auto it = last_of_code.find(code); it != last_of_code.end())
-      kinds[it->second].not_kept = diagnostics.dropped(code);
-  return kinds;
+      groups[it->second].not_kept = diagnostics.dropped(code);
+  return groups;
 }
 
-/// "\n  and 48 more in line 13, 15, 17 ..." for those of a kind beyond its first one.
-std::string more_of(const Kind& kind) {
+/// "\n  and 48 more in line 13, 15, 17 ..." for the diagnostics of a group after the first one.
+std::string more_of(const Group& group) {
   constexpr std::size_t kLinesNamed = 5;
-  if (kind.others > 0)
+  if (group.others > 0)
     return fmt::format("\n  and {} more [{}] (--json lists {})",
-                       kind.same.size() - 1 + kind.others + kind.not_kept,
-                       static_cast<int>(kind.same.front()->code), kind.not_kept > 0 ? "some" : "them");
-  const std::size_t more = kind.same.size() - 1 + kind.not_kept;
+                       group.same.size() - 1 + group.others + group.not_kept,
+                       static_cast<int>(group.same.front()->code), group.not_kept > 0 ? "some" : "them");
+  const std::size_t more = group.same.size() - 1 + group.not_kept;
   if (more == 0) return {};
   std::string lines;
   std::size_t named = 0;
-  std::uint32_t last = line_of(*kind.same.front());
-  for (std::size_t i = 1; i < kind.same.size() && named < kLinesNamed; ++i) {
-    const std::uint32_t line = line_of(*kind.same[i]);
+  std::uint32_t last = line_of(*group.same.front());
+  for (std::size_t i = 1; i < group.same.size() && named < kLinesNamed; ++i) {
+    const std::uint32_t line = line_of(*group.same[i]);
     if (line == last) continue;
     last = line;
     lines += fmt::format("{}{}", named++ == 0 ? " in line " : ", ", line);
@@ -122,13 +122,13 @@ void Console::summary(std::string_view line) {
 void Console::show(const Diagnostics& diagnostics, Channel channel) {
   if (options_.json && channel == Channel::text_or_object) return;
   std::fflush(stdout);
-  for (const Kind& kind : kinds_of(diagnostics)) {
-    const Diagnostic& first = *kind.same.front();
+  for (const Group& group : groups_of(diagnostics)) {
+    const Diagnostic& first = *group.same.front();
     if (options_.quiet && first.severity == Severity::note) continue;
-    std::string text = printable(to_string(first) + more_of(kind));
+    std::string text = printable(to_string(first) + more_of(group));
     if (colour_) {
-      const std::string place = to_string(first.where);
-      const std::size_t at = place.empty() ? 0 : place.size() + 2;
+      const std::string where = to_string(first.where);
+      const std::size_t at = where.empty() ? 0 : where.size() + 2;
       text.insert(at + to_string(first.severity).size(), kPlain);
       text.insert(at, colour_of(first.severity));
     }
@@ -136,7 +136,7 @@ void Console::show(const Diagnostics& diagnostics, Channel channel) {
   }
 }
 
-void Console::complain(std::string_view message) {
+void Console::error(std::string_view message) {
   std::fflush(stdout);
   const std::string text = printable(std::string(message));
   if (colour_) {

@@ -1,5 +1,4 @@
-// Where the command says things: results to stdout, messages to stderr (or, with --json, inside the one
-// object).
+// The output of the command: results to stdout, messages to stderr (with --json: inside the JSON object).
 #pragma once
 
 #include <string>
@@ -16,7 +15,7 @@ struct OutputOptions {
 
 /// True if stderr is a terminal that understands colours and the user has not set NO_COLOR.
 bool stderr_has_colour();
-/// True if stderr is a terminal on which a line can be drawn again.
+/// True if stderr is a terminal on which a line can be overwritten.
 bool stderr_is_terminal();
 
 class Console {
@@ -26,20 +25,20 @@ class Console {
   bool json() const { return options_.json; }
   bool quiet() const { return options_.quiet; }
 
-  /// Text to stdout; control bytes that a hostile file may hold come out as "?".
+  /// Text to stdout; control characters are printed as "?".
   void print(std::string_view text);
-  /// JSON to stdout, as it is (JSON escapes control bytes by itself).
+  /// Text to stdout unchanged; JSON escapes control characters itself.
   void print_json(std::string_view text);
   /// A line of the summary to stdout; nothing with --quiet.
   void summary(std::string_view line);
-  /// Where diagnostics go: with --json they stand in the object, unless there is none.
+  /// Where diagnostics go: with --json into the object, or as text in any case.
   enum class Channel { text_or_object, always_text };
-  /// Diagnostics to stderr as text, in colour on a terminal, notes left out with --quiet. What is said of
-  /// many lines stands there once, with the first of them.
+  /// Diagnostics to stderr as text, in colour on a terminal, without notes if --quiet. The same message for
+  /// several lines is printed once, at the first of them.
   void show(const Diagnostics& diagnostics, Channel channel = Channel::text_or_object);
-  /// A message of the command itself to stderr.
-  void complain(std::string_view message);
-  /// Pushes out what was printed; false if stdout could not take it (a full disk, a closed pipe).
+  /// An error of the command itself to stderr.
+  void error(std::string_view message);
+  /// Flushes stdout; false if writing to it has failed (full disk, closed pipe).
   bool finish();
 
  private:

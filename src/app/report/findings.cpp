@@ -15,10 +15,10 @@ std::string line_of(const Finding& f) {
   std::string line = to_string(f.origin);
   if (!line.empty()) line += ": ";
   line += f.message;
-  if (f.steps > 1) line += fmt::format(", in {} moves from here", f.steps);
+  if (f.steps > 1) line += fmt::format(", in {} motions from here", f.steps);
   line +=
       fmt::format(" (at X{} Y{} Z{}", number_text(f.at.x, 3), number_text(f.at.y, 3), number_text(f.at.z, 3));
-  if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 met", number_text(f.removed_mm3, 3));
+  if (f.removed_mm3 > 0.0) line += fmt::format(", {} mm3 removed", number_text(f.removed_mm3, 3));
   line += fmt::format(") [{}]\n", f.kind);
   if (!f.hint.empty()) line += "    hint: " + f.hint + "\n";
   for (const Origin& caller : f.callers) line += fmt::format("  called from {}\n", to_string(caller));
@@ -50,10 +50,10 @@ Json json_of(const std::vector<Finding>& findings) {
 std::string count_text(const std::vector<Finding>& findings) {
   const std::vector<Finding> lines = grouped(findings);
   if (lines.empty()) return "none";
-  std::size_t moves = 0;
-  for (const Finding& line : lines) moves += line.steps;
-  if (moves == lines.size()) return std::to_string(moves);
-  return fmt::format("{} in {} moves", lines.size(), moves);
+  std::size_t motions = 0;
+  for (const Finding& line : lines) motions += line.steps;
+  if (motions == lines.size()) return std::to_string(motions);
+  return fmt::format("{} in {} motions", lines.size(), motions);
 }
 
 void show(Console& console, const std::vector<Finding>& findings) {

@@ -14,9 +14,9 @@ namespace kerf::app {
 Json json_of(const Finding& finding);
 Json json_of(const std::vector<Finding>& findings);
 
-/// How many there are, as text: "none", "3", "2 in 57 moves". Counts the lines that show() prints.
+/// Their number as text: "none", "3", "2 in 57 motions". Counts the lines that show() prints.
 std::string count_text(const std::vector<Finding>& findings);
-/// One line a hazard, adjacent moves with the same hazard as one, to stdout.
+/// One line per hazard to stdout; adjacent motions with the same hazard are one line.
 void show(Console& console, const std::vector<Finding>& findings);
 
 }  // namespace kerf::app

@@ -8,18 +8,12 @@ namespace kerf::app {
 namespace {
 
 Json origin_json(std::monostate) { return nullptr; }
-Json origin_json(const TextSpot& spot) {
-  return {{"file", spot.file}, {"line", spot.line}, {"column", spot.column}};
+Json origin_json(const TextSpot& at) { return {{"file", at.file}, {"line", at.line}, {"column", at.column}}; }
+Json origin_json(const DxfSpot& at) {
+  return {
+      {"file", at.file}, {"layer", at.layer}, {"handle", at.handle}, {"at", {json_of(at.x), json_of(at.y)}}};
 }
-Json origin_json(const DxfSpot& spot) {
-  return {{"file", spot.file},
-          {"layer", spot.layer},
-          {"handle", spot.handle},
-          {"at", {json_of(spot.x), json_of(spot.y)}}};
-}
-Json origin_json(const CallSpot& spot) {
-  return {{"file", spot.file}, {"line", spot.line}, {"call", spot.call}};
-}
+Json origin_json(const CallSpot& at) { return {{"file", at.file}, {"line", at.line}, {"call", at.call}}; }
 
 std::string_view word(Plane plane) { return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ"; }
 std::string_view word(Turn turn) { return turn == Turn::cw ? "cw" : "ccw"; }
@@ -88,7 +82,7 @@ void add_bead(Json& out, const step::Extrude& bead) {
   out["height"] = json_of(bead.height.mm());
 }
 
-/// What a step that is no motion says.
+/// The values of a step that is not a motion.
 void add_setting(Json& out, const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   switch (s.kind()) {
@@ -151,7 +145,7 @@ Json json_of(const Range& range) {
 }
 
 Json json_of(const Origin& origin) {
-  return std::visit([](const auto& spot) { return origin_json(spot); }, origin);
+  return std::visit([](const auto& at) { return origin_json(at); }, origin);
 }
 
 Json json_of(const Diagnostic& diagnostic) {

@@ -1,5 +1,5 @@
-// A JSON value that is built and printed; nothing is read. Its header is cheap to compile: the library that
-// knows how numbers and strings are written is included in json_value.cpp alone.
+// A JSON value to be written. The JSON library is included in json_value.cpp alone, because it is slow to
+// compile.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +41,7 @@ class Json {
   /// Sets all members of another object.
   void update(const Json& other);
 
-  /// On one line, or indented by two blanks. Bytes that are no UTF-8 become the replacement character.
+  /// On one line, or indented by two blanks. Bytes that are not UTF-8 become the replacement character.
   enum class Layout { line, indented };
   std::string text(Layout layout) const;
 
@@ -56,7 +56,7 @@ class Json {
   std::int64_t whole_ = 0;
   double number_ = 0.0;
   std::string text_;
-  std::vector<std::string> keys_;  // of an object, one an item, in the order in which they were set
+  std::vector<std::string> keys_;  // of an object, one per item, in the order in which they were set
   std::vector<Json> items_;
 };
 

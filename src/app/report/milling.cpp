@@ -1,4 +1,4 @@
-// A job of milling, simulated: what was removed by which tool, and hazards.
+// The result of a milling job: volumes by tool, and hazards.
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -12,7 +12,7 @@
 namespace kerf::app {
 namespace {
 
-/// mm3 removed and seconds, by the tool in force; key nothing: before any tool change.
+/// Removed mm3 by the tool in force; key nothing: before the first tool change.
 std::map<std::optional<int>, double> removed_by_tool(const Job& job, const Simulation& simulation) {
   std::map<std::optional<int>, double> removed;
   std::optional<int> tool;
@@ -68,9 +68,9 @@ void show_summary(Console& console, const SimulationReport& result) {
   console.summary(fmt::format("stock    {} x {} x {} mm ({}), {} mm3", number_text(size.x, 3),
                               number_text(size.y, 3), number_text(size.z, 3),
                               to_string(result.job.stock_source), number_text(s.stock.mm3(), 1)));
-  const double share = s.stock.mm3() > 0.0 ? 100.0 * s.removed.mm3() / s.stock.mm3() : 0.0;
+  const double percent = s.stock.mm3() > 0.0 ? 100.0 * s.removed.mm3() / s.stock.mm3() : 0.0;
   console.summary(fmt::format("removed  {} mm3 ({}%), left {} mm3", number_text(s.removed.mm3(), 1),
-                              number_text(share, 1), number_text(s.stock.mm3() - s.removed.mm3(), 1)));
+                              number_text(percent, 1), number_text(s.stock.mm3() - s.removed.mm3(), 1)));
   const auto removed = removed_by_tool(result.job, s);
   for (const ToolFigures& t : result.job.report.tools) {
     if (!t.tool || t.figures.cut_bounds.empty()) continue;

@@ -11,7 +11,7 @@
 namespace kerf::app {
 namespace {
 
-/// What breaks something comes before what only looks bad.
+/// Hazards that damage something first, then those that only affect the surface.
 std::vector<Finding> worst_first(std::vector<PrintHazard> hazards, const Toolpath& path) {
   std::stable_sort(hazards.begin(), hazards.end(),
                    [](const PrintHazard& a, const PrintHazard& b) { return a.kind < b.kind; });
@@ -71,18 +71,19 @@ void show_summary(Console& console, const Program& program, const PrintSimulatio
                   const std::vector<PartFile>& outputs, const std::vector<Finding>& findings) {
   const auto text = [](Volume v) { return number_text(v.mm3(), 1); };
   const PrintVolumes& t = s.total;
-  const double share = 100.0 * (t.overlap / t.extruded);
+  const double overlap_percent = 100.0 * (t.overlap / t.extruded);
   console.summary(fmt::format("{}: {} steps, a print", program.source, program.path.size()));
-  console.summary(fmt::format("roads    {} in {} layers, {} mm long", s.beads, s.layers.size(),
+  console.summary(fmt::format("beads    {} in {} layers, {} mm long", s.beads, s.layers.size(),
                               number_text(t.bead_length.mm(), 1)));
-  console.summary(fmt::format("extruded {} mm3, {} of it ({}%) where material is already", text(t.extruded),
-                              text(t.overlap), number_text(share, 1)));
+  console.summary(fmt::format("extruded {} mm3, {} of it ({}%) overlapping other beads", text(t.extruded),
+                              text(t.overlap), number_text(overlap_percent, 1)));
   console.summary(fmt::format("laid     {} mm3 of material", text(t.laid)));
   console.summary(
       fmt::format("hollow   {} mm3 below material, {} of it enclosed", text(t.hollow), text(t.enclosed)));
   console.summary(
-      fmt::format("bridges  {} mm of road have nothing below", number_text(t.unsupported.mm(), 1)));
-  if (t.blobs.mm3() > 0.0) console.summary(fmt::format("blobs    {} mm3 pushed on the spot", text(t.blobs)));
+      fmt::format("bridges  {} mm of beads without support below", number_text(t.unsupported.mm(), 1)));
+  if (t.blobs.mm3() > 0.0)
+    console.summary(fmt::format("blobs    {} mm3 extruded without a motion", text(t.blobs)));
   console.summary(fmt::format("columns  {} mm apart, simulated in {} s", number_text(s.columns.pitch, 4),
                               number_text(s.seconds, 3)));
   show_written(console, outputs);

@@ -1,4 +1,4 @@
-// A job on a fourth axis, simulated: the same figures as for a block.
+// The result of a job on a fourth axis: volumes and hazards.
 #include <fmt/format.h>
 
 #include "app/report/findings.h"
@@ -38,9 +38,9 @@ Json json_of_result(const Job& job, const RotarySimulation& s, const std::vector
 void show_summary(Console& console, const Job& job, const RotarySimulation& s,
                   const std::vector<Finding>& findings, const std::vector<PartFile>& outputs) {
   console.summary(fmt::format("{}: {} steps", job.program.source, job.program.path.size()));
-  console.summary(fmt::format("bar      {} mm across, {} mm long, {} mm3", number_text(job.bar->diameter, 3),
-                              number_text(job.bar->x_high - job.bar->x_low, 3),
-                              number_text(s.stock.mm3(), 1)));
+  console.summary(
+      fmt::format("bar      diameter {} mm, length {} mm, {} mm3", number_text(job.bar->diameter, 3),
+                  number_text(job.bar->x_high - job.bar->x_low, 3), number_text(s.stock.mm3(), 1)));
   console.summary(fmt::format("removed  {} mm3, left {} mm3", number_text(s.removed.mm3(), 1),
                               number_text(s.stock.mm3() - s.removed.mm3(), 1)));
   console.summary(fmt::format("rays     {} mm apart, simulated in {} s", number_text(s.workpiece.dx, 4),

@@ -1,4 +1,4 @@
-// What `kerf simulate` prints, by the kind of job.
+// The result of `kerf simulate`, one function per kind of job.
 #pragma once
 
 #include <vector>
@@ -16,7 +16,7 @@ struct SimulationReport {
   const std::vector<PartFile>& files;
   const Diagnostics& diagnostics;
 };
-/// The result as JSON or as text, without the diagnostics in the latter.
+/// The result as JSON, or as text without the diagnostics.
 void report_milling(Console& console, const SimulationReport& report);
 void report_rotary(Console& console, const SimulationReport& report);
 void report_print(Console& console, const SimulationReport& report);

@@ -1,4 +1,4 @@
-// Draws a silhouette: each line of text stands for a slice of height, twice as high as a character is wide.
+// Draws a silhouette: each line of text is a slice, twice as high as a character is wide.
 #include "app/report/sketch.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ struct Part {
 constexpr Part kParts[] = {
     {ToolPart::cutting, '#'}, {ToolPart::neck, '='}, {ToolPart::shank, '|'}, {ToolPart::holder, 'H'}};
 
-/// The part at a height and its radius in mm; a blank where the tool has nothing there.
+/// The part at a height and its radius in mm; a blank if there is none.
 std::pair<char, double> slice(const Silhouette& tool, double z) {
   for (const auto& [part, ink] : kParts) {
     const Profile& profile = tool.part(part);

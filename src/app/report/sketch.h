@@ -1,4 +1,4 @@
-// A tool's silhouette drawn with characters, for a person at a terminal.
+// A tool's silhouette drawn with characters, for a terminal.
 #pragma once
 
 #include <string>

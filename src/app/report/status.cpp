@@ -1,4 +1,4 @@
-// How a command ends.
+// Exit statuses and the messages that belong to them.
 #include "app/report/status.h"
 
 #include <fmt/format.h>

@@ -14,14 +14,16 @@
 
 namespace kerf::app {
 
-/// The exit statuses of every subcommand; scripts and `kerf check` in CI rely on them.
+/// The exit statuses of every subcommand; stable, for scripts.
 enum class Status : int { done = 0, input_errors = 1, wrong_usage = 2, hazards = 3, interrupted = 130 };
 
-/// Ends a run without a result: the messages as text, or with --json as an object that holds nothing else.
+/// Ends a run without a result: prints the diagnostics as text, or with --json as an object without other
+/// keys.
 Status fail(Console& console, const Diagnostics& diagnostics, Status status);
-/// Reports that the user stopped the work.
+/// Reports that the user interrupted the run.
 Status report_stopped(Console& console);
-/// Puts the files into place once all are written. Nothing where that is done; else how the command ends.
+/// Renames the files to their names if all are `written`. Returns the exit status after an error, else
+/// nothing.
 std::optional<Status> finish_outputs(Console& console, TerminalProgress& progress, bool written,
                                      OutputSet& set, Diagnostics& diagnostics);
 

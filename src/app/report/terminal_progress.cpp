@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kBarCells = 24;
 constexpr auto kBetweenDraws = std::chrono::milliseconds(100);
-constexpr auto kBeforeFirstDraw = std::chrono::milliseconds(300);  // short work shows no bar at all
-constexpr double kGuessBelow = 0.02;                               // a share too small to foretell the rest
+constexpr auto kBeforeFirstDraw = std::chrono::milliseconds(300);  // no bar for short runs
+constexpr double kMinFraction = 0.02;                              // for an estimate of the remaining time
 
 volatile std::sig_atomic_t stop_flag = 0;
 
@@ -24,7 +24,7 @@ void catch_interrupts() {
   for (const int which : {SIGINT, SIGTERM}) {
     struct sigaction action {};
     action.sa_handler = on_signal;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);  // and no SA_RESTART: a waiting read returns
+    action.sa_flags = static_cast<int>(SA_RESETHAND);  // without SA_RESTART: a blocked read returns
     sigaction(which, &action, nullptr);
   }
   std::signal(SIGXFSZ, SIG_IGN);
@@ -39,9 +39,9 @@ std::string clock_text(double seconds) {
   return fmt::format("{}:{:02}:{:02}", total / 3600, total / 60 % 60, total % 60);
 }
 
-std::string time_left(double share, double elapsed) {
-  if (!(share >= kGuessBelow)) return {};
-  return clock_text(elapsed * (1.0 - share) / share) + " left";
+std::string time_left(double fraction, double elapsed) {
+  if (!(fraction >= kMinFraction)) return {};
+  return clock_text(elapsed * (1.0 - fraction) / fraction) + " left";
 }
 
 TerminalProgress::TerminalProgress(const Console& console)
@@ -51,22 +51,22 @@ TerminalProgress::~TerminalProgress() { clear(); }
 
 void TerminalProgress::phase(std::string_view what) {
   what_ = what;
-  begun_ = last_ = Clock::now();
+  phase_start_ = last_ = Clock::now();
 }
 
-void TerminalProgress::report(double share) {
+void TerminalProgress::report(double fraction) {
   if (!visible_) return;
   const Clock::time_point now = Clock::now();
-  if (now - last_ < kBetweenDraws || now - begun_ < kBeforeFirstDraw) return;
+  if (now - last_ < kBetweenDraws || now - phase_start_ < kBeforeFirstDraw) return;
   last_ = now;
-  draw(std::clamp(share, 0.0, 1.0), now);
+  draw(std::clamp(fraction, 0.0, 1.0), now);
 }
 
-void TerminalProgress::draw(double share, Clock::time_point now) {
-  const auto cells = static_cast<std::size_t>(std::lround(share * kBarCells));
-  const double elapsed = std::chrono::duration<double>(now - begun_).count();
+void TerminalProgress::draw(double fraction, Clock::time_point now) {
+  const auto cells = static_cast<std::size_t>(std::lround(fraction * kBarCells));
+  const double elapsed = std::chrono::duration<double>(now - phase_start_).count();
   fmt::print(stderr, "\r\x1b[K{}  [{:.<{}}] {:3.0f}%  {}", what_, std::string(cells, '#'), kBarCells,
-             share * 100.0, time_left(share, elapsed));
+             fraction * 100.0, time_left(fraction, elapsed));
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -1,4 +1,4 @@
-// Progress on a terminal with the time left, and stopping by Ctrl-C or a kill.
+// Progress with the remaining time on a terminal, and interruption by SIGINT and SIGTERM.
 #pragma once
 
 #include <chrono>
@@ -10,13 +10,13 @@
 
 namespace kerf::app {
 
-/// From now on SIGINT and SIGTERM only set a flag (a second one ends the program at once), and a
-/// file that grows beyond the limit (ulimit -f) is a write that fails, not the end of the program.
+/// Installs handlers: SIGINT and SIGTERM set a flag (the second one ends the program at once), and a file
+/// that exceeds ulimit -f is a failed write instead of SIGXFSZ.
 void catch_interrupts();
 bool interrupted();
 
-/// Draws "cutting  [#####.....]  52%  0:03 left" on stderr, at most ten times a second, and takes it away at
-/// the end. On anything but a terminal, and with --quiet, it draws nothing and only tells of interrupts.
+/// Draws "cutting  [#####.....]  52%  0:03 left" on stderr, at most ten times per second, and clears it at
+/// the end. If stderr is not a terminal, or with --quiet, it only reports interrupts.
 class TerminalProgress : public Progress {
  public:
   explicit TerminalProgress(const Console& console);
@@ -25,23 +25,23 @@ class TerminalProgress : public Progress {
   TerminalProgress& operator=(const TerminalProgress&) = delete;
 
   void phase(std::string_view what) override;
-  void report(double share) override;
+  void report(double fraction) override;
   bool stop_requested() override { return interrupted(); }
-  /// Takes the bar away, so that other text can be printed.
+  /// Clears the bar, so that other text can be printed.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
-  void draw(double share, Clock::time_point now);
+  void draw(double fraction, Clock::time_point now);
 
   bool visible_;
   bool drawn_ = false;
   std::string what_ = "working";
-  Clock::time_point begun_ = Clock::now();
+  Clock::time_point phase_start_ = Clock::now();
   Clock::time_point last_ = Clock::now();
 };
 
-/// Draws nothing and only tells of interrupts: for commands whose output is another program's.
+/// Only reports interrupts: for the drop-in commands.
 class InterruptOnly : public Progress {
  public:
   void phase(std::string_view) override {}
@@ -49,9 +49,9 @@ class InterruptOnly : public Progress {
   bool stop_requested() override { return interrupted(); }
 };
 
-/// "0:03", "1:02:03"; the time left when `share` of the work took `elapsed` seconds, empty while that is a
-/// guess.
-std::string time_left(double share, double elapsed);
+/// "0:03 left", "1:02:03 left": the remaining time if `fraction` of the work took `elapsed` seconds; empty
+/// while `fraction` is too small for an estimate.
+std::string time_left(double fraction, double elapsed);
 std::string clock_text(double seconds);
 
 }  // namespace kerf::app
