@@ -1,13 +1,13 @@
-// gcmc programs in: the G-Code Meta Compiler's language becomes a toolpath, or the text that the real program
-// writes.
+// The front end for gcmc programs: from the language of the G-Code Meta Compiler to a toolpath, or to the
+// text that the real program writes.
 //
 //   GcmcOptions options;
 //   options.file_name = "part.gcmc";
 //   GcmcRun run = run_gcmc(text, options, output, diagnostics);
 //
-// What a program says (message(), warnings, errors) goes to GcmcOutput while it runs, in the order said, and
-// is collected in the Diagnostics as well. Lengths of the text are mm, or inch where `imperial` is set; the
-// toolpath is mm always. Where Kerf differs from the real program on purpose: docs/differences.md.
+// The messages of a program (message(), warnings, errors) are passed to GcmcOutput while it runs, in order,
+// and are also collected in the Diagnostics. Lengths in the text are mm, or inch with `imperial`; the
+// toolpath is always in mm. Intended differences from the real program: docs/differences.md.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +23,7 @@
 
 namespace kerf {
 
-/// Names of texts that are no files: the defines, and the files of Kerf's own library ("<kerf>/NAME").
+/// Names of sources that are not files: the defines, and the files of the built-in library ("<kerf>/NAME").
 inline constexpr std::string_view kGcmcDefinesName = "<cmd-line defines>";
 inline constexpr std::string_view kGcmcLibraryPrefix = "<kerf>/";
 
@@ -31,21 +31,21 @@ struct GcmcRun {
   Toolpath path;
   /// The real program's exit status: 0, 1 after errors, or what the program returned.
   int status = 0;
-  std::size_t warnings = 0;  // of the language and by warning(); what option -W makes an error of
-  bool completed = false;    // ran to its end or to a return; errors of its own may have been said
+  std::size_t warnings = 0;  // of the language and by warning(); errors with option -W
+  bool completed = false;    // ran to its end or to a return; calls of error() do not matter
   bool stopped = false;      // by Progress::stop_requested
-  /// Layers in order of their stack, where the program named any.
+  /// Layers in the order of their stack; empty if the program has none.
   std::vector<std::string> layers;
-  /// The texts that took part: name as in messages, bytes. For showing lines.
+  /// The sources: name as in messages, and text.
   std::vector<std::pair<std::string, std::string>> sources;
 };
 
-/// Parses and runs a program. After a syntax error nothing runs; after a runtime error path and text hold
-/// what was made before it. Errors and warnings are appended to `diagnostics`.
+/// Parses and runs a program. With a syntax error it does not run; after a runtime error, path and text end
+/// before it. Errors and warnings are appended to `diagnostics`.
 GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
                  Diagnostics& diagnostics, Progress* progress = nullptr);
 
-/// Parses only: what an editor asks. Returns true where there is no error.
+/// Parses only, for editors. Returns true if there is no error.
 bool check_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,
                 Diagnostics& diagnostics);
 

@@ -1,4 +1,4 @@
-// A whole run: sources, parsing, compiling, running, sinks.
+// Runs a program: sources, parser, compiler, virtual machine, sinks.
 #include <algorithm>
 #include <deque>
 #include <filesystem>
@@ -23,28 +23,28 @@ namespace {
 
 constexpr std::size_t kLargestSource = std::size_t{256} << 20;
 
-/// Passes on what lexer and parser say, and counts it.
+/// Passes the messages of lexer and parser to output and diagnostics, and counts them.
 class Reporter final : public SourceReport {
  public:
   Reporter(const std::deque<Source>& sources, GcmcOutput& output, Diagnostics& diagnostics)
       : sources_(sources), output_(output), diagnostics_(diagnostics) {}
-  void error(Place at, Code code, std::string message, std::string hint) override {
-    say(Severity::error, at, code, std::move(message), std::move(hint));
+  void error(SourceLocation at, Code code, std::string message, std::string hint) override {
+    report(Severity::error, at, code, std::move(message), std::move(hint));
     ++errors;
   }
-  void warning(Place at, Code code, std::string message) override {
-    say(Severity::warning, at, code, std::move(message), {});
+  void warning(SourceLocation at, Code code, std::string message) override {
+    report(Severity::warning, at, code, std::move(message), {});
     ++warnings;
   }
-  void fatal(Place at, Code code, std::string message) override {
-    say(Severity::error, at, code, std::move(message), {});
+  void fatal(SourceLocation at, Code code, std::string message) override {
+    report(Severity::error, at, code, std::move(message), {});
     ++errors;
-    over_ = true;  // what follows is only the consequence
+    over_ = true;  // further messages would be consequences of this one
   }
   std::size_t errors = 0, warnings = 0;
 
  private:
-  void say(Severity severity, Place at, Code code, std::string text, std::string hint) {
+  void report(Severity severity, SourceLocation at, Code code, std::string text, std::string hint) {
     if (over_) return;
     Diagnostic d;
     d.severity = severity;
@@ -61,32 +61,33 @@ class Reporter final : public SourceReport {
   bool over_ = false;
 };
 
-/// The text of a file. Where there is one that cannot be read, `obstacle` tells why, unless it told before.
-std::optional<std::string> file_text(const std::string& path, std::string& obstacle) {
+/// The text of a file; nothing if there is none. For a file that cannot be read, `problem` becomes the reason
+/// if it is empty.
+std::optional<std::string> file_text(const std::string& path, std::string& problem) {
   std::error_code failed;
   const std::filesystem::file_status status = std::filesystem::status(path, failed);
   if (!std::filesystem::exists(status)) return std::nullopt;
   Diagnostics diagnostics;
   std::optional<InputFile> file;
-  // A device may have no end.
+  // Reading a device may not end.
   if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
-    diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0}, "it is a device, not an ordinary file");
+    diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0}, "it is a device, not a regular file");
   else
     file = InputFile::open(path, diagnostics, kLargestSource);
   if (file) return std::string(file->bytes());
-  if (obstacle.empty()) obstacle = diagnostics.list().front().message;
+  if (problem.empty()) problem = diagnostics.list().front().message;
   return std::nullopt;
 }
 
-/// Where included files are: the folder the user stands in, the given paths, Kerf's own library.
-bool find_include(const GcmcOptions& options, const std::string& name, Source& found, std::string& obstacle) {
+/// Searches an included file in the current folder, the given paths and the built-in library.
+bool find_include(const GcmcOptions& options, const std::string& name, Source& found, std::string& problem) {
   if (name.empty() || name == "-" || name.find('\0') != std::string::npos) return false;
-  std::vector<std::string> places{name};
+  std::vector<std::string> candidates{name};
   if (name[0] != '/')
     for (const std::string& folder : options.include_paths)
-      places.push_back(folder + (!folder.empty() && folder.back() == '/' ? "" : "/") + name);
-  for (const std::string& path : places) {
-    if (auto text = file_text(path, obstacle)) {
+      candidates.push_back(folder + (!folder.empty() && folder.back() == '/' ? "" : "/") + name);
+  for (const std::string& path : candidates) {
+    if (auto text = file_text(path, problem)) {
       found = {path, std::move(*text)};
       return true;
     }
@@ -106,8 +107,8 @@ bool parse_all(std::string_view text, const GcmcOptions& options, Tree& tree, st
   for (const std::string& d : options.defines) defines += d + ";\n";
   sources.push_back({std::string(kGcmcDefinesName), std::move(defines)});
   sources.push_back({options.file_name, std::string(text)});
-  const Includer includer = [&](const std::string& name, Source& found, std::string& obstacle) {
-    return find_include(options, name, found, obstacle);
+  const Includer includer = [&](const std::string& name, Source& found, std::string& problem) {
+    return find_include(options, name, found, problem);
   };
   const IsBuiltin is_builtin = [](std::string_view name) { return builtin_index(name) >= 0; };
   Parser parser(tree, sources, report, includer, is_builtin);
@@ -135,7 +136,7 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
   if (options.want_text) vm.machine().sinks.push_back(&text);
   if (options.want_path) vm.machine().sinks.push_back(&path);
   try {
-    if (options.want_text) text.begin();
+    if (options.want_text) text.start();
     run.status = exit_status(vm, vm.run());
     if (options.want_path) path.finish();
     if (options.want_text) text.end();
@@ -143,7 +144,7 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
   } catch (const Stop&) {
     run.status = 1;
     run.stopped = vm.was_stopped();
-    text.break_off();
+    text.flush_after_error();
   }
   run.warnings += vm.warnings();
   run.layers = vm.machine().layers;
@@ -163,9 +164,9 @@ std::string gcmc_line(const Diagnostic& d) {
     word = "warning: ";
   else if (d.code == Code::gcmc_text_end)
     word = "fatal: ";
-  const auto* spot = std::get_if<TextSpot>(&d.where);
-  if (spot == nullptr) return fmt::format("{}{}", word, d.message);
-  return fmt::format("{}:{}:{}: {}{}", spot->file, spot->line, spot->column, word, d.message);
+  const auto* where = std::get_if<TextSpot>(&d.where);
+  if (where == nullptr) return fmt::format("{}{}", word, d.message);
+  return fmt::format("{}:{}:{}: {}{}", where->file, where->line, where->column, word, d.message);
 }
 
 GcmcRun run_gcmc(std::string_view text, const GcmcOptions& options, GcmcOutput& output,

@@ -516,12 +516,12 @@ TEST(GcmcLanguage, HintsNameWhatWasMeant) {
 
 TEST(GcmcLanguage, UnitsThatDoNotFitAreExplained) {
   const auto hint = [](const char* program) { return run(program).messages.at(0).hint; };
-  EXPECT_EQ(hint("x = 1mm + 90deg;"), "90deg counts as 90mm; to_none() says that this is meant");
-  EXPECT_EQ(hint("x = 1mm < 5;"), "5 counts as 5mm: write it so");
-  EXPECT_EQ(hint("x = 2.5 == 90deg;"), "2.5 counts as 2.5deg: write it so");
-  EXPECT_EQ(hint("x = 1mm == 1rad;"), "a length and an angle are compared by their numbers alone");
-  EXPECT_EQ(hint("x = sin(2mm);"), "an angle is expected; 2mm counts as 2rad");
-  EXPECT_EQ(hint("feedrate(5deg);"), "a length is expected; 5deg counts as 5mm");
+  EXPECT_EQ(hint("x = 1mm + 90deg;"), "90deg is used as 90mm; use to_none() if that is intended");
+  EXPECT_EQ(hint("x = 1mm < 5;"), "5 is compared as 5mm; write the unit");
+  EXPECT_EQ(hint("x = 2.5 == 90deg;"), "2.5 is compared as 2.5deg; write the unit");
+  EXPECT_EQ(hint("x = 1mm == 1rad;"), "a length and an angle are compared by their numbers only");
+  EXPECT_EQ(hint("x = sin(2mm);"), "an angle is expected; 2mm is used as 2rad");
+  EXPECT_EQ(hint("feedrate(5deg);"), "a length is expected; 5deg is used as 5mm");
 }
 
 TEST(GcmcLanguage, CallsAreNamedWithAnError) {
@@ -595,7 +595,7 @@ TEST(GcmcLimits, StepsAreBoundedAlsoWithOutput) {
   GcmcOptions options = bare();
   options.max_steps = 100'000;
   EXPECT_EQ(messages_of("while(1) { move([1]); repeat(10000) {} }", options),
-            "error: The program takes more than 100000 loop steps");
+            "error: The program runs more than 100000 loop steps");
 }
 
 TEST(GcmcLimits, MemoryIsBounded) {

@@ -253,8 +253,9 @@ TEST(GcmcPath, LiteralLinesThatMoveOrChangeModesAreRefused) {
   }
   EXPECT_EQ(messages_of("literal(\"G91\\n\");"),
             "error: The line \"G91\" cannot be part of a toolpath: G91 changes the distance mode");
-  EXPECT_EQ(messages_of("literal(\"M8\"); goto([1]);"),
-            "error: The line \"M8\" of literal() is not ended: the words of this call would follow on it");
+  EXPECT_EQ(
+      messages_of("literal(\"M8\"); goto([1]);"),
+      "error: The line \"M8\" of literal() is not ended: the words of this call would be appended to it");
   GcmcOptions text = bare();
   text.want_path = false;
   EXPECT_EQ(run("literal(\"G91\\n\"); literal(\"X1 \"); goto([1]);", text).text, "G91\nX1 G0 X1.000\n");
@@ -340,7 +341,7 @@ TEST(GcmcInclude, UnreadableIncludesAreNamed) {
   EXPECT_EQ(messages_of("include(\"/\");"), "error: Include file '/': cannot read the file: it is a folder");
   EXPECT_EQ(run("include(\"/\");").messages.at(0).code, Code::file_unreadable);
   EXPECT_EQ(messages_of("include(\"/dev/zero\");"),
-            "error: Include file '/dev/zero': it is a device, not an ordinary file");
+            "error: Include file '/dev/zero': it is a device, not a regular file");
   const std::filesystem::path large = std::filesystem::path(testing::TempDir()) / "kerf_large.gcmc";
   std::ofstream(large) << ";";
   std::filesystem::resize_file(large, std::uintmax_t{1} << 30);  // sparse

@@ -9,10 +9,12 @@ namespace kerf::gcmc {
 namespace {
 
 struct Reports final : SourceReport {
-  void error(Place at, Code, std::string message, std::string) override { add("error", at, message); }
-  void warning(Place at, Code, std::string message) override { add("warning", at, message); }
-  void fatal(Place at, Code, std::string message) override { add("fatal", at, message); }
-  void add(const char* severity, Place at, const std::string& message) {
+  void error(SourceLocation at, Code, std::string message, std::string) override {
+    add("error", at, message);
+  }
+  void warning(SourceLocation at, Code, std::string message) override { add("warning", at, message); }
+  void fatal(SourceLocation at, Code, std::string message) override { add("fatal", at, message); }
+  void add(const char* severity, SourceLocation at, const std::string& message) {
     all.push_back(std::to_string(at.line) + ":" + std::to_string(at.column) + " " + severity + ": " +
                   message);
   }

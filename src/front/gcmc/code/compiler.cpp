@@ -1,8 +1,8 @@
 // The compiler of gcmc programs.
 //
-// A name in a function means the function's own variable if that exists at that moment, else the global one.
-// Where the program's text decides which (a parameter, after `local`, a name that no global has) the slot is
-// used directly; else the instruction decides when it runs.
+// A name in a function is the function's own variable if that exists when it is used, else the global one. If
+// that can be determined from the text (a parameter, after `local`, a name of no global variable) the slot is
+// used directly; else it is determined at run time by the instruction.
 #include "front/gcmc/code/compiler.h"
 
 #include <algorithm>
@@ -15,9 +15,9 @@
 namespace kerf::gcmc {
 namespace {
 
-constexpr std::int32_t kMostSlots = 65535;
-constexpr std::size_t kMostInstructions = 50'000'000;
-constexpr int kDeepestPresets = 8;  // presets of parameters that call functions with presets
+constexpr std::int32_t kMaxSlots = 65535;
+constexpr std::size_t kMaxInstructions = 50'000'000;
+constexpr int kMaxPresetDepth = 8;  // nesting of default values that call functions with default values
 
 enum class Access : std::uint8_t { slot, reference, global, dynamic };
 struct Variable {
@@ -90,10 +90,10 @@ class Compiler {
   // names and slots
   struct Names {
     std::unordered_set<NameId> names;
-    std::unordered_set<NameId> functions;  // whose presets were looked at
+    std::unordered_set<NameId> functions;  // whose default values have been examined
   };
   void collect_names(NodeId id, bool assigned_only, Names& out) const;
-  void begin_function(const FunctionTree* function);
+  void start_function(const FunctionTree* function);
   Variable find(NameId name);
   std::int32_t variable_slot(NameId name);
   std::int32_t temporary(std::int32_t count = 1);
@@ -101,9 +101,9 @@ class Compiler {
   bool may_be_constant(NameId name) const { return constant_names_.count(name) != 0; }
 
   // instructions
-  std::size_t emit(Place at, Op op, std::int32_t x, std::int32_t a = 0, std::int32_t b = 0,
+  std::size_t emit(SourceLocation at, Op op, std::int32_t x, std::int32_t a = 0, std::int32_t b = 0,
                    std::int32_t c = 0);
-  std::size_t emit_operation(Place at, Op op, std::int32_t x, std::int32_t a, std::int32_t b);
+  std::size_t emit_operation(SourceLocation at, Op op, std::int32_t x, std::int32_t a, std::int32_t b);
   Instruction& at(std::size_t i) { return code_.instructions[i]; }
   std::uint8_t take(std::int32_t operand, std::uint8_t bit) const {
     return is_temporary(operand) ? bit : std::uint8_t{0};
@@ -124,11 +124,11 @@ class Compiler {
   void for_loop(const Node& n);
   void while_loop(const Node& n);
   void do_loop(const Node& n);
-  void counted_loop(const Node& n, Op begin, Op next);
+  void counted_loop(const Node& n, Op start_op, Op next_op);
   void leave_loop(const Node& n);
-  void give_back(const Node& n);
+  void return_value(const Node& n);
   void close_loop();
-  void close_loop(NodeId condition, std::size_t begin);
+  void close_loop(NodeId condition, std::size_t loop_start);
   void function(std::size_t index);
 
   // expressions
@@ -188,7 +188,7 @@ std::vector<NameId> ordered(const std::unordered_set<NameId>& names) {
   return out;
 }
 
-/// Names below node `id`: all of them, or those that are assigned there. Bodies of functions are left out.
+/// Names below node `id`: all, or those that are assigned to. Without the bodies of functions.
 void Compiler::collect_names(NodeId id, bool assigned_only, Names& out) const {
   for (; id != kNoNode && node(id).kind == NodeKind::if_else; id = node(id).c) {  // with all its elifs
     collect_names(node(id).a, assigned_only, out);
@@ -222,14 +222,14 @@ void Compiler::collect_names(NodeId id, bool assigned_only, Names& out) const {
   for (NodeId other : {n.a, n.b, n.c, n.d}) below(other);
   for (std::size_t i = 0; i < n.count; ++i) below(child(n, i));
   if (n.kind != NodeKind::call) return;
-  // Presets of a function's parameters are evaluated where it is called.
+  // Default values of parameters are evaluated at the call.
   const auto called = tree_.function_index.find(n.name);
   if (called == tree_.function_index.end() || !out.functions.insert(n.name).second) return;
   for (const Parameter& p : tree_.functions[static_cast<std::size_t>(called->second)].parameters)
     below(p.preset);
 }
 
-void Compiler::begin_function(const FunctionTree* function) {
+void Compiler::start_function(const FunctionTree* function) {
   function_ = function;
   slots_.clear();
   assigned_.clear();
@@ -268,7 +268,7 @@ std::int32_t Compiler::variable_slot(NameId name) {
   auto& index = function_ == nullptr ? code_.global_slots : slots_;
   const auto [it, is_new] = index.try_emplace(name, variables_);
   if (!is_new) return it->second;
-  if (variables_ >= kMostSlots) throw TooManySlots{};
+  if (variables_ >= kMaxSlots) throw TooManySlots{};
   frame_->slot_names.push_back(name);
   return variables_++;
 }
@@ -286,30 +286,31 @@ Variable Compiler::find(NameId name) {
 std::int32_t Compiler::temporary(std::int32_t count) {
   const std::int32_t slot = next_;
   next_ += count;
-  if (next_ >= kMostSlots) throw TooManySlots{};
+  if (next_ >= kMaxSlots) throw TooManySlots{};
   frame_->frame = std::max(frame_->frame, next_);
   return slot;
 }
 
 // ---- instructions
 
-std::size_t Compiler::emit(Place place, Op op, std::int32_t x, std::int32_t a, std::int32_t b,
+std::size_t Compiler::emit(SourceLocation location, Op op, std::int32_t x, std::int32_t a, std::int32_t b,
                            std::int32_t c) {
-  if (code_.instructions.size() >= kMostInstructions) throw TooManySlots{};
+  if (code_.instructions.size() >= kMaxInstructions) throw TooManySlots{};
   code_.instructions.push_back({op, 0, static_cast<std::uint16_t>(x), a, b, c});
-  code_.places.push_back(place);
+  code_.locations.push_back(location);
   return here() - 1;
 }
 
-/// An operation or a comparing jump. A small right side, as in i + 1 or i < 100, becomes part of it.
-std::size_t Compiler::emit_operation(Place place, Op op, std::int32_t x, std::int32_t a, std::int32_t b) {
+/// An operation or a comparing jump, with an immediate right operand if that is a small integer.
+std::size_t Compiler::emit_operation(SourceLocation location, Op op, std::int32_t x, std::int32_t a,
+                                     std::int32_t b) {
   const Value* right = b < 0 ? &code_.constants[static_cast<std::size_t>(~b)] : nullptr;
   const bool divides = op == Op::div || op == Op::mod;
   const bool known = (op >= Op::add && op <= Op::mod) || (op >= Op::jump_less && op <= Op::jump_not_equal);
   if (known && a >= 0 && right != nullptr && right->is_whole() &&
       !(divides && (right->whole() == 0 || right->whole() == -1)))
-    return emit(place, with_integer(op), x, a, right->whole());
-  return emit(place, op, x, a, b);
+    return emit(location, with_integer(op), x, a, right->whole());
+  return emit(location, op, x, a, b);
 }
 
 void Compiler::jump_back(std::size_t jump, std::size_t target) {
@@ -328,7 +329,7 @@ std::int32_t Compiler::number_constant(Scalar s) {
     std::memcpy(&bits, &s.p.d, sizeof bits);
   else
     bits = static_cast<std::uint32_t>(s.kind() == Kind::integer ? s.whole() : 0);
-  bits = bits * 31 + s.tag;  // a table for each low tag keeps equal bits of other tags apart
+  bits = bits * 31 + s.tag;  // equal bits with different tags are different constants
   auto& index = number_index_[s.tag & 15];
   const auto found = index.find(bits);
   if (found != index.end() && code_.constants[static_cast<std::size_t>(~found->second)].tag() == s.tag) {
@@ -338,7 +339,7 @@ std::int32_t Compiler::number_constant(Scalar s) {
   return index[bits] = constant(Value(s));
 }
 
-// ---- the whole
+// ---- program
 
 Program Compiler::run(const std::vector<NameId>& constants) {
   constant_names_.insert(constants.begin(), constants.end());
@@ -347,7 +348,7 @@ Program Compiler::run(const std::vector<NameId>& constants) {
   undefined_mark_ = constant(Value::reference(nullptr, kNoName));
   frame_ = &code_.program;
   language_names_ = constants;
-  begin_function(nullptr);
+  start_function(nullptr);
   code_.functions.resize(tree_.functions.size());
   for (NodeId id : tree_.program) statement(id);
   emit({}, Op::stop, 0);
@@ -360,9 +361,9 @@ void Compiler::function(std::size_t index) {
   frame_ = &code_.functions[index];
   frame_->name = f.name;
   frame_->entry = here();
-  begin_function(&f);
+  start_function(&f);
   statements(node(f.body));
-  emit(node(f.body).at, Op::give_nothing, 0);
+  emit(node(f.body).at, Op::return_nothing, 0);
 }
 
 // ---- statements
@@ -371,7 +372,7 @@ void Compiler::statements(const Node& block) {
   for (std::size_t i = 0; i < block.count; ++i) statement(child(block, i));
 }
 
-/// A block that may not run: what becomes the function's own there is not known afterwards.
+/// A block that may not be executed: variables that it creates are not certain to exist afterwards.
 void Compiler::inner_block(NodeId id) {
   const auto own = own_;
   statements(node(id));
@@ -390,10 +391,10 @@ void Compiler::statement(NodeId id) {
     case NodeKind::for_loop: for_loop(n); break;
     case NodeKind::while_loop: while_loop(n); break;
     case NodeKind::do_loop: do_loop(n); break;
-    case NodeKind::foreach_loop: counted_loop(n, Op::foreach_begin, Op::foreach_next); break;
-    case NodeKind::repeat_loop: counted_loop(n, Op::repeat_begin, Op::repeat_next); break;
+    case NodeKind::foreach_loop: counted_loop(n, Op::foreach_start, Op::foreach_next); break;
+    case NodeKind::repeat_loop: counted_loop(n, Op::repeat_start, Op::repeat_next); break;
     case NodeKind::function: emit(n.at, Op::define, 0, n.a); break;
-    case NodeKind::return_value: give_back(n); break;
+    case NodeKind::return_value: return_value(n); break;
     case NodeKind::break_loop:
     case NodeKind::continue_loop: leave_loop(n); break;
     default: operand(id); break;
@@ -401,7 +402,7 @@ void Compiler::statement(NodeId id) {
   next_ = temporaries;
 }
 
-/// An expression whose value is not needed.
+/// An expression whose value is not used.
 void Compiler::effect(NodeId id) {
   const std::int32_t temporaries = next_;
   const Node& n = node(id);
@@ -435,10 +436,10 @@ void Compiler::declaration(const Node& n) {
   if (references_.count(n.name) == 0) own_.insert(n.name);
 }
 
-/// An if with its elifs, in a loop, as there may be any number of them.
+/// An if with its elifs, by a loop.
 void Compiler::if_else(const Node& first) {
   std::vector<std::size_t> ends;
-  std::optional<decltype(own_)> own;  // behind the first condition, which alone is evaluated always
+  std::optional<decltype(own_)> own;  // after the first condition, the only one that is always evaluated
   for (const Node* n = &first;; n = &node(n->c)) {
     if (n->kind != NodeKind::if_else) {
       statement(static_cast<NodeId>(n - tree_.nodes.data()));
@@ -456,11 +457,11 @@ void Compiler::if_else(const Node& first) {
   for (std::size_t j : ends) patch(j);
 }
 
-/// The end of a loop that goes on from `begin` while the condition holds.
-void Compiler::close_loop(NodeId condition, std::size_t begin) {
+/// The end of a loop that continues at `loop_start` while the condition is true.
+void Compiler::close_loop(NodeId condition, std::size_t loop_start) {
   std::vector<std::size_t> again;
   jump_on(condition, true, again);
-  for (std::size_t j : again) jump_back(j, begin);
+  for (std::size_t j : again) jump_back(j, loop_start);
   close_loop();
 }
 
@@ -473,45 +474,45 @@ void Compiler::for_loop(const Node& n) {
   if (n.a != kNoNode) effect(n.a);
   loops_.emplace_back();
   const std::size_t to_test = emit(n.at, Op::jump, 0);
-  const std::size_t begin = here();
+  const std::size_t loop_start = here();
   inner_block(n.d);
   for (std::size_t j : loops_.back().continues) patch(j);
   if (n.c != kNoNode) effect(n.c);
   patch(to_test);
-  close_loop(n.b, begin);
+  close_loop(n.b, loop_start);
 }
 
 void Compiler::while_loop(const Node& n) {
   loops_.emplace_back();
   const std::size_t to_test = emit(n.at, Op::jump, 0);
-  const std::size_t begin = here();
+  const std::size_t loop_start = here();
   inner_block(n.b);
   for (std::size_t j : loops_.back().continues) patch(j);
   patch(to_test);
-  close_loop(n.a, begin);
+  close_loop(n.a, loop_start);
 }
 
 void Compiler::do_loop(const Node& n) {
   loops_.emplace_back();
-  const std::size_t begin = here();
+  const std::size_t loop_start = here();
   inner_block(n.b);
   for (std::size_t j : loops_.back().continues) patch(j);
-  close_loop(n.a, begin);
+  close_loop(n.a, loop_start);
 }
 
-/// foreach and repeat: two hidden slots hold what is walked and how far.
-void Compiler::counted_loop(const Node& n, Op begin_op, Op next_op) {
+/// foreach and repeat: two hidden slots hold the source and the position in it.
+void Compiler::counted_loop(const Node& n, Op start_op, Op next_op) {
   const std::int32_t hidden = temporary(2);
   const std::int32_t source = operand(n.a);
-  if (begin_op == Op::foreach_begin) frame_->walks = true;
-  at(emit(n.at, begin_op, hidden, source)).flags = take(source, kTakeA);
+  if (start_op == Op::foreach_start) frame_->iterates = true;
+  at(emit(n.at, start_op, hidden, source)).flags = take(source, kTakeA);
   next_ = hidden + 2;
   const Variable v = n.name == kNoName ? Variable{} : find(n.name);
   const bool direct = n.name != kNoName && v.access == Access::slot && !may_be_constant(n.name);
   const std::int32_t item = direct ? v.slot : temporary();
   loops_.emplace_back();
   const std::size_t to_next = emit(n.at, Op::jump, 0);
-  const std::size_t begin = here();
+  const std::size_t loop_start = here();
   if (!direct && n.name != kNoName) {
     Node name;
     name.at = n.at;
@@ -522,7 +523,7 @@ void Compiler::counted_loop(const Node& n, Op begin_op, Op next_op) {
   inner_block(n.b);
   for (std::size_t j : loops_.back().continues) patch(j);
   patch(to_next);
-  jump_back(emit(n.at, next_op, hidden, item), begin);
+  jump_back(emit(n.at, next_op, hidden, item), loop_start);
   close_loop();
   emit(n.at, Op::clear, 0, hidden, hidden + 2);
 }
@@ -536,9 +537,9 @@ void Compiler::leave_loop(const Node& n) {
   jumps.push_back(emit(n.at, Op::jump, 0));
 }
 
-void Compiler::give_back(const Node& n) {
+void Compiler::return_value(const Node& n) {
   const std::int32_t value = n.a == kNoNode ? number_constant(Scalar{}) : operand(n.a);
-  const Op op = function_ == nullptr ? Op::end_program : Op::give_back;
+  const Op op = function_ == nullptr ? Op::end_program : Op::return_value;
   at(emit(n.at, op, 0, value)).flags = take(value, kTakeA);
 }
 
@@ -599,7 +600,7 @@ std::optional<Value> Compiler::constant_list(const Node& n) const {
   return Value::list(std::move(all), meter_);
 }
 
-/// The operand that holds an expression's value: a constant, a variable's own slot, or a new temporary.
+/// The operand with the value of an expression: a constant, the slot of a variable, or a new temporary.
 std::int32_t Compiler::operand(NodeId id) {
   const Node& n = node(id);
   if (auto v = constant_value(id)) {
@@ -634,8 +635,8 @@ std::int32_t Compiler::stable_operand(NodeId id, NodeId later1, NodeId later2) {
   return copy;
 }
 
-/// Evaluates an expression into slot `x`. Only the last instruction writes there, as `x` may be read on the
-/// way.
+/// Evaluates an expression into slot `x`. Only the last instruction writes to it, because the others may read
+/// it.
 void Compiler::into(NodeId id, std::int32_t x) {
   const Node& n = node(id);
   switch (n.kind) {
@@ -668,7 +669,7 @@ void Compiler::into(NodeId id, std::int32_t x) {
   if (value != x) at(emit(n.at, Op::move, x, value)).flags = take(value, kTakeA);
 }
 
-/// The language's own variables are asked for like functions.
+/// Internal variables are read by built-in functions of the same name.
 bool Compiler::is_internal(NameId name) const {
   const std::string& text = tree_.names[static_cast<std::size_t>(name)];
   return text == "__global_position" || text == "__global_offset";
@@ -709,12 +710,12 @@ void Compiler::unary(const Node& n, std::int32_t x) {
 
 void Compiler::logic(NodeId id, std::int32_t x) {
   std::vector<std::size_t> when_false;
-  const Place place = node(id).at;
+  const SourceLocation location = node(id).at;
   jump_on(id, false, when_false);
-  emit(place, Op::move, x, number_constant(Scalar::integer(1)));
-  const std::size_t end = emit(place, Op::jump, 0);
+  emit(location, Op::move, x, number_constant(Scalar::integer(1)));
+  const std::size_t end = emit(location, Op::jump, 0);
   for (std::size_t j : when_false) patch(j);
-  emit(place, Op::move, x, number_constant(Scalar::integer(0)));
+  emit(location, Op::move, x, number_constant(Scalar::integer(0)));
   patch(end);
 }
 
@@ -728,12 +729,12 @@ void Compiler::condition(const Node& n, std::int32_t x) {
   patch(end);
 }
 
-/// Jumps where the truth of an expression is `sense`; falls through otherwise. The jumps are to be patched.
+/// Jumps if the truth of an expression is `sense`, else falls through. The jumps must be patched.
 void Compiler::jump_on(NodeId id, bool sense, std::vector<std::size_t>& jumps) {
   const Node& n = node(id);
   const std::int32_t temporaries = next_;
   if (n.kind == NodeKind::binary && (n.op == Token::and_and || n.op == Token::or_or)) {
-    const bool decides = n.op == Token::or_or;  // the truth of the left side that settles the whole
+    const bool decides = n.op == Token::or_or;  // the truth of the left side that decides the result
     if (decides == sense) {
       jump_on(n.a, sense, jumps);
       jump_on(n.b, sense, jumps);
@@ -843,7 +844,7 @@ void Compiler::arguments(const Node& n, const FunctionTree& f, std::int32_t base
     const std::int32_t x = base + static_cast<std::int32_t>(i);
     const Parameter& p = f.parameters[i];
     if (i >= n.count) {
-      if (++preset_depth_ > kDeepestPresets) throw TooManySlots{};
+      if (++preset_depth_ > kMaxPresetDepth) throw TooManySlots{};
       into(p.preset, x);
       --preset_depth_;
     } else if (p.by_reference)
@@ -885,14 +886,14 @@ std::int32_t Compiler::reference_to(const Node& name) {
   return x;
 }
 
-/// The vector of a right side {vector}, which can be appended without making a list of it; none otherwise.
+/// The vector of a right side {vector}, which can be appended without a temporary list; else kNoNode.
 NodeId Compiler::appended(Op op, NodeId right) const {
   const Node& n = node(right);
   const bool one = n.kind == NodeKind::list && n.count == 1 && op == Op::add;
   return one && !constant_list(n) ? child(n, 0) : kNoNode;
 }
 
-/// v = v + e as v += e, which changes v where it lies.
+/// v = v + e as v += e, which changes v in place.
 const Node& Compiler::compound_of(const Node& n, Node& space) const {
   const Node& right = node(n.b);
   const bool adds = right.kind == NodeKind::binary && (right.op == Token::plus || right.op == Token::add_or);
@@ -938,7 +939,7 @@ std::int32_t Compiler::assign_name(const Node& n, const Node& target, Used used)
   return x;
 }
 
-/// Splits v[i] and v[i][j]; false for longer chains, which name nothing that can be written.
+/// Splits v[i] and v[i][j]; false for longer chains, which are not lvalues.
 bool Compiler::element_of(NodeId id, NodeId& base, NodeId& first, NodeId& second) const {
   first = node(id).b;
   second = kNoNode;

@@ -1,4 +1,4 @@
-// From the tree to the compact form: slots resolved, constants folded.
+// From the syntax tree to instructions: assigns slots, folds constants.
 #pragma once
 
 #include <string_view>
@@ -11,13 +11,13 @@
 
 namespace kerf::gcmc {
 
-/// Index of a built-in function, -1 if there is none of that name.
+/// Index of the built-in function of this name; -1 if there is none.
 using BuiltinIndex = int (*)(std::string_view name);
 
-/// Too many variables or temporaries for the numbers of slots (65535).
+/// Thrown if a function has more than 65535 variables and temporaries.
 struct TooManySlots {};
 
-/// `constants` are names that exist, and are constant, before the program begins.
+/// `constants`: names of constants that exist before the program starts.
 Program compile(const Tree& tree, const std::vector<NameId>& constants, BuiltinIndex builtin_index,
                 Meter& meter);
 

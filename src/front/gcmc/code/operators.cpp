@@ -8,7 +8,7 @@
 namespace kerf::gcmc {
 namespace {
 
-constexpr std::size_t kMostGrowth = 50'000'000;  // entries that an index or shift may add at once
+constexpr std::size_t kMaxGrowth = 50'000'000;  // entries that an index or shift may add at once
 
 std::string_view symbol(Op op) {
   switch (op) {
@@ -83,7 +83,7 @@ double real_operation(Runtime& rt, Op op, double a, double b) {
   }
 }
 
-/// The unit of a result; `b` is converted where its unit differs but fits.
+/// The unit of a result; `b` is converted if its unit differs but is compatible.
 Unit common_unit(Runtime& rt, Op op, Unit ua, Scalar& b) {
   const Unit ub = b.unit();
   if (ua == Unit::none || ub == Unit::none) return ua == Unit::none ? ub : ua;
@@ -95,7 +95,7 @@ Unit common_unit(Runtime& rt, Op op, Unit ua, Scalar& b) {
     rt.warn(Code::gcmc_unit,
             fmt::format("Operation '{}': LHS has {} units and RHS has {} units, RHS units ignored",
                         symbol(op), kind(ua), kind(ub)),
-            fmt::format("{} counts as {}; to_none() says that this is meant", text_of(b),
+            fmt::format("{} is used as {}; use to_none() if that is intended", text_of(b),
                         text_of(b.with_unit(ua))));
   }
   return op == Op::div ? Unit::none : ua;
@@ -104,7 +104,7 @@ Unit common_unit(Runtime& rt, Op op, Unit ua, Scalar& b) {
 Scalar with_undefined(Op op, Scalar a, Scalar b) {
   switch (op) {
     case Op::add:
-    case Op::sub: return a;  // undef where a is, else a without b
+    case Op::sub: return a;  // undef if a is undef; an undef b is ignored
     case Op::add_or: return a.defined() ? a : b;
     case Op::sub_or:
       if (a.defined() || !b.defined()) return a;
@@ -134,9 +134,9 @@ Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b) {
 
 namespace {
 
-// ---- addition and its kin
+// ---- addition and subtraction
 
-/// The operation on plain scalars, false where the language has more to say about it.
+/// The operation on plain scalars; false if other rules apply.
 inline bool plain_operation(Op op, Scalar a, Scalar b, Scalar& out) {
   switch (op) {
     case Op::add:
@@ -154,7 +154,7 @@ inline Scalar coordinate_operation(Runtime& rt, Op op, Scalar a, Scalar b) {
   return plain_operation(op, a, b, out) ? out : scalar_operation(rt, op, a, b);
 }
 
-/// The coordinates of a op b, where there are at most three and all are plain.
+/// The coordinates of a op b if there are at most three and all are plain.
 template <class First, class Second>
 bool plain_coordinates(Op op, std::size_t count, First first, Second second, Value& out) {
   Scalar r[3];
@@ -308,7 +308,7 @@ std::int32_t bits_of(Runtime& rt, Op op, std::string_view side, Scalar s) {
   return to_integer(s);
 }
 
-/// `|` fills what a has not, `&` overwrites what both have.
+/// `|` sets the coordinates that are undef in a, `&` overwrites those that are defined in both.
 void merge_vectors(Runtime& rt, Op op, Value& a, const Value& b) {
   for (std::size_t i = 0; i < b.vector_size(); ++i) {
     const Scalar from = b.coordinate(i);
@@ -356,7 +356,7 @@ void shift(Runtime& rt, Op op, Value& a, const Value& b) {
   const std::int32_t count = to_integer(b.scalar());
   if (count < 0)
     rt.fail(Code::gcmc_range, fmt::format("Operation '{}': Shift count is negative", symbol(op)));
-  if (static_cast<std::size_t>(count) > kMostGrowth)
+  if (static_cast<std::size_t>(count) > kMaxGrowth)
     rt.fail(Code::gcmc_limit, fmt::format("Operation '{}': Shift count too large", symbol(op)));
   const bool left = op == Op::shift_left;
   const auto entries = static_cast<std::size_t>(count);
@@ -378,7 +378,7 @@ void shift(Runtime& rt, Op op, Value& a, const Value& b) {
 
 namespace {
 
-/// Real vectors of one shape, or such a vector and a real number without unit: the most frequent case by far.
+/// Real vectors of one shape, or such a vector and a real number without unit: the most frequent case.
 bool reals_plain(Op op, const Value& a, const Value& b, Value& out) {
   double r[3] = {};
   const std::size_t count = a.short_size();
@@ -472,13 +472,13 @@ bool compare_scalars(Runtime& rt, Op op, Scalar a, Scalar b) {
     const Unit other = ua == Unit::none ? ub : ua;
     rt.warn(Code::gcmc_unit,
             fmt::format("Possible unit mismatch; comparing units {} with none", unit_name(other)),
-            fmt::format("{} counts as {}: write it so", text_of(plain),
+            fmt::format("{} is compared as {}; write the unit", text_of(plain),
                         text_of(plain.with_unit(is_angle(other) ? Unit::deg : rt.native))));
   } else if (is_distance(ua) != is_distance(ub)) {
     rt.warn(Code::gcmc_unit,
             fmt::format("Unit mismatch in comparison, converted to <none> (LHS={}, RHS={})", unit_name(ua),
                         unit_name(ub)),
-            "a length and an angle are compared by their numbers alone");
+            "a length and an angle are compared by their numbers only");
     return holds(op, a.number() - b.number());
   }
   return holds(op, native_number(rt, a) - native_number(rt, b));
@@ -573,15 +573,16 @@ Value item_at(Runtime& rt, const Value& v, std::size_t i) {
   return Value::string(std::u32string(1, v.text()[i]), rt.meter);
 }
 
-/// The place to write: negative indices count from the end, or, beyond the front, grow to that many.
-std::size_t writable_place(Runtime& rt, const Value& target, const Value& index) {
+/// The index to write to. A negative index counts from the end; below -count the value grows to -index
+/// entries.
+std::size_t writable_index(Runtime& rt, const Value& target, const Value& index) {
   const std::int64_t i = index_number(rt, index);
   const auto count = static_cast<std::int64_t>(count_of(rt, target));
-  const std::int64_t place = i >= 0 ? i : i + count >= 0 ? i + count : 0;
+  const std::int64_t position = i >= 0 ? i : i + count >= 0 ? i + count : 0;
   const std::int64_t needed = i >= 0 ? i + 1 : -i;
-  if (needed > static_cast<std::int64_t>(kMostGrowth))
+  if (needed > static_cast<std::int64_t>(kMaxGrowth))
     rt.fail(Code::gcmc_limit, fmt::format("Index {} is too large", i));
-  return static_cast<std::size_t>(place);
+  return static_cast<std::size_t>(position);
 }
 
 std::size_t size_after(const Value& index, std::size_t count) {
@@ -590,7 +591,7 @@ std::size_t size_after(const Value& index, std::size_t count) {
 }
 
 void set_coordinate(Runtime& rt, Value& v, const Value& index, const Value& item) {
-  const std::size_t i = writable_place(rt, v, index);
+  const std::size_t i = writable_index(rt, v, index);
   if (!item.is_scalar())
     rt.fail(Code::gcmc_type, fmt::format("Vector entries must be scalar ({})", type_name(item)));
   const std::size_t size = size_after(index, v.vector_size());
@@ -604,12 +605,12 @@ void set_coordinate(Runtime& rt, Value& v, const Value& index, const Value& item
 bool find_element(Runtime& rt, const Value& v, const Value& index, Value& out) {
   const std::size_t count = count_of(rt, v);
   const std::int64_t i = index_number(rt, index);
-  const std::int64_t place = i < 0 ? i + static_cast<std::int64_t>(count) : i;
-  if (place < 0 || place >= static_cast<std::int64_t>(count)) {
+  const std::int64_t position = i < 0 ? i + static_cast<std::int64_t>(count) : i;
+  if (position < 0 || position >= static_cast<std::int64_t>(count)) {
     out_of_range(rt, i, count);
     return false;
   }
-  out = item_at(rt, v, static_cast<std::size_t>(place));
+  out = item_at(rt, v, static_cast<std::size_t>(position));
   return true;
 }
 
@@ -626,7 +627,7 @@ void set_element(Runtime& rt, Value& target, const Value& first, const Value* se
     rt.fail(Code::gcmc_type, fmt::format("Only vectors and vectorlists can be indexed as lvalues ({})",
                                          type_name(target.is_vector() ? item : target)));
   }
-  const std::size_t i = writable_place(rt, target, first);
+  const std::size_t i = writable_index(rt, target, first);
   if (second == nullptr && !item.is_vector())
     rt.fail(Code::gcmc_type, fmt::format("Vectorlist entries must be vectors ({})", type_name(item)));
   auto& vectors = target.own_vectors(rt.meter);

@@ -1,5 +1,5 @@
-// The operators on values. The inline part decides the plain cases, scalars whose units need no conversion;
-// the rest says what the language says, warnings and errors included.
+// The operators on values. The inline functions compute the plain cases, scalars whose units need no
+// conversion; the others implement all rules of the language, with their warnings and errors.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ constexpr std::int32_t wrap_mul(std::int32_t a, std::int32_t b) {
   return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) * static_cast<std::uint32_t>(b));
 }
 
-/// How two numbers meet: the tag that their sum has, and flags. Looked up by both tags, because deciding it
-/// takes longer than the operation itself.
-using Meeting = std::uint16_t;
-enum : Meeting {
+/// Properties of a pair of numbers: the tag of their sum, and flags. In a table by both tags, because
+/// computing them would take longer than the operation.
+using Pairing = std::uint16_t;
+enum : Pairing {
   kResultTag = 0x1F,
   kLeftInteger = 0x20,
   kRightInteger = 0x40,
@@ -36,36 +36,36 @@ enum : Meeting {
   kComparable = 0x100,  // both are defined, and their units are equal
 };
 constexpr std::size_t kTags = 32;
-constexpr Meeting meeting_of(Tag a, Tag b) {
+constexpr Pairing pairing_of(Tag a, Tag b) {
   const Unit ua = unit_of(a), ub = unit_of(b);
   if (a >= kTags || b >= kTags || kind_of(a) == Kind::undef || kind_of(b) == Kind::undef) return 0;
   if (ua != ub && ua != Unit::none && ub != Unit::none) return 0;
   const bool whole_a = kind_of(a) == Kind::integer, whole_b = kind_of(b) == Kind::integer;
   const Tag result = make_tag(whole_a && whole_b ? Kind::integer : Kind::real, ua == Unit::none ? ub : ua);
-  return static_cast<Meeting>(result | (whole_a ? +kLeftInteger : 0) | (whole_b ? +kRightInteger : 0) |
+  return static_cast<Pairing>(result | (whole_a ? +kLeftInteger : 0) | (whole_b ? +kRightInteger : 0) |
                               kPlain | (ua == ub ? +kComparable : 0));
 }
-/// Where two tags' meeting stands in the table.
-constexpr std::size_t meeting_at(Tag a, Tag b) { return static_cast<std::size_t>(a * kTags + b); }
-constexpr std::array<Meeting, kTags * kTags> all_meetings() {
-  std::array<Meeting, kTags * kTags> all{};
+/// Index of a pair of tags in the table.
+constexpr std::size_t pairing_index(Tag a, Tag b) { return static_cast<std::size_t>(a * kTags + b); }
+constexpr std::array<Pairing, kTags * kTags> all_pairings() {
+  std::array<Pairing, kTags * kTags> all{};
   for (Tag a = 0; a < kTags; ++a)
-    for (Tag b = 0; b < kTags; ++b) all[meeting_at(a, b)] = meeting_of(a, b);
+    for (Tag b = 0; b < kTags; ++b) all[pairing_index(a, b)] = pairing_of(a, b);
   return all;
 }
-inline constexpr auto kMeetings = all_meetings();
-inline Meeting meeting(Scalar a, Scalar b) { return kMeetings[meeting_at(a.tag, b.tag)]; }
-inline double left_number(Scalar a, Meeting m) {
+inline constexpr auto kPairings = all_pairings();
+inline Pairing pairing(Scalar a, Scalar b) { return kPairings[pairing_index(a.tag, b.tag)]; }
+inline double left_number(Scalar a, Pairing m) {
   return m & kLeftInteger ? static_cast<double>(a.p.i) : a.p.d;
 }
-inline double right_number(Scalar b, Meeting m) {
+inline double right_number(Scalar b, Pairing m) {
   return m & kRightInteger ? static_cast<double>(b.p.i) : b.p.d;
 }
 
 /// An operation on plain numbers; false for all others. `whole` and `real` do the work.
 template <class Whole, class Real>
 inline bool operate_plain(Scalar a, Scalar b, Scalar& out, Whole whole, Real real) {
-  const Meeting m = meeting(a, b);
+  const Pairing m = pairing(a, b);
   if (!(m & kPlain)) return false;
   out.tag = m & kResultTag;
   if ((m & kBothIntegers) == kBothIntegers)
@@ -84,9 +84,9 @@ inline bool multiply_plain(Scalar a, Scalar b, Scalar& out) {
   return operate_plain(a, b, out, wrap_mul, [](double x, double y) { return x * y; });
 }
 
-/// Division of plain numbers; false as well where the divisor is, or may be, zero.
+/// Division of plain numbers; also false if the divisor is, or may be, zero.
 inline bool divide_plain(Scalar a, Scalar b, Scalar& out) {
-  const Meeting m = meeting(a, b);
+  const Pairing m = pairing(a, b);
   if (!(m & kPlain)) return false;
   const Unit unit = m & kComparable ? Unit::none : unit_of(m & kResultTag);
   if ((m & kBothIntegers) == kBothIntegers) {
@@ -100,14 +100,14 @@ inline bool divide_plain(Scalar a, Scalar b, Scalar& out) {
   return true;
 }
 inline bool modulo_plain(Scalar a, Scalar b, Scalar& out) {
-  constexpr Meeting kNeeded = kPlain | kBothIntegers;
-  const Meeting m = meeting(a, b);
+  constexpr Pairing kNeeded = kPlain | kBothIntegers;
+  const Pairing m = pairing(a, b);
   if ((m & kNeeded) != kNeeded || b.whole() == 0 || b.whole() == -1) return false;
   out.tag = m & kResultTag;
   out.p.i = a.whole() % b.whole();
   return true;
 }
-/// Whether a comparison holds of numbers that differ by that.
+/// Whether a comparison holds for numbers with the given difference.
 inline bool holds(Op op, double difference) {
   switch (op) {
     case Op::equal: return std::fabs(difference) < kEpsilon;
@@ -129,7 +129,7 @@ inline bool holds(Op op, std::int32_t a, std::int32_t b) {
   }
 }
 
-/// One more or one less; false for what is no number.
+/// Adds or subtracts 1; false if `s` is not a number.
 inline bool step_plain(Scalar s, bool down, Scalar& out) {
   if (s.kind() == Kind::integer)
     out = Scalar::integer(wrap_add(s.whole(), down ? -1 : 1), s.unit());
@@ -140,28 +140,28 @@ inline bool step_plain(Scalar s, bool down, Scalar& out) {
   return true;
 }
 
-/// a op b of scalars, with all of the language's rules on units and undef.
+/// a op b of scalars, with all rules for units and undef.
 Scalar scalar_operation(Runtime& rt, Op op, Scalar a, Scalar b);
-/// a = a op b of any values; `b` is not part of `a`. What only `a` owns is changed in place.
+/// a = a op b of any values; `b` must not be an element of `a`. Changes blocks of a single owner in place.
 void operate(Runtime& rt, Op op, Value& a, const Value& b);
-/// list = list + {item}, the types of both being checked.
+/// list = list + {item}, with a check of both types.
 void append_vector(Runtime& rt, Value& list, Value item);
-/// a op b into `out`, which may be one of them, where both are short vectors, or a vector and a scalar, of
-/// plain numbers; false, with nothing changed, for everything else.
+/// a op b into `out`, which may be one of them, for two short vectors, or a vector and a scalar, of plain
+/// numbers; false, with nothing changed, for all others.
 bool vectors_plain(Op op, const Value& a, const Value& b, Value& out);
-/// Whether a op b holds, op being a comparison.
+/// Whether the comparison a op b is true.
 bool compare(Runtime& rt, Op op, const Value& a, const Value& b);
 bool truth(const Value& v);
 Value bit_not(Runtime& rt, const Value& v);
 /// v[i]; out of range warns and yields undef or an empty vector.
 Value element(Runtime& rt, const Value& v, const Value& index);
-/// The same with a place in the range; false (and a warning) where there is none.
+/// The same into `out`; false, with a warning, if the index is out of range.
 bool find_element(Runtime& rt, const Value& v, const Value& index, Value& out);
 /// target[i] = item, or target[i][j] = item; grows the target.
 void set_element(Runtime& rt, Value& target, const Value& first, const Value* second, const Value& item);
-/// An integer where the language wants one: reals are cut off, unless within 1e-12 of an integer.
+/// Conversion to an integer: reals are truncated, unless within 1e-12 of an integer.
 std::int32_t to_integer(Scalar s);
-/// Adds 1 or -1; warns for what is no number.
+/// Adds 1 or -1; a warning if `v` is not a number.
 void step_value(Runtime& rt, Value& v, bool down);
 
 }  // namespace kerf::gcmc

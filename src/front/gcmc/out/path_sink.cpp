@@ -1,4 +1,4 @@
-// Calls of the machine into a toolpath.
+// From calls of the machine to a toolpath.
 #include "front/gcmc/out/path_sink.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace kerf::gcmc {
 namespace {
 
 constexpr unsigned kLinear = 7, kLinearAndRotary = 63, kEveryAxis = 511;  // bits of axes
-constexpr double kFarthest = 1e7;                                         // mm; beyond no position is meant
+constexpr double kMaxPosition = 1e7;                                      // mm
 
 bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r") == std::string_view::npos; }
 
@@ -41,31 +41,31 @@ OriginId PathSink::origin_at(std::size_t instruction, OriginId caller) {
   auto [it, is_new] = origins_.try_emplace(key, OriginId::none);
   if (is_new) {
     OriginTable& table = path_.origins();
-    const TextSpot spot = vm_.spot(instruction);
-    it->second = table.text(table.file(spot.file), spot.line, spot.column);
+    const TextSpot where = vm_.location(instruction);
+    it->second = table.text(table.file(where.file), where.line, where.column);
     if (caller != OriginId::none) table.set_caller(it->second, caller);
   }
   last_key_ = key;
   return last_origin_ = it->second;
 }
 
-/// The place of the running instruction, with the calls that led there. One place in one chain of calls is
-/// one origin.
+/// The location of the running instruction with the calls that led to it. The same location with the same
+/// calls is the same origin.
 OriginId PathSink::origin() {
-  constexpr std::size_t kMostCalls = 64;           // of a chain; the outermost are left out beyond
-  constexpr std::size_t kMostOrigins = 5'000'000;  // beyond, steps know their own line only
+  constexpr std::size_t kMaxCalls = 64;           // of a chain; without the outermost beyond that
+  constexpr std::size_t kMaxOrigins = 5'000'000;  // beyond that, steps have no calls
   check_size();
   OriginId caller = OriginId::none;
-  if (origins_.size() > kMostOrigins) return origin_at(vm_.current_instruction(), caller);
+  if (origins_.size() > kMaxOrigins) return origin_at(vm_.current_instruction(), caller);
   const std::size_t depth = vm_.depth();
-  for (std::size_t i = depth > kMostCalls ? depth - kMostCalls : 0; i < depth; ++i)
+  for (std::size_t i = depth > kMaxCalls ? depth - kMaxCalls : 0; i < depth; ++i)
     caller = origin_at(vm_.call_site(i), caller);
   return origin_at(vm_.current_instruction(), caller);
 }
 
 // ---- motions
 
-/// Texts are kept once each, but a program can make ever new ones.
+/// Each text is stored once, but a program can generate any number of different ones.
 void PathSink::count_text(std::size_t bytes) {
   text_bytes_ += bytes;
   if (text_bytes_ > vm_.options().max_memory) throw OutOfMemory{};
@@ -77,21 +77,22 @@ void PathSink::check_size() {
            fmt::format("The toolpath has more than {} steps", vm_.options().max_path_steps));
 }
 
-/// Whether what follows belongs to the toolpath; with text of literal() before it on its line, an error.
-bool PathSink::look() {
+/// Whether the next call belongs to the toolpath; an error if literal() has written text on the same line.
+bool PathSink::check_pending() {
   if (ended_) return false;
   if (!is_blank(pending_)) {
-    vm_.fail(Code::gcmc_literal,
-             fmt::format("The line {} of literal() is not ended: the words of this call would follow on it",
-                         quoted(pending_)),
-             "end the text of literal() with \\n");
+    vm_.fail(
+        Code::gcmc_literal,
+        fmt::format("The line {} of literal() is not ended: the words of this call would be appended to it",
+                    quoted(pending_)),
+        "end the text of literal() with \\n");
   }
   pending_.clear();
-  attention_ = false;
+  needs_check_ = false;
   return true;
 }
 
-/// The feed of a straight move, mm/min. In inverse time only a feed `given` with the move counts.
+/// The feed of a straight move, mm/min. In inverse time only a feed `given` with the move is valid.
 double PathSink::straight_feed(double given, Point3 from, Point3 to) const {
   if (feed_mode_ != FeedMode::inverse_time) return modal_feed();
   return feed_per_minute(feed_mode_, given, distance(from, to), 0.0);
@@ -103,9 +104,9 @@ double PathSink::modal_feed() const {
   return feed_per_minute(feed_mode_, feed_ * scale_, 0.0, speed_.value_or(0.0));
 }
 
-/// Moves the named axes to where the text leads them. An axis that a motion does not name stays where it is,
-/// although relocate() may have changed its coordinate; relative text has the difference from the coordinate
-/// that was in force before. Drawings follow the program's own position.
+/// Moves the named axes as the G-code text would. An axis that is not named does not move, even if relocate()
+/// has changed its coordinate; in relative text the distance is from the previous coordinate. Drawings use
+/// the position of the program.
 void PathSink::go(const Axes& to, unsigned named) {
   const bool relative = vm_.options().relative && !draws_;
   if (draws_) named = kEveryAxis;
@@ -113,8 +114,8 @@ void PathSink::go(const Axes& to, unsigned named) {
     if (named & 1u << i) at_[i] = relative ? at_[i] + (to[i] - commanded_[i]) : to[i];
   commanded_ = to;
   const Point3 here = position();
-  if (!draws_ && !(std::max({std::abs(here.x), std::abs(here.y), std::abs(here.z)}) <= kFarthest))
-    vm_.fail(Code::gcmc_geometry, fmt::format("A position is more than {:g} mm from zero", kFarthest));
+  if (!draws_ && !(std::max({std::abs(here.x), std::abs(here.y), std::abs(here.z)}) <= kMaxPosition))
+    vm_.fail(Code::gcmc_geometry, fmt::format("A position is more than {:g} mm from zero", kMaxPosition));
 }
 
 void PathSink::note_motion(std::size_t step, unsigned named) {
@@ -136,9 +137,9 @@ void PathSink::rapid(const Axes& to, unsigned named, OriginId where) {
 }
 
 void PathSink::move(const Move& m) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   if (m.feed > 0.0) feed_ = m.feed;
-  // A motion word alone moves nothing, and is a step only where the controller makes a motion of it.
+  // A motion word alone does not move; it is a step only if the controller executes it as a motion.
   const bool empty = (m.named & kLinearAndRotary) == 0;
   if (empty && (!moved_ || !(m.rapid || feed_ > 0.0))) return;
   const OriginId where = origin();
@@ -151,7 +152,7 @@ void PathSink::move(const Move& m) {
 }
 
 void PathSink::arc(const ArcMove& m) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   check_size();
   series_start_.reset();
   const PlaneAxes plane = named_axes_of(m.plane);
@@ -195,14 +196,14 @@ class PathSink::CycleSink final : public DrillSink {
     sink_.note_motion(sink_.path_.add(step, where_), named);
   }
   PathSink& sink_;
-  unsigned axis_;               // of the hole, as a bit
-  unsigned next_, after_next_;  // axes of the next two motions; all others name the axis of the hole
+  unsigned axis_;               // of the hole; a bit
+  unsigned next_, after_next_;  // axes of the next two motions; later ones name the axis of the hole
   OriginId where_;
 };
 
-/// The motions of the G73 of the text, which is read with G99 in force.
+/// The motions of the G73 in the text, with G99 in force.
 void PathSink::drill(const DrillMove& m) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   constexpr int kMaxRepeats = 10'000;  // as in G-code
   const bool relative = vm_.options().relative;
   DrillCycle cycle;
@@ -238,20 +239,20 @@ void PathSink::drill(const DrillMove& m) {
 // ---- state
 
 void PathSink::feed_rate(double feed) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   if (feed < 0.0 && !draws_)
     vm_.fail(Code::gcmc_range, fmt::format("A feed cannot be negative ({:g})", feed));
   feed_ = feed;
 }
 
 void PathSink::feed_mode(int mode) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   static constexpr FeedMode kModes[] = {FeedMode::inverse_time, FeedMode::per_minute, FeedMode::per_turn};
-  if (feed_mode_ != kModes[mode]) feed_ = 0.0;  // a feed of one mode means nothing in another
+  if (feed_mode_ != kModes[mode]) feed_ = 0.0;  // a feed is not valid in another mode
   feed_mode_ = kModes[mode];
 }
 
-/// A spindle does not turn at a speed of 0, where the program gives that speed.
+/// The spindle does not turn if the program has set a speed of 0.
 void PathSink::turn_spindle(SpindleTurn turn, OriginId where) {
   turn_ = turn;
   const bool still = turn == SpindleTurn::off || (speed_ && !(*speed_ > 0.0));
@@ -266,17 +267,17 @@ void PathSink::set_speed(double speed, OriginId where) {
 }
 
 void PathSink::spindle(double speed) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   if (speed != 0.0) speed_ = std::abs(speed);
   turn_spindle(speed == 0.0 ? SpindleTurn::off : speed > 0.0 ? SpindleTurn::cw : SpindleTurn::ccw, origin());
 }
 
 void PathSink::spindle_speed(double speed) {
-  if (goes_on()) set_speed(speed, origin());
+  if (is_active()) set_speed(speed, origin());
 }
 
 void PathSink::coolant(int bits) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   coolant_ =
       bits == 0 ? step::Coolant{} : step::Coolant{coolant_.mist || (bits & 1), coolant_.flood || (bits & 2)};
   path_.add(coolant_, origin());
@@ -288,17 +289,17 @@ void PathSink::change_tool(int tool, OriginId where) {
 }
 
 void PathSink::tool_change(int tool, bool) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   selected_tool_ = tool;
   change_tool(tool, origin());
 }
 
 void PathSink::dwell(double time) {
-  if (goes_on()) path_.add(step::Dwell{seconds(time)}, origin());
+  if (is_active()) path_.add(step::Dwell{seconds(time)}, origin());
 }
 
 void PathSink::path_mode(bool exact, std::optional<double> p, std::optional<double>) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   step::PathMode mode;
   mode.kind = exact ? PathModeKind::exact_path : PathModeKind::blend;
   mode.tolerance = mm(p.value_or(0.0) * scale_);
@@ -306,7 +307,7 @@ void PathSink::path_mode(bool exact, std::optional<double> p, std::optional<doub
 }
 
 void PathSink::pause(bool optional) {
-  if (goes_on()) path_.add(step::Pause{optional ? PauseKind::optional : PauseKind::always}, origin());
+  if (is_active()) path_.add(step::Pause{optional ? PauseKind::optional : PauseKind::always}, origin());
 }
 
 void PathSink::layer(const std::string& name) {
@@ -320,15 +321,15 @@ void PathSink::close_path() {
 // ---- stored positions
 
 void PathSink::store_position(bool second) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   homes_[second ? 1 : 0] = {position(), unknown_ & kLinear};
   path_.add(step::StoreHome{second ? Reference::second_home : Reference::home}, origin());
 }
 
-/// By way of `via` to the home that the controller stores; only the axes that are named, X, Y and Z where
-/// none is. Where the program itself stored it, that is a known position.
+/// Through `via` to the home stored in the controller, for the named axes, or X, Y and Z if none is named. It
+/// is known only if the program has stored it.
 void PathSink::restore_position(bool second, const Axes& via, unsigned named, const Axes& end) {
-  if (!goes_on()) return;
+  if (!is_active()) return;
   const OriginId where = origin();
   if (draws_) {
     if (named != 0) rapid(via, named, where);
@@ -378,16 +379,16 @@ void PathSink::written_text(std::string_view text) {
     if (ended_) return;
   }
   pending_ += text;
-  attention_ = attention_ || !pending_.empty();
+  needs_check_ = needs_check_ || !pending_.empty();
 }
 
-/// A line that the program wrote itself, as the steps that it makes.
+/// The steps of a line written by literal().
 void PathSink::written_line(std::string_view text) {
-  std::string obstacle;
-  const std::optional<WrittenLine> line = read_written_line(text, obstacle);
+  std::string problem;
+  const std::optional<WrittenLine> line = read_written_line(text, problem);
   if (!line) {
     vm_.fail(Code::gcmc_literal,
-             fmt::format("The line {} cannot be part of a toolpath: {}", quoted(text), obstacle),
+             fmt::format("The line {} cannot be part of a toolpath: {}", quoted(text), problem),
              "use the functions of the language, or write G-code with kerf gcmc and use that");
   }
   const OriginId where = origin();
@@ -419,18 +420,18 @@ void PathSink::written_line(std::string_view text) {
   if (line->end) end(*line->end, where);
 }
 
-/// The program's end stops spindle and coolant. What a program makes after that is not part of the toolpath.
+/// The program's end stops spindle and coolant. Later calls are not part of the toolpath.
 void PathSink::end(step::End how, OriginId where) {
   if (turn_ != SpindleTurn::off) turn_spindle(SpindleTurn::off, where);
   if (coolant_.mist || coolant_.flood) path_.add(coolant_ = {}, where);
   path_.add(how, where);
-  ended_ = attention_ = true;
+  ended_ = needs_check_ = true;
 }
 
 void PathSink::finish() {
   const GcmcOptions& options = vm_.options();
   if (draws_ || ended_) return;
-  if (!is_blank(pending_)) written_line(pending_);  // what the text ends with is a comment
+  if (!is_blank(pending_)) written_line(pending_);  // the last line, without a line end
   if (options.frame == GcmcFrame::usual && options.epilogue.empty() && !ended_) end({true}, origin());
 }
 

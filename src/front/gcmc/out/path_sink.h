@@ -1,9 +1,8 @@
-// The toolpath of a running program: every motion complete, in mm, with the line and the calls that caused
-// it.
+// The toolpath of a running program: complete motions in mm, each with its line and the calls that led to it.
 //
-// It does what a controller does with the words that the text form of the same call has, so that the toolpath
-// is that of the G-code: axes that a call does not name stay where they are, in inverse time a feed counts
-// for its own motion.
+// A call has the effect of the words of its text form on a controller, so that the toolpath is that of the
+// G-code: axes that a call does not name do not move; in inverse time a feed is valid for its own motion
+// only.
 #pragma once
 
 #include <array>
@@ -50,9 +49,9 @@ class PathSink final : public Sink {
   void finish();
 
  private:
-  /// False after the program's end; an error where a line of literal() has no end.
-  bool goes_on() { return !attention_ || look(); }
-  bool look();
+  /// False after the program's end; an error if a line of literal() is not ended.
+  bool is_active() { return !needs_check_ || check_pending(); }
+  bool check_pending();
   OriginId origin();
   class CycleSink;
   void go(const Axes& to, unsigned named);
@@ -74,13 +73,13 @@ class PathSink final : public Sink {
   Vm& vm_;
   double scale_;       // native length to mm
   bool draws_;         // SVG or DXF, for which no G-code is written
-  double feed_ = 0.0;  // as the feed mode has it; native lengths
+  double feed_ = 0.0;  // in native lengths, by the feed mode
   FeedMode feed_mode_ = FeedMode::per_minute;
   std::optional<double> speed_;  // rpm
   SpindleTurn turn_ = SpindleTurn::off;
   step::Coolant coolant_;
-  std::optional<int> selected_tool_;  // by a T word of its own
-  Axes at_{};                         // where the motions so far lead; native, with offsets
+  std::optional<int> selected_tool_;  // by a T word without M6
+  Axes at_{};                         // position after the motions so far; native, with offsets
   Axes commanded_{};                  // the same in the coordinates of the program
   unsigned unknown_ = 7;              // axes never commanded
   bool moved_ = false, rotary_used_ = false;
@@ -91,8 +90,8 @@ class PathSink final : public Sink {
   };
   std::array<Home, 2> homes_;
   std::size_t text_bytes_ = 0;
-  std::string pending_;     // text of a line that is not ended yet
-  bool attention_ = false;  // there is such text, or the program has ended
+  std::string pending_;       // text of a line that is not ended
+  bool needs_check_ = false;  // pending_ is not empty, or the program has ended
   bool ended_ = false;
   struct Key {
     std::uint64_t site;

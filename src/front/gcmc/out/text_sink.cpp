@@ -10,8 +10,8 @@
 namespace kerf::gcmc {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 16;        // bytes handed on at once
-constexpr std::size_t kLongestLine = 1 << 13;  // nine axes, offsets, feed: numbers of 330 digits at most
+constexpr std::size_t kChunkBytes = 1 << 16;    // bytes passed on at once
+constexpr std::size_t kMaxLineBytes = 1 << 13;  // nine axes, offsets, feed: numbers of 330 digits at most
 constexpr char kLetters[] = "XYZABCUVW";
 constexpr char kOffsets[] = "IJK";
 
@@ -21,17 +21,17 @@ TextSink::TextSink(Vm& vm, GcmcOutput& output)
     : vm_(vm),
       options_(vm.options()),
       output_(output),
-      buffer_(new char[kPiece + kLongestLine]),
+      buffer_(new char[kChunkBytes + kMaxLineBytes]),
       at_(buffer_.get()) {}
 
-/// What the buffer holds, which is free for more then.
-std::string_view TextSink::taken() {
+/// The buffered text; empties the buffer, whose bytes stay valid until the next write.
+std::string_view TextSink::take_buffer() {
   const std::string_view piece(buffer_.get(), static_cast<std::size_t>(at_ - buffer_.get()));
   at_ = buffer_.get();
   return piece;
 }
 
-/// Ends the program where nobody can take its text any more, or where it is too much.
+/// Passes on text. Ends the program if the output is broken or exceeds the limit.
 void TextSink::pass_on(std::string_view piece) {
   if (piece.empty()) return;
   output_.text(piece);
@@ -39,22 +39,22 @@ void TextSink::pass_on(std::string_view piece) {
   vm_.count_output(piece.size());
 }
 
-void TextSink::flush() { pass_on(taken()); }
+void TextSink::flush() { pass_on(take_buffer()); }
 
-void TextSink::break_off() {
-  const std::string_view piece = taken();
+void TextSink::flush_after_error() {
+  const std::string_view piece = take_buffer();
   if (!piece.empty() && !output_.is_broken()) output_.text(piece);
 }
 
-/// Before a line: there is room for the longest one afterwards.
+/// Makes room for one line of any length up to kMaxLineBytes.
 void TextSink::make_room() {
-  if (at_ >= buffer_.get() + kPiece) flush();
+  if (at_ >= buffer_.get() + kChunkBytes) flush();
 }
 
 /// Text of any length.
 void TextSink::put(std::string_view text) {
   make_room();
-  if (text.size() > kLongestLine) {
+  if (text.size() > kMaxLineBytes) {
     flush();
     pass_on(text);
     return;
@@ -67,9 +67,9 @@ void TextSink::line(std::string_view text) {
   end_line();
 }
 
-/// A letter with its number; a blank stands before it unless it begins the line.
-void TextSink::word(char letter, double value, Begins begins) {
-  if (begins == Begins::no) *at_++ = ' ';
+/// A letter with its number, after a blank unless it starts the line.
+void TextSink::word(char letter, double value, LineStart start) {
+  if (start == LineStart::no) *at_++ = ' ';
   *at_++ = letter;
   if (char* end = write_fixed(at_, value, options_.precision)) {
     at_ = end;
@@ -80,9 +80,9 @@ void TextSink::word(char letter, double value, Begins begins) {
   at_ = std::copy(slow.begin(), slow.end(), at_);
 }
 
-// ---- what stands around the program
+// ---- prologue and epilogue
 
-void TextSink::begin() {
+void TextSink::start() {
   if (!options_.prologue.empty()) {
     put(options_.prologue);
     return;
@@ -126,8 +126,8 @@ void TextSink::end() {
 
 // ---- motions
 
-/// The words of a motion; brief text leaves out a word that is in force.
-void TextSink::begin_motion(std::string_view motion, bool modal) {
+/// The word of a motion; brief text omits a word that is in force.
+void TextSink::start_motion(std::string_view motion, bool modal) {
   make_room();
   if (!options_.brief || mode_ != motion) {
     *at_++ = motion[0];
@@ -153,7 +153,7 @@ void TextSink::axes(const Axes& to, unsigned named, Words words) {
 void TextSink::move(const Move& m) {
   make_room();
   char* const start = at_;
-  begin_motion(m.rapid ? "G0" : "G1", true);
+  start_motion(m.rapid ? "G0" : "G1", true);
   axes(m.to, m.named);
   if (m.feed > 0.0 && !(options_.brief && m.feed == feed_)) word('F', m.feed);
   if (m.feed > 0.0) feed_ = m.feed;
@@ -164,7 +164,7 @@ void TextSink::move(const Move& m) {
 }
 
 void TextSink::arc(const ArcMove& m) {
-  begin_motion(m.turn == Turn::cw ? "G2" : "G3", false);
+  start_motion(m.turn == Turn::cw ? "G2" : "G3", false);
   axes(m.to, m.named, Words::all);
   const PlaneAxes plane = named_axes_of(m.plane);
   word(kOffsets[plane.u], m.offset.x);
@@ -175,7 +175,7 @@ void TextSink::arc(const ArcMove& m) {
 }
 
 void TextSink::drill(const DrillMove& m) {
-  begin_motion("G73", false);
+  start_motion("G73", false);
   const Axes before = last_;
   axes(m.to, m.named & 7u, Words::all);
   word('R', options_.relative ? m.retract - before[2] : m.retract);
@@ -200,7 +200,7 @@ void TextSink::feed_rate(double feed) {
   if (options_.brief && feed == feed_) return;
   feed_ = feed;
   make_room();
-  word('F', feed, Begins::yes);
+  word('F', feed, LineStart::yes);
   end_line();
 }
 
@@ -213,14 +213,14 @@ void TextSink::feed_mode(int mode) {
 void TextSink::spindle(double speed) {
   if (speed == 0.0) return line("M5");
   make_room();
-  word('S', speed < 0.0 ? -speed : speed, Begins::yes);
+  word('S', speed < 0.0 ? -speed : speed, LineStart::yes);
   end_line();
   line(speed > 0.0 ? "M3" : "M4");
 }
 
 void TextSink::spindle_speed(double speed) {
   make_room();
-  word('S', speed, Begins::yes);
+  word('S', speed, LineStart::yes);
   end_line();
 }
 

@@ -1,4 +1,4 @@
-// The text that the real program writes: every word of every call, no modal suppression unless asked for.
+// The text as the real program writes it: every word of every call; with `brief` without repeated words.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@ namespace kerf::gcmc {
 class TextSink final : public Sink {
  public:
   TextSink(Vm& vm, GcmcOutput& output);
-  void begin();
+  void start();
   void end();
-  /// Hands on what is there of a program that was ended by an error.
-  void break_off();
+  /// Passes on the buffered text of a program that was ended by an error.
+  void flush_after_error();
 
   void move(const Move& m) override;
   void arc(const ArcMove& m) override;
@@ -41,20 +41,20 @@ class TextSink final : public Sink {
   void close_path() override {}
 
  private:
-  std::string_view taken();
+  std::string_view take_buffer();
   void pass_on(std::string_view piece);
   void flush();
   void make_room();
   void put(std::string_view text);
   void line(std::string_view text);
-  enum class Begins : std::uint8_t { no, yes };
-  void word(char letter, double value, Begins begins = Begins::no);
+  enum class LineStart : std::uint8_t { no, yes };
+  void word(char letter, double value, LineStart start = LineStart::no);
   enum class Words : std::uint8_t {
     all,
     unless_repeated
-  };  // brief text omits those that repeat a coordinate
+  };  // unless_repeated: brief text omits words that repeat a coordinate
   void axes(const Axes& to, unsigned named, Words words = Words::unless_repeated);
-  void begin_motion(std::string_view word, bool modal);
+  void start_motion(std::string_view word, bool modal);
   void end_line() { *at_++ = '\n'; }
   void forget();
 
@@ -64,8 +64,8 @@ class TextSink final : public Sink {
   std::unique_ptr<char[]> buffer_;
   char* at_;               // where the next character goes
   Axes last_{};            // of the machine, offsets included
-  unsigned known_ = 0;     // axes whose position the reader of the text knows (brief only)
-  Axes written_{};         // what it knows of them
+  unsigned known_ = 0;     // axes whose position follows from the text (brief only)
+  Axes written_{};         // their positions
   std::string_view mode_;  // the motion word in force (brief only)
   double feed_ = -1.0;
 };

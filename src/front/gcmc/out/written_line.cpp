@@ -1,4 +1,4 @@
-// Sorting of the words of a written line.
+// Assignment of the words of a line written by literal().
 #include "front/gcmc/out/written_line.h"
 
 #include <cmath>
@@ -21,10 +21,10 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-/// The words of one line, each taken once.
+/// The words of one line, each used once.
 class Sorter {
  public:
-  Sorter(const gcode::Block& block, std::string& obstacle) : block_(block), obstacle_(obstacle) {}
+  Sorter(const gcode::Block& block, std::string& problem) : block_(block), obstacle_(problem) {}
 
   std::optional<WrittenLine> sort() {
     for (const gcode::Word& word : block_.words)
@@ -59,7 +59,7 @@ class Sorter {
       case 'T':
         if (!(word.value >= 0.0 && word.value <= std::numeric_limits<int>::max()) ||
             word.value != std::floor(word.value))
-          return refuse("the number of a tool is a whole number from 0");
+          return refuse("a tool number is a whole number from 0");
         return once(line_.selected, static_cast<int>(word.value), word);
       case 'P': return once(p_, word.value, word);
       case 'Q': return once(q_, word.value, word);
@@ -99,17 +99,17 @@ class Sorter {
            line_.no_coolant || line_.dwell || line_.path_mode || line_.pause || line_.end;
   }
 
-  /// Gives the parameters to the codes that take them.
+  /// Assigns the parameters to the codes that use them.
   bool finish() {
     if (line_.pause && line_.end) return refuse("a line both pauses and ends the program");
     if (unknown_code_) {
-      if (has_steps()) return refuse("an M code that Kerf does not know shares the line with other codes");
+      if (has_steps()) return refuse("an unknown M code is on one line with other codes");
       line_.verbatim = trimmed(block_.text);
       line_.notes.clear();  // they are in the text
       return true;
     }
     if (line_.dwell) {
-      if (!p_ || !(*p_ >= 0.0 && *p_ <= kMaxSeconds)) return refuse("G4 needs its time: P and seconds");
+      if (!p_ || !(*p_ >= 0.0 && *p_ <= kMaxSeconds)) return refuse("G4 needs P, its time in seconds");
       line_.dwell->time = seconds(*p_);
       p_.reset();
     } else if (line_.path_mode && line_.path_mode->kind == PathModeKind::blend) {
@@ -118,7 +118,7 @@ class Sorter {
       p_.reset();
       q_.reset();
     }
-    if (p_ || q_ || other_words_) return refuse("no code of the line uses one of its words");
+    if (p_ || q_ || other_words_) return refuse("a word of the line is not used by any of its codes");
     return true;
   }
 
@@ -127,10 +127,10 @@ class Sorter {
   WrittenLine line_;
   std::optional<double> p_, q_;
   bool other_words_ = false;   // parameters without an effect of their own
-  bool unknown_code_ = false;  // an M code that Kerf does not know
+  bool unknown_code_ = false;  // an unknown M code
 };
 
-/// Whether a word becomes a step although it acts beyond its line: the step carries that.
+/// Whether a word that acts beyond its line becomes a step.
 bool becomes_step(char letter, double value) {
   if (letter == 'S' || letter == 'T') return true;
   if (letter != 'M') return false;
@@ -140,24 +140,24 @@ bool becomes_step(char letter, double value) {
 
 }  // namespace
 
-std::optional<WrittenLine> read_written_line(std::string_view text, std::string& obstacle) {
+std::optional<WrittenLine> read_written_line(std::string_view text, std::string& problem) {
   Diagnostics found;
   gcode::BlockReader reader(text, {}, found);
   gcode::Block block;
   if (!reader.next(block)) return WrittenLine{};
   if (block.faulty) {
-    obstacle = found.list().empty() ? "it is not G-code" : found.list().front().message;
+    problem = found.list().empty() ? "it is not G-code" : found.list().front().message;
     return std::nullopt;
   }
-  gcode::Block rest = block;  // without the words that become steps
+  gcode::Block rest = block;  // the words that do not become steps
   std::erase_if(rest.words, [](const gcode::Word& word) {
     return word.kind == gcode::ValueKind::number && becomes_step(word.letter, word.value);
   });
   if (const gcode::LastingEffect lasting = lasting_effect(rest); !lasting.effect.empty()) {
-    obstacle = fmt::format("{} changes {}", lasting.word, lasting.effect);
+    problem = fmt::format("{} changes {}", lasting.word, lasting.effect);
     return std::nullopt;
   }
-  std::optional<WrittenLine> line = Sorter(block, obstacle).sort();
+  std::optional<WrittenLine> line = Sorter(block, problem).sort();
   if (line && line->verbatim.empty())
     for (const gcode::Comment& comment : block.comments)
       if (const auto note = trimmed(comment.text); !note.empty()) line->notes.emplace_back(note);

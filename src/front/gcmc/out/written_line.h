@@ -1,4 +1,4 @@
-// A line of G-code that a program writes itself, with literal(): what of it a toolpath can carry.
+// A line of G-code written by literal(), as values that become steps of a toolpath.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace kerf::gcmc {
 
-/// What a line does, in the order in which a controller does it.
+/// The effects of a line, in the order of execution by a controller.
 struct WrittenLine {
   std::vector<std::string> notes;   // its comments
   std::optional<double> speed;      // S, rpm
@@ -20,13 +20,13 @@ struct WrittenLine {
   bool mist = false, flood = false, no_coolant = false;
   std::optional<step::Dwell> dwell;
   std::optional<step::PathMode> path_mode;  // its tolerance as written, in the program's unit of length
-  std::string verbatim;                     // a call of a macro or of an M code that Kerf does not know
+  std::string verbatim;                     // a call of a macro or of an unknown M code
   std::optional<step::Pause> pause;
   std::optional<step::End> end;
 };
 
-/// Reads one line without its end. For a line that does more than a toolpath can carry (moves, modes, feeds,
-/// parameters), or is not G-code, nothing; `obstacle` is then what was found and why it is refused.
-std::optional<WrittenLine> read_written_line(std::string_view text, std::string& obstacle);
+/// Reads one line without its end. Nothing, with the reason in `problem`, for a line that cannot be
+/// represented (motions, modes, feeds, parameters) or is not G-code.
+std::optional<WrittenLine> read_written_line(std::string_view text, std::string& problem);
 
 }  // namespace kerf::gcmc

@@ -1,4 +1,4 @@
-// The table of built-in functions and constants, and how they take arguments.
+// The table of built-in functions and constants, and the conversion of arguments.
 #include "front/gcmc/run/builtins.h"
 
 #include <cmath>
@@ -38,7 +38,7 @@ const std::vector<std::string>& builtin_names() {
 }
 
 std::vector<LanguageConstant> language_constants(Meter& meter) {
-  // The version whose behaviour Kerf follows; the text is the name under which that was recorded.
+  // The version that Kerf is compatible with; the text is from its recorded output.
   constexpr std::int32_t kMajor = 1, kMinor = 0, kPoint = 0;
   const auto integer = [](std::int32_t v) { return Value::integer(v); };
   return {
@@ -91,7 +91,7 @@ double Call::length(int i) const {
   if (is_angle(s.unit())) {
     warn(Code::gcmc_unit,
          fmt::format("{}() argument {} has incompatible angular units attached", name, i + 1),
-         fmt::format("a length is expected; {} counts as {}", text_of(s), text_of(s.with_unit(vm.native))));
+         fmt::format("a length is expected; {} is used as {}", text_of(s), text_of(s.with_unit(vm.native))));
     return s.number();
   }
   return native_number(vm, s);
@@ -109,7 +109,7 @@ double Call::angle(int i) const {
   if (is_distance(s.unit())) {
     warn(Code::gcmc_unit,
          fmt::format("{}() argument {} has incompatible distance units attached", name, i + 1),
-         fmt::format("an angle is expected; {} counts as {}", text_of(s), text_of(s.with_unit(Unit::rad))));
+         fmt::format("an angle is expected; {} is used as {}", text_of(s), text_of(s.with_unit(Unit::rad))));
     return s.number();
   }
   return s.unit() == Unit::deg ? convert(s.number(), Unit::deg, Unit::rad) : s.number();

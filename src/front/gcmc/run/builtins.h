@@ -1,4 +1,4 @@
-// The functions of the language that are built in.
+// The built-in functions of the language.
 #pragma once
 
 #include <string>
@@ -9,22 +9,22 @@
 
 namespace kerf::gcmc {
 
-/// A call of a built-in: its name for messages, and its arguments, which it may use up.
+/// A call of a built-in function: its name for messages, and its arguments, which it may move from.
 struct Call {
   Vm& vm;
   std::string_view name;
   Value* arguments;
   int count;
-  bool value_used = true;  // nobody asks for the value otherwise
+  bool value_used = true;
 
   Value& operator[](int i) const { return arguments[i]; }
-  /// Argument `i` as a scalar, an error else; messages count arguments from 1.
+  /// Argument `i`, which must be a scalar; messages count arguments from 1.
   Scalar scalar(int i) const;
-  /// The same, defined, as a number of native length; an angle is warned about.
+  /// The same, which must be defined, in the native unit of length; a warning for an angle.
   double length(int i) const;
   double number(int i) const { return scalar(i).number(); }
   double unitless(int i) const;
-  double angle(int i) const;  // radians; without unit it is taken as such
+  double angle(int i) const;  // radians, also without unit
   std::int32_t integer(int i) const;
   bool truth(int i) const;
   [[noreturn]] void fail(Code code, std::string text) const;
@@ -35,13 +35,13 @@ using BuiltinFunction = Value (*)(const Call& call);
 struct Builtin {
   std::string_view name;
   BuiltinFunction function;
-  int least;
-  int most;  // -1: any number
+  int min_arguments;
+  int max_arguments;  // -1: any number
 };
 
 constexpr int kAnyCount = -1;
 
-// The parts of the table, one a file.
+// The parts of the table, one per file.
 const std::vector<Builtin>& math_builtins();
 const std::vector<Builtin>& vector_builtins();
 const std::vector<Builtin>& convert_builtins();
@@ -58,7 +58,7 @@ struct LanguageConstant {
 };
 std::vector<LanguageConstant> language_constants(Meter& meter);
 
-/// The textual forms of all arguments, one after the other.
+/// The concatenated textual forms of all arguments.
 std::string joined_text(const Call& call);
 
 }  // namespace kerf::gcmc

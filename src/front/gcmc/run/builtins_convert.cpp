@@ -1,4 +1,4 @@
-// Built-in functions that convert and ask: types, units, names, messages.
+// Built-in functions for conversion, queries and messages.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -12,7 +12,7 @@
 namespace kerf::gcmc {
 namespace {
 
-/// Applies `change` to a scalar, to each coordinate of a vector, to each of a list. Undef stays.
+/// Applies `change` to a scalar, or to each coordinate of a vector or of the vectors of a list, except undef.
 template <class Change>
 Value change_scalars(const Call& call, Change change) {
   Value v = std::move(call[0]);
@@ -73,7 +73,7 @@ Value to_distance(const Call& call) {
 
 // ---- numbers of strings
 
-/// The unit that `rest` spells; mil is told apart, as it also scales.
+/// The unit named by `rest`; `mil` is set for mil, which also scales.
 Unit unit_of_text(const Call& call, std::string_view rest, bool& mil) {
   mil = rest == "mil";
   if (mil) return Unit::inch;
@@ -121,7 +121,8 @@ Value to_int(const Call& call) {
     return text == "<undef>" ? Value::undef() : integer_of_text(call, text, base);
   }
   return change_scalars(call, [](Scalar s, bool in_vector) {
-    if (s.kind() == Kind::real && !in_vector) s.p.d = std::trunc(s.p.d);  // only coordinates forgive 1e-12
+    if (s.kind() == Kind::real && !in_vector)
+      s.p.d = std::trunc(s.p.d);  // only coordinates have the tolerance of 1e-12
     return Scalar::integer(to_integer(s), s.unit());
   });
 }
@@ -160,7 +161,7 @@ Value to_val(const Call& call) {
   return Value::integer(text.empty() ? 0 : static_cast<std::int32_t>(text[0]));
 }
 
-// ---- questions
+// ---- queries
 
 template <Kind kind>
 Value is_kind(const Call& call) {
@@ -199,27 +200,27 @@ Value is_target(const Call& call) {
 
 Value undefined(const Call&) { return Value::undef(); }
 
-// ---- saying
+// ---- messages
 
 template <Severity severity>
-Value say(const Call& call) {
+Value message_function(const Call& call) {
   std::string text = joined_text(call);
-  if (!text.empty() && text.back() == '\n') text.pop_back();  // the line is ended anyway
-  call.vm.say(severity, std::move(text));
+  if (!text.empty() && text.back() == '\n') text.pop_back();  // a line end is added in any case
+  call.vm.program_message(severity, std::move(text));
   return Value::undef();
 }
 
 Value comment(const Call& call) {
   const std::string text = joined_text(call);
-  call.vm.show_life();
-  call.vm.machine().tell([&](Sink& sink) { sink.comment(text); });
+  call.vm.reset_quiet_steps();
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.comment(text); });
   return Value::undef();
 }
 
 Value literal(const Call& call) {
   const std::string text = joined_text(call);
-  call.vm.show_life();
-  call.vm.machine().tell([&](Sink& sink) { sink.literal(text); });
+  call.vm.reset_quiet_steps();
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.literal(text); });
   return Value::undef();
 }
 
@@ -262,9 +263,9 @@ const std::vector<Builtin>& convert_builtins() {
       {"issvg", is_target<GcmcTarget::svg>, 0, 0},
       {"isdxf", is_target<GcmcTarget::dxf>, 0, 0},
       {"undef", undefined, 0, 0},
-      {"message", say<Severity::note>, 0, kAnyCount},
-      {"warning", say<Severity::warning>, 0, kAnyCount},
-      {"error", say<Severity::error>, 0, kAnyCount},
+      {"message", message_function<Severity::note>, 0, kAnyCount},
+      {"warning", message_function<Severity::warning>, 0, kAnyCount},
+      {"error", message_function<Severity::error>, 0, kAnyCount},
       {"comment", comment, 0, kAnyCount},
       {"literal", literal, 0, kAnyCount},
   };

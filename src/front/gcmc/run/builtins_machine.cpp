@@ -20,7 +20,7 @@ void finite_or_fail(const Call& call, double v, std::size_t axis) {
             fmt::format("{}() coordinate {} is not a finite number", call.name, "XYZABCUVW"[axis]));
 }
 
-/// A coordinate in what the machine takes: native lengths, degrees.
+/// A coordinate in the units of the machine: native length or degrees.
 double machine_number(const Call& call, Scalar s, std::size_t axis) {
   if (s.kind() == Kind::real && s.unit() == call.vm.native && axis < 3 && std::isfinite(s.p.d)) return s.p.d;
   if (is_rotary(axis)) {
@@ -55,7 +55,7 @@ Value position_value(const Call& call, std::size_t axes) {
 
 enum class From : std::uint8_t { zero, here };
 
-/// Where a vector leads, and the axes it names.
+/// The target position of a vector, and the axes that it names.
 Axes target_of(const Call& call, const Value& v, From from, unsigned& named) {
   const Machine& m = call.vm.machine();
   Axes to = m.position;
@@ -84,14 +84,14 @@ void move_one(const Call& call, const Value& v, bool rapid, From from, double fe
     if (std::fabs(value) >= kEpsilon) moving |= 1u << i;
   }
   if (named == 0) {
-    m.tell([&](Sink& sink) { sink.broken_move(rapid); });
+    m.for_each_sink([&](Sink& sink) { sink.broken_move(rapid); });
     call.fail(Code::gcmc_geometry, fmt::format("All coordinates in {}() undefined", call.name));
   }
-  // Relative moves in relative text leave out what does not move, unless nothing would be left.
+  // Relative moves in relative text omit axes that do not move, unless none is left.
   if (from == From::here && call.vm.options().relative && moving != 0) named = moving;
-  call.vm.show_life();
-  const Move out{rapid, m.told, named, feed};
-  m.tell([&](Sink& sink) { sink.move(out); });
+  call.vm.reset_quiet_steps();
+  const Move out{rapid, m.sent, named, feed};
+  m.for_each_sink([&](Sink& sink) { sink.move(out); });
 }
 
 Value moves(const Call& call, bool rapid, From from) {
@@ -135,7 +135,7 @@ Value relocate(const Call& call) {
   return Value::undef();
 }
 
-/// The language's own variables with the position and the offset: six axes.
+/// The internal variables with the position and the offset of six axes.
 template <bool offset>
 Value internal_axes(const Call& call) {
   const Machine& m = call.vm.machine();
@@ -157,7 +157,7 @@ int turns_of(const Call& call, int i) {
   return turns;
 }
 
-/// Refuses a radius that is too small for an arc over a chord.
+/// An error if a radius is too small for an arc over a chord.
 void check_radius(const Call& call, Point2 chord, double radius) {
   const double square = dot(chord, chord), length = std::sqrt(square);
   if (length < kEpsilon) {
@@ -190,14 +190,14 @@ Value arc(const Call& call, Turn turn, From from) {
   }
   const Point2 chord{to[axes.u] - m.position[axes.u], to[axes.v] - m.position[axes.v]};
   check_radius(call, chord, radius);
-  // In XZ the turning sense is seen from +Y, from where Z points to the left of X: the sides change places.
+  // In XZ the direction is seen from +Y, where X and Z form a left-handed system: the sides are exchanged.
   const bool mirrored = m.plane == Plane::xz;
   const bool left = ((turn == Turn::ccw) == (radius > 0.0)) != mirrored;
   out.offset = centre_over_chord(chord, radius, left ? 1.0 : -1.0);
   m.set_position(to);
-  out.to = m.told;
-  call.vm.show_life();
-  m.tell([&](Sink& sink) { sink.arc(out); });
+  out.to = m.sent;
+  call.vm.reset_quiet_steps();
+  m.for_each_sink([&](Sink& sink) { sink.arc(out); });
   return std::move(call[0]);
 }
 
@@ -252,9 +252,9 @@ Value circle(const Call& call, Turn turn, From from) {
   if (std::hypot(out.offset.x, out.offset.y) < kEpsilon)
     call.fail(Code::gcmc_geometry, fmt::format("{}() radius is zero", call.name));
   m.set_position(to);
-  out.to = m.told;
-  call.vm.show_life();
-  m.tell([&](Sink& sink) { sink.arc(out); });
+  out.to = m.sent;
+  call.vm.reset_quiet_steps();
+  m.for_each_sink([&](Sink& sink) { sink.arc(out); });
   return std::move(call[0]);
 }
 
@@ -263,7 +263,7 @@ Value circle_ccw(const Call& call) { return circle(call, Turn::ccw, From::zero);
 Value circle_cw_relative(const Call& call) { return circle(call, Turn::cw, From::here); }
 Value circle_ccw_relative(const Call& call) { return circle(call, Turn::ccw, From::here); }
 
-/// A canned cycle in the controller: depth, retract level, and how deep each peck goes.
+/// A canned cycle of the controller: depth, retract level, and depth of each peck.
 Value drill(const Call& call) {
   if (!call[0].is_vector() || !call[0].coordinate_or_undef(2).defined())
     call.fail(Code::gcmc_geometry, "Drill-cycle must have a scalar Z-coordinate in first argument");
@@ -280,10 +280,10 @@ Value drill(const Call& call) {
     if (out.repeat < 1) call.fail(Code::gcmc_range, "drill() argument 4 must be > 0");
   }
   m.set_position(to);
-  out.to = m.told;
+  out.to = m.sent;
   m.set_axis(2, retract);
-  out.retract = m.told[2];
-  m.tell([&](Sink& sink) { sink.drill(out); });
+  out.retract = m.sent[2];
+  m.for_each_sink([&](Sink& sink) { sink.drill(out); });
   return Value::undef();
 }
 
@@ -297,7 +297,7 @@ double finite_argument(const Call& call, double v, int i) {
 
 Value feed_rate(const Call& call) {
   const double feed = finite_argument(call, call.length(0), 0);
-  call.vm.machine().tell([&](Sink& sink) { sink.feed_rate(feed); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.feed_rate(feed); });
   return Value::undef();
 }
 
@@ -308,7 +308,7 @@ std::string lower_text(const Value& v) {
   return text;
 }
 
-/// An integer 0..most, or one of the words that stand for them; -1 for anything else.
+/// An argument that is an index into `words` or one of `words`, as the index; -1 for anything else.
 int choice_of(const Call& call, std::initializer_list<std::string_view> words) {
   int i = -1;
   if (call[0].is_string()) {
@@ -325,7 +325,7 @@ Value feed_mode(const Call& call) {
   const int mode = choice_of(call, {"inverse", "upm", "upr"});
   if (mode < 0)
     call.fail(Code::gcmc_range, "Feed mode must be one of 0 (\"inverse\"), 1 (\"upm\") or 2 (\"upr\")");
-  call.vm.machine().tell([&](Sink& sink) { sink.feed_mode(mode); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.feed_mode(mode); });
   return Value::undef();
 }
 
@@ -335,20 +335,20 @@ Value coolant(const Call& call) {
     call.fail(Code::gcmc_range,
               "Coolant must be on of: 0 (\"off\"), 1 (\"mist\"), 2 (\"flood\") or 3 (\"mist+flood\")");
   }
-  call.vm.machine().tell([&](Sink& sink) { sink.coolant(bits); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.coolant(bits); });
   return Value::undef();
 }
 
 Value spindle(const Call& call) {
   const double speed = finite_argument(call, call.number(0), 0);
-  call.vm.machine().tell([&](Sink& sink) { sink.spindle(speed); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.spindle(speed); });
   return Value::undef();
 }
 
 Value spindle_speed(const Call& call) {
   const double speed = finite_argument(call, call.number(0), 0);
   if (speed < 0.0) call.fail(Code::gcmc_range, fmt::format("Spindle speed cannot be negative ({:f})", speed));
-  call.vm.machine().tell([&](Sink& sink) { sink.spindle_speed(speed); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.spindle_speed(speed); });
   return Value::undef();
 }
 
@@ -356,7 +356,7 @@ Value tool_change(const Call& call) {
   const std::int32_t tool = call.integer(0);
   if (tool < 0) call.fail(Code::gcmc_range, "Tool index must be >= 0");
   const bool length = call.count > 1 && call.truth(1);
-  call.vm.machine().tell([&](Sink& sink) { sink.tool_change(tool, length); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.tool_change(tool, length); });
   return Value::undef();
 }
 
@@ -364,7 +364,7 @@ Value dwell(const Call& call) {
   const double seconds = finite_argument(call, call.number(0), 0);
   if (seconds < 0.0)
     call.fail(Code::gcmc_range, fmt::format("Dwell cannot have negative seconds ({:f})", seconds));
-  call.vm.machine().tell([&](Sink& sink) { sink.dwell(seconds); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.dwell(seconds); });
   return Value::undef();
 }
 
@@ -373,19 +373,19 @@ Value path_mode(const Call& call) {
     call.fail(Code::gcmc_arguments, "pathmode(): expects one or two arguments");
   if (call.count == 1) {
     const bool exact = call.truth(0);
-    call.vm.machine().tell([&](Sink& sink) { sink.path_mode(exact, {}, {}); });
+    call.vm.machine().for_each_sink([&](Sink& sink) { sink.path_mode(exact, {}, {}); });
     return Value::undef();
   }
   const std::optional<double> p = finite_argument(call, call.length(0), 0);
   std::optional<double> q;
   if (!call[1].is_undef()) q = finite_argument(call, call.length(1), 1);
-  call.vm.machine().tell([&](Sink& sink) { sink.path_mode(false, p, q); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.path_mode(false, p, q); });
   return Value::undef();
 }
 
 Value pause(const Call& call) {
   const bool optional = call.count > 0 && call.truth(0);
-  call.vm.machine().tell([&](Sink& sink) { sink.pause(optional); });
+  call.vm.machine().for_each_sink([&](Sink& sink) { sink.pause(optional); });
   return Value::undef();
 }
 
@@ -402,7 +402,7 @@ Value plane(const Call& call) {
   if (plane != 0 && call.vm.options().target != GcmcTarget::gcode)
     call.warn(Code::gcmc_suspicious, "plane() other than PLANE_XY has no meaning in a drawing");
   m.plane = static_cast<Plane>(plane);
-  m.tell([&](Sink& sink) { sink.plane(m.plane); });
+  m.for_each_sink([&](Sink& sink) { sink.plane(m.plane); });
   return before;
 }
 
@@ -412,7 +412,7 @@ Value store_position(const Call& call) {
   Machine& m = call.vm.machine();
   const bool second = call.truth(0);
   m.stored[second ? 1 : 0] = {true, m.position};
-  m.tell([&](Sink& sink) { sink.store_position(second); });
+  m.for_each_sink([&](Sink& sink) { sink.store_position(second); });
   return Value::undef();
 }
 
@@ -443,8 +443,8 @@ Value restore_position(const Call& call) {
               fmt::format("Position for {} not previously set, tracking may be off", second ? "G30" : "G28"));
   }
   m.set_position(stored.position);
-  call.vm.show_life();
-  m.tell([&](Sink& sink) { sink.restore_position(second, via, named, m.told); });
+  call.vm.reset_quiet_steps();
+  m.for_each_sink([&](Sink& sink) { sink.restore_position(second, via, named, m.sent); });
   return Value::undef();
 }
 
@@ -495,12 +495,12 @@ Value layer(const Call& call) {
     m.layer = i - 1;
   }
   const std::string& name = m.layers[static_cast<std::size_t>(m.layer)];
-  m.tell([&](Sink& sink) { sink.layer(name); });
+  m.for_each_sink([&](Sink& sink) { sink.layer(name); });
   return Value::undef();
 }
 
 Value close_path(const Call& call) {
-  call.vm.machine().tell([](Sink& sink) { sink.close_path(); });
+  call.vm.machine().for_each_sink([](Sink& sink) { sink.close_path(); });
   return Value::undef();
 }
 

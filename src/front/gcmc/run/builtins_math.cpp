@@ -73,7 +73,7 @@ Value inverse(const Call& call) {
 double arc_sine(double v) { return std::asin(v); }
 double arc_cosine(double v) { return std::acos(v); }
 
-/// Both numbers in one unit, where their units differ but fit.
+/// The arc tangent of numbers in one unit; `x` is converted if its unit differs but is compatible.
 double arc_tangent_of(const Call& call, Scalar y, Scalar x) {
   if (y.unit() != x.unit()) {
     if (y.unit() != Unit::none && x.unit() != Unit::none && is_distance(y.unit()) == is_distance(x.unit())) {

@@ -119,7 +119,7 @@ Value part(const Call& call, std::size_t from, std::size_t n) {
   return Value::string(v.text().substr(from, n), call.vm.meter);
 }
 
-/// How many entries head and tail are asked for: `n`, or all but |n|; may be more than there are.
+/// The requested number of entries of head and tail: `n`, or size - |n| if negative; may exceed size.
 std::size_t wanted(const Call& call, std::size_t size) {
   const std::int64_t n = call.integer(1);
   if (n >= 0) return static_cast<std::size_t>(n);
@@ -133,11 +133,11 @@ Value head(const Call& call) {
 }
 
 Value tail(const Call& call) {
-  constexpr std::size_t kMostPadding = 1'000'000;
+  constexpr std::size_t kMaxPadding = 1'000'000;
   const std::size_t size = size_of_sequence(call);
   const std::size_t n = wanted(call, size);
   if (n <= size || !call[0].is_vector()) return part(call, size - std::min(n, size), std::min(n, size));
-  if (n > kMostPadding) call.fail(Code::gcmc_limit, fmt::format("{}() argument 2 is too large", call.name));
+  if (n > kMaxPadding) call.fail(Code::gcmc_limit, fmt::format("{}() argument 2 is too large", call.name));
   std::vector<Scalar> all(n - size);
   const std::vector<Scalar> had = call[0].coordinates();
   all.insert(all.end(), had.begin(), had.end());
@@ -162,14 +162,15 @@ Value remove(const Call& call) {
               fmt::format("{}(): argument 1 index {} out of range [-{}..{}]", call.name, i, n, n - 1));
   }
   const std::int64_t from = i < 0 ? i + n : i;
-  std::int64_t gone = call.count > 2 ? call.integer(2) : 1;
-  if (gone < 0) call.fail(Code::gcmc_range, fmt::format("{}(): argument 2 must not be negative", call.name));
-  if (from + gone > n) {
+  std::int64_t removed = call.count > 2 ? call.integer(2) : 1;
+  if (removed < 0)
+    call.fail(Code::gcmc_range, fmt::format("{}(): argument 2 must not be negative", call.name));
+  if (from + removed > n) {
     call.warn(Code::gcmc_range, fmt::format("{}(): argument 2 count {} is beyond the end, clipped to {}",
-                                            call.name, gone, n - from));
-    gone = n - from;
+                                            call.name, removed, n - from));
+    removed = n - from;
   }
-  const auto at = static_cast<std::size_t>(from), drop = static_cast<std::size_t>(gone);
+  const auto at = static_cast<std::size_t>(from), drop = static_cast<std::size_t>(removed);
   Value before = part(call, 0, at);
   const Value after = part(call, at + drop, size - at - drop);
   if (before.is_list() || before.is_string()) {
@@ -201,26 +202,26 @@ Value insert(const Call& call) {
     call.fail(Code::gcmc_range,
               fmt::format("{}(): argument 2 index {} out of range [-{}..{}]", call.name, i, size + 1, size));
   }
-  const auto place = static_cast<std::ptrdiff_t>(i < 0 ? i + size + 1 : i);
+  const auto position = static_cast<std::ptrdiff_t>(i < 0 ? i + size + 1 : i);
   Value v = std::move(call[0]);
   const Value& item = call[1];
   if (v.is_string()) {
-    v.own_text(call.vm.meter).insert(static_cast<std::size_t>(place), item.text());
+    v.own_text(call.vm.meter).insert(static_cast<std::size_t>(position), item.text());
     v.settle();
     return v;
   }
   if (v.is_list()) {
     auto& all = v.own_vectors(call.vm.meter);
     if (item.is_vector())
-      all.insert(all.begin() + place, item);
+      all.insert(all.begin() + position, item);
     else
-      all.insert(all.begin() + place, item.vectors().begin(), item.vectors().end());
+      all.insert(all.begin() + position, item.vectors().begin(), item.vectors().end());
     v.settle();
     return v;
   }
   std::vector<Scalar> all = v.coordinates();
   const std::vector<Scalar> more = item.is_vector() ? item.coordinates() : std::vector<Scalar>{item.scalar()};
-  all.insert(all.begin() + place, more.begin(), more.end());
+  all.insert(all.begin() + position, more.begin(), more.end());
   return make_vector(call, all);
 }
 

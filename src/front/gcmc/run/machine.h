@@ -18,7 +18,7 @@ class Machine {
  public:
   std::vector<Sink*> sinks;
   Axes position{};      // native units, degrees; without offsets
-  Axes told{};          // the same with offsets: where the sinks were told that the machine is
+  Axes sent{};          // the same with offsets: the position as passed to the sinks
   Axes fixed_offset{};  // of the command line
   Axes relocation{};    // of relocate()
   Plane plane = Plane::xy;
@@ -38,15 +38,15 @@ class Machine {
   }
   void set_position(const Axes& p) {
     position = p;
-    told = with_offset(p);
+    sent = with_offset(p);
   }
   void set_axis(std::size_t axis, double v) {
     position[axis] = v;
-    told[axis] = with_offset(axis, v);
+    sent[axis] = with_offset(axis, v);
   }
-  template <class Tell>
-  void tell(Tell tell) {
-    for (Sink* sink : sinks) tell(*sink);
+  template <class Send>
+  void for_each_sink(Send send) {
+    for (Sink* sink : sinks) send(*sink);
   }
 };
 

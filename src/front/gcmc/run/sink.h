@@ -1,4 +1,4 @@
-// What a running program tells the machine: one interface, for the toolpath and for the text.
+// The effects of a running program on the machine: one interface, for the toolpath and for the text.
 //
 // Positions are complete and absolute, offsets included: native length units (mm, or inch), A B C in degrees.
 #pragma once
@@ -20,7 +20,7 @@ struct Move {
   bool rapid = false;
   const Axes& to;
   unsigned named = 0;  // bits of the axes that the program named
-  double feed = 0.0;   // given with this move; 0 = none
+  double feed = 0.0;   // given with this move; 0: none
 };
 
 struct ArcMove {
@@ -28,8 +28,8 @@ struct ArcMove {
   Plane plane = Plane::xy;
   Axes to{};
   unsigned named = 0;
-  Point2 offset;  // of the centre from the begin, in the order of the plane's name
-  int turns = 0;  // as the program told; 0 = not told
+  Point2 offset;  // of the centre from the start point, in the order of the plane's name
+  int turns = 0;  // 0: not given
 };
 
 struct DrillMove {
@@ -37,7 +37,7 @@ struct DrillMove {
   unsigned named = 0;
   double retract = 0.0;
   double delta = 0.0;
-  int repeat = 0;  // 0 = not told
+  int repeat = 0;  // 0: not given
 };
 
 class Sink {
@@ -46,7 +46,7 @@ class Sink {
   virtual void move(const Move& m) = 0;
   virtual void arc(const ArcMove& m) = 0;
   virtual void drill(const DrillMove& m) = 0;
-  /// The goto or move that was begun and then refused: its first word is out already.
+  /// A goto() or move() with an error, whose first word the real program has already written.
   virtual void broken_move(bool rapid) = 0;
   virtual void feed_rate(double feed) = 0;
   virtual void feed_mode(int mode) = 0;    // 0 inverse time, 1 per minute, 2 per revolution
@@ -61,7 +61,7 @@ class Sink {
   virtual void comment(std::string_view text) = 0;
   virtual void literal(std::string_view text) = 0;
   virtual void store_position(bool second) = 0;  // G28.1, G30.1
-  /// G28 or G30 by way of `via` to `end`.
+  /// G28 or G30 through `via` to `end`.
   virtual void restore_position(bool second, const Axes& via, unsigned named, const Axes& end) = 0;
   virtual void layer(const std::string& name) = 0;
   virtual void close_path() = 0;

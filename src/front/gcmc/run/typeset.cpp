@@ -74,10 +74,10 @@ const Font* font_of(std::int32_t id) {
   return found == fonts.end() ? nullptr : &found->second;
 }
 
-/// Builds the list: pen marks are vectors with a Z alone, points have X and Y.
-class Setter {
+/// Builds the list: pen marks are vectors with Z only, points have X and Y.
+class Typesetter {
  public:
-  explicit Setter(Runtime& rt) : rt_(rt) {}
+  explicit Typesetter(Runtime& rt) : rt_(rt) {}
   void pen(bool up) {
     Value v;
     v.make_vector(3);
@@ -128,7 +128,7 @@ Value typeset_text(Runtime& rt, const std::u32string& text, std::int32_t id) {
     rt.warn(Code::gcmc_glyph, fmt::format("Font id 0x{:08x} not found", static_cast<std::uint32_t>(id)));
     return Value::undef();
   }
-  Setter setter(rt);
+  Typesetter setter(rt);
   setter.pen(true);
   setter.point(0.0, 0.0);
   for (const char32_t c : text) {

@@ -1,4 +1,4 @@
-// Text as strokes: the fonts that are built in.
+// Text as strokes of the built-in fonts.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace kerf::gcmc {
 
-/// The vector list of typeset(): pen marks and points, capital letters 1.0 high. Undef where there is no such
-/// font.
+/// The vector list of typeset(): pen marks and points, capital letters of height 1. Undef if the font does
+/// not exist.
 Value typeset_text(Runtime& rt, const std::u32string& text, std::int32_t font);
 
 }  // namespace kerf::gcmc

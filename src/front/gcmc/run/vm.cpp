@@ -1,4 +1,4 @@
-// The machine that runs compiled programs: the loop, and the instructions.
+// The virtual machine: the loop, and the instructions.
 #include "front/gcmc/run/vm.h"
 
 #include <algorithm>
@@ -17,9 +17,8 @@ namespace {
 
 constexpr std::size_t kSlotsPerCall =
     50;  // on average, of variables and temporaries; touched as they are used
-constexpr std::int32_t kStepsPerLook =
-    20'000;  // loop steps between looks at the clock, the limits and the user
-constexpr std::size_t kMostCallNotes = 16;
+constexpr std::int32_t kStepsPerLook = 20'000;  // loop steps between checks of clock, limits and interrupts
+constexpr std::size_t kMaxCallNotes = 16;
 
 Callee callee_of(const FunctionCode& f, const Program& code) {
   Callee callee;
@@ -27,7 +26,7 @@ Callee callee_of(const FunctionCode& f, const Program& code) {
   callee.parameters = f.parameters;
   callee.variables = f.variables;
   callee.slots = f.frame;
-  callee.cleared = f.walks ? f.frame : f.variables;
+  callee.cleared = f.iterates ? f.frame : f.variables;
   callee.constants = f.constants;
   return callee;
 }
@@ -47,7 +46,7 @@ Vm::Vm(const Tree& tree, const std::deque<Source>& sources, Program& code, const
       storage_(new std::byte[slots_ * sizeof(Value)]),
       frames_(new Frame[options.max_calls]),
       top_(frames_.get()),
-      most_calls_(top_ + options.max_calls),
+      frames_end_(top_ + options.max_calls),
       builtins_(all_builtins().data()),
       fuel_(kStepsPerLook) {
   for (const FunctionCode& f : code_.functions) callees_.push_back(callee_of(f, code_));
@@ -68,7 +67,7 @@ Vm::~Vm() {
   for (Value* v = stack_; v != reached_; ++v) v->~Value();
 }
 
-/// Constructs the slots before `end`; false where there are not so many.
+/// Constructs the slots before `end`; false if the stack is too small.
 bool Vm::reach(Value* end) {
   if (end > stack_end_) return false;
   for (; reached_ < end; ++reached_) new (reached_) Value();
@@ -90,47 +89,47 @@ int Vm::run() {
     fail(Code::gcmc_limit,
          fmt::format("The program uses more than {} MB for vectors, lists and strings", meter.limit >> 20));
   } catch (const std::bad_alloc&) {
-    fail(Code::gcmc_limit, "There is no memory left");
+    fail(Code::gcmc_limit, "Out of memory");
   }
   return status_;
 }
 
 // ---- messages
 
-TextSpot Vm::spot(std::size_t instruction) const {
-  const Place place = code_.places[instruction];
-  return {sources_[place.file].name, place.line, place.column};
+TextSpot Vm::location(std::size_t instruction) const {
+  const SourceLocation at = code_.locations[instruction];
+  return {sources_[at.file].name, at.line, at.column};
 }
 
 void Vm::report(Severity severity, Code code, std::string text, std::string hint) {
   if (severity != Severity::error || code == Code::gcmc_script) {
-    show_life();
+    reset_quiet_steps();
     count_output(text.size());
   }
   Diagnostic d;
   d.severity = severity;
   d.code = code;
-  d.where = spot(current_instruction());
+  d.where = location(current_instruction());
   d.message = std::move(text);
   d.hint = std::move(hint);
-  for (std::size_t i = depth(); i-- > 0 && d.notes.size() < kMostCallNotes;) {
+  for (std::size_t i = depth(); i-- > 0 && d.notes.size() < kMaxCallNotes;) {
     const std::string name = name_text(code_of(*frames_[i].callee).name);
-    d.notes.push_back({spot(call_site(i)), fmt::format("in the call of {}()", name)});
+    d.notes.push_back({location(call_site(i)), fmt::format("in the call of {}()", name)});
   }
   output_.message(d);
-  if (severity != Severity::note) diagnostics_.add(std::move(d));  // message() is for the user alone
+  if (severity != Severity::note) diagnostics_.add(std::move(d));  // message() is not a diagnostic
 }
 
-void Vm::say_warning(Code code, std::string text, std::string hint) {
+void Vm::report_warning(Code code, std::string text, std::string hint) {
   ++warnings_;
   report(Severity::warning, code, std::move(text), std::move(hint));
 }
 
-void Vm::say_error(Code code, std::string text, std::string hint) {
+void Vm::report_error(Code code, std::string text, std::string hint) {
   report(Severity::error, code, std::move(text), std::move(hint));
 }
 
-void Vm::say(Severity severity, std::string text) {
+void Vm::program_message(Severity severity, std::string text) {
   if (severity == Severity::error) ++script_errors_;
   if (severity == Severity::warning) ++warnings_;
   report(severity, Code::gcmc_script, std::move(text), {});
@@ -181,13 +180,13 @@ void Vm::refuel() {
     fail(Code::gcmc_limit,
          fmt::format("No output or message in {} loop steps: an endless loop?", quiet_steps_));
   if (steps_ > options_.max_steps)
-    fail(Code::gcmc_limit, fmt::format("The program takes more than {} loop steps", options_.max_steps));
+    fail(Code::gcmc_limit, fmt::format("The program runs more than {} loop steps", options_.max_steps));
 }
 
 void Vm::fail_output() {
   fail(Code::gcmc_limit,
        fmt::format("More than {} MB of output and messages: an endless loop?", options_.max_output >> 20),
-       "--max-output permits more");
+       "--max-output raises the limit");
 }
 
 // ---- moving values
@@ -237,7 +236,7 @@ void Vm::do_need_target(const Instruction& in) {
   if (reference.target()->is_absent()) fail_unknown("Variable", reference.reference_name(), {});
 }
 
-/// What the reference in a slot refers to. A slot with a name is a parameter, whose own name is told too.
+/// The target of the reference in a slot. If the slot has a name it is a parameter, which errors also name.
 Value& Vm::writable_target(std::int32_t reference) {
   Value& target = *frame_[reference].target();
   if (!is_constant(target)) return target;
@@ -260,7 +259,7 @@ void Vm::do_store(const Instruction& in) {
 
 // ---- operators
 
-/// x <- a op `b`, which is not the temporary that a's value is taken from.
+/// x <- a op `b`; `b` must not be the temporary of a.
 void Vm::operate_with(const Instruction& in, Op op, const Value& b) {
   const Value& a = present(in.a);
   if (vectors_plain(op, a, b, frame_[in.x])) return;
@@ -280,14 +279,14 @@ void Vm::do_operate(const Instruction& in) {
   if ((in.flags & kTakeB) && in.b != in.x && b.is_block()) frame_[in.b].clear();
 }
 
-/// The vector that is to become the last of a list.
+/// The vector to be appended to a list.
 Value Vm::appended(std::int32_t o, bool take) {
   const Value& v = present(o);
   if (!v.is_vector()) fail(Code::gcmc_type, "Vectorlist entries must be vectors");
   return take ? std::move(frame_[o]) : Value(v);
 }
 
-/// x <- a + {b}, without making the list of one vector.
+/// x <- a + {b}, without the temporary list.
 void Vm::do_append(const Instruction& in) {
   Value item = appended(in.b, (in.flags & kTakeB) != 0);
   const Value& a = present(in.a);
@@ -414,7 +413,7 @@ void Vm::do_step_element(const Instruction& in) {
 Scalar Vm::entry(std::int32_t o) {
   const Value& v = operand(o, frame_, code_.constants.data());
   if (v.is_scalar() && !v.is_undef()) return v.scalar();
-  if (v.type() == Type::reference) return {};  // the mark of a coordinate left out
+  if (v.type() == Type::reference) return {};  // marks an omitted coordinate
   present(o);
   fail(Code::gcmc_type, "Vector entries must be scalar");
 }
@@ -455,12 +454,13 @@ void Vm::do_call_builtin(const Instruction& in) {
   const Builtin& f = builtins_[in.a];
   static constexpr std::string_view kCounts[] = {"no arguments", "one argument", "two arguments",
                                                  "three arguments"};
-  if (in.c < f.least || (f.most != kAnyCount && in.c > f.most && f.most != 0)) {
-    const int wanted = in.c < f.least ? f.least : f.most;
+  if (in.c < f.min_arguments ||
+      (f.max_arguments != kAnyCount && in.c > f.max_arguments && f.max_arguments != 0)) {
+    const int wanted = in.c < f.min_arguments ? f.min_arguments : f.max_arguments;
     fail(Code::gcmc_arguments, wanted <= 3 ? fmt::format("{}() requires {}", f.name, kCounts[wanted])
                                            : fmt::format("{}() requires {} arguments", f.name, wanted));
   }
-  if (f.most == 0 && in.c > 0)
+  if (f.max_arguments == 0 && in.c > 0)
     warn(Code::gcmc_arguments, fmt::format("{}() takes no arguments, ignored", f.name));
   const Call call{*this, f.name, frame_ + in.b, in.c, (in.flags & kValueUsed) != 0};
   Value result = f.function(call);
@@ -482,14 +482,16 @@ void Vm::fail_undefined_function(std::int32_t index, std::string hint) {
   fail(Code::gcmc_unknown_name, fmt::format("Function '{}' not found", name_text(name)), std::move(hint));
 }
 
-/// Begins a user's function: its arguments stand where its frame begins.
+/// Enters a function of the program: its arguments are the first slots of its frame.
 inline Vm::Pc Vm::enter(const Instruction& in, Pc pc) {
   const Callee& f = callees_[static_cast<std::size_t>(in.a)];
-  if (!f.defined) fail_undefined_function(in.a, "it is defined further down, and exists only after that");
+  if (!f.defined)
+    fail_undefined_function(
+        in.a, "it is defined further down; a function exists only after its definition has been executed");
   if (--fuel_ <= 0) refuel();
   Value* base = frame_ + in.b;
   Value* end = base + f.slots;
-  if (top_ == most_calls_ || (end > reached_ && !reach(end)))
+  if (top_ == frames_end_ || (end > reached_ && !reach(end)))
     fail(Code::gcmc_limit, fmt::format("Calls are nested too deeply ({}): an endless recursion?", depth()));
   for (Value* v = base + f.parameters; v < base + f.variables; ++v) v->clear();
   *top_++ = {pc, frame_, &f, in.x, (in.flags & kValueUsed) != 0};
@@ -497,8 +499,8 @@ inline Vm::Pc Vm::enter(const Instruction& in, Pc pc) {
   return f.entry;
 }
 
-/// Ends the running function. Its variables let go what they hold; numbers may stay, as nobody reads them.
-/// Temporaries were let go where they were used up.
+/// Leaves the running function and releases the blocks of its variables. Scalars stay, because the slots are
+/// not read again; temporaries have been moved from.
 inline Vm::Pc Vm::leave() {
   const Frame& f = *--top_;
   const Callee& callee = *f.callee;
@@ -509,7 +511,7 @@ inline Vm::Pc Vm::leave() {
   return f.after;
 }
 
-/// The value that a return instruction gives.
+/// The value of a return instruction.
 Value Vm::result_of(const Instruction& in) {
   const Value& v = present(in.a);
   if (v.type() == Type::reference) return Value(*v.target());
@@ -521,8 +523,8 @@ void Vm::do_end_program(const Instruction& in) {
   status_ = result.is_scalar() ? to_integer(result.scalar()) : 0;
 }
 
-/// Ends the running function with a value.
-inline Vm::Pc Vm::give_back(const Instruction& in) {
+/// Leaves the running function with a value.
+inline Vm::Pc Vm::return_value(const Instruction& in) {
   const Value& v = operand(in.a, frame_, code_.constants.data());
   Value& to = top_[-1].base[top_[-1].x];
   if (v.is_scalar())
@@ -532,7 +534,7 @@ inline Vm::Pc Vm::give_back(const Instruction& in) {
   return leave();
 }
 
-Vm::Pc Vm::give_nothing() {
+Vm::Pc Vm::return_nothing() {
   const Frame f = top_[-1];
   const Pc after = leave();
   if (f.value_used) {
@@ -545,7 +547,7 @@ Vm::Pc Vm::give_nothing() {
   return after;
 }
 
-/// The constants of a function that ends are variables that do not exist any more.
+/// Removes the constants of a function that ends.
 void Vm::forget_constants(const Callee& callee) {
   for (Value* v = frame_; v < frame_ + callee.variables; ++v) constants_.erase(v);
 }
@@ -603,7 +605,7 @@ void Vm::do_warn_global(const Instruction& in) {
 
 // ---- loops
 
-void Vm::do_repeat_begin(const Instruction& in) {
+void Vm::do_repeat_start(const Instruction& in) {
   const Value& n = present(in.a);
   if (!n.is_scalar() || n.is_undef()) fail(Code::gcmc_type, "Repeat's source must be scalar");
   const Scalar s = n.scalar();
@@ -626,7 +628,7 @@ bool Vm::do_repeat_next(const Instruction& in) {
   return true;
 }
 
-void Vm::do_foreach_begin(const Instruction& in) {
+void Vm::do_foreach_start(const Instruction& in) {
   const Value& source = present(in.a);
   if (!source.is_vector() && !source.is_list())
     fail(Code::gcmc_type, "Foreach's source must be vector or vectorlist");
@@ -658,7 +660,7 @@ void Vm::do_clear(const Instruction& in) {
 void Vm::do_stray_break(const Instruction& in) {
   if (in.a == 0) fail(Code::gcmc_control, "Unexpected break or continue");
   fail(Code::gcmc_type, "Lvalue expected",
-       "a vector list has entries, and these coordinates: nothing lies deeper");
+       "a vector list has two levels only: vectors and their coordinates");
 }
 
 // ---- the loop
@@ -670,14 +672,14 @@ constexpr std::int32_t whole_remainder(std::int32_t a, std::int32_t b) { return 
 
 /// Compares numbers of one unit; false for all others.
 inline bool compare_plain(Op op, Scalar a, Scalar b, bool& yes) {
-  const Meeting m = meeting(a, b);
+  const Pairing m = pairing(a, b);
   if (!(m & kComparable)) return false;
   yes = (m & kBothIntegers) == kBothIntegers ? holds(op, a.whole(), b.whole())
                                              : holds(op, left_number(a, m) - right_number(b, m));
   return true;
 }
 
-/// ++ or -- on a number where nobody asks for the value.
+/// ++ or -- on a number, if the value is not used.
 inline bool quick_step(const Instruction& in, Value& v) {
   if (in.flags & kValueUsed) return false;
   if (v.is_whole()) {
@@ -692,8 +694,8 @@ inline bool quick_step(const Instruction& in, Value& v) {
 
 }  // namespace
 
-// Operations and comparisons of plain scalars are decided here, everything else by the members above. Each
-// has a second form whose right side is an integer in the instruction.
+// Operations and comparisons of plain scalars are computed here, all others by the members above. Each has a
+// second form with an immediate integer as its right operand.
 #define KERF_ARITHMETIC(op, plain, of_integers)                            \
   case Op::op: {                                                           \
     const Value& a = operand(in.a, frame, constants);                      \
@@ -735,13 +737,13 @@ inline bool quick_step(const Instruction& in, Value& v) {
     if ((in.flags & kBackward) && --fuel_ <= 0) refuel(); \
     pc += in.c;                                           \
   } while (false)
-// The instructions that only call the member of their name.
+// The instructions that only call the member function of their name.
 // clang-format off
 #define KERF_MEMBERS(X) \
   X(move) X(get_global) X(get_dynamic) X(dereference) X(refer) X(refer_dynamic) \
   X(need_target) X(store) X(apply) X(append) X(step_target) X(step_element) X(logic_not) X(bit_not) \
   X(index) X(element) X(set_element) X(vector) X(list) X(call_builtin) X(define) \
-  X(declare_local) X(declare_constant) X(warn_global) X(repeat_begin) X(foreach_begin) \
+  X(declare_local) X(declare_constant) X(warn_global) X(repeat_start) X(foreach_start) \
   X(clear) X(stray_break) X(unknown_function) X(by_reference) X(wrong_count)
 // clang-format on
 #define KERF_CALL_MEMBER(op) \
@@ -801,12 +803,12 @@ void Vm::loop() {
         pc = enter(in, pc);
         frame = frame_;
         break;
-      case Op::give_back:
-        pc = give_back(in);
+      case Op::return_value:
+        pc = return_value(in);
         frame = frame_;
         break;
-      case Op::give_nothing:
-        pc = give_nothing();
+      case Op::return_nothing:
+        pc = return_nothing();
         frame = frame_;
         break;
       case Op::end_program: do_end_program(in); return;

@@ -1,4 +1,4 @@
-// The machine that runs compiled programs.
+// The virtual machine that executes compiled programs.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,18 @@
 
 namespace kerf::gcmc {
 
-/// What a call needs to know of a function, in one place.
+/// The data of a function that a call reads.
 struct Callee {
   const Instruction* entry = nullptr;
   std::int32_t parameters = 0, variables = 0, slots = 0;
-  std::int32_t cleared = 0;  // slots that let go what they hold when it ends
-  bool constants = false;    // it declares some
+  std::int32_t cleared = 0;  // slots that release their blocks when it ends
+  bool constants = false;    // it declares constants
   bool defined = false;      // its definition was executed
 };
 
-/// A call in progress. Without initial values, so that a stack of them costs nothing before it is used.
+/// A call in progress. Without initial values, so that the stack of frames is not touched before it is used.
 struct Frame {
-  const Instruction* after;  // where the caller goes on
+  const Instruction* after;  // where the caller continues
   Value* base;               // of the caller
   const Callee* callee;      // running
   std::uint16_t x;           // the caller's slot for the value
@@ -48,11 +48,11 @@ class Vm final : public Runtime {
 
   /// Defines a constant of the language before the program runs.
   void define_constant(NameId name, Value value);
-  /// Runs to the end; throws Stop after an error. Returns the exit status that the program gave.
+  /// Runs to the end; throws Stop after an error. Returns the exit status of the program.
   int run();
 
   /// message(), warning() and error() of the program itself.
-  void say(Severity severity, std::string text);
+  void program_message(Severity severity, std::string text);
 
   Machine& machine() { return machine_; }
   const GcmcOptions& options() const { return options_; }
@@ -61,15 +61,15 @@ class Vm final : public Runtime {
   std::size_t warnings() const { return warnings_; }
   bool was_stopped() const { return stopped_; }
 
-  /// The variable of that name as the running code sees it, or nullptr.
+  /// The variable of that name in the running function, or nullptr.
   const Value* variable(std::string_view name) const;
   bool is_constant(const Value& variable) const { return constants_.count(&variable) != 0; }
-  /// Something comes out: the program is not lost in a loop, unless it writes without end.
-  void show_life() {
+  /// To be called for every output: it is not an endless loop without output.
+  void reset_quiet_steps() {
     quiet_steps_ = 0;
     count_output(1);
   }
-  /// Ends the program that writes too much.
+  /// Ends the program if its output exceeds the limit.
   void count_output(std::size_t bytes) {
     output_bytes_ += bytes;
     if (output_bytes_ > options_.max_output) fail_output();
@@ -83,12 +83,12 @@ class Vm final : public Runtime {
   std::size_t call_site(std::size_t frame) const {
     return static_cast<std::size_t>(frames_[frame].after - code_.instructions.data()) - 1;
   }
-  TextSpot spot(std::size_t instruction) const;
+  TextSpot location(std::size_t instruction) const;
 
  private:
   using Pc = const Instruction*;
-  void say_warning(Code code, std::string text, std::string hint) override;
-  void say_error(Code code, std::string text, std::string hint) override;
+  void report_warning(Code code, std::string text, std::string hint) override;
+  void report_error(Code code, std::string text, std::string hint) override;
   void loop();
   const Value& operand(std::int32_t o, const Value* frame, const Value* constants) const {
     return o < 0 ? constants[~o] : frame[o];
@@ -148,9 +148,9 @@ class Vm final : public Runtime {
   void do_declare_local(const Instruction& in);
   void do_declare_constant(const Instruction& in);
   void do_warn_global(const Instruction& in);
-  void do_repeat_begin(const Instruction& in);
+  void do_repeat_start(const Instruction& in);
   bool do_repeat_next(const Instruction& in);
-  void do_foreach_begin(const Instruction& in);
+  void do_foreach_start(const Instruction& in);
   bool do_foreach_next(const Instruction& in);
   void do_clear(const Instruction& in);
   void do_stray_break(const Instruction& in);
@@ -159,8 +159,8 @@ class Vm final : public Runtime {
   void do_wrong_count(const Instruction& in);
   Pc enter(const Instruction& in, Pc pc);
   void do_end_program(const Instruction& in);
-  Pc give_back(const Instruction& in);
-  Pc give_nothing();
+  Pc return_value(const Instruction& in);
+  Pc return_nothing();
   Pc leave();
   Value result_of(const Instruction& in);
   [[noreturn]] void fail_undefined_function(std::int32_t index, std::string hint);
@@ -184,8 +184,8 @@ class Vm final : public Runtime {
   Value* frame_ = nullptr;    // of the running function
   Pc at_ = nullptr;           // the running instruction
   std::unique_ptr<Frame[]> frames_;
-  Frame* top_ = nullptr;  // behind the innermost call
-  Frame* most_calls_ = nullptr;
+  Frame* top_ = nullptr;  // after the innermost call
+  Frame* frames_end_ = nullptr;
   std::vector<Callee> callees_;
   const struct Builtin* builtins_;
   std::unordered_set<const Value*> constants_;  // variables that may not be assigned to

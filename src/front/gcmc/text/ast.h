@@ -1,4 +1,5 @@
-// The tree of a program: nodes in one array, named by index. It lives from the parser to the compiler.
+// The syntax tree of a program: nodes in one array, referenced by index. Made by the parser, used by the
+// compiler.
 #pragma once
 
 #include <cstdint>
@@ -30,7 +31,7 @@ enum class NodeKind : std::uint8_t {
   binary,     // a op b, the short-circuit ones too
   condition,  // a ? b : c
   assign,     // a op b
-  step,       // ++ or -- (op) on a; `prefix` tells which form
+  step,       // ++ or -- (op) on a; `prefix`: before a
   // statements
   block,         // list of statements
   expression,    // a
@@ -52,8 +53,8 @@ struct Node {
   NodeKind kind = NodeKind::block;
   Token op = Token::end;
   bool prefix = false;         // of a step
-  bool parenthesised = false;  // such an expression is no lvalue, and an assignment meant as one
-  Place at;
+  bool parenthesised = false;  // not an lvalue; no warning for an assignment in a condition
+  SourceLocation at;
   NodeId a = kNoNode, b = kNoNode, c = kNoNode, d = kNoNode;
   NameId name = kNoName;
   std::uint32_t first = 0, count = 0;  // children in Tree::children

@@ -39,7 +39,7 @@ constexpr Keyword kKeywords[] = {
     {"while", Token::kw_while},
 };
 
-/// Longest first among those that begin alike.
+/// The longer first where one is a prefix of another.
 constexpr Keyword kPunctuation[] = {
     {"<<=", Token::shift_left_assign},
     {">>=", Token::shift_right_assign},
@@ -114,7 +114,7 @@ Lexer::Lexer(std::string_view source, std::uint16_t file, SourceReport& report)
     at_ = line_start_ = 3;  // a byte order mark is not part of the program
 }
 
-Place Lexer::place() const {
+SourceLocation Lexer::location() const {
   const std::size_t column = at_ - line_start_ + 1;
   return {line_, file_, static_cast<std::uint16_t>(std::min<std::size_t>(column, 65535))};
 }
@@ -137,7 +137,7 @@ void Lexer::skip_block_comment() {
     else
       ++at_;
   }
-  report_.fatal(place(), Code::gcmc_text_end, "Unexpected EOF");
+  report_.fatal(location(), Code::gcmc_text_end, "Unexpected EOF");
 }
 
 void Lexer::skip_space() {
@@ -159,7 +159,7 @@ Word Lexer::next() {
   Word word;
   for (;;) {
     skip_space();
-    word.at = place();
+    word.at = location();
     const std::size_t start = at_;
     bool good = true;
     if (ended())
@@ -172,7 +172,7 @@ Word Lexer::next() {
       string(word);
     else
       good = punctuation(word);
-    word.after = place();
+    word.after = location();
     if (word.token != Token::identifier) word.text = source_.substr(start, at_ - start);
     if (good) return word;
   }
@@ -203,7 +203,7 @@ void Lexer::bad_character() {
   ++at_;
   const auto code = static_cast<unsigned char>(c);
   const std::string shown = code >= 0x20 && code < 0x7F ? std::string(1, c) : fmt::format("\\x{:02x}", code);
-  report_.error(place(), Code::gcmc_word,
+  report_.error(location(), Code::gcmc_word,
                 fmt::format("Illegal character in text '{}' (0x{:02x})", shown, code));
 }
 
@@ -222,12 +222,12 @@ bool Lexer::hexadecimal(Word& word) {
   }
   if (at_ == start + 2 || is_name(peek())) {
     while (!ended() && !is_space(peek()) && peek() != '\n') ++at_;
-    report_.error(place(), Code::gcmc_word,
+    report_.error(location(), Code::gcmc_word,
                   fmt::format("Bad hexadecimal number '{}'", source_.substr(start, at_ - start)));
     return false;
   }
   if (wide)
-    report_.warning(place(), Code::gcmc_number_wraps,
+    report_.warning(location(), Code::gcmc_number_wraps,
                     "Hexadecimal number does not fit 32 bits, upper bits lost");
   word.token = Token::integer;
   word.number = Scalar::integer(static_cast<std::int32_t>(static_cast<std::uint32_t>(value)));
@@ -241,7 +241,7 @@ bool Lexer::real(Word& word, std::size_t start) {
     ++at_;
     if (peek() == '+' || peek() == '-') ++at_;
     if (!is_digit(peek())) {
-      report_.error(place(), Code::gcmc_word,
+      report_.error(location(), Code::gcmc_word,
                     fmt::format("Bad floating point number '{}', missing exponent magnitude",
                                 source_.substr(start, at_ - start)));
       return false;
@@ -250,7 +250,7 @@ bool Lexer::real(Word& word, std::size_t start) {
   }
   const std::optional<double> value = parse_number(source_.substr(start, at_ - start));
   if (!value) {
-    report_.error(place(), Code::gcmc_word,
+    report_.error(location(), Code::gcmc_word,
                   fmt::format("Number '{}' is too large",
                               source_.substr(start, std::min<std::size_t>(at_ - start, 40))));
     return false;
@@ -273,7 +273,7 @@ bool Lexer::number(Word& word) {
   }
   if (peek() == '.' || peek() == 'e' || peek() == 'E') return real(word, start);
   if (wide) {
-    report_.warning(place(), Code::gcmc_number_wraps,
+    report_.warning(location(), Code::gcmc_number_wraps,
                     fmt::format("Integer '{}' does not fit 32 bits and becomes {}",
                                 source_.substr(start, std::min<std::size_t>(at_ - start, 40)),
                                 static_cast<std::int32_t>(value)));
@@ -292,11 +292,11 @@ void Lexer::octal(std::string& bytes, std::size_t& zeros_from) {
     value = value * 8 + static_cast<unsigned>(peek() - '0');
   if (is_digit(peek())) {
     while (is_digit(peek())) ++at_;
-    report_.error(place(), Code::gcmc_word, "Bad escape sequence");
+    report_.error(location(), Code::gcmc_word, "Bad escape sequence");
     return;
   }
-  if (value == 0) report_.error(place(), Code::gcmc_word, "Embedded '\\0' character not allowed");
-  if (value > 255) report_.error(place(), Code::gcmc_word, "Character constant out of range");
+  if (value == 0) report_.error(location(), Code::gcmc_word, "Embedded '\\0' character not allowed");
+  if (value > 255) report_.error(location(), Code::gcmc_word, "Character constant out of range");
   if ((value & 255) == 0) zeros_from = std::min(zeros_from, bytes.size());
   bytes += static_cast<char>(value & 255);
 }
@@ -318,7 +318,7 @@ void Lexer::escape(std::string& bytes, std::size_t& zeros_from) {
       const auto value = static_cast<char>(hex_value(peek()) << 4 | hex_value(peek(1)));
       at_ += 2;
       if (value == '\0') {
-        report_.error(place(), Code::gcmc_word, "Embedded '\\0' character not allowed");
+        report_.error(location(), Code::gcmc_word, "Embedded '\\0' character not allowed");
         zeros_from = std::min(zeros_from, bytes.size());
       }
       bytes += value;
@@ -326,32 +326,32 @@ void Lexer::escape(std::string& bytes, std::size_t& zeros_from) {
     }
     std::string seen = "\\x";
     if (is_hex(peek())) seen += peek(), ++at_;
-    report_.error(place(), Code::gcmc_word, fmt::format("Invalid hex escape sequence '{}'", seen));
+    report_.error(location(), Code::gcmc_word, fmt::format("Invalid hex escape sequence '{}'", seen));
     return;
   }
   const std::size_t letter = kLetters.find(c);
   bytes += letter == std::string_view::npos ? c : kMeanings[letter];
 }
 
-/// Tells that the line or the file ends before the closing quote. Reading goes on with the next line, if any.
-void Lexer::unended_string() {
+/// Reports that the line or the file ends before the closing quote. Reading continues with the next line.
+void Lexer::unterminated_string() {
   if (!ended()) {
     ++at_;
-    report_.error(place(), Code::gcmc_word, "Unterminated string");
+    report_.error(location(), Code::gcmc_word, "Unterminated string");
   }
   if (ended())
-    report_.fatal(place(), Code::gcmc_text_end, "Unexpected EOF");
+    report_.fatal(location(), Code::gcmc_text_end, "Unexpected EOF");
   else
     --at_;
 }
 
-/// Reads up to the closing quote; false where the line or the file ends before.
+/// Reads up to the closing quote; false if the line or the file ends before it.
 bool Lexer::string_piece(std::string& bytes) {
   std::size_t zeros_from = std::string::npos;
   ++at_;
   for (;;) {
     if (ended() || peek() == '\n') {
-      unended_string();
+      unterminated_string();
       return false;
     }
     const char c = peek();
@@ -364,14 +364,14 @@ bool Lexer::string_piece(std::string& bytes) {
       continue;
     }
     if (c == '\0') {
-      report_.error(place(), Code::gcmc_word, "Embedded '\\0' character not allowed");
+      report_.error(location(), Code::gcmc_word, "Embedded '\\0' character not allowed");
       zeros_from = std::min(zeros_from, bytes.size());
     }
     bytes += c;
     ++at_;
   }
   if (zeros_from != std::string::npos) {
-    report_.warning(place(), Code::gcmc_text_encoding,
+    report_.warning(location(), Code::gcmc_text_encoding,
                     fmt::format("Skipping embedded UTF-8 NUL embedding {}/{}", bytes.size(), zeros_from));
   }
   return true;
@@ -381,20 +381,20 @@ void Lexer::check_utf8(const std::string& bytes) {
   std::string again;
   for (char32_t c : from_utf8(bytes)) append_utf8(again, c);
   if (again == bytes) return;
-  if (again.size() < bytes.size()) {  // decodes, but could be said in fewer bytes
-    report_.warning(place(), Code::gcmc_text_encoding, "String has over-long UTF-8 sequences");
+  if (again.size() < bytes.size()) {  // decodes, but is not the shortest encoding
+    report_.warning(location(), Code::gcmc_text_encoding, "String has over-long UTF-8 sequences");
     return;
   }
-  report_.error(place(), Code::gcmc_text_encoding, "String is not valid UTF-8");
+  report_.error(location(), Code::gcmc_text_encoding, "String is not valid UTF-8");
 }
 
 void Lexer::string(Word& word) {
   std::string bytes;
   word.token = Token::string;
   for (;;) {
-    word.unended = !string_piece(bytes);
-    if (word.unended) break;
-    std::size_t after = at_;  // literals that follow on the same line belong to this one
+    word.unterminated = !string_piece(bytes);
+    if (word.unterminated) break;
+    std::size_t after = at_;  // adjacent literals on the same line are concatenated
     while (after < source_.size() && is_space(source_[after])) ++after;
     if (after >= source_.size() || source_[after] != '"') break;
     at_ = after;

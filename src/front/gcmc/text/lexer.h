@@ -1,4 +1,4 @@
-// Words of a gcmc program. The lexer goes on after an error, so that one run names all of them.
+// Words of a gcmc program. The lexer continues after an error, so that one run reports all of them.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace kerf::gcmc {
 
-/// A place in a source: index of the file, line and column from 1.
-struct Place {
+/// A location in a source: index of the file, line and column from 1.
+struct SourceLocation {
   std::uint32_t line = 0;
   std::uint16_t file = 0;
-  std::uint16_t column = 0;  // 65535 stands for that and more
+  std::uint16_t column = 0;  // 65535: that or more
 };
 
 enum class Token : std::uint8_t {
@@ -96,31 +96,31 @@ enum class Token : std::uint8_t {
   right_brace,
 };
 
-/// A token with its place; `after` is the column behind it, where syntax errors are reported.
+/// A token with its location; `after` is the column after it, where syntax errors are reported.
 struct Word {
   Token token = Token::end;
-  Place at;
-  Place after;
-  std::string_view text;  // identifiers, and what messages quote
+  SourceLocation at;
+  SourceLocation after;
+  std::string_view text;  // of identifiers, and for messages
   Scalar number;          // integer and real
   std::u32string string;
-  bool unended = false;  // a string without its closing quote, which may have swallowed words that follow
+  bool unterminated = false;  // a string without closing quote, which may contain the words that follow
 };
 
-/// What the lexer and the parser say: severity "error", "warning" or "fatal" and the message.
+/// Receives the messages of lexer and parser.
 struct SourceReport {
   virtual ~SourceReport() = default;
-  virtual void error(Place at, Code code, std::string message, std::string hint = {}) = 0;
-  virtual void warning(Place at, Code code, std::string message) = 0;
-  /// Nothing can be read beyond this.
-  virtual void fatal(Place at, Code code, std::string message) = 0;
+  virtual void error(SourceLocation at, Code code, std::string message, std::string hint = {}) = 0;
+  virtual void warning(SourceLocation at, Code code, std::string message) = 0;
+  /// An error after which the source cannot be read any further.
+  virtual void fatal(SourceLocation at, Code code, std::string message) = 0;
 };
 
 class Lexer {
  public:
   Lexer(std::string_view source, std::uint16_t file, SourceReport& report);
   Word next();
-  Place place() const;
+  SourceLocation location() const;
 
  private:
   char peek(std::size_t ahead = 0) const {
@@ -134,7 +134,7 @@ class Lexer {
   bool real(Word& word, std::size_t start);
   void string(Word& word);
   bool string_piece(std::string& bytes);
-  void unended_string();
+  void unterminated_string();
   void escape(std::string& bytes, std::size_t& zeros_from);
   void octal(std::string& bytes, std::size_t& zeros_from);
   void check_utf8(const std::string& bytes);
@@ -151,7 +151,7 @@ class Lexer {
   std::uint16_t file_;
 };
 
-/// True for words that cannot be names.
+/// True for reserved words.
 bool is_keyword(std::string_view word);
 
 }  // namespace kerf::gcmc

@@ -11,13 +11,13 @@
 namespace kerf::gcmc {
 namespace {
 
-constexpr int kDeepestNesting = 400;  // of parentheses, blocks and operators in one statement
-constexpr int kDeepestInclude = 64;   // files that include files; a ring of them is cut here
-constexpr std::size_t kMostSources = 10'000;
-constexpr std::size_t kMostNodes = 5'000'000;
-constexpr std::uint32_t kTallestTree = 3000;  // operators in a row count, as each stands on the one before
+constexpr int kMaxNesting = 400;      // of parentheses, blocks and operators in one statement
+constexpr int kMaxIncludeDepth = 64;  // files that include files; ends recursive includes
+constexpr std::size_t kMaxSources = 10'000;
+constexpr std::size_t kMaxNodes = 5'000'000;
+constexpr std::uint32_t kMaxTreeHeight = 3000;  // a chain of operators is as high as it is long
 
-/// Binary operators by level, loosest first.
+/// Binary operators by precedence, lowest first.
 struct Level {
   std::array<Token, 4> tokens;
   int count;
@@ -57,8 +57,8 @@ const std::vector<std::string>& unit_words() {
   return words;
 }
 
-/// A hint at the word that may have been meant; nothing if none is near.
-std::string meant(std::string_view word, const std::vector<std::string>& words) {
+/// A hint with the most similar of `words`; empty if none is similar.
+std::string suggestion(std::string_view word, const std::vector<std::string>& words) {
   const auto near = did_you_mean(word, words);
   return near && *near != word ? fmt::format("did you mean '{}'?", *near) : std::string();
 }
@@ -107,13 +107,13 @@ void Parser::parse(std::uint16_t file) {
 
 // ---- words
 
-/// Adds the node of an expression, if its tree is not taller than the compiler can climb.
+/// Adds the node of an expression; an error if the tree is too high for the recursion of the compiler.
 NodeId Parser::add(Node n, const std::vector<NodeId>& children) {
   for (NodeId id : {n.a, n.b, n.c})
     if (id != kNoNode) n.height = std::max(n.height, node(id).height + 1);
   for (NodeId id : children)
     if (id != kNoNode) n.height = std::max(n.height, node(id).height + 1);
-  if (n.height > kTallestTree) fail("Expression is nested too deeply");
+  if (n.height > kMaxTreeHeight) fail("Expression is nested too deeply");
   return children.empty() ? tree_.add(n) : tree_.add_with_children(n, children);
 }
 
@@ -134,31 +134,31 @@ bool Parser::accept(Token token) {
   return true;
 }
 
-void Parser::complain(std::string message, std::string hint) {
+void Parser::report_error(std::string message, std::string hint) {
   report_.error(word_.after, Code::gcmc_syntax, std::move(message), std::move(hint));
 }
 
 void Parser::fail(std::string message, std::string hint) {
-  complain(std::move(message), std::move(hint));
+  report_error(std::move(message), std::move(hint));
   throw Failure{};
 }
 
-/// A missing word is complained about and taken as if it were there. What a string without its end swallowed
-/// is not: that was told.
+/// Reports a missing word and continues as if it were present. No report after an unterminated string, which
+/// has been reported and may contain the word.
 bool Parser::expect(Token token, std::string_view shown, std::string hint) {
   if (accept(token)) return true;
-  if (last_.unended) return false;
+  if (last_.unterminated) return false;
   const bool after_number = last_.token == Token::integer || last_.token == Token::real;
-  if (hint.empty() && last_.token == Token::identifier) hint = meant(last_.text, statement_words());
-  if (hint.empty() && after_number && is(Token::identifier)) hint = meant(word_.text, unit_words());
-  complain(fmt::format("'{}' expected", shown), std::move(hint));
+  if (hint.empty() && last_.token == Token::identifier) hint = suggestion(last_.text, statement_words());
+  if (hint.empty() && after_number && is(Token::identifier)) hint = suggestion(word_.text, unit_words());
+  report_error(fmt::format("'{}' expected", shown), std::move(hint));
   return false;
 }
 
 NameId Parser::expect_name(std::string_view what) {
   if (!is(Token::identifier)) {
     if (word_.token >= Token::kw_break && word_.token <= Token::kw_while)
-      fail(fmt::format("{} expected", what), fmt::format("'{}' is a word of the language", word_.text));
+      fail(fmt::format("{} expected", what), fmt::format("'{}' is a keyword", word_.text));
     fail(fmt::format("{} expected", what));
   }
   const NameId name = tree_.intern(word_.text);
@@ -166,7 +166,7 @@ NameId Parser::expect_name(std::string_view what) {
   return name;
 }
 
-/// After an error: on behind the next ';', or to a brace or the end.
+/// After an error: skips to the text after the next ';', to a brace or to the end.
 void Parser::synchronise() {
   while (!is(Token::end) && !is(Token::right_brace)) {
     if (is(Token::left_brace)) return skip_braces();
@@ -195,11 +195,11 @@ void Parser::line(std::vector<NodeId>& into) {
   const int depth = depth_;
   const bool in_function = in_function_;
   try {
-    if (depth_ > kDeepestNesting || tree_.nodes.size() > kMostNodes)
+    if (depth_ > kMaxNesting || tree_.nodes.size() > kMaxNodes)
       fail("The program is nested too deeply or too long");
     if (accept(Token::semicolon)) return;
     if (is(Token::left_brace)) {
-      complain("Syntax error", "a block follows if, for, while, repeat, foreach or function");
+      report_error("Syntax error", "a block follows if, for, while, repeat, foreach or function");
       return skip_braces();
     }
     if (compound(into)) return;
@@ -212,7 +212,7 @@ void Parser::line(std::vector<NodeId>& into) {
 }
 
 bool Parser::compound(std::vector<NodeId>& into) {
-  const Place at = word_.at;
+  const SourceLocation at = word_.at;
   switch (word_.token) {
     case Token::kw_if: into.push_back(parse_if(at)); return true;
     case Token::kw_for: into.push_back(parse_for(at)); return true;
@@ -243,7 +243,7 @@ NodeId Parser::body() {
   Node node;
   std::vector<NodeId> statements;
   node.at = word_.at;
-  if (!expect(Token::left_brace, "{")) {  // take the one statement for the block
+  if (!expect(Token::left_brace, "{")) {  // the single statement becomes the block
     if (!is(Token::end)) line(statements);
     return tree_.add_with_children(node, statements);
   }
@@ -266,7 +266,7 @@ void Parser::warn_of_assignment(NodeId condition) {
                   "Assignment in boolean expression may be an inadvertent error, use () to force");
 }
 
-Node Parser::opened(NodeKind kind, Place at) {
+Node Parser::statement_node(NodeKind kind, SourceLocation at) {
   Node out;
   out.kind = kind;
   out.at = at;
@@ -274,12 +274,12 @@ Node Parser::opened(NodeKind kind, Place at) {
   return out;
 }
 
-/// An if with all its elifs, of which there may be any number: each is the other branch of the one before.
-NodeId Parser::parse_if(Place at) {
+/// An if with all its elifs, by a loop: each is the else branch of the one before.
+NodeId Parser::parse_if(SourceLocation at) {
   const Deeper deeper(depth_);
   std::vector<Node> branches;
   do {
-    branches.push_back(opened(NodeKind::if_else, branches.empty() ? at : word_.at));
+    branches.push_back(statement_node(NodeKind::if_else, branches.empty() ? at : word_.at));
     const NodeId decides = condition();
     const NodeId then = body();
     branches.back().a = decides;
@@ -293,11 +293,11 @@ NodeId Parser::parse_if(Place at) {
   return otherwise;
 }
 
-NodeId Parser::parse_for(Place at) {
-  Node out = opened(NodeKind::for_loop, at);
+NodeId Parser::parse_for(SourceLocation at) {
+  Node out = statement_node(NodeKind::for_loop, at);
   expect(Token::left_paren, "(");
   if (is(Token::kw_local) || is(Token::kw_const)) {
-    complain("';' expected", "a variable of a for loop is declared before the loop");
+    report_error("';' expected", "a variable of a for loop is declared before the loop");
     Node nothing;
     return tree_.add_with_children(nothing, {});
   }
@@ -312,15 +312,15 @@ NodeId Parser::parse_for(Place at) {
   return tree_.add(out);
 }
 
-NodeId Parser::parse_while(Place at) {
-  Node out = opened(NodeKind::while_loop, at);
+NodeId Parser::parse_while(SourceLocation at) {
+  Node out = statement_node(NodeKind::while_loop, at);
   out.a = condition();
   out.b = body();
   return tree_.add(out);
 }
 
-NodeId Parser::parse_do(Place at) {
-  Node out = opened(NodeKind::do_loop, at);
+NodeId Parser::parse_do(SourceLocation at) {
+  Node out = statement_node(NodeKind::do_loop, at);
   out.b = body();
   expect(Token::kw_while, "while");
   out.a = condition();
@@ -328,8 +328,8 @@ NodeId Parser::parse_do(Place at) {
   return tree_.add(out);
 }
 
-NodeId Parser::parse_foreach(Place at) {
-  Node out = opened(NodeKind::foreach_loop, at);
+NodeId Parser::parse_foreach(SourceLocation at) {
+  Node out = statement_node(NodeKind::foreach_loop, at);
   expect(Token::left_paren, "(");
   out.a = expression();
   expect(Token::semicolon, ";");
@@ -339,8 +339,8 @@ NodeId Parser::parse_foreach(Place at) {
   return tree_.add(out);
 }
 
-NodeId Parser::parse_repeat(Place at) {
-  Node out = opened(NodeKind::repeat_loop, at);
+NodeId Parser::parse_repeat(SourceLocation at) {
+  Node out = statement_node(NodeKind::repeat_loop, at);
   expect(Token::left_paren, "(");
   out.a = expression();
   if (accept(Token::semicolon)) out.name = expect_name("Variable name");
@@ -356,13 +356,13 @@ Parameter Parser::parameter(bool& presets_began) {
   if (accept(Token::assign)) {
     presets_began = true;
     if (p.by_reference) {
-      complain(fmt::format("Reference argument '{}' cannot have a default",
-                           tree_.names[static_cast<std::size_t>(p.name)]));
+      report_error(fmt::format("Reference argument '{}' cannot have a default",
+                               tree_.names[static_cast<std::size_t>(p.name)]));
     }
     p.preset = ternary();
   } else if (presets_began) {
-    complain(fmt::format("Argument '{}' must have a default value because a previous argument has one",
-                         tree_.names[static_cast<std::size_t>(p.name)]));
+    report_error(fmt::format("Argument '{}' must have a default value because a previous argument has one",
+                             tree_.names[static_cast<std::size_t>(p.name)]));
   }
   return p;
 }
@@ -380,7 +380,7 @@ void Parser::check_function(NameId id) {
 
 void Parser::parse_function(std::vector<NodeId>& into) {
   advance();
-  if (in_function_) complain("Function in functions not supported");
+  if (in_function_) report_error("Function in functions not supported");
   FunctionTree function;
   function.name = expect_name("Function name");
   check_function(function.name);
@@ -392,7 +392,7 @@ void Parser::parse_function(std::vector<NodeId>& into) {
       const bool twice = std::any_of(function.parameters.begin(), function.parameters.end(),
                                      [&](const Parameter& other) { return other.name == p.name; });
       if (twice) {
-        complain(
+        report_error(
             fmt::format("Argument name '{}' is used twice", tree_.names[static_cast<std::size_t>(p.name)]));
       } else {
         function.parameters.push_back(p);
@@ -416,8 +416,8 @@ NodeId Parser::parse_function_body(FunctionTree function) {
   return tree_.add(out);
 }
 
-NodeId Parser::parse_return(Place at) {
-  Node out = opened(NodeKind::return_value, at);
+NodeId Parser::parse_return(SourceLocation at) {
+  Node out = statement_node(NodeKind::return_value, at);
   if (!is(Token::semicolon)) out.a = expression();
   expect(Token::semicolon, ";");
   return tree_.add(out);
@@ -429,7 +429,7 @@ void Parser::declarations(std::vector<NodeId>& into, NodeKind kind) {
     Node out;
     out.kind = kind;
     out.name = expect_name("Variable name");
-    if (kind == NodeKind::constant && !is(Token::assign)) fail("'=' expected", "a constant needs its value");
+    if (kind == NodeKind::constant && !is(Token::assign)) fail("'=' expected", "a constant requires a value");
     if (accept(Token::assign)) out.a = ternary();
     out.at = word_.at;
     into.push_back(tree_.add(out));
@@ -440,29 +440,29 @@ void Parser::declarations(std::vector<NodeId>& into, NodeKind kind) {
 void Parser::include(std::vector<NodeId>& into) {
   advance();
   expect(Token::left_paren, "(");
-  if (!is(Token::string)) fail("Name of the file expected", "include takes the name in quotes");
+  if (!is(Token::string)) fail("Name of the file expected", "the name of an included file must be in quotes");
   const std::string name = to_utf8(word_.string);
   advance();
   expect(Token::right_paren, ")");
-  const Place at = word_.after;
+  const SourceLocation at = word_.after;
   if (!is(Token::semicolon)) {
     expect(Token::semicolon, ";");
   }
-  include_file(name, at, into);  // before the ';' is left, so that its own words are read first
+  include_file(name, at, into);  // before the ';' is skipped, because that reads the next word
   accept(Token::semicolon);
 }
 
-void Parser::include_file(const std::string& name, Place at, std::vector<NodeId>& into) {
+void Parser::include_file(const std::string& name, SourceLocation at, std::vector<NodeId>& into) {
   Source source;
-  std::string obstacle;
-  if (!includer_(name, source, obstacle)) {
-    if (obstacle.empty())
+  std::string problem;
+  if (!includer_(name, source, problem)) {
+    if (problem.empty())
       report_.error(at, Code::gcmc_include_missing, fmt::format("Include file '{}' cannot be found", name));
     else
-      report_.error(at, Code::file_unreadable, fmt::format("Include file '{}': {}", name, obstacle));
+      report_.error(at, Code::file_unreadable, fmt::format("Include file '{}': {}", name, problem));
     return;
   }
-  if (include_depth_ >= kDeepestInclude || sources_.size() >= kMostSources) {
+  if (include_depth_ >= kMaxIncludeDepth || sources_.size() >= kMaxSources) {
     report_.error(at, Code::gcmc_limit, fmt::format("Include file '{}' is nested too deeply", name),
                   "does the file include itself?");
     return;
@@ -476,7 +476,7 @@ void Parser::include_file(const std::string& name, Place at, std::vector<NodeId>
   while (!is(Token::end)) {
     lines(into, Token::right_brace);
     if (is(Token::right_brace)) {
-      complain("Syntax error");
+      report_error("Syntax error");
       advance();
     }
   }
@@ -488,7 +488,7 @@ void Parser::include_file(const std::string& name, Place at, std::vector<NodeId>
 void Parser::expression_statement(std::vector<NodeId>& into) {
   if (is(Token::right_brace) || is(Token::right_paren) || is(Token::right_bracket) || is(Token::kw_else) ||
       is(Token::kw_elif) || is(Token::comma) || is(Token::colon)) {
-    complain("Syntax error");
+    report_error("Syntax error");
     advance();
     return;
   }
@@ -497,10 +497,10 @@ void Parser::expression_statement(std::vector<NodeId>& into) {
   out.a = expression();
   out.at = word_.at;
   const NodeKind kind = node(out.a).kind;
-  const Place after = word_.after;
+  const SourceLocation after = word_.after;
   std::string hint;
   if (kind == NodeKind::call && is(Token::left_brace))  // whiel(1) {
-    hint = meant(tree_.names[static_cast<std::size_t>(node(out.a).name)], statement_words());
+    hint = suggestion(tree_.names[static_cast<std::size_t>(node(out.a).name)], statement_words());
   const bool ended = expect(Token::semicolon, ";", std::move(hint));
   const bool does = kind == NodeKind::call || kind == NodeKind::assign ||
                     (kind == NodeKind::step && is_lvalue(node(out.a).a));
@@ -519,7 +519,7 @@ bool Parser::is_lvalue(NodeId id) const {
 
 void Parser::check_lvalue(NodeId id) {
   if (!is_lvalue(id))
-    complain("Lvalue not a variable, cannot be dereferenced");
+    report_error("Lvalue not a variable, cannot be dereferenced");
   else
     check_writable(id);
 }
@@ -528,7 +528,7 @@ void Parser::check_writable(NodeId id) {
   while (node(id).kind == NodeKind::index) id = node(id).a;
   const std::string& name = tree_.names[static_cast<std::size_t>(node(id).name)];
   if (name == "__global_offset" || name == "__global_position")
-    complain(fmt::format("Assigning to read-only variable '{}' not allowed", name));
+    report_error(fmt::format("Assigning to read-only variable '{}' not allowed", name));
 }
 
 void Parser::check_step(NodeId target, const Node& step) {
@@ -540,7 +540,7 @@ void Parser::check_step(NodeId target, const Node& step) {
 
 NodeId Parser::assignment() {
   const Deeper deeper(depth_);
-  if (depth_ > kDeepestNesting) fail("Expression is nested too deeply");
+  if (depth_ > kMaxNesting) fail("Expression is nested too deeply");
   const NodeId left = ternary();
   if (!is_assignment(word_.token)) return left;
   Node out;
@@ -556,7 +556,7 @@ NodeId Parser::assignment() {
 
 NodeId Parser::ternary() {
   const Deeper deeper(depth_);
-  if (depth_ > kDeepestNesting) fail("Expression is nested too deeply");
+  if (depth_ > kMaxNesting) fail("Expression is nested too deeply");
   const NodeId cond = binary(0);
   if (!accept(Token::question)) return cond;
   Node out;
@@ -587,7 +587,7 @@ NodeId Parser::binary(int level) {
 
 NodeId Parser::unary() {
   const Deeper deeper(depth_);
-  if (depth_ > kDeepestNesting) fail("Expression is nested too deeply");
+  if (depth_ > kMaxNesting) fail("Expression is nested too deeply");
   Node out;
   out.op = word_.token;
   switch (word_.token) {
@@ -602,7 +602,7 @@ NodeId Parser::unary() {
   advance();
   out.a = unary();
   out.prefix = out.kind == NodeKind::step;
-  // Only behind a number with its unit no further word is needed to know that the operand ends.
+  // After a number with its unit, the end of the operand is known without another word.
   const Node& operand = node(out.a);
   out.at = operand.kind == NodeKind::number && operand.number.unit() != Unit::none ? operand.at : word_.at;
   if (out.kind == NodeKind::step) check_step(out.a, out);

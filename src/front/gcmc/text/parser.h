@@ -1,4 +1,4 @@
-// From words to the tree, by recursive descent. After an error it goes on with the next statement.
+// From words to the syntax tree, by recursive descent. After an error it continues with the next statement.
 #pragma once
 
 #include <deque>
@@ -13,15 +13,15 @@
 
 namespace kerf::gcmc {
 
-/// A text that takes part in a program: its name for messages, and its bytes.
+/// A text of a program: its name for messages, and its bytes.
 struct Source {
   std::string name;
   std::string bytes;
 };
 
-/// Finds included files. False if there is none of that name, with what is wrong with the one that cannot be
+/// Finds an included file. False if there is none; `problem` is the reason if there is one that cannot be
 /// read.
-using Includer = std::function<bool(const std::string& name, Source& found, std::string& obstacle)>;
+using Includer = std::function<bool(const std::string& name, Source& found, std::string& problem)>;
 /// True for the name of a built-in function.
 using IsBuiltin = std::function<bool(std::string_view name)>;
 
@@ -33,7 +33,7 @@ class Parser {
   void parse(std::uint16_t file);
 
  private:
-  struct Failure {};  // thrown at a syntax error, caught where the statement began
+  struct Failure {};  // thrown at a syntax error, caught by the loop over statements
 
   // words
   NodeId add(Node n, const std::vector<NodeId>& children = {});
@@ -43,7 +43,7 @@ class Parser {
   bool accept(Token token);
   bool expect(Token token, std::string_view shown, std::string hint = {});
   [[noreturn]] void fail(std::string message, std::string hint = {});
-  void complain(std::string message, std::string hint = {});
+  void report_error(std::string message, std::string hint = {});
   void synchronise();
   void skip_braces();
   NameId expect_name(std::string_view what);
@@ -54,21 +54,21 @@ class Parser {
   bool compound(std::vector<NodeId>& into);
   NodeId body();
   NodeId condition();
-  /// A statement's node; its keyword is behind us.
-  Node opened(NodeKind kind, Place at);
-  NodeId parse_if(Place at);
-  NodeId parse_for(Place at);
-  NodeId parse_while(Place at);
-  NodeId parse_do(Place at);
-  NodeId parse_foreach(Place at);
-  NodeId parse_repeat(Place at);
+  /// The node of a statement whose keyword has been read.
+  Node statement_node(NodeKind kind, SourceLocation at);
+  NodeId parse_if(SourceLocation at);
+  NodeId parse_for(SourceLocation at);
+  NodeId parse_while(SourceLocation at);
+  NodeId parse_do(SourceLocation at);
+  NodeId parse_foreach(SourceLocation at);
+  NodeId parse_repeat(SourceLocation at);
   void parse_function(std::vector<NodeId>& into);
   NodeId parse_function_body(FunctionTree function);
   Parameter parameter(bool& presets_began);
-  NodeId parse_return(Place at);
+  NodeId parse_return(SourceLocation at);
   void declarations(std::vector<NodeId>& into, NodeKind kind);
   void include(std::vector<NodeId>& into);
-  void include_file(const std::string& name, Place at, std::vector<NodeId>& into);
+  void include_file(const std::string& name, SourceLocation at, std::vector<NodeId>& into);
   void expression_statement(std::vector<NodeId>& into);
 
   // expressions
@@ -102,8 +102,8 @@ class Parser {
   Lexer* lexer_ = nullptr;
   Word word_;                  // the next word, not yet used
   Word last_;                  // the word used last
-  std::optional<Word> ahead_;  // the one after word_, where it was looked at
-  int depth_ = 0;              // of expressions and blocks, against the machine's own stack
+  std::optional<Word> ahead_;  // the one after word_, if peek() has read it
+  int depth_ = 0;              // of expressions and blocks, to limit the recursion
   int include_depth_ = 0;
   bool in_function_ = false;
 };

@@ -1,4 +1,4 @@
-// Letting go of counted blocks. (A file of its own: compilers that see the blocks made mix up their types.)
+// Release of counted blocks. In a separate file: compilers that also see the allocations warn of wrong types.
 #include <cassert>
 
 #include "front/gcmc/value/value.h"

@@ -1,4 +1,4 @@
-// What operators and built-in functions need of the running program: messages, memory, units.
+// The interface of a running program for operators and built-in functions: messages, memory, units.
 #pragma once
 
 #include <cstdint>
@@ -13,21 +13,21 @@
 
 namespace kerf::gcmc {
 
-/// Ends the program; thrown inside the module only.
+/// Ends the program; thrown inside of this room only.
 struct Stop {};
 
-/// Below this, the language takes a number for zero and two numbers for equal.
+/// Numbers x with |x| < kEpsilon are zero, and numbers with |a - b| < kEpsilon are equal.
 constexpr double kEpsilon = 1e-12;
 
 class Runtime {
  public:
   virtual ~Runtime() = default;
   void warn(Code code, std::string text, std::string hint = {}) {
-    say_warning(code, std::move(text), std::move(hint));
+    report_warning(code, std::move(text), std::move(hint));
   }
-  /// Says what is wrong and ends the program.
+  /// Reports an error and ends the program.
   [[noreturn]] void fail(Code code, std::string text, std::string hint = {}) {
-    say_error(code, std::move(text), std::move(hint));
+    report_error(code, std::move(text), std::move(hint));
     throw Stop{};
   }
 
@@ -36,8 +36,8 @@ class Runtime {
   int decimals = 8;
 
  protected:
-  virtual void say_warning(Code code, std::string text, std::string hint) = 0;
-  virtual void say_error(Code code, std::string text, std::string hint) = 0;
+  virtual void report_warning(Code code, std::string text, std::string hint) = 0;
+  virtual void report_error(Code code, std::string text, std::string hint) = 0;
 };
 
 /// `value` in unit `to` instead of `from`; both lengths or both angles.

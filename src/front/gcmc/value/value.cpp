@@ -26,7 +26,7 @@ void Meter::grow(std::size_t bytes) {
 
 namespace {
 
-/// Tells the meter that a block holds `bytes` now.
+/// Sets the number of bytes that the meter counts for a block.
 void charge(Block& block, std::size_t bytes) {
   if (bytes > block.charged) block.meter->grow(bytes - block.charged);
   if (bytes < block.charged) block.meter->shrink(block.charged - bytes);

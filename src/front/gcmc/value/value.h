@@ -1,6 +1,5 @@
-// Values of a gcmc program: 32 bytes each. A scalar carries its unit inline; a vector of up to three
-// coordinates is held inline as well, so that points need no memory of their own. Longer vectors, lists and
-// strings are counted blocks that are copied only when one of several owners writes (copy on write).
+// Values of a gcmc program: 32 bytes each. Scalars with their unit and vectors of up to three coordinates are
+// stored inline. Longer vectors, lists and strings are reference-counted blocks (copy on write).
 #pragma once
 
 #include <cstddef>
@@ -15,9 +14,9 @@ namespace kerf::gcmc {
 enum class Unit : std::uint8_t { none, mm, inch, deg, rad };
 constexpr bool is_distance(Unit u) { return u == Unit::mm || u == Unit::inch; }
 constexpr bool is_angle(Unit u) { return u == Unit::deg || u == Unit::rad; }
-/// "UNIT_MM", as the language's own messages name it.
+/// "UNIT_MM": the name in gcmc's messages.
 std::string_view unit_name(Unit u);
-/// "mm", "in", "deg", "rad" or nothing: the suffix a number is written with.
+/// "mm", "in", "deg", "rad" or nothing: the suffix of a number.
 std::string_view unit_suffix(Unit u);
 
 enum class Kind : std::uint8_t { undef, integer, real };
@@ -31,9 +30,8 @@ union Payload {
 };
 static_assert(sizeof(Payload) == 8);
 
-/// Kind and unit of a scalar, in the lowest byte, so that equal tags are one comparison. A whole word,
-/// because a byte beside unused ones makes compilers write and read it in different widths, which processors
-/// are slow at.
+/// Kind and unit of a scalar, in the lowest byte, so that two scalars need one comparison. A whole word,
+/// because compilers access a single byte in different widths, which prevents store forwarding.
 using Tag = std::uint64_t;
 constexpr Tag make_tag(Kind kind, Unit unit) {
   return static_cast<Tag>(static_cast<unsigned>(kind) | static_cast<unsigned>(unit) << 2);
@@ -76,17 +74,17 @@ enum class Type : std::uint8_t {
   scalar,       // undef, integer or real
   vector,       // up to three coordinates, inline
   absent,       // a variable that does not exist, or a call that returned nothing
-  reference,    // to a variable: never seen by a program
+  reference,    // to a variable; internal
   long_vector,  // more coordinates; from here on in a block
   list,         // of vectors
   string,       // code points
 };
 
-/// Counts what blocks hold, and refuses what goes beyond the limit (see Meter::grow).
+/// Counts the bytes of all blocks against a limit.
 struct Meter {
   std::size_t used = 0;
   std::size_t limit = std::size_t{1} << 31;
-  /// Throws OutOfMemory where `bytes` more would pass the limit.
+  /// Adds `bytes`; throws OutOfMemory if they exceed the limit.
   void grow(std::size_t bytes);
   void shrink(std::size_t bytes) { used -= bytes; }
 };
@@ -169,7 +167,7 @@ class Value {
     c_[0].i = v;
     head_ = kWholeHead;
   }
-  /// Overwrites with a scalar; what was held is let go.
+  /// Overwrites with a scalar; a block is released.
   void store(Scalar s) {
     drop();
     set_scalar(s.p, s.tag);
@@ -189,7 +187,7 @@ class Value {
   }
   /// Coordinate `i`, undef beyond the end.
   Scalar coordinate_or_undef(std::size_t i) const { return i < vector_size() ? coordinate(i) : Scalar{}; }
-  /// Sets coordinate `i`; what lies between it and the end becomes undef.
+  /// Sets coordinate `i`; coordinates between the end and `i` become undef.
   void set_coordinate(std::size_t i, Scalar s, Meter& meter) {
     if (type() == Type::vector && i < 3) {
       while (short_size() <= i) head_ += std::uint64_t{1} << 32;  // tags beyond the end are those of undef
@@ -199,7 +197,7 @@ class Value {
     }
   }
   std::vector<Scalar> coordinates() const;
-  /// Begins an inline vector of `count` <= 3 coordinates, all undef, to be filled by put().
+  /// Becomes an inline vector of `count` <= 3 undef coordinates, to be set by put().
   void make_vector(std::size_t count) {
     drop();
     head_ = head_of(Type::vector) | std::uint64_t{count} << 32;
@@ -232,23 +230,22 @@ class Value {
   std::vector<Value>& own_vectors(Meter& meter);  // for writing; call settle() after a change of size
   const std::u32string& text() const;
   std::u32string& own_text(Meter& meter);
-  /// Tells the meter of a block's changed size.
+  /// Updates the meter after a block has changed its size.
   void settle();
 
   // References
   Value* target() const { return c_[0].target; }
   std::int32_t reference_name() const { return static_cast<std::int32_t>(c_[1].i); }
 
-  /// Back to a variable that does not exist.
+  /// Becomes absent.
   void clear() {
     drop();
     head_ = head_of(Type::absent);
   }
 
  private:
-  // The last 8 bytes: type, the tags of three coordinates, the number of coordinates. They are always written
-  // as a whole, because a processor that reads more bytes than the last write had waits for that write to be
-  // done.
+  // The last 8 bytes: type, tags of three coordinates, number of coordinates. Always written as a whole: a
+  // read wider than the preceding write cannot be forwarded from the store buffer.
   static constexpr std::uint64_t head_of(Type type) { return static_cast<std::uint64_t>(type); }
   static constexpr std::uint64_t kWholeHead = std::uint64_t{make_tag(Kind::integer, Unit::none)} << 8;
   void set_scalar(Payload p, Tag tag) {
@@ -275,7 +272,7 @@ class Value {
   std::uint64_t head_;
 };
 static_assert(static_cast<int>(kUndefTag) == 0, "coordinates that are not set are undef");
-static_assert(sizeof(Value) == 32, "a stored 3D vector is to take at most 64 bytes");
+static_assert(sizeof(Value) == 32, "a stored 3D vector has at most 64 bytes");
 
 struct LongVector : Block {
   std::vector<Scalar> items;
@@ -290,16 +287,16 @@ struct Text : Block {
   explicit Text(Meter* m) : Block(Type::string, m) {}
 };
 
-/// "VAL_INT" and so on, as the language's own messages name a value's type.
+/// "VAL_INT" etc.: the name of a type in gcmc's messages.
 std::string_view type_name(const Value& v);
-/// Appends the textual form that message() and string addition use; reals with `decimals` places.
+/// Appends the textual form for message() and string addition; reals with `decimals` decimals.
 void append_text(std::string& out, const Value& v, int decimals);
 void append_text(std::string& out, Scalar s, int decimals);
-/// A number for people: "2.5mm".
+/// A number for hints: "2.5mm".
 std::string text_of(Scalar s);
 std::string to_utf8(const std::u32string& text);
 void append_utf8(std::string& out, char32_t c);
-/// Code points of UTF-8; bytes that are not UTF-8 stand for themselves.
+/// Code points of UTF-8; a byte that is not UTF-8 becomes the code point of its value.
 std::u32string from_utf8(std::string_view bytes);
 
 }  // namespace kerf::gcmc
