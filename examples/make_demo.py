@@ -78,7 +78,7 @@ def holes(p):
 
 
 def slot_for_the_neck(p, x, entry_y, depth):
-    """Room for the keyhole cutter: a slot for its neck, open to the front, and a hole for its head."""
+    """Clearance for the keyhole cutter: a slot for its neck, open to the front, and a hole for its head."""
     p.say("slot and entry hole for the keyhole cutter")
     ring_pocket(p, (x, entry_y), outer=5.6, inner=0.0, top=0, bottom=depth, step_down=2)
     side = (7 - 3.175) / 2
@@ -100,7 +100,7 @@ def keyhole(p, x, entry_y, depth):
     p.block("G1", y=-8, f=600)
 
 
-# Strokes of the letters in a box of 10 x 14, each a list of points.
+# Strokes of the letters in a box of 10 x 14; each is a list of points.
 LETTERS = {
     "K": [[(0, 14), (0, 0)], [(9, 14), (0, 6)], [(3, 8.6), (9.5, 0)]],
     "E": [[(9, 14), (0, 14), (0, 0), (9, 0)], [(0, 7.4), (7, 7.4)]],
@@ -169,7 +169,7 @@ def relief(p, radius=1.5875, step_over=0.4, step=0.25):
     ball = [(dx, dy, math.sqrt(radius**2 - dx**2 - dy**2) - radius)
             for dx in reach for dy in reach if dx**2 + dy**2 < radius**2]
 
-    def tip(x, y):  # as deep as the ball can go without gouging the surface
+    def tip(x, y):  # the lowest tip that does not gouge the surface
         return max(ripple(x + dx, y + dy) + lift for dx, dy, lift in ball)
 
     count, rows = round(40 / step), round(40 / step_over)
@@ -200,7 +200,7 @@ def main():
     chamfer(p)
     p.tool(101, 18000, "TOOL/MILL, 3.175, 1.5875, 12.70, 0.00")
     relief(p)
-    p.tool(374, 14000)  # CutViewer's comments cannot describe an undercutting tool; its number says the shape
+    p.tool(374, 14000)  # an undercutting tool of the built-in table: CutViewer's comments cannot describe it
     keyhole(p, 96, 44, -6)
     p.block("G0", z=SAFE)
     p.block("M5")

@@ -1,5 +1,5 @@
-// Programs that compute, from bytes: each byte picks a piece of G-code, so that expressions and O-words
-// occur in every order. No crash, no hang, every step finite.
+// Any bytes as a G-code program: each byte selects a fragment, so that expressions and O-words occur in every
+// order. No crash, no hang, every step finite.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Numbers as text: whatever is read is finite and, written exactly, reads back as the same.
+// Any text as a number: a number that is read is finite, and its exact text reads back as the same number.
 #include "kerf/number.h"
 
 #include <cmath>

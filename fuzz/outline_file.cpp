@@ -1,4 +1,4 @@
-// Any bytes as an outline file: read, cut in both ways of sharing, drawn and extruded.
+// Any bytes as an outline file: read, cut with both ways of dividing short edges, drawn and extruded.
 #include <cstdint>
 #include <string_view>
 

@@ -1,4 +1,4 @@
-// Any bytes as a DXF file: read, its blocks inserted, its texts without codes, its outlines and their region.
+// Any bytes as a DXF file: read, blocks inserted, texts without codes, outlines and their region.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>

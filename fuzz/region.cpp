@@ -1,5 +1,5 @@
-// Any bytes as outlines and what is done with them: points on a grid (so that exact coincidences are
-// frequent) with now and then a raw double, arcs of any bulge, and every operation of region.h and fit.h.
+// Any bytes as outlines and operations: points on a grid (so that exact coincidences are frequent) and
+// occasionally raw doubles, arcs of any bulge, and every operation of region.h and fit.h.
 #include "kerf/region.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ class Bytes {
   double coordinate() {
     const int byte = next();
     if (byte != 255) return (byte - 127) * 0.25;
-    double raw = 0.0;  // any number there is
+    double raw = 0.0;  // any bits
     const auto count = std::min<std::ptrdiff_t>(sizeof raw, end_ - at_);
     std::memcpy(&raw, at_, static_cast<std::size_t>(count));
     at_ += count;

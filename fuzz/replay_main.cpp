@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   if (!collect(argc, argv, files)) return 2;
   for (const auto& file : files) {
     std::printf("%s\n", file.c_str());
-    std::fflush(stdout);  // a crash then shows its file
+    std::fflush(stdout);  // so that a crash shows its file
     std::ifstream in(file, std::ios::binary);
     const std::string bytes{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());

@@ -1,4 +1,4 @@
-// Diagnostics: what is wrong with the user's input, with origin, stable code and hint.
+// Diagnostics: errors, warnings and notes about the user's input, with origin, stable code and hint.
 //
 // A function that can fail on user input returns its value and appends to a `Diagnostics` passed in. Nothing
 // in the library prints, exits or throws across a public header. All codes are in one table, `codes.def`.
@@ -50,20 +50,20 @@ struct Diagnostic {
 /// "part.nc:3:7: error: no number after X [2003]" and its notes and hint on lines of their own.
 std::string to_string(const Diagnostic& diagnostic);
 
-/// Collects the diagnostics of a run, in order. At most `limit_per_code` of one code are kept, the rest is
-/// counted, so that a broken file of a million lines costs bounded memory.
+/// Collects the diagnostics of a run, in order. At most `limit_per_code` of one code are kept, further ones
+/// are only counted: the memory for a broken file is bounded.
 class Diagnostics {
  public:
   explicit Diagnostics(std::size_t limit_per_code = limits::kMaxMessagesPerCode)
       : limit_per_code_(limit_per_code) {}
 
-  /// Appends; the returned reference (valid until the next call) takes notes and a hint.
+  /// Appends; notes and a hint can be added to the returned reference, which is valid until the next call.
   Diagnostic& error(Code code, Origin where, std::string message);
   Diagnostic& warning(Code code, Origin where, std::string message);
   Diagnostic& note(Code code, Origin where, std::string message);
   Diagnostic& add(Diagnostic diagnostic);
 
-  /// Removes those for which `test` is true, and the counts of their codes beyond the limit.
+  /// Removes the diagnostics for which `test` is true, and the counts of dropped ones of their codes.
   template <class Test>
   void remove_if(Test test);
 
@@ -81,7 +81,7 @@ class Diagnostics {
   std::size_t warnings_ = 0;
   std::vector<Diagnostic> list_;
   std::unordered_map<std::uint16_t, std::size_t> seen_;
-  Diagnostic overflow_;  // takes notes of diagnostics that are not kept
+  Diagnostic overflow_;  // receives the notes of diagnostics that are not kept
 };
 
 template <class Test>

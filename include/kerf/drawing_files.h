@@ -44,7 +44,7 @@ struct Vertex {
   double x = 0.0, y = 0.0;
   /// Tangent of a quarter of the sweep to the next vertex, above 0 counter-clockwise; 0: a line.
   double bulge = 0.0;
-  double radius = 0.0;  // of that arc, where it is known better than by the bulge; for SVG
+  double radius = 0.0;  // of that arc, if known more precisely than from the bulge; for SVG
   bool operator==(const Vertex&) const = default;
 };
 struct Polyline {
@@ -78,7 +78,7 @@ std::array<double, 4> drawing_bounds(const Drawing& drawing);
 enum class DxfVersion : std::uint8_t { r2000, r12 };
 
 /// A complete AutoCAD file: header with unit and extents, tables of layers and line types, and (but in R12)
-/// owners and subclass markers, so that strict readers take it.
+/// owners and subclass markers, as strict readers require.
 std::string write_dxf(const Drawing& drawing, DxfVersion version = DxfVersion::r2000);
 
 /// Red, green and blue of an AutoCAD colour index on white paper; index 7 is black there.

@@ -4,11 +4,12 @@
 //   const auto drawing = dxf::read_dxf(bytes, "part.dxf", diagnostics);
 //   DrawingOutlineOptions options;
 //   options.layers = {"CUT"};
-//   const auto drawn = drawn_outlines(*drawing, options, diagnostics);     // drawn->outlines,
-//   drawn->open_ends const auto region = drawn_region(*drawn, FillRule::even_odd, {}, diagnostics);
+//   // drawn->outlines, drawn->open_ends:
+//   const auto drawn = drawn_outlines(*drawing, options, diagnostics);
+//   const auto region = drawn_region(*drawn, FillRule::even_odd, {}, diagnostics);
 //
 // Frame: the drawing's world coordinates seen from above, x to the right, y up. Entities are joined within a
-// layer only. What the drawing leaves open is reported with the coordinates where it has to be repaired.
+// layer only. Open ends are reported with their coordinates.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +25,7 @@ namespace kerf {
 
 struct DrawingOutlineOptions {
   std::vector<std::string> layers;  ///< only these; none: all that are neither off nor frozen
-  /// Of one drawing unit. None: as the drawing specifies ($INSUNITS), and an error where it does not.
+  /// Of one drawing unit. None: as specified by the drawing ($INSUNITS); an error if it specifies none.
   std::optional<Length> unit;
   Length within = mm(0.01);  ///< maximum deviation of arcs from ellipses and splines
   Length join = mm(0.01);    ///< maximum gap that is closed (ChainOptions)
@@ -38,7 +39,7 @@ struct DrawnOutline {
   std::string name;  ///< layer and number, from 1: "CUT.1"
   std::string layer;
   Outline outline;                   ///< mm
-  std::optional<Circle> circle;      ///< where the outline is a whole circle
+  std::optional<Circle> circle;      ///< if the outline is a whole circle
   Origin where;                      ///< of its first entity
   std::vector<std::string> handles;  ///< of its entities, in order
 };
@@ -51,12 +52,12 @@ struct DrawnOpenEnd {
   Point2 at;                      // mm
   std::string layer, entity;      ///< "LINE 2F"
   std::optional<Point2> nearest;  ///< the nearest other open end of the layer
-  Length distance;                ///< from there
+  Length distance;                ///< to it
 };
 struct DrawnJunction {
   Point2 at;  // mm
   std::string layer;
-  std::vector<std::string> entities;  ///< "LINE 2F", some of those that meet there
+  std::vector<std::string> entities;  ///< "LINE 2F": some of its entities
 };
 struct DrawingOutlines {
   Length unit;                         ///< of one drawing unit
@@ -66,8 +67,8 @@ struct DrawingOutlines {
   std::vector<DrawnJunction> junctions;
 };
 
-/// Nothing, with an error appended, where the unit is missing, a layer does not exist, or there is neither an
-/// outline nor a point. Entities that are no outlines (texts, hatches), repeated ones, open ends, junctions
+/// Nothing, with an error appended, if the unit is missing, a layer does not exist, or there is neither an
+/// outline nor a point. Entities that are not outlines (texts, hatches), repeated ones, open ends, junctions
 /// and entities that do not lie in a plane parallel to XY are warnings; entities that cannot be converted are
 /// errors, and the others are still returned.
 std::optional<DrawingOutlines> drawn_outlines(const dxf::Drawing& drawing,
@@ -77,7 +78,7 @@ std::optional<DrawingOutlines> drawn_outlines(const dxf::Drawing& drawing,
 std::optional<Region> drawn_region(const DrawingOutlines& drawn, FillRule rule, const RegionOptions& options,
                                    Diagnostics& diagnostics);
 
-/// What is on one layer of the model, blocks inserted.
+/// The entities on one layer of the model, with blocks inserted.
 struct LayerContent {
   std::string name;
   bool off = false, frozen = false;
@@ -86,7 +87,7 @@ struct LayerContent {
   std::size_t entities = 0;
   std::vector<std::pair<std::string, std::size_t>> types;  ///< "LINE", 12; in order of first appearance
 };
-/// In the order of the layer table; layers without entities too.
+/// In the order of the layer table, including layers without entities.
 std::vector<LayerContent> layer_contents(const dxf::Drawing& drawing, const dxf::VisitOptions& options,
                                          Diagnostics& diagnostics);
 

@@ -1,8 +1,8 @@
 // Canned cycles expanded into motions: the holes of G73, G74 and G81 to G89.
 //
-// Every input format that knows canned cycles gets their motions from here, so a hole is the same sequence of
-// steps whichever format it comes from. Order of motions, retract levels and the clearance above a peck are
-// those of LinuxCNC's interpreter (its page "G-Codes", canned cycles).
+// All front ends with canned cycles use it, so that a hole is the same sequence of steps in every format.
+// Order of motions, retract levels and the clearance above a peck are those of LinuxCNC's interpreter (its
+// page "G-Codes", canned cycles).
 //
 //   DrillCycle hole;
 //   hole.kind = DrillKind::peck;
@@ -68,7 +68,7 @@ struct DrillCycle {
   bool has_pecks() const { return kind == DrillKind::chip_break || kind == DrillKind::peck; }
 };
 
-/// Why a cycle has no motions.
+/// The error of a cycle that cannot be expanded.
 struct DrillFault {
   Code code;            // cycle_upside_down, word_missing (peck) or word_out_of_range (too many pecks)
   std::string message;  // without a final period
@@ -95,7 +95,7 @@ class DrillSink {
 /// The motions of all holes, the tool being at `from`. The cycle must have no fault.
 void expand(const DrillCycle& cycle, Point3 from, DrillSink& sink);
 
-/// True where the first motion is a rapid along the third axis to the retract plane, before the tool moves to
+/// True if the first motion is a rapid along the third axis to the retract plane, before the tool moves to
 /// the first hole.
 inline bool rises_first(const DrillCycle& cycle) { return cycle.start_level < cycle.retract_plane; }
 

@@ -1,9 +1,8 @@
-// DXF files as plain structs: what is in the file, in its own coordinates and unit, and how blocks are
-// placed.
+// DXF files as plain structs: the content of the file, in its own coordinates and unit, and the placement of
+// blocks.
 //
-// Read are R12 to R2018 (and older files of the same form), ASCII and binary. A broken file is read as far as
-// possible: what is wrong is appended to the diagnostics with its line, and reading continues at the next
-// entity.
+// R12 to R2018 (and older files of the same form) are read, ASCII and binary. A broken file is read as far as
+// possible: errors are appended to the diagnostics with their line, and reading continues at the next entity.
 //
 //   Diagnostics diagnostics;
 //   const auto file = dxf::read_dxf(bytes, "part.dxf", diagnostics);
@@ -225,12 +224,12 @@ struct Drawing {
   std::size_t repeated_handles = 0;  ///< entities with the handle of an earlier one
 };
 
-/// Reads the bytes of a DXF file; `file_name` is for messages. Nothing, with an error appended, if they are
-/// none. Time and memory are proportional to their number.
+/// Reads the bytes of a DXF file; `file_name` is for messages. Nothing, with an error appended, if it is not
+/// a DXF file. Time and memory are proportional to the number of bytes.
 std::optional<Drawing> read_dxf(std::string_view bytes, const std::string& file_name,
                                 Diagnostics& diagnostics);
 
-// ---------------------------------------------------------------------------------------------- questions
+// ------------------------------------------------------------------------------------------------ queries
 
 /// Without regard to the case of ASCII letters.
 std::optional<std::uint32_t> find_layer(const Drawing& drawing, std::string_view name);
@@ -238,7 +237,7 @@ std::optional<std::uint32_t> find_block(const Drawing& drawing, std::string_view
 
 /// mm of one unit of $INSUNITS: 1 inch, 4 mm, ...; nothing for 0 (not specified) and unknown numbers.
 std::optional<double> mm_per_unit(int insunits);
-/// "mm", "inch", "foot"; "unit 99" where unknown.
+/// "mm", "inch", "foot"; "unit 99" if unknown.
 std::string unit_name(int insunits);
 
 /// Hexadecimal, in capitals; empty for none.
@@ -250,7 +249,7 @@ Origin origin_at(const Drawing& drawing, std::uint32_t layer, std::uint64_t hand
 
 /// The point that a text is aligned to: the second point of TEXT with an alignment.
 Point anchor(const Text& text);
-/// Degrees; of MTEXT the angle of its direction where it has one.
+/// Degrees; of MTEXT the angle of its direction if it has one.
 double rotation(const Text& text);
 /// Text of TEXT and attributes without control codes: %%d, %%c, %%p, %%nnn, %%%; ^I and the like; underlines
 /// and overlines (%%u, %%o, %%k) are removed.
@@ -258,7 +257,7 @@ std::string plain_text(std::string_view text);
 /// Text of MTEXT without formatting codes; paragraphs and lines are separated by '\n', fractions written with
 /// a slash or a blank.
 std::string plain_mtext(std::string_view text);
-/// By its kind.
+/// plain_mtext() or plain_text(), by the kind of text.
 std::string plain(const Text& text);
 
 /// Transforms points: m[row][0..2] are the images of the axes, m[row][3] is that of the origin.
@@ -274,7 +273,7 @@ Matrix object_axes(Point extrusion);
 
 // ------------------------------------------------------------------------------------------- placed entities
 
-/// What BYLAYER and BYBLOCK mean for one entity at one insertion.
+/// The resolved style of one entity at one insertion: BYLAYER and BYBLOCK replaced by their values.
 struct Style {
   std::uint32_t layer = kLayerZero;  ///< that of the insertion for entities of blocks on layer 0
   std::uint32_t linetype = kContinuous;
@@ -296,7 +295,7 @@ struct VisitOptions {
 };
 /// Calls `visit` for each entity of the model, those of blocks at every insertion, in the order of the file.
 /// Inserts themselves are not visited. Blocks that contain themselves, undeclared and external ones are
-/// skipped with a diagnostic; at a limit the work stops with an error and the result is false.
+/// skipped with a diagnostic; false, with an error, if a limit is exceeded.
 bool for_each_placed(const Drawing& drawing, const VisitOptions& options, Diagnostics& diagnostics,
                      const std::function<void(const Placed&)>& visit);
 

@@ -1,5 +1,4 @@
-// Files in and out: inputs read whole (mapped where possible), outputs that appear whole, by rename, or not
-// at all.
+// Files: inputs are mapped or read completely; outputs appear complete, by rename, or not at all.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +37,7 @@ class InputFile {
   std::unique_ptr<Body> body_;
 };
 
-/// An output file that is written piece by piece next to its target and appears whole, by rename, or not at
+/// An output file that is written in chunks next to its target and appears complete, by rename, or not at
 /// all. A symbolic link is followed. Anything but a regular file (a device, a pipe) is written directly.
 class OutputFile {
  public:

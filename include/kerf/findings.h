@@ -1,5 +1,5 @@
-// Findings: the hazards of a job in one form, whether they are the toolpath's own or were met in the
-// material, at a fixture or in a print.
+// Findings: the hazards of a job in one form: those of the toolpath, of the material, of fixtures and of a
+// print.
 //
 //   std::vector<Finding> findings = check_job(job, {}, diagnostics);
 //   for (const Finding& f : findings) use(f.kind, f.origin, f.message);
@@ -26,15 +26,15 @@ struct Job;
 struct Finding {
   std::string kind;          // "rapid_in_stock", "no_feed" ...
   std::size_t step = 0;      // index in the toolpath
-  std::size_t steps = 1;     // moves concerned, this one and following ones
+  std::size_t steps = 1;     // number of motions: this one and those that follow it
   Point3 at;                 // mm
-  double depth_mm = 0.0;     // 0 for the toolpath's own
-  double removed_mm3 = 0.0;  // 0 for the toolpath's own
+  double depth_mm = 0.0;     // 0 for hazards of the toolpath
+  double removed_mm3 = 0.0;  // 0 for hazards of the toolpath
   Origin origin;
   std::string message;
   std::vector<Origin> callers;  // the calls that led to the origin, innermost first
   std::string hint;             // may be empty
-  std::string about = {};       // what else must be equal for two findings to be one line: the fixture
+  std::string about = {};       // the fixture; findings with different ones are not grouped
 };
 
 std::vector<Finding> findings_of(const std::vector<PathHazard>& hazards, const Toolpath& path);
@@ -42,16 +42,16 @@ std::vector<Finding> findings_of(const std::vector<Hazard>& hazards, const Toolp
 std::vector<Finding> findings_of(const std::vector<PrintHazard>& hazards, const Toolpath& path);
 std::vector<Finding> findings_of(const std::vector<FixtureContact>& contacts,
                                  const std::vector<Fixture>& fixtures, const Toolpath& path);
-/// Both lists in the order of steps. The path's own "spindle_off" covers that of the material.
+/// Both lists in the order of steps. A "spindle_off" of the path replaces that of the material.
 std::vector<Finding> merged(std::vector<Finding> of_path, std::vector<Finding> of_material);
 /// Adjacent steps with the same kind and subject as one finding, with the message of the deepest contact.
 std::vector<Finding> grouped(const std::vector<Finding>& findings);
 
-/// Removes cuts deeper than a flute whose length is assumed, and warns of them instead, once for each tool.
-/// Contacts of a shank or neck above such a flute stay, with a hint.
+/// Replaces cuts deeper than a flute of assumed length by one warning per tool. Contacts of a shank or neck
+/// above such a flute stay, with a hint.
 void warn_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, const ToolTable& tools,
                          Diagnostics& diagnostics);
-/// "3 diameters" or "usual for its size": where an assumed flute's length comes from.
+/// "3 diameters" or "usual for its size": the basis of an assumed flute length.
 std::string_view reason_of_flute(const Tool& tool);
 
 struct JobCheckOptions {
@@ -60,10 +60,10 @@ struct JobCheckOptions {
   const Machine* machine = nullptr;
   const Material* material = nullptr;  // of the stock, for the chip load
 };
-/// All hazards of a job, in the order of steps: those of the toolpath, those met in the material and at the
-/// fixtures, tools of unknown shape, and codes that may be motions but were skipped. `diagnostics` holds what
-/// reading the program has reported; warnings that are hazards as well are removed from it, and what could
-/// not be checked is added. With errors in it only the toolpath itself is checked.
+/// All hazards of a job, in the order of steps: those of the toolpath, of the material and of the fixtures,
+/// tools of unknown shape, and skipped codes that may be motions. `diagnostics` are those of reading the
+/// program: warnings that are also findings are removed from it, and warnings of skipped checks are added. If
+/// it has errors, only the toolpath is checked.
 std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,
                                Progress* progress = nullptr);
 

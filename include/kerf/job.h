@@ -1,4 +1,4 @@
-// A job: a program with the tools and the stock that it is made with, and carrying it out.
+// A job: a program with its tools and its stock, and its simulation.
 //
 //   Diagnostics diagnostics;
 //   std::optional<Program> program = load_program("part.nc", {}, diagnostics);
@@ -6,9 +6,8 @@
 //   if (!diagnostics.has_errors())
 //     std::optional<JobRun> run = run_job(job, {.resolution = mm(0.1)}, diagnostics);
 //
-// Tools and stock come from the caller, from files, from the program's own comments and from the built-in
-// table, in this order; a stock given by none of them is a block assumed around the cuts. The job says which
-// it was.
+// Tools and stock are searched in this order: given by the caller, the program's comments, files, the
+// built-in table. If no stock is found, a block around the cuts is assumed. The job stores the sources.
 #pragma once
 
 #include <map>
@@ -35,7 +34,7 @@
 
 namespace kerf {
 
-// ---- what the caller chooses
+// ---- settings
 
 struct ToolChoices {
   std::map<int, Tool> numbered;          // for one number each; precede all others
@@ -48,18 +47,18 @@ struct ToolChoices {
 void add_tool(const std::string& text, const Origin& where, ToolChoices& choices, Diagnostics& diagnostics);
 /// Adds the tools of a file (kerf/tool_files.h) to the table.
 void add_tool_file(const std::string& file, ToolChoices& choices, Diagnostics& diagnostics);
-/// The tools' diameters for cutter compensation, as ProgramOptions::tool_diameter takes them.
+/// The tools' diameters for cutter compensation: the value of ProgramOptions::tool_diameter.
 decltype(ProgramOptions::tool_diameter) diameters_of(const ToolChoices& choices);
 
 struct JobSettings {
   ToolChoices tools;
   std::optional<Stock> stock;
   std::optional<Stock> stock_file;  // read from a file; precedes `stock`
-  std::optional<StockMove> move;    // of the stock, wherever it comes from
+  std::optional<StockMove> move;    // of the stock, whatever its source
   std::vector<Fixture> fixtures;
   std::optional<RoundBar> bar;  // instead of the stock: turned by a fourth axis
 };
-/// A stock as a mesh or as left by an earlier job; nothing with an error in `diagnostics`.
+/// A stock from a mesh or a left-over stock file; nothing, with an error, if it cannot be read.
 std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostics);
 
 // ---- the job
@@ -69,12 +68,12 @@ std::string_view to_string(ToolSource source);
 enum class StockSource { unknown, option, file, program, assumed };
 std::string_view to_string(StockSource source);
 
-/// What a job makes: material is cut from a block or a mesh, cut from a turned bar, or added.
+/// Material is cut from a block or a mesh (milling), cut from a turning bar (rotary), or added (print).
 enum class JobKind { milling, rotary, print };
 
 struct Job {
   JobKind kind = JobKind::milling;
-  Program program;  // its path starts with a tool change where the caller's choice had to supply one
+  Program program;  // with a tool change inserted before motions without a tool, if a tool is given for them
   PathReport report;
   ToolTable tools;                         // those used and known
   std::map<int, ToolSource> tool_sources;  // of every number used
@@ -83,26 +82,26 @@ struct Job {
   std::vector<Fixture> fixtures;
   std::optional<RoundBar> bar;  // instead of the stock
   std::optional<PathHazard>
-      z_downwards;  // set where Z seems to count downwards, so that all else is doubtful
+      z_downwards;  // set if Z seems to count downwards: other findings are then unreliable
 };
 
-/// How an unknown tool is reported: as a warning, as an error, or not, because check_job has a finding for
-/// it.
+/// How an unknown tool is reported: as a warning, as an error, or not at all, because check_job has a finding
+/// for it.
 enum class UnknownTool { warning, error, unreported };
-/// Puts a job together. Unknown tools and an assumed stock are reported in `diagnostics`; where there is no
-/// stock and no cut to assume one around, `stock` stays empty without a message.
+/// Makes a job. Unknown tools and an assumed stock are reported in `diagnostics`; without a stock and without
+/// cuts `stock` is empty, without a diagnostic.
 Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics);
 /// A job of a program that prints (is_print): it has neither tools nor stock.
 Job make_print_job(Program program);
 
 /// The tools that a program changes to or describes, by number, as far as they are known.
 std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
-/// What to do about a tool of unknown shape, for hints.
+/// The hint for a tool of unknown shape.
 std::string hint_for_unknown(int tool);
 /// A tool in a few words: "square 3.175 mm".
 std::string short_name(const Tool& tool);
 
-// ---- carrying it out
+// ---- simulation
 
 struct RunOptions {
   Length resolution = {};  // of the columns; 0: by the size of stock or print
@@ -113,13 +112,13 @@ struct RunOptions {
 
 struct JobRun {
   std::variant<Simulation, RotarySimulation, PrintSimulation> result;  // by Job::kind
-  std::vector<Finding> findings;                                       // hazards met, and at the fixtures
+  std::vector<Finding> findings;  // hazards of the material or the print, and of the fixtures
 
   const Simulation& milling() const { return std::get<Simulation>(result); }
   const RotarySimulation& rotary() const { return std::get<RotarySimulation>(result); }
   const PrintSimulation& print() const { return std::get<PrintSimulation>(result); }
 };
-/// Cuts or prints the job. Nothing where that is impossible (`diagnostics` has the error) or it is stopped.
+/// Simulates the job. Nothing, with an error, if that is impossible, or if it is stopped.
 /// The run refers to the job's toolpath: the job must exist unchanged, and at the same address, as long as
 /// the run.
 std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnostics& diagnostics,
@@ -135,12 +134,12 @@ struct JobTimes {
   TimeEstimate estimate;
   std::string machine;  // its name; empty: not planned
   bool planned() const { return !machine.empty(); }
-  /// Those of a tool, or of what comes before the first tool change.
+  /// Those of a tool; nothing: before the first tool change.
   const TimeFigures& of_tool(std::optional<int> tool) const;
 };
 JobTimes times_of(const Job& job, const Machine* machine);
 
-/// Whether a tool's deepest cut below the top of the stock is deeper than its flute is long.
+/// Whether the deepest cut of a tool below the top of the stock exceeds its flute length.
 bool deeper_than_flute(const Job& job, const ToolFigures& figures);
 
 }  // namespace kerf

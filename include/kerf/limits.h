@@ -1,6 +1,6 @@
-// Limits of the input: the one table of maxima that keep a broken or hostile input from taking memory or time
-// without bound. Exceeding one is an error with a code, never a crash; docs/manual/limits.md lists those that
-// a user can meet. Where a function has options, they take their default from here.
+// Limits of the input: the table of all maxima that bound memory and time for broken or hostile input.
+// Exceeding one is an error with a code; docs/manual/limits.md lists those that a user can reach. Defaults of
+// options are taken from here.
 //
 // Not here: tolerances (tolerance.h), and constants of an algorithm, which stay beside it.
 #pragma once

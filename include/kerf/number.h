@@ -1,4 +1,4 @@
-// Numbers as text: no locale, never "-0", fixed rounding; and reading them back.
+// Numbers to text and back: independent of the locale, never "-0", fixed rounding.
 #pragma once
 
 #include <cstddef>

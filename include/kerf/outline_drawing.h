@@ -1,5 +1,4 @@
-// Outlines as drawings, for DXF and SVG files: as they are, or the ideal one under the cut one with the
-// router bit.
+// Outlines as drawings, for DXF and SVG files; also the ideal outline under the cut one with the router bit.
 #pragma once
 
 #include <cstddef>
@@ -21,7 +20,7 @@ void draw(Drawing& drawing, std::size_t layer, const Outline& outline, OutlineEn
 void draw(Drawing& drawing, std::size_t layer, const Circle& circle);
 void draw(Drawing& drawing, std::size_t layer, const Figure& figure, OutlineEntities as);
 
-/// An outline with what `cut_corners` made of it.
+/// An outline and the result of `cut_corners` for it.
 struct CutPair {
   Outline ideal;
   CutOutline cut;

@@ -1,5 +1,5 @@
-// Programs written for a controller (kerf/post.h) or drawn from above (kerf/toolpath_drawing.h), with the
-// passes that improve them (kerf/passes.h) before.
+// Writing programs for a controller (kerf/post.h) or as a drawing from above (kerf/toolpath_drawing.h), after
+// optional passes over the toolpath (kerf/passes.h).
 //
 //   std::optional<PostTarget> target = find_post_target("grbl");
 //   improve(program->path, {.fit_arcs = mm(0.005)});
@@ -28,7 +28,7 @@ struct DrawingFormat {
 };
 const std::vector<DrawingFormat>& drawing_formats();
 
-/// What a program is written as: for a controller, or as a drawing.
+/// The target of a program: a controller or a drawing format.
 struct PostTarget {
   std::optional<PostProfile> profile;
   const DrawingFormat* drawing = nullptr;  // instead of `profile`
@@ -36,9 +36,9 @@ struct PostTarget {
 };
 /// A drawing format or a built-in post by its name; nothing for other names.
 std::optional<PostTarget> find_post_target(std::string_view name);
-/// The names that find_post_target knows.
+/// The names that find_post_target accepts.
 std::vector<std::string> post_target_names();
-/// A post file of the user's own; nothing with an error in `diagnostics`.
+/// The user's post file; nothing, with an error, if it cannot be read.
 std::optional<PostTarget> load_post_target(const std::string& file, Diagnostics& diagnostics);
 
 /// "command", "pause", "files" or "ignore".
@@ -46,7 +46,7 @@ std::optional<ToolChangePolicy> tool_change_policy_named(std::string_view name);
 /// "r2000" or "r12".
 std::optional<DxfVersion> dxf_version_named(std::string_view name);
 
-/// The passes to apply; 0 and false leave one out.
+/// The passes to apply; 0 or false: none.
 struct PassChoices {
   Length fit_arcs = {};  // tolerance of arcs that replace chains of chords
   Length join = {};      // tolerance of straight cuts that are joined
@@ -56,7 +56,7 @@ struct PassSaving {
   std::string name;  // "arcs", "join", "rapids"
   PassFigures before, after;
 };
-/// Applies the passes to a toolpath, and returns what each has saved.
+/// Applies the passes to a toolpath and returns the savings of each.
 std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes);
 
 struct PostingOptions {
@@ -67,14 +67,14 @@ struct PostingOptions {
   RapidLines rapids = RapidLines::left_out;  // of a drawing
   DxfVersion dxf_version = DxfVersion::r2000;
 };
-/// The text of a program for its target, checked by the target's rules (lint_gcode). With an error in
-/// `diagnostics` it must not be used. A stopped run returns nothing.
+/// The text of a program for a target, checked by its rules (lint_gcode). With an error in `diagnostics` it
+/// must not be used. Empty if stopped.
 std::vector<PostedFile> post_program(const Program& program, const PostTarget& target,
                                      const PostingOptions& options, Diagnostics& diagnostics,
                                      Progress* progress = nullptr);
 
-/// The names of the files of post_program: "part.nc"; where each tool has a file of its own "part-T201.nc",
-/// and "part-T201-2.nc" where that tool comes again.
+/// The names of the files of post_program: "part.nc", or with one file per tool "part-T201.nc", and
+/// "part-T201-2.nc" for the second use of a tool.
 std::vector<std::string> posted_file_names(const std::string& name, const std::vector<PostedFile>& files);
 
 }  // namespace kerf

@@ -1,10 +1,10 @@
-// Programs from files: any input that describes work becomes a Program, whichever front end reads it.
+// Programs from files: every front end returns a Program.
 //
 //   Diagnostics diagnostics;
 //   std::optional<Program> program = load_program("part.gcmc", {.defines = {"depth=5mm"}}, diagnostics);
 //
-// The file name's ending selects the front end; where it is unknown, the text does. A new front end is one
-// file in src/job that makes a FrontEnd, and a line in program.cpp.
+// The front end is selected by the ending of the file name, or by the text if that is unknown. A new front
+// end is one file in src/job that defines a FrontEnd, and a line in program.cpp.
 #pragma once
 
 #include <map>
@@ -28,21 +28,21 @@ namespace kerf {
 
 enum class ProgramUnits { mm, inch };
 
-/// A toolpath with what its file says about units, tools and stock.
+/// A toolpath with the units, tools and stock specified in its file.
 struct Program {
   std::string source;     // the file's name as given
   std::string front_end;  // "G-code"
   Toolpath path;
   ProgramUnits units = ProgramUnits::mm;  // of the program's text; the toolpath is always in mm
   std::map<int, Tool> tools;              // those described in the program itself
-  std::optional<Stock> stock;             // where the program itself describes it
+  std::optional<Stock> stock;             // if described in the program itself
   ProgramEnd end = ProgramEnd::not_asked;
   std::vector<std::string> files;  // all files read: `source`, then included, called and imported ones
 };
 
-/// How a program is read. Options that a front end has no use for are ignored.
+/// How a program is read. A front end ignores options that do not apply to it.
 struct ProgramOptions {
-  std::optional<Machine> machine = {};           // the one that is to run the program, if known
+  std::optional<Machine> machine = {};           // that will run the program, if known
   std::optional<GcodeDialect> dialect = {};      // of G-code; nothing: determined from the text
   bool read_on = false;                          // past the end of a G-code program
   bool strict = false;                           // unusual G-code words are errors
@@ -52,7 +52,7 @@ struct ProgramOptions {
   std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
 };
 
-/// A way to read files. `endings` are in lower case with their dot.
+/// A reader of programs. `endings` are in lower case with their dot.
 struct FrontEnd {
   std::string_view name;
   std::vector<std::string_view> endings;
@@ -60,13 +60,13 @@ struct FrontEnd {
   Program (*read)(const InputFile& file, const ProgramOptions& options, Diagnostics& diagnostics,
                   Progress* progress);
 };
-/// Every front end, in the order in which `looks_like` is asked.
+/// Every front end, in the order in which `looks_like` is called.
 const std::vector<FrontEnd>& front_ends();
 /// ".nc .ngc ..." of every front end, for help texts.
 std::string known_endings();
 
 /// Reads the program in a file ("-": standard input, as G-code). A program with errors is returned as far as
-/// it was understood; nothing is returned where the file cannot be read or no front end recognizes it.
+/// it could be read; nothing if the file cannot be read or is not recognised by a front end.
 std::optional<Program> load_program(const std::string& file, const ProgramOptions& options,
                                     Diagnostics& diagnostics, Progress* progress = nullptr);
 

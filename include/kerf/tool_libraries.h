@@ -1,5 +1,6 @@
-// Tool libraries of other programs in, and tools out: LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's
-// JSON (and its .tools, a zip of it), FreeCAD's .fctb, CAMotics' project JSON; Kerf's own TOML and tool.tbl.
+// Reading tool libraries of other programs: LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON (and its
+// .tools, a zip of it), FreeCAD's .fctb, CAMotics' project JSON. Writing tools as Kerf's TOML and as
+// tool.tbl.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +24,7 @@ struct ToolLibraryOptions {
   int first_number = 1;  // for tools without a number; used numbers are skipped
 };
 
-/// Reads a library of any kind into `table`. Unsupported tools are left out with a warning that gives the
+/// Reads a library of any kind into `table`. Unsupported tools are skipped with a warning that gives the
 /// reason; assumptions are reported in notes. Errors: a damaged file or an unknown format.
 void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
                        ToolTable& table, Diagnostics& diagnostics);

@@ -2,9 +2,8 @@
 //
 //   write_dxf(toolpath_drawing(path, {}));
 //
-// Chains of cuts are drawn once, however many passes follow them, as LINE, ARC, CIRCLE or a polyline with
-// bulges; a cut that only goes down is a circle of its tool's diameter. Layers are those that the toolpath
-// names, else one for each tool.
+// Repeated passes are drawn once, as LINE, ARC, CIRCLE or a polyline with bulges; a plunge alone is a circle
+// of the tool's diameter. Layers are those of the toolpath, else one for each tool.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +20,15 @@ namespace kerf {
 enum class RapidLines : std::uint8_t { left_out, drawn };
 
 struct ToolpathDrawingOptions {
-  DrawingUnit unit = DrawingUnit::mm;               // the coordinates are told in it
+  DrawingUnit unit = DrawingUnit::mm;               // of the coordinates
   RapidLines rapids = RapidLines::left_out;         // drawn: dashed, on a layer of their own
   Length chord = default_tolerance::kDrawingChord;  // of chords from arcs that do not lie in XY
   std::string title = {};                           // of the SVG
   std::map<int, std::string> tool_names = {};       // for the layers' names
-  std::map<int, Length> tool_diameters = {};        // for drilled holes; 1 mm where a tool has none
+  std::map<int, Length> tool_diameters = {};        // for drilled holes; 1 mm for other tools
 };
 
-/// Moves whose place in X and Y is not known in work coordinates are left out.
+/// Motions with unknown positions in X or Y are skipped.
 Drawing toolpath_drawing(const Toolpath& path, const ToolpathDrawingOptions& options);
 
 }  // namespace kerf

@@ -1,4 +1,4 @@
-// Files: mapping of inputs, and outputs that appear together by rename.
+// Files: mapping of inputs, and outputs that are renamed to their targets together.
 #include "kerf/files.h"
 
 #include <algorithm>
@@ -135,7 +135,7 @@ std::optional<InputFile> InputFile::open(const std::string& path, Diagnostics& d
 
 namespace {
 
-/// The target of links, which need not exist yet, so that a link stays and its target is replaced.
+/// The target of a symbolic link, which need not exist: the link stays, and its target is replaced.
 std::string followed(const std::string& path) {
   constexpr int kMaxLinks = 40;  // as Linux follows them
   std::filesystem::path at = path;

@@ -12,7 +12,7 @@
 namespace kerf {
 namespace {
 
-/// The huge pages that lie completely in a range of memory.
+/// The huge pages that lie completely within a range of memory.
 struct Pages {
   Pages(void* memory, std::size_t bytes)
       : begin((reinterpret_cast<std::uintptr_t>(memory) + kHugePage - 1) / kHugePage * kHugePage),

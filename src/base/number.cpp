@@ -142,7 +142,7 @@ char* write_fixed(char* out, double value, int decimals) {
   if (!(scaled < kMaxScaled)) return nullptr;
   auto digits = static_cast<std::uint64_t>(scaled);
   const double fraction = scaled - static_cast<double>(digits);
-  // At a half the exact value decides, which is unknown here.
+  // Near a half the rounding depends on the exact value, which is unknown here.
   if (std::fabs(fraction - 0.5) <= scaled * kDoubt) return nullptr;
   if (fraction > 0.5) ++digits;
   if (std::signbit(value)) *out++ = '-';
@@ -200,7 +200,7 @@ std::optional<double> parse_number(std::string_view text) {
   if (text.empty() || text.size() > kMaxDigits) return std::nullopt;
   if (const auto value = parse_short(text)) return value;
   if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;
-  const std::string copy(text);  // strtod wants an end; the C locale is never changed by Kerf
+  const std::string copy(text);  // strtod requires a terminator; Kerf never changes the C locale
   char* end = nullptr;
   const double value = std::strtod(copy.c_str(), &end);
   if (end != copy.c_str() + copy.size() || !std::isfinite(value)) return std::nullopt;

@@ -1,4 +1,4 @@
-// The team's threads.
+// The threads of a team.
 #include "base/parallel.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Runs numbered pieces of work on several threads, or on the caller's if there are no others.
+// Runs numbered work items on several threads, or on the calling one if there are no others.
 #pragma once
 
 #include <atomic>
@@ -22,7 +22,7 @@ inline constexpr bool kHasThreads = true;
 /// Number of threads to use; 0: as many as the machine has.
 unsigned thread_count(unsigned wanted);
 
-/// Threads that wait for work, for many short rounds: starting a thread takes as long as a short round.
+/// A pool of threads for many short rounds: starting a thread takes as long as a short round.
 class Team {
  public:
   /// `threads` including the calling one; fewer if the system refuses more.
@@ -31,9 +31,9 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  /// Calls work(i) once for each i below `count`, in no fixed order. The calling thread takes part and asks
-  /// stop() between pieces; once that is true no further piece is started. Returns when all are done.
-  /// Rethrows the first exception of a piece (memory may run out); no piece is started after it.
+  /// Calls work(i) once for each i below `count`, in no fixed order, also on the calling thread, which calls
+  /// stop() between items; after that has returned true no further item is started. Returns when all are
+  /// done. Rethrows the first exception of an item (such as std::bad_alloc); no item is started after it.
   template <class Work, class Stop>
   void run(std::size_t count, const Work& work, const Stop& stop) {
     std::atomic<std::size_t> next{0};

@@ -6,7 +6,7 @@
 namespace kerf {
 namespace {
 
-constexpr double kTangent = 1e-6;  // mm that rounding may keep touching elements apart
+constexpr double kTangent = 1e-6;  // mm, distance of touching elements by rounding
 
 enum class Corner : unsigned char { smooth, outside, inside, cusp };
 
@@ -18,19 +18,19 @@ Corner corner_between(Point2 before, Point2 after, double to_left) {
   return towards_tool < -CutterCompensation::kSmallCorner ? Corner::outside : Corner::smooth;
 }
 
-/// Curvature of an element of the axis, 1/mm, above 0 to its left.
+/// Curvature of an element of the axis, 1/mm; above 0: to the left.
 double curvature(const LineArc& element) { return element.is_arc() ? element.turn / element.radius : 0.0; }
 
-/// The line or circle that an element of the axis lies on, at its end. A program's arcs may start at another
-/// radius than they end with, by what its rounding leaves; the circle is that of the end.
+/// The line or circle that an element of the axis lies on at its end point. The radii of a program's arc at
+/// its start and end point may differ by rounding.
 LineArc carrier(const LineArc& element, Point2 at, Point2 direction) {
   if (!element.is_arc()) return line_between(at, at + direction);
   const Point2 centre = element.circle_centre() - element.to;
   return {element.to, element.to, centre, norm(centre), element.turn};
 }
 
-/// A path that goes back the way it came has an inside corner where it is on the tool's side of
-/// itself.
+/// The corner of a path that reverses its direction: inside if the next element is on the tool's side of the
+/// previous one.
 Corner corner_of_cusp(const LineArc& before, const LineArc& after, double to_left) {
   return to_left * (curvature(before) + curvature(after)) < 0.0 ? Corner::inside : Corner::outside;
 }
@@ -59,7 +59,7 @@ std::optional<CompensatedElement> CutterCompensation::add(const LineArc& program
   return made;
 }
 
-/// Leads the tool from the end of one element to the start of the next.
+/// Connects the end point of one element with the start point of the next.
 void CutterCompensation::turn_corner(Point2 corner, const LineArc& next, CompensatedElement& made) {
   Corner which = corner_between(direction_, start_direction(next), to_left_);
   if (which == Corner::cusp) which = corner_of_cusp(last_, next, to_left_);
@@ -75,7 +75,7 @@ void CutterCompensation::turn_corner(Point2 corner, const LineArc& next, Compens
   tool_ = next.from;
 }
 
-/// The arc by which the tool comes from the start of a first element onto its offset, tangent at its end.
+/// The lead-in for an arc: from its start point to the end point of its offset, tangent there.
 std::optional<LineArc> CutterCompensation::entry_arc(const LineArc& programmed) const {
   const std::optional<LineArc> along = offset(programmed, to_left_, kTangent);
   if (!along) return std::nullopt;
@@ -87,8 +87,8 @@ std::optional<LineArc> CutterCompensation::entry_arc(const LineArc& programmed) 
   return arc_about(centre, programmed.from, along->to, programmed.turn > 0.0 ? Turn::ccw : Turn::cw);
 }
 
-/// Where the tool goes from one element of its axis to the next at an inside corner: the point nearest to the
-/// corner where they intersect and to which the last one runs forward. Nothing if the tool does not fit.
+/// The transition between two elements of the axis at an inside corner: of their intersections that the last
+/// one reaches in its direction the nearest to the corner. Nothing if the tool does not fit.
 std::optional<Point2> CutterCompensation::intersection(const LineArc& next, Point2 corner) const {
   const Crossings crossings = carriers_cross(carrier(last_, last_.to, direction_),
                                              carrier(next, next.from, start_direction(next)), 0.5 * kTangent);
@@ -102,8 +102,8 @@ std::optional<Point2> CutterCompensation::intersection(const LineArc& next, Poin
   return nearest;
 }
 
-/// Whether the last element runs forward when it ends at `end`, no farther than it did; a line as the
-/// program's direction.
+/// Whether the last element keeps its direction and does not become longer if it ends at `end`; for a line
+/// the direction is that of the program.
 bool CutterCompensation::runs_forward(Point2 end) const {
   if (!last_.is_arc())
     return dot(direction_, end - last_.from) >= -kTangent && dot(direction_, end - last_.to) <= kTangent;

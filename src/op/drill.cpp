@@ -8,7 +8,7 @@
 namespace kerf {
 namespace {
 
-/// The holes of one cycle, one after the other.
+/// Expands the holes of one cycle.
 class Expansion {
  public:
   Expansion(const DrillCycle& cycle, DrillSink& sink)
@@ -32,7 +32,7 @@ class Expansion {
   }
 
  private:
-  /// From the retract plane to the bottom and back to the level that is clear.
+  /// From the retract plane to the bottom and back to the clear level.
   void hole() {
     switch (cycle_.kind) {
       case DrillKind::chip_break:
@@ -149,7 +149,7 @@ std::optional<DrillFault> fault_of(const DrillCycle& cycle, double max_pecks) {
   if (!(cycle.peck > Length{})) return DrillFault{Code::word_missing, "the depth of a peck must be above 0"};
   const double depth = cycle.retract_plane - cycle.bottom, peck = cycle.peck.mm();
   const double far = std::max(std::abs(cycle.retract_plane), std::abs(cycle.bottom));
-  // A peck that is lost in the rounding of the levels makes no progress.
+  // A peck smaller than the rounding error of the levels makes no progress.
   if (depth > 0.0 && (depth / peck > max_pecks || far - peck == far))
     return DrillFault{Code::word_out_of_range,
                       fmt::format("pecks of {:g} mm are more than {:g} in one hole", peck, max_pecks)};

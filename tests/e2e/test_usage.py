@@ -119,7 +119,7 @@ def test_wrong_option_values_are_in_the_json_too(kerf, program):
     ("=", 'no tool number before "="'),
     ("1=", 'the shape of tool 1 is missing after "="'),
     ("", "the tool is missing"),
-    ("2=spoon d=3", 'no tool shape is called "spoon"'),
+    ("2=spoon d=3", 'unknown tool shape "spoon"'),
 ])
 def test_a_bad_tool_option_is_shown_with_what_is_wrong(kerf, program, spec, words):
     run = kerf("simulate", program(), "--tool", spec)

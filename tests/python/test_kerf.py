@@ -132,8 +132,8 @@ def test_values_of_a_wrong_type_say_what_is_expected(call, words):
 
 
 @pytest.mark.parametrize("number, words", [
-    (999999999, "no tool 999999999 is known"),
-    ("99999999999", "no tool 99999999999 is known; numbers have at most 9 digits"),
+    (999999999, "unknown tool 999999999"),
+    ("99999999999", "unknown tool 99999999999; numbers have at most 9 digits"),
 ])
 def test_an_unknown_number_is_no_shape(number, words):
     with pytest.raises(kerf.Error) as caught:

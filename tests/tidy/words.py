@@ -29,7 +29,7 @@ NAMES_WITHOUT_SUFFIX = {"dev", "CMakeLists.txt", "run"}
 # the patterns below would find. The codes of codes.def are added by codes_of.
 FIXED = re.compile(
     r"/usr/share|(?:source\(\)|\bat)\.begin|\b(?:road_mm|in_place|std::begin|std::shared_\w+)\b"
-    r"|\"roads\"|`roads`|\*road\*|-- (?:pro|epi)logue begin --"
+    r"|\"roads\"|`roads`|\*road\*|-- (?:pro|epi)logue begin --|\bAcDbBlockBegin\b|\"spot\""
     r"|\b(?:in-place|stand-?ins?|stand-?alone)\b|(?<=[.>])c?r?begin(?=\()|\bc?r?begin(?=\(\))"
     r"|\bplace-?holders?\b|\b(?:decimal|first) places?\b|\b(?:in|into|takes?|taken|took|taking) place\b"
     r"|\b(?:tak\w+|keeps?|kept) (?:its|their) places?\b|\bchang\w+ places\b"

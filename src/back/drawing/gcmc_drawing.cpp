@@ -1,4 +1,4 @@
-// The drawings of the gcmc command: the forms of its SVG and DXF files, byte for byte.
+// The drawings of the gcmc command: its SVG and DXF files, byte for byte.
 #include "kerf/gcmc_drawing.h"
 
 #include <algorithm>
@@ -107,15 +107,15 @@ constexpr std::string_view kLayer =
     "0 LAYER|5 {HANDLE}|100 AcDbSymbolTableRecord|100 AcDbLayerTableRecord|2 {LAYER}|70 0|62 7|6 "
     "CONTINUOUS|370 0|"
     "390 F";
-// What strict readers want, and what the real program writes.
+// As strict readers require it, and as the real program writes it.
 constexpr std::string_view kStrictEntity =
     "0 {TYPE}|5 {HANDLE}|100 AcDbEntity|8 {LAYER}|62 256|370 -1|6 ByLayer|100 {SUBCLASS}";
 constexpr std::string_view kEntity =
     "0 {TYPE}|5 {HANDLE}|100 AcDbEntity|100 {SUBCLASS}|8 {LAYER}|62 256|370 -1|6 ByLayer";
 constexpr std::size_t kFirstLayerHandle = 0x100, kFirstHexHandle = 0x200;  // beyond those of the head
 
-/// What both drawings are made from: strokes in the drawing's unit, on the layers of the path. layers[0] is
-/// for what no layer was set for.
+/// The base of both drawings: strokes in the drawing's unit, on the layers of the path. layers[0] is for
+/// strokes before the first layer().
 class Sketch : public drawings::StrokeSink {
  public:
   Sketch(const Toolpath& path, const GcmcDrawingOptions& options)
@@ -175,7 +175,7 @@ class Sketch : public drawings::StrokeSink {
     layer_changed();
   }
 
-  /// Whole turns are one circle; what is left is an arc.
+  /// Whole turns become one circle, the rest an arc.
   void arc(const Stroke& stroke) {
     const step::Arc given = path_[stroke.step].arc();
     Arc piece;
@@ -243,7 +243,7 @@ class DxfSketch final : public Sketch {
 
 // ---- SVG
 
-/// A path runs on while the motions are all cut or all rapid, up to a change of layer.
+/// A path continues while the motions are all cuts or all rapids, up to a change of layer.
 class SvgSketch final : public Sketch {
  public:
   SvgSketch(const Toolpath& path, const GcmcDrawingOptions& options) : Sketch(path, options) {
@@ -277,7 +277,7 @@ class SvgSketch final : public Sketch {
 
  private:
   static constexpr std::size_t kMoves =
-      std::numeric_limits<std::size_t>::max();  // the layer of rapids, until it is made
+      std::numeric_limits<std::size_t>::max();  // the layer of rapids, before it is made
   enum class Last : std::uint8_t { none, cut, rapid };
 
   drawing::Polyline& chain(Point3 from, bool rapid) {
@@ -305,7 +305,7 @@ class SvgSketch final : public Sketch {
       vertices.push_back({to.x, to.y});
     };
     const ArcWalk walk = walk_arc(arc.from, arc.to, arc.centre, Plane::xy, arc.turn, 0);
-    if (arc.is_circle) {  // in two halves, as one arc cannot end where it starts
+    if (arc.is_circle) {  // two halves: one arc cannot end at its start point
       bulge_to(1.0, arc.centre + (arc.centre - arc.from.xy()));
       bulge_to(1.0, arc.to.xy());
     } else {
@@ -380,7 +380,7 @@ class SvgSketch final : public Sketch {
         tool_, options_.opacity, count);
   }
 
-  double dots_ = 1.0, tool_ = 0.0;  // dots of a unit; width of what is cut
+  double dots_ = 1.0, tool_ = 0.0;  // dots per unit; width of cuts
   Box3 box_;
   Last last_ = Last::none;  // kind of the chain that the next stroke may continue
   bool uses_no_layer_ = false;

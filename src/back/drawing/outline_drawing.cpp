@@ -22,9 +22,9 @@ void draw_pieces(Drawing& drawing, std::size_t layer, const Outline& outline) {
         return radians(std::atan2(p.y - circle->centre.y, p.x - circle->centre.x)).deg();
       };
       const bool ccw = circle->turn == Turn::ccw;
-      const double begin = angle(ccw ? from : segment.to), end = angle(ccw ? segment.to : from);
+      const double start = angle(ccw ? from : segment.to), end = angle(ccw ? segment.to : from);
       const Point2 centre = circle->centre;
-      add(drawing, layer, drawing::Arc{centre.x, centre.y, circle->radius, begin, end});
+      add(drawing, layer, drawing::Arc{centre.x, centre.y, circle->radius, start, end});
     } else {
       add(drawing, layer, drawing::Line{from.x, from.y, segment.to.x, segment.to.y});
     }
@@ -47,7 +47,7 @@ void draw_polyline(Drawing& drawing, std::size_t layer, const Outline& outline) 
   add(drawing, layer, std::move(line));
 }
 
-/// The router bit where it stood for a changed corner: the circle of the one arc that replaces it.
+/// The router bit at a changed corner: the circle of the single arc that replaces the corner.
 void draw_bit(Drawing& drawing, std::size_t layer, const Outline& cut, const CornerReport& report) {
   for (std::uint32_t i = report.first; i + 1 < report.first + report.count; ++i) {
     const Segment& piece = cut.segments[i];

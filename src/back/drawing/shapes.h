@@ -1,4 +1,4 @@
-// What all drawings are made with.
+// Common to the drawings of this room.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +16,12 @@ void add(Drawing& drawing, std::size_t layer, Shape shape) {
   entity.shape.emplace<Shape>(std::move(shape));
 }
 
-/// Makes line widths, which are told as multiples of the usual one, go with the drawing's size.
+/// Scales the line widths, given as multiples of the usual width, with the size of the drawing.
 inline void set_widths(Drawing& drawing) {
-  constexpr double kLineShare = 0.002;  // of the larger side
+  constexpr double kUsualWidth = 0.002;  // of the larger side
   const auto bounds = drawing_bounds(drawing);
   const double side = std::max(bounds[2] - bounds[0], bounds[3] - bounds[1]);
-  for (DrawingLayer& layer : drawing.layers) layer.line_width *= side > 0.0 ? kLineShare * side : 1.0;
+  for (DrawingLayer& layer : drawing.layers) layer.line_width *= side > 0.0 ? kUsualWidth * side : 1.0;
 }
 
 }  // namespace kerf::drawings

@@ -1,4 +1,4 @@
-// From a toolpath to what drawings show of it: straight strokes and arcs, seen from above.
+// From a toolpath to the straight strokes and arcs of drawings, seen from above.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +22,12 @@ class StrokeSink {
  public:
   virtual ~StrokeSink() = default;
   virtual void stroke(const Stroke& stroke) = 0;
-  /// A step that is no motion.
+  /// A step that is not a motion.
   virtual void setting(std::size_t step) = 0;
 };
 
 struct StrokeOptions {
-  Length chord = mm(0.01);  // by which chords may stray from an arc that does not lie in XY
+  Length chord = mm(0.01);  // maximum distance of chords from an arc that does not lie in XY
   int max_chords = 10'000;  // of one arc
 };
 

@@ -22,16 +22,16 @@ namespace {
 constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr double kSamePoint = 1e-5;   // mm; G-code has three or four decimals
 constexpr double kSameRadius = 1e-3;  // mm between the radii of an arc that is drawn as one arc
-constexpr double kParallel = 1e-9;    // mm by which a chord may point aside of the one before it
+constexpr double kParallel = 1e-9;    // mm, deviation of a chord from the direction of the previous one
 constexpr double kRapidWidth = 0.5;   // of a cut's line
 constexpr double kUnknownHole = 1.0;  // mm, diameter
-constexpr int kToolColours[] = {5, 1, 3, 6, 30, 4, 140, 200};  // blue, red, green and so on
+constexpr int kToolColours[] = {5, 1, 3, 6, 30, 4, 140, 200};  // blue, red, green ...
 constexpr int kRapidColour = 8, kByLayer = 256, kPlainColour = 7;
 
-/// Tells shapes that have been drawn from new ones.
+/// The shapes drawn so far, to find repeated ones.
 class Drawn {
  public:
-  /// False if the entity at `index`, the drawing's last, is there already.
+  /// False if the entity at `index`, the drawing's last, equals an earlier one.
   bool is_new(const Drawing& drawing, std::size_t index) {
     const DrawingEntity& entity = drawing.entities[index];
     const std::size_t key = std::visit([](const auto& shape) { return hash(shape); }, entity.shape);
@@ -85,7 +85,7 @@ class Sketcher final : public drawings::StrokeSink {
   void add(Shape shape);
   std::size_t layer_named(const std::string& name, int colour, LineKind line, double width);
   std::size_t cut_layer();
-  /// Whether a chain ends where it began.
+  /// Whether a chain ends at its start point.
   bool meets(const std::vector<drawing::Vertex>& chain) const {
     if (chain.size() < 3) return false;
     const auto &a = chain.front(), &b = chain.back();
@@ -149,7 +149,7 @@ void Sketcher::bulge_to(double bulge, Point3 to) {
   at_ = to;
 }
 
-/// Draws the chain; the next stroke starts another one.
+/// Draws the chain; the next stroke starts a new one.
 void Sketcher::flush(Closing closing) {
   chord_continues_ = false;
   std::vector<drawing::Vertex> chain = std::exchange(chain_, {});
@@ -179,18 +179,18 @@ void Sketcher::hole() {
     add(drawing::Circle{at_.x * scale_, at_.y * scale_, 0.5 * diameter * scale_});
 }
 
-/// An arc in XY, whole turns drawn once.
+/// An arc in XY; several turns are drawn as one.
 void Sketcher::arc(const ArcWalk& walk) {
   const double sweep = std::copysign(std::min(std::abs(walk.sweep), kTurn), walk.sweep);
   const bool full = std::abs(walk.sweep) >= kTurn;
   const bool even = std::abs(walk.start_radius - walk.end_radius) <= kSameRadius;
   const bool alone = chain_.empty() && even;
-  // Halves: a bulge beyond half a circle is read badly by some programs.
-  const int pieces = std::abs(sweep) > std::numbers::pi ? 2 : 1;
-  const double bulge = std::tan(0.25 * sweep / pieces);
-  for (int k = 1; k <= pieces; ++k) {
-    const double share = std::abs(sweep) / std::abs(walk.sweep) * k / pieces;
-    bulge_to(bulge, walk.at(k == pieces && !full ? 1.0 : share));
+  // Two parts, because some programs misread a bulge of more than half a circle.
+  const int parts = std::abs(sweep) > std::numbers::pi ? 2 : 1;
+  const double bulge = std::tan(0.25 * sweep / parts);
+  for (int k = 1; k <= parts; ++k) {
+    const double fraction = std::abs(sweep) / std::abs(walk.sweep) * k / parts;
+    bulge_to(bulge, walk.at(k == parts && !full ? 1.0 : fraction));
   }
   const Point3 end = walk.at(1.0);
   only_arc_ = alone ? std::optional(walk) : std::nullopt;
@@ -201,7 +201,8 @@ void Sketcher::arc(const ArcWalk& walk) {
   at_ = end;
 }
 
-/// A chord of an arc that does not lie in XY. Where the arc is upright, its chords are one line from above.
+/// A chord of an arc that does not lie in XY. The chords of an arc in a vertical plane are one line from
+/// above.
 void Sketcher::chord_to(Point3 to) {
   const double ax = at_.x - chord_from_.x, ay = at_.y - chord_from_.y, bx = to.x - at_.x, by = to.y - at_.y;
   const bool straight_on = chord_continues_ &&
@@ -227,7 +228,7 @@ void Sketcher::cut(const drawings::Stroke& stroke) {
     only_arc_.reset();
     return line_to(stroke.to);
   }
-  if (!chain_.empty()) flush();  // the next pass follows
+  if (!chain_.empty()) flush();  // the next pass starts
   went_down_ = went_down_ || stroke.to.z < at_.z;
 }
 
@@ -244,7 +245,7 @@ void Sketcher::stroke(const drawings::Stroke& stroke) {
   at_ = stroke.to;
   if (!stroke.ends_step) return;
   chord_continues_ = false;
-  if (meets(chain_)) flush();  // so that the next pass along it is found to be the same
+  if (meets(chain_)) flush();  // so that the next pass along it is recognised as a repetition
 }
 
 void Sketcher::setting(std::size_t i) {

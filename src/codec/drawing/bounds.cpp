@@ -1,4 +1,4 @@
-// How far a drawing reaches.
+// The bounds of a drawing.
 #include <algorithm>
 #include <cmath>
 #include <limits>

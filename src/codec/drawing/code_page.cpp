@@ -1,4 +1,4 @@
-// Decoding: tables for Windows' single-byte pages, the C library's iconv for all others where it has one.
+// Decoding: tables for Windows' single-byte pages, iconv of the C library for others, if available.
 #include "codec/drawing/code_page.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ std::optional<char32_t> four_digits(std::string_view text) {
 
 bool is_surrogate(char32_t c, char32_t first) { return c >= first && c < first + 0x400; }
 
-/// Length of the valid UTF-8 character at the start of `text`, 0 where there is none.
+/// Length of the valid UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t utf8_length(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -41,7 +41,7 @@ std::size_t utf8_length(std::string_view text) {
   if (length > text.size()) return 0;
   for (std::size_t i = 1; i < length; ++i)
     if ((byte(i) & 0xC0) != 0x80) return 0;
-  // Longer than needed, surrogates, beyond Unicode's end.
+  // Overlong encodings, surrogates, code points above U+10FFFF.
   if ((first == 0xE0 && byte(1) < 0xA0) || (first == 0xED && byte(1) > 0x9F)) return 0;
   if ((first == 0xF0 && byte(1) < 0x90) || (first == 0xF4 && byte(1) > 0x8F)) return 0;
   return length;
@@ -122,7 +122,7 @@ class TextDecoder::Converter {
 #else
 namespace {
 
-/// The name by which iconv knows a page.
+/// The name of a page for iconv.
 std::string iconv_name(int page) {
   if (page >= 28591 && page <= 28606) return fmt::format("ISO-8859-{}", page - 28590);
   if (page == 10000) return "MACINTOSH";
@@ -146,7 +146,7 @@ class TextDecoder::Converter {
   Converter& operator=(const Converter&) = delete;
   ~Converter() { iconv_close(state_); }
 
-  /// Appends what can be decoded, U+FFFD for each byte that cannot; false if there was one.
+  /// Appends the decoded text, with U+FFFD for each byte that cannot be decoded; false if there was one.
   bool append(std::string& out, std::string_view bytes) {
     iconv(state_, nullptr, nullptr, nullptr, nullptr);
     std::string copy(bytes);
@@ -232,7 +232,7 @@ TextDecoder::Converter* TextDecoder::converter(int digit) {
   return found.get();
 }
 
-/// Replaces the escape that starts `text`; returns how many bytes it has, 0 where it is none.
+/// Replaces the escape sequence at the start of `text`; returns its number of bytes, 0 if there is none.
 std::size_t TextDecoder::append_escape(std::string& out, std::string_view text) {
   constexpr std::size_t kLength = 7;  // \U+00E9
   if (text.size() < kLength || text[2] != '+') return 0;

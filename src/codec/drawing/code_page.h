@@ -18,7 +18,7 @@ const std::uint16_t* upper_half(int code_page);
 
 inline constexpr int kUtf8 = 65001;
 inline constexpr int kWesternEurope = 1252;
-inline constexpr int kUnstated = 0;  ///< UTF-8 where the bytes are that, else Western Europe
+inline constexpr int kUnstated = 0;  ///< UTF-8 if the bytes are valid UTF-8, else Western Europe
 
 class TextDecoder {
  public:
@@ -27,15 +27,16 @@ class TextDecoder {
   TextDecoder(const TextDecoder&) = delete;
   TextDecoder& operator=(const TextDecoder&) = delete;
 
-  /// False, without a change, where text in this page cannot be decoded here.
+  /// False, without a change, if text in this page cannot be decoded on this system.
   bool use(int code_page);
-  /// To UTF-8. Also replaces \U+XXXX and \M+NXXXX. What cannot be decoded becomes U+FFFD and is counted.
+  /// To UTF-8. Also replaces \U+XXXX and \M+NXXXX. Bytes that cannot be decoded become U+FFFD and are
+  /// counted.
   std::string decode(std::string_view bytes);
   /// Texts with a character that could not be decoded.
   std::size_t faulty_texts() const { return faulty_texts_; }
 
  private:
-  class Converter;  // iconv's, where there is one
+  class Converter;  // iconv, if the system has it
   void append_page(std::string& out, std::string_view bytes);
   void append_bytes(std::string& out, std::string_view bytes);
   std::size_t append_escape(std::string& out, std::string_view text);

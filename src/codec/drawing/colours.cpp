@@ -1,4 +1,4 @@
-// AutoCAD's colour indices in red, green and blue.
+// AutoCAD's colour indices as red, green and blue.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,8 @@ namespace {
 
 using Rgb = std::array<std::uint8_t, 3>;
 
-std::uint8_t byte_of(double share) {
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+std::uint8_t byte_of(double fraction) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(fraction, 0.0, 1.0)));
 }
 
 /// Fraction of red (offset 0), green (8) or blue (4) in a hue given in twelfths of the circle.

@@ -1,4 +1,4 @@
-// The reader's state while it goes through the sections of a DXF file.
+// The reader of DXF files: its state while it reads the sections.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ class NameIndex {
   bool has_last_ = false;
 };
 
-/// The kinds of entities whose tags are understood.
+/// The kinds of entities that are read.
 enum class Kind : std::uint8_t {
   line,
   circle,
@@ -92,9 +92,9 @@ class Fields {
   std::bitset<kGroups> present_;
 };
 
-class Reader {
+class DxfReader {
  public:
-  Reader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics);
+  DxfReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics);
   std::optional<Drawing> read();
 
  private:

@@ -1,4 +1,4 @@
-// Tags from lines of text, or from AutoCAD's binary form of them.
+// Tags from lines of text or from AutoCAD's binary form.
 #include "codec/drawing/dxf_tags.h"
 
 #include <cmath>
@@ -23,14 +23,14 @@ std::string_view without_blanks(std::string_view text) {
   return text;
 }
 
-/// A faulty value for a message: printable, and not long.
+/// An invalid value for a message: printable and shortened.
 std::string quoted(std::string_view text) {
   std::string made = "\"";
   for (const char c : text.substr(0, kQuoted)) made += c >= ' ' && c <= '~' ? c : '?';
   return made + (text.size() > kQuoted ? "...\"" : "\"");
 }
 
-/// A group code with blanks around it; nothing if the line is anything else.
+/// A group code, possibly with blanks around it; nothing for other lines.
 std::optional<int> group_of(std::string_view line) {
   line = without_blanks(line);
   const bool negative = !line.empty() && line.front() == '-';
@@ -55,7 +55,7 @@ bool is_type_name(std::string_view line) {
   return letter;
 }
 
-/// Types, names of layers, blocks and so on, variables: blanks around them do not count.
+/// Types, names of layers, blocks etc. and variables, which are trimmed.
 bool is_name(int group) { return group == 0 || group == 2 || (group >= 6 && group <= 9); }
 
 }  // namespace
@@ -109,7 +109,7 @@ Diagnostic& TagReader::warning(Code code, std::size_t position, const std::strin
   return diagnostics_.warning(code, origin_at(position), located(position, message));
 }
 
-/// An origin has no byte offset, so that the message of a binary file gives it.
+/// The message with the byte offset in a binary file, since origins have none.
 std::string TagReader::located(std::size_t position, const std::string& message) const {
   return binary_ && position > 0 ? fmt::format("byte {}: {}", position, message) : message;
 }
@@ -159,7 +159,7 @@ bool TagReader::next_ascii() {
   return true;
 }
 
-/// Reports that the file ends too early. What ends at the next group code 0 is complete.
+/// Reports that the file ends too early.
 bool TagReader::cut_off(const std::string& where) {
   if (group_ != 0) {
     error(Code::dxf_group_code, lines_, "the file ends " + where);
@@ -292,7 +292,7 @@ bool TagReader::binary_value(ValueKind kind) {
 
 // -------------------------------------------------------------------------------------------------- values
 
-/// "12,5", as programs write it that use the system's number format.
+/// "12,5", as written by programs that use the number format of the system.
 std::optional<double> TagReader::number_with_comma() {
   const std::string_view text = without_blanks(text_);
   const std::size_t comma = text.find(',');

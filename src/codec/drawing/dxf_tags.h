@@ -13,11 +13,11 @@ namespace kerf::dxf {
 
 /// How a group's value is stored in a binary file.
 enum class ValueKind : std::uint8_t { text, real, int16, int32, int64, byte, chunk };
-/// Nothing for a group code that no version of the format has.
+/// Nothing for a group code that does not exist in any version of the format.
 std::optional<ValueKind> value_kind(int group);
 
-/// Reads one tag after the other. Comments (999) are skipped. A line that should hold a group code and does
-/// not is an error; reading continues at the next entity, and `breaks()` counts one more.
+/// Reads one tag after the other. Comments (999) are skipped. A line without a group code where one is
+/// expected is an error; reading continues at the next entity, and `breaks()` is incremented.
 class TagReader {
  public:
   /// `bytes` must stay valid. `file` is for messages.
@@ -25,21 +25,21 @@ class TagReader {
 
   /// False at the end of the bytes.
   bool next();
-  /// The next call of next() gives the current tag again.
+  /// The next call of next() returns the current tag again.
   void repeat() { repeat_ = true; }
 
   int group() const { return group_; }
   bool is(int group, std::string_view text) const { return group_ == group && text_ == text; }
-  /// The value as it is in the file, not decoded. Numbers of binary files have none. Type names and the like
-  /// (groups 0, 2, 9) come without blanks around them.
+  /// The value as in the file, not decoded; empty for numbers of binary files. Type names and the like
+  /// (groups 0, 2, 9) are trimmed.
   std::string_view text() const { return text_; }
-  /// The value as a number; an error is appended and nothing returned where it is none.
+  /// The value as a number; nothing, with an error, if it is not one.
   std::optional<double> number();
   /// As number(), for values that must be integers of 32 bits.
   std::optional<int> integer();
-  /// The value as text, of numbers in binary files too.
+  /// The value as text, also of numbers in binary files.
   std::string value_text() const;
-  /// A handle: a hexadecimal number; 0 where it is none.
+  /// The value as a handle, a hexadecimal number; 0 if it is not one.
   std::uint64_t handle() const;
 
   bool binary() const { return binary_; }

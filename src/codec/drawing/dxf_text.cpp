@@ -13,7 +13,7 @@ constexpr std::string_view kDegree = "\xC2\xB0", kDiameter = "\xC3\x98", kPlusMi
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// Takes a code of TEXT that starts with %% and returns its length; 0 where it is none.
+/// Reads a code of TEXT that starts with %% and returns its length; 0 if it is not one.
 std::size_t take_percent(std::string& out, std::string_view text) {
   if (text.size() < 3 || text[1] != '%') return 0;
   switch (text[2] | 0x20) {
@@ -36,7 +36,7 @@ std::size_t take_percent(std::string& out, std::string_view text) {
   return 5;
 }
 
-/// Takes a control character written as ^I and returns its length; 0 where it is none.
+/// Reads a control character written as ^I and returns its length; 0 if it is not one.
 std::size_t take_caret(std::string& out, std::string_view text) {
   if (text.size() < 2) return 0;
   const char c = text[1];
@@ -54,7 +54,7 @@ class MtextReader {
  private:
   std::size_t take_code();
   void stack(std::string_view parts);
-  std::string_view text_;  // that is left
+  std::string_view text_;  // not yet read
   std::string out_;
 };
 
@@ -75,7 +75,7 @@ std::string MtextReader::read() {
   return std::move(out_);
 }
 
-/// Takes a code that starts with a backslash; 0 where it is none.
+/// Reads a code that starts with a backslash and returns its length; 0 if it is not one.
 std::size_t MtextReader::take_code() {
   if (text_.size() < 2) return 1;
   const char code = text_[1];
@@ -103,7 +103,7 @@ std::size_t MtextReader::take_code() {
   return end + 1;
 }
 
-/// A fraction or a pair of tolerances, the parts separated by '/', '#' or '^'.
+/// A fraction or a pair of tolerances, separated by '/', '#' or '^'.
 void MtextReader::stack(std::string_view parts) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const char c = parts[i];

@@ -1,6 +1,5 @@
-// The forms of drawing files: what surrounds the shapes, and how handles and numbers are written. The default
-// forms are those of write_dxf() and write_svg(); a program whose files other programs know has forms of its
-// own.
+// The forms of drawing files: the text around the shapes, and the format of handles and numbers. The default
+// forms are those of write_dxf() and write_svg(); other forms reproduce the files of another program.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +14,7 @@ namespace kerf::drawings {
 /// shortest: as few digits as give the number to the form's decimals; fixed: all decimals.
 enum class Decimals : std::uint8_t { shortest, fixed };
 
-/// Whether the angles of arcs are brought to less than a turn from 0.
+/// Whether the angles of arcs are normalised to less than a full turn.
 enum class DxfAngles : std::uint8_t { below_a_turn, as_given };
 
 /// Texts of group codes with their values ("0 LINE|5 {HANDLE}"), '|' or a line end between them. Values in
@@ -38,12 +37,12 @@ struct DxfForm {
 /// Lines, arcs and circles only.
 std::string write_dxf(const Drawing& drawing, const DxfForm& form);
 
-/// Whether y points down in the numbers, or a transform of the groups does that.
+/// Whether y points down in the numbers, or by a transform of the groups.
 enum class SvgY : std::uint8_t { turned, as_drawn };
 
 struct SvgForm {
   std::string head;  // up to the first group
-  /// The start of a layer's group; a layer without one is left out.
+  /// The start of a layer's group; if empty, the layer is not written.
   std::function<std::string(std::size_t layer)> group;
   /// The attributes of path number `count` from 1, which is entity number `entity`, before its data.
   std::function<std::string(std::size_t entity, std::size_t count)> attributes;

@@ -14,7 +14,7 @@ constexpr std::string_view kVersions[] = {"AC1006", "AC1009", "AC1012", "AC1014"
                                           "AC1018", "AC1021", "AC1024", "AC1027", "AC1032"};
 constexpr std::string_view kFirstUtf8 = "AC1021";  // R2007
 
-/// Whether the first line with anything on it is a group code.
+/// Whether the first non-blank line is a group code.
 bool starts_like_dxf(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n", bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0);
   if (first == std::string_view::npos) return false;
@@ -24,7 +24,7 @@ bool starts_like_dxf(std::string_view bytes) {
                         line.find_first_not_of(" \t", digits) == std::string_view::npos);
 }
 
-/// What a file is that is no DXF, as far as its first bytes show it.
+/// A hint for a file that is not DXF, by its first bytes.
 std::string_view hint_for(std::string_view bytes) {
   if (bytes.starts_with("AC10")) return "this is a DWG file; save the drawing as DXF";
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF"))
@@ -49,7 +49,7 @@ std::string folded(std::string_view name) {
   return made;
 }
 
-Reader::Reader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics)
+DxfReader::DxfReader(std::string_view bytes, const std::string& file, Diagnostics& diagnostics)
     : tags_(bytes, file, diagnostics) {
   drawing_.file = file;
   drawing_.binary = tags_.binary();
@@ -63,28 +63,28 @@ Reader::Reader(std::string_view bytes, const std::string& file, Diagnostics& dia
   extrusions_.emplace(std::array<double, 3>{0.0, 0.0, 1.0}, 0u);
 }
 
-Diagnostic& Reader::warn_structure(const std::string& message) {
+Diagnostic& DxfReader::warn_structure(const std::string& message) {
   return tags_.warning(Code::dxf_structure, tags_.value_position(), message);
 }
 
 // --------------------------------------------------------------------------------------------------- names
 
-std::uint32_t Reader::layer_index(std::string_view raw) {
+std::uint32_t DxfReader::layer_index(std::string_view raw) {
   return layers_.find(raw, decoder_,
                       [&](std::string name) { return add_row(drawing_.layers, std::move(name)); });
 }
 
-std::uint32_t Reader::linetype_index(std::string_view raw) {
+std::uint32_t DxfReader::linetype_index(std::string_view raw) {
   return linetypes_.find(raw, decoder_,
                          [&](std::string name) { return add_row(drawing_.linetypes, std::move(name)); });
 }
 
-std::uint32_t Reader::style_index(std::string_view raw) {
+std::uint32_t DxfReader::style_index(std::string_view raw) {
   return styles_.find(raw, decoder_,
                       [&](std::string name) { return add_row(drawing_.styles, std::move(name)); });
 }
 
-std::uint32_t Reader::block_index(std::string_view raw) {
+std::uint32_t DxfReader::block_index(std::string_view raw) {
   return blocks_.find(raw, decoder_, [&](std::string name) {
     first_use_.push_back(0);
     return add_row(drawing_.blocks, std::move(name));
@@ -93,10 +93,10 @@ std::uint32_t Reader::block_index(std::string_view raw) {
 
 // ------------------------------------------------------------------------------------------------- sections
 
-std::optional<Drawing> Reader::read() {
+std::optional<Drawing> DxfReader::read() {
   while (!end_of_file_ && tags_.next()) {
     if (tags_.group() != 0) {
-      warn_structure(fmt::format("group {} outside of any section; skipped", tags_.group()));
+      warn_structure(fmt::format("group {} outside of a section; skipped", tags_.group()));
       skip_tags();
     } else if (tags_.text() == "SECTION") {
       section();
@@ -105,10 +105,10 @@ std::optional<Drawing> Reader::read() {
     } else if (tags_.text() == "ENDSEC" || tags_.text() == "ENDBLK" || tags_.text() == "ENDTAB") {
       warn_structure(fmt::format("{} without its start; skipped", tags_.text()));
     } else if (tags_.text() == "BLOCK") {
-      warn_structure("BLOCK outside of any section");
+      warn_structure("BLOCK outside of a section");
       block();
     } else {
-      warn_structure(fmt::format("{} outside of any section; read as an entity", tags_.text()));
+      warn_structure(fmt::format("{} outside of a section; read as an entity", tags_.text()));
       tags_.repeat();
       entities(drawing_.entities);
     }
@@ -138,7 +138,7 @@ std::optional<Drawing> Reader::read() {
   return std::move(drawing_);
 }
 
-void Reader::section() {
+void DxfReader::section() {
   ++sections_;
   if (!tags_.next()) return;
   if (tags_.group() != 2) {
@@ -165,14 +165,14 @@ void Reader::section() {
   end_section(name);
 }
 
-void Reader::end_section(std::string_view name) {
+void DxfReader::end_section(std::string_view name) {
   if (!tags_.next()) return;
   if (tags_.is(0, "ENDSEC")) return;
   warn_structure(fmt::format("section {} ends without ENDSEC", name));
   tags_.repeat();
 }
 
-void Reader::skip_section() {
+void DxfReader::skip_section() {
   while (tags_.next()) {
     if (tags_.group() != 0) continue;
     if (tags_.text() == "ENDSEC") return;
@@ -180,13 +180,13 @@ void Reader::skip_section() {
   }
 }
 
-/// Up to the next group code 0.
-void Reader::skip_tags() {
+/// Skips to the next group code 0.
+void DxfReader::skip_tags() {
   while (tags_.next())
     if (tags_.group() == 0) return tags_.repeat();
 }
 
-void Reader::header() {
+void DxfReader::header() {
   std::vector<HeaderVariable>& variables = drawing_.header;
   while (tags_.next() && tags_.group() != 0) {
     if (tags_.group() == 9)
@@ -209,7 +209,7 @@ void Reader::header() {
     for (auto& [group, value] : variable.values) value = decoder_.decode(value);
 }
 
-void Reader::use_encoding() {
+void DxfReader::use_encoding() {
   const bool known =
       std::find(std::begin(kVersions), std::end(kVersions), drawing_.version) != std::end(kVersions);
   if (!known && !drawing_.version.empty())
@@ -231,7 +231,7 @@ void Reader::use_encoding() {
       fmt::format("unknown code page {}; texts are read as UTF-8 or ANSI_1252", drawing_.code_page));
 }
 
-void Reader::tables() {
+void DxfReader::tables() {
   while (tags_.next()) {
     if (tags_.group() != 0) continue;
     const std::string_view name = tags_.text();
@@ -247,7 +247,7 @@ void Reader::tables() {
   }
 }
 
-void Reader::layer_record() {
+void DxfReader::layer_record() {
   Layer layer;
   layer.declared = true;
   std::optional<std::uint32_t> index;
@@ -278,12 +278,12 @@ void Reader::layer_record() {
   if (tags_.group() == 0) tags_.repeat();
   if (!index) return;
   if (drawing_.layers[*index].declared)
-    warn_structure(fmt::format("layer \"{}\" is declared twice; the first declaration counts", layer.name));
+    warn_structure(fmt::format("layer \"{}\" is declared twice; the first declaration is used", layer.name));
   else
     drawing_.layers[*index] = std::move(layer);
 }
 
-void Reader::linetype_record() {
+void DxfReader::linetype_record() {
   Linetype linetype;
   linetype.declared = true;
   std::optional<std::uint32_t> index;
@@ -301,7 +301,7 @@ void Reader::linetype_record() {
   if (index && !drawing_.linetypes[*index].declared) drawing_.linetypes[*index] = std::move(linetype);
 }
 
-void Reader::style_record() {
+void DxfReader::style_record() {
   TextStyle style;
   style.declared = true;
   std::optional<std::uint32_t> index;
@@ -322,7 +322,7 @@ void Reader::style_record() {
   if (index && !drawing_.styles[*index].declared) drawing_.styles[*index] = std::move(style);
 }
 
-void Reader::blocks() {
+void DxfReader::blocks() {
   while (tags_.next()) {
     if (tags_.group() != 0) continue;
     const std::string_view name = tags_.text();
@@ -338,7 +338,7 @@ void Reader::blocks() {
   }
 }
 
-void Reader::block() {
+void DxfReader::block() {
   constexpr int kExternal = 4;
   Block block;
   block.declared = true;
@@ -379,20 +379,20 @@ void Reader::block() {
     tags_.warning(Code::dxf_structure, position, "a block without a name; skipped");
   else if (drawing_.blocks[*index].declared)
     tags_.warning(Code::dxf_structure, position,
-                  fmt::format("block \"{}\" is declared twice; the first declaration counts", block.name));
+                  fmt::format("block \"{}\" is declared twice; the first declaration is used", block.name));
   else
     drawing_.blocks[*index] = std::move(block);
 }
 
-void Reader::check_blocks() {
+void DxfReader::check_blocks() {
   for (std::size_t i = 0; i < drawing_.blocks.size(); ++i)
     if (!drawing_.blocks[i].declared)
       tags_.warning(Code::dxf_block, first_use_[i],
                     fmt::format("block \"{}\" is inserted, but not in the file", drawing_.blocks[i].name));
 }
 
-/// In most files handles ascend. Else they are sorted.
-void Reader::find_repeated_handles() {
+/// In most files handles ascend; otherwise they are sorted first.
+void DxfReader::find_repeated_handles() {
   struct Use {
     std::uint64_t handle;
     std::size_t position;
@@ -438,7 +438,7 @@ std::optional<Drawing> read_dxf(std::string_view bytes, const std::string& file_
         .hint = empty ? "" : hint_for(bytes);
     return std::nullopt;
   }
-  return Reader(bytes, file_name, diagnostics).read();
+  return DxfReader(bytes, file_name, diagnostics).read();
 }
 
 }  // namespace kerf::dxf

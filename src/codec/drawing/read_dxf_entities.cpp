@@ -11,8 +11,8 @@ namespace {
 
 struct KindInfo {
   std::string_view name;
-  std::initializer_list<int> used;      // numbers besides those of common_tag
-  std::initializer_list<int> required;  // without them the entity is refused
+  std::initializer_list<int> used;  // numbers besides those of common_tag
+  std::initializer_list<int> required;
 };
 
 /// In the order of Kind.
@@ -63,9 +63,9 @@ bool ends_entities(std::string_view name) {
   return name == "ENDSEC" || name == "ENDBLK" || name == "BLOCK" || name == "SECTION" || name == "EOF";
 }
 
-constexpr int kExtendedData = 1000;    // groups from here on belong to other programs
+constexpr int kExtendedData = 1000;    // from here on: data of other programs
 constexpr int kApplicationData = 102;  // {NAME ... }
-constexpr int kEmbedded = 101;         // an object in the entity; its groups mean something else
+constexpr int kEmbedded = 101;         // an object in the entity; its groups have other meanings
 
 }  // namespace
 
@@ -78,8 +78,8 @@ int Fields::integer(int group, int otherwise) const {
 
 // ---------------------------------------------------------------------------------------------------- tags
 
-/// Up to the group code that ends them: "}".
-void Reader::skip_application_data() {
+/// Skips to the group that ends them: "}".
+void DxfReader::skip_application_data() {
   if (!tags_.text().starts_with("{")) return;
   while (tags_.next()) {
     if (tags_.group() == 0) return tags_.repeat();
@@ -87,8 +87,8 @@ void Reader::skip_application_data() {
   }
 }
 
-/// Takes the current tag where it means the same in all entities.
-bool Reader::common_tag(Kind kind, Entity& entity) {
+/// Reads the current tag if it has the same meaning in all entities; else false.
+bool DxfReader::common_tag(Kind kind, Entity& entity) {
   const auto integer = [&](auto use) {
     const auto value = tags_.integer();
     if (value) use(*value);
@@ -120,8 +120,8 @@ bool Reader::common_tag(Kind kind, Entity& entity) {
   return number_tag(kind);
 }
 
-/// Keeps the number of a tag that the entity's kind uses; counts the others.
-bool Reader::number_tag(Kind kind) {
+/// Stores the number of a tag that the kind of entity uses; counts the others.
+bool DxfReader::number_tag(Kind kind) {
   const int group = tags_.group();
   const auto k = static_cast<std::size_t>(kind);
   const auto g = static_cast<std::size_t>(group);
@@ -137,10 +137,10 @@ bool Reader::number_tag(Kind kind) {
   return true;
 }
 
-/// Reads the tags of an entity, up to the next group code 0; `hook(group)` takes those of special meaning.
-/// False where a value is faulty or the tags break off.
+/// Reads the tags of an entity, up to the next group code 0; `hook(group)` reads those with a special
+/// meaning. False if a value is invalid or the tags are incomplete.
 template <class Hook>
-bool Reader::entity_tags(Kind kind, Entity& entity, Hook hook) {
+bool DxfReader::entity_tags(Kind kind, Entity& entity, Hook hook) {
   const std::size_t breaks = tags_.breaks();
   bool valid = true;
   fields_.clear();
@@ -160,7 +160,7 @@ bool Reader::entity_tags(Kind kind, Entity& entity, Hook hook) {
   return valid && breaks == tags_.breaks();
 }
 
-std::uint32_t Reader::extrusion_of_fields() {
+std::uint32_t DxfReader::extrusion_of_fields() {
   if (!fields_.has(210) && !fields_.has(220) && !fields_.has(230)) return 0;
   const Point e{fields_.get(210, 0.0), fields_.get(220, 0.0), fields_.get(230, 1.0)};
   const std::array<double, 3> key{e.x + 0.0, e.y + 0.0, e.z + 0.0};  // -0.0 becomes 0.0
@@ -170,14 +170,14 @@ std::uint32_t Reader::extrusion_of_fields() {
   return found.first->second;
 }
 
-bool Reader::refuse(const Entity& entity, Kind kind, const std::string& what) {
+bool DxfReader::refuse(const Entity& entity, Kind kind, const std::string& what) {
   tags_.error(Code::dxf_value, entity.position,
               fmt::format("{}{}{}: {}; the entity is skipped", name_of(kind), entity.handle != 0 ? " " : "",
                           handle_text(entity.handle), what));
   return false;
 }
 
-bool Reader::has_required(Kind kind, const Entity& entity) {
+bool DxfReader::has_required(Kind kind, const Entity& entity) {
   for (const int group : info(kind).required)
     if (!fields_.has(group)) return refuse(entity, kind, fmt::format("group {} is missing", group));
   return true;
@@ -185,8 +185,8 @@ bool Reader::has_required(Kind kind, const Entity& entity) {
 
 // -------------------------------------------------------------------------------------------------- entities
 
-/// Reads entities up to the end of a list, which is left for the caller.
-void Reader::entities(std::vector<Entity>& out) {
+/// Reads entities up to the tag that ends a list, which is not consumed.
+void DxfReader::entities(std::vector<Entity>& out) {
   while (tags_.next()) {
     if (tags_.group() != 0) {
       warn_structure(fmt::format("group {} before the first entity; skipped", tags_.group()));
@@ -198,7 +198,7 @@ void Reader::entities(std::vector<Entity>& out) {
   }
 }
 
-void Reader::entity(std::vector<Entity>& out) {
+void DxfReader::entity(std::vector<Entity>& out) {
   Entity made;
   made.position = tags_.position();
   const std::string_view name = tags_.text();
@@ -223,7 +223,7 @@ void Reader::entity(std::vector<Entity>& out) {
   }
 }
 
-std::uint32_t Reader::other_type(std::string_view name, std::size_t position) {
+std::uint32_t DxfReader::other_type(std::string_view name, std::size_t position) {
   const std::uint32_t index = others_.find(name, decoder_, [&](std::string decoded) {
     drawing_.others.push_back({std::move(decoded), 0, position});
     return static_cast<std::uint32_t>(drawing_.others.size() - 1);
@@ -232,19 +232,19 @@ std::uint32_t Reader::other_type(std::string_view name, std::size_t position) {
   return index;
 }
 
-void Reader::other(std::string_view name, Entity& entity, std::vector<Entity>& out) {
+void DxfReader::other(std::string_view name, Entity& entity, std::vector<Entity>& out) {
   const bool valid = entity_tags(Kind::other, entity, [](int) { return std::optional<bool>(); });
   entity.shape = Other{other_type(name, entity.position)};
   if (valid) out.push_back(std::move(entity));
 }
 
-void Reader::simple_shape(Kind kind, Entity& entity, std::vector<Entity>& out) {
+void DxfReader::simple_shape(Kind kind, Entity& entity, std::vector<Entity>& out) {
   const bool valid = entity_tags(kind, entity, [](int) { return std::optional<bool>(); });
   if (valid && has_required(kind, entity) && make_simple_shape(kind, entity))
     out.push_back(std::move(entity));
 }
 
-bool Reader::make_simple_shape(Kind kind, Entity& entity) {
+bool DxfReader::make_simple_shape(Kind kind, Entity& entity) {
   constexpr double kFullTurn = 6.283185307179586;
   const Point at = fields_.point(10);
   const double radius = fields_.get(40, 0.0);
@@ -267,7 +267,7 @@ bool Reader::make_simple_shape(Kind kind, Entity& entity) {
 
 // ------------------------------------------------------------------------------------------------- polylines
 
-void Reader::lwpolyline(Entity& entity, std::vector<Entity>& out) {
+void DxfReader::lwpolyline(Entity& entity, std::vector<Entity>& out) {
   Polyline line;
   line.lightweight = true;
   std::size_t ys = 0;
@@ -301,8 +301,8 @@ void Reader::lwpolyline(Entity& entity, std::vector<Entity>& out) {
   out.push_back(std::move(entity));
 }
 
-/// Reads a VERTEX; false where it is faulty.
-bool Reader::vertex(Polyline& polyline, double default_widths[2]) {
+/// Reads a VERTEX; false if it is invalid.
+bool DxfReader::vertex(Polyline& polyline, double default_widths[2]) {
   constexpr int kControlPoint = 16;  // of a spline that the other vertices approximate
   Entity entity;
   entity.position = tags_.position();
@@ -314,7 +314,7 @@ bool Reader::vertex(Polyline& polyline, double default_widths[2]) {
   return true;
 }
 
-void Reader::polyline(Entity& entity, std::vector<Entity>& out) {
+void DxfReader::polyline(Entity& entity, std::vector<Entity>& out) {
   constexpr int kClosed = 1, kSpatial = 8, kMesh = 16 | 64;
   bool valid = entity_tags(Kind::polyline, entity, [](int) { return std::optional<bool>(); });
   const int flags = fields_.integer(70, 0);
@@ -359,7 +359,7 @@ void Reader::polyline(Entity& entity, std::vector<Entity>& out) {
 
 // ---------------------------------------------------------------------------------------- texts and inserts
 
-void Reader::make_text(Kind kind, Text& text) {
+void DxfReader::make_text(Kind kind, Text& text) {
   text.kind = kind == Kind::text        ? TextKind::text
               : kind == Kind::mtext     ? TextKind::mtext
               : kind == Kind::attribute ? TextKind::attribute
@@ -384,7 +384,7 @@ void Reader::make_text(Kind kind, Text& text) {
   text.vertical = fields_.integer(kind == Kind::text ? 73 : 74, 0);
 }
 
-void Reader::text(Kind kind, Entity& entity, std::vector<Entity>& out) {
+void DxfReader::text(Kind kind, Entity& entity, std::vector<Entity>& out) {
   Text made;
   raw_text_.clear();
   const auto hook = [&](int group) -> std::optional<bool> {
@@ -404,7 +404,7 @@ void Reader::text(Kind kind, Entity& entity, std::vector<Entity>& out) {
   out.push_back(std::move(entity));
 }
 
-void Reader::insert(Entity& entity, std::vector<Entity>& out) {
+void DxfReader::insert(Entity& entity, std::vector<Entity>& out) {
   Insert made;
   bool named = false;
   const auto hook = [&](int group) -> std::optional<bool> {
@@ -433,8 +433,8 @@ void Reader::insert(Entity& entity, std::vector<Entity>& out) {
   attributes(out);
 }
 
-/// The attributes behind an INSERT, up to their SEQEND.
-void Reader::attributes(std::vector<Entity>& out) {
+/// The attributes after an INSERT, up to their SEQEND.
+void DxfReader::attributes(std::vector<Entity>& out) {
   bool any = false;
   while (tags_.next()) {
     if (tags_.is(0, "ATTRIB")) {
@@ -449,7 +449,7 @@ void Reader::attributes(std::vector<Entity>& out) {
 
 // --------------------------------------------------------------------------------------------------- splines
 
-void Reader::spline(Entity& entity, std::vector<Entity>& out) {
+void DxfReader::spline(Entity& entity, std::vector<Entity>& out) {
   Spline made;
   std::size_t ys[2] = {};
   const auto hook = [&](int group) -> std::optional<bool> {
@@ -487,7 +487,7 @@ void Reader::spline(Entity& entity, std::vector<Entity>& out) {
   if (!made.control.empty() &&
       (made.degree < 1 ||
        made.knots.size() != made.control.size() + static_cast<std::size_t>(made.degree) + 1))
-    return fail("the numbers of knots and control points do not fit its degree");
+    return fail("the numbers of knots and control points do not match its degree");
   entity.shape = Boxed<Spline>(std::move(made));
   out.push_back(std::move(entity));
 }

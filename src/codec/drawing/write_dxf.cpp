@@ -1,5 +1,6 @@
-// AutoCAD 2000 (AC1015) files, complete: strict readers refuse files without tables, owners and subclass
-// markers. And R12 (AC1009), which has none of these, no light polylines, and plain names only.
+// Writes complete AutoCAD 2000 files (AC1015), because strict readers reject files without tables, owners and
+// subclass markers; and R12 (AC1009), which has none of these, no lightweight polylines, and restricted
+// names.
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
@@ -18,8 +19,7 @@ namespace {
 using drawings::Decimals;
 using drawings::DxfForm;
 
-/// Text in ASCII: both versions read files in the code page that they name, so that other letters are told by
-/// their number ("\\U+00E9"). What is no UTF-8 becomes '?'.
+/// Text in ASCII, independent of the code page: other characters as \U+00E9, invalid UTF-8 as '?'.
 std::string ascii(std::string_view text) {
   std::string made;
   for (std::size_t i = 0; i < text.size();) {
@@ -40,7 +40,7 @@ std::string ascii(std::string_view text) {
   return made;
 }
 
-/// Letters that a reader may choke on in a symbol name become underscores.
+/// Replaces the characters that are not allowed in symbol names by underscores.
 std::string symbol(std::string_view name) {
   std::string made;
   for (const char c : name) {
@@ -51,7 +51,7 @@ std::string symbol(std::string_view name) {
   return made.empty() ? "_" : ascii(made);
 }
 
-/// R12 has capitals, digits, '$', '-' and '_' in names of up to 31 letters.
+/// A name for R12: capitals, digits, '$', '-' and '_', at most 31.
 std::string symbol_r12(std::string_view name) {
   constexpr std::size_t kMaxBytes = 31;  // of a layer's name in R12
   std::string made;
@@ -71,11 +71,11 @@ class DxfWriter {
       layers_.push_back(r12_ ? symbol_r12(layer.name) : symbol(layer.name));
   }
   std::string write();
-  /// With the form's own head, tail and starts of entities.
+  /// With head, tail and starts of entities from the form.
   std::string write_form();
 
  private:
-  // Handles that other records refer to; the rest are counted on from kFirstFree.
+  // Handles that other records refer to; the others are numbered from kFirstFree.
   enum Handle : unsigned {
     kBlockRecords = 1,
     kModel = 2,
@@ -117,7 +117,7 @@ class DxfWriter {
     tag(2, name);
   }
   void header();
-  void begin_table(std::string_view name, unsigned own, int count);
+  void start_table(std::string_view name, unsigned own, int count);
   void record(std::string_view type, std::string_view marker, unsigned own, unsigned table);
   void end_table() { tag(0, "ENDTAB"); }
   void tables();
@@ -157,7 +157,7 @@ void DxfWriter::header() {
   tag(3, "ANSI_1252");
   if (!r12_) {
     tag(9, "$HANDSEED");
-    // Every handle is below this: the records, and one for each entity.
+    // An upper bound of the handles of records and entities.
     tag(5, fmt::format("{:X}", kFirstFree + 64 + drawing_.layers.size() + drawing_.entities.size()));
   }
   tag(9, "$INSUNITS");
@@ -174,7 +174,7 @@ void DxfWriter::header() {
   tag(0, "ENDSEC");
 }
 
-void DxfWriter::begin_table(std::string_view name, unsigned own, int count) {
+void DxfWriter::start_table(std::string_view name, unsigned own, int count) {
   tag(0, "TABLE");
   tag(2, name);
   handle(own);
@@ -205,7 +205,7 @@ void DxfWriter::linetypes() {
                                     {"ByLayer", "", {}, 0},
                                     {"Continuous", "Solid line", {}, 0},
                                     {"DASHED", "Dashed __ __ __ __", {3.0, -1.5}, 2}};
-  begin_table("LTYPE", kLinetypes, 4);
+  start_table("LTYPE", kLinetypes, 4);
   for (const Type& type : kTypes) {
     record("LTYPE", "AcDbLinetypeTableRecord", next_++, kLinetypes);
     tag(2, type.name);
@@ -223,12 +223,12 @@ void DxfWriter::linetypes() {
 }
 
 void DxfWriter::layers() {
-  // Names may have become alike; each is told once.
+  // Names may have become equal; each is written once.
   std::map<std::string, std::pair<int, LineKind>> table;
   for (std::size_t i = 0; i < layers_.size(); ++i)
     table.try_emplace(layers_[i], drawing_.layers[i].colour, drawing_.layers[i].line);
   table.try_emplace("0", 7, LineKind::solid);
-  begin_table("LAYER", kLayers, static_cast<int>(table.size()));
+  start_table("LAYER", kLayers, static_cast<int>(table.size()));
   for (const auto& [name, look] : table) {
     record("LAYER", "AcDbLayerTableRecord", next_++, kLayers);
     tag(2, name);
@@ -240,7 +240,7 @@ void DxfWriter::layers() {
 }
 
 void DxfWriter::text_styles() {
-  begin_table("STYLE", kStyles, 1);
+  start_table("STYLE", kStyles, 1);
   record("STYLE", "AcDbTextStyleTableRecord", next_++, kStyles);
   tag(2, "Standard");
   tag(70, 0);
@@ -256,23 +256,23 @@ void DxfWriter::text_styles() {
 
 void DxfWriter::other_tables() {
   for (const char* empty : {"VIEW", "UCS", "VPORT"}) {
-    begin_table(empty, next_++, 0);
+    start_table(empty, next_++, 0);
     end_table();
   }
   const unsigned apps = next_++;
-  begin_table("APPID", apps, 1);
+  start_table("APPID", apps, 1);
   record("APPID", "AcDbRegAppTableRecord", next_++, apps);
   tag(2, "ACAD");
   tag(70, 0);
   end_table();
   const unsigned styles = next_++;
-  begin_table("DIMSTYLE", styles, 1);
+  start_table("DIMSTYLE", styles, 1);
   subclass("AcDbDimStyleTable");
   record("DIMSTYLE", "AcDbDimStyleTableRecord", next_++, styles);
   tag(2, "Standard");
   tag(70, 0);
   end_table();
-  begin_table("BLOCK_RECORD", kBlockRecords, 2);
+  start_table("BLOCK_RECORD", kBlockRecords, 2);
   for (const auto& [own, name] : {std::pair(kModel, "*Model_Space"), std::pair(kPaper, "*Paper_Space")}) {
     record("BLOCK_RECORD", "AcDbBlockTableRecord", own, kBlockRecords);
     tag(2, name);
@@ -290,7 +290,7 @@ void DxfWriter::tables() {
 }
 
 void DxfWriter::block(unsigned own, std::string_view name) {
-  const auto begin = [&](std::string_view type, std::string_view marker) {
+  const auto start = [&](std::string_view type, std::string_view marker) {
     tag(0, type);
     handle(next_++);
     owner(own);
@@ -298,13 +298,13 @@ void DxfWriter::block(unsigned own, std::string_view name) {
     tag(8, "0");
     subclass(marker);
   };
-  begin("BLOCK", "AcDbBlockBegin");
+  start("BLOCK", "AcDbBlockBegin");
   tag(2, name);
   tag(70, 0);
   point(0.0, 0.0);
   tag(3, name);
   tag(1, "");
-  begin("ENDBLK", "AcDbBlockEnd");
+  start("ENDBLK", "AcDbBlockEnd");
 }
 
 void DxfWriter::entity(std::string_view type, std::string_view marker, std::size_t layer) {
@@ -352,7 +352,7 @@ void DxfWriter::shape(const drawing::Circle& circle, std::size_t layer) {
   tag(40, circle.radius);
 }
 
-/// Before light polylines, each vertex was an entity of its own.
+/// A polyline of R12: each vertex is an entity.
 void DxfWriter::old_polyline(const drawing::Polyline& line, std::size_t layer) {
   entity("POLYLINE", "", layer);
   tag(66, 1);
@@ -425,8 +425,8 @@ std::string DxfWriter::write() {
 
 // ---- forms
 
-/// Group codes with their values from a text; values in braces come from value_of(key), {LAYERS} is all of
-/// them.
+/// Writes group codes with their values from a text. Values in braces are from value_of(key); {LAYERS} is the
+/// records of all layers.
 template <class ValueOf>
 void DxfWriter::fill_in(std::string_view text, ValueOf&& value_of) {
   while (!text.empty()) {

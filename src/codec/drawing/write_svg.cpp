@@ -17,7 +17,7 @@ using drawings::Decimals;
 using drawings::SvgForm;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kMargin = 0.05;  // of the larger side, so that lines at the edge are seen whole
+constexpr double kMargin = 0.05;  // of the larger side, so that lines at the edge are not clipped
 
 std::string escaped(std::string_view text) {
   std::string made;

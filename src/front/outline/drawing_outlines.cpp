@@ -1,11 +1,11 @@
-// Outlines from a drawing: entities chosen by layer, converted, joined, and what is left open reported.
+// Outlines from a drawing: selects entities by layer, converts and joins them, and reports open ends.
 #include "kerf/drawing_outlines.h"
 
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
 
-#include "front/outline/drawing_pieces.h"
+#include "front/outline/entity_shapes.h"
 
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -13,14 +13,14 @@
 namespace kerf {
 namespace {
 
-using outline_front::PieceMaker;
+using outline_front::ShapeConverter;
 
-constexpr double kSmallGap = 1.0;  // mm; up to this a hint says how to close it
+constexpr double kSmallGap = 1.0;  // mm; smaller gaps have a hint
 
 std::string position_text(Point2 p) { return number_text(p.x, 4) + ", " + number_text(p.y, 4); }
 
-/// Pieces of one layer, and where each came from.
-struct LayerPieces {
+/// The shapes of one layer, and the entities that they are from.
+struct LayerShapes {
   std::vector<Outline> outlines;
   std::vector<std::string> names;
   std::vector<std::uint64_t> handles;
@@ -38,26 +38,26 @@ class OutlineDrawer {
   std::optional<double> mm_per_unit();
   bool choose_layers();
   bool collect();
-  void take(const dxf::Placed& placed, PieceMaker& maker);
-  void join(std::uint32_t layer, const LayerPieces& pieces);
-  void report(std::uint32_t layer, const LayerPieces& pieces, const Chained& chained);
+  void take(const dxf::Placed& placed, ShapeConverter& maker);
+  void join(std::uint32_t layer, const LayerShapes& shapes);
+  void report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained);
   void report_ignored();
-  Origin location(std::uint32_t layer, const LayerPieces& pieces, std::uint32_t piece, Point2 at) const {
-    return dxf::origin_at(drawing_, layer, pieces.handles[piece], at.x, at.y);
+  Origin location(std::uint32_t layer, const LayerShapes& shapes, std::uint32_t shape, Point2 at) const {
+    return dxf::origin_at(drawing_, layer, shapes.handles[shape], at.x, at.y);
   }
 
   const dxf::Drawing& drawing_;
   const DrawingOutlineOptions& options_;
   Diagnostics& diagnostics_;
   std::vector<bool> chosen_;  // by layer; empty: all visible ones
-  std::map<std::uint32_t, LayerPieces> pieces_;
+  std::map<std::uint32_t, LayerShapes> shapes_;
   std::map<std::string, std::size_t> ignored_;
   std::vector<std::size_t> hidden_;  // entities by layer
   std::size_t wide_ = 0, segments_ = 0;
   DrawingOutlines made_;
 };
 
-/// The unit asked for, else the drawing's; an error where there is none.
+/// The given unit, else that of the drawing; an error if there is none.
 std::optional<double> OutlineDrawer::mm_per_unit() {
   const int number = drawing_.unit.value_or(0);
   const auto own = dxf::mm_per_unit(number);
@@ -102,7 +102,7 @@ bool OutlineDrawer::choose_layers() {
   return all;
 }
 
-void OutlineDrawer::take(const dxf::Placed& placed, PieceMaker& maker) {
+void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
   const bool chosen =
       chosen_.empty() ? placed.style.visible : chosen_[placed.style.layer] && !placed.entity.hidden;
   if (!chosen) {
@@ -117,28 +117,28 @@ void OutlineDrawer::take(const dxf::Placed& placed, PieceMaker& maker) {
     return;
   }
   const std::size_t before = diagnostics_.errors();
-  auto piece = maker.make(placed);
-  if (!piece) {
+  auto shape = maker.make(placed);
+  if (!shape) {
     if (diagnostics_.errors() == before) ++ignored_[std::string(dxf::type_name(drawing_, placed.entity))];
     return;
   }
   std::string name = outline_front::entity_name(drawing_, placed.entity);
-  if (piece->tilted)
-    diagnostics_.warning(Code::drawing_tilted, maker.location(placed, piece->outline.start),
+  if (shape->tilted)
+    diagnostics_.warning(Code::drawing_tilted, maker.location(placed, shape->outline.start),
                          fmt::format("{} is not parallel to XY; its projection is used", name));
   const auto* line = std::get_if<dxf::Boxed<dxf::Polyline>>(&placed.entity.shape);
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
-  segments_ += piece->outline.segments.size();
-  LayerPieces& pieces = pieces_[placed.style.layer];
-  pieces.outlines.push_back(std::move(piece->outline));
-  pieces.circles.push_back(piece->circle);
-  pieces.names.push_back(std::move(name));
-  pieces.handles.push_back(placed.entity.handle);
+  segments_ += shape->outline.segments.size();
+  LayerShapes& shapes = shapes_[placed.style.layer];
+  shapes.outlines.push_back(std::move(shape->outline));
+  shapes.circles.push_back(shape->circle);
+  shapes.names.push_back(std::move(name));
+  shapes.handles.push_back(placed.entity.handle);
 }
 
 bool OutlineDrawer::collect() {
   hidden_.assign(drawing_.layers.size(), 0);
-  PieceMaker maker(drawing_, made_.unit.mm(), options_, diagnostics_);
+  ShapeConverter maker(drawing_, made_.unit.mm(), options_, diagnostics_);
   const bool all = dxf::for_each_placed(drawing_, options_.visit, diagnostics_,
                                         [&](const dxf::Placed& placed) { take(placed, maker); });
   if (segments_ <= options_.max_segments) return all;
@@ -149,11 +149,11 @@ bool OutlineDrawer::collect() {
   return false;
 }
 
-void OutlineDrawer::join(std::uint32_t layer, const LayerPieces& pieces) {
+void OutlineDrawer::join(std::uint32_t layer, const LayerShapes& shapes) {
   ChainOptions how;
   how.join = options_.join;
   how.tolerance = options_.tolerance;
-  Chained chained = chain(pieces.outlines, how);
+  Chained chained = chain(shapes.outlines, how);
   const std::string& name = drawing_.layers[layer].name;
   std::size_t number = 0;
   for (ChainedOutline& outline : chained.outlines) {
@@ -161,50 +161,50 @@ void OutlineDrawer::join(std::uint32_t layer, const LayerPieces& pieces) {
     DrawnOutline drawn;
     drawn.name = fmt::format("{}.{}", name, ++number);
     drawn.layer = name;
-    drawn.where = location(layer, pieces, first, outline.outline.start);
+    drawn.where = location(layer, shapes, first, outline.outline.start);
     drawn.circle = outline.parts.size() == 1
-                       ? pieces.circles[first]
+                       ? shapes.circles[first]
                        : outline_front::whole_circle(outline.outline, options_.tolerance.weld.mm());
     for (const ChainPart& part : outline.parts)
-      drawn.handles.push_back(dxf::handle_text(pieces.handles[part.piece]));
+      drawn.handles.push_back(dxf::handle_text(shapes.handles[part.piece]));
     drawn.outline = std::move(outline.outline);
     made_.outlines.push_back(std::move(drawn));
   }
-  report(layer, pieces, chained);
+  report(layer, shapes, chained);
 }
 
-void OutlineDrawer::report(std::uint32_t layer, const LayerPieces& pieces, const Chained& chained) {
+void OutlineDrawer::report(std::uint32_t layer, const LayerShapes& shapes, const Chained& chained) {
   const std::string& name = drawing_.layers[layer].name;
   for (const OpenEnd& end : chained.open_ends) {
     std::string message =
-        fmt::format("{} has an open end at {}", pieces.names[end.piece], position_text(end.at));
+        fmt::format("{} has an open end at {}", shapes.names[end.piece], position_text(end.at));
     if (end.nearest)
       message += fmt::format("; the nearest open end is that of {} at {}, {} mm away",
-                             pieces.names[end.nearest_piece], position_text(*end.nearest),
+                             shapes.names[end.nearest_piece], position_text(*end.nearest),
                              number_text(end.distance.mm(), 4));
     Diagnostic& warning = diagnostics_.warning(
-        Code::drawing_open_end, location(layer, pieces, end.piece, end.at), std::move(message));
+        Code::drawing_open_end, location(layer, shapes, end.piece, end.at), std::move(message));
     if (end.nearest && end.distance.mm() <= kSmallGap)
       warning.hint = fmt::format("gaps up to {} mm are joined; a larger tolerance closes this one",
                                  number_text(options_.join.mm(), 4));
-    made_.open_ends.push_back({end.at, name, pieces.names[end.piece], end.nearest, end.distance});
+    made_.open_ends.push_back({end.at, name, shapes.names[end.piece], end.nearest, end.distance});
   }
   for (const Junction& junction : chained.junctions) {
     DrawnJunction drawn{junction.at, name, {}};
-    for (const std::uint32_t piece : junction.pieces) drawn.entities.push_back(pieces.names[piece]);
+    for (const std::uint32_t shape : junction.pieces) drawn.entities.push_back(shapes.names[shape]);
     const std::string more = junction.count > drawn.entities.size() ? " and others" : "";
     diagnostics_
-        .warning(Code::drawing_junction, location(layer, pieces, junction.pieces.front(), junction.at),
+        .warning(Code::drawing_junction, location(layer, shapes, junction.pieces.front(), junction.at),
                  fmt::format("{}{} meet at {}; they are not joined there", list_text(drawn.entities, "and"),
                              more, position_text(junction.at)))
-        .hint = "remove what does not belong to the outline, or move it to another layer";
+        .hint = "remove the entities that are not part of the outline, or move them to another layer";
     made_.junctions.push_back(std::move(drawn));
   }
   for (const RepeatedPiece& repeated : chained.repeated)
     diagnostics_.warning(Code::drawing_repeated,
-                         location(layer, pieces, repeated.piece, pieces.outlines[repeated.piece].start),
-                         fmt::format("{} lies on {} and is ignored", pieces.names[repeated.piece],
-                                     pieces.names[repeated.earlier]));
+                         location(layer, shapes, repeated.piece, shapes.outlines[repeated.piece].start),
+                         fmt::format("{} lies on {} and is ignored", shapes.names[repeated.piece],
+                                     shapes.names[repeated.earlier]));
 }
 
 void OutlineDrawer::report_ignored() {
@@ -212,7 +212,7 @@ void OutlineDrawer::report_ignored() {
   for (const auto& [type, count] : ignored_) types.push_back(fmt::format("{} {}", count, type));
   if (!types.empty())
     diagnostics_.warning(Code::drawing_ignored, file(),
-                         fmt::format("entities that are no outlines are ignored: {}", joined(types, ", ")));
+                         fmt::format("entities that are not outlines are ignored: {}", joined(types, ", ")));
   if (wide_ > 0)
     diagnostics_.note(
         Code::drawing_ignored, file(),
@@ -225,7 +225,7 @@ void OutlineDrawer::report_ignored() {
     diagnostics_
         .note(Code::drawing_hidden, file(),
               fmt::format("hidden entities are not used: {}", joined(hidden, ", ")))
-        .hint = "name a layer to use it although it is off or frozen";
+        .hint = "layers that are off or frozen are used if they are given by name";
 }
 
 std::optional<DrawingOutlines> OutlineDrawer::draw() {
@@ -233,7 +233,7 @@ std::optional<DrawingOutlines> OutlineDrawer::draw() {
   if (!choose_layers() || !unit) return std::nullopt;
   made_.unit = mm(*unit);
   if (!collect()) return std::nullopt;
-  for (const auto& [layer, pieces] : pieces_) join(layer, pieces);
+  for (const auto& [layer, shapes] : shapes_) join(layer, shapes);
   report_ignored();
   if (made_.outlines.empty() && made_.points.empty()) {
     if (!diagnostics_.has_errors())

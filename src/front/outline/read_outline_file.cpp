@@ -1,4 +1,4 @@
-// Outline files: JSON to outlines, every value checked for its kind.
+// Outline files: JSON to outlines, with a check of the type of every value.
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Stock from files, flips and shifts from text.
+// Stock from files; flips, bars and shifts from text.
 #include <cctype>
 #include <cmath>
 #include <fmt/format.h>
@@ -65,7 +65,7 @@ std::optional<double> length_of(std::string_view text) {
   return value && std::abs(*value) <= limits::kMaxStockSize ? value : std::nullopt;
 }
 
-/// One word of a flip after its axis; false if it means nothing there.
+/// One word of a flip after its axis; false if it is invalid.
 bool read_position(const std::string& word, StockMove& move) {
   if (word.size() < 3 || word[1] != '=') return false;
   const auto value = length_of(std::string_view(word).substr(2));
@@ -94,8 +94,8 @@ std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& 
   }
   const auto format = mesh_format_of(name);
   if (!format) {
-    diagnostics.error(Code::mesh_file, TextSpot{name, 0, 0}, "the file's ending is not a stock format").hint =
-        "known endings: .stl .3mf .glb .obj for meshes, .kstock for what an earlier job has left";
+    diagnostics.error(Code::mesh_file, TextSpot{name, 0, 0}, "the file ending is not that of a stock format")
+        .hint = "supported: .stl .3mf .glb .obj (meshes), .kstock (left-over stock of an earlier job)";
     return std::nullopt;
   }
   const auto mesh = read_mesh(bytes, *format, name, diagnostics);
@@ -117,12 +117,11 @@ std::optional<StockMove> read_flip_option(std::string_view text, const Origin& w
   bool good = move.flip != StockMove::Flip::none && text.size() <= limits::kMaxStockOptionBytes;
   for (std::size_t k = 1; k < words.size(); ++k) good = good && read_position(words[k], move);
   if (good) return move;
-  diagnostics.error(
-      Code::stock_flip, where,
-      fmt::format(
-          "\"{}\" is no flip; expected \"x\", \"x y=30 z=-6\" (half a turn about an axis along X, through "
-          "these) or \"y x=50 z=-6\"",
-          text.substr(0, 40)));
+  diagnostics.error(Code::stock_flip, where,
+                    fmt::format("\"{}\" is not a flip; expected \"x\", \"x y=30 z=-6\" (by 180 degrees about "
+                                "an axis along X through "
+                                "Y30 Z-6) or \"y x=50 z=-6\"",
+                                text.substr(0, 40)));
   return std::nullopt;
 }
 
@@ -148,10 +147,9 @@ std::optional<RoundBar> read_rotary_option(std::string_view text, const Origin& 
   if (good && bar.diameter > 0.0 && size > 0.0) return bar;
   diagnostics.error(
       Code::rotary_option, where,
-      fmt::format(
-          "\"{}\" is not a bar; expected \"d=40 length=100\", with its start and axis if they are not 0: "
-          "\"x=-5 y=0 z=12\", all in mm",
-          text.substr(0, 40)));
+      fmt::format("\"{}\" is not a bar; expected \"d=40 length=100\", and start and axis if they are not 0: "
+                  "\"x=-5 y=0 z=12\", all in mm",
+                  text.substr(0, 40)));
   return std::nullopt;
 }
 
@@ -167,7 +165,7 @@ std::optional<Point3> read_shift_option(std::string_view text, const Origin& whe
   }
   if (good) return shift;
   diagnostics.error(Code::stock_flip, where,
-                    fmt::format("\"{}\" is no shift; expected three lengths in mm, such as \"10,0,-3\"",
+                    fmt::format("\"{}\" is not a shift; expected three lengths in mm, such as \"10,0,-3\"",
                                 text.substr(0, 40)));
   return std::nullopt;
 }

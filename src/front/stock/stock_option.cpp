@@ -18,7 +18,7 @@ namespace kerf {
 namespace {
 
 constexpr std::string_view kExpected =
-    "expected \"100x60x12 [at lower-left top]\" or \"0,0,-12 to 100,60,0\", in mm or with \"in\" behind each "
+    "expected \"100x60x12 [at lower-left top]\" or \"0,0,-12 to 100,60,0\", in mm or with \"in\" after each "
     "length or the last one";
 
 /// A length as given; its unit may follow a later one.
@@ -50,18 +50,18 @@ std::optional<Number> number_of(std::string_view text) {
 }
 
 /// The x of "100 x 60 x 12": alone, or before a number.
-bool stands_between(std::string_view text, std::size_t i) {
+bool is_times_sign(std::string_view text, std::size_t i) {
   return text[i] == 'x' && (i + 1 == text.size() || text[i + 1] == ' ' || starts_number(text[i + 1]));
 }
 
-/// Splits at blanks and commas, and at the x between two lengths. Nothing if something that starts like a
-/// number is none.
+/// Splits at blanks and commas, and at the x between two lengths. Nothing if a word that starts like a number
+/// is not one.
 std::optional<std::vector<Token>> tokens_of(std::string_view text) {
   std::vector<Token> tokens;
   std::size_t i = 0;
   while (i < text.size()) {
     const char c = text[i];
-    if (c == ' ' || c == '\t' || c == ',' || stands_between(text, i)) {
+    if (c == ' ' || c == '\t' || c == ',' || is_times_sign(text, i)) {
       ++i;
       continue;
     }
@@ -99,9 +99,9 @@ bool has_bare(std::span<const Number> numbers) {
   return std::any_of(numbers.begin(), numbers.end(), [](const Number& n) { return n.is_bare(); });
 }
 
-/// Gives lengths without a unit theirs: that of the last length where it alone has one ("40x30x10in"), mm
-/// if none has. False if only some have one, which is ambiguous.
-bool settle(std::span<Number> numbers) {
+/// Sets the unit of lengths without one: that of the last length if only that has one ("40x30x10in"), mm if
+/// none has one. False if only some have one, which is ambiguous.
+bool assign_units(std::span<Number> numbers) {
   const bool unit_before_last = has_unit(numbers.first(numbers.size() - 1));
   const double last = numbers.back().scale;
   if (has_bare(numbers) && unit_before_last) return false;
@@ -116,12 +116,12 @@ Point3 point_of(const Triple& triple) {
 }
 
 constexpr std::string_view kMixedUnits =
-    "some of its lengths have a unit and some not; a unit behind the last one alone is for all";
+    "some of its lengths have no unit; a single unit after the last length applies to all";
 
-/// Walks the tokens; each `take` moves on only if it fits.
-class Reader {
+/// Reads the tokens in order; each `take` consumes tokens only if they match.
+class TokenReader {
  public:
-  explicit Reader(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
+  explicit TokenReader(std::vector<Token> tokens) : tokens_(std::move(tokens)) {}
 
   bool at_end() const { return next_ == tokens_.size(); }
   bool take_word(std::string_view word) {
@@ -141,7 +141,7 @@ class Reader {
     next_ += 3;
     return triple;
   }
-  /// A corner's name of one word or two ("centre left").
+  /// The name of a corner, of one word or two ("centre left").
   std::optional<ZeroCorner> take_corner() {
     for (const std::size_t words : {std::size_t{2}, std::size_t{1}}) {
       std::string name;
@@ -167,7 +167,7 @@ class Reader {
   std::size_t next_ = 0;
 };
 
-/// A stock, or why there is none.
+/// A stock, or an error message.
 using Answer = std::variant<Stock, std::string>;
 
 std::string too_far() {
@@ -178,16 +178,17 @@ bool within_reach(Point3 p) {
   return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= limits::kMaxStockSize;
 }
 
-Answer read_corners(Reader& reader, const Triple& first) {
+Answer read_corners(TokenReader& reader, const Triple& first) {
   const std::optional<Triple> second = reader.take_triple();
   if (!second || !reader.at_end())
-    return std::string("the highest corner x,y,z is missing or followed by more");
+    return std::string("the upper corner x,y,z is missing, or followed by other text");
   std::array<Number, 6> all;
   std::copy(second->begin(), second->end(), std::copy(first.begin(), first.end(), all.begin()));
   const std::span<Number> low(all.data(), 3), high(all.data() + 3, 3);
-  // A unit in each corner, or one behind the second for both.
-  const bool fine =
-      has_unit(low) ? (has_unit(high) || !has_bare(high)) && settle(low) && settle(high) : settle(all);
+  // A unit in each corner, or one after the second for both.
+  const bool fine = has_unit(low)
+                        ? (has_unit(high) || !has_bare(high)) && assign_units(low) && assign_units(high)
+                        : assign_units(all);
   if (!fine) return std::string(kMixedUnits);
   Stock stock;
   stock.block.low = point_of({all[0], all[1], all[2]});
@@ -195,7 +196,7 @@ Answer read_corners(Reader& reader, const Triple& first) {
   if (!within_reach(stock.block.low) || !within_reach(stock.block.high)) return too_far();
   const Point3 size = stock.block.size();
   if (size.x > 0.0 && size.y > 0.0 && size.z > 0.0) return stock;
-  return std::string("its highest corner must lie above its lowest in X, Y and Z");
+  return std::string("its upper corner must lie above its lower corner in X, Y and Z");
 }
 
 std::string known_positions() {
@@ -203,8 +204,8 @@ std::string known_positions() {
                      zero_height_names()[1]);
 }
 
-Answer read_size(Reader& reader, Triple lengths) {
-  if (!settle(lengths)) return std::string(kMixedUnits);
+Answer read_size(TokenReader& reader, Triple lengths) {
+  if (!assign_units(lengths)) return std::string(kMixedUnits);
   const Point3 size = point_of(lengths);
   if (!within_reach(size)) return too_far();
   if (!(size.x > 0.0 && size.y > 0.0 && size.z > 0.0)) return std::string("each edge must be longer than 0");
@@ -223,13 +224,13 @@ Answer read(std::string_view text) {
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   std::optional<std::vector<Token>> tokens = tokens_of(lower);
   if (!tokens) return std::string("a length is not a number, or its unit is neither mm nor in");
-  Reader reader(std::move(*tokens));
+  TokenReader reader(std::move(*tokens));
   const bool corners = reader.take_word("min");
   if (!corners) reader.take_word("block");
   const std::optional<Triple> first = reader.take_triple();
   if (!first) return std::string("it does not start with three lengths");
   if (reader.take_word("to") || reader.take_word("max")) return read_corners(reader, *first);
-  if (corners) return std::string("\"max\" and the highest corner are missing");
+  if (corners) return std::string("\"max\" and the upper corner are missing");
   return read_size(reader, *first);
 }
 
@@ -240,8 +241,8 @@ std::optional<Stock> read_stock_option(std::string_view text, const Origin& wher
   if (auto* stock = std::get_if<Stock>(&answer)) return *stock;
   diagnostics
       .error(Code::stock_option, where,
-             fmt::format("cannot understand the stock \"{}\": {}",
-                         text.substr(0, limits::kMaxStockOptionBytes), std::get<std::string>(answer)))
+             fmt::format("invalid stock \"{}\": {}", text.substr(0, limits::kMaxStockOptionBytes),
+                         std::get<std::string>(answer)))
       .hint = kExpected;
   return std::nullopt;
 }

@@ -1,4 +1,4 @@
-// Tool libraries: which kind a file is, and its tools into the table.
+// Tool libraries: detects the kind of a file and adds its tools to the table.
 #include "front/tools/library.h"
 
 #include <fmt/format.h>
@@ -52,9 +52,9 @@ Origin LibraryWriter::location(std::size_t line) const {
   return TextSpot{file_, static_cast<std::uint32_t>(line), 0};
 }
 
-void LibraryWriter::leave_out(const Origin& where, std::string_view name, std::string_view why) {
+void LibraryWriter::skip(const Origin& where, std::string_view name, std::string_view reason) {
   diagnostics_.warning(Code::tool_library_shape, where,
-                       fmt::format("the tool \"{}\" is left out: {}", name.substr(0, 60), why));
+                       fmt::format("the tool \"{}\" is skipped: {}", name.substr(0, 60), reason));
 }
 
 int LibraryWriter::number_for(const LibraryTool& tool) {
@@ -71,12 +71,13 @@ int LibraryWriter::number_for(const LibraryTool& tool) {
 void LibraryWriter::add(const LibraryTool& described) {
   const auto blank = shape_named(described.shape);
   if (!blank)
-    return leave_out(described.where, described.name, fmt::format("no shape \"{}\"", described.shape));
+    return skip(described.where, described.name, fmt::format("unknown shape \"{}\"", described.shape));
   Diagnostics faults;
   std::optional<Tool> tool = tool_of(*blank, settings_of(described, *blank), 1.0, described.where, faults);
   if (!tool) {
-    const std::string why = faults.list().empty() ? "its measures fit no shape" : faults.list()[0].message;
-    return leave_out(described.where, described.name.empty() ? described.description : described.name, why);
+    const std::string reason =
+        faults.list().empty() ? "its dimensions are inconsistent" : faults.list()[0].message;
+    return skip(described.where, described.name.empty() ? described.description : described.name, reason);
   }
   tool->number = number_for(described);
   given_.emplace(tool->number, described.where);
@@ -153,8 +154,9 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   }
   const auto kind = bytes.size() > limits::kMaxToolLibraryBytes ? std::nullopt : library_kind_of(bytes);
   if (!kind) {
-    diagnostics.error(Code::tool_library_unknown, where, "this is no tool library that Kerf knows").hint =
-        "known: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb, CAMotics JSON";
+    diagnostics.error(Code::tool_library_unknown, where, "unknown format of a tool library").hint =
+        "supported: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb, CAMotics "
+        "JSON";
     return;
   }
   const std::string_view text = without_mark(bytes);

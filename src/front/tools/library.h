@@ -1,4 +1,4 @@
-// Common to the library readers: a tool as described by other programs, and its conversion.
+// Common to the library readers: a tool as described by another program, and its conversion.
 #pragma once
 
 #include <map>
@@ -15,7 +15,7 @@ struct LibraryTool {
   std::optional<int> number;
   std::string shape;  // a name of shape_named
   double diameter = 0, flute = 0, corner_radius = 0, tip_diameter = 0, neck_diameter = 0, shank_diameter = 0;
-  double angle = 0;  // as Kerf's shape of that name understands it
+  double angle = 0;  // as in the shape of that name (kerf/tool.h)
   int teeth = 0;
   std::string name, description;
   Origin where;
@@ -26,8 +26,8 @@ class LibraryWriter {
   LibraryWriter(std::string_view file_name, const ToolLibraryOptions& options, ToolTable& table,
                 Diagnostics& diagnostics);
   void add(const LibraryTool& tool);
-  /// A tool that is left out, with the reason.
-  void leave_out(const Origin& where, std::string_view name, std::string_view why);
+  /// Warns that a tool is skipped, with the reason.
+  void skip(const Origin& where, std::string_view name, std::string_view reason);
   Origin location(std::size_t line) const;
   const std::string& file() const { return file_; }
   const ToolLibraryOptions& options() const { return options_; }
@@ -46,7 +46,7 @@ class LibraryWriter {
 void read_linuxcnc_table(std::string_view text, LibraryWriter& out);
 void read_carbide_csv(std::string_view text, LibraryWriter& out);
 void read_json_library(std::string_view text, ToolLibraryKind kind, LibraryWriter& out);
-/// The kind of a library in JSON; nothing if the text is none.
+/// The kind of a library in JSON; nothing if the text is not one.
 std::optional<ToolLibraryKind> json_library_kind(std::string_view text);
 
 }  // namespace kerf::detail

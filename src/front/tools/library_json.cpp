@@ -92,7 +92,7 @@ void read_fusion_tool(const Json& entry, std::size_t index, LibraryWriter& out) 
   tool.name = vendor.empty() || product.empty() ? product : vendor + " " + product;
   if (tool.description.empty()) tool.description = fmt::format("{} {}", text_of(entry, "type"), index + 1);
   if (has(type, "holder") || has(type, "turning") || has(type, "probe"))
-    return out.leave_out(tool.where, tool.description, "it is no turning cutter");
+    return out.skip(tool.where, tool.description, "it is not a rotating cutter");
   if (post != nullptr && member(*post, "number") != nullptr) tool.number = whole(number_of(*post, "number"));
   tool.diameter = scale * number_of(geometry, "DC");
   tool.flute = scale * number_of(geometry, "LCF");
@@ -175,7 +175,7 @@ void read_camotics_tool(const std::string& key, const Json& entry, const Json& p
   } else if (shape == "ballnose") {
     tool.shape = "ball";
   } else if (shape == "conical" || shape == "snubnose") {
-    tool.shape = "V";  // the cone goes from the tip to the diameter over the whole length
+    tool.shape = "V";  // a cone from the tip to the diameter over the whole length
     tool.tip_diameter = shape == "snubnose" ? tip : 0.0;
     if (tool.flute > 0.0)
       tool.angle = 2.0 * radians(std::atan2((tool.diameter - tool.tip_diameter) / 2.0, tool.flute)).deg();

@@ -1,4 +1,4 @@
-// Tool libraries that are lines of text: LinuxCNC's tool table and Carbide Create's CSV.
+// Tool libraries as lines of text: LinuxCNC's tool table and Carbide Create's CSV.
 #include <cmath>
 #include <fmt/format.h>
 #include <vector>
@@ -51,7 +51,7 @@ std::vector<std::string> fields_of(std::string_view line) {
   return fields;
 }
 
-/// A row of the CSV under the names of its header.
+/// A row of the CSV, accessed by the names of its header.
 class Row {
  public:
   Row(const std::vector<std::string>& header, const std::vector<std::string>& fields)
@@ -71,8 +71,8 @@ class Row {
 
 bool has(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
-/// Types are "end", "ball", "vee", "engraver" and so on. A V whose corner radius is half its diameter is a
-/// ball, as makers' own lists have it.
+/// The shape of the types "end", "ball", "vee", "engraver" etc. A V whose corner radius is half its diameter
+/// is a ball, as in vendors' libraries.
 std::string carbide_shape(const Row& row) {
   const std::string type = fold_name(row.text("type"));
   const double corner = row.number("cornerradius"), diameter = row.number("diameter");
@@ -141,14 +141,14 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
       const auto value = parse_number(word.substr(1));
       if (!value)
         out.diagnostics().warning(Code::tool_library_value, tool.where,
-                                  fmt::format("\"{}\" is no letter with a number", word.substr(0, 40)));
+                                  fmt::format("\"{}\" is not a letter with a number", word.substr(0, 40)));
       if (!value) continue;
       if (word[0] == 'T' || word[0] == 't') tool.number = whole(word.substr(1));
       if (word[0] == 'D' || word[0] == 'd') tool.diameter = out.options().unit_mm * *value;
     }
     any = true;
     if (tool.diameter == 0.0)
-      return out.leave_out(tool.where, fmt::format("T{}", tool.number.value_or(0)), "no D");
+      return out.skip(tool.where, fmt::format("T{}", tool.number.value_or(0)), "it has no D");
     out.add(tool);
   });
   if (any)

@@ -1,4 +1,4 @@
-// Tools out: Kerf's tool file, and LinuxCNC's tool table.
+// Writing tools as Kerf's tool file and as LinuxCNC's tool table.
 #include <fmt/format.h>
 
 #include "kerf/number.h"

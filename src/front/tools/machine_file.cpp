@@ -1,4 +1,4 @@
-// Machine files: number apart by their text, and Kerf's TOML profiles.
+// Machine files: detects their kind, and reads Kerf's TOML profiles.
 #include <cmath>
 #include <fmt/format.h>
 
@@ -45,10 +45,12 @@ class ProfileReader {
   void unknown(const toml::key& key) {
     std::vector<std::string> known{"name", "controller", "laser"};
     for (const detail::MachineSetting& setting : detail::machine_settings()) known.emplace_back(setting.name);
-    Diagnostic& error = diagnostics_.error(Code::machine_key_unknown, location(key.source().begin),
-                                           fmt::format("a machine has no \"{}\"", key.str().substr(0, 40)));
+    Diagnostic& error =
+        diagnostics_.error(Code::machine_key_unknown, location(key.source().begin),
+                           fmt::format("unknown key \"{}\" of a machine", key.str().substr(0, 40)));
     const auto meant = did_you_mean(key.str(), known);
-    error.hint = meant ? fmt::format("did you mean {}?", *meant) : "its keys are in docs/manual/machine.md";
+    error.hint =
+        meant ? fmt::format("did you mean {}?", *meant) : "the keys are listed in docs/manual/machine.md";
   }
 
   bool read_word(std::string_view key, const toml::node& node, Machine& machine) {
@@ -117,7 +119,7 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
   if (has_grbl_settings(text)) return detail::read_grbl_settings(text, file_name, diagnostics);
   const toml::parse_result result = toml::parse(text, name);
   constexpr std::string_view kHint =
-      "expected a profile (docs/manual/machine.md), or what GRBL answers to $$ ($110=3000 and so on)";
+      "expected a profile (docs/manual/machine.md), or GRBL's answer to $$ ($110=3000 etc.)";
   if (!result) {
     const auto& at = result.error().source().begin;
     diagnostics

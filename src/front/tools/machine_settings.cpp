@@ -33,7 +33,7 @@ template <int Axis>
 void set_steps(Machine& m, double v) {
   m.steps_per_mm[Axis] = v;
 }
-/// GRBL's machine coordinates end at 0, where homing takes the machine.
+/// GRBL's machine coordinates end at 0, the position after homing.
 template <int Axis>
 void set_travel(Machine& m, double v) {
   m.travel[Axis] = AxisTravel{-v, 0.0};
@@ -61,7 +61,7 @@ const std::vector<MachineSetting>& machine_settings() {
        [](Machine& m, const double* v) {
          set_three(m, v, set_acceleration<0>, set_acceleration<1>, set_acceleration<2>);
        }},
-      {"steps_per_mm", 3, 0, kMaxStepsPerMm, "steps a mm of X, Y, Z",
+      {"steps_per_mm", 3, 0, kMaxStepsPerMm, "steps per mm of X, Y, Z",
        [](Machine& m, const double* v) { set_three(m, v, set_steps<0>, set_steps<1>, set_steps<2>); }},
       {"junction_deviation", 1, 0, kMaxLength, "a length in mm",
        [](Machine& m, const double* v) { m.junction_deviation = mm(v[0]); }},
@@ -69,7 +69,7 @@ const std::vector<MachineSetting>& machine_settings() {
        [](Machine& m, const double* v) { m.arc_tolerance = mm(v[0]); }},
       {"slowest_feed", 1, kMinRate, kMaxRate, "a feed in mm/min",
        [](Machine& m, const double* v) { m.slowest_feed = mm_per_min(v[0]); }},
-      {"look_ahead", 1, 1, kMaxLookAhead, "a number of moves",
+      {"look_ahead", 1, 1, kMaxLookAhead, "a number of motions",
        [](Machine& m, const double* v) { m.look_ahead = static_cast<int>(v[0]); }},
       {"stop_time", 1, 0, 3600, "seconds", [](Machine& m, const double* v) { m.stop_time = seconds(v[0]); }},
       {"spindle", 2, 0, kMaxRpm, "lowest and highest speed in rpm",
@@ -105,9 +105,9 @@ const std::vector<GrblSetting>& grbl_settings() {
       {31, 0, kMaxRpm, "a speed in rpm", [](Machine& m, double v) { m.slowest_spindle = rpm(v); }},
       {32, 0, 1, "0 or 1",
        [](Machine& m, double v) { m.laser = v == 0.0 ? LaserDrive::stops : LaserDrive::follows; }},
-      {100, 0, kMaxStepsPerMm, "steps a mm", set_steps<0>},
-      {101, 0, kMaxStepsPerMm, "steps a mm", set_steps<1>},
-      {102, 0, kMaxStepsPerMm, "steps a mm", set_steps<2>},
+      {100, 0, kMaxStepsPerMm, "steps per mm", set_steps<0>},
+      {101, 0, kMaxStepsPerMm, "steps per mm", set_steps<1>},
+      {102, 0, kMaxStepsPerMm, "steps per mm", set_steps<2>},
       {110, kMinRate, kMaxRate, "a rate in mm/min above 0", set_rate<0>},
       {111, kMinRate, kMaxRate, "a rate in mm/min above 0", set_rate<1>},
       {112, kMinRate, kMaxRate, "a rate in mm/min above 0", set_rate<2>},
@@ -182,8 +182,7 @@ std::optional<Machine> read_grbl_settings(std::string_view text, std::string_vie
                                       line->value.substr(0, 40)));
     }
   }
-  if (!soft_limits)
-    machine.travel = {};  // the controller does not know its travel: as delivered, $130 is 200
+  if (!soft_limits) machine.travel = {};  // unknown: $130 is 200 by default
   if (diagnostics.errors() > errors) return std::nullopt;
   note_missing(seen, TextSpot{std::string(file_name), 0, 0}, diagnostics);
   return machine;

@@ -1,4 +1,4 @@
-// The settings of a machine under their names, for both kinds of machine files.
+// The settings of a machine by name, for both kinds of machine files.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace kerf::detail {
 struct MachineSetting {
   std::string_view name;
   std::size_t count = 1;         // numbers
-  double low = 0.0, high = 0.0;  // what each may be
+  double low = 0.0, high = 0.0;  // range of each
   std::string_view meaning;      // "rates in mm/min"
   void (*set)(Machine&, const double* values) = nullptr;
 };

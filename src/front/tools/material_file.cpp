@@ -1,4 +1,4 @@
-// The table of materials: TOML into chip loads.
+// The table of materials: chip loads from TOML.
 #include <cassert>
 #include <cmath>
 #include <fmt/format.h>
@@ -60,7 +60,7 @@ class MaterialReader {
     const auto name = table != nullptr ? (*table)["name"].value<std::string>() : std::nullopt;
     const toml::array* loads = table != nullptr ? (*table)["chip_loads"].as_array() : nullptr;
     if (!name || loads == nullptr || loads->empty()) {
-      wrong(node, "a material needs its name and chip_loads = [[diameter, mm a tooth], ...]");
+      wrong(node, "a material requires a name and chip_loads = [[diameter, mm per tooth], ...]");
       return std::nullopt;
     }
     Material material{*name, {}, {}};
@@ -71,7 +71,7 @@ class MaterialReader {
     for (const toml::node& pair : *loads) {
       const auto load = read_load(pair);
       if (!load || load->diameter <= widest) {
-        wrong(pair, "expected [diameter, mm a tooth], both above 0, by rising diameter");
+        wrong(pair, "expected [diameter, mm per tooth], both above 0, by increasing diameter");
         return std::nullopt;
       }
       widest = load->diameter;
@@ -124,7 +124,7 @@ std::optional<Material> material_named(std::string_view name, Diagnostics& diagn
       if (fold_name(other) == asked) return material;
   }
   Diagnostic& error = diagnostics.error(Code::material_unknown, CallSpot{"", 0, "--material"},
-                                        fmt::format("no material \"{}\" is known", name.substr(0, 40)));
+                                        fmt::format("unknown material \"{}\"", name.substr(0, 40)));
   const auto meant = did_you_mean(name, known);
   error.hint = meant ? fmt::format("did you mean {}?", *meant) : "known: " + list_text(known);
   return std::nullopt;

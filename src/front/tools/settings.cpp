@@ -1,4 +1,4 @@
-// Keys and values of a tool into its shape and body, by the table of the shape's parameters.
+// Shape and body of a tool from keys and values, by the table of the shape's parameters.
 #include "front/tools/settings.h"
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace kerf::detail {
 namespace {
 
-constexpr double kUsualShankLength = 20.0;  // mm: as most tools of the built-in table have it
+constexpr double kUsualShankLength = 20.0;  // mm: that of most built-in tools
 
 struct BodyKey {
   std::string_view name;
@@ -55,7 +55,7 @@ bool has_measure(const ToolShape& shape, std::string_view key) {
   return false;
 }
 
-/// The key in full: "d" is the diameter, "r" whichever radius the shape has.
+/// The full name of a key: "d" is the diameter, "r" the radius of the shape.
 std::string_view full_key(std::string_view key, const ToolShape& shape) {
   if (has_measure(shape, key)) return key;
   std::string_view last;
@@ -120,7 +120,7 @@ bool SettingReader::read_shape(const Setting& setting) {
     if (parameter.name != setting.key) continue;
     const auto value = number(setting, parameter.kind);
     if (value && *value == 0.0 && setting.key == "flute")
-      wrong(setting, "above 0; left out, it is that of a usual tool of this diameter");
+      wrong(setting, "above 0; if it is not given, a usual value for the diameter is assumed");
     else if (value)
       parameter.set(shape_, *value);
     return true;
@@ -185,15 +185,15 @@ void SettingReader::unknown(const Setting& setting) {
   std::vector<std::string> known;
   for (const ShapeParameter& parameter : parameters_of(shape_)) known.emplace_back(parameter.name);
   if (std::holds_alternative<shape::Drawn>(shape_)) known.emplace_back("profile");
-  std::string measures;
-  for (const std::string& name : known) measures += (measures.empty() ? "" : ", ") + name;
+  std::string dimensions;
+  for (const std::string& name : known) dimensions += (dimensions.empty() ? "" : ", ") + name;
   for (const ToolKey& key : tool_keys()) known.emplace_back(key.name);
   Diagnostic& error =
       diagnostics_.error(Code::tool_key_unknown, setting.where,
                          fmt::format("a {} tool has no \"{}\"", name_of(shape_), setting.key.substr(0, 40)));
   const auto meant = did_you_mean(setting.key, known);
   error.hint = meant ? fmt::format("did you mean {}?", *meant)
-                     : fmt::format("its measures: {}; all keys: kerf tools shapes", measures);
+                     : fmt::format("its dimensions: {}; all keys: kerf tools shapes", dimensions);
 }
 
 void SettingReader::read(const Setting& given) {
@@ -224,7 +224,7 @@ std::optional<Tool> SettingReader::make() {
 std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where, Diagnostics& diagnostics) {
   if (auto shape = shape_named(name)) return shape;
   Diagnostic& error = diagnostics.error(Code::tool_shape_unknown, where,
-                                        fmt::format("no tool shape is called \"{}\"", name.substr(0, 40)));
+                                        fmt::format("unknown tool shape \"{}\"", name.substr(0, 40)));
   const auto meant = did_you_mean(name, shape_names());
   error.hint = meant ? fmt::format("did you mean {}?", *meant) : "shapes: " + list_text(shape_names());
   return std::nullopt;
@@ -253,11 +253,11 @@ const std::vector<ToolKey>& tool_keys() {
       {"teeth", "1 to 100; default 2"},
       {"plunges", "true or false: whether it cuts at its centre; each shape has its own default"},
       {"number", "the tool's number"},
-      {"numbers", "in files: every number that it is known by"},
+      {"numbers", "in files: several numbers of one tool"},
       {"name", "a name, such as the vendor's"},
-      {"names", "in files: several of them"},
+      {"names", "in files: several names"},
       {"description", "any text"},
-      {"shape", "in files: which of the shapes it is"},
+      {"shape", "in files: the shape"},
       {"unit", "in files: mm or inch"},
   };
   return keys;

@@ -1,4 +1,4 @@
-// A tool from keys and values, of a file or an option, with the same meaning for both.
+// A tool from keys and values, the same ones in tool files and options.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ struct Setting {
 
 /// The blank shape of a name. Unknown names are an error with a hint.
 std::optional<ToolShape> blank_shape(std::string_view name, const Origin& where, Diagnostics& diagnostics);
-/// Makes a tool of a blank shape and its settings; lengths are mm times `scale`. Every wrong setting is
+/// Makes a tool from a blank shape and settings with lengths in units of `scale` mm. Every invalid setting is
 /// reported.
 std::optional<Tool> tool_of(const ToolShape& blank, const std::vector<Setting>& settings, double scale,
                             const Origin& where, Diagnostics& diagnostics);

@@ -1,4 +1,4 @@
-// Kerf's tool files: TOML into tools, every fault with its line and column.
+// Kerf's tool files: tools from TOML; every error has its line and column.
 #include <algorithm>
 #include <cassert>
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ class FileReader {
 
   void read_root(const toml::table& root);
   void read_tool(const toml::table& tool);
-  /// The scale of the key "unit"; nothing after an error, `otherwise` where there is none.
+  /// The scale of the key "unit", `otherwise` without that key; nothing after an error.
   std::optional<double> read_unit(const toml::table& table, double otherwise);
   std::vector<int> read_numbers(const toml::table& tool);
   void read_number(const toml::node& node, std::vector<int>& numbers);
@@ -70,7 +70,7 @@ void FileReader::read_number(const toml::node& node, std::vector<int>& numbers) 
   if (!value || *value < 0 || *value > limits::kMaxTableToolNumber ||
       numbers.size() >= limits::kMaxToolAliases) {
     return error(Code::tool_value_type, location(node),
-                 "a tool's number must be a whole number from 0 to 99999999, and there may be 100 of them");
+                 "a tool number must be a whole number from 0 to 99999999; a tool has at most 100 numbers");
   }
   numbers.push_back(static_cast<int>(*value));
 }
@@ -87,7 +87,7 @@ std::vector<int> FileReader::read_numbers(const toml::table& tool) {
     }
   }
   if (tool.get("number") == nullptr && tool.get("numbers") == nullptr) {
-    error(Code::tool_key_missing, location(tool), "a tool needs its number, such as number = 102");
+    error(Code::tool_key_missing, location(tool), "a tool requires a number, such as number = 102");
   }
   return numbers;
 }
@@ -167,7 +167,7 @@ void FileReader::read_tool(const toml::table& table) {
   }
   const toml::node* shape = table.get("shape");
   if (shape == nullptr)
-    return error(Code::tool_key_missing, where, "a tool needs its shape, such as shape = \"square\"");
+    return error(Code::tool_key_missing, where, "a tool requires a shape, such as shape = \"square\"");
   const auto shape_name = shape->value_exact<std::string_view>();
   if (!shape_name) return error(Code::tool_value_type, location(*shape), "shape must be a text in quotes");
   const auto blank = detail::blank_shape(*shape_name, location(*shape), diagnostics_);
@@ -178,7 +178,7 @@ void FileReader::read_tool(const toml::table& table) {
   keep(*tool, numbers, where);
 }
 
-/// Under each of its numbers; the other numbers are names of it as well.
+/// Adds a tool under each of its numbers; the other numbers are also names of it.
 void FileReader::keep(const Tool& made, const std::vector<int>& numbers, const Origin& where) {
   Tool tool = made;
   for (const int number : numbers) {
@@ -192,7 +192,7 @@ void FileReader::keep(const Tool& made, const std::vector<int>& numbers, const O
       continue;
     }
     Diagnostic& twice = diagnostics_.error(Code::tool_number_twice, where,
-                                           fmt::format("number {} is given to a second tool", number));
+                                           fmt::format("two tools have the number {}", number));
     twice.notes.push_back({first->second, "the first one"});
   }
 }
@@ -204,7 +204,7 @@ void FileReader::read_root(const toml::table& root) {
     if (key.str() != "tool") {
       Diagnostic& unknown =
           diagnostics_.error(Code::tool_key_unknown, location(key.source().begin),
-                             fmt::format("a tool file has no \"{}\"", key.str().substr(0, 40)));
+                             fmt::format("unknown key \"{}\" of a tool file", key.str().substr(0, 40)));
       const auto meant = did_you_mean(key.str(), {"tool", "unit"});
       unknown.hint = meant ? fmt::format("did you mean {}?", *meant == "tool" ? "[[tool]]" : *meant)
                            : "a tool file has unit = \"mm\" and [[tool]] tables";

@@ -1,4 +1,4 @@
-// A tool on the command line: a number, a name, or a shape with its dimensions.
+// A tool from an option: a number, a name, or a shape with its dimensions.
 #include <fmt/format.h>
 
 #include "front/tools/settings.h"
@@ -46,7 +46,7 @@ std::optional<int> whole_number(std::string_view text) {
   return value ? std::optional(static_cast<int>(*value)) : std::nullopt;
 }
 
-/// A tool of the table, or the one that a six-digit number describes.
+/// A tool of the table, or the tool described by a six-digit number.
 std::optional<Tool> tool_of_number(int number, const Origin& where, Diagnostics& diagnostics) {
   if (const Tool* known = built_in_tools().find(number)) return *known;
   if (number >= 100000 && number <= 999999) {
@@ -55,8 +55,7 @@ std::optional<Tool> tool_of_number(int number, const Origin& where, Diagnostics&
   }
   std::vector<std::string> numbers;
   for (const auto& [known, tool] : built_in_tools().tools()) numbers.push_back(std::to_string(known));
-  Diagnostic& error =
-      diagnostics.error(Code::tool_unknown, where, fmt::format("no tool {} is known", number));
+  Diagnostic& error = diagnostics.error(Code::tool_unknown, where, fmt::format("unknown tool {}", number));
   if (const auto meant = did_you_mean(std::to_string(number), numbers))
     error.hint = fmt::format("did you mean {}?", *meant);
   return std::nullopt;
@@ -112,9 +111,9 @@ std::optional<Tool> read_tool_option(std::string_view text, const Origin& where,
   }
   if (const auto number = whole_number(trim(text))) return tool_of_number(*number, where, diagnostics);
   if (is_digits(trim(text))) {
-    diagnostics.error(Code::tool_unknown, where,
-                      fmt::format("no tool {} is known; numbers have at most {} digits",
-                                  trim(text).substr(0, 40), kMaxDigits));
+    diagnostics.error(
+        Code::tool_unknown, where,
+        fmt::format("unknown tool {}; numbers have at most {} digits", trim(text).substr(0, 40), kMaxDigits));
     return std::nullopt;
   }
   return tool_of_words(words_of(text), where, diagnostics);

@@ -1,4 +1,4 @@
-// Questions about a drawing: units, names, styles, and where the entities of blocks are placed.
+// Units, names and styles of a drawing, and the placement of the entities of blocks.
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -206,7 +206,7 @@ class Placer {
   bool run();
 
  private:
-  /// What an entity takes from the insert that it belongs to.
+  /// Properties that an entity inherits from the insert that it belongs to.
   struct Context {
     Style style;  // of the insert; its colour and line type are those of BYBLOCK
     bool in_block = false;
@@ -275,7 +275,7 @@ bool Placer::entity(const Entity& entity, const Matrix& matrix, const Context& c
   return true;
 }
 
-/// Whether a block can be placed; a diagnostic once for each that cannot.
+/// Whether a block can be placed; one diagnostic for each that cannot.
 bool Placer::usable(const Entity& entity, const Insert& insert) {
   const Block& block = drawing_.blocks[insert.block];
   const char* problem = nullptr;

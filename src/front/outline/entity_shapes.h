@@ -1,4 +1,4 @@
-// Entities of a drawing as pieces of outlines in mm.
+// Entities of a drawing as outlines in mm.
 #pragma once
 
 #include <string>
@@ -11,46 +11,46 @@
 namespace kerf::outline_front {
 
 /// A shape seen from above, in mm.
-struct FlatPiece {
+struct FlatShape {
   Outline outline;               // empty: there is none
-  std::optional<Circle> circle;  // the same, where it is a whole circle
+  std::optional<Circle> circle;  // the same, if it is a whole circle
   double low_z = 0.0, high_z = 0.0;
   bool tilted = false;  // not in a plane parallel to XY
 };
 
 /// Converts the shapes of one drawing. Errors go to the diagnostics with the entity's origin.
-class PieceMaker {
+class ShapeConverter {
  public:
-  PieceMaker(const dxf::Drawing& drawing, double mm_per_unit, const DrawingOutlineOptions& options,
-             Diagnostics& diagnostics)
+  ShapeConverter(const dxf::Drawing& drawing, double mm_per_unit, const DrawingOutlineOptions& options,
+                 Diagnostics& diagnostics)
       : drawing_(drawing), scale_(mm_per_unit), options_(options), diagnostics_(diagnostics) {}
 
-  /// Nothing where the entity is no outline or an error was appended.
-  std::optional<FlatPiece> make(const dxf::Placed& placed);
-  /// The entity's location, at a position of its own.
+  /// Nothing if the entity is not an outline, or after an error.
+  std::optional<FlatShape> make(const dxf::Placed& placed);
+  /// The origin of an entity at a position in mm.
   Origin location(const dxf::Placed& placed, Point2 at) const;
   Point2 flat(dxf::Point p) const { return {scale_ * p.x, scale_ * p.y}; }
 
  private:
   struct Frame;
-  std::optional<FlatPiece> shape(const dxf::Line& line);
-  std::optional<FlatPiece> shape(const dxf::Circle& circle);
-  std::optional<FlatPiece> shape(const dxf::Arc& arc);
-  std::optional<FlatPiece> shape(const dxf::Boxed<dxf::Polyline>& polyline);
-  std::optional<FlatPiece> shape(const dxf::Boxed<dxf::Ellipse>& ellipse);
-  std::optional<FlatPiece> shape(const dxf::Boxed<dxf::Spline>& spline);
+  std::optional<FlatShape> shape(const dxf::Line& line);
+  std::optional<FlatShape> shape(const dxf::Circle& circle);
+  std::optional<FlatShape> shape(const dxf::Arc& arc);
+  std::optional<FlatShape> shape(const dxf::Boxed<dxf::Polyline>& polyline);
+  std::optional<FlatShape> shape(const dxf::Boxed<dxf::Ellipse>& ellipse);
+  std::optional<FlatShape> shape(const dxf::Boxed<dxf::Spline>& spline);
   template <class Other>
-  std::optional<FlatPiece> shape(const Other&) {
+  std::optional<FlatShape> shape(const Other&) {
     return std::nullopt;
   }
   /// The arc centre + cos(t) * u + sin(t) * v, in world coordinates.
-  std::optional<FlatPiece> elliptic_arc(dxf::Point centre, dxf::Point u, dxf::Point v, double start,
+  std::optional<FlatShape> elliptic_arc(dxf::Point centre, dxf::Point u, dxf::Point v, double start,
                                         double sweep);
   bool append_bulge(Outline& outline, const dxf::Matrix& matrix, const dxf::Vertex& from,
-                    const dxf::Vertex& to, FlatPiece& piece);
-  std::optional<FlatPiece> fitted(const Spline& spline, FlatPiece piece);
+                    const dxf::Vertex& to, FlatShape& made);
+  std::optional<FlatShape> fitted(const Spline& spline, FlatShape made);
   dxf::Matrix object() const;
-  void add_z(FlatPiece& piece, dxf::Point p) const;
+  void add_z(FlatShape& made, dxf::Point p) const;
   bool is_near(const Outline& outline);
   bool refuse(Code code, const std::string& what, Point2 at);
   std::string entity_name() const;
@@ -65,7 +65,7 @@ class PieceMaker {
 
 /// "LINE 2F", or "LINE of line 120" without a handle.
 std::string entity_name(const dxf::Drawing& drawing, const dxf::Entity& entity);
-/// The circle that a closed outline of arcs runs around once.
+/// The circle, if a closed outline of arcs is exactly one circle.
 std::optional<Circle> whole_circle(const Outline& outline, double weld);
 
 }  // namespace kerf::outline_front

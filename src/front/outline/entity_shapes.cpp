@@ -1,6 +1,6 @@
 // Shapes of DXF entities as lines and arcs: circles that blocks stretch become ellipses, ellipses and splines
-// pairs of arcs.
-#include "front/outline/drawing_pieces.h"
+// become pairs of arcs.
+#include "front/outline/entity_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +23,8 @@ bool are_round(Point2 u, Point2 v) {
   return std::abs(a - b) <= kRound * std::max(a, b) && std::abs(dot(u, v)) <= kRound * a * b;
 }
 
-/// From `start` to `end`, counter-clockwise, as a fraction of the full turn; equal angles are a full turn,
-/// and so are those that rounding keeps from it.
+/// From `start` to `end`, counter-clockwise, in the unit of `full`, a full turn. Angles that are equal, or
+/// equal but for rounding, are a full turn.
 double sweep_of(double start, double end, double full) {
   constexpr double kRounding = 1e-8;
   const double way = end - start;
@@ -59,29 +59,31 @@ std::optional<Circle> whole_circle(const Outline& outline, double weld) {
   return Circle{first->centre, mm(first->radius)};
 }
 
-Origin PieceMaker::location(const dxf::Placed& placed, Point2 at) const {
+Origin ShapeConverter::location(const dxf::Placed& placed, Point2 at) const {
   return dxf::origin_at(drawing_, placed.style.layer, placed.entity.handle, at.x, at.y);
 }
 
-std::string PieceMaker::entity_name() const { return outline_front::entity_name(drawing_, placed_->entity); }
+std::string ShapeConverter::entity_name() const {
+  return outline_front::entity_name(drawing_, placed_->entity);
+}
 
-bool PieceMaker::refuse(Code code, const std::string& what, Point2 at) {
+bool ShapeConverter::refuse(Code code, const std::string& what, Point2 at) {
   diagnostics_.error(code, location(*placed_, at), fmt::format("{}: {}", entity_name(), what));
   return false;
 }
 
-dxf::Matrix PieceMaker::object() const {
+dxf::Matrix ShapeConverter::object() const {
   return placed_->matrix * dxf::object_axes(drawing_.extrusions[placed_->entity.extrusion]);
 }
 
-void PieceMaker::add_z(FlatPiece& piece, dxf::Point p) const {
+void ShapeConverter::add_z(FlatShape& made, dxf::Point p) const {
   const double z = scale_ * p.z;
-  const bool first = piece.outline.segments.empty();
-  piece.low_z = first ? z : std::min(piece.low_z, z);
-  piece.high_z = first ? z : std::max(piece.high_z, z);
+  const bool first = made.outline.segments.empty();
+  made.low_z = first ? z : std::min(made.low_z, z);
+  made.high_z = first ? z : std::max(made.high_z, z);
 }
 
-bool PieceMaker::is_near(const Outline& outline) {
+bool ShapeConverter::is_near(const Outline& outline) {
   const double farthest = options_.max_coordinate.mm();
   const auto near = [&](Point2 p) { return std::abs(p.x) <= farthest && std::abs(p.y) <= farthest; };
   bool all = near(outline.start);
@@ -90,20 +92,20 @@ bool PieceMaker::is_near(const Outline& outline) {
          refuse(Code::drawing_far, fmt::format("a coordinate is beyond {:g} mm", farthest), outline.start);
 }
 
-std::optional<FlatPiece> PieceMaker::make(const dxf::Placed& placed) {
+std::optional<FlatShape> ShapeConverter::make(const dxf::Placed& placed) {
   placed_ = &placed;
-  auto piece = std::visit([&](const auto& s) { return shape(s); }, placed.entity.shape);
-  if (!piece || !is_near(piece->outline)) return std::nullopt;
-  if (piece->high_z - piece->low_z > options_.join.mm()) piece->tilted = true;
-  return piece;
+  auto made = std::visit([&](const auto& s) { return shape(s); }, placed.entity.shape);
+  if (!made || !is_near(made->outline)) return std::nullopt;
+  if (made->high_z - made->low_z > options_.join.mm()) made->tilted = true;
+  return made;
 }
 
-FitOptions PieceMaker::fit_options() const {
+FitOptions ShapeConverter::fit_options() const {
   const Point2 at = flat(placed_->matrix * dxf::Point{});
   return {entity_name(), location(*placed_, at)};
 }
 
-std::optional<FlatPiece> PieceMaker::fitted(const Spline& spline, FlatPiece piece) {
+std::optional<FlatShape> ShapeConverter::fitted(const Spline& spline, FlatShape made) {
   const double farthest = options_.max_coordinate.mm();
   for (const Point2 p : spline.control)
     if (!(std::abs(p.x) <= farthest && std::abs(p.y) <= farthest)) {
@@ -112,56 +114,56 @@ std::optional<FlatPiece> PieceMaker::fitted(const Spline& spline, FlatPiece piec
     }
   auto outline = fit_spline(spline, options_.within, fit_options(), diagnostics_);
   if (!outline) return std::nullopt;
-  piece.outline = std::move(*outline);
-  return piece;
+  made.outline = std::move(*outline);
+  return made;
 }
 
 // --------------------------------------------------------------------------------------------------- shapes
 
-std::optional<FlatPiece> PieceMaker::shape(const dxf::Line& line) {
-  FlatPiece piece;
+std::optional<FlatShape> ShapeConverter::shape(const dxf::Line& line) {
+  FlatShape made;
   const dxf::Point from = placed_->matrix * line.from, to = placed_->matrix * line.to;
-  piece.outline.start = flat(from);
-  add_z(piece, from);
-  piece.outline.segments.push_back({flat(to), {}, {}});
-  add_z(piece, to);
-  return piece;
+  made.outline.start = flat(from);
+  add_z(made, from);
+  made.outline.segments.push_back({flat(to), {}, {}});
+  add_z(made, to);
+  return made;
 }
 
-std::optional<FlatPiece> PieceMaker::elliptic_arc(dxf::Point centre, dxf::Point u, dxf::Point v, double start,
-                                                  double sweep) {
-  FlatPiece piece;
-  piece.low_z = piece.high_z = scale_ * centre.z;
-  piece.tilted = scale_ * std::hypot(u.z, v.z) > options_.join.mm();
+std::optional<FlatShape> ShapeConverter::elliptic_arc(dxf::Point centre, dxf::Point u, dxf::Point v,
+                                                      double start, double sweep) {
+  FlatShape made;
+  made.low_z = made.high_z = scale_ * centre.z;
+  made.tilted = scale_ * std::hypot(u.z, v.z) > options_.join.mm();
   const Point2 c = flat(centre), a = flat(u), b = flat(v);
   const bool full = std::abs(sweep) >= 2.0 * kPi - 1e-9;
   if (!are_round(a, b))
-    return fitted(ellipse_spline(c, a, b, radians(start), radians(full ? 2.0 * kPi : sweep)), piece);
+    return fitted(ellipse_spline(c, a, b, radians(start), radians(full ? 2.0 * kPi : sweep)), made);
   if (full) {
-    piece.circle = Circle{c, mm(length(a))};
-    piece.outline = as_outline(*piece.circle);
-    return piece;
+    made.circle = Circle{c, mm(length(a))};
+    made.outline = as_outline(*made.circle);
+    return made;
   }
   const auto at = [&](double t) { return c + std::cos(t) * a + std::sin(t) * b; };
-  piece.outline.start = at(start);
-  piece.outline.segments.push_back({at(start + sweep), at(start + 0.5 * sweep), {}});
-  return piece;
+  made.outline.start = at(start);
+  made.outline.segments.push_back({at(start + sweep), at(start + 0.5 * sweep), {}});
+  return made;
 }
 
-std::optional<FlatPiece> PieceMaker::shape(const dxf::Circle& circle) {
+std::optional<FlatShape> ShapeConverter::shape(const dxf::Circle& circle) {
   const dxf::Matrix matrix = object();
   return elliptic_arc(matrix * circle.centre, matrix.direction({circle.radius, 0.0, 0.0}),
                       matrix.direction({0.0, circle.radius, 0.0}), 0.0, 2.0 * kPi);
 }
 
-std::optional<FlatPiece> PieceMaker::shape(const dxf::Arc& arc) {
+std::optional<FlatShape> ShapeConverter::shape(const dxf::Arc& arc) {
   const dxf::Matrix matrix = object();
   return elliptic_arc(
       matrix * arc.centre, matrix.direction({arc.radius, 0.0, 0.0}), matrix.direction({0.0, arc.radius, 0.0}),
       std::remainder(arc.start, 360.0) * kPi / 180.0, 2.0 * kPi * sweep_of(arc.start, arc.end, 360.0));
 }
 
-std::optional<FlatPiece> PieceMaker::shape(const dxf::Boxed<dxf::Ellipse>& ellipse) {
+std::optional<FlatShape> ShapeConverter::shape(const dxf::Boxed<dxf::Ellipse>& ellipse) {
   const dxf::Ellipse& e = *ellipse;
   const dxf::Point& n = drawing_.extrusions[placed_->entity.extrusion];
   const double k = e.ratio / size_of(n);
@@ -173,8 +175,8 @@ std::optional<FlatPiece> PieceMaker::shape(const dxf::Boxed<dxf::Ellipse>& ellip
 }
 
 /// Appends the arc between two vertices; false with an error appended.
-bool PieceMaker::append_bulge(Outline& outline, const dxf::Matrix& matrix, const dxf::Vertex& from,
-                              const dxf::Vertex& to, FlatPiece& piece) {
+bool ShapeConverter::append_bulge(Outline& outline, const dxf::Matrix& matrix, const dxf::Vertex& from,
+                                  const dxf::Vertex& to, FlatShape& made) {
   const double dx = to.at.x - from.at.x, dy = to.at.y - from.at.y, b = from.bulge;
   const dxf::Point mid = scaled(0.5, sum(from.at, to.at));
   const Point2 x = flat(matrix.direction({1.0, 0.0, 0.0})), y = flat(matrix.direction({0.0, 1.0, 0.0}));
@@ -192,51 +194,51 @@ bool PieceMaker::append_bulge(Outline& outline, const dxf::Matrix& matrix, const
       elliptic_arc(matrix * centre, matrix.direction(arm),
                    matrix.direction({-turn * arm.y, turn * arm.x, 0.0}), 0.0, 4.0 * std::atan(std::abs(b)));
   if (!arc) return false;
-  piece.tilted = piece.tilted || arc->tilted;
+  made.tilted = made.tilted || arc->tilted;
   const auto& segments = arc->outline.segments;
   outline.segments.insert(outline.segments.end(), segments.begin(), segments.end());
   outline.segments.back().to = flat(matrix * to.at);
   return true;
 }
 
-std::optional<FlatPiece> PieceMaker::shape(const dxf::Boxed<dxf::Polyline>& polyline) {
+std::optional<FlatShape> ShapeConverter::shape(const dxf::Boxed<dxf::Polyline>& polyline) {
   const std::vector<dxf::Vertex>& v = polyline->vertices;
   if (v.empty()) return std::nullopt;
   const dxf::Matrix matrix = polyline->spatial ? placed_->matrix : object();
-  FlatPiece piece;
+  FlatShape made;
   Outline outline;
   outline.start = flat(matrix * v.front().at);
-  piece.low_z = piece.high_z = scale_ * (matrix * v.front().at).z;
+  made.low_z = made.high_z = scale_ * (matrix * v.front().at).z;
   const std::size_t count = polyline->closed ? v.size() : v.size() - 1;
   for (std::size_t i = 0; i < count; ++i) {
     const dxf::Vertex &from = v[i], &to = v[(i + 1) % v.size()];
     const dxf::Point end = matrix * to.at;
-    piece.low_z = std::min(piece.low_z, scale_ * end.z);
-    piece.high_z = std::max(piece.high_z, scale_ * end.z);
+    made.low_z = std::min(made.low_z, scale_ * end.z);
+    made.high_z = std::max(made.high_z, scale_ * end.z);
     if (flat(end) == outline.point(outline.segments.size())) continue;  // no length
     if (from.bulge == 0.0 || polyline->spatial)
       outline.segments.push_back({flat(end), {}, {}});
-    else if (!append_bulge(outline, matrix, from, to, piece))
+    else if (!append_bulge(outline, matrix, from, to, made))
       return std::nullopt;
   }
-  piece.outline = std::move(outline);
-  piece.circle = whole_circle(piece.outline, options_.tolerance.weld.mm());
-  return piece;
+  made.outline = std::move(outline);
+  made.circle = whole_circle(made.outline, options_.tolerance.weld.mm());
+  return made;
 }
 
-std::optional<FlatPiece> PieceMaker::shape(const dxf::Boxed<dxf::Spline>& given) {
+std::optional<FlatShape> ShapeConverter::shape(const dxf::Boxed<dxf::Spline>& given) {
   const dxf::Spline& s = *given;
-  FlatPiece piece;
+  FlatShape made;
   const auto world = [&](const std::vector<dxf::Point>& points) {
-    std::vector<Point2> made;
+    std::vector<Point2> out;
     for (const dxf::Point& p : points) {
       const dxf::Point at = placed_->matrix * p;
-      const bool first = made.empty();
-      piece.low_z = first ? scale_ * at.z : std::min(piece.low_z, scale_ * at.z);
-      piece.high_z = first ? scale_ * at.z : std::max(piece.high_z, scale_ * at.z);
-      made.push_back(flat(at));
+      const bool first = out.empty();
+      made.low_z = first ? scale_ * at.z : std::min(made.low_z, scale_ * at.z);
+      made.high_z = first ? scale_ * at.z : std::max(made.high_z, scale_ * at.z);
+      out.push_back(flat(at));
     }
-    return made;
+    return out;
   };
   Spline spline;
   if (!s.control.empty()) {
@@ -244,7 +246,7 @@ std::optional<FlatPiece> PieceMaker::shape(const dxf::Boxed<dxf::Spline>& given)
     spline.control = world(s.control);
     spline.knots = s.knots;
     spline.weights = s.weights;
-    return fitted(spline, piece);
+    return fitted(spline, made);
   }
   SplineEnds ends;
   ends.closed = s.closed;
@@ -252,7 +254,7 @@ std::optional<FlatPiece> PieceMaker::shape(const dxf::Boxed<dxf::Spline>& given)
   if (s.end_tangent) ends.end = flat(placed_->matrix.direction(*s.end_tangent));
   const auto through = spline_through(world(s.fit), ends, fit_options(), diagnostics_);
   if (!through) return std::nullopt;
-  return fitted(*through, piece);
+  return fitted(*through, made);
 }
 
 }  // namespace kerf::outline_front
