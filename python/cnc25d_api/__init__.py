@@ -1,4 +1,4 @@
-"""cnc25d_api: outlines whose corners a router bit can make, curves as arcs, and figures of outlines.
+"""cnc25d_api: outlines with corners that a router bit can cut, curves as arcs, and figures of outlines.
 
 The functions have the names, arguments and list formats of Cnc25D's outline interface; the geometry is
 Kerf's.
@@ -13,9 +13,8 @@ figure   [outline, outline, ...]          the first is the outside of a part, th
 
 `rbrr`, the router-bit radius request of a corner: 0 leaves it, above 0 smooths it, below 0 enlarges it.
 
-No function changes its arguments, none stops the process. What cannot be done is a warning on
-`sys.stdout` (a line that begins with WARN and its number) where a useful answer remains, and the
-exception `OutlineError` where none does.
+No function changes its arguments or stops the process. Problems with a usable result are warnings on
+`sys.stdout` (a line that starts with WARN and its number), others raise `OutlineError`.
 """
 
 from . import _outline
@@ -73,7 +72,7 @@ __all__ = [
 
 
 def cnc_cut_outline(outline, error_msg_id="", *, fair=False):
-    """Make the corners of an outline millable.
+    """Smooth or enlarge the corners of an outline for a router bit.
 
     Parameters
     ----------
@@ -81,20 +80,20 @@ def cnc_cut_outline(outline, error_msg_id="", *, fair=False):
     error_msg_id : str
         Names the outline in messages; corner 3 of "plank" is called "plank.3".
     fair : bool
-        Who gets an edge that is too short for the corners at both of its ends. False: the corner of the
-        smaller number. True: half of the edge is each one's own, so that the result does not depend on
-        where the outline begins.
+        Division of an edge that is too short for the corners at both of its ends. False: the corner with
+        the smaller index has priority. True: each corner has half of the edge, so that the result does not
+        depend on the start point of the outline.
 
     Returns
     -------
     list of tuple, format B
-        Arcs have their passing point in the middle. A corner that cannot be cut stays sharp; the warning
-        names it, says why, and by how much the radius is too large.
+        The passing point of an arc is its midpoint. A corner that cannot be cut stays sharp; the warning
+        names it, the reason, and by how much the radius is too large.
 
     Raises
     ------
     OutlineError
-        Malformed lists, numbers that are not finite, arcs that end where they begin.
+        For malformed lists, numbers that are not finite, and arcs whose end point is their start point.
     """
     made, messages, own_messages, _ = _outline.cut(outline, str(error_msg_id), bool(fair), False)
     if not record_cut(outline, str(error_msg_id)):
@@ -104,29 +103,39 @@ def cnc_cut_outline(outline, error_msg_id="", *, fair=False):
 
 
 def corner_reports(outline, error_msg_id="", *, fair=False):
-    """What `cnc_cut_outline` does to each corner that has a request.
+    """The result of `cnc_cut_outline` at each corner with a request.
+
+    Parameters
+    ----------
+    outline, error_msg_id, fair
+        As for `cnc_cut_outline`.
 
     Returns
     -------
     list of dict
-        `element` of the input; `outcome` ('smoothed', 'enlarged' or 'sharp'); `reason` where it stays sharp,
-        else 'none'; `largest`, the largest radius that would fit where it stays sharp because the radius
-        is too large, 0.0 elsewhere and for corners that were cut; `first` and `count`, the elements of
-        the result that replace it.
+        `element`, index in the input; `outcome` ('smoothed', 'enlarged' or 'sharp'); `reason` of a sharp
+        corner, else 'none'; `largest`, the largest radius that fits if the corner is sharp because its radius
+        is too large, else 0.0; `first` and `count`, the elements of the result that replace it.
+
+    Raises
+    ------
+    OutlineError
+        As for `cnc_cut_outline`.
     """
     return _outline.cut(outline, str(error_msg_id), bool(fair), True)[3]
 
 
 def smooth_outline_c_curve(outline, precision, router_bit_request, error_msg_id):
-    """Turn samples with tangents into a chain of arcs with a continuous tangent, two arcs a segment.
+    """Convert samples with tangents to a chain of tangent arcs, two arcs per segment.
 
     Parameters
     ----------
     outline : list or tuple, format C
     precision : float
-        A segment whose tangents are closer than this to its chord becomes a line. Typical: pi/1000.
+        A segment whose tangents deviate from its chord by less than this angle becomes a line. Typical:
+        pi/1000.
     router_bit_request : float
-        Arcs with a smaller radius are warned about (and kept).
+        A warning is printed for arcs with a smaller radius.
     error_msg_id : str
 
     Returns
@@ -136,7 +145,8 @@ def smooth_outline_c_curve(outline, precision, router_bit_request, error_msg_id)
     Raises
     ------
     OutlineError
-        Malformed lists, equal neighbours, a tangent more than a right angle off its chord.
+        For malformed lists, equal neighbours, and tangents that deviate from the chord by more than a right
+        angle.
     """
     made, messages = _outline.smooth_c(outline, precision, router_bit_request, str(error_msg_id))
     say(messages)
@@ -144,9 +154,9 @@ def smooth_outline_c_curve(outline, precision, router_bit_request, error_msg_id)
 
 
 def smooth_outline_b_curve(outline, precision, router_bit_request, error_msg_id):
-    """As `smooth_outline_c_curve`, for points without tangents (format B without arcs): they are guessed.
+    """As `smooth_outline_c_curve`, for points without tangents (format B without arcs), which are estimated.
 
-    A closed curve is smooth at its seam, too.
+    A closed curve is also smooth at its start point.
     """
     made, messages = _outline.smooth_b(outline, precision, router_bit_request, str(error_msg_id))
     say(messages)

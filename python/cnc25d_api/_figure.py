@@ -43,17 +43,34 @@ def ideal_figure(figure, error_figure_id=""):
 
 
 def rotate_and_translate_figure(figure, center_x, center_y, rotation_angle, translate_x, translate_y):
-    """Turn a figure about a point by an angle in radians, then shift it."""
+    """Rotate a figure about a point by an angle in radians, then shift it."""
     return [outline_shift_xy(outline_rotate(outline, center_x, center_y, rotation_angle),
                              translate_x, 1, translate_y, 1) for outline in _outlines(figure)]
 
 
 def flip_rotate_and_translate_figure(figure, zero_x, zero_y, size_x, size_y, flip_x, flip_y, rotation_angle,
                                      translate_x, translate_y):
-    """Flip a figure of a given corner and size about its middle, turn it, and shift its corner to
-    (translate_x, _y).
+    """Flip a figure about its centre, rotate it about that, and shift it.
 
-    flip_x, flip_y are 1 or -1.
+    Parameters
+    ----------
+    figure : list of outlines
+    zero_x, zero_y, size_x, size_y : float
+        Corner and size of the figure, which define its centre.
+    flip_x, flip_y : {1, -1}
+    rotation_angle : float
+        Radians.
+    translate_x, translate_y : float
+        New position of the corner of an unrotated figure.
+
+    Returns
+    -------
+    list of outlines
+
+    Raises
+    ------
+    OutlineError
+        For other values of flip_x and flip_y, and for malformed outlines.
     """
     for name, flip in (("flip_x", flip_x), ("flip_y", flip_y)):
         if flip not in (1, -1):
@@ -70,16 +87,15 @@ def flip_rotate_and_translate_figure(figure, zero_x, zero_y, size_x, size_y, fli
 def figure_simple_display(figure, overlay_figure=(), parameter_info="", *, filename=None):
     """Draw a figure (red) over another one (orange, dashed): the cut figure over the ideal one.
 
-    No window is opened, so that it works everywhere: an SVG file is written and its name printed; any
-    browser shows it.
+    Writes an SVG file and prints its name; no window is opened.
 
     Parameters
     ----------
     figure, overlay_figure : list of format-B outlines and circles
     parameter_info : str
-        A text that goes into the file as its title.
+        Title of the file.
     filename : str, optional
-        Where to; a new file in the folder for temporary files where left out.
+        The file to write. Default: a new file in the folder for temporary files.
 
     Returns
     -------
@@ -96,7 +112,7 @@ def figure_simple_display(figure, overlay_figure=(), parameter_info="", *, filen
 
 
 def write_figure_in_svg(figure, filename):
-    """Write a figure as SVG in its true size in mm; arcs stay arcs, y points up on the page."""
+    """Write a figure as SVG at its true size in mm; arcs stay arcs, y points up."""
     _write(filename, _outline.figure_svg(figure, (), os.path.basename(str(filename))))
 
 
@@ -110,31 +126,42 @@ def write_figure_in_dxf(figure, filename, *, polylines=False, unit="mm"):
     polylines : bool
         True: one LWPOLYLINE with bulges for each outline. False: LINE, ARC and CIRCLE.
     unit : {'mm', 'inch'}
-        What the numbers are; noted in the file.
+        Unit of the coordinates, specified in the file.
     """
     _write(filename, _outline.figure_dxf(figure, bool(polylines), unit))
 
 
 def figure_mesh(figure, height, *, chord=0.01):
-    """The figure given a thickness: (points, triangles) of a closed mesh between z = 0 and `height`.
+    """Extrude a figure to a closed mesh between z = 0 and `height`.
 
-    The first outline is the outside, the others are holes. Arcs become chords that stray by at most `chord`.
+    Parameters
+    ----------
+    figure : list of format-B outlines and circles
+        The first outline is the outside, the others are holes.
+    height : float
+    chord : float
+        Maximum distance of chords from arcs.
+
+    Returns
+    -------
+    points : list of (x, y, z)
+    triangles : list of (int, int, int)
 
     Raises
     ------
     OutlineError
-        Open outlines, outlines that cross.
+        For outlines that are open or intersect.
     """
     return _outline.figure_mesh(figure, height, chord)
 
 
 def write_figure_in_stl(figure, height, filename, *, chord=0.01):
-    """Write the figure given a thickness as a binary STL file; see `figure_mesh`."""
+    """Write an extruded figure as a binary STL file; see `figure_mesh`."""
     _write(filename, _outline.figure_solid_file(figure, height, chord, "stl"))
 
 
 def write_figure_in_3mf(figure, height, filename, *, chord=0.01):
-    """Write the figure given a thickness as a 3MF file; see `figure_mesh`."""
+    """Write an extruded figure as a 3MF file; see `figure_mesh`."""
     _write(filename, _outline.figure_solid_file(figure, height, chord, "3mf"))
 
 

@@ -1,4 +1,4 @@
-"""Helpers that move, reverse, close and resolve outlines."""
+"""Functions that move, reverse, close and flatten outlines."""
 
 import math
 
@@ -7,8 +7,8 @@ from ._outline import OutlineError
 from ._say import warn
 
 
-# More chords than this are no drawing; each is a tuple of four numbers.
-_MOST_CHORDS = 1_000_000
+# Maximum number of chords of a drawing; each is a tuple of four numbers.
+_MAX_CHORDS = 1_000_000
 
 
 def refuse(number, text, outline=""):
@@ -36,32 +36,32 @@ def outline_shift_y(outline, y_offset, y_factor, *, outline_format=None):
 def outline_shift_xy(outline, x_offset, x_factor, y_offset, y_factor, *, outline_format=None):
     """Shift, scale or mirror an outline (format A, B or a circle; format C with outline_format="C").
 
-    A mirrored outline is also reversed, so that its sense stays. Requests stay as they are. The radius of
-    a circle is scaled; where the factors differ in size a warning says that it stays a circle.
+    A mirrored outline is also reversed, so that its orientation does not change. Requests are unchanged. The
+    radius of a circle is scaled; with factors of different size it stays a circle, with a warning.
 
-    Format C looks like format A, three numbers an element. Only with `outline_format="C"` are its
-    inclinations mirrored and reversed with the points.
+    Format C has three numbers per element, as format A. Only with `outline_format="C"` are its inclinations
+    mirrored and reversed with the points.
 
     Raises
     ------
     OutlineError
-        Malformed lists, factors of 0.
+        For malformed lists and factors of 0.
     """
     _check_format(outline_format)
-    made = _outline.place(outline, x_offset, x_factor, y_offset, y_factor, outline_format or "")
+    made = _outline.transform(outline, x_offset, x_factor, y_offset, y_factor, outline_format or "")
     if made and not isinstance(made[0], tuple) and abs(x_factor) != abs(y_factor):
         warn(358, f"factors {x_factor} and {y_factor} would make an ellipse: a circle is made")
     return made
 
 
 def outline_rotate(outline, center_x, center_y, rotation_angle, *, outline_format=None):
-    """Turn an outline about a point by an angle in radians (with outline_format="C": inclinations, too)."""
+    """Rotate an outline about a point by an angle in radians, with outline_format="C" inclinations too."""
     _check_format(outline_format)
     return _outline.rotate(outline, center_x, center_y, rotation_angle, outline_format or "")
 
 
 def outline_close(outline):
-    """A copy of the outline, closed by a line where it is open. A circle comes back as it is."""
+    """A copy of the outline, closed by a line if it is open. A circle is returned unchanged."""
     kind = _outline.check(outline, 237, 247, "")
     if kind == "circle":
         return list(outline)
@@ -76,9 +76,9 @@ def outline_close(outline):
 
 
 def outline_reverse(outline, *, outline_format=None):
-    """The same outline walked backwards; requests stay with their corners.
+    """The same outline in the opposite direction; requests stay at their corners.
 
-    Format C with outline_format="C": inclinations are turned by pi.
+    With outline_format="C" inclinations are rotated by pi.
     """
     _check_format(outline_format)
     if outline_format == "C":
@@ -100,7 +100,7 @@ def outline_reverse(outline, *, outline_format=None):
 
 
 def ideal_outline(outline, error_mark_string=""):
-    """Format A or C without its last column: format B. Format B and circles come back, with a warning."""
+    """Format A or C without its last column: format B. Format B and circles are returned with a warning."""
     kind = _outline.check(outline, 868, 868, str(error_mark_string))
     if kind != "A":
         warn(441, f"{error_mark_string} is a circle or of format B already")
@@ -111,14 +111,13 @@ def ideal_outline(outline, error_mark_string=""):
 def outline_arc_line(outline, backend="tkinter"):
     """An outline of format B (or a circle) as chords, for drawing: a list of (x1, y1, x2, y2).
 
-    There are twelve chords for each unit of radius in a full circle, and never less than three. Other
-    backends than "tkinter" drew into objects of other libraries: `write_figure_in_svg` and
-    `write_figure_in_dxf` write files.
+    A full circle has twelve chords per unit of radius, at least three. Other backends than "tkinter" drew
+    into objects of other libraries; see `write_figure_in_svg` and `write_figure_in_dxf`.
 
     Raises
     ------
     OutlineError
-        Malformed lists, and outlines that would take more than a million chords.
+        For malformed lists, and outlines with more than a million chords.
     """
     if backend != "tkinter":
         raise refuse(264, f"backend {backend!r}: only 'tkinter' gives a list; see write_figure_in_svg")
@@ -131,7 +130,7 @@ def outline_arc_line(outline, backend="tkinter"):
     chords = []
     start = tuple(outline[0])
     for row in outline[1:]:
-        room = _MOST_CHORDS - len(chords)
+        room = _MAX_CHORDS - len(chords)
         is_arc = len(row) == 4
         points = _arc_points(start, tuple(row[:2]), tuple(row[2:]), room) if is_arc else [tuple(row)]
         for point in points:
@@ -142,7 +141,7 @@ def outline_arc_line(outline, backend="tkinter"):
 
 def _check_chords(count, room):
     if count > room:
-        raise refuse(264, f"more than {_MOST_CHORDS} chords would be made, twelve for each unit of radius: "
+        raise refuse(264, f"more than {_MAX_CHORDS} chords would be made, twelve for each unit of radius: "
                      "choose a larger unit")
 
 
@@ -150,22 +149,22 @@ def _circle_chords(x, y, radius):
     if radius <= 0:
         raise refuse(409, f"the radius {radius} of a circle is not above 0")
     count = max(3, int(12 * radius))
-    _check_chords(count, _MOST_CHORDS)
+    _check_chords(count, _MAX_CHORDS)
     points = [(x + radius * math.cos(2 * math.pi * i / count), y + radius * math.sin(2 * math.pi * i / count))
               for i in range(count)]
     return [points[i] + points[(i + 1) % count] for i in range(count)]
 
 
 def _arc_points(start, via, end, room):
-    """Points of an arc after its start, at most `room`; the end and the passing point are among them."""
+    """Points of an arc after its start, at most `room`, including its passing point and its end."""
     circle = _outline.arc_circle(start, via, end)
     if circle is None:
         return [end]
     x, y, radius, turn = circle
     step = 2 * math.pi / (12 * radius)
     points = []
-    for begin, stop in ((start, via), (via, end)):
-        angle = math.atan2(begin[1] - y, begin[0] - x)
+    for first, stop in ((start, via), (via, end)):
+        angle = math.atan2(first[1] - y, first[0] - x)
         sweep = (turn * (math.atan2(stop[1] - y, stop[0] - x) - angle)) % (2 * math.pi)
         count = int(sweep / step)
         _check_chords(len(points) + count, room)

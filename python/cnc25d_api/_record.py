@@ -1,4 +1,4 @@
-"""`kerf outline FILE.py` asks a script for its outlines: those that it cuts are noted in a file."""
+"""Outlines of a script for `kerf outline FILE.py`: those that it cuts are written to $KERF_OUTLINES."""
 
 import atexit
 import json
@@ -8,8 +8,10 @@ _noted = []
 
 
 def record_cut(outline, name):
-    """Note an outline of format A that was cut. False where nobody asked; who asks cuts it again and says
-    what stays sharp."""
+    """Record an outline of format A that has been cut; False without $KERF_OUTLINES.
+
+    `kerf outline` cuts the recorded outlines again and prints the warnings.
+    """
     target = os.environ.get("KERF_OUTLINES")
     if not target:
         return False

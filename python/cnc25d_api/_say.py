@@ -1,4 +1,4 @@
-"""Messages to the user, through Python's own stream (so that redirecting it works)."""
+"""Messages to the user, on sys.stdout, so that Python can redirect them."""
 
 
 def say(messages):

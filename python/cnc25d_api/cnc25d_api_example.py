@@ -1,8 +1,8 @@
-"""Everything that cnc25d_api can do, once: change it and run it again.
+"""All functions of cnc25d_api in one script, for editing.
 
     python3 cnc25d_api_example.py [FOLDER]
 
-writes its drawings and solids into FOLDER (here, where left out).
+writes its drawings and meshes into FOLDER (default: the current one).
 """
 
 import math
@@ -13,21 +13,21 @@ import cnc25d_api
 
 
 def plate(router_bit_radius):
-    """A plate of format A: each corner says how the router bit may change it."""
+    """A plate of format A: each corner has its request for the router bit."""
     r = router_bit_radius
     return [
         [0, 0, 2 * r],           # first-point: smoothed
         [80, 0, -r],             # enlarged, so that another part fits into the corner
-        [80, 50, 0],             # left sharp
+        [80, 50, 0],             # unchanged
         [60, 50, r],
         [50, 35, 40, 50, r],     # an arc through (50, 35)
         [0, 50, -r],
-        [0, 0, 0],               # closes the outline; its corner is that of the first-point
+        [0, 0, 0],               # closes the outline; this corner is that of the first-point
     ]
 
 
 def crenels(width, height):
-    """One corner drawn once, then mirrored to the other three."""
+    """One corner, mirrored to the other three."""
     corner = [[0, 10, 0], [5, 10, 0], [5, 0, 0]]
     outline = [[0, 10, 0]] + corner[1:]
     outline.extend(cnc25d_api.outline_shift_x(corner, width, -1))
@@ -67,7 +67,7 @@ def main():
     # moving
     ellipse = cnc25d_api.outline_shift_xy(ellipse, 30, 1, 20, 1)
     turned = cnc25d_api.outline_rotate(cut, 40, 25, math.radians(30))
-    print(f"backwards it begins at {cnc25d_api.outline_reverse(turned)[0]}")
+    print(f"reversed, it starts at {cnc25d_api.outline_reverse(turned)[0]}")
 
     # figures: the first outline is the outside, the others are holes
     figure = [wished, ellipse, [62, 20, 6]]

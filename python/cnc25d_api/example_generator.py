@@ -1,4 +1,4 @@
-"""Writes the example script that shows every function, ready to be changed.
+"""Writes the example script, which uses every function, for editing.
 
     python3 -m cnc25d_api.example_generator [FOLDER]
 """
@@ -11,11 +11,11 @@ NAME = "cnc25d_api_example.py"
 
 
 def main(arguments=None):
-    """Copy the example into a folder (the current one where left out); never over a file that is there."""
+    """Copy the example into a folder (default: the current one); an existing file is not replaced."""
     arguments = sys.argv[1:] if arguments is None else arguments
     target = Path(arguments[0] if arguments else ".") / NAME
     if target.exists():
-        print(f"{target} is there already; move it away first", file=sys.stderr)
+        print(f"{target} already exists; rename or remove it first", file=sys.stderr)
         return 1
     target.parent.mkdir(parents=True, exist_ok=True)
     shutil.copyfile(Path(__file__).with_name(NAME), target)

@@ -1,10 +1,9 @@
-"""Kerf: toolpaths, tools and a simulator, from Python.
+"""Kerf: toolpaths, tools and simulation from Python.
 
-A toolpath is built call by call (`Toolpath`) or read from a file (`load`), and cut out of a `Stock` by
-`simulate`, which says what is left, which step made which surface, and which lines would break a tool or a
-part. `check` lists hazards, `estimate` the time, `post` writes for a controller or draws. A `Region` is an
-area bounded by lines and arcs: unions, offsets, questions. Lengths are mm, feeds mm/min, angles degrees; Z
-points up.
+A toolpath is built by calls (`Toolpath`) or read from a file (`load`). `simulate` cuts it out of a `Stock`
+and returns the workpiece and its hazards; `check` reports hazards, `estimate` the machining time; `post`
+writes a program for a controller or a drawing. A `Region` is a part of the plane bounded by lines and arcs,
+with boolean operations, offsets and queries. Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
 import os
@@ -102,28 +101,27 @@ def load(
     tools=None,
     machine=None,
 ):
-    """Read a program of any kind: G-code or gcmc, by the file name's ending or its text.
+    """Read a program: G-code or gcmc, by the ending of the file name or by its text.
 
     Parameters
     ----------
     path : str or os.PathLike
     dialect : str, optional
-        The controller that a G-code program is for: 'linuxcnc', 'grbl' ...; determined from the text where
-        omitted.
+        The controller of a G-code program: 'linuxcnc', 'grbl' ... Default: detected from its text.
     read_on : bool
-        Whether a G-code file is read to its end, past M2 and M30, as senders do.
+        Read a G-code file to its end, including text after M2 and M30, as senders do.
     strict : bool
-        Whether unusual G-code words are errors.
+        Report suspicious G-code as errors instead of warnings.
     filament : float, optional
-        Diameter of a printer's filament, mm; what the program's comments say, else 1.75, where omitted.
+        Diameter of a printer's filament, mm. Default: from the program's comments, else 1.75.
     defines : sequence of str
-        Statements that a gcmc program runs first: ``['depth=5mm']``.
+        Statements to run before a gcmc program: ``['depth=5mm']``.
     include_paths : sequence of str
-        Folders searched for the files that a gcmc program includes, after the program's own.
+        Folders to search for files included by a gcmc program, after the folder of the program.
     tools : Tool, str, ToolTable or list of them, optional
         For cutter compensation (G41, G42); see `check`.
     machine : str or os.PathLike, optional
-        The machine that is to run the program: a profile (TOML), or GRBL's ``$$`` settings.
+        The machine that will run the program: a profile (TOML), or GRBL's ``$$`` settings.
 
     Returns
     -------
@@ -132,13 +130,14 @@ def load(
     Raises
     ------
     OSError
-        Where the file cannot be read.
+        If the file cannot be read.
     kerf.Error
-        Where its text has errors; all of them are in its `diagnostics`. Warnings go to the `warnings` module.
+        If its text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
+        `warnings`.
     """
     name = os.fsdecode(path)
     with open(name, "rb"):
-        pass  # raises what Python programs expect
+        pass  # raises OSError
     return _kerf._load(
         name,
         dialect=dialect,
@@ -167,7 +166,7 @@ def post(
     rapids=False,
     dxf_version="r2000",
 ):
-    """Write a program for a controller, or as a drawing from above.
+    """Write a program for a controller, or as a drawing seen from above.
 
     Parameters
     ----------
@@ -177,36 +176,36 @@ def post(
     path : str or os.PathLike, optional
         The file to write.
     unit : {'mm', 'inch'}, optional
-        That of the post where omitted; mm in drawings.
+        Default: that of the post; mm in drawings.
     tool_change : {'command', 'pause', 'files', 'ignore'}, optional
-        As the post has it where omitted; 'files' needs a path.
+        Default: that of the post; 'files' requires a path.
     feed : float
-        For cutting moves without a feed, mm/min; 0: an error.
+        Feed of cuts without one, mm/min; 0: such cuts are an error.
     tools : Tool, str, ToolTable or list of them, optional
         For names in comments, and the sizes of drilled holes in drawings; see `check`.
     fit_arcs : float
-        Chains of chords become arcs that deviate at most this much, mm; 0: not.
+        Replace chains of chords by arcs that deviate by at most this distance, mm; 0: do not.
     join : float
-        Straight cuts are joined where the corner deviates at most this much, mm; 0: not.
+        Join straight cuts whose corners deviate by at most this distance, mm; 0: do not.
     shorten_rapids : bool
-        Whether rapids that return to where they started are omitted.
+        Remove rapids that return to their start point.
     rapids : bool
-        Whether drawings show rapids.
+        Draw rapids in drawings.
     dxf_version : {'r2000', 'r12'}
 
     Returns
     -------
     str or list of str
-        The text; with `path` the names of the files written: that path, or with 'files' one for each tool.
+        The text; with `path` the names of the files written: that path, or with 'files' one per tool.
 
     Raises
     ------
     ValueError
-        Where `to` is unknown, or several files are to be written and no path is given.
+        If `to` is unknown, or several files are to be written and no path is given.
     OSError
-        Where a file cannot be written.
+        If a file cannot be written.
     kerf.Error
-        Where the controller cannot run the program.
+        If the controller cannot run the program.
     """
     name = "program" if path is None else os.fsdecode(path)
     options = dict(unit=unit, tool_change=tool_change, feed=feed, tools=tools, fit_arcs=fit_arcs, join=join,
@@ -214,7 +213,7 @@ def post(
     texts = _kerf._post(program, os.fsdecode(to), name, **options)
     if path is None:
         if len(texts) != 1:
-            raise ValueError("each tool gets a file of its own: path is needed")
+            raise ValueError("one file per tool is written: path is required")
         return texts[0][1].decode(errors="replace")
     _kerf._write_files(texts)
     return [file for file, text in texts]
@@ -234,9 +233,9 @@ def load_drawing(path):
     Raises
     ------
     OSError
-        Where the file cannot be read.
+        If the file cannot be read.
     kerf.Error
-        Where it is no DXF file, or entities are damaged.
+        If it is not a DXF file, or entities are damaged.
     """
     with open(path, "rb") as file:
         return _kerf.read_drawing(file.read(), os.fsdecode(path))
@@ -248,7 +247,7 @@ def load_stock(path):
     Parameters
     ----------
     path : str or os.PathLike
-        A closed mesh (.stl .3mf .glb .obj) or the left-over of an earlier job (.kstock).
+        A closed mesh (.stl .3mf .glb .obj) or the left-over stock of an earlier job (.kstock).
 
     Returns
     -------
@@ -257,9 +256,9 @@ def load_stock(path):
     Raises
     ------
     OSError
-        Where the file cannot be read.
+        If the file cannot be read.
     kerf.Error
-        Where it is damaged, or the mesh encloses nothing.
+        If it is damaged, or the mesh encloses no volume.
     """
     with open(path, "rb") as file:
         return _kerf._read_stock(file.read(), os.fsdecode(path))
@@ -272,13 +271,13 @@ def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):
     ----------
     stock : Stock
     flip : {'', 'x', 'y'}
-        Half a turn about an axis parallel to X or Y; '' for none.
+        Turn by 180 degrees about an axis along X or Y; '': do not.
     across : float, optional
-        Y of an axis along X, X of one along Y, mm; the centre of the block where omitted.
+        Y of an axis along X, X of an axis along Y, mm. Default: the centre of the block.
     z : float, optional
-        Z of the axis, mm; the centre of the block where omitted.
+        Z of the axis, mm. Default: the centre of the block.
     shift : sequence of 3 float
-        Movement after that, mm.
+        Shift in X, Y and Z after that, mm.
 
     Returns
     -------
@@ -288,7 +287,7 @@ def move_stock(stock, flip="", across=None, z=None, shift=(0, 0, 0)):
 
 
 def left_stock(simulation):
-    """What a simulation has left, as the stock of a following job.
+    """The left-over stock of a simulation, for the next job.
 
     Parameters
     ----------
@@ -302,22 +301,22 @@ def left_stock(simulation):
 
 
 def save_left_stock(simulation, path):
-    """Write what a simulation has left to a .kstock file, which `load_stock` reads.
+    """Write the left-over stock of a simulation to a file for `load_stock`.
 
     Parameters
     ----------
     simulation : Simulation
     path : str or os.PathLike
-        Ends in .kstock, by which `load_stock` knows it.
+        Its ending must be .kstock.
 
     Raises
     ------
     ValueError
-        Where the path ends otherwise.
+        If the path has another ending.
     OSError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     if not os.fspath(path).lower().endswith(".kstock"):
-        raise ValueError(f"what is left is written as .kstock, not as {os.fspath(path)!r}")
+        raise ValueError(f"left-over stock is written as .kstock, not as {os.fspath(path)!r}")
     with open(path, "wb") as file:
         file.write(_kerf._write_left(simulation))

@@ -1,4 +1,4 @@
-// Stock that is no block, fixtures, comparison, and the fourth axis, in Python.
+// Stock from files, fixtures, comparison, and the fourth axis, in Python.
 #include <memory>
 
 #include "bindings.h"
@@ -141,7 +141,7 @@ py::tuple rotary_mesh(const RotaryResult& result) {
 
 void bind_rotary(py::module_& m) {
   py::class_<RotaryResult, JobResult>(m, "RotarySimulation",
-                                      "What a toolpath left of a bar. Made by `simulate_rotary`.")
+                                      "A bar after the cuts of a toolpath. Made by `simulate_rotary`.")
       .def_property_readonly(
           "stock_mm3", [](const RotaryResult& r) { return r.simulation().stock.mm3(); },
           "float: volume before, mm3.")
@@ -155,27 +155,32 @@ void bind_rotary(py::module_& m) {
             for (const Hazard& hazard : r.simulation().hazards) list.append(describe(r.path(), hazard));
             return list;
           },
-          "list of dict: moves that would break a tool or a part, in order.")
-      .def("mesh", &rotary_mesh, "Surface at A = 0, as `Simulation.mesh`.");
+          "list of dict: hazards as `Simulation.hazards`, in the order of steps.")
+      .def("mesh", &rotary_mesh, R"(The surface at A = 0 as a closed mesh.
+
+Returns
+-------
+tuple of ndarray
+    As `Simulation.mesh`.)");
   m.def("simulate_rotary", &run_rotary, py::arg("path"), py::arg("diameter"), py::arg("x"),
         py::arg("axis") = py::make_tuple(0.0, 0.0), py::arg("tools") = py::none(),
         py::arg("resolution") = 0.0,
-        R"(Cut a toolpath with a fourth axis out of a round bar.
+        R"(Simulate a toolpath with a fourth axis on a round bar.
 
 Parameters
 ----------
 path : Toolpath
-    Its A (degrees) turns the bar about X, between cuts or while cutting.
+    Its A (degrees) turns the bar about an axis along X, between cuts or during cuts.
 diameter : float
     Of the bar, mm.
 x : (float, float)
-    Its ends, mm.
+    Both ends of the bar in work coordinates, mm.
 axis : (float, float)
     Y and Z of the axis in work coordinates, mm.
 tools : ToolTable, optional
-    The built-in tools where left out.
+    Default: the built-in tools.
 resolution : float
-    Distance of the rays along the bar and at its surface, mm; 0 chooses one.
+    Distance of the rays along the bar and at its surface, mm; 0: automatic.
 
 Returns
 -------
@@ -184,7 +189,7 @@ RotarySimulation
 Raises
 ------
 kerf.Error
-    Unknown tool, bar without volume, more motion than can be cut.)");
+    If a tool is unknown, the bar has no volume, or a limit is exceeded.)");
 }
 
 }  // namespace
@@ -201,38 +206,52 @@ void bind_bodies(py::module_& m) {
   });
   m.def("fixture_contacts", &contacts_of, py::arg("path"), py::arg("fixtures"), py::arg("tools") = py::none(),
         py::arg("resolution") = 0.0,
-        R"(Moves that touch fixtures, at feed or at rapid speed, with any part of the tool.
+        R"(Motions, cuts and rapids, in which any part of the tool touches a fixture.
 
 Parameters
 ----------
 path : Toolpath
 fixtures : list of (str, Stock)
-    Names and solids: blocks, or meshes that `load_stock` has read.
+    Names and bodies: blocks, or meshes read by `load_stock`.
 tools : ToolTable, optional
-    The built-in tools where left out.
+    Default: the built-in tools.
 resolution : float
-    Largest distance of the fixtures' columns, mm; 0 chooses one.
+    Maximum distance of the columns of the fixtures, mm; 0: automatic.
 
 Returns
 -------
 list of dict
-    `fixture`, `step`, `part` (None in rapid moves), `at`, `depth_mm`, `met_mm3`, `origin`.)");
+    In the order of steps: `fixture` (name), `step` (index), `part` of the tool (None for rapids), `at` (x, y,
+    z in mm, work coordinates), `depth_mm`, `met_mm3` (volume of the fixture that is touched), `origin`.
+
+Raises
+------
+kerf.Error
+    If a tool is unknown, or the contacts cannot be computed.)");
   m.def("compare", &compare_with, py::arg("simulation"), py::arg("target"), py::arg("tolerance") = 0.05,
-        R"(How the part that was cut differs from a target mesh.
+        R"(Compare a simulated part with a target mesh.
 
 Parameters
 ----------
 simulation : Simulation
 target : Stock
-    A mesh in work coordinates, as `load_stock` reads it.
+    A mesh in work coordinates, read by `load_stock`.
 tolerance : float
-    Differences no deeper than this are not told, mm.
+    Differences up to this depth are not reported, mm.
 
 Returns
 -------
 dict
-    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions` (`kind`, `depth_mm`, `at`, `volume_mm3`,
-    deepest first); `map`, an array (columns in Y, columns in X) of mm, below 0 where material lacks.)");
+    `target_mm3`, `part_mm3`, `gouge_mm3`, `rest_mm3`; `regions`, a list of dict with `kind`, `depth_mm`, `at`
+    and `volume_mm3`, deepest first; `map`, an ndarray (columns in Y, columns in X) float32 of distances to
+    the surface of the target in mm, below 0 where material is missing.
+
+Raises
+------
+ValueError
+    If the target is a block.
+kerf.Error
+    If they cannot be compared.)");
   bind_rotary(m);
 }
 

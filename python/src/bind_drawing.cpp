@@ -21,9 +21,9 @@ constexpr const char* kOutlines =
 Parameters
 ----------
 layers : str or list of str, optional
-    Names of layers; all that are neither off nor frozen where omitted.
+    Names of layers. Default: all that are neither off nor frozen.
 unit : {'mm', 'inch'}, optional
-    The drawing's unit; as it specifies where omitted.
+    The drawing's unit. Default: as specified in the drawing.
 tolerance : float
     Maximum deviation of arcs from ellipses and splines, mm.
 join : float
@@ -36,14 +36,18 @@ DrawingOutlines
 Raises
 ------
 kerf.Error
-    Where the drawing specifies no unit and none is given, a layer does not exist, or nothing is drawn on the
-    layers. What is left open is a warning.
+    If the drawing specifies no unit and none is given, a layer does not exist, or the layers have no outline.
+    Open ends are warnings.
 )";
 
-constexpr const char* kRegion = R"(The region that the outlines of layers bound.
+constexpr const char* kRegion = R"(The region bounded by the outlines of layers.
 
-Parameters are those of `outlines`, and `fill` as for `Region`: with 'even_odd' outlines inside others are
-holes.
+Parameters
+----------
+layers, unit, tolerance, join
+    As for `outlines`.
+fill : {'even_odd', 'nonzero', 'positive'}
+    As for `Region`; with 'even_odd' outlines inside others are holes.
 
 Returns
 -------
@@ -52,7 +56,7 @@ Region
 Raises
 ------
 kerf.Error
-    As `outlines`, and where an outline is open.
+    As for `outlines`, and if an outline is open.
 )";
 
 struct PyDrawing {
@@ -167,10 +171,11 @@ void bind_drawn(py::module_& m) {
               list.append(py::make_tuple(j.at.x, j.at.y, j.layer, j.entities));
             return list;
           },
-          "list of (x, y, layer, entities): where more than two ends meet, or an end is on another entity.")
+          "list of (x, y, layer, entities): points with more than two ends, or with an end on another "
+          "entity.")
       .def("region", &region_of, py::kw_only(), py::arg("fill") = "even_odd",
            py::arg("tolerance") = kDefaultTolerance,
-           "The `Region` that the outlines bound; kerf.Error where one is open.")
+           "The `Region` bounded by the outlines; kerf.Error if one is open.")
       .def("__len__", [](const DrawingOutlines& d) { return d.outlines.size(); })
       .def("__repr__", [](const DrawingOutlines& d) {
         return "<kerf.DrawingOutlines of " + std::to_string(d.outlines.size()) + " outlines>";
@@ -206,7 +211,22 @@ void bind_drawing(py::module_& m) {
           py::arg("tolerance") = 0.01, py::arg("join") = 0.01, py::arg("fill") = "even_odd", kRegion)
       .def("__repr__", [](const PyDrawing& d) { return "<kerf.Drawing " + d.drawing.file + ">"; });
   m.def("read_drawing", &read, py::arg("data"), py::arg("name") = "<bytes>",
-        "Read a DXF drawing, ASCII or binary, from bytes into a `Drawing`; `name` is for messages.");
+        R"(Read a DXF drawing, ASCII or binary.
+
+Parameters
+----------
+data : bytes
+name : str
+    File name for messages.
+
+Returns
+-------
+Drawing
+
+Raises
+------
+kerf.Error
+    If it is not a DXF file, or entities are damaged.)");
 }
 
 }  // namespace kerf::python

@@ -98,58 +98,59 @@ void bind_job(py::module_& m) {
   m.def("check", &check, py::arg("program"), py::kw_only(), py::arg("tools") = py::none(),
         py::arg("stock") = py::none(), py::arg("fixtures") = py::tuple(), py::arg("machine") = py::none(),
         py::arg("material") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
-        R"(Hazards of a program: what would break a tool, a part or the machine's patience.
+        R"(Check a program for hazards to tool, part and machine.
 
 Parameters
 ----------
 program : Program or Toolpath
 tools : Tool, str, ToolTable or list of them, optional
-    A Tool with a number, or ``"2=V d=12.7 angle=90"``, is for that number; without one for every number. The
-    program's comments and the built-in tools supply the rest.
+    A Tool with a number, or ``"2=V d=12.7 angle=90"``, is for that number, without a number for all. Other
+    tools are those of the program's comments and the built-in ones.
 stock : Stock or str, optional
-    A str as ``"100x60x12 at centre top"``, mm. Where omitted the program's comments give it, else a block
-    around the cuts is assumed.
+    Such as ``"100x60x12 at centre top"``, mm. Default: from the program's comments, else a block around the
+    cuts is assumed.
 fixtures : list of (str, Stock)
-    Names and solids that no part of a tool may touch.
+    Names and bodies that no part of a tool may touch.
 machine : str or os.PathLike, optional
     A profile (TOML), or GRBL's ``$$`` settings, for travel and spindle speeds.
 material : str, optional
     Of the stock, for the chip load: ``'plywood'``, ``'aluminium'`` ...
 resolution : float
-    Distance of the material columns, mm; 0: coarse, by the size of the stock.
+    Distance of the dexel columns, mm; 0: coarse, by the size of the stock.
 threads : int
-    0: as many as the machine has.
+    0: as many as the processor has.
 
 Returns
 -------
 list of dict
-    `kind`, `step` (index), `steps` (moves concerned), `at` (mm), `depth_mm`, `removed_mm3`, `message`,
-    `hint`, `origin`, `callers`, in the order of steps. Warnings go to the `warnings` module.
+    In the order of steps: `kind`, `step` (index), `steps` (number of motions), `at` (x, y, z in mm, work
+    coordinates), `depth_mm`, `removed_mm3`, `message`, `hint`, `origin`, `callers`. Warnings are issued by
+    the module `warnings`.
 
 Raises
 ------
 kerf.Error
-    A tool, stock, machine or material that is not understood.)");
+    If a tool, stock, machine or material is invalid.)");
   m.def("estimate", &estimate, py::arg("program"), py::kw_only(), py::arg("machine") = py::none(),
-        R"(How long a program takes.
+        R"(Estimate the machining time of a program.
 
 Parameters
 ----------
 program : Program or Toolpath
 machine : str or os.PathLike, optional
-    A profile (TOML), or GRBL's ``$$`` settings: times as its controller plans them. Otherwise programmed
+    A profile (TOML), or GRBL's ``$$`` settings: times are planned with its accelerations. Default: programmed
     feeds and rapid rates, without acceleration.
 
 Returns
 -------
 dict
-    `total`, `motion`, `cutting`, `rapid`, `dwell`, `halts` in seconds; `stops`; `machine` (its name or None);
-    `tools` and `operations`, lists of dict with the same times.
+    `total`, `motion`, `cutting`, `rapid`, `dwell`, `halts` in seconds; `stops` (their number); `machine`
+    (name or None); `tools` and `operations`, lists of dict with the same times.
 
 Raises
 ------
 kerf.Error
-    A machine's file that cannot be read.)");
+    If the machine file is invalid.)");
 }
 
 }  // namespace kerf::python

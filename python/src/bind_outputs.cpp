@@ -1,4 +1,4 @@
-// What a simulation leaves or builds, in Python: meshes, pictures and left-over stock as bytes and as files.
+// The results of a simulation in Python: meshes, pictures and left-over stock as bytes and as files.
 #include <algorithm>
 
 #include "bindings.h"
@@ -11,7 +11,7 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr int kMinPixels = 16, kMaxPixels = 16384;  // a side of a picture
+constexpr int kMinPixels = 16, kMaxPixels = 16384;  // width and height of a picture
 
 View to_view(const py::object& view, const py::object& size, const std::optional<std::string>& section) {
   View out;
@@ -34,9 +34,8 @@ View to_view(const py::object& view, const py::object& size, const std::optional
       static_cast<int>(number_within(pixels.y, kMinPixels, kMaxPixels, "the height of size", "pixels"));
   if (section) {
     out.section = parse_section(*section);
-    if (!out.section) throw py::value_error("section must be a plane as 'x=25', 'y=-3.5' or 'z=1in'");
-    if (!faces(out, *out.section))
-      throw py::value_error("the view shows no more of the section than its edge");
+    if (!out.section) throw py::value_error("section must be a plane such as 'x=25', 'y=-3.5' or 'z=1in'");
+    if (!faces(out, *out.section)) throw py::value_error("the view is parallel to the section");
   }
   return out;
 }
@@ -47,7 +46,7 @@ MeshFormat to_format(const std::string& name) {
   return *format;
 }
 
-/// Makes the surface and hands it to `write`, without the interpreter's lock.
+/// Makes the surface and passes it to `write`, without the GIL.
 template <class Write>
 std::string bytes_of(const JobResult& result, const SurfaceOptions& options, Write write) {
   Diagnostics diagnostics;
@@ -108,28 +107,28 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
 
 void bind_outputs(py::module_& m) {
   const py::tuple view = py::make_tuple(-35.0, 50.0), size = py::make_tuple(1600, 1000);
-  py::class_<JobResult>(m, "JobResult",
-                        "What the simulations of all kinds share: meshes, pictures and files.")
+  py::class_<JobResult>(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.")
       .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
            py::arg("grooves") = false,
-           R"(The part's surface as the bytes of a mesh file, coloured by tool where the format has colours.
+           R"(The surface of the part as a mesh file, coloured by tool if the format has colours.
 
 Parameters
 ----------
 format : {'stl', '3mf', 'glb', 'obj'}
 name : str
-    For formats that hold one.
+    Name of the mesh, for formats that store one.
 grooves : bool
-    Whether a print keeps the grooves between beads.
+    Of a print: keep the grooves between beads.
 
 Returns
 -------
 bytes
+    In mm, work coordinates.
 
 Raises
 ------
 kerf.Error
-    The mesh is not closed, or not of the right volume.)")
+    If the mesh is invalid: not closed, or of a wrong volume.)")
       .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("grooves") = false,
            R"(A picture of the part, coloured by tool; surfaces made by hazards are red.
@@ -141,9 +140,9 @@ view : str or (float, float)
 size : (int, int)
     Width and height in pixels, 16 to 16384.
 section : str, optional
-    A plane at which the part is cut open, ``'x=25'`` (mm).
+    A plane such as ``'x=25'`` (mm); the viewer's side of it is removed.
 grooves : bool
-    Whether a print keeps the grooves between beads.
+    Of a print: keep the grooves between beads.
 
 Returns
 -------
@@ -153,26 +152,26 @@ bytes
 Raises
 ------
 kerf.Error
-    The section misses the part.)")
+    If the section does not intersect the part.)")
       .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("grooves") = false,
-           R"(Write the part to files: all of them, or none where one fails.
+           R"(Write the part to files: all of them, or none if one fails.
 
 Parameters
 ----------
 *paths : str or os.PathLike
-    Meshes (.stl .3mf .glb .obj), pictures (.png), the stock of a following job (.kstock).
+    Meshes (.stl .3mf .glb .obj), pictures (.png), left-over stock (.kstock).
 view, size, section, grooves
     As in `picture`.
 
 Raises
 ------
 ValueError
-    A path with another ending.
+    If a path has another ending.
 OSError
-    A file that cannot be written.
+    If a file cannot be written.
 kerf.Error
-    An invalid mesh, a section that misses the part.)");
+    If a mesh is invalid, or the section does not intersect the part.)");
 }
 
 }  // namespace kerf::python

@@ -1,4 +1,4 @@
-// Printing programs in Python: what is laid, what is laid twice, what hangs in the air.
+// The simulation of prints in Python: volumes, overlap, unsupported beads.
 #include <memory>
 
 #include "bindings.h"
@@ -103,8 +103,7 @@ py::tuple mesh_of(const PrintResult& r, bool grooves) {
 }
 
 void bind_result(py::module_& m) {
-  py::class_<PrintResult, JobResult>(m, "PrintSimulation",
-                                     "What a printing program builds. Made by `simulate_print`.")
+  py::class_<PrintResult, JobResult>(m, "PrintSimulation", "A simulated print. Made by `simulate_print`.")
       .def("__repr__",
            [](const PrintResult& r) {
              return "<kerf.PrintSimulation: " + number_text(r.simulation().total.laid.mm3(), 3) + " mm3 in " +
@@ -113,35 +112,36 @@ void bind_result(py::module_& m) {
            })
       .def_property_readonly("total", &totals, R"(dict: figures of the whole print, mm3 and mm.
 
-`extruded_mm3` as E says; `laid_mm3` material; `overlap_mm3` extruded where material is already; `ends_mm3`
-the round free ends; `blobs_mm3` pushed on the spot; `hollow_mm3` empty height below material, of it
-`enclosed_mm3` that no way leads out from; `road_mm`, and `unsupported_mm` of it with nothing below.)")
-      .def_property_readonly(
-          "layers", &layers_of,
-          "list of dict: `z_mm`, `height_mm`, `roads` and figures as `total`, lowest first.")
+`extruded_mm3` is the volume by E, `laid_mm3` that of the material, `overlap_mm3` the part extruded into
+existing material, `ends_mm3` that of round free ends, `blobs_mm3` extruded without a motion, `hollow_mm3`
+empty space below material, `enclosed_mm3` the part of it without an opening; `road_mm` is the length of all
+beads, `unsupported_mm` the part of it without material below.)")
+      .def_property_readonly("layers", &layers_of,
+                             "list of dict: `z_mm`, `height_mm`, `roads` (number of beads) and figures as "
+                             "`total`, lowest first.")
       .def_property_readonly(
           "hazards", &hazards_of,
-          "list of dict: moves that hit material, roads that nothing holds, blobs; in order.")
+          "list of dict: contacts of the nozzle, unsupported beads, blobs; in the order of steps.")
       .def_property_readonly(
-          "roads", [](const PrintResult& r) { return r.simulation().beads; }, "int: extruding moves.")
+          "roads", [](const PrintResult& r) { return r.simulation().beads; }, "int: number of beads.")
       .def_property_readonly(
           "resolution_mm", [](const PrintResult& r) { return r.simulation().columns.pitch; },
           "float: distance of the columns, mm.")
       .def_property_readonly(
           "seconds", [](const PrintResult& r) { return r.simulation().seconds; },
-          "float: time the simulation took.")
+          "float: duration of the simulation.")
       .def("mesh", &mesh_of, py::arg("grooves") = false,
-           R"(Surface as `Simulation.mesh` gives it.
+           R"(The surface as a closed mesh.
 
 Parameters
 ----------
 grooves : bool
-    Keep the grooves between roads, which make many more triangles.
+    Keep the grooves between beads, which require many more triangles.
 
 Returns
 -------
-tuple
-    points (n, 3) float32 mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.)");
+tuple of ndarray
+    Points (n, 3) float32 in mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.)");
 }
 
 }  // namespace
@@ -150,21 +150,21 @@ void bind_print(py::module_& m) {
   bind_result(m);
   m.def("simulate_print", &run, py::arg("path"), py::arg("resolution") = 0.0, py::arg("threads") = 0,
         py::arg("layer_height") = py::none(), py::arg("bed") = 0.0,
-        R"(Lay the roads of a printing program.
+        R"(Simulate a print.
 
 Parameters
 ----------
 path : Toolpath
-    Its extruding moves lay roads whose section is a rectangle with round sides.
+    Each extruding motion lays a bead; its section is a rectangle with round sides.
 resolution : float
-    Distance of the material columns in mm; 0 chooses one.
+    Distance of the dexel columns, mm; 0: automatic.
 threads : int
-    0: as many as the machine has. The result does not depend on it.
+    0: as many as the processor has. The result does not depend on it.
 layer_height : float, optional
-    Of roads whose height neither the program's remarks nor `Toolpath.extrude` tell, mm; the step in Z from
-    the layer below where left out.
+    Height of beads for which neither the program's comments nor `Toolpath.extrude` give one, mm. Default: the
+    step in Z from the layer below.
 bed : float
-    Z of the bed's face, mm.
+    Z of the surface of the bed, mm.
 
 Returns
 -------
@@ -173,7 +173,7 @@ PrintSimulation
 Raises
 ------
 kerf.Error
-    No road, or more columns than can be held.)");
+    If there is no bead, or a limit is exceeded.)");
 }
 
 }  // namespace kerf::python

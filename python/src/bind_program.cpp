@@ -1,4 +1,4 @@
-// Programs in Python: loading them from files of any kind, and writing them for controllers or as drawings.
+// Programs in Python: reading them from files, and writing them for controllers or as drawings.
 #include <algorithm>
 
 #include "bindings.h"
@@ -114,9 +114,9 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
 }
 
 void bind_program_class(py::module_& m) {
-  py::class_<Program> c(m, "Program", R"(A toolpath with what its file says about units, tools and stock.
+  py::class_<Program> c(m, "Program", R"(A toolpath with the units, tools and stock specified in its file.
 
-Made by `load`. Calls that take a Toolpath take a Program as well.)");
+Made by `load`. Functions with a Toolpath argument accept a Program.)");
   bind_copy(c);
   c.def("__repr__",
         [](const Program& p) {
@@ -128,12 +128,13 @@ Made by `load`. Calls that take a Toolpath take a Program as well.)");
       .def_readonly("toolpath", &Program::path, "Toolpath: its steps.")
       .def_property_readonly(
           "source", [](const Program& p) { return to_str(p.source); }, "str: the file's name as given.")
-      .def_readonly("front_end", &Program::front_end, "str: what read it, 'G-code' or 'gcmc'.")
+      .def_readonly("front_end", &Program::front_end,
+                    "str: the front end that has read it, 'G-code' or 'gcmc'.")
       .def_property_readonly(
           "units", [](const Program& p) { return p.units == ProgramUnits::inch ? "inch" : "mm"; },
           "str: 'mm' or 'inch', of the file; the toolpath is in mm.")
-      .def_readonly("tools", &Program::tools, "dict of int to Tool: those that the program describes.")
-      .def_readonly("stock", &Program::stock, "Stock or None: where the program describes it.")
+      .def_readonly("tools", &Program::tools, "dict of int to Tool: tools described in the program.")
+      .def_readonly("stock", &Program::stock, "Stock or None: if described in the program.")
       .def_property_readonly(
           "files",
           [](const Program& p) {
@@ -141,7 +142,7 @@ Made by `load`. Calls that take a Toolpath take a Program as well.)");
             for (const std::string& file : p.files) files.append(to_str(file));
             return files;
           },
-          "list of str: all files read, the program first, then those that it includes or calls.");
+          "list of str: all files read; first the program, then included and called files.");
 }
 
 }  // namespace
@@ -168,7 +169,7 @@ void bind_program(py::module_& m) {
       py::arg("files"));
   m.def(
       "posts", [] { return post_target_names(); },
-      "Names that `post` knows: controllers, and the drawing formats 'dxf' and 'svg'.");
+      "list of str: the targets of `post`: controllers, and the drawing formats 'dxf' and 'svg'.");
 }
 
 }  // namespace kerf::python

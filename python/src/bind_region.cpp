@@ -35,53 +35,54 @@ FillRule rule_of(const std::string& name) {
 
 namespace {
 
-// The texts of help().
+// Docstrings.
 constexpr const char* kRegion = R"(A part of the plane bounded by lines and arcs.
 
-Regions do not change; operators and methods make new ones. ``a | b`` is the union, ``a & b`` what both have
-in common, ``a - b`` the first without the second, ``a ^ b`` what exactly one of them has. Arcs stay arcs.
+Regions are immutable. ``a | b`` is the union, ``a & b`` the intersection, ``a - b`` the difference, ``a ^ b``
+the symmetric difference. Arcs stay arcs.
 
 Parameters
 ----------
 outlines : sequence of outlines
-    An outline is a list of points ``(x, y)`` in mm, where ``(via_x, via_y, x, y)`` makes an arc from the
-    point before through the via point; its last point is its first. Three numbers ``(x, y, radius)`` are a
-    circle.
-    Outlines may cross themselves and each other.
+    An outline is a list of points ``(x, y)`` in mm; ``(via_x, via_y, x, y)`` is an arc from the previous
+    point through the via point. The last point equals the first one. Three numbers ``(x, y, radius)`` are a
+    circle. Outlines may intersect themselves and each other.
 fill : {'nonzero', 'even_odd', 'positive'}
-    What is inside: what an outline goes around at all, what outlines go around an odd number of times, or
-    what they go around counter-clockwise more often than clockwise.
+    A point is inside if the winding number of the outlines about it is not 0, is odd, or is above 0
+    (counter-clockwise).
 tolerance : float
-    Points closer than this are one, in mm.
+    Points closer than this are one point, mm.
 
 Raises
 ------
 kerf.Error
-    Where an outline is open or its numbers are not finite. ``diagnostics`` has the element.
+    If an outline is open or its numbers are not finite. ``diagnostics`` names the element.
 )";
 
 constexpr const char* kOffset =
-    R"(All points within a distance of the region, or those at least so far inside.
+    R"(The region grown or shrunk by a distance.
 
 Parameters
 ----------
 distance : float
-    mm; above 0 the region grows, with round outer corners, below 0 it shrinks.
+    mm; above 0: all points within this distance of the region, with round outer corners; below 0: all points
+    of the region that are at least this far from its boundary.
 tolerance : float
-    Points closer than this are one, in mm.
+    Points closer than this are one point, mm.
 
 Returns
 -------
 Region
 )";
 
-constexpr const char* kLocate = R"(Where a point lies.
+constexpr const char* kLocate = R"(Whether a point is inside, outside or on the boundary.
 
 Parameters
 ----------
 point : (float, float)
+    mm.
 margin : float
-    What is no further than this from the boundary counts as on it, in mm.
+    Points up to this distance from the boundary are on it, mm.
 
 Returns
 -------
@@ -94,67 +95,71 @@ constexpr const char* kNearest = R"(The point of the boundary that is nearest to
 Parameters
 ----------
 point : (float, float)
+    mm.
 
 Returns
 -------
-tuple (x, y, distance), or None for an empty region
+(float, float, float) or None
+    x, y and the distance, mm; None for an empty region.
 )";
 
-constexpr const char* kFigures = R"(Each connected part by itself.
+constexpr const char* kFigures = R"(The connected parts of the region.
 
 Returns
 -------
 list of lists of outlines
-    The first of each is the outside, the others are its holes.
+    For each part its outer boundary, then its holes.
 )";
 
-constexpr const char* kWiden =
-    R"(All points within a distance of a path: what a mill of that radius clears along it.
+constexpr const char* kBuffer =
+    R"(The buffer of a path: all points within a distance, as cleared by a mill of that radius.
 
 Parameters
 ----------
 path : list of points and arcs, or a circle
-    As an outline of `Region`; open or closed, and it may cross itself.
+    As an outline of `Region`; open or closed. It may intersect itself.
 half_width : float
     mm, above 0.
 ends : {'round', 'butt'}
-    Butt ends stop exactly at the path's ends.
+    Shape of the ends of an open path; 'butt' ends at its end points.
 tolerance : float
-    Points closer than this are one, in mm.
+    Points closer than this are one point, mm.
 
 Returns
 -------
 Region
 )";
 
-constexpr const char* kParallel = R"(The curve beside a path that keeps a distance from all of it.
+constexpr const char* kOffsetPath =
+    R"(The offset curve of a path: the curve on one side of it at a constant distance.
 
 Parameters
 ----------
 path : list of points and arcs, or a circle
 to_left : float
-    mm; below 0 it runs on the right.
+    Distance to the left of the path, mm; below 0 to the right.
 tolerance : float
-    Points closer than this are one, in mm.
+    Points closer than this are one point, mm.
 
 Returns
 -------
 list of outlines
-    In the sense of the path; several where it is cut up, none where nothing is left.
+    In the direction of the path; several if it is divided, none if nothing remains.
 )";
 
-constexpr const char* kSelfMeetings = R"(Where an outline crosses or touches itself.
+constexpr const char* kSelfIntersections =
+    R"(The self-intersections of an outline, including points where it touches itself.
 
 Parameters
 ----------
 path : list of points and arcs, or a circle
 tolerance : float
-    What is no further apart than this touches, in mm.
+    Segments up to this distance touch, mm.
 
 Returns
 -------
-list of (x, y, first, second)
-    Place, and the numbers of both segments, from 0.
+list of (float, float, int, int)
+    x and y in mm, and the indices of both segments, from 0.
 )";
 
 constexpr const char* kFitArcs = R"(Lines and arcs along a polyline.
@@ -164,54 +169,54 @@ Parameters
 points : list of (x, y)
     mm; a closed polyline repeats its first point at the end.
 within : float
-    mm, above 0: neither strays further from the other.
+    Maximum distance between polyline and result, mm, above 0.
 
 Returns
 -------
 list of points and arcs
 )";
 
-constexpr const char* kFitBezier = R"(A Bezier curve as arcs that keep its direction where they meet.
+constexpr const char* kFitBezier = R"(A Bezier curve as a chain of tangent arcs.
 
 Parameters
 ----------
 control : list of (x, y)
     2 to 26 control points in mm.
 within : float
-    mm, above 0: how far the arcs may stray.
+    Maximum distance of the arcs from the curve, mm, above 0.
 
 Returns
 -------
 list of points and arcs
 )";
 
-constexpr const char* kFitSpline = R"(A B-spline as arcs that keep its direction where they meet.
+constexpr const char* kFitSpline = R"(A B-spline as a chain of tangent arcs.
 
 Parameters
 ----------
 control : list of (x, y)
     mm.
 knots : list of float
-    As many as control points and degree and 1; never falling.
+    len(control) + degree + 1 numbers, not decreasing.
 degree : int
     1 to 25.
 weights : list of float
-    None, or one from 0.001 to 1000 for each control point.
+    Empty, or one from 0.001 to 1000 for each control point.
 within : float
-    mm, above 0: how far the arcs may stray.
+    Maximum distance of the arcs from the curve, mm, above 0.
 
 Returns
 -------
 list of points and arcs
 )";
 
-constexpr const char* kFlattened = R"(An outline with chords for its arcs.
+constexpr const char* kFlattened = R"(An outline as a polyline: arcs become chords.
 
 Parameters
 ----------
 path : list of points and arcs, or a circle
 chord : float
-    mm: how far a chord may stray from its arc. At least 16 chords are made of a full circle, at most 4096.
+    Maximum distance of a chord from its arc, mm. A full circle has 16 to 4096 chords.
 
 Returns
 -------
@@ -231,8 +236,8 @@ bool is_row_of_numbers(const py::handle& value) {
          !py::isinstance<py::sequence>(py::object(sequence[0]));
 }
 
-Row row_of(const py::handle& value, const std::string& place) {
-  const std::string expected = place + ": 2 numbers (a point) or 4 (an arc's via point and end) are expected";
+Row row_of(const py::handle& value, const std::string& where) {
+  const std::string expected = where + ": 2 numbers (a point) or 4 (an arc's via point and end) are expected";
   const auto fast = py::reinterpret_steal<py::object>(
       py::isinstance<py::str>(value) ? nullptr : PySequence_Fast(value.ptr(), ""));
   if (!fast) {
@@ -338,7 +343,7 @@ PyRegion combined(const PyRegion& a, const PyRegion& b, Boolean what, const char
       compute([&](Diagnostics& d) { return combine(a.region, b.region, what, options, d); }).region);
 }
 
-std::string place_of(const PyRegion& region, const py::object& point, double margin) {
+std::string locate(const PyRegion& region, const py::object& point, double margin) {
   switch (region.search().locate(to_point2(point, "point"), mm(finite_number(margin, "margin")))) {
     case Place::inside: return "inside";
     case Place::boundary: return "boundary";
@@ -383,12 +388,15 @@ void bind_region_class(py::module_& m) {
            py::arg("fill") = "nonzero", py::arg("tolerance") = kDefaultTolerance)
       .def_property_readonly(
           "outlines", [](const PyRegion& r) { return list_of(r.region.loops); },
-          "list: closed outlines that do not cross, outer ones counter-clockwise, holes clockwise.")
+          "list: closed outlines that do not intersect, outer ones counter-clockwise, holes clockwise.")
       .def_property_readonly(
-          "area", [](const PyRegion& r) { return area(r.region); }, "float: square mm.")
+          "area", [](const PyRegion& r) { return area(r.region); }, "float: mm2.")
       .def_property_readonly(
-          "length", [](const PyRegion& r) { return length(r.region).mm(); }, "float: mm of boundary.")
-      .def_property_readonly("bounds", &bounds_of, "tuple (x low, y low, x high, y high), or None if empty.")
+          "length", [](const PyRegion& r) { return length(r.region).mm(); },
+          "float: length of the boundary, mm.")
+      .def_property_readonly(
+          "bounds", &bounds_of,
+          "(float, float, float, float) or None: low x, low y, high x, high y, mm; None if empty.")
       .def("__bool__", [](const PyRegion& r) { return !r.region.empty(); })
       .def("__or__", [](const PyRegion& a, const PyRegion& b) { return combined(a, b, Boolean::unite, "|"); })
       .def("__and__",
@@ -410,7 +418,7 @@ void bind_region_class(py::module_& m) {
                 compute([&](Diagnostics& d) { return offset(r.region, mm(distance), options, d); }).region);
           },
           py::arg("distance"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance, kOffset)
-      .def("locate", &place_of, py::arg("point"), py::kw_only(), py::arg("margin") = 0.0, kLocate)
+      .def("locate", &locate, py::arg("point"), py::kw_only(), py::arg("margin") = 0.0, kLocate)
       .def("nearest", &nearest_to, py::arg("point"), kNearest)
       .def(
           "figures",
@@ -438,7 +446,7 @@ void bind_paths(py::module_& m) {
             compute([&](Diagnostics& d) { return widen(outline, mm(half_width), how, options, d); }));
       },
       py::arg("path"), py::arg("half_width"), py::kw_only(), py::arg("ends") = "round",
-      py::arg("tolerance") = kDefaultTolerance, kWiden);
+      py::arg("tolerance") = kDefaultTolerance, kBuffer);
   m.def(
       "parallel",
       [](const py::object& path, double to_left, double tolerance) {
@@ -448,7 +456,7 @@ void bind_paths(py::module_& m) {
         return list_of(compute([&](Diagnostics& d) { return parallel(outline, mm(to_left), options, d); }));
       },
       py::arg("path"), py::arg("to_left"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance,
-      kParallel);
+      kOffsetPath);
   m.def(
       "self_meetings",
       [](const py::object& path, double tolerance) {
@@ -460,7 +468,7 @@ void bind_paths(py::module_& m) {
           list.append(py::make_tuple(s.at.x, s.at.y, s.first, s.second));
         return list;
       },
-      py::arg("path"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance, kSelfMeetings);
+      py::arg("path"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance, kSelfIntersections);
 }
 
 /// Binds a function that takes points and a tolerance in mm.

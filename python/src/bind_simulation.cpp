@@ -1,5 +1,4 @@
-// The simulator in Python: what is left of the stock, what was touched that should not be, meshes and
-// pictures.
+// The simulation of milling in Python: volumes, hazards, columns, meshes.
 #include <memory>
 
 #include "bindings.h"
@@ -20,7 +19,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// A job of a toolpath with exactly these tools and this stock.
+/// A job of a toolpath with the given tools and stock only.
 std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& stock, const py::object& tools) {
   if (!py::isinstance<Stock>(stock))
     throw py::type_error("stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation)");
@@ -131,7 +130,7 @@ namespace {
 
 void bind_result(py::module_& m) {
   py::class_<MillingResult, JobResult>(m, "Simulation",
-                                       "What a toolpath left of the stock. Made by `simulate`.")
+                                       "The workpiece after the cuts of a program. Made by `simulate`.")
       .def("__repr__",
            [](const MillingResult& r) {
              return "<kerf.Simulation: " + number_text(r.simulation().removed.mm3(), 3) + " of " +
@@ -140,7 +139,7 @@ void bind_result(py::module_& m) {
            })
       .def_property_readonly(
           "stock_mm3", [](const MillingResult& r) { return r.simulation().stock.mm3(); },
-          "float: volume before, mm3.")
+          "float: volume of the stock, mm3.")
       .def_property_readonly(
           "removed_mm3", [](const MillingResult& r) { return r.simulation().removed.mm3(); },
           "float: volume cut away, mm3.")
@@ -159,7 +158,7 @@ void bind_result(py::module_& m) {
           "(int, int): columns in X and Y.")
       .def_property_readonly(
           "seconds", [](const MillingResult& r) { return r.simulation().seconds; },
-          "float: time the simulation took.")
+          "float: duration of the simulation.")
       .def_property_readonly(
           "hazards",
           [](const MillingResult& r) {
@@ -167,22 +166,38 @@ void bind_result(py::module_& m) {
             for (const Hazard& hazard : r.simulation().hazards) list.append(describe(r.path(), hazard));
             return list;
           },
-          "list of dict: moves that would break a tool or a part, in order; see `kerf simulate --json`.")
+          "list of dict: hazards in the order of steps: `kind`, `step`, `at`, `depth_mm`, `removed_mm3`, "
+          "`origin`.")
       .def_property_readonly(
           "removed_by_step",
           [](const MillingResult& r) { return to_array(r.simulation().removed_by_step, "float32", 1); },
           "ndarray (steps,): volume removed by each step, mm3.")
       .def("column", &column_of, py::arg("i"), py::arg("j"),
-           "Material of a column: list of (low, high) Z in mm, lowest first.")
+           R"(The material of a dexel column.
+
+Parameters
+----------
+i, j : int
+    Index in X and in Y, from the lower left corner of the stock.
+
+Returns
+-------
+list of (float, float)
+    Intervals (low, high) in Z, mm, lowest first.
+
+Raises
+------
+IndexError
+    If there is no such column.)")
       .def("mesh", &mesh_arrays, py::kw_only(), py::arg("sharp") = true,
            R"(The surface as a closed mesh.
 
 Parameters
 ----------
 sharp : bool
-    Whether vertices go where the tools really ended, most of them to about 2 microns (see
-    docs/decisions/0006-mesh.md for where not); else surfaces run through the columns and walls stand
-    between them, right to half a resolution, which is several times faster.
+    True: vertices are moved to the surfaces and edges of the tools, most of them to about 2 microns (for
+    exceptions see docs/decisions/0006-mesh.md). False: surfaces are interpolated between columns and walls
+    lie halfway between them, accurate to half a resolution; several times faster.
 
 Returns
 -------
@@ -197,21 +212,21 @@ void bind_simulation(py::module_& m) {
   bind_result(m);
   m.def("simulate", &simulate_program, py::arg("path"), py::arg("stock") = py::none(),
         py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0,
-        R"(Cut a program or a toolpath out of its stock.
+        R"(Simulate a program or a toolpath on its stock.
 
 Parameters
 ----------
 path : Program or Toolpath
 stock : Stock or str, optional
-    For a Toolpath a Stock is required. For a Program it may be a str as ``"100x60x12 at centre top"`` (mm);
-    where omitted the program's comments give it, else a block around the cuts is assumed.
+    For a Toolpath a Stock is required. For a Program also a str such as ``"100x60x12 at centre top"`` (mm);
+    default: from the program's comments, else a block around the cuts is assumed.
 tools : ToolTable, optional
-    The built-in tools where omitted. For a Program also a Tool, a str as ``"2=V d=12.7 angle=90"`` or a list
-    of them; the program's comments and the built-in tools supply the rest.
+    Default: the built-in tools. For a Program also a Tool, a str such as ``"2=V d=12.7 angle=90"`` or a list
+    of them; other tools are those of the program's comments and the built-in ones.
 resolution : float
-    Distance of the material columns in mm; 0 chooses one.
+    Distance of the dexel columns, mm; 0: automatic.
 threads : int
-    0: as many as the machine has. The result does not depend on it.
+    0: as many as the processor has. The result does not depend on it.
 
 Returns
 -------
@@ -220,7 +235,7 @@ Simulation
 Raises
 ------
 kerf.Error
-    Unknown tool, stock without volume, resolution too fine.)");
+    If a tool is unknown, the stock has no volume, or the resolution is too fine.)");
   m.def("simulate", &simulate_toolpath, py::arg("path"), py::arg("stock") = py::none(),
         py::arg("tools") = py::none(), py::arg("resolution") = 0.0, py::arg("threads") = 0);
 }

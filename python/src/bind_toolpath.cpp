@@ -1,4 +1,4 @@
-// The toolpath in Python: building it call by call, reading G-code into it, looking at its steps.
+// The toolpath in Python: adding steps, reading G-code, accessing steps.
 #include <array>
 #include <cstdio>
 
@@ -39,7 +39,7 @@ const char* name_of_plane(Plane plane) {
   return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ";
 }
 
-/// The fields of one step as `kerf steps` prints them.
+/// The fields of one step, named as by `kerf steps`.
 py::dict describe(const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   py::dict d;
@@ -109,15 +109,15 @@ SpindleTurn to_spindle_turn(const std::string& name) {
   return to_turn(name) == Turn::cw ? SpindleTurn::cw : SpindleTurn::ccw;
 }
 
-/// Raises ValueError for an arc whose ends are not equally far from its centre. Where the arc begins is not
-/// known before the first move.
+/// Raises ValueError for an arc with different radii at its start and end point. Before the first motion the
+/// start point is unknown.
 void check_radii(const Toolpath& path, const step::Arc& arc) {
   std::size_t i = path.size();
   while (i > 0 && !path[i - 1].is_motion()) --i;
   if (i == 0) return;
   const ArcWalk walk = walk_arc(path[i - 1].to(), arc.to, arc.centre, arc.plane, arc.turn, 0);
   if (ArcMismatch().permits(walk.start_radius, walk.end_radius)) return;
-  throw py::value_error("the arc begins " + number_text(walk.start_radius, 4) +
+  throw py::value_error("the arc starts " + number_text(walk.start_radius, 4) +
                         " mm from its centre and ends " + number_text(walk.end_radius, 4) + " mm from it");
 }
 
@@ -129,12 +129,12 @@ void bind_motions(py::class_<Toolpath>& c) {
         path.add(step::Rapid{end}, path.origins().add(script_location("rapid")));
       },
       py::arg("to"),
-      R"(Append a move at rapid speed.
+      R"(Append a rapid.
 
 Parameters
 ----------
 to : sequence of 3 float
-    End position, mm, work coordinates.)");
+    End point, mm, work coordinates.)");
   c.def(
       "cut",
       [](Toolpath& path, const py::object& to, double feed) {
@@ -142,12 +142,12 @@ to : sequence of 3 float
         path.add(step::Cut{end, positive_feed(feed)}, path.origins().add(script_location("cut")));
       },
       py::arg("to"), py::arg("feed"),
-      R"(Append a straight move at feed.
+      R"(Append a straight cut.
 
 Parameters
 ----------
 to : sequence of 3 float
-    End position, mm, work coordinates.
+    End point, mm, work coordinates.
 feed : float
     mm/min, above 0.)");
   c.def(
@@ -166,30 +166,35 @@ feed : float
       },
       py::arg("to"), py::arg("centre"), py::arg("turn"), py::arg("feed"), py::arg("plane") = "XY",
       py::arg("extra_turns") = 0,
-      R"(Append an arc, or a helix where the third axis moves.
+      R"(Append an arc, or a helix if the third axis moves.
 
 Parameters
 ----------
 to : sequence of 3 float
-    End position, mm. Equal to the begin in the plane: a full circle.
+    End point, mm, work coordinates. Equal to the start point in the plane: a full circle.
 centre : sequence of 2 float
-    Centre, mm, absolute, in the order of the plane's name.
+    Centre, mm, work coordinates, in the order of the plane's name.
 turn : {'cw', 'ccw'}
-    Sense seen from the positive third axis (G2 is 'cw').
+    Direction seen from the positive third axis (G2 is 'cw').
 feed : float
     mm/min, above 0.
 plane : {'XY', 'XZ', 'YZ'}
 extra_turns : int
-    Whole circles beyond the first arrival.)");
+    Full turns in addition to the arc.
+
+Raises
+------
+ValueError
+    If the radii at start and end point differ.)");
 }
 
-/// mm3 of a road from where the path stands, of this cross-section.
-double volume_of_road(const Toolpath& path, Point3 to, double width, double height) {
+/// The volume of a bead of the given width and height from the last position of the path, mm3.
+double volume_of_bead(const Toolpath& path, Point3 to, double width, double height) {
   std::size_t i = path.size();
   while (i > 0 && !path[i - 1].is_motion()) --i;
-  if (i == 0) throw py::value_error("without a volume a move must come before, from where the road goes");
+  if (i == 0) throw py::value_error("without a volume, a motion to the start point of the bead is required");
   if (!(height > 0.0 && width >= height))
-    throw py::value_error("without a volume width and height must be told, and width be no less than height");
+    throw py::value_error("without a volume, width and height are required, and width >= height");
   return bead_volume(mm(distance(path[i - 1].to().xy(), to.xy())), mm(width), mm(height)).mm3();
 }
 
@@ -205,23 +210,28 @@ void bind_extrude(py::class_<Toolpath>& c) {
         bead.height = mm(number_within(height, 0.0, limits::kMaxBeadWidth, "height", "mm"));
         bead.volume = mm3(volume ? number_within(*volume, -limits::kMaxExtrudedVolume,
                                                  limits::kMaxExtrudedVolume, "volume", "mm3")
-                                 : volume_of_road(path, bead.to, width, height));
+                                 : volume_of_bead(path, bead.to, width, height));
         path.add(bead, path.origins().add(script_location("extrude")));
       },
       py::arg("to"), py::arg("feed"), py::arg("volume") = py::none(), py::arg("width") = 0.0,
       py::arg("height") = 0.0,
-      R"(Append a straight move that lays a bead, the nozzle's height being its top.
+      R"(Append an extruding motion, which lays a bead whose top is at the height of the nozzle.
 
 Parameters
 ----------
 to : sequence of 3 float
-    End position, mm, work coordinates.
+    End point, mm, work coordinates.
 feed : float
     mm/min, above 0.
 volume : float, optional
-    Of the whole bead, mm3; below 0 draws filament back. What `width` and `height` give where left out.
+    Of the whole bead, mm3; below 0 retracts filament. Default: from `width` and `height`.
 width, height : float
-    Of the bead, mm; 0: told by the volume and the step in Z, see `simulate_print`.)");
+    Of the bead, mm; 0: from the volume and the step in Z, see `simulate_print`.
+
+Raises
+------
+ValueError
+    If neither a volume nor a valid width and height are given.)");
 }
 
 void bind_other_steps(py::class_<Toolpath>& c) {
@@ -231,7 +241,7 @@ void bind_other_steps(py::class_<Toolpath>& c) {
         path.add(step::ToolChange{whole_within(number, 0, limits::kMaxToolNumber, "number")},
                  path.origins().add(script_location("tool")));
       },
-      py::arg("number"), "Append a tool change to the tool of this number.");
+      py::arg("number"), "Append a change to the tool with this number.");
   c.def(
       "spindle",
       [](Toolpath& path, double rpm_value, const std::string& turn) {
@@ -246,13 +256,13 @@ void bind_other_steps(py::class_<Toolpath>& c) {
         number_within(value, 0.0, limits::kMaxDwellSeconds, "seconds", "s");
         path.add(step::Dwell{seconds(value)}, path.origins().add(script_location("dwell")));
       },
-      py::arg("seconds"), "Append a pause of the given length in seconds.");
+      py::arg("seconds"), "Append a dwell of this duration, s.");
   c.def(
       "note",
       [](Toolpath& path, const std::string& text) {
         path.add(step::Note{text}, path.origins().add(script_location("note")));
       },
-      py::arg("text"), "Append a remark that posts write as a comment.");
+      py::arg("text"), "Append a note, which posts write as a comment.");
 }
 
 Toolpath read(const std::string& text, const std::string& name, const std::optional<double>& filament) {
@@ -290,10 +300,11 @@ py::dict report_dict(const Toolpath& path) {
 }  // namespace
 
 void bind_toolpath(py::module_& m) {
-  py::class_<Toolpath> c(m, "Toolpath", R"(A list of steps: moves, tool changes, spindle and the rest.
+  py::class_<Toolpath> c(m, "Toolpath",
+                         R"(A list of steps: motions, tool changes, spindle commands and others.
 
-Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step
-remembers the line of the script that made it, so that `simulate` can say which line broke something.
+Positions are complete and absolute, in mm and work coordinates (Z up). Nothing is modal. Every step stores
+the line of the script that added it; hazards of `simulate` and `check` refer to it.
 
 Examples
 --------
@@ -315,18 +326,24 @@ Examples
       "__getitem__",
       [](const Toolpath& path, py::ssize_t i) { return describe(path, checked_index(path, i)); },
       py::arg("index"), "One step as a dict with the fields of `kerf steps`.");
-  c.def("report", &report_dict, "Counts, lengths (mm) and bounds (mm) of the motions, as a dict.");
+  c.def("report", &report_dict, R"(Figures of the motions.
+
+Returns
+-------
+dict
+    `lines`, `arcs`, `rapids` (numbers); `cut_mm`, `rapid_mm` (lengths); `cut_bounds_mm` (low corner, high
+    corner), absent without cuts.)");
   m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>", py::arg("filament") = py::none(),
-        R"(Read G-code text into a Toolpath.
+        R"(Read G-code.
 
 Parameters
 ----------
 text : str
-    A whole program (RS274).
+    A complete program (RS274).
 name : str
     File name for messages.
 filament : float, optional
-    Diameter of a printer's filament, mm; what the program's remarks say, else 1.75, where left out.
+    Diameter of a printer's filament, mm. Default: from the program's comments, else 1.75.
 
 Returns
 -------
@@ -335,7 +352,8 @@ Toolpath
 Raises
 ------
 kerf.Error
-    Where the text has errors; all of them are in its `diagnostics`. Warnings go to the `warnings` module.)");
+    If the text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
+    `warnings`.)");
 }
 
 }  // namespace kerf::python

@@ -13,8 +13,7 @@ namespace py = pybind11;
 
 namespace {
 
-/// "square" and {diameter: 3.175} as the text that tools are told by on the command line, so that one reader
-/// checks both.
+/// "square" and {diameter: 3.175} as the text of a --tool option, so that both are checked by one function.
 std::string option_text(const std::string& shape_name, const py::kwargs& sizes) {
   std::string text = shape_name;
   for (const auto& [key, value] : sizes) {
@@ -29,8 +28,8 @@ std::string option_text(const std::string& shape_name, const py::kwargs& sizes) 
   return text;
 }
 
-Tool tool_from_text(const std::string& text, long long told_number) {
-  const int number = whole_within(told_number, 0, limits::kMaxToolNumber, "number");
+Tool tool_from_text(const std::string& text, long long given_number) {
+  const int number = whole_within(given_number, 0, limits::kMaxToolNumber, "number");
   Diagnostics diagnostics;
   std::optional<Tool> tool = read_tool_option(text, script_location("Tool"), diagnostics);
   raise_or_warn(diagnostics);
@@ -44,9 +43,9 @@ Tool tool_from_spec(const py::object& spec, long long number) {
   if (!py::isinstance<py::int_>(spec))
     throw py::type_error("spec must be a str such as 'square d=3.175 flute=12' or a tool's number");
   int overflow = 0;
-  const long long told = PyLong_AsLongLongAndOverflow(spec.ptr(), &overflow);
+  const long long value = PyLong_AsLongLongAndOverflow(spec.ptr(), &overflow);
   return tool_from_text(
-      std::to_string(whole_within(overflow == 0 ? told : -1, 0, limits::kMaxToolNumber, "spec")), number);
+      std::to_string(whole_within(overflow == 0 ? value : -1, 0, limits::kMaxToolNumber, "spec")), number);
 }
 
 py::list knots_of(const Profile& profile) {
@@ -55,8 +54,8 @@ py::list knots_of(const Profile& profile) {
   return list;
 }
 
-Tool drawn_tool(const py::sequence& knots, long long told_number) {
-  const int number = whole_within(told_number, 0, limits::kMaxToolNumber, "number");
+Tool drawn_tool(const py::sequence& knots, long long given_number) {
+  const int number = whole_within(given_number, 0, limits::kMaxToolNumber, "number");
   shape::Drawn drawn;
   for (const py::handle knot : knots) {
     const Point3 k = to_point3(knot, "a knot (r, z, bulge)");
@@ -75,23 +74,30 @@ Stock block_of(const py::object& size, const std::string& zero, const std::strin
   number_within(std::max({edges.x, edges.y, edges.z}), 0.0, limits::kMaxStockSize, "size", "mm");
   const std::optional<ZeroCorner> corner = parse_zero_corner(zero);
   if (!corner)
-    throw py::value_error("unknown place of zero '" + zero +
+    throw py::value_error("unknown position of work zero '" + zero +
                           "'; known: lower-left, lower-centre, lower-right, centre-left, centre, "
                           "centre-right, top-left, top-centre, top-right");
   const std::optional<ZeroHeight> height = parse_zero_height(zero_height);
-  if (!height) throw py::value_error("unknown height of zero '" + zero_height + "'; known: top, bottom");
+  if (!height) throw py::value_error("unknown height of work zero '" + zero_height + "'; known: top, bottom");
   return make_block(edges, *corner, *height);
 }
 
 void bind_tool(py::module_& m) {
-  py::class_<Tool> c(m, "Tool", R"(A cutting tool: its silhouette of lines and arcs, turned about the axis.
+  py::class_<Tool> c(m, "Tool",
+                     R"(A cutting tool: a silhouette of lines and arcs that turns about the spindle axis.
 
 Parameters
 ----------
 spec : str or int
-    As on the command line: ``"square d=3.175 flute=12.7"``, ``"V d=12.7 angle=90"``, or a tool's number.
+    As on the command line: ``"square d=3.175 flute=12.7"``, ``"V d=12.7 angle=90"``, or the number of a
+    built-in tool.
 number : int
-    Its number in programs; 0 keeps the number of a built-in tool.)");
+    Tool number in programs; 0: that of the built-in tool.
+
+Raises
+------
+kerf.Error
+    If the shape or a dimension is invalid, or the tool is unknown.)");
   bind_copy(c);
   c.def(py::init(&tool_from_spec), py::arg("spec"), py::arg("number") = 0)
       .def_static(
@@ -100,11 +106,44 @@ number : int
             return tool_from_text(option_text(shape_name, sizes), number);
           },
           py::arg("shape"), py::arg("number") = 0,
-          "Make a tool of a named shape; sizes in mm and degrees as keywords.")
+          R"(Make a tool of a named shape.
+
+Parameters
+----------
+shape : str
+    'square', 'ball', 'V' ...
+number : int
+    Tool number in programs.
+**sizes : float
+    Its dimensions in mm and degrees, named as in tool files: ``diameter=3.175``.
+
+Returns
+-------
+Tool
+
+Raises
+------
+kerf.Error
+    If the shape or a dimension is invalid.)")
       .def_static("drawn", &drawn_tool, py::arg("knots"), py::arg("number") = 0,
-                  "Make a tool from its half profile: (r, z, bulge) knots in mm from the tip upwards; bulge "
-                  "as in DXF.")
-      .def_readonly("number", &Tool::number, "int: as in programs (T word); 0 where none was told.")
+                  R"(Make a tool from its half profile.
+
+Parameters
+----------
+knots : sequence of (float, float, float)
+    Points (r, z, bulge) in mm from the tip upwards; bulge of the segment to the next point, as in DXF.
+number : int
+    Tool number in programs.
+
+Returns
+-------
+Tool
+
+Raises
+------
+kerf.Error
+    If the profile is invalid.)")
+      .def_readonly("number", &Tool::number, "int: tool number in programs (T word); 0 if not given.")
       .def_readonly("names", &Tool::names, "list of str: vendors' names.")
       .def_readonly("description", &Tool::description, "str: may be empty.")
       .def_property_readonly(
@@ -121,7 +160,7 @@ number : int
           [](const Tool& t, double depth) {
             return 2.0 * t.silhouette.cutting.radius_at(finite_number(depth, "depth"));
           },
-          py::arg("depth"), "Diameter (mm) at a height above the tip (mm).")
+          py::arg("depth"), "float: diameter at a height above the tip, both in mm.")
       .def("__repr__", [](const Tool& t) {
         return "<kerf.Tool " + std::to_string(t.number) + " " + std::string(name_of(t.shape)) + " " +
                number_text(t.diameter.mm(), 4) + " mm>";
@@ -129,7 +168,7 @@ number : int
 }
 
 void bind_tool_table(py::module_& m) {
-  py::class_<ToolTable> c(m, "ToolTable", "Tools by their number in programs: table[3] = Tool(...).");
+  py::class_<ToolTable> c(m, "ToolTable", "Tools by tool number: ``table[3] = Tool(...)``.");
   bind_copy(c);
   c.def(py::init<>())
       .def("__repr__",
@@ -155,14 +194,13 @@ void bind_tool_table(py::module_& m) {
             for (const auto& [number, tool] : table.tools()) list.append(number);
             return list;
           },
-          "The numbers that have a tool, in order.");
+          "list of int: the tool numbers of the table, ascending.");
   m.def(
-      "built_in_tools", [] { return built_in_tools(); },
-      "A copy of the table of tools that every Kerf knows.");
+      "built_in_tools", [] { return built_in_tools(); }, "ToolTable: a copy of the built-in tools.");
 }
 
 void bind_stock(py::module_& m) {
-  py::class_<Stock> c(m, "Stock", "The material before the first cut: a block, mm, work coordinates.");
+  py::class_<Stock> c(m, "Stock", "The material before the first cut, in mm and work coordinates.");
   bind_copy(c);
   c.def("__repr__",
         [](const Stock& s) {
@@ -172,19 +210,32 @@ void bind_stock(py::module_& m) {
         })
       .def_static("block", &block_of, py::arg("size"), py::arg("zero") = "lower-left",
                   py::arg("zero_height") = "top",
-                  R"(A block with program zero at a named place.
+                  R"(Make a block.
 
 Parameters
 ----------
 size : sequence of 3 float
     Edge lengths in X, Y, Z, mm.
 zero : str
-    'lower-left', 'centre', 'top-right' ...; case, spaces and hyphens do not count.
-zero_height : {'top', 'bottom'})")
+    Position of work zero in XY: 'lower-left', 'centre', 'top-right' ...; case, spaces and hyphens are
+    ignored.
+zero_height : {'top', 'bottom'}
+    Height of work zero.
+
+Returns
+-------
+Stock
+
+Raises
+------
+ValueError
+    If a length is not above 0, or the position is unknown.)")
       .def_property_readonly(
-          "low", [](const Stock& s) { return to_tuple(s.block.low); }, "tuple: lowest corner, mm.")
+          "low", [](const Stock& s) { return to_tuple(s.block.low); },
+          "(float, float, float): lower corner of the bounds, mm.")
       .def_property_readonly(
-          "high", [](const Stock& s) { return to_tuple(s.block.high); }, "tuple: highest corner, mm.");
+          "high", [](const Stock& s) { return to_tuple(s.block.high); },
+          "(float, float, float): upper corner of the bounds, mm.");
 }
 
 }  // namespace

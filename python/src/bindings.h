@@ -1,4 +1,4 @@
-// What the parts of the binding share: diagnostics as exceptions, points from Python, the script's own line.
+// Common to the bindings: diagnostics as exceptions, conversion of arguments, the location in the script.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,15 +12,15 @@
 
 namespace kerf::python {
 
-/// Raises kerf.Error with the list where it holds errors; passes warnings to Python's warnings module else.
+/// Raises kerf.Error with the list if it contains errors; else passes its warnings to the module warnings.
 void raise_or_warn(const Diagnostics& diagnostics);
-/// As raise_or_warn, but OSError where a file could not be written.
+/// As raise_or_warn, but raises OSError if a file could not be written.
 void raise_os_error_or_warn(const Diagnostics& diagnostics);
 /// A list of kerf.Diagnostic.
 pybind11::list to_list(const Diagnostics& diagnostics);
 
-/// A point from any sequence of three numbers; raises ValueError naming the argument where it is not, or not
-/// finite.
+/// A point from any sequence of three finite numbers; otherwise raises TypeError or ValueError that names the
+/// argument.
 Point3 to_point3(const pybind11::handle& value, const char* argument);
 Point2 to_point2(const pybind11::handle& value, const char* argument);
 pybind11::tuple to_tuple(Point3 p);
@@ -40,14 +40,14 @@ void bind_copy(pybind11::class_<Value>& c) {
       pybind11::arg("memo"));
 }
 
-/// Text for Python; bytes that are no UTF-8 (an old file's comment) become the replacement character.
+/// Text for Python; bytes that are not UTF-8 (comments of old files) become the replacement character.
 pybind11::str to_str(std::string_view text);
 
-/// Where in the user's script the call that is running stands.
+/// The location of the running call in the user's script.
 CallSpot script_location(const char* call);
 
-/// Lets Ctrl-C stop long work: asks Python for signals now and then. Made and used with the GIL held by the
-/// caller's thread; `check` re-raises what the signal handler raised.
+/// Stops long work on Ctrl-C: stop_requested() checks Python's signals. Made and used on the caller's thread,
+/// which holds the GIL; rethrow() raises the exception of the signal handler.
 class SignalProgress final : public Progress {
  public:
   void phase(std::string_view) override {}

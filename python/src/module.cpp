@@ -1,4 +1,4 @@
-// The compiled module kerf._kerf: diagnostics, and the list of what is bound.
+// The compiled module kerf._kerf: diagnostics, conversion of arguments, and the list of bindings.
 #include <cmath>
 
 #include "bindings.h"
@@ -21,32 +21,35 @@ py::list origins_of(const Diagnostic& d) {
 }
 
 void bind_diagnostics(py::module_& m) {
-  py::class_<Diagnostic>(m, "Diagnostic", "What is wrong, where, and what helps. Made by Kerf, not by users.")
+  py::class_<Diagnostic>(m, "Diagnostic", R"(An error, a warning or a note about the input.
+
+Diagnostics are made by Kerf; see `kerf.Error.diagnostics`.)")
       .def_property_readonly(
           "severity", [](const Diagnostic& d) { return std::string(to_string(d.severity)); },
           "str: 'error', 'warning' or 'note'.")
       .def_property_readonly(
           "code", [](const Diagnostic& d) { return static_cast<int>(d.code); },
-          "int: stable number of the message.")
+          "int: stable number of the kind of diagnostic.")
       .def_property_readonly(
-          "name", [](const Diagnostic& d) { return std::string(name_of(d.code)); }, "str: the code's name.")
+          "name", [](const Diagnostic& d) { return std::string(name_of(d.code)); },
+          "str: stable name of the code, e.g. 'no_feed'.")
       .def_property_readonly(
           "where", [](const Diagnostic& d) { return to_str(to_string(d.where)); },
-          "str: file, line and column, or drawing spot.")
+          "str: file, line and column; or file, layer, handle and coordinates in a drawing.")
       .def_property_readonly(
           "line",
           [](const Diagnostic& d) -> py::object {
-            if (const auto* spot = std::get_if<TextSpot>(&d.where)) return py::int_(spot->line);
-            if (const auto* spot = std::get_if<CallSpot>(&d.where)) return py::int_(spot->line);
+            if (const auto* text = std::get_if<TextSpot>(&d.where)) return py::int_(text->line);
+            if (const auto* call = std::get_if<CallSpot>(&d.where)) return py::int_(call->line);
             return py::none();
           },
-          "int or None: line in the user's file.")
+          "int or None: line in the file or script.")
       .def_property_readonly(
           "message", [](const Diagnostic& d) { return to_str(d.message); },
-          "str: what is wrong and what was expected.")
+          "str: the error, and what was expected.")
       .def_property_readonly(
-          "hint", [](const Diagnostic& d) { return to_str(d.hint); }, "str: what may help; may be empty.")
-      .def_property_readonly("notes", &origins_of, "list of (str, str): further places and texts.")
+          "hint", [](const Diagnostic& d) { return to_str(d.hint); }, "str: the remedy; may be empty.")
+      .def_property_readonly("notes", &origins_of, "list of (str, str): further locations and texts.")
       .def("__repr__", [](const Diagnostic& d) { return to_str("<kerf.Diagnostic " + to_string(d) + ">"); })
       .def("__str__", [](const Diagnostic& d) { return to_str(to_string(d)); });
 }
@@ -153,14 +156,14 @@ py::str to_str(std::string_view text) {
 py::tuple to_tuple(Point3 p) { return py::make_tuple(p.x, p.y, p.z); }
 
 CallSpot script_location(const char* call) {
-  CallSpot spot;
-  spot.call = call;
+  CallSpot location;
+  location.call = call;
   PyFrameObject* frame = PyEval_GetFrame();  // borrowed
-  if (frame == nullptr) return spot;
-  spot.line = static_cast<std::uint32_t>(PyFrame_GetLineNumber(frame));
+  if (frame == nullptr) return location;
+  location.line = static_cast<std::uint32_t>(PyFrame_GetLineNumber(frame));
   const auto code = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetCode(frame)));
-  spot.file = py::cast<std::string>(code.attr("co_filename"));
-  return spot;
+  location.file = py::cast<std::string>(code.attr("co_filename"));
+  return location;
 }
 
 bool SignalProgress::stop_requested() {
@@ -182,7 +185,7 @@ PYBIND11_MODULE(_kerf, m) {
   m.attr("__version__") = KERF_VERSION;
   error_type = PyErr_NewExceptionWithDoc(
       "kerf.Error",
-      "The input is wrong. `diagnostics` lists every kerf.Diagnostic found, errors and warnings.",
+      "The input is invalid. `diagnostics` is the list of kerf.Diagnostic, errors and warnings.",
       PyExc_ValueError, nullptr);
   if (error_type == nullptr) throw pybind11::error_already_set();
   m.add_object("Error", error_type);

@@ -1,4 +1,4 @@
-// Arguments that several calls take.
+// Conversion of arguments of several functions: programs, tools, stock, machines.
 #include "program_arguments.h"
 
 #include "kerf/files.h"

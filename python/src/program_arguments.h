@@ -1,4 +1,4 @@
-// Arguments that several calls take: programs, tools, stock and machines in the forms that Python gives them.
+// Conversion of arguments of several functions: programs, tools, stock, machines.
 #pragma once
 
 #include <optional>
@@ -9,14 +9,14 @@
 
 namespace kerf::python {
 
-/// A Program, or a Toolpath as a program without tools and stock of its own.
+/// A Program; a Toolpath becomes a program without tools and stock.
 Program to_program(const pybind11::handle& value);
 /// None, a Tool, a text such as "2=V d=12.7 angle=90", a ToolTable, or a sequence of them.
 ToolChoices to_tool_choices(const pybind11::handle& value);
 /// The tools, the stock (None, a Stock, or a text such as "100x60x12 at centre top") and the fixtures.
 JobSettings to_settings(const pybind11::handle& tools, const pybind11::handle& stock,
                         const std::vector<std::pair<std::string, Stock>>& fixtures);
-/// None, or the path of a machine's file.
+/// None, or the path of a machine file.
 std::optional<Machine> to_machine(const pybind11::handle& value);
 /// 0 or above, mm.
 Length to_resolution(double value);

@@ -1,4 +1,4 @@
-// Regions in Python: the class, and what functions that make regions share.
+// Regions in Python: the class, and helpers of functions that return regions.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace kerf::python {
 
 inline constexpr double kDefaultTolerance = 1e-6;  // mm, as Tolerance::weld
 
-/// Runs work without Python's lock, and raises what it has to say.
+/// Calls `work` without the GIL and raises its errors; returns its result.
 template <class Work>
 auto compute(Work work) {
   Diagnostics diagnostics;
@@ -24,7 +24,7 @@ auto compute(Work work) {
   return std::move(*made);
 }
 
-/// A region, with the tree for questions made when first asked.
+/// A region, and the search tree for its queries, which is made by the first one.
 class PyRegion {
  public:
   explicit PyRegion(Region made) : region(std::move(made)) {}
@@ -35,12 +35,12 @@ class PyRegion {
   Region region;
 
  private:
-  mutable std::shared_ptr<RegionSearch> search_;  // made with Python's lock held
+  mutable std::shared_ptr<RegionSearch> search_;  // made with the GIL held
 };
 
 /// A list of points (x, y) and arcs (via x, via y, x, y).
 pybind11::list rows_of(const Outline& outline);
-/// The options of a call, which is named in messages.
+/// The options of a call; `call` is its name in messages.
 RegionOptions options_of(double tolerance, const char* call);
 /// Raises ValueError for an unknown name.
 FillRule rule_of(const std::string& name);

@@ -1,4 +1,4 @@
-// What the bindings of the simulators share: a finished run, its hazards and arrays for Python.
+// Common to the bindings of the simulators: a finished run, its hazards, and numpy arrays.
 #pragma once
 
 #include <memory>
@@ -11,8 +11,8 @@
 
 namespace kerf::python {
 
-/// A finished run with the job that it is of: what the three kinds of simulation share. The run refers to the
-/// toolpath of its job.
+/// A finished run and its job, the base of the three kinds of simulation. The run refers to the toolpath of
+/// the job.
 struct JobResult {
   std::shared_ptr<const Job> job;
   std::shared_ptr<const JobRun> run;
@@ -36,11 +36,11 @@ Result result_of(std::shared_ptr<const Job> job, Simulated simulation) {
   return result;
 }
 
-/// A hazard as the dictionary that Python gets.
+/// A hazard as a dict.
 pybind11::dict describe(const Toolpath& path, const Hazard& hazard);
 
-/// A numpy array of its own memory. Made through numpy's Python interface, which does not depend on the
-/// binding library and numpy agreeing on the layout of numpy's structures.
+/// A numpy array with a copy of the values. Made through numpy's Python interface, so that the binding
+/// library need not support the installed version of numpy.
 template <class T>
 pybind11::object to_array(const std::vector<T>& values, const char* type, pybind11::ssize_t columns) {
   const pybind11::object bytes = pybind11::reinterpret_steal<pybind11::object>(

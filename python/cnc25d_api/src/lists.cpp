@@ -9,8 +9,8 @@ namespace {
 
 using kerf::Point2;
 
-/// A list or tuple whose items are looked at one by one. Its size is asked each time: a number's own
-/// conversion may run Python code that changes the list.
+/// A list or tuple, accessed item by item. Its size is read each time, because converting an item to a number
+/// may run Python code that changes the list.
 class Items {
  public:
   explicit Items(PyObject* object) : object_(object), is_list_(PyList_Check(object)) {}
@@ -79,7 +79,7 @@ Items items_of(PyObject* list, const FormatCodes& codes, const std::string& name
                 std::string(expected) + " numbers are expected, not " + std::to_string(length)};
 }
 
-/// A tuple of floats that the garbage collector need not look at (it would, at each seven hundredth).
+/// A tuple of floats that the garbage collector does not track, as it contains no references to containers.
 PyObject* tuple_of(const double* numbers, Py_ssize_t count) {
   PyObject* tuple = PyTuple_New(count);
   if (tuple == nullptr) throw py::error_already_set();
@@ -95,7 +95,7 @@ PyObject* tuple_of(const double* numbers, Py_ssize_t count) {
   return tuple;
 }
 
-constexpr double kLargest = 1e60;  // beyond it the geometry refuses a number, too
+constexpr double kLargest = 1e60;  // as limits::kMaxOutlineCoordinate
 constexpr const char* kUnusable = "a number is not finite or beyond 1e60";
 
 bool usable(double number) { return std::abs(number) <= kLargest; }
@@ -201,7 +201,7 @@ py::list make_list(const kerf::Circle& circle) {
 }
 
 kerf::Tolerance tolerance_for(const kerf::Outline& outline) {
-  constexpr double kOfSize = 1e-11, kOfPlace = 2e-15;
+  constexpr double kOfSize = 1e-11, kRounding = 2e-15;
   double low_x = outline.start.x, high_x = low_x, low_y = outline.start.y, high_y = low_y;
   const auto add = [&](Point2 p) {
     low_x = std::min(low_x, p.x);
@@ -214,9 +214,9 @@ kerf::Tolerance tolerance_for(const kerf::Outline& outline) {
     if (s.via) add(*s.via);
   }
   const double size = std::max(high_x - low_x, high_y - low_y);
-  const double place = std::max({-low_x, high_x, -low_y, high_y});
+  const double largest = std::max({-low_x, high_x, -low_y, high_y});
   kerf::Tolerance tolerance;
-  tolerance.weld = kerf::mm(kOfSize * size + kOfPlace * place);
+  tolerance.weld = kerf::mm(kOfSize * size + kRounding * largest);
   return tolerance;
 }
 

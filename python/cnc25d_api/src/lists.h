@@ -1,5 +1,5 @@
-// Outlines as Python lists: the formats A, B and C and circles of cnc25d_api, read and made with Python's C
-// interface (a list of ten thousand corners must not cost more than the geometry).
+// Outlines as Python lists: the formats A, B and C and circles of cnc25d_api. With Python's C interface,
+// because pybind11 would take longer for long lists than the geometry.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -10,7 +10,7 @@
 namespace cnc25d {
 namespace py = pybind11;
 
-/// What a call refuses: becomes the Python exception OutlineError.
+/// An error in the arguments of a call: becomes the Python exception OutlineError.
 struct Refusal {
   int code = 0;         // of the message catalogue, e.g. 564 for ERR564
   std::string outline;  // name of the outline, may be empty
@@ -18,7 +18,7 @@ struct Refusal {
   std::string text;
 };
 
-/// The numbers of the messages that a reader uses; they differ from function to function.
+/// The numbers of the error messages of a reader, which differ between functions.
 struct FormatCodes {
   int not_a_list = 937, empty = 75, single = 402, first_length = 457, circle_length = 758;
   int segment_b = 237, segment_a = 247;
@@ -26,10 +26,11 @@ struct FormatCodes {
 
 enum class Format { a, b, c, circle };
 
-/// A or B by the length of the first element, circle where it is a number. Refuses what is no list or tuple.
+/// Format A or B by the length of the first element, circle if that is a number. An error if the object is
+/// not a list or tuple.
 Format format_of(PyObject* list, const FormatCodes& codes, const std::string& name);
 
-/// Reads format A or B. Coordinates must be numbers; whether they are finite is the geometry's to say.
+/// Reads format A or B. Coordinates must be numbers; see require_finite.
 kerf::Outline read_outline(PyObject* list, Format format, const FormatCodes& codes, const std::string& name);
 kerf::Circle read_circle(PyObject* list, const FormatCodes& codes, const std::string& name);
 kerf::Curve read_curve(PyObject* list, const FormatCodes& codes, const std::string& name);
@@ -39,11 +40,10 @@ py::list make_list(const kerf::Outline& outline, Format format = Format::b);
 py::list make_list(const kerf::Curve& curve);
 py::list make_list(const kerf::Circle& circle);
 
-/// Points of an outline closer than this are one: a hundred thousand millionth of its size, and never less
-/// than what rounding does to its coordinates.
+/// Weld tolerance of an outline: 1e-11 of its size, plus the rounding error of its coordinates.
 kerf::Tolerance tolerance_for(const kerf::Outline& outline);
 
-/// Refuses what is not finite or beyond 1e60, naming the element.
+/// An error that names the element if a number is not finite or beyond 1e60.
 void require_finite(const kerf::Outline& outline, const std::string& name);
 void require_finite(const kerf::Curve& curve, const std::string& name);
 

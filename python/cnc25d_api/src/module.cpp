@@ -33,7 +33,7 @@ void raise(const Refusal& refusal) {
   PyErr_SetObject(error_type, error.ptr());
 }
 
-/// The number that Cnc25D's users know a message by; Kerf's own where there was none.
+/// The number of a message in Cnc25D; Kerf's code if it has none.
 int catalogue_number(Code code) {
   switch (code) {
     case Code::outline_arc_straight: return 810;
@@ -65,24 +65,24 @@ std::string warning_text(int number, const std::string& message) {
   return "WARN" + std::to_string(number) + ": Warning, " + message;
 }
 
-/// The refusal of an error that geometry found. Its messages begin with the place, as `NAME.3: ` or
-/// `outline "NAME", element 3: `, which an OutlineError has beside its text.
+/// The Refusal of an error of the geometry. Messages start with the location, `NAME.3: ` or
+/// `outline "NAME", element 3: `, which an OutlineError has in its attributes.
 Refusal refusal_of(const kerf::Diagnostic& error, const std::string& name) {
   Refusal refusal{catalogue_number(error.code), name, -1, error.message};
   for (const std::string& prefix : {name + ".", "outline \"" + name + "\", element "}) {
     if (error.message.rfind(prefix, 0) != 0) continue;
-    const std::size_t begin = prefix.size(), end = error.message.find_first_not_of("0123456789", begin);
-    constexpr std::size_t kDigits = 10;  // more than any list has elements
-    if (end == std::string::npos || end == begin || end - begin > kDigits) continue;
+    const std::size_t first = prefix.size(), end = error.message.find_first_not_of("0123456789", first);
+    constexpr std::size_t kMaxDigits = 10;  // of an element
+    if (end == std::string::npos || end == first || end - first > kMaxDigits) continue;
     if (error.message.compare(end, 2, ": ") != 0) continue;
-    refusal.element = static_cast<Py_ssize_t>(std::stoll(error.message.substr(begin, end - begin)));
+    refusal.element = static_cast<Py_ssize_t>(std::stoll(error.message.substr(first, end - first)));
     refusal.text = error.message.substr(end + 2);
     break;
   }
   return refusal;
 }
 
-/// Turns what was said into the lines to print; refuses where there was an error.
+/// The lines to print for diagnostics; an error becomes a Refusal.
 class Messages {
  public:
   void add(const std::string& text) { list_.append(py::str(text)); }
@@ -105,23 +105,23 @@ class Messages {
 
 void add_corner_messages(Messages& messages, const kerf::Outline& outline, const kerf::CutOutline& cut,
                          const std::string& name) {
-  constexpr int kMost = 50;
-  int said = 0, unsaid = 0, number = 0;
+  constexpr int kMaxMessages = 50;
+  int reported = 0, omitted = 0, number = 0;
   for (const kerf::CornerReport& report : cut.corners) {
     if (report.reason == SharpReason::none) continue;
     const std::size_t i = report.element, n = outline.segments.size();
     const kerf::Length request = i == 0 ? outline.start_corner : outline.segments[i - 1].corner;
     const int arcs =
         (outline.segments[i == 0 ? n - 1 : i - 1].via ? 1 : 0) + (outline.segments[i].via ? 1 : 0);
-    if (said == kMost && unsaid++ > 0) continue;
+    if (reported == kMaxMessages && omitted++ > 0) continue;
     number = catalogue_number(report.reason, request < kerf::Length(), arcs);
-    if (said == kMost) continue;
-    ++said;
+    if (reported == kMaxMessages) continue;
+    ++reported;
     messages.add(warning_text(number, kerf::corner_message(report, request, name)));
   }
-  if (unsaid == 0) return;
-  messages.add(warning_text(number, "and " + std::to_string(unsaid) +
-                                        (unsaid == 1 ? " more corner stays" : " more corners stay") +
+  if (omitted == 0) return;
+  messages.add(warning_text(number, "and " + std::to_string(omitted) +
+                                        (omitted == 1 ? " more corner stays" : " more corners stay") +
                                         " sharp"));
 }
 
@@ -166,13 +166,13 @@ py::tuple cut(const py::object& list, const std::string& name, bool even, bool r
                         report ? py::object(report_list(*made)) : py::none());
 }
 
-kerf::CurveOptions curve_options(double precision, double least_radius, const std::string& name) {
-  if (!std::isfinite(precision) || !std::isfinite(least_radius) || precision < 0.0)
+kerf::CurveOptions curve_options(double precision, double smallest_radius, const std::string& name) {
+  if (!std::isfinite(precision) || !std::isfinite(smallest_radius) || precision < 0.0)
     throw Refusal{7002, name, -1,
                   "precision and router_bit_request must be finite numbers, precision not below 0"};
   kerf::CurveOptions options;
   options.straight = kerf::radians(precision);
-  options.least_radius = kerf::mm(least_radius);
+  options.least_radius = kerf::mm(smallest_radius);
   options.name = name;
   return options;
 }
@@ -184,9 +184,10 @@ py::tuple smooth(const kerf::Curve& curve, const kerf::CurveOptions& options, Me
   return py::make_tuple(make_list(*made), messages.list());
 }
 
-py::tuple smooth_c(const py::object& list, double precision, double least_radius, const std::string& name) {
+py::tuple smooth_c(const py::object& list, double precision, double smallest_radius,
+                   const std::string& name) {
   const FormatCodes codes{.empty = 609, .single = 609, .first_length = 619, .segment_a = 629};
-  const kerf::CurveOptions options = curve_options(precision, least_radius, name);
+  const kerf::CurveOptions options = curve_options(precision, smallest_radius, name);
   const kerf::Curve curve = read_curve(list.ptr(), codes, name);
   if (curve.size() < 2) throw Refusal{609, name, 0, "at least two samples are needed"};
   require_finite(curve, name);
@@ -201,9 +202,10 @@ py::tuple smooth_c(const py::object& list, double precision, double least_radius
   return smooth(curve, options, messages);
 }
 
-py::tuple smooth_b(const py::object& list, double precision, double least_radius, const std::string& name) {
+py::tuple smooth_b(const py::object& list, double precision, double smallest_radius,
+                   const std::string& name) {
   const FormatCodes codes{.empty = 309, .single = 309, .first_length = 319, .segment_b = 319};
-  const kerf::CurveOptions options = curve_options(precision, least_radius, name);
+  const kerf::CurveOptions options = curve_options(precision, smallest_radius, name);
   const kerf::Outline outline = read_outline(list.ptr(), Format::b, codes, name);
   if (outline.segments.empty()) throw Refusal{309, name, 0, "at least two points are needed"};
   require_finite(outline, name);
@@ -222,7 +224,8 @@ py::tuple smooth_b(const py::object& list, double precision, double least_radius
   return smooth(*curve, options, messages);
 }
 
-/// One of the moves of a list that has a format of its own; "C" must be said, as it looks like A.
+/// A transformed list in the format of the original; "C" must be given, because it cannot be distinguished
+/// from A.
 template <class Move>
 py::list moved(const py::object& list, const std::string& format, const FormatCodes& codes,
                const Move& move) {
@@ -244,8 +247,8 @@ double finite(double value, const char* what) {
   return value;
 }
 
-py::list place(const py::object& list, double dx, double fx, double dy, double fy,
-               const std::string& format) {
+py::list transform(const py::object& list, double dx, double fx, double dy, double fy,
+                   const std::string& format) {
   const kerf::Placement placement{{finite(dx, "the offset"), finite(dy, "the offset")},
                                   {finite(fx, "the factor"), finite(fy, "the factor")}};
   if (fx == 0.0 || fy == 0.0) throw Refusal{439, {}, -1, "a factor of 0 would flatten the outline"};
@@ -268,7 +271,7 @@ py::list reverse_curve(const py::object& list) {
   });
 }
 
-/// A figure of format-B outlines and circles; requests of format A are left out.
+/// A figure of format-B outlines and circles; requests of format A are ignored.
 kerf::Figure read_figure(const py::object& list) {
   if (!PyList_Check(list.ptr()) && !PyTuple_Check(list.ptr()))
     throw Refusal{937, "figure", -1, "a figure is a list or a tuple of outlines"};
@@ -349,7 +352,7 @@ py::object arc_circle(std::pair<double, double> from, std::pair<double, double> 
                         circle->turn == kerf::Turn::ccw ? 1 : -1);
 }
 
-/// "A", "B" or "circle", everything about the list checked.
+/// "A", "B" or "circle", after a complete check of the list.
 std::string check(const py::object& list, int segment_b, int segment_a, const std::string& name) {
   const FormatCodes codes{.segment_b = segment_b, .segment_a = segment_a};
   const Format kind = format_of(list.ptr(), codes, name);
@@ -370,8 +373,8 @@ PYBIND11_MODULE(_outline, m) {
   m.doc() = "The compiled part of cnc25d_api.";
   error_type =
       PyErr_NewExceptionWithDoc("cnc25d_api.OutlineError",
-                                "An outline is refused. `code` is the number of the message, `outline` the "
-                                "name given to the call, `element` the index in the list or None.",
+                                "An invalid outline. `code` is the number of the message, `outline` the name "
+                                "given in the call, `element` the index in the list or None.",
                                 PyExc_ValueError, nullptr);
   if (error_type == nullptr) throw py::error_already_set();
   m.add_object("OutlineError", error_type);
@@ -385,7 +388,7 @@ PYBIND11_MODULE(_outline, m) {
   m.def("cut", &cut);
   m.def("smooth_c", &smooth_c);
   m.def("smooth_b", &smooth_b);
-  m.def("place", &place);
+  m.def("transform", &transform);
   m.def("rotate", &rotate);
   m.def("reverse_curve", &reverse_curve);
   m.def("check", &check);
