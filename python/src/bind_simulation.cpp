@@ -128,6 +128,40 @@ py::tuple mesh_tuple(const Mesh& mesh) {
 
 namespace {
 
+constexpr const char* kColumn =
+    R"(The material of a dexel column.
+
+Parameters
+----------
+i, j : int
+    Index in X and in Y, from the lower left corner of the stock.
+
+Returns
+-------
+list of (float, float)
+    Intervals (low, high) in Z, mm, lowest first.
+
+Raises
+------
+IndexError
+    If there is no such column.)";
+
+constexpr const char* kMesh =
+    R"(The surface as a closed mesh.
+
+Parameters
+----------
+sharp : bool
+    True: vertices are moved to the surfaces and edges of the tools, most of them to about 2 microns (for
+    exceptions see docs/decisions/0006-mesh.md). False: surfaces are interpolated between columns and walls
+    lie halfway between them, accurate to half a resolution; several times faster.
+
+Returns
+-------
+tuple of ndarray
+    Points (n, 3) float32 in mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.
+)";
+
 void bind_result(py::module_& m) {
   py::class_<MillingResult, JobResult>(m, "Simulation",
                                        "The workpiece after the cuts of a program. Made by `simulate`.")
@@ -172,38 +206,8 @@ void bind_result(py::module_& m) {
           "removed_by_step",
           [](const MillingResult& r) { return to_array(r.simulation().removed_by_step, "float32", 1); },
           "ndarray (steps,): volume removed by each step, mm3.")
-      .def("column", &column_of, py::arg("i"), py::arg("j"),
-           R"(The material of a dexel column.
-
-Parameters
-----------
-i, j : int
-    Index in X and in Y, from the lower left corner of the stock.
-
-Returns
--------
-list of (float, float)
-    Intervals (low, high) in Z, mm, lowest first.
-
-Raises
-------
-IndexError
-    If there is no such column.)")
-      .def("mesh", &mesh_arrays, py::kw_only(), py::arg("sharp") = true,
-           R"(The surface as a closed mesh.
-
-Parameters
-----------
-sharp : bool
-    True: vertices are moved to the surfaces and edges of the tools, most of them to about 2 microns (for
-    exceptions see docs/decisions/0006-mesh.md). False: surfaces are interpolated between columns and walls
-    lie halfway between them, accurate to half a resolution; several times faster.
-
-Returns
--------
-tuple of ndarray
-    Points (n, 3) float32 in mm, triangles (m, 3) uint32, step of each triangle (m,) uint32.
-)");
+      .def("column", &column_of, py::arg("i"), py::arg("j"), kColumn)
+      .def("mesh", &mesh_arrays, py::kw_only(), py::arg("sharp") = true, kMesh);
 }
 
 }  // namespace

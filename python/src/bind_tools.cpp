@@ -82,9 +82,8 @@ Stock block_of(const py::object& size, const std::string& zero, const std::strin
   return make_block(edges, *corner, *height);
 }
 
-void bind_tool(py::module_& m) {
-  py::class_<Tool> c(m, "Tool",
-                     R"(A cutting tool: a silhouette of lines and arcs that turns about the spindle axis.
+constexpr const char* kTool =
+    R"(A cutting tool: a silhouette of lines and arcs that turns about the spindle axis.
 
 Parameters
 ----------
@@ -97,16 +96,10 @@ number : int
 Raises
 ------
 kerf.Error
-    If the shape or a dimension is invalid, or the tool is unknown.)");
-  bind_copy(c);
-  c.def(py::init(&tool_from_spec), py::arg("spec"), py::arg("number") = 0)
-      .def_static(
-          "make",
-          [](const std::string& shape_name, long long number, const py::kwargs& sizes) {
-            return tool_from_text(option_text(shape_name, sizes), number);
-          },
-          py::arg("shape"), py::arg("number") = 0,
-          R"(Make a tool of a named shape.
+    If the shape or a dimension is invalid, or the tool is unknown.)";
+
+constexpr const char* kMake =
+    R"(Make a tool of a named shape.
 
 Parameters
 ----------
@@ -124,9 +117,10 @@ Tool
 Raises
 ------
 kerf.Error
-    If the shape or a dimension is invalid.)")
-      .def_static("drawn", &drawn_tool, py::arg("knots"), py::arg("number") = 0,
-                  R"(Make a tool from its half profile.
+    If the shape or a dimension is invalid.)";
+
+constexpr const char* kDrawn =
+    R"(Make a tool from its half profile.
 
 Parameters
 ----------
@@ -142,7 +136,19 @@ Tool
 Raises
 ------
 kerf.Error
-    If the profile is invalid.)")
+    If the profile is invalid.)";
+
+void bind_tool(py::module_& m) {
+  py::class_<Tool> c(m, "Tool", kTool);
+  bind_copy(c);
+  c.def(py::init(&tool_from_spec), py::arg("spec"), py::arg("number") = 0)
+      .def_static(
+          "make",
+          [](const std::string& shape_name, long long number, const py::kwargs& sizes) {
+            return tool_from_text(option_text(shape_name, sizes), number);
+          },
+          py::arg("shape"), py::arg("number") = 0, kMake)
+      .def_static("drawn", &drawn_tool, py::arg("knots"), py::arg("number") = 0, kDrawn)
       .def_readonly("number", &Tool::number, "int: tool number in programs (T word); 0 if not given.")
       .def_readonly("names", &Tool::names, "list of str: vendors' names.")
       .def_readonly("description", &Tool::description, "str: may be empty.")
