@@ -12,7 +12,7 @@ constexpr int kRows = 40;                       // beads per layer
 /// Rows of full infill in a square, with a short bead at each turn.
 Toolpath infill(std::int64_t beads) {
   Toolpath path;
-  const OriginId here = path.origins().add(CallSpot{.file = "", .line = 0, .call = "bench"});
+  const OriginId here = path.origins().add(CallLocation{.file = "", .line = 0, .call = "bench"});
   const double side = kRows * kWidth;
   const auto position = [&](int layer, int row, bool far) {
     const double across = (row + 0.5) * kWidth, along = far == (row % 2 == 0) ? side : 0.0;

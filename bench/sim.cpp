@@ -48,7 +48,7 @@ ToolTable table() {
 
 /// A toolpath with a tool and the spindle on.
 struct Job {
-  explicit Job(int tool) : here(path.origins().add(CallSpot{.file = "", .line = 0, .call = "bench"})) {
+  explicit Job(int tool) : here(path.origins().add(CallLocation{.file = "", .line = 0, .call = "bench"})) {
     path.add(step::ToolChange{tool}, here);
     path.add(step::Spindle{rpm(16000), SpindleTurn::cw}, here);
     path.add(step::Rapid{{0, 0, 5}}, here);

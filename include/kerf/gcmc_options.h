@@ -57,7 +57,7 @@ std::string gcmc_line(const Diagnostic& diagnostic);
 class GcmcOutput {
  public:
   virtual ~GcmcOutput() = default;
-  /// A message, warning or error, at once; `where` is a TextSpot, the notes are the calls that led to it,
+  /// A message, warning or error, at once; `where` is a TextLocation, the notes are the calls that led to it,
   /// innermost first.
   virtual void message(const Diagnostic& message) = 0;
   /// A chunk of the text.

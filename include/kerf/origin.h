@@ -14,32 +14,32 @@
 namespace kerf {
 
 /// A location in a text file: line and column count from 1; column 0 means the whole line.
-struct TextSpot {
+struct TextLocation {
   std::string file;
   std::uint32_t line = 0;
   std::uint32_t column = 0;
-  bool operator==(const TextSpot&) const = default;
+  bool operator==(const TextLocation&) const = default;
 };
 
 /// A location in a drawing: x and y in mm, in the drawing's world coordinates.
-struct DxfSpot {
+struct DrawingLocation {
   std::string file;
   std::string layer;
   std::string handle;
   double x = 0.0;
   double y = 0.0;
-  bool operator==(const DxfSpot&) const = default;
+  bool operator==(const DrawingLocation&) const = default;
 };
 
 /// A call of Kerf's interface from a script; file and line of the script, empty and 0 if unknown.
-struct CallSpot {
+struct CallLocation {
   std::string file;
   std::uint32_t line = 0;
   std::string call;
-  bool operator==(const CallSpot&) const = default;
+  bool operator==(const CallLocation&) const = default;
 };
 
-using Origin = std::variant<std::monostate, TextSpot, DxfSpot, CallSpot>;
+using Origin = std::variant<std::monostate, TextLocation, DrawingLocation, CallLocation>;
 
 /// "part.nc:12:5", "plate.dxf: layer 8999, handle 2F, at 10, 20", "job.py:7 (cutline)"; empty for no origin.
 std::string to_string(const Origin& origin);
@@ -81,7 +81,7 @@ class OriginTable {
   std::vector<Record> records_;
   std::vector<std::string> files_;
   std::unordered_map<std::string, std::uint32_t> file_index_;
-  std::vector<DxfSpot> dxf_;
+  std::vector<DrawingLocation> dxf_;
   std::vector<std::string> calls_;
   std::unordered_map<std::string, std::uint32_t> call_index_;
   std::unordered_map<std::uint32_t, OriginId> callers_;

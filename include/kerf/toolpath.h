@@ -5,7 +5,7 @@
 // drawing entity or call that caused it. A step has 64 bytes, an origin 16 more.
 //
 //   Toolpath path;
-//   auto here = path.origins().add(CallSpot{.call = "example"});
+//   auto here = path.origins().add(CallLocation{.call = "example"});
 //   path.add(step::ToolChange{102}, here);
 //   path.add(step::Spindle{rpm(16000), SpindleTurn::cw}, here);
 //   path.add(step::Rapid{{0, 0, 5}}, here);

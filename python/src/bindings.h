@@ -44,7 +44,7 @@ void bind_copy(pybind11::class_<Value>& c) {
 pybind11::str to_str(std::string_view text);
 
 /// The location of the running call in the user's script.
-CallSpot script_location(const char* call);
+CallLocation script_location(const char* call);
 
 /// Stops long work on Ctrl-C: stop_requested() checks Python's signals. Made and used on the caller's thread,
 /// which holds the GIL; rethrow() raises the exception of the signal handler.

@@ -39,8 +39,8 @@ Diagnostics are made by Kerf; see `kerf.Error.diagnostics`.)")
       .def_property_readonly(
           "line",
           [](const Diagnostic& d) -> py::object {
-            if (const auto* text = std::get_if<TextSpot>(&d.where)) return py::int_(text->line);
-            if (const auto* call = std::get_if<CallSpot>(&d.where)) return py::int_(call->line);
+            if (const auto* text = std::get_if<TextLocation>(&d.where)) return py::int_(text->line);
+            if (const auto* call = std::get_if<CallLocation>(&d.where)) return py::int_(call->line);
             return py::none();
           },
           "int or None: line in the file or script.")
@@ -155,8 +155,8 @@ py::str to_str(std::string_view text) {
 
 py::tuple to_tuple(Point3 p) { return py::make_tuple(p.x, p.y, p.z); }
 
-CallSpot script_location(const char* call) {
-  CallSpot location;
+CallLocation script_location(const char* call) {
+  CallLocation location;
   location.call = call;
   PyFrameObject* frame = PyEval_GetFrame();  // borrowed
   if (frame == nullptr) return location;

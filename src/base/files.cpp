@@ -42,12 +42,12 @@ namespace {
 constexpr std::size_t kChunk = std::size_t{1} << 16;  // bytes per read
 
 Diagnostic& too_large(const std::string& path, std::size_t limit, Diagnostics& diagnostics) {
-  return diagnostics.error(Code::file_too_large, TextSpot{path, 0, 0},
+  return diagnostics.error(Code::file_too_large, TextLocation{path, 0, 0},
                            fmt::format("the file is larger than the limit of {} bytes", limit));
 }
 
 void unreadable(const std::string& path, std::string_view why, Diagnostics& diagnostics) {
-  diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0},
+  diagnostics.error(Code::file_unreadable, TextLocation{path, 0, 0},
                     fmt::format("cannot read the file: {}", why));
 }
 
@@ -60,7 +60,7 @@ std::optional<std::string> read_stream(std::FILE* stream, const std::string& pat
   for (;;) {
     const std::size_t got = std::fread(chunk.data(), 1, kChunk, stream);
     if (stop_requested(progress)) {
-      diagnostics.error(Code::stopped, TextSpot{path, 0, 0}, "interrupted while reading");
+      diagnostics.error(Code::stopped, TextLocation{path, 0, 0}, "interrupted while reading");
       return std::nullopt;
     }
     if (got == 0) break;
@@ -183,7 +183,7 @@ struct OutputFile::Body {
   /// Reports the first failure.
   bool fail(std::string_view what, std::string_view why, Diagnostics& diagnostics) {
     if (good)
-      diagnostics.error(Code::file_unwritable, TextSpot{path, 0, 0}, fmt::format("{}: {}", what, why));
+      diagnostics.error(Code::file_unwritable, TextLocation{path, 0, 0}, fmt::format("{}: {}", what, why));
     return good = false;
   }
 };
@@ -252,7 +252,7 @@ bool OutputSet::commit(Diagnostics& diagnostics) {
   for (const Pending& file : pending_) {
     std::error_code error;
     if (!std::filesystem::is_directory(file.path, error)) continue;
-    diagnostics.error(Code::file_unwritable, TextSpot{file.path, 0, 0}, "a folder has this name");
+    diagnostics.error(Code::file_unwritable, TextLocation{file.path, 0, 0}, "a folder has this name");
     return false;
   }
   bool good = true;

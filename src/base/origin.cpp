@@ -9,20 +9,20 @@
 namespace kerf {
 namespace {
 
-std::string text_of(const TextSpot& spot) {
-  if (spot.line == 0) return spot.file;
-  if (spot.column == 0) return fmt::format("{}:{}", spot.file, spot.line);
-  return fmt::format("{}:{}:{}", spot.file, spot.line, spot.column);
+std::string text_of(const TextLocation& where) {
+  if (where.line == 0) return where.file;
+  if (where.column == 0) return fmt::format("{}:{}", where.file, where.line);
+  return fmt::format("{}:{}:{}", where.file, where.line, where.column);
 }
 
-std::string text_of(const DxfSpot& spot) {
-  return fmt::format("{}: layer {}, handle {}, at {}, {}", spot.file, spot.layer, spot.handle,
-                     number_text(spot.x, 3), number_text(spot.y, 3));
+std::string text_of(const DrawingLocation& where) {
+  return fmt::format("{}: layer {}, handle {}, at {}, {}", where.file, where.layer, where.handle,
+                     number_text(where.x, 3), number_text(where.y, 3));
 }
 
-std::string text_of(const CallSpot& spot) {
-  if (spot.file.empty()) return spot.call;
-  return fmt::format("{}:{} ({})", spot.file, spot.line, spot.call);
+std::string text_of(const CallLocation& where) {
+  if (where.file.empty()) return where.call;
+  return fmt::format("{}:{} ({})", where.file, where.line, where.call);
 }
 
 std::string text_of(std::monostate) { return {}; }
@@ -30,7 +30,7 @@ std::string text_of(std::monostate) { return {}; }
 }  // namespace
 
 std::string to_string(const Origin& origin) {
-  return std::visit([](const auto& spot) { return text_of(spot); }, origin);
+  return std::visit([](const auto& where) { return text_of(where); }, origin);
 }
 
 OriginTable::OriginTable() : records_(1) {}
@@ -48,17 +48,17 @@ OriginId OriginTable::text(std::uint32_t file, std::uint32_t line, std::uint32_t
 }
 
 OriginId OriginTable::add(const Origin& origin) {
-  if (const auto* spot = std::get_if<TextSpot>(&origin))
-    return text(file(spot->file), spot->line, spot->column);
-  if (const auto* spot = std::get_if<DxfSpot>(&origin)) {
-    dxf_.push_back(*spot);
-    records_.push_back({file(spot->file), static_cast<std::uint32_t>(dxf_.size() - 1), 0, Kind::dxf});
+  if (const auto* where = std::get_if<TextLocation>(&origin))
+    return text(file(where->file), where->line, where->column);
+  if (const auto* where = std::get_if<DrawingLocation>(&origin)) {
+    dxf_.push_back(*where);
+    records_.push_back({file(where->file), static_cast<std::uint32_t>(dxf_.size() - 1), 0, Kind::dxf});
     return static_cast<OriginId>(records_.size() - 1);
   }
-  if (const auto* spot = std::get_if<CallSpot>(&origin)) {
-    auto [it, is_new] = call_index_.try_emplace(spot->call, static_cast<std::uint32_t>(calls_.size()));
-    if (is_new) calls_.push_back(spot->call);
-    records_.push_back({file(spot->file), spot->line, it->second, Kind::call});
+  if (const auto* where = std::get_if<CallLocation>(&origin)) {
+    auto [it, is_new] = call_index_.try_emplace(where->call, static_cast<std::uint32_t>(calls_.size()));
+    if (is_new) calls_.push_back(where->call);
+    records_.push_back({file(where->file), where->line, it->second, Kind::call});
     return static_cast<OriginId>(records_.size() - 1);
   }
   return OriginId::none;
@@ -74,9 +74,9 @@ Origin OriginTable::resolve(OriginId id) const {
   assert(static_cast<std::size_t>(id) < records_.size());
   const Record& r = records_[static_cast<std::size_t>(id)];
   switch (r.kind) {
-    case Kind::text: return TextSpot{files_[r.file], r.line, r.column};
+    case Kind::text: return TextLocation{files_[r.file], r.line, r.column};
     case Kind::dxf: return dxf_[r.line];
-    case Kind::call: return CallSpot{files_[r.file], r.line, calls_[r.column]};
+    case Kind::call: return CallLocation{files_[r.file], r.line, calls_[r.column]};
     case Kind::none: break;
   }
   return std::monostate{};

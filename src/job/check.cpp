@@ -70,7 +70,7 @@ std::vector<Finding> skipped_codes(const Diagnostics& diagnostics) {
 }
 
 bool is_at_or_after(const Origin& origin, const Origin& other) {
-  const auto *a = std::get_if<TextSpot>(&origin), *b = std::get_if<TextSpot>(&other);
+  const auto *a = std::get_if<TextLocation>(&origin), *b = std::get_if<TextLocation>(&other);
   return a != nullptr && b != nullptr && a->line >= b->line && a->file == b->file;
 }
 
@@ -112,7 +112,7 @@ std::optional<Toolpath> known_part(const Job& job, Diagnostics& diagnostics) {
 std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions& options,
                                           Diagnostics& diagnostics, Progress* progress) {
   if (!job.stock && !job.bar) {
-    diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
+    diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
                         "the material is not checked, because nothing is cut and no stock is given");
     return {};
   }
@@ -165,7 +165,7 @@ std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, D
                                Progress* progress) {
   std::vector<Finding> findings = findings_in_path(job, options, diagnostics);
   if (job.z_downwards && !diagnostics.has_errors()) {
-    diagnostics.warning(Code::not_simulated, TextSpot{job.program.source, 0, 0},
+    diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
                         "the material is not checked, because Z seems to count downwards");
   } else if (!diagnostics.has_errors()) {
     std::vector<Finding> in_material = findings_in_material(job, options, diagnostics, progress);

@@ -86,7 +86,7 @@ std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnos
       if (job.stock) {
         run = run_milling(job, how, diagnostics, progress);
       } else {
-        diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
+        diagnostics.error(Code::nothing_to_cut, TextLocation{job.program.source, 0, 0},
                           "no stock is given and the program cuts nothing: nothing to simulate");
       }
   }

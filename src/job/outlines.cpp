@@ -37,7 +37,7 @@ class TemporaryFile {
 std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnostics& diagnostics) {
   const TemporaryFile noted;
   const auto fail = [&](const std::string& message) {
-    diagnostics.error(Code::script_failed, TextSpot{script, 0, 0}, message);
+    diagnostics.error(Code::script_failed, TextLocation{script, 0, 0}, message);
     return std::vector<NamedOutline>();
   };
   if (noted.path().empty()) return fail("cannot create a temporary file");

@@ -34,12 +34,12 @@ const FrontEnd* by_ending(std::string_view ending) {
 const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   for (const FrontEnd& f : front_ends()) {
     if (!f.looks_like(file.bytes().substr(0, kFirstBytes))) continue;
-    diagnostics.note(Code::input_kind_guessed, TextSpot{file.path(), 0, 0},
+    diagnostics.note(Code::input_kind_guessed, TextLocation{file.path(), 0, 0},
                      fmt::format("unknown file ending; the text is read as {}", f.name));
     return &f;
   }
   diagnostics
-      .error(Code::input_kind_unknown, TextSpot{file.path(), 0, 0},
+      .error(Code::input_kind_unknown, TextLocation{file.path(), 0, 0},
              "unknown type of file: neither its ending nor its text is known")
       .hint = "known endings: " + known_endings();
   return nullptr;
@@ -79,7 +79,7 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   program.front_end = front_end->name;
   program.files.insert(program.files.begin(), file->path());
   if (program.path.size() == 0 && !diagnostics.has_errors())
-    diagnostics.error(Code::nothing_to_cut, TextSpot{program.source, 0, 0},
+    diagnostics.error(Code::nothing_to_cut, TextLocation{program.source, 0, 0},
                       "the program is empty: it has no steps");
   return program;
 }

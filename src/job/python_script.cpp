@@ -63,7 +63,7 @@ int run_python(const std::string& script, const std::vector<std::pair<std::strin
   std::vector<std::string> words{interpreter(), script}, variables = environment_of(environment);
   const std::vector<char*> arguments = pointers(words), environment_texts = pointers(variables);
   const auto fail = [&](const std::string& message) {
-    diagnostics.error(Code::script_failed, TextSpot{script, 0, 0}, message);
+    diagnostics.error(Code::script_failed, TextLocation{script, 0, 0}, message);
     return -1;
   };
   const pid_t child = fork();

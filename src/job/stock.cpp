@@ -35,7 +35,7 @@ void report_assumed_stock(const AssumedStock& assumed, const Job& job, Diagnosti
   const std::string block =
       fmt::format("assuming a block of {} around the cuts, from {} to {}", text(size, "{} x {} x {} mm"),
                   text(b.low, "X{} Y{} Z{}"), text(b.high, "X{} Y{} Z{}"));
-  const Origin where = TextSpot{job.program.source, 0, 0};
+  const Origin where = TextLocation{job.program.source, 0, 0};
   const Box3& cuts = job.report.all.cut_bounds;
   Diagnostic* reported = nullptr;
   if (job.z_downwards)
@@ -107,7 +107,7 @@ void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {
   const bool are_apart = cuts.low.x > block.high.x || cuts.high.x < block.low.x ||
                          cuts.low.y > block.high.y || cuts.high.y < block.low.y || cuts.low.z >= block.high.z;
   diagnostics
-      .warning(Code::stock_untouched, TextSpot{job.program.source, 0, 0},
+      .warning(Code::stock_untouched, TextLocation{job.program.source, 0, 0},
                fmt::format("the program removes nothing: its cuts extend from {}, the stock from {}",
                            text(cuts), text(block)))
       .hint = are_apart

@@ -179,7 +179,7 @@ void warn_unused_tools(const Job& job, const JobSettings& settings, const Uses& 
     std::vector<std::string> used;
     for (const int n : uses.numbers) used.push_back(std::to_string(n));
     diagnostics
-        .warning(Code::option_unused, CallSpot{"", 0, fmt::format("--tool {}=...", number)},
+        .warning(Code::option_unused, CallLocation{"", 0, fmt::format("--tool {}=...", number)},
                  fmt::format("the program never uses tool {}", number))
         .hint = used.empty() ? "it has no tool change; --tool SPEC, without a number, is for all tools"
                              : "it uses tool " + list_text(used);

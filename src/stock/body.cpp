@@ -98,7 +98,7 @@ void turn_round(MeshSolid& mesh) {
 
 /// Reports faults and corrects orientation. False if the mesh is unusable.
 bool check_mesh(MeshSolid& mesh, double& volume, Diagnostics& diagnostics) {
-  const TextSpot file{mesh.name, 0, 0};
+  const TextLocation file{mesh.name, 0, 0};
   const EdgeFaults faults = find_edge_faults(mesh);
   if (faults.open > 0) {
     const Point3& at = faults.first_open;

@@ -209,7 +209,7 @@ void Caster::add_column(std::size_t begin, std::size_t end, int i, int j, RunSin
 }
 
 void Caster::report_faults(Diagnostics& diagnostics) const {
-  const TextSpot file{mesh_.name, 0, 0};
+  const TextLocation file{mesh_.name, 0, 0};
   if (odd_ > 0) {
     diagnostics
         .error(
@@ -233,7 +233,7 @@ std::optional<ColumnRuns> Caster::run(Diagnostics& diagnostics, Progress* progre
     report(progress, static_cast<double>(band) / bands);
     if (stop_requested(progress)) return std::nullopt;
     if (cast_band(band)) continue;
-    diagnostics.error(Code::mesh_too_large, TextSpot{mesh_.name, 0, 0},
+    diagnostics.error(Code::mesh_too_large, TextLocation{mesh_.name, 0, 0},
                       "the mesh has more surfaces above each other than the limit");
     return std::nullopt;
   }

@@ -208,7 +208,7 @@ int run(const std::string& path, bool placed) {
     out["entities"] = placed ? placed_json(*drawing, diagnostics) : list_json(*drawing, drawing->entities);
   Json& reports = out["diagnostics"] = Json::array();
   for (const Diagnostic& d : diagnostics.list()) {
-    const auto* location = std::get_if<TextSpot>(&d.where);
+    const auto* location = std::get_if<TextLocation>(&d.where);
     reports.push_back({{"code", name_of(d.code)},
                        {"severity", to_string(d.severity)},
                        {"line", location != nullptr ? location->line : 0},

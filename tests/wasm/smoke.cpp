@@ -32,7 +32,7 @@ void expect(bool right, const char* what) {
 void check_base_and_geom() {
   expect(number_text(-0.0001, 3) == "0" && parse_number("-2.5e-1") == -0.25, "numbers as text and back");
   Diagnostics diagnostics;
-  diagnostics.error(Code::file_unreadable, TextSpot{"part.nc", 3, 7}, "made up");
+  diagnostics.error(Code::file_unreadable, TextLocation{"part.nc", 3, 7}, "made up");
   expect(to_string(diagnostics.list().front()).rfind("part.nc:3:7", 0) == 0, "a diagnostic with its line");
   const ArcWalk arc = walk_arc({1, 0, 0}, {-1, 0, 0}, {0, 0}, Plane::xy, Turn::ccw, 0);
   expect(std::abs(arc.length() - std::numbers::pi) < 1e-12, "length of half a circle");
@@ -40,7 +40,7 @@ void check_base_and_geom() {
 
 void check_path() {
   Toolpath path;
-  const OriginId here = path.origins().add(CallSpot{"", 0, "smoke"});
+  const OriginId here = path.origins().add(CallLocation{"", 0, "smoke"});
   path.add(step::Cut{{10, 0, -1}, mm_per_min(100)}, here);
   expect(path.size() == 1 && path[0].cut().to.x == 10.0, "a toolpath keeps its step");
 }

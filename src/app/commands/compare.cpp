@@ -131,7 +131,7 @@ Length resolution_for(const Stock& stock, double given) {
 std::optional<Stock> load_target(const Options& options, Diagnostics& usage, Diagnostics& diagnostics) {
   auto target = load_stock(options.target, diagnostics);
   if (!options.target_shift) return target;
-  const auto shift = read_shift_option(*options.target_shift, CallSpot{"", 0, "--target-shift"}, usage);
+  const auto shift = read_shift_option(*options.target_shift, CallLocation{"", 0, "--target-shift"}, usage);
   if (!target || !shift) return std::nullopt;
   StockMove move;
   move.shift = *shift;
@@ -146,7 +146,7 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job(std::move(*program), inputs.job, UnknownTool::error, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
-    diagnostics.error(Code::nothing_to_cut, TextSpot{job.program.source, 0, 0},
+    diagnostics.error(Code::nothing_to_cut, TextLocation{job.program.source, 0, 0},
                       "no stock is given and the program cuts nothing: nothing to compare");
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   SimulationOptions how;
@@ -179,7 +179,7 @@ void refuse_meshes(const std::vector<PartFile>& outputs, Diagnostics& usage) {
   for (const PartFile& file : outputs)
     if (!file.is_picture())
       usage
-          .error(Code::output_kind_unknown, CallSpot{"", 0, "-o"},
+          .error(Code::output_kind_unknown, CallLocation{"", 0, "-o"},
                  fmt::format("\"{}\" is not a picture", file.path))
           .hint = "kerf compare writes .png; kerf simulate writes the part";
 }

@@ -95,7 +95,7 @@ class CommandOutput final : public GcmcOutput {
  private:
   std::string explanation(const Diagnostic& m) {
     std::string text;
-    const auto* where = std::get_if<TextSpot>(&m.where);
+    const auto* where = std::get_if<TextLocation>(&m.where);
     const std::string line = where == nullptr ? "" : line_of(*where);
     if (!line.empty() && where->column > 0) {
       // gcmc reports errors of syntax at the column after the word.
@@ -113,7 +113,7 @@ class CommandOutput final : public GcmcOutput {
     return text;
   }
 
-  std::string line_of(const TextSpot& where) {
+  std::string line_of(const TextLocation& where) {
     constexpr std::size_t kMaxLength = 200;
     auto known = texts_.find(where.file);
     if (known == texts_.end()) {
@@ -163,7 +163,7 @@ int check(const GcmcCommandLine& line, std::string_view text, CommandOutput& out
   if (line.json) {
     Json list = Json::array();
     for (const Diagnostic& d : diagnostics.list()) {
-      const auto* where = std::get_if<TextSpot>(&d.where);
+      const auto* where = std::get_if<TextLocation>(&d.where);
       list.push_back({{"code", static_cast<int>(d.code)},
                       {"column", where != nullptr ? where->column : 0},
                       {"file", where != nullptr ? where->file : ""},

@@ -34,7 +34,7 @@ Result cut_all(const std::vector<NamedOutline>& outlines, const Options& options
   for (const NamedOutline& named : outlines) {
     CornerOptions how;
     how.name = named.name;
-    how.where = TextSpot{options.file, 0, 0};
+    how.where = TextLocation{options.file, 0, 0};
     how.sharing = options.fair ? EdgeSharing::even : EdgeSharing::in_order;
     auto cut = cut_corners(named.outline, how, diagnostics);
     if (!cut) continue;

@@ -37,7 +37,7 @@ void warn_unused(const std::vector<Option>& options, const std::string& why, con
                  Diagnostics& diagnostics) {
   for (const Option& option : options)
     if (option.is_given())
-      diagnostics.warning(Code::option_unused, CallSpot{"", 0, option.name()}, why).hint = hint;
+      diagnostics.warning(Code::option_unused, CallLocation{"", 0, option.name()}, why).hint = hint;
 }
 
 /// The job of a program, with a warning for each given option that has no effect on it.

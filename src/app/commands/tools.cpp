@@ -100,7 +100,8 @@ std::optional<Tool> find(const std::string& asked, const ToolTable& table, Diagn
   if (number && *number >= 0 && *number <= 999'999'999)
     if (const Tool* tool = table.find(static_cast<int>(*number))) return *tool;
   if (const Tool* tool = table.find_name(asked)) return *tool;
-  return read_tool_option(asked, CallSpot{"", 0, fmt::format("\"{}\"", asked.substr(0, 80))}, diagnostics);
+  return read_tool_option(asked, CallLocation{"", 0, fmt::format("\"{}\"", asked.substr(0, 80))},
+                          diagnostics);
 }
 
 void print_parts(Console& console, const Silhouette& silhouette) {

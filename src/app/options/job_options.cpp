@@ -54,7 +54,7 @@ std::optional<Fixture> read_fixture(const std::string& text, Diagnostics& usage,
   Diagnostics ignored;
   if (const auto box = read_stock_option(text, {}, ignored)) return Fixture{text, *box};
   usage
-      .error(Code::fixture_option, CallSpot{"", 0, "--fixture"},
+      .error(Code::fixture_option, CallLocation{"", 0, "--fixture"},
              fmt::format("\"{}\" is not a fixture", text.substr(0, 60)))
       .hint = "expected a box, such as \"0,0,-12 to 20,15,6\", or a mesh file, such as clamp.stl";
   return std::nullopt;
@@ -65,19 +65,20 @@ void read_body_options(const BodyOptions& options, JobSettings& settings, Diagno
                        Diagnostics& diagnostics) {
   for (const std::string& path : {options.mesh, options.left})
     if (!path.empty()) settings.stock_file = load_stock(path, diagnostics);
-  if (options.flip) settings.move = read_flip_option(*options.flip, CallSpot{"", 0, "--flip"}, usage);
+  if (options.flip) settings.move = read_flip_option(*options.flip, CallLocation{"", 0, "--flip"}, usage);
   if (options.shift) {
-    const auto shift = read_shift_option(*options.shift, CallSpot{"", 0, "--shift"}, usage);
+    const auto shift = read_shift_option(*options.shift, CallLocation{"", 0, "--shift"}, usage);
     if (!settings.move) settings.move.emplace();
     settings.move->shift = shift.value_or(Point3{});
   }
   for (const std::string& text : options.fixtures)
     if (auto fixture = read_fixture(text, usage, diagnostics))
       settings.fixtures.push_back(std::move(*fixture));
-  if (options.rotary) settings.bar = read_rotary_option(*options.rotary, CallSpot{"", 0, "--rotary"}, usage);
+  if (options.rotary)
+    settings.bar = read_rotary_option(*options.rotary, CallLocation{"", 0, "--rotary"}, usage);
   if (options.rotary && !options.fixtures.empty())
     usage
-        .error(Code::fixture_option, CallSpot{"", 0, "--fixture"},
+        .error(Code::fixture_option, CallLocation{"", 0, "--fixture"},
                "contacts with fixtures cannot be found on a fourth axis (--rotary)")
         .hint = "remove --fixture and check the clearance to chuck and clamps yourself";
 }
@@ -138,7 +139,7 @@ void add_rotary_option(CommandParser& parser, BodyOptions& options) {
 ToolChoices read_tool_options(const ToolOptions& options, Diagnostics& usage, Diagnostics& diagnostics) {
   ToolChoices choices;
   for (const std::string& text : options.specs)
-    add_tool(text, CallSpot{"", 0, fmt::format("--tool \"{}\"", text.substr(0, 80))}, choices, usage);
+    add_tool(text, CallLocation{"", 0, fmt::format("--tool \"{}\"", text.substr(0, 80))}, choices, usage);
   for (const std::string& file : options.files) add_tool_file(file, choices, diagnostics);
   return choices;
 }
@@ -153,7 +154,8 @@ JobInputs read_job_options(const JobOptions& options, Diagnostics& usage, Diagno
   JobInputs inputs;
   inputs.job.tools = read_tool_options(options.tools, usage, diagnostics);
   inputs.program = program_options(options.reading, inputs.job.tools);
-  if (options.stock) inputs.job.stock = read_stock_option(*options.stock, CallSpot{"", 0, "--stock"}, usage);
+  if (options.stock)
+    inputs.job.stock = read_stock_option(*options.stock, CallLocation{"", 0, "--stock"}, usage);
   read_body_options(options.bodies, inputs.job, usage, diagnostics);
   if (!options.machine.empty())
     if (const auto file = InputFile::open(options.machine, diagnostics))

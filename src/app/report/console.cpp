@@ -49,7 +49,7 @@ struct Group {
 
 /// The line of a location in a text; 0 for other origins.
 std::uint32_t line_of(const Diagnostic& diagnostic) {
-  const auto* where = std::get_if<TextSpot>(&diagnostic.where);
+  const auto* where = std::get_if<TextLocation>(&diagnostic.where);
   return where == nullptr ? 0 : where->line;
 }
 

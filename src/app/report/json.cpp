@@ -8,12 +8,14 @@ namespace kerf::app {
 namespace {
 
 Json origin_json(std::monostate) { return nullptr; }
-Json origin_json(const TextSpot& at) { return {{"file", at.file}, {"line", at.line}, {"column", at.column}}; }
-Json origin_json(const DxfSpot& at) {
+Json origin_json(const TextLocation& at) {
+  return {{"file", at.file}, {"line", at.line}, {"column", at.column}};
+}
+Json origin_json(const DrawingLocation& at) {
   return {
       {"file", at.file}, {"layer", at.layer}, {"handle", at.handle}, {"at", {json_of(at.x), json_of(at.y)}}};
 }
-Json origin_json(const CallSpot& at) { return {{"file", at.file}, {"line", at.line}, {"call", at.call}}; }
+Json origin_json(const CallLocation& at) { return {{"file", at.file}, {"line", at.line}, {"call", at.call}}; }
 
 std::string_view word(Plane plane) { return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ"; }
 std::string_view word(Turn turn) { return turn == Turn::cw ? "cw" : "ccw"; }

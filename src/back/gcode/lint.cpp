@@ -96,7 +96,7 @@ class Linter {
   void use(std::uint32_t letters) { used_ |= letters; }
   void refuse(Code code, std::string message) {
     refused_ = true;
-    diagnostics_.error(code, TextSpot{file_, line_, column_}, std::move(message));
+    diagnostics_.error(code, TextLocation{file_, line_, column_}, std::move(message));
   }
 
   const PostProfile& profile_;

@@ -241,7 +241,7 @@ class ProfileReader {
   std::optional<PostProfile> read(std::string_view text, const PostProfile* (*find)(std::string_view));
 
  private:
-  Origin location(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
+  Origin location(const toml::source_position& at) const { return TextLocation{file_, at.line, at.column}; }
   Origin location(const toml::node& node) const { return location(node.source().begin); }
   void read_table(std::string_view section, const toml::table& table);
   void read_key(std::string_view section, const toml::key& key, const toml::node& node);
@@ -295,7 +295,7 @@ std::optional<PostProfile> ProfileReader::read(std::string_view text,
                                                const PostProfile* (*find)(std::string_view)) {
   const std::size_t errors_before = diagnostics_.errors();
   if (text.size() > limits::kMaxProfileBytes) {
-    diagnostics_.error(Code::post_file_syntax, TextSpot{file_, 0, 0},
+    diagnostics_.error(Code::post_file_syntax, TextLocation{file_, 0, 0},
                        fmt::format("a post file is limited to {} bytes", limits::kMaxProfileBytes));
     return std::nullopt;
   }
@@ -310,7 +310,7 @@ std::optional<PostProfile> ProfileReader::read(std::string_view text,
     if (!inherit(*base, find)) return std::nullopt;
   read_table("", root);
   if (profile_.name.empty() && diagnostics_.errors() == errors_before)
-    diagnostics_.error(Code::post_value_bad, TextSpot{file_, 0, 0},
+    diagnostics_.error(Code::post_value_bad, TextLocation{file_, 0, 0},
                        "a post needs a name, such as name = \"mill\"");
   if (diagnostics_.errors() != errors_before) return std::nullopt;
   return std::move(profile_);

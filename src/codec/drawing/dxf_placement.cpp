@@ -101,7 +101,7 @@ std::string_view type_name(const Drawing& drawing, const Entity& entity) {
 namespace {
 
 Origin at_line(const Drawing& drawing, std::size_t line) {
-  return TextSpot{drawing.file, drawing.binary ? 0 : static_cast<std::uint32_t>(line), 0};
+  return TextLocation{drawing.file, drawing.binary ? 0 : static_cast<std::uint32_t>(line), 0};
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ Origin origin_of(const Drawing& drawing, const Entity& entity) { return at_line(
 
 Origin origin_at(const Drawing& drawing, std::uint32_t layer, std::uint64_t handle, double x_mm,
                  double y_mm) {
-  return DxfSpot{drawing.file, drawing.layers[layer].name, handle_text(handle), x_mm, y_mm};
+  return DrawingLocation{drawing.file, drawing.layers[layer].name, handle_text(handle), x_mm, y_mm};
 }
 
 // ------------------------------------------------------------------------------------------------- matrices

@@ -98,7 +98,7 @@ TagReader::TagReader(std::string_view bytes, const std::string& file, Diagnostic
 }
 
 Origin TagReader::origin_at(std::size_t position) const {
-  return TextSpot{file_, binary_ ? 0 : static_cast<std::uint32_t>(position), 0};
+  return TextLocation{file_, binary_ ? 0 : static_cast<std::uint32_t>(position), 0};
 }
 
 Diagnostic& TagReader::error(Code code, std::size_t position, const std::string& message) {

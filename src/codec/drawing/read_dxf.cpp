@@ -434,7 +434,8 @@ std::optional<Drawing> read_dxf(std::string_view bytes, const std::string& file_
   if (!bytes.starts_with("AutoCAD Binary DXF") && !starts_like_dxf(bytes)) {
     const bool empty = bytes.find_first_not_of(" \t\r\n") == std::string_view::npos;
     diagnostics
-        .error(Code::dxf_not_dxf, TextSpot{file_name, 0, 0}, empty ? "the file is empty" : "not a DXF file")
+        .error(Code::dxf_not_dxf, TextLocation{file_name, 0, 0},
+               empty ? "the file is empty" : "not a DXF file")
         .hint = empty ? "" : hint_for(bytes);
     return std::nullopt;
   }

@@ -369,16 +369,20 @@ void BlockReader::skip_space() {
 
 bool BlockReader::fault(Block& block, Code code, const char* at, std::string message, std::string_view hint) {
   block.faulty = true;
-  Diagnostic& d =
-      diagnostics_.error(code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message));
+  Diagnostic& d = diagnostics_.error(code, TextLocation{options_.file_name, block.line, column_of(at)},
+                                     std::move(message));
   d.hint = hint;
   return false;
 }
 
 void BlockReader::unusual(const Block& block, Code code, const char* at, std::string message) {
   const Severity severity = options_.strict ? Severity::error : Severity::warning;
-  diagnostics_.add(
-      {severity, code, TextSpot{options_.file_name, block.line, column_of(at)}, std::move(message), {}, {}});
+  diagnostics_.add({severity,
+                    code,
+                    TextLocation{options_.file_name, block.line, column_of(at)},
+                    std::move(message),
+                    {},
+                    {}});
 }
 
 }  // namespace kerf::gcode

@@ -49,7 +49,7 @@ class Reporter final : public SourceReport {
     Diagnostic d;
     d.severity = severity;
     d.code = code;
-    d.where = TextSpot{sources_[at.file].name, at.line, at.column};
+    d.where = TextLocation{sources_[at.file].name, at.line, at.column};
     d.message = std::move(text);
     d.hint = std::move(hint);
     output_.message(d);
@@ -71,7 +71,7 @@ std::optional<std::string> file_text(const std::string& path, std::string& probl
   std::optional<InputFile> file;
   // Reading a device may not end.
   if (std::filesystem::is_character_file(status) || std::filesystem::is_block_file(status))
-    diagnostics.error(Code::file_unreadable, TextSpot{path, 0, 0}, "it is a device, not a regular file");
+    diagnostics.error(Code::file_unreadable, TextLocation{path, 0, 0}, "it is a device, not a regular file");
   else
     file = InputFile::open(path, diagnostics, kLargestSource);
   if (file) return std::string(file->bytes());
@@ -164,7 +164,7 @@ std::string gcmc_line(const Diagnostic& d) {
     word = "warning: ";
   else if (d.code == Code::gcmc_text_end)
     word = "fatal: ";
-  const auto* where = std::get_if<TextSpot>(&d.where);
+  const auto* where = std::get_if<TextLocation>(&d.where);
   if (where == nullptr) return fmt::format("{}{}", word, d.message);
   return fmt::format("{}:{}:{}: {}{}", where->file, where->line, where->column, word, d.message);
 }

@@ -21,7 +21,7 @@ class OutlineFileReader {
 
  private:
   bool error(const std::string& message) {
-    diagnostics_.error(Code::outline_file_content, TextSpot{file_, 0, 0}, context_ + message);
+    diagnostics_.error(Code::outline_file_content, TextLocation{file_, 0, 0}, context_ + message);
     return false;
   }
   /// Every key of an object must be one of `known`.
@@ -137,9 +137,10 @@ std::vector<NamedOutline> read_outline_file(std::string_view text, const std::st
       ++column;
       if (c == '\n') ++line, column = 1;
     }
-    diagnostics.error(Code::outline_file_syntax, TextSpot{file_name, line, column}, "this is not valid JSON");
+    diagnostics.error(Code::outline_file_syntax, TextLocation{file_name, line, column},
+                      "this is not valid JSON");
   } catch (const Json::exception& problem) {  // a number beyond double
-    diagnostics.error(Code::outline_file_content, TextSpot{file_name, 0, 0}, problem.what());
+    diagnostics.error(Code::outline_file_content, TextLocation{file_name, 0, 0}, problem.what());
   }
   return {};
 }

@@ -94,7 +94,8 @@ std::optional<Stock> read_stock_file(std::string_view bytes, const std::string& 
   }
   const auto format = mesh_format_of(name);
   if (!format) {
-    diagnostics.error(Code::mesh_file, TextSpot{name, 0, 0}, "the file ending is not that of a stock format")
+    diagnostics
+        .error(Code::mesh_file, TextLocation{name, 0, 0}, "the file ending is not that of a stock format")
         .hint = "supported: .stl .3mf .glb .obj (meshes), .kstock (left-over stock of an earlier job)";
     return std::nullopt;
   }

@@ -49,7 +49,7 @@ LibraryWriter::LibraryWriter(std::string_view file_name, const ToolLibraryOption
       next_(std::max(options.first_number, 0)) {}
 
 Origin LibraryWriter::location(std::size_t line) const {
-  return TextSpot{file_, static_cast<std::uint32_t>(line), 0};
+  return TextLocation{file_, static_cast<std::uint32_t>(line), 0};
 }
 
 void LibraryWriter::skip(const Origin& where, std::string_view name, std::string_view reason) {
@@ -141,7 +141,7 @@ std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes) {
 
 void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
                        ToolTable& table, Diagnostics& diagnostics) {
-  const Origin where = TextSpot{std::string(file_name), 0, 0};
+  const Origin where = TextLocation{std::string(file_name), 0, 0};
   std::string unpacked;
   if (bytes.substr(0, 4) == kZipMark) {
     auto inner = zip::Reader(bytes).first(limits::kMaxToolLibraryBytes);

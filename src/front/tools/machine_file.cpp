@@ -35,7 +35,7 @@ class ProfileReader {
   }
 
  private:
-  Origin location(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
+  Origin location(const toml::source_position& at) const { return TextLocation{file_, at.line, at.column}; }
 
   void wrong(std::string_view key, const toml::node& node, std::string_view expected) {
     diagnostics_.error(Code::machine_value, location(node.source().begin),
@@ -113,7 +113,7 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
                                          Diagnostics& diagnostics) {
   const std::string name(file_name);
   if (text.size() > limits::kMaxProfileBytes) {
-    diagnostics.error(Code::machine_file, TextSpot{name, 0, 0}, "a machine file is limited to 1 MB");
+    diagnostics.error(Code::machine_file, TextLocation{name, 0, 0}, "a machine file is limited to 1 MB");
     return std::nullopt;
   }
   if (has_grbl_settings(text)) return detail::read_grbl_settings(text, file_name, diagnostics);
@@ -123,14 +123,14 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
   if (!result) {
     const auto& at = result.error().source().begin;
     diagnostics
-        .error(Code::machine_file, TextSpot{name, at.line, at.column},
+        .error(Code::machine_file, TextLocation{name, at.line, at.column},
                std::string(result.error().description()))
         .hint = kHint;
     return std::nullopt;
   }
   if (result.table().empty()) {
-    diagnostics.error(Code::machine_file, TextSpot{name, 0, 0}, "the file contains no machine setting").hint =
-        kHint;
+    diagnostics.error(Code::machine_file, TextLocation{name, 0, 0}, "the file contains no machine setting")
+        .hint = kHint;
     return std::nullopt;
   }
   const std::size_t errors = diagnostics.errors();

@@ -177,14 +177,14 @@ std::optional<Machine> read_grbl_settings(std::string_view text, std::string_vie
       if (value && *value >= setting.low && *value <= setting.high)
         setting.set(machine, *value);
       else
-        diagnostics.error(Code::machine_value, TextSpot{std::string(file_name), number, 1},
+        diagnostics.error(Code::machine_value, TextLocation{std::string(file_name), number, 1},
                           fmt::format("${} must be {}, found \"{}\"", setting.number, setting.meaning,
                                       line->value.substr(0, 40)));
     }
   }
   if (!soft_limits) machine.travel = {};  // unknown: $130 is 200 by default
   if (diagnostics.errors() > errors) return std::nullopt;
-  note_missing(seen, TextSpot{std::string(file_name), 0, 0}, diagnostics);
+  note_missing(seen, TextLocation{std::string(file_name), 0, 0}, diagnostics);
   return machine;
 }
 

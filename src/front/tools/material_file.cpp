@@ -23,7 +23,8 @@ class MaterialReader {
 
   std::vector<Material> read(std::string_view text) {
     if (text.size() > limits::kMaxProfileBytes) {
-      diagnostics_.error(Code::material_file, TextSpot{file_, 0, 0}, "a material file is limited to 1 MB");
+      diagnostics_.error(Code::material_file, TextLocation{file_, 0, 0},
+                         "a material file is limited to 1 MB");
       return {};
     }
     const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
@@ -48,7 +49,7 @@ class MaterialReader {
 
  private:
   Origin location(const toml::source_region& at) const {
-    return TextSpot{file_, at.begin.line, at.begin.column};
+    return TextLocation{file_, at.begin.line, at.begin.column};
   }
 
   void wrong(const toml::node& node, std::string message) {
@@ -123,7 +124,7 @@ std::optional<Material> material_named(std::string_view name, Diagnostics& diagn
     for (const std::string& other : material.other_names)
       if (fold_name(other) == asked) return material;
   }
-  Diagnostic& error = diagnostics.error(Code::material_unknown, CallSpot{"", 0, "--material"},
+  Diagnostic& error = diagnostics.error(Code::material_unknown, CallLocation{"", 0, "--material"},
                                         fmt::format("unknown material \"{}\"", name.substr(0, 40)));
   const auto meant = did_you_mean(name, known);
   error.hint = meant ? fmt::format("did you mean {}?", *meant) : "known: " + list_text(known);

@@ -24,7 +24,7 @@ class FileReader {
   void read(std::string_view text);
 
  private:
-  Origin location(const toml::source_position& at) const { return TextSpot{file_, at.line, at.column}; }
+  Origin location(const toml::source_position& at) const { return TextLocation{file_, at.line, at.column}; }
   Origin location(const toml::node& node) const { return location(node.source().begin); }
   void error(Code code, const Origin& where, const std::string& message) {
     diagnostics_.error(code, where, message);
@@ -225,7 +225,7 @@ void FileReader::read_root(const toml::table& root) {
 
 void FileReader::read(std::string_view text) {
   if (text.size() > limits::kMaxToolFileBytes) {
-    return error(Code::file_too_large, TextSpot{file_, 0, 0}, "a tool file is limited to 16 MB");
+    return error(Code::file_too_large, TextLocation{file_, 0, 0}, "a tool file is limited to 16 MB");
   }
   const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
   if (parsed) return read_root(parsed.table());

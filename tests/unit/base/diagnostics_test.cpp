@@ -10,8 +10,9 @@ namespace {
 
 TEST(Diagnostic, TextHasOriginMessageNotesAndHint) {
   Diagnostics diagnostics;
-  Diagnostic& d = diagnostics.warning(Code::file_unreadable, TextSpot{"part.nc", 3, 7}, "no number after X");
-  d.notes.push_back({TextSpot{"part.nc", 1, 0}, "the program starts here"});
+  Diagnostic& d =
+      diagnostics.warning(Code::file_unreadable, TextLocation{"part.nc", 3, 7}, "no number after X");
+  d.notes.push_back({TextLocation{"part.nc", 1, 0}, "the program starts here"});
   d.hint = "write X0";
   EXPECT_EQ(to_string(d),
             "part.nc:3:7: warning: no number after X [1001]\n"
@@ -44,19 +45,19 @@ TEST(Codes, HaveNamesAndMeaningsOfTheirOwn) {
 
 TEST(Origin, IsWrittenAsEditorsReadIt) {
   EXPECT_EQ(to_string(Origin{}), "");
-  EXPECT_EQ(to_string(Origin{TextSpot{"part.nc", 12, 5}}), "part.nc:12:5");
-  EXPECT_EQ(to_string(Origin{TextSpot{"part.nc", 12, 0}}), "part.nc:12");
-  EXPECT_EQ(to_string(Origin{TextSpot{"part.nc", 0, 0}}), "part.nc");
-  EXPECT_EQ(to_string(Origin{DxfSpot{"plate.dxf", "8999", "2F", 10, 20.5}}),
+  EXPECT_EQ(to_string(Origin{TextLocation{"part.nc", 12, 5}}), "part.nc:12:5");
+  EXPECT_EQ(to_string(Origin{TextLocation{"part.nc", 12, 0}}), "part.nc:12");
+  EXPECT_EQ(to_string(Origin{TextLocation{"part.nc", 0, 0}}), "part.nc");
+  EXPECT_EQ(to_string(Origin{DrawingLocation{"plate.dxf", "8999", "2F", 10, 20.5}}),
             "plate.dxf: layer 8999, handle 2F, at 10, 20.5");
-  EXPECT_EQ(to_string(Origin{CallSpot{"job.py", 7, "cutline"}}), "job.py:7 (cutline)");
+  EXPECT_EQ(to_string(Origin{CallLocation{"job.py", 7, "cutline"}}), "job.py:7 (cutline)");
 }
 
 TEST(OriginTable, ResolvesWhatWasAdded) {
   OriginTable table;
-  const Origin text = TextSpot{"part.nc", 12, 5};
-  const Origin drawing = DxfSpot{"plate.dxf", "8999", "2F", 10, 20};
-  const Origin call = CallSpot{"job.py", 7, "cutline"};
+  const Origin text = TextLocation{"part.nc", 12, 5};
+  const Origin drawing = DrawingLocation{"plate.dxf", "8999", "2F", 10, 20};
+  const Origin call = CallLocation{"job.py", 7, "cutline"};
   const OriginId a = table.add(text), b = table.add(drawing), c = table.add(call);
   EXPECT_EQ(table.resolve(a), text);
   EXPECT_EQ(table.resolve(b), drawing);
@@ -69,12 +70,12 @@ TEST(OriginTable, ResolvesWhatWasAdded) {
 
 TEST(OriginTable, NamesCallersInnermostFirst) {
   OriginTable table;
-  const OriginId outer = table.add(TextSpot{"main.ngc", 2, 0});
-  const OriginId caller = table.add(TextSpot{"sub.ngc", 5, 0});
-  const OriginId inner = table.add(TextSpot{"deep.ngc", 9, 0});
+  const OriginId outer = table.add(TextLocation{"main.ngc", 2, 0});
+  const OriginId caller = table.add(TextLocation{"sub.ngc", 5, 0});
+  const OriginId inner = table.add(TextLocation{"deep.ngc", 9, 0});
   table.set_caller(caller, outer);
   table.set_caller(inner, caller);
-  const std::vector<Origin> expected{TextSpot{"sub.ngc", 5, 0}, TextSpot{"main.ngc", 2, 0}};
+  const std::vector<Origin> expected{TextLocation{"sub.ngc", 5, 0}, TextLocation{"main.ngc", 2, 0}};
   EXPECT_EQ(table.callers(inner), expected);
   EXPECT_TRUE(table.callers(outer).empty());
 }

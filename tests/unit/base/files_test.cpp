@@ -56,7 +56,7 @@ TEST_F(Files, MissingFilesAndFoldersAreUnreadable) {
   EXPECT_FALSE(InputFile::open(folder_.string(), diagnostics_));
   ASSERT_EQ(diagnostics_.errors(), 2u);
   for (const Diagnostic& d : diagnostics_.list()) EXPECT_EQ(d.code, Code::file_unreadable);
-  EXPECT_EQ(std::get<TextSpot>(diagnostics_.list()[0].where).file, path("missing.nc"));
+  EXPECT_EQ(std::get<TextLocation>(diagnostics_.list()[0].where).file, path("missing.nc"));
 }
 
 TEST_F(Files, LargerThanTheLimitIsRefused) {

@@ -142,7 +142,7 @@ TEST(Block, FaultsHaveTheirLocationAndReadingContinues) {
     const Diagnostic& d = r.diagnostics.list()[0];
     EXPECT_EQ(d.code, f.code) << f.text << ": " << to_string(d);
     EXPECT_EQ(d.severity, Severity::error);
-    EXPECT_EQ(d.where, Origin(TextSpot{"<text>", 1, f.column})) << f.text << ": " << to_string(d);
+    EXPECT_EQ(d.where, Origin(TextLocation{"<text>", 1, f.column})) << f.text << ": " << to_string(d);
     EXPECT_TRUE(r.blocks[0].faulty);
     EXPECT_TRUE(r.blocks[0].words.empty());
     EXPECT_EQ(words_of(r.blocks[1]), "G1.000000 X5.000000") << f.text;

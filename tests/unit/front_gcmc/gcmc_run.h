@@ -17,7 +17,7 @@ struct Ran {
   Diagnostics diagnostics;
 };
 
-inline TextSpot location_of(const Diagnostic& message) { return std::get<TextSpot>(message.where); }
+inline TextLocation location_of(const Diagnostic& message) { return std::get<TextLocation>(message.where); }
 
 class Collector final : public GcmcOutput {
  public:

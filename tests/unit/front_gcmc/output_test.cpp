@@ -309,7 +309,7 @@ TEST(GcmcPath, OriginsNameLineAndCalls) {
 TEST(GcmcPath, OriginsReachThroughTheLibrary) {
   const auto ran = run("include(\"tracepath.inc.gcmc\");\ntracepath({[1, 1], [2, 2]}, -1mm);");
   const Toolpath& p = ran.run.path;
-  const auto* location = std::get_if<TextSpot>(&p.origins().callers(p[1].origin()).at(0));
+  const auto* location = std::get_if<TextLocation>(&p.origins().callers(p[1].origin()).at(0));
   ASSERT_NE(location, nullptr);
   EXPECT_EQ(location->line, 2u);
 }

@@ -128,7 +128,7 @@ TEST(GcodeDiagnostics, EachHasItsLocation) {
       if (found == nullptr && d.code == c.code) found = &d;
     ASSERT_NE(found, nullptr) << c.text;
     EXPECT_EQ(found->severity, c.severity) << c.text;
-    EXPECT_EQ(found->where, Origin(TextSpot{"<text>", c.line, c.column}))
+    EXPECT_EQ(found->where, Origin(TextLocation{"<text>", c.line, c.column}))
         << c.text << ": " << to_string(*found);
     EXPECT_EQ(motions_of(program.path), c.motions) << c.text << ": " << to_string(*found);
   }
@@ -255,7 +255,7 @@ TEST(GcodeDiagnostics, BinaryFilesAreOneError) {
     const Diagnostic& d = diagnostics.list().front();
     EXPECT_EQ(d.code, Code::text_not_plain);
     EXPECT_EQ(d.severity, Severity::error);
-    EXPECT_EQ(d.where, Origin(TextSpot{"<text>", c.line, c.column})) << to_string(d);
+    EXPECT_EQ(d.where, Origin(TextLocation{"<text>", c.line, c.column})) << to_string(d);
     EXPECT_NE(d.message.find(c.word), std::string::npos) << d.message;
   }
 }

@@ -91,7 +91,7 @@ TEST(GcodeProgram, SubroutinesAreReadFromFilesBesideTheProgram) {
   EXPECT_EQ(asked, std::vector<std::string>{"hole.ngc"});
   ASSERT_EQ(diagnostics.errors(), 1u);
   EXPECT_EQ(diagnostics.list()[0].code, Code::sub_missing);
-  EXPECT_EQ(std::get<TextSpot>(program.path.origin_of(0)).line, 2u);
+  EXPECT_EQ(std::get<TextLocation>(program.path.origin_of(0)).line, 2u);
 }
 
 TEST(GcodeProgram, ALaserSwitchesItsBeam) {

@@ -168,7 +168,7 @@ std::vector<std::string> events_of(const Toolpath& path, const std::vector<std::
 /// "warning 2018 4:1"
 std::string text_of(const Diagnostic& d) {
   std::string text = std::string(to_string(d.severity)) + " " + std::to_string(static_cast<int>(d.code));
-  if (const auto* location = std::get_if<TextSpot>(&d.where))
+  if (const auto* location = std::get_if<TextLocation>(&d.where))
     text += " " + std::to_string(location->line) + ":" + std::to_string(location->column);
   return text;
 }

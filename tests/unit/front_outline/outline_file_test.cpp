@@ -34,7 +34,7 @@ Diagnostic complaint(const char* text) {
 TEST(OutlineFile, BadJsonIsRefusedWithItsLine) {
   const Diagnostic d = complaint("{\"outlines\":\n [1,}");
   EXPECT_EQ(d.code, Code::outline_file_syntax);
-  EXPECT_EQ(std::get<TextSpot>(d.where).line, 2u);
+  EXPECT_EQ(std::get<TextLocation>(d.where).line, 2u);
   EXPECT_EQ(complaint("").code, Code::outline_file_syntax);
 }
 

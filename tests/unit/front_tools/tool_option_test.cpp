@@ -6,7 +6,7 @@
 namespace kerf {
 namespace {
 
-const Origin kOption = CallSpot{"", 0, "--tool"};
+const Origin kOption = CallLocation{"", 0, "--tool"};
 
 Tool read(std::string_view text) {
   Diagnostics diagnostics;

@@ -71,7 +71,7 @@ inline Stock block(Point3 low, Point3 high) {
 /// Builds toolpaths with one origin.
 class Path {
  public:
-  Path() : origin_(path_.origins().add(CallSpot{.file = "", .line = 7, .call = "test"})) {}
+  Path() : origin_(path_.origins().add(CallLocation{.file = "", .line = 7, .call = "test"})) {}
   Path& tool(int number) { return path_.add(step::ToolChange{number}, origin_), *this; }
   Path& spindle(SpindleTurn turn) { return path_.add(step::Spindle{rpm(9000), turn}, origin_), *this; }
   Path& rapid(Point3 to) { return path_.add(step::Rapid{to}, origin_), *this; }

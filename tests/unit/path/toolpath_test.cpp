@@ -9,7 +9,7 @@ namespace {
 
 TEST(Toolpath, KeepsEveryKindOfStep) {
   Toolpath path;
-  const OriginId here = path.origins().add(TextSpot{"a.nc", 3, 1});
+  const OriginId here = path.origins().add(TextLocation{"a.nc", 3, 1});
   path.add(step::Rapid{{1, 2, 3}}, here);
   path.add(step::Cut{{4, 5, 6}, mm_per_min(400)}, here);
   path.add(step::Arc{{7, 8, 9}, {1.5, 2.5}, Plane::xz, Turn::cw, 3, mm_per_min(300)}, here);

@@ -142,7 +142,7 @@ TEST(UnknownPositions, AProgramThatOnlyRetractsCutsNothing) {
   path.path().set_unknown_axes(2, 0);
   Diagnostics diagnostics;
   Toolpath retract;
-  const auto here = retract.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+  const auto here = retract.origins().add(CallLocation{.file = "", .line = 1, .call = "t"});
   retract.add(step::ToolChange{1}, here);
   retract.set_unknown_axes(retract.add(step::Rapid{{0, 0, 5}}, here), 3);
   const auto result =
@@ -154,7 +154,7 @@ TEST(UnknownPositions, AProgramThatOnlyRetractsCutsNothing) {
 
 TEST(UnknownPositions, ARapidFromAnUnknownPositionIsSweptAtItsEndOnly) {
   Toolpath path;
-  const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+  const auto here = path.origins().add(CallLocation{.file = "", .line = 1, .call = "t"});
   path.add(step::ToolChange{1}, here);
   path.set_unknown_axes(path.add(step::Rapid{{0, 0, -2}}, here), 3);
   path.add(step::Rapid{{25, 20, -2}}, here);
@@ -168,7 +168,7 @@ TEST(UnknownPositions, ARapidFromAnUnknownPositionIsSweptAtItsEndOnly) {
 TEST(UnknownPositions, AnArcFromAnUnknownPositionIsCutFromXZeroYZero) {
   for (const unsigned unknown : {0u, 3u}) {
     Toolpath path;
-    const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+    const auto here = path.origins().add(CallLocation{.file = "", .line = 1, .call = "t"});
     path.add(step::ToolChange{1}, here);
     path.set_unknown_axes(path.add(step::Rapid{{0, 0, 5}}, here), unknown);
     path.set_unknown_axes(path.add(step::Cut{{0, 0, -1}, mm_per_min(100)}, here), unknown);
@@ -184,7 +184,7 @@ TEST(UnknownPositions, AnArcFromAnUnknownPositionIsCutFromXZeroYZero) {
 
 TEST(UnknownPositions, ACutFromAnUnknownHeightComesFromAbove) {
   Toolpath path;
-  const auto here = path.origins().add(CallSpot{.file = "", .line = 1, .call = "t"});
+  const auto here = path.origins().add(CallLocation{.file = "", .line = 1, .call = "t"});
   path.add(step::ToolChange{1}, here);
   path.set_unknown_axes(path.add(step::Rapid{{25, 20, 0}}, here), 4);
   path.add(step::Cut{{25, 20, -3}, mm_per_min(100)}, here);

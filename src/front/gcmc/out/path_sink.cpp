@@ -41,7 +41,7 @@ OriginId PathSink::origin_at(std::size_t instruction, OriginId caller) {
   auto [it, is_new] = origins_.try_emplace(key, OriginId::none);
   if (is_new) {
     OriginTable& table = path_.origins();
-    const TextSpot where = vm_.location(instruction);
+    const TextLocation where = vm_.location(instruction);
     it->second = table.text(table.file(where.file), where.line, where.column);
     if (caller != OriginId::none) table.set_caller(it->second, caller);
   }

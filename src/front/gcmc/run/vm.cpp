@@ -96,7 +96,7 @@ int Vm::run() {
 
 // ---- messages
 
-TextSpot Vm::location(std::size_t instruction) const {
+TextLocation Vm::location(std::size_t instruction) const {
   const SourceLocation at = code_.locations[instruction];
   return {sources_[at.file].name, at.line, at.column};
 }

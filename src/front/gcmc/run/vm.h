@@ -83,7 +83,7 @@ class Vm final : public Runtime {
   std::size_t call_site(std::size_t frame) const {
     return static_cast<std::size_t>(frames_[frame].after - code_.instructions.data()) - 1;
   }
-  TextSpot location(std::size_t instruction) const;
+  TextLocation location(std::size_t instruction) const;
 
  private:
   using Pc = const Instruction*;

@@ -11,7 +11,7 @@ void LineReporter::unusual(Code code, std::uint32_t column, std::string message,
   unusual_at(location(column), code, std::move(message), hint);
 }
 
-void LineReporter::unusual_at(TextSpot where, Code code, std::string message, std::string_view hint) {
+void LineReporter::unusual_at(TextLocation where, Code code, std::string message, std::string_view hint) {
   const Severity severity = strict_ ? Severity::error : Severity::warning;
   diagnostics_.add({severity, code, std::move(where), std::move(message), {}, std::string(hint)});
 }

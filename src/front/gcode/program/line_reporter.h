@@ -19,14 +19,14 @@ class LineReporter {
   void at_line(std::uint32_t line) { line_ = line; }
   void in_file(std::string file) { file_ = std::move(file); }
   std::uint32_t line() const { return line_; }
-  TextSpot location(std::uint32_t column) const { return {file_, line_, column}; }
+  TextLocation location(std::uint32_t column) const { return {file_, line_, column}; }
   Diagnostics& diagnostics() { return diagnostics_; }
 
   void error(Code code, std::uint32_t column, std::string message, std::string_view hint = {});
   /// A warning; an error if reading is strict.
   void unusual(Code code, std::uint32_t column, std::string message, std::string_view hint = {});
   /// The same at an earlier location.
-  void unusual_at(TextSpot where, Code code, std::string message, std::string_view hint);
+  void unusual_at(TextLocation where, Code code, std::string message, std::string_view hint);
   void note(Code code, std::uint32_t column, std::string message);
 
  private:

@@ -57,7 +57,7 @@ void Interpreter::read_comment(const Comment& comment) {
 }
 
 /// True for a tool comment of a CAM program. Those in the header are kept until the units are known.
-bool Interpreter::take_cam_tool(std::string_view text, const TextSpot& where) {
+bool Interpreter::take_cam_tool(std::string_view text, const TextLocation& where) {
   if (text.size() < 5 || !read_cam_tool(text, modes_.scale)) return false;
   if (units_given_ || moved_) {
     use_cam_tool(text, where);
@@ -74,7 +74,7 @@ void Interpreter::use_pending_tools() {
 
 /// TOOL/... comments (kerf/tool_comments.h) have precedence. A comment without a number describes
 /// tool 0, the tool of a program without tool changes.
-void Interpreter::use_cam_tool(std::string_view text, const TextSpot& where) {
+void Interpreter::use_cam_tool(std::string_view text, const TextLocation& where) {
   const std::optional<CamTool> described = read_cam_tool(text, modes_.scale);
   const int number = described ? described->number.value_or(0) : 0;
   if (!described || program_.tools.count(number) != 0) return;

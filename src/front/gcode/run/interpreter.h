@@ -151,9 +151,9 @@ class Interpreter : public SystemValues {
 
   // comment_effects.cpp
   void read_comment(const Comment& comment);
-  bool take_cam_tool(std::string_view text, const TextSpot& where);
+  bool take_cam_tool(std::string_view text, const TextLocation& where);
   void use_pending_tools();
-  void use_cam_tool(std::string_view text, const TextSpot& where);
+  void use_cam_tool(std::string_view text, const TextLocation& where);
 
   // settings.cpp
   void set_feed_mode();
@@ -312,7 +312,7 @@ class Interpreter : public SystemValues {
   bool rotary_used_ = false;
   ProgramFrame frame_;
   std::size_t system_from_ = 0;                       // the first step in the current coordinate system
-  TextSpot system_location_;                          // of the word that selected it
+  TextLocation system_location_;                      // of the word that selected it
   std::uint32_t systems_used_ = 0, systems_set_ = 0;  // bit n: system n has motions; was set by G10
   Point3 local_shift_;                                // by G92 and G52, mm
   Point3 kept_local_shift_;                           // stored by G92.2
@@ -338,8 +338,8 @@ class Interpreter : public SystemValues {
   Compensation compensation_;
 
   StockComments stock_;
-  std::vector<std::pair<std::string, TextSpot>> pending_tools_;
-  std::optional<std::pair<Tenths, TextSpot>> spindle_without_speed_;  // first M3 or M4 before any S word
+  std::vector<std::pair<std::string, TextLocation>> pending_tools_;
+  std::optional<std::pair<Tenths, TextLocation>> spindle_without_speed_;  // first M3 or M4 before any S word
   bool units_given_ = false;
   bool moved_ = false;
   bool no_feed_reported_ = false;

@@ -21,7 +21,7 @@ GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, 
   const DialectGuess guess = guess_dialect(text);
   if (guess.dialect != GcodeDialect::rs274)
     diagnostics.note(
-        Code::dialect_guessed, TextSpot{options.file_name, guess.line, 0},
+        Code::dialect_guessed, TextLocation{options.file_name, guess.line, 0},
         fmt::format("reading this as a program for {} ({})", to_string(guess.dialect), guess.from));
   return guess.dialect;
 }
@@ -33,7 +33,8 @@ bool is_text(std::string_view text, const GcodeReadOptions& options, Diagnostics
   const std::string_view before = text.substr(0, not_plain->at);
   const auto line = static_cast<std::uint32_t>(std::count(before.begin(), before.end(), '\n')) + 1;
   const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
-  const TextSpot where{options.file_name, line, static_cast<std::uint32_t>(not_plain->at - line_start) + 1};
+  const TextLocation where{options.file_name, line,
+                           static_cast<std::uint32_t>(not_plain->at - line_start) + 1};
   if (not_plain->kind == gcode::NotPlain::Kind::utf16)
     diagnostics.error(Code::text_not_plain, where, "the file is UTF-16, which no controller reads").hint =
         "save it as UTF-8 or ASCII, e.g. with: iconv -f UTF-16 -t UTF-8";
