@@ -1,8 +1,8 @@
 // Random jobs through the simulator: tools, blocks and motions are drawn at random.
 //   property_sim [COUNT] [SEED]
-// Every job has to give the same bits on 1, 2, 3 and 7 threads and on every level of processor that this one
-// has, lose no volume, and leave a closed mesh. Prints the seed of each job that fails. Exit status 1 if any
-// does.
+// Every job has to give the same bits on 1, 2, 3 and 7 threads and on every vector instruction set of this
+// processor, lose no volume, and leave a closed mesh. Prints the seed of each job that fails. Exit status 1
+// if any does.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -35,10 +35,10 @@ class Drawer {
 
  private:
   double in(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
-  bool chance(double share) { return in(0.0, 1.0) < share; }
+  bool chance(double probability) { return in(0.0, 1.0) < probability; }
   int below(int count) { return static_cast<int>(in(0.0, count)); }
   Tool tool(int number);
-  Point3 place() { return {in(-4, size_.x + 4), in(-4, size_.y + 4), in(-1.1, 0.2) * size_.z}; }
+  Point3 point() { return {in(-4, size_.x + 4), in(-4, size_.y + 4), in(-1.1, 0.2) * size_.z}; }
   void move(test::Path& path);
   void arc(test::Path& path);
 
@@ -73,7 +73,7 @@ void Drawer::arc(test::Path& path) {
 
 void Drawer::move(test::Path& path) {
   if (chance(0.2)) return arc(path);
-  Point3 to = place();
+  Point3 to = point();
   if (chance(0.3)) to.z = at_.z;                  // level
   if (chance(0.15)) to = {at_.x, at_.y, to.z};    // straight up or down
   if (chance(0.3)) to = at_ + 0.02 * (to - at_);  // a small step
@@ -100,7 +100,7 @@ Job Drawer::job() {
   return made;
 }
 
-// ---- what has to hold
+// ---- properties
 
 std::optional<Simulation> simulated(const Job& job, unsigned threads) {
   Diagnostics diagnostics;
@@ -131,7 +131,7 @@ const char* difference(const Simulation& a, const Simulation& b) {
   return same_hazards(a.hazards, b.hazards) ? nullptr : "hazards";
 }
 
-/// Runs the job on each level of processor; the widest comes first and is the reference.
+/// Runs the job with each vector instruction set; the widest is the reference.
 std::string differs_by_level(const Job& job, const Simulation& reference) {
   hwy::SetSupportedTargetsForTest(0);
   const std::int64_t all = hwy::SupportedTargets();
@@ -158,29 +158,29 @@ std::string lost_volume(const Simulation& result) {
   return {};
 }
 
-/// How far the meshes' volumes are from that of the columns: with their walls measured, of all jobs in mm3,
-/// and from that of the columns alone, at most, as a share of what verify_mesh allows.
-struct Strays {
-  double rough = 0.0, sharp = 0.0, most_allowed = 0.0;
+/// Deviations of the meshes' volumes: the sums of all jobs from the volume with refined walls, mm3, and the
+/// maximum from the volume of the columns as a fraction of the tolerance of verify_mesh.
+struct MeshErrors {
+  double rough = 0.0, sharp = 0.0, max_fraction = 0.0;
 };
 
-std::string unsound(const Mesh& mesh, const Simulation& result, const VolumeRange& range, double& stray,
-                    double& most_allowed) {
+std::string fault_of(const Mesh& mesh, const Simulation& result, const VolumeRange& range, double& error,
+                     double& max_fraction) {
   const MeshCheck check = check_mesh(mesh);
   if (check.bad_edges != 0)
     return fmt::format("{} edges of the mesh are not shared by two triangles", check.bad_edges);
-  stray += std::abs((check.volume - result.workpiece.volume()).mm3());
+  error += std::abs((check.volume - result.workpiece.volume()).mm3());
   const double off = std::abs((check.volume - range.expected).mm3());
-  most_allowed = std::max(most_allowed, off > 0.0 ? off / range.tolerance.mm3() : 0.0);
+  max_fraction = std::max(max_fraction, off > 0.0 ? off / range.tolerance.mm3() : 0.0);
   if (off > range.tolerance.mm3())
     return fmt::format("the mesh holds {} mm3, the columns {}", check.volume.mm3(), range.expected.mm3());
   return {};
 }
 
-std::string unsound_mesh(const Simulation& result, Strays& strays) {
+std::string mesh_problem(const Simulation& result, MeshErrors& errors) {
   const ColumnGrid columns = result.workpiece.grid();
   const Mesh rough = extract_mesh(columns);
-  if (std::string problem = unsound(rough, result, mesh_volume(columns), strays.rough, strays.most_allowed);
+  if (std::string problem = fault_of(rough, result, mesh_volume(columns), errors.rough, errors.max_fraction);
       !problem.empty())
     return problem;
   std::array<Mesh, 2> sharp{rough, rough};
@@ -193,11 +193,11 @@ std::string unsound_mesh(const Simulation& result, Strays& strays) {
       !same_bits(sharp[0].triangles, sharp[1].triangles))
     return "the sharp mesh depends on the number of threads";
   const VolumeRange range = mesh_volume(columns, {.tolerance = ExactMeshOptions().tolerance});
-  const std::string problem = unsound(sharp[0], result, range, strays.sharp, strays.most_allowed);
+  const std::string problem = fault_of(sharp[0], result, range, errors.sharp, errors.max_fraction);
   return problem.empty() ? problem : "sharpened: " + problem;
 }
 
-std::string problem_of(const Job& job, Strays& strays) {
+std::string problem_of(const Job& job, MeshErrors& errors) {
   const auto reference = simulated(job, 1);
   if (!reference) return "not simulated";
   for (const unsigned threads : {2u, 3u, 7u}) {
@@ -207,7 +207,7 @@ std::string problem_of(const Job& job, Strays& strays) {
   }
   if (std::string problem = differs_by_level(job, *reference); !problem.empty()) return problem;
   if (std::string problem = lost_volume(*reference); !problem.empty()) return problem;
-  return unsound_mesh(*reference, strays);
+  return mesh_problem(*reference, errors);
 }
 
 }  // namespace
@@ -216,9 +216,9 @@ int main(int argc, char** argv) {
   const long count = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 1000;
   const std::uint64_t seed = argc > 2 ? std::strtoull(argv[2], nullptr, 10) : 1;
   long failed = 0;
-  Strays strays;
+  MeshErrors errors;
   for (long k = 0; k < count; ++k) {
-    const std::string problem = problem_of(Drawer(seed + static_cast<std::uint64_t>(k)).job(), strays);
+    const std::string problem = problem_of(Drawer(seed + static_cast<std::uint64_t>(k)).job(), errors);
     if (problem.empty()) continue;
     ++failed;
     std::fputs(fmt::format("seed {}: {}\n", seed + static_cast<std::uint64_t>(k), problem).c_str(), stdout);
@@ -226,9 +226,9 @@ int main(int argc, char** argv) {
   std::fputs(fmt::format("{} jobs from seed {}, {} failed\n", count, seed, failed).c_str(), stdout);
   std::fputs(
       fmt::format(
-          "volumes of the meshes stray by {:.4g} mm3 in all, of the sharpened ones by {:.4g}; of what is "
-          "allowed up to {:.2g}\n",
-          strays.rough, strays.sharp, strays.most_allowed)
+          "volumes of the meshes differ by {:.4g} mm3 in total, of the sharpened ones by {:.4g}; maximum "
+          "fraction of the tolerance {:.2g}\n",
+          errors.rough, errors.sharp, errors.max_fraction)
           .c_str(),
       stdout);
   return failed == 0 ? 0 : 1;
