@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "kerf/outline.h"
+#include "kerf/progress.h"
 
 namespace kerf {
 
@@ -35,9 +36,10 @@ struct Region {
 };
 
 struct RegionOptions {
-  Tolerance tolerance{};  ///< only `weld` matters: arcs stay arcs
-  std::string name{};     ///< of the region in messages
-  Origin where{};         ///< of the messages
+  Tolerance tolerance{};         ///< only `weld` matters: arcs stay arcs
+  std::string name{};            ///< of the region in messages
+  Origin where{};                ///< of the messages
+  Progress* progress = nullptr;  ///< may stop the work: then there is no value, and no error
 };
 
 /// Which winding numbers count as inside.
@@ -81,14 +83,35 @@ std::optional<Region> unite(const std::vector<Region>& regions, const RegionOpti
 // -------------------------------------------------------------------------------------------------------
 // offset
 
+/// What fills outer corners when a region grows, and inner ones when it shrinks.
+enum class Join : std::uint8_t {
+  round,  ///< an arc: every point of the boundary is at the distance
+  mitre   ///< the neighbours' tangents up to where they meet, cut off straight at the limit
+};
+struct Joins {
+  Join join = Join::round;
+  double limit = 2.0;  ///< of a mitre: how far from the corner it is cut off, by the distance; at least 1
+};
+
+/// The segment of the input that a segment of the result runs beside, or around the end of.
+struct OffsetSource {
+  std::uint32_t loop = 0, segment = 0;
+  bool corner = false;  ///< around the corner at the end of that segment
+  bool operator==(const OffsetSource&) const = default;
+};
+
 struct Offset {
   Region region;
   std::size_t vanished = 0;  ///< loops of the input that left nothing: too narrow, or swallowed by others
+  std::vector<std::vector<OffsetSource>> sources{};  ///< of each segment, by loop
 };
 /// All points within `by` of the region (`by` > 0), or all points of the region that are at least -`by` from
 /// its boundary (`by` < 0). Outer corners become round when it grows, inner ones when it shrinks.
 std::optional<Offset> offset(const Region& region, Length by, const RegionOptions& options,
                              Diagnostics& diagnostics);
+/// The same with corners of another shape.
+std::optional<Offset> offset(const Region& region, Length by, const Joins& joins,
+                             const RegionOptions& options, Diagnostics& diagnostics);
 
 enum class PathEnds : std::uint8_t {
   round,  ///< as a mill leaves them

@@ -1,185 +1,270 @@
-// Cutting edges where they meet, and winding numbers of what is between them.
+// Splitting edges where they meet, joining points within the tolerance, and doing so again with the parts
+// until nothing is displaced any more.
 #include "arrangement.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "crossing.h"
-#include "exact.h"
+#include "point_grid.h"
+
+#include "kerf/limits.h"
 
 namespace kerf::region_detail {
 namespace {
 
-constexpr std::size_t kMostHits = 20'000'000;  // about a gigabyte of work; beyond, the input is refused
+constexpr int kMaxRounds = 14;
+/// What may be displaced without another round. In the first, edges that do not meet may be nearer to each
+/// other than the tolerance, in the others not.
+constexpr double kFirstSlack = 1.0 / 256.0, kSlack = 0.125;  // of the tolerance
+
+/// Few rounds settle most inputs; where displaced parts keep touching others, the distance at which they do
+/// shrinks.
+double weld_of_round(double weld, int round) { return round < 5 ? weld : weld / (round < 9 ? 4.0 : 16.0); }
 
 }  // namespace
 
-int ray_crosses(const Edge& e, Point2 at) {
-  const bool upward = e.to.y > e.from.y;
-  // The end counts with the edge above it, so that a chain through a point of this height crosses once.
-  if ((e.from.y > at.y) == (e.to.y > at.y)) return 0;
-  const int step = upward ? -1 : 1;
-  if (at.x < std::min(e.from.x, e.to.x)) return 0;
-  if (at.x > std::max(e.from.x, e.to.x)) return step;
-  if (!e.is_arc()) {
-    const double side = upward ? orientation(e.from, e.to, at) : orientation(e.to, e.from, at);
-    return side < 0.0 ? step : 0;
-  }
-  const Point2 q = at - e.from;
-  const bool inside = dot(q, q) < 2.0 * dot(q, e.centre);
-  const bool centre_right = e.centre.x > 0.5 * (e.to.x - e.from.x);
-  return inside == centre_right ? step : 0;
-}
-
-Arrangement::Outcome Arrangement::build(const EdgeSet& set, double weld, Care care) {
+Arrangement::Outcome Arrangement::build(const EdgeSet& set, double weld, Care care, std::size_t max_pairs,
+                                        Progress* progress) {
   set_ = &set;
-  weld_ = weld;
   points_ = set.points;
+  contracted_.clear();
+  for (rounds_ = 0; rounds_ < kMaxRounds; ++rounds_) {
+    weld_ = weld_of_round(weld, rounds_);
+    const double slack = (rounds_ == 0 ? kFirstSlack : kSlack) * weld_;
+    displaced_ = 0.0;
+    tree_ = tree_of(edges(), 0.5 * weld_);
+    if (const Outcome found = find_contacts(max_pairs, progress); found != Outcome::done) return found;
+    split_edges(slack);
+    gather_ends();
+    merge_twins();
+    const bool settled = displaced_ <= slack || displaced_parts_are_clear(slack);
+    if (settled && (care == Care::ordinary || rounds_ > 0)) {
+      sort_ends();
+      return spread_windings() && locate_components() ? Outcome::done : Outcome::contradiction;
+    }
+    contract();
+  }
+  --rounds_;
+  return Outcome::contradiction;
+}
+
+double Arrangement::slack() const { return kSlack * weld_; }
+
+// ---------------------------------------------------------------------------------------------- contacts
+
+Arrangement::Outcome Arrangement::find_contacts(std::size_t max_pairs, Progress* progress) {
+  constexpr std::size_t kBetweenReports = 1u << 16;
   hits_.clear();
-  const BoxTree tree = tree_of(set.edges, 0.5 * weld);
-  if (!find_meetings(tree)) return Outcome::too_many;
-  if (care == Care::thorough && !find_near_crossings(tree)) return Outcome::too_many;
-  cut_edges();
-  gather_ends();
-  merge_twins();
-  sort_ends();
-  return spread_windings(tree) ? Outcome::done : Outcome::contradiction;
-}
-
-bool Arrangement::find_meetings(const BoxTree& tree) {
-  return tree.pairs([&](std::uint32_t i, std::uint32_t j) {
-    meet_edges(i, j);
-    return hits_.size() < kMostHits;
+  std::size_t asked = 0;
+  bool stopped = false;
+  const Edge* all = edges().data();
+  const auto first_crossing = static_cast<std::uint32_t>(points_.size());
+  touched_.assign(edges().size(), false);
+  tree_.pairs([&](std::uint32_t i, std::uint32_t j) {
+    meet_edges(all[i], i, all[j], j);
+    stopped = ++asked % kBetweenReports == 0 && stop_requested(progress);
+    return !stopped && asked <= max_pairs && hits_.size() < limits::kMaxRegionIntersections;
   });
+  if (stopped) return Outcome::stopped;
+  if (asked <= max_pairs) find_near_crossings(first_crossing);
+  if (hits_.size() >= limits::kMaxRegionIntersections) return Outcome::too_many;
+  return asked > max_pairs ? Outcome::exceeded : Outcome::done;
 }
 
-void Arrangement::meet_edges(std::uint32_t i, std::uint32_t j) {
-  const Edge &e = set_->edges[i], &f = set_->edges[j];
+/// Edges that run along one another need not cross a third one alike: where it is tangent to them, rounding may
+/// show it to cross one of them only. A crossing lies on all edges that pass it within the tolerance.
+void Arrangement::find_near_crossings(std::uint32_t first_crossing) {
+  const std::size_t count = hits_.size();
+  for (std::size_t k = 0; k + 1 < count && hits_.size() < limits::kMaxRegionIntersections; ++k) {
+    const Hit one = hits_[k], other = hits_[k + 1];  // a crossing hits both of its edges at once
+    if (one.point < first_crossing || other.point != one.point) continue;
+    if (!touched_[one.edge] && !touched_[other.edge]) continue;
+    const Point2 p = points_[one.point];
+    tree_.query({p.x - weld_, p.y - weld_, p.x + weld_, p.y + weld_}, [&](std::uint32_t i) {
+      if (i == one.edge || i == other.edge) return;
+      const double off = touches(edges()[i], p, weld_);
+      if (off < 0.0) return;
+      displaced_ = std::max(displaced_, off);
+      hit(i, one.point);
+    });
+  }
+}
+
+void Arrangement::meet_edges(const Edge& e, std::uint32_t i, const Edge& f, std::uint32_t j) {
   const Meeting m = meet(e, f, weld_);
   if (!m.any()) return;
-  if (m.first_has_from) note(i, f.from_point);
-  if (m.first_has_to) note(i, f.to_point);
-  if (m.second_has_from) note(j, e.from_point);
-  if (m.second_has_to) note(j, e.to_point);
+  displaced_ = std::max(displaced_, m.off);
+  if (m.first_has_from || m.first_has_to || m.second_has_from || m.second_has_to)
+    touched_[i] = touched_[j] = true;
+  if (m.first_has_from) hit(i, f.from_point);
+  if (m.first_has_to) hit(i, f.to_point);
+  if (m.second_has_from) hit(j, e.from_point);
+  if (m.second_has_to) hit(j, e.to_point);
   for (int k = 0; k < m.crossings; ++k) {
     const auto number = static_cast<std::uint32_t>(points_.size());
     points_.push_back(m.at[k]);
-    note(i, number);
-    note(j, number);
+    hit(i, number);
+    hit(j, number);
   }
 }
 
-/// Crossings lie on all edges that pass them within the tolerance: where curves touch, a third one that runs
-/// along one of them meets the other elsewhere.
-bool Arrangement::find_near_crossings(const BoxTree& tree) {
-  for (auto number = static_cast<std::uint32_t>(set_->points.size()); number < points_.size(); ++number) {
-    const Point2 p = points_[number];
-    tree.query({p.x - weld_, p.y - weld_, p.x + weld_, p.y + weld_}, [&](std::uint32_t i) {
-      if (touches(set_->edges[i], p, weld_)) note(i, number);
-    });
-    if (hits_.size() >= kMostHits) return false;
-  }
-  return true;
-}
-
-// --------------------------------------------------------------------------------------------- cutting,
-// welding
+// ------------------------------------------------------------------------------------- splitting, welding
 
 std::uint32_t Arrangement::welded(std::uint32_t point) {
   while (same_as_[point] != point) point = same_as_[point] = same_as_[same_as_[point]];
   return point;
 }
 
-/// The smaller number stays, so that points of the input keep their places.
+/// The smaller number stays, so that points of the input keep their positions.
 void Arrangement::join(std::uint32_t a, std::uint32_t b) {
   a = welded(a);
   b = welded(b);
   if (a != b) same_as_[std::max(a, b)] = std::min(a, b);
 }
 
-void Arrangement::cut_edge(std::uint32_t edge, std::vector<std::uint32_t>& on_it, std::vector<Part>& raw) {
-  const Edge& e = set_->edges[edge];
-  if (on_it.size() > 1)
-    std::sort(on_it.begin(), on_it.end(),
+/// The points of each edge, in order along it.
+void Arrangement::sort_hits() {
+  const std::size_t count = edges().size();
+  edge_hits_.assign(count + 1, 0);
+  for (const Hit& h : hits_) ++edge_hits_[h.edge + 1];
+  for (std::size_t i = 0; i < count; ++i) edge_hits_[i + 1] += edge_hits_[i];
+  hits_of_edge_.resize(hits_.size());
+  std::vector<std::uint32_t> next(edge_hits_.begin(), edge_hits_.end() - 1);
+  for (const Hit& h : hits_) hits_of_edge_[next[h.edge]++] = h.point;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (edge_hits_[i + 1] - edge_hits_[i] < 2) continue;
+    const Edge& e = edges()[i];
+    std::sort(hits_of_edge_.begin() + edge_hits_[i], hits_of_edge_.begin() + edge_hits_[i + 1],
               [&](std::uint32_t a, std::uint32_t b) { return along(e, points_[a]) < along(e, points_[b]); });
-  on_it.push_back(e.to_point);
-  std::uint32_t from = e.from_point;
-  for (const std::uint32_t to : on_it) {
-    const Point2 step = points_[to] - points_[from];
-    if (dot(step, step) <= weld_ * weld_) join(from, to);
-    Part part;
-    part.from = from;
-    part.to = to;
-    part.edge = edge;
-    part.step.of[e.group] = 1;
-    raw.push_back(part);
-    from = to;
   }
 }
 
-void Arrangement::cut_edges() {
-  const std::size_t edges = set_->edges.size();
+/// Points that follow each other on an edge within the tolerance become one. Where that displaces nothing,
+/// all such points do; else points within the tolerance of a point that stays, so that chains of points do
+/// not become one.
+void Arrangement::split_edges(double slack) {
+  sort_hits();
   same_as_.resize(points_.size());
   for (std::uint32_t i = 0; i < same_as_.size(); ++i) same_as_[i] = i;
-  std::vector<std::uint32_t> begin(edges + 1, 0), sorted(hits_.size()), on_it;
-  for (const Hit& hit : hits_) ++begin[hit.edge + 1];
-  for (std::size_t i = 0; i < edges; ++i) begin[i + 1] += begin[i];
-  std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-  for (const Hit& hit : hits_) sorted[next[hit.edge]++] = hit.point;
+  const std::vector<Edge>& all = edges();
+  const auto for_each_piece = [&](auto visit) {
+    for (std::uint32_t i = 0; i < all.size(); ++i) {
+      std::uint32_t from = all[i].from_point;
+      for (std::uint32_t k = edge_hits_[i]; k < edge_hits_[i + 1]; ++k) {
+        visit(i, from, hits_of_edge_[k]);
+        from = hits_of_edge_[k];
+      }
+      visit(i, from, all[i].to_point);
+    }
+  };
+  for_each_piece([&](std::uint32_t, std::uint32_t from, std::uint32_t to) {
+    const Point2 step = points_[to] - points_[from];
+    const double square = dot(step, step);
+    if (square > weld_ * weld_) return;
+    if (square > displaced_ * displaced_) displaced_ = std::sqrt(square);
+    join(from, to);
+  });
+  if (displaced_ > slack) cluster_joined();
   parts_.clear();
-  parts_.reserve(edges + hits_.size());
-  for (std::uint32_t i = 0; i < edges; ++i) {
-    on_it.assign(sorted.data() + begin[i], sorted.data() + begin[i + 1]);
-    cut_edge(i, on_it, parts_);
+  parts_.reserve(all.size() + hits_.size());
+  for_each_piece([&](std::uint32_t edge, std::uint32_t from, std::uint32_t to) {
+    Part part;
+    part.from = welded(from);
+    part.to = welded(to);
+    if (part.from == part.to) return;
+    part.edge = edge;
+    part.step = all[edge].step;
+    parts_.push_back(part);
+  });
+}
+
+/// Of the points that were joined to others, each that is not within the tolerance of one that stays stays.
+void Arrangement::cluster_joined() {
+  std::vector<bool> joined(points_.size(), false);
+  std::size_t count = 0;
+  for (std::uint32_t point = 0; point < points_.size(); ++point)
+    if (const std::uint32_t other = welded(point); other != point) {
+      count += joined[other] ? 1 : 2;
+      joined[other] = joined[point] = true;
+    }
+  PointGrid stay(points_, weld_, count);
+  for (std::uint32_t point = 0; point < points_.size(); ++point) {
+    if (!joined[point]) continue;
+    same_as_[point] = point;
+    if (const std::uint32_t near = stay.nearest(points_[point]); near != PointGrid::kNone)
+      same_as_[point] = near;
+    else
+      stay.add(point);
   }
-  std::size_t kept = 0;
-  for (const Part& raw : parts_) {
-    Part part = raw;
-    part.from = welded(raw.from);
-    part.to = welded(raw.to);
-    if (part.from != part.to) parts_[kept++] = part;
+}
+
+/// Whether the parts whose ends are off their edges meet others nowhere but in common ends: then another
+/// round would change nothing.
+bool Arrangement::displaced_parts_are_clear(double slack) const {
+  for (const Part& part : parts_) {
+    if (!part.kept) continue;
+    const Edge& e = edges()[part.edge];
+    const auto off = [&](std::uint32_t end) {
+      if (end == e.from_point || end == e.to_point) return false;
+      const double distance = touches(e, points_[end], 4.0 * weld_);
+      return distance < 0.0 || distance > slack;
+    };
+    if ((off(part.from) || off(part.to)) && !is_clear(part)) return false;
   }
-  parts_.resize(kept);
+  return true;
+}
+
+bool Arrangement::is_clear(const Part& part) const {
+  Edge own = drawn(part, Axis::x);
+  own.from_point = part.from;
+  own.to_point = part.to;
+  bool clear = true;
+  tree_.query(own.box(weld_ + reach()), [&](std::uint32_t edge) {
+    if (!clear) return;
+    parts_of_edge(edge, [&](std::uint32_t i) {
+      const Part& other = parts_[i];
+      if (!clear || &other == &part) return;
+      Edge e = drawn(other, Axis::x);
+      e.from_point = other.from;
+      e.to_point = other.to;
+      clear = !e.box(weld_).overlaps(own.box(weld_)) || !meet(own, e, weld_).any();
+    });
+  });
+  return clear;
 }
 
 void Arrangement::gather_ends() {
-  ends_begin_.assign(points_.size() + 1, 0);
+  point_ends_.assign(points_.size() + 1, 0);
   for (const Part& part : parts_) {
-    if (!part.kept) continue;
-    ++ends_begin_[part.from + 1];
-    ++ends_begin_[part.to + 1];
+    ++point_ends_[part.from + 1];
+    ++point_ends_[part.to + 1];
   }
-  for (std::size_t i = 0; i < points_.size(); ++i) ends_begin_[i + 1] += ends_begin_[i];
-  std::vector<std::uint32_t> next(ends_begin_.begin(), ends_begin_.end() - 1);
-  ends_.resize(ends_begin_.back());
+  for (std::size_t i = 0; i < points_.size(); ++i) point_ends_[i + 1] += point_ends_[i];
+  std::vector<std::uint32_t> next(point_ends_.begin(), point_ends_.end() - 1);
+  ends_.resize(point_ends_.back());
   for (std::uint32_t i = 0; i < parts_.size(); ++i) {
-    if (!parts_[i].kept) continue;
     ends_[next[parts_[i].from]++] = 2 * i;
     ends_[next[parts_[i].to]++] = 2 * i + 1;
   }
 }
 
-// -------------------------------------------------------------------------------------------------------
-// twins
+// -------------------------------------------------------------------------------------------------- twins
 
-/// Whether two parts with the same ends run within the tolerance of each other.
-bool Arrangement::twins(std::uint32_t a, std::uint32_t b) const {
-  const auto bulge = [&](const Part& p, bool forward) {  // how far it strays to the right of its chord
-    const Edge& e = set_->edges[p.edge];
-    if (!e.is_arc()) return 0.0;
-    const double half = std::min(0.5 * distance(points_[p.from], points_[p.to]), e.radius);
-    const double sagitta = half * half / (e.radius + std::sqrt(e.radius * e.radius - half * half));
-    return forward ? e.turn * sagitta : -e.turn * sagitta;
-  };
-  const Part &p = parts_[a], &q = parts_[b];
-  return std::abs(bulge(p, true) - bulge(q, p.from == q.from)) <= 2.0 * weld_;
+/// How far a part runs to the right of its chord, walked forwards or backwards.
+double Arrangement::bulge(const Part& p, bool forward) const {
+  const Edge& e = edges()[p.edge];
+  if (!e.is_arc()) return 0.0;
+  const double half = std::min(0.5 * norm(points_[p.to] - points_[p.from]), e.radius);
+  const double sagitta = half * half / (e.radius + std::sqrt(e.radius * e.radius - half * half));
+  return forward ? e.turn * sagitta : -e.turn * sagitta;
 }
 
+/// Parts with the same ends that run within twice the tolerance of each other become one.
 void Arrangement::merge_twins_at(std::uint32_t point, std::vector<std::uint32_t>& ends) {
-  const auto other = [&](std::uint32_t end) { return place_of(end ^ 1); };
+  const auto other = [&](std::uint32_t end) { return point_of(end ^ 1); };
   ends.clear();
-  for (std::uint32_t k = ends_begin_[point]; k < ends_begin_[point + 1]; ++k)
+  for (std::uint32_t k = point_ends_[point]; k < point_ends_[point + 1]; ++k)
     if (other(ends_[k]) > point) ends.push_back(ends_[k]);
   if (ends.size() < 2) return;
   std::sort(ends.begin(), ends.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -190,7 +275,10 @@ void Arrangement::merge_twins_at(std::uint32_t point, std::vector<std::uint32_t>
     if (!stays.kept) continue;
     for (std::size_t k = i + 1; k < ends.size() && other(ends[k]) == other(ends[i]); ++k) {
       Part& goes = parts_[ends[k] >> 1];
-      if (!goes.kept || !twins(ends[i] >> 1, ends[k] >> 1)) continue;
+      if (!goes.kept) continue;
+      const double apart = std::abs(bulge(stays, true) - bulge(goes, stays.from == goes.from));
+      if (apart > 2.0 * weld_) continue;
+      displaced_ = std::max(displaced_, apart);
       goes.kept = false;
       const int sign = goes.from == stays.from ? 1 : -1;
       for (int g = 0; g < 2; ++g) stays.step.of[g] += sign * goes.step.of[g];
@@ -201,184 +289,34 @@ void Arrangement::merge_twins_at(std::uint32_t point, std::vector<std::uint32_t>
 
 void Arrangement::merge_twins() {
   std::vector<std::uint32_t> ends;
-  for (std::uint32_t point = 0; point < points_.size(); ++point) merge_twins_at(point, ends);
+  for (std::uint32_t point = 0; point < points_.size(); ++point)
+    if (point_ends_[point + 1] - point_ends_[point] > 1) merge_twins_at(point, ends);
   // Ends of parts that are gone leave their lists.
-  std::uint32_t kept = 0, begin = 0;
+  std::uint32_t kept = 0, first = 0;
   for (std::size_t point = 0; point < points_.size(); ++point) {
-    const std::uint32_t end = ends_begin_[point + 1];
-    for (std::uint32_t k = begin; k < end; ++k)
+    const std::uint32_t last = point_ends_[point + 1];
+    for (std::uint32_t k = first; k < last; ++k)
       if (parts_[ends_[k] >> 1].kept) ends_[kept++] = ends_[k];
-    begin = end;
-    ends_begin_[point + 1] = kept;
+    first = last;
+    point_ends_[point + 1] = kept;
   }
   ends_.resize(kept);
 }
 
-// ------------------------------------------------------------------------------------------- order around
-// points
-
-Arrangement::Leaving Arrangement::leaving(std::uint32_t end) const {
-  const Part& part = parts_[end >> 1];
-  const Edge& e = set_->edges[part.edge];
-  const bool forward = (end & 1) == 0;
-  const Point2 v = forward ? points_[part.to] - points_[part.from] : points_[part.from] - points_[part.to];
-  const double chord = norm(v);
-  const double curvature = e.is_arc() ? (forward ? e.turn : -e.turn) / e.radius : 0.0;
-  return {(1.0 / chord) * v, chord, curvature};
-}
-
-/// Counter-clockwise from -x. The directions at the point itself decide, and where they are nearly one, where
-/// the curves are half way along the shorter: at its end they may meet again.
-void Arrangement::sort_ends_at(std::uint32_t* begin, std::uint32_t* end) const {
-  struct Ray {
-    double angle;  // grows with the angle from -pi to pi: -2 to 2
-    Leaving out;
-    std::uint32_t end;
-  };
-  constexpr double kNearlyOne = 1e-3;
-  const auto count = static_cast<std::size_t>(end - begin);
-  std::vector<Ray> many;
-  Ray few[8];
-  if (count > 8) many.resize(count);
-  Ray* rays = count > 8 ? many.data() : few;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Leaving out = leaving(begin[i]);
-    const Point2 d = direction_at(out.unit, out.chord, out.curvature, 0.0);
-    const double share = d.x / (std::abs(d.x) + std::abs(d.y));
-    rays[i] = {d.y < 0.0 || (d.y == 0.0 && d.x < 0.0) ? -1.0 + share : 1.0 - share, out, begin[i]};
+/// The parts become the edges of the next round.
+void Arrangement::contract() {
+  std::vector<Edge> next;
+  next.reserve(parts_.size());
+  for (const Part& part : parts_) {
+    if (!part.kept) continue;
+    Edge e = edges()[part.edge];
+    set_shape(e, points_[part.from], points_[part.to], e.radius, e.turn, weld_);
+    e.from_point = part.from;
+    e.to_point = part.to;
+    e.step = part.step;
+    next.push_back(e);
   }
-  std::sort(rays, rays + count, [](const Ray& a, const Ray& b) { return a.angle < b.angle; });
-  const auto wrong = [](const Ray& a, const Ray& b) {
-    const double ahead = 0.5 * std::min(a.out.chord, b.out.chord);
-    const auto at = [&](const Leaving& l) { return direction_at(l.unit, l.chord, l.curvature, ahead); };
-    return cross(at(a.out), at(b.out)) < 0.0;
-  };
-  for (std::size_t pass = 0; pass < std::min<std::size_t>(count, 64); ++pass) {
-    bool moved = false;
-    for (std::size_t i = 0; i < count; ++i) {
-      Ray &a = rays[i], &b = rays[i + 1 < count ? i + 1 : 0];
-      const double gap = i + 1 < count ? b.angle - a.angle : b.angle - a.angle + 4.0;
-      if (gap > kNearlyOne || !wrong(a, b)) continue;
-      std::swap(a.out, b.out);  // the angles stay: they are the same but for rounding
-      std::swap(a.end, b.end);
-      moved = true;
-    }
-    if (!moved) break;
-  }
-  for (std::size_t i = 0; i < count; ++i) begin[i] = rays[i].end;
-}
-
-void Arrangement::sort_ends() {
-  for (std::size_t point = 0; point < points_.size(); ++point)
-    if (ends_begin_[point + 1] - ends_begin_[point] > 2)
-      sort_ends_at(&ends_[ends_begin_[point]], ends_.data() + ends_begin_[point + 1]);
-}
-
-// ---------------------------------------------------------------------------------------------- winding
-// numbers
-
-/// Winding numbers of one connected piece of the arrangement, first as differences to where the walk begins,
-/// then as they are: its leftmost point looks out on what only other pieces wind around.
-bool Arrangement::spread_from(std::uint32_t root, const WindingSearch& search) {
-  walk_.assign(1, {ends_[ends_begin_[root]], {}});
-  seen_[root] = true;
-  std::vector<std::uint32_t> reached;
-  std::uint32_t leftmost = root;
-  for (std::size_t next = 0; next < walk_.size(); ++next) {
-    const Step step = walk_[next];
-    const std::uint32_t point = place_of(step.end);
-    if (points_[point].x < points_[leftmost].x) leftmost = point;
-    if (!spread_around(step, reached)) return false;
-  }
-  const Winding true_left = search.around(points_[leftmost], [&](std::uint32_t i) {
-    return touches(set_->edges[i], points_[leftmost], 2.0 * weld_);
-  });
-  std::vector<std::uint32_t> ends(ends_.data() + ends_begin_[leftmost],
-                                  ends_.data() + ends_begin_[leftmost + 1]);
-  sort_ends_at(ends.data(), ends.data() + ends.size());
-  const Winding found = left_of_end(ends.back());
-  for (const std::uint32_t part : reached)
-    for (int g = 0; g < 2; ++g) parts_[part].left.of[g] += true_left.of[g] - found.of[g];
-  return true;
-}
-
-/// Goes once around a point, counter-clockwise from the end whose left winding number is known. False where a
-/// part has another number already.
-bool Arrangement::spread_around(const Step& known, std::vector<std::uint32_t>& reached) {
-  const std::uint32_t point = place_of(known.end);
-  const std::uint32_t begin = ends_begin_[point], count = ends_begin_[point + 1] - begin;
-  std::uint32_t at = 0;
-  while (ends_[begin + at] != known.end) ++at;
-  Winding left = known.left;
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const std::uint32_t end = ends_[begin + (at + k) % count];
-    Part& part = parts_[end >> 1];
-    const bool forward = (end & 1) == 0;
-    const Winding right = left;
-    Winding own;
-    for (int g = 0; g < 2; ++g) {
-      const std::int32_t step = forward ? part.step.of[g] : -part.step.of[g];
-      // The first one's left is what is known; each other's right is the left of the one before.
-      if (k > 0) left.of[g] = right.of[g] + step;
-      own.of[g] = forward ? left.of[g] : left.of[g] + part.step.of[g];
-    }
-    if (part.known) {
-      if (!(part.left == own)) return false;
-      continue;
-    }
-    part.known = true;
-    part.left = own;
-    reached.push_back(end >> 1);
-    const std::uint32_t other = place_of(end ^ 1);
-    if (seen_[other]) continue;
-    seen_[other] = true;
-    walk_.push_back({end ^ 1, left_of_end(end ^ 1)});
-  }
-  return true;
-}
-
-bool Arrangement::spread_windings(const BoxTree& tree) {
-  const WindingSearch search(set_->edges, tree);
-  seen_.assign(points_.size(), false);
-  for (std::uint32_t point = 0; point < points_.size(); ++point)
-    if (!seen_[point] && ends_begin_[point] != ends_begin_[point + 1] && !spread_from(point, search))
-      return false;
-  return true;
-}
-
-// ------------------------------------------------------------------------------------------------------
-// outlines
-
-std::vector<Arrangement::Loop> Arrangement::follow(const std::vector<std::int8_t>& sides) const {
-  std::vector<std::uint32_t> index(2 * parts_.size());  // of an end among those of its point
-  for (std::size_t point = 0; point < points_.size(); ++point)
-    for (std::uint32_t k = ends_begin_[point]; k < ends_begin_[point + 1]; ++k)
-      index[ends_[k]] = k - ends_begin_[point];
-  // Clockwise from where a boundary arrives lies the inside, and where that ends the boundary leaves: loops
-  // that touch in a point stay apart. Winding numbers that agree leave as many ways out of a point as in.
-  const auto after = [&](Way way) {
-    const std::uint32_t arrival = 2 * way.part + (way.forward ? 1 : 0), point = place_of(arrival);
-    const std::uint32_t begin = ends_begin_[point], count = ends_begin_[point + 1] - begin;
-    std::uint32_t at = index[arrival], end = arrival;
-    do {
-      at = at == 0 ? count - 1 : at - 1;
-      end = ends_[begin + at];
-    } while (sides[end >> 1] == 0);
-    assert(sides[end >> 1] == ((end & 1) == 0 ? 1 : -1));
-    return Way{end >> 1, (end & 1) == 0};
-  };
-  std::vector<Loop> loops;
-  std::vector<bool> used(parts_.size(), false);
-  for (std::uint32_t first = 0; first < parts_.size(); ++first) {
-    if (sides[first] == 0 || used[first]) continue;
-    Loop loop;
-    for (Way way{first, sides[first] > 0}; !used[way.part]; way = after(way)) {
-      used[way.part] = true;
-      loop.push_back(way);
-    }
-    loops.push_back(std::move(loop));
-  }
-  return loops;
+  contracted_ = std::move(next);
 }
 
 }  // namespace kerf::region_detail

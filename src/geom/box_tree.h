@@ -4,7 +4,10 @@
 // one group lie near each other whatever the order they came in.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "edge.h"
@@ -35,6 +38,10 @@ class BoxTree {
       });
     return go_on;
   }
+  /// Calls visit(item) for the boxes that a ray from `at` to -x meets, as `seen(box)` has them, roughly from
+  /// the nearest on; no more for those that lie to the left of what `visit` returned last.
+  template <class Seen, class Visit>
+  void leftwards(Point2 at, Seen seen, Visit visit) const;
   /// The item whose box is least far by `distance_to(item)`, which is asked only where the box itself is
   /// nearer to `at` than the best so far; `best` starts as the largest distance of interest.
   template <class Distance>
@@ -85,6 +92,42 @@ inline double distance_to_box(Point2 p, const Box& box) {
   const double x = std::max({box.low_x - p.x, 0.0, p.x - box.high_x});
   const double y = std::max({box.low_y - p.y, 0.0, p.y - box.high_y});
   return std::sqrt(x * x + y * y);
+}
+
+template <class Seen, class Visit>
+void BoxTree::leftwards(Point2 at, Seen seen, Visit visit) const {
+  struct Entry {
+    double reach;
+    std::size_t level, node;
+    bool operator<(const Entry& o) const { return reach < o.reach; }  // the rightmost first
+  };
+  if (levels_.empty()) return;
+  double furthest = -std::numeric_limits<double>::infinity();
+  std::vector<Entry> heap;
+  const auto push = [&](const Box& stored, std::size_t level, std::size_t node) {
+    const Box box = seen(stored);
+    if (box.low_y > at.y || box.high_y < at.y || box.low_x > at.x || box.high_x < furthest) return;
+    heap.push_back({std::min(box.high_x, at.x), level, node});
+    std::push_heap(heap.begin(), heap.end());
+  };
+  push(levels_.back()[0], levels_.size() - 1, 0);
+  while (!heap.empty() && heap.front().reach >= furthest) {
+    std::pop_heap(heap.begin(), heap.end());
+    const Entry entry = heap.back();
+    heap.pop_back();
+    const std::size_t first = entry.node * kGroup;
+    if (entry.level == 0) {
+      for (std::size_t i = first; i < end_of(entry.node); ++i) {
+        const Box box = seen(boxes_[i]);
+        if (box.low_y <= at.y && box.high_y >= at.y && box.low_x <= at.x && box.high_x >= furthest)
+          furthest = visit(items_[i]);
+      }
+      continue;
+    }
+    const std::vector<Box>& below = levels_[entry.level - 1];
+    for (std::size_t k = first; k < std::min(first + kGroup, below.size()); ++k)
+      push(below[k], entry.level - 1, k);
+  }
 }
 
 template <class Distance>

@@ -43,23 +43,37 @@ Crossings carriers_meet(const Edge& e, const Edge& f) {
 
 }  // namespace
 
-bool touches(const Edge& e, Point2 p, double weld) {
+double touches(const Edge& e, Point2 p, double weld) {
   const Point2 v = e.chord(), q = p - e.from;
   const double t = dot(q, v), vv = dot(v, v), ww = weld * weld;
-  if (t <= 0.0 || t >= vv) return dot(q, q) <= ww || dot(p - e.to, p - e.to) <= ww;
-  if (!e.is_arc()) return square(cross(v, q)) <= ww * vv;
-  return std::abs(off_circle(e, q)) <= 2.0 * e.radius * weld &&
-         e.turn * cross(v, q) <= 0.5 * std::abs(cross(v, e.centre));
+  if (t <= 0.0 || t >= vv) {
+    const double near = std::min(dot(q, q), dot(p - e.to, p - e.to));
+    return near <= ww ? std::sqrt(near) : -1.0;
+  }
+  if (!e.is_arc()) {
+    const double aside = square(cross(v, q));
+    return aside <= ww * vv ? std::sqrt(aside / vv) : -1.0;
+  }
+  const double aside = std::abs(off_circle(e, q));
+  return aside <= 2.0 * e.radius * weld && e.turn * cross(v, q) <= 0.5 * std::abs(cross(v, e.centre))
+             ? 0.5 * aside / e.radius
+             : -1.0;
 }
 
 Meeting meet(const Edge& e, const Edge& f, double weld) {
   Meeting m;
   const bool from_from = e.from_point == f.from_point, from_to = e.from_point == f.to_point;
   const bool to_from = e.to_point == f.from_point, to_to = e.to_point == f.to_point;
-  m.first_has_from = !from_from && !to_from && touches(e, f.from, weld);
-  m.first_has_to = !from_to && !to_to && touches(e, f.to, weld);
-  m.second_has_from = !from_from && !from_to && touches(f, e.from, weld);
-  m.second_has_to = !to_from && !to_to && touches(f, e.to, weld);
+  const auto has = [&](const Edge& edge, Point2 end) {
+    const double off = touches(edge, end, weld);
+    if (off < 0.0) return false;
+    m.off = std::max(m.off, off);
+    return true;
+  };
+  m.first_has_from = !from_from && !to_from && has(e, f.from);
+  m.first_has_to = !from_to && !to_to && has(e, f.to);
+  m.second_has_from = !from_from && !from_to && has(f, e.from);
+  m.second_has_to = !to_from && !to_to && has(f, e.to);
   const bool neighbours = from_from || from_to || to_from || to_to;
   if (neighbours && !e.is_arc() && !f.is_arc()) return m;  // lines meet once
   const Crossings found = carriers_meet(e, f);

@@ -34,24 +34,26 @@ void EdgeSet::begin(Point2 at) {
   points.push_back(at);
 }
 
+void set_shape(Edge& e, Point2 from, Point2 to, double radius, double turn, double weld) {
+  constexpr double kQuarter = 0.70710678118654752 * (1.0 - 1e-9);  // radius by chord of a quarter turn
+  e.from = from;
+  e.to = to;
+  e.turn = 0.0;
+  if (turn == 0.0) return;
+  const double chord2 = dot(e.chord(), e.chord());
+  e.radius = std::max(radius, kQuarter * std::sqrt(chord2));
+  if (chord2 <= 1e-3 * weld * e.radius) return;
+  e.turn = turn;
+  e.centre = centre_over_chord(e.chord(), e.radius, turn);
+}
+
 void EdgeSet::push(Point2 to, std::uint32_t number, double radius, double turn) {
   Edge e;
   e.from_point = edges.size() == first_edge_ ? first_ : edges.back().to_point;
-  e.from = points[e.from_point];
-  e.to = to;
+  set_shape(e, points[e.from_point], to, radius, turn, weld_);
   e.to_point = number;
   e.source = source_;
-  e.group = group_;
-  if (turn != 0.0) {
-    // Flatter than rounding can tell: a line. Ends that were moved may be further apart than the circle is
-    // wide.
-    const double chord2 = dot(e.chord(), e.chord());
-    e.radius = std::max(radius, 0.5 * std::sqrt(chord2));
-    if (chord2 > 1e-3 * weld_ * e.radius) {
-      e.turn = turn;
-      e.centre = centre_over_chord(e.chord(), e.radius, turn);
-    }
-  }
+  e.step.of[group_] = 1;
   edges.push_back(e);
 }
 
@@ -92,7 +94,7 @@ void EdgeSet::close() {
   const Edge last = edges.back();
   edges.pop_back();
   points.pop_back();
-  belongs_to(last.source, last.group);
+  belongs_to(last.source, last.step.of[1] != 0 ? 1 : 0);
   push(first, first_, last.radius, last.turn);
 }
 
@@ -104,11 +106,15 @@ void EdgeSet::circle(Point2 centre, double radius, double turn) {
   close();
 }
 
-std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t source, std::uint32_t group) {
+namespace {
+
+template <class Source>
+void add_segments(EdgeSet& set, const Outline& outline, std::uint32_t group, Source source) {
   set.begin(outline.start);
   Point2 from = outline.start;
-  for (const Segment& s : outline.segments) {
-    set.belongs_to(source++, group);
+  for (std::size_t i = 0; i < outline.segments.size(); ++i) {
+    const Segment& s = outline.segments[i];
+    set.belongs_to(source(i), group);
     const auto c = outline_detail::make_carrier(from, s, 0.0);
     if (c.is_arc())
       set.arc_to(from, s.to, c.circle_centre(), c.radius, c.turn);
@@ -116,7 +122,18 @@ std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t so
       set.line_to(s.to);
     from = s.to;
   }
-  return source;
+}
+
+}  // namespace
+
+std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t source, std::uint32_t group) {
+  add_segments(set, outline, group, [&](std::size_t i) { return source + static_cast<std::uint32_t>(i); });
+  return source + static_cast<std::uint32_t>(outline.segments.size());
+}
+
+void add_outline(EdgeSet& set, const Outline& outline, const std::vector<std::uint32_t>& sources,
+                 std::uint32_t group) {
+  add_segments(set, outline, group, [&](std::size_t i) { return sources[i]; });
 }
 
 }  // namespace kerf::region_detail

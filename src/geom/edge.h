@@ -16,18 +16,29 @@ struct Box {
   }
 };
 
+/// How often chains wind around a point, or what that changes by, by group.
+struct Winding {
+  std::int32_t of[2] = {0, 0};
+  bool operator==(const Winding&) const = default;
+};
+
 /// An arc is given by its ends, its radius and its turn, so that both ends lie on it; the centre follows from
 /// them.
 struct Edge : LineArc {
   std::uint32_t from_point = 0, to_point = 0;  // its ends by number
-  std::uint32_t source = 0;                    // what it is a piece of, by the caller's numbers
-  std::uint32_t group = 0;                     // whose boundary it is: 0 or 1
+  std::uint32_t source = 0;                    // the segment that it is a piece of, by the caller's numbers
+  Winding step;                                // the winding number on the left less that on the right
 
   Box box(double margin) const {
     return {std::min(from.x, to.x) - margin, std::min(from.y, to.y) - margin, std::max(from.x, to.x) + margin,
             std::max(from.y, to.y) + margin};
   }
 };
+
+/// Sets the shape of an edge: a line where `turn` is 0 or the arc is flatter than rounding can show, else an
+/// arc of at most a quarter turn, of a larger radius where the ends are further apart than one of `radius`
+/// allows.
+void set_shape(Edge& edge, Point2 from, Point2 to, double radius, double turn, double weld);
 
 /// Chains of edges in the making. Points closer than `weld` to the one before are not made.
 class EdgeSet {
@@ -66,6 +77,10 @@ class EdgeSet {
 
 /// Appends the segments of an outline, each a source of its own from `source` on; returns the next number.
 std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t source, std::uint32_t group);
+
+/// Appends the segments of an outline, each with a source of its own.
+void add_outline(EdgeSet& set, const Outline& outline, const std::vector<std::uint32_t>& sources,
+                 std::uint32_t group);
 
 /// Which way a curve runs at the distance `ahead` from its begin: its chord's direction `unit`, turned by
 /// what a circle of this curvature (above 0: to the left) turns between there and the chord's end.

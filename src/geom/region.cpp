@@ -32,9 +32,9 @@ std::uint32_t add_all(EdgeSet& set, const std::vector<Outline>& outlines, std::u
 template <class Inside>
 std::optional<Region> pick(const EdgeSet& set, const RegionOptions& options, Diagnostics& diagnostics,
                            Inside inside) {
-  const auto arrangement = arrange(set, options, diagnostics);
-  if (!arrangement) return std::nullopt;
-  return region_of(*arrangement, arrangement->loops(inside), set.weld());
+  const auto outlined = arrange(set, options, diagnostics, inside);
+  if (!outlined) return std::nullopt;
+  return region_of(*outlined, set.weld());
 }
 
 Relation relation_of(const Arrangement& arrangement) {
@@ -106,11 +106,11 @@ std::optional<Combined> combine(const Region& first, const Region& second, Boole
     return std::nullopt;
   EdgeSet set(weld_for(options, std::max(largest_of(first.loops), largest_of(second.loops))));
   add_all(set, second.loops, add_all(set, first.loops, 0, 0), 1);
-  const auto arrangement = arrange(set, options, diagnostics);
-  if (!arrangement) return std::nullopt;
-  const auto loops = arrangement->loops(
-      [what](const Winding& w) { return inside_combined(what, w.of[0] > 0, w.of[1] > 0); });
-  return Combined{region_of(*arrangement, loops, set.weld()), relation_of(*arrangement)};
+  const auto outlined = arrange(set, options, diagnostics, [what](const Winding& w) {
+    return inside_combined(what, w.of[0] > 0, w.of[1] > 0);
+  });
+  if (!outlined) return std::nullopt;
+  return Combined{region_of(*outlined, set.weld()), relation_of(outlined->arrangement)};
 }
 
 std::optional<Region> unite(const std::vector<Region>& regions, const RegionOptions& options,

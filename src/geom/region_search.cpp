@@ -8,12 +8,12 @@
 #include "outline_check.h"
 #include "resolve.h"
 
+#include "kerf/limits.h"
+
 namespace kerf {
 namespace {
 
 using namespace region_detail;
-
-constexpr std::size_t kMostMeetings = 10'000'000;
 
 Point2 nearest_on(const Edge& e, Point2 p) {
   const Point2 v = e.chord(), q = p - e.from;
@@ -54,7 +54,7 @@ Place RegionSearch::locate(Point2 at, Length weld) const {
   });
   if (near) return Place::boundary;
   const WindingSearch search(tree_->set.edges, tree_->boxes);
-  return search.around(at, [](std::uint32_t) { return false; }).of[0] > 0 ? Place::inside : Place::outside;
+  return search.around(at).of[0] > 0 ? Place::inside : Place::outside;
 }
 
 std::optional<BoundaryPoint> RegionSearch::nearest(Point2 at) const {
@@ -94,7 +94,7 @@ std::optional<std::vector<SelfMeeting>> self_meetings(const Outline& outline, co
     if (m.second_has_from) note(e.from, e, f);
     if (m.second_has_to) note(e.to, e, f);
     for (int k = 0; k < m.crossings; ++k) note(m.at[k], e, f);
-    return found.size() < kMostMeetings;
+    return found.size() < limits::kMaxSelfIntersections;
   });
   if (!all) {
     diagnostics.error(Code::region_too_complex, options.where, "the outline meets itself in too many places");

@@ -7,18 +7,19 @@
 
 #include "outline_check.h"
 
+#include "kerf/limits.h"
+
 namespace kerf::region_detail {
 namespace {
 
 /// Points computed from coordinates of size 1 are off by some 2^-50; crossings at small angles by more.
 constexpr double kRounding = 0x1p-40;
-constexpr std::size_t kMostEdges = 12'000'000;  // about five gigabytes of work
 /// Finer than this (of the largest coordinate) no attempt is made.
 constexpr double kFinest = 0x1p-45;
 
 /// A contradiction is met with more care, then with finer tolerances, then with coarser ones.
 struct Attempt {
-  double share;  // of the tolerance
+  double factor;  // of the tolerance
   Arrangement::Care care;
 };
 constexpr Attempt kAttempts[] = {
@@ -42,25 +43,65 @@ bool starts_run(const Arrangement& a, Arrangement::Way before, Arrangement::Way 
   return e.source != f.source || e.turn != f.turn || before.forward != way.forward;
 }
 
-/// A run of ways along one source, as a segment.
-void append_run(Outline& outline, const Arrangement& arrangement, const Arrangement::Way* begin,
-                const Arrangement::Way* end) {
+/// A point of the arc that a run of ways follows, in the middle if no point was displaced.
+Point2 via_of(const Arrangement& arrangement, Point2 from, Point2 to, const Arrangement::Way* first,
+              const Arrangement::Way* last) {
+  constexpr double kShortArc =
+      1.5;  // chord by radius: below, the chord and the radius determine the arc best
+  const auto part = [&](const Arrangement::Way* way) { return arrangement.parts()[way->part]; };
+  const Edge& e = arrangement.edges()[part(first).edge];
+  const double turn = first->forward ? e.turn : -e.turn;
+  if (!arrangement.displaced()) return outline_detail::arc_middle(from, to, e.circle_centre(), e.radius, turn);
+  const Point2 chord = to - from;
+  const double length = norm(chord);
+  double sum = 0.0;  // of the chords
+  for (const Arrangement::Way* way = first; way != last; ++way)
+    sum += distance(arrangement.point(part(way).from), arrangement.point(part(way).to));
+  if (sum < kShortArc * e.radius) {
+    const double half = std::min(0.5 * length, e.radius);
+    const double height = half * half / (e.radius + std::sqrt(e.radius * e.radius - half * half));
+    return from + 0.5 * chord - (turn * height / length) * left_of(chord);
+  }
+  const Arrangement::Way* middle = first;
+  for (double before = 0.0; middle + 1 != last; ++middle) {
+    before += distance(arrangement.point(part(middle).from), arrangement.point(part(middle).to));
+    if (before >= 0.5 * sum) break;
+  }
+  return arrangement.point_on(part(middle), 0.5);
+}
+
+/// A run of ways along one source, as a segment; as several where points were displaced too far for that.
+void append_run(Outline& outline, std::vector<std::uint32_t>& sources, const Arrangement& arrangement,
+                const Arrangement::Way* first, const Arrangement::Way* last) {
   constexpr double kFlat = 4.0 * outline_detail::kFlatArc;  // chord by radius of what readers take for a line
-  const auto& parts = arrangement.parts();
-  const Arrangement::Way last = *(end - 1);
+  const auto end_of = [&](const Arrangement::Way* way) {
+    const Part& part = arrangement.parts()[way->part];
+    return arrangement.point(way->forward ? part.to : part.from);
+  };
+  const auto in_two = [&](const Arrangement::Way* between) {
+    append_run(outline, sources, arrangement, first, between);
+    append_run(outline, sources, arrangement, between, last);
+  };
   const Point2 from = outline.point(outline.segments.size());
   Segment segment;
-  segment.to = arrangement.point(last.forward ? parts[last.part].to : parts[last.part].from);
-  if (segment.to == from && end - begin > 1) {  // a whole circle
-    const std::ptrdiff_t half = (end - begin) / 2;
-    append_run(outline, arrangement, begin, begin + half);
-    return append_run(outline, arrangement, begin + half, end);
+  segment.to = end_of(last - 1);
+  if (segment.to == from && last - first > 1) return in_two(first + (last - first) / 2);  // a whole circle
+  const Edge& e = arrangement.edges()[arrangement.parts()[first->part].edge];
+  if (e.is_arc() && (last - first > 1 || distance(from, segment.to) > kFlat * e.radius))
+    segment.via = via_of(arrangement, from, segment.to, first, last);
+  if (arrangement.displaced() && last - first > 1) {
+    const auto carrier = outline_detail::make_carrier(from, segment, 0.0);
+    const Arrangement::Way* worst = nullptr;
+    double off = arrangement.slack();
+    for (const Arrangement::Way* way = first; way + 1 != last; ++way)
+      if (const double own = distance_to(carrier, end_of(way)); own > off) {
+        off = own;
+        worst = way;
+      }
+    if (worst != nullptr) return in_two(worst + 1);
   }
-  const Edge& e = arrangement.edges()[parts[begin->part].edge];
-  if (e.is_arc() && (end - begin > 1 || distance(from, segment.to) > kFlat * e.radius))
-    segment.via = outline_detail::arc_middle(from, segment.to, e.circle_centre(), e.radius,
-                                             begin->forward ? e.turn : -e.turn);
   outline.segments.push_back(segment);
+  sources.push_back(e.source);
 }
 
 /// Whether a loop is narrower than the tolerance everywhere. Its area and length are taken from the chords
@@ -87,12 +128,24 @@ bool is_sliver(const Arrangement& arrangement, const Arrangement::Loop& loop, do
   return std::abs(twice_area) <= weld * length;
 }
 
-Outline outline_of(const Arrangement& arrangement, Arrangement::Loop loop) {
+void append_loop(Traced& made, const Arrangement& arrangement, Arrangement::Loop loop) {
   const std::size_t n = loop.size();
   std::size_t first = 0;
   while (first < n && !starts_run(arrangement, loop[(first + n - 1) % n], loop[first])) ++first;
   std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(first % n), loop.end());
-  return chain_of(arrangement, loop.data(), loop.data() + n);
+  Outline outline;
+  const Part& start = arrangement.parts()[loop[0].part];
+  outline.start = arrangement.point(loop[0].forward ? start.from : start.to);
+  std::vector<std::uint32_t> sources;
+  const Arrangement::Way *at = loop.data(), *const end = at + n;
+  while (at != end) {
+    const Arrangement::Way* next = at + 1;
+    while (next != end && !starts_run(arrangement, *(next - 1), *next)) ++next;
+    append_run(outline, sources, arrangement, at, next);
+    at = next;
+  }
+  made.region.loops.push_back(std::move(outline));
+  made.sources.push_back(std::move(sources));
 }
 
 }  // namespace
@@ -120,68 +173,75 @@ bool usable_options(const RegionOptions& options, Diagnostics& diagnostics) {
   return false;
 }
 
+bool nearly_closed(const Outline& outline, double weld) {
+  return !outline.segments.empty() && distance(outline.segments.back().to, outline.start) <= weld;
+}
+
 bool usable_loops(const std::vector<Outline>& outlines, const RegionOptions& options,
                   Diagnostics& diagnostics) {
   if (!usable_options(options, diagnostics)) return false;
   for (std::size_t i = 0; i < outlines.size(); ++i) {
     const std::string name = fmt::format("{}.{}", named(options), i);
     if (!outline_detail::check_outline(outlines[i], name, options.where, diagnostics)) return false;
-    if (outlines[i].closed()) continue;
+    if (nearly_closed(outlines[i], weld_for(options, largest_coordinate(outlines[i])))) continue;
     diagnostics
         .error(Code::region_open_outline, options.where,
                fmt::format("outline \"{}\" is not closed, so that it has no inside", name))
-        .hint = "its last point has to be exactly its first";
+        .hint = "its last point has to be its first, up to the tolerance";
     return false;
   }
   return true;
 }
 
-std::optional<Arrangement> arrange(const EdgeSet& set, const RegionOptions& options,
-                                   Diagnostics& diagnostics) {
-  std::optional<Arrangement> made(std::in_place);
-  auto outcome = Arrangement::Outcome::too_many;
-  double finest = 0.0;  // worked out where it is needed
-  for (const Attempt attempt : kAttempts) {
-    const double weld = attempt.share * set.weld();
-    if (set.edges.size() > kMostEdges || weld < finest) continue;
-    outcome = made->build(set, weld, attempt.care);
-    if (outcome != Arrangement::Outcome::contradiction) break;
-    finest = kFinest * largest_coordinate(set.points);
+Arrangement* Attempts::next() {
+  double finest = attempt_ == 0 ? 0.0 : kFinest * largest_coordinate(set_.points);
+  while (attempt_ < std::size(kAttempts)) {
+    const Attempt attempt = kAttempts[attempt_++];
+    const double weld = attempt.factor * set_.weld();
+    if (weld < finest) continue;
+    if (set_.edges.size() > limits::kMaxRegionEdges) {
+      outcome_ = Arrangement::Outcome::too_many;
+      return nullptr;
+    }
+    outcome_ =
+        arrangement_.build(set_, weld, attempt.care, effort_.for_edges(set_.edges.size()), options_.progress);
+    if (outcome_ == Arrangement::Outcome::done) return &arrangement_;
+    if (outcome_ != Arrangement::Outcome::contradiction) return nullptr;
+    finest = kFinest * largest_coordinate(set_.points);
   }
-  if (outcome == Arrangement::Outcome::done) return made;
-  if (outcome == Arrangement::Outcome::too_many)
+  outcome_ = Arrangement::Outcome::contradiction;
+  return nullptr;
+}
+
+void Attempts::fail(Diagnostics& diagnostics) const {
+  if (outcome_ == Arrangement::Outcome::stopped) return;
+  if (outcome_ == Arrangement::Outcome::too_many)
     diagnostics
-        .error(Code::region_too_complex, options.where,
-               fmt::format("{}: the outlines meet in too many places", named(options)))
+        .error(Code::region_too_complex, options_.where,
+               fmt::format("{}: the outlines meet in too many positions", named(options_)))
         .hint = "outlines of short chords take less when arcs are fitted to them first";
   else
     diagnostics
-        .error(
-            Code::region_unresolved, options.where,
-            fmt::format("{}: what is inside could not be worked out without contradiction", named(options)))
+        .error(Code::region_unresolved, options_.where,
+               fmt::format("{}: the inside could not be computed without contradiction", named(options_)))
         .hint = "another tolerance may help";
-  return std::nullopt;
 }
 
-Outline chain_of(const Arrangement& arrangement, const Arrangement::Way* begin, const Arrangement::Way* end) {
-  Outline outline;
-  const Part& first = arrangement.parts()[begin->part];
-  outline.start = arrangement.point(begin->forward ? first.from : first.to);
-  while (begin != end) {
-    const Arrangement::Way* next = begin + 1;
-    while (next != end && !starts_run(arrangement, *(next - 1), *next)) ++next;
-    append_run(outline, arrangement, begin, next);
-    begin = next;
+Traced traced(const Outlined& outlined, double weld) {
+  Traced made;
+  for (const Arrangement::Loop& loop : outlined.loops)
+    if (loop.size() > 1 && !is_sliver(outlined.arrangement, loop, weld))
+      append_loop(made, outlined.arrangement, loop);
+  return made;
+}
+
+Region region_of(const Outlined& outlined, double weld) { return traced(outlined, weld).region; }
+
+void add_traced(EdgeSet& set, const Traced& traced, std::uint32_t group) {
+  for (std::size_t i = 0; i < traced.region.loops.size(); ++i) {
+    add_outline(set, traced.region.loops[i], traced.sources[i], group);
+    set.close();
   }
-  return outline;
-}
-
-Region region_of(const Arrangement& arrangement, const std::vector<Arrangement::Loop>& loops, double weld) {
-  Region region;
-  for (const Arrangement::Loop& loop : loops)
-    if (loop.size() > 1 && !is_sliver(arrangement, loop, weld))
-      region.loops.push_back(outline_of(arrangement, loop));
-  return region;
 }
 
 }  // namespace kerf::region_detail

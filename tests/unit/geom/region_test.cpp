@@ -149,6 +149,46 @@ TEST_F(Regions, ThatGrowAndShrinkAgainKeepTheirRoundShape) {
   EXPECT_EQ(back.loops[0].segments.size(), 8u);
 }
 
+/// Boundaries nearly two tolerances apart are not connected, but each has the other near its leftmost point.
+TEST_F(Regions, OfPiecesOneToTwoTolerancesApartAreExact) {
+  for (const double apart : {1.02e-6, 1.5e-6, 1.99e-6}) {
+    const Region a = made({circle(0, 0, 5)}), b = made({circle(0, 0, 5 + apart)});
+    EXPECT_NEAR(area(combined(a, b, Boolean::unite)), 25.0 * kPi, 1e-4);
+    EXPECT_NEAR(area(combined(a, b, Boolean::intersect)), 25.0 * kPi, 1e-4);
+    EXPECT_NEAR(area(combined(a, b, Boolean::subtract)), 0.0, 1e-4);
+    const Region square = made({rectangle(0, 0, 10, 10)});
+    EXPECT_NEAR(area(combined(square, made({rectangle(apart, 2, 5, 1)}), Boolean::subtract)), 95.0, 1e-4);
+    EXPECT_NEAR(area(combined(square, made({rectangle(10 + apart, 2, 5, 1)}), Boolean::unite)), 105.0, 1e-4);
+  }
+}
+
+TEST_F(Regions, WithNecksThatCloseUpToRoundingKeepBothSides) {
+  const double e = 1e-12;
+  const Outline dumbbell{{0, 0},
+                         {},
+                         {{{10, 0}, {}, {}},
+                          {{10, 5 - e}, {}, {}},
+                          {{20, 5 - e}, {}, {}},
+                          {{20, 0}, {}, {}},
+                          {{30, 0}, {}, {}},
+                          {{30, 10}, {}, {}},
+                          {{20, 10}, {}, {}},
+                          {{20, 5 + e}, {}, {}},
+                          {{10, 5 + e}, {}, {}},
+                          {{10, 10}, {}, {}},
+                          {{0, 10}, {}, {}},
+                          {{0, 0}, {}, {}}}};
+  EXPECT_NEAR(area(made({dumbbell})), 200.0, 1e-6);
+  // Two squares of 10 with a bridge of 2: where it closes two squares of 8 are left, and what the bridge's
+  // ends leave is at most the tolerance's width.
+  const Region bridged = made({rectangle(0, 0, 10, 10), rectangle(9, 4, 12, 2), rectangle(20, 0, 10, 10)});
+  EXPECT_NEAR(area(offset_by(bridged, -1.0)), 128.0 + 2.0 * (1.0 - 0.25 * kPi) * 2.0, 1e-4);
+  EXPECT_NEAR(area(offset_by(bridged, -1.0 + 1e-9)), 128.0 + 2.0 * (1.0 - 0.25 * kPi) * 2.0, 1e-4);
+  Region chained = bridged;
+  for (int i = 0; i < 3; ++i) chained = offset_by(chained, -1.0 / 3.0);
+  EXPECT_NEAR(area(chained), 128.0 + 2.0 * (1.0 - 0.25 * kPi) * 2.0, 1e-4);
+}
+
 TEST_F(Regions, ScaleWithTheirTolerance) {
   RegionOptions options;
   options.tolerance.weld = mm(1e-3);
@@ -249,7 +289,8 @@ TEST(RegionErrors, ContradictionsAreFoundAndRefused) {
   set.close();
   region_detail::add_outline(set, {{5, 5}, {}, {{{5, 15}, {}, {}}}}, 4, 0);
   Diagnostics diagnostics;
-  EXPECT_FALSE(region_detail::arrange(set, {}, diagnostics).has_value());
+  const auto inside = [](const region_detail::Winding& w) { return w.of[0] > 0; };
+  EXPECT_FALSE(region_detail::arrange(set, {}, diagnostics, inside).has_value());
   ASSERT_TRUE(diagnostics.has_errors());
   EXPECT_EQ(diagnostics.list()[0].code, Code::region_unresolved);
 }
