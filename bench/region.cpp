@@ -4,12 +4,12 @@
 // ms, GEOS 703 ms, Boost.Geometry 422 ms, Clipper 673 ms and 27 s chained. Then growth, from 100 to 100,000
 // pieces: squares and overlapping circles united, a ring of noise offset by many times the length of its
 // sides, and the union of two polygons that cross a few times.
-#include "kerf/region.h"
-
 #include <benchmark/benchmark.h>
 #include <cmath>
 #include <numbers>
 #include <random>
+
+#include "kerf/offset.h"
 
 namespace {
 

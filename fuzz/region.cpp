@@ -1,13 +1,12 @@
 // Any bytes as outlines and operations: points on a grid (so that exact coincidences are frequent) and
 // occasionally raw doubles, arcs of any bulge, and every operation of region.h and fit.h.
-#include "kerf/region.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 
 #include "kerf/fit.h"
+#include "kerf/offset.h"
 
 namespace {
 
@@ -73,9 +72,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     RegionSearch(*a).locate({by, 0.0}, mm(1e-6));
   }
   for (const Outline& outline : outlines[0]) {
-    widen(outline, mm(by), head % 2 == 0 ? PathEnds::round : PathEnds::butt, options, diagnostics);
-    parallel(outline, mm(by), options, diagnostics);
-    self_meetings(outline, options, diagnostics);
+    buffer(outline, mm(by), head % 2 == 0 ? PathEnds::round : PathEnds::butt, options, diagnostics);
+    offset_path(outline, mm(by), options, diagnostics);
+    self_intersections(outline, options, diagnostics);
     std::vector<Point2> points{outline.start};
     for (const Segment& s : outline.segments) points.push_back(s.to);
     fit_arcs(points, options.tolerance.weld, {}, diagnostics);

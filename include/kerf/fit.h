@@ -67,10 +67,4 @@ struct SplineEnds {
 std::optional<Spline> spline_through(const std::vector<Point2>& points, const SplineEnds& ends,
                                      const FitOptions& options, Diagnostics& diagnostics);
 
-/// The points of an outline whose chords stay within `chord` of its arcs: its ends and points between, at
-/// least 16 to a full circle and at most 4096 an arc. A closed outline ends with its first point.
-std::vector<Point2> flattened(const Outline& outline, Length chord);
-/// Counter-clockwise from the right, without the first point repeated.
-std::vector<Point2> flattened(const Circle& circle, Length chord);
-
 }  // namespace kerf

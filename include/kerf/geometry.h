@@ -44,6 +44,38 @@ inline double length(Point3 a) { return std::sqrt(dot(a, a)); }
 inline double distance(Point3 a, Point3 b) { return length(b - a); }
 inline bool finite(Point3 a) { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
+/// Axis-parallel box in the plane, mm; a new one is empty (low above high) and grows by `add`.
+struct Box2 {
+  Point2 low{kFar, kFar};
+  Point2 high{-kFar, -kFar};
+
+  bool empty() const { return low.x > high.x || low.y > high.y; }
+  void add(Point2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  void add(const Box2& b) {
+    if (b.empty()) return;
+    add(b.low);
+    add(b.high);
+  }
+  /// Touching boxes overlap.
+  bool overlaps(const Box2& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
+  }
+  bool contains(const Box2& b) const {
+    return b.low.x >= low.x && b.low.y >= low.y && b.high.x <= high.x && b.high.y <= high.y;
+  }
+  /// Larger by `margin` mm on all sides.
+  Box2 grown(double margin) const {
+    return {{low.x - margin, low.y - margin}, {high.x + margin, high.y + margin}};
+  }
+  bool operator==(const Box2&) const = default;
+
+ private:
+  static constexpr double kFar = std::numeric_limits<double>::infinity();
+};
+
 /// Axis-parallel box in mm; a new one is empty (low above high) and grows by `add`.
 struct Box3 {
   Point3 low{kFar, kFar, kFar};
@@ -67,6 +99,12 @@ struct Box3 {
 
  private:
   static constexpr double kFar = std::numeric_limits<double>::infinity();
+};
+
+struct Circle {
+  Point2 centre;  // mm
+  Length radius;  // > 0
+  bool operator==(const Circle&) const = default;
 };
 
 /// The plane an arc lies in. The third axis is the one the plane's name leaves out.

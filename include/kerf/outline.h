@@ -57,12 +57,6 @@ struct Outline {
   bool operator==(const Outline&) const = default;
 };
 
-struct Circle {
-  Point2 centre;  // mm
-  Length radius;  // > 0
-  bool operator==(const Circle&) const = default;
-};
-
 /// The circle as a closed outline of two half circles, counter-clockwise from its right.
 Outline as_outline(const Circle& circle);
 
@@ -174,6 +168,18 @@ std::optional<Outline> smooth_curve(const Curve& curve, const CurveOptions& opti
 /// end turns by more than 60 degrees.
 std::optional<Curve> guess_headings(const std::vector<Point2>& points, const CurveOptions& options,
                                     Diagnostics& diagnostics);
+
+// ------------------------------------------------------------------------------------------------ measures
+
+double area(const Outline& outline);  ///< square mm; above 0 for a simple counter-clockwise one
+Length length(const Outline& outline);
+Box2 bounds(const Outline& outline);
+
+/// The points of an outline whose chords stay within `chord` of its arcs: its ends and points between, at
+/// least 16 to a full circle and at most 4096 an arc. A closed outline ends with its first point.
+std::vector<Point2> flattened(const Outline& outline, Length chord);
+/// Counter-clockwise from the right, without the first point repeated.
+std::vector<Point2> flattened(const Circle& circle, Length chord);
 
 // ---------------------------------------------------------------------------------------------- transforms
 

@@ -80,70 +80,14 @@ std::optional<Combined> combine(const Region& first, const Region& second, Boole
 std::optional<Region> unite(const std::vector<Region>& regions, const RegionOptions& options,
                             Diagnostics& diagnostics);
 
-// -------------------------------------------------------------------------------------------------------
-// offset
-
-/// What fills outer corners when a region grows, and inner ones when it shrinks.
-enum class Join : std::uint8_t {
-  round,  ///< an arc: every point of the boundary is at the distance
-  mitre   ///< the neighbours' tangents up to where they meet, cut off straight at the limit
-};
-struct Joins {
-  Join join = Join::round;
-  double limit = 2.0;  ///< of a mitre: how far from the corner it is cut off, by the distance; at least 1
-};
-
-/// The segment of the input that a segment of the result runs beside, or around the end of.
-struct OffsetSource {
-  std::uint32_t loop = 0, segment = 0;
-  bool corner = false;  ///< around the corner at the end of that segment
-  bool operator==(const OffsetSource&) const = default;
-};
-
-struct Offset {
-  Region region;
-  std::size_t vanished = 0;  ///< loops of the input that left nothing: too narrow, or swallowed by others
-  std::vector<std::vector<OffsetSource>> sources{};  ///< of each segment, by loop
-};
-/// All points within `by` of the region (`by` > 0), or all points of the region that are at least -`by` from
-/// its boundary (`by` < 0). Outer corners become round when it grows, inner ones when it shrinks.
-std::optional<Offset> offset(const Region& region, Length by, const RegionOptions& options,
-                             Diagnostics& diagnostics);
-/// The same with corners of another shape.
-std::optional<Offset> offset(const Region& region, Length by, const Joins& joins,
-                             const RegionOptions& options, Diagnostics& diagnostics);
-
-enum class PathEnds : std::uint8_t {
-  round,  ///< as a mill leaves them
-  butt    ///< square, exactly at the ends
-};
-/// All points within `half_width` > 0 of a path, open or closed; it may cross itself.
-std::optional<Region> widen(const Outline& path, Length half_width, PathEnds ends,
-                            const RegionOptions& options, Diagnostics& diagnostics);
-
-/// The curve at the distance `to_left` (below 0: to the right) beside a path, without the parts that come
-/// nearer to the path than that: where a mill's centre runs that cuts along one side. In the sense of the
-/// path; several pieces, or none, where it is cut up.
-std::optional<std::vector<Outline>> parallel(const Outline& path, Length to_left,
-                                             const RegionOptions& options, Diagnostics& diagnostics);
-
 // ----------------------------------------------------------------------------------------------------
 // questions
 
-/// Axis-parallel box; low above high where there is nothing.
-struct Box2 {
-  Point2 low, high;  // mm
-  bool empty() const { return low.x > high.x; }
-};
-
-double area(const Outline& outline);  ///< square mm; above 0 for a simple counter-clockwise one
 double area(const Region& region);    ///< square mm
-Length length(const Outline& outline);
 Length length(const Region& region);  ///< of its whole boundary
-Box2 bounds(const Outline& outline);
 Box2 bounds(const Region& region);
 
-enum class Place : std::uint8_t { inside, outside, boundary };
+enum class Location : std::uint8_t { inside, outside, boundary };
 
 /// A point of a boundary.
 struct BoundaryPoint {
@@ -159,7 +103,7 @@ class RegionSearch {
   explicit RegionSearch(const Region& region);
   /// `boundary` where the point is within `weld` of it. On which side of a line it is, is decided without
   /// rounding.
-  Place locate(Point2 at, Length weld) const;
+  Location locate(Point2 at, Length weld) const;
   /// The nearest point of the boundary; nothing for an empty region.
   std::optional<BoundaryPoint> nearest(Point2 at) const;
 
@@ -169,13 +113,14 @@ class RegionSearch {
 };
 
 /// A place where an outline meets itself other than at the common end of neighbours.
-struct SelfMeeting {
+struct SelfIntersection {
   Point2 at;
   std::uint32_t first = 0, second = 0;  ///< segments, from 0; first < second
 };
 /// All of them, in order of segments; overlaps show as their ends. Nothing, with an error appended, where
 /// there are too many.
-std::optional<std::vector<SelfMeeting>> self_meetings(const Outline& outline, const RegionOptions& options,
-                                                      Diagnostics& diagnostics);
+std::optional<std::vector<SelfIntersection>> self_intersections(const Outline& outline,
+                                                                const RegionOptions& options,
+                                                                Diagnostics& diagnostics);
 
 }  // namespace kerf

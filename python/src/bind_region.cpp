@@ -345,9 +345,9 @@ PyRegion combined(const PyRegion& a, const PyRegion& b, Boolean what, const char
 
 std::string locate(const PyRegion& region, const py::object& point, double margin) {
   switch (region.search().locate(to_point2(point, "point"), mm(finite_number(margin, "margin")))) {
-    case Place::inside: return "inside";
-    case Place::boundary: return "boundary";
-    case Place::outside: break;
+    case Location::inside: return "inside";
+    case Location::boundary: return "boundary";
+    case Location::outside: break;
   }
   return "outside";
 }
@@ -443,7 +443,7 @@ void bind_paths(py::module_& m) {
         const Outline outline = path_of(path);
         finite_number(half_width, "half_width");
         return PyRegion(
-            compute([&](Diagnostics& d) { return widen(outline, mm(half_width), how, options, d); }));
+            compute([&](Diagnostics& d) { return buffer(outline, mm(half_width), how, options, d); }));
       },
       py::arg("path"), py::arg("half_width"), py::kw_only(), py::arg("ends") = "round",
       py::arg("tolerance") = kDefaultTolerance, kBuffer);
@@ -453,7 +453,8 @@ void bind_paths(py::module_& m) {
         const RegionOptions options = options_of(tolerance, "parallel");
         const Outline outline = path_of(path);
         finite_number(to_left, "to_left");
-        return list_of(compute([&](Diagnostics& d) { return parallel(outline, mm(to_left), options, d); }));
+        return list_of(
+            compute([&](Diagnostics& d) { return offset_path(outline, mm(to_left), options, d); }));
       },
       py::arg("path"), py::arg("to_left"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance,
       kOffsetPath);
@@ -463,8 +464,8 @@ void bind_paths(py::module_& m) {
         const RegionOptions options = options_of(tolerance, "self_meetings");
         const Outline outline = path_of(path);
         py::list list;
-        for (const SelfMeeting& s :
-             compute([&](Diagnostics& d) { return self_meetings(outline, options, d); }))
+        for (const SelfIntersection& s :
+             compute([&](Diagnostics& d) { return self_intersections(outline, options, d); }))
           list.append(py::make_tuple(s.at.x, s.at.y, s.first, s.second));
         return list;
       },

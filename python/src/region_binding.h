@@ -6,7 +6,7 @@
 
 #include "bindings.h"
 
-#include "kerf/region.h"
+#include "kerf/offset.h"
 
 namespace kerf::python {
 

@@ -10,7 +10,7 @@
 
 #include <optional>
 
-#include "geom/line_arc.h"
+#include "geom/base/line_arc.h"
 
 namespace kerf {
 

@@ -1,7 +1,7 @@
 // The circle behind a profile's arc.
 #pragma once
 
-#include "geom/line_arc.h"
+#include "geom/base/line_arc.h"
 
 #include "kerf/tool.h"
 

@@ -18,6 +18,8 @@
 
 #include "region_pieces.h"
 
+#include "kerf/offset.h"
+
 namespace {
 
 using namespace kerf;

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <random>
 
-#include "kerf/region.h"
+#include "kerf/offset.h"
 
 namespace {
 
@@ -122,11 +122,11 @@ std::string Case::membership(const std::vector<Outline>& outlines, const Region&
     const bool inside = rule == FillRule::positive  ? winding > 0
                         : rule == FillRule::nonzero ? winding != 0
                                                     : (winding & 1) != 0;
-    if (inside != (search.locate(p, {}) == Place::inside))
+    if (inside != (search.locate(p, {}) == Location::inside))
       return fmt::format("({}, {}) is on the wrong side of made regions", p.x, p.y);
   }
   for (const Outline& loop : made.loops) {
-    const auto found = self_meetings(loop, {}, diagnostics_);
+    const auto found = self_intersections(loop, {}, diagnostics_);
     if (!found) return "self-intersections failed";
   }
   return "";
@@ -163,13 +163,13 @@ std::string Case::offsets(const Region& a) {
   const auto signed_distance = [&](Point2 p) {  // below 0 inside
     const auto nearest = before.nearest(p);
     if (!nearest) return 1e300;
-    return before.locate(p, {}) == Place::inside ? -nearest->distance.mm() : nearest->distance.mm();
+    return before.locate(p, {}) == Location::inside ? -nearest->distance.mm() : nearest->distance.mm();
   };
   for (int i = 0; i < 20; ++i) {
     const Point2 p = drawer_.point(1.8 * size_, false);
     const double off = signed_distance(p) - by;
     if (std::abs(off) < 1e-5) continue;
-    if ((off < 0.0) != (after.locate(p, {}) == Place::inside))
+    if ((off < 0.0) != (after.locate(p, {}) == Location::inside))
       return fmt::format("offset by {}: ({}, {}) is {} off and on the wrong side", by, p.x, p.y, off);
   }
   for (const Outline& loop : made->region.loops)  // every point of it has the distance

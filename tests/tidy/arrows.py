@@ -27,7 +27,14 @@ def rooms(module, uses, order):
 # module may include its own rooms; permission for a module covers its rooms.
 ALLOWED = {
     "base": set(),
-    "geom": {"base"},
+    **rooms("geom", {"base"}, {
+        "base": [],
+        "outline": ["base"],
+        "fit": ["outline", "base"],
+        "solid": ["outline", "base"],
+        "region": ["outline", "base"],
+        "offset": ["region", "outline", "base"],
+    }),
     "tool": GEOMETRY,
     "stock": GEOMETRY,
     "path": {"tool", "stock"} | GEOMETRY,
@@ -73,7 +80,12 @@ OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly sm
 PUBLIC = {
     "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
              "number.h", "names.h", "codes.def"],
-    "geom": ["geometry.h", "outline.h", "chain.h", "extrude.h", "fit.h", "region.h", "mesh_check.h"],
+    "geom_base": ["geometry.h"],
+    "geom_outline": ["outline.h", "chain.h"],
+    "geom_fit": ["fit.h"],
+    "geom_solid": ["extrude.h", "mesh_check.h"],
+    "geom_region": ["region.h"],
+    "geom_offset": ["offset.h"],
     "tool": ["tool.h", "tool_comments.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],

@@ -5,7 +5,7 @@
 
 #include "front/gcmc/code/operators.h"
 #include "front/gcmc/run/builtins.h"
-#include "geom/line_arc.h"
+#include "geom/base/line_arc.h"
 
 namespace kerf::gcmc {
 namespace {

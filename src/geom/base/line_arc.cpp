@@ -1,0 +1,95 @@
+// Directions, offsets and intersections of lines and arcs.
+#include "line_arc.h"
+
+#include <numbers>
+
+namespace kerf {
+namespace {
+
+Point2 unit(Point2 v) {
+  const double size = norm(v);
+  return size > 0.0 ? (1.0 / size) * v : Point2{};
+}
+
+Crossings lines_cross(const LineArc& e, const LineArc& f) {
+  constexpr double kParallel = 1e-12;  // sine
+  const Point2 v = e.chord(), w = f.chord();
+  const double turn = cross(v, w);
+  Crossings found;
+  if (!(std::abs(turn) > kParallel * norm(v) * norm(w))) return found;
+  found.at[found.count++] = e.from + (cross(f.from - e.from, w) / turn) * v;
+  return found;
+}
+
+}  // namespace
+
+LineArc arc_about(Point2 centre, Point2 from, Point2 to, Turn turn) {
+  return {from, to, centre - from, distance(centre, to), turn == Turn::ccw ? 1.0 : -1.0};
+}
+
+Point2 start_direction(const LineArc& e) {
+  return e.is_arc() ? e.turn * left_of(unit(-e.centre)) : unit(e.chord());
+}
+
+Point2 end_direction(const LineArc& e) {
+  return e.is_arc() ? e.turn * left_of(unit(e.chord() - e.centre)) : unit(e.chord());
+}
+
+double sweep_to(const LineArc& arc, Point2 point) {
+  const Point2 a = -arc.centre, b = (point - arc.from) - arc.centre;
+  const double angle = arc.turn * std::atan2(cross(a, b), dot(a, b));
+  return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
+}
+
+Box2 bounds(const LineArc& e) {
+  Box2 box;
+  box.add(e.from);
+  box.add(e.to);
+  if (!e.is_arc()) return box;
+  const double sweep = sweep_to(e, e.to);
+  const Point2 centre = e.circle_centre();
+  for (const Point2 aside : {Point2{1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}})
+    if (const Point2 extreme = centre + e.radius * aside; sweep_to(e, extreme) < sweep) box.add(extreme);
+  return box;
+}
+
+double distance_to(const LineArc& e, Point2 p) {
+  const Point2 q = p - e.from, chord = e.chord();
+  if (!e.is_arc()) {
+    const double square = dot(chord, chord);
+    const double t = square > 0.0 ? std::clamp(dot(q, chord) / square, 0.0, 1.0) : 0.0;
+    return norm(q - t * chord);
+  }
+  const Point2 a = -e.centre, b = chord - e.centre, out = q - e.centre;
+  const auto between = [&](Point2 start, Point2 end) {  // for less than half a turn
+    return e.turn * cross(start, out) >= 0.0 && e.turn * cross(out, end) >= 0.0;
+  };
+  const bool beside = e.turn * cross(a, b) >= 0.0 ? between(a, b) : !between(b, a);
+  return beside ? std::abs(norm(out) - e.radius) : std::min(norm(q), norm(p - e.to));
+}
+
+std::optional<LineArc> offset(const LineArc& e, double to_left, double min_radius) {
+  LineArc out = e;
+  out.from = e.from + to_left * left_of(start_direction(e));
+  out.to = e.to + to_left * left_of(end_direction(e));
+  if (!e.is_arc()) return out;
+  out.radius = e.radius - e.turn * to_left;
+  if (!(out.radius > min_radius)) return std::nullopt;
+  out.centre = e.circle_centre() - out.from;
+  return out;
+}
+
+Crossings carriers_cross(const LineArc& e, const LineArc& f, double touch) {
+  if (e.is_arc()) return f.is_arc() ? detail::arc_and_arc(e, f, touch) : detail::arc_and_line(e, f, touch);
+  return f.is_arc() ? detail::arc_and_line(f, e, touch) : lines_cross(e, f);
+}
+
+Circle circle_of_bulge(Point2 from, Point2 to, double bulge) {
+  const Point2 chord = to - from;
+  const double aside =
+      0.25 * (1.0 / bulge - bulge);  // of the centre from the midpoint, in chords, to the left
+  const double radius = 0.25 * length(chord) * (std::abs(bulge) + 1.0 / std::abs(bulge));
+  return {{0.5 * (from.x + to.x) - aside * chord.y, 0.5 * (from.y + to.y) + aside * chord.x}, mm(radius)};
+}
+
+}  // namespace kerf
