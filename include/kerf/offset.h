@@ -22,8 +22,8 @@ enum class Join : std::uint8_t {
 };
 struct JoinOptions {
   Join join = Join::round;
-  /// Of a mitre: the maximum distance from the corner as a multiple of the offset, at least 1. Beyond, the
-  /// corner is cut off at this distance.
+  /// Of a mitre: the maximum distance of its tip from the corner as a multiple of the offset, at least 1. A
+  /// tip further away is cut off by a line at this distance.
   double mitre_limit = 2.0;
 };
 

@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <map>
+#include <numbers>
 #include <random>
 #include <string>
 
@@ -34,6 +35,8 @@ constexpr double kShort =
     1e-2;  // mm: where curves touch, gaps change their width from 0 to kKept over such a length
 constexpr double kRounding = 1e-9;  // square mm
 
+double norm(Point2 v) { return std::sqrt(dot(v, v)); }
+
 class Drawer {
  public:
   explicit Drawer(std::uint64_t seed) : random_(seed) {}
@@ -44,15 +47,24 @@ class Drawer {
     const double angle = in(0.0, 6.283185307179586);
     return {std::cos(angle), std::sin(angle)};
   }
-  /// 0, or from 1e-8 to 1e-4 with either sign.
-  double slight() { return chance(0.2) ? 0.0 : (chance(0.5) ? 1.0 : -1.0) * std::pow(10.0, in(-8.0, -4.0)); }
+  /// 0, a multiple of half the tolerance, or from 1e-8 to 1e-4, with either sign.
+  double slight() {
+    if (chance(0.2)) return 0.0;
+    const double sign = chance(0.5) ? 1.0 : -1.0;
+    return sign * (chance(0.2) ? 0.5e-6 * whole(1, 6) : std::pow(10.0, in(-8.0, -4.0)));
+  }
   Expression expression();
+  /// The points of a path whose lines are the middle of the pieces; else empty.
+  const std::vector<Point2>& path() const { return path_; }
 
  private:
   Expression rectangles();
+  Expression strokes();
   Piece piece();
+  Piece tangent(const Piece& other);
   Piece beside(const Piece& other);
   std::mt19937_64 random_;
+  std::vector<Point2> path_;
 };
 
 Piece Drawer::piece() {
@@ -88,7 +100,14 @@ Piece Drawer::beside(const Piece& other) {
   Piece p = other;
   const double little = slight();
   const Point2 x = other.axis, y{-x.y, x.x};
-  switch (whole(0, 4)) {
+  switch (whole(0, 6)) {
+    case 5: return tangent(other);
+    case 6: {  // turned slightly: sides that intersect at a small angle
+      p.axis = {x.x - little * x.y, x.y + little * x.x};
+      const double size = norm(p.axis);
+      p.axis = {p.axis.x / size, p.axis.y / size};
+      break;
+    }
     case 0: p.centre = other.centre + little * (chance(0.5) ? x : y); break;
     case 1: p.centre = other.centre + little * direction(); break;
     case 2:
@@ -115,8 +134,63 @@ Piece Drawer::beside(const Piece& other) {
   return p;
 }
 
+/// A circle that touches another piece from inside or outside, but for a little.
+Piece Drawer::tangent(const Piece& other) {
+  constexpr Point2 kDirections[] = {{1.0, 0.0},  {0.0, 1.0},  {0.6, 0.8},
+                                    {-0.8, 0.6}, {-1.0, 0.0}, {0.6, -0.8}};
+  Piece p;
+  p.is_rectangle = false;
+  p.a = 0.0;
+  p.b = 0.5 * whole(1, 6);
+  p.axis = other.axis;
+  const double off = (chance(0.6) ? p.b : -p.b) + slight();
+  if (other.is_rectangle) {
+    p.centre = other.world({0.5 * whole(-4, 4), other.b + off});
+  } else {
+    const Point2 d = kDirections[whole(0, 5)];
+    p.centre = other.world({other.a + (other.b + off) * std::abs(d.x), (other.b + off) * d.y});
+  }
+  return p;
+}
+
+/// A path of lines between whole numbers with a width: a slot for each line.
+Expression Drawer::strokes() {
+  constexpr double kTriples[][2] = {{3, 4}, {4, 3}, {6, 8}, {8, 6}, {5, 12}};
+  Expression e;
+  Point2 at{1.0 * whole(0, 10), 1.0 * whole(0, 10)};
+  const double width = chance(0.7) ? 0.25 * whole(1, 8) : in(0.01, 2.0);
+  for (int count = whole(1, 7); count > 0; --count) {
+    Point2 step{0.0, 0.0};
+    const double along = (chance(0.5) ? 1.0 : -1.0) * whole(1, 8) + (chance(0.2) ? slight() : 0.0);
+    switch (whole(0, 3)) {
+      case 0: step = {along, 0.0}; break;
+      case 1: step = {0.0, along}; break;
+      case 2: {
+        const double* sides = kTriples[whole(0, 4)];
+        step = {(chance(0.5) ? 1.0 : -1.0) * sides[0], (chance(0.5) ? 1.0 : -1.0) * sides[1]};
+        break;
+      }
+      default: step = {along, 1.0 * whole(-6, 6)};
+    }
+    const double length = norm(step);
+    Piece p;
+    p.is_rectangle = false;
+    p.a = 0.5 * length;
+    p.b = width;
+    p.axis = {step.x / length, step.y / length};
+    p.centre = at + 0.5 * step;
+    e.pieces.push_back(p);
+    at = at + step;
+    path_.push_back(at);
+    if (e.pieces.size() == 1) path_.insert(path_.begin(), at - step);
+  }
+  e.first_count = e.pieces.size();
+  return e;
+}
+
 Expression Drawer::expression() {
   Expression e;
+  if (chance(0.1)) return strokes();
   if (chance(0.25)) return rectangles();
   const int count = whole(2, 6);
   const double near = chance(0.5) ? 0.0 : 0.5;
@@ -183,6 +257,8 @@ class Case {
   std::string check_boolean(const Region& made);
   std::string check_offset(const Region& made, double by);
   std::string check_point(const Region& made, double by, Point2 p);
+  std::string check_sources(const Region& original, const Offset& made, double by);
+  std::string check_mitre(const Region& original, const Region& round, double by);
   Point2 anywhere() { return {drawer_.in(low_.x, high_.x), drawer_.in(low_.y, high_.y)}; }
 
   Drawer drawer_;
@@ -193,6 +269,11 @@ class Case {
 };
 
 std::optional<Region> Case::united(std::size_t begin, std::size_t end) {
+  if (const std::vector<Point2>& path = drawer_.path(); !path.empty() && drawer_.chance(0.7)) {
+    Outline line{path[0], {}, {}};
+    for (std::size_t i = 1; i < path.size(); ++i) line.segments.push_back({path[i], {}, {}});
+    return buffer(line, mm(exact_.pieces[0].b), PathEnds::round, {}, diagnostics_);
+  }
   std::vector<Outline> outlines;
   for (std::size_t i = begin; i < end; ++i) outlines.push_back(exact_.pieces[i].outline());
   const int way = drawer_.whole(0, 2);
@@ -269,8 +350,63 @@ std::string Case::check_offset(const Region& made, double by) {
   return "";
 }
 
+double distance_to_segment(Point2 from, const Segment& segment, Point2 p) {
+  const double ends = std::min(distance(from, p), distance(segment.to, p));
+  if (const auto arc = arc_circle(from, segment)) {
+    const double sign = arc->turn == Turn::ccw ? 1.0 : -1.0;
+    const auto heading = [&](Point2 q) { return std::atan2(q.y - arc->centre.y, q.x - arc->centre.x); };
+    double turned = sign * (heading(p) - heading(from));
+    turned -= 2.0 * std::numbers::pi * std::floor(turned / (2.0 * std::numbers::pi));
+    return turned <= arc->sweep.rad() ? std::abs(distance(p, arc->centre) - arc->radius) : ends;
+  }
+  const Point2 chord = segment.to - from;
+  const double along = dot(p - from, chord) / dot(chord, chord);
+  return along >= 0.0 && along <= 1.0 ? distance(p, from + along * chord) : ends;
+}
+
+/// Whether each segment of an offset lies at the distance from the segment, or the corner, that it names.
+std::string Case::check_sources(const Region& original, const Offset& made, double by) {
+  for (std::size_t k = 0; k < made.region.loops.size(); ++k) {
+    const Outline& loop = made.region.loops[k];
+    if (made.sources[k].size() != loop.segments.size()) return "a segment has no source";
+    for (std::size_t i = 0; i < loop.segments.size(); ++i) {
+      const OffsetSource& source = made.sources[k][i];
+      const Outline& owner = original.loops.at(source.loop);
+      const Segment& own = owner.segments.at(source.segment);
+      const Point2 from = loop.point(i);
+      const Point2 p = loop.segments[i].via.value_or(0.5 * (from + loop.segments[i].to));
+      const double off =
+          source.corner ? distance(own.to, p) : distance_to_segment(owner.point(source.segment), own, p);
+      if (std::abs(off - std::abs(by)) > kMargin)
+        return fmt::format("segment {} of loop {} is {} from its source", i, k, off);
+    }
+  }
+  return "";
+}
+
+/// An offset with mitred corners contains the round one; the line that cuts a tip off at the limit ends no
+/// further from the corner than sqrt(1 + limit^2).
+std::string Case::check_mitre(const Region& original, const Region& round, double by) {
+  const double limit = drawer_.chance(0.3) ? 1.0 : drawer_.in(1.0, 3.0);
+  const auto made = offset(original, mm(by), {Join::mitre, limit}, {}, diagnostics_);
+  const auto wide = offset(original, mm(by * std::sqrt(1.0 + limit * limit)), {}, diagnostics_);
+  if (!made || !wide) return "a mitred offset failed";
+  const double own = area(made->region), low = by > 0.0 ? area(round) : area(wide->region),
+               high = by > 0.0 ? area(wide->region) : area(round);
+  const double margin = kMargin * (length(made->region).mm() + length(round).mm());
+  if (own < low - margin || own > high + margin)
+    return fmt::format("the mitred offset by {} has the area {}, not from {} to {}", by, own, low, high);
+  const auto beyond = by > 0.0 ? combine(round, made->region, Boolean::subtract, {}, diagnostics_)
+                               : combine(made->region, round, Boolean::subtract, {}, diagnostics_);
+  if (!beyond) return "a difference failed";
+  if (area(beyond->region) > margin) return fmt::format("{} mm2 beyond", area(beyond->region));
+  return "";
+}
+
 Verdict Case::run() {
   exact_ = drawer_.expression();
+  if (drawer_.path().empty() && drawer_.chance(0.1))
+    for (Piece& p : exact_.pieces) p.centre = p.centre + Point2{1024.0, -2048.0};
   for (const Piece& p : exact_.pieces) {
     const double r = p.a + p.b + 3.0;
     low_ = {std::min(low_.x, p.centre.x - r), std::min(low_.y, p.centre.y - r)};
@@ -308,8 +444,11 @@ Verdict Case::run() {
   for (int i = 1; i <= steps; ++i) {
     const auto made = offset(*region, mm(sign * total / steps), {}, diagnostics_);
     if (!made) return {failed("offset"), chain};
+    std::string wrong = check_sources(*region, *made, sign * total / steps);
+    if (wrong.empty() && drawer_.chance(0.1))
+      wrong = check_mitre(*region, made->region, sign * total / steps);
     region = made->region;
-    const std::string wrong = check_offset(*region, sign * total * i / steps);
+    if (wrong.empty()) wrong = check_offset(*region, sign * total * i / steps);
     if (!wrong.empty())
       return {fmt::format("offset {} of {} by {}: {}", i, steps, sign * total / steps, wrong), chain};
   }

@@ -103,7 +103,7 @@ void Offsetter::add_parallel(EdgeSet& set, const std::vector<Run>& runs) const {
     if (norm(next_start - end) <= weld_) continue;
     if (turn_between(run, next) * by_ > 0.0)
       add_corner(set, run.to, std::abs(by_), sign * run.right_of_end(), sign * next.right_of_start(), sign,
-                 corner_);
+                 corner_, corner_sources(run, next, side, corner));
     else
       set.line_to(next_start);
   }

@@ -52,24 +52,26 @@ double turn_between(const Run& run, const Run& next) {
   return cross(out, back) >= 0.0 ? 1.0 : -1.0;
 }
 
-void add_corner(EdgeSet& set, Point2 at, double by, Point2 from, Point2 to, double turn,
-                const Corner& corner) {
+void add_corner(EdgeSet& set, Point2 at, double by, Point2 from, Point2 to, double turn, const Corner& corner,
+                const CornerSources& sources) {
+  set.belongs_to(sources.corner);
   if (corner.join == Join::round) return set.arc_to(at + by * from, at + by * to, at, by, turn);
   // Half of the angle between the directions; above a right angle where they turn by more than half a turn,
   // which they do up to rounding.
-  const Point2 sum = from + to;
-  const double half_cosine = std::min(1.0, 0.5 * norm(sum));
-  const Point2 forwards = turn * left_of(from),
-               backwards = -turn * left_of(to);  // along the tangents
+  const double half_cosine = std::min(1.0, 0.5 * norm(from + to));
   const double half_sine = std::sqrt(1.0 - half_cosine * half_cosine);
-  if (half_cosine * corner.limit >= 1.0) {  // the tip is near enough
+  const Point2 forwards = turn * left_of(from), backwards = -turn * left_of(to);  // along the tangents
+  set.belongs_to(sources.before);
+  if (half_cosine * corner.limit >= 1.0) {  // the tip is within the limit
     set.line_to(at + by * (from + (half_sine / half_cosine) * forwards));
   } else {
-    // The tangents as far as a line across the tip, which is at `limit` from the corner.
+    // The tangents up to a line across the tip, which is at `limit` from the corner.
     const double ahead = half_sine > 0.0 ? (corner.limit - half_cosine) / half_sine : 0.0;
     set.line_to(at + by * (from + ahead * forwards));
+    set.belongs_to(sources.corner);
     set.line_to(at + by * (to + ahead * backwards));
   }
+  set.belongs_to(sources.after);
   set.line_to(at + by * to);
 }
 

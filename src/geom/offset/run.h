@@ -31,10 +31,15 @@ struct Corner {
   double limit = 1.0;  // how far from the corner the tangents are cut off, by the distance of the offset
 };
 
+/// The sources of the edges around a corner: of the arc or the line across a mitre's tip, and of the tangents
+/// before and after it.
+struct CornerSources {
+  std::uint32_t corner = 0, before = 0, after = 0;
+};
 /// Goes around an outer corner at `at` of a curve at the distance `by` > 0 from it, from the direction `from`
 /// (unit, from the corner) to `to`; counter-clockwise where `turn` is above 0. The set is at the first
 /// already.
-void add_corner(EdgeSet& set, Point2 at, double by, Point2 from, Point2 to, double turn,
-                const Corner& corner);
+void add_corner(EdgeSet& set, Point2 at, double by, Point2 from, Point2 to, double turn, const Corner& corner,
+                const CornerSources& sources);
 
 }  // namespace kerf::region_detail

@@ -22,7 +22,7 @@ class Strips {
   void run(const Run& run);
   void ring(const Run& run, double outer, double inner);
   void corner(const Run& run, const Run& next);
-  void sector(const Run& run, Point2 from, Point2 to, const Corner& corner, Beside outer);
+  void sector(const Run& run, Point2 from, Point2 to, const Corner& corner, const CornerSources& sources);
 
   EdgeSet& set_;
   const Chain& chain_;
@@ -74,12 +74,12 @@ void Strips::run(const Run& run) {
 }
 
 /// Counter-clockwise about the end of a run, between two unit directions.
-void Strips::sector(const Run& run, Point2 from, Point2 to, const Corner& corner, Beside outer) {
+void Strips::sector(const Run& run, Point2 from, Point2 to, const Corner& corner,
+                    const CornerSources& sources) {
   set_.belongs_to(source_of(run, Beside::none));
   set_.begin(run.to);
   set_.line_to(run.to + width_ * from);
-  set_.belongs_to(source_of(run, outer));
-  add_corner(set_, run.to, width_, from, to, 1.0, corner);
+  add_corner(set_, run.to, width_, from, to, 1.0, corner, sources);
   set_.belongs_to(source_of(run, Beside::none));
   set_.close();
 }
@@ -88,9 +88,12 @@ void Strips::corner(const Run& run, const Run& next) {
   const Point2 before = run.right_of_end(), after = next.right_of_start();
   if (width_ * norm(after - before) <= set_.weld()) return;
   if (turn_between(run, next) > 0.0)
-    sector(run, before, after, chain_.right, Beside::right_corner);
-  else
-    sector(run, -after, -before, chain_.left, Beside::left_corner);
+    return sector(run, before, after, chain_.right,
+                  corner_sources(run, next, Beside::right, Beside::right_corner));
+  // Counter-clockwise from the next run to this one.
+  CornerSources sources = corner_sources(run, next, Beside::left, Beside::left_corner);
+  std::swap(sources.before, sources.after);
+  sector(run, -after, -before, chain_.left, sources);
 }
 
 void Strips::add(std::size_t first, std::size_t last) {
@@ -107,10 +110,11 @@ void Strips::add(std::size_t first, std::size_t last) {
 void Strips::add_ends() {
   if (chain_.closed || !chain_.round_ends || chain_.runs.empty()) return;
   const Run &start = chain_.runs.front(), &end = chain_.runs.back();
-  sector(end, end.right_of_end(), -end.right_of_end(), {}, Beside::none);
+  const auto seam = [](const Run& run) { return CornerSources{source_of(run, Beside::none), 0, 0}; };
+  sector(end, end.right_of_end(), -end.right_of_end(), {}, seam(end));
   Run back = start;  // whose end is the path's start
   back.to = start.from;
-  sector(back, -start.right_of_start(), start.right_of_start(), {}, Beside::none);
+  sector(back, -start.right_of_start(), start.right_of_start(), {}, seam(back));
 }
 
 /// The bands of pieces of a chain.
