@@ -102,6 +102,67 @@ TEST_F(Offsets, ParallelCurvesRunInThePathsSense) {
   EXPECT_NEAR(length((*right)[0]).mm(), 20.0 + 0.5 * kPi, 1e-12);
 }
 
+TEST_F(Offsets, WithMitresHaveTipsUpToTheLimit) {
+  const Region square = made({rectangle(0, 0, 10, 10)});
+  const auto mitred = [&](double by, double limit) {
+    return offset(square, mm(by), {Join::mitre, limit}, {}, diagnostics)->region;
+  };
+  EXPECT_NEAR(area(mitred(1.0, 2.0)), 144.0, 1e-11);
+  EXPECT_EQ(mitred(1.0, 2.0).loops[0].segments.size(), 4u);
+  EXPECT_NEAR(area(mitred(-1.0, 2.0)), 64.0, 1e-11);
+  // A tip is sqrt(2) from its corner; cut off at 1.2 it loses a right triangle of that height.
+  const double lost = std::numbers::sqrt2 - 1.2;
+  EXPECT_NEAR(area(mitred(1.0, 1.2)), 144.0 - 4.0 * lost * lost, 1e-11);
+  EXPECT_EQ(mitred(1.0, 1.2).loops[0].segments.size(), 8u);
+  // A hole's corners are outer corners of the material.
+  const Region plate = made({rectangle(-20, -20, 50, 50), rectangle(0, 0, 10, 10)}, FillRule::even_odd);
+  EXPECT_NEAR(area(offset(plate, mm(-1.0), {Join::mitre, 2.0}, {}, diagnostics)->region), 48.0 * 48.0 - 144.0,
+              1e-9);
+}
+
+TEST_F(Offsets, NameTheSegmentsThatTheyAreParallelTo) {
+  const Region square = made({rectangle(0, 0, 10, 10)});
+  const auto grown = offset(square, mm(2.0), {}, diagnostics);
+  ASSERT_EQ(grown->sources.size(), 1u);
+  ASSERT_EQ(grown->sources[0].size(), 8u);
+  const Outline& loop = grown->region.loops[0];
+  for (std::size_t i = 0; i < 8; ++i) {
+    const OffsetSource source = grown->sources[0][i];
+    const Outline& original = square.loops[source.loop];
+    EXPECT_EQ(source.corner, loop.segments[i].via.has_value());
+    const Point2 end = original.segments[source.segment].to;
+    if (source.corner)
+      EXPECT_NEAR(distance(*loop.segments[i].via, end), 2.0, 1e-12);
+    else
+      EXPECT_NEAR(distance(loop.segments[i].to, end), 2.0, 1e-12);
+  }
+}
+
+/// Stops at the first question.
+class StopAtOnce : public Progress {
+ public:
+  void phase(std::string_view) override {}
+  void report(double) override {}
+  bool stop_requested() override { return ++asked > 0; }
+  int asked = 0;
+};
+
+TEST_F(Offsets, CanBeStopped) {
+  // A wave offset by many times its length: its offset curve intersects itself a few hundred thousand times.
+  Outline wave{{0, 0}, {}, {}};
+  for (int i = 1; i <= 2000; ++i) wave.segments.push_back({{0.01 * i, i % 2 == 0 ? 0.0 : 5.0}, {}, {}});
+  wave.segments.push_back({{20.0, -5.0}, {}, {}});
+  wave.segments.push_back({{0.0, -5.0}, {}, {}});
+  wave.segments.push_back({{0, 0}, {}, {}});
+  const Region region{{wave}};
+  StopAtOnce stop;
+  RegionOptions options;
+  options.progress = &stop;
+  EXPECT_FALSE(offset(region, mm(3.0), options, diagnostics).has_value());
+  EXPECT_GT(stop.asked, 0);
+  EXPECT_TRUE(diagnostics.list().empty());
+}
+
 TEST(OffsetErrors, NameTheArgument) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Diagnostics diagnostics;
