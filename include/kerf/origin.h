@@ -28,6 +28,7 @@ struct DrawingLocation {
   std::string handle;
   double x = 0.0;
   double y = 0.0;
+  std::string entity = {};  ///< "LINE"; empty: not specified
   bool operator==(const DrawingLocation&) const = default;
 };
 
@@ -41,7 +42,8 @@ struct CallLocation {
 
 using Origin = std::variant<std::monostate, TextLocation, DrawingLocation, CallLocation>;
 
-/// "part.nc:12:5", "plate.dxf: layer 8999, handle 2F, at 10, 20", "job.py:7 (cutline)"; empty for no origin.
+/// "part.nc:12:5", "plate.dxf: layer 8999, LINE 2F, at 10, 20" ("handle 2F" where the kind of entity is not
+/// specified), "job.py:7 (cutline)"; empty for no origin.
 std::string to_string(const Origin& origin);
 
 /// Index into an OriginTable; 0 is "unknown".

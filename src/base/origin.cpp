@@ -16,8 +16,12 @@ std::string text_of(const TextLocation& where) {
 }
 
 std::string text_of(const DrawingLocation& where) {
-  return fmt::format("{}: layer {}, handle {}, at {}, {}", where.file, where.layer, where.handle,
-                     number_text(where.x, 3), number_text(where.y, 3));
+  std::string text = fmt::format("{}: layer {}", where.file, where.layer);
+  if (!where.entity.empty() || !where.handle.empty()) {
+    text += fmt::format(", {}", where.entity.empty() ? "handle" : where.entity);
+    if (!where.handle.empty()) text += " " + where.handle;
+  }
+  return text + fmt::format(", at {}, {}", number_text(where.x, 3), number_text(where.y, 3));
 }
 
 std::string text_of(const CallLocation& where) {
