@@ -1,0 +1,86 @@
+// The drawings of a run, and the search for sub-paths.
+#include "front/pathdxf/model/library.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fmt/format.h>
+
+namespace kerf::pathdxf {
+namespace {
+
+constexpr Bilingual kNoFolder{"the folder {} to be searched does not exist",
+                              "Das zu durchsuchende Verzeichnis {} existiert nicht"};
+constexpr Bilingual kTwice{"Path {} has already been defined in {}", "Pfad {} ist bereits definiert in {}"};
+
+constexpr std::size_t kMaxFolderEntries = 100'000;
+constexpr std::string_view kEnding = ".dxf";
+
+std::string canonical(const std::string& file) {
+  std::error_code error;
+  const auto path = std::filesystem::weakly_canonical(file, error);
+  return error ? file : path.string();
+}
+
+bool is_drawing(const std::string& name) {
+  if (name.size() <= kEnding.size()) return false;
+  std::string ending = name.substr(name.size() - kEnding.size());
+  for (char& c : ending)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return ending == kEnding;
+}
+
+}  // namespace
+
+const DrawingPaths& Library::load(const std::string& file, const PathNames& names) {
+  const auto [known, is_new] = by_file_.try_emplace(canonical(file), drawings_.size());
+  if (!is_new) return *drawings_[known->second];
+  auto drawing = std::make_unique<DrawingPaths>(read_drawing(file, names, options_, report_));
+  report_.line(fmt::format("Reading {} (DXF version: {})", known->first, drawing->version));
+  drawings_.push_back(std::move(drawing));
+  const DrawingPaths& added = *drawings_.back();
+  for (const PathDrawing& path : added.paths) {
+    const auto [earlier, first] = by_name_.try_emplace(path.name, Found{&added, &path});
+    if (!first)
+      report_.error(Code::pathdxf_defined_twice, added.origin(path), kTwice,
+                    name_in_file(*earlier->second.path, *earlier->second.drawing),
+                    earlier->second.drawing->file);
+  }
+  return added;
+}
+
+void Library::search(const std::string& folder, const std::string& name, const PathNames& names) {
+  const auto [listed, is_new] = folders_.try_emplace(folder);
+  if (is_new) {
+    std::error_code error;
+    std::filesystem::directory_iterator entries(folder.empty() ? "." : folder, error);
+    if (error) report_.error(Code::pathdxf_folder, {}, kNoFolder, folder);
+    for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error)) {
+      if (listed->second.size() >= kMaxFolderEntries) break;
+      const std::string entry = entries->path().filename().string();
+      if (is_drawing(entry)) listed->second.push_back(entry);
+    }
+    std::sort(listed->second.begin(), listed->second.end());
+  }
+  for (const std::string& entry : listed->second)
+    if (names.may_contain(std::string_view(entry).substr(0, entry.size() - kEnding.size()), name))
+      load(folder + entry, names);
+}
+
+Library::Found Library::find(const std::string& name, const std::string& folder, const PathNames& names) {
+  if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
+  search(folder, name, names);
+  for (std::string other : options_.folders) {
+    if (!other.empty() && other.back() != '/' && other.back() != '\\') other += '/';
+    search(other, name, names);
+  }
+  const auto known = by_name_.find(name);
+  return known != by_name_.end() ? known->second : Found{};
+}
+
+std::vector<std::string> Library::files() const {
+  std::vector<std::string> list;
+  for (const auto& drawing : drawings_) list.push_back(drawing->file);
+  return list;
+}
+
+}  // namespace kerf::pathdxf
