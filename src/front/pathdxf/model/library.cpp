@@ -31,10 +31,10 @@ bool is_drawing(const std::string& name) {
 
 }  // namespace
 
-const DrawingPaths& Library::load(const std::string& file, const PathNames& names) {
+const DrawingPaths& Library::load(const std::string& file) {
   const auto [known, is_new] = by_file_.try_emplace(canonical(file), drawings_.size());
   if (!is_new) return *drawings_[known->second];
-  auto drawing = std::make_unique<DrawingPaths>(read_drawing(file, names, options_, report_));
+  auto drawing = std::make_unique<DrawingPaths>(read_drawing(file, names_, options_, report_));
   report_.line(fmt::format("Reading {} (DXF version: {})", known->first, drawing->version));
   drawings_.push_back(std::move(drawing));
   const DrawingPaths& added = *drawings_.back();
@@ -48,7 +48,7 @@ const DrawingPaths& Library::load(const std::string& file, const PathNames& name
   return added;
 }
 
-void Library::search(const std::string& folder, const std::string& name, const PathNames& names) {
+void Library::search(const std::string& folder, const std::string& name) {
   const auto [listed, is_new] = folders_.try_emplace(folder);
   if (is_new) {
     std::error_code error;
@@ -62,16 +62,16 @@ void Library::search(const std::string& folder, const std::string& name, const P
     std::sort(listed->second.begin(), listed->second.end());
   }
   for (const std::string& entry : listed->second)
-    if (names.may_contain(std::string_view(entry).substr(0, entry.size() - kEnding.size()), name))
-      load(folder + entry, names);
+    if (names_.may_contain(std::string_view(entry).substr(0, entry.size() - kEnding.size()), name))
+      load(folder + entry);
 }
 
-Library::Found Library::find(const std::string& name, const std::string& folder, const PathNames& names) {
+Library::Found Library::find(const std::string& name, const std::string& folder) {
   if (const auto known = by_name_.find(name); known != by_name_.end()) return known->second;
-  search(folder, name, names);
+  search(folder, name);
   for (std::string other : options_.folders) {
     if (!other.empty() && other.back() != '/' && other.back() != '\\') other += '/';
-    search(other, name, names);
+    search(other, name);
   }
   const auto known = by_name_.find(name);
   return known != by_name_.end() ? known->second : Found{};

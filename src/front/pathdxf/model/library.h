@@ -17,10 +17,15 @@ enum class PathRole : std::uint8_t { main, checked, embedded };
 
 class Library {
  public:
-  Library(const PathdxfOptions& options, Report& report) : options_(options), report_(report) {}
+  Library(PathNames names, const PathdxfOptions& options, Report& report)
+      : names_(std::move(names)), options_(options), report_(report) {}
+
+  const PathNames& names() const { return names_; }
+  const PathdxfOptions& options() const { return options_; }
+  Report& report() { return report_; }
 
   /// Reads a drawing, unless it is known already. The result stays valid.
-  const DrawingPaths& load(const std::string& file, const PathNames& names);
+  const DrawingPaths& load(const std::string& file);
 
   struct Found {
     const DrawingPaths* drawing = nullptr;
@@ -28,37 +33,44 @@ class Library {
   };
   /// The path of a name: of a drawing read already, else of the files whose names match, in `folder` and in
   /// those of the options. All of these are read.
-  Found find(const std::string& name, const std::string& folder, const PathNames& names);
+  Found find(const std::string& name, const std::string& folder);
 
   /// The names of all files read, in their order.
   std::vector<std::string> files() const;
 
-  struct BuiltPath {
-    std::shared_ptr<const Path> path;  // null: errors were reported
-    bool in_progress = false;
-  };
-  /// What was built before, by name, role and values of variables.
-  std::map<std::string, BuiltPath>& built() { return built_; }
-
  private:
-  void search(const std::string& folder, const std::string& name, const PathNames& names);
+  void search(const std::string& folder, const std::string& name);
 
+  PathNames names_;
   const PathdxfOptions& options_;
   Report& report_;
   std::vector<std::unique_ptr<DrawingPaths>> drawings_;
   std::map<std::string, std::size_t> by_file_;  // canonical names
   std::map<std::string, Found> by_name_;
   std::map<std::string, std::vector<std::string>> folders_;  // with their DXF files
-  std::map<std::string, BuiltPath> built_;
 };
 
-/// Builds a path: orders its elements, gives them their parameters, and builds the paths embedded in it.
-/// Null, with errors reported, where that is impossible.
-std::shared_ptr<const Path> build_path(Library& library, const PathNames& names, const Library::Found& found,
-                                       PathRole role, const Variables& variables,
-                                       const PathdxfOptions& options, Report& report);
+/// Builds paths: orders their elements, gives them their parameters, and builds the paths embedded in them.
+/// Each is built once per set of values of its variables.
+class PathBuilder {
+ public:
+  explicit PathBuilder(Library& library) : library_(library) {}
+  /// Null, with errors reported, where that is impossible.
+  std::shared_ptr<const Path> build(const Library::Found& found, PathRole role, const Variables& variables);
 
-/// Example values for the variables of a path (/c). Empty where it has none, or its definitions are invalid.
+ private:
+  friend class PathAssembly;
+  struct Built {
+    std::shared_ptr<const Path> path;  // null: errors were reported
+    bool in_progress = true;
+  };
+
+  Library& library_;
+  std::map<std::string, Built> built_;  // by name, role and values of variables
+  int depth_ = 0;                       // of the path in progress
+};
+
+/// Example values for the variables of a path (/c); those with an invalid definition are left out.
 Variables example_values(const Library::Found& found);
 
 }  // namespace kerf::pathdxf

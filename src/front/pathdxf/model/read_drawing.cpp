@@ -26,6 +26,7 @@ constexpr Bilingual kHasHeight{"Z coordinate {} of {} on path layer {} must be 0
                                "Z-Koordinate {} von {} auf Pfad-Layer {} muss 0 sein"};
 constexpr Bilingual kTilted{"{} on path layer {} is not parallel to the XY plane",
                             "{} auf Pfad-Layer {} ist nicht parallel zur XY-Ebene"};
+constexpr Bilingual kFar{"{} has a coordinate beyond {} mm", "{} hat eine Koordinate jenseits von {} mm"};
 constexpr Bilingual kUnit{"the drawing's unit is {}; one unit is taken as 1 mm",
                           "Die Einheit der Zeichnung ist {}; eine Einheit gilt als 1 mm"};
 constexpr Bilingual kLayout{
@@ -78,6 +79,14 @@ LineKind kind_of(std::string_view linetype) {
   for (const auto& [start, kind] : kKinds)
     if (name.substr(0, start.size()) == start) return kind;
   return LineKind::unknown;
+}
+
+bool is_far(const Element& element) {
+  const auto beyond = [](Point2 p) {
+    return !(std::abs(p.x) <= limits::kMaxCoordinate && std::abs(p.y) <= limits::kMaxCoordinate);
+  };
+  return beyond(element.start) || beyond(element.end) || beyond(element.centre) ||
+         !(element.radius <= limits::kMaxCoordinate);
 }
 
 class DrawingReader {
@@ -225,6 +234,12 @@ std::optional<Element> DrawingReader::element_of(const dxf::Entity& e) {
 void DrawingReader::read_element(const dxf::Entity& e) {
   const std::size_t path = static_cast<std::size_t>(path_of_layer_[e.layer]);
   if (const auto element = element_of(e)) {
+    if (is_far(*element)) {
+      report_.error(Code::drawing_far, dxf::origin_of(drawing_, e), kFar, dxf::type_name(drawing_, e),
+                    limits::kMaxCoordinate);
+      out_.usable = false;
+      return;
+    }
     elements_[static_cast<std::size_t>(element->shape)][path].push_back(*element);
     return;
   }

@@ -1,5 +1,5 @@
-// Names of paths, such as 8998.1P: found in layer names and texts, and compared with the patterns in the names
-// of files, such as "8990-8998,9001.2.dxf".
+// Names of paths, such as 8998.1P: found in layer names and texts, and compared with the patterns in the
+// names of files, such as "8990-8998,9001.2.dxf".
 #pragma once
 
 #include <optional>

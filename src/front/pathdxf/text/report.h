@@ -24,12 +24,14 @@ class Report {
 
   template <class... Values>
   std::string text(const Bilingual& message, const Values&... values) const {
-    return fmt::format(fmt::runtime(options_.language == PathdxfLanguage::german ? message.german : message.english),
-                       values...);
+    return fmt::format(
+        fmt::runtime(options_.language == PathdxfLanguage::german ? message.german : message.english),
+        values...);
   }
   /// An error; one of the same text at the same origin is reported once.
   template <class... Values>
   void error(Code code, const Origin& where, const Bilingual& message, const Values&... values) {
+    ++attempts_;
     add(Severity::error, code, where, text(message, values...));
   }
   template <class... Values>
@@ -50,6 +52,8 @@ class Report {
     if (options_.report) options_.report(text);
   }
   std::size_t errors() const { return diagnostics_.errors(); }
+  /// Calls of error(), those included whose message was reported before.
+  std::size_t attempts() const { return attempts_; }
   Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
@@ -58,6 +62,7 @@ class Report {
   const PathdxfOptions& options_;
   Diagnostics& diagnostics_;
   Diagnostic* latest_ = nullptr;
+  std::size_t attempts_ = 0;
   std::unordered_set<std::size_t> reported_;  // hashes of origin and text
 };
 

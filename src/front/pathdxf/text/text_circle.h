@@ -20,8 +20,8 @@ std::string unformatted(const dxf::Text& text);
 /// %%c, %%d, %%p -> _D, _G, _+
 std::string without_special_characters(std::string_view text);
 
-/// The circle, from the width that a letter of 0.6 times the height gives. Nothing for a text that is mirrored,
-/// or rotated unless it is anchored at its centre.
+/// The circle, from the width that a letter of 0.6 times the height gives. Nothing for a text that is
+/// mirrored, or rotated unless it is anchored at its centre.
 std::optional<TextCircle> circle_of(const dxf::Text& text);
 
 }  // namespace kerf::pathdxf
