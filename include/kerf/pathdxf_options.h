@@ -15,8 +15,8 @@ namespace kerf {
 
 /// Of messages and of the statistics in the program's comments.
 enum class PathdxfLanguage : std::uint8_t { english, german };
-/// Comments in the toolpath. `brief`: the path, its embeddings, texts of Q. `trace`: one for each operation and
-/// the statistics, as PathDxf2GCode writes them.
+/// Comments in the toolpath. `brief`: the path, its embeddings, texts of Q. `trace`: one for each operation
+/// and the statistics, as PathDxf2GCode writes them.
 enum class PathdxfComments : std::uint8_t { brief, trace };
 /// Which paths of a drawing are compiled: the only one, or each, with example values for its variables (/c).
 enum class PathdxfSelection : std::uint8_t { only_path, check_all };
@@ -28,15 +28,17 @@ struct PathdxfOptions {
   std::optional<Length> sweep_height;  ///< /s: of a main path without S; default T + O, with a note
   PathdxfSelection selection = PathdxfSelection::only_path;
   std::optional<std::string> shown_texts;  ///< /x: reports the elements of texts that match this expression
-  std::vector<std::string> folders;        ///< /d: searched for sub-paths after the referencing drawing's folder
-  std::string path_names = "([0-9]{4})[.]([0-9]+)([A-Z])";             ///< /n: expression for path names
-  std::string file_patterns = "([0-9]{4})(?:[.]([0-9]+))?";            ///< /p: for patterns in file names
+  std::vector<std::string> folders;  ///< /d: searched for sub-paths after the referencing drawing's folder
+  std::string path_names = "([0-9]{4})[.]([0-9]+)([A-Z])";   ///< /n: expression for path names
+  std::string file_patterns = "([0-9]{4})(?:[.]([0-9]+))?";  ///< /p: for patterns in file names
   ProbeKind probe = ProbeKind::contact;
   PathdxfLanguage language = PathdxfLanguage::english;
   PathdxfComments comments = PathdxfComments::brief;
-  std::function<void(std::string_view)> report;  ///< takes lines about files read, paths checked, texts; may be empty
+  std::function<void(std::string_view)>
+      report;  ///< takes lines about files read, paths checked, texts; may be empty
 };
 
-inline constexpr Feed kDefaultPathdxfFeed = mm_per_min(150);  ///< the modal feed of the original's program header
+inline constexpr Feed kDefaultPathdxfFeed =
+    mm_per_min(150);  ///< the modal feed of the original's program header
 
 }  // namespace kerf

@@ -10,6 +10,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/gcmc.h"
+#include "app/commands/pathdxf.h"
 #include "app/options/common.h"
 #include "app/report/terminal_progress.h"
 
@@ -48,6 +49,7 @@ std::vector<Command> add_commands(CommandParser& root) {
   commands.push_back(add_tools_import(tools));
   commands.push_back(add_tools_export(tools));
   root.add_command("gcmc", "Compile a gcmc program (has gcmc's options; see kerf gcmc --help)");
+  root.add_command("pathdxf", "Compile path drawings (has PathDxf2GCode's options; see kerf pathdxf --help)");
   return commands;
 }
 
@@ -66,13 +68,22 @@ Status run_asked(const std::vector<Command>& commands) {
 
 /// Drop-in commands: they have the arguments of the program that they replace, which CommandLine cannot
 /// parse. A link to kerf with that program's name runs the command.
+struct DropIn {
+  std::string_view command, program;
+  int (*run)(const std::vector<std::string>& arguments, Progress* progress);
+};
+constexpr DropIn kDropIns[] = {{"gcmc", "gcmc", gcmc_command}, {"pathdxf", "PathDxf2GCode", pathdxf_command}};
+
 std::optional<int> run_drop_in(int argc, char** argv) {
-  const std::string called = argc > 0 ? argv[0] : "";
-  const bool is_link = std::filesystem::path(called).filename() == "gcmc";
-  if (!is_link && (argc < 2 || std::string_view(argv[1]) != "gcmc")) return std::nullopt;
-  catch_interrupts();
-  InterruptOnly progress;
-  return gcmc_command({argv + (is_link ? 1 : 2), argv + argc}, &progress);
+  const std::string called = std::filesystem::path(argc > 0 ? argv[0] : "").filename().string();
+  for (const DropIn& drop_in : kDropIns) {
+    const bool is_link = called == drop_in.program || called == drop_in.command;
+    if (!is_link && (argc < 2 || std::string_view(argv[1]) != drop_in.command)) continue;
+    catch_interrupts();
+    InterruptOnly progress;
+    return drop_in.run({argv + (is_link ? 1 : 2), argv + argc}, &progress);
+  }
+  return std::nullopt;
 }
 
 int run(int argc, char** argv) {

@@ -11,8 +11,8 @@ GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
 CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png", "codec_zip"}
-FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline"}
-BACK = {"back_drawing", "back_gcode"}
+FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline", "front_pathdxf"}
+BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
 BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim"}
 
 
@@ -53,6 +53,11 @@ ALLOWED = {
         "code": ["text", "value"],
         "run": ["code", "text", "value"],
         "out": ["run", "code", "text", "value"],
+    }),
+    **rooms("front_pathdxf", OP | CODEC, {
+        "text": [],
+        "model": ["text"],
+        "compile": ["model", "text"],
     }),
     **{back: PATH | CODEC for back in BACK},
     **rooms("sim", PATH, {
@@ -104,7 +109,10 @@ PUBLIC = {
     "front_gcode_run": ["gcode.h"],
     "front_gcmc": ["gcmc.h"],
     "front_gcmc_value": ["gcmc_options.h"],
+    "front_pathdxf": ["pathdxf.h"],
+    "front_pathdxf_text": ["pathdxf_options.h"],
     "back_gcode": ["post.h"],
+    "back_pathdxf": ["pathdxf_gcode.h"],
     "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],

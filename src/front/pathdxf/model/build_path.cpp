@@ -247,6 +247,7 @@ void PathAssembly::read_start() {
 }
 
 void PathAssembly::read_probes() {
+  path_->has_probes = !source_.probes.empty();
   for (const Element& element : source_.probes) {
     const Origin where = drawing_.origin(element);
     const Values v(drawing_.text_of(element), "TLZH", variables_, where, report_);
@@ -462,7 +463,8 @@ void PathAssembly::embed(const Draft& draft, bool reversed) {
   if (!sub) return;
   check_embedding(embedding, *sub, distance(start, end), draft.where);
   path_->nesting = std::max(path_->nesting, sub->nesting + 1);
-  if (builder_.depth_ + path_->nesting > kMaxNesting)
+  path_->has_probes = path_->has_probes || sub->has_probes;
+  if (builder_.depth_ - 1 + path_->nesting > kMaxNesting)
     report_.error(Code::pathdxf_nesting, draft.where, kTooDeep, sub->name_in_file);
   path_->operations.push_back({Embedding{sub, start, end, embedding.raise}, draft.where});
 }
@@ -481,7 +483,7 @@ std::shared_ptr<const Path> PathAssembly::find_subpath(const EmbeddingDraft& emb
   const std::size_t attempts = report_.attempts();
   const Variables values = given_values(embedding, found, where);
   if (report_.attempts() != attempts) return nullptr;
-  if (builder_.depth_ >= kMaxNesting) {
+  if (builder_.depth_ > kMaxNesting) {
     report_.error(Code::pathdxf_nesting, where, kTooDeep, name_in_file(*found.path, *found.drawing));
     return nullptr;
   }

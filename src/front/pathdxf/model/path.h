@@ -91,7 +91,8 @@ struct Path {
   Point2 start, end;
   std::vector<Operation> operations;
   std::vector<Probe> probes;
-  int nesting = 0;  // levels of embedded paths
+  int nesting = 0;          // levels of embedded paths
+  bool has_probes = false;  // own ones, or of embedded paths
 };
 
 }  // namespace kerf::pathdxf

@@ -20,7 +20,7 @@ struct Bilingual {
 class Report {
  public:
   Report(const PathdxfOptions& options, Diagnostics& diagnostics)
-      : options_(options), diagnostics_(diagnostics) {}
+      : options_(options), diagnostics_(diagnostics), earlier_errors_(diagnostics.errors()) {}
 
   template <class... Values>
   std::string text(const Bilingual& message, const Values&... values) const {
@@ -51,7 +51,8 @@ class Report {
   void line(std::string_view text) const {
     if (options_.report) options_.report(text);
   }
-  std::size_t errors() const { return diagnostics_.errors(); }
+  /// Errors of this run.
+  std::size_t errors() const { return diagnostics_.errors() - earlier_errors_; }
   /// Calls of error(), those included whose message was reported before.
   std::size_t attempts() const { return attempts_; }
   Diagnostics& diagnostics() { return diagnostics_; }
@@ -61,6 +62,7 @@ class Report {
 
   const PathdxfOptions& options_;
   Diagnostics& diagnostics_;
+  std::size_t earlier_errors_;
   Diagnostic* latest_ = nullptr;
   std::size_t attempts_ = 0;
   std::unordered_set<std::size_t> reported_;  // hashes of origin and text

@@ -1,0 +1,134 @@
+// `kerf pathdxf`.
+#include "app/commands/pathdxf.h"
+
+#include <cstdio>
+#include <fmt/format.h>
+#include <utility>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+#include "app/options/pathdxf_options.h"
+
+#include "kerf/files.h"
+#include "kerf/pathdxf_gcode.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr int kErrors = 1, kWrongUsage = 2, kNoFile = 3;
+
+bool stderr_is_terminal() {
+#if defined(__unix__) || defined(__APPLE__)
+  return isatty(STDERR_FILENO) != 0;
+#else
+  return false;
+#endif
+}
+
+void print_line(std::string_view text) { fmt::print(stderr, "---- {}\n", text); }
+
+/// Errors as "**** ...", warnings and notes as "---- ...".
+void print(const Diagnostics& diagnostics, bool explain) {
+  for (const Diagnostic& d : diagnostics.list()) {
+    if (d.severity == Severity::note && !explain) continue;
+    fmt::print(stderr, "{} {}\n", d.severity == Severity::error ? "****" : "----", pathdxf_line(d));
+    if (explain && !d.hint.empty()) fmt::print(stderr, "         {}\n", d.hint);
+  }
+  for (const Code code : diagnostics.dropped_codes())
+    fmt::print(stderr, "**** ... {} more of these: {}\n", diagnostics.dropped(code), meaning_of(code));
+}
+
+bool ends_in_dxf(const std::string& file) {
+  if (file.size() < 4) return false;
+  std::string end = file.substr(file.size() - 4);
+  for (char& c : end)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return end == ".dxf";
+}
+
+/// One DXF file after the other; after an error nothing more is written.
+class PathdxfCommand {
+ public:
+  explicit PathdxfCommand(PathdxfCommandLine line, Progress* progress)
+      : line_(std::move(line)), progress_(progress) {
+    line_.run.report = [](std::string_view text) { print_line(text); };
+  }
+
+  int run() {
+    for (const std::string& name : line_.files) {
+      if (stop_requested(progress_)) break;
+      process(ends_in_dxf(name) ? name : name + ".dxf");
+    }
+    print(diagnostics_, line_.explain || stderr_is_terminal());
+    return diagnostics_.has_errors() || stop_requested(progress_) ? kErrors : 0;
+  }
+
+ private:
+  void process(const std::string& file) {
+    const bool failed_before = diagnostics_.has_errors();
+    const PathdxfRun compiled = compile_pathdxf(file, line_.run, diagnostics_, progress_);
+    for (const PathdxfProgram& program : compiled.programs) {
+      if (line_.run.selection == PathdxfSelection::only_path && !failed_before && !stop_requested(progress_))
+        write(file, program);
+      print_statistics(program);
+    }
+  }
+
+  static void print_statistics(const PathdxfProgram& program) {
+    std::string text;
+    for (std::size_t i = 0; i < program.statistics.size(); ++i)
+      text += fmt::format("{};{}", program.statistics[i],
+                          i == 2 || i + 1 == program.statistics.size() ? "\n" : " ");
+    fmt::print(stderr, "{}", text);
+  }
+
+  void write(const std::string& file, const PathdxfProgram& program) {
+    const std::string base = file.substr(0, file.size() - 4) + program.suffix;
+    PathdxfGcodeOptions options;
+    options.program_line = "PathDxf2GCode - Kerf " KERF_VERSION;
+    options.file_name = file.substr(file.find_last_of("/\\") + 1);
+    const std::string milling =
+        program.is_empty ? std::string() : pathdxf_gcode(program.milling, options, diagnostics_);
+    OutputSet files;
+    bool good = true;
+    const auto add = [&](const std::string& name, std::string_view text) {
+      print_line("Writing " + name);
+      good = good && files.write(name, text, diagnostics_);
+    };
+    if (program.probing) {
+      add(base + "_Probing.gcode", pathdxf_gcode(*program.probing, options, diagnostics_));
+      add(base + "_Z.txt", pathdxf_probe_list(program));
+      add(base + "_Clean.gcode", milling);
+    } else {
+      add(base + "_Milling.gcode", milling);
+    }
+    if (good) files.commit(diagnostics_);
+  }
+
+  PathdxfCommandLine line_;
+  Progress* progress_;
+  Diagnostics diagnostics_;
+};
+
+}  // namespace
+
+int pathdxf_command(const std::vector<std::string>& arguments, Progress* progress) {
+  PathdxfCommandLine line = parse_pathdxf_options(arguments);
+  print_line("Kerf " KERF_VERSION " pathdxf\n");
+  if (line.help || line.problems.has_errors()) {
+    if (!line.help) print(line.problems, true);
+    fmt::print(stderr, "{}", pathdxf_usage(line.run.language));
+    return kWrongUsage;
+  }
+  if (line.files.empty()) {
+    fmt::print(stderr, "**** Options: {}\n",
+               line.run.language == PathdxfLanguage::german ? "Keine DXF-Dateien angegeben"
+                                                            : "No dxf files provided");
+    return kNoFile;
+  }
+  return PathdxfCommand(std::move(line), progress).run();
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,24 @@
+// The options of `kerf pathdxf`: those of PathDxf2GCode, /f150, /f 150 or -f 150, and long names beside them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/pathdxf.h"
+
+namespace kerf::app {
+
+struct PathdxfCommandLine {
+  PathdxfOptions run;
+  std::vector<std::string> files;
+  bool help = false;
+  bool explain = false;  // hints and notes with the messages
+  Diagnostics problems;  // of the command line
+};
+
+PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& arguments);
+/// What /h prints.
+std::string pathdxf_usage(PathdxfLanguage language);
+
+}  // namespace kerf::app

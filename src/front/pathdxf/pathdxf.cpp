@@ -1,0 +1,126 @@
+// A run: from a drawing's name to programs.
+#include "kerf/pathdxf.h"
+
+#include <fmt/format.h>
+
+#include "front/pathdxf/compile/compile.h"
+#include "front/pathdxf/model/library.h"
+
+#include "kerf/names.h"
+
+namespace kerf {
+namespace {
+
+using namespace pathdxf;
+
+constexpr Bilingual kNoPath{"DXF file {} contains no error-free path layer",
+                            "DXF-Datei {} enthält keinen fehlerfreien Pfad-Layer"};
+constexpr Bilingual kNoPathHint{
+    "elements are on layers named like the path, e.g. 8001.1P or 8001_1P (expression {}); for outlines of "
+    "other "
+    "drawings see kerf outline",
+    "Elemente liegen auf Layern mit dem Namen des Pfades, z.B. 8001.1P oder 8001_1P (Ausdruck {})"};
+constexpr Bilingual kTwoPaths{"DXF file {} contains more than one path layer: {}",
+                              "DXF-Datei {} enthält mehr als einen Pfad-Layer: {}"};
+constexpr Bilingual kNoSegments{"No segments found", "Keine Segmente gefunden"};
+
+PathdxfProgram program_of(Compiled compiled, const Path& path, const Report& report) {
+  PathdxfProgram out;
+  out.path = path.name;
+  out.suffix = path.suffix;
+  out.milling = std::move(compiled.milling);
+  out.probing = std::move(compiled.probing);
+  for (const PlacedProbe& p : compiled.probes)
+    out.probes.push_back({p.name, p.label, p.at, p.drawn, mm(p.thickness)});
+  out.tool_diameter = mm(path.tool);
+  out.top = mm(compiled.top);
+  out.is_empty = compiled.is_empty;
+  out.statistics = statistics_lines(compiled.statistics, report);
+  return out;
+}
+
+class Run {
+ public:
+  Run(const PathdxfOptions& options, Report& report, Library& library, Progress* progress)
+      : options_(options), report_(report), library_(library), builder_(library), progress_(progress) {}
+
+  void compile(const std::string& file, PathdxfRun& out) {
+    const DrawingPaths& drawing = library_.load(file);
+    if (!drawing.usable) return;
+    const Origin whole = TextSpot{drawing.file, 0, 0};
+    const bool checks = options_.selection == PathdxfSelection::check_all;
+    std::vector<const PathDrawing*> usable;
+    for (const PathDrawing& path : drawing.paths)
+      if (path.usable) usable.push_back(&path);
+    if (usable.empty()) {
+      report_.error(Code::pathdxf_layer, whole, kNoPath, drawing.file_name);
+      if (drawing.paths.empty()) report_.hint(kNoPathHint, library_.names().expression());
+      return;
+    }
+    if (!checks && usable.size() > 1) {
+      std::vector<std::string> names;
+      for (const PathDrawing* path : usable) names.push_back(path->name);
+      report_.error(Code::pathdxf_layer, whole, kTwoPaths, drawing.file_name, joined(names, ", "));
+      return;
+    }
+    for (const PathDrawing* path : usable) compile({&drawing, path}, checks, out);
+  }
+
+ private:
+  void compile(const Library::Found& found, bool checks, PathdxfRun& out) {
+    if (checks) report_.line("Checking " + found.path->name);
+    const std::size_t before = report_.attempts();
+    const auto path = builder_.build(found, checks ? PathRole::checked : PathRole::main,
+                                     checks ? example_values(found) : Variables());
+    // An error anywhere, e.g. in a text that no element took, makes the path incomplete.
+    if (!path || (!checks && report_.errors() > 0) || report_.attempts() != before) return;
+    Compiled compiled = pathdxf::compile(*path, options_, report_, progress_);
+    if (compiled.is_empty)
+      report_.error(Code::pathdxf_no_segments, TextSpot{found.drawing->file, 0, 0}, kNoSegments);
+    out.programs.push_back(program_of(std::move(compiled), *path, report_));
+  }
+
+  const PathdxfOptions& options_;
+  Report& report_;
+  Library& library_;
+  PathBuilder builder_;
+  Progress* progress_;
+};
+
+}  // namespace
+
+PathdxfRun compile_pathdxf(const std::string& file, const PathdxfOptions& options, Diagnostics& diagnostics,
+                           Progress* progress) {
+  PathdxfRun out;
+  Report report(options, diagnostics);
+  if (auto names = PathNames::make(options, report)) {
+    Library library(std::move(*names), options, report);
+    Run(options, report, library, progress).compile(file, out);
+    out.files = library.files();
+  }
+  return out;
+}
+
+std::string pathdxf_probe_list(const PathdxfProgram& program) {
+  std::string text;
+  for (const PathdxfProbe& p : program.probes)
+    text += fmt::format("([{} {}]{}/T={}) {}=\n", number_text3(p.drawn.x), number_text3(p.drawn.y),
+                        p.label.empty() ? "" : "/L:" + p.label, number_text3(p.height.mm()), p.name);
+  return text;
+}
+
+std::string pathdxf_line(const Diagnostic& d) {
+  const auto file_name = [](const std::string& file) { return file.substr(file.find_last_of("/\\") + 1); };
+  if (const auto* spot = std::get_if<DxfSpot>(&d.where)) {
+    std::string path = spot->layer.substr(0, spot->layer.find('~'));
+    for (char& c : path)
+      if (c == '_') c = '.';
+    const std::string in_file = fmt::format("{}[{}]", path, file_name(spot->file));
+    if (spot->entity.empty()) return fmt::format("{}: {}", in_file, d.message);
+    return fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", spot->entity, spot->x, spot->y, in_file, d.message);
+  }
+  const std::string where = to_string(d.where);
+  return where.empty() ? "Options: " + d.message : fmt::format("{}: {}", where, d.message);
+}
+
+}  // namespace kerf
