@@ -43,12 +43,12 @@ std::string point_text3(Point3 p) {
 }
 
 Emitter::Emitter(Toolpath& path, const PathdxfOptions& options, const std::vector<PlacedProbe>& probes,
-                 double first_feed)
+                 double feed)
     : path_(path),
       options_(options),
       probes_(probes),
-      modal_feed_(first_feed),
-      sweep_speed_(options.sweep_speed.value_or(mm_per_min(first_feed)).mm_per_min()) {}
+      modal_feed_(kDefaultPathdxfFeed.mm_per_min()),
+      sweep_speed_(options.sweep_speed.value_or(mm_per_min(feed)).mm_per_min()) {}
 
 bool Emitter::full() const { return path_.size() >= limits::kMaxGeneratedSteps; }
 
@@ -104,9 +104,9 @@ void Emitter::rapid_xy(Point2 to, double length, bool mergeable) {
   waiting_ = Waiting{to, position_.z, length, mergeable, origin_, {}};
 }
 
-void Emitter::rapid_z(double z, Point2 at) {
+void Emitter::rapid_z(double z, Point2 at, double length) {
   flush();
-  count_sweep(std::abs(z - position_.z));
+  count_sweep(length);
   position_.z = z;
   correct(add_rapid(position_, kZ), z, at);
 }

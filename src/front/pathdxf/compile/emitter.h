@@ -37,8 +37,7 @@ std::string point_text3(Point3 p);
 
 class Emitter {
  public:
-  Emitter(Toolpath& path, const PathdxfOptions& options, const std::vector<PlacedProbe>& probes,
-          double first_feed);
+  Emitter(Toolpath& path, const PathdxfOptions& options, const std::vector<PlacedProbe>& probes, double feed);
 
   bool traces() const { return options_.comments == PathdxfComments::trace; }
   void set_origin(OriginId origin) { origin_ = origin; }
@@ -51,8 +50,8 @@ class Emitter {
   /// A comment in any case.
   void comment(int indent, std::string_view text);
 
-  /// Rapid along Z; `at` selects the correction by probes.
-  void rapid_z(double z, Point2 at);
+  /// Rapid along Z; `at` selects the correction by probes, `length` is what the statistics count.
+  void rapid_z(double z, Point2 at, double length);
   /// Rapid in XY. Of consecutive mergeable ones only the last is made. `length` is what the statistics count.
   void rapid_xy(Point2 to, double length, bool mergeable);
   /// Feed along Z, at the modal feed rate; `length` and `feed` are what the statistics count.

@@ -39,8 +39,8 @@ void Miller::move_z(double to, double feed) {
   if (near(from.z, to)) return;
   if (out_.traces())
     out_.trace(4, fmt::format("DrillOrPullZFromTo {} {}", number_text3(from.z), number_text3(to)));
-  if (to > top() || to > from.z) return out_.rapid_z(to, from.xy());
-  if (from.z > top()) out_.rapid_z(top(), from.xy());
+  if (to > top() || to > from.z) return out_.rapid_z(to, from.xy(), std::abs(to - from.z));
+  if (from.z > top()) out_.rapid_z(top(), from.xy(), from.z - top());
   if (!near(to, top())) out_.plunge(to, from.xy(), std::abs(top() - to), feed);
 }
 
@@ -127,7 +127,7 @@ void Miller::helix(const Helix& h, const Origin& where) {
   helix_turns(h, bottom, *v.infeed);
   if (v.depth == Depth::bars) helix_bars(h, *v.infeed);
   const bool fills = at_least(path_.tool, h.radius);
-  if (!fills) out_.rapid_z(sweep_height(), c);
+  if (!fills) out_.rapid_z(sweep_height(), c, std::abs(sweep_height() - helix_level_));
   out_.rapid_xy(c, radius, !fills);
 }
 
@@ -158,7 +158,7 @@ void Miller::helix_bars(const Helix& h, double infeed) {
   circle.values = h.values;
   if (!(bar_count(kTurn * radius, h.values) >= 1.0)) return;
   for (double level = helix_level_; above(level, bottom);) {
-    level = std::max(level - infeed, bottom);
+    level = helix_level_ = std::max(level - infeed, bottom);
     mill_segment(circle, level, false);
   }
 }

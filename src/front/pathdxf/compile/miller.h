@@ -57,7 +57,7 @@ class Miller {
   const Frame& frame_;
   Emitter& out_;
   Report& report_;
-  double helix_level_ = 0.0;  // of the last turn
+  double helix_level_ = 0.0;  // of the last turn, as the statistics count it
 };
 
 }  // namespace kerf::pathdxf

@@ -89,6 +89,14 @@ bool is_far(const Element& element) {
          !(element.radius <= limits::kMaxCoordinate);
 }
 
+/// Whether an entity is of a kind that paths consist of.
+bool is_read(const dxf::Entity& e) {
+  if (const auto* text = std::get_if<dxf::Boxed<dxf::Text>>(&e.shape))
+    return (*text)->kind == dxf::TextKind::text || (*text)->kind == dxf::TextKind::mtext;
+  return std::holds_alternative<dxf::Line>(e.shape) || std::holds_alternative<dxf::Arc>(e.shape) ||
+         std::holds_alternative<dxf::Circle>(e.shape);
+}
+
 class DrawingReader {
  public:
   DrawingReader(const dxf::Drawing& drawing, const PathNames& names, const PathdxfOptions& options,
@@ -156,10 +164,10 @@ void DrawingReader::name_tables() {
     path_of_layer_.push_back(-1);
     if (name) path_of_layer_.back() = known.try_emplace(*name, static_cast<int>(known.size())).first->second;
   }
-  // Only layers with entities are paths, in the order of the entities.
+  // Only layers with elements or texts are paths, in the order of the entities.
   std::vector<int> number(known.size(), -1);
   for (const dxf::Entity& e : drawing_.entities) {
-    const int k = e.paper ? -1 : path_of_layer_[e.layer];
+    const int k = e.paper || !is_read(e) ? -1 : path_of_layer_[e.layer];
     if (k < 0 || number[static_cast<std::size_t>(k)] >= 0) continue;
     number[static_cast<std::size_t>(k)] = static_cast<int>(out_.paths.size());
     out_.paths.push_back({*names_.of_layer(out_.layers[e.layer]), {}, {}, {}, {}, true});
@@ -243,10 +251,7 @@ void DrawingReader::read_element(const dxf::Entity& e) {
     elements_[static_cast<std::size_t>(element->shape)][path].push_back(*element);
     return;
   }
-  const bool is_known =
-      std::holds_alternative<dxf::Line>(e.shape) || std::holds_alternative<dxf::Arc>(e.shape) ||
-      std::holds_alternative<dxf::Circle>(e.shape) || std::holds_alternative<dxf::Boxed<dxf::Text>>(e.shape);
-  if (is_known) return;
+  if (is_read(e)) return;
   auto& [count, first] = unused_[std::string(dxf::type_name(drawing_, e))];
   if (count++ == 0) first = &e;
 }
