@@ -15,7 +15,7 @@ constexpr int kMaxDepth = 100;                                  // of groups in 
 constexpr std::size_t kOpenEnd = static_cast<std::size_t>(-1);  // of {n,}
 constexpr char32_t kLastCodePoint = 0x10FFFF;
 
-/// The code point at `at` and its length in bytes; a byte that is no UTF-8 stands for itself.
+/// The code point at `at` and its length in bytes; a byte that is no UTF-8 counts as a code point.
 std::pair<char32_t, std::size_t> decode(std::string_view text, std::size_t at) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(at);
@@ -275,38 +275,38 @@ class PatternCompiler {
     return digits > 0 ? std::optional(value) : std::nullopt;
   }
 
-  /// {n}, {n,} or {n,m}; other braces are literals, as in most dialects.
-  bool braces(std::size_t& least, std::size_t& most) {
+  /// {n}, {n,} or {n,m}; other braces are literals, as in max dialects.
+  bool braces(std::size_t& min, std::size_t& max) {
     const std::size_t before = at_;
     if (!take('{')) return false;
     const auto low = number();
     bool good = low.has_value();
-    if (good) least = most = *low;
-    if (good && take(',')) most = next_is('}') ? kOpenEnd : number().value_or(0);
+    if (good) min = max = *low;
+    if (good && take(',')) max = next_is('}') ? kOpenEnd : number().value_or(0);
     if (good && take('}')) return true;
     at_ = before;
     return false;
   }
 
   void quantifier(std::size_t start) {
-    std::size_t least = 1, most = 1;
+    std::size_t min = 1, max = 1;
     if (take('*'))
-      least = 0, most = kOpenEnd;
+      min = 0, max = kOpenEnd;
     else if (take('+'))
-      most = kOpenEnd;
+      max = kOpenEnd;
     else if (take('?'))
-      least = 0;
-    else if (!braces(least, most))
+      min = 0;
+    else if (!braces(min, max))
       return;
     const bool lazy = take('?');
     if (next_is('*') || next_is('+') || next_is('?')) return fail("nested quantifier");
-    if (least > kMaxRepeats || (most != kOpenEnd && (most > kMaxRepeats || most < least)))
+    if (min > kMaxRepeats || (max != kOpenEnd && (max > kMaxRepeats || max < min)))
       return fail("invalid number of repetitions");
-    repeat(start, least, most, lazy);
+    repeat(start, min, max, lazy);
   }
 
   /// The code [start, size) of one atom becomes that of its repetitions.
-  void repeat(std::size_t start, std::size_t least, std::size_t most, bool lazy) {
+  void repeat(std::size_t start, std::size_t min, std::size_t max, bool lazy) {
     const std::vector<Pattern::Instruction> body(
         pattern_.program_.begin() + static_cast<std::ptrdiff_t>(start), pattern_.program_.end());
     pattern_.program_.resize(start);
@@ -324,8 +324,8 @@ class PatternCompiler {
       pattern_.program_[at].a = lazy ? past : into;
       pattern_.program_[at].b = lazy ? into : past;
     };
-    for (std::size_t i = 0; i < least && problem_.empty(); ++i) emit_body();
-    if (most == kOpenEnd) {
+    for (std::size_t i = 0; i < min && problem_.empty(); ++i) emit_body();
+    if (max == kOpenEnd) {
       const std::size_t loop = add(Op::split);
       emit_body();
       add(Op::jump, loop);
@@ -333,7 +333,7 @@ class PatternCompiler {
       return;
     }
     std::vector<std::size_t> splits;
-    for (std::size_t i = least; i < most && problem_.empty(); ++i) {
+    for (std::size_t i = min; i < max && problem_.empty(); ++i) {
       splits.push_back(add(Op::split));
       emit_body();
     }

@@ -47,7 +47,7 @@ class Run {
   void compile(const std::string& file, PathdxfRun& out) {
     const DrawingPaths& drawing = library_.load(file);
     if (!drawing.usable) return;
-    const Origin whole = TextSpot{drawing.file, 0, 0};
+    const Origin whole = TextLocation{drawing.file, 0, 0};
     const bool checks = options_.selection == PathdxfSelection::check_all;
     std::vector<const PathDrawing*> usable;
     for (const PathDrawing& path : drawing.paths)
@@ -76,7 +76,7 @@ class Run {
     if (!path || (!checks && report_.errors() > 0) || report_.attempts() != before) return;
     Compiled compiled = pathdxf::compile(*path, options_, report_, progress_);
     if (compiled.is_empty)
-      report_.error(Code::pathdxf_no_segments, TextSpot{found.drawing->file, 0, 0}, kNoSegments);
+      report_.error(Code::pathdxf_no_segments, TextLocation{found.drawing->file, 0, 0}, kNoSegments);
     out.programs.push_back(program_of(std::move(compiled), *path, report_));
   }
 
@@ -111,13 +111,13 @@ std::string pathdxf_probe_list(const PathdxfProgram& program) {
 
 std::string pathdxf_line(const Diagnostic& d) {
   const auto file_name = [](const std::string& file) { return file.substr(file.find_last_of("/\\") + 1); };
-  if (const auto* spot = std::get_if<DxfSpot>(&d.where)) {
-    std::string path = spot->layer.substr(0, spot->layer.find('~'));
+  if (const auto* at = std::get_if<DrawingLocation>(&d.where)) {
+    std::string path = at->layer.substr(0, at->layer.find('~'));
     for (char& c : path)
       if (c == '_') c = '.';
-    const std::string in_file = fmt::format("{}[{}]", path, file_name(spot->file));
-    if (spot->entity.empty()) return fmt::format("{}: {}", in_file, d.message);
-    return fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", spot->entity, spot->x, spot->y, in_file, d.message);
+    const std::string in_file = fmt::format("{}[{}]", path, file_name(at->file));
+    if (at->entity.empty()) return fmt::format("{}: {}", in_file, d.message);
+    return fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", at->entity, at->x, at->y, in_file, d.message);
   }
   const std::string where = to_string(d.where);
   return where.empty() ? "Options: " + d.message : fmt::format("{}: {}", where, d.message);

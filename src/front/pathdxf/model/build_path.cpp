@@ -172,7 +172,7 @@ class PathAssembly {
   // Values at the start marker that elements inherit.
   std::optional<double> b_, d_, infeed_, bar_length_, bar_distance_, first_depth_, cycle_from_;
   double largest_helix_ = 0.0, probe_feed_ = 0.0;
-  bool in_chain_ = false;  // the last operation is a chain that goes on
+  bool in_chain_ = false;  // the last operation is a chain that the next cut continues
   std::vector<Link> links_;
   std::vector<Draft> drafts_;
 };
@@ -426,8 +426,8 @@ void PathAssembly::report_overlaps() {
                    [&](const Draft* a, const Draft* b) { return key(a) < key(b); });
   for (std::size_t i = 1; i < sorted.size(); ++i)
     if (key(sorted[i - 1]) == key(sorted[i])) {
-      const auto* spot = std::get_if<DxfSpot>(&sorted[i]->where);
-      report_.warning(Code::pathdxf_overlap, sorted[i]->where, kOverlap, spot->entity, path_->name);
+      const auto* at = std::get_if<DrawingLocation>(&sorted[i]->where);
+      report_.warning(Code::pathdxf_overlap, sorted[i]->where, kOverlap, at->entity, path_->name);
     }
 }
 

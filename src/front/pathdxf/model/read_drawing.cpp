@@ -107,7 +107,8 @@ class DrawingReader {
     name_tables();
     compile_shown_texts();
     if (drawing_.unit && *drawing_.unit != 0 && *drawing_.unit != kMillimetres)
-      report_.warning(Code::pathdxf_unit, TextSpot{out_.file, 0, 0}, kUnit, dxf::unit_name(*drawing_.unit));
+      report_.warning(Code::pathdxf_unit, TextLocation{out_.file, 0, 0}, kUnit,
+                      dxf::unit_name(*drawing_.unit));
     for (const dxf::Entity& e : drawing_.entities)
       if (!e.paper && path_of_layer_[e.layer] >= 0) read_element(e);
     for (std::size_t i = 0; i < out_.paths.size(); ++i) order_elements(i);
@@ -140,8 +141,8 @@ class DrawingReader {
   bool refer(PathDrawing& path, const ParameterText& text);
   void report_unused();
   Origin origin(const dxf::Entity& e, Point2 at, std::string_view entity) const {
-    return DxfSpot{out_.file, out_.layers[e.layer], dxf::handle_text(e.handle), at.x,
-                   at.y,      std::string(entity)};
+    return DrawingLocation{out_.file, out_.layers[e.layer], dxf::handle_text(e.handle), at.x,
+                           at.y,      std::string(entity)};
   }
 
   const dxf::Drawing& drawing_;
@@ -419,18 +420,18 @@ void DrawingReader::report_unused() {
 
 Origin DrawingPaths::origin(const Element& element) const {
   const Point2 at = element.position();
-  return DxfSpot{file,
-                 layers[element.layer],
-                 dxf::handle_text(element.handle),
-                 at.x,
-                 at.y,
-                 element.shape == Shape::line  ? "LINE"
-                 : element.shape == Shape::arc ? "ARC"
-                                               : "CIRCLE"};
+  return DrawingLocation{file,
+                         layers[element.layer],
+                         dxf::handle_text(element.handle),
+                         at.x,
+                         at.y,
+                         element.shape == Shape::line  ? "LINE"
+                         : element.shape == Shape::arc ? "ARC"
+                                                       : "CIRCLE"};
 }
 
 Origin DrawingPaths::origin(const PathDrawing& path) const {
-  return DxfSpot{file, path.name, {}, 0.0, 0.0, {}};
+  return DrawingLocation{file, path.name, {}, 0.0, 0.0, {}};
 }
 
 const PathDrawing* DrawingPaths::find(std::string_view name) const {

@@ -26,9 +26,8 @@ constexpr Bilingual kMissing{"{} value missing", "{}-Wert fehlt"};
 
 /// "MTEXT @ [0.000 0.000]"
 std::string position_of(const Origin& where) {
-  const auto* spot = std::get_if<DxfSpot>(&where);
-  return spot == nullptr ? to_string(where)
-                         : fmt::format("{} @ [{:.3f} {:.3f}]", spot->entity, spot->x, spot->y);
+  const auto* at = std::get_if<DrawingLocation>(&where);
+  return at == nullptr ? to_string(where) : fmt::format("{} @ [{:.3f} {:.3f}]", at->entity, at->x, at->y);
 }
 
 }  // namespace

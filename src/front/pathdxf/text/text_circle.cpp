@@ -7,11 +7,11 @@
 namespace kerf::pathdxf {
 namespace {
 
-constexpr double kLetterWidth = 0.6;                // of the height
-constexpr double kMtextRadius = 0.7;                // the largest radius, of the height of all lines
-constexpr double kMaxRotation = 1.0;                // degrees, of an MTEXT that counts as not rotated
-constexpr double kTextRotation = 1e-6;              // the same of TEXT
-constexpr int kAligned = 3, kMiddle = 4, kFit = 5;  // horizontal alignments of TEXT
+constexpr double kLetterWidth = 0.6;                 // of the height
+constexpr double kMtextRadius = 0.7;                 // the largest radius, of the height of all lines
+constexpr double kMaxRotation = 1.0;                 // degrees, of an MTEXT that counts as not rotated
+constexpr double kTextRotation = 1e-6;               // the same of TEXT
+constexpr int kAligned = 3, kCentred = 4, kFit = 5;  // horizontal alignments of TEXT
 
 void append_code_point(std::string& out, unsigned code) {
   if (code < 0x80) {
@@ -108,7 +108,7 @@ std::optional<Point2> centre_in_sizes(const dxf::Text& text) {
     return Point2{0.5 - 0.5 * column, -0.5 + 0.5 * row};
   }
   switch (text.horizontal) {
-    case kMiddle: return Point2{};
+    case kCentred: return Point2{};
     case kAligned:
     case kFit: return Point2{0.0, 0.5};
     default: break;
