@@ -39,8 +39,8 @@ struct PathdxfProgram {
   std::optional<Toolpath> probing;
   std::vector<PathdxfProbe> probes;  ///< in the order of the probing run
   Length tool_diameter;              ///< O
-  Length top;                        ///< the highest T, with H, of the path and those embedded
-  bool is_empty = false;             ///< the path has no element; there are no steps
+  Length top;             ///< the highest T, with H, of the paths that cut: this one and those embedded
+  bool is_empty = false;  ///< the path has no element; there are no steps
   std::vector<std::string> statistics;
 };
 

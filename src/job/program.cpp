@@ -53,7 +53,7 @@ std::string folder_of(const std::string& file) {
 }
 
 const std::vector<FrontEnd>& front_ends() {
-  static const std::vector<FrontEnd> all{gcode_front_end(), gcmc_front_end()};
+  static const std::vector<FrontEnd> all{pathdxf_front_end(), gcode_front_end(), gcmc_front_end()};
   return all;
 }
 
@@ -71,7 +71,7 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   if (progress != nullptr) progress->phase("reading");
   const std::optional<InputFile> file = InputFile::open(path, diagnostics, kLargestProgram, progress);
   if (!file) return std::nullopt;
-  const FrontEnd* front_end = path == "-" ? &front_ends().front() : by_ending(ending_of(path));
+  const FrontEnd* front_end = path == "-" ? by_ending(".nc") : by_ending(ending_of(path));
   if (front_end == nullptr) front_end = by_text(*file, diagnostics);
   if (front_end == nullptr) return std::nullopt;
   Program program = front_end->read(*file, options, diagnostics, progress);

@@ -35,6 +35,10 @@ Frame frame_of(const Frame& outer, const Embedding& e) {
   return embedded(outer, e.path->start, e.path->end, e.start, e.end, e.raise);
 }
 
+bool cuts(const Operation& operation) {
+  return !std::holds_alternative<Sweep>(operation.what) && !std::holds_alternative<Embedding>(operation.what);
+}
+
 class PathCompiler {
  public:
   PathCompiler(const Path& path, const PathdxfOptions& options, Report& report, Progress* progress)
@@ -45,8 +49,8 @@ class PathCompiler {
     home_.shift = {-main_.start.x, -main_.start.y};
     collect_probes(main_, home_);
     order_probes();
-    out_.top = main_.top;
     if (!out_.is_empty) write_milling();
+    if (out_.top == 0.0) out_.top = main_.top;
     if (!out_.probes.empty()) write_probing();
     return std::move(out_);
   }
@@ -136,7 +140,8 @@ void PathCompiler::write_milling() {
 
 void PathCompiler::write_path(const Path& path, const Frame& frame, Emitter& emitter) {
   Toolpath& steps = out_.milling;
-  out_.top = std::max(out_.top, path.top + frame.raise);
+  if (std::any_of(path.operations.begin(), path.operations.end(), cuts))
+    out_.top = std::max(out_.top, path.top + frame.raise);
   Miller miller(path, frame, emitter, report_);
   for (const Operation& operation : path.operations) {
     if (emitter.full() || stop_requested(progress_)) return;

@@ -18,7 +18,7 @@ struct Compiled {
   std::optional<Toolpath> probing;  // where the path or an embedded one has probes
   std::vector<PlacedProbe> probes;  // in the order of the probing run
   Statistics statistics;
-  double top = 0.0;       // mm, the highest material: of the path and those embedded
+  double top = 0.0;       // mm, the highest T, with H, of the paths that cut
   bool is_empty = false;  // no operations: nothing was compiled
 };
 
