@@ -1,6 +1,7 @@
 // How path drawings are compiled: see pathdxf.h.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -8,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kerf/limits.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
 
@@ -34,8 +36,13 @@ struct PathdxfOptions {
   ProbeKind probe = ProbeKind::contact;
   PathdxfLanguage language = PathdxfLanguage::english;
   PathdxfComments comments = PathdxfComments::brief;
-  std::function<void(std::string_view)>
-      report;  ///< takes lines about files read, paths checked, texts; may be empty
+  std::size_t max_steps = limits::kMaxGeneratedSteps;  ///< of the toolpath, comments included
+  /// Where drawings come from instead of the file system: the bytes of a file, and the names of the files in
+  /// a folder. Both are given, or none.
+  std::function<std::optional<std::string>(const std::string& file)> read_file;
+  std::function<std::vector<std::string>(const std::string& folder)> list_files;
+  /// Takes lines about files read, paths checked and shown texts; may be empty.
+  std::function<void(std::string_view)> report;
 };
 
 inline constexpr Feed kDefaultPathdxfFeed =

@@ -8,6 +8,8 @@
 namespace kerf::pathdxf {
 namespace {
 
+constexpr double kTie = 1e-12;  // mm and relative, of distances that count as equal in the search
+
 constexpr Bilingual kMissing{"{} value missing", "{}-Wert fehlt"};
 
 }  // namespace
@@ -43,27 +45,37 @@ void Miller::chain(const Chain& c, const Origin& where, const std::vector<Origin
     greedy(passes);
 }
 
-/// The nearest tip of a pass whose upper passes are done is milled next.
-void Miller::greedy(std::vector<Pass>& passes) {
-  Point3 head{passes[0].start.x, passes[0].start.y, passes[0].levels[0]};
-  std::size_t first = 0;  // those before have no pass left
-  while (!out_.full()) {
-    while (first < passes.size() && passes[first].next == passes[first].levels.size()) ++first;
-    double nearest = std::numeric_limits<double>::infinity();
-    std::size_t best = passes.size();
-    bool reversed = false;
-    for (std::size_t i = first; i < passes.size() && nearest > 0.0; ++i) {
-      const Pass& p = passes[i];
-      if (p.next == p.levels.size()) continue;
-      const double z = p.levels[p.next];
-      const double to_start = distance(head, {p.start.x, p.start.y, z});
-      const double to_end = distance(head, {p.end.x, p.end.y, z});
-      const double d = std::min(to_start, to_end);
-      if (!(d < nearest)) continue;
+/// The nearest tip of a segment at its next level; of equally near segments the first one.
+Miller::NextPass Miller::next_pass(const std::vector<Pass>& passes, const region_detail::BoxTree& tips,
+                                   Point3 head) {
+  NextPass best{passes.size(), false};
+  double nearest = std::numeric_limits<double>::infinity();
+  tips.nearest(head.xy(), nearest, [&](std::uint32_t tip) {
+    const std::size_t i = tip / 2;
+    const Pass& p = passes[i];
+    if (p.next == p.levels.size()) return std::numeric_limits<double>::infinity();
+    const double z = p.levels[p.next];
+    const double to_start = distance(head, {p.start.x, p.start.y, z});
+    const double to_end = distance(head, {p.end.x, p.end.y, z});
+    const double d = std::min(to_start, to_end);
+    if (d < nearest || (d == nearest && i < best.segment)) {
       nearest = d;
-      best = i;
-      reversed = !(to_start < to_end);
+      best = {i, !(to_start < to_end)};
     }
+    return d * (1.0 + kTie) + kTie;  // so that equally near ones are visited too
+  });
+  return best;
+}
+
+/// The nearest segment whose upper passes are done is milled next.
+void Miller::greedy(std::vector<Pass>& passes) {
+  std::vector<region_detail::Box> boxes;
+  for (const Pass& p : passes)
+    for (const Point2 tip : {p.start, p.end}) boxes.push_back({tip.x, tip.y, tip.x, tip.y});
+  const region_detail::BoxTree tips(boxes);
+  Point3 head{passes[0].start.x, passes[0].start.y, passes[0].levels[0]};
+  while (!out_.full()) {
+    const auto [best, reversed] = next_pass(passes, tips, head);
     if (best == passes.size()) break;
     Pass& p = passes[best];
     const double z = p.levels[p.next++];

@@ -9,8 +9,6 @@
 #include "front/pathdxf/compile/miller.h"
 #include "front/pathdxf/text/nearly.h"
 
-#include "kerf/limits.h"
-
 namespace kerf::pathdxf {
 namespace {
 
@@ -135,7 +133,7 @@ void PathCompiler::write_milling() {
   for (const std::string& line : statistics_lines(out_.statistics, report_)) emitter.trace(2, line);
   path.add(step::End{true}, path.origins().add(main_.where));
   if (emitter.full())
-    report_.error(Code::pathdxf_limit, main_.where, kTooManySteps, main_.name, limits::kMaxGeneratedSteps);
+    report_.error(Code::pathdxf_limit, main_.where, kTooManySteps, main_.name, options_.max_steps);
 }
 
 void PathCompiler::write_path(const Path& path, const Frame& frame, Emitter& emitter) {

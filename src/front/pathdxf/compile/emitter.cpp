@@ -7,7 +7,6 @@
 
 #include "front/pathdxf/text/nearly.h"
 
-#include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 
@@ -50,7 +49,7 @@ Emitter::Emitter(Toolpath& path, const PathdxfOptions& options, const std::vecto
       modal_feed_(kDefaultPathdxfFeed.mm_per_min()),
       sweep_speed_(options.sweep_speed.value_or(mm_per_min(feed)).mm_per_min()) {}
 
-bool Emitter::full() const { return path_.size() >= limits::kMaxGeneratedSteps; }
+bool Emitter::full() const { return path_.size() >= options_.max_steps; }
 
 void Emitter::add_comment(std::string text, OriginId origin) {
   if (waiting_)

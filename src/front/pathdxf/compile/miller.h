@@ -8,6 +8,7 @@
 #include "front/pathdxf/compile/frame.h"
 #include "front/pathdxf/model/path.h"
 #include "front/pathdxf/text/report.h"
+#include "geom/box_tree.h"
 
 namespace kerf::pathdxf {
 
@@ -42,6 +43,11 @@ class Miller {
   std::vector<double> levels(double first, double infeed, double bottom, const Origin& where);
   bool passes_of(const Chain& chain, const Origin& where, const std::vector<OriginId>& origins,
                  std::vector<Pass>& passes);
+  struct NextPass {
+    std::size_t segment = 0;
+    bool reversed = false;
+  };
+  static NextPass next_pass(const std::vector<Pass>& passes, const region_detail::BoxTree& tips, Point3 head);
   void greedy(std::vector<Pass>& passes);
   void slow(std::vector<Pass>& passes);
   void mill(const Pass& pass, double level, bool reversed);

@@ -32,7 +32,8 @@ bool is_drawing(const std::string& name) {
 }  // namespace
 
 const DrawingPaths& Library::load(const std::string& file) {
-  const auto [known, is_new] = by_file_.try_emplace(canonical(file), drawings_.size());
+  const auto [known, is_new] =
+      by_file_.try_emplace(options_.read_file ? file : canonical(file), drawings_.size());
   if (!is_new) return *drawings_[known->second];
   auto drawing = std::make_unique<DrawingPaths>(read_drawing(file, names_, options_, report_));
   report_.line(fmt::format("Reading {} (DXF version: {})", known->first, drawing->version));
@@ -48,19 +49,29 @@ const DrawingPaths& Library::load(const std::string& file) {
   return added;
 }
 
-void Library::search(const std::string& folder, const std::string& name) {
-  const auto [listed, is_new] = folders_.try_emplace(folder);
-  if (is_new) {
+std::vector<std::string> Library::drawings_in(const std::string& folder) {
+  std::vector<std::string> names;
+  if (options_.list_files) {
+    names = options_.list_files(folder);
+  } else {
     std::error_code error;
     std::filesystem::directory_iterator entries(folder.empty() ? "." : folder, error);
     if (error) report_.error(Code::pathdxf_folder, {}, kNoFolder, folder);
     for (; !error && entries != std::filesystem::directory_iterator(); entries.increment(error)) {
-      if (listed->second.size() >= kMaxFolderEntries) break;
-      const std::string entry = entries->path().filename().string();
-      if (is_drawing(entry)) listed->second.push_back(entry);
+      if (names.size() >= kMaxFolderEntries) break;
+      names.push_back(entries->path().filename().string());
     }
-    std::sort(listed->second.begin(), listed->second.end());
   }
+  names.erase(
+      std::remove_if(names.begin(), names.end(), [](const std::string& name) { return !is_drawing(name); }),
+      names.end());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+void Library::search(const std::string& folder, const std::string& name) {
+  const auto [listed, is_new] = folders_.try_emplace(folder);
+  if (is_new) listed->second = drawings_in(folder);
   for (const std::string& entry : listed->second)
     if (names_.may_contain(std::string_view(entry).substr(0, entry.size() - kEnding.size()), name))
       load(folder + entry);

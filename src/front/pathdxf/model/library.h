@@ -39,6 +39,7 @@ class Library {
   std::vector<std::string> files() const;
 
  private:
+  std::vector<std::string> drawings_in(const std::string& folder);
   void search(const std::string& folder, const std::string& name);
 
   PathNames names_;

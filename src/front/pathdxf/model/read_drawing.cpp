@@ -22,6 +22,7 @@ constexpr double kParallel = 1e-9;  // of x and y of an extrusion direction para
 constexpr int kMillimetres = 4;     // $INSUNITS
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+constexpr Bilingual kNoFile{"no such file", "Datei nicht gefunden"};
 constexpr Bilingual kHasHeight{"Z coordinate {} of {} on path layer {} must be 0",
                                "Z-Koordinate {} von {} auf Pfad-Layer {} muss 0 sein"};
 constexpr Bilingual kTilted{"{} on path layer {} is not parallel to the XY plane",
@@ -416,6 +417,17 @@ void DrawingReader::report_unused() {
   }
 }
 
+std::optional<dxf::Drawing> read_file(const std::string& file, const PathdxfOptions& options,
+                                      Report& report) {
+  if (options.read_file) {
+    const auto bytes = options.read_file(file);
+    if (!bytes) report.error(Code::file_unreadable, TextLocation{file, 0, 0}, kNoFile);
+    return bytes ? dxf::read_dxf(*bytes, file, report.diagnostics()) : std::nullopt;
+  }
+  const auto input = InputFile::open(file, report.diagnostics(), limits::kMaxProgramBytes);
+  return input ? dxf::read_dxf(input->bytes(), file, report.diagnostics()) : std::nullopt;
+}
+
 }  // namespace
 
 Origin DrawingPaths::origin(const Element& element) const {
@@ -455,9 +467,7 @@ DrawingPaths read_drawing(const std::string& file, const PathNames& names, const
   out.folder = slash == std::string::npos ? std::string() : file.substr(0, slash + 1);
   out.usable = false;
   const std::size_t errors = report.errors();
-  const auto input = InputFile::open(file, report.diagnostics(), limits::kMaxProgramBytes);
-  if (!input) return out;
-  const auto drawing = dxf::read_dxf(input->bytes(), file, report.diagnostics());
+  const auto drawing = read_file(file, options, report);
   if (!drawing || report.errors() > errors) return out;
   out.usable = true;
   out.version = drawing->version;
