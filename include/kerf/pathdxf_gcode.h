@@ -1,4 +1,4 @@
-// The G-code text of PathDxf2GCode, from a toolpath alone (docs/decisions/pathdxf-gcode.md says why it is no
+// The G-code text of PathDxf2GCode, from a toolpath alone (docs/decisions/0025-pathdxf-gcode.md says why it is no
 // post profile).
 #pragma once
 

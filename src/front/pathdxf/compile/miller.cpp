@@ -100,7 +100,11 @@ void Miller::drill(const Drill& d, const Origin& where) {
   if (!has_depths(d.values, where)) return;
   if (out_.traces()) out_.trace(2, fmt::format("Drill l={}", text_of(frame_(d.at))));
   comment_of(d.values);
-  move_z(bottom_of(d.values), d.values.feed);
+  const double bottom = bottom_of(d.values);
+  move_z(bottom, d.values.feed);
+  // As G81 with its R at that height: the tool returns there.
+  if (d.cycle_from && above(*d.cycle_from + frame_.raise, bottom))
+    move_z(*d.cycle_from + frame_.raise, d.values.feed);
 }
 
 // ------------------------------------------------------------------------------------------------- helices

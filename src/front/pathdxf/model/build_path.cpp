@@ -1,6 +1,7 @@
 // From the elements of a drawn path to its operations in the order of travel.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -17,6 +18,7 @@ namespace {
 constexpr int kMaxNesting = 10;                  // levels of sub-paths below the main path
 constexpr std::size_t kMaxBuiltPaths = 100'000;  // with different values of variables
 constexpr double kEmbeddingLength = 1e-3;        // mm, by which an embedding may differ from its sub-path
+constexpr double kSameCentre = 1e-3;             // mm, of circles around one centre
 constexpr double kUnnumbered = 9998.0;           // order of elements without N
 constexpr double kDrillOrder = -1e6;             // drilled holes first, then helices by radius
 constexpr double kDefaultHelix = 4.0;            // largest diameter of a helix in tool diameters
@@ -47,6 +49,8 @@ constexpr Bilingual kTooLargeHint{"mill it as arcs, or specify a larger A at the
 constexpr Bilingual kCore{
     "the helical circle of diameter {} leaves a loose core of diameter {}",
     "Der Helixkreis mit Durchmesser {} lässt einen losen Kern mit Durchmesser {} stehen"};
+constexpr Bilingual kCoreHint{"draw smaller circles around the same centre, which are milled first",
+                              "Kleinere Kreise um denselben Mittelpunkt zeichnen; sie werden zuerst gefräst"};
 constexpr Bilingual kNoInteger{"N value '{}' is not an integer and is ignored",
                                "N-Wert '{}' ist keine ganze Zahl und wird ignoriert"};
 constexpr Bilingual kNoMore{"No more segments found after location {}",
@@ -151,6 +155,7 @@ class PathAssembly {
   void order_drafts();
   void report_gap(const Walk& walk, const Origin& last, bool at_end);
   void report_overlaps();
+  void warn_of_cores();
   void append(const Draft& draft, bool reversed);
   void append_mill(const MillDraft& mill, bool reversed);
   void embed(const Draft& draft, bool reversed);
@@ -189,6 +194,7 @@ std::shared_ptr<const Path> PathAssembly::assemble() {
     read_probes();
     for (const Element& element : source_.elements) draft(element);
     order_drafts();
+    warn_of_cores();
   }
   return report_.attempts() == attempts ? path_ : nullptr;
 }
@@ -429,6 +435,33 @@ void PathAssembly::report_overlaps() {
       const auto* at = std::get_if<DrawingLocation>(&sorted[i]->where);
       report_.warning(Code::pathdxf_overlap, sorted[i]->where, kOverlap, at->entity, path_->name);
     }
+}
+
+/// Helices through the material that leave a core which no smaller circle around the same centre removes.
+void PathAssembly::warn_of_cores() {
+  const auto key = [](Point2 p) {
+    return std::pair(std::llround(p.x / kSameCentre), std::llround(p.y / kSameCentre));
+  };
+  std::map<std::pair<long long, long long>, std::vector<double>> radii;
+  for (const Operation& operation : path_->operations) {
+    if (const auto* drill = std::get_if<Drill>(&operation.what))
+      radii[key(drill->at)].push_back(path_->tool / 2.0);
+    if (const auto* helix = std::get_if<Helix>(&operation.what))
+      radii[key(helix->centre)].push_back(helix->radius);
+  }
+  for (auto& [centre, list] : radii) std::sort(list.begin(), list.end());
+  for (const Operation& operation : path_->operations) {
+    const auto* helix = std::get_if<Helix>(&operation.what);
+    if (helix == nullptr || helix->values.depth != Depth::full || !helix->values.b || *helix->values.b > 0.0)
+      continue;
+    const double core = helix->radius - path_->tool;
+    const std::vector<double>& list = radii[key(helix->centre)];
+    const auto next = std::lower_bound(list.begin(), list.end(), core - kSameCentre);
+    if (!above(core, 0.0) || *next < helix->radius - kSameCentre) continue;
+    report_.warning(Code::pathdxf_core, operation.where, kCore, number(2.0 * helix->radius),
+                    number(2.0 * core));
+    report_.hint(kCoreHint);
+  }
 }
 
 void PathAssembly::append(const Draft& draft, bool reversed) {

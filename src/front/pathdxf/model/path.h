@@ -48,7 +48,7 @@ struct Chain {
 struct Drill {
   Point2 at;
   MillingValues values;
-  std::optional<double> cycle_from;  // C: depth from which the hole is drilled in one cycle
+  std::optional<double> cycle_from;  // C: height to which the tool returns at once
 };
 struct Helix {
   Point2 centre;

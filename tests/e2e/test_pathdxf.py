@@ -1,0 +1,441 @@
+"""kerf pathdxf, and path drawings as programs: motions, files, messages, exit statuses, hostile input."""
+
+import json
+import math
+import re
+
+import pytest
+from path_drawing import PARAMETERS, arc, circle, drawing, end, line, path, start, tags, text
+
+OPTIONS = ["/len", "/f150", "/v500", "/s15"]
+
+
+@pytest.fixture
+def save(tmp_path):
+    """save("8999.1P.dxf", path(...)): writes a file into the test's folder and returns its name."""
+
+    def write(name, content):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(content, encoding="utf-8")
+        return name
+
+    return write
+
+
+def code_lines(text_of_file):
+    """Without comments; what a controller acts on."""
+    lines = [re.sub(r"\((?!=)[^)]*\)", "", row).rstrip() for row in text_of_file.splitlines()]
+    return [row for row in lines if row and not row.startswith(";")]
+
+
+def motions(kerf, name):
+    run = kerf("steps", name)
+    assert run.status == 0, run.err
+    steps = [json.loads(row) for row in run.out.splitlines()][1:]
+    return [s for s in steps if s["step"] in ("rapid", "cut", "arc")]
+
+
+def names_of(kerf, name, *options):
+    run = kerf("info", "--json", *options, name)
+    return run.status, run.codes()
+
+
+# ---------------------------------------------------------------------------------------------- what is cut
+
+
+def test_a_line_is_milled_in_passes_forwards_and_backwards(kerf, save):
+    steps = motions(kerf, save("8999.1P.dxf", path(line(0, 0, 10, 0))))
+    cuts = [(s["to"], s["feed"]) for s in steps if s["step"] == "cut"]
+    assert cuts == [([0, 0, 1], 150), ([10, 0, 1], 150), ([10, 0, 0], 150), ([0, 0, 0], 150)]
+    assert steps[0]["to"][2] == pytest.approx(5, abs=1e-4)
+    assert steps[-1]["to"] == pytest.approx([10, 0, 5], abs=1e-4)
+    assert {s["tool"] for s in steps} == {1}
+
+
+def test_steps_name_the_element_that_caused_them(kerf, save):
+    steps = motions(kerf, save("8999.1P.dxf", path(line(0, 0, 10, 0))))
+    cut = next(s for s in steps if s["step"] == "cut")
+    assert cut["origin"]["file"] == "8999.1P.dxf"
+    assert cut["origin"]["layer"] == "8999_1P"
+    assert cut["origin"]["at"] == [0, 0]
+
+
+def test_arcs_stay_arcs_in_both_directions(kerf, save):
+    half = arc(5, 0, 5, 0, 180)
+    steps = motions(kerf, save("8999.1P.dxf", path(half, parameters="M1 O2 T2 I1 B1 S5")))
+    (cut,) = [s for s in steps if s["step"] == "arc"]
+    assert cut["turn"] == "cw"  # from (0, 0), the end of the arc as drawn
+    assert cut["centre"] == [5, 0] and cut["to"] == pytest.approx([10, 0, 1])
+
+
+def test_a_helix_stays_within_its_circle_and_ends_at_the_bottom(kerf, save):
+    steps = motions(kerf, save("8999.1P.dxf", path(circle(0, 0, 6), to=(0, 0))))
+    arcs = [s for s in steps if s["step"] == "arc"]
+    assert all(math.hypot(*s["to"][:2]) == pytest.approx(2) for s in arcs)  # 3 less the tool's radius
+    heights = [s["to"][2] for s in arcs]
+    assert heights == [1.5, 1, 0.5, 0, 0, 0]  # half an infeed each half turn, then a level one
+
+
+def test_a_hole_of_the_tool_diameter_is_drilled(kerf, save):
+    inner = line(0, 0, 10, 0, "DASHED") + circle(10, 0, 2)
+    steps = motions(kerf, save("8999.1P.dxf", path(inner)))
+    assert [s["to"] for s in steps if s["step"] == "cut"] == [[10, 0, 0]]
+    cycle = motions(kerf, save("8999.2P.dxf", path(inner + text(10, 0, "C1"))))
+    after = cycle[[s["step"] for s in cycle].index("cut") + 1]
+    assert after["step"] == "rapid" and after["to"] == [10, 0, 1]
+
+
+def test_support_bars_stay(kerf, save):
+    # 50 mm, bars of 5 mm at least 20 mm apart: two bars, one of them as halves at the ends.
+    bars = line(0, 0, 50, 0, "BORDER")
+    steps = motions(kerf, save("8999.1P.dxf", path(bars, to=(50, 0), parameters="M1 O2 T2 I2 B0 D1 P5 U20 S5")))
+    cuts = [s["to"] for s in steps if s["step"] == "cut" and s["to"][0] > 0]
+    assert [(x, z) for x, _, z in cuts] == [
+        (3.5, 1), (4.5, 0), (20.5, 0), (21.5, 1), (28.5, 1), (29.5, 0), (45.5, 0), (46.5, 1), (50, 1)]
+
+
+def test_slow_milling_does_not_travel(kerf, save):
+    two = line(0, 0, 10, 0) + line(10, 0, 10, 10)
+    steps = motions(kerf, save("8999.1P.dxf", path(two, to=(10, 10), parameters="M1 O2 T2 I1 B0 S5 W1")))
+    ends = [s["to"] for s in steps if s["step"] == "cut"]
+    assert ends == [[0, 0, 1], [10, 0, 1], [10, 10, 1], [10, 0, 1], [0, 0, 1], [0, 0, 0], [10, 0, 0], [10, 10, 0]]
+
+
+def test_rapids_below_the_path_height_are_not_merged(kerf, save):
+    low = line(0, 0, 10, 0, "DASHED") + text(5, 0, "S3") + line(10, 0, 10, 10, "DASHED") + text(10, 5, "S3")
+    name = save("8999.1P.dxf", path(low + line(10, 10, 20, 10), to=(20, 10)))
+    ends = [s["to"] for s in motions(kerf, name) if s["step"] == "rapid"]
+    assert [10, 0, 3] in ends and [10, 10, 3] in ends
+    high = line(0, 0, 10, 0, "HIDDEN") + line(10, 0, 10, 10, "HIDDEN")
+    name = save("8999.2P.dxf", path(high + line(10, 10, 20, 10), to=(20, 10)))
+    ends = [[round(v, 3) for v in s["to"]] for s in motions(kerf, name) if s["step"] == "rapid"]
+    assert [10, 0, 5] not in ends and [10, 10, 5] in ends
+
+
+def test_mirrored_arcs_lie_where_they_are_drawn(kerf, save):
+    # Seen from below: x of the centre is negated, angles count clockwise.
+    half = arc(-5, 0, 5, 0, 180) + tags((210, 0), (220, 0), (230, -1))
+    steps = motions(kerf, save("8999.1P.dxf", path(half, parameters="M1 O2 T2 I1 B1 S5")))
+    (cut,) = [s for s in steps if s["step"] == "arc"]
+    assert cut["centre"] == [5, 0] and cut["to"] == pytest.approx([10, 0, 1], abs=1e-9)
+    assert cut["turn"] == "cw"
+
+
+# ------------------------------------------------------------------------------------------ embedded paths
+
+
+def sub_path(parameters="M1 O2 T2 I1 B0", name="8998_1P"):
+    return drawing(start(0, 0, parameters, name), line(0, 0, 10, 0, layer=name), end(10, 0, name))
+
+
+def test_an_embedded_path_is_moved_and_rotated_and_is_the_caller(kerf, save):
+    save("8998.dxf", sub_path())
+    outer = line(0, 0, 5, 5, "HIDDEN") + line(5, 5, 5, 15, "DASHDOT") + text(5, 10, ">8998.1P M1 O2 T2")
+    name = save("8999.1P.dxf", path(outer, to=(5, 15)))
+    cuts = [s["to"] for s in motions(kerf, name) if s["step"] == "cut"]
+    assert cuts == [pytest.approx(p, abs=1e-9) for p in ([5, 5, 1], [5, 15, 1], [5, 15, 0], [5, 5, 0])]
+
+
+def test_variables_select_a_path_and_a_depth(kerf, save):
+    save("8998.dxf", sub_path("M1 O2 T2 I2 B=D :D0~1 :X?AB"))
+    embedding = line(0, 0, 10, 0, "DASHDOT") + text(5, 0, ">8998.1P :D0.5 :XA")
+    steps = motions(kerf, save("8999.1P.dxf", path(embedding)))
+    assert [s["to"][2] for s in steps if s["step"] == "cut"] == [0.5, 0.5]
+    for wrong in (":D2 :XA", ":D0.5", ":D0.5 :XA :Y1", ":D0.5 :XC"):
+        bad = line(0, 0, 10, 0, "DASHDOT") + text(5, 0, f">8998.1P {wrong}")
+        status, codes = names_of(kerf, save("8999.1P.dxf", path(bad)))
+        assert status == 1 and "pathdxf_variable" in codes, wrong
+
+
+def test_an_undefined_variable_is_named(kerf, save):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0) + text(5, 0, "B=Z")))
+    status, codes = names_of(kerf, name)
+    assert status == 1 and "pathdxf_variable" in codes
+
+
+@pytest.mark.parametrize("parameters, embedding", [
+    ("M2 O2 T2 I1 B0", ">8998.1P M1 O2 T2"), ("M1 O2 T2 I1 B0", ">8998.1P M1 O3 T2"),
+    ("M1 O2 T1 I1 B0", ">8998.1P M1 O2 T2"), ("M1 O2 T2 I1 B0", "M1 O2 T2"),
+    ("M1 O2 T2 I1 B0", ">8998.1PX M1 O2 T2"), ("M1 O2 T3 I1 B0", ">8998.1P M1 O2 T3")])
+def test_an_embedding_that_does_not_fit_is_an_error(kerf, save, parameters, embedding):
+    save("8998.dxf", sub_path(parameters))
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0, "DASHDOT") + text(5, 0, embedding)))
+    status, codes = names_of(kerf, name)
+    assert status == 1 and "pathdxf_embedding" in codes
+
+
+def test_sub_paths_are_searched_in_folders(kerf, save):
+    save("parts/8990-8998 x.dxf", sub_path())
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0, "DASHDOT") + text(5, 0, ">8998.1P")))
+    assert kerf("pathdxf", *OPTIONS, "/d", "parts", name).status == 0
+    assert kerf("pathdxf", *OPTIONS, name).status == 1
+    assert names_of(kerf, name) == (1, ["pathdxf_not_found"])
+    missing = kerf("pathdxf", *OPTIONS, "/dnone", name)
+    assert missing.status == 1 and "folder none" in missing.err  # code pathdxf_folder
+    save("8998.dxf", sub_path())
+    twice = kerf("pathdxf", *OPTIONS, "--folder=parts", name)
+    assert twice.status == 1 and "already been defined" in twice.err  # code pathdxf_defined_twice
+
+
+def test_paths_that_contain_themselves_end(kerf, save):
+    layer = "8998_1P"
+    own = line(0, 0, 10, 0, "DASHDOT", layer) + text(5, 0, ">8998.1P", layer)
+    save("8998.dxf", drawing(start(0, 0, "M1 O2 T2", layer), own, end(10, 0, layer)))
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0, "DASHDOT") + text(5, 0, ">8998.1P")))
+    status, codes = names_of(kerf, name)
+    assert status == 1 and "pathdxf_nesting" in codes
+
+
+def test_embeddings_that_multiply_are_bounded(kerf, save):
+    """Ten levels of fifty embeddings each would be 1e17 elements."""
+    for level in range(1, 11):
+        layer = f"80{level:02}_1P"
+        inner = "".join(line(x, 0, 0 if x else 10, 0, "DASHDOT", layer) +
+                        text(5, 0, f">80{level + 1:02}.1P", layer) for x in (0, 10) * 12)
+        if level == 10:
+            inner = line(0, 0, 10, 0, layer=layer) + line(10, 0, 0, 0, layer=layer)
+        save(f"80{level:02}.dxf", drawing(start(0, 0, "M1 O2 T2 I1 B0", layer), inner, end(0, 0, layer)))
+    run = kerf("info", "--json", "8001.dxf", timeout=100)
+    assert run.status == 1
+
+
+# ------------------------------------------------------------------------------------------------ probes
+
+
+def test_probes_give_three_files_and_corrections(kerf, save, tmp_path):
+    probes = circle(0, 20, 6, "PHANTOM") + text(0, 20, "Lleft") + circle(10, 20, 6, "PHANTOM")
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0) + probes))
+    assert kerf("pathdxf", *OPTIONS, "/z50", name).status == 0
+    assert sorted(p.name for p in tmp_path.iterdir()) == [
+        "8999.1P.dxf", "8999.1P_Clean.gcode", "8999.1P_Probing.gcode", "8999.1P_Z.txt"]
+    assert (tmp_path / "8999.1P_Z.txt").read_text() == (
+        "([0.000 20.000]/L:left/T=2.000) #51=\n([10.000 20.000]/T=2.000) #52=\n")
+    clean = (tmp_path / "8999.1P_Clean.gcode").read_text()
+    # Distances 20 and 22.361: weights 0.528 and 0.472.
+    assert "G01 Z1.000(=1.000+0.528*[#51-2.000]+0.472*[#52-2.000])" in clean
+    probing = code_lines((tmp_path / "8999.1P_Probing.gcode").read_text())
+    assert probing.count("G38.3 Z0 F50.000") == 2
+    assert kerf("pathdxf", *OPTIONS, "--probe", "g38.2", name).status == 0
+    assert "G38.2 Z0" in (tmp_path / "8999.1P_Probing.gcode").read_text()
+    assert '"z_correction"' in kerf("steps", name).out
+    assert kerf("post", "--to", "linuxcnc", name, "-o", "out.nc").status == 1
+
+
+def test_each_embedding_has_its_own_probes(kerf, save, tmp_path):
+    layer = "8998_1P"
+    inner = line(0, 0, 10, 0, layer=layer) + circle(5, 10, 6, "PHANTOM", layer)
+    save("8998.dxf", drawing(start(0, 0, "M1 O2 T2 I1 B0", layer), inner, end(10, 0, layer)))
+    outer = "".join(line(x, 0, x + 10, 0, "DASHDOT") + text(x + 5, 0, ">8998.1P") for x in (0, 10))
+    assert kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", path(outer, to=(20, 0)))).status == 0
+    assert (tmp_path / "8999.1P_Z.txt").read_text().count("[5.000 10.000]") == 2
+
+
+# ------------------------------------------------------------------------------- the command and its files
+
+
+def test_the_program_is_that_of_the_original(kerf, save, tmp_path):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters="M1 O2 T2 I5 B0 S5 F80 R_a"))
+    assert kerf("pathdxf", *OPTIONS, name).status == 0
+    assert code_lines((tmp_path / "8999.1P_a_Milling.gcode").read_text()) == [
+        "%", "F150", "G17 G21 G40 G49 G54 G80 G90 G94", "T1", "G00 Z5.000", "G00 X0.000 Y0.000", "G00 Z2.000",
+        "G01 Z0.000", "G01 F80.000 X10.000 Y0.000 Z0.000", "G00 Z5.000", "G00 Z5.000", "M30", "%"]
+
+
+def test_options_in_their_forms(kerf, save, tmp_path):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    for options in (["/f150", "/v500", "/s15"], ["-f", "150", "-V500", "/S", "15"],
+                    ["--feed=150", "--sweep-speed", "500", "--sweep-height", "15"], ["/f150,0", "/v500", "/o15"]):
+        assert kerf("pathdxf", *options, name).status == 0, options
+        assert kerf("pathdxf", *options, "8999.1P").status == 0
+        assert kerf("pathdxf", *options, tmp_path / name).status == 0
+    for options in (["/f150", "/v500"], ["/f0", "/v500", "/s15"], ["/fx", "/v500", "/s15"], ["/f-1", "/v5", "/s5"],
+                    [*OPTIONS, "/q"], [*OPTIONS, "/"], [*OPTIONS, "/d"], [*OPTIONS, "--foldr=x"], ["/h"], ["/?"]):
+        run = kerf("pathdxf", *options, name if options[-1] != "/d" else "/d")
+        assert run.status == 2 and "/f ..." in run.err, options  # code pathdxf_option
+    assert kerf("pathdxf", *OPTIONS).status == 3
+    assert kerf("pathdxf", *OPTIONS, "none.dxf").status == 1
+
+
+def test_messages_are_english_or_german(kerf, save):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0), parameters="M1 O2 T2 I1 S5"))
+    english, german = kerf("pathdxf", *OPTIONS, name), kerf("pathdxf", *OPTIONS, "/lde", name)
+    assert "**** LINE @ [0.000 0.000] # 8999.1P[8999.1P.dxf]: B value missing" in english.err
+    assert "B-Wert fehlt" in german.err
+    assert english.status == german.status == 1
+
+
+def test_after_an_error_later_files_are_not_written(kerf, save, tmp_path):
+    good, bad = path(line(0, 0, 10, 0)), path(line(0, 0, 9, 0))
+    names = [save("8999.1P.dxf", good), save("8999.2P.dxf", bad), save("8999.3P.dxf", good)]
+    assert kerf("pathdxf", *OPTIONS, *names).status == 1
+    assert [p.name for p in tmp_path.glob("*.gcode")] == ["8999.1P_Milling.gcode"]
+
+
+def test_check_reads_all_paths_and_writes_nothing(kerf, save, tmp_path):
+    two = "".join(start(0, y, "M1 O2 T2 I1 B=D :D0,1 S5", f"8999_{y}P") + line(0, y, 10, y, layer=f"8999_{y}P") +
+                  end(10, y, f"8999_{y}P") for y in (1, 20))
+    name = save("8999.dxf", drawing(two))
+    run = kerf("pathdxf", *OPTIONS, "/c", name)
+    assert run.status == 0 and "Checking 8999.1P" in run.err and "Checking 8999.20P" in run.err
+    assert not list(tmp_path.glob("*.gcode"))
+    assert names_of(kerf, name) == (1, ["pathdxf_layer"])
+
+
+def test_shown_texts_name_their_elements(kerf, save):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0) + text(5, 0, "B1")))
+    shown = kerf("pathdxf", *OPTIONS, "/xB1", name).err
+    assert "Line LAYER=8999_1P" in shown and "has assigned text ''B1' @ [5.000 0.000] d=1.400'" in shown
+
+
+def test_references_take_the_parameters_of_another_path(kerf, save):
+    second = start(0, 20, "@8999.1P", "8999_2P") + line(0, 20, 10, 20, layer="8999_2P") + end(10, 20, "8999_2P")
+    first = start(0, 0, PARAMETERS) + line(0, 0, 10, 0) + end(10, 0)
+    assert kerf("pathdxf", *OPTIONS, "/c", save("8999.dxf", drawing(first, second))).status == 0
+    for wrong in ("@8999.7P", "@abc", "@8999.2P", "@8999.1P O2"):
+        bad = drawing(first, second.replace("@8999.1P", wrong))
+        run = kerf("pathdxf", *OPTIONS, "/c", save("8999.dxf", bad))
+        assert run.status == 1 and "@" in run.err, wrong
+
+
+# ------------------------------------------------------------------------------------- what can be wrong
+
+WRONG = {
+    "pathdxf_layer": drawing(line(0, 0, 1, 0, layer="0")),
+    "pathdxf_marker": drawing(start(0, 0, PARAMETERS), line(0, 0, 10, 0)),
+    "pathdxf_text_unassigned": path(line(0, 0, 10, 0) + text(5, 9, "B1")),
+    "pathdxf_text_layout": path(line(0, 0, 10, 0) + text(5, 0, "B1", attachment=7, g50=30)),
+    "pathdxf_text_syntax": path(line(0, 0, 10, 0) + text(5, 0, "B1 B0")),
+    "pathdxf_reference": path(line(0, 0, 10, 0), parameters="@8999.7P"),
+    "pathdxf_key": path(line(0, 0, 10, 0) + text(5, 0, "X1")),
+    "pathdxf_value_missing": path(line(0, 0, 10, 0), parameters="M1 O2 I1 B0 S5"),
+    "pathdxf_value_range": path(line(0, 0, 10, 0), parameters="M1 O2 T2 I0 B0 S5"),
+    "pathdxf_line_type": path(line(0, 0, 10, 0, "ZIGZAG")),
+    "pathdxf_circle": path(line(0, 0, 10, 0) + circle(10, 0, 1.5)),
+    "pathdxf_open_end": path(line(0, 0, 10, 0) + line(10.5, 0, 20, 0), to=(20, 0)),
+    "pathdxf_unreached": path(line(0, 0, 10, 0) + line(50, 50, 60, 50)),
+    "pathdxf_end": path(line(0, 0, 9, 0)),
+    "pathdxf_no_segments": path(),
+    "pathdxf_not_found": path(line(0, 0, 10, 0, "DASHDOT") + text(5, 0, ">8998.1P")),
+    "pathdxf_embedding": path(line(0, 0, 10, 0, "DASHDOT")),
+    "pathdxf_variable": path(line(0, 0, 10, 0) + text(5, 0, "B=Q")),
+    "pathdxf_height": path(line(0, 0, 10, 0) + tags((30, 1))),
+    "pathdxf_limit": path(line(0, 0, 10, 0), parameters="M1 O2 T2 I0.000001 B0 S5"),
+}
+
+
+@pytest.mark.parametrize("code", WRONG)
+def test_errors_have_their_code(kerf, save, code):
+    status, codes = names_of(kerf, save("8999.1P.dxf", WRONG[code]))
+    assert status == 1 and code in codes
+
+
+def test_notes_and_warnings_have_their_code(kerf, save):
+    spline = tags((0, "SPLINE"), (8, "8999_1P"), (70, 8), (71, 1))
+    content = path(line(0, 0, 10, 0) + circle(10, 0, 8) + spline, parameters="O2 T2 I1 B0", unit=1)
+    status, codes = names_of(kerf, save("8999.1P.dxf", content))
+    assert status == 0
+    for code in ("pathdxf_assumed", "pathdxf_unused", "pathdxf_material", "pathdxf_unit", "pathdxf_core"):
+        assert code in codes
+
+
+def test_a_core_that_smaller_circles_remove_is_no_warning(kerf, save):
+    circles = "".join(circle(0, 0, d) for d in (2, 4, 8))
+    _, codes = names_of(kerf, save("8999.1P.dxf", path(circles, to=(0, 0))))
+    assert "pathdxf_core" not in codes
+    _, codes = names_of(kerf, save("8999.1P.dxf", path(circle(0, 0, 2) + circle(0, 0, 8), to=(0, 0))))
+    assert "pathdxf_core" in codes
+
+
+def test_elements_on_each_other_are_named(kerf, save):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0) + line(10, 0, 0, 0) + line(10, 0, 20, 0), to=(20, 0)))
+    status, codes = names_of(kerf, name)
+    assert status == 1 and "pathdxf_overlap" in codes
+
+
+def test_the_hint_names_the_nearest_open_end(kerf, save):
+    run = kerf("pathdxf", *OPTIONS, "--explain", save("8999.1P.dxf", WRONG["pathdxf_open_end"]))
+    assert "No more segments found after location [10.000 0.000]" in run.err
+    assert "[10.500 0.000], 0.500 mm" in run.err
+
+
+def test_all_errors_of_a_drawing_are_reported(kerf, save):
+    content = path(line(0, 0, 10, 0) + text(5, 0, "X1") + line(10, 0, 20, 0, "ZIGZAG") + text(50, 50, "B1"))
+    _, codes = names_of(kerf, save("8999.1P.dxf", content))
+    assert {"pathdxf_key", "pathdxf_line_type", "pathdxf_text_unassigned", "pathdxf_end"} <= set(codes)
+
+
+def test_invalid_expressions_are_errors(kerf, save):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    for option in ("/n(", "/p[", "/x*"):
+        run = kerf("pathdxf", *OPTIONS, option, name)
+        assert run.status == 1 and "Invalid expression" in run.err  # code pathdxf_pattern
+    slow = kerf("pathdxf", *OPTIONS, "/n", "(([0-9.]+)+)+P", name, timeout=20)
+    assert slow.status == 0
+
+
+def test_a_suffix_does_not_lead_to_another_folder(kerf, save, tmp_path):
+    name = save("in/8999.1P.dxf", path(line(0, 0, 10, 0), parameters=PARAMETERS + " R/../../x"))
+    assert kerf("pathdxf", *OPTIONS, name).status == 1
+    assert not list(tmp_path.rglob("*.gcode"))
+
+
+@pytest.mark.parametrize("content", ["", "0\n", "not a drawing", "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n8999_1P\n10\n1e308\n",
+                                     path(line(0, 0, 1e300, 0)), path(line(0, 0, 10, 0))[:300],
+                                     path(arc(0, 0, 0, 0, 0)), path(text(0, 0, "=" * 50000))])
+def test_bad_files_are_errors_and_write_nothing(kerf, save, tmp_path, content):
+    run = kerf("pathdxf", *OPTIONS, save("8999.1P.dxf", content), timeout=20)
+    assert run.status == 1 and "****" in run.err
+    assert not list(tmp_path.glob("*.gcode"))
+
+
+def test_variables_that_grow_are_errors(kerf, save):
+    layer = "8998_1P"
+    grown = "B=A :A0~1"
+    save("8998.dxf", drawing(start(0, 0, "M1 O2 T2 I1 " + grown, layer), line(0, 0, 10, 0, layer=layer),
+                             end(10, 0, layer)))
+    embedding = line(0, 0, 10, 0, "DASHDOT") + text(5, 0, ">8998.1P :A=A=A")
+    status, codes = names_of(kerf, save("8999.1P.dxf", path(embedding)))
+    assert status == 1 and "pathdxf_variable" in codes
+
+
+# ---------------------------------------------------------------------------------------- as a program
+
+
+def test_a_drawing_is_simulated_with_its_tool_and_plate(kerf, save):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    run = kerf("simulate", "--json", "--resolution", "0.05", name)
+    assert run.status == 0, run.err
+    # A slot 10 mm long, 2 mm wide and 2 mm deep with round ends.
+    assert run.json["removed_mm3"] == pytest.approx((10 * 2 + math.pi) * 2, rel=5e-3)
+    low, high = run.json["stock"]["block"] if "stock" in run.json else (None, None)
+    info = kerf("info", "--json", name).json
+    assert info["tools"][0]["deepest"] == 0 if "deepest" in info["tools"][0] else True
+
+
+def test_a_collision_names_the_element(kerf, save):
+    # The second hole is reached by a sweep at 1 mm through a plate of 2 mm.
+    low = line(0, 0, 10, 0, "DASHED") + text(5, 0, "S3") + circle(10, 0, 2)
+    name = save("8999.1P.dxf", path(low))
+    run = kerf("check", "--json", "--stock", "-5,-5,0 to 20,5,4", name)
+    assert run.status == 3
+    hazard = next(h for h in run.json["hazards"] if h["kind"] == "rapid_in_stock")
+    assert hazard["origin"]["layer"] == "8999_1P"
+
+
+def test_a_drawing_is_posted(kerf, save, tmp_path):
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
+    run = kerf("post", "--to", "linuxcnc", name, "-o", "out.nc")
+    assert run.status == 0, run.err
+    assert "G1" in (tmp_path / "out.nc").read_text()
+    again = kerf("info", "--json", "out.nc").json["motion"]
+    assert again["cut_mm"] == pytest.approx(kerf("info", "--json", name).json["motion"]["cut_mm"], abs=0.01)
+
+
+def test_the_steps_are_the_same_in_the_text_of_the_original(kerf, save, tmp_path):
+    """Both come from one toolpath: read back as G-code, the program has the same motions."""
+    inner = line(0, 0, 10, 0) + arc(10, 5, 5, 270, 90) + line(10, 10, 20, 10, "DASHED") + circle(20, 10, 6)
+    name = save("8999.1P.dxf", path(inner, to=(20, 10)))
+    assert kerf("pathdxf", *OPTIONS, name).status == 0
+    drawn, read = (kerf("info", "--json", n).json["motion"] for n in (name, "8999.1P_Milling.gcode"))
+    assert (drawn["lines"], drawn["arcs"], drawn["rapids"]) == (read["lines"], read["arcs"], read["rapids"])
+    assert drawn["cut_mm"] == pytest.approx(read["cut_mm"], abs=0.01)
