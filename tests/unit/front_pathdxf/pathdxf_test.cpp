@@ -1,0 +1,143 @@
+// Path drawings from memory: callers, limits, messages.
+#include "kerf/pathdxf.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <map>
+
+namespace kerf {
+namespace {
+
+std::string line(double x1, double y1, double x2, double y2, std::string_view type, std::string_view layer) {
+  return fmt::format("0\nLINE\n8\n{}\n6\n{}\n10\n{}\n20\n{}\n11\n{}\n21\n{}\n", layer, type, x1, y1, x2, y2);
+}
+std::string circle(double x, double y, double diameter, std::string_view layer) {
+  return fmt::format("0\nCIRCLE\n8\n{}\n6\nPHANTOM\n10\n{}\n20\n{}\n40\n{}\n", layer, x, y, diameter / 2.0);
+}
+std::string text(double x, double y, std::string_view value, std::string_view layer) {
+  return fmt::format("0\nMTEXT\n8\n{}\n10\n{}\n20\n{}\n40\n1\n71\n5\n1\n{}\n", layer, x, y, value);
+}
+std::string path(std::string_view layer, std::string_view parameters, const std::string& elements) {
+  return "0\nSECTION\n2\nENTITIES\n" + circle(0, 0, 1, layer) + text(0, 0, parameters, layer) + elements +
+         circle(10, 0, 2, layer) + "0\nENDSEC\n0\nEOF\n";
+}
+
+class Pathdxf : public testing::Test {
+ protected:
+  Pathdxf() {
+    options_.read_file = [this](const std::string& name) -> std::optional<std::string> {
+      const auto found = files_.find(name);
+      return found == files_.end() ? std::nullopt : std::optional(found->second);
+    };
+    options_.list_files = [this](const std::string&) {
+      std::vector<std::string> names;
+      for (const auto& [name, content] : files_) names.push_back(name);
+      return names;
+    };
+  }
+  PathdxfRun compile() { return compile_pathdxf("8999.1P.dxf", options_, diagnostics_); }
+
+  std::map<std::string, std::string> files_;
+  PathdxfOptions options_;
+  Diagnostics diagnostics_;
+};
+
+TEST_F(Pathdxf, NamesEmbeddingsAsCallers) {
+  files_["8998.dxf"] = path("8998_1P", "M1 O2 T2 I5 B0", line(0, 0, 10, 0, "CONTINUOUS", "8998_1P"));
+  files_["8999.1P.dxf"] = path("8999_1P", "M1 O2 T2 S5",
+                               line(0, 0, 10, 0, "DASHDOT", "8999_1P") + text(5, 0, ">8998.1P", "8999_1P"));
+  const PathdxfRun run = compile();
+  ASSERT_EQ(run.programs.size(), 1u);
+  EXPECT_EQ(run.files, (std::vector<std::string>{"8999.1P.dxf", "8998.dxf"}));
+  const Toolpath& path = run.programs[0].milling;
+  std::size_t cuts = 0;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!path[i].is_cutting()) continue;
+    ++cuts;
+    const auto* where = std::get_if<DrawingLocation>(&path.origins().resolve(path[i].origin()));
+    ASSERT_NE(where, nullptr);
+    EXPECT_EQ(where->file, "8998.dxf");
+    EXPECT_EQ(where->entity, "LINE");
+    const auto callers = path.origins().callers(path[i].origin());
+    ASSERT_EQ(callers.size(), 1u);
+    EXPECT_EQ(std::get<DrawingLocation>(callers[0]).file, "8999.1P.dxf");
+  }
+  EXPECT_EQ(cuts, 2u);  // a plunge and a line
+}
+
+TEST_F(Pathdxf, StartsAtAnUnknownPosition) {
+  files_["8999.1P.dxf"] = path("8999_1P", "M1 O2 T2 I5 B0 S5", line(0, 0, 10, 0, "CONTINUOUS", "8999_1P"));
+  const PathdxfRun run = compile();
+  ASSERT_EQ(run.programs.size(), 1u);
+  const Toolpath& path = run.programs[0].milling;
+  std::vector<unsigned> unknown;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].is_motion()) unknown.push_back(path[i].unknown_axes());
+  ASSERT_GE(unknown.size(), 2u);
+  EXPECT_EQ(unknown[0], 3u);  // X and Y: only Z was commanded
+  EXPECT_EQ(unknown[1], 0u);
+  EXPECT_EQ(run.programs[0].tool_diameter, mm(2));
+  EXPECT_EQ(run.programs[0].top, mm(2));
+}
+
+TEST_F(Pathdxf, HasTheSameMotionsWithAndWithoutTrace) {
+  files_["8999.1P.dxf"] = path("8999_1P", "M1 O2 T2 I1 B0 S5", line(0, 0, 10, 0, "CONTINUOUS", "8999_1P"));
+  const auto steps = [&](PathdxfComments comments) {
+    options_.comments = comments;
+    std::vector<Point3> ends;
+    const PathdxfRun run = compile();
+    const Toolpath& path = run.programs.at(0).milling;
+    for (std::size_t i = 0; i < path.size(); ++i)
+      if (path[i].is_motion()) ends.push_back(path[i].to());
+    return ends;
+  };
+  EXPECT_EQ(steps(PathdxfComments::brief), steps(PathdxfComments::trace));
+}
+
+TEST_F(Pathdxf, StopsAtTheLimitOfSteps) {
+  files_["8999.1P.dxf"] =
+      path("8999_1P", "M1 O2 T2 I0.001 B0 S5", line(0, 0, 10, 0, "CONTINUOUS", "8999_1P"));
+  options_.max_steps = 500;
+  const PathdxfRun run = compile();
+  ASSERT_TRUE(diagnostics_.has_errors());
+  EXPECT_EQ(diagnostics_.list().back().code, Code::pathdxf_limit);
+  ASSERT_EQ(run.programs.size(), 1u);
+  EXPECT_LT(run.programs[0].milling.size(), 520u);
+}
+
+TEST_F(Pathdxf, PrintsMessagesAsTheOriginal) {
+  Diagnostic d{Severity::error,
+               Code::pathdxf_key,
+               DrawingLocation{"in/8999.1P.dxf", "8999_1P~a", "2F", 1, 2, "LINE"},
+               "message",
+               {},
+               {}};
+  EXPECT_EQ(pathdxf_line(d), "LINE @ [1.000 2.000] # 8999.1P[8999.1P.dxf]: message");
+  d.where = DrawingLocation{"in/8999.1P.dxf", "8999.1P", "", 0, 0, ""};
+  EXPECT_EQ(pathdxf_line(d), "8999.1P[8999.1P.dxf]: message");
+  d.where = TextLocation{"in/8999.1P.dxf", 0, 0};
+  EXPECT_EQ(pathdxf_line(d), "in/8999.1P.dxf: message");
+  d.where = {};
+  EXPECT_EQ(pathdxf_line(d), "Options: message");
+}
+
+TEST_F(Pathdxf, ReadsNoDrawingTwice) {
+  std::string elements;
+  for (int i = 0; i < 20; ++i)
+    elements += line(i % 2 == 0 ? 0 : 10, 0, i % 2 == 0 ? 10 : 0, 0, "DASHDOT", "8999_1P") +
+                text(5, 0, ">8998.1P", "8999_1P");
+  files_["8998.dxf"] = path("8998_1P", "M1 O2 T2 I5 B0", line(0, 0, 10, 0, "CONTINUOUS", "8998_1P"));
+  files_["8999.1P.dxf"] = path("8999_1P", "M1 O2 T2 S5", elements + line(0, 0, 10, 0, "HIDDEN", "8999_1P"));
+  std::map<std::string, int> reads;
+  const auto read = options_.read_file;
+  options_.read_file = [&](const std::string& name) {
+    ++reads[name];
+    return read(name);
+  };
+  compile();
+  EXPECT_FALSE(diagnostics_.has_errors());
+  EXPECT_EQ(reads["8998.dxf"], 1);
+}
+
+}  // namespace
+}  // namespace kerf
