@@ -54,7 +54,8 @@ TEST_F(Pathdxf, NamesEmbeddingsAsCallers) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (!path[i].is_cutting()) continue;
     ++cuts;
-    const auto* where = std::get_if<DrawingLocation>(&path.origins().resolve(path[i].origin()));
+    const Origin origin = path.origin_of(i);
+    const auto* where = std::get_if<DrawingLocation>(&origin);
     ASSERT_NE(where, nullptr);
     EXPECT_EQ(where->file, "8998.dxf");
     EXPECT_EQ(where->entity, "LINE");
