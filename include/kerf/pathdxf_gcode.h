@@ -1,5 +1,5 @@
-// The G-code text of PathDxf2GCode, from a toolpath alone (docs/decisions/0025-pathdxf-gcode.md says why it is no
-// post profile).
+// The G-code text of PathDxf2GCode, from a toolpath alone. Why it is no post profile: see
+// docs/decisions/0025-pathdxf-gcode.md.
 #pragma once
 
 #include <string>

@@ -88,7 +88,8 @@ def test_a_hole_of_the_tool_diameter_is_drilled(kerf, save):
 def test_support_bars_stay(kerf, save):
     # 50 mm, bars of 5 mm at least 20 mm apart: two bars, one of them as halves at the ends.
     bars = line(0, 0, 50, 0, "BORDER")
-    steps = motions(kerf, save("8999.1P.dxf", path(bars, to=(50, 0), parameters="M1 O2 T2 I2 B0 D1 P5 U20 S5")))
+    parameters = "M1 O2 T2 I2 B0 D1 P5 U20 S5"
+    steps = motions(kerf, save("8999.1P.dxf", path(bars, to=(50, 0), parameters=parameters)))
     cuts = [s["to"] for s in steps if s["step"] == "cut" and s["to"][0] > 0]
     assert [(x, z) for x, _, z in cuts] == [
         (3.5, 1), (4.5, 0), (20.5, 0), (21.5, 1), (28.5, 1), (29.5, 0), (45.5, 0), (46.5, 1), (50, 1)]
@@ -98,7 +99,8 @@ def test_slow_milling_does_not_travel(kerf, save):
     two = line(0, 0, 10, 0) + line(10, 0, 10, 10)
     steps = motions(kerf, save("8999.1P.dxf", path(two, to=(10, 10), parameters="M1 O2 T2 I1 B0 S5 W1")))
     ends = [s["to"] for s in steps if s["step"] == "cut"]
-    assert ends == [[0, 0, 1], [10, 0, 1], [10, 10, 1], [10, 0, 1], [0, 0, 1], [0, 0, 0], [10, 0, 0], [10, 10, 0]]
+    there, back = [[10, 0, 1], [10, 10, 1]], [[10, 0, 1], [0, 0, 1]]
+    assert ends == [[0, 0, 1], *there, *back, [0, 0, 0], [10, 0, 0], [10, 10, 0]]
 
 
 def test_rapids_below_the_path_height_are_not_merged(kerf, save):
@@ -243,13 +245,14 @@ def test_the_program_is_that_of_the_original(kerf, save, tmp_path):
 
 def test_options_in_their_forms(kerf, save, tmp_path):
     name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
-    for options in (["/f150", "/v500", "/s15"], ["-f", "150", "-V500", "/S", "15"],
-                    ["--feed=150", "--sweep-speed", "500", "--sweep-height", "15"], ["/f150,0", "/v500", "/o15"]):
+    for options in (["/f150", "/v500", "/s15"], ["-f", "150", "-V500", "/S", "15"], ["/f150,0", "/v500", "/o15"],
+                    ["--feed=150", "--sweep-speed", "500", "--sweep-height", "15"]):
         assert kerf("pathdxf", *options, name).status == 0, options
         assert kerf("pathdxf", *options, "8999.1P").status == 0
         assert kerf("pathdxf", *options, tmp_path / name).status == 0
-    for options in (["/f150", "/v500"], ["/f0", "/v500", "/s15"], ["/fx", "/v500", "/s15"], ["/f-1", "/v5", "/s5"],
-                    [*OPTIONS, "/q"], [*OPTIONS, "/"], [*OPTIONS, "/d"], [*OPTIONS, "--foldr=x"], ["/h"], ["/?"]):
+    for options in (["/f150", "/v500"], ["/f0", "/v500", "/s15"], ["/fx", "/v500", "/s15"],
+                    ["/f-1", "/v5", "/s5"], [*OPTIONS, "/q"], [*OPTIONS, "/"], [*OPTIONS, "/d"],
+                    [*OPTIONS, "--foldr=x"], ["/h"], ["/?"]):
         run = kerf("pathdxf", *options, name if options[-1] != "/d" else "/d")
         assert run.status == 2 and "/f ..." in run.err, options  # code pathdxf_option
     assert kerf("pathdxf", *OPTIONS).status == 3
@@ -272,8 +275,10 @@ def test_after_an_error_later_files_are_not_written(kerf, save, tmp_path):
 
 
 def test_check_reads_all_paths_and_writes_nothing(kerf, save, tmp_path):
-    two = "".join(start(0, y, "M1 O2 T2 I1 B=D :D0,1 S5", f"8999_{y}P") + line(0, y, 10, y, layer=f"8999_{y}P") +
-                  end(10, y, f"8999_{y}P") for y in (1, 20))
+    def at(y, layer):
+        return start(0, y, "M1 O2 T2 I1 B=D :D0,1 S5", layer) + line(0, y, 10, y, layer=layer) + end(10, y, layer)
+
+    two = "".join(at(y, f"8999_{y}P") for y in (1, 20))
     name = save("8999.dxf", drawing(two))
     run = kerf("pathdxf", *OPTIONS, "/c", name)
     assert run.status == 0 and "Checking 8999.1P" in run.err and "Checking 8999.20P" in run.err
@@ -288,7 +293,8 @@ def test_shown_texts_name_their_elements(kerf, save):
 
 
 def test_references_take_the_parameters_of_another_path(kerf, save):
-    second = start(0, 20, "@8999.1P", "8999_2P") + line(0, 20, 10, 20, layer="8999_2P") + end(10, 20, "8999_2P")
+    layer = "8999_2P"
+    second = start(0, 20, "@8999.1P", layer) + line(0, 20, 10, 20, layer=layer) + end(10, 20, layer)
     first = start(0, 0, PARAMETERS) + line(0, 0, 10, 0) + end(10, 0)
     assert kerf("pathdxf", *OPTIONS, "/c", save("8999.dxf", drawing(first, second))).status == 0
     for wrong in ("@8999.7P", "@abc", "@8999.2P", "@8999.1P O2"):
@@ -379,7 +385,10 @@ def test_a_suffix_does_not_lead_to_another_folder(kerf, save, tmp_path):
     assert not list(tmp_path.rglob("*.gcode"))
 
 
-@pytest.mark.parametrize("content", ["", "0\n", "not a drawing", "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n8999_1P\n10\n1e308\n",
+CUT_OFF = "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n8999_1P\n10\n1e308\n"
+
+
+@pytest.mark.parametrize("content", ["", "0\n", "not a drawing", CUT_OFF,
                                      path(line(0, 0, 1e300, 0)), path(line(0, 0, 10, 0))[:300],
                                      path(arc(0, 0, 0, 0, 0)), path(text(0, 0, "=" * 50000))])
 def test_bad_files_are_errors_and_write_nothing(kerf, save, tmp_path, content):

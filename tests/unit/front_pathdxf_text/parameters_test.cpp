@@ -181,7 +181,7 @@ TEST_F(PathdxfText, CountsALineEndAsACharacter) {
   EXPECT_DOUBLE_EQ(circle->centre.y, 1.0);
 }
 
-TEST_F(PathdxfText, PlacesTheCircleOfEveryAnchor) {
+TEST_F(PathdxfText, CentresTheCircleOfEveryAnchor) {
   for (int attachment = 1; attachment <= 9; ++attachment) {
     const auto circle = circle_of(mtext("B1", attachment));
     ASSERT_TRUE(circle);
