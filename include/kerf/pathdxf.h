@@ -2,7 +2,7 @@
 // H. M. Müller understands them.
 //
 //   Diagnostics diagnostics;
-//   PathdxfRun run = compile_pathdxf("8001.1P.dxf", {.feed = mm_per_min(150), .sweep_height = mm(15)},
+//   PathdxfRun run = compile_pathdxf("8001.1P.dxf", {.feed = mm_per_min(150), .rapid_height = mm(15)},
 //   diagnostics); const PathdxfProgram& program = run.programs.front();
 //
 // Coordinates are mm, X0 Y0 at the start marker, Z0 at the bottom of the material. A step's origin is the

@@ -26,8 +26,8 @@ enum class PathdxfSelection : std::uint8_t { only_path, check_all };
 struct PathdxfOptions {
   std::optional<Feed> feed;            ///< /f: of paths without F; default kDefaultPathdxfFeed, with a note
   std::optional<Feed> probe_feed;      ///< /z: of probes without Z; default: that of milling
-  std::optional<Feed> sweep_speed;     ///< /v: of rapids, for the statistics; default: feed
-  std::optional<Length> sweep_height;  ///< /s: of a main path without S; default T + O, with a note
+  std::optional<Feed> rapid_speed;     ///< /v: of rapids, for the statistics; default: feed
+  std::optional<Length> rapid_height;  ///< /s: of a main path without S; default T + O, with a note
   PathdxfSelection selection = PathdxfSelection::only_path;
   std::optional<std::string> shown_texts;  ///< /x: reports the elements of texts that match this expression
   std::vector<std::string> folders;  ///< /d: searched for sub-paths after the referencing drawing's folder

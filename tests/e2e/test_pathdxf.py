@@ -245,8 +245,9 @@ def test_the_program_is_that_of_the_original(kerf, save, tmp_path):
 
 def test_options_in_their_forms(kerf, save, tmp_path):
     name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
-    for options in (["/f150", "/v500", "/s15"], ["-f", "150", "-V500", "/S", "15"], ["/f150,0", "/v500", "/o15"],
-                    ["--feed=150", "--sweep-speed", "500", "--sweep-height", "15"]):
+    for options in (["/f150", "/v500", "/s15"], ["-f", "150", "-V500", "/S", "15"],
+                    ["/f150,0", "/v500", "/o15"],
+                    ["--feed=150", "--rapid-speed", "500", "--rapid-height", "15"]):
         assert kerf("pathdxf", *options, name).status == 0, options
         assert kerf("pathdxf", *options, "8999.1P").status == 0
         assert kerf("pathdxf", *options, tmp_path / name).status == 0
@@ -276,7 +277,8 @@ def test_after_an_error_later_files_are_not_written(kerf, save, tmp_path):
 
 def test_check_reads_all_paths_and_writes_nothing(kerf, save, tmp_path):
     def at(y, layer):
-        return start(0, y, "M1 O2 T2 I1 B=D :D0,1 S5", layer) + line(0, y, 10, y, layer=layer) + end(10, y, layer)
+        first = start(0, y, "M1 O2 T2 I1 B=D :D0,1 S5", layer)
+        return first + line(0, y, 10, y, layer=layer) + end(10, y, layer)
 
     two = "".join(at(y, f"8999_{y}P") for y in (1, 20))
     name = save("8999.dxf", drawing(two))

@@ -26,9 +26,9 @@ constexpr Option kOptions[] = {
     {'f', "feed", true, "Milling speed in mm/min; required", "Fräsgeschwindigkeit in mm/min; notwendig"},
     {'z', "probe-feed", true, "Probing speed in mm/min; default: /f",
      "Messgeschwindigkeit in mm/min; Standard: /f"},
-    {'v', "sweep-speed", true, "Speed of sweeps in mm/min, for the statistics; required",
+    {'v', "rapid-speed", true, "Speed of rapids (sweeps) in mm/min, for the statistics; required",
      "Geschwindigkeit der Leerfahrten in mm/min, für die Statistik; notwendig"},
-    {'s', "sweep-height", true, "Sweep height in mm of paths without S; required (also /o)",
+    {'s', "rapid-height", true, "Height of rapids in mm for paths without S; required (also /o)",
      "Sweephöhe in mm für Pfade ohne S; notwendig (auch /o)"},
     {'c', "check", false, "Check all paths of the DXF files, write nothing",
      "Alle Pfade der DXF-Dateien prüfen, nichts schreiben"},
@@ -78,8 +78,8 @@ class Parser {
   PathdxfCommandLine parse() {
     for (; at_ < arguments_.size(); ++at_) take(arguments_[at_]);
     if (!out_.run.feed) complain("/f missing or not > 0");
-    if (!out_.run.sweep_speed) complain("/v missing or not > 0");
-    if (!out_.run.sweep_height) complain("/s missing or not > 0");
+    if (!out_.run.rapid_speed) complain("/v missing or not > 0");
+    if (!out_.run.rapid_height) complain("/s missing or not > 0");
     return std::move(out_);
   }
 
@@ -163,9 +163,9 @@ class Parser {
     if (name == "explain") out_.explain = true;
     if (name == "feed") feed(run.feed);
     if (name == "probe-feed") feed(run.probe_feed);
-    if (name == "sweep-speed") feed(run.sweep_speed);
-    if (name == "sweep-height")
-      if (const auto n = number(value, name)) run.sweep_height = mm(*n);
+    if (name == "rapid-speed") feed(run.rapid_speed);
+    if (name == "rapid-height")
+      if (const auto n = number(value, name)) run.rapid_height = mm(*n);
     if (name == "check") run.selection = PathdxfSelection::check_all;
     if (name == "show-texts") run.shown_texts = value;
     if (name == "folder") run.folders.push_back(value);

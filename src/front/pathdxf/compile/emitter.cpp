@@ -47,7 +47,7 @@ Emitter::Emitter(Toolpath& path, const PathdxfOptions& options, const std::vecto
       options_(options),
       probes_(probes),
       modal_feed_(kDefaultPathdxfFeed.mm_per_min()),
-      sweep_speed_(options.sweep_speed.value_or(mm_per_min(feed)).mm_per_min()) {}
+      sweep_speed_(options.rapid_speed.value_or(mm_per_min(feed)).mm_per_min()) {}
 
 bool Emitter::full() const { return path_.size() >= options_.max_steps; }
 

@@ -228,8 +228,8 @@ void PathAssembly::read_start() {
     report_.note(Code::pathdxf_assumed, path_->where, kFeedAssumed, number(path_->feed));
     report_.hint(kFeedHint);
   }
-  const auto given_sweep = role_ == PathRole::main && options_.sweep_height
-                               ? std::optional(options_.sweep_height->mm())
+  const auto given_sweep = role_ == PathRole::main && options_.rapid_height
+                               ? std::optional(options_.rapid_height->mm())
                                : std::nullopt;
   const auto sweep = either(v.number('S'), given_sweep);
   path_->sweep = sweep.value_or(path_->top + path_->tool);
