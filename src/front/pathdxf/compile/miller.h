@@ -8,7 +8,7 @@
 #include "front/pathdxf/compile/frame.h"
 #include "front/pathdxf/model/path.h"
 #include "front/pathdxf/text/report.h"
-#include "geom/box_tree.h"
+#include "geom/base/box_tree.h"
 
 namespace kerf::pathdxf {
 

@@ -7,7 +7,7 @@
 
 #include "front/pathdxf/model/drawing.h"
 #include "front/pathdxf/text/text_circle.h"
-#include "geom/box_tree.h"
+#include "geom/base/box_tree.h"
 
 namespace kerf::pathdxf {
 
