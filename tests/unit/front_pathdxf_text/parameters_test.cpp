@@ -167,7 +167,8 @@ TEST_F(PathdxfText, DrawsCirclesAroundTexts) {
   const auto circle = circle_of(t);
   ASSERT_TRUE(circle);
   EXPECT_NEAR(2.0 * circle->radius, 2.343, 5e-4);
-  EXPECT_EQ(circle->centre, (Point2{0.9, 0.75}));
+  EXPECT_DOUBLE_EQ(circle->centre.x, 0.9);
+  EXPECT_DOUBLE_EQ(circle->centre.y, 0.75);
   const auto wide = circle_of(mtext("M1 O2 T2 I1 B0 S5", 5));
   ASSERT_TRUE(wide);
   EXPECT_DOUBLE_EQ(wide->radius, 0.7);
