@@ -104,7 +104,7 @@ def test_tools():
     (lambda p: p.dwell(1e308), "seconds must be from 0 to"),
     (lambda p: p.arc((1, 0, 0), (0, 0), "cw", 100, extra_turns=10**9), "extra_turns must be from 0 to"),
     (lambda p: (p.rapid((1, 0, 0)), p.arc((5, 0, 0), (0, 0), "cw", 100)),
-     "the arc begins 1 mm from its centre and ends 5 mm from it"),
+     "the arc starts 1 mm from its centre and ends 5 mm from it"),
     (lambda p: kerf.Stock.block((1e308, 1, 1)), "size must be from"),
     (lambda p: kerf.Stock.block((1e6, 1, 1)), "size must be from 0 to 100000 mm"),
     (lambda p: kerf.Tool("square d=3", number=-5), "number must be from 0"),
