@@ -2,9 +2,9 @@
 // halved, and one is kept if every point and every chord's midpoint lie within the tolerance.
 //
 // Two arcs are tried for each chain: that through its start, the point halfway and its end, which also finds
-// arcs of more than 180 degrees, and if it fails the mean of all arcs near the points (geom/fit/arc_heights.h,
-// which also fits arcs to points alone). A toolpath has further conditions: the tool must always move
-// forward, corners stay, and helices rise evenly.
+// arcs of more than 180 degrees, and if it fails the mean of all arcs near the points
+// (geom/fit/arc_heights.h, which also fits arcs to points alone). A toolpath has further conditions: the tool
+// must always move forward, corners stay, and helices rise evenly.
 #include <cmath>
 #include <numbers>
 #include <optional>

@@ -54,7 +54,7 @@ class Drawer {
     return sign * (chance(0.2) ? 0.5e-6 * whole(1, 6) : std::pow(10.0, in(-8.0, -4.0)));
   }
   Expression expression();
-  /// The points of a path whose lines are the midpoint of the pieces; else empty.
+  /// The points of a path whose lines are the centre lines of the pieces; else empty.
   const std::vector<Point2>& path() const { return path_; }
 
  private:

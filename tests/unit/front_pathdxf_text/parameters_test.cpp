@@ -1,8 +1,9 @@
 // Parameter texts, variables, path names, and the circles of texts.
+#include "front/pathdxf/text/parameters.h"
+
 #include <gtest/gtest.h>
 
 #include "front/pathdxf/text/nearly.h"
-#include "front/pathdxf/text/parameters.h"
 #include "front/pathdxf/text/path_names.h"
 #include "front/pathdxf/text/text_circle.h"
 
