@@ -46,8 +46,7 @@ void Miller::chain(const Chain& c, const Origin& where, const std::vector<Origin
 }
 
 /// The nearest tip of a segment at its next level; of equally near segments the first one.
-Miller::NextPass Miller::next_pass(const std::vector<Pass>& passes, const region_detail::BoxTree& tips,
-                                   Point3 head) {
+Miller::NextPass Miller::next_pass(const std::vector<Pass>& passes, const BoxTree& tips, Point3 head) {
   NextPass best{passes.size(), false};
   double nearest = std::numeric_limits<double>::infinity();
   tips.nearest(head.xy(), nearest, [&](std::uint32_t tip) {
@@ -69,10 +68,10 @@ Miller::NextPass Miller::next_pass(const std::vector<Pass>& passes, const region
 
 /// The nearest segment whose upper passes are done is milled next.
 void Miller::greedy(std::vector<Pass>& passes) {
-  std::vector<region_detail::Box> boxes;
+  std::vector<Box2> boxes;
   for (const Pass& p : passes)
-    for (const Point2 tip : {p.start, p.end}) boxes.push_back({tip.x, tip.y, tip.x, tip.y});
-  const region_detail::BoxTree tips(boxes);
+    for (const Point2 tip : {p.start, p.end}) boxes.push_back({tip, tip});
+  const BoxTree tips(boxes);
   Point3 head{passes[0].start.x, passes[0].start.y, passes[0].levels[0]};
   while (!out_.full()) {
     const auto [best, reversed] = next_pass(passes, tips, head);

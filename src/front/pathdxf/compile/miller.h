@@ -47,7 +47,7 @@ class Miller {
     std::size_t segment = 0;
     bool reversed = false;
   };
-  static NextPass next_pass(const std::vector<Pass>& passes, const region_detail::BoxTree& tips, Point3 head);
+  static NextPass next_pass(const std::vector<Pass>& passes, const BoxTree& tips, Point3 head);
   void greedy(std::vector<Pass>& passes);
   void slow(std::vector<Pass>& passes);
   void mill(const Pass& pass, double level, bool reversed);

@@ -8,12 +8,12 @@
 namespace kerf::pathdxf {
 namespace {
 
-region_detail::Box box_around(Point2 a, Point2 b, double margin) {
-  return {std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin, std::max(a.x, b.x) + margin,
-          std::max(a.y, b.y) + margin};
+Box2 box_around(Point2 a, Point2 b, double margin) {
+  return {{std::min(a.x, b.x) - margin, std::min(a.y, b.y) - margin},
+          {std::max(a.x, b.x) + margin, std::max(a.y, b.y) + margin}};
 }
 
-region_detail::Box box_of(const Element& element) {
+Box2 box_of(const Element& element) {
   if (element.shape == Shape::line) return box_around(element.start, element.end, 0.0);
   return box_around(element.centre, element.centre, element.radius);
 }
@@ -68,7 +68,7 @@ std::optional<std::size_t> TextTargets::take(const TextCircle& text) {
 
 std::optional<std::size_t> TextTargets::take_of(Group& group, const TextCircle& text) {
   if (!group.tree) {
-    std::vector<region_detail::Box> boxes;
+    std::vector<Box2> boxes;
     boxes.reserve(group.targets.size());
     for (const Target& t : group.targets) boxes.push_back(box_of(*t.element));
     group.tree.emplace(boxes);

@@ -29,7 +29,7 @@ class TextTargets {
   /// Those of one shape.
   struct Group {
     std::vector<Target> targets;
-    std::optional<region_detail::BoxTree> tree;
+    std::optional<BoxTree> tree;
   };
   static std::optional<std::size_t> take_of(Group& group, const TextCircle& text);
 
