@@ -50,7 +50,7 @@ def test_an_empty_file_is_an_error(kerf, program, command, text):
 def test_utf_16_is_named_in_the_message(kerf, program):
     run = kerf("info", program(VALID.encode("utf-16")))
     assert run.status == 1 and run.err.count("\n") == 2
-    assert "part.nc:1:1: error: this is UTF-16" in run.err and "iconv" in run.err
+    assert "part.nc:1:1: error: the file is UTF-16" in run.err and "iconv" in run.err
 
 
 def test_junk_gives_few_messages(kerf, program):

@@ -203,7 +203,7 @@ def test_impossible_measures_are_reported_with_the_valid_keys(kerf):
     assert run.status == 1
     assert run.err.startswith('"square d=3 flute=0": error: flute must be above 0')
     run = kerf("tools", "show", "V d=3 zzzz=1")
-    assert "hint: its measures: diameter, flute, angle" in run.err
+    assert "hint: its dimensions: diameter, flute, angle" in run.err
 
 
 def test_the_help_of_tools_has_examples(kerf):

@@ -98,7 +98,7 @@ def test_an_invalid_section_is_wrong_usage(kerf, program, files, plane):
 def test_a_section_that_the_view_cannot_see(kerf, program):
     run = kerf("simulate", program(), "-o", "v.png", "--view", "top", "--section", "x=20")
     assert run.status == 2
-    assert "edge" in run.err and "--view" in run.err
+    assert "parallel to the plane" in run.err and "--view" in run.err
 
 
 def test_a_section_beside_the_part(kerf, program, files):

@@ -109,7 +109,7 @@ TEST(ReadMesh, MoreThanTheLimit) {
   for (const MeshFormat format : {MeshFormat::stl, MeshFormat::three_mf, MeshFormat::glb, MeshFormat::obj})
     expect_code(write_mesh(Tetrahedron().view(), format), format, Code::mesh_too_large, "", {.triangles = 3});
   expect_code(write_mesh(Tetrahedron().view(), MeshFormat::three_mf), MeshFormat::three_mf,
-              Code::mesh_too_large, "text", {.text_bytes = 100});
+              Code::mesh_too_large, "unpacked model", {.text_bytes = 100});
 }
 
 TEST(ReadMesh, DamagedObjAndGlb) {
