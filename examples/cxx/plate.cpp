@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
       std::printf("%s: %s\n", to_string(finding.origin).c_str(), finding.message.c_str());
     const auto gcode = post_program(job.program, *find_post_target("grbl"), {}, diagnostics);
     const auto run = run_job(job, {.resolution = mm(0.2)}, diagnostics);
-    OutputSet files;
+    OutputSet files(job.program.files);
     if (run && files.write(argv[2], gcode.front().text, diagnostics) &&
         write_part({*part_file(argv[3])}, job, *run, {.view = *named_view("iso")}, files, diagnostics))
       files.commit(diagnostics);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kerf/diagnostics.h"
@@ -61,12 +62,19 @@ class OutputFile {
   std::unique_ptr<Body> body_;
 };
 
+/// Whether two paths name the same file, or are the same path.
+bool is_same_file(const std::string& a, const std::string& b);
+
 /// A set of output files that appear together: each is written next to its target under a temporary name, and
 /// `commit()` renames all of them. Without a commit no file remains. Links are followed as by OutputFile;
 /// anything but a regular file is written by `commit()`.
 class OutputSet {
  public:
-  /// Writes `bytes` to a temporary file next to `path`. False, with an error appended, on failure.
+  OutputSet() = default;
+  /// Files that must not be replaced, such as the files of a program.
+  explicit OutputSet(std::vector<std::string> inputs) : inputs_(std::move(inputs)) {}
+  /// Writes `bytes` to a temporary file next to `path`. False, with an error appended, on failure or if the
+  /// file would replace an input or another output.
   bool write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics);
   /// Renames all files to their targets. False, with an error appended, if a rename fails; the remaining
   /// temporary files are removed.
@@ -78,6 +86,7 @@ class OutputSet {
     std::string path, bytes;
   };
   static bool rename_to_target(Pending& pending, Diagnostics& diagnostics);
+  std::vector<std::string> inputs_;
   std::vector<Pending> pending_;
 };
 

@@ -1,4 +1,4 @@
-// Machines from files: TOML profiles and GRBL's answer to `$$`.
+// Machines from files: TOML profiles and GRBL's `$$` output.
 #pragma once
 
 #include <optional>

@@ -101,7 +101,7 @@ def load(
     tools=None,
     machine=None,
 ):
-    """Read a program: G-code or gcmc, by the ending of the file name or by its text.
+    """Read a program: G-code, gcmc or a path drawing (.dxf), by the ending of the file name or by its text.
 
     Parameters
     ----------
@@ -135,6 +135,9 @@ def load(
         If its text has errors; all of them are in its `diagnostics`. Warnings are issued by the module
         `warnings`.
     """
+    for argument, value in (("defines", defines), ("include_paths", include_paths)):
+        if isinstance(value, (str, bytes)):
+            raise TypeError(f"{argument} must be a sequence of str, not one str")
     name = os.fsdecode(path)
     with open(name, "rb"):
         pass  # raises OSError
@@ -215,7 +218,7 @@ def post(
         if len(texts) != 1:
             raise ValueError("one file per tool is written: path is required")
         return texts[0][1].decode(errors="replace")
-    _kerf._write_files(texts)
+    _kerf._write_files(program, texts)
     return [file for file, text in texts]
 
 

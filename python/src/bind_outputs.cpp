@@ -5,13 +5,14 @@
 #include "simulation_result.h"
 
 #include "kerf/files.h"
+#include "kerf/limits.h"
 
 namespace kerf::python {
 namespace py = pybind11;
 
 namespace {
 
-constexpr int kMinPixels = 16, kMaxPixels = 16384;  // width and height of a picture
+constexpr int kMinPixels = 16;  // width and height of a picture
 
 View to_view(const py::object& view, const py::object& size, const std::optional<std::string>& section) {
   View out;
@@ -28,10 +29,10 @@ View to_view(const py::object& view, const py::object& size, const std::optional
     out.elevation = degrees(number_within(angles.y, -90.0, 90.0, "the elevation of view", "degrees"));
   }
   const Point2 pixels = to_point2(size, "size");
-  out.width =
-      static_cast<int>(number_within(pixels.x, kMinPixels, kMaxPixels, "the width of size", "pixels"));
-  out.height =
-      static_cast<int>(number_within(pixels.y, kMinPixels, kMaxPixels, "the height of size", "pixels"));
+  out.width = static_cast<int>(
+      number_within(pixels.x, kMinPixels, limits::kMaxPictureSide, "the width of size", "pixels"));
+  out.height = static_cast<int>(
+      number_within(pixels.y, kMinPixels, limits::kMaxPictureSide, "the height of size", "pixels"));
   if (section) {
     out.section = parse_section(*section);
     if (!out.section) throw py::value_error("section must be a plane such as 'x=25', 'y=-3.5' or 'z=1in'");
@@ -95,7 +96,7 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
   SignalProgress progress;
   {
     const py::gil_scoped_release release;
-    OutputSet set;
+    OutputSet set(result.job->program.files);
     if (write_part(files, *result.job, *result.run, options, set, diagnostics, &progress))
       set.commit(diagnostics);
   }
@@ -138,7 +139,7 @@ Parameters
 view : str or (float, float)
     'top', 'bottom', 'front', 'back', 'left', 'right', 'iso', or azimuth and elevation in degrees.
 size : (int, int)
-    Width and height in pixels, 16 to 16384.
+    Width and height in pixels, 16 to 8192.
 section : str, optional
     A plane such as ``'x=25'`` (mm); the viewer's side of it is removed.
 grooves : bool

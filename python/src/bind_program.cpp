@@ -157,8 +157,8 @@ void bind_program(py::module_& m) {
         py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"));
   m.def(
       "_write_files",
-      [](const std::vector<std::pair<std::string, py::bytes>>& files) {
-        OutputSet set;
+      [](const Program& program, const std::vector<std::pair<std::string, py::bytes>>& files) {
+        OutputSet set(program.files);
         Diagnostics diagnostics;
         bool written = true;
         for (const auto& [name, bytes] : files)
@@ -166,7 +166,7 @@ void bind_program(py::module_& m) {
         if (written) set.commit(diagnostics);
         raise_os_error_or_warn(diagnostics);
       },
-      py::arg("files"));
+      py::arg("program"), py::arg("files"));
   m.def(
       "posts", [] { return post_target_names(); },
       "list of str: the targets of `post`: controllers, and the drawing formats 'dxf' and 'svg'.");

@@ -153,8 +153,8 @@ Parameters
 ----------
 sharp : bool
     True: vertices are moved to the surfaces and edges of the tools, most of them to about 2 microns (for
-    exceptions see docs/decisions/0006-mesh.md). False: surfaces are interpolated between columns and walls
-    lie halfway between them, accurate to half a resolution; several times faster.
+    exceptions see docs/decisions/0019-exact-meshes.md). False: surfaces are interpolated between columns and
+    walls lie halfway between them, accurate to half a resolution; several times faster.
 
 Returns
 -------

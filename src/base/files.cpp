@@ -231,7 +231,22 @@ bool OutputFile::commit(Diagnostics& diagnostics) {
   return true;
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
+}
+
 bool OutputSet::write(const std::string& path, std::string_view bytes, Diagnostics& diagnostics) {
+  const auto is_path = [&path](const std::string& other) { return is_same_file(other, path); };
+  const bool is_input = std::any_of(inputs_.begin(), inputs_.end(), is_path);
+  if (can_be_replaced(path) &&
+      (is_input || std::any_of(pending_.begin(), pending_.end(),
+                               [&is_path](const Pending& other) { return is_path(other.path); }))) {
+    diagnostics.error(Code::output_is_input, TextLocation{path, 0, 0},
+                      is_input ? "the output would replace an input" : "two outputs have the same name");
+    return false;
+  }
   if (!can_be_replaced(path)) {
     pending_.push_back({std::nullopt, path, std::string(bytes)});
     return true;

@@ -17,7 +17,7 @@ std::string message_of(const Hazard& hazard) {
   const std::string depth = number_text(hazard.depth.mm(), 3);
   switch (hazard.kind) {
     case HazardKind::rapid_in_stock: return fmt::format("a rapid passes {} mm deep through the stock", depth);
-    case HazardKind::neck_contact: return fmt::format("the tool's neck rubs {} mm deep in the stock", depth);
+    case HazardKind::neck_contact: return fmt::format("the tool's neck is {} mm deep in the stock", depth);
     case HazardKind::shank_contact: return fmt::format("the tool's shank is {} mm deep in the stock", depth);
     case HazardKind::holder_contact:
       return fmt::format("the tool's holder is {} mm deep in the stock", depth);

@@ -40,7 +40,7 @@ const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
   }
   diagnostics
       .error(Code::input_kind_unknown, TextLocation{file.path(), 0, 0},
-             "unknown type of file: neither its ending nor its text is known")
+             "unrecognised file type, by file name extension and by content")
       .hint = "known endings: " + known_endings();
   return nullptr;
 }

@@ -38,7 +38,7 @@ std::optional<ToolOption> split_tool_option(std::string_view text, const Origin&
   if (before.find_first_not_of("0123456789+-.") != std::string_view::npos) return ToolOption{{}, text};
   const auto number = parse_number(before);
   if (!number || *number < 0.0 || *number > kHighestToolNumber || *number != std::floor(*number))
-    return wrong(fmt::format("{} is not a tool number: expected a whole number from 0 to {}",
+    return wrong(fmt::format("{} is not a tool number: expected an integer from 0 to {}",
                              before.substr(0, 40), kHighestToolNumber));
   const std::string_view spec = trim(text.substr(equals + 1));
   if (spec.empty()) return wrong(fmt::format("the shape of tool {} is missing after \"=\"", before));

@@ -44,7 +44,7 @@ using Message = std::optional<std::string>;
 
 Message no_feed(const Step& s, const MotionContext&, Setting&) {
   if (!needs_feed(s) || s.feed().mm_per_min() != 0.0) return std::nullopt;
-  return "a feed move without a feed: no F word came before it, or the last one was F0";
+  return "a cut without a feed: no F is in effect, or it is F0";
 }
 
 Message negative_feed(const Step& s, const MotionContext&, Setting&) {
@@ -170,10 +170,11 @@ Message chip_load(const Step& s, const MotionContext& context, Setting& setting)
   const Length load = s.feed() / context.spindle.speed / static_cast<double>(tool->teeth);
   const Length highest = highest_chip_load(*material, tool->diameter);
   if (load <= highest) return std::nullopt;
-  return fmt::format("{} mm per tooth ({} mm/min, {} rpm, {} teeth): a tool of {} mm takes {} mm in {}",
-                     number_text(load.mm(), kShownDecimals), number_text(s.feed().mm_per_min(), 1),
-                     number_text(speed, 0), tool->teeth, number_text(tool->diameter.mm(), 3),
-                     number_text(highest.mm(), kShownDecimals), material->name);
+  return fmt::format(
+      "{} mm per tooth ({} mm/min, {} rpm, {} teeth): the maximum of a tool of {} mm in {} is {} mm",
+      number_text(load.mm(), kShownDecimals), number_text(s.feed().mm_per_min(), 1), number_text(speed, 0),
+      tool->teeth, number_text(tool->diameter.mm(), 3), material->name,
+      number_text(highest.mm(), kShownDecimals));
 }
 
 struct Rule {

@@ -77,7 +77,7 @@ const Tool* choose_tool(const Tool* from_table, const Tool* from_comment, const 
       fmt::format(
           "tool {} is {} by the program's comment, but {} in the tool table; the comment takes precedence",
           from_table->number, text_of(*from_comment), text_of(*from_table)));
-  warning.hint = "specify the tool with --tool or in a tool file";
+  warning.hint = "if the comment is wrong, specify the tool with --tool";
   return from_comment;
 }
 

@@ -160,8 +160,16 @@ def test_devices_and_links_stay_what_they_are(kerf, program, tmp_path):
 def test_the_program_itself_is_not_overwritten(kerf, program, tmp_path):
     program(MOVE, "p.gcmc")
     run = kerf("gcmc", "-o", "./p.gcmc", "p.gcmc")
-    assert run.status == 1 and "would replace the program" in run.err
+    assert run.status == 1 and "would replace the input" in run.err
     assert (tmp_path / "p.gcmc").read_text() == MOVE
+
+
+def test_an_included_file_is_not_overwritten(kerf, program, tmp_path):
+    program(MOVE, "part.inc.gcmc")
+    program('include("part.inc.gcmc");', "p.gcmc")
+    run = kerf("gcmc", "-o", "part.inc.gcmc", "p.gcmc")
+    assert run.status == 1 and "would replace the input" in run.err
+    assert (tmp_path / "part.inc.gcmc").read_text() == MOVE
 
 
 def test_an_endless_program_can_be_stopped(tmp_path):

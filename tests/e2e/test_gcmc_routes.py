@@ -128,11 +128,28 @@ def test_comments_describe_tools_and_stock_on_both_routes(kerf, program, tmp_pat
     assert "tool_comment_unused" in kerf("info", "--json", unused).codes()
 
 
+def test_a_carriage_return_does_not_hide_a_line(kerf, program):
+    """A carriage return ends a line of G-code: what follows it acts there, and is refused here."""
+    text = 'feedrate(100);\ngoto([0, 0, 5]);\nliteral("M3\\rG91\\n");\nmove([1, 1, 1]);\n'
+    source = program(text, "p.gcmc")
+    for command in (["steps"], ["simulate"], ["check"], ["post", "--to", "linuxcnc"]):
+        run = kerf(*command, source)
+        assert run.status == 1 and "p.gcmc:3:" in run.err and "carriage return" in run.err
+
+
+def test_the_end_of_a_program_is_its_last_line(kerf, program):
+    source = program("feedrate(100);\ngoto([0, 0, 5]);\nmove([1]);\n", "p.gcmc")
+    steps = kerf("steps", source).out.splitlines()
+    assert '"step":"end"' in steps[-1] and 'p.gcmc","line":3' in steps[-1]
+
+
 @pytest.mark.parametrize("line, why", [
     ("G91", "G91 changes the distance mode"),
     ("G20", "G20 changes the unit"),
     ("G92 X0", "G92 changes the work zero"),
-    ("G1 Z-20 F100", "G1 changes the motion in force"),
+    ("G1 Z-20 F100", "G1 changes the modal motion"),
+    ("M47", "M47 changes the run of the program"),
+    ("M18", "M18 changes the motors"),
 ])
 def test_a_line_that_a_toolpath_cannot_hold(kerf, program, tmp_path, line, why):
     """Refused with its line wherever a toolpath is made; written to the G-code, which can be simulated."""

@@ -112,7 +112,7 @@ def test_wrong_option_values_are_in_the_json_too(kerf, program):
 
 
 @pytest.mark.parametrize("spec, words", [
-    ("-1=301", "-1 is not a tool number: expected a whole number from 0"),
+    ("-1=301", "-1 is not a tool number: expected an integer from 0"),
     ("1.5=301", "1.5 is not a tool number"),
     ("9999999999=301", "9999999999 is not a tool number"),
     ("=301", 'no tool number before "="'),

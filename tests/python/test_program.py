@@ -274,3 +274,27 @@ def test_warnings_reach_python(write):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         kerf.simulate(kerf.load(write("ok.nc", PROGRAM)), resolution=0.5)
+
+
+def test_outputs_do_not_replace_what_was_read(program):
+    source = program.source
+    for write in (lambda: kerf.post(program, "grbl", source), lambda: kerf.post(program, "dxf", source)):
+        with pytest.raises(kerf.Error, match="would replace an input"):
+            write()
+    with open(source, encoding="utf-8") as file:
+        assert file.read() == PROGRAM
+
+
+def test_two_outputs_of_one_name_are_refused(program, tmp_path):
+    name = str(tmp_path / "part.png")
+    with pytest.raises(kerf.Error, match="the same name"):
+        kerf.simulate(program).save(name, name)
+    assert list(tmp_path.glob("*.png")) == []
+
+
+def test_one_text_is_not_a_list_of_defines(write):
+    path = write("part.gcmc", "move([1mm]);\n")
+    with pytest.raises(TypeError, match="defines"):
+        kerf.load(path, defines="depth=3mm")
+    with pytest.raises(TypeError, match="include_paths"):
+        kerf.load(path, include_paths="folder")

@@ -216,7 +216,7 @@ The target is a closed mesh in the program's work coordinates. Depths are distan
 Command add_compare(CommandParser& root) {
   auto options = std::make_shared<Options>();
   CommandParser parser =
-      new_command(root, "compare", "Compare the cut part with a target mesh: gouges and rests",
+      new_command(root, "compare", "Compare the cut part with a target mesh: gouges and excess material",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp, options->output);
   add_job_options(parser, options->job);
   parser.add_text("TARGET", options->target, "The nominal part, a closed mesh: .stl .3mf .glb .obj")

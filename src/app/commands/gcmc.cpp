@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <optional>
@@ -138,9 +137,11 @@ class CommandOutput final : public GcmcOutput {
 
 void complain(std::string_view text) { fmt::print(stderr, "kerf gcmc: {}\n", text); }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code error;
-  return !a.empty() && !b.empty() && std::filesystem::equivalent(a, b, error);
+/// Whether the output would replace a file that was read; complains.
+bool replaces(const std::string& output, const std::string& input) {
+  if (output.empty() || input.empty() || !is_same_file(output, input)) return false;
+  complain(fmt::format("the output would replace the input {}", input));
+  return true;
 }
 
 bool read_text(const std::string& path, std::string& text) {
@@ -187,6 +188,8 @@ int run_program(GcmcCommandLine& line, std::string_view text, TextOut& out, Comm
   line.run.date = date_now();
   Diagnostics diagnostics;
   const GcmcRun run = run_gcmc(text, line.run, output, diagnostics, progress);
+  for (const auto& [name, source] : run.sources)
+    if (replaces(line.output, name)) return 1;
   const bool complete = run.completed;
   if (complete && draws) {
     line.drawing.layers = run.layers;
@@ -230,10 +233,8 @@ int gcmc_command(const std::vector<std::string>& arguments, Progress* progress) 
     return 1;
   }
   if (!line.input.empty()) line.run.file_name = line.input;
-  if (is_same_file(line.input, line.output)) {
-    complain(fmt::format("the output {} would replace the program", line.output));
-    return 1;
-  }
+  for (const std::string& input : {line.input, line.prologue_file, line.epilogue_file})
+    if (replaces(line.output, input)) return 1;
   TextOut out(line.check ? std::string() : line.output);
   if (!out.good()) {
     complain(out.error_text());

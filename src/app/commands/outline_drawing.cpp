@@ -248,7 +248,7 @@ void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
             options.mm_per_unit = *scale;
             return {};
           },
-          "Of a DXF: its unit, mm or inch, if it specifies none or a wrong one")
+          "Of a DXF: its unit, mm or inch; overrides that of the drawing")
       .value_name("UNIT");
   add_length(parser, "--tolerance", options.within, 1e-6, 10.0,
              "Of a DXF: maximum deviation of arcs from ellipses and splines (default: 0.01)");

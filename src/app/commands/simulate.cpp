@@ -76,7 +76,7 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   how.threads = static_cast<unsigned>(options.threads);
   if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);
   const auto run = run_job(job, how, diagnostics, &progress);
-  OutputSet set;
+  OutputSet set(job.program.files);
   const PartFileOptions writing{view, options.grooves ? Grooves::kept : Grooves::closed};
   const bool written = run && write_part(files, job, *run, writing, set, diagnostics, &progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;

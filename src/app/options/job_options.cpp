@@ -106,7 +106,7 @@ std::vector<std::string> input_files(const JobOptions& options) {
 }
 
 void add_machine_option(CommandParser& parser, JobOptions& options) {
-  parser.add_text("--machine", options.machine, "Machine profile (TOML), or GRBL's answer to $$")
+  parser.add_text("--machine", options.machine, "Machine profile (TOML), or GRBL's $$ output")
       .value_name("PATH");
 }
 

@@ -8,12 +8,11 @@
 #include <unistd.h>
 #include <utility>
 
+#include "kerf/limits.h"
 #include "kerf/number.h"
 
 namespace kerf::app {
 namespace {
-
-constexpr int kMaxPixels = 16384;  // of width and height of a picture
 
 /// Checks before a long simulation whether the file can be written after it.
 void test_folder(const std::string& path, Diagnostics& diagnostics) {
@@ -60,12 +59,6 @@ bool read_section(const std::string& text, View& view, std::string& problem) {
 
 }  // namespace
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(a, b, ignored)) return true;
-  return std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
-}
-
 std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
                                    const std::vector<std::string>& inputs, Diagnostics& usage,
                                    Diagnostics& diagnostics) {
@@ -75,7 +68,7 @@ std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
     if (!file) {
       usage
           .error(Code::output_kind_unknown, CallLocation{"", 0, "-o"},
-                 fmt::format("\"{}\" has an ending of no supported format", name))
+                 fmt::format("\"{}\" has an unsupported file name extension", name))
           .hint =
           "supported: .stl .3mf .glb .obj (mesh of the part), .png (picture), .kstock (stock of the next "
           "job)";
@@ -119,11 +112,11 @@ std::optional<View> read_view(const PictureOptions& options, std::string& proble
   }
   const auto pixels = split_pair(options.size, 'x');
   const auto good = [](double v) {
-    return v >= 16 && v <= kMaxPixels && v == static_cast<double>(static_cast<int>(v));
+    return v >= 16 && v <= limits::kMaxPictureSide && v == static_cast<double>(static_cast<int>(v));
   };
   if (!pixels || !good(pixels->first) || !good(pixels->second)) {
     problem = fmt::format("--size: \"{}\" is not WIDTHxHEIGHT in pixels, each from 16 to {}",
-                          options.size.substr(0, 40), kMaxPixels);
+                          options.size.substr(0, 40), limits::kMaxPictureSide);
     return std::nullopt;
   }
   out.width = static_cast<int>(pixels->first);

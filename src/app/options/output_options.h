@@ -16,8 +16,6 @@ namespace kerf::app {
 std::vector<PartFile> read_outputs(const std::vector<std::string>& names,
                                    const std::vector<std::string>& inputs, Diagnostics& usage,
                                    Diagnostics& diagnostics);
-/// Whether two names mean one file.
-bool is_same_file(const std::string& a, const std::string& b);
 
 /// The view of a picture, as given.
 struct PictureOptions {

@@ -12,9 +12,9 @@ struct Codes {
 };
 
 constexpr Codes kGCodes[] = {
-    {0, 30, "the motion in force"},
+    {0, 30, "the modal motion"},
     {40, 40, ""},
-    {50, 53, "the motion in force"},
+    {50, 53, "the modal motion"},
     {70, 80, "the diameter mode"},
     {100, 100, "offsets or tool data"},
     {150, 160, "the polar mode"},
@@ -24,7 +24,7 @@ constexpr Codes kGCodes[] = {
     {281, 281, "the stored home"},
     {300, 300, "the position"},
     {301, 301, "the stored home"},
-    {330, 331, "the motion in force"},
+    {330, 331, "the modal motion"},
     {382, 385, "the position"},
     {400, 421, "cutter compensation"},
     {430, 490, "the tool length offset"},
@@ -34,7 +34,7 @@ constexpr Codes kGCodes[] = {
     {540, 593, "the coordinate system"},
     {610, 640, ""},
     {680, 690, "the rotation of the coordinates"},
-    {700, 890, "the motion in force"},
+    {700, 890, "the modal motion"},
     {900, 900, "the distance mode"},
     {901, 901, "the distance mode of arc centres"},
     {910, 910, "the distance mode"},
@@ -50,12 +50,16 @@ constexpr Codes kMCodes[] = {
     {30, 50, "the spindle"},
     {60, 60, "the tool"},
     {70, 90, "the coolant"},
+    {170, 180, "the motors"},
     {300, 300, "the end of the program"},
+    {470, 470, "the run of the program"},
     {600, 600, "the run of the program"},
     {610, 610, "the tool"},
     {700, 730, "the stored modes"},
     {820, 830, "the extruder mode"},
+    {840, 840, "the motors"},
     {970, 990, "the run of the program"},
+    {1120, 1120, "the run of the program"},
 };
 
 template <std::size_t N>

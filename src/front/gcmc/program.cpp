@@ -123,6 +123,12 @@ std::vector<NameId> declare_constants(Tree& tree, const std::vector<LanguageCons
   return names;
 }
 
+TextLocation last_line(const std::string& file, std::string_view text) {
+  const auto breaks = static_cast<std::uint32_t>(std::count(text.begin(), text.end(), '\n'));
+  const bool is_open = text.empty() || text.back() != '\n';
+  return {file, breaks + (is_open ? 1u : 0u), 0};
+}
+
 int exit_status(const Vm& vm, int returned) { return vm.script_failed() ? 1 : returned & 255; }
 
 void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code,
@@ -138,7 +144,7 @@ void run_code(const Tree& tree, const std::deque<Source>& sources, Program& code
   try {
     if (options.want_text) text.start();
     run.status = exit_status(vm, vm.run());
-    if (options.want_path) path.finish();
+    if (options.want_path) path.finish(last_line(options.file_name, sources[1].bytes));
     if (options.want_text) text.end();
     run.completed = true;
   } catch (const Stop&) {

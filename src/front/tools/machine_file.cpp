@@ -119,7 +119,7 @@ std::optional<Machine> read_machine_file(std::string_view text, std::string_view
   if (has_grbl_settings(text)) return detail::read_grbl_settings(text, file_name, diagnostics);
   const toml::parse_result result = toml::parse(text, name);
   constexpr std::string_view kHint =
-      "expected a profile (docs/manual/machine.md), or GRBL's answer to $$ ($110=3000 etc.)";
+      "expected a profile (docs/manual/machine.md), or GRBL's $$ output ($110=3000 etc.)";
   if (!result) {
     const auto& at = result.error().source().begin;
     diagnostics

@@ -255,7 +255,7 @@ TEST(GcmcPath, LiteralLinesThatMoveOrChangeModesAreRefused) {
             "error: The line \"G91\" cannot be part of a toolpath: G91 changes the distance mode");
   EXPECT_EQ(
       messages_of("literal(\"M8\"); goto([1]);"),
-      "error: The line \"M8\" of literal() is not ended: the words of this call would be appended to it");
+      "error: The line \"M8\" of literal() has no line end: the words of this call would be appended to it");
   GcmcOptions text = bare();
   text.want_path = false;
   EXPECT_EQ(run("literal(\"G91\\n\"); literal(\"X1 \"); goto([1]);", text).text, "G91\nX1 G0 X1.000\n");

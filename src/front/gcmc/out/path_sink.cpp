@@ -81,11 +81,11 @@ void PathSink::check_size() {
 bool PathSink::check_pending() {
   if (ended_) return false;
   if (!is_blank(pending_)) {
-    vm_.fail(
-        Code::gcmc_literal,
-        fmt::format("The line {} of literal() is not ended: the words of this call would be appended to it",
-                    quoted(pending_)),
-        "end the text of literal() with \\n");
+    vm_.fail(Code::gcmc_literal,
+             fmt::format(
+                 "The line {} of literal() has no line end: the words of this call would be appended to it",
+                 quoted(pending_)),
+             "end the text of literal() with \\n");
   }
   pending_.clear();
   needs_check_ = false;
@@ -428,11 +428,13 @@ void PathSink::end(step::End how, OriginId where) {
   ended_ = needs_check_ = true;
 }
 
-void PathSink::finish() {
+void PathSink::finish(const TextLocation& end_of_text) {
   const GcmcOptions& options = vm_.options();
   if (draws_ || ended_) return;
   if (!is_blank(pending_)) written_line(pending_);  // the last line, without a line end
-  if (options.frame == GcmcFrame::usual && options.epilogue.empty() && !ended_) end({true}, origin());
+  if (options.frame != GcmcFrame::usual || !options.epilogue.empty() || ended_) return;
+  OriginTable& table = path_.origins();
+  end({true}, table.text(table.file(end_of_text.file), end_of_text.line, end_of_text.column));
 }
 
 }  // namespace kerf::gcmc

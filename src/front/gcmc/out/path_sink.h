@@ -45,8 +45,8 @@ class PathSink final : public Sink {
   void restore_position(bool second, const Axes& via, unsigned named, const Axes& end) override;
   void layer(const std::string& name) override;
   void close_path() override;
-  /// To be called when the program has ended.
-  void finish();
+  /// To be called when the program has ended; steps added then have the location `end_of_text`.
+  void finish(const TextLocation& end_of_text);
 
  private:
   /// False after the program's end; an error if a line of literal() is not ended.

@@ -59,11 +59,11 @@ class Sorter {
       case 'T':
         if (!(word.value >= 0.0 && word.value <= std::numeric_limits<int>::max()) ||
             word.value != std::floor(word.value))
-          return refuse("a tool number is a whole number from 0");
+          return refuse("a tool number is an integer from 0");
         return once(line_.selected, static_cast<int>(word.value), word);
       case 'P': return once(p_, word.value, word);
       case 'Q': return once(q_, word.value, word);
-      default: other_words_ = true; return true;
+      default: other_word_ = shown(word); return true;
     }
   }
 
@@ -90,7 +90,7 @@ class Sorter {
       case 70: line_.mist = true; return true;
       case 80: line_.flood = true; return true;
       case 90: line_.no_coolant = true; return true;
-      default: unknown_code_ = true; return true;
+      default: unknown_code_text_ = shown(word); return true;
     }
   }
 
@@ -102,8 +102,9 @@ class Sorter {
   /// Assigns the parameters to the codes that use them.
   bool finish() {
     if (line_.pause && line_.end) return refuse("a line both pauses and ends the program");
-    if (unknown_code_) {
-      if (has_steps()) return refuse("an unknown M code is on one line with other codes");
+    if (!unknown_code_text_.empty()) {
+      if (has_steps())
+        return refuse(fmt::format("{} cannot be on one line with other codes", unknown_code_text_));
       line_.verbatim = trimmed(block_.text);
       line_.notes.clear();  // they are in the text
       return true;
@@ -118,7 +119,10 @@ class Sorter {
       p_.reset();
       q_.reset();
     }
-    if (p_ || q_ || other_words_) return refuse("a word of the line is not used by any of its codes");
+    if (p_) other_word_ = "P";
+    if (q_) other_word_ = "Q";
+    if (!other_word_.empty())
+      return refuse(fmt::format("{} is not used by any code of the line", other_word_));
     return true;
   }
 
@@ -126,8 +130,8 @@ class Sorter {
   std::string& obstacle_;
   WrittenLine line_;
   std::optional<double> p_, q_;
-  bool other_words_ = false;   // parameters without an effect of their own
-  bool unknown_code_ = false;  // an unknown M code
+  std::string other_word_;         // a parameter without an effect of its own
+  std::string unknown_code_text_;  // an unknown M code
 };
 
 /// Whether a word that acts beyond its line becomes a step.
@@ -147,6 +151,10 @@ std::optional<WrittenLine> read_written_line(std::string_view text, std::string&
   if (!reader.next(block)) return WrittenLine{};
   if (block.faulty) {
     problem = found.list().empty() ? "it is not G-code" : found.list().front().message;
+    return std::nullopt;
+  }
+  if (gcode::Block next; reader.next(next)) {
+    problem = "a carriage return ends a line of G-code";
     return std::nullopt;
   }
   gcode::Block rest = block;  // the words that do not become steps

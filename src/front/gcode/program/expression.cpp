@@ -214,7 +214,7 @@ std::optional<ExpressionReader::Target> ExpressionReader::target() {
     return Target{static_cast<int>(whole), {}};
   at_ = start;
   fail(Code::parameter_unknown,
-       fmt::format("parameter numbers are whole numbers from 1 to {}, not {:g}", Parameters::kLast, *index));
+       fmt::format("parameter numbers are integers from 1 to {}, not {:g}", Parameters::kLast, *index));
   return std::nullopt;
 }
 

@@ -171,7 +171,7 @@ void Flow::execute(std::size_t at, const Block& block) {
 
 bool Flow::unmatched(const OLine& line, std::uint32_t column) {
   reporter_.error(Code::o_word_unmatched, column,
-                  fmt::format("the O-word with the label {} has no counterpart; skipped", line.label));
+                  fmt::format("O{} has no matching start or end; skipped", line.label));
   return false;
 }
 

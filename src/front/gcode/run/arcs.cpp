@@ -155,9 +155,8 @@ int Interpreter::extra_turns() {
   if (!turns) return 0;
   if (*turns >= 1.0 && *turns <= kMaxTurns && *turns == std::floor(*turns))
     return static_cast<int>(*turns) - 1;
-  reporter_.error(
-      Code::word_out_of_range, line_.column('P'),
-      fmt::format("the turns of an arc (P) are a whole number from 1 to {}; assuming 1", kMaxTurns));
+  reporter_.error(Code::word_out_of_range, line_.column('P'),
+                  fmt::format("the turns of an arc (P) are an integer from 1 to {}; assuming 1", kMaxTurns));
   return 0;
 }
 

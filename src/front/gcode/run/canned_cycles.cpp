@@ -130,7 +130,7 @@ int Interpreter::repeats() {
   if (*count >= 1.0 && *count <= kMaxRepeats && *count == std::floor(*count)) return static_cast<int>(*count);
   reporter_.error(
       Code::word_out_of_range, line_.column('L'),
-      fmt::format("the repeats of a cycle (L) are a whole number from 1 to {}; assuming 1", kMaxRepeats));
+      fmt::format("the repeats of a cycle (L) are an integer from 1 to {}; assuming 1", kMaxRepeats));
   return 1;
 }
 

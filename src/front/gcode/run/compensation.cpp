@@ -63,7 +63,7 @@ std::optional<double> Interpreter::given_diameter(std::optional<double> number) 
 std::optional<double> Interpreter::diameter_for_compensation(std::optional<double> number) {
   const bool whole = !number || (*number == std::floor(*number) && *number >= 0.0 && *number < 1e9);
   if (!whole) {
-    reporter_.error(Code::word_out_of_range, line_.column('D'), "D is a tool number, a whole number from 0");
+    reporter_.error(Code::word_out_of_range, line_.column('D'), "D is a tool number, an integer from 0");
     return std::nullopt;
   }
   if (number == 0.0) return 0.0;

@@ -87,9 +87,8 @@ bool Interpreter::reads_after_end(const Block& block) {
   stopped_ = after_end_ == AfterEnd::stop;
   const std::uint32_t column = block.words.empty() ? 1 : block.words.front().column;
   if (stopped_)
-    reporter_.unusual(
-        Code::text_after_end, column, "text after the end of the program is not read",
-        "a sender that streams line by line runs a file of several programs to its end: --read-on");
+    reporter_.unusual(Code::text_after_end, column, "text after the end of the program is not read",
+                      "use --read-on to read past M2, M30 and %, as G-code senders do");
   else
     reporter_.note(Code::text_after_end, column,
                    "text after the end of the program is read as its continuation");

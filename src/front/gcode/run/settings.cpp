@@ -65,7 +65,7 @@ void Interpreter::set_speed() {
 void Interpreter::select_tool() {
   const double number = *line_.take('T');
   if (!(number >= 0.0 && number <= std::numeric_limits<int>::max()) || number != std::floor(number)) {
-    reporter_.error(Code::word_out_of_range, line_.column('T'), "a tool number is a whole number from 0");
+    reporter_.error(Code::word_out_of_range, line_.column('T'), "a tool number is an integer from 0");
     return;
   }
   modes_.selected_tool = static_cast<int>(number);
