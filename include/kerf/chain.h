@@ -1,7 +1,7 @@
 // Loose lines and arcs joined end to end, as drawings have them, into outlines.
 //
 //   const Chained chained = chain(pieces, {.join = mm(0.01)});
-//   // chained.outlines; chained.open_ends and chained.junctions say where a drawing needs work
+//   // chained.outlines; chained.open_ends and chained.junctions are where a drawing needs corrections
 //
 // Frame as in outline.h: mm, y up. No position, order or direction is guessed: where more than two ends meet,
 // none of them is joined.

@@ -136,10 +136,9 @@ constexpr Point2 in_name_order(Plane plane, Point2 uv) {
   return plane == Plane::xz ? Point2{uv.y, uv.x} : uv;
 }
 
-/// An arc in its plane's right-handed (u, v) frame, ready to be walked: at share t of its length it is at
-/// angle start_angle + t * sweep, radius start_radius + t * (end_radius - start_radius), and third axis
-/// likewise. Radii differ by what the program's rounding leaves; the walk then is a spiral that meets both
-/// ends.
+/// An arc by a parameter t from 0 to 1, in its plane's right-handed (u, v) frame: angle start_angle + t *
+/// sweep, radius start_radius + t * (end_radius - start_radius), and the third axis likewise. Radii that
+/// differ by rounding in the program give a spiral through both ends.
 struct ArcWalk {
   Plane plane = Plane::xy;
   double u = 0.0, v = 0.0;  // centre, mm

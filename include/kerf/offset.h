@@ -27,18 +27,13 @@ struct JoinOptions {
   double mitre_limit = 2.0;
 };
 
-/// The segment of the input that a segment of an offset is parallel to, or whose end it goes around.
-struct OffsetSource {
-  std::uint32_t loop = 0, segment = 0;
-  bool corner = false;  ///< around the corner at the end of that segment
-  bool operator==(const OffsetSource&) const = default;
-};
-
 struct Offset {
   Region region;
-  std::size_t vanished =
-      0;  ///< loops of the input that left nothing: too narrow, or inside the others' offset
-  std::vector<std::vector<OffsetSource>> sources{};  ///< of each segment, by loop
+  /// Loops of the input without a segment in the result: too narrow, or inside the others' offset.
+  std::size_t vanished = 0;
+  /// Of each segment, by loop: the segment of the input that it is parallel to, or the corner around which it
+  /// goes.
+  std::vector<std::vector<BoundaryElement>> sources{};
 };
 /// All points within `by` of the region (`by` > 0), or all points of the region that are at least -`by` from
 /// its boundary (`by` < 0).

@@ -1,14 +1,14 @@
 // Outlines of lines and arcs in the plane, and what a router bit can make of their corners.
 //
-// A router bit of radius r cannot cut a sharp inner corner. Each corner of an outline therefore carries a
+// A router bit of radius r cannot cut a sharp inner corner. Each corner of an outline therefore has a
 // request:
 //   0         leave it as it is
 //   r > 0     smooth it: one arc of radius r, tangent to both neighbours
-//   r < 0     enlarge it: clear the corner with a bit of radius |r|. The bit's centre lies on the line from
-//   the
-//             corner to the centre of the arc that would smooth it, and its circle passes through the corner;
-//             where the corner is sharper than the bit, a channel as wide as the bit leads there.
-// Only the two segments that meet at a corner decide how it is changed.
+//   r < 0     enlarge it: clear the corner with a bit of radius |r|. Its centre is on the line from the
+//   corner
+//             to the centre of the arc that would smooth it, and its circle passes through the corner; in a
+//             corner narrower than the bit, a channel as wide as the bit leads there.
+// A corner is changed by its two segments alone.
 //
 // Frame: x to the right, y up, mm, counter-clockwise is positive. No function changes its argument. User
 // errors go to Diagnostics (codes 7xxx); a corner that cannot be cut is a warning and stays sharp.
@@ -63,19 +63,19 @@ Outline as_outline(const Circle& circle);
 /// The outlines of one part: the first is its outside, the others are holes.
 using Figure = std::vector<std::variant<Outline, Circle>>;
 
-/// The circle that an arc segment lies on, and how far it goes.
+/// The circle of an arc segment, and its sweep.
 struct ArcCircle {
   Point2 centre;  // mm
   double radius = 0.0;
   Turn turn = Turn::ccw;
   Angle sweep;  // above 0, below a full turn
 };
-/// Nothing for a line, and for an arc so flat that it is one (its three points bend by less than 1e-6 rad).
+/// Nothing for a line, and for an arc so flat that it is one (its chords turn by less than 1e-6 rad).
 std::optional<ArcCircle> arc_circle(Point2 from, const Segment& segment);
 
 // ------------------------------------------------------------------------------------------------- corners
 
-/// Who gets an edge that two corners want and that is too short for both.
+/// The distribution of an edge that is too short for the requests of both of its corners.
 enum class EdgeSharing : std::uint8_t {
   in_order,  ///< the corner of the smaller element number, and element 0 before all: as Cnc25D does
   even  ///< half of the edge is each corner's own; beyond it only what the other leaves. Independent of the
@@ -84,8 +84,8 @@ enum class EdgeSharing : std::uint8_t {
 
 struct CornerOptions {
   Tolerance tolerance{};  ///< weld: points closer than this are one; a fit that misses by less is a fit
-  /// Corners that turn by less are smooth already; corners of two lines or two arcs that come nearer than
-  /// this to turning back are folds. Neither is changed.
+  /// Corners that turn by less are smooth; corners of two lines or two arcs that turn by more than half a
+  /// turn less this are folds. Neither is changed.
   Angle straight = radians(std::numbers::pi / 1000.0);
   EdgeSharing sharing = EdgeSharing::in_order;
   std::string name{};  ///< a corner is called NAME.ELEMENT in messages
@@ -107,34 +107,34 @@ enum class SharpReason : std::uint8_t {
 std::string_view to_string(CornerOutcome outcome);
 std::string_view to_string(SharpReason reason);
 
-/// What became of one corner that had a request.
+/// The result for one corner that had a request.
 struct CornerReport {
   std::uint32_t element = 0;  ///< of the input
   CornerOutcome outcome = CornerOutcome::sharp;
   SharpReason reason = SharpReason::none;
-  std::uint32_t first = 0;  ///< element of the result where the replacement begins
+  std::uint32_t first = 0;  ///< first element of the replacement in the result
   std::uint32_t count = 0;  ///< elements of the result that it consists of; 0 if sharp
-  /// Where it stays sharp because the radius is too large or the edge is shared: the largest radius that
-  /// could be cut here (0: none), given what the corners before it took; shared evenly: what the others ask
-  /// for. A lower bound within 1e-6 of the request. 0 for corners that were cut.
+  /// Where it stays sharp because the radius is too large or the edge is shared: the largest radius that can
+  /// be cut here (0: none), given what the corners before it use; shared evenly: what the others request. A
+  /// lower bound within 1e-6 of the request. 0 for corners that were cut.
   Length largest;
 };
 
 struct CutOutline {
-  Outline outline;  ///< without requests; arcs have their `via` in the middle of their sweep
+  Outline outline;                    ///< without requests; the `via` of arcs is their midpoint
   std::vector<CornerReport> corners;  ///< one for each corner with a request, in order of elements
 };
 
-/// Replaces the corners of an outline as requested. Order of work: corner 0 of a closed outline first, then
-/// by element; each corner sees what the one before left of the shared segment. A closed result begins where
-/// the replacement of corner 0 begins. Segments of no length are left out. Nothing, with errors appended, for
+/// Replaces the corners of an outline as requested: corner 0 of a closed outline first, then by element; each
+/// corner has what the one before left of the shared segment. A closed result starts with the replacement of
+/// corner 0. Segments without length are left out. Nothing, with errors appended, for
 /// an outline without a segment, a closed one of a single segment, coordinates that are not finite or beyond
-/// 1e60, and arcs that end where they begin. Requests at the ends of an open outline (for a closed one: of
+/// 1e60, and arcs that end at their start. Requests at the ends of an open outline (for a closed one: of
 /// its last element) are ignored with a warning.
 std::optional<CutOutline> cut_corners(const Outline& outline, const CornerOptions& options,
                                       Diagnostics& diagnostics);
 
-/// The sentence of a report: "corner plate.2 stays sharp: ...". `request` is the corner's.
+/// The text of a report: "corner plate.2 stays sharp: ...". `request` is the corner's.
 std::string corner_message(const CornerReport& report, Length request, std::string_view name);
 
 // -------------------------------------------------------------------------------------------------- curves
@@ -149,22 +149,22 @@ using Curve = std::vector<CurvePoint>;
 
 struct CurveOptions {
   Tolerance tolerance{};
-  /// A piece whose end tangents are closer than this to its chord becomes a line.
+  /// A piece whose end tangents differ by less than this from its chord becomes a line.
   Angle straight = radians(std::numbers::pi / 1000.0);
-  Length least_radius{};  ///< arcs of a smaller radius get a warning; 0: none does
-  std::string name{};     ///< piece k is called NAME.k in messages
+  Length min_radius{};  ///< arcs of a smaller radius get a warning; 0: none does
+  std::string name{};   ///< piece k is called NAME.k in messages
   Origin where{};
 };
 
-/// A chain of arcs through all samples with the samples' headings: two arcs a piece that meet in the incentre
-/// of the triangle of chord and tangents. Pieces with an inflexion and straight pieces become lines, with a
-/// warning. Nothing, with errors appended, for fewer than two samples, for equal neighbours, for numbers that
-/// are not finite, and where a heading is more than a right angle off the chord.
+/// A chain of arcs through all samples with the samples' headings: two arcs per piece, which meet in the
+/// incentre of the triangle of chord and tangents. Pieces with an inflexion and straight pieces become lines,
+/// with a warning. Nothing, with errors appended, for fewer than two samples, for equal neighbours, for
+/// numbers that are not finite, and where a heading is more than a right angle off the chord.
 std::optional<Outline> smooth_curve(const Curve& curve, const CurveOptions& options,
                                     Diagnostics& diagnostics);
 
-/// Guesses the heading of each point from its neighbours; exact for evenly sampled circles, of which closed
-/// ones are smooth at the seam too. Two points give a line. Fails as `smooth_curve` does, and where an open
+/// Estimates the heading of each point from its neighbours; exact for evenly sampled circles, closed ones
+/// included. Two points give a line. Fails as `smooth_curve` does, and where an open
 /// end turns by more than 60 degrees.
 std::optional<Curve> guess_headings(const std::vector<Point2>& points, const CurveOptions& options,
                                     Diagnostics& diagnostics);
@@ -174,9 +174,12 @@ std::optional<Curve> guess_headings(const std::vector<Point2>& points, const Cur
 double area(const Outline& outline);  ///< square mm; above 0 for a simple counter-clockwise one
 Length length(const Outline& outline);
 Box2 bounds(const Outline& outline);
+/// The point at a length from the start, with its direction of travel; the ends beyond the outline. In a
+/// corner the direction is that of the segment before it. The outline must have a segment with a length.
+CurvePoint at_length(const Outline& outline, Length from_start);
 
 /// The points of an outline whose chords stay within `chord` of its arcs: its ends and points between, at
-/// least 16 to a full circle and at most 4096 an arc. A closed outline ends with its first point.
+/// least 16 per full circle and at most 4096 per arc. A closed outline ends with its first point.
 std::vector<Point2> flattened(const Outline& outline, Length chord);
 /// Counter-clockwise from the right, without the first point repeated.
 std::vector<Point2> flattened(const Circle& circle, Length chord);
@@ -184,8 +187,8 @@ std::vector<Point2> flattened(const Circle& circle, Length chord);
 // ---------------------------------------------------------------------------------------------- transforms
 
 /// p -> offset + factor * p, each axis by itself. Mirroring (one factor negative) also reverses the order, so
-/// that the sense of a closed outline stays. Requests stay as they are. Factors must not be 0; arcs stay arcs
-/// through the moved points, also where the factors differ.
+/// that a closed outline keeps its direction. Requests are not scaled. Factors must not be 0; arcs stay arcs
+/// through the transformed points, also where the factors differ.
 struct Placement {
   Point2 offset;
   Point2 factor{1.0, 1.0};
@@ -200,9 +203,13 @@ Outline rotated(const Outline& outline, Point2 centre, Angle angle);
 Curve rotated(const Curve& curve, Point2 centre, Angle angle);
 Circle rotated(const Circle& circle, Point2 centre, Angle angle);
 
-/// The same way walked backwards. Requests stay with their corners.
+/// In the opposite direction. Requests stay with their corners.
 Outline reversed(const Outline& outline);
 Curve reversed(const Curve& curve);
+/// Neighbouring lines in one direction, and arcs of one circle, become one segment where all of them are
+/// within `within` of it, up to about 2000 in one; corners with requests stay. A closed outline may get
+/// another start.
+Outline merged(const Outline& outline, Length within);
 /// Closed by a line where it is open.
 Outline closed(const Outline& outline);
 /// Without requests.

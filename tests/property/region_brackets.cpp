@@ -370,7 +370,7 @@ std::string Case::check_sources(const Region& original, const Offset& made, doub
     const Outline& loop = made.region.loops[k];
     if (made.sources[k].size() != loop.segments.size()) return "a segment has no source";
     for (std::size_t i = 0; i < loop.segments.size(); ++i) {
-      const OffsetSource& source = made.sources[k][i];
+      const BoundaryElement& source = made.sources[k][i];
       const Outline& owner = original.loops.at(source.loop);
       const Segment& own = owner.segments.at(source.segment);
       const Point2 from = loop.point(i);

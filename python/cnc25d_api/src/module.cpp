@@ -166,13 +166,13 @@ py::tuple cut(const py::object& list, const std::string& name, bool even, bool r
                         report ? py::object(report_list(*made)) : py::none());
 }
 
-kerf::CurveOptions curve_options(double precision, double smallest_radius, const std::string& name) {
-  if (!std::isfinite(precision) || !std::isfinite(smallest_radius) || precision < 0.0)
+kerf::CurveOptions curve_options(double precision, double min_radius, const std::string& name) {
+  if (!std::isfinite(precision) || !std::isfinite(min_radius) || precision < 0.0)
     throw Refusal{7002, name, -1,
                   "precision and router_bit_request must be finite numbers, precision not below 0"};
   kerf::CurveOptions options;
   options.straight = kerf::radians(precision);
-  options.least_radius = kerf::mm(smallest_radius);
+  options.min_radius = kerf::mm(min_radius);
   options.name = name;
   return options;
 }
@@ -184,10 +184,9 @@ py::tuple smooth(const kerf::Curve& curve, const kerf::CurveOptions& options, Me
   return py::make_tuple(make_list(*made), messages.list());
 }
 
-py::tuple smooth_c(const py::object& list, double precision, double smallest_radius,
-                   const std::string& name) {
+py::tuple smooth_c(const py::object& list, double precision, double min_radius, const std::string& name) {
   const FormatCodes codes{.empty = 609, .single = 609, .first_length = 619, .segment_a = 629};
-  const kerf::CurveOptions options = curve_options(precision, smallest_radius, name);
+  const kerf::CurveOptions options = curve_options(precision, min_radius, name);
   const kerf::Curve curve = read_curve(list.ptr(), codes, name);
   if (curve.size() < 2) throw Refusal{609, name, 0, "at least two samples are needed"};
   require_finite(curve, name);
@@ -202,10 +201,9 @@ py::tuple smooth_c(const py::object& list, double precision, double smallest_rad
   return smooth(curve, options, messages);
 }
 
-py::tuple smooth_b(const py::object& list, double precision, double smallest_radius,
-                   const std::string& name) {
+py::tuple smooth_b(const py::object& list, double precision, double min_radius, const std::string& name) {
   const FormatCodes codes{.empty = 309, .single = 309, .first_length = 319, .segment_b = 319};
-  const kerf::CurveOptions options = curve_options(precision, smallest_radius, name);
+  const kerf::CurveOptions options = curve_options(precision, min_radius, name);
   const kerf::Outline outline = read_outline(list.ptr(), Format::b, codes, name);
   if (outline.segments.empty()) throw Refusal{309, name, 0, "at least two points are needed"};
   require_finite(outline, name);

@@ -8,12 +8,12 @@ namespace {
 
 constexpr std::uint32_t kSide = 1u << 16;  // cells of the curve along one side of the whole
 
-/// Where a cell stands along the Hilbert curve.
+/// The position of a cell along the Hilbert curve.
 std::uint32_t hilbert(std::uint32_t x, std::uint32_t y) {
-  std::uint32_t place = 0;
+  std::uint32_t position = 0;
   for (std::uint32_t s = kSide / 2; s > 0; s /= 2) {
     const bool right = (x & s) != 0, up = (y & s) != 0;
-    place += s * s * ((right ? 3u : 0u) ^ (up ? 1u : 0u));
+    position += s * s * ((right ? 3u : 0u) ^ (up ? 1u : 0u));
     if (up) continue;
     if (right) {
       x = kSide - 1 - x;
@@ -21,7 +21,7 @@ std::uint32_t hilbert(std::uint32_t x, std::uint32_t y) {
     }
     std::swap(x, y);
   }
-  return place;
+  return position;
 }
 
 Box2 around(const Box2* first, const Box2* last) {
@@ -45,15 +45,15 @@ BoxTree::BoxTree(const std::vector<Box2>& boxes) {
   const Box2 all = around(boxes.data(), boxes.data() + boxes.size());
   const double width = all.high.x - all.low.x, height = all.high.y - all.low.y;
   const auto cell = [](double at, double size) {
-    const double share = size > 0.0 ? at / size : 0.0;
-    return static_cast<std::uint32_t>(std::clamp(share, 0.0, 1.0) * (kSide - 1));
+    const double fraction = size > 0.0 ? at / size : 0.0;
+    return static_cast<std::uint32_t>(std::clamp(fraction, 0.0, 1.0) * (kSide - 1));
   };
   std::vector<std::uint64_t> order(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box2& b = boxes[i];
-    const std::uint32_t place = hilbert(cell(0.5 * (b.low.x + b.high.x) - all.low.x, width),
-                                        cell(0.5 * (b.low.y + b.high.y) - all.low.y, height));
-    order[i] = static_cast<std::uint64_t>(place) << 32 | i;
+    const std::uint32_t position = hilbert(cell(0.5 * (b.low.x + b.high.x) - all.low.x, width),
+                                           cell(0.5 * (b.low.y + b.high.y) - all.low.y, height));
+    order[i] = static_cast<std::uint64_t>(position) << 32 | i;
   }
   std::sort(order.begin(), order.end());
   boxes_.reserve(boxes.size());

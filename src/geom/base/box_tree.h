@@ -1,7 +1,7 @@
 // A static tree of boxes (a packed R-tree): which boxes overlap one, and which overlap each other.
 //
 // The boxes are put in order along a Hilbert curve and grouped by eights, level by level, so that boxes of
-// one group lie near each other whatever the order they came in.
+// one group lie near each other for any order of the input.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ class BoxTree {
   BoxTree() = default;
   explicit BoxTree(const std::vector<Box2>& boxes);
 
-  /// Calls visit(item) for each box that overlaps `box`, by the number it was given in.
+  /// Calls visit(item) for each box that overlaps `box`, with its index in the input.
   template <class Visit>
   void query(const Box2& box, Visit visit) const {
     descend(box, 0, [&](std::size_t leaf) {
@@ -38,14 +38,18 @@ class BoxTree {
       });
     return go_on;
   }
-  /// Calls visit(item) for the boxes that a ray from `at` to -x meets, as `seen(box)` has them, roughly from
-  /// the nearest on; no more for those that lie to the left of what `visit` returned last.
+  /// Calls visit(item) for the boxes, transformed by seen(box), that a ray from `at` to -x intersects,
+  /// roughly from the nearest on. Boxes to the left of the x that `visit` returned last are skipped.
   template <class Seen, class Visit>
   void leftwards(Point2 at, Seen seen, Visit visit) const;
-  /// The item whose box is least far by `distance_to(item)`, which is asked only where the box itself is
-  /// nearer to `at` than the best so far; `best` starts as the largest distance of interest.
+  /// Finds the item with the smallest `distance_to(item)`, which is called only where the item's box is
+  /// nearer to `at` than the smallest so far; `best` starts as the largest distance of interest.
   template <class Distance>
-  void nearest(Point2 at, double best, Distance distance_to) const;
+  void nearest(const Box2& at, double best, Distance distance_to) const;
+  template <class Distance>
+  void nearest(Point2 at, double best, Distance distance_to) const {
+    nearest(Box2{at, at}, best, distance_to);
+  }
 
  private:
   static constexpr std::size_t kGroup = 8;
@@ -85,9 +89,9 @@ class BoxTree {
   std::vector<std::vector<Box2>> levels_;  // of groups: 0 the smallest, the last a single one
 };
 
-inline double distance_to_box(Point2 p, const Box2& box) {
-  const double x = std::max({box.low.x - p.x, 0.0, p.x - box.high.x});
-  const double y = std::max({box.low.y - p.y, 0.0, p.y - box.high.y});
+inline double distance_between(const Box2& a, const Box2& b) {
+  const double x = std::max({b.low.x - a.high.x, 0.0, a.low.x - b.high.x});
+  const double y = std::max({b.low.y - a.high.y, 0.0, a.low.y - b.high.y});
   return std::sqrt(x * x + y * y);
 }
 
@@ -128,26 +132,26 @@ void BoxTree::leftwards(Point2 at, Seen seen, Visit visit) const {
 }
 
 template <class Distance>
-void BoxTree::nearest(Point2 at, double best, Distance distance_to) const {
+void BoxTree::nearest(const Box2& at, double best, Distance distance_to) const {
   struct Entry {
     double distance;
     std::size_t level, node;
     bool operator<(const Entry& o) const { return distance > o.distance; }  // the nearest first
   };
   if (levels_.empty()) return;
-  std::vector<Entry> heap{{distance_to_box(at, levels_.back()[0]), levels_.size() - 1, 0}};
+  std::vector<Entry> heap{{distance_between(at, levels_.back()[0]), levels_.size() - 1, 0}};
   while (!heap.empty() && heap.front().distance < best) {
     std::pop_heap(heap.begin(), heap.end());
     const Entry entry = heap.back();
     heap.pop_back();
     if (entry.level == 0) {
       for (std::size_t i = entry.node * kGroup; i < end_of(entry.node); ++i)
-        if (distance_to_box(at, boxes_[i]) < best) best = std::min(best, distance_to(items_[i]));
+        if (distance_between(at, boxes_[i]) < best) best = std::min(best, distance_to(items_[i]));
       continue;
     }
     const std::vector<Box2>& below = levels_[entry.level - 1];
     for (std::size_t k = entry.node * kGroup; k < std::min((entry.node + 1) * kGroup, below.size()); ++k) {
-      heap.push_back({distance_to_box(at, below[k]), entry.level - 1, k});
+      heap.push_back({distance_between(at, below[k]), entry.level - 1, k});
       std::push_heap(heap.begin(), heap.end());
     }
   }

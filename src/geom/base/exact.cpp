@@ -1,5 +1,5 @@
-// The plain formula decides where its error bound allows; where it does not, the sum is worked out without
-// any rounding, as a list of doubles whose exact sum it is (an expansion).
+// The plain formula decides where its error bound allows it. Elsewhere the sum is computed without rounding,
+// as a list of doubles of which it is the exact sum (an expansion).
 #include "exact.h"
 
 #include <array>

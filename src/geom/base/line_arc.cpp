@@ -53,19 +53,62 @@ Box2 bounds(const LineArc& e) {
   return box;
 }
 
-double distance_to(const LineArc& e, Point2 p) {
+Point2 nearest_point(const LineArc& e, Point2 p) {
   const Point2 q = p - e.from, chord = e.chord();
   if (!e.is_arc()) {
-    const double square = dot(chord, chord);
-    const double t = square > 0.0 ? std::clamp(dot(q, chord) / square, 0.0, 1.0) : 0.0;
-    return norm(q - t * chord);
+    const double square = dot(chord, chord), along = dot(q, chord);
+    if (!(along > 0.0)) return e.from;
+    return along < square ? e.from + (along / square) * chord : e.to;
   }
   const Point2 a = -e.centre, b = chord - e.centre, out = q - e.centre;
-  const auto between = [&](Point2 start, Point2 end) {  // for less than half a turn
-    return e.turn * cross(start, out) >= 0.0 && e.turn * cross(out, end) >= 0.0;
+  const auto between = [&](Point2 first, Point2 last) {  // for less than half a turn
+    return e.turn * cross(first, out) >= 0.0 && e.turn * cross(out, last) >= 0.0;
   };
   const bool beside = e.turn * cross(a, b) >= 0.0 ? between(a, b) : !between(b, a);
-  return beside ? std::abs(norm(out) - e.radius) : std::min(norm(q), norm(p - e.to));
+  const double size = norm(out);
+  if (beside && size > 0.0) return e.circle_centre() + (e.radius / size) * out;
+  return dot(q, q) <= dot(p - e.to, p - e.to) ? e.from : e.to;
+}
+
+double distance_to(const LineArc& e, Point2 p) {
+  if (!e.is_arc()) return norm(p - nearest_point(e, p));
+  const Point2 nearest = nearest_point(e, p);
+  // Beside an arc the difference to its radius is more accurate than that of two points.
+  if (nearest == e.from || nearest == e.to) return norm(p - nearest);
+  return std::abs(norm(p - e.from - e.centre) - e.radius);
+}
+
+Point2 point_at(const LineArc& e, double fraction) {
+  if (!e.is_arc()) return e.from + fraction * e.chord();
+  const double angle = e.turn * fraction * sweep_to(e, e.to);
+  const Point2 out = -e.centre;
+  return e.circle_centre() + std::cos(angle) * out + std::sin(angle) * left_of(out);
+}
+
+ClosestPoints closest_points(const LineArc& e, const LineArc& f) {
+  ClosestPoints best{e.from, nearest_point(f, e.from)};
+  const auto consider = [&](Point2 p) {  // a point near e
+    const Point2 on_e = nearest_point(e, p), on_f = nearest_point(f, on_e);
+    if (norm(on_f - on_e) < norm(best.second - best.first)) best = {on_e, on_f};
+  };
+  consider(e.to);
+  consider(nearest_point(e, f.from));
+  consider(nearest_point(e, f.to));
+  const Crossings crossings = carriers_cross(e, f, 0.0);
+  for (int i = 0; i < crossings.count; ++i) consider(crossings.at[i]);
+  // Between the ends the shortest connection is perpendicular to both: it passes through the centres of arcs.
+  const auto beside = [&](Point2 centre, double radius, Point2 towards) {
+    const double size = norm(towards);
+    for (const double sign : {1.0, -1.0})
+      if (size > 0.0) consider(centre + (sign * radius / size) * towards);
+  };
+  if (e.is_arc()) {
+    const Point2 centre = e.circle_centre();
+    beside(centre, e.radius, f.is_arc() ? f.circle_centre() - centre : left_of(f.chord()));
+  } else if (f.is_arc()) {
+    consider(nearest_point(e, f.circle_centre()));
+  }
+  return best;
 }
 
 std::optional<LineArc> offset(const LineArc& e, double to_left, double min_radius) {

@@ -1,5 +1,5 @@
 // A line or an arc in the plane by itself, with both of its ends: what offsets, intersections and distances
-// are computed on. An outline's Segment says the same relative to the segment before it.
+// are computed on. An outline's Segment starts at the end of the segment before it.
 //
 // Frame as in outline.h: mm, y up, counter-clockwise is positive. For what is computed often, types derive
 // from LineArc and add what they need (Carrier, region_detail::Edge and the runs of an offset).
@@ -37,7 +37,11 @@ Point2 end_direction(const LineArc& element);
 /// The angle from the start of an arc to a point as seen from its centre, in the arc's sense: radians, above
 /// 0 and at most a full turn.
 double sweep_to(const LineArc& arc, Point2 point);
+/// The point of an element that is nearest to another.
+Point2 nearest_point(const LineArc& element, Point2 p);
 double distance_to(const LineArc& element, Point2 p);
+/// The point at a fraction of an element's length, from 0 to 1.
+Point2 point_at(const LineArc& element, double fraction);
 /// The smallest box around an element.
 Box2 bounds(const LineArc& element);
 
@@ -53,6 +57,12 @@ struct Crossings {
 /// Carriers that miss each other by no more than `touch` (mm) touch in one point, which is given twice where
 /// one is a circle. Lines need a length; the start of an arc must lie on its circle.
 Crossings carriers_cross(const LineArc& e, const LineArc& f, double touch);
+
+/// Points of two elements that are as near to each other as any are; the same where they intersect.
+struct ClosestPoints {
+  Point2 first, second;
+};
+ClosestPoints closest_points(const LineArc& e, const LineArc& f);
 
 /// The centre, relative to the start of a chord, of the circle of `radius` over it; on the left of the chord
 /// for side = +1, on its right for -1. A radius below half of the chord counts as that.

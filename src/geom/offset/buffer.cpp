@@ -1,4 +1,4 @@
-// Buffers around paths, and the curves beside them, which are parts of a buffer's boundary.
+// Buffers of paths, and offset paths, which are parts of a buffer's boundary.
 #include <algorithm>
 #include <cmath>
 
@@ -32,7 +32,7 @@ std::optional<Traced> swept_by(const Outline& path, double width, PathEnds ends,
   return band_of(chain, width, options, weld, diagnostics);
 }
 
-/// The stretches of a loop that lie on one side of the path.
+/// Appends the parts of a loop on one side of the path.
 void append_stretches(std::vector<Outline>& out, const Outline& loop,
                       const std::vector<std::uint32_t>& sources, bool left) {
   const std::size_t n = sources.size();
@@ -69,7 +69,7 @@ std::optional<std::vector<Outline>> offset_path(const Outline& path, Length to_l
   std::vector<Outline> beside;
   for (std::size_t i = 0; i < made->sources.size(); ++i)
     append_stretches(beside, made->region.loops[i], made->sources[i], left);
-  // The boundary has the path on its left: on the path's left side it runs the other way.
+  // The boundary has the path on its left: on the path's left side it has the opposite direction.
   if (left)
     for (Outline& outline : beside) outline = reversed(outline);
   return beside;

@@ -1,14 +1,13 @@
-// Offset. Each loop's parallel curve is made as it comes, with all its crossings, so that its winding numbers
-// show what is near the loop (docs/decisions/0016-region-kernel.md has the reason):
-//   - around the points that a growing loop reaches the curve winds at least once, and around no others;
-//   - a shrinking loop's curve winds around what is left of it at most once, and around nothing else, unless
-//   the
-//     whole loop fits into a circle of the distance, which its bounds show beforehand;
-//   - a curve of inner corners, and of arcs that turn inside out, may be any path that leaves these numbers
-//   above
-//     or below 0 as they are: a straight line does.
-// Where that curve has too many crossings, the band around the boundary is united from pieces, and added to
-// the region or taken away from it.
+// Offset. The offset curve of each loop is made with all its self-intersections, so that its winding numbers
+// are known (docs/decisions/0024-offsets.md has the proof):
+//   - the curve of a growing loop winds at least once around the points within the distance, and around no
+//     others;
+//   - the curve of a shrinking loop winds at most once around what is left of it, and around nothing else,
+//     unless the whole loop fits into a circle of the distance, which its bounds show beforehand;
+//   - the curve around inner corners, and of arcs whose radius becomes negative, may be any path that keeps
+//     the signs of these numbers: a straight line does.
+// If that curve has too many intersections, the band around the boundary is united from pieces, and added to
+// the region or subtracted from it.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -23,7 +22,7 @@ using namespace region_detail;
 
 bool covered(const Winding& w) { return w.of[0] > 0; }
 
-/// One offset: the loops as runs, whose numbers count the segments of all loops.
+/// One offset: the loops as runs, numbered by the segments of all loops.
 class Offsetter {
  public:
   Offsetter(const Region& region, double by, const JoinOptions& joins, const RegionOptions& options,
@@ -50,7 +49,7 @@ class Offsetter {
   std::vector<std::uint32_t> first_segment_;  // of each loop, and the count of all
 };
 
-/// Whether a loop is certain to leave nothing: it shrinks, and is narrower than twice the distance.
+/// Whether a loop certainly vanishes: it shrinks, and is narrower than twice the distance.
 bool shrinks_away(const Outline& loop, double by) {
   const auto narrow = [&](const Box2& box) {
     return std::min(box.high.x - box.low.x, box.high.y - box.low.y) < 2.0 * std::abs(by);
@@ -88,7 +87,7 @@ void Offsetter::add_parallel(EdgeSet& set, const std::vector<Run>& runs) const {
   const double sign = by_ > 0.0 ? 1.0 : -1.0;
   const Beside side = by_ > 0.0 ? Beside::right : Beside::left;
   const Beside corner = by_ > 0.0 ? Beside::right_corner : Beside::left_corner;
-  set.begin(runs[0].from + by_ * runs[0].right_of_start());
+  set.start_chain(runs[0].from + by_ * runs[0].right_of_start());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const Run &run = runs[i], &next = runs[i + 1 < runs.size() ? i + 1 : 0];
     const Point2 start = run.from + by_ * run.right_of_start(), end = run.to + by_ * run.right_of_end();
@@ -147,7 +146,7 @@ Offset Offsetter::finished(Traced traced) const {
   Offset made;
   std::vector<bool> left(loops_.size(), false);
   for (const std::vector<std::uint32_t>& loop : traced.sources) {
-    std::vector<OffsetSource>& sources = made.sources.emplace_back();
+    std::vector<BoundaryElement>& sources = made.sources.emplace_back();
     sources.reserve(loop.size());
     for (const std::uint32_t source : loop) {
       const std::uint32_t number = run_of_source(source);

@@ -36,8 +36,8 @@ std::vector<Run> runs_of(const Outline& outline) {
 }
 
 double turn_between(const Run& run, const Run& next) {
-  // At the tip of a spike or a notch the directions differ by rounding, or by what joining points displaced:
-  // where the curves are further ahead decides.
+  // At the tip of a spike or a notch the directions differ by rounding, or by displaced points: the curves
+  // are compared at a distance from it.
   constexpr double kTurnsBack = 0.05;  // sine
   const double sine = cross(run.end_tangent, next.start_tangent);
   if (dot(run.end_tangent, next.start_tangent) > 0.0 || std::abs(sine) > kTurnsBack)

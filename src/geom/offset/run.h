@@ -1,4 +1,4 @@
-// Segments of outlines with their directions at both ends: what offset curves are made from.
+// Segments of outlines with their tangents at both ends, from which offset curves are made.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace kerf::region_detail {
 
 struct Run : LineArc {
   Point2 start_tangent, end_tangent;  // unit
-  double reach = 0.0;                 // up to this distance from both ends it runs on without turning round
+  double reach = 0.0;                 // up to this distance from both ends it does not turn back
   std::uint32_t number = 0;           // of the segment in its outline
   Point2 right_of_start() const { return -left_of(start_tangent); }
   Point2 right_of_end() const { return -left_of(end_tangent); }
@@ -21,11 +21,11 @@ struct Run : LineArc {
 /// Segments without length are left out.
 std::vector<Run> runs_of(const Outline& outline);
 
-/// Whether a chain turns to the left (+1) or to the right (-1) from one run to the next. Where it turns back,
-/// a spike with the inside (on the left) within it is a turn to the left.
+/// +1 where a chain turns to the left from one run to the next, -1 to the right. Where it turns back, a spike
+/// with the inside (on the left) within it is a turn to the left.
 double turn_between(const Run& run, const Run& next);
 
-/// What fills an outer corner: an arc, or the tangents up to where they meet or are cut off.
+/// The shape of outer corners: an arc, or the tangents up to their intersection or the limit.
 struct Corner {
   Join join = Join::round;
   double limit = 1.0;  // how far from the corner the tangents are cut off, by the distance of the offset
@@ -37,8 +37,8 @@ struct CornerSources {
   std::uint32_t corner = 0, before = 0, after = 0;
 };
 /// Goes around an outer corner at `at` of a curve at the distance `by` > 0 from it, from the direction `from`
-/// (unit, from the corner) to `to`; counter-clockwise where `turn` is above 0. The set is at the first
-/// already.
+/// (unit, from the corner) to `to`; counter-clockwise where `turn` is above 0. The last point of
+/// the set is the first one.
 void add_corner(EdgeSet& set, Point2 at, double by, Point2 from, Point2 to, double turn, const Corner& corner,
                 const CornerSources& sources);
 

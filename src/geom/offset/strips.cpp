@@ -29,8 +29,8 @@ class Strips {
   double width_;
 };
 
-/// The strip of an arc, between two circles; where it is narrower than the width, the middle of the circle
-/// and what lies beyond it, too.
+/// The strip of an arc, between two circles; where its radius is below the width, also the sector beyond the
+/// centre.
 void Strips::ring(const Run& run, double outer, double inner) {
   const bool ccw = run.turn > 0.0;
   // Outwards, at both ends of the arc run counter-clockwise.
@@ -38,7 +38,7 @@ void Strips::ring(const Run& run, double outer, double inner) {
   const Point2 b = ccw ? run.right_of_end() : -run.right_of_start();
   const Point2 c = run.circle_centre();
   const std::uint32_t seam = source_of(run, Beside::none);
-  set_.begin(c + outer * a);
+  set_.start_chain(c + outer * a);
   set_.belongs_to(source_of(run, ccw ? Beside::right : Beside::left));
   set_.arc_to(c + outer * a, c + outer * b, c, outer, 1.0);
   set_.belongs_to(seam);
@@ -53,7 +53,7 @@ void Strips::ring(const Run& run, double outer, double inner) {
   set_.close();
   if (inner >= -set_.weld()) return;
   set_.belongs_to(seam);
-  set_.begin(c);
+  set_.start_chain(c);
   set_.line_to(c + inner * a);
   set_.arc_to(c + inner * a, c + inner * b, c, -inner, 1.0);
   set_.close();
@@ -62,7 +62,7 @@ void Strips::ring(const Run& run, double outer, double inner) {
 void Strips::run(const Run& run) {
   if (run.is_arc()) return ring(run, run.radius + width_, run.radius - width_);
   const Point2 aside = width_ * run.right_of_start();
-  set_.begin(run.from + aside);
+  set_.start_chain(run.from + aside);
   set_.belongs_to(source_of(run, Beside::right));
   set_.line_to(run.to + aside);
   set_.belongs_to(source_of(run, Beside::none));
@@ -77,7 +77,7 @@ void Strips::run(const Run& run) {
 void Strips::sector(const Run& run, Point2 from, Point2 to, const Corner& corner,
                     const CornerSources& sources) {
   set_.belongs_to(source_of(run, Beside::none));
-  set_.begin(run.to);
+  set_.start_chain(run.to);
   set_.line_to(run.to + width_ * from);
   add_corner(set_, run.to, width_, from, to, 1.0, corner, sources);
   set_.belongs_to(source_of(run, Beside::none));

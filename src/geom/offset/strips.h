@@ -1,4 +1,4 @@
-// What a path sweeps: a strip for each of its segments, and what fills its outer corners and its ends.
+// The band of a path: a strip for each of its segments, sectors at outer corners, half discs at its ends.
 #pragma once
 
 #include "geom/region/resolve.h"
@@ -49,7 +49,7 @@ struct Chain {
 /// All points within `width` of a path. The sources of the boundary's segments are numbers as above.
 std::optional<Traced> band_of(const Chain& chain, double width, const RegionOptions& options, double weld,
                               Diagnostics& diagnostics);
-/// The union of what two bands cover.
+/// The union of two bands.
 std::optional<Traced> unite(const Traced& first, const Traced& second, const RegionOptions& options,
                             double weld, Diagnostics& diagnostics);
 

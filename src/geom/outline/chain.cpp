@@ -410,7 +410,7 @@ void Chainer::report_open_ends() {
     open.piece = piece_of(ends[i]);
     std::uint32_t best = kNone;
     double least = std::numeric_limits<double>::infinity();
-    points.nearest(open.at, least, [&](std::uint32_t other) {
+    points.nearest({open.at, open.at}, least, [&](std::uint32_t other) {
       const double d =
           other == i ? std::numeric_limits<double>::infinity() : distance(open.at, at(ends[other]));
       if (d < least) least = d, best = other;

@@ -7,10 +7,10 @@
 namespace kerf::outline_detail {
 namespace {
 
-/// A request that fits exactly may miss by rounding: this share of a segment's length is let through.
+/// A request that fits exactly may miss by rounding: this fraction of a segment's length is permitted.
 constexpr double kFit = 1e-9;
-/// Where two loci touch, rounding decides whether they meet. A squared distance within this share of the
-/// squared radius counts as touching; the radius is then wrong by half of it at most.
+/// Where two loci touch, rounding decides whether they meet. A squared distance within this fraction
+/// of the squared radius counts as touching; the relative error of the radius is then at most half of it.
 constexpr double kTouch = 1e-12;
 constexpr double kCusp = 1e-9;  // sine; below it rounding decides to which side a line and an arc fold back
 constexpr int kHalvings =
@@ -18,16 +18,16 @@ constexpr int kHalvings =
 
 /// Whether a point of the arc's circle lies on the arc itself.
 bool on_arc(const Side& side, Point2 point) {
-  const Point2 begin = -side.centre, at = point - side.centre, end = side.end - side.centre;
-  const bool after_begin = side.turn * cross(begin, at) >= 0.0,
+  const Point2 start = -side.centre, at = point - side.centre, end = side.end - side.centre;
+  const bool after_start = side.turn * cross(start, at) >= 0.0,
              before_end = side.turn * cross(at, end) >= 0.0;
-  const bool below_half = side.turn * cross(begin, end) >= 0.0;
-  return below_half ? after_begin && before_end : after_begin || before_end;
+  const bool below_half = side.turn * cross(start, end) >= 0.0;
+  return below_half ? after_start && before_end : after_start || before_end;
 }
 
-/// Moves `point`, which lies on the side's carrier, onto the side's end where it is one with it. False where
-/// it lies outside of the side.
-bool place_on(const Side& side, Point2& point, double weld) {
+/// Moves `point`, which lies on the side's carrier, to the side's end where it is within the tolerance of it.
+/// False where it lies outside of the side.
+bool snap_to(const Side& side, Point2& point, double weld) {
   const double slack = weld + kFit * (side.is_arc() ? side.radius : side.length);
   if (!side.is_arc()) {
     const double along = dot(point, side.away);
@@ -111,13 +111,13 @@ Replacement sharp(SharpReason reason) {
   return none;
 }
 
-/// The middle of a smoothing arc. That of a short one is set up on its chord, so that its radius stays
+/// The midpoint of a smoothing arc. That of a short one is computed from its chord, so that its radius stays
 /// accurate where the corner is nearly straight.
-Point2 middle_of_smooth(Point2 first, Point2 last, Point2 centre, double r, double side) {
+Point2 smooth_midpoint(Point2 first, Point2 last, Point2 centre, double r, double side) {
   const Point2 half = 0.5 * (last - first);
   const double square = dot(half, half);
   const bool goes_far = side * cross(first - centre, last - centre) <= 0.0 || 2.0 * square >= r * r;
-  if (goes_far) return arc_middle(first, last, centre, r, side);
+  if (goes_far) return arc_midpoint(first, last, centre, r, side);
   const double depth = std::sqrt(r * r - square);  // of the centre behind the chord
   return first + half - (side * std::sqrt(square) / (r + depth)) * left_of(half);
 }
@@ -127,11 +127,11 @@ Replacement smooth(const Side& in, const Side& out, double r, double weld) {
   for (int i = 0; i < centres.count; ++i) {
     const Point2 centre = centres.at[i];
     Point2 first = foot(in, centre, r), last = foot(out, centre, r);
-    if (!place_on(in, first, weld) || !place_on(out, last, weld)) continue;
+    if (!snap_to(in, first, weld) || !snap_to(out, last, weld)) continue;
     Replacement made;
     made.first = first;
     made.count = 1;
-    made.pieces[0] = {last, middle_of_smooth(first, last, centre, r, out.side), {}};
+    made.pieces[0] = {last, smooth_midpoint(first, last, centre, r, out.side), {}};
     return made;
   }
   return sharp(centres.count > 0 ? SharpReason::short_segment : SharpReason::no_circle);
@@ -177,7 +177,7 @@ Mouth mouth_of(const Side& side, Point2 hole, Point2 deep, Point2 smooth_centre,
     mouth.on_side = (2.0 * dot(hole, across) / dot(across, across)) * across;
   }
   if (!mouth.channel) mouth.on_arc = mouth.on_side;
-  if (!place_on(side, mouth.on_side, weld)) mouth.reason = SharpReason::short_segment;
+  if (!snap_to(side, mouth.on_side, weld)) mouth.reason = SharpReason::short_segment;
   if (!mouth.channel) mouth.on_arc = mouth.on_side;
   return mouth;
 }
@@ -189,8 +189,8 @@ Replacement enlarge(const Side& in, const Side& out, double r, const CornerLimit
   const double distance = norm(smooth_centre);
   if (!(distance > limits.weld)) return sharp(SharpReason::no_circle);
   const Point2 first = foot(in, smooth_centre, r), last = foot(out, smooth_centre, r);
-  const double bend = out.side * cross(first - smooth_centre, last - smooth_centre);
-  if (bend < 0.0) return sharp(SharpReason::no_circle);  // the smoothing arc would go round more than half
+  const double turned = out.side * cross(first - smooth_centre, last - smooth_centre);
+  if (turned < 0.0) return sharp(SharpReason::no_circle);  // more than half a turn
   const Point2 deep = (1.0 / distance) * smooth_centre;
   const Point2 hole = r * deep;
   int force =
@@ -221,10 +221,10 @@ Replacement solve_corner(Side& in, Side& out, double request, const CornerLimits
   if (r <= limits.weld) return sharp(SharpReason::tiny);
   const double sine = -cross(in.away, out.away);  // of the turn at the corner, and its cosine
   const double cosine = -dot(in.away, out.away);
-  // A line and an arc that run back on each other still bend apart; only at an exact cusp is no side the
+  // A line and an arc that turn back differ by the arc's curvature; only at an exact cusp is neither side the
   // inside.
-  const bool bend_apart = in.is_arc() != out.is_arc() && cosine < 0.0;
-  if (std::abs(sine) < (bend_apart ? kCusp : limits.straight))
+  const bool curves_away = in.is_arc() != out.is_arc() && cosine < 0.0;
+  if (std::abs(sine) < (curves_away ? kCusp : limits.straight))
     return sharp(cosine > 0.0 ? SharpReason::straight : SharpReason::folded);
   out.side = sine > 0.0 ? 1.0 : -1.0;
   in.side = -out.side;
@@ -240,8 +240,8 @@ double largest_radius(Side in, Side out, double request, const CornerLimits& lim
   };
   double good = 0.0, bad = std::abs(request);
   for (int i = 0; i < kHalvings; ++i) {
-    const double middle = 0.5 * (good + bad);
-    (fits(middle) ? good : bad) = middle;
+    const double between = 0.5 * (good + bad);
+    (fits(between) ? good : bad) = between;
   }
   if (!(good > 0.0)) return 0.0;
   // The bounds of outlines are often round numbers, and the search ends just below them.

@@ -1,7 +1,7 @@
 // One corner: the arc that smooths it or the slot that enlarges it, from its two neighbours alone.
 //
-// All coordinates are relative to the corner. A neighbour is seen from the corner outwards (a `Side`), the
-// incoming one backwards, so that the rules are written once for both.
+// All coordinates are relative to the corner. Both neighbours are directed away from the corner (a `Side`),
+// the incoming one reversed, so that the same formulas apply to both.
 #pragma once
 
 #include <limits>
@@ -10,8 +10,8 @@
 
 namespace kerf::outline_detail {
 
-/// One of the two segments that meet at a corner, as far as it is still there: a LineArc as seen from the
-/// corner, which keeps the accuracy of small corners far from zero.
+/// What is left of one of the two segments of a corner: a LineArc relative to the corner, which keeps small
+/// corners far from the origin accurate.
 struct Side {
   Point2 away;          // unit, leaving the corner
   Point2 end;           // far end
@@ -23,7 +23,7 @@ struct Side {
   bool is_arc() const { return turn != 0.0; }
 };
 
-/// The side of the segment that arrives at the corner; `start` is where what is left of it begins.
+/// The side of the segment that arrives at the corner; `start` is the start of what is left of it.
 inline Side arriving(const Carrier& carrier, Point2 start) {
   Side side;
   side.end = start - carrier.to;
@@ -38,7 +38,7 @@ inline Side arriving(const Carrier& carrier, Point2 start) {
   side.away = (side.turn / side.radius) * left_of(-side.centre);
   return side;
 }
-/// The side of the segment that leaves the corner; `end` is where what is left of it ends.
+/// The side of the segment that leaves the corner; `end` is the end of what is left of it.
 inline Side leaving(const Carrier& carrier, Point2 end) {
   Side side;
   side.end = end - carrier.from;

@@ -7,19 +7,19 @@
 namespace kerf {
 namespace {
 
-constexpr int kMostChords = 1 << 12;  // of one arc
-constexpr int kFewestChords = 16;     // of a full circle, so that a coarse tolerance still leaves it round
+constexpr int kMaxChords = 1 << 12;  // of one arc
+constexpr int kMinChords = 16;       // of a full circle, so that a coarse tolerance still leaves it round
 
-/// Appends the points of an arc after its begin, without its end.
+/// Appends the points of an arc between its ends.
 void add_arc(std::vector<Point2>& points, Point2 from, const ArcCircle& circle, double chord) {
   const double step = 2.0 * std::acos(1.0 - std::clamp(chord / circle.radius, 0.0, 1.0));
-  const double least = circle.sweep.deg() / 360.0 * kFewestChords;
-  const double wanted = std::ceil(std::max(step > 0.0 ? circle.sweep.rad() / step : kMostChords, least));
-  const int count = static_cast<int>(std::min<double>(wanted, kMostChords));
+  const double minimum = circle.sweep.deg() / 360.0 * kMinChords;
+  const double wanted = std::ceil(std::max(step > 0.0 ? circle.sweep.rad() / step : kMaxChords, minimum));
+  const int count = static_cast<int>(std::min<double>(wanted, kMaxChords));
   const Point2 d = from - circle.centre;
-  const double begin = std::atan2(d.y, d.x), sense = circle.turn == Turn::ccw ? 1.0 : -1.0;
+  const double start = std::atan2(d.y, d.x), sense = circle.turn == Turn::ccw ? 1.0 : -1.0;
   for (int i = 1; i < count; ++i) {
-    const double angle = begin + sense * circle.sweep.rad() * i / count;
+    const double angle = start + sense * circle.sweep.rad() * i / count;
     points.push_back(circle.centre + circle.radius * Point2{std::cos(angle), std::sin(angle)});
   }
 }

@@ -30,7 +30,7 @@ bool check_outline(const Outline& outline, const std::string& name, const Origin
       return refuse(Code::outline_not_finite, element, kNumbers);
     if (s.via && s.to == from)
       return refuse(Code::outline_arc_undetermined, element,
-                    "the arc ends where it begins; a full circle takes two arcs or a circle outline");
+                    "the arc ends at its start; a full circle takes two arcs or a circle outline");
     from = s.to;
   }
   return true;

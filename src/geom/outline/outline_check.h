@@ -8,7 +8,7 @@
 namespace kerf::outline_detail {
 
 /// False, with an error appended that names the element, where the outline has no segment, is closed with
-/// only one, has a number that is not usable, or an arc that ends where it begins.
+/// only one, has a number that is not usable, or an arc that ends at its start.
 bool check_outline(const Outline& outline, const std::string& name, const Origin& where,
                    Diagnostics& diagnostics);
 

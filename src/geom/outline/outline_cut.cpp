@@ -1,4 +1,4 @@
-// The corners of a whole outline: who is cut first, what the others find left, and what is said about it.
+// The corners of a whole outline: their order, what each leaves of its segments, and the messages.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -13,8 +13,7 @@ namespace {
 
 using namespace outline_detail;
 
-/// At most this many messages of one kind are put into words; the rest are only counted (as Diagnostics
-/// does).
+/// Maximum of messages with a text per code; further ones are only counted (as Diagnostics does).
 constexpr std::size_t kMessages = 50;
 
 Code code_of(SharpReason reason) {
@@ -28,8 +27,8 @@ Code code_of(SharpReason reason) {
   }
 }
 
-/// Works through one outline. Corner i joins segment i - 1 and segment i; of a closed outline corner 0 joins
-/// the last segment and the first.
+/// Cuts the corners of one outline. Corner i joins segment i - 1 and segment i; of a closed outline corner 0
+/// joins the last segment and the first.
 class CornerPass {
  public:
   CornerPass(const Outline& outline, const CornerOptions& options, Diagnostics& diagnostics)
@@ -50,8 +49,8 @@ class CornerPass {
     return make_carrier(outline_.point(segment), outline_.segments[segment], weld_);
   }
   void reserve();
-  void share_evenly();
-  void begin(const Carrier& first);
+  void divide_evenly();
+  void start(const Carrier& first);
   void cut(std::size_t corner, const Carrier& before, const Carrier& after);
   std::size_t copy_lines(std::size_t corner);
   std::size_t smooth_lines(std::size_t corner);
@@ -59,7 +58,7 @@ class CornerPass {
   void note_straight_arc(std::size_t segment);
   void report_cut(std::size_t corner, int count);
   void report_sharp(std::size_t corner, SharpReason reason, const Side& in, const Side& out);
-  void say(const CornerReport& report);
+  void warn(const CornerReport& report);
   void follow(const Carrier& carrier, Point2 to);
   void append(const Replacement& made, Point2 corner);
   std::uint32_t elements() const { return static_cast<std::uint32_t>(result_.outline.elements()); }
@@ -69,10 +68,10 @@ class CornerPass {
   Diagnostics& diagnostics_;
   double weld_;
   CornerLimits limits_;
-  std::vector<bool> crowded_;  // EdgeSharing::even: corners that are not to be cut
-  std::vector<Room> rooms_;    // and what each could have without being one of them
-  Point2 here_;                // end of the result so far
-  std::size_t said_[16] = {};  // by reason
+  std::vector<bool> crowded_;    // EdgeSharing::even: corners that are not to be cut
+  std::vector<Room> rooms_;      // and what is available to each
+  Point2 here_;                  // end of the result so far
+  std::size_t warned_[16] = {};  // by reason
   std::size_t straight_arcs_ = 0;
   bool closed_;
   CutOutline result_;
@@ -97,8 +96,8 @@ void CornerPass::note_straight_arc(std::size_t segment) {
                : std::string());
 }
 
-/// Takes from the corners that do not fit beside each other those that want more than their half of an edge.
-void CornerPass::share_evenly() {
+/// Finds the corners that need more than half of an edge whose other corner leaves less than that.
+void CornerPass::divide_evenly() {
   const std::size_t n = outline_.segments.size();
   crowded_.assign(n + 1, false);
   rooms_.assign(n + 1, {});
@@ -134,9 +133,9 @@ void CornerPass::follow(const Carrier& carrier, Point2 to) {
   const Point2 rest = to - here_;
   if (dot(rest, rest) <= weld_ * weld_) return;
   Segment segment{to, std::nullopt, {}};
-  if (carrier.is_arc())  // about the segment's own begin, where its centre is accurate
-    segment.via = carrier.from + arc_middle(here_ - carrier.from, to - carrier.from, carrier.centre,
-                                            carrier.radius, carrier.turn);
+  if (carrier.is_arc())  // relative to the segment's start, where its centre is accurate
+    segment.via = carrier.from + arc_midpoint(here_ - carrier.from, to - carrier.from, carrier.centre,
+                                              carrier.radius, carrier.turn);
   result_.outline.segments.push_back(segment);
   here_ = to;
 }
@@ -151,7 +150,7 @@ void CornerPass::append(const Replacement& made, Point2 corner) {
   }
 }
 
-void CornerPass::begin(const Carrier& first) {
+void CornerPass::start(const Carrier& first) {
   here_ = result_.outline.start = outline_.start;
   if (!closed_ || request(0) == 0.0) return;
   const Carrier last = carrier(outline_.segments.size() - 1);
@@ -193,8 +192,8 @@ std::size_t CornerPass::copy_lines(std::size_t corner) {
   return corner;
 }
 
-/// The commonest corners by a shorter way: smooths corners of two lines from `corner` on, until one is of
-/// another kind, does not fit or fits closely. Returns that one.
+/// A faster computation for the most common corners: smooths corners of two lines from `corner` on, until one
+/// is of another kind, does not fit or fits closely. Returns that one.
 std::size_t CornerPass::smooth_lines(std::size_t corner) {
   const std::vector<Segment>& from = outline_.segments;
   std::vector<Segment>& made = result_.outline.segments;
@@ -218,11 +217,11 @@ std::size_t CornerPass::smooth_lines(std::size_t corner) {
     if (sine < limits_.straight) break;
     const double reach = r * sine / (1.0 + cosine);  // from the corner to where the arc touches
     if (reach > dot(at - here_, u) - weld_ || reach > length - weld_) break;
-    // The middle of the arc lies between the middle of its chord and the corner.
-    const double share = 0.5 * reach / (1.0 + std::sqrt(0.5 * (1.0 + cosine)));
+    // The midpoint of the arc lies between that of its chord and the corner.
+    const double fraction = 0.5 * reach / (1.0 + std::sqrt(0.5 * (1.0 + cosine)));
     here_ = at + reach * v;
     made.push_back({at - reach * u, std::nullopt, {}});
-    made.push_back({here_, at + share * (v - u), {}});
+    made.push_back({here_, at + fraction * (v - u), {}});
     report_cut(corner, 1);
     at = next;
     u = v;
@@ -235,7 +234,7 @@ void CornerPass::finish(const Carrier& last) {
   const Point2 end = closed_ ? result_.outline.start : outline_.segments.back().to;
   const std::size_t before = made.size();
   follow(last, end);
-  // Where nothing was left to add, what stands there ends within a hair of the end: exactly there, then.
+  // Nothing was left to add: the last segment ends within the tolerance of the end, and is moved to it.
   if (made.size() == before && !made.empty()) made.back().to = end;
 }
 
@@ -254,11 +253,11 @@ void CornerPass::report_sharp(std::size_t corner, SharpReason reason, const Side
   if (reason == SharpReason::shared || code_of(reason) == Code::corner_too_large)
     report.largest =
         mm(largest_radius(in, out, request(corner), limits_, rooms_.empty() ? Room() : rooms_[corner]));
-  say(report);
+  warn(report);
 }
 
-void CornerPass::say(const CornerReport& report) {
-  const bool in_words = said_[static_cast<std::size_t>(report.reason)]++ < kMessages;
+void CornerPass::warn(const CornerReport& report) {
+  const bool in_words = warned_[static_cast<std::size_t>(report.reason)]++ < kMessages;
   diagnostics_.warning(
       code_of(report.reason), options_.where,
       in_words ? corner_message(report, mm(request(report.element)), options_.name) : std::string());
@@ -266,10 +265,10 @@ void CornerPass::say(const CornerReport& report) {
 
 CutOutline CornerPass::run() {
   reserve();
-  if (options_.sharing == EdgeSharing::even) share_evenly();
+  if (options_.sharing == EdgeSharing::even) divide_evenly();
   const std::size_t n = outline_.segments.size();
   Carrier before = carrier(0);
-  begin(before);
+  start(before);
   for (std::size_t corner = 1; corner < n; ++corner) {
     const std::size_t first = corner;
     corner = smooth_lines(copy_lines(corner));
@@ -323,7 +322,7 @@ std::string_view words(SharpReason reason) {
   return "";
 }
 
-/// To the six digits that are printed, so that what is read in a message can be used.
+/// To the six digits that are printed, so that the value in a message can be used.
 double rounded_down(double value) {
   constexpr double kRounding = 1e-14;  // of the product; a round number must not lose its last digit
   const double unit = std::pow(10.0, 5.0 - std::floor(std::log10(value)));

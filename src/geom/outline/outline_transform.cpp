@@ -11,7 +11,7 @@ Point2 placed_point(Point2 p, const Placement& placement) {
   return {placement.offset.x + placement.factor.x * p.x, placement.offset.y + placement.factor.y * p.y};
 }
 
-/// Turns points about a centre; works the sine and cosine out once.
+/// Turns points about a centre; computes sine and cosine once.
 class Rotation {
  public:
   Rotation(Point2 centre, Angle angle)
@@ -86,7 +86,7 @@ Outline reversed(const Outline& outline) {
   const std::size_t n = outline.segments.size();
   Outline made;
   made.start = outline.point(n);
-  // The start of a closed outline is its end, and the request there stands at the start.
+  // The start of a closed outline is its end; the request for this corner is that of the start.
   made.start_corner = outline.closed() || n == 0 ? outline.start_corner : outline.segments.back().corner;
   made.segments.reserve(n);
   for (std::size_t i = n; i-- > 0;) {

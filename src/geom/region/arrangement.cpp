@@ -1,5 +1,5 @@
-// Splitting edges where they meet, joining points within the tolerance, and doing so again with the parts
-// until nothing is displaced any more.
+// Splits edges at their contacts and joins points within the tolerance, repeatedly until no point is
+// displaced.
 #include "arrangement.h"
 
 #include <algorithm>
@@ -14,12 +14,11 @@ namespace kerf::region_detail {
 namespace {
 
 constexpr int kMaxRounds = 14;
-/// What may be displaced without another round. In the first, edges that do not meet may be nearer to each
-/// other than the tolerance, in the others not.
+/// Maximum displacement without another round. In the first round, edges without a contact may be nearer to
+/// each other than the tolerance, in the others not.
 constexpr double kFirstSlack = 1.0 / 256.0, kSlack = 0.125;  // of the tolerance
 
-/// Few rounds settle most inputs; where displaced parts keep touching others, the distance at which they do
-/// shrinks.
+/// Most inputs take few rounds; where displaced parts continue to touch others, the tolerance decreases.
 double weld_of_round(double weld, int round) { return round < 5 ? weld : weld / (round < 9 ? 4.0 : 16.0); }
 
 }  // namespace
@@ -37,8 +36,9 @@ Arrangement::Outcome Arrangement::build(const EdgeSet& set, double weld, Care ca
     if (const Outcome found = find_contacts(max_pairs, progress); found != Outcome::done) return found;
     split_edges(slack);
     gather_ends();
-    merge_twins();
-    const bool settled = displaced_ <= slack || displaced_parts_are_clear(slack);
+    merge_duplicates();
+    has_displaced_parts_ = displaced_ > slack;
+    const bool settled = !has_displaced_parts_ || displaced_parts_are_clear(slack);
     if (settled && (care == Care::ordinary || rounds_ > 0)) {
       sort_ends();
       return spread_windings() && locate_components() ? Outcome::done : Outcome::contradiction;
@@ -56,24 +56,24 @@ double Arrangement::slack() const { return kSlack * weld_; }
 Arrangement::Outcome Arrangement::find_contacts(std::size_t max_pairs, Progress* progress) {
   constexpr std::size_t kBetweenReports = 1u << 16;
   hits_.clear();
-  std::size_t asked = 0;
+  std::size_t examined = 0;
   bool stopped = false;
   const Edge* all = edges().data();
   const auto first_crossing = static_cast<std::uint32_t>(points_.size());
   touched_.assign(edges().size(), false);
   tree_.pairs([&](std::uint32_t i, std::uint32_t j) {
-    meet_edges(all[i], i, all[j], j);
-    stopped = ++asked % kBetweenReports == 0 && stop_requested(progress);
-    return !stopped && asked <= max_pairs && hits_.size() < limits::kMaxRegionIntersections;
+    find_contacts_of(all[i], i, all[j], j);
+    stopped = ++examined % kBetweenReports == 0 && stop_requested(progress);
+    return !stopped && examined <= max_pairs && hits_.size() < limits::kMaxRegionIntersections;
   });
   if (stopped) return Outcome::stopped;
-  if (asked <= max_pairs) find_near_crossings(first_crossing);
+  if (examined <= max_pairs) find_near_crossings(first_crossing);
   if (hits_.size() >= limits::kMaxRegionIntersections) return Outcome::too_many;
-  return asked > max_pairs ? Outcome::exceeded : Outcome::done;
+  return examined > max_pairs ? Outcome::exceeded : Outcome::done;
 }
 
-/// Edges that run along one another need not cross a third one alike: where it is tangent to them, rounding
-/// may show it to cross one of them only. A crossing lies on all edges that pass it within the tolerance.
+/// A third edge that is tangent to two edges along one another may, by rounding, intersect one of them only.
+/// An intersection is therefore a point of all edges within the tolerance of it.
 void Arrangement::find_near_crossings(std::uint32_t first_crossing) {
   const std::size_t count = hits_.size();
   for (std::size_t k = 0; k + 1 < count && hits_.size() < limits::kMaxRegionIntersections; ++k) {
@@ -91,8 +91,8 @@ void Arrangement::find_near_crossings(std::uint32_t first_crossing) {
   }
 }
 
-void Arrangement::meet_edges(const Edge& e, std::uint32_t i, const Edge& f, std::uint32_t j) {
-  const Meeting m = meet(e, f, weld_);
+void Arrangement::find_contacts_of(const Edge& e, std::uint32_t i, const Edge& f, std::uint32_t j) {
+  const Contacts m = contacts_of(e, f, weld_);
   if (!m.any()) return;
   displaced_ = std::max(displaced_, m.off);
   if (m.first_has_from || m.first_has_to || m.second_has_from || m.second_has_to)
@@ -116,7 +116,7 @@ std::uint32_t Arrangement::welded(std::uint32_t point) {
   return point;
 }
 
-/// The smaller number stays, so that points of the input keep their positions.
+/// The smaller number remains, so that points of the input keep their positions.
 void Arrangement::join(std::uint32_t a, std::uint32_t b) {
   a = welded(a);
   b = welded(b);
@@ -140,9 +140,9 @@ void Arrangement::sort_hits() {
   }
 }
 
-/// Points that follow each other on an edge within the tolerance become one. Where that displaces nothing,
-/// all such points do; else points within the tolerance of a point that stays, so that chains of points do
-/// not become one.
+/// Successive points of an edge within the tolerance become one. Where that displaces points by more than
+/// rounding does, only those within the tolerance of a point that remains, so that chains of points do not
+/// collapse.
 void Arrangement::split_edges(double slack) {
   sort_hits();
   same_as_.resize(points_.size());
@@ -179,7 +179,7 @@ void Arrangement::split_edges(double slack) {
   });
 }
 
-/// Of the points that were joined to others, each that is not within the tolerance of one that stays stays.
+/// Of the joined points, those remain that are not within the tolerance of one that remains.
 void Arrangement::cluster_joined() {
   std::vector<bool> joined(points_.size(), false);
   std::size_t count = 0;
@@ -199,7 +199,7 @@ void Arrangement::cluster_joined() {
   }
 }
 
-/// Whether the parts whose ends are off their edges meet others nowhere but in common ends: then another
+/// Whether parts whose ends are not on their edges have no contact with others but common ends: then another
 /// round would change nothing.
 bool Arrangement::displaced_parts_are_clear(double slack) const {
   for (const Part& part : parts_) {
@@ -228,7 +228,7 @@ bool Arrangement::is_clear(const Part& part) const {
       Edge e = drawn(other, Axis::x);
       e.from_point = other.from;
       e.to_point = other.to;
-      clear = !e.box(weld_).overlaps(own.box(weld_)) || !meet(own, e, weld_).any();
+      clear = !e.box(weld_).overlaps(own.box(weld_)) || !contacts_of(own, e, weld_).any();
     });
   });
   return clear;
@@ -249,9 +249,9 @@ void Arrangement::gather_ends() {
   }
 }
 
-// -------------------------------------------------------------------------------------------------- twins
+// --------------------------------------------------------------------------------------------- duplicates
 
-/// How far a part runs to the right of its chord, walked forwards or backwards.
+/// The height of a part over its chord, to the right; in its direction or against it.
 double Arrangement::bulge(const Part& p, bool forward) const {
   const Edge& e = edges()[p.edge];
   if (!e.is_arc()) return 0.0;
@@ -260,8 +260,8 @@ double Arrangement::bulge(const Part& p, bool forward) const {
   return forward ? e.turn * sagitta : -e.turn * sagitta;
 }
 
-/// Parts with the same ends that run within twice the tolerance of each other become one.
-void Arrangement::merge_twins_at(std::uint32_t point, std::vector<std::uint32_t>& ends) {
+/// Parts with the same ends and within twice the tolerance of each other become one.
+void Arrangement::merge_duplicates_at(std::uint32_t point, std::vector<std::uint32_t>& ends) {
   const auto other = [&](std::uint32_t end) { return point_of(end ^ 1); };
   ends.clear();
   for (std::uint32_t k = point_ends_[point]; k < point_ends_[point + 1]; ++k)
@@ -283,15 +283,15 @@ void Arrangement::merge_twins_at(std::uint32_t point, std::vector<std::uint32_t>
       const int sign = goes.from == stays.from ? 1 : -1;
       for (int g = 0; g < 2; ++g) stays.step.of[g] += sign * goes.step.of[g];
     }
-    if (stays.step == Winding{}) stays.kept = false;  // there and back: nothing is divided
+    if (stays.step == Winding{}) stays.kept = false;  // in both directions: it separates nothing
   }
 }
 
-void Arrangement::merge_twins() {
+void Arrangement::merge_duplicates() {
   std::vector<std::uint32_t> ends;
   for (std::uint32_t point = 0; point < points_.size(); ++point)
-    if (point_ends_[point + 1] - point_ends_[point] > 1) merge_twins_at(point, ends);
-  // Ends of parts that are gone leave their lists.
+    if (point_ends_[point + 1] - point_ends_[point] > 1) merge_duplicates_at(point, ends);
+  // Remove the ends of parts that are not kept.
   std::uint32_t kept = 0, first = 0;
   for (std::size_t point = 0; point < points_.size(); ++point) {
     const std::uint32_t last = point_ends_[point + 1];

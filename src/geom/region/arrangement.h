@@ -1,13 +1,13 @@
-// The plane divided by closed chains of edges: how often each group of chains winds around each face, and the
-// outline of the faces that a rule selects.
+// The plane divided by closed chains of edges: the winding numbers of each face, and the outline of the faces
+// that a rule selects.
 //
 // Edges are split where they intersect or touch, and points within the tolerance of each other become one. If
-// that displaces anything by more than rounding does, the displaced parts are the edges of another round,
-// until nothing is displaced any more: then parts have nothing in common but their ends, all of them as far
-// apart as the tolerance. Only these parts determine winding numbers and outlines: winding numbers follow
-// from the order of parts around points, and a ray through the parts gives those of each connected component.
-// Winding numbers that contradict each other, or a second ray, are detected; the computation is then repeated
-// with more rounds and other tolerances.
+// that displaces points by more than rounding does, the parts are the edges of another round, until no point
+// is displaced: then parts have nothing in common but their ends and are a tolerance apart elsewhere. Only
+// these parts determine winding numbers and outlines: winding numbers follow from the order of parts around
+// points, and a ray through the parts gives those of each connected component. Winding numbers that
+// contradict each other, or a second ray, are detected; the computation is then repeated with more rounds and
+// other tolerances.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@
 
 namespace kerf::region_detail {
 
-/// How often the chains wind around a point that is on none of them.
+/// Winding numbers of points that are on no edge.
 class WindingSearch {
  public:
   WindingSearch(const std::vector<Edge>& edges, const BoxTree& tree) : edges_(edges), tree_(tree) {}
@@ -32,11 +32,12 @@ class WindingSearch {
   const BoxTree& tree_;
 };
 
-/// +1 or -1 where a ray from the point to -x crosses the edge, by what the winding number changes; 0 where
-/// not.
+/// The change of the winding number, +1 or -1, where a ray from the point to -x crosses the edge; else 0.
 int ray_crosses(const Edge& edge, Point2 at);
+/// The x where an edge meets a horizontal line that crosses it.
+double crossing_at(const Edge& edge, double y);
 
-/// A piece of an edge between two points where it meets others.
+/// A part of an edge between two contacts.
 struct Part {
   std::uint32_t from = 0, to = 0, edge = 0;
   bool kept = true;    // false: coincides with another, which replaces both
@@ -58,7 +59,7 @@ class Arrangement {
 
   enum class Care : std::uint8_t {
     ordinary,
-    thorough  ///< always a second round: whatever is nearly in one position is separated or joined
+    thorough  ///< always a second round: points nearly in one position are separated or joined
   };
 
   /// The chains of `set`, which must outlive this object, must be closed. Points closer than `weld` become
@@ -71,17 +72,17 @@ class Arrangement {
   Point2 point(std::uint32_t number) const { return points_[number]; }
   /// A point of a part, at a fraction of its chord.
   Point2 point_on(const Part& part, double fraction) const;
-  /// Whether points were displaced. Then a run of parts that follow one source is one segment only if the
-  /// points between its ends lie within `slack()` of it.
-  bool displaced() const { return rounds_ > 0; }
+  /// Whether points were displaced. Then parts along one source are one segment only if the points between
+  /// its ends are within `slack()` of it.
+  bool displaced() const { return rounds_ > 0 || has_displaced_parts_; }
   double slack() const;
 
-  /// A part, walked forwards or backwards.
-  struct Way {
+  /// A part of a loop, in its direction or against it.
+  struct Link {
     std::uint32_t part;
     bool forward;
   };
-  using Loop = std::vector<Way>;
+  using Loop = std::vector<Link>;
   /// The outline of where inside(winding) is true: loops with the inside on their left that do not cross
   /// themselves or each other.
   template <class Inside>
@@ -94,7 +95,7 @@ class Arrangement {
     }
     return follow(sides);
   }
-  /// Whether a ray from the longest part of each loop finds the winding numbers that the part has.
+  /// Whether a ray from the longest part of each loop has the winding numbers of the part.
   bool confirms(const std::vector<Loop>& loops) const;
 
  private:
@@ -103,7 +104,7 @@ class Arrangement {
   };
   Outcome find_contacts(std::size_t max_pairs, Progress* progress);
   void hit(std::uint32_t edge, std::uint32_t point) { hits_.push_back({edge, point}); }
-  void meet_edges(const Edge& e, std::uint32_t i, const Edge& f, std::uint32_t j);
+  void find_contacts_of(const Edge& e, std::uint32_t i, const Edge& f, std::uint32_t j);
   void find_near_crossings(std::uint32_t first_crossing);
   void sort_hits();
   void split_edges(double slack);
@@ -113,8 +114,8 @@ class Arrangement {
   bool displaced_parts_are_clear(double slack) const;
   bool is_clear(const Part& part) const;
   void gather_ends();
-  void merge_twins();
-  void merge_twins_at(std::uint32_t point, std::vector<std::uint32_t>& ends);
+  void merge_duplicates();
+  void merge_duplicates_at(std::uint32_t point, std::vector<std::uint32_t>& ends);
   double bulge(const Part& part, bool forward) const;
   void contract();
 
@@ -153,7 +154,7 @@ class Arrangement {
     std::uint32_t part = kNone;
     bool certain = true;
   };
-  /// How far a part may be from its edge: a point within the tolerance of it was joined to another.
+  /// Maximum distance of a part from its edge: a point within the tolerance of it was joined to another.
   double reach() const { return 2.0 * weld_; }
   Winding cast(Ray& ray, Axis axis) const;
   First first(const Ray& ray, Axis axis) const;
@@ -169,7 +170,7 @@ class Arrangement {
   }
   Edge drawn(const Part& part, Axis axis) const;
 
-  /// Ends of parts are numbered: twice the part's number, plus 1 for the end where it arrives.
+  /// Ends of parts are numbered: twice the part's number, plus 1 for its last point.
   std::uint32_t point_of(std::uint32_t end) const {
     return (end & 1) != 0 ? parts_[end >> 1].to : parts_[end >> 1].from;
   }
@@ -188,6 +189,7 @@ class Arrangement {
   std::vector<Edge> contracted_;        // the edges of those rounds
   BoxTree tree_;                        // of the edges
   double displaced_ = 0.0;              // in this round, at most
+  bool has_displaced_parts_ = false;    // the first round was the last although it displaced points
   std::vector<Point2> points_;          // the set's, then the intersections
   std::vector<std::uint32_t> same_as_;  // a forest: points that are one
   std::vector<Hit> hits_;

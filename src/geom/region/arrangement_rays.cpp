@@ -11,7 +11,10 @@ namespace {
 
 constexpr double kFar = 1e300;
 
-/// Where an edge that a horizontal line crosses meets it.
+Box2 mirrored(const Box2& b) { return {{b.low.y, b.low.x}, {b.high.y, b.high.x}}; }
+
+}  // namespace
+
 double crossing_at(const Edge& e, double y) {
   const Point2 v = e.chord();
   const double dy = y - e.from.y;
@@ -29,13 +32,9 @@ double crossing_at(const Edge& e, double y) {
   return e.from.x + dx;
 }
 
-Box2 mirrored(const Box2& b) { return {{b.low.y, b.low.x}, {b.high.y, b.high.x}}; }
-
-}  // namespace
-
 int ray_crosses(const Edge& e, Point2 at) {
   const bool upward = e.to.y > e.from.y;
-  // The end counts with the edge above it, so that a chain through a point of this height crosses once.
+  // A point at this height belongs to the edge above it, so that a chain through it crosses once.
   if ((e.from.y > at.y) == (e.to.y > at.y)) return 0;
   const int step = upward ? -1 : 1;
   if (at.x < std::min(e.from.x, e.to.x)) return 0;
@@ -59,7 +58,7 @@ Winding WindingSearch::around(Point2 at) const {
   return winding;
 }
 
-/// A part as an edge of its own; for rays to -y mirrored in the diagonal.
+/// A part as an edge; for rays to -y mirrored in the diagonal.
 Edge Arrangement::drawn(const Part& part, Axis axis) const {
   const Edge& e = edges()[part.edge];
   Point2 a = points_[part.from], b = points_[part.to];
@@ -94,8 +93,8 @@ void Arrangement::count(Ray& ray, Axis axis) const {
       [&](std::uint32_t edge) { parts_of_edge(edge, [&](std::uint32_t i) { cross_part(ray, i, axis); }); });
 }
 
-/// The first part that a ray meets; uncertain where another is as near up to the tolerance, as at points
-/// where parts meet.
+/// The first part that a ray meets; uncertain where another one is within the tolerance of it, as at
+/// ends of parts.
 Arrangement::First Arrangement::first(const Ray& ray, Axis axis) const {
   const Point2 at = axis == Axis::x ? ray.from : Point2{ray.from.y, ray.from.x};
   First found;

@@ -28,9 +28,9 @@ Arrangement::Leaving Arrangement::leaving(std::uint32_t end) const {
   return {(1.0 / chord) * v, chord, curvature};
 }
 
-/// Counter-clockwise from -x (or -y). The directions at the point itself decide, and where they are nearly
-/// one, where the curves are half way along the shorter: at its end they may meet again. What is nearer to
-/// the point than the tolerance does not count.
+/// Counter-clockwise from -x (or -y). The directions at the point decide; where they are nearly equal, those
+/// to points of the curves half way along the shorter one, as they may meet again at its end. Curves are
+/// compared at least the tolerance away from the point.
 void Arrangement::sort_ends_at(std::uint32_t* first, std::uint32_t* last, Axis from) const {
   struct Spoke {
     double angle;
@@ -79,7 +79,7 @@ void Arrangement::sort_ends() {
 
 // ------------------------------------------------------------------------------------------ winding numbers
 
-/// Winding numbers of one component, as differences to that of the first part.
+/// Winding numbers of one component, relative to that of its first part.
 bool Arrangement::spread_from(std::uint32_t root, std::uint32_t number) {
   walk_.assign(1, {ends_[point_ends_[root]], {}});
   component_[root] = number;
@@ -99,8 +99,8 @@ bool Arrangement::spread_from(std::uint32_t root, std::uint32_t number) {
   return true;
 }
 
-/// Goes around a point, counter-clockwise from the end whose left winding number is known. False where a part
-/// has another number already.
+/// Sets winding numbers around a point, counter-clockwise from an end whose left one is known. False where a
+/// part already has another one.
 bool Arrangement::spread_around(const Step& known) {
   const std::uint32_t point = point_of(known.end);
   const std::uint32_t first = point_ends_[point], count = point_ends_[point + 1] - first;
@@ -116,7 +116,7 @@ bool Arrangement::spread_around(const Step& known) {
     Winding own;
     for (int g = 0; g < 2; ++g) {
       const std::int32_t step = forward ? part.step.of[g] : -part.step.of[g];
-      // The first one's left is what is known; each other's right is the left of the one before.
+      // The first one's left is known; the right of each other is the left of the one before.
       if (k > 0) left.of[g] = right.of[g] + step;
       own.of[g] = forward ? left.of[g] : left.of[g] + part.step.of[g];
     }
@@ -144,14 +144,14 @@ bool Arrangement::spread_windings() {
   return true;
 }
 
-/// The winding number that a component has outside of itself, seen from its extreme point in the axis.
+/// The winding number outside of a component, at its extreme point along the axis.
 Winding Arrangement::outside(std::uint32_t point, Axis axis) const {
   std::vector<std::uint32_t> ends(ends_.data() + point_ends_[point], ends_.data() + point_ends_[point + 1]);
   sort_ends_at(ends.data(), ends.data() + ends.size(), axis);
   return left_of_end(ends.back());
 }
 
-/// Components within the box of another: only these can have others around them.
+/// Components whose leftmost point is in the box of another: only these can have others around them.
 std::vector<std::uint32_t> Arrangement::enclosed_components() const {
   std::vector<std::uint32_t> found;
   if (components_.size() < 2) return found;
@@ -176,8 +176,8 @@ Winding Arrangement::around(const Component& c, std::uint32_t number, Axis axis,
   return ray.winding;
 }
 
-/// From the left to the right, so that what a ray meets first has its winding numbers. A second ray, from
-/// another point and along the other axis, has to find the same.
+/// From left to right, so that the first part that a ray meets has its winding numbers. A second ray, from
+/// another point and along the other axis, must have the same result.
 bool Arrangement::locate_enclosed(const std::vector<std::uint32_t>& enclosed, bool by_counting) {
   for (const std::uint32_t i : enclosed) {
     Component& c = components_[i];
@@ -192,7 +192,7 @@ bool Arrangement::locate_enclosed(const std::vector<std::uint32_t>& enclosed, bo
   });
 }
 
-/// From differences to winding numbers.
+/// From relative to absolute winding numbers.
 bool Arrangement::locate_components() {
   bool changes = false;
   for (Component& c : components_) {
@@ -225,10 +225,10 @@ std::vector<Arrangement::Loop> Arrangement::follow(const std::vector<std::int8_t
   for (std::size_t point = 0; point < points_.size(); ++point)
     for (std::uint32_t k = point_ends_[point]; k < point_ends_[point + 1]; ++k)
       index[ends_[k]] = k - point_ends_[point];
-  // Clockwise from where a boundary arrives lies the inside, and where that ends the boundary leaves: loops
-  // that touch in a point stay apart. Winding numbers that agree leave as many ways out of a point as in.
-  const auto after = [&](Way way) {
-    const std::uint32_t arrival = 2 * way.part + (way.forward ? 1 : 0), point = point_of(arrival);
+  // The inside is clockwise from the part that arrives; it ends at the part that leaves, so that loops that
+  // touch in a point stay separate. Consistent winding numbers have as many leaving parts as arriving ones.
+  const auto after = [&](Link link) {
+    const std::uint32_t arrival = 2 * link.part + (link.forward ? 1 : 0), point = point_of(arrival);
     const std::uint32_t first = point_ends_[point], count = point_ends_[point + 1] - first;
     std::uint32_t at = index[arrival], end = arrival;
     do {
@@ -236,16 +236,16 @@ std::vector<Arrangement::Loop> Arrangement::follow(const std::vector<std::int8_t
       end = ends_[first + at];
     } while (sides[end >> 1] == 0);
     assert(sides[end >> 1] == ((end & 1) == 0 ? 1 : -1));
-    return Way{end >> 1, (end & 1) == 0};
+    return Link{end >> 1, (end & 1) == 0};
   };
   std::vector<Loop> loops;
   std::vector<bool> used(parts_.size(), false);
   for (std::uint32_t first = 0; first < parts_.size(); ++first) {
     if (sides[first] == 0 || used[first]) continue;
     Loop loop;
-    for (Way way{first, sides[first] > 0}; !used[way.part]; way = after(way)) {
-      used[way.part] = true;
-      loop.push_back(way);
+    for (Link link{first, sides[first] > 0}; !used[link.part]; link = after(link)) {
+      used[link.part] = true;
+      loop.push_back(link);
     }
     loops.push_back(std::move(loop));
   }
@@ -263,7 +263,7 @@ Point2 Arrangement::point_on(const Part& part, double fraction) const {
   return on_chord + (e.turn * height / std::sqrt(chord2)) * Point2{v.y, -v.x};
 }
 
-/// Whether a ray from a point of a part finds the winding number that the part has on that side.
+/// Whether a ray from a point of a part has the winding number of the part on that side.
 bool Arrangement::confirms(std::uint32_t number, double fraction) const {
   const Part& part = parts_[number];
   const Point2 v = points_[part.to] - points_[part.from];
@@ -277,20 +277,20 @@ bool Arrangement::confirms(std::uint32_t number, double fraction) const {
 }
 
 bool Arrangement::confirms(const std::vector<Loop>& loops) const {
-  const auto size = [&](Way way) {
-    const Part& part = parts_[way.part];
+  const auto size = [&](Link link) {
+    const Part& part = parts_[link.part];
     const Point2 v = points_[part.to] - points_[part.from];
     return dot(v, v);
   };
-  const auto is_located = [&](Way way) {  // where the rays of its component started
-    const Part& part = parts_[way.part];
+  const auto is_located = [&](Link link) {  // where the rays of its component started
+    const Part& part = parts_[link.part];
     const std::uint32_t leftmost = components_[component_[part.from]].leftmost;
     return part.from == leftmost || part.to == leftmost;
   };
   return std::all_of(loops.begin(), loops.end(), [&](const Loop& loop) {
     if (std::any_of(loop.begin(), loop.end(), is_located)) return true;
-    const Way longest =
-        *std::max_element(loop.begin(), loop.end(), [&](Way a, Way b) { return size(a) < size(b); });
+    const Link longest =
+        *std::max_element(loop.begin(), loop.end(), [&](Link a, Link b) { return size(a) < size(b); });
     // Another curve may touch the part where a ray starts, but not everywhere.
     return confirms(longest.part, 0.4142) || confirms(longest.part, 0.7321) || confirms(longest.part, 0.2361);
   });

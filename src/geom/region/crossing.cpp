@@ -1,5 +1,5 @@
-// Crossings of lines and arcs. Ends that touch the other edge are told first, with the tolerance; what
-// crosses then crosses well away from them, where signs are safe.
+// Contacts of lines and arcs. Ends that touch the other edge are found first, with the tolerance; remaining
+// intersections are away from ends, where signs are certain.
 #include "crossing.h"
 
 #include <cmath>
@@ -11,8 +11,8 @@ namespace {
 
 double square(double x) { return x * x; }
 
-/// Twice the radius times the distance of a point (relative to the arc's begin) from the arc's circle, above
-/// 0 outside; exact enough near the circle however large it is.
+/// Twice the radius times the distance of a point (relative to the arc's start) from the arc's circle, above
+/// 0 outside; accurate near the circle for any radius.
 double off_circle(const Edge& arc, Point2 q) { return dot(q, q) - 2.0 * dot(q, arc.centre); }
 
 /// Whether a point of the edge's line or circle lies on the edge itself.
@@ -21,7 +21,7 @@ bool within(const Edge& e, Point2 p) {
   const double t = dot(q, v);
   if (t < 0.0 || t > dot(v, v)) return false;
   if (!e.is_arc()) return true;
-  // On the chord's other side is the rest of the circle.
+  // The rest of the circle is on the other side of the chord.
   return e.turn * cross(v, q) <= 0.5 * std::abs(cross(v, e.centre));
 }
 
@@ -60,8 +60,8 @@ double touches(const Edge& e, Point2 p, double weld) {
              : -1.0;
 }
 
-Meeting meet(const Edge& e, const Edge& f, double weld) {
-  Meeting m;
+Contacts contacts_of(const Edge& e, const Edge& f, double weld) {
+  Contacts m;
   const bool from_from = e.from_point == f.from_point, from_to = e.from_point == f.to_point;
   const bool to_from = e.to_point == f.from_point, to_to = e.to_point == f.to_point;
   const auto has = [&](const Edge& edge, Point2 end) {
@@ -79,7 +79,7 @@ Meeting meet(const Edge& e, const Edge& f, double weld) {
   const Crossings found = carriers_meet(e, f);
   const double ww = weld * weld;
   const auto at_end = [&](Point2 p) {
-    const auto near = [&](bool asked, Point2 end) { return asked && dot(p - end, p - end) <= ww; };
+    const auto near = [&](bool wanted, Point2 end) { return wanted && dot(p - end, p - end) <= ww; };
     return near(m.second_has_from || from_from || from_to, e.from) ||
            near(m.second_has_to || to_from || to_to, e.to) || near(m.first_has_from, f.from) ||
            near(m.first_has_to, f.to);

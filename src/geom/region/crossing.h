@@ -1,4 +1,4 @@
-// Where two edges meet.
+// Contacts of two edges: intersections, and ends that touch the other edge.
 #pragma once
 
 #include "edge.h"
@@ -6,7 +6,7 @@
 namespace kerf::region_detail {
 
 /// Points that two edges have in common.
-struct Meeting {
+struct Contacts {
   /// Ends of one edge that lie on the other, up to the tolerance, without being an end of it.
   bool first_has_from = false, first_has_to = false;    // the ends of the second lie on the first
   bool second_has_from = false, second_has_to = false;  // the ends of the first lie on the second
@@ -18,12 +18,12 @@ struct Meeting {
   }
 };
 
-Meeting meet(const Edge& first, const Edge& second, double weld);
+Contacts contacts_of(const Edge& first, const Edge& second, double weld);
 
-/// How far a point is from an edge where that is at most `weld`, else anything below 0.
+/// The distance of a point from an edge where it is at most `weld`, else a number below 0.
 double touches(const Edge& edge, Point2 p, double weld);
 
-/// How far along an edge a point of it lies: 0 at its begin, the square of its chord at its end.
+/// The position of a point along an edge: 0 at its start, the square of its chord at its end.
 inline double along(const Edge& edge, Point2 p) { return dot(p - edge.from, edge.chord()); }
 
 }  // namespace kerf::region_detail

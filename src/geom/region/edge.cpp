@@ -7,7 +7,7 @@
 namespace kerf::region_detail {
 namespace {
 
-/// Quadrants in the order of turning, each with its begin and without its end: 0 begins at +x.
+/// Quadrants counter-clockwise, each with its start and without its end: 0 starts at +x.
 int quadrant(Point2 v) {
   if (v.x > 0.0 && v.y >= 0.0) return 0;
   if (v.x <= 0.0 && v.y > 0.0) return 1;
@@ -28,7 +28,7 @@ Point2 direction_at(Point2 unit, double chord, double curvature, double ahead) {
   return cosine * unit + sine * left_of(unit);
 }
 
-void EdgeSet::begin(Point2 at) {
+void EdgeSet::start_chain(Point2 at) {
   first_ = static_cast<std::uint32_t>(points.size());
   first_edge_ = edges.size();
   points.push_back(at);
@@ -69,10 +69,10 @@ void EdgeSet::line_to(Point2 to) { piece_to(to, 0.0, 0.0); }
 void EdgeSet::arc_to(Point2 from, Point2 to, Point2 centre, double radius, double turn) {
   // Mirrored in y, a clockwise arc is a counter-clockwise one.
   const auto seen = [&](Point2 p) { return Point2{p.x - centre.x, turn * (p.y - centre.y)}; };
-  const Point2 begin = seen(from), end = seen(to);
-  const int first = quadrant(begin);
+  const Point2 start = seen(from), end = seen(to);
+  const int first = quadrant(start);
   int ends = (quadrant(end) - first) & 3;
-  if (ends == 0 && cross(begin, end) < 0.0) ends = 4;
+  if (ends == 0 && cross(start, end) < 0.0) ends = 4;
   for (int i = 0; i < ends; ++i) {
     const Point2 extreme = kEnds[(first + i) & 3];
     piece_to(centre + radius * Point2{extreme.x, turn * extreme.y}, radius, turn);
@@ -100,7 +100,7 @@ void EdgeSet::close() {
 
 void EdgeSet::circle(Point2 centre, double radius, double turn) {
   const Point2 right = centre + Point2{radius, 0.0}, left = centre - Point2{radius, 0.0};
-  begin(right);
+  start_chain(right);
   arc_to(right, left, centre, radius, turn);
   arc_to(left, right, centre, radius, turn);
   close();
@@ -110,7 +110,7 @@ namespace {
 
 template <class Source>
 void add_segments(EdgeSet& set, const Outline& outline, std::uint32_t group, Source source) {
-  set.begin(outline.start);
+  set.start_chain(outline.start);
   Point2 from = outline.start;
   for (std::size_t i = 0; i < outline.segments.size(); ++i) {
     const Segment& s = outline.segments[i];

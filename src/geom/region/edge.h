@@ -1,5 +1,4 @@
-// Edges: what the plane is divided by. Lines, and arcs of at most a quarter turn that run one way in x and in
-// y.
+// Edges: lines, and arcs of at most a quarter turn that are monotone in x and in y.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 
 namespace kerf::region_detail {
 
-/// How often chains wind around a point, or what that changes by, by group.
+/// The winding numbers of a point, or their change, for two groups of chains.
 struct Winding {
   std::int32_t of[2] = {0, 0};
   bool operator==(const Winding&) const = default;
@@ -34,24 +33,24 @@ struct Edge : LineArc {
 /// allows.
 void set_shape(Edge& edge, Point2 from, Point2 to, double radius, double turn, double weld);
 
-/// Chains of edges in the making. Points closer than `weld` to the one before are not made.
+/// Builds closed chains of edges. Points closer than `weld` to the one before are left out.
 class EdgeSet {
  public:
   explicit EdgeSet(double weld) : weld_(weld) {}
 
-  /// What the edges that follow belong to.
+  /// The source and the group of the edges that follow.
   void belongs_to(std::uint32_t source, std::uint32_t group = 0) {
     source_ = source;
     group_ = group;
   }
-  void begin(Point2 at);
+  void start_chain(Point2 at);
   void line_to(Point2 to);
   /// An arc of less than a turn with `radius` > 0 about `centre`. `from` is the last point, before it was
   /// joined to one nearby.
   void arc_to(Point2 from, Point2 to, Point2 centre, double radius, double turn);
-  /// Joins the last point to the first; what is between them is a line.
+  /// Joins the last point to the first, by a line where they are apart.
   void close();
-  /// A whole circle, as a chain of its own.
+  /// A whole circle as a chain.
   void circle(Point2 centre, double radius, double turn);
 
   double weld() const { return weld_; }
@@ -65,8 +64,8 @@ class EdgeSet {
   void push(Point2 to, std::uint32_t number, double radius, double turn);
   double weld_;
   std::uint32_t source_ = 0, group_ = 0;
-  std::uint32_t first_ = 0;     // point where the chain begins
-  std::size_t first_edge_ = 0;  // edge where the chain begins
+  std::uint32_t first_ = 0;     // point of the start of the chain
+  std::size_t first_edge_ = 0;  // its first edge
 };
 
 /// Appends the segments of an outline, each a source of its own from `source` on; returns the next number.
@@ -76,8 +75,8 @@ std::uint32_t add_outline(EdgeSet& set, const Outline& outline, std::uint32_t so
 void add_outline(EdgeSet& set, const Outline& outline, const std::vector<std::uint32_t>& sources,
                  std::uint32_t group);
 
-/// Which way a curve runs at the distance `ahead` from its begin: its chord's direction `unit`, turned by
-/// what a circle of this curvature (above 0: to the left) turns between there and the chord's end.
+/// The direction from the start of a curve to its point at the distance `ahead`: the direction `unit` of its
+/// chord, turned by the angle between both chords of a circle of this curvature (above 0: to the left).
 Point2 direction_at(Point2 unit, double chord, double curvature, double ahead);
 
 /// The tree of the boxes of edges, each larger by `margin` on all sides.

@@ -1,4 +1,4 @@
-// Points in cells of a grid that is stored as a hash table: is one of them near a position?
+// Points in cells of a grid, stored as a hash table, to find the nearest one within a distance.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@ namespace kerf::region_detail {
 class PointGrid {
  public:
   static constexpr std::uint32_t kNone = 0xffffffffu;
-  /// For queries within `distance`, and at most `count` points, which are numbers of `points`.
+  /// For queries within `distance`, and at most `count` points, given by their index in `points`.
   PointGrid(const std::vector<Point2>& points, double distance, std::size_t count)
       : points_(points), distance_(distance) {
     std::size_t size = 16;

@@ -1,9 +1,12 @@
-// Questions about regions: inside or outside, the nearest point, and where an outline meets itself.
+// Queries of regions: location and nearest points, the part of a circle inside, distances between regions,
+// and self-intersections of outlines.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 
+#include "boundary.h"
 #include "crossing.h"
 #include "geom/outline/outline_check.h"
 #include "resolve.h"
@@ -11,60 +14,34 @@
 #include "kerf/limits.h"
 
 namespace kerf {
-namespace {
+namespace region_detail {
 
-using namespace region_detail;
-
-Point2 nearest_on(const Edge& e, Point2 p) {
-  const Point2 v = e.chord(), q = p - e.from;
-  if (!e.is_arc()) return e.from + std::clamp(dot(q, v) / dot(v, v), 0.0, 1.0) * v;
-  const Point2 out = q - e.centre, begin = Point2{} - e.centre, end = v - e.centre;
-  // Less than half a turn: between the rays through both ends.
-  const bool between = e.turn * cross(begin, out) >= 0.0 && e.turn * cross(out, end) >= 0.0;
-  const double size = norm(out);
-  if (between && size > 0.0) return e.from + e.centre + (e.radius / size) * out;
-  return distance(p, e.from) < distance(p, e.to) ? e.from : e.to;
-}
-
-}  // namespace
-
-struct RegionSearch::Tree {
-  EdgeSet set{0.0};
-  BoxTree boxes;
-  std::vector<BoundaryPoint> sources;  // loop and segment by source
-};
-
-RegionSearch::RegionSearch(const Region& region) {
-  const auto made = std::make_shared<Tree>();
+void Boundary::add(const Region& region) {
   for (std::uint32_t loop = 0; loop < region.loops.size(); ++loop) {
-    add_outline(made->set, region.loops[loop], static_cast<std::uint32_t>(made->sources.size()), 0);
-    made->set.close();
+    add_outline(set, region.loops[loop], static_cast<std::uint32_t>(sources_.size()), 0);
+    set.close();
     for (std::uint32_t i = 0; i < region.loops[loop].segments.size(); ++i)
-      made->sources.push_back({{}, loop, i, {}});
+      sources_.push_back({{}, loop, i, {}});
   }
-  made->boxes = tree_of(made->set.edges, 0.0);
-  tree_ = made;
+  tree = tree_of(set.edges, 0.0);
 }
 
-Location RegionSearch::locate(Point2 at, Length weld) const {
-  const double margin = weld.mm();
+Location Boundary::locate(Point2 at, double weld) const {
   bool near = false;
-  tree_->boxes.query(Box2{at, at}.grown(margin), [&](std::uint32_t i) {
-    near = near || distance(nearest_on(tree_->set.edges[i], at), at) <= margin;
-  });
+  tree.query(Box2{at, at}.grown(weld),
+             [&](std::uint32_t i) { near = near || distance_to(set.edges[i], at) <= weld; });
   if (near) return Location::boundary;
-  const WindingSearch search(tree_->set.edges, tree_->boxes);
-  return search.around(at).of[0] > 0 ? Location::inside : Location::outside;
+  return WindingSearch(set.edges, tree).around(at).of[0] > 0 ? Location::inside : Location::outside;
 }
 
-std::optional<BoundaryPoint> RegionSearch::nearest(Point2 at) const {
+std::optional<BoundaryPoint> Boundary::nearest(Point2 at) const {
   std::optional<BoundaryPoint> best;
-  tree_->boxes.nearest(at, std::numeric_limits<double>::infinity(), [&](std::uint32_t i) {
-    const Edge& e = tree_->set.edges[i];
-    const Point2 p = nearest_on(e, at);
+  tree.nearest({at, at}, std::numeric_limits<double>::infinity(), [&](std::uint32_t i) {
+    const Edge& e = set.edges[i];
+    const Point2 p = nearest_point(e, at);
     const double d = distance(p, at);
     if (!best || d < best->distance.mm()) {
-      best = tree_->sources[e.source];
+      best = sources_[e.source];
       best->at = p;
       best->distance = mm(d);
     }
@@ -72,6 +49,118 @@ std::optional<BoundaryPoint> RegionSearch::nearest(Point2 at) const {
   });
   return best;
 }
+
+}  // namespace region_detail
+
+using namespace region_detail;
+
+struct RegionSearch::Tree {
+  Boundary boundary;
+};
+
+RegionSearch::RegionSearch(const Region& region) {
+  const auto made = std::make_shared<Tree>();
+  made->boundary.add(region);
+  tree_ = made;
+}
+
+Location RegionSearch::locate(Point2 at, Length weld) const { return tree_->boundary.locate(at, weld.mm()); }
+
+std::optional<BoundaryPoint> RegionSearch::nearest(Point2 at) const { return tree_->boundary.nearest(at); }
+
+std::optional<Length> RegionSearch::clearance(Point2 at) const {
+  const auto found = nearest(at);
+  if (!found) return std::nullopt;
+  return locate(at, {}) == Location::outside ? mm(-found->distance.mm()) : found->distance;
+}
+
+std::vector<AngleRange> RegionSearch::inside(const Circle& circle) const {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double r = circle.radius.mm();
+  const Boundary& boundary = tree_->boundary;
+  const Point2 right = circle.centre + Point2{r, 0.0};
+  const LineArc whole{right, right, {-r, 0.0}, r, 1.0};
+  const double margin = 0x1p-40 * (std::abs(circle.centre.x) + std::abs(circle.centre.y) + r);  // of rounding
+  std::vector<double> angles{0.0, kTurn};
+  boundary.tree.query(Box2{circle.centre, circle.centre}.grown(r), [&](std::uint32_t i) {
+    const Edge& e = boundary.set.edges[i];
+    const Crossings found = carriers_cross(whole, e, margin);
+    for (int k = 0; k < found.count; ++k) {
+      const Point2 out = found.at[k] - circle.centre;
+      const double angle = std::atan2(out.y, out.x);
+      if (touches(e, found.at[k], margin) >= 0.0) angles.push_back(angle < 0.0 ? angle + kTurn : angle);
+    }
+  });
+  std::sort(angles.begin(), angles.end());
+  std::vector<AngleRange> made;
+  double end = -1.0;  // of the last range
+  for (std::size_t i = 0; i + 1 < angles.size(); ++i) {
+    const double sweep = angles[i + 1] - angles[i];
+    if (sweep * r <= margin) continue;
+    const double between = angles[i] + 0.5 * sweep;
+    if (locate(circle.centre + r * Point2{std::cos(between), std::sin(between)}, {}) != Location::inside)
+      continue;
+    if (end >= 0.0 && (angles[i] - end) * r <= margin)
+      made.back().sweep = radians(angles[i + 1] - made.back().start.rad());
+    else
+      made.push_back({radians(angles[i]), radians(sweep)});
+    end = angles[i + 1];
+  }
+  // A range that ends at a full turn continues at 0.
+  if (made.size() > 1 && end == kTurn && made[0].start == radians(0.0)) {
+    made.back().sweep = radians(made.back().sweep.rad() + made[0].sweep.rad());
+    made.erase(made.begin());
+  }
+  return made;
+}
+
+Angle RegionSearch::engagement(const Circle& tool, Point2 direction) const {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double first = std::atan2(direction.y, direction.x) - 0.25 * kTurn;  // of the leading half
+  double sum = 0.0;
+  for (const AngleRange& range : inside(tool)) {
+    double start = range.start.rad() - first;
+    start -= kTurn * std::floor(start / kTurn);
+    const double end = start + range.sweep.rad();
+    sum += std::max(0.0, std::min(end, 0.5 * kTurn) - start);
+    sum += std::max(0.0, std::min(end, 1.5 * kTurn) - kTurn);
+  }
+  return radians(sum);
+}
+
+// ------------------------------------------------------------------------------------------ between regions
+
+std::optional<NearestPoints> nearest_points(const Region& first, const Region& second) {
+  Boundary one, other;
+  one.add(first);
+  other.add(second);
+  if (one.set.edges.empty() || other.set.edges.empty()) return std::nullopt;
+  // Boundaries that do not intersect: a loop lies inside of the other region with all of its points.
+  const auto start_inside = [](const Boundary& boundary, const Region& region) -> std::optional<Point2> {
+    for (const Outline& loop : region.loops)
+      if (boundary.locate(loop.start, 0.0) != Location::outside) return loop.start;
+    return std::nullopt;
+  };
+  if (const auto common = start_inside(other, first)) return NearestPoints{*common, *common, {}};
+  if (const auto common = start_inside(one, second)) return NearestPoints{*common, *common, {}};
+  NearestPoints best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Edge& e : one.set.edges) {
+    if (least == 0.0) break;
+    other.tree.nearest(e.box(0.0), least, [&](std::uint32_t i) {
+      const ClosestPoints found = closest_points(e, other.set.edges[i]);
+      const double own = distance(found.first, found.second);
+      if (own < least) {
+        least = own;
+        best = {found.first, found.second, mm(own)};
+      }
+      return own;
+    });
+  }
+  return best;
+}
+
+// -------------------------------------------------------------------------------------- self-intersections
 
 std::optional<std::vector<SelfIntersection>> self_intersections(const Outline& outline,
                                                                 const RegionOptions& options,
@@ -89,7 +178,7 @@ std::optional<std::vector<SelfIntersection>> self_intersections(const Outline& o
   };
   const bool all = tree_of(set.edges, set.weld()).pairs([&](std::uint32_t i, std::uint32_t j) {
     const Edge &e = set.edges[i], &f = set.edges[j];
-    const Meeting m = meet(e, f, set.weld());
+    const Contacts m = contacts_of(e, f, set.weld());
     if (m.first_has_from) note(f.from, e, f);
     if (m.first_has_to) note(f.to, e, f);
     if (m.second_has_from) note(e.from, e, f);
@@ -98,13 +187,14 @@ std::optional<std::vector<SelfIntersection>> self_intersections(const Outline& o
     return found.size() < limits::kMaxSelfIntersections;
   });
   if (!all) {
-    diagnostics.error(Code::region_too_complex, options.where, "the outline meets itself in too many places");
+    diagnostics.error(Code::region_too_complex, options.where,
+                      "the outline intersects itself in too many points");
     return std::nullopt;
   }
   std::sort(found.begin(), found.end(), [](const SelfIntersection& a, const SelfIntersection& b) {
     return a.first != b.first ? a.first < b.first : a.second < b.second;
   });
-  // An end that touches two pieces of one arc is one meeting.
+  // An end that touches two pieces of one arc is one intersection.
   found.erase(std::unique(found.begin(), found.end(),
                           [&](const SelfIntersection& a, const SelfIntersection& b) {
                             return a.first == b.first && a.second == b.second &&

@@ -12,12 +12,13 @@
 namespace kerf::region_detail {
 namespace {
 
-/// Points computed from coordinates of size 1 are off by some 2^-50; crossings at small angles by more.
+/// Points computed from coordinates of size 1 have errors of some 2^-50, intersections at small angles larger
+/// ones.
 constexpr double kRounding = 0x1p-40;
-/// Finer than this (of the largest coordinate) no attempt is made.
+/// The smallest tolerance of an attempt, by the largest coordinate.
 constexpr double kFinest = 0x1p-45;
 
-/// A contradiction is met with more care, then with finer tolerances, then with coarser ones.
+/// After a contradiction: more rounds, then smaller tolerances, then larger ones.
 struct Attempt {
   double factor;  // of the tolerance
   Arrangement::Care care;
@@ -37,49 +38,49 @@ const char* named(const RegionOptions& options) {
   return options.name.empty() ? "region" : options.name.c_str();
 }
 
-/// Where the loop goes over from one source to another, or back on the same.
-bool starts_run(const Arrangement& a, Arrangement::Way before, Arrangement::Way way) {
-  const Edge &e = a.edges()[a.parts()[before.part].edge], &f = a.edges()[a.parts()[way.part].edge];
-  return e.source != f.source || e.turn != f.turn || before.forward != way.forward;
+/// Whether the loop changes from one source to another, or turns back on one.
+bool starts_run(const Arrangement& a, Arrangement::Link before, Arrangement::Link link) {
+  const Edge &e = a.edges()[a.parts()[before.part].edge], &f = a.edges()[a.parts()[link.part].edge];
+  return e.source != f.source || e.turn != f.turn || before.forward != link.forward;
 }
 
-/// A point of the arc that a run of ways follows, in the middle if no point was displaced.
-Point2 via_of(const Arrangement& arrangement, Point2 from, Point2 to, const Arrangement::Way* first,
-              const Arrangement::Way* last) {
+/// A point of the arc that a run of parts follows; its midpoint if no point was displaced.
+Point2 via_of(const Arrangement& arrangement, Point2 from, Point2 to, const Arrangement::Link* first,
+              const Arrangement::Link* last) {
   constexpr double kShortArc =
       1.5;  // chord by radius: below, the chord and the radius determine the arc best
-  const auto part = [&](const Arrangement::Way* way) { return arrangement.parts()[way->part]; };
+  const auto part = [&](const Arrangement::Link* link) { return arrangement.parts()[link->part]; };
   const Edge& e = arrangement.edges()[part(first).edge];
   const double turn = first->forward ? e.turn : -e.turn;
   if (!arrangement.displaced())
-    return outline_detail::arc_middle(from, to, e.circle_centre(), e.radius, turn);
+    return outline_detail::arc_midpoint(from, to, e.circle_centre(), e.radius, turn);
   const Point2 chord = to - from;
   const double length = norm(chord);
   double sum = 0.0;  // of the chords
-  for (const Arrangement::Way* way = first; way != last; ++way)
-    sum += distance(arrangement.point(part(way).from), arrangement.point(part(way).to));
+  for (const Arrangement::Link* link = first; link != last; ++link)
+    sum += distance(arrangement.point(part(link).from), arrangement.point(part(link).to));
   if (sum < kShortArc * e.radius) {
     const double half = std::min(0.5 * length, e.radius);
     const double height = half * half / (e.radius + std::sqrt(e.radius * e.radius - half * half));
     return from + 0.5 * chord - (turn * height / length) * left_of(chord);
   }
-  const Arrangement::Way* middle = first;
-  for (double before = 0.0; middle + 1 != last; ++middle) {
-    before += distance(arrangement.point(part(middle).from), arrangement.point(part(middle).to));
+  const Arrangement::Link* half = first;
+  for (double before = 0.0; half + 1 != last; ++half) {
+    before += distance(arrangement.point(part(half).from), arrangement.point(part(half).to));
     if (before >= 0.5 * sum) break;
   }
-  return arrangement.point_on(part(middle), 0.5);
+  return arrangement.point_on(part(half), 0.5);
 }
 
-/// A run of ways along one source, as a segment; as several where points were displaced too far for that.
+/// Appends parts along one source as a segment, or as several where points were displaced too far.
 void append_run(Outline& outline, std::vector<std::uint32_t>& sources, const Arrangement& arrangement,
-                const Arrangement::Way* first, const Arrangement::Way* last) {
+                const Arrangement::Link* first, const Arrangement::Link* last) {
   constexpr double kFlat = 4.0 * outline_detail::kFlatArc;  // chord by radius of what readers take for a line
-  const auto end_of = [&](const Arrangement::Way* way) {
-    const Part& part = arrangement.parts()[way->part];
-    return arrangement.point(way->forward ? part.to : part.from);
+  const auto end_of = [&](const Arrangement::Link* link) {
+    const Part& part = arrangement.parts()[link->part];
+    return arrangement.point(link->forward ? part.to : part.from);
   };
-  const auto in_two = [&](const Arrangement::Way* between) {
+  const auto in_two = [&](const Arrangement::Link* between) {
     append_run(outline, sources, arrangement, first, between);
     append_run(outline, sources, arrangement, between, last);
   };
@@ -92,12 +93,12 @@ void append_run(Outline& outline, std::vector<std::uint32_t>& sources, const Arr
     segment.via = via_of(arrangement, from, segment.to, first, last);
   if (arrangement.displaced() && last - first > 1) {
     const auto carrier = outline_detail::make_carrier(from, segment, 0.0);
-    const Arrangement::Way* worst = nullptr;
+    const Arrangement::Link* worst = nullptr;
     double off = arrangement.slack();
-    for (const Arrangement::Way* way = first; way + 1 != last; ++way)
-      if (const double own = distance_to(carrier, end_of(way)); own > off) {
+    for (const Arrangement::Link* link = first; link + 1 != last; ++link)
+      if (const double own = distance_to(carrier, end_of(link)); own > off) {
         off = own;
-        worst = way;
+        worst = link;
       }
     if (worst != nullptr) return in_two(worst + 1);
   }
@@ -111,8 +112,8 @@ bool is_sliver(const Arrangement& arrangement, const Arrangement::Loop& loop, do
   const Part& first = arrangement.parts()[loop[0].part];
   const Point2 origin = arrangement.point(first.from);
   double twice_area = 0.0, length = 0.0;
-  for (const Arrangement::Way way : loop) {
-    const Part& part = arrangement.parts()[way.part];
+  for (const Arrangement::Link link : loop) {
+    const Part& part = arrangement.parts()[link.part];
     const Edge& e = arrangement.edges()[part.edge];
     const Point2 a = arrangement.point(part.from) - origin, b = arrangement.point(part.to) - origin;
     const double chord = norm(b - a);
@@ -124,7 +125,7 @@ bool is_sliver(const Arrangement& arrangement, const Arrangement::Loop& loop, do
       beside += e.turn * height * (4.0 / 3.0 * chord + height * height / chord);
       length += 8.0 / 3.0 * height * height / chord;
     }
-    twice_area += way.forward ? beside : -beside;
+    twice_area += link.forward ? beside : -beside;
   }
   return std::abs(twice_area) <= weld * length;
 }
@@ -138,9 +139,9 @@ void append_loop(Traced& made, const Arrangement& arrangement, Arrangement::Loop
   const Part& start = arrangement.parts()[loop[0].part];
   outline.start = arrangement.point(loop[0].forward ? start.from : start.to);
   std::vector<std::uint32_t> sources;
-  const Arrangement::Way *at = loop.data(), *const end = at + n;
+  const Arrangement::Link *at = loop.data(), *const end = at + n;
   while (at != end) {
-    const Arrangement::Way* next = at + 1;
+    const Arrangement::Link* next = at + 1;
     while (next != end && !starts_run(arrangement, *(next - 1), *next)) ++next;
     append_run(outline, sources, arrangement, at, next);
     at = next;

@@ -1,4 +1,4 @@
-// From chains of edges to the region that a rule picks among their winding numbers.
+// From chains of edges to the region whose winding numbers a rule selects.
 #pragma once
 
 #include <string_view>
@@ -9,8 +9,7 @@
 
 namespace kerf::region_detail {
 
-/// The tolerance to work with for coordinates of this size: the one asked for, and at least what rounding
-/// needs.
+/// The tolerance for coordinates of this size: the given one, but at least what rounding needs.
 double weld_for(const RegionOptions& options, double largest_coordinate);
 /// The size of the largest coordinate of an outline; arcs reach at most twice their diameter further.
 double largest_coordinate(const Outline& outline);
@@ -29,12 +28,12 @@ struct Outlined {
   std::vector<Arrangement::Loop> loops;
 };
 
-/// How much work an arrangement may be: pairs of edges whose boxes overlap.
+/// Maximum work of an arrangement: pairs of edges whose boxes overlap.
 struct Effort {
   std::size_t pairs, pairs_per_edge;
   std::size_t for_edges(std::size_t edges) const { return pairs + pairs_per_edge * edges; }
 };
-/// Beyond this a curve that comes back to itself again and again is better divided.
+/// Beyond this, dividing a curve that often returns to itself is faster.
 inline constexpr Effort kModerate{200'000, 60};
 inline constexpr Effort kAll{std::size_t{1} << 62, 0};
 
@@ -47,7 +46,7 @@ class Attempts {
   Arrangement* next();
   /// Appends the error, unless the computation was stopped.
   void fail(Diagnostics& diagnostics) const;
-  /// Whether it would have been more work than allowed.
+  /// Whether the limit of work was exceeded.
   bool exceeded() const { return outcome_ == Arrangement::Outcome::exceeded; }
 
  private:
@@ -79,7 +78,7 @@ std::optional<Outlined> arrange(const EdgeSet& set, const RegionOptions& options
   return made;
 }
 
-/// Loops as outlines: pieces of one segment are one segment again, and slivers are left out.
+/// Loops as outlines: parts of one segment become one segment, and slivers are left out.
 Region region_of(const Outlined& outlined, double weld);
 
 /// A region with the source of each segment, by loop.

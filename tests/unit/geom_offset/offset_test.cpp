@@ -81,10 +81,10 @@ TEST_F(Offsets, ScaleWithTheirTolerance) {
 
 TEST_F(Offsets, OfPathsHaveRoundOrButtEnds) {
   const Outline path{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}}};
-  const double bend =
-      40.0 + 0.25 * kPi - 1.0 + 0.0;  // two strips of 20, less the inner overlap, and the corner
-  EXPECT_NEAR(area(*buffer(path, mm(1.0), PathEnds::butt, {}, diagnostics)), bend, 1e-11);
-  EXPECT_NEAR(area(*buffer(path, mm(1.0), PathEnds::round, {}, diagnostics)), bend + kPi, 1e-11);
+  // Two strips of 20, less their overlap at the inner corner, and a quarter disc at the outer one.
+  const double expected = 40.0 - 1.0 + 0.25 * kPi;
+  EXPECT_NEAR(area(*buffer(path, mm(1.0), PathEnds::butt, {}, diagnostics)), expected, 1e-11);
+  EXPECT_NEAR(area(*buffer(path, mm(1.0), PathEnds::round, {}, diagnostics)), expected + kPi, 1e-11);
   const auto ring = buffer(circle(0, 0, 5), mm(1.0), PathEnds::round, {}, diagnostics);
   EXPECT_NEAR(area(*ring), kPi * 20.0, 1e-10);
   EXPECT_NEAR(area(*buffer(circle(0, 0, 5), mm(6.0), PathEnds::round, {}, diagnostics)), kPi * 121.0, 1e-9);
@@ -127,7 +127,7 @@ TEST_F(Offsets, NameTheSegmentsThatTheyAreParallelTo) {
   ASSERT_EQ(grown->sources[0].size(), 8u);
   const Outline& loop = grown->region.loops[0];
   for (std::size_t i = 0; i < 8; ++i) {
-    const OffsetSource source = grown->sources[0][i];
+    const BoundaryElement source = grown->sources[0][i];
     const Outline& original = square.loops[source.loop];
     EXPECT_EQ(source.corner, loop.segments[i].via.has_value());
     const Point2 end = original.segments[source.segment].to;

@@ -340,7 +340,7 @@ TEST(Curves, EachErrorHasItsCode) {
   EXPECT_EQ(code_of_curve({{{0, 0}, radians(1.2)}, {{10, 0}, radians(-0.5)}}), Code::curve_turns_much);
   EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.001)}, {{10, 0}, radians(-0.5)}}), Code::curve_piece_straight);
   EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(0.5)}}), Code::curve_inflexion);
-  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(-0.5)}}, {.least_radius = mm(50)}),
+  EXPECT_EQ(code_of_curve({{{0, 0}, radians(0.5)}, {{10, 0}, radians(-0.5)}}, {.min_radius = mm(50)}),
             Code::curve_radius_small);
   EXPECT_EQ(code_of_curve({{{0, std::nan("")}, {}}, {{10, 0}, {}}}), Code::outline_not_finite);
   Diagnostics diagnostics;
@@ -356,6 +356,61 @@ TEST(Curves, ManySharpCornersGiveFewMessages) {
   ASSERT_TRUE(cut_corners(outline, {}, diagnostics));
   EXPECT_EQ(diagnostics.warnings(), 1999u);
   EXPECT_LE(diagnostics.list().size(), 50u);
+}
+
+TEST(OutlineMeasures, PointsAtALength) {
+  // A line of 10 and a quarter circle of radius 2 to the left.
+  const Outline path{
+      {0, 0}, {}, {{{10, 0}, {}, {}}, {{12, 2}, Point2{10 + std::sqrt(2.0), 2 - std::sqrt(2.0)}, {}}}};
+  EXPECT_EQ(at_length(path, mm(4)).at, (Point2{4, 0}));
+  EXPECT_NEAR(at_length(path, mm(4)).heading.deg(), 0.0, 1e-12);
+  const CurvePoint half = at_length(path, mm(10 + 0.5 * std::numbers::pi));
+  EXPECT_NEAR(half.at.x, 10 + std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(half.at.y, 2 - std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(half.heading.deg(), 45.0, 1e-9);
+  EXPECT_EQ(at_length(path, mm(100)).at, (Point2{12, 2}));
+  EXPECT_NEAR(at_length(path, mm(100)).heading.deg(), 90.0, 1e-9);
+  EXPECT_EQ(at_length(path, mm(-1)).at, (Point2{0, 0}));
+}
+
+TEST(OutlineMerging, JoinsLinesAndArcsOfOneCarrier) {
+  const Outline steps{{0, 0},
+                      {},
+                      {{{4, 0}, {}, {}},
+                       {{10, 0}, {}, {}},
+                       {{10, 5}, {}, {}},
+                       {{10, 10}, {}, {}},
+                       {{0, 10}, {}, {}},
+                       {{0, 0}, {}, {}}}};
+  const Outline square = merged(steps, mm(1e-6));
+  EXPECT_EQ(square.segments.size(), 4u);
+  EXPECT_NEAR(area(square), 100.0, 1e-12);
+  // A start within a side moves to a corner.
+  const Outline inside_side{
+      {5, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}, {{0, 0}, {}, {}}, {{5, 0}, {}, {}}}};
+  EXPECT_EQ(merged(inside_side, mm(1e-6)).segments.size(), 3u);
+  EXPECT_TRUE(merged(inside_side, mm(1e-6)).closed());
+  // Eight arcs of one circle.
+  Outline circle{{5, 0}, {}, {}};
+  for (int i = 1; i <= 8; ++i) {
+    const auto on = [](double eighths) {
+      return Point2{5 * std::cos(0.25 * std::numbers::pi * eighths),
+                    5 * std::sin(0.25 * std::numbers::pi * eighths)};
+    };
+    circle.segments.push_back({i == 8 ? circle.start : on(i), on(i - 0.5), {}});
+  }
+  const Outline two = merged(circle, mm(1e-6));
+  EXPECT_EQ(two.segments.size(), 2u);
+  EXPECT_NEAR(area(two), 25.0 * std::numbers::pi, 1e-9);
+  // A request, a corner of more than the distance, and a line that turns back stay.
+  Outline kept = steps;
+  kept.segments[0].corner = mm(1);
+  EXPECT_EQ(merged(kept, mm(1e-6)).segments.size(), 5u);
+  const Outline shallow{{0, 0}, {}, {{{5, 0.01}, {}, {}}, {{10, 0}, {}, {}}}};
+  EXPECT_EQ(merged(shallow, mm(0.001)).segments.size(), 2u);
+  EXPECT_EQ(merged(shallow, mm(0.02)).segments.size(), 1u);
+  const Outline back{{0, 0}, {}, {{{5, 0}, {}, {}}, {{3, 0}, {}, {}}}};
+  EXPECT_EQ(merged(back, mm(1)).segments.size(), 2u);
 }
 
 }  // namespace

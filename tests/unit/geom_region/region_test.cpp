@@ -134,7 +134,113 @@ TEST_F(Regions, LocatePoints) {
   EXPECT_FALSE(RegionSearch(Region{}).nearest({0, 0}).has_value());
 }
 
-TEST_F(Regions, ReportSelfIntersections) {
+TEST_F(Regions, KnowWhichLoopIsAroundWhich) {
+  // A plate with a hole that has an island with a hole; a second hole; a second plate in the outer bay.
+  const Region region = made({rectangle(0, 0, 40, 40), rectangle(2, 2, 20, 20), rectangle(4, 4, 10, 10),
+                              circle(9, 9, 2), rectangle(30, 30, 5, 5), rectangle(50, 0, 5, 5)},
+                             FillRule::even_odd);
+  ASSERT_EQ(region.loops.size(), 6u);
+  const Nesting tree = nesting(region);
+  const auto loop_of_area = [&](double wanted) {
+    for (std::uint32_t i = 0; i < region.loops.size(); ++i)
+      if (std::abs(area(region.loops[i]) - wanted) < 1e-9) return i;
+    return Nesting::kNone;
+  };
+  const std::uint32_t plate = loop_of_area(1600), bay = loop_of_area(-400), island = loop_of_area(100),
+                      hole = loop_of_area(-4.0 * kPi);
+  EXPECT_EQ(tree.parents[plate], Nesting::kNone);
+  EXPECT_EQ(tree.parents[bay], plate);
+  EXPECT_EQ(tree.parents[island], bay);
+  EXPECT_EQ(tree.parents[hole], island);
+  EXPECT_EQ(tree.depths[hole], 3u);
+  EXPECT_EQ(tree.parents[loop_of_area(-25)], plate);
+  EXPECT_EQ(tree.parents[loop_of_area(25)], Nesting::kNone);
+}
+
+/// Loops that touch in points, where a ray along the row meets several loops at once.
+TEST_F(Regions, NestWhereLoopsTouch) {
+  std::vector<Outline> squares{rectangle(-1, -1, 10, 10)};
+  for (int x = 0; x < 4; ++x)
+    for (int y = 0; y < 4; ++y)
+      if ((x + y) % 2 == 0) squares.push_back(rectangle(2 * x, 2 * y, 2, 2));
+  const Region board = made(squares, FillRule::even_odd);
+  const Nesting tree = nesting(board);
+  std::size_t outermost = 0;
+  for (std::size_t i = 0; i < board.loops.size(); ++i) outermost += tree.depths[i] == 0 ? 1 : 0;
+  EXPECT_EQ(outermost, 1u);
+  for (std::size_t i = 0; i < board.loops.size(); ++i) EXPECT_LE(tree.depths[i], 2u);
+  EXPECT_NEAR(area(board), 100.0 - 32.0, 1e-12);
+}
+
+TEST_F(Regions, MeasureClearanceAndEngagement) {
+  const RegionSearch search(made({rectangle(0, 0, 20, 10), circle(15, 5, 2)}, FillRule::even_odd));
+  EXPECT_NEAR(search.clearance({4, 5})->mm(), 4.0, 1e-12);
+  EXPECT_NEAR(search.clearance({12, 5})->mm(), 1.0, 1e-12);
+  EXPECT_NEAR(search.clearance({15, 5})->mm(), -2.0, 1e-12);
+  EXPECT_NEAR(search.clearance({-3, -4})->mm(), -5.0, 1e-12);
+  EXPECT_FALSE(RegionSearch(Region{}).clearance({0, 0}).has_value());
+  // A tool half in the material along a straight wall: a slot's worth is half a turn, a side cut by its
+  // depth.
+  const RegionSearch wall(made({rectangle(0, 0, 100, 50)}));
+  EXPECT_NEAR(wall.engagement({{50, 25}, mm(5)}, {1, 0}).deg(), 180.0, 1e-9);
+  EXPECT_NEAR(wall.engagement({{50, 50}, mm(5)}, {1, 0}).deg(), 90.0, 1e-9);
+  // Radial depth of cut a = r (1 - cos(engagement)).
+  EXPECT_NEAR(wall.engagement({{50, 54}, mm(5)}, {1, 0}).rad(), std::acos(1.0 - 1.0 / 5.0), 1e-9);
+  EXPECT_NEAR(wall.engagement({{50, 54}, mm(5)}, {0, 1}).rad(), 0.0, 1e-9);
+  EXPECT_NEAR(wall.engagement({{50, 54}, mm(5)}, {0, -1}).rad(), 2.0 * std::acos(4.0 / 5.0), 1e-9);
+  EXPECT_NEAR(wall.engagement({{50, 55.1}, mm(5)}, {1, 0}).rad(), 0.0, 1e-12);
+  const auto ranges = wall.inside({{0, 0}, mm(3)});
+  ASSERT_EQ(ranges.size(), 1u);
+  EXPECT_NEAR(ranges[0].start.deg(), 0.0, 1e-9);
+  EXPECT_NEAR(ranges[0].sweep.deg(), 90.0, 1e-9);
+  EXPECT_NEAR(wall.inside({{100, 20}, mm(1)})[0].start.deg(), 90.0, 1e-9);
+  EXPECT_NEAR(wall.inside({{0, 20}, mm(1)})[0].sweep.deg(), 180.0, 1e-9);  // across the angle 0
+}
+
+TEST_F(Regions, MeasureTheirDistance) {
+  const Region left = made({rectangle(0, 0, 10, 10)}), ball = made({circle(20, 5, 4)});
+  const auto apart = nearest_points(left, ball);
+  EXPECT_NEAR(apart->distance.mm(), 6.0, 1e-12);
+  EXPECT_NEAR(apart->first.x, 10.0, 1e-12);
+  EXPECT_NEAR(apart->second.x, 16.0, 1e-12);
+  EXPECT_NEAR(apart->second.y, 5.0, 1e-9);
+  EXPECT_NEAR(nearest_points(ball, made({circle(20, 25, 3)}))->distance.mm(), 13.0, 1e-12);
+  EXPECT_EQ(nearest_points(left, made({circle(5, 5, 1)}))->distance.mm(), 0.0);  // inside
+  EXPECT_EQ(nearest_points(made({circle(5, 5, 1)}), left)->distance.mm(), 0.0);
+  EXPECT_EQ(nearest_points(left, made({rectangle(-5, 4, 30, 2)}))->distance.mm(), 0.0);  // across
+  EXPECT_NEAR(nearest_points(left, made({rectangle(13, 14, 3, 3)}))->distance.mm(), 5.0, 1e-12);
+  const Region frame = made({rectangle(-20, -20, 50, 50), rectangle(-10, -10, 25, 25)}, FillRule::even_odd);
+  EXPECT_NEAR(nearest_points(left, frame)->distance.mm(), 5.0, 1e-12);  // in its hole
+  EXPECT_FALSE(nearest_points(left, Region{}).has_value());
+}
+
+TEST_F(Regions, DividePathsWhereTheyEnterAndLeave) {
+  const Region region = made({rectangle(0, 0, 10, 10), circle(5, 5, 2)}, FillRule::even_odd);
+  const Outline path{{-5, 5}, {}, {{{15, 5}, {}, {}}, {{15, 10}, {}, {}}, {{5, 10}, {}, {}}}};
+  const auto pieces = divide(path, region, {}, diagnostics);
+  ASSERT_EQ(pieces->size(), 6u);
+  const Location expected[] = {Location::outside, Location::inside,  Location::outside,
+                               Location::inside,  Location::outside, Location::boundary};
+  const double lengths[] = {5, 3, 4, 3, 15, 5};
+  const std::uint32_t segments[] = {0, 0, 0, 0, 0, 2};
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ((*pieces)[i].location, expected[i]) << i;
+    EXPECT_NEAR(length((*pieces)[i].path).mm(), lengths[i], 1e-9) << i;
+    EXPECT_EQ((*pieces)[i].first_segment, segments[i]) << i;
+    if (i == 0) continue;
+    EXPECT_EQ((*pieces)[i].path.start, (*pieces)[i - 1].path.segments.back().to);
+  }
+  const auto inside = clip(circle(10, 10, 3), region, Location::inside, {}, diagnostics);
+  ASSERT_EQ(inside->size(), 1u);
+  EXPECT_NEAR(length((*inside)[0]).mm(), 1.5 * kPi, 1e-9);
+  const auto whole = divide(circle(2, 2, 1), region, {}, diagnostics);
+  ASSERT_EQ(whole->size(), 1u);
+  EXPECT_TRUE((*whole)[0].path.closed());
+  EXPECT_EQ((*whole)[0].location, Location::inside);
+  EXPECT_EQ((*divide(path, Region{}, {}, diagnostics)).size(), 1u);
+}
+
+TEST_F(Regions, ReportWhereAnOutlineMeetsItself) {
   const Outline bow{{0, 0}, {}, {{{4, 4}, {}, {}}, {{4, 0}, {}, {}}, {{0, 4}, {}, {}}, {{0, 0}, {}, {}}}};
   const auto found = self_intersections(bow, {}, diagnostics);
   ASSERT_EQ(found->size(), 1u);
