@@ -7,6 +7,7 @@ find_package(fmt REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(Threads REQUIRED)
+find_package(Boost 1.74 REQUIRED)  # headers of Boost.Polygon
 find_package(hwy REQUIRED)
 find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)

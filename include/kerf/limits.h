@@ -96,6 +96,7 @@ inline constexpr std::size_t kMaxTemplateValueBytes = 400;
 inline constexpr std::size_t kMaxRegionEdges = 12'000'000;          // about 400 bytes each
 inline constexpr std::size_t kMaxRegionIntersections = 20'000'000;  // of all edges of a computation
 inline constexpr std::size_t kMaxSelfIntersections = 10'000'000;    // of one outline
+inline constexpr std::size_t kMaxMedialChords = 2'000'000;          // about a kilobyte each
 
 // ---- simulation
 inline constexpr std::size_t kMaxColumns = 400'000'000;
