@@ -65,8 +65,13 @@ constexpr const char* kOffset =
 Parameters
 ----------
 distance : float
-    mm; above 0: all points within this distance of the region, with round outer corners; below 0: all points
-    of the region that are at least this far from its boundary.
+    mm; above 0: all points within this distance of the region; below 0: all points of the region that are at
+    least this far from its boundary.
+join : {'round', 'mitre'}
+    The shape of corners: outer ones if the region grows, inner ones if it shrinks.
+mitre_limit : float
+    The maximum distance of a mitre's tip from the corner as a multiple of the offset distance, at least 1;
+    longer mitres are cut off square at the limit.
 tolerance : float
     Points closer than this are one point, mm.
 
@@ -75,32 +80,47 @@ Returns
 Region
 )";
 
-constexpr const char* kLocate = R"(Whether a point is inside, outside or on the boundary.
+constexpr const char* kOffsetWithSources =
+    R"(An offset, with the segment of this region to which each of its segments is parallel.
 
 Parameters
 ----------
-point : (float, float)
+As of `offset`.
+
+Returns
+-------
+tuple (Region, list)
+    By outline and segment of the offset, a tuple (outline, segment, corner): the indices of the segment of
+    this region that it is parallel to, or (if corner is True) around whose end it goes.
+)";
+
+constexpr const char* kLocate = R"(The location of a point, or of each of several points.
+
+Parameters
+----------
+point : (float, float) or sequence of (float, float)
     mm.
 margin : float
     Points up to this distance from the boundary are on it, mm.
 
 Returns
 -------
-str
+str, or list of str for several points
     ``'inside'``, ``'outside'`` or ``'boundary'``.
 )";
 
-constexpr const char* kNearest = R"(The point of the boundary that is nearest to a point.
+constexpr const char* kNearest =
+    R"(The point of the boundary that is nearest to a point, or to each of several.
 
 Parameters
 ----------
-point : (float, float)
+point : (float, float) or sequence of (float, float)
     mm.
 
 Returns
 -------
 (float, float, float) or None
-    x, y and the distance, mm; None for an empty region.
+    x, y and the distance, mm; None for an empty region. A list of these for several points.
 )";
 
 constexpr const char* kFigures = R"(The connected parts of the region.
@@ -289,11 +309,6 @@ Circle circle_of(const py::handle& value, const std::string& name) {
   return circle;
 }
 
-/// A list of points and arcs, or the three numbers of a circle.
-Outline path_of(const py::handle& value) {
-  return is_row_of_numbers(value) ? as_outline(circle_of(value, "path")) : outline_of(value, "path");
-}
-
 Figure figure_of(const py::handle& value) {
   Figure figure;
   const py::sequence outlines = sequence_of(value, "a list of outlines is expected");
@@ -309,65 +324,25 @@ Figure figure_of(const py::handle& value) {
   return figure;
 }
 
+}  // namespace
+
+Outline path_of(const py::handle& value) {
+  return is_row_of_numbers(value) ? as_outline(circle_of(value, "path")) : outline_of(value, "path");
+}
+
 py::list list_of(const std::vector<Outline>& outlines) {
   py::list list;
   for (const Outline& outline : outlines) list.append(rows_of(outline));
   return list;
 }
 
-py::list list_of(const std::vector<Point2>& points) {
-  py::list list;
-  for (const Point2 p : points) list.append(py::make_tuple(p.x, p.y));
-  return list;
-}
-
-PyRegion region_of(const py::object& outlines, const std::string& fill, double tolerance) {
-  const RegionOptions options = options_of(tolerance, "Region");
-  const FillRule rule = rule_of(fill);
-  const Figure figure = figure_of(outlines);
-  std::vector<Outline> loops;
-  for (const auto& shape : figure) {
-    if (const auto* outline = std::get_if<Outline>(&shape)) {
-      loops.push_back(*outline);
-    } else {
-      const Region disc = compute([&](Diagnostics& d) { return make_region(Figure{shape}, options, d); });
-      loops.insert(loops.end(), disc.loops.begin(), disc.loops.end());
-    }
-  }
-  return PyRegion(compute([&](Diagnostics& d) { return make_region(loops, rule, options, d); }));
-}
-
-PyRegion combined(const PyRegion& a, const PyRegion& b, Boolean what, const char* call) {
-  const RegionOptions options = options_of(kDefaultTolerance, call);
-  return PyRegion(
-      compute([&](Diagnostics& d) { return combine(a.region, b.region, what, options, d); }).region);
-}
-
-std::string locate(const PyRegion& region, const py::object& point, double margin) {
-  switch (region.search().locate(to_point2(point, "point"), mm(finite_number(margin, "margin")))) {
+const char* name_of(Location location) {
+  switch (location) {
     case Location::inside: return "inside";
     case Location::boundary: return "boundary";
     case Location::outside: break;
   }
   return "outside";
-}
-
-py::object bounds_of(const PyRegion& region) {
-  const Box2 box = bounds(region.region);
-  if (box.empty()) return py::none();
-  return py::make_tuple(box.low.x, box.low.y, box.high.x, box.high.y);
-}
-
-py::object nearest_to(const PyRegion& region, const py::object& point) {
-  const auto found = region.search().nearest(to_point2(point, "point"));
-  if (!found) return py::none();
-  return py::make_tuple(found->at.x, found->at.y, found->distance.mm());
-}
-
-PathEnds ends_of(const std::string& name) {
-  if (name == "round") return PathEnds::round;
-  if (name == "butt") return PathEnds::butt;
-  throw py::value_error("unknown ends '" + name + "'; known: round, butt");
 }
 
 std::vector<Point2> points_of(const py::object& points) {
@@ -382,8 +357,80 @@ std::vector<Point2> points_of(const py::object& points) {
   return made;
 }
 
+namespace {
+
+py::list points_list(const std::vector<Point2>& points) {
+  py::list list;
+  for (const Point2 p : points) list.append(py::make_tuple(p.x, p.y));
+  return list;
+}
+
+PyRegion region_of(const py::object& outlines, const std::string& fill, double tolerance) {
+  const RegionOptions options = options_of(tolerance, "Region");
+  const FillRule rule = rule_of(fill);
+  const Figure figure = figure_of(outlines);
+  std::vector<Outline> loops;
+  for (const auto& shape : figure) {
+    if (const auto* outline = std::get_if<Outline>(&shape)) {
+      loops.push_back(*outline);
+    } else {
+      const Region disc = compute(
+          options, [&](const RegionOptions& o, Diagnostics& d) { return make_region(Figure{shape}, o, d); });
+      loops.insert(loops.end(), disc.loops.begin(), disc.loops.end());
+    }
+  }
+  return PyRegion(compute(
+      options, [&](const RegionOptions& o, Diagnostics& d) { return make_region(loops, rule, o, d); }));
+}
+
+PyRegion combined(const PyRegion& a, const PyRegion& b, Boolean what, const char* call) {
+  const RegionOptions options = options_of(kDefaultTolerance, call);
+  return PyRegion(compute(options, [&](const RegionOptions& o, Diagnostics& d) {
+                    return combine(a.region, b.region, what, o, d);
+                  }).region);
+}
+
+py::object location_of(const PyRegion& region, const py::object& point, double margin) {
+  const Length within = mm(finite_number(margin, "margin"));
+  return each_point(
+      point, [&](Point2 p) -> py::object { return py::str(name_of(region.search().locate(p, within))); });
+}
+
+py::object bounds_of(const PyRegion& region) {
+  const Box2 box = bounds(region.region);
+  if (box.empty()) return py::none();
+  return py::make_tuple(box.low.x, box.low.y, box.high.x, box.high.y);
+}
+
+py::object nearest_to(const PyRegion& region, const py::object& point) {
+  return each_point(point, [&](Point2 p) -> py::object {
+    const auto found = region.search().nearest(p);
+    if (!found) return py::none();
+    return py::make_tuple(found->at.x, found->at.y, found->distance.mm());
+  });
+}
+
+PathEnds ends_of(const std::string& name) {
+  if (name == "round") return PathEnds::round;
+  if (name == "butt") return PathEnds::butt;
+  throw py::value_error("unknown ends '" + name + "'; known: round, butt");
+}
+
+Offset offset_of(const PyRegion& r, double distance, const std::string& join, double limit, double tolerance,
+                 const char* call) {
+  const RegionOptions options = options_of(tolerance, call);
+  if (join != "round" && join != "mitre")
+    throw py::value_error("unknown join '" + join + "'; known: round, mitre");
+  const JoinOptions joins{join == "mitre" ? Join::mitre : Join::round, finite_number(limit, "mitre_limit")};
+  finite_number(distance, "distance");
+  return compute(options, [&](const RegionOptions& o, Diagnostics& d) {
+    return offset(r.region, mm(distance), joins, o, d);
+  });
+}
+
 void bind_region_class(py::module_& m) {
-  py::class_<PyRegion>(m, "Region", kRegion)
+  py::class_<PyRegion> region(m, "Region", kRegion);
+  region
       .def(py::init(&region_of), py::arg("outlines") = py::tuple(), py::kw_only(),
            py::arg("fill") = "nonzero", py::arg("tolerance") = kDefaultTolerance)
       .def_property_readonly(
@@ -411,14 +458,27 @@ void bind_region_class(py::module_& m) {
            })
       .def(
           "offset",
-          [](const PyRegion& r, double distance, double tolerance) {
-            const RegionOptions options = options_of(tolerance, "offset");
-            finite_number(distance, "distance");
-            return PyRegion(
-                compute([&](Diagnostics& d) { return offset(r.region, mm(distance), options, d); }).region);
+          [](const PyRegion& r, double distance, const std::string& join, double limit, double tolerance) {
+            return PyRegion(offset_of(r, distance, join, limit, tolerance, "offset").region);
           },
-          py::arg("distance"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance, kOffset)
-      .def("locate", &locate, py::arg("point"), py::kw_only(), py::arg("margin") = 0.0, kLocate)
+          py::arg("distance"), py::kw_only(), py::arg("join") = "round", py::arg("mitre_limit") = 2.0,
+          py::arg("tolerance") = kDefaultTolerance, kOffset)
+      .def(
+          "offset_with_sources",
+          [](const PyRegion& r, double distance, const std::string& join, double limit, double tolerance) {
+            Offset made = offset_of(r, distance, join, limit, tolerance, "offset_with_sources");
+            py::list loops;
+            for (const auto& sources : made.sources) {
+              py::list list;
+              for (const BoundaryElement& s : sources)
+                list.append(py::make_tuple(s.loop, s.segment, s.corner));
+              loops.append(list);
+            }
+            return py::make_tuple(PyRegion(std::move(made.region)), loops);
+          },
+          py::arg("distance"), py::kw_only(), py::arg("join") = "round", py::arg("mitre_limit") = 2.0,
+          py::arg("tolerance") = kDefaultTolerance, kOffsetWithSources)
+      .def("locate", &location_of, py::arg("point"), py::kw_only(), py::arg("margin") = 0.0, kLocate)
       .def("nearest", &nearest_to, py::arg("point"), kNearest)
       .def(
           "figures",
@@ -432,6 +492,7 @@ void bind_region_class(py::module_& m) {
             return list;
           },
           kFigures);
+  bind_region_questions(region);
 }
 
 void bind_paths(py::module_& m) {
@@ -442,8 +503,9 @@ void bind_paths(py::module_& m) {
         const PathEnds how = ends_of(ends);
         const Outline outline = path_of(path);
         finite_number(half_width, "half_width");
-        return PyRegion(
-            compute([&](Diagnostics& d) { return buffer(outline, mm(half_width), how, options, d); }));
+        return PyRegion(compute(options, [&](const RegionOptions& o, Diagnostics& d) {
+          return buffer(outline, mm(half_width), how, o, d);
+        }));
       },
       py::arg("path"), py::arg("half_width"), py::kw_only(), py::arg("ends") = "round",
       py::arg("tolerance") = kDefaultTolerance, kBuffer);
@@ -453,8 +515,9 @@ void bind_paths(py::module_& m) {
         const RegionOptions options = options_of(tolerance, "parallel");
         const Outline outline = path_of(path);
         finite_number(to_left, "to_left");
-        return list_of(
-            compute([&](Diagnostics& d) { return offset_path(outline, mm(to_left), options, d); }));
+        return list_of(compute(options, [&](const RegionOptions& o, Diagnostics& d) {
+          return offset_path(outline, mm(to_left), o, d);
+        }));
       },
       py::arg("path"), py::arg("to_left"), py::kw_only(), py::arg("tolerance") = kDefaultTolerance,
       kOffsetPath);
@@ -464,8 +527,9 @@ void bind_paths(py::module_& m) {
         const RegionOptions options = options_of(tolerance, "self_meetings");
         const Outline outline = path_of(path);
         py::list list;
-        for (const SelfIntersection& s :
-             compute([&](Diagnostics& d) { return self_intersections(outline, options, d); }))
+        for (const SelfIntersection& s : compute(options, [&](const RegionOptions&o, Diagnostics&d) {
+               return self_intersections(outline, o, d);
+             }))
           list.append(py::make_tuple(s.at.x, s.at.y, s.first, s.second));
         return list;
       },
@@ -508,7 +572,7 @@ void bind_fits(py::module_& m) {
       "flattened",
       [](const py::object& path, double chord) {
         if (finite_number(chord, "chord") <= 0.0) throw py::value_error("chord must be above 0 mm");
-        return list_of(flattened(path_of(path), mm(chord)));
+        return points_list(flattened(path_of(path), mm(chord)));
       },
       py::arg("path"), py::arg("chord"), kFlattened);
 }
@@ -519,6 +583,7 @@ void bind_region(py::module_& m) {
   bind_region_class(m);
   bind_paths(m);
   bind_fits(m);
+  bind_outline_questions(m);
 }
 
 }  // namespace kerf::python

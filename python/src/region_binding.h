@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "bindings.h"
 
@@ -20,6 +22,21 @@ auto compute(Work work) {
     const pybind11::gil_scoped_release release;
     return work(diagnostics);
   }();
+  raise_or_warn(diagnostics);
+  return std::move(*made);
+}
+
+/// The same for calls of work(options, diagnostics), which Ctrl-C cancels.
+template <class Work>
+auto compute(RegionOptions options, Work work) {
+  Diagnostics diagnostics;
+  SignalProgress progress;
+  options.progress = &progress;
+  auto made = [&] {
+    const pybind11::gil_scoped_release release;
+    return work(options, diagnostics);
+  }();
+  progress.rethrow();
   raise_or_warn(diagnostics);
   return std::move(*made);
 }
@@ -44,5 +61,27 @@ pybind11::list rows_of(const Outline& outline);
 RegionOptions options_of(double tolerance, const char* call);
 /// Raises ValueError for an unknown name.
 FillRule rule_of(const std::string& name);
+/// A list of points and arcs, or the three numbers of a circle.
+Outline path_of(const pybind11::handle& value);
+pybind11::list list_of(const std::vector<Outline>& outlines);
+const char* name_of(Location location);
+/// A list of points (x, y).
+std::vector<Point2> points_of(const pybind11::object& points);
+/// answer(point), or a list of the answers for a sequence of points.
+template <class Answer>
+pybind11::object each_point(const pybind11::object& value, Answer answer) {
+  namespace py = pybind11;
+  const bool many = py::isinstance<py::sequence>(value) && !py::isinstance<py::str>(value) &&
+                    (py::len(value) == 0 || py::isinstance<py::sequence>(value[py::int_(0)]));
+  if (!many) return answer(to_point2(value, "point"));
+  py::list list;
+  for (const Point2 p : points_of(value)) list.append(answer(p));
+  return list;
+}
+
+/// Nesting, clearance, clipping, medial axis and transforms of Region.
+void bind_region_questions(pybind11::class_<PyRegion>& region);
+/// Segments and points of outlines.
+void bind_outline_questions(pybind11::module_& m);
 
 }  // namespace kerf::python

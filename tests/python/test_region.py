@@ -42,6 +42,68 @@ def test_a_region_answers_questions():
     assert ring.offset(-2).area == pytest.approx(math.pi * (64 - 36))
 
 
+def test_questions_for_operations():
+    plate = kerf.Region([SQUARE, (5, 5, 2)], fill="even_odd")
+    assert plate.locate([(1, 1), (5, 5), (10, 3)]) == ["inside", "outside", "boundary"]
+    assert plate.nearest([(5, 1), (12, 5)])[1] == pytest.approx((10, 5, 2))
+    assert plate.clearance((1, 5)) == pytest.approx(1)
+    assert plate.clearance([(5, 5), (5, -3)]) == pytest.approx([-2, -3])
+    assert plate.engagement((5, -2, 3), (1, 0)) == pytest.approx(math.degrees(math.acos(1 - 1 / 3)))
+    assert plate.inside((0, 0, 1)) == [pytest.approx((0, 90))]
+    outer = 0 if kerf.Region([plate.outlines[0]]).area > 50 else 1
+    assert plate.nesting()[outer] == (None, 0) and plate.nesting()[1 - outer] == (outer, 1)
+    assert plate.distance(kerf.Region([(14, 5, 1)])) == (pytest.approx(3), pytest.approx((10, 5)),
+                                                         pytest.approx((13, 5)))
+    assert plate.distance(kerf.Region()) is None and kerf.Region().clearance((0, 0)) is None
+    pieces = plate.divide([(-1, 5), (11, 5)])
+    assert [piece[0] for piece in pieces] == ["outside", "inside", "outside", "inside", "outside"]
+    assert plate.clip([(-1, 5), (11, 5)]) == [[pytest.approx((0, 5)), pytest.approx((3, 5))],
+                                              [pytest.approx((7, 5)), pytest.approx((10, 5))]]
+
+
+def test_medial_axis():
+    nodes, edges = kerf.Region([[(0, 0), (20, 0), (20, 10), (0, 10), (0, 0)]]).medial_axis()
+    assert len(nodes) == 6 and len(edges) == 5
+    assert max(radius for _, _, radius in nodes) == pytest.approx(5)
+    for first, last, points in edges:
+        assert points[0] == nodes[first] and points[-1] == nodes[last]
+    x, y, radius = kerf.Region([[(0, 0), (4, 0), (0, 3), (0, 0)]]).largest_circle()
+    assert (x, y, radius) == pytest.approx((1, 1, 1))
+    assert kerf.Region().largest_circle() is None
+
+
+def test_offsets_with_mitres_and_sources():
+    square = kerf.Region([SQUARE])
+    assert square.offset(1, join="mitre").area == pytest.approx(144)
+    grown, sources = square.offset_with_sources(1)
+    assert len(sources[0]) == len(grown.outlines[0]) - 1 == 8
+    assert sum(corner for _, _, corner in sources[0]) == 4
+    with pytest.raises(ValueError, match="unknown join"):
+        square.offset(1, join="bevel")
+
+
+def test_transforms_of_regions():
+    square = kerf.Region([SQUARE])
+    assert square.moved(5, -2).bounds == pytest.approx((5, -2, 15, 8))
+    assert square.rotated(90).bounds == pytest.approx((-10, 0, 0, 10))
+    assert square.rotated(90, about=(10, 10)).bounds == pytest.approx((10, 0, 20, 10))
+    assert square.scaled(2).area == pytest.approx(400)
+    mirrored = square.scaled((-1, 1))
+    assert mirrored.bounds == pytest.approx((-10, 0, 0, 10)) and mirrored.area == pytest.approx(100)
+    both = square | kerf.Region([[(10, 0), (20, 0), (20, 10), (10, 10), (10, 0)]])
+    assert len(both.merged().outlines[0]) == 5
+
+
+def test_segments_and_points_of_paths():
+    line, arc = kerf.segments([(0, 0), (10, 0), (10 + math.sqrt(2), 2 - math.sqrt(2), 12, 2)])
+    assert line["kind"] == "line" and line["length"] == 10 and "radius" not in line
+    assert arc["centre"] == pytest.approx((10, 2)) and arc["radius"] == pytest.approx(2)
+    assert arc["turn"] == "ccw" and arc["sweep"] == pytest.approx(90)
+    path = [(0, 0), (10, 0), (10, 10)]
+    assert kerf.point_at(path, 4) == pytest.approx((4, 0, 1, 0))
+    assert kerf.point_at(path, [15, 99]) == [pytest.approx((10, 5, 0, 1)), pytest.approx((10, 10, 0, 1))]
+
+
 def test_paths():
     assert kerf.widen([(0, 0), (10, 0)], 1).area == pytest.approx(20 + math.pi)
     assert kerf.widen([(0, 0), (10, 0)], 1, ends="butt").area == pytest.approx(20)
