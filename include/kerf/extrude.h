@@ -10,7 +10,7 @@
 
 namespace kerf {
 
-/// Triangles of a solid: positions x y z in mm, three indices a triangle, counter-clockwise seen from
+/// Triangles of a solid: positions x y z in mm, three indices per triangle, counter-clockwise seen from
 /// outside. Every edge belongs to exactly two triangles, which is verified.
 struct SolidMesh {
   std::vector<float> positions;

@@ -59,7 +59,7 @@ Mesh extract_mesh(const ColumnGrid& columns, const MeshOptions& options, Progres
 MeshCheck check_mesh(const Mesh& mesh);
 
 /// The volume that the mesh of columns should enclose: that of the columns, within a tolerance that follows
-/// from the area of the walls, the pitch and the merging (docs/decisions/0006-mesh.md).
+/// from the area of the walls, the pitch and the merging (docs/decisions/0023-mesh-verification.md).
 VolumeRange mesh_volume(const MeshColumns& columns, const MeshOptions& options = {});
 VolumeRange mesh_volume(const ColumnGrid& columns, const MeshOptions& options = {});
 /// Whether a mesh is valid and may be written, see mesh_check.h.

@@ -25,10 +25,12 @@ PROSE_SUFFIXES = {".md", ".toml", ".cmake", ".in", ".html", ".css", ".yml"}  # w
 CODE_SUFFIXES = CPP | {".def", ".py", ".js", ".ts"}
 NAMES_WITHOUT_SUFFIX = {"dev", "CMakeLists.txt", "run"}
 
-# Fixed by formats and interfaces: keys of JSON and files, words of other programs; also correct English that
-# the patterns below would find. The codes of codes.def are added by codes_of.
+# Fixed by formats and interfaces: keys of JSON and files, names of the Python interface and of libraries,
+# words of other programs; also correct English that the patterns below would find. The codes of codes.def are
+# added by codes_of.
 FIXED = re.compile(
     r"/usr/share|(?:source\(\)|\bat)\.begin|\b(?:road_mm|in_place|std::begin|std::shared_\w+)\b"
+    r"|\bself_meetings\b|\bkerf\.widen\b|[\"`]widen[\"`(]|(?<=    )widen(?=,)|\.roads\b|\bpng_image_begin_\w+"
     r"|\"roads\"|`roads`|\*road\*|-- (?:pro|epi)logue begin --|\bAcDbBlockBegin\b|\"spot\""
     r"|\b(?:in-place|stand-?ins?|stand-?alone)\b|(?<=[.>])c?r?begin(?=\()|\bc?r?begin(?=\(\))"
     r"|\bplace-?holders?\b|\b(?:decimal|first) places?\b|\b(?:in|into|takes?|taken|took|taking) place\b"

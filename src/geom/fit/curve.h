@@ -22,8 +22,8 @@ struct RationalBezier {
   std::vector<Control> control;  // at least two, at most kMaxDegree + 1; weights above 0
 
   CurveSample at(double t) const;
-  /// Chords of equal steps of the parameter that stray from the curve by at most `chord` mm; a bound that is
-  /// exact for parabolas, and at most `limit`.
+  /// Chords of equal steps of the parameter that deviate from the curve by at most `chord` mm; a bound that
+  /// is exact for parabolas, and at most `limit`.
   int chords(double chord, int limit) const;
 };
 

@@ -1,4 +1,4 @@
-// What the fitting functions refuse.
+// Checks of the arguments of fitting functions.
 #pragma once
 
 #include <vector>

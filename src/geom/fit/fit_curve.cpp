@@ -36,9 +36,10 @@ namespace {
 
 using namespace outline_detail;
 
-constexpr int kSamples = 16;        // parts of a piece at whose ends it is compared
-constexpr double kSampled = 0.9;    // share of the tolerance for the samples; the rest is for what is between
-constexpr double kShortest = 1e-6;  // of the whole range of the parameter
+constexpr int kSamples = 16;  // intervals of a piece, at whose ends it is compared
+constexpr double kSampled =
+    0.9;  // fraction of the tolerance permitted at samples, for deviations between them
+constexpr double kShortest = 1e-6;     // of the whole range of the parameter
 constexpr double kRounding = 0x1p-40;  // of the largest coordinate: no tolerance is finer
 constexpr double kWeights = 1e3;       // the largest weight
 
@@ -63,8 +64,8 @@ class CurveFitter {
   Outline& made_;
 };
 
-/// Unit direction at t of the piece that lies between t and `towards`; where the curve stands still, the way
-/// it sets off.
+/// Unit direction at t of the piece between t and `towards`; where the derivative is zero, that of a short
+/// chord.
 Point2 CurveFitter::direction(double t, double towards) const {
   const CurveSample here = curve_.at(t);
   const double sense = towards > t ? 1.0 : -1.0;
@@ -93,8 +94,8 @@ bool CurveFitter::arcs(double from, double to, Point2 end) {
   const CurvePoint b{end, radians(std::atan2(last.y, last.x))};
   CurveOptions options;
   options.straight = {};
-  Diagnostics unsaid;
-  const auto pair = smooth_curve({a, b}, options, unsaid);
+  Diagnostics unused;
+  const auto pair = smooth_curve({a, b}, options, unused);
   if (!pair) return false;
   Carrier carriers[2];
   int count = 0;
@@ -112,11 +113,11 @@ void CurveFitter::piece(double from, double to) {
   const Point2 end = curve_.at(to).at, start = made_.point(made_.segments.size());
   if (!(start == end) && arcs(from, to, end)) return;
   const Carrier line = make_carrier(start, {end, {}, {}}, 0.0);
-  const bool all_in_one_place = distance(start, end) <= within_ && near(from, to, &line, 1);
-  if (to - from > kShortest && !all_in_one_place) {
-    const double middle = 0.5 * (from + to);
-    piece(from, middle);
-    piece(middle, to);
+  const bool is_point = distance(start, end) <= within_ && near(from, to, &line, 1);
+  if (to - from > kShortest && !is_point) {
+    const double between = 0.5 * (from + to);
+    piece(from, between);
+    piece(between, to);
   } else if (!(start == end)) {
     made_.segments.push_back({end, {}, {}});
   }

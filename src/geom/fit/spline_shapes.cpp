@@ -67,8 +67,8 @@ std::vector<Point2> Derivatives::open(std::optional<Point2> start, std::optional
   return right;
 }
 
-/// The last point is the first. The corners of the cyclic matrix are taken off and put back by the formula of
-/// Sherman and Morrison.
+/// The last point is the first. The corners of the cyclic matrix are treated by the Sherman-Morrison
+/// formula.
 std::vector<Point2> Derivatives::closed() const {
   const std::size_t n = points_.size() - 1;
   std::vector<double> lower(n), diagonal(n), upper(n);

@@ -1,4 +1,4 @@
-// Figures given a thickness.
+// Prisms of figures.
 #include "kerf/extrude.h"
 
 #include <algorithm>
@@ -36,9 +36,9 @@ std::vector<Ring> rings_of(const Figure& figure, const Tolerance& tolerance, Dia
       return std::vector<Ring>();
     };
     if (const auto* circle = std::get_if<Circle>(&shape)) {
-      const bool sound = std::isfinite(circle->centre.x) && std::isfinite(circle->centre.y) &&
+      const bool valid = std::isfinite(circle->centre.x) && std::isfinite(circle->centre.y) &&
                          std::isfinite(circle->radius.mm()) && circle->radius > tolerance.weld;
-      if (!sound) return refuse("the circle's radius is not above 0, or a number is not finite");
+      if (!valid) return refuse("the circle's radius is not above 0, or a number is not finite");
       rings.push_back(ring_of(*circle, tolerance));
     } else {
       const Outline& outline = std::get<Outline>(shape);
@@ -53,7 +53,7 @@ std::vector<Ring> rings_of(const Figure& figure, const Tolerance& tolerance, Dia
   return rings;
 }
 
-/// What a prism over the rings holds. Its corners are rounded to single precision.
+/// The volume of a prism over the rings. Its corners are rounded to single precision.
 VolumeRange volume_of(const std::vector<Ring>& rings, double height) {
   double base = 0.0, around = 0.0, farthest = height;
   for (const Ring& ring : rings) {

@@ -14,7 +14,7 @@ using Ring = std::vector<Point2>;  // closed, the first point not repeated
 double area(const Ring& ring);  // above 0: counter-clockwise
 
 struct Triangulation {
-  bool too_much = false;  ///< given up: the work would take too long
+  bool too_much = false;  ///< the limit of work was exceeded
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

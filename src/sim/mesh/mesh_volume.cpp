@@ -14,7 +14,7 @@ namespace meshing {
 
 VolumeRange volume_range(const Faces& faces, double pitch, double moved) {
   // Bound of the distance between the sides of columns and the walls of the mesh, in pitches; derivation in
-  // docs/decisions/0006-mesh.md.
+  // docs/decisions/0023-mesh-verification.md.
   constexpr double kSideFraction = 1.0;
   return {mm3(faces.volume), mm3(kSideFraction * pitch * faces.sides + moved * (faces.ends + faces.sides))};
 }

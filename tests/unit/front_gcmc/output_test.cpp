@@ -42,9 +42,9 @@ TEST(GcmcText, SubroutineAndOwnFrames) {
   options.subroutine_ends_program = false;
   EXPECT_EQ(run("", options).text,
             "%\n(gcmc compiled function: part, do not change)\no<part> sub\no<part> endsub\n%\n");
-  options.prologue = "(begin)\n";
+  options.prologue = "(head)\n";
   options.epilogue = "(end)\n";
-  EXPECT_EQ(run("goto([1]);", options).text, "(begin)\nG0 X1.000\n(end)\n");
+  EXPECT_EQ(run("goto([1]);", options).text, "(head)\nG0 X1.000\n(end)\n");
 }
 
 TEST(GcmcText, RelativeModeWritesDifferences) {
