@@ -41,6 +41,18 @@ double sweep_to(const LineArc& arc, Point2 point) {
   return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
 }
 
+/// (x - sin x) r^2 / 2, as a series where x is small and the difference would cancel.
+double segment_area(double radius, double sweep) {
+  const double x = sweep, xx = x * x;
+  double less = x - std::sin(x);
+  if (x <= 0.5) {
+    double term = x * xx / 6.0;
+    less = term;
+    for (int k = 4; k <= 12; k += 2) less += term *= -xx / (k * (k + 1));
+  }
+  return 0.5 * radius * radius * less;
+}
+
 Box2 bounds(const LineArc& e) {
   Box2 box;
   box.add(e.from);

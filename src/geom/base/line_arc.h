@@ -42,6 +42,8 @@ Point2 nearest_point(const LineArc& element, Point2 p);
 double distance_to(const LineArc& element, Point2 p);
 /// The point at a fraction of an element's length, from 0 to 1.
 Point2 point_at(const LineArc& element, double fraction);
+/// The area between an arc and its chord; the sweep in radians, above 0.
+double segment_area(double radius, double sweep);
 /// The smallest box around an element.
 Box2 bounds(const LineArc& element);
 

@@ -7,18 +7,6 @@
 #include "kerf/outline.h"
 
 namespace kerf {
-namespace {
-
-/// x - sin x, without the cancellation where x is small.
-double less_its_sine(double x) {
-  if (x > 0.5) return x - std::sin(x);
-  const double xx = x * x;
-  double term = x * xx / 6.0, sum = term;
-  for (int k = 4; k <= 12; k += 2) sum += term *= -xx / (k * (k + 1));
-  return sum;
-}
-
-}  // namespace
 
 double area(const Outline& outline) {
   double twice = 0.0;
@@ -26,7 +14,7 @@ double area(const Outline& outline) {
   for (const Segment& s : outline.segments) {
     twice += cross(from - outline.start, s.to - outline.start);
     if (const auto arc = s.via ? arc_circle(from, s) : std::nullopt) {
-      const double beside = arc->radius * arc->radius * less_its_sine(arc->sweep.rad());
+      const double beside = 2.0 * segment_area(arc->radius, arc->sweep.rad());
       twice += arc->turn == Turn::ccw ? beside : -beside;
     }
     from = s.to;

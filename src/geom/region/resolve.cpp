@@ -106,28 +106,43 @@ void append_run(Outline& outline, std::vector<std::uint32_t>& sources, const Arr
   sources.push_back(e.source);
 }
 
-/// Whether a loop is narrower than the tolerance everywhere. Its area and length are taken from the chords
-/// and heights of its arcs (at most quarter turns), to a hundredth.
-bool is_sliver(const Arrangement& arrangement, const Arrangement::Loop& loop, double weld) {
-  const Part& first = arrangement.parts()[loop[0].part];
-  const Point2 origin = arrangement.point(first.from);
+struct LoopExtent {
   double twice_area = 0.0, length = 0.0;
+  double error = 0.0;  // of twice_area, at most; 0 if it is exact
+};
+
+/// The length of a loop to a hundredth, and its area: exact, or from the chords and heights of its arcs.
+LoopExtent extent_of(const Arrangement& arrangement, const Arrangement::Loop& loop, bool exact) {
+  constexpr double kError = 2e-3;  // relative, of the area between an arc of a quarter turn and its chord
+  const Point2 origin = arrangement.point(arrangement.parts()[loop[0].part].from);
+  LoopExtent extent;
   for (const Arrangement::Link link : loop) {
     const Part& part = arrangement.parts()[link.part];
     const Edge& e = arrangement.edges()[part.edge];
     const Point2 a = arrangement.point(part.from) - origin, b = arrangement.point(part.to) - origin;
     const double chord = norm(b - a);
     double beside = cross(a, b);
-    length += chord;
+    extent.length += chord;
     if (e.is_arc()) {
       const double half = std::min(0.5 * chord, e.radius);
       const double height = half * half / (e.radius + std::sqrt(e.radius * e.radius - half * half));
-      beside += e.turn * height * (4.0 / 3.0 * chord + height * height / chord);
-      length += 8.0 / 3.0 * height * height / chord;
+      const double bulge = exact ? 2.0 * segment_area(e.radius, 2.0 * std::asin(half / e.radius))
+                                 : height * (4.0 / 3.0 * chord + height * height / chord);
+      beside += e.turn * bulge;
+      if (!exact) extent.error += kError * bulge;
+      extent.length += 8.0 / 3.0 * height * height / chord;
     }
-    twice_area += link.forward ? beside : -beside;
+    extent.twice_area += link.forward ? beside : -beside;
   }
-  return std::abs(twice_area) <= weld * length;
+  return extent;
+}
+
+/// Whether the mean width of a loop is at most the tolerance.
+bool is_sliver(const Arrangement& arrangement, const Arrangement::Loop& loop, double weld) {
+  LoopExtent extent = extent_of(arrangement, loop, false);
+  if (std::abs(extent.twice_area) > extent.error + weld * extent.length) return false;
+  if (extent.error > 0.0) extent = extent_of(arrangement, loop, true);
+  return std::abs(extent.twice_area) <= weld * extent.length;
 }
 
 void append_loop(Traced& made, const Arrangement& arrangement, Arrangement::Loop loop) {

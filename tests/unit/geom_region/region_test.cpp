@@ -214,6 +214,25 @@ TEST_F(Regions, MeasureTheirDistance) {
   EXPECT_FALSE(nearest_points(left, Region{}).has_value());
 }
 
+/// What remains of a disc outside of two others of its size with centres some 1e-4 mm away: at the angle of
+/// the unit vector u it is as wide as the smaller of both differences of centres along u.
+TEST_F(Regions, KeepCrescentsBetweenThreeCircles) {
+  constexpr double kRadius = 2.0;
+  const Point2 a{-5.86e-5, -6.02e-5}, b{-2.93e-5, 6.08e-5};  // from the centres of the others
+  double expected = 0.0;
+  constexpr int kSteps = 100'000;
+  for (int i = 0; i < kSteps; ++i) {
+    const double angle = 2.0 * kPi * (i + 0.5) / kSteps;
+    const Point2 u{std::cos(angle), std::sin(angle)};
+    expected += std::max(0.0, std::min(dot(a, u), dot(b, u))) * kRadius * 2.0 * kPi / kSteps;
+  }
+  const Region disc = made({circle(0, 0, kRadius)});
+  const Region others = made({circle(-a.x, -a.y, kRadius), circle(-b.x, -b.y, kRadius)});
+  const Region rest = combined(disc, others, Boolean::subtract);
+  EXPECT_EQ(rest.loops.size(), 1u);
+  EXPECT_NEAR(area(rest), expected, 1e-3 * expected);
+}
+
 TEST_F(Regions, DividePathsWhereTheyEnterAndLeave) {
   const Region region = made({rectangle(0, 0, 10, 10), circle(5, 5, 2)}, FillRule::even_odd);
   const Outline path{{-5, 5}, {}, {{{15, 5}, {}, {}}, {{15, 10}, {}, {}}, {{5, 10}, {}, {}}}};
