@@ -135,7 +135,7 @@ void Arrangement::sort_hits() {
   for (std::size_t i = 0; i < count; ++i) {
     if (edge_hits_[i + 1] - edge_hits_[i] < 2) continue;
     const Edge& e = edges()[i];
-    std::sort(hits_of_edge_.begin() + edge_hits_[i], hits_of_edge_.begin() + edge_hits_[i + 1],
+    std::sort(hits_of_edge_.data() + edge_hits_[i], hits_of_edge_.data() + edge_hits_[i + 1],
               [&](std::uint32_t a, std::uint32_t b) { return along(e, points_[a]) < along(e, points_[b]); });
   }
 }

@@ -1,6 +1,8 @@
 // From chains of edges to the region whose winding numbers a rule selects.
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <string_view>
 
 #include "arrangement.h"
@@ -35,7 +37,7 @@ struct Effort {
 };
 /// Beyond this, dividing a curve that often returns to itself is faster.
 inline constexpr Effort kModerate{200'000, 60};
-inline constexpr Effort kAll{std::size_t{1} << 62, 0};
+inline constexpr Effort kAll{std::numeric_limits<std::size_t>::max(), 0};
 
 /// Attempts at an arrangement, until one is free of contradictions.
 class Attempts {
