@@ -256,7 +256,7 @@ class Case {
   std::optional<Region> united(std::size_t begin, std::size_t end);
   std::string check_boolean(const Region& made);
   std::string check_offset(const Region& made, double by);
-  std::string check_point(const Region& made, double by, Point2 p);
+  std::string check_point(const WindingCounter& made, double by, Point2 p);
   std::string check_sources(const Region& original, const Offset& made, double by);
   std::string check_mitre(const Region& original, const Region& round, double by);
   Point2 anywhere() { return {drawer_.in(low_.x, high_.x), drawer_.in(low_.y, high_.y)}; }
@@ -309,7 +309,7 @@ std::string Case::check_boolean(const Region& made) {
 }
 
 /// Whether a point is on the right side of the region offset by `by`.
-std::string Case::check_point(const Region& made, double by, Point2 p) {
+std::string Case::check_point(const WindingCounter& made, double by, Point2 p) {
   const bool has = exact_.has(p), clear = exact_.is_clear(p, kKept);
   const double possible = distance_to(possible_, p), certain = distance_to(certain_, p);
   // The kernel's boundary has all of the certain one and nothing but the possible one.
@@ -318,21 +318,22 @@ std::string Case::check_point(const Region& made, double by, Point2 p) {
   const bool out =
       by < 0.0 ? (clear && !has) || certain <= -by - kMargin : clear && !has && possible >= by + kMargin;
   if (in == out) return "";  // neither is certain
-  if (const long found = winding(made, p); found != (in ? 1 : 0))
+  if (const long found = made.around(p); found != (in ? 1 : 0))
     return fmt::format("({}, {}) is {}, {} from the boundary, and has the winding number {}", p.x, p.y,
                        in ? "inside" : "outside", possible, found);
   return "";
 }
 
 std::string Case::check_offset(const Region& made, double by) {
+  const WindingCounter counter(made);
   for (const Stretch& s : possible_)
     for (int i = 0; i < 2; ++i) {
       const double fraction = drawer_.in(0.0, 1.0), off = (i == 0 ? 2.0 : -2.0) * kMargin;
-      std::string wrong = check_point(made, by, s.at(fraction) + (by + off) * s.outwards(fraction));
+      std::string wrong = check_point(counter, by, s.at(fraction) + (by + off) * s.outwards(fraction));
       if (!wrong.empty()) return wrong;
     }
   for (int i = 0; i < 12; ++i) {
-    const std::string wrong = check_point(made, by, anywhere());
+    const std::string wrong = check_point(counter, by, anywhere());
     if (!wrong.empty()) return wrong;
   }
   const auto near_two = [&](Point2 p) {  // pieces: whether they touch or overlap is not for weld to decide

@@ -81,19 +81,19 @@ std::vector<Side> sides_of(const Piece& p, std::uint32_t number) {
   return made;
 }
 
-double Stretch::distance_to(Point2 p) const {
-  const Point2 a = at(0.0), b = at(1.0);
+double Stretch::distance_to(Point2 p, double limit) const {
   if (!side.is_arc) {
-    const Point2 d = b - a;
+    const Point2 a = at(0.0), d = at(1.0) - a;
     const double dd = dot(d, d);
     const double t = dd > 0.0 ? std::clamp(dot(p - a, d) / dd, 0.0, 1.0) : 0.0;
-    return distance(p, a + t * d);
+    return norm(p - (a + t * d));
   }
   const Point2 q = p - side.centre;
+  if (const double off = std::abs(norm(q) - side.radius); off >= limit) return off;
   double turned = std::atan2(q.y, q.x) - (side.first + first * side.sweep);
   turned -= kTurn * std::floor(turned / kTurn);
   if (turned <= (last - first) * side.sweep) return std::abs(norm(q) - side.radius);
-  return std::min(distance(p, a), distance(p, b));
+  return std::min(norm(p - at(0.0)), norm(p - at(1.0)));
 }
 
 // ---------------------------------------------------------------------------------------------- expressions
@@ -260,26 +260,35 @@ std::vector<Stretch> Expression::possible_boundary(double closed, double kept) c
 
 double distance_to(const std::vector<Stretch>& boundary, Point2 p) {
   double least = std::numeric_limits<double>::infinity();
-  for (const Stretch& s : boundary) least = std::min(least, s.distance_to(p));
+  for (const Stretch& s : boundary) least = std::min(least, s.distance_to(p, least));
   return least;
 }
 
-long winding(const Region& region, Point2 p) {
-  double turns = 0.0;
+WindingCounter::WindingCounter(const Region& region) {
   for (const Outline& loop : region.loops) {
     Point2 from = loop.start;
     for (const Segment& s : loop.segments) {
-      const Point2 a = from - p, b = s.to - p;
-      const double area = cross(a, b);
-      const bool left = area >= 0.0;  // of the chord, or on it
-      turns += (left ? 1.0 : -1.0) * std::atan2(std::abs(area), dot(a, b)) / kTurn;
+      Chord chord{from, s.to, {}, 0.0, 0};
       if (const auto arc = arc_circle(from, s)) {
-        // Between the chord and the arc the arc goes around once instead of the chord.
-        const bool ccw = arc->turn == Turn::ccw;
-        if (distance(p, arc->centre) < arc->radius && left != ccw) turns += ccw ? 1.0 : -1.0;
+        chord.centre = arc->centre;
+        chord.radius = arc->radius;
+        chord.turn = arc->turn == Turn::ccw ? 1 : -1;
       }
+      chords_.push_back(chord);
       from = s.to;
     }
+  }
+}
+
+long WindingCounter::around(Point2 p) const {
+  double turns = 0.0;
+  for (const Chord& chord : chords_) {
+    const Point2 a = chord.from - p, b = chord.to - p;
+    const double area = cross(a, b);
+    const int side = area >= 0.0 ? 1 : -1;  // left of the chord or on it, or right of it
+    turns += side * std::atan2(std::abs(area), dot(a, b)) / kTurn;
+    // Between the chord and the arc the arc goes around once instead of the chord.
+    if (chord.turn == -side && norm(p - chord.centre) < chord.radius) turns += chord.turn;
   }
   return std::lround(turns);
 }
@@ -406,10 +415,11 @@ Intervals stretches(const Region& region, const Line& line) {
     }
   }
   std::sort(cuts.begin(), cuts.end());
+  const WindingCounter winding(region);
   Intervals made;
   for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
     if (cuts[i + 1] - cuts[i] < 1e-9) continue;
-    if (winding(region, line.at(0.5 * (cuts[i] + cuts[i + 1]))) > 0) made.push_back({cuts[i], cuts[i + 1]});
+    if (winding.around(line.at(0.5 * (cuts[i] + cuts[i + 1]))) > 0) made.push_back({cuts[i], cuts[i + 1]});
   }
   for (std::size_t i = 1; i < made.size(); ++i)  // what was left out between is no gap
     if (made[i].first - made[i - 1].second < 1e-9 * 16) made[i].first = made[i - 1].second;

@@ -57,7 +57,8 @@ struct Stretch {
     const Point2 out = side.outwards(first + fraction * (last - first));
     return inside_on_left ? out : Point2{-out.x, -out.y};
   }
-  double distance_to(Point2 p) const;
+  /// The distance of a point, or any number of at least `limit` where it is that far away.
+  double distance_to(Point2 p, double limit) const;
 };
 
 /// The union of the first `first_count` pieces, combined with the union of the others.
@@ -87,8 +88,21 @@ class Expression {
 
 double distance_to(const std::vector<Stretch>& boundary, Point2 p);
 
-/// How often the loops of a region wind around a point, by angles.
-long winding(const Region& region, Point2 p);
+/// How often the loops of a region wind around points, by angles.
+class WindingCounter {
+ public:
+  explicit WindingCounter(const Region& region);
+  long around(Point2 p) const;
+
+ private:
+  struct Chord {
+    Point2 from, to;
+    Point2 centre;  // of an arc
+    double radius = 0.0;
+    int turn = 0;  // 1: counter-clockwise, -1: clockwise, 0: a line
+  };
+  std::vector<Chord> chords_;
+};
 
 /// Disjoint intervals along a line, in order.
 using Intervals = std::vector<std::pair<double, double>>;
