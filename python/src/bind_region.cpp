@@ -13,8 +13,12 @@ namespace py = pybind11;
 py::list rows_of(const Outline& outline) {
   py::list list;
   list.append(py::make_tuple(outline.start.x, outline.start.y));
-  for (const Segment& s : outline.segments)
-    list.append(s.via ? py::make_tuple(s.via->x, s.via->y, s.to.x, s.to.y) : py::make_tuple(s.to.x, s.to.y));
+  for (const Segment& s : outline.segments) {
+    if (s.via)
+      list.append(py::make_tuple(s.via->x, s.via->y, s.to.x, s.to.y));
+    else
+      list.append(py::make_tuple(s.to.x, s.to.y));
+  }
   return list;
 }
 
