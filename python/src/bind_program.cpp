@@ -157,8 +157,9 @@ void bind_program(py::module_& m) {
         py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"));
   m.def(
       "_write_files",
-      [](const Program& program, const std::vector<std::pair<std::string, py::bytes>>& files) {
-        OutputSet set(program.files);
+      [](const py::object& program, const std::vector<std::pair<std::string, py::bytes>>& files) {
+        const bool has_inputs = py::isinstance<Program>(program);  // a Toolpath has none
+        OutputSet set(has_inputs ? py::cast<const Program&>(program).files : std::vector<std::string>());
         Diagnostics diagnostics;
         bool written = true;
         for (const auto& [name, bytes] : files)

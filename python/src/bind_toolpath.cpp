@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdio>
 
+#include "bind_steps.h"
 #include "bindings.h"
 
 #include "kerf/check.h"
@@ -37,6 +38,45 @@ Plane to_plane(const std::string& name) {
 
 const char* name_of_plane(Plane plane) {
   return plane == Plane::xy ? "XY" : plane == Plane::xz ? "XZ" : "YZ";
+}
+
+/// The fields of a step that changes the state of the machine.
+void describe_machine_step(py::dict& d, const Step& s) {
+  switch (s.kind()) {
+    case StepKind::coolant:
+      d["mist"] = s.coolant().mist;
+      d["flood"] = s.coolant().flood;
+      break;
+    case StepKind::path_mode: {
+      static constexpr const char* kModes[] = {"exact_path", "exact_stop", "blend"};
+      d["mode"] = kModes[static_cast<int>(s.path_mode().kind)];
+      d["tolerance"] = s.path_mode().tolerance.mm();
+      break;
+    }
+    case StepKind::probe: {
+      static constexpr const char* kKinds[] = {"contact_or_error", "contact", "release_or_error", "release"};
+      d["until"] = kKinds[static_cast<int>(s.probe().kind)];
+      break;
+    }
+    case StepKind::temperature: {
+      static constexpr const char* kHeaters[] = {"nozzle", "bed", "chamber"};
+      d["heater"] = kHeaters[static_cast<int>(s.temperature().heater)];
+      d["celsius"] = s.temperature().celsius;
+      d["wait"] = s.temperature().wait;
+      break;
+    }
+    case StepKind::fan:
+      d["fan"] = s.fan().fan;
+      d["fraction"] = s.fan().fraction;
+      break;
+    case StepKind::laser_power: {
+      static constexpr const char* kModes[] = {"off", "constant", "dynamic"};
+      d["mode"] = kModes[static_cast<int>(s.laser_power().mode)];
+      d["power"] = s.laser_power().power;
+      break;
+    }
+    default: break;
+  }
 }
 
 /// The fields of one step, named as by `kerf steps`.
@@ -83,9 +123,14 @@ py::dict describe(const Toolpath& path, std::size_t i) {
     case StepKind::store_home:
       d["home"] = s.store_home().home == Reference::home ? "home" : "second_home";
       break;
-    case StepKind::layer: d["name"] = to_str(path.layer(i).name); break;
-    default: break;
+    case StepKind::layer:
+      d["name"] = to_str(path.layer(i).name);
+      d["colour"] = path.layer(i).colour;
+      break;
+    default: describe_machine_step(d, s); break;
   }
+  if (const MotionExtra* extra = s.is_motion() ? path.extra(i) : nullptr; extra != nullptr && extra->abc)
+    d["abc"] = py::make_tuple((*extra->abc)[0], (*extra->abc)[1], (*extra->abc)[2]);
   d["origin"] = to_str(to_string(path.origin_of(i)));
   return d;
 }
@@ -97,16 +142,22 @@ std::size_t checked_index(const Toolpath& path, py::ssize_t i) {
   return static_cast<std::size_t>(i);
 }
 
-Feed positive_feed(double value) {
-  if (finite_number(value, "feed") <= 0.0) throw py::value_error("feed must be above 0 mm/min");
-  return mm_per_min(number_within(value, 0.0, limits::kMaxSpeed, "feed", "mm/min"));
-}
-
 SpindleTurn to_spindle_turn(const std::string& name) {
   if (name == "off") return SpindleTurn::off;
   if (name != "cw" && name != "ccw")
     throw py::value_error("turn must be 'cw', 'ccw' or 'off', not '" + name + "'");
   return to_turn(name) == Turn::cw ? SpindleTurn::cw : SpindleTurn::ccw;
+}
+
+/// Bits 1, 2, 4 of the axes that the letters name.
+unsigned axes_named(const std::string& letters) {
+  unsigned bits = 0;
+  for (const char letter : letters) {
+    if (letter != 'X' && letter != 'Y' && letter != 'Z')
+      throw py::value_error("unknown must name axes, e.g. 'XY', not '" + letters + "'");
+    bits |= 1u << static_cast<unsigned>(letter - 'X');
+  }
+  return bits;
 }
 
 /// Raises ValueError for an arc with different radii at its start and end point. Before the first motion the
@@ -124,24 +175,33 @@ void check_radii(const Toolpath& path, const step::Arc& arc) {
 void bind_motions(py::class_<Toolpath>& c) {
   c.def(
       "rapid",
-      [](Toolpath& path, const py::object& to) {
+      [](Toolpath& path, const py::object& to, const py::object& rotary, const std::string& unknown) {
         const Point3 end = to_point3(to, "to");
-        path.add(step::Rapid{end}, path.origins().add(script_location("rapid")));
+        const unsigned axes = axes_named(unknown);
+        const std::size_t i = path.add(step::Rapid{end}, path.origins().add(script_location("rapid")));
+        set_rotary(path, i, rotary);
+        if (axes != 0) path.set_unknown_axes(i, axes);
       },
-      py::arg("to"),
+      py::arg("to"), py::kw_only(), py::arg("rotary") = py::none(), py::arg("unknown") = "",
       R"(Append a rapid.
 
 Parameters
 ----------
 to : sequence of 3 float
-    End point, mm, work coordinates.)");
+    End point, mm, work coordinates.
+rotary : sequence of 3 float, optional
+    Positions of the axes A, B and C at the end, degrees. Default: they do not move.
+unknown : str
+    Axes that have not been commanded yet: ``'XY'`` for a first motion in Z alone. Their positions in `to` are
+    those of a controller without offsets.)");
   c.def(
       "cut",
-      [](Toolpath& path, const py::object& to, double feed) {
+      [](Toolpath& path, const py::object& to, double feed, const py::object& rotary) {
         const Point3 end = to_point3(to, "to");
-        path.add(step::Cut{end, positive_feed(feed)}, path.origins().add(script_location("cut")));
+        const step::Cut cut{end, positive_feed(feed)};
+        set_rotary(path, path.add(cut, path.origins().add(script_location("cut"))), rotary);
       },
-      py::arg("to"), py::arg("feed"),
+      py::arg("to"), py::arg("feed"), py::kw_only(), py::arg("rotary") = py::none(),
       R"(Append a straight cut.
 
 Parameters
@@ -149,7 +209,12 @@ Parameters
 to : sequence of 3 float
     End point, mm, work coordinates.
 feed : float
-    mm/min, above 0.)");
+    mm/min, above 0.
+rotary : sequence of 3 float, optional
+    Positions of the axes A, B and C at the end, degrees. Default: they do not move.)");
+}
+
+void bind_arc(py::class_<Toolpath>& c) {
   c.def(
       "arc",
       [](Toolpath& path, const py::object& to, const py::object& centre, const std::string& turn, double feed,
@@ -316,8 +381,10 @@ Examples
         "The toolpath of a program.");
   py::implicitly_convertible<Program, Toolpath>();
   bind_motions(c);
+  bind_arc(c);
   bind_extrude(c);
   bind_other_steps(c);
+  bind_steps(c);
   bind_copy(c);
   c.def("__repr__",
         [](const Toolpath& path) { return "<kerf.Toolpath of " + std::to_string(path.size()) + " steps>"; });

@@ -43,7 +43,8 @@ void bind_copy(pybind11::class_<Value>& c) {
 /// Text for Python; bytes that are not UTF-8 (comments of old files) become the replacement character.
 pybind11::str to_str(std::string_view text);
 
-/// The location of the running call in the user's script.
+/// The location of the running call in the user's script: the innermost that is not in a file registered by
+/// `_library_file`.
 CallLocation script_location(const char* call);
 
 /// Stops long work on Ctrl-C: stop_requested() checks Python's signals. Made and used on the caller's thread,
@@ -69,5 +70,6 @@ void bind_print(pybind11::module_& m);
 void bind_bodies(pybind11::module_& m);
 void bind_region(pybind11::module_& m);
 void bind_drawing(pybind11::module_& m);
+void bind_drawing_writer(pybind11::module_& m);
 
 }  // namespace kerf::python

@@ -155,14 +155,35 @@ py::str to_str(std::string_view text) {
 
 py::tuple to_tuple(Point3 p) { return py::make_tuple(p.x, p.y, p.z); }
 
+namespace {
+
+PyObject* library_files = nullptr;  // set of str; never released, as error_type
+
+/// The file name of the code that a frame runs.
+py::object file_of(PyFrameObject* frame) {
+  const auto code = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetCode(frame)));
+  return code.attr("co_filename");
+}
+
+}  // namespace
+
 CallLocation script_location(const char* call) {
   CallLocation location;
   location.call = call;
-  PyFrameObject* frame = PyEval_GetFrame();  // borrowed
-  if (frame == nullptr) return location;
-  location.line = static_cast<std::uint32_t>(PyFrame_GetLineNumber(frame));
-  const auto code = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(PyFrame_GetCode(frame)));
-  location.file = py::cast<std::string>(code.attr("co_filename"));
+  PyFrameObject* innermost = PyEval_GetFrame();  // borrowed
+  if (innermost == nullptr) return location;
+  Py_INCREF(innermost);
+  auto frame = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(innermost));
+  py::object file = file_of(innermost);
+  while (PySet_Contains(library_files, file.ptr()) == 1) {
+    PyFrameObject* caller = PyFrame_GetBack(reinterpret_cast<PyFrameObject*>(frame.ptr()));
+    if (caller == nullptr) break;
+    frame = py::reinterpret_steal<py::object>(reinterpret_cast<PyObject*>(caller));
+    file = file_of(caller);
+  }
+  location.line =
+      static_cast<std::uint32_t>(PyFrame_GetLineNumber(reinterpret_cast<PyFrameObject*>(frame.ptr())));
+  location.file = py::cast<std::string>(file);
   return location;
 }
 
@@ -189,6 +210,15 @@ PYBIND11_MODULE(_kerf, m) {
       PyExc_ValueError, nullptr);
   if (error_type == nullptr) throw pybind11::error_already_set();
   m.add_object("Error", error_type);
+  library_files = PySet_New(nullptr);
+  if (library_files == nullptr) throw pybind11::error_already_set();
+  m.def(
+      "_library_file",
+      [](const pybind11::str& file) {
+        if (PySet_Add(library_files, file.ptr()) != 0) throw pybind11::error_already_set();
+      },
+      pybind11::arg("file"),
+      "Calls from this file of Python code are reported with the location of its own caller.");
   bind_diagnostics(m);
   bind_tools(m);
   bind_program(m);
@@ -200,4 +230,5 @@ PYBIND11_MODULE(_kerf, m) {
   bind_bodies(m);
   bind_region(m);
   bind_drawing(m);
+  bind_drawing_writer(m);
 }

@@ -298,3 +298,10 @@ def test_one_text_is_not_a_list_of_defines(write):
         kerf.load(path, defines="depth=3mm")
     with pytest.raises(TypeError, match="include_paths"):
         kerf.load(path, include_paths="folder")
+
+
+def test_a_toolpath_is_written_to_a_file(tmp_path):
+    path = kerf.Toolpath()
+    path.rapid((0, 0, 5))
+    assert kerf.post(path, "grbl", tmp_path / "part.nc") == [str(tmp_path / "part.nc")]
+    assert "Z5" in (tmp_path / "part.nc").read_text()

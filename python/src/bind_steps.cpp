@@ -1,0 +1,216 @@
+// Steps of a toolpath in Python other than plain motions: coolant, path mode, probes, printers, lasers,
+// layers, texts.
+#include "bind_steps.h"
+
+#include "kerf/limits.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+constexpr double kHottest = 1000.0;  // °C
+constexpr double kMaxPower = 1e6;    // of a laser, in the units of the S word
+constexpr int kMaxColour = 256;      // of the AutoCAD colour index
+
+PathModeKind to_path_mode(const std::string& name) {
+  if (name == "exact_path") return PathModeKind::exact_path;
+  if (name == "exact_stop") return PathModeKind::exact_stop;
+  if (name == "blend") return PathModeKind::blend;
+  throw py::value_error("mode must be 'exact_path', 'exact_stop' or 'blend', not '" + name + "'");
+}
+
+ProbeKind to_probe(const std::string& name) {
+  if (name == "contact_or_error") return ProbeKind::contact_or_error;
+  if (name == "contact") return ProbeKind::contact;
+  if (name == "release_or_error") return ProbeKind::release_or_error;
+  if (name == "release") return ProbeKind::release;
+  throw py::value_error(
+      "until must be 'contact_or_error', 'contact', 'release_or_error' or 'release', not '" + name + "'");
+}
+
+Heater to_heater(const std::string& name) {
+  if (name == "nozzle") return Heater::nozzle;
+  if (name == "bed") return Heater::bed;
+  if (name == "chamber") return Heater::chamber;
+  throw py::value_error("heater must be 'nozzle', 'bed' or 'chamber', not '" + name + "'");
+}
+
+LaserMode to_laser_mode(const std::string& name) {
+  if (name == "off") return LaserMode::off;
+  if (name == "constant") return LaserMode::constant;
+  if (name == "dynamic") return LaserMode::dynamic;
+  throw py::value_error("mode must be 'off', 'constant' or 'dynamic', not '" + name + "'");
+}
+
+PauseKind to_pause(const std::string& name) {
+  if (name == "always") return PauseKind::always;
+  if (name == "optional") return PauseKind::optional;
+  if (name == "pallet_change") return PauseKind::pallet_change;
+  throw py::value_error("when must be 'always', 'optional' or 'pallet_change', not '" + name + "'");
+}
+
+/// Text of one line: a line break would become a line of G-code.
+const std::string& one_line(const std::string& text, const char* argument) {
+  if (text.find_first_of("\r\n") != std::string::npos)
+    throw py::value_error(std::string(argument) + " must be a single line");
+  return text;
+}
+
+template <class Added>
+void add(Toolpath& path, const Added& step, const char* call) {
+  path.add(step, path.origins().add(script_location(call)));
+}
+
+void bind_machine_steps(py::class_<Toolpath>& c) {
+  c.def(
+      "coolant",
+      [](Toolpath& path, bool flood, bool mist) {
+        add(path, step::Coolant{mist, flood}, "coolant");
+      },
+      py::kw_only(), py::arg("flood") = false, py::arg("mist") = false,
+      "Switch the coolants on or off (M8, M7, M9): ``coolant()`` switches both off.");
+  c.def(
+      "path_mode",
+      [](Toolpath& path, const std::string& mode, double tolerance) {
+        const PathModeKind kind = to_path_mode(mode);
+        number_within(tolerance, 0.0, limits::kMaxCoordinate, "tolerance", "mm");
+        if (tolerance > 0.0 && kind != PathModeKind::blend)
+          throw py::value_error("a tolerance requires the mode 'blend'");
+        add(path, step::PathMode{kind, mm(tolerance)}, "path_mode");
+      },
+      py::arg("mode"), py::kw_only(), py::arg("tolerance") = 0.0,
+      R"(Set how corners are run (G61, G61.1, G64).
+
+Parameters
+----------
+mode : {'exact_path', 'exact_stop', 'blend'}
+tolerance : float
+    Permitted distance from the path when blending, mm; 0: none specified.)");
+  c.def(
+      "probe",
+      [](Toolpath& path, const py::object& to, double feed, const std::string& until) {
+        step::Probe probe;
+        probe.to = to_point3(to, "to");
+        probe.feed = positive_feed(feed);
+        probe.kind = to_probe(until);
+        add(path, probe, "probe");
+      },
+      py::arg("to"), py::arg("feed"), py::kw_only(), py::arg("until") = "contact_or_error",
+      R"(Append a probing motion (G38.2 to G38.5).
+
+Parameters
+----------
+to : sequence of 3 float
+    End point if the probe does not trip, mm, work coordinates.
+feed : float
+    mm/min, above 0.
+until : {'contact_or_error', 'contact', 'release_or_error', 'release'}
+    The event that ends the motion; '..._or_error': its absence stops the program.)");
+  c.def(
+      "pause",
+      [](Toolpath& path, const std::string& when) { add(path, step::Pause{to_pause(when)}, "pause"); },
+      py::arg("when") = "always",
+      "Wait for the operator (M0): 'always', 'optional' (M1) or 'pallet_change' (M60).");
+  c.def(
+      "end", [](Toolpath& path, bool rewind) { add(path, step::End{rewind}, "end"); }, py::kw_only(),
+      py::arg("rewind") = false, "End the program (M2); with `rewind` ready to run again (M30).");
+}
+
+void bind_printer_and_laser_steps(py::class_<Toolpath>& c) {
+  c.def(
+      "temperature",
+      [](Toolpath& path, const std::string& heater, double celsius, bool wait) {
+        add(path,
+            step::Temperature{to_heater(heater), number_within(celsius, 0.0, kHottest, "celsius", "°C"),
+                              wait},
+            "temperature");
+      },
+      py::arg("heater"), py::arg("celsius"), py::kw_only(), py::arg("wait") = false,
+      R"(Set the temperature of a printer's heater.
+
+Parameters
+----------
+heater : {'nozzle', 'bed', 'chamber'}
+celsius : float
+    °C; 0: off.
+wait : bool
+    Wait until it is reached.)");
+  c.def(
+      "fan",
+      [](Toolpath& path, double fraction, long long number) {
+        add(path,
+            step::Fan{whole_within(number, 0, limits::kMaxFans, "number"),
+                      number_within(fraction, 0.0, 1.0, "fraction", "")},
+            "fan");
+      },
+      py::arg("fraction"), py::arg("number") = 0, "Set the speed of a printer's fan, 0 to 1.");
+  c.def(
+      "laser",
+      [](Toolpath& path, double power, const std::string& mode) {
+        add(path, step::LaserPower{to_laser_mode(mode), number_within(power, 0.0, kMaxPower, "power", "")},
+            "laser");
+      },
+      py::arg("power") = 0.0, py::arg("mode") = "constant",
+      R"(Set a laser's power.
+
+Parameters
+----------
+power : float
+    In the units of the controller's S word.
+mode : {'constant', 'dynamic', 'off'}
+    'dynamic': proportional to the speed (M4); 'off': M5.)");
+}
+
+void bind_texts(py::class_<Toolpath>& c) {
+  c.def(
+      "layer",
+      [](Toolpath& path, const std::string& name, long long colour) {
+        add(path, step::Layer{one_line(name, "name"), whole_within(colour, 0, kMaxColour, "colour")},
+            "layer");
+      },
+      py::arg("name"), py::arg("colour") = kMaxColour,
+      R"(Start a layer of drawings, or of a print.
+
+Parameters
+----------
+name : str
+colour : int
+    AutoCAD colour index; 256: that of the layer.)");
+  c.def(
+      "verbatim",
+      [](Toolpath& path, const std::string& text) {
+        add(path, step::Verbatim{one_line(text, "text")}, "verbatim");
+      },
+      py::arg("text"),
+      R"(Pass a line to the controller unchanged.
+
+The line must neither move the machine nor change how other lines are read; posts report lines with words
+that do.)");
+  c.def(
+      "close_path", [](Toolpath& path) { add(path, step::ClosePath{}, "close_path"); },
+      "Close the contour in drawings; the tool does not move.");
+}
+
+}  // namespace
+
+Feed positive_feed(double value) {
+  if (finite_number(value, "feed") <= 0.0) throw py::value_error("feed must be above 0 mm/min");
+  return mm_per_min(number_within(value, 0.0, limits::kMaxSpeed, "feed", "mm/min"));
+}
+
+void set_rotary(Toolpath& path, std::size_t motion, const py::object& rotary) {
+  if (rotary.is_none()) return;
+  const Point3 angles = to_point3(rotary, "rotary");
+  MotionExtra extra;
+  extra.abc = {angles.x, angles.y, angles.z};
+  path.set_extra(motion, std::move(extra));
+}
+
+void bind_steps(py::class_<Toolpath>& c) {
+  bind_machine_steps(c);
+  bind_printer_and_laser_steps(c);
+  bind_texts(c);
+}
+
+}  // namespace kerf::python

@@ -1,0 +1,16 @@
+// Steps of a toolpath in Python: helpers of motions, and the steps without a motion.
+#pragma once
+
+#include "bindings.h"
+
+#include "kerf/toolpath.h"
+
+namespace kerf::python {
+
+/// Raises ValueError unless the feed is above 0 and within the limits.
+Feed positive_feed(double value);
+/// Sets the positions of the axes A, B and C at the end of a motion; None: they do not move.
+void set_rotary(Toolpath& path, std::size_t motion, const pybind11::object& rotary);
+void bind_steps(pybind11::class_<Toolpath>& c);
+
+}  // namespace kerf::python

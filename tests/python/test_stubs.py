@@ -1,0 +1,54 @@
+"""The types of the compiled module: each name is in the stub, and a type checker accepts it."""
+
+import inspect
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+import kerf
+from kerf import _kerf
+
+STUB = pathlib.Path(kerf.__file__).parent / "_kerf.pyi"
+
+
+def members(cls):
+    return {n for n in vars(cls) if not n.startswith("_")}
+
+
+def test_the_stub_has_every_name():
+    text = STUB.read_text()
+    classes = dict(re.findall(r"^class (\w+).*:\n((?:    .*\n)+)", text, re.M))
+    for name, value in vars(_kerf).items():
+        if inspect.isclass(value) and name != "Error":
+            assert name in classes, f"class {name}: run tests/tools/make_stubs.py"
+            stated = set(re.findall(r"    def (\w+)", classes[name])) - {"__init__"}
+            stated = {n for n in stated if not n.startswith("_")}
+            assert stated == members(value), f"class {name}: run tests/tools/make_stubs.py"
+        elif inspect.isbuiltin(value):
+            assert re.search(rf"^def {name}\(", text, re.M), f"{name}: run tests/tools/make_stubs.py"
+
+
+def test_a_type_checker_accepts_the_stub(tmp_path):
+    pytest.importorskip("mypy")
+    script = tmp_path / "part.py"
+    script.write_text(
+        "import kerf\npath = kerf.Toolpath()\npath.coolant(flood=True)\npath.rapid((0, 0, 5))\n"
+        "reveal_type(path.report())\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-m", "mypy", "--cache-dir", tmp_path / "cache", script, STUB],
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, done.stdout
+    assert 'Revealed type is "builtins.dict' in done.stdout
+    script.write_text("import kerf\nkerf.Toolpath().coolant(flod=True)\n")
+    wrong = subprocess.run(
+        [sys.executable, "-m", "mypy", "--cache-dir", tmp_path / "cache", script],
+        capture_output=True,
+        text=True,
+    )
+    assert wrong.returncode == 1 and "flod" in wrong.stdout

@@ -1,0 +1,112 @@
+#!/usr/bin/env python3
+"""Writes the types of the compiled module, python/kerf/_kerf.pyi, from the signatures in its docstrings.
+
+Usage: PYTHONPATH=build/python tests/tools/make_stubs.py. tests/python/test_stubs.py compares the names.
+"""
+
+import inspect
+import pathlib
+import re
+
+from kerf import _kerf
+
+STUB = pathlib.Path(__file__).parents[2] / "python" / "kerf" / "_kerf.pyi"
+SIGNATURE = re.compile(r"^(?:\d+\. )?(\w+)\((.*)\) -> (.+)$")
+SPECIAL = {
+    "__init__",
+    "__len__",
+    "__getitem__",
+    "__setitem__",
+    "__contains__",
+    "__bool__",
+    "__or__",
+    "__and__",
+    "__sub__",
+    "__xor__",
+    "__repr__",
+    "__str__",
+}
+TYPES = [
+    (r"kerf\._kerf\.", ""),
+    (r"\b(handle|object|buffer)\b", "Any"),
+    (r"numpy\.ndarray\[[^\]]*\]", "Any"),
+    (r"os\.PathLike", "Any"),
+    (r"\b(List|Tuple|Dict|Callable|Sequence)\b", lambda m: m.group(1).lower()),
+    (r"collections\.abc\.Sequence|typing\.Sequence|\bsequence\b", "Any"),
+    (r"typing\.", ""),
+    (r"Any\[[^\]]*\]", "Any"),
+    (r"kerf::[\w:]+", "Any"),
+    (r"Optional\[([^\]]+)\]", r"\1 | None"),
+    (r"= (\([^)]*\)|'[^']*'|<[^>]*>|[^,]+)", "= ..."),
+    (r"typing_extensions\.SupportsFloat|SupportsFloat", "float"),
+    (r"typing_extensions\.SupportsIndex|SupportsIndex", "int"),
+    (r"numpy\.\w+\[[^\]]*\]", "Any"),
+]
+
+
+def plain(text):
+    for pattern, replacement in TYPES:
+        text = re.sub(pattern, replacement, text)
+    return text
+
+
+def signatures(function):
+    """(parameters, result) of each overload."""
+    lines = (function.__doc__ or "").splitlines()
+    found = [m.groups() for m in map(SIGNATURE.match, lines) if m and m.group(1) == function.__name__]
+    return [(plain(parameters), plain(result)) for _, parameters, result in found] or [("*args: Any", "Any")]
+
+
+def written(name, function, indent, static=False):
+    overloads = signatures(function)
+    out = []
+    for parameters, result in overloads:
+        if len(overloads) > 1:
+            out.append(f"{indent}@overload")
+        if static:
+            out.append(f"{indent}@staticmethod")
+        parameters = re.sub(r"^self: \w+", "self", parameters)
+        out.append(f"{indent}def {name}({parameters}) -> {result}: ...")
+    return out
+
+
+def class_stub(name, cls):
+    base = cls.__mro__[1].__name__
+    heading = f"class {name}({base}):" if base in vars(_kerf) else f"class {name}:"
+    out = [heading]
+    for member, value in sorted(vars(cls).items()):
+        if member.startswith("_") and member not in SPECIAL:
+            continue
+        if isinstance(value, property):
+            result = re.search(r"-> (.+)", (value.fget.__doc__ or "").split("\n")[0])
+            out += [
+                "    @property",
+                f"    def {member}(self) -> {plain(result.group(1)) if result else 'Any'}: ...",
+            ]
+        elif isinstance(value, staticmethod) or inspect.isbuiltin(value):
+            out += written(member, value.__func__ if isinstance(value, staticmethod) else value, "    ", True)
+        elif callable(value) and (member != "__init__" or "__init__(" in (value.__doc__ or "")):
+            out += written(member, value, "    ")
+    return out + (["    ..."] if len(out) == 1 else [])
+
+
+def stub():
+    lines = [
+        "# Written by tests/tools/make_stubs.py.",
+        "from typing import Any, overload",
+        "",
+        "__version__: str",
+        "",
+    ]
+    lines += ["class Error(ValueError):", "    diagnostics: list[Diagnostic]", ""]
+    for name, value in sorted(vars(_kerf).items()):
+        if inspect.isclass(value) and name != "Error":
+            lines += [*class_stub(name, value), ""]
+    for name, value in sorted(vars(_kerf).items()):
+        if inspect.isbuiltin(value):
+            lines += written(name, value, "")
+    return "\n".join(lines) + "\n"
+
+
+if __name__ == "__main__":
+    STUB.write_text(stub())
