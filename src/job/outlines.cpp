@@ -4,9 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "job/python_script.h"
-
 #include "kerf/program.h"
+#include "kerf/python_script.h"
 
 namespace kerf {
 namespace {
@@ -42,7 +41,7 @@ std::vector<NamedOutline> outlines_of_script(const std::string& script, Diagnost
   };
   if (noted.path().empty()) return fail("cannot create a temporary file");
   if (!InputFile::open(script, diagnostics)) return {};
-  const int status = run_python(script, {{"KERF_OUTLINES", noted.path()}}, diagnostics);
+  const int status = run_python(script, {.environment = {{"KERF_OUTLINES", noted.path()}}}, diagnostics);
   if (status < 0) return {};
   if (status != 0) return fail(fmt::format("the script ended with exit status {}", status));
   const auto file = InputFile::open(noted.path(), diagnostics);

@@ -1,5 +1,5 @@
 // Running Python: choice of the interpreter, its environment and its exit status.
-#include "job/python_script.h"
+#include "kerf/python_script.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -58,9 +58,9 @@ std::vector<char*> pointers(std::vector<std::string>& texts) {
 
 }  // namespace
 
-int run_python(const std::string& script, const std::vector<std::pair<std::string, std::string>>& environment,
-               Diagnostics& diagnostics) {
-  std::vector<std::string> words{interpreter(), script}, variables = environment_of(environment);
+int run_python(const std::string& script, const ScriptOptions& options, Diagnostics& diagnostics) {
+  std::vector<std::string> words{interpreter(), script}, variables = environment_of(options.environment);
+  words.insert(words.end(), options.arguments.begin(), options.arguments.end());
   const std::vector<char*> arguments = pointers(words), environment_texts = pointers(variables);
   const auto fail = [&](const std::string& message) {
     diagnostics.error(Code::script_failed, TextLocation{script, 0, 0}, message);
@@ -69,7 +69,7 @@ int run_python(const std::string& script, const std::vector<std::pair<std::strin
   const pid_t child = fork();
   if (child < 0) return fail("cannot start a process");
   if (child == 0) {
-    dup2(STDERR_FILENO, STDOUT_FILENO);
+    if (options.output == ScriptOutput::to_stderr) dup2(STDERR_FILENO, STDOUT_FILENO);
     execvpe(arguments[0], arguments.data(), environment_texts.data());
     _exit(127);  // the status of a shell for a missing command
   }

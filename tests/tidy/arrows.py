@@ -123,7 +123,7 @@ PUBLIC = {
     "codec_drawing": ["drawing_files.h", "dxf.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_png": ["image_files.h"],
-    "job": ["program.h", "job.h", "findings.h", "outputs.h", "posting.h"],
+    "job": ["program.h", "job.h", "findings.h", "outputs.h", "posting.h", "python_script.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

@@ -1,0 +1,26 @@
+// Running a user's Python script with Kerf's modules on its path.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+
+namespace kerf {
+
+/// Where the script's standard output goes: to stderr if the caller prints a result of its own.
+enum class ScriptOutput { to_stdout, to_stderr };
+
+struct ScriptOptions {
+  std::vector<std::string> arguments = {};                            // of the script
+  std::vector<std::pair<std::string, std::string>> environment = {};  // added to that of this process
+  ScriptOutput output = ScriptOutput::to_stderr;
+};
+
+/// Runs `script` with $KERF_PYTHON, else the virtual environment's python, else python3, with Kerf's modules
+/// on its path. Returns its exit status; -1, with an error, if it could not be started or was ended by a
+/// signal.
+int run_python(const std::string& script, const ScriptOptions& options, Diagnostics& diagnostics);
+
+}  // namespace kerf
