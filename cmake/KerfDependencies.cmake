@@ -32,3 +32,6 @@ endif()
 if(KERF_PYTHON)
   set(PYBIND11_FINDPYTHON ON)
 endif()
+
+# Every target sees fmt's definitions, so that all modules can use one precompiled header.
+target_compile_definitions(kerf_flags INTERFACE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)

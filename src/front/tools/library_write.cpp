@@ -10,7 +10,7 @@ namespace {
 constexpr int kDecimals = 6;  // of mm
 
 /// A text as TOML's basic string.
-std::string quoted(std::string_view text) {
+std::string quoted_text(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -50,10 +50,10 @@ void write_tool(std::string& out, int number, const Tool& tool) {
   out += fmt::format("\n[[tool]]\nnumber = {}\n", number);
   std::string names;  // the reader adds the number itself
   for (const std::string& name : tool.names)
-    if (name != std::to_string(number)) names += (names.empty() ? "" : ", ") + quoted(name);
+    if (name != std::to_string(number)) names += (names.empty() ? "" : ", ") + quoted_text(name);
   if (!names.empty()) out += fmt::format("names = [{}]\n", names);
-  if (!tool.description.empty()) out += fmt::format("description = {}\n", quoted(tool.description));
-  out += fmt::format("shape = {}\n", quoted(name_of(tool.shape)));
+  if (!tool.description.empty()) out += fmt::format("description = {}\n", quoted_text(tool.description));
+  out += fmt::format("shape = {}\n", quoted_text(name_of(tool.shape)));
   for (const ShapeParameter& parameter : parameters_of(tool.shape))
     write_key(out, parameter.name, parameter.get(tool.shape));
   if (const auto* drawn = std::get_if<shape::Drawn>(&tool.shape)) write_profile(out, drawn->cutting);

@@ -18,7 +18,7 @@ constexpr double kMaxPosition = 1e7;                                      // mm
 bool is_blank(std::string_view text) { return text.find_first_not_of(" \t\r") == std::string_view::npos; }
 
 /// Text as a message quotes it.
-std::string quoted(std::string_view text) {
+std::string quoted_line(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   while (!text.empty() && is_blank(text.substr(text.size() - 1))) text.remove_suffix(1);
   if (text.size() <= kLongest) return fmt::format("\"{}\"", text);
@@ -84,7 +84,7 @@ bool PathSink::check_pending() {
     vm_.fail(Code::gcmc_literal,
              fmt::format(
                  "The line {} of literal() has no line end: the words of this call would be appended to it",
-                 quoted(pending_)),
+                 quoted_line(pending_)),
              "end the text of literal() with \\n");
   }
   pending_.clear();
@@ -388,7 +388,7 @@ void PathSink::written_line(std::string_view text) {
   const std::optional<WrittenLine> line = read_written_line(text, problem);
   if (!line) {
     vm_.fail(Code::gcmc_literal,
-             fmt::format("The line {} cannot be part of a toolpath: {}", quoted(text), problem),
+             fmt::format("The line {} cannot be part of a toolpath: {}", quoted_line(text), problem),
              "use the functions of the language, or write G-code with kerf gcmc and use that");
   }
   const OriginId where = origin();
@@ -398,9 +398,9 @@ void PathSink::written_line(std::string_view text) {
   if (line->selected) selected_tool_ = line->selected;
   if (line->changes_tool) {
     if (!selected_tool_) {
-      vm_.fail(
-          Code::gcmc_literal,
-          fmt::format("The line {} cannot be part of a toolpath: no T word selects the tool", quoted(text)));
+      vm_.fail(Code::gcmc_literal,
+               fmt::format("The line {} cannot be part of a toolpath: no T word selects the tool",
+                           quoted_line(text)));
     }
     change_tool(*selected_tool_, where);
   }
