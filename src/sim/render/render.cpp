@@ -18,24 +18,47 @@ using Colour = Point3;  // linear light, 0 to 1
 
 constexpr double kMargin = 0.06;           // around the part, as a fraction of the picture
 constexpr double kViewDistance = 3.6;      // from the viewer to the centre, in radii of the part
-constexpr int kShadowSize = 3072;          // samples along a side of the shadow map
+constexpr int kShadowSize = 2048;          // samples along a side of the shadow map
 constexpr double kOcclusionRadius = 0.05;  // of ambient occlusion, as a fraction of the part's size
 constexpr double kSmoothCosine = 0.82;     // faces at smaller angles (35 degrees) are shaded as one surface
+constexpr double kFlatCosine = 0.999999;   // a face with vertex normals at smaller angles has one normal
 constexpr double kCreaseCosine = 0.6;      // faces at larger angles are separated by a line
+constexpr double kPlainCosine = 0.99;      // a pixel of samples at smaller angles is shaded once
+constexpr double kLineJump = 0.012;  // larger steps in depth have a line, as a fraction of the part's size
 constexpr Colour kMissingColour{0.45, 0.45, 0.45};  // of triangles without a colour
 constexpr std::array<std::uint8_t, 3> kSkyTop{250, 251, 252}, kSkyLow{222, 226, 230};  // background, sRGB
 
-double linear(std::uint8_t value) {
-  const double s = value / 255.0;
-  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-Colour linear(const std::array<std::uint8_t, 3>& c) { return {linear(c[0]), linear(c[1]), linear(c[2])}; }
+/// The sRGB curve in both directions, from tables.
+class Srgb {
+ public:
+  Srgb() {
+    for (std::size_t b = 0; b < 256; ++b) linear_[b] = curve(static_cast<double>(b));
+    for (std::size_t b = 1; b < 256; ++b) lowest_[b] = curve(static_cast<double>(b) - 0.5);
+    for (std::size_t k = 0, b = 0; k < first_.size(); ++k) {
+      while (b < 255 && lowest_[b + 1] <= static_cast<double>(k) / kBins) ++b;
+      first_[k] = static_cast<std::uint8_t>(b);
+    }
+  }
+  Colour linear(const std::array<std::uint8_t, 3>& c) const {
+    return {linear_[c[0]], linear_[c[1]], linear_[c[2]]};
+  }
+  /// The nearest byte.
+  std::uint8_t encoded(double value) const {
+    const double v = std::clamp(value, 0.0, 1.0);
+    std::size_t b = first_[static_cast<std::size_t>(v * kBins)];
+    while (b < 255 && lowest_[b + 1] <= v) ++b;
+    return static_cast<std::uint8_t>(b);
+  }
 
-std::uint8_t encoded(double value) {
-  const double v = std::clamp(value, 0.0, 1.0);
-  const double s = v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-  return static_cast<std::uint8_t>(std::lround(255.0 * s));
-}
+ private:
+  static constexpr double kBins = 4096.0;
+  static double curve(double byte) {
+    const double s = byte / 255.0;
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  }
+  std::array<double, 256> linear_{}, lowest_{};  // lowest_: the smallest value of each byte
+  std::array<std::uint8_t, 4097> first_{};       // the byte of the lower end of each bin
+};
 
 /// Unit vector away from the viewer.
 Point3 view_direction(const View& view) {
@@ -70,11 +93,22 @@ struct PackedNormal {
   std::array<std::int16_t, 3> n{};
   static PackedNormal of(Point3 v) {
     const auto pack = [](double c) {
-      return static_cast<std::int16_t>(std::lround(32767.0 * std::clamp(c, -1.0, 1.0)));
+      const double scaled = 32767.0 * std::clamp(c, -1.0, 1.0);
+      return static_cast<std::int16_t>(scaled < 0.0 ? scaled - 0.5 : scaled + 0.5);  // the nearest
     };
     return {{pack(v.x), pack(v.y), pack(v.z)}};
   }
-  Point3 get() const { return {n[0] / 32767.0, n[1] / 32767.0, n[2] / 32767.0}; }
+  Point3 get() const {
+    constexpr double kStep = 1.0 / 32767.0;
+    return {kStep * n[0], kStep * n[1], kStep * n[2]};
+  }
+};
+
+/// The surface at a point of the picture.
+struct Seen {
+  Point3 at, normal;       // work coordinates
+  std::uint32_t triangle;  // or kNothing: the ground
+  double occlusion;
 };
 
 class Painter {
@@ -88,6 +122,7 @@ class Painter {
     int x, y;
   };
   using Ray = std::array<Offset, kSteps>;
+  enum Differs : std::uint8_t { with_right = 1, with_lower = 2 };
   struct PixelPoint {
     float x, y, z;
   };
@@ -100,20 +135,49 @@ class Painter {
   void draw_shadows();
   void smooth_normals();
   void add_ground_and_normals();
-  Point3 normal_at(std::uint32_t triangle, double x, double y) const;
+  /// The normals of a triangle at the samples of the picture, before they are scaled to length 1.
+  struct NormalField {
+    PackedNormal packed;  // of a flat one
+    bool is_flat = true;
+    Point3 origin, dx, dy;
+    PackedNormal at(double x, double y) const {
+      return is_flat ? packed : PackedNormal::of(unit(origin + x * dx + y * dy));
+    }
+  };
+  NormalField normals_of(std::uint32_t triangle) const;
   std::size_t pixel(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
   void locate_pixels();
   std::vector<Ray> rays_of(int cell) const;
   float occlusion_at(int x, int y, const std::vector<Ray>& rays) const;
+  /// A value for every second pixel in both directions.
+  struct Coarse {
+    int columns, rows;
+    std::vector<float> values;
+    Coarse(int nx, int ny)
+        : columns(nx), rows(ny), values(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny)) {}
+    std::size_t index(int x, int y) const {
+      return static_cast<std::size_t>(y) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(x);
+    }
+    float& at(int x, int y) { return values[index(x, y)]; }
+    float at(int x, int y) const { return values[index(x, y)]; }
+  };
   void occlude();
-  void blur_occlusion();
+  float mean_occlusion(const Coarse& values, float depth, Offset low, Offset high) const;
+  double far_of(float depth) const { return depth / (1.0 - eye_.nearness * depth); }
+  bool differ(std::size_t a, std::size_t b) const;
+  void compare_neighbours();
+  bool is_plain(int x, int y) const;
   double lit_fraction(Point3 p, Point3 normal) const;
   double line_at(int x, int y) const;
-  Colour shade(int x, int y) const;
+  Colour shade(const Seen& seen, int y) const;
+  Colour sample(int x, int y) const;
+  Colour plain_pixel(int x, int y) const;
   Colour background(int y) const;
+  void paint_row(int y, std::uint8_t* rgba) const;
 
+  const Srgb srgb_;
   const Mesh& mesh_;
   std::span<const std::array<std::uint8_t, 3>> colours_;
   int width_, height_, fine_;  // pixels; samples along a pixel's side
@@ -127,6 +191,7 @@ class Painter {
   std::vector<ScreenVertex> screen_;
   std::vector<std::array<float, 3>> vertex_normals_;
   std::vector<PackedNormal> normals_;
+  std::vector<std::uint8_t> differs_;     // per sample: the neighbours that it must not be averaged with
   std::vector<PixelPoint> pixel_points_;  // per pixel, viewer's frame, mm
   std::vector<float> occlusion_;          // per pixel, 0 open to 1 closed
 };
@@ -198,33 +263,47 @@ void Painter::smooth_normals() {
       for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<float>(n[static_cast<int>(axis)]);
     }
   }
+  for (auto& n : vertex_normals_) {
+    const Point3 u = unit({n[0], n[1], n[2]});
+    n = {static_cast<float>(u.x), static_cast<float>(u.y), static_cast<float>(u.z)};
+  }
 }
 
-/// Normal at a sample, interpolated between those of the vertices that are close to the face's.
-Point3 Painter::normal_at(std::uint32_t triangle, double x, double y) const {
+/// Of a triangle: interpolated between those of its vertices that are close to the face's.
+Painter::NormalField Painter::normals_of(std::uint32_t triangle) const {
   const std::uint32_t* v = mesh_.triangles.data() + std::size_t{3} * triangle;
   const Point3 a = vertex(mesh_, v[0]);
   const Point3 face = unit(cross(vertex(mesh_, v[1]) - a, vertex(mesh_, v[2]) - a));
   const ScreenVertex &p = screen_[v[0]], &q = screen_[v[1]], &r = screen_[v[2]];
-  const double area = (static_cast<double>(q.x) - p.x) * (static_cast<double>(r.y) - p.y) -
-                      (static_cast<double>(q.y) - p.y) * (static_cast<double>(r.x) - p.x);
-  if (area == 0.0) return face;
-  const double wr = ((q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)) / area;
-  const double wq = ((x - p.x) * (r.y - p.y) - (y - p.y) * (r.x - p.x)) / area;
-  const std::array<double, 3> weight{1.0 - wr - wq, wq, wr};
-  Point3 sum{};
+  const double qx = static_cast<double>(q.x) - p.x, qy = static_cast<double>(q.y) - p.y;
+  const double rx = static_cast<double>(r.x) - p.x, ry = static_cast<double>(r.y) - p.y;
+  const double area = qx * ry - qy * rx;
+  std::array<Point3, 3> n;
+  bool flat = true;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto& n = vertex_normals_[v[k]];
-    const Point3 smooth = unit({n[0], n[1], n[2]});
-    sum = sum + weight[k] * (dot(smooth, face) > kSmoothCosine ? smooth : face);
+    const auto& mean = vertex_normals_[v[k]];
+    const Point3 smooth{mean[0], mean[1], mean[2]};
+    const double cosine = dot(smooth, face);
+    n[k] = cosine > kSmoothCosine ? smooth : face;
+    flat = flat && (cosine <= kSmoothCosine || cosine > kFlatCosine);
   }
-  return unit(sum);
+  NormalField field;
+  field.packed = PackedNormal::of(face);
+  field.is_flat = flat || area == 0.0;
+  if (field.is_flat) return field;
+  const Point3 along_q = (1.0 / area) * (n[1] - n[0]), along_r = (1.0 / area) * (n[2] - n[0]);
+  field.dx = ry * along_q - qy * along_r;
+  field.dy = qx * along_r - rx * along_q;
+  field.origin = n[0] - static_cast<double>(p.x) * field.dx - static_cast<double>(p.y) * field.dy;
+  return field;
 }
 
 void Painter::add_ground_and_normals() {
   normals_.resize(seen_.depth.size());
   const double floor = box_.low.z;
   in_bands(seen_.height, [&](int first, int last) {
+    NormalField field;
+    std::uint32_t of = kNothing;
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < seen_.width; ++x) {
         const std::size_t at = seen_.index(x, y);
@@ -233,7 +312,8 @@ void Painter::add_ground_and_normals() {
           continue;
         }
         if (seen_.triangle[at] != kNothing) {
-          normals_[at] = PackedNormal::of(normal_at(seen_.triangle[at], x + 0.5, y + 0.5));
+          if (seen_.triangle[at] != of) field = normals_of(of = seen_.triangle[at]);
+          normals_[at] = field.at(x + 0.5, y + 0.5);
           continue;
         }
         normals_[at] = PackedNormal::of({0, 0, 1});
@@ -313,40 +393,45 @@ float Painter::occlusion_at(int x, int y, const std::vector<Ray>& rays) const {
   return std::min(1.0f, sum / kDirections);
 }
 
+/// At every second pixel in both directions: occlusion varies over much larger distances.
 void Painter::occlude() {
   locate_pixels();
   std::vector<std::vector<Ray>> rays;
   for (int cell = 0; cell < 16; ++cell) rays.push_back(rays_of(cell));
+  Coarse raw((width_ + 1) / 2, (height_ + 1) / 2), blurred(raw.columns, raw.rows);
+  in_bands(raw.rows, [&](int first, int last) {
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < raw.columns; ++x)
+        raw.at(x, y) = occlusion_at(2 * x, 2 * y, rays[static_cast<std::size_t>((x & 3) + 4 * (y & 3))]);
+  });
+  in_bands(raw.rows, [&](int first, int last) {  // over 4 x 4 values, which removes the pattern of rays_of
+    for (int y = first; y < last; ++y)
+      for (int x = 0; x < raw.columns; ++x)
+        blurred.at(x, y) =
+            mean_occlusion(raw, pixel_points_[pixel(2 * x, 2 * y)].z, {x - 2, y - 2}, {x + 2, y + 2});
+  });
   in_bands(height_, [&](int first, int last) {
     for (int y = first; y < last; ++y)
       for (int x = 0; x < width_; ++x)
-        occlusion_[pixel(x, y)] = occlusion_at(x, y, rays[static_cast<std::size_t>((x & 3) + 4 * (y & 3))]);
+        occlusion_[pixel(x, y)] = mean_occlusion(blurred, pixel_points_[pixel(x, y)].z, {x / 2, y / 2},
+                                                 {(x + 1) / 2 + 1, (y + 1) / 2 + 1});
   });
-  blur_occlusion();
 }
 
-/// Averages over 4 x 4 pixels of about the same depth, which removes the pattern of rays_of.
-void Painter::blur_occlusion() {
-  std::vector<float> blurred(occlusion_.size());
-  const double near = 0.01 * size_;
-  in_bands(height_, [&](int first, int last) {
-    for (int y = first; y < last; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
-        double sum = 0.0;
-        int count = 0;
-        for (int py = std::max(0, y - 2); py < std::min(height_, y + 2); ++py) {
-          for (int px = std::max(0, x - 2); px < std::min(width_, x + 2); ++px) {
-            if (std::abs(seen_.depth[seen_.index(px * fine_, py * fine_)] - depth) > near) continue;
-            sum += occlusion_[pixel(px, py)];
-            ++count;
-          }
-        }
-        blurred[pixel(x, y)] = count == 0 ? occlusion_[pixel(x, y)] : static_cast<float>(sum / count);
-      }
+/// The mean of the values from `low` to `high` whose surface has about the same depth.
+float Painter::mean_occlusion(const Coarse& values, float depth, Offset low, Offset high) const {
+  if (depth >= kFarDepth) return 0.0f;
+  const auto near = static_cast<float>(0.01 * size_);
+  float sum = 0.0f;
+  int count = 0;
+  for (int y = std::max(0, low.y); y < std::min(values.rows, high.y); ++y) {
+    for (int x = std::max(0, low.x); x < std::min(values.columns, high.x); ++x) {
+      if (std::abs(pixel_points_[pixel(2 * x, 2 * y)].z - depth) > near) continue;
+      sum += values.at(x, y);
+      ++count;
     }
-  });
-  occlusion_ = std::move(blurred);
+  }
+  return count > 0 ? sum / static_cast<float>(count) : values.at(low.x, low.y);
 }
 
 /// Fraction of the key light that reaches a point, from 5 x 5 samples of the shadow map around it.
@@ -389,32 +474,74 @@ double Painter::line_at(int x, int y) const {
     const Point3 step = eye_.point(qx + 0.5, qy + 0.5, seen_.depth[other]) - p;
     const double jump = std::abs(dot(step, eye_.into));
     // A line on the nearer side of a step in depth that exceeds that of a steep slope.
-    if (jump > 0.012 * size_ && seen_.depth[other] > seen_.depth[at]) line = std::min(line, 0.6);
+    if (jump > kLineJump * size_ && seen_.depth[other] > seen_.depth[at]) line = std::min(line, 0.6);
     if ((dx > 0 || dy > 0) && dot(n, normals_[other].get()) < kCreaseCosine) line = std::min(line, 0.8);
   }
   return line;
 }
 
-Colour Painter::background(int y) const {
-  const double t = static_cast<double>(y) / std::max(1, seen_.height - 1);
-  return (1.0 - t) * linear(kSkyTop) + t * linear(kSkyLow);
+/// Whether two neighbouring samples show different things, or have a line between them.
+bool Painter::differ(std::size_t a, std::size_t b) const {
+  const std::uint32_t s = seen_.triangle[a], t = seen_.triangle[b];
+  if (std::abs(far_of(seen_.depth[a]) - far_of(seen_.depth[b])) > kLineJump * size_) return true;
+  if (s == t) {
+    if (s == kCutFace || s == kNothing) return false;
+  } else {
+    if (s >= kCutFace || t >= kCutFace) return true;
+    if ((s < colours_.size()) != (t < colours_.size())) return true;
+    if (s < colours_.size() && colours_[s] != colours_[t]) return true;
+  }
+  const auto &m = normals_[a].n, &n = normals_[b].n;
+  const int cosine = (m[0] * n[0] >> 1) + (m[1] * n[1] >> 1) + (m[2] * n[2] >> 1);
+  return cosine < static_cast<int>(kPlainCosine * 32767.0 * 32767.0 / 2.0);
 }
 
-Colour Painter::shade(int x, int y) const {
-  const std::size_t at = seen_.index(x, y);
-  const std::uint32_t triangle = seen_.triangle[at];
-  if (triangle == kNothing && seen_.depth[at] >= kFarDepth) return background(y);
-  if (triangle == kCutFace) return line_at(x, y) * linear(kSectionColour);
-  const Point3 p = eye_.point(x + 0.5, y + 0.5, seen_.depth[at]);
-  const Point3 n = normals_[at].get();
-  const double closed = std::min(1.0, 1.35 * occlusion_[pixel(x / fine_, y / fine_)]);
-  const double open = 1.0 - 0.9 * closed;
-  const double lit = lit_fraction(p, n);
-  if (triangle == kNothing) return (1.0 - (0.28 * (1.0 - lit) + 0.3 * closed)) * background(y);
+void Painter::compare_neighbours() {
+  differs_.resize(seen_.depth.size());
+  in_bands(seen_.height, [&](int first, int last) {
+    for (int y = first; y < last; ++y) {
+      const bool has_lower = y + 1 < seen_.height;
+      for (int x = 0; x < seen_.width; ++x) {
+        const std::size_t at = seen_.index(x, y);
+        const int right = x + 1 < seen_.width && differ(at, at + 1) ? with_right : 0;
+        const int lower = has_lower && differ(at, seen_.index(x, y + 1)) ? with_lower : 0;
+        differs_[at] = static_cast<std::uint8_t>(right | lower);
+      }
+    }
+  });
+}
 
-  const Colour albedo = triangle < colours_.size() ? linear(colours_[triangle]) : kMissingColour;
+/// Whether one colour suits all samples of a pixel.
+bool Painter::is_plain(int x, int y) const {
+  const int x0 = x * fine_, y0 = y * fine_;
+  int bits = 0;
+  for (int k = 0; k < fine_; ++k) {
+    for (int j = 0; j < fine_; ++j) bits |= differs_[seen_.index(x0 + j, y0 + k)];
+    if (x0 > 0) bits |= differs_[seen_.index(x0 - 1, y0 + k)] & with_right;
+    if (y0 > 0) bits |= differs_[seen_.index(x0 + k, y0 - 1)] & with_lower;
+  }
+  return bits == 0;
+}
+
+Colour Painter::background(int y) const {
+  const double t = static_cast<double>(y) / std::max(1, seen_.height - 1);
+  return (1.0 - t) * srgb_.linear(kSkyTop) + t * srgb_.linear(kSkyLow);
+}
+
+/// The colour of a surface in sample row y, without lines.
+Colour Painter::shade(const Seen& seen, int y) const {
+  if (seen.triangle == kCutFace) return srgb_.linear(kSectionColour);
+  const Point3& n = seen.normal;
   const Point3 light = -1.0 * sun_.into;
-  const double key = 0.85 * std::max(0.0, dot(n, light)) * lit * (1.0 - 0.25 * closed);
+  const double closed = std::min(1.0, 1.35 * seen.occlusion);
+  const double open = 1.0 - 0.9 * closed;
+  const double facing = dot(n, light);
+  const double lit = facing > 0.0 ? lit_fraction(seen.at, n) : 0.0;
+  if (seen.triangle == kNothing) return (1.0 - (0.28 * (1.0 - lit) + 0.3 * closed)) * background(y);
+
+  const Colour albedo =
+      seen.triangle < colours_.size() ? srgb_.linear(colours_[seen.triangle]) : kMissingColour;
+  const double key = 0.85 * std::max(0.0, facing) * lit * (1.0 - 0.25 * closed);
   const double fill = 0.16 * std::max(0.0, dot(n, fill_)) * open;
   const double up = 0.5 + 0.5 * n.z;
   const Colour sky = (0.36 * up * open) * Colour{0.97, 1.0, 1.04};
@@ -422,9 +549,55 @@ Colour Painter::shade(int x, int y) const {
   const Colour direct = key * Colour{1.03, 1.0, 0.95} + fill * Colour{0.95, 0.98, 1.05};
   const Point3 half = unit(light - eye_.into);
   const double mirror = dot(n, half);
-  const double shine = lit > 0.0 && mirror > 0.7 ? 0.08 * lit * std::pow(mirror, 28.0) : 0.0;
-  const Colour colour = times(albedo, direct + sky + bounce) + Colour{shine, shine, shine};
-  return line_at(x, y) * colour;
+  const double m4 = mirror * mirror * mirror * mirror, m12 = m4 * m4 * m4;
+  const double shine = lit > 0.0 && mirror > 0.7 ? 0.08 * lit * m12 * m12 * m4 : 0.0;
+  return times(albedo, direct + sky + bounce) + Colour{shine, shine, shine};
+}
+
+Colour Painter::sample(int x, int y) const {
+  const std::size_t at = seen_.index(x, y);
+  const std::uint32_t triangle = seen_.triangle[at];
+  if (triangle == kNothing && seen_.depth[at] >= kFarDepth) return background(y);
+  const Colour colour = shade({eye_.point(x + 0.5, y + 0.5, seen_.depth[at]), normals_[at].get(), triangle,
+                               occlusion_[pixel(x / fine_, y / fine_)]},
+                              y);
+  return triangle == kNothing ? colour : line_at(x, y) * colour;
+}
+
+/// The colour of a pixel that is_plain, at its centre.
+Colour Painter::plain_pixel(int x, int y) const {
+  const int x0 = x * fine_, y0 = y * fine_;
+  const std::size_t at = seen_.index(x0, y0);
+  if (seen_.triangle[at] == kNothing && seen_.depth[at] >= kFarDepth) return background(y0);
+  double depth = 0.0;
+  Point3 normal{};
+  for (int k = 0; k < fine_; ++k) {
+    for (int j = 0; j < fine_; ++j) {
+      depth += static_cast<double>(seen_.depth[seen_.index(x0 + j, y0 + k)]) / (fine_ * fine_);
+      normal = normal + normals_[seen_.index(x0 + j, y0 + k)].get();
+    }
+  }
+  return shade({eye_.point(x0 + fine_ / 2.0, y0 + fine_ / 2.0, depth), unit(normal), seen_.triangle[at],
+                occlusion_[pixel(x, y)]},
+               y0);
+}
+
+void Painter::paint_row(int y, std::uint8_t* rgba) const {
+  const bool drawn = !differs_.empty();
+  for (int x = 0; x < width_; ++x) {
+    Colour colour{};
+    if (!drawn || is_plain(x, y)) {
+      colour = plain_pixel(x, y);
+    } else {
+      for (int s = 0; s < fine_ * fine_; ++s)
+        colour = colour + sample(x * fine_ + s % fine_, y * fine_ + s / fine_);
+      colour = (1.0 / (fine_ * fine_)) * colour;
+    }
+    *rgba++ = srgb_.encoded(colour.x);
+    *rgba++ = srgb_.encoded(colour.y);
+    *rgba++ = srgb_.encoded(colour.z);
+    *rgba++ = 255;
+  }
 }
 
 Image Painter::paint() {
@@ -441,23 +614,12 @@ Image Painter::paint() {
     smooth_normals();
     add_ground_and_normals();
     occlude();
+    compare_neighbours();
   }
   Image image{width_, height_, {}};
   image.rgba.resize(4 * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   in_bands(height_, [&](int first, int last) {
-    for (int y = first; y < last; ++y) {
-      for (int x = 0; x < width_; ++x) {
-        Colour sum{};
-        for (int s = 0; s < fine_ * fine_; ++s)
-          sum = sum + shade(x * fine_ + s % fine_, y * fine_ + s / fine_);
-        sum = (1.0 / (fine_ * fine_)) * sum;
-        std::uint8_t* out = image.rgba.data() + 4 * pixel(x, y);
-        out[0] = encoded(sum.x);
-        out[1] = encoded(sum.y);
-        out[2] = encoded(sum.z);
-        out[3] = 255;
-      }
-    }
+    for (int y = first; y < last; ++y) paint_row(y, image.rgba.data() + 4 * pixel(0, y));
   });
   return image;
 }
