@@ -60,6 +60,8 @@ class OriginTable {
   /// word.
   OriginId text(std::uint32_t file, std::uint32_t line, std::uint32_t column);
   OriginId add(const Origin& origin);
+  /// A further id of the location of `id`, for another caller; takes less memory than adding it again.
+  OriginId add_again(OriginId id);
   /// Records that `caller` caused `inner` (an include, a call of a function or sub-path).
   void set_caller(OriginId inner, OriginId caller);
 

@@ -68,6 +68,12 @@ OriginId OriginTable::add(const Origin& origin) {
   return OriginId::none;
 }
 
+OriginId OriginTable::add_again(OriginId id) {
+  assert(static_cast<std::size_t>(id) < records_.size());
+  records_.push_back(Record(records_[static_cast<std::size_t>(id)]));
+  return static_cast<OriginId>(records_.size() - 1);
+}
+
 void OriginTable::set_caller(OriginId inner, OriginId caller) {
   assert(static_cast<std::size_t>(inner) < records_.size() &&
          static_cast<std::size_t>(caller) < records_.size());

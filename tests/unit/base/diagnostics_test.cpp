@@ -68,6 +68,18 @@ TEST(OriginTable, ResolvesWhatWasAdded) {
   EXPECT_EQ(table.file("part.nc"), table.file("part.nc"));
 }
 
+TEST(OriginTable, GivesALocationFurtherIds) {
+  OriginTable table;
+  const OriginId first = table.add(DrawingLocation{"plate.dxf", "8999", "2F", 10, 20, "LINE"});
+  const OriginId caller = table.add(TextLocation{"part.nc", 1, 1});
+  const OriginId second = table.add_again(first);
+  table.set_caller(second, caller);
+  EXPECT_EQ(table.resolve(second), table.resolve(first));
+  EXPECT_TRUE(table.callers(first).empty());
+  EXPECT_EQ(table.callers(second).size(), 1u);
+  EXPECT_EQ(to_string(table.resolve(second)), "plate.dxf: layer 8999, LINE 2F, at 10, 20");
+}
+
 TEST(OriginTable, NamesCallersInnermostFirst) {
   OriginTable table;
   const OriginId outer = table.add(TextLocation{"main.ngc", 2, 0});

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
+#include <unordered_map>
 
 #include "front/pathdxf/compile/miller.h"
 #include "front/pathdxf/text/nearly.h"
@@ -61,9 +61,13 @@ class PathCompiler {
   void start(Toolpath& path, Emitter& emitter, double height);
   void write_path(const Path& path, const Frame& frame, Emitter& emitter);
   void write_embedding(const Operation& operation, const Frame& frame, Emitter& emitter);
-  OriginId origin(Toolpath& path, const Origin& where, OriginId caller) const {
-    const OriginId id = path.origins().add(where);
-    if (caller != OriginId::none) path.origins().set_caller(id, caller);
+  /// The origin of a step of the milling path.
+  OriginId origin(const Origin& where, OriginId caller) {
+    OriginTable& table = out_.milling.origins();
+    const auto [known, is_new] = origins_.try_emplace(&where, OriginId::none);
+    const OriginId id = is_new ? table.add(where) : table.add_again(known->second);
+    if (is_new) known->second = id;
+    if (caller != OriginId::none) table.set_caller(id, caller);
     return id;
   }
 
@@ -72,6 +76,7 @@ class PathCompiler {
   Report& report_;
   Progress* progress_;
   Frame home_;
+  std::unordered_map<const Origin*, OriginId> origins_;  // of locations used before
   Compiled out_;
 };
 
@@ -137,7 +142,6 @@ void PathCompiler::write_milling() {
 }
 
 void PathCompiler::write_path(const Path& path, const Frame& frame, Emitter& emitter) {
-  Toolpath& steps = out_.milling;
   if (std::any_of(path.operations.begin(), path.operations.end(), cuts))
     out_.top = std::max(out_.top, path.top + frame.raise);
   Miller miller(path, frame, emitter, report_);
@@ -145,7 +149,7 @@ void PathCompiler::write_path(const Path& path, const Frame& frame, Emitter& emi
     if (emitter.full() || stop_requested(progress_)) return;
     if (const auto* chain = std::get_if<Chain>(&operation.what)) {
       std::vector<OriginId> origins;
-      for (const MillSegment& s : chain->segments) origins.push_back(origin(steps, s.where, frame.caller));
+      for (const MillSegment& s : chain->segments) origins.push_back(origin(s.where, frame.caller));
       miller.chain(*chain, operation.where, origins);
       continue;
     }
@@ -153,7 +157,7 @@ void PathCompiler::write_path(const Path& path, const Frame& frame, Emitter& emi
       write_embedding(operation, frame, emitter);
       continue;
     }
-    emitter.set_origin(origin(steps, operation.where, frame.caller));
+    emitter.set_origin(origin(operation.where, frame.caller));
     if (const auto* sweep = std::get_if<Sweep>(&operation.what)) miller.sweep(*sweep);
     if (const auto* drill = std::get_if<Drill>(&operation.what)) miller.drill(*drill, operation.where);
     if (const auto* helix = std::get_if<Helix>(&operation.what)) miller.helix(*helix, operation.where);
@@ -162,7 +166,7 @@ void PathCompiler::write_path(const Path& path, const Frame& frame, Emitter& emi
 
 void PathCompiler::write_embedding(const Operation& operation, const Frame& frame, Emitter& emitter) {
   const auto& e = std::get<Embedding>(operation.what);
-  const OriginId here = origin(out_.milling, operation.where, frame.caller);
+  const OriginId here = origin(operation.where, frame.caller);
   Frame inner = frame_of(frame, e);
   inner.caller = here;
   const auto mapped = [&](Point2 p) {
