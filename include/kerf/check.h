@@ -33,6 +33,7 @@ enum class ProgramEnd : std::uint8_t { not_asked, seen, missing };
 struct CheckOptions {
   ArcMismatch arc_radii = {};
   ProgramEnd end = ProgramEnd::not_asked;
+  bool manual_spindle = false;  // a program without spindle steps is run with a spindle started by hand
   // Without them (nullptr, nothing) the related checks are skipped. They must outlive the check.
   const Machine* machine = nullptr;          // travel and spindle
   const ToolTable* tools = nullptr;          // plunges and chip loads

@@ -37,6 +37,7 @@ struct Program {
   std::map<int, Tool> tools;              // those described in the program itself
   std::optional<Stock> stock;             // if described in the program itself
   ProgramEnd end = ProgramEnd::not_asked;
+  bool manual_spindle = false;     // inputs of its kind have no means to start the spindle
   std::vector<std::string> files;  // all files read: `source`, then included, called and imported ones
 };
 

@@ -139,6 +139,7 @@ std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& opt
                                       const Diagnostics& diagnostics) {
   CheckOptions checks;
   checks.end = job.program.end;
+  checks.manual_spindle = job.program.manual_spindle;
   checks.machine = options.machine;
   checks.material = options.material;
   checks.tools = &job.tools;

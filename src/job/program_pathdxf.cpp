@@ -49,6 +49,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   if (auto tool = make_tool(kTool, shape::Square{compiled.tool_diameter, {}}, {}, where, diagnostics))
     program.tools.emplace(kTool, std::move(*tool));
   program.stock = plate_of(compiled);
+  program.manual_spindle = true;
   program.path = std::move(compiled.milling);
   diagnostics
       .note(Code::pathdxf_assumed, where,

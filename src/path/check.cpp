@@ -87,6 +87,7 @@ bool can_be_in_stock(const Box3& tip, double radius, const Setting& setting) {
 Message spindle_off(const Step& s, const MotionContext& context, Setting& setting) {
   if (!s.is_cutting() || setting.laser || setting.printing) return std::nullopt;
   if (context.spindle.turn != SpindleTurn::off) return std::nullopt;  // 0 rpm: the speed is set manually
+  if (setting.options.manual_spindle && !context.spindle_stated) return std::nullopt;
   if ((s.unknown_axes() | context.unknown_from) == 0) {
     Box3 way = box_of(s, context);
     way.add(context.from);

@@ -432,6 +432,12 @@ def test_a_collision_names_the_element(kerf, save):
     assert hazard["origin"]["layer"] == "8999_1P"
 
 
+def test_a_drawing_without_mistakes_has_no_hazards(kerf, save):
+    inner = line(0, 0, 10, 0) + arc(10, 5, 5, 270, 90) + line(10, 10, 20, 10, "DASHED") + circle(20, 10, 6)
+    run = kerf("check", "--json", save("8999.1P.dxf", path(inner, to=(20, 10))))
+    assert run.status == 0 and run.json["hazards"] == []
+
+
 def test_a_drawing_is_posted(kerf, save, tmp_path):
     name = save("8999.1P.dxf", path(line(0, 0, 10, 0)))
     run = kerf("post", "--to", "linuxcnc", name, "-o", "out.nc")
