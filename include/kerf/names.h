@@ -1,6 +1,7 @@
 // Names with several spellings: "Lower-Left", "lower left" and "LOWERLEFT" are one name.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,5 +25,8 @@ std::string joined(const Words& words, std::string_view separator) {
 }
 /// `text` without white space (characters up to the blank) at both ends.
 std::string_view trim(std::string_view text);
+/// `text`, or its first `max_bytes` bytes (whole characters of UTF-8) and "..." where it is longer: texts of
+/// users in messages.
+std::string clipped(std::string_view text, std::size_t max_bytes = 300);
 
 }  // namespace kerf

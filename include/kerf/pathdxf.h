@@ -38,7 +38,10 @@ struct PathdxfProgram {
   Toolpath milling;
   std::optional<Toolpath> probing;
   std::vector<PathdxfProbe> probes;  ///< in the order of the probing run
+  Point2 start;                      ///< of the path, in its drawing: X0 Y0 of the steps
   Length tool_diameter;              ///< O
+  Length thickness, rapid_height;    ///< T and S of the path itself
+  std::string material;              ///< M
   Length top;             ///< the highest T, with H, of the paths that cut: this one and those embedded
   bool is_empty = false;  ///< the path has no element; there are no steps
   std::vector<std::string> statistics;

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kerf/language.h"
 #include "kerf/limits.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
@@ -16,7 +17,7 @@
 namespace kerf {
 
 /// Of messages and of the statistics in the program's comments.
-enum class PathdxfLanguage : std::uint8_t { english, german };
+using PathdxfLanguage = Language;
 /// Comments in the toolpath. `brief`: the path, its embeddings, texts of Q. `trace`: one for each operation
 /// and the statistics, as PathDxf2GCode writes them.
 enum class PathdxfComments : std::uint8_t { brief, trace };

@@ -18,6 +18,7 @@
 #include "kerf/files.h"
 #include "kerf/gcode.h"
 #include "kerf/machine.h"
+#include "kerf/measured.h"
 #include "kerf/outline_files.h"
 #include "kerf/progress.h"
 #include "kerf/stock.h"
@@ -37,8 +38,16 @@ struct Program {
   std::map<int, Tool> tools;              // those described in the program itself
   std::optional<Stock> stock;             // if described in the program itself
   ProgramEnd end = ProgramEnd::not_asked;
-  bool manual_spindle = false;     // inputs of its kind have no means to start the spindle
-  std::vector<std::string> files;  // all files read: `source`, then included, called and imported ones
+  bool manual_spindle = false;       // inputs of its kind have no means to start the spindle
+  std::vector<HeightTarget> probes;  // points whose heights correct the program's
+  std::vector<std::string> files;    // all files read: `source`, then included, called and imported ones
+};
+
+/// Measured heights for programs whose heights depend on them.
+struct MeasuredSettings {
+  std::string file;               // kerf/measured.h; empty: heights keep their formulas
+  Length max_correction = mm(1);  // larger deviations from the expected heights are errors
+  MeasuredOptions reading = {};
 };
 
 /// How a program is read. A front end ignores options that do not apply to it.
@@ -49,7 +58,8 @@ struct ProgramOptions {
   bool strict = false;                           // unusual G-code words are errors
   std::optional<double> filament_diameter = {};  // mm, of a printer; nothing: from the program
   decltype(GcodeReadOptions::tool_diameter) tool_diameter = {};  // for cutter compensation
-  std::vector<std::string> defines = {};        // gcmc statements that run first: "depth=5mm"
+  std::vector<std::string> defines = {};  // gcmc statements that run first: "depth=5mm"
+  MeasuredSettings measured = {};
   std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/commands/adjustz.h"
 #include "app/commands/commands.h"
 #include "app/commands/gcmc.h"
 #include "app/commands/pathdxf.h"
@@ -38,8 +39,9 @@ Examples:
 )";
 
 std::vector<Command> add_commands(CommandParser& root) {
-  std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
-                                add_steps(root),    add_outline(root), add_post(root),    add_run(root)};
+  std::vector<Command> commands{add_simulate(root), add_check(root), add_compare(root),
+                                add_info(root),     add_steps(root), add_outline(root),
+                                add_post(root),     add_run(root),   add_level(root)};
   CommandParser tools = root.add_command("tools", "The tool table: list, show, shapes, import, export");
   tools.require_command();
   tools.set_footer(kToolsExamples);
@@ -50,6 +52,9 @@ std::vector<Command> add_commands(CommandParser& root) {
   commands.push_back(add_tools_export(tools));
   root.add_command("gcmc", "Compile a gcmc program (has gcmc's options; see kerf gcmc --help)");
   root.add_command("pathdxf", "Compile path drawings (has PathDxf2GCode's options; see kerf pathdxf --help)");
+  root.add_command(
+      "adjustz",
+      "Correct heights by measured values (has PathGCodeAdjustZ's options; see kerf adjustz --help)");
   return commands;
 }
 
@@ -72,7 +77,9 @@ struct DropIn {
   std::string_view command, program;
   int (*run)(const std::vector<std::string>& arguments, Progress* progress);
 };
-constexpr DropIn kDropIns[] = {{"gcmc", "gcmc", gcmc_command}, {"pathdxf", "PathDxf2GCode", pathdxf_command}};
+constexpr DropIn kDropIns[] = {{"gcmc", "gcmc", gcmc_command},
+                               {"pathdxf", "PathDxf2GCode", pathdxf_command},
+                               {"adjustz", "PathGCodeAdjustZ", adjustz_command}};
 
 std::optional<int> run_drop_in(int argc, char** argv) {
   const std::string called = std::filesystem::path(argc > 0 ? argv[0] : "").filename().string();

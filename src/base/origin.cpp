@@ -4,6 +4,7 @@
 #include <cassert>
 #include <fmt/format.h>
 
+#include "kerf/names.h"
 #include "kerf/number.h"
 
 namespace kerf {
@@ -16,7 +17,7 @@ std::string text_of(const TextLocation& where) {
 }
 
 std::string text_of(const DrawingLocation& where) {
-  std::string text = fmt::format("{}: layer {}", where.file, where.layer);
+  std::string text = fmt::format("{}: layer {}", where.file, clipped(where.layer));
   if (!where.entity.empty() || !where.handle.empty()) {
     text += fmt::format(", {}", where.entity.empty() ? "handle" : where.entity);
     if (!where.handle.empty()) text += " " + where.handle;

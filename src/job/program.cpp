@@ -7,6 +7,7 @@
 
 #include "job/front_ends.h"
 
+#include "kerf/heights.h"
 #include "kerf/names.h"
 
 namespace kerf {
@@ -78,6 +79,8 @@ std::optional<Program> load_program(const std::string& path, const ProgramOption
   program.source = file->path();
   program.front_end = front_end->name;
   program.files.insert(program.files.begin(), file->path());
+  if (!options.measured.file.empty() && !diagnostics.has_errors())
+    apply_measured(program, options.measured, diagnostics);
   if (program.path.size() == 0 && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextLocation{program.source, 0, 0},
                       "the program is empty: it has no steps");

@@ -35,6 +35,15 @@ std::optional<Stock> plate_of(const PathdxfProgram& program) {
   return stock;
 }
 
+/// The probes, by the numbers of their variables ("#51").
+std::vector<HeightTarget> targets_of(const PathdxfProgram& program) {
+  std::vector<HeightTarget> targets;
+  for (const PathdxfProbe& p : program.probes)
+    if (const auto number = parse_number(std::string_view(p.name).substr(1)))
+      targets.push_back({static_cast<int>(*number), {p.at.x, p.at.y}, p.height.mm()});
+  return targets;
+}
+
 Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& diagnostics,
              Progress* progress) {
   PathdxfOptions options;
@@ -50,6 +59,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
     program.tools.emplace(kTool, std::move(*tool));
   program.stock = plate_of(compiled);
   program.manual_spindle = true;
+  program.probes = targets_of(compiled);
   program.path = std::move(compiled.milling);
   diagnostics
       .note(Code::pathdxf_assumed, where,

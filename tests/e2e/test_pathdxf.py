@@ -221,7 +221,9 @@ def test_probes_give_three_files_and_corrections(kerf, save, tmp_path):
     assert kerf("pathdxf", *OPTIONS, "--probe", "g38.2", name).status == 0
     assert "G38.2 Z0" in (tmp_path / "8999.1P_Probing.gcode").read_text()
     assert '"z_correction"' in kerf("steps", name).out
-    assert kerf("post", "--to", "linuxcnc", name, "-o", "out.nc").status == 1
+    # Formulas as comments; inches, and controllers without such comments, have no form for them.
+    assert kerf("post", "--to", "linuxcnc", name, "-o", "out.nc").status == 0
+    assert kerf("post", "--to", "linuxcnc", "--inch", name, "-o", "out.nc").status == 1
 
 
 def test_each_embedding_has_its_own_probes(kerf, save, tmp_path):
@@ -455,3 +457,59 @@ def test_the_steps_are_the_same_in_the_text_of_the_original(kerf, save, tmp_path
     drawn, read = (kerf("info", "--json", n).json["motion"] for n in (name, "8999.1P_Milling.gcode"))
     assert (drawn["lines"], drawn["arcs"], drawn["rapids"]) == (read["lines"], read["arcs"], read["rapids"])
     assert drawn["cut_mm"] == pytest.approx(read["cut_mm"], abs=0.01)
+
+
+# ---------------------------------------------------------------------------------------------- messages
+
+
+def test_long_texts_are_clipped_in_messages(kerf, save):
+    long = "M1 O2 T2 X" + "x" * 50_000
+    cases = [path(line(0, 0, 10, 0), text(3, 8, long)), path(line(0, 0, 10, 0), parameters=long),
+             path(line(0, 0, 10, 0), parameters="M1 O2 T2 I1 B0 B" + "1" * 50_000),
+             path(line(0, 0, 10, 0, "DASHDOT"), text(5, 0, ">" + "8" * 50_000)),
+             path(line(0, 0, 10, 0), parameters="@" + "9" * 50_000),
+             path(line(0, 0, 10, 0, "x" * 50_000)),
+             path(line(0, 0, 10, 0, layer="8999_" + "1" * 50_000 + "P"))]
+    for k, content in enumerate(cases):
+        run = kerf("pathdxf", *OPTIONS, save(f"{k}.dxf", content))
+        assert run.status == 1 and len(run.err) < 5000, (k, len(run.err))
+
+
+def test_values_taken_from_the_path_are_noted(kerf, save):
+    layer = "8998_1P"
+    save("8998.dxf", drawing(start(0, 0, "M1 O2 T2 I1 B0", layer), line(0, 0, 10, 0, layer=layer),
+                             end(10, 0, layer)))
+    name = save("8999.1P.dxf", path(line(0, 0, 10, 0, "DASHDOT"), text(5, 0, ">8998.1P O2")))
+    run = kerf("pathdxf", *OPTIONS, "--explain", name)
+    assert run.status == 0 and "TM not specified at the embedding of 8998.1P" in run.err
+    lower = save("8999.1p.dxf", path(line(0, 0, 10, 0, layer="8999_1p"), layer="8999_1p"))
+    run = kerf("pathdxf", *OPTIONS, "--explain", lower)
+    assert run.status == 0 and "differs from the expression" in run.err
+
+
+# ------------------------------------------------------------------------------------------------- sheet
+
+
+def test_the_sheet_has_true_size_order_depths_probes_and_faults(kerf, save, tmp_path):
+    probe = circle(5, 8, 6, "PHANTOM") + text(5, 8, "Lleft T3")
+    elements = line(0, 0, 20, 0) + arc(20, 5, 5, 270, 90) + line(20, 10, 20, 10.5, "DASHED") + probe
+    name = save("8999.1P.dxf", path(elements, to=(20, 10.5), parameters="M20x2 O2 T2 I1 B-0.5 S5"))
+    assert kerf("pathdxf", *OPTIONS, "--svg", "sheet.svg", name).status == 0
+    svg = (tmp_path / "sheet.svg").read_text()
+    texts = re.findall(r"<text[^>]*>([^<]*)</text>", svg)
+    assert "1: Z-0.5" in texts and "2: Z-0.5" in texts
+    assert "1. #51 left T3" in texts
+    # The tool is 1 mm wide around the cuts: X from -1 to 26, Y from -1 to 11.
+    assert "27" in texts and "12" in texts
+    assert any("20x2" in t and "2 mm" in t for t in texts)
+    size = re.search(r'width="([0-9.]+)mm" height="([0-9.]+)mm" '
+                     r'viewBox="[-0-9.]+ [-0-9.]+ ([0-9.]+) ([0-9.]+)"', svg)
+    assert size and size[1] == size[3] and size[2] == size[4]
+
+
+def test_the_sheet_of_a_faulty_drawing_circles_its_elements(kerf, save, tmp_path):
+    name = save("8999.1P.dxf", path(line(0, 0, 4, 0), line(6, 0, 10, 0)))
+    assert kerf("pathdxf", *OPTIONS, "--svg", "sheet.svg", name).status == 1
+    svg = (tmp_path / "sheet.svg").read_text()
+    assert "No more segments found after location [4.000 0.000]" in svg and "!1" in svg
+    assert kerf("pathdxf", *OPTIONS, "--svg", "s.svg", name, name).status == 2

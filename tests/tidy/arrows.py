@@ -10,7 +10,7 @@ from sources import CPP, files, finish, root_of
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
-CODEC = {"codec_drawing", "codec_gcode", "codec_mesh", "codec_png", "codec_zip"}
+CODEC = {"codec_drawing", "codec_gcode", "codec_heights", "codec_mesh", "codec_png", "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline", "front_pathdxf"}
 BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
 BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim"}
@@ -85,7 +85,7 @@ ALLOWED = {
 OUTSIDE = BELOW_JOB | {"job"}  # benchmarks, fuzz targets and the WebAssembly smoke test
 PUBLIC = {
     "base": ["units.h", "tolerance.h", "limits.h", "origin.h", "diagnostics.h", "progress.h", "files.h",
-             "number.h", "names.h", "codes.def"],
+             "number.h", "names.h", "language.h", "codes.def"],
     "geom_base": ["geometry.h"],
     "geom_outline": ["outline.h", "chain.h"],
     "geom_fit": ["fit.h"],
@@ -96,7 +96,7 @@ PUBLIC = {
     "tool": ["tool.h", "tool_comments.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h"],
-    "op": ["drill.h"],
+    "op": ["drill.h", "level.h"],
     "sim_dexel": ["workpiece.h"],
     "sim_sweep": ["hazard.h", "simulation_options.h"],
     "sim_cut": ["simulate.h", "live.h", "fixtures.h"],
@@ -114,7 +114,7 @@ PUBLIC = {
     "front_pathdxf": ["pathdxf.h"],
     "front_pathdxf_text": ["pathdxf_options.h"],
     "back_gcode": ["post.h"],
-    "back_pathdxf": ["pathdxf_gcode.h"],
+    "back_pathdxf": ["pathdxf_gcode.h", "adjust_z.h", "path_sheet.h"],
     "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
@@ -122,8 +122,9 @@ PUBLIC = {
     "back_drawing": ["outline_drawing.h", "toolpath_drawing.h", "gcmc_drawing.h"],
     "codec_drawing": ["drawing_files.h", "dxf.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
+    "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],
-    "job": ["program.h", "job.h", "findings.h", "outputs.h", "posting.h", "python_script.h"],
+    "job": ["program.h", "job.h", "findings.h", "outputs.h", "posting.h", "heights.h", "python_script.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

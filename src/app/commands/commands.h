@@ -23,6 +23,7 @@ Command add_steps(CommandParser& root);
 Command add_outline(CommandParser& root);
 Command add_post(CommandParser& root);
 Command add_run(CommandParser& root);
+Command add_level(CommandParser& root);
 Command add_tools_list(CommandParser& tools);
 Command add_tools_show(CommandParser& tools);
 Command add_tools_shapes(CommandParser& tools);

@@ -5,48 +5,17 @@
 #include <fmt/format.h>
 #include <utility>
 
-#if defined(__unix__) || defined(__APPLE__)
-#include <unistd.h>
-#endif
-
+#include "app/commands/drop_in_output.h"
+#include "app/commands/path_sheet.h"
 #include "app/options/pathdxf_options.h"
+#include "app/options/slash_options.h"
+#include "app/report/console.h"
 
 #include "kerf/files.h"
 #include "kerf/pathdxf_gcode.h"
 
 namespace kerf::app {
 namespace {
-
-constexpr int kErrors = 1, kWrongUsage = 2, kNoFile = 3;
-
-bool stderr_is_terminal() {
-#if defined(__unix__) || defined(__APPLE__)
-  return isatty(STDERR_FILENO) != 0;
-#else
-  return false;
-#endif
-}
-
-void print_line(std::string_view text) { fmt::print(stderr, "---- {}\n", text); }
-
-/// Errors as "**** ...", warnings and notes as "---- ...".
-void print(const Diagnostics& diagnostics, bool explain) {
-  for (const Diagnostic& d : diagnostics.list()) {
-    if (d.severity == Severity::note && !explain) continue;
-    fmt::print(stderr, "{} {}\n", d.severity == Severity::error ? "****" : "----", pathdxf_line(d));
-    if (explain && !d.hint.empty()) fmt::print(stderr, "         {}\n", d.hint);
-  }
-  for (const Code code : diagnostics.dropped_codes())
-    fmt::print(stderr, "**** ... {} more of these: {}\n", diagnostics.dropped(code), meaning_of(code));
-}
-
-bool ends_in_dxf(const std::string& file) {
-  if (file.size() < 4) return false;
-  std::string end = file.substr(file.size() - 4);
-  for (char& c : end)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return end == ".dxf";
-}
 
 /// One DXF file after the other; after an error nothing more is written.
 class PathdxfCommand {
@@ -59,10 +28,10 @@ class PathdxfCommand {
   int run() {
     for (const std::string& name : line_.files) {
       if (stop_requested(progress_)) break;
-      process(ends_in_dxf(name) ? name : name + ".dxf");
+      process(has_ending(name, ".dxf") ? name : name + ".dxf");
     }
-    print(diagnostics_, line_.explain || stderr_is_terminal());
-    return diagnostics_.has_errors() || stop_requested(progress_) ? kErrors : 0;
+    print_messages(diagnostics_, line_.explain || stderr_is_terminal());
+    return diagnostics_.has_errors() || stop_requested(progress_) ? kDropInErrors : 0;
   }
 
  private:
@@ -74,6 +43,7 @@ class PathdxfCommand {
         write(file, program);
       print_statistics(program);
     }
+    if (!line_.sheet.empty()) write_path_sheet(file, compiled, line_.sheet, diagnostics_);
   }
 
   static void print_statistics(const PathdxfProgram& program) {
@@ -118,15 +88,15 @@ int pathdxf_command(const std::vector<std::string>& arguments, Progress* progres
   PathdxfCommandLine line = parse_pathdxf_options(arguments);
   print_line("Kerf " KERF_VERSION " pathdxf\n");
   if (line.help || line.problems.has_errors()) {
-    if (!line.help) print(line.problems, true);
+    if (!line.help) print_messages(line.problems, true);
     fmt::print(stderr, "{}", pathdxf_usage(line.run.language));
-    return kWrongUsage;
+    return kDropInUsage;
   }
   if (line.files.empty()) {
     fmt::print(stderr, "**** Options: {}\n",
                line.run.language == PathdxfLanguage::german ? "Keine DXF-Dateien angegeben"
                                                             : "No dxf files provided");
-    return kNoFile;
+    return kDropInNoFile;
   }
   return PathdxfCommand(std::move(line), progress).run();
 }

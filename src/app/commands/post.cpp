@@ -11,6 +11,7 @@
 #include "app/report/terminal_progress.h"
 
 #include "kerf/files.h"
+#include "kerf/heights.h"
 #include "kerf/number.h"
 #include "kerf/posting.h"
 
@@ -26,6 +27,10 @@ struct Options {
   bool shorten = false;
   std::string dxf_version = "r2000";
   bool rapids = false;
+  std::string level;        // file of measured heights
+  double level_max = 2.0;   // mm
+  double keep_above = 0.0;  // mm
+  bool keep_above_given = false;
   ToolOptions tools;
   ReadingOptions reading;
 };
@@ -71,6 +76,27 @@ Json improved(Toolpath& path, const Options& options, Console& console) {
                                   saving.after.rapid_mm));
   }
   return savings;
+}
+
+/// Lets the program follow measured heights, and reports the corrections. False with errors.
+bool levelled(Program& program, const Options& options, Console& console, Json& result,
+              Diagnostics& diagnostics, Progress* progress) {
+  if (options.level.empty()) return true;
+  LevelOptions how;
+  how.max_correction = mm(options.level_max);
+  if (options.keep_above_given) how.keep_above = options.keep_above;
+  const auto report = level_program(program, options.level, measured_options(options.reading.work_offset),
+                                    how, diagnostics, progress);
+  if (!report) return false;
+  result["level"] = Json{{"lowest_mm", report->lowest},
+                         {"highest_mm", report->highest},
+                         {"divided", report->divided},
+                         {"outside_mm", report->outside}};
+  if (!console.json() && !options.out.empty())
+    console.summary(fmt::format("level    corrections of cuts {} to {} mm, {} motions divided",
+                                fixed_text(report->lowest, 3), fixed_text(report->highest, 3),
+                                report->divided));
+  return true;
 }
 
 Status write(Console& console, const Options& options, const std::vector<PostedFile>& files, Json result,
@@ -144,6 +170,8 @@ Status run(Console& console, const Options& options) {
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   Json result{{"source", program->source}, {"post", target->name()}};
   result["passes"] = improved(program->path, options, console);
+  if (!levelled(*program, options, console, result, diagnostics, &progress))
+    return fail(console, diagnostics, Status::input_errors);
   const auto files = post_program(*program, *target, posting_options(options, used_tools(*program, tools)),
                                   diagnostics, &progress);
   progress.clear();
@@ -164,6 +192,7 @@ const char* const kExamples =
   kerf post --post mymill.toml part.nc -o out.nc    with your own post file
   kerf post --to grbl --tool 1="square d=6" part.nc -o out.nc    G41 and G42 need the tool
   kerf post --to dxf part.nc -o part.dxf            the cuts seen from above
+  kerf post --to grbl --level map.txt part.nc -o out.nc    heights follow a measured surface
   kerf post --list
 
 The result is checked against the rules of the controller; if it violates one, nothing is written.
@@ -175,6 +204,19 @@ void add_pass_options(CommandParser& parser, Options& options) {
   add_number(parser, "--join", options.join, 1e-6, 1, "MM",
              "Join straight cuts whose corners deviate by at most MM");
   parser.add_flag("--shorten-rapids", options.shorten, "Remove rapids that return to their start point");
+}
+
+/// Returns --keep-above, which has no value that means "not given".
+Option add_level_options(CommandParser& parser, Options& options) {
+  parser
+      .add_text(
+          "--level", options.level,
+          "Follow the surface of this file of measured heights: x y z lines, .probe, a log with [PRB:...]")
+      .value_name("MAP");
+  add_number(parser, "--level-max", options.level_max, 1e-3, 100, "MM",
+             "Maximum correction of a height (default: 2)");
+  return add_number(parser, "--keep-above", options.keep_above, -1e5, 1e5, "MM",
+                    "Leave motions at this Z and above as they are");
 }
 
 void add_drawing_options(CommandParser& parser, Options& options) {
@@ -203,9 +245,13 @@ Command add_post(CommandParser& root) {
   add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "Feed of cuts that have none");
   add_pass_options(parser, *options);
   add_drawing_options(parser, *options);
+  const Option keep_above = add_level_options(parser, *options);
   add_tool_options(parser, options->tools);
   add_reading_options(parser, options->reading);
-  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
+  return {parser, &options->output, [options, keep_above](Console& console) {
+            options->keep_above_given = keep_above.is_given();
+            return run(console, *options);
+          }};
 }
 
 }  // namespace kerf::app

@@ -12,6 +12,7 @@ namespace kerf::app {
 struct PathdxfCommandLine {
   PathdxfOptions run;
   std::vector<std::string> files;
+  std::string sheet;  // --svg: file of the sheet for the workshop
   bool help = false;
   bool explain = false;  // hints and notes with the messages
   Diagnostics problems;  // of the command line
@@ -19,6 +20,6 @@ struct PathdxfCommandLine {
 
 PathdxfCommandLine parse_pathdxf_options(const std::vector<std::string>& arguments);
 /// What /h prints.
-std::string pathdxf_usage(PathdxfLanguage language);
+std::string pathdxf_usage(Language language);
 
 }  // namespace kerf::app

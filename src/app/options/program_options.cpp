@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "app/options/adjustz_options.h"
 #include "app/options/common.h"
 
 #include "kerf/names.h"
@@ -36,7 +37,30 @@ void add_reading_options(CommandParser& parser, ReadingOptions& options) {
   add_repeated(parser, "-D,--define", options.defines, "STMT",
                "A statement to run before a gcmc program, such as depth=5mm");
   add_repeated(parser, "-I,--include", options.include_paths, "PATH",
-               "A folder to search for files included by a gcmc program");
+               "A folder to search for files included by a gcmc program, or for sub-paths");
+  parser
+      .add_text("--measured", options.measured,
+                "Measured heights for a path drawing: its _Z.txt, or a controller's log")
+      .value_name("FILE");
+  add_number(parser, "--max-correction", options.max_correction, 1e-3, 100, "MM",
+             "Maximum deviation of measured from expected heights (default: 1)");
+  add_work_offset(parser, options.work_offset);
+}
+
+void add_work_offset(CommandParser& parser, std::string& offset) {
+  parser
+      .add_text("--work-offset", offset,
+                "The work zero in machine coordinates, for measured heights of a log without it")
+      .value_name("X,Y,Z")
+      .check([](const std::string& text) {
+        return parse_offset(text) ? std::string() : std::string("expected three numbers: X,Y,Z");
+      });
+}
+
+MeasuredOptions measured_options(const std::string& work_offset) {
+  MeasuredOptions out;
+  if (!work_offset.empty()) out.work_offset = parse_offset(work_offset);
+  return out;
 }
 
 ProgramOptions read_reading_options(const ReadingOptions& options) {
@@ -47,6 +71,7 @@ ProgramOptions read_reading_options(const ReadingOptions& options) {
   if (options.filament > 0.0) out.filament_diameter = options.filament;
   out.defines = options.defines;
   out.include_paths = options.include_paths;
+  out.measured = {options.measured, mm(options.max_correction), measured_options(options.work_offset)};
   return out;
 }
 

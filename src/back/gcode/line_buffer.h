@@ -30,7 +30,10 @@ inline char* write_units(char* p, std::int64_t units, int decimals, Fraction fra
   return p;
 }
 
-/// The words of a line. It cannot overflow: a line has at most 20 words of 25 characters.
+inline constexpr std::size_t kMaxFormula = 250;
+
+/// The words of a line. It cannot overflow: a line has at most 20 words of 25 characters, and one formula
+/// of kMaxFormula characters.
 class LineBuffer {
  public:
   void clear() { end_ = text_.data(); }
@@ -45,7 +48,7 @@ class LineBuffer {
   std::string_view text() const { return {text_.data(), static_cast<std::size_t>(end_ - text_.data())}; }
 
  private:
-  std::array<char, 600> text_{};
+  std::array<char, 800> text_{};
   char* end_ = text_.data();
 };
 

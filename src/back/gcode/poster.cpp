@@ -107,17 +107,39 @@ bool Poster::fits(std::size_t i) {
                        "a position or feed is too large to be written");
     return false;
   }
-  const MotionExtra* extra = path_.extra(i);
-  if (extra != nullptr && !extra->z_correction.empty())
-    report_unsupported(
-        i, "the heights depend on points that have to be probed first, which posts do not support");
+  if (correction_of(i).empty()) return true;
+  if (profile_.comments == CommentStyle::brackets && unit_ == LengthUnit::mm &&
+      correction_of(i).size() <= kMaxFormula) {
+    if (!uncorrected_reported_)
+      diagnostics_
+          .warning(Code::heights_uncorrected, path_.origin_of(i),
+                   "heights have to be corrected by measured values; each is written with its formula")
+          .hint =
+          "specify the values with --measured, or apply them to the written program with kerf adjustz";
+    uncorrected_reported_ = true;
+    return true;
+  }
+  report_unsupported(i, "the heights depend on measured values, and their formulas cannot be written here");
   return true;
+}
+
+/// The formula of the height at the end of a motion; empty: it has none.
+std::string_view Poster::correction_of(std::size_t i) const {
+  const MotionExtra* extra = path_.extra(i);
+  return extra != nullptr ? std::string_view(extra->z_correction) : std::string_view();
+}
+
+/// The formula behind a Z word, as kerf adjustz reads it.
+void Poster::put_correction(std::size_t i) {
+  if (const std::string_view formula = correction_of(i); !formula.empty())
+    line_.put("(="), line_.put(formula), line_.put(')');
 }
 
 /// The axes whose words the line needs.
 unsigned Poster::axes_to_write(std::size_t i, const Counts& to) {
   const unsigned unknown = path_[i].unknown_axes();
   unsigned axes = profile_.axes == Repeat::always ? kAllAxes & ~unknown : kAllAxes & ~unknown & ~known_axes_;
+  if (!correction_of(i).empty()) axes |= 4u & ~unknown;  // Z
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (to[axis] == at_[axis]) continue;
     const unsigned bit = 1u << axis;
@@ -211,6 +233,7 @@ void Poster::straight_to(int g, std::size_t i, const Counts& to) {
   start_line();
   put_motion(g);
   put_axes(to, axes);
+  put_correction(i);
   const bool rotary = add_rotary(i);
   arrive(i, to);
   if (axes == 0 && !rotary) {  // length 0: written all the same; passes remove such motions
@@ -246,6 +269,9 @@ void Poster::arc(std::size_t i) {
                          fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre; "
                                      "written as {} straight cuts",
                                      walk.start_radius, walk.end_radius, plan_.segments.size()));
+  if (!correction_of(i).empty() && (plan_.form != ArcForm::arcs || plan_.segments.size() > 1) &&
+      (arc.plane != Plane::xy || walk.start_w != walk.end_w))
+    return report_unsupported(i, "a helix whose height has a formula has to be divided for this controller");
   if (plan_.form != ArcForm::arcs) return chords(i);
   for (const ArcSegment& segment : plan_.segments) {
     start_line();
@@ -253,8 +279,10 @@ void Poster::arc(std::size_t i) {
     code('G', arc.turn == Turn::cw ? 20 : 30);
     motion_ = arc.turn == Turn::cw ? 2 : 3;
     const auto w = static_cast<std::size_t>(axes.w);
-    const unsigned third = segment.to[w] != at_[w] ? 1u << w : 0u;
+    const bool is_corrected = !correction_of(i).empty();
+    const unsigned third = segment.to[w] != at_[w] || is_corrected ? 1u << w : 0u;
     put_axes(segment.to, in_plane | third | first_axes);
+    put_correction(i);
     first_axes = 0;
     const std::int64_t centre[3] = {segment.u, segment.v, 0};
     for (const int axis : {0, 1, 2})

@@ -40,6 +40,8 @@ class Poster {
   void to_reference(int g, std::size_t i);
   void to_end_switches(std::size_t i);
   bool fits(std::size_t i);
+  std::string_view correction_of(std::size_t i) const;
+  void put_correction(std::size_t i);
   unsigned axes_to_write(std::size_t i, const Counts& to);
   bool add_rotary(std::size_t i);
   void arrive(std::size_t i, const Counts& to);
@@ -138,7 +140,7 @@ class Poster {
   std::int64_t written_extruded_ = 0;  // in counts of E
   bool restore_ = false;               // spindle or coolant may have been stopped by a tool change
   bool moved_ = false;                 // in this file
-  bool no_feed_reported_ = false;
+  bool no_feed_reported_ = false, uncorrected_reported_ = false;
 };
 
 }  // namespace kerf::gcode

@@ -32,7 +32,11 @@ PathdxfProgram program_of(Compiled compiled, const Path& path, const Report& rep
   out.probing = std::move(compiled.probing);
   for (const PlacedProbe& p : compiled.probes)
     out.probes.push_back({p.name, p.label, p.at, p.drawn, mm(p.thickness)});
+  out.start = path.start;
   out.tool_diameter = mm(path.tool);
+  out.thickness = mm(path.top);
+  out.rapid_height = mm(path.sweep);
+  out.material = path.material;
   out.top = mm(compiled.top);
   out.is_empty = compiled.is_empty;
   out.statistics = statistics_lines(compiled.statistics, report);
@@ -115,7 +119,7 @@ std::string pathdxf_line(const Diagnostic& d) {
     std::string path = at->layer.substr(0, at->layer.find('~'));
     for (char& c : path)
       if (c == '_') c = '.';
-    const std::string in_file = fmt::format("{}[{}]", path, file_name(at->file));
+    const std::string in_file = fmt::format("{}[{}]", clipped(path), file_name(at->file));
     if (at->entity.empty()) return fmt::format("{}: {}", in_file, d.message);
     return fmt::format("{} @ [{:.3f} {:.3f}] # {}: {}", at->entity, at->x, at->y, in_file, d.message);
   }

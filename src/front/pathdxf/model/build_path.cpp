@@ -87,6 +87,8 @@ constexpr Bilingual kDifferent{"{}={} at subpath {} is different from {}={} in r
                                "{}={} bei Unterpfad {} weicht ab von {}={} im referenzierten Pfad"};
 constexpr Bilingual kMissingHere{"{} value missing at the embedding of {} or in its path",
                                  "{}-Wert fehlt bei der Einbettung von {} oder in deren Pfad"};
+constexpr Bilingual kInherited{"{} not specified at the embedding of {}; the values of path {} are used",
+                               "{} fehlt bei der Einbettung von {}; es gelten die Werte von Pfad {}"};
 constexpr Bilingual kAboveTop{"T={} at path is less than T={} at subpath {}",
                               "T={} am Pfad ist kleiner als T={} bei Unterpfad {}"};
 constexpr Bilingual kMissingValues{"Missing values for variables {}", "Fehlende Werte für Variablen {}"};
@@ -567,6 +569,12 @@ void PathAssembly::check_embedding(const EmbeddingDraft& embedding, const Path& 
   if (std::abs(size - own_size) > kEmbeddingLength)
     report_.error(Code::pathdxf_embedding, where, kSize, fixed_text(size, 3), fixed_text(own_size, 3),
                   sub.name_in_file);
+  std::string inherited;
+  if (!embedding.tool) inherited += 'O';
+  if (!embedding.top) inherited += 'T';
+  if (!embedding.material) inherited += 'M';
+  if (!inherited.empty())
+    report_.note(Code::pathdxf_assumed, where, kInherited, inherited, sub.name_in_file, path_->name);
   const double tool = embedding.tool.value_or(path_->tool), top = embedding.top.value_or(path_->top);
   check_number('O', tool, sub.tool, sub, where);
   check_number('T', top, sub.top, sub, where);

@@ -53,6 +53,8 @@ constexpr Bilingual kStrangeMarker{
     "Kreis mit Linientyp PHANTOM (__ _ _ __) und Durchmesser {} hat keine besondere Bedeutung"};
 constexpr Bilingual kUnused{"{} on path layer {} is no path element and is ignored",
                             "{} auf Pfad-Layer {} ist kein Pfadelement und wird ignoriert"};
+constexpr Bilingual kCase{"the name of path {} differs from the expression {} in its case",
+                          "Der Name von Pfad {} weicht in Groß- und Kleinschreibung vom Ausdruck {} ab"};
 constexpr Bilingual kInvalidShown{"Invalid expression for /x: {}", "Ungültiger Ausdruck für /x: {}"};
 constexpr Bilingual kReferenceAlone{"@ path '{}' must not be used with other parameters",
                                     "Neben @-Pfad '{}' sind keine weiteren Parameter erlaubt"};
@@ -173,6 +175,9 @@ void DrawingReader::name_tables() {
     if (k < 0 || number[static_cast<std::size_t>(k)] >= 0) continue;
     number[static_cast<std::size_t>(k)] = static_cast<int>(out_.paths.size());
     out_.paths.push_back({*names_.of_layer(out_.layers[e.layer]), {}, {}, {}, {}, true});
+    const PathDrawing& path = out_.paths.back();
+    if (!names_.has_expected_case(path.name))
+      report_.note(Code::pathdxf_assumed, out_.origin(path), kCase, path.name, names_.expression());
   }
   for (int& path : path_of_layer_)
     if (path >= 0) path = number[static_cast<std::size_t>(path)];

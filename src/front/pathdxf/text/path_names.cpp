@@ -63,9 +63,11 @@ std::optional<PathNames> PathNames::make(const PathdxfOptions& options, Report& 
   auto name = compile(options.path_names, LetterCase::ignored, "/n");
   auto pattern = compile(options.file_patterns, LetterCase::distinct, "/p");
   if (!name || !pattern) return std::nullopt;
+  auto exact_name = compile(options.path_names, LetterCase::distinct, "/n");
   auto range = compile(fmt::format("(?:{0})-(?:{0})", options.file_patterns), LetterCase::distinct, "/p");
-  if (!range) return std::nullopt;
-  return PathNames(std::move(*name), std::move(*pattern), std::move(*range), options.path_names);
+  if (!range || !exact_name) return std::nullopt;
+  return PathNames(std::move(*name), std::move(*exact_name), std::move(*pattern), std::move(*range),
+                   options.path_names);
 }
 
 std::optional<std::string> PathNames::of_layer(std::string_view layer) const {
@@ -75,6 +77,10 @@ std::optional<std::string> PathNames::of_layer(std::string_view layer) const {
   std::string name(layer);
   std::replace(name.begin(), name.end(), '_', '.');
   return name_.match_whole(name) ? std::optional(name) : std::nullopt;
+}
+
+bool PathNames::has_expected_case(std::string_view name) const {
+  return exact_name_.match_whole(name).has_value();
 }
 
 std::optional<std::string> PathNames::in_value(std::string_view value) const {

@@ -19,6 +19,8 @@ class PathNames {
 
   /// "8998_1P~a" -> "8998.1P"; nothing for a layer that is no path layer.
   std::optional<std::string> of_layer(std::string_view layer) const;
+  /// Whether a path name matches the expression with its case too.
+  bool has_expected_case(std::string_view name) const;
   /// The path name in the value of > or @, which must not have anything else.
   std::optional<std::string> in_value(std::string_view value) const;
   /// Whether a file of this name (without folder and ending) may contain the path.
@@ -26,13 +28,15 @@ class PathNames {
   const std::string& expression() const { return expression_; }
 
  private:
-  PathNames(Pattern name, Pattern pattern, Pattern range, std::string expression)
+  PathNames(Pattern name, Pattern exact_name, Pattern pattern, Pattern range, std::string expression)
       : name_(std::move(name)),
+        exact_name_(std::move(exact_name)),
         pattern_(std::move(pattern)),
         range_(std::move(range)),
         expression_(std::move(expression)) {}
 
-  Pattern name_, pattern_;
+  Pattern name_, exact_name_;  // without and with regard to case
+  Pattern pattern_;
   Pattern range_;  // pattern-pattern
   std::string expression_;
 };

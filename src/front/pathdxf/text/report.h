@@ -4,29 +4,25 @@
 #include <fmt/format.h>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <unordered_set>
 #include <utility>
 
 #include "kerf/diagnostics.h"
+#include "kerf/names.h"
 #include "kerf/pathdxf_options.h"
 
 namespace kerf::pathdxf {
-
-/// A message in both languages, in the syntax of fmt::format.
-struct Bilingual {
-  std::string_view english, german;
-};
 
 class Report {
  public:
   Report(const PathdxfOptions& options, Diagnostics& diagnostics)
       : options_(options), diagnostics_(diagnostics), earlier_errors_(diagnostics.errors()) {}
 
+  /// The message with its values; long texts are clipped.
   template <class... Values>
   std::string text(const Bilingual& message, const Values&... values) const {
-    return fmt::format(
-        fmt::runtime(options_.language == PathdxfLanguage::german ? message.german : message.english),
-        values...);
+    return fmt::format(fmt::runtime(message.in(options_.language)), shown(values)...);
   }
   /// An error; one of the same text at the same origin is reported once.
   template <class... Values>
@@ -58,6 +54,13 @@ class Report {
   Diagnostics& diagnostics() { return diagnostics_; }
 
  private:
+  template <class Value>
+  static auto shown(const Value& value) {
+    if constexpr (std::is_convertible_v<const Value&, std::string_view>)
+      return clipped(value);
+    else
+      return value;
+  }
   void add(Severity severity, Code code, const Origin& where, std::string message);
 
   const PathdxfOptions& options_;

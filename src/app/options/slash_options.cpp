@@ -1,0 +1,118 @@
+// Command lines of the path drawing commands.
+#include "app/options/slash_options.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fmt/format.h>
+#include <system_error>
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf::app {
+namespace {
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+}  // namespace
+
+bool has_ending(std::string_view name, std::string_view ending) {
+  if (name.size() < ending.size()) return false;
+  const std::string_view end = name.substr(name.size() - ending.size());
+  return std::equal(end.begin(), end.end(), ending.begin(), [](char a, char b) { return lower(a) == b; });
+}
+
+bool SlashArguments::is_file(const std::string& word) const {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(word, error)) return true;
+  const std::size_t slash = word.rfind('/');
+  if (slash == 0) return false;
+  return std::any_of(endings_.begin(), endings_.end(), [&](std::string_view ending) {
+    return std::filesystem::is_regular_file(word + std::string(ending), error) ||
+           (has_ending(word, ending) && std::filesystem::is_directory(word.substr(0, slash), error));
+  });
+}
+
+std::optional<SlashArguments::Argument> SlashArguments::next() {
+  while (at_ < words_.size()) {
+    const std::string& word = words_[at_++];
+    if (word.empty()) continue;
+    if ((word[0] != '/' && word[0] != '-') || (word[0] == '/' && is_file(word)))
+      return Argument{nullptr, word};
+    if (word.size() == 1) {
+      complain("Missing value after option " + word);
+      continue;
+    }
+    const bool is_long = word.substr(0, 2) == "--";
+    if (auto option = is_long ? long_option(word.substr(2)) : short_option(word)) return option;
+  }
+  return std::nullopt;
+}
+
+std::optional<SlashArguments::Argument> SlashArguments::with_value(const SlashOption& option,
+                                                                   const std::string& attached,
+                                                                   const std::string& name) {
+  if (!option.takes_value) return Argument{&option, {}};
+  if (!attached.empty()) return Argument{&option, attached};
+  if (at_ < words_.size()) return Argument{&option, words_[at_++]};
+  complain(fmt::format("Missing value for option {}", name));
+  return std::nullopt;
+}
+
+std::optional<SlashArguments::Argument> SlashArguments::short_option(const std::string& word) {
+  const char letter = word[1] == '?' ? 'h' : lower(word[1]);
+  for (const SlashOption& option : options_)
+    if (option.letter == letter) return with_value(option, word.substr(2), word.substr(0, 2));
+  complain(fmt::format("Option {} not supported", word.substr(0, 2)));
+  return std::nullopt;
+}
+
+std::optional<SlashArguments::Argument> SlashArguments::long_option(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  const std::string attached = equals == std::string::npos ? "" : text.substr(equals + 1);
+  for (const SlashOption& option : options_)
+    if (option.name == name) return with_value(option, attached, "--" + name);
+  complain(fmt::format("Option --{} not supported", clipped(name)));
+  std::vector<std::string> names;
+  for (const SlashOption& option : options_) names.emplace_back(option.name);
+  if (const auto close = did_you_mean(name, names)) complain(fmt::format("did you mean --{}?", *close));
+  return std::nullopt;
+}
+
+std::optional<double> SlashArguments::positive(const std::string& value, std::string_view name) {
+  std::string text = value;
+  std::replace(text.begin(), text.end(), ',', '.');
+  const auto number = parse_number(text);
+  if (!number) complain(fmt::format("Option value {} for --{} is not a number", clipped(value), name));
+  if (number && *number < 0.0)
+    complain(fmt::format("Option value {} for --{} is not >= 0", clipped(value), name));
+  return number && *number > 0.0 ? number : std::nullopt;
+}
+
+Language language_named(std::string_view text) {
+  const bool german = text.size() >= 2 && lower(text[0]) == 'd' && lower(text[1]) == 'e';
+  return german ? Language::german : Language::english;
+}
+
+Language system_language() {
+  for (const char* name : {"LC_ALL", "LC_MESSAGES", "LANG"})
+    if (const char* value = std::getenv(name); value != nullptr && *value != '\0')
+      return language_named(value);
+  return Language::english;
+}
+
+std::string option_table(std::span<const SlashOption> options, Language language) {
+  std::string text;
+  for (const SlashOption& o : options) {
+    if (o.english.empty()) continue;
+    const std::string_view value = o.takes_value ? " ..." : "";
+    const std::string letter = o.letter == '\0' ? std::string() : fmt::format("/{}{}", o.letter, value);
+    text += fmt::format("    {:<7} {:<20} {}\n", letter, fmt::format("--{}{}", o.name, value),
+                        language == Language::german ? o.german : o.english);
+  }
+  return text;
+}
+
+}  // namespace kerf::app

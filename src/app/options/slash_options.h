@@ -1,0 +1,66 @@
+// Command lines of the path drawing commands: "/f150", "/f 150", "-f 150", "--feed 150", "--feed=150".
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/language.h"
+
+namespace kerf::app {
+
+struct SlashOption {
+  char letter;  // in lower case; '\0': none
+  std::string_view name;
+  bool takes_value;
+  std::string_view english, german;  // empty: not listed
+};
+
+/// The arguments one after the other. An argument with a slash that is an existing file, or a name with one
+/// of the given endings in an existing folder, is a file.
+class SlashArguments {
+ public:
+  SlashArguments(const std::vector<std::string>& words, std::span<const SlashOption> options, Code code,
+                 std::vector<std::string_view> endings, Diagnostics& problems)
+      : words_(words), options_(options), code_(code), endings_(std::move(endings)), problems_(problems) {}
+
+  struct Argument {
+    const SlashOption* option = nullptr;  // null: a file
+    std::string value;
+  };
+  /// Invalid options are reported and skipped; nothing at the end.
+  std::optional<Argument> next();
+  /// A number with point or comma. Nothing for 0, and with a report for texts and numbers below 0.
+  std::optional<double> positive(const std::string& value, std::string_view name);
+  void complain(std::string message) { problems_.error(code_, {}, std::move(message)); }
+
+ private:
+  bool is_file(const std::string& word) const;
+  std::optional<Argument> short_option(const std::string& word);
+  std::optional<Argument> long_option(const std::string& text);
+  std::optional<Argument> with_value(const SlashOption& option, const std::string& attached,
+                                     const std::string& name);
+
+  const std::vector<std::string>& words_;
+  std::span<const SlashOption> options_;
+  Code code_;
+  std::vector<std::string_view> endings_;
+  Diagnostics& problems_;
+  std::size_t at_ = 0;
+};
+
+/// Whether a file name ends in `ending` (in lower case), whatever its case.
+bool has_ending(std::string_view name, std::string_view ending);
+
+/// German for "de...", else English.
+Language language_named(std::string_view text);
+/// Of the environment.
+Language system_language();
+/// The listed options with their descriptions.
+std::string option_table(std::span<const SlashOption> options, Language language);
+
+}  // namespace kerf::app

@@ -1,0 +1,28 @@
+// Formulas of corrected heights: "0.800+0.794*[#51-2.000]+0.206*[#52-2.000]".
+//
+// Decimal numbers, variables (# and a number), + - * / from left to right, a sign before a factor, and pairs
+// of ( ) or [ ].
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace kerf {
+
+/// Why a formula has no value, and the offset of the fault in it.
+struct FormulaFault {
+  enum class Kind { unexpected, bracket_missing, rest, unknown_variable, not_finite, too_deep };
+  Kind kind = Kind::unexpected;
+  std::size_t offset = 0;
+  std::string symbol;  // the missing bracket, or the unknown variable
+};
+
+/// The value of a formula; nothing with `fault` set.
+std::optional<double> evaluate_formula(std::string_view text,
+                                       const std::function<std::optional<double>(int variable)>& value_of,
+                                       FormulaFault& fault);
+
+}  // namespace kerf

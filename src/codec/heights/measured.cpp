@@ -1,0 +1,317 @@
+// Files of measured heights: one reader for each form of line.
+#include "kerf/measured.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf {
+namespace {
+
+constexpr double kMmPerInch = 25.4;
+constexpr double kMaxVariable = 1e6;
+constexpr std::size_t kMaxNumbers = 16;  // of a line
+
+constexpr Bilingual kFormat{"Line does not have format '(comment) #...=value'",
+                            "Zeile hat nicht das Format '(Kommentar) #...=Wert'"};
+constexpr Bilingual kNoNumber{"Value '{}' for #{} is not a valid number",
+                              "Wert '{}' für #{} ist keine gültige Zahl"};
+
+constexpr Bilingual kDeviation{"Value {} for #{} differs from {} by more than /m={}",
+                               "Wert {} für #{} weicht von {} um mehr als /m={} ab"};
+
+constexpr Bilingual kTwice{"#{} is specified a second time", "#{} mehrfach angegeben"};
+
+std::optional<double> comma_number(std::string_view text) {
+  std::string number(trim(text));
+  std::replace(number.begin(), number.end(), ',', '.');
+  return parse_number(number);
+}
+
+/// All numbers of a line of "x y z" or "x,y,z"; nothing if it has anything else.
+std::optional<std::vector<double>> numbers_of(std::string_view line, std::string_view separators) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < line.size() && numbers.size() <= kMaxNumbers;) {
+    const std::size_t start = std::min(line.find_first_not_of(separators, i), line.size());
+    const std::size_t end = std::min(line.find_first_of(separators, start), line.size());
+    if (start == end) break;
+    const auto number = parse_number(line.substr(start, end - start));
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+    i = end;
+  }
+  return numbers;
+}
+
+/// The first `count` numbers after `key` in a line.
+std::optional<std::vector<double>> values_after(std::string_view line, std::string_view key,
+                                                std::size_t count) {
+  const std::size_t at = line.find(key);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view rest = line.substr(at + key.size());
+  auto numbers = numbers_of(rest.substr(0, rest.find_first_of("]|>:")), ",");
+  return numbers && numbers->size() >= count ? numbers : std::nullopt;
+}
+
+class HeightsReader {
+ public:
+  HeightsReader(std::string_view bytes, const std::string& file, const MeasuredOptions& options,
+                Diagnostics& diagnostics)
+      : bytes_(bytes), options_(options), diagnostics_(diagnostics) {
+    out_.file = file;
+  }
+
+  MeasuredFile read() {
+    const bool is_log = bytes_.find("[PRB:") != std::string_view::npos;
+    const std::size_t sign = bytes_.find('#');
+    const bool is_list =
+        !is_log && sign != std::string_view::npos && bytes_.find('=', sign) != std::string_view::npos;
+    out_.format = is_log    ? HeightsFormat::controller_log
+                  : is_list ? HeightsFormat::probe_list
+                            : HeightsFormat::positions;
+    for (std::size_t i = 0; i < bytes_.size(); ++line_) {
+      const std::size_t end = std::min(bytes_.find('\n', i), bytes_.size());
+      take(trim(bytes_.substr(i, end - i)));
+      i = end + 1;
+      if (out_.heights.size() > options_.max_heights) {
+        error(Code::level_map, fmt::format("more than {} heights", options_.max_heights));
+        break;
+      }
+    }
+    if (is_log) apply_offset();
+    if (out_.format == HeightsFormat::positions) remove_limits();
+    return std::move(out_);
+  }
+
+ private:
+  Diagnostic& error(Code code, std::string message) {
+    return diagnostics_.error(code, TextLocation{out_.file, static_cast<std::uint32_t>(line_), 0},
+                              std::move(message));
+  }
+  void take(std::string_view line) {
+    if (line.empty()) return;
+    if (out_.format == HeightsFormat::controller_log) return take_log(line);
+    if (out_.format == HeightsFormat::probe_list) return take_probe(line);
+    take_position(line);
+  }
+  void take_probe(std::string_view line);
+  void take_log(std::string_view line);
+  void take_position(std::string_view line);
+  void apply_offset();
+  void remove_limits();
+
+  std::string_view bytes_;
+  const MeasuredOptions& options_;
+  Diagnostics& diagnostics_;
+  MeasuredFile out_;
+  std::size_t line_ = 1;
+  double unit_ = 1.0;  // mm, of a log
+  std::optional<std::vector<double>> reported_offset_, coordinate_system_, shift_;
+  double tool_length_ = 0.0;
+};
+
+/// "([1 2]/L:left/T=5) #51=5.1" or "@[1|2] #2001=5,1".
+void HeightsReader::take_probe(std::string_view line) {
+  MeasuredHeight h;
+  h.line = line_;
+  const std::size_t sign = line.find('#');
+  const std::size_t equals = sign == std::string_view::npos ? sign : line.find('=', sign);
+  const std::string_view head = line.substr(0, std::min(sign, line.size()));
+  const std::size_t open = head.find('['), close = head.find(']');
+  const bool has_point = open != std::string_view::npos && close != std::string_view::npos && open < close;
+  const std::size_t t = head.rfind("/T=");
+  std::optional<double> variable;
+  if (equals != std::string_view::npos)
+    variable = parse_number(trim(line.substr(sign + 1, equals - sign - 1)));
+  const bool of_document = !head.empty() && head[0] == '@';
+  const std::string_view value =
+      equals == std::string_view::npos ? std::string_view() : trim(line.substr(equals + 1));
+  const bool has_variable =
+      variable && *variable == std::floor(*variable) && *variable >= 0.0 && *variable <= kMaxVariable;
+  // Without a value the point is kept: another file may have it.
+  if (!has_variable || (!value.empty() && t == std::string_view::npos && !of_document)) {
+    error(Code::heights_format, std::string(kFormat.in(options_.language)));
+    return;
+  }
+  h.variable = static_cast<int>(*variable);
+  if (t != std::string_view::npos) h.expected = comma_number(head.substr(t + 3, head.rfind(')') - t - 3));
+  if (has_point)
+    if (const auto xy = numbers_of(head.substr(open + 1, close - open - 1), " |\t"); xy && xy->size() == 2)
+      h.at = {(*xy)[0], (*xy)[1]};
+  if (const std::size_t label = head.find("/L:"); label != std::string_view::npos)
+    h.label = std::string(head.substr(label + 3, std::min(t, head.size()) - label - 3));
+  h.height = comma_number(value);
+  if (!value.empty() && !h.height)
+    error(Code::heights_format,
+          fmt::format(fmt::runtime(kNoNumber.in(options_.language)), clipped(value), *h.variable));
+  out_.heights.push_back(std::move(h));
+}
+
+/// "[PRB:1.000,2.000,-3.100:1]", "<Idle|MPos:...|WCO:1,2,3>", "[G54:1,2,3]", "[G92:1,2,3]", "[TLO:0]",
+/// "$13=1".
+void HeightsReader::take_log(std::string_view line) {
+  if (line.substr(0, 4) == "$13=") unit_ = line.substr(4, 1) == "1" ? kMmPerInch : 1.0;
+  if (auto wco = values_after(line, "WCO:", 3)) reported_offset_ = wco;
+  if (auto offset = values_after(line, "[G54:", 3)) coordinate_system_ = offset;
+  if (auto shift = values_after(line, "[G92:", 3)) shift_ = shift;
+  if (auto length = values_after(line, "[TLO:", 1)) tool_length_ = length->back();
+  const std::size_t at = line.find("[PRB:");
+  if (at == std::string_view::npos) return;
+  const auto position = values_after(line, "[PRB:", 3);
+  const std::string_view rest = line.substr(at + 5);
+  const std::size_t colon = rest.find(':');
+  if (!position || colon == std::string_view::npos) {
+    error(Code::heights_format, "expected [PRB:x,y,z:1]");
+    return;
+  }
+  MeasuredHeight h;
+  h.line = line_;
+  h.at = {(*position)[0], (*position)[1]};
+  if (rest.substr(colon + 1, 1) == "1") h.height = (*position)[2];
+  // The answer to $# repeats the last result.
+  if (!out_.heights.empty() && out_.heights.back().at == h.at && out_.heights.back().height == h.height)
+    return;
+  out_.heights.push_back(std::move(h));
+}
+
+/// From machine to work coordinates.
+void HeightsReader::apply_offset() {
+  std::optional<std::array<double, 3>> offset = options_.work_offset;
+  if (!offset && reported_offset_)
+    offset = {(*reported_offset_)[0] * unit_, (*reported_offset_)[1] * unit_, (*reported_offset_)[2] * unit_};
+  if (!offset && coordinate_system_) {
+    offset.emplace();
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      (*offset)[axis] = ((*coordinate_system_)[axis] + (shift_ ? (*shift_)[axis] : 0.0)) * unit_;
+    (*offset)[2] += tool_length_ * unit_;
+  }
+  if (!offset) {
+    line_ = 0;
+    error(Code::heights_missing,
+          "the positions of [PRB:...] are machine coordinates, and the log has no work offset")
+        .hint = "add the controller's answer to $# or ? to the log, or specify --work-offset X,Y,Z";
+    return;
+  }
+  for (MeasuredHeight& h : out_.heights) {
+    (*h.at)[0] = (*h.at)[0] * unit_ - (*offset)[0];
+    (*h.at)[1] = (*h.at)[1] * unit_ - (*offset)[1];
+    if (h.height) *h.height = *h.height * unit_ - (*offset)[2];
+  }
+}
+
+void HeightsReader::take_position(std::string_view line) {
+  if (line[0] == ';' || line[0] == '(' || line[0] == '#') return;
+  const auto numbers = numbers_of(line, " \t,;");
+  if (!numbers && line_ == 1) return;  // column names
+  if (!numbers || numbers->size() < 3 || numbers->size() > kMaxNumbers) {
+    error(Code::heights_format, "expected numbers: x y z");
+    return;
+  }
+  MeasuredHeight h;
+  h.line = line_;
+  h.at = {(*numbers)[0], (*numbers)[1]};
+  h.height = (*numbers)[2];
+  out_.heights.push_back(std::move(h));
+}
+
+/// Removes the lines "xmin xmax count", "ymin ymax count", "zmin zmax feed" of a .probe file.
+void HeightsReader::remove_limits() {
+  std::vector<MeasuredHeight>& all = out_.heights;
+  if (all.size() < 3 + 4) return;
+  const auto is_limits = [](const MeasuredHeight& h) {
+    return (*h.at)[0] < (*h.at)[1] && *h.height >= 2.0 && *h.height == std::floor(*h.height);
+  };
+  if (is_limits(all[0]) && is_limits(all[1]) &&
+      *all[0].height * *all[1].height == static_cast<double>(all.size() - 3))
+    all.erase(all.begin(), all.begin() + 3);
+}
+
+TextLocation line_of(const MeasuredFile& measured, std::size_t line) {
+  return {measured.file, static_cast<std::uint32_t>(line), 0};
+}
+
+using Matches = std::map<int, const MeasuredHeight*>;  // by variable
+
+/// The target of a height: by its variable, or the nearest one.
+const HeightTarget* target_of(const MeasuredHeight& h, const std::vector<HeightTarget>& targets,
+                              Length within) {
+  const HeightTarget* found = nullptr;
+  double nearest = within.mm();
+  for (const HeightTarget& t : targets) {
+    if (h.variable && t.variable == *h.variable) return &t;
+    if (h.variable || !h.at) continue;
+    const double d = std::hypot(t.at[0] - (*h.at)[0], t.at[1] - (*h.at)[1]);
+    if (d > nearest) continue;
+    nearest = d;
+    found = &t;
+  }
+  return found;
+}
+
+Matches match(const MeasuredFile& measured, const std::vector<HeightTarget>& targets, Length within,
+              Language language, Diagnostics& diagnostics) {
+  Matches found;
+  for (const MeasuredHeight& h : measured.heights) {
+    const HeightTarget* target = target_of(h, targets, within);
+    if (target == nullptr) {
+      diagnostics.warning(Code::heights_unmatched, line_of(measured, h.line),
+                          h.variable ? fmt::format("#{} is no probe of the program", *h.variable)
+                                     : fmt::format("[{} {}] is at none of the program's probes",
+                                                   fixed_text((*h.at)[0], 3), fixed_text((*h.at)[1], 3)));
+      continue;
+    }
+    const bool is_new = found.insert_or_assign(target->variable, &h).second;
+    if (!is_new && h.variable)
+      diagnostics.error(Code::heights_format, line_of(measured, h.line),
+                        fmt::format(fmt::runtime(kTwice.in(language)), *h.variable));
+  }
+  return found;
+}
+
+}  // namespace
+
+MeasuredFile read_measured(std::string_view bytes, const std::string& file, const MeasuredOptions& options,
+                           Diagnostics& diagnostics) {
+  return HeightsReader(bytes, file, options, diagnostics).read();
+}
+
+std::map<int, double> heights_of(const MeasuredFile& measured, const std::vector<HeightTarget>& targets,
+                                 Length within, Length max_correction, Language language,
+                                 Diagnostics& diagnostics) {
+  const Matches found = match(measured, targets, within, language, diagnostics);
+  std::map<int, double> values;
+  for (const HeightTarget& t : targets) {
+    const auto entry = found.find(t.variable);
+    if (entry == found.end()) {
+      diagnostics.error(Code::heights_missing, TextLocation{measured.file, 0, 0},
+                        fmt::format("no height for probe #{} at [{} {}]", t.variable, fixed_text(t.at[0], 3),
+                                    fixed_text(t.at[1], 3)));
+      continue;
+    }
+    const MeasuredHeight& h = *entry->second;
+    const TextLocation where = line_of(measured, h.line);
+    if (!h.height && h.variable) {
+      diagnostics.error(Code::heights_format, where, std::string(kFormat.in(language))).hint =
+          "enter the measured height after the equals sign";
+      continue;
+    }
+    if (!h.height) {
+      diagnostics.error(Code::heights_missing, where,
+                        fmt::format("probe #{} was measured without contact", t.variable));
+      continue;
+    }
+    const std::optional<double> expected = h.expected ? h.expected : t.expected;
+    if (expected && std::abs(*expected - *h.height) > max_correction.mm())
+      diagnostics.error(
+          Code::heights_deviation, where,
+          fmt::format(fmt::runtime(kDeviation.in(language)), number_text(*expected, 6), t.variable,
+                      number_text(*h.height, 6), number_text(max_correction.mm(), 6)));
+    values.emplace(t.variable, *h.height);
+  }
+  return values;
+}
+
+}  // namespace kerf

@@ -1,0 +1,76 @@
+// Files of measured heights.
+#include "kerf/measured.h"
+
+#include <gtest/gtest.h>
+
+namespace kerf {
+namespace {
+
+MeasuredFile read(std::string_view text, Diagnostics& diagnostics,
+                  std::optional<std::array<double, 3>> offset = {}) {
+  MeasuredOptions options;
+  options.work_offset = offset;
+  return read_measured(text, "heights", options, diagnostics);
+}
+
+TEST(Measured, AListOfProbes) {
+  Diagnostics d;
+  const MeasuredFile f =
+      read("([57.358 242.020]/T=2.000) #51=2.1\n\n([97.06 242]/L:ZB/T=2.5) #52= 1,85 \r\n", d);
+  EXPECT_FALSE(d.has_errors());
+  ASSERT_EQ(f.heights.size(), 2u);
+  EXPECT_EQ(f.format, HeightsFormat::probe_list);
+  EXPECT_EQ(f.heights[0].variable, 51);
+  EXPECT_DOUBLE_EQ((*f.heights[0].at)[1], 242.02);
+  EXPECT_EQ(f.heights[1].label, "ZB");
+  EXPECT_EQ(f.heights[1].expected, 2.5);
+  EXPECT_EQ(f.heights[1].height, 1.85);
+  EXPECT_EQ(f.heights[1].line, 3u);
+}
+
+TEST(Measured, ALogInInchesWithItsOffset) {
+  Diagnostics d;
+  const MeasuredFile f = read(
+      "$13=1\n[G54:1.000,2.000,-1.000]\n[G92:0.0,0.0,0.5]\n[TLO:0.0]\n[PRB:2.0,2.0,-0.4:1]\n[PRB:3.0,2.0,0:0]"
+      "\n",
+      d);
+  EXPECT_FALSE(d.has_errors());
+  ASSERT_EQ(f.heights.size(), 2u);
+  EXPECT_NEAR((*f.heights[0].at)[0], 25.4, 1e-9);
+  EXPECT_NEAR(*f.heights[0].height, 0.1 * 25.4, 1e-9);  // -0.4 - (-1 + 0.5)
+  EXPECT_FALSE(f.heights[1].height.has_value());
+}
+
+TEST(Measured, AGivenOffsetPrecedesThatOfTheLog) {
+  Diagnostics d;
+  const MeasuredFile f = read("WCO:9,9,9\n[PRB:2,3,4:1]\n", d, std::array<double, 3>{1, 1, 1});
+  ASSERT_EQ(f.heights.size(), 1u);
+  EXPECT_EQ(f.heights[0].height, 3.0);
+  Diagnostics without;
+  read("[PRB:2,3,4:1]\n", without);
+  EXPECT_TRUE(without.has_errors());
+}
+
+TEST(Measured, LimitsOfAProbeFileAreNoPoints) {
+  Diagnostics d;
+  EXPECT_EQ(read("0 20 2\n0 10 2\n-1 1 50\n0 0 .1\n20 0 .2\n0 10 .3\n20 10 .1\n", d).heights.size(), 4u);
+  // Without the limits' counts these are points.
+  EXPECT_EQ(read("0 20 2\n0 10 2\n-1 1 50\n0 0 .1\n20 0 .2\n", d).heights.size(), 5u);
+  EXPECT_FALSE(d.has_errors());
+}
+
+TEST(Measured, HeightsBelongToTheNearestTarget) {
+  Diagnostics d;
+  const MeasuredFile f = read("0.1 0 1\n10 0.1 2\n10 0 3\n", d);
+  const std::vector<HeightTarget> targets{{51, {0, 0}, 1.5}, {52, {10, 0}, {}}};
+  const auto values = heights_of(f, targets, mm(0.2), mm(1), Language::english, d);
+  EXPECT_FALSE(d.has_errors());
+  EXPECT_EQ(values.at(51), 1.0);
+  EXPECT_EQ(values.at(52), 3.0);  // the last one
+  Diagnostics strict;
+  heights_of(f, targets, mm(0.05), mm(1), Language::english, strict);
+  EXPECT_TRUE(strict.has_errors());
+}
+
+}  // namespace
+}  // namespace kerf
