@@ -44,10 +44,10 @@ def reference(name):
 def test_the_template_moves_as_recorded(here):
     gcp = run("gcodepreviewtemplate", here)
     found = differences(gcp.toolpath, reference("gcodepreviewtemplate.motion.json"))
-    # setzpos(retractheight) of line 122 was a jump; it is a rapid.
+    # setzpos(retractheight) of line 133 was a jump; it is a rapid, before the tool change of line 134.
     assert len(found) == 1, found
     assert "rapid to (68.75, 75.0, 9.0)" in found[0]
-    assert "gcodepreviewtemplate.py:123" in found[0]
+    assert "gcodepreviewtemplate.py:134" in found[0]
 
 
 def test_the_template_writes_its_files(here):

@@ -181,12 +181,14 @@ void Linter::check_comments(const Block& block) {
   column_ = 1;
 }
 
-/// A printer's M codes take words of their own, such as the S of a temperature.
+/// A printer's M codes take words of their own, such as the S of a temperature. M73 sets the progress shown;
+/// M112 is the emergency stop.
 void Linter::check_foreign(const Block& block) {
-  constexpr double kFirstPrinterCode = 100.0;
-  if (profile_.syntax == LineSyntax::commands && !block.words.empty() && block.words[0].letter == 'M' &&
-      block.words[0].value >= kFirstPrinterCode)
-    return;
+  constexpr double kProgress = 73.0, kFirstPrinterCode = 100.0, kEmergencyStop = 112.0;
+  if (profile_.syntax == LineSyntax::commands && !block.words.empty() && block.words[0].letter == 'M') {
+    const double code = block.words[0].value;
+    if (code == kProgress || (code >= kFirstPrinterCode && code != kEmergencyStop)) return;
+  }
   const LastingEffect lasting = lasting_effect(block);
   if (lasting.effect.empty()) return;
   column_ = lasting.column;
