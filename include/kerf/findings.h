@@ -61,7 +61,7 @@ struct JobCheckOptions {
   const Material* material = nullptr;  // of the stock, for the chip load
 };
 /// All hazards of a job, in the order of steps: those of the toolpath, of the material and of the fixtures,
-/// tools of unknown shape, and skipped codes that may be motions. `diagnostics` are those of reading the
+/// assumed tools, and skipped codes that may be motions. `diagnostics` are those of reading the
 /// program: warnings that are also findings are removed from it, and warnings of skipped checks are added. If
 /// it has errors, only the toolpath is checked.
 std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,

@@ -40,6 +40,8 @@ struct GcodeReadOptions {
   /// Diameter in mm of a tool, for G41 and G42; `described` is the tool of the program's comments, or null.
   /// No function: the diameter of the comments.
   std::function<std::optional<double>(int tool, const Tool* described)> tool_diameter = {};
+  /// Diameter in mm that cutter compensation assumes for an unknown one, with a warning; nothing: an error.
+  std::optional<double> assumed_diameter = {};
   std::size_t max_rerun_bytes = 500'000'000;  // of lines read after a jump; more is an error
 };
 

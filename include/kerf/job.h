@@ -7,7 +7,8 @@
 //     std::optional<JobRun> run = run_job(job, {.resolution = mm(0.1)}, diagnostics);
 //
 // Tools and stock are searched in this order: given by the caller, the program's comments, files, the
-// built-in table. If no stock is found, a block around the cuts is assumed. The job stores the sources.
+// built-in table. If no stock is found, a block around the cuts is assumed; UnknownTool::assume does the same
+// for tools. The job stores the sources.
 #pragma once
 
 #include <map>
@@ -45,7 +46,8 @@ struct ToolChoices {
 /// Adds a tool given as "[N=]SPEC": "square d=3.175 flute=12.7" for every number, "2=V d=12.7 angle=90" for
 /// tool 2, "2=301" for the built-in tool 301. Errors have the origin `where`.
 void add_tool(const std::string& text, const Origin& where, ToolChoices& choices, Diagnostics& diagnostics);
-/// Adds the tools of a file (kerf/tool_files.h) to the table.
+/// Adds the tools of a file to the table: a tool file (kerf/tool_files.h), or a library of another program
+/// (kerf/tool_libraries.h), in mm if it has no unit.
 void add_tool_file(const std::string& file, ToolChoices& choices, Diagnostics& diagnostics);
 /// The tools' diameters for cutter compensation: the value of ProgramOptions::tool_diameter.
 decltype(ProgramOptions::tool_diameter) diameters_of(const ToolChoices& choices);
@@ -63,7 +65,7 @@ std::optional<Stock> load_stock(const std::string& file, Diagnostics& diagnostic
 
 // ---- the job
 
-enum class ToolSource { unknown, option, comment, file, built_in };
+enum class ToolSource { unknown, option, comment, file, built_in, assumed };
 std::string_view to_string(ToolSource source);
 enum class StockSource { unknown, option, file, program, assumed };
 std::string_view to_string(StockSource source);
@@ -77,6 +79,7 @@ struct Job {
   PathReport report;
   ToolTable tools;                         // those used and known
   std::map<int, ToolSource> tool_sources;  // of every number used
+  std::optional<int> start_tool;           // of a tool change inserted before the first motion
   std::optional<Stock> stock;
   StockSource stock_source = StockSource::unknown;
   std::vector<Fixture> fixtures;
@@ -85,9 +88,9 @@ struct Job {
       z_downwards;  // set if Z seems to count downwards: other findings are then unreliable
 };
 
-/// How an unknown tool is reported: as a warning, as an error, or not at all, because check_job has a finding
-/// for it.
-enum class UnknownTool { warning, error, unreported };
+/// What becomes of a tool of unknown shape: an error, a warning and no tool, or a warning and an assumed tool
+/// (kerf/assumed_tool.h). A laser's beam is always assumed, without a warning.
+enum class UnknownTool { error, warning, assume };
 /// Makes a job. Unknown tools and an assumed stock are reported in `diagnostics`; without a stock and without
 /// cuts `stock` is empty, without a diagnostic.
 Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics);
@@ -96,8 +99,6 @@ Job make_print_job(Program program);
 
 /// The tools that a program changes to or describes, by number, as far as they are known.
 std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
-/// The hint for a tool of unknown shape.
-std::string hint_for_unknown(int tool);
 /// A tool in a few words: "square 3.175 mm".
 std::string short_name(const Tool& tool);
 

@@ -31,10 +31,13 @@ std::string exact_text(double value);
 /// finite. Works without floating from_chars, which WebAssembly's library lacks.
 std::optional<double> parse_number(std::string_view text);
 
+/// Reads a decimal number or a fraction: "0.5", "3/4", "1-1/2", "-3/4".
+std::optional<double> parse_fraction(std::string_view text);
+
 /// mm in a unit of length: "mm", or "in", "inch", "inches" or a double quote, in any case; nothing for other
 /// words.
 std::optional<double> mm_per_unit(std::string_view unit);
-/// Reads "6.35", "0.25in", "1/4 inch" as mm; `scale`: mm per unit if the text has no unit.
+/// Reads "6.35", "0.25in", "1/4 inch", "1-1/2in" as mm; `scale`: mm per unit if the text has no unit.
 std::optional<double> parse_length(std::string_view text, double scale);
 
 /// The closest of `known` to `word` if it is close enough to be a typing error ("did you mean ...").

@@ -60,6 +60,11 @@ std::optional<std::string> mesh_file(const PartSurface& surface, MeshFormat form
 std::optional<std::string> picture_file(const PartSurface& surface, const View& view,
                                         Diagnostics& diagnostics);
 
+/// The toolpath of a job as the bytes of a PNG, over its stock as it was before the first cut: cuts in the
+/// colours of the tools, rapids as thin lines, a laser's cuts by their power. Motions at unknown positions
+/// are omitted.
+std::string path_picture(const Job& job, const View& view);
+
 /// The comparison of a part with its target as the bytes of a PNG: its map from above, or, with a view, the
 /// part in the colours of the map. `full` is the difference with the saturated colour. Nothing if stopped,
 /// or, with an error, if the section plane of the view does not intersect the part.
@@ -85,10 +90,17 @@ std::optional<PartFile> part_file(const std::string& path);
 /// False, with an error for each, if a job of this kind cannot be written to one of the files.
 bool can_write(const std::vector<PartFile>& files, JobKind kind, Diagnostics& diagnostics);
 
+/// What a picture shows. `automatic`: the part, or the toolpath if no material is removed.
+enum class PictureContent : std::uint8_t { automatic, part, path };
+
 struct PartFileOptions {
   View view = {};  // of pictures
+  PictureContent content = PictureContent::automatic;
   Grooves grooves = Grooves::closed;
 };
+/// Writes pictures of the toolpath; all files must be pictures. False, with an error, if one fails.
+bool write_path(const std::vector<PartFile>& files, const Job& job, const View& view, OutputSet& set,
+                Diagnostics& diagnostics);
 /// Writes the files into `set`, which is not committed. Meshes are verified before. False, with an error, if
 /// one fails, or if stopped.
 bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun& run,

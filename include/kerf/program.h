@@ -38,9 +38,10 @@ struct Program {
   std::map<int, Tool> tools;              // those described in the program itself
   std::optional<Stock> stock;             // if described in the program itself
   ProgramEnd end = ProgramEnd::not_asked;
-  bool manual_spindle = false;       // inputs of its kind have no means to start the spindle
-  std::vector<HeightTarget> probes;  // points whose heights correct the program's
-  std::vector<std::string> files;    // all files read: `source`, then included, called and imported ones
+  bool manual_spindle = false;             // inputs of its kind have no means to start the spindle
+  std::vector<HeightTarget> probes;        // points whose heights correct the program's
+  std::optional<double> assumed_diameter;  // mm, of cutter compensation, see UnknownDiameter
+  std::vector<std::string> files;  // all files read: `source`, then included, called and imported ones
 };
 
 /// Measured heights for programs whose heights depend on them.
@@ -49,6 +50,9 @@ struct MeasuredSettings {
   Length max_correction = mm(1);  // larger deviations from the expected heights are errors
   MeasuredOptions reading = {};
 };
+
+/// Cutter compensation with a tool of unknown diameter: an error, or a warning and an assumed diameter.
+enum class UnknownDiameter { error, assume };
 
 /// How a program is read. A front end ignores options that do not apply to it.
 struct ProgramOptions {
@@ -60,6 +64,7 @@ struct ProgramOptions {
   decltype(GcodeReadOptions::tool_diameter) tool_diameter = {};  // for cutter compensation
   std::vector<std::string> defines = {};  // gcmc statements that run first: "depth=5mm"
   MeasuredSettings measured = {};
+  UnknownDiameter unknown_diameter = UnknownDiameter::error;
   std::vector<std::string> include_paths = {};  // folders searched for included files after the program's own
 };
 

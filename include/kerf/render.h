@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -34,12 +35,22 @@ bool faces(const View& view, const Section& section);
 /// The view "top", "bottom", "front", "back", "left", "right" or "iso"; nothing for other names.
 std::optional<View> named_view(std::string_view name);
 
+/// A line over a picture, drawn regardless of what is in front of it. Thin lines are below the others.
+struct PictureLine {
+  Point3 from, to;  // mm
+  std::array<std::uint8_t, 3> colour{};
+  bool is_thin = false;
+};
+/// Calls its argument for each line.
+using PictureLines = std::function<void(const std::function<void(const PictureLine&)>&)>;
+
 struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;  // rows from the top
 };
-/// Draws a shaded mesh scaled to fill the picture. `colours`: one sRGB colour per triangle, grey where
-/// missing. Width and height are clamped to 1 to 8192 pixels.
-Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
+/// Draws a shaded mesh scaled to fill the picture, with vertices that no triangle uses. `colours`: one sRGB
+/// colour per triangle, grey where missing. Width and height are clamped to 1 to 8192 pixels.
+Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view,
+             const PictureLines& lines = {});
 
 }  // namespace kerf

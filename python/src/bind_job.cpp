@@ -40,7 +40,7 @@ py::list check(const py::object& program, const py::object& tools, const py::obj
   options.threads = to_threads(threads);
   options.machine = on ? &*on : nullptr;
   options.material = of ? &*of : nullptr;
-  const Job job = make_job(to_program(program), settings, UnknownTool::unreported, diagnostics);
+  const Job job = make_job(to_program(program), settings, UnknownTool::assume, diagnostics);
   SignalProgress progress;
   std::vector<Finding> findings;
   {
@@ -67,7 +67,7 @@ void put_times(py::dict& d, const TimeFigures& time) {
 py::dict estimate(const py::object& program, const py::object& machine) {
   const std::optional<Machine> on = to_machine(machine);
   Diagnostics ignored;  // tools and stock do not change the time
-  const Job job = make_job(to_program(program), {}, UnknownTool::unreported, ignored);
+  const Job job = make_job(to_program(program), {}, UnknownTool::assume, ignored);
   const JobTimes times = times_of(job, on ? &*on : nullptr);
   py::dict out;
   put_times(out, times.estimate.all);

@@ -1,4 +1,5 @@
 // The kerf command: selects and runs the subcommand, and returns its exit status.
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -13,6 +14,7 @@
 #include "app/commands/gcmc.h"
 #include "app/commands/pathdxf.h"
 #include "app/options/common.h"
+#include "app/report/json.h"
 #include "app/report/terminal_progress.h"
 
 namespace kerf::app {
@@ -104,7 +106,17 @@ int run(int argc, char** argv) {
   const CommandLine::Result result = root.parse({argv + 1, argv + argc});
   if (result.outcome == CommandLine::Outcome::answered) return static_cast<int>(Status::done);
   if (result.outcome == CommandLine::Outcome::parsed) return static_cast<int>(run_asked(commands));
-  Console({}).error(result.problem);
+  const bool json = std::find(argv + 1, argv + argc, std::string_view("--json")) != argv + argc;
+  OutputOptions output;
+  output.json = json;
+  Console console(output);
+  console.error(result.problem);
+  if (json) {
+    Diagnostics usage;
+    usage.error(Code::usage, {}, result.problem);
+    console.print_json(text_of(Json{{"diagnostics", json_of(usage)}}, Layout::indented));
+    console.finish();
+  }
   fmt::print(stderr, "try: kerf {}{}--help\n", result.command, result.command.empty() ? "" : " ");
   return static_cast<int>(Status::wrong_usage);
 }

@@ -214,6 +214,27 @@ std::optional<double> mm_per_unit(std::string_view name) {
   return std::nullopt;
 }
 
+std::optional<double> parse_fraction(std::string_view text) {
+  text = trim(text);
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos) return parse_number(text);
+  std::string_view upper = trim(text.substr(0, slash));
+  const std::size_t dash = upper.find_last_of("- ");
+  double whole = 0.0, sign = 1.0;
+  if (dash != std::string_view::npos && dash > 0) {  // "1-1/2", "1 1/2"
+    const std::string_view before = trim(upper.substr(0, dash));
+    const auto number = parse_number(before);
+    if (!number || *number != std::floor(*number)) return std::nullopt;
+    if (before.front() == '-') sign = -1.0;
+    whole = std::abs(*number);
+    upper = trim(upper.substr(dash + 1));
+  }
+  const auto over = parse_number(upper), under = parse_number(trim(text.substr(slash + 1)));
+  if (!over || !under || *under == 0.0) return std::nullopt;
+  const double value = sign * (whole + *over / *under);
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 std::optional<double> parse_length(std::string_view text, double scale) {
   text = trim(text);
   if (text.size() > 64) return std::nullopt;
@@ -225,12 +246,9 @@ std::optional<double> parse_length(std::string_view text, double scale) {
     scale = *unit;
     text = text.substr(0, end + 1);
   }
-  const std::size_t slash = text.find('/');
-  const auto over = parse_number(trim(text.substr(0, slash)));
-  const auto under =
-      slash == std::string_view::npos ? std::optional(1.0) : parse_number(trim(text.substr(slash + 1)));
-  if (!over || !under || *under == 0.0) return std::nullopt;
-  const double value = *over / *under * scale;
+  const auto number = parse_fraction(text);
+  if (!number) return std::nullopt;
+  const double value = *number * scale;
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
 }
 

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "job/choices.h"
 #include "job/fixture_findings.h"
 
+#include "kerf/number.h"
 #include "kerf/rotary.h"
 
 namespace kerf {
@@ -24,48 +26,50 @@ Length resolution_for(const Stock& stock, Length given) {
   return mm(std::max(usual, std::sqrt(area / kMaxColumns)));
 }
 
-/// Calls visit(step, context) for every cut with a tool of unknown shape.
-template <class Visit>
-void for_each_unknown_cut(const Job& job, Visit&& visit) {
-  const bool one_tool = job.tools.tools().size() == 1;  // in force before the first tool change
-  for_each_motion(job.program.path, [&](const Step& s, const MotionContext& context) {
-    if (s.is_cutting() && (context.tool ? job.tools.find(*context.tool) == nullptr : !one_tool))
-      visit(s, context);
-  });
-}
+bool has_code(const Diagnostic& d, Code code) { return d.code == code && d.severity != Severity::error; }
 
-/// A hazard for each tool of unknown shape, since its cuts cannot be checked. Cuts before the first tool
-/// change are a hazard of the toolpath.
-std::vector<Finding> unknown_tools(const Job& job) {
+/// A hazard for each assumed tool (Job::tool_sources): the diameter of its cuts is uncertain.
+std::vector<Finding> assumed_tools(const Job& job) {
   std::map<int, Finding> found;
-  for_each_unknown_cut(job, [&](const Step& s, const MotionContext& context) {
-    if (!context.tool) return;
+  const bool laser = job.program.path.has(StepKind::laser_power);
+  for_each_motion(job.program.path, [&](const Step& s, const MotionContext& context) {
+    if (!s.is_cutting() || !context.tool || laser) return;
+    const auto source = job.tool_sources.find(*context.tool);
+    if (source == job.tool_sources.end() || source->second != ToolSource::assumed) return;
     const auto [it, is_new] = found.try_emplace(*context.tool);
     if (!is_new) return void(++it->second.steps);
-    it->second = {.kind = "unknown_tool",
+    const bool at_start = job.start_tool == context.tool;
+    const std::string diameter = number_text(job.tools.find(*context.tool)->diameter.mm(), 3);
+    const std::string cut = at_start
+                                ? std::string("a cut before the first tool change")
+                                : fmt::format("a cut with tool {}, whose shape is unknown", *context.tool);
+    it->second = {.kind = at_start ? "no_tool" : "unknown_tool",
                   .step = context.index,
                   .at = s.to(),
                   .origin = job.program.path.origin_of(context.index),
-                  .message = fmt::format("a cut with tool {}, whose shape is unknown", *context.tool),
+                  .message = fmt::format("{}; assuming a square end mill of {} mm", cut, diameter),
                   .callers = job.program.path.origins().callers(s.origin()),
-                  .hint = hint_for_unknown(*context.tool)};
+                  .hint = hint_for_unknown(at_start ? std::nullopt : context.tool, diameter)};
   });
   std::vector<Finding> list;
   for (auto& [tool, finding] : found) list.push_back(std::move(finding));
   return list;
 }
 
-/// A hazard for each unknown G code: it may be a motion that the toolpath lacks.
-std::vector<Finding> skipped_codes(const Diagnostics& diagnostics) {
+/// Hazards that reading the program has reported: unknown G codes, which may be motions, and cutter
+/// compensation with an assumed diameter.
+std::vector<Finding> findings_of_reading(const Diagnostics& diagnostics) {
   std::vector<Finding> list;
-  for (const Diagnostic& d : diagnostics.list())
-    if (d.code == Code::unknown_g_code && d.severity != Severity::error)
-      list.push_back({.kind = "left_out",
-                      .at = {},
-                      .origin = d.where,
-                      .message = d.message + "; it may be a motion",
-                      .callers = {},
-                      .hint = d.hint});
+  for (const Diagnostic& d : diagnostics.list()) {
+    const bool skipped = has_code(d, Code::unknown_g_code);
+    if (!skipped && !has_code(d, Code::compensation_no_tool)) continue;
+    list.push_back({.kind = skipped ? "left_out" : "unknown_diameter",
+                    .at = {},
+                    .origin = d.where,
+                    .message = skipped ? d.message + "; it may be a motion" : d.message,
+                    .callers = {},
+                    .hint = d.hint});
+  }
   return list;
 }
 
@@ -89,25 +93,6 @@ void assign_steps(std::vector<Finding>& findings, const Toolpath& path) {
   }
 }
 
-/// The toolpath before the first cut with an unknown tool, with a warning: after it the workpiece is unknown.
-/// Nothing if every cut has a known tool.
-std::optional<Toolpath> known_part(const Job& job, Diagnostics& diagnostics) {
-  const Toolpath& path = job.program.path;
-  std::size_t end = path.size();
-  for_each_unknown_cut(job, [&](const Step&, const MotionContext& c) { end = std::min(end, c.index); });
-  if (end == path.size()) return std::nullopt;
-  const auto& steps = path.steps();
-  const bool any = std::any_of(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(end),
-                               [](const Step& s) { return s.is_cutting(); });
-  diagnostics.warning(Code::not_simulated, path.origin_of(end),
-                      any ? "the material is not checked from here on, because the tool is unknown"
-                          : "the material is not checked, because the tool is unknown");
-  Toolpath part;
-  part.origins() = path.origins();
-  for (std::size_t i = 0; any && i < end; ++i) part.add_copy(path, i);
-  return part;
-}
-
 /// The hazards in the material, as far as it can be simulated; a warning if not completely.
 std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions& options,
                                           Diagnostics& diagnostics, Progress* progress) {
@@ -116,8 +101,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
                         "the material is not checked, because nothing is cut and no stock is given");
     return {};
   }
-  const std::optional<Toolpath> part = known_part(job, diagnostics);
-  const Toolpath& path = part ? *part : job.program.path;
+  const Toolpath& path = job.program.path;
   if (path.size() == 0) return {};
   SimulationOptions how;
   how.threads = options.threads;
@@ -145,18 +129,18 @@ std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& opt
   checks.tools = &job.tools;
   if (job.stock) checks.stock = job.stock->block;
   std::vector<Finding> findings =
-      merged(findings_of(check_path(job.program.path, checks), job.program.path), unknown_tools(job));
-  std::vector<Finding> skipped = skipped_codes(diagnostics);
-  assign_steps(skipped, job.program.path);
-  return merged(std::move(findings), std::move(skipped));
+      merged(findings_of(check_path(job.program.path, checks), job.program.path), assumed_tools(job));
+  std::vector<Finding> of_reading = findings_of_reading(diagnostics);
+  assign_steps(of_reading, job.program.path);
+  return merged(std::move(findings), std::move(of_reading));
 }
 
 /// Removes the diagnostics that are also findings, so that each is reported once.
 void remove_hazards(Diagnostics& diagnostics) {
   diagnostics.remove_if([](const Diagnostic& d) {
-    const bool is_hazard =
-        d.code == Code::no_feed || d.code == Code::no_program_end || d.code == Code::unknown_g_code;
-    return d.severity != Severity::error && is_hazard;
+    return has_code(d, Code::no_feed) || has_code(d, Code::no_program_end) ||
+           has_code(d, Code::unknown_g_code) || has_code(d, Code::no_tool_shape) ||
+           has_code(d, Code::compensation_no_tool);
   });
 }
 

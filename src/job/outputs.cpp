@@ -195,6 +195,13 @@ std::vector<Colour> comparison_colours(const Mesh& mesh, const Simulation& simul
   return colours;
 }
 
+/// Whether pictures show the toolpath instead of the part.
+bool shows_path(const JobRun& run, PictureContent content) {
+  if (content != PictureContent::automatic) return content == PictureContent::path;
+  const auto* cut = std::get_if<Simulation>(&run.result);
+  return cut != nullptr && !(cut->removed > Volume());
+}
+
 std::string png_of(const Image& image) { return write_png({image.width, image.height, image.rgba}); }
 
 }  // namespace
@@ -289,7 +296,17 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
   for (const PartFile& file : files)
     if (file.is_left && !set.write(file.path, write_left_file(left_columns(cut->workpiece)), diagnostics))
       return false;
-  const std::vector<PartFile> surfaces = without_left(files);
+  std::vector<PartFile> surfaces = without_left(files);
+  if (shows_path(run, options.content)) {
+    const auto first = std::stable_partition(surfaces.begin(), surfaces.end(),
+                                             [](const PartFile& file) { return !file.is_picture(); });
+    const bool drawn = first != surfaces.end();
+    if (!write_path({first, surfaces.end()}, job, options.view, set, diagnostics)) return false;
+    surfaces.erase(first, surfaces.end());
+    if (drawn && options.content == PictureContent::automatic)
+      diagnostics.note(Code::path_shown, TextLocation{job.program.source, 0, 0},
+                       "no material is removed: the picture shows the toolpath");
+  }
   if (surfaces.empty()) return true;
   const bool exact = cut == nullptr || shows_columns(surfaces, cut->workpiece, options.view);
   const auto surface =

@@ -33,8 +33,11 @@ const FrontEnd* by_ending(std::string_view ending) {
 
 /// The front end of a file with an unknown ending, by its text, with a note.
 const FrontEnd* by_text(const InputFile& file, Diagnostics& diagnostics) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";  // of UTF-8
+  std::string_view text = file.bytes().substr(0, kFirstBytes);
+  if (text.substr(0, kMark.size()) == kMark) text.remove_prefix(kMark.size());
   for (const FrontEnd& f : front_ends()) {
-    if (!f.looks_like(file.bytes().substr(0, kFirstBytes))) continue;
+    if (!f.looks_like(text)) continue;
     diagnostics.note(Code::input_kind_guessed, TextLocation{file.path(), 0, 0},
                      fmt::format("unknown file ending; the text is read as {}", f.name));
     return &f;

@@ -8,10 +8,13 @@
 
 #include "job/front_ends.h"
 
+#include "kerf/assumed_tool.h"
 #include "kerf/gcode.h"
 
 namespace kerf {
 namespace {
+
+constexpr double kSmallestDiameter = 0.1;  // mm, assumed for cutter compensation
 
 /// Text in which a line starts with a word such as G0, M3, T1, N10 or X5, or with % or a comment and then
 /// such a line.
@@ -44,6 +47,29 @@ std::optional<std::string> read_beside(const std::string& program, const std::st
   return std::string(file->bytes());
 }
 
+bool has_compensation_error(const Diagnostics& diagnostics) {
+  const auto& list = diagnostics.list();
+  return std::any_of(list.begin(), list.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::error &&
+           (d.code == Code::compensation_entry || d.code == Code::compensation_gouge);
+  });
+}
+
+/// Reads with the largest of the diameters to assume that fits into the corners of the program.
+GcodeProgram read_assuming(std::string_view text, GcodeReadOptions& options, Diagnostics& diagnostics,
+                           Progress* progress) {
+  const Diagnostics before = diagnostics;
+  for (const double diameter : {kUsualDiameter.mm(), 1.0}) {
+    options.assumed_diameter = diameter;
+    GcodeProgram read = read_gcode(text, options, diagnostics, progress);
+    if (!read.assumed_diameter || !has_compensation_error(diagnostics) || stop_requested(progress))
+      return read;
+    diagnostics = before;
+  }
+  options.assumed_diameter = kSmallestDiameter;
+  return read_gcode(text, options, diagnostics, progress);
+}
+
 Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& diagnostics,
              Progress* progress) {
   Program program;
@@ -56,12 +82,15 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   options.tool_diameter = input.tool_diameter;
   options.file_name = file.path();
   options.read_file = [&](const std::string& name) { return read_beside(file.path(), name, program.files); };
-  GcodeProgram read = read_gcode(file.bytes(), options, diagnostics, progress);
+  GcodeProgram read = input.unknown_diameter == UnknownDiameter::assume
+                          ? read_assuming(file.bytes(), options, diagnostics, progress)
+                          : read_gcode(file.bytes(), options, diagnostics, progress);
   program.path = std::move(read.path);
   program.units = read.inch ? ProgramUnits::inch : ProgramUnits::mm;
   program.tools = std::move(read.tools);
   program.stock = read.stock;
   program.end = read.cut_short ? ProgramEnd::not_asked : read.ended ? ProgramEnd::seen : ProgramEnd::missing;
+  if (read.assumed_diameter) program.assumed_diameter = options.assumed_diameter;
   return program;
 }
 

@@ -6,14 +6,18 @@
 
 #include "job/choices.h"
 
+#include "kerf/assumed_tool.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/tool_files.h"
+#include "kerf/tool_libraries.h"
 
 namespace kerf {
 namespace {
 
 constexpr int kHighestToolNumber = 999'999'999;
+// A laser's beam, as a tool that removes nothing above Z0.
+const Length kBeam = mm(0.1), kBeamFlute = mm(10);
 
 /// "[N=]SPEC", split.
 struct ToolOption {
@@ -64,7 +68,11 @@ void add_tool_file(const std::string& name, ToolChoices& choices, Diagnostics& d
   const auto file = InputFile::open(name, diagnostics);
   if (!file) return;
   ToolTable table;
-  read_tool_file(file->bytes(), name, table, diagnostics);
+  const auto kind = library_kind_of(file->bytes());
+  if (kind && *kind != ToolLibraryKind::kerf)
+    read_tool_library(file->bytes(), name, {}, table, diagnostics);
+  else
+    read_tool_file(file->bytes(), name, table, diagnostics);
   for (const auto& [number, tool] : table.tools()) {
     choices.table.set(number, tool);
     choices.from_file[number] = name;
@@ -83,6 +91,11 @@ decltype(ProgramOptions::tool_diameter) diameters_of(const ToolChoices& choices)
     if (tool == nullptr) return std::nullopt;
     return tool->diameter.mm();
   };
+}
+
+std::string hint_for_unknown(std::optional<int> number, std::string_view diameter) {
+  if (!number) return fmt::format("specify it without a number, e.g. --tool \"square d={}\"", diameter);
+  return fmt::format("specify it, e.g. --tool {}=\"square d={}\"", *number, diameter);
 }
 
 namespace {
@@ -114,6 +127,10 @@ Uses uses_of(const Toolpath& path) {
 std::optional<std::pair<Tool, ToolSource>> tool_for_start(const Program& program, const JobSettings& settings,
                                                           const Uses& uses) {
   if (settings.tools.any_number) return {{*settings.tools.any_number, ToolSource::option}};
+  const auto start = program.tools.find(0);  // of a comment before the first tool change
+  const bool uses_zero = std::find(uses.numbers.begin(), uses.numbers.end(), 0) != uses.numbers.end();
+  if (!uses.numbers.empty() && start != program.tools.end() && !uses_zero && uses.cuts_before)
+    return {{start->second, ToolSource::comment}};
   if (!uses.numbers.empty()) return std::nullopt;
   if (settings.tools.numbered.size() == 1)
     return {{settings.tools.numbered.begin()->second, ToolSource::option}};
@@ -131,16 +148,21 @@ Toolpath with_tool_before(const Toolpath& path, int number) {
   return out;
 }
 
-/// Inserts a tool change before the first motion if the tool is known.
-void give_start_tool(Job& job, const JobSettings& settings, const Uses& uses) {
-  if (!uses.motions_before) return;
-  const auto chosen = tool_for_start(job.program, settings, uses);
-  if (!chosen) return;
-  int number = std::max(chosen->first.number, 1);
+/// Inserts a tool change before the first motion.
+void insert_start_tool(Job& job, const Tool& tool, ToolSource source, const Uses& uses) {
+  int number = std::max(tool.number, 1);
   while (std::find(uses.numbers.begin(), uses.numbers.end(), number) != uses.numbers.end()) ++number;
   job.program.path = with_tool_before(job.program.path, number);
-  job.tools.set(number, chosen->first);
-  job.tool_sources[number] = chosen->second;
+  job.tools.set(number, tool);
+  job.tool_sources[number] = source;
+  job.start_tool = number;
+}
+
+/// The tool of the motions before the first tool change, if it is known.
+void give_start_tool(Job& job, const JobSettings& settings, const Uses& uses) {
+  if (!uses.motions_before) return;
+  if (const auto chosen = tool_for_start(job.program, settings, uses))
+    insert_start_tool(job, chosen->first, chosen->second, uses);
 }
 
 struct Choice {
@@ -186,19 +208,70 @@ void warn_unused_tools(const Job& job, const JobSettings& settings, const Uses& 
   }
 }
 
-/// Reports an unknown shape: as an error if it is required, else as a warning.
-Diagnostic& report_unknown_tool(UnknownTool unknown, Origin where, std::string message,
-                                Diagnostics& diagnostics) {
-  if (unknown == UnknownTool::error) return diagnostics.error(Code::no_tool_shape, std::move(where), message);
-  return diagnostics.warning(Code::no_tool_shape, std::move(where), message);
+/// The first cut with a tool (nothing: before the first tool change).
+std::optional<std::size_t> first_cut_of(std::optional<int> tool, const Toolpath& path) {
+  for (MotionReader motion(path); motion.next();)
+    if (motion.step().is_cutting() && motion.context().tool == tool) return motion.context().index;
+  return std::nullopt;
 }
 
-void report_no_tool(const Toolpath& path, UnknownTool unknown, Diagnostics& diagnostics) {
-  const auto& steps = path.steps();
-  const auto first = std::find_if(steps.begin(), steps.end(), [](const Step& s) { return s.is_cutting(); });
-  report_unknown_tool(unknown, path.origin_of(static_cast<std::size_t>(first - steps.begin())),
-                      "a cut before the first tool change, with a tool of unknown shape", diagnostics)
-      .hint = "specify the tool, e.g. --tool \"square d=3.175 flute=12.7\"";
+std::string_view reason_of(AssumedDiameter basis) {
+  switch (basis) {
+    case AssumedDiameter::stepover: return "by its stepover";
+    case AssumedDiameter::spacing: return "by the distances of its cuts";
+    case AssumedDiameter::usual: break;
+  }
+  return "the usual size";
+}
+
+/// Reports a tool of unknown shape; without a number: before the first tool change.
+void report_unknown_tool(std::optional<int> number, const Toolpath& path, UnknownTool unknown,
+                         Diagnostics& diagnostics) {
+  const auto cut = first_cut_of(number, path);
+  const Origin where = number ? first_use_of(*number, path) : cut ? path.origin_of(*cut) : Origin{};
+  const std::string message =
+      number ? fmt::format("the shape of tool {} is unknown", *number)
+             : std::string("a cut before the first tool change, with a tool of unknown shape");
+  Diagnostic& reported = unknown == UnknownTool::error
+                             ? diagnostics.error(Code::no_tool_shape, where, message)
+                             : diagnostics.warning(Code::no_tool_shape, where, message);
+  reported.hint = hint_for_unknown(number, "3.175 flute=12.7");
+}
+
+/// A diameter of the program's cutter compensation precedes the one that the cuts suggest.
+AssumedTool assumed_tool(std::optional<int> number, const Program& program) {
+  if (program.path.has(StepKind::laser_power)) return {shape::Square{kBeam, kBeamFlute}, kBeam};
+  AssumedTool assumed = assume_tool(program.path, number);
+  if (!program.assumed_diameter) return assumed;
+  assumed.diameter = mm(*program.assumed_diameter);
+  assumed.basis = AssumedDiameter::usual;
+  auto& square = std::get<shape::Square>(assumed.shape);
+  square = {assumed.diameter, std::max(square.flute, usual_flute(assumed.diameter))};
+  return assumed;
+}
+
+/// Makes the assumed tool of a number, or of the motions before the first tool change, with a warning if it
+/// cuts.
+void assume(std::optional<int> number, Job& job, const Uses& uses, Diagnostics& diagnostics) {
+  const AssumedTool assumed = assumed_tool(number, job.program);
+  Diagnostics ignored;  // the dimensions are valid
+  std::optional<Tool> tool = make_tool(number.value_or(0), assumed.shape, ToolBody{}, {}, ignored);
+  if (!tool) return;
+  tool->flute_assumed = true;
+  const auto cut = first_cut_of(number, job.program.path);
+  if (cut && !job.program.path.has(StepKind::laser_power)) {
+    const std::string diameter = number_text(assumed.diameter.mm(), 3);
+    const std::string unknown = number ? fmt::format("the shape of tool {} is unknown", *number)
+                                       : std::string("a cut before the first tool change");
+    diagnostics
+        .warning(Code::no_tool_shape, job.program.path.origin_of(*cut),
+                 fmt::format("{}; assuming a square end mill of {} mm ({})", unknown, diameter,
+                             reason_of(assumed.basis)))
+        .hint = hint_for_unknown(number, diameter);
+  }
+  if (!number) return insert_start_tool(job, *tool, ToolSource::assumed, uses);
+  job.tool_sources[*number] = ToolSource::assumed;
+  job.tools.set(*number, std::move(*tool));
 }
 
 }  // namespace
@@ -217,18 +290,22 @@ std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choice
 }
 
 void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
+  if (job.program.path.has(StepKind::laser_power)) unknown = UnknownTool::assume;
   const Uses uses = uses_of(job.program.path);
   give_start_tool(job, settings, uses);
-  if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::unreported)
-    report_no_tool(job.program.path, unknown, diagnostics);
+  if (uses.cuts_before && job.tool_sources.empty() && unknown != UnknownTool::assume)
+    report_unknown_tool(std::nullopt, job.program.path, unknown, diagnostics);
+  else if (uses.cuts_before && job.tool_sources.empty())
+    assume(std::nullopt, job, uses, diagnostics);
   for (const int number : uses.numbers) {
     const Choice choice = choose(number, job.program, settings.tools, diagnostics);
     job.tool_sources[number] = choice.source;
-    if (choice.tool == nullptr && unknown == UnknownTool::unreported) continue;
+    if (choice.tool == nullptr && unknown == UnknownTool::assume) {
+      assume(number, job, uses, diagnostics);
+      continue;
+    }
     if (choice.tool == nullptr) {
-      report_unknown_tool(unknown, first_use_of(number, job.program.path),
-                          fmt::format("the shape of tool {} is unknown", number), diagnostics)
-          .hint = hint_for_unknown(number);
+      report_unknown_tool(number, job.program.path, unknown, diagnostics);
       continue;
     }
     Tool tool = *choice.tool;
@@ -242,16 +319,13 @@ void choose_tools(Job& job, const JobSettings& settings, UnknownTool unknown, Di
                                  uses.numbers.size()));
 }
 
-std::string hint_for_unknown(int tool) {
-  return fmt::format("specify it, e.g. --tool {}=\"square d=3.175 flute=12.7\"", tool);
-}
-
 std::string_view to_string(ToolSource source) {
   switch (source) {
     case ToolSource::option: return "option";
     case ToolSource::comment: return "comment";
     case ToolSource::file: return "tool file";
     case ToolSource::built_in: return "built in";
+    case ToolSource::assumed: return "assumed";
     case ToolSource::unknown: break;
   }
   return "unknown";

@@ -85,7 +85,7 @@ std::vector<Entry> plain_entries() {
       {"drill",
        Drill{},
        {parameter<&Drill::diameter>("diameter"), parameter<&Drill::flute>("flute", kOptional),
-        parameter<&Drill::point_angle>("angle")}},
+        parameter<&Drill::point_angle>("angle", kOptional)}},
       {"centre drill",
        CentreDrill{},
        {parameter<&CentreDrill::pilot_diameter>("pilot_diameter"),

@@ -11,6 +11,7 @@
 namespace kerf::detail {
 namespace {
 
+constexpr double kUsualPointAngle = 118.0;  // degrees, of a drill
 constexpr double kQuarter = 0.5 * std::numbers::pi;
 constexpr double kCatalogueRounding = 0.01;  // mm: catalogues print the height of a cone with two decimals
 
@@ -273,6 +274,7 @@ void Drawer::operator()(shape::TSlot& s) {
 
 void Drawer::operator()(shape::Drill& s) {
   const double radius = 0.5 * s.diameter.mm();
+  if (s.point_angle.rad() == 0.0) s.point_angle = degrees(kUsualPointAngle);
   const double half_angle = 0.5 * s.point_angle.rad();
   assume_flute(s.flute, s.diameter);
   if (result.flute_assumed) s.flute = std::max(s.flute, mm(radius / std::tan(half_angle)));

@@ -120,11 +120,11 @@ def test_an_unknown_tool_is_a_hazard_and_the_rest_is_checked(kerf, program):
     two = VALID.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM6 T77\nM3 S9000\nG1 Z-1\nG1 X35 Z-20\nG0 Z5\nM5")
     run = kerf("check", "--json", program(two))
     assert run.status == 3
-    assert kinds(run) == ["rapid_in_stock", "unknown_tool"]
+    assert kinds(run) == ["rapid_in_stock", "unknown_tool", "below_floor"]  # the last: assumed tool
     unknown = run.json["hazards"][1]
     assert unknown["origin"]["line"] == 15 and unknown["steps"] == 2
-    assert '--tool 77=' in unknown["hint"]
-    assert "not_simulated" in run.codes()
+    assert '--tool 77="square d=3.175"' in unknown["hint"]
+    assert "not_simulated" not in run.codes()
 
 
 def test_a_program_with_an_unknown_tool_only(kerf, program):
@@ -141,11 +141,13 @@ def test_an_empty_program_is_an_error(kerf, program):
     assert "nothing_to_cut" in run.codes()
 
 
-def test_without_a_tool_the_simulation_is_skipped_with_a_note(kerf, program):
-    run = kerf("check", "--json", program(VALID.replace("M6 T102\n", "")))
+def test_without_a_tool_the_material_is_checked_with_an_assumed_one(kerf, program):
+    no_tool = VALID.replace("M6 T102\n", "")
+    run = kerf("check", "--json", program(no_tool))
     assert run.status == 3
     assert kinds(run) == ["no_tool"]
-    assert "not_simulated" in run.codes()
+    crash = kerf("check", "--json", program(no_tool.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5")))
+    assert kinds(crash) == ["no_tool", "rapid_in_stock"]
 
 
 # 9.5 mm deep; --tool "square d=3" has no flute length, so Kerf assumes 3 diameters.
@@ -238,7 +240,7 @@ def test_no_tool_names_the_option_without_a_number(kerf, program):
     text = VALID.replace("M6 T102\n", "")
     run = kerf("check", "--json", "-t", "1=square d=3", "-t", "2=square d=6", program(text))
     hazard = next(h for h in run.json["hazards"] if h["kind"] == "no_tool")
-    assert "--tool SPEC, without a number" in hazard["hint"]
+    assert "without a number" in hazard["hint"] and '--tool "square' in hazard["hint"]
 
 
 def test_a_stock_that_is_cut_away_wholly_is_a_warning(kerf, tmp_path):

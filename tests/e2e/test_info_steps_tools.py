@@ -225,8 +225,10 @@ def test_compensation_takes_the_tool_of_the_command(kerf, program):
     assert run.json["motion"]["cut_bounds_mm"][1][:2] == pytest.approx([40, 20])
     assert run.json["motion"]["cut_mm"] == pytest.approx(math.hypot(20, 3) + 20 + 17)
     run = kerf("info", "--json", program(SIDE))
-    assert run.status == 1 and "compensation_no_tool" in run.codes()
+    assert run.status == 0 and "compensation_no_tool" in run.codes()  # assumed, with a warning
     assert "--tool 7=" in run.json["diagnostics"][0]["hint"]
+    run = kerf("steps", program(SIDE))
+    assert run.status == 1 and "[2045]" in run.err and "--tool 7=" in run.err
 
 
 def test_a_dialect_can_be_forced(kerf, program):

@@ -153,12 +153,12 @@ def test_an_assumed_stock_lies_around_the_cuts(kerf, program):
     assert high[0] == pytest.approx(25 + margin) and high[1] == pytest.approx(20 + margin)
 
 
-def test_an_unknown_tool_is_an_error_with_an_example(kerf, program, files):
+def test_an_unknown_tool_is_assumed_with_an_example(kerf, program, files):
     run = kerf("simulate", program(VALID.replace("T102", "T77")), "-o", "part.stl")
-    assert run.status == 1
-    assert "part.nc:5" in run.err and "[1009]" in run.err  # no_tool_shape
-    assert '--tool 77="square d=3.175 flute=12.7"' in run.err
-    assert files() == ["part.nc"]
+    assert run.status == 0
+    assert "part.nc:8" in run.err and "[1009]" in run.err  # no_tool_shape, at the first cut
+    assert '--tool 77="square d=3.175"' in run.err
+    assert files() == ["part.nc", "part.stl"]
 
 
 def test_tool_options(kerf, program):
@@ -181,8 +181,8 @@ def test_one_tool_option_for_several_tools_is_noted(kerf, program):
 def test_a_program_without_a_tool_change(kerf, program):
     path = program(VALID.replace("M6 T102\n", ""))
     run = kerf("simulate", path)
-    assert run.status == 1
-    assert "[1009]" in run.err and "--tool" in run.err  # no_tool_shape
+    assert run.status == 0
+    assert "[1009]" in run.err and '--tool "square d=3.175"' in run.err  # no_tool_shape
     with_tool = kerf("simulate", "--json", path, "--tool", "square d=3.175 flute=12.7")
     assert with_tool.status == 0
     assert with_tool.json["removed_mm3"] == kerf("simulate", "--json", program()).json["removed_mm3"]

@@ -43,7 +43,8 @@ void show_result(Console& console, const Program& program, const std::vector<Fin
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  const JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  inputs.program.unknown_diameter = UnknownDiameter::assume;
   std::optional<Material> material;
   if (!options.material.empty()) material = material_named(options.material, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
@@ -56,7 +57,7 @@ Status run(Console& console, const Options& options) {
     show_result(console, Program{}, {}, diagnostics);
     return Status::input_errors;
   }
-  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::unreported, diagnostics);
+  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
   JobCheckOptions how;
   how.resolution = mm(options.resolution);
   how.threads = static_cast<unsigned>(options.threads);
@@ -65,6 +66,7 @@ Status run(Console& console, const Options& options) {
   const std::vector<Finding> findings = check_job(job, how, diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
+  console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   show_result(console, job.program, findings, diagnostics);
   if (diagnostics.has_errors()) return Status::input_errors;
   return findings.empty() ? Status::done : Status::hazards;
@@ -91,6 +93,7 @@ Command add_check(CommandParser& root) {
       new_command(root, "check", "Report the hazards of a program; exit status 3 if there are any",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
+  add_unit_options(parser, options->job);
   add_body_options(parser, options->job.bodies);
   add_rotary_option(parser, options->job.bodies);
   add_machine_option(parser, options->job);

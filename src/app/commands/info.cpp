@@ -123,33 +123,37 @@ std::string range_text(const Range& range, std::string_view unit) {
   return fmt::format("{} to {} {}", number_text(range.low, 2), number_text(range.high, 2), unit);
 }
 
-std::string box_text(const Box3& box) {
-  const Point3 size = box.size();
-  return fmt::format("X {} to {}, Y {} to {}, Z {} to {}  ({} x {} x {} mm)", number_text(box.low.x, 3),
-                     number_text(box.high.x, 3), number_text(box.low.y, 3), number_text(box.high.y, 3),
-                     number_text(box.low.z, 3), number_text(box.high.z, 3), number_text(size.x, 3),
-                     number_text(size.y, 3), number_text(size.z, 3));
+Range in_units(const Range& feed, const LengthText& lengths) {
+  const double scale = lengths.unit() == "in" ? kMmPerInch : 1.0;
+  return feed.empty() ? feed : Range{feed.low / scale, feed.high / scale};
 }
 
-std::string flute_text(const Tool& tool) {
-  const std::string text = fmt::format("flute {} mm", number_text(tool.flute.mm(), 3));
+std::string box_text(const Box3& box, const LengthText& lengths) {
+  return fmt::format("X {} to {}, Y {} to {}, Z {} to {}  ({})", lengths.of(box.low.x, 3),
+                     lengths.of(box.high.x, 3), lengths.of(box.low.y, 3), lengths.of(box.high.y, 3),
+                     lengths.of(box.low.z, 3), lengths.of(box.high.z, 3), lengths.size(box.size()));
+}
+
+std::string flute_text(const Tool& tool, const LengthText& lengths) {
+  const std::string text = "flute " + lengths.with_unit(tool.flute.mm(), 3);
   return tool.flute_assumed ? fmt::format("{} assumed ({})", text, reason_of_flute(tool)) : text;
 }
 
 void print_tools(Console& console, const Job& job, const JobTimes& times) {
   if (job.report.tools.empty()) return;
+  const LengthText& lengths = console.lengths();
   console.print("\nTools\n");
   for (const ToolFigures& t : job.report.tools) {
     const double seconds = times.of_tool(t.tool).total().seconds();
     if (!t.tool && t.figures.cut_mm == 0.0 && seconds < kNoTime) continue;  // rapids only
     const Tool* tool = t.tool ? job.tools.find(*t.tool) : nullptr;
     std::string line = t.tool ? fmt::format("  T{:<6}", *t.tool) : std::string("  none   ");
-    line += fmt::format("{:<28}", tool != nullptr ? short_name(*tool)
+    line += fmt::format("{:<28}", tool != nullptr ? lengths.tool(*tool)
                                   : t.tool        ? "unknown shape"
                                                   : "before the first tool change");
-    line += fmt::format(" cuts {} mm in {}", number_text(t.figures.cut_mm, 1), clock_text(seconds));
-    if (t.deepest) line += fmt::format(", deepest Z {}", number_text(*t.deepest, 3));
-    if (tool != nullptr) line += ", " + flute_text(*tool);
+    line += fmt::format(" cuts {} in {}", lengths.with_unit(t.figures.cut_mm, 1), clock_text(seconds));
+    if (t.deepest) line += fmt::format(", deepest Z {}", lengths.of(*t.deepest, 3));
+    if (tool != nullptr) line += ", " + flute_text(*tool, lengths);
     if (deeper_than_flute(job, t)) line += "  <- deeper than its flute";
     if (tool != nullptr) line += fmt::format("  ({})", to_string(job.tool_sources.at(*t.tool)));
     console.print(line + "\n");
@@ -188,16 +192,19 @@ void print_operations(Console& console, const JobTimes& times) {
 
 void print_info(Console& console, const Job& job, const JobTimes& times) {
   const MotionFigures& all = job.report.all;
+  const LengthText& lengths = console.lengths();
   console.print(fmt::format("{}: {}, {}, {} steps\n\n", job.program.source, job.program.front_end,
                             job.program.units == ProgramUnits::inch ? "inches" : "mm",
                             job.program.path.size()));
   console.print(fmt::format("Motions   {} lines, {} arcs, {} rapids\n", all.lines, all.arcs, all.rapids));
-  console.print(fmt::format("Length    {} mm cut, {} mm rapid\n", number_text(all.cut_mm, 1),
-                            number_text(all.rapid_mm, 1)));
-  if (!all.cut_bounds.empty()) console.print(fmt::format("Cuts      {}\n", box_text(all.cut_bounds)));
+  console.print(fmt::format("Length    {} cut, {} rapid\n", lengths.with_unit(all.cut_mm, 1),
+                            lengths.with_unit(all.rapid_mm, 1)));
+  if (!all.cut_bounds.empty())
+    console.print(fmt::format("Cuts      {}\n", box_text(all.cut_bounds, lengths)));
   if (job.stock)
-    console.print(fmt::format("Stock     {}, {}\n", box_text(job.stock->block), to_string(job.stock_source)));
-  console.print(fmt::format("Feeds     {}\n", range_text(all.feed, "mm/min")));
+    console.print(
+        fmt::format("Stock     {}, {}\n", box_text(job.stock->block, lengths), to_string(job.stock_source)));
+  console.print(fmt::format("Feeds     {}\n", range_text(in_units(all.feed, lengths), lengths.feed_unit())));
   console.print(fmt::format("Spindle   {}\n", range_text(all.speed, "rpm")));
   print_time(console, times);
   print_tools(console, job, times);
@@ -207,7 +214,8 @@ void print_info(Console& console, const Job& job, const JobTimes& times) {
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  const JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  inputs.program.unknown_diameter = UnknownDiameter::assume;
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   TerminalProgress progress(console);
@@ -222,6 +230,7 @@ Status run(Console& console, const Options& options) {
         .warning(job.z_downwards->code, job.program.path.origin_of(job.z_downwards->step),
                  job.z_downwards->message)
         .hint = job.z_downwards->hint;
+  console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   console.show(diagnostics);
   if (console.json()) {
     console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));
@@ -246,6 +255,7 @@ Command add_info(CommandParser& root) {
       new_command(root, "info", "Print the size, time, tools, feeds and stock of a program",
                   kExamples + std::string(kToolHelp) + kStockHelp, options->output);
   add_job_options(parser, options->job);
+  add_unit_options(parser, options->job);
   add_machine_option(parser, options->job);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }

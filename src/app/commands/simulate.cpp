@@ -28,6 +28,7 @@ struct Options {
   PictureOptions picture;
   double layer_height = 0.0;
   bool grooves = false;
+  std::string show = "auto";
   std::vector<Option> picture_options;   // without effect where no picture is written
   std::vector<Option> cutting_options;   // without effect on a print
   std::vector<Option> printing_options;  // without effect on a milling job
@@ -48,7 +49,7 @@ Job make_job_of(const Options& options, const JobSettings& settings, Program pro
     return make_print_job(std::move(program));
   }
   warn_unused(options.printing_options, "the program does not print, or cuts as well", "", diagnostics);
-  return make_job(std::move(program), settings, UnknownTool::error, diagnostics);
+  return make_job(std::move(program), settings, UnknownTool::assume, diagnostics);
 }
 
 void report(Console& console, const SimulationReport& result) {
@@ -60,6 +61,29 @@ void report(Console& console, const SimulationReport& result) {
   }
 }
 
+PictureContent content_of(const Options& options) {
+  if (options.show == "part") return PictureContent::part;
+  return options.show == "path" ? PictureContent::path : PictureContent::automatic;
+}
+
+/// A job without a stock, because nothing is cut: only pictures of its toolpath can be made.
+bool is_drawing(const Job& job, const std::vector<PartFile>& files, PictureContent content) {
+  const auto is_picture = [](const PartFile& f) { return f.is_picture(); };
+  return job.kind == JobKind::milling && !job.stock && content != PictureContent::part && !files.empty() &&
+         std::all_of(files.begin(), files.end(), is_picture);
+}
+
+Status draw_path(Console& console, const Job& job, const std::vector<PartFile>& files, const View& view,
+                 Diagnostics& diagnostics) {
+  diagnostics.warning(Code::path_shown, TextLocation{job.program.source, 0, 0},
+                      "the program cuts nothing: the picture shows its toolpath");
+  OutputSet set(job.program.files);
+  if (!write_path(files, job, view, set, diagnostics) || !set.commit(diagnostics))
+    return fail(console, diagnostics, Status::input_errors);
+  report_drawing(console, job, files, diagnostics);
+  return Status::done;
+}
+
 Status simulate_job(Console& console, const Options& options, const JobInputs& inputs,
                     const std::vector<PartFile>& files, const View& view, Diagnostics& diagnostics) {
   TerminalProgress progress(console);
@@ -68,8 +92,11 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   const Job job = make_job_of(options, inputs.job, std::move(*program), diagnostics);
+  console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   if (diagnostics.has_errors() || !can_write(files, job.kind, diagnostics))
     return fail(console, diagnostics, Status::input_errors);
+
+  if (is_drawing(job, files, content_of(options))) return draw_path(console, job, files, view, diagnostics);
 
   RunOptions how;
   how.resolution = mm(options.resolution);
@@ -77,7 +104,7 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);
   const auto run = run_job(job, how, diagnostics, &progress);
   OutputSet set(job.program.files);
-  const PartFileOptions writing{view, options.grooves ? Grooves::kept : Grooves::closed};
+  const PartFileOptions writing{view, content_of(options), options.grooves ? Grooves::kept : Grooves::closed};
   const bool written = run && write_part(files, job, *run, writing, set, diagnostics, &progress);
   if (const auto end = finish_outputs(console, progress, written, set, diagnostics)) return *end;
   report(console, {job, *run, files, diagnostics});
@@ -86,13 +113,13 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  const JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  inputs.program.unknown_diameter = UnknownDiameter::assume;
   const auto outputs = read_outputs(options.outputs, input_files(options.job), usage, diagnostics);
   std::string problem;
   const auto view = read_view(options.picture, problem);
-  if (!view) console.error(problem);
+  if (!view) usage.error(Code::usage, {}, problem);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  if (!view) return Status::wrong_usage;
   if (std::none_of(outputs.begin(), outputs.end(), [](const PartFile& f) { return f.is_picture(); }))
     warn_unused(options.picture_options, "no picture is written", "write one with -o FILE.png", diagnostics);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -104,6 +131,7 @@ const char* const kExamples =
   kerf simulate part.nc -o part.stl -o part.png      the part as a mesh and as a picture
   kerf simulate part.nc -o top.png --view top --size 1200x800
   kerf simulate part.nc -o slot.png --view front --section y=20     a cross-section
+  kerf simulate part.nc -o path.png --show path      the toolpath over the stock
   kerf simulate part.nc --tool "ball d=3.175 flute=12.7" --stock "100x60x12 at lower-left top"
   kerf simulate side1.nc -o left.kstock              the left-over stock, for the next job:
   kerf simulate side2.nc --stock-left left.kstock --flip x
@@ -119,6 +147,7 @@ Command add_simulate(CommandParser& root) {
       new_command(root, "simulate", "Simulate a program on its stock; write the part as a mesh or a picture",
                   kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
   add_job_options(parser, options->job);
+  add_unit_options(parser, options->job);
   add_body_options(parser, options->job.bodies);
   add_rotary_option(parser, options->job.bodies);
   add_repeated(parser, "-o,--output", options->outputs, "PATH",
@@ -136,6 +165,13 @@ Command add_simulate(CommandParser& root) {
           .add_text("--size", options->picture.size,
                     "WIDTHxHEIGHT of the picture in pixels (default: 1600x1000)")
           .value_name("WxH"),
+      parser
+          .add_text(
+              "--show", options->show,
+              "The picture shows the part or the toolpath: part, path or auto (default: the part, or the "
+              "toolpath if no material is removed)")
+          .value_name("WHAT")
+          .one_of({"auto", "part", "path"}),
       add_section(parser, options->picture)};
   options->printing_options = {
       add_length(parser, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,

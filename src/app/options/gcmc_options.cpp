@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 #include "kerf/number.h"
 #include "kerf/units.h"
@@ -160,8 +161,10 @@ class Reader {
 
  private:
   void file(const std::string& name) {
-    if (!has_file_) out_.input = name;  // further ones are ignored
-    has_file_ = true;
+    if (std::exchange(has_file_, true))
+      error(fmt::format("more than one program: '{}' and '{}'", out_.input, name));
+    else
+      out_.input = name;
   }
 
   template <class Next>

@@ -88,7 +88,8 @@ void read_body_options(const BodyOptions& options, JobSettings& settings, Diagno
 void add_tool_options(CommandParser& parser, ToolOptions& options) {
   add_repeated(parser, "-t,--tool", options.specs, "SPEC",
                "Shape of tool N, or of all tools: [N=]SPEC (see below)");
-  add_repeated(parser, "--tools", options.files, "PATH", "A tool file (TOML)");
+  add_repeated(parser, "--tools", options.files, "PATH",
+               "A tool file (TOML), or a tool library of another program");
 }
 
 void add_job_options(CommandParser& parser, JobOptions& options) {
@@ -97,6 +98,16 @@ void add_job_options(CommandParser& parser, JobOptions& options) {
   parser.add_text("--stock", options.stock, "The stock: SIZE [at POSITION] or LOW to HIGH (see below)")
       .value_name("SPEC");
   add_reading_options(parser, options.reading);
+}
+
+void add_unit_options(CommandParser& parser, JobOptions& options) {
+  parser.add_flag("--inch", options.inch, "Lengths of texts in inches (default: the program's units)");
+  parser.add_flag("--mm", options.mm, "Lengths of texts in mm").excludes(parser.option("--inch"));
+}
+
+ProgramUnits units_of_text(const JobOptions& options, const Program& program) {
+  if (options.inch) return ProgramUnits::inch;
+  return options.mm ? ProgramUnits::mm : program.units;
 }
 
 std::vector<std::string> input_files(const JobOptions& options) {

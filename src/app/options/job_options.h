@@ -30,6 +30,7 @@ struct JobOptions {
   ToolOptions tools;
   std::optional<std::string> stock;  // --stock SPEC
   std::string machine;               // --machine FILE
+  bool inch = false, mm = false;     // --inch, --mm
   BodyOptions bodies;
   ReadingOptions reading;
 };
@@ -44,6 +45,10 @@ void add_body_options(CommandParser& parser, BodyOptions& options);
 void add_rotary_option(CommandParser& parser, BodyOptions& options);
 /// --machine, for the commands that use a machine profile.
 void add_machine_option(CommandParser& parser, JobOptions& options);
+/// --inch and --mm, for the commands that print lengths as text.
+void add_unit_options(CommandParser& parser, JobOptions& options);
+/// The units of lengths in texts: as given, else those of the program.
+ProgramUnits units_of_text(const JobOptions& options, const Program& program);
 // For the help of the commands that take these options.
 extern const char* const kToolHelp;
 extern const char* const kStockHelp;

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "app/report/length_text.h"
+
 #include "kerf/diagnostics.h"
 
 namespace kerf::app {
@@ -22,6 +24,9 @@ class Console {
  public:
   explicit Console(OutputOptions options) : options_(options), colour_(stderr_has_colour()) {}
 
+  /// The units of lengths in texts.
+  void set_lengths(LengthText lengths) { lengths_ = lengths; }
+  const LengthText& lengths() const { return lengths_; }
   bool json() const { return options_.json; }
   bool quiet() const { return options_.quiet; }
 
@@ -42,6 +47,7 @@ class Console {
   bool finish();
 
  private:
+  LengthText lengths_;
   OutputOptions options_;
   bool colour_;
 };

@@ -63,25 +63,24 @@ Json json_of_result(const SimulationReport& result) {
 
 void show_summary(Console& console, const SimulationReport& result) {
   const Simulation& s = result.run.milling();
-  const Point3 size = result.job.stock->block.size();
+  const LengthText& lengths = console.lengths();
   console.summary(fmt::format("{}: {} steps", result.job.program.source, result.job.program.path.size()));
-  console.summary(fmt::format("stock    {} x {} x {} mm ({}), {} mm3", number_text(size.x, 3),
-                              number_text(size.y, 3), number_text(size.z, 3),
-                              to_string(result.job.stock_source), number_text(s.stock.mm3(), 1)));
+  console.summary(fmt::format("stock    {} ({}), {}", lengths.size(result.job.stock->block.size()),
+                              to_string(result.job.stock_source), lengths.volume(s.stock.mm3(), 1)));
   const double percent = s.stock.mm3() > 0.0 ? 100.0 * s.removed.mm3() / s.stock.mm3() : 0.0;
-  console.summary(fmt::format("removed  {} mm3 ({}%), left {} mm3", number_text(s.removed.mm3(), 1),
-                              number_text(percent, 1), number_text(s.stock.mm3() - s.removed.mm3(), 1)));
+  console.summary(fmt::format("removed  {} ({}%), left {}", lengths.volume(s.removed.mm3(), 1),
+                              number_text(percent, 1), lengths.volume(s.stock.mm3() - s.removed.mm3(), 1)));
   const auto removed = removed_by_tool(result.job, s);
   for (const ToolFigures& t : result.job.report.tools) {
     if (!t.tool || t.figures.cut_bounds.empty()) continue;
     const Tool* tool = result.job.tools.find(*t.tool);
     const auto it = removed.find(t.tool);
     console.summary(fmt::format(
-        "tool {:<4}{}: {} mm3 in about {}", *t.tool, tool != nullptr ? short_name(*tool) : "unknown",
-        number_text(it == removed.end() ? 0.0 : it->second, 1), clock_text(seconds_of(t.figures))));
+        "tool {:<4}{}: {} in about {}", *t.tool, tool != nullptr ? lengths.tool(*tool) : "unknown",
+        lengths.volume(it == removed.end() ? 0.0 : it->second, 1), clock_text(seconds_of(t.figures))));
   }
-  console.summary(fmt::format("columns  {} mm apart, simulated in {} s",
-                              number_text(s.workpiece.pitch().mm(), 4), number_text(s.seconds, 3)));
+  console.summary(fmt::format("columns  {} apart, simulated in {} s",
+                              lengths.with_unit(s.workpiece.pitch().mm(), 4), number_text(s.seconds, 3)));
   show_written(console, result.files);
   console.summary(fmt::format("hazards  {}", count_text(result.run.findings)));
 }
@@ -95,6 +94,25 @@ void report_milling(Console& console, const SimulationReport& report) {
   }
   show_summary(console, report);
   show(console, report.run.findings);
+}
+
+void report_drawing(Console& console, const Job& job, const std::vector<PartFile>& files,
+                    const Diagnostics& diagnostics) {
+  console.show(diagnostics);
+  if (console.json()) {
+    Json out;
+    out["source"] = job.program.source;
+    out["removed_mm3"] = json_of(0.0);
+    out["steps"] = job.program.path.size();
+    out["stock"] = nullptr;
+    out["hazards"] = Json::array();
+    out["outputs"] = json_of(files);
+    out["diagnostics"] = json_of(diagnostics);
+    console.print_json(text_of(out, Layout::indented));
+    return;
+  }
+  console.summary(fmt::format("{}: {} steps", job.program.source, job.program.path.size()));
+  show_written(console, files);
 }
 
 }  // namespace kerf::app

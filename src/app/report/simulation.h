@@ -20,5 +20,8 @@ struct SimulationReport {
 void report_milling(Console& console, const SimulationReport& report);
 void report_rotary(Console& console, const SimulationReport& report);
 void report_print(Console& console, const SimulationReport& report);
+/// A program that cuts nothing, of which pictures of the toolpath were written.
+void report_drawing(Console& console, const Job& job, const std::vector<PartFile>& files,
+                    const Diagnostics& diagnostics);
 
 }  // namespace kerf::app

@@ -211,6 +211,11 @@ bool BlockReader::read_prefix(Block& block) {
     block.percent = true;  // the rest of the line is a name
     return false;
   }
+  const bool alone = end_ - p_ == 1 && (*p_ == '?' || *p_ == '!' || *p_ == '~');
+  if (*p_ == '$' || alone) {
+    block.sender = true;
+    return false;
+  }
   if (*p_ == '/') {
     block.optional = true;
     ++p_;

@@ -43,7 +43,7 @@ std::optional<Number> number_of(std::string_view text) {
     if (!unit) return std::nullopt;
     number.scale = *unit;
   }
-  const std::optional<double> value = parse_number(text.substr(0, end));
+  const std::optional<double> value = parse_fraction(text.substr(0, end));
   if (!value) return std::nullopt;
   number.value = *value;
   return number;

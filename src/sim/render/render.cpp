@@ -115,6 +115,8 @@ class Painter {
  public:
   Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view);
   Image paint();
+  const Projection& eye() const { return eye_; }
+  int samples() const { return fine_; }
 
  private:
   static constexpr int kDirections = 8, kSteps = 5;  // of ambient occlusion: rays per pixel, samples per ray
@@ -649,8 +651,12 @@ bool faces(const View& view, const Section& section) {
   return std::abs(dot(rendering::normal_axis(section), rendering::view_direction(view))) > kMinSine;
 }
 
-Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view) {
-  return rendering::Painter(mesh, colours, view).paint();
+Image render(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view,
+             const PictureLines& lines) {
+  rendering::Painter painter(mesh, colours, view);
+  Image image = painter.paint();
+  if (lines) rendering::draw_lines(lines, painter.eye(), painter.samples(), image);
+  return image;
 }
 
 }  // namespace kerf

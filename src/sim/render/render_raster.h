@@ -84,6 +84,8 @@ std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projec
 /// Draws the triangles that face the viewer, except for what `cut` removes, and the cut face as kCutFace.
 void draw(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
           Target& target);
+/// Draws lines over a picture of `samples` samples along a pixel's side.
+void draw_lines(const PictureLines& lines, const Projection& eye, int samples, Image& image);
 /// Calls work(first, end) for bands of 0 to count, on all threads.
 void in_bands(int count, const std::function<void(int, int)>& work);
 

@@ -123,14 +123,29 @@ TEST_F(JobTest, ChecksTheJob) {
   EXPECT_EQ(to_string(findings.front().origin).substr(path_of("part.nc").size(), 3), ":6:");
 }
 
-TEST_F(JobTest, AnUnknownToolIsAFindingWithoutADiagnostic) {
+TEST_F(JobTest, AnAssumedToolIsAWarningOrAFinding) {
   std::string text = kProgram;
   text.replace(text.find("T102"), 4, "T9");
-  const Job job = job_of(text, {}, UnknownTool::unreported);
-  EXPECT_TRUE(diagnostics_.list().empty());
+  const Job job = job_of(text, {}, UnknownTool::assume);
+  ASSERT_EQ(diagnostics_.list().size(), 1u);
+  EXPECT_EQ(diagnostics_.list().front().code, Code::no_tool_shape);
+  EXPECT_EQ(diagnostics_.list().front().severity, Severity::warning);
+  EXPECT_EQ(job.tool_sources.at(9), ToolSource::assumed);
+  ASSERT_NE(job.tools.find(9), nullptr);
   const std::vector<Finding> findings = check_job(job, {}, diagnostics_);
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_EQ(findings.front().kind, "unknown_tool");
+  EXPECT_TRUE(diagnostics_.list().empty());
+}
+
+TEST_F(JobTest, ACommentBeforeTheFirstToolChangeIsForTheCutsBeforeIt) {
+  const Job job = job_of(
+      "G21 G90\n(6mm end mill)\nM3 S9000\nG0 X5 Y5 Z2\nG1 Z-2 F100\nG0 Z2\nT102 M6\nM3\n"
+      "G1 Z-1\nG0 Z2\nM2\n");
+  ASSERT_TRUE(job.start_tool);
+  EXPECT_EQ(job.tool_sources.at(*job.start_tool), ToolSource::comment);
+  EXPECT_EQ(job.tools.find(*job.start_tool)->diameter, mm(6));
+  EXPECT_EQ(job.tools.find(102)->diameter, mm(3.175));
 }
 
 TEST_F(JobTest, AJobWithoutStockCannotRun) {

@@ -1,4 +1,4 @@
-// Tool comments of Fusion 360 and HSM, CamBam, CopperCAM and Estlcam: one function per form.
+// Tool comments of Fusion 360, HSM and CamBam, whose forms are fixed: one function per form.
 #include "front/gcode/comments/cam_tool_comments.h"
 
 #include <cctype>
@@ -12,7 +12,9 @@ namespace {
 
 constexpr double kMaxDiameter = 500.0;        // mm
 constexpr double kDefaultPointAngle = 118.0;  // degrees, of a drill
+constexpr double kCountersinkAngle = 90.0;    // degrees, without TAPER
 constexpr std::size_t kMaxDigits = 8;
+constexpr std::size_t kMaxStart = 20;  // of a comment, for its form
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -45,6 +47,14 @@ std::optional<int> take_number(std::string_view& text, std::string_view sign) {
 
 bool is_plausible(double diameter) { return diameter > 0.0 && diameter <= kMaxDiameter; }
 
+/// Types of tools whose profile their dimensions do not give.
+bool has_unknown_profile(std::string_view text) {
+  for (const std::string_view type : {"LOLLIPOP", "THREAD MILL", "SLOT MILL", "RADIUS MILL", "DOVETAIL",
+                                      "PROBE", "FORM MILL", "TURNING", "CIRCLE SEGMENT"})
+    if (text.find(type) != std::string_view::npos) return true;
+  return false;
+}
+
 /// "T4  D=3.175 CR=0 TAPER=45DEG - ZMIN=-5.3 - FLAT END MILL".
 std::optional<CamTool> from_fusion(std::string_view text, double scale) {
   const std::optional<int> number = take_number(text, "T");
@@ -52,11 +62,14 @@ std::optional<CamTool> from_fusion(std::string_view text, double scale) {
   if (!number || text.substr(0, 2) != "D=" || !value || !is_plausible(*value * scale)) return std::nullopt;
   const Length diameter = mm(*value * scale), corner = mm(number_after(text, "CR=").value_or(0.0) * scale);
   const double taper = number_after(text, "TAPER=").value_or(0.0);
+  if (has_unknown_profile(text)) return std::nullopt;
   if (text.find("DRILL") != std::string_view::npos)
     return CamTool{number, shape::Drill{diameter, {}, degrees(taper > 0.0 ? taper : kDefaultPointAngle)}};
   if (taper > 0.0 && taper < 90.0 && corner.mm() == 0.0)
     return CamTool{number, shape::Vee{diameter, {}, degrees(2.0 * taper), {}, {}}};
   if (taper > 0.0) return std::nullopt;
+  if (text.find("COUNTER SINK") != std::string_view::npos)
+    return CamTool{number, shape::Vee{diameter, {}, degrees(kCountersinkAngle), {}, {}}};
   if (2.0 * corner.mm() >= diameter.mm()) return CamTool{number, shape::Ball{diameter, {}}};
   if (corner.mm() > 0.0) return CamTool{number, shape::BullNose{diameter, {}, corner}};
   return CamTool{number, shape::Square{diameter, {}}};
@@ -71,36 +84,22 @@ std::optional<CamTool> from_cambam(std::string_view text, double scale) {
   return CamTool{number, shape::Square{mm(*value * scale), {}}};
 }
 
-/// "TOOL #5 "0.8MM CORN" / DIAMETER 3.175 MM".
-std::optional<CamTool> from_coppercam(std::string_view text, double) {
-  const std::optional<int> number = take_number(text, "TOOL #");
-  const std::optional<double> value = number_after(text, "DIAMETER ");
-  const bool millimetres = text.size() > 2 && text.substr(text.size() - 2) == "MM";
-  if (!number || !value || !millimetres || !is_plausible(*value)) return std::nullopt;
-  return CamTool{number, shape::Square{mm(*value), {}}};
-}
-
-/// "HSS, 2-FLUTE ENDMILL, 2MM".
-std::optional<CamTool> from_estlcam(std::string_view text, double) {
-  const std::size_t comma = text.rfind(',');
-  const bool mill =
-      text.find("ENDMILL") != std::string_view::npos || text.find("END MILL") != std::string_view::npos;
-  if (!mill || comma == std::string_view::npos || text.size() < 3) return std::nullopt;
-  const std::string_view words = trim(text.substr(comma + 1));
-  if (words.size() < 3 || words.substr(words.size() - 2) != "MM") return std::nullopt;
-  const std::optional<double> value = parse_number(trim(words.substr(0, words.size() - 2)));
-  if (!value || !is_plausible(*value)) return std::nullopt;
-  return CamTool{std::nullopt, shape::Square{mm(*value), {}}};
-}
-
 }  // namespace
 
 std::optional<CamTool> read_cam_tool(std::string_view text, double scale) {
   std::string capitals(trim(text));
   for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-  for (const auto reader : {from_fusion, from_cambam, from_coppercam, from_estlcam})
+  for (const auto reader : {from_fusion, from_cambam})
     if (const auto tool = reader(capitals, scale)) return tool;
   return std::nullopt;
+}
+
+bool is_other_tool_form(std::string_view text) {
+  text = trim(text);
+  std::string capitals(text.substr(0, kMaxStart));
+  for (char& c : capitals) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  std::string_view rest = capitals;
+  return take_number(rest, "T") && rest.substr(0, 2) == "D=";
 }
 
 }  // namespace kerf::gcode

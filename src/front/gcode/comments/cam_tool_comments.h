@@ -1,4 +1,4 @@
-// Tool descriptions that CAM programs write for the operator: "T4 D=3.175 CR=0 - ZMIN=-5.3 - flat end mill".
+// Tool descriptions in the fixed forms of CAM programs: "T4 D=3.175 CR=0 - ZMIN=-5.3 - flat end mill".
 #pragma once
 
 #include <optional>
@@ -16,5 +16,8 @@ struct CamTool {
 /// The tool that a comment describes. Lengths are in mm times `scale` unless the comment names a unit.
 /// Nothing if the form is not one of those known.
 std::optional<CamTool> read_cam_tool(std::string_view text, double scale);
+
+/// True for a comment of the form "T4 D=3.175 ..." even if read_cam_tool does not accept its tool.
+bool is_other_tool_form(std::string_view text);
 
 }  // namespace kerf::gcode

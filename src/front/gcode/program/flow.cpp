@@ -141,7 +141,9 @@ void Flow::execute(std::size_t at, const Block& block) {
   const bool paired = line.partner != at;
   const std::uint32_t column = block.o_word->column;
   switch (line.kind) {
-    case OKind::sub: return paired ? jump_after(line.partner) : void(unmatched(line, column));
+    case OKind::sub:
+      if (first_subroutine_.empty()) first_subroutine_ = read_o_word(block.o_word->text).label;
+      return paired ? jump_after(line.partner) : void(unmatched(line, column));
     case OKind::end_sub:
     case OKind::return_sub: return return_with_value(block);
     case OKind::call: return call(block);

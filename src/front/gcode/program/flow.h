@@ -80,6 +80,9 @@ class Flow {
   /// After an O number outside of the program: if the text up to the next M99 has no program end, skips it.
   bool skip_subprogram();
 
+  /// The label of the first subroutine whose definition the main program has passed; empty if there is none.
+  const std::string& first_subroutine() const { return first_subroutine_; }
+
   /// Depth of nested calls, 0 in the main program.
   std::size_t depth() const { return frames_.size() - 1; }
   /// The file name of the last line; the same object for all lines of a file.
@@ -143,6 +146,7 @@ class Flow {
   std::vector<std::unique_ptr<Source>> sources_;
   std::vector<Frame> frames_;
   std::size_t work_ = 0;  // bytes read since the first jump
+  std::string first_subroutine_;
   bool jumped_ = false;
   bool stopped_ = false;  // a limit was reached
 };

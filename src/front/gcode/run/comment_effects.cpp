@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <string>
 
-#include "front/gcode/comments/cam_tool_comments.h"
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
 
@@ -27,11 +26,11 @@ bool starts_with(std::string_view text, std::string_view word) {
 
 constexpr std::size_t kMaxCommentBytes = 1000;  // longer ones are skipped
 
-constexpr std::size_t kMaxPendingTools = 1000;  // before the units are known
+constexpr std::size_t kMaxPendingComments = 1000;  // before the units are known
 
 }  // namespace
 
-void Interpreter::read_comment(const Comment& comment) {
+void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
   const std::string_view text = trimmed(comment.text);
   if (text.size() > kMaxCommentBytes) return;
   if (is_printer()) {
@@ -40,50 +39,69 @@ void Interpreter::read_comment(const Comment& comment) {
       return;
     }
   }
+  const TextLocation where = reporter_.location(comment.column);
   if (starts_with(text, "MSG")) {
     const std::string_view rest = trimmed(text.substr(3));
     if (rest.empty() || rest.front() != ',') return;
     origin_line_ = reporter_.line();
     origin_ = path_.origins().text(file_, origin_line_, comment.column);
-    add(step::Note{std::string(trimmed(rest.substr(1)))});
-    return;
+    const std::string_view message = trimmed(rest.substr(1));
+    add(step::Note{std::string(message)});
+    return read_cam_comment(message, where, at_tool_change);
   }
   if (starts_with(text, "STOCK")) {
-    stock_.read(text, modes_.scale, reporter_.location(comment.column), reporter_.diagnostics());
+    stock_.read(text, modes_.scale, where, reporter_.diagnostics());
     return;
   }
-  if (take_cam_tool(text, reporter_.location(comment.column))) return;
-  tool_comments_.read(text, modes_.scale, reporter_.location(comment.column), reporter_.diagnostics());
+  if (starts_with(text, "TOOL/"))
+    tool_comments_.read(text, modes_.scale, where, reporter_.diagnostics());
+  else
+    read_cam_comment(text, where, at_tool_change);
 }
 
-/// True for a tool comment of a CAM program. Those in the header are kept until the units are known.
-bool Interpreter::take_cam_tool(std::string_view text, const TextLocation& where) {
-  if (text.size() < 5 || !read_cam_tool(text, modes_.scale)) return false;
-  if (units_given_ || moved_) {
-    use_cam_tool(text, where);
-  } else if (pending_tools_.size() < kMaxPendingTools) {
-    pending_tools_.emplace_back(std::string(text), where);
-  }
-  return true;
+/// Comments in the header are kept until the units are known.
+void Interpreter::read_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change) {
+  if (is_printer()) return;
+  if (units_given_ || moved_) return use_cam_comment(text, where, at_tool_change);
+  if (pending_comments_.size() < kMaxPendingComments)
+    pending_comments_.push_back({std::string(text), where, at_tool_change});
 }
 
-void Interpreter::use_pending_tools() {
-  for (const auto& [text, where] : pending_tools_) use_cam_tool(text, where);
-  pending_tools_.clear();
+void Interpreter::use_pending_comments() {
+  for (const PendingComment& r : pending_comments_) use_cam_comment(r.text, r.where, r.at_tool_change);
+  pending_comments_.clear();
 }
 
-/// TOOL/... comments (kerf/tool_comments.h) have precedence. A comment without a number describes
-/// tool 0, the tool of a program without tool changes.
-void Interpreter::use_cam_tool(std::string_view text, const TextLocation& where) {
-  const std::optional<CamTool> described = read_cam_tool(text, modes_.scale);
-  const int number = described ? described->number.value_or(0) : 0;
-  if (!described || program_.tools.count(number) != 0) return;
-  tool_comments_.describe(number, described->shape, where, reporter_.diagnostics());
+/// A comment without a number describes the tool of the last tool change if nothing moved since, else that of
+/// the next one or of the next cut, whichever is first.
+void Interpreter::use_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change) {
+  cam_stock_comments_.read(text, modes_.scale);
+  const std::optional<CamTool> tool = cam_comments_.read(text, modes_.scale, at_tool_change);
+  if (!tool) return;
+  if (tool->number) return describe_tool(*tool->number, tool->shape, text, where);
+  if (changed_without_motion_ && modes_.tool && !at_tool_change)
+    return describe_tool(*modes_.tool, tool->shape, text, where);
+  described_ = {std::string(text), where, tool->shape};
+}
+
+/// Assigns the last comment without a number to a tool.
+void Interpreter::assign_description(int number) {
+  const DescribedTool described = std::move(*described_);
+  described_.reset();
+  describe_tool(number, described.shape, described.text, described.where);
+}
+
+/// TOOL/... comments (kerf/tool_comments.h) and earlier comments have precedence.
+void Interpreter::describe_tool(int number, const ToolShape& shape, std::string_view text,
+                                const TextLocation& where) {
+  if (program_.tools.count(number) != 0) return;
+  tool_comments_.describe(number, shape, where, reporter_.diagnostics());
   const auto tool = program_.tools.find(number);
   if (tool == program_.tools.end()) return;
   tool->second.description = std::string(text);
+  const std::string which = number == 0 && !modes_.tool ? "the tool" : fmt::format("tool {}", number);
   reporter_.diagnostics().note(Code::tool_from_remark, where,
-                               fmt::format("tool {} from this comment: {}, diameter {:g} mm", number,
+                               fmt::format("{} from this comment: {}, diameter {:g} mm", which,
                                            name_of(tool->second.shape), tool->second.diameter.mm()));
 }
 

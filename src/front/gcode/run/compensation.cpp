@@ -70,8 +70,23 @@ std::optional<double> Interpreter::diameter_for_compensation(std::optional<doubl
   const std::optional<int> tool = number ? static_cast<int>(*number) : modes_.tool;
   const std::optional<double> diameter = tool ? diameter_of(*tool) : std::nullopt;
   if (diameter) return diameter;
+  return assumed_diameter(tool);
+}
+
+/// The diameter of an unknown tool: GcodeReadOptions::assumed_diameter, else an error.
+std::optional<double> Interpreter::assumed_diameter(std::optional<int> tool) {
   const std::string which =
       tool ? fmt::format("tool {}", *tool) : "the tool, but there is no tool change before it";
+  if (options_.assumed_diameter) {
+    const std::string diameter = fmt::format("{:.5g}", *options_.assumed_diameter);
+    program_.assumed_diameter = true;
+    reporter_.unusual(
+        Code::compensation_no_tool, line_.column(Group::compensation),
+        fmt::format("cutter compensation needs the diameter of {}; assuming {} mm", which, diameter),
+        tool ? fmt::format("specify it, e.g. --tool {}=\"square d={}\"", *tool, diameter)
+             : std::string("put M6 T... before it, or use G41.1 D6"));
+    return options_.assumed_diameter;
+  }
   reporter_.error(
       Code::compensation_no_tool, line_.column(Group::compensation),
       fmt::format("cutter compensation needs the diameter of {}; the path is not compensated", which),

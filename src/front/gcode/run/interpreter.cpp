@@ -17,6 +17,13 @@ AfterEnd default_after_end(GcodeDialect dialect, const GcodeReadOptions& options
   return stops || uncertain ? AfterEnd::stop : AfterEnd::read_on;
 }
 
+/// A line with T or M6.
+bool changes_tool(const Block& block) {
+  return std::any_of(block.words.begin(), block.words.end(), [](const Word& w) {
+    return w.letter == 'T' || (w.letter == 'M' && w.kind == ValueKind::number && w.value == 6.0);
+  });
+}
+
 }  // namespace
 
 Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const GcodeReadOptions& options,
@@ -38,13 +45,15 @@ Interpreter::Interpreter(GcodeProgram& program, std::string_view text, const Gco
 void Interpreter::run(const Block& block) {
   follow_calls();
   reporter_.at_line(block.line);
-  for (const Comment& comment : block.comments) read_comment(comment);
+  const bool at_tool_change = !block.comments.empty() && changes_tool(block);
+  for (const Comment& comment : block.comments) read_comment(comment, at_tool_change);
   if (block.percent) return read_percent();
   if (block.faulty || (block.optional && options_.block_delete == BlockDelete::skip)) return;
   if (!block.command.empty()) {
     add(step::Verbatim{std::string(block.command.substr(0, kMaxCommandBytes))});
     return;
   }
+  if (block.sender) return reporter_.note(Code::sender_line, 0, "a command for the controller; skipped");
   const bool empty = block.words.empty() && block.assignments.empty() && !block.o_word;
   if (empty) return;
   words_since_percent_ = true;
@@ -146,11 +155,19 @@ void Interpreter::execute() {
 }
 
 void Interpreter::finish() {
+  use_pending_comments();
   program_.stock = stock_.stock();
+  if (!program_.stock) program_.stock = cam_stock_comments_.stock();
   tool_comments_.finish(reporter_.diagnostics());
   check_system_offsets();
   report_missing_speed();
   program_.cut_short = full_ || flow_->limit_reached();
+  if (path_.size() == 0 && !flow_->first_subroutine().empty() && !program_.cut_short)
+    reporter_.error(Code::subroutine_only, 0,
+                    fmt::format("the file only defines the subroutine o<{0}>, and nothing calls it",
+                                flow_->first_subroutine()),
+                    fmt::format("call it from a program in the same folder, e.g. o<{}> call [1] [2]",
+                                flow_->first_subroutine()));
   const bool ends = !is_printer();  // printers need no end
   if (ends && !program_.ended && !program_.cut_short && path_.size() > 0)
     reporter_.unusual(Code::no_program_end, 0, "the program has no end (M2, M30 or a closing %)",

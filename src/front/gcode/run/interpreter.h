@@ -15,6 +15,8 @@
 #include <utility>
 #include <vector>
 
+#include "front/gcode/comments/cam_comments.h"
+#include "front/gcode/comments/cam_stock_comments.h"
 #include "front/gcode/program/flow.h"
 #include "front/gcode/program/line_words.h"
 #include "front/gcode/program/parameters.h"
@@ -150,10 +152,12 @@ class Interpreter : public SystemValues {
   bool run_simple_line(std::string_view text, std::uint32_t number);
 
   // comment_effects.cpp
-  void read_comment(const Comment& comment);
-  bool take_cam_tool(std::string_view text, const TextLocation& where);
-  void use_pending_tools();
-  void use_cam_tool(std::string_view text, const TextLocation& where);
+  void read_comment(const Comment& comment, bool at_tool_change);
+  void read_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change);
+  void use_pending_comments();
+  void use_cam_comment(std::string_view text, const TextLocation& where, bool at_tool_change);
+  void assign_description(int number);
+  void describe_tool(int number, const ToolShape& shape, std::string_view text, const TextLocation& where);
 
   // settings.cpp
   void set_feed_mode();
@@ -224,6 +228,7 @@ class Interpreter : public SystemValues {
   void set_compensation();
   std::optional<double> given_diameter(std::optional<double> number);
   std::optional<double> diameter_for_compensation(std::optional<double> number);
+  std::optional<double> assumed_diameter(std::optional<int> tool);
   void end_compensation();
   void end_compensation_for_refused_codes();
   void refuse_compensated(std::string_view what, std::uint32_t column);
@@ -338,7 +343,21 @@ class Interpreter : public SystemValues {
   Compensation compensation_;
 
   StockComments stock_;
-  std::vector<std::pair<std::string, TextLocation>> pending_tools_;
+  CamComments cam_comments_;
+  CamStockComments cam_stock_comments_;
+  struct PendingComment {
+    std::string text;
+    TextLocation where;
+    bool at_tool_change = false;
+  };
+  std::vector<PendingComment> pending_comments_;  // before the units are known
+  struct DescribedTool {
+    std::string text;
+    TextLocation where;
+    ToolShape shape;
+  };
+  std::optional<DescribedTool> described_;  // by the last comment without a number, not yet assigned
+  bool changed_without_motion_ = false;     // since the last tool change
   std::optional<std::pair<Tenths, TextLocation>> spindle_without_speed_;  // first M3 or M4 before any S word
   bool units_given_ = false;
   bool moved_ = false;

@@ -281,9 +281,11 @@ void Interpreter::arrive(const ToolPosition& to) {
   position_ = to;
   position_.reference_axes = 0;
   tool_comments_.motion();
+  changed_without_motion_ = false;
+  if (described_ && path_[path_.size() - 1].is_cutting()) assign_description(modes_.tool.value_or(0));
   if (moved_) return;
   moved_ = true;
-  use_pending_tools();
+  use_pending_comments();
   program_.inch = modes_.scale != 1.0;
 }
 

@@ -33,7 +33,7 @@ void Interpreter::set_units() {
                    "previous ones");
   modes_.scale = scale;
   units_given_ = true;
-  use_pending_tools();
+  use_pending_comments();
 }
 
 void Interpreter::set_feed() {
@@ -91,6 +91,9 @@ void Interpreter::change_tool() {
   add(step::ToolChange{number});
   modes_.tool = number;
   tool_comments_.tool_change(number, reporter_.diagnostics());
+  use_pending_comments();
+  changed_without_motion_ = !described_;
+  if (described_) assign_description(number);
 }
 
 void Interpreter::switch_spindle() {
