@@ -98,6 +98,7 @@ struct PostProfile {
 
   std::vector<std::string> header, section, footer;
   std::vector<std::string> change_lines{"T{tool} M6"};  // for ToolChangePolicy::command
+  std::vector<std::string> length_lines;                // after them, with ToolLengths::by_post
   std::vector<std::string> pause_lines{"({tool_name})", "M0"};
 
   bool has_letter(char letter) const { return letters.find(letter) != std::string::npos; }
@@ -114,10 +115,15 @@ const PostProfile* find_post(std::string_view name);
 std::optional<PostProfile> read_post_profile(std::string_view text, std::string_view file_name,
                                              Diagnostics& diagnostics);
 
+/// Who states that the length of a new tool takes effect (G43): the post, for toolpaths that do not, or the
+/// toolpath's own steps.
+enum class ToolLengths : std::uint8_t { by_post, by_path };
+
 struct PostOptions {
   std::string program_name;        // for the header's comment
   std::optional<LengthUnit> unit;  // instead of the profile's
   std::optional<ToolChangePolicy> tool_change;
+  ToolLengths tool_lengths = ToolLengths::by_post;
   Feed missing_feed;                         // for cuts without a feed; 0: an error
   std::map<int, std::string> tool_names;     // for comments
   std::map<int, std::string> tool_comments;  // "TOOL/MILL, 6, 0, 20, 0"

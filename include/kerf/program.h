@@ -41,6 +41,7 @@ struct Program {
   bool manual_spindle = false;             // inputs of its kind have no means to start the spindle
   std::vector<HeightTarget> probes;        // points whose heights correct the program's
   std::optional<double> assumed_diameter;  // mm, of cutter compensation, see UnknownDiameter
+  bool states_tool_lengths = false;        // the program itself says where a tool's length takes effect (G43)
   std::vector<std::string> files;  // all files read: `source`, then included, called and imported ones
 };
 

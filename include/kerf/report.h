@@ -29,7 +29,8 @@ struct Range {
 struct MotionFigures {
   std::size_t lines = 0, arcs = 0, rapids = 0;
   double cut_mm = 0.0, rapid_mm = 0.0;
-  Box3 cut_bounds;   // of feed moves and arcs, mm
+  Box3 cut_bounds;   // of feed moves and arcs, their starts included, mm
+  Box3 cut_ends;     // of the ends of feed moves, and of arcs, mm
   Range feed;        // mm/min, of cutting moves
   Range speed;       // rpm, of spindle steps that turn
   Duration cutting;  // at the programmed feeds, without acceleration

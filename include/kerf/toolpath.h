@@ -41,8 +41,21 @@ enum class ProbeKind : std::uint8_t { contact_or_error, contact, release_or_erro
 /// pallets.
 enum class PauseKind : std::uint8_t { always, optional, pallet_change };
 /// What a motion's position is given in: work coordinates, machine coordinates (G53), as the position that
-/// the controller stores as its home (G28, G30), or as the end switches of the axes (a printer's G28).
-enum class Reference : std::uint8_t { work, machine, home, second_home, end_switches };
+/// the controller stores as its home (G28, G30), as the end switches of the axes (a printer's G28), or as a
+/// value that the controller computes from what it has measured.
+enum class Reference : std::uint8_t { work, machine, home, second_home, end_switches, measured };
+/// A tool change, or only the number of the tool that is in the spindle already (M61).
+enum class ToolChangeKind : std::uint8_t { change, number_only };
+/// A comment, or a message that the controller shows.
+enum class NoteKind : std::uint8_t { comment, message };
+/// Tool length compensation: none (G49), from the controller's tool table (G43), or the length itself
+/// (G43.1).
+enum class ToolLengthKind : std::uint8_t { none, table, given };
+enum class UnresolvedKind : std::uint8_t { values, code };
+/// What sets the zero of the controller's coordinates: the selection of a work offset (G54 to G59.3), an
+/// offset in machine coordinates (G10 L2), the coordinates of the present position in a work offset (G10 L20)
+/// or by a shift of all of them (G92), and the end, pause and return of that shift (G92.1, G92.2, G92.3).
+enum class ZeroKind : std::uint8_t { select, offset, here, shift, shift_off, shift_paused, shift_on };
 
 namespace step {
 
@@ -70,6 +83,7 @@ struct Dwell {
 };
 struct ToolChange {
   int tool = 0;
+  ToolChangeKind kind = ToolChangeKind::change;
 };
 struct Spindle {
   SpindleSpeed speed;
@@ -84,6 +98,8 @@ struct PathMode {
   PathModeKind kind = PathModeKind::exact_path;
   Length tolerance;
 };
+/// Moves towards `to` until contact. Where that is, is unknown: after the step all axes are, unless
+/// Toolpath::set_probed_axes() names those that move.
 struct Probe {
   Point3 to;
   Feed feed;
@@ -116,6 +132,7 @@ struct Layer {
 };
 struct Note {
   std::string text;
+  NoteKind kind = NoteKind::comment;
 };
 /// The machine waits for the operator (M0, M1, M60).
 struct Pause {
@@ -132,6 +149,33 @@ struct ClosePath {};
 /// with that reference lead.
 struct StoreHome {
   Reference home = Reference::home;
+};
+/// The controller's coordinates change, the tool does not move. Only posts need the zero: positions of the
+/// toolpath do not depend on it. Where the relation of the new coordinates to the old ones is unknown, so is
+/// the position afterwards.
+struct WorkZero {
+  ZeroKind kind = ZeroKind::select;
+  int system = 1;        // 1 to 9: G54 to G59.3
+  unsigned axes = 0;     // bits 1, 2, 4: X, Y, Z are given
+  Point3 zero = {};      // of the controller's coordinates in `system` after it, in those of the toolpath
+  Point3 at = {};        // the present position on `axes` (here, shift)
+  unsigned known = 0;    // axes of unknown position that are at `at` from here on
+  unsigned unknown = 0;  // axes whose position is unknown from here on
+};
+/// How the controller accounts for the length of the tool. The toolpath is that of the tip.
+struct ToolLength {
+  ToolLengthKind kind = ToolLengthKind::none;
+  int number = -1;     // of the entry in the tool table (H); -1: the tool's own
+  Point3 offset = {};  // mm, of a given length
+  unsigned axes = 0;   // of `offset` that are given
+};
+/// Something whose effect is unknown. `values`: from here on the program depends on values that only the
+/// controller knows, such as the result of a probe in a condition; the toolpath continues with assumed ones,
+/// and posts refuse it. `code`: a code that was left out and may have moved the tool, whose position is
+/// unknown.
+struct Unresolved {
+  std::string text;  // for messages
+  UnresolvedKind kind = UnresolvedKind::values;
 };
 /// A line that is passed to the controller unchanged, such as a macro call or a message on a display. It must
 /// neither move the machine nor change how other lines are read; this is the responsibility of the caller.
@@ -162,6 +206,9 @@ enum class StepKind : std::uint8_t {
   end,
   close_path,
   store_home,
+  work_zero,
+  tool_length,
+  unresolved,
 };
 /// The name used in `kerf steps`: "rapid", "cut", "tool", "pathmode" and so on.
 std::string_view name_of(StepKind kind);
@@ -182,10 +229,13 @@ class Step {
   Point3 to() const { return {values_[0], values_[1], values_[2]}; }
   /// Feed of a cut, arc, probe or extrude; zero if the program gave none.
   Feed feed() const { return Feed::raw(values_[3]); }
-  /// Bits 1, 2, 4: X, Y, Z at the end of this motion is unknown in work coordinates (not yet commanded, or
-  /// commanded in machine coordinates). `to()` then has the value of an interpreter with zero offsets.
+  /// Bits 1, 2, 4: X, Y, Z at the end of this motion is unknown in work coordinates (not yet commanded,
+  /// commanded in machine coordinates, moved by a probe). `to()` then has the value of an interpreter with
+  /// zero offsets. Where the start is unknown too, and the axis is none of `reference_axes()`, it moves by
+  /// the difference to the start.
   unsigned unknown_axes() const { return frame_ & 7u; }
-  /// The reference of `reference_axes()` (bits as above). Those axes are unknown ones.
+  /// The reference of `reference_axes()` (bits as above). Those axes are unknown ones. With Reference::work,
+  /// only of probes, `to()` is known although the end is not.
   Reference reference() const { return static_cast<Reference>(reference_); }
   unsigned reference_axes() const { return (frame_ >> 3) & 7u; }
   /// Bits 1, 2, 4, 8, 16, 32: the program named X, Y, Z, A, B, C for this motion; 0: not specified.
@@ -209,11 +259,15 @@ class Step {
   step::Pause pause() const;
   step::End end() const;
   step::StoreHome store_home() const;
+  step::WorkZero work_zero() const;
+  step::ToolLength tool_length() const;
+  UnresolvedKind unresolved() const;
+  NoteKind note_kind() const;
 
  private:
   friend class Toolpath;
   std::array<double, 6> values_{};
-  std::int32_t count_ = 0;  // extra turns, tool or fan number, index of a text or bead
+  std::int32_t count_ = 0;  // extra turns, number of a tool, fan or work offset, index of a text or bead
   OriginId origin_ = OriginId::none;
   std::uint32_t extra_ = 0;  // index into the toolpath's extras, 0 = none
   StepKind kind_ = StepKind::rapid;
@@ -222,14 +276,25 @@ class Step {
   bool rests_before_ : 1 = false;
   std::uint8_t turn_ : 2 = 0;  // Turn or SpindleTurn, or two flags
   std::uint8_t named_axes_ : 6 = 0;
-  std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference axes
+  std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference (or known) axes
 };
 static_assert(sizeof(Step) == 64, "a million steps fit in 64 MB");
 
 /// Rare data of a motion: rotary axes, and a Z that is corrected by probed points.
 struct MotionExtra {
   std::optional<std::array<double, 3>> abc;  // degrees
-  std::string z_correction;                  // expression over probed values; empty = none
+  std::string z_correction = {};             // expression over probed values; empty = none
+  unsigned unknown_abc = 0;                  // bits 1, 2, 4: A, B, C is unknown at the end
+  unsigned reference_abc = 0;                // bits: goes to the motion's reference (G28 A0)
+};
+
+/// The position of the tool between steps. At the start all axes are unknown.
+struct PathPosition {
+  Point3 at;             // mm
+  unsigned unknown = 7;  // axes, see Step::unknown_axes
+  bool is_known() const { return unknown == 0; }
+  /// Moves it to where the tool is after the step.
+  void pass(const Step& step);
 };
 
 /// The list of steps with their origins and texts. A value; moving it is cheap.
@@ -268,6 +333,9 @@ class Toolpath {
   std::size_t add(const step::End& s, OriginId origin);
   std::size_t add(const step::ClosePath& s, OriginId origin);
   std::size_t add(const step::StoreHome& s, OriginId origin);
+  std::size_t add(const step::WorkZero& s, OriginId origin);
+  std::size_t add(const step::ToolLength& s, OriginId origin);
+  std::size_t add(const step::Unresolved& s, OriginId origin);
   /// Copies step `i` of another toolpath (made from the same sources), texts, extras and origin included.
   std::size_t add_copy(const Toolpath& other, std::size_t i);
   /// Copies the origin of step `i` of another toolpath, callers included, for a step that replaces it.
@@ -278,6 +346,9 @@ class Toolpath {
   void set_end(std::size_t i, Point3 to);
   /// Marks axes (bits 1, 2, 4 for X, Y, Z) as unknown at the end of motion `i`; see Step::unknown_axes.
   void set_unknown_axes(std::size_t i, unsigned bits);
+  /// The axes that probe `i` moves, `known`: those of them whose target is known. All others keep their
+  /// position, `unknown` of them an unknown one.
+  void set_probed_axes(std::size_t i, unsigned moved, unsigned known, unsigned unknown);
   /// Sets the axes that the program named for motion `i`; see Step::named_axes.
   void set_named_axes(std::size_t i, unsigned bits);
   /// Marks `axes` (bits; they must be unknown ones) of motion `i` as given in a reference of the machine.
@@ -290,7 +361,7 @@ class Toolpath {
 
   step::Layer layer(std::size_t i) const;
   step::Extrude extrude(std::size_t i) const;
-  /// The text of a note or verbatim step.
+  /// The text of a note, verbatim or unresolved step.
   std::string_view text(std::size_t i) const;
 
   void reserve(std::size_t steps);

@@ -79,12 +79,23 @@ void describe_machine_step(py::dict& d, const Step& s) {
   }
 }
 
+/// Letters of axes given as bits 1, 2, 4.
+py::list axis_letters(unsigned bits) {
+  py::list letters;
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if ((bits >> axis & 1u) != 0) letters.append(std::string(1, "XYZ"[axis]));
+  return letters;
+}
+
 /// The fields of one step, named as by `kerf steps`.
 py::dict describe(const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   py::dict d;
   d["step"] = std::string(name_of(s.kind()));
-  if (s.is_motion()) d["to"] = py::make_tuple(s.to().x, s.to().y, s.to().z);
+  if (s.is_motion()) {
+    d["to"] = py::make_tuple(s.to().x, s.to().y, s.to().z);
+    d["unknown_axes"] = axis_letters(s.unknown_axes());
+  }
   if (s.is_motion() && s.kind() != StepKind::rapid) d["feed"] = s.feed().mm_per_min();
   switch (s.kind()) {
     case StepKind::arc: {
@@ -111,6 +122,7 @@ py::dict describe(const Toolpath& path, std::size_t i) {
       break;
     }
     case StepKind::note:
+    case StepKind::unresolved:
     case StepKind::verbatim: d["text"] = to_str(path.text(i)); break;
     case StepKind::pause: {
       const PauseKind kind = s.pause().kind;
@@ -123,6 +135,13 @@ py::dict describe(const Toolpath& path, std::size_t i) {
     case StepKind::store_home:
       d["home"] = s.store_home().home == Reference::home ? "home" : "second_home";
       break;
+    case StepKind::work_zero: {
+      const step::WorkZero zero = s.work_zero();
+      d["system"] = zero.system;
+      d["zero"] = py::make_tuple(zero.zero.x, zero.zero.y, zero.zero.z);
+      d["unknown_axes"] = axis_letters(zero.unknown);
+      break;
+    }
     case StepKind::layer:
       d["name"] = to_str(path.layer(i).name);
       d["colour"] = path.layer(i).colour;
@@ -356,9 +375,11 @@ py::dict report_dict(const Toolpath& path) {
   d["rapids"] = report.all.rapids;
   d["cut_mm"] = report.all.cut_mm;
   d["rapid_mm"] = report.all.rapid_mm;
-  if (!report.all.cut_bounds.empty())
-    d["cut_bounds_mm"] =
-        py::make_tuple(to_tuple(report.all.cut_bounds.low), to_tuple(report.all.cut_bounds.high));
+  const MotionFigures& all = report.all;
+  if (!all.cut_bounds.empty()) {
+    d["cut_bounds_mm"] = py::make_tuple(to_tuple(all.cut_ends.low), to_tuple(all.cut_ends.high));
+    d["cut_extent_mm"] = py::make_tuple(to_tuple(all.cut_bounds.low), to_tuple(all.cut_bounds.high));
+  }
   return d;
 }
 
@@ -399,7 +420,8 @@ Returns
 -------
 dict
     `lines`, `arcs`, `rapids` (numbers); `cut_mm`, `rapid_mm` (lengths); `cut_bounds_mm` (low corner, high
-    corner), absent without cuts.)");
+    corner, of the ends of feed moves and of arcs), `cut_extent_mm` (their starts included), absent without
+    cuts.)");
   m.def("read_gcode", &read, py::arg("text"), py::arg("name") = "<text>", py::arg("filament") = py::none(),
         R"(Read G-code.
 

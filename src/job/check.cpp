@@ -8,6 +8,7 @@
 #include "job/fixture_findings.h"
 
 #include "kerf/number.h"
+#include "kerf/print.h"
 #include "kerf/rotary.h"
 
 namespace kerf {
@@ -56,20 +57,61 @@ std::vector<Finding> assumed_tools(const Job& job) {
   return list;
 }
 
-/// Hazards that reading the program has reported: unknown G codes, which may be motions, and cutter
-/// compensation with an assumed diameter.
-std::vector<Finding> findings_of_reading(const Diagnostics& diagnostics) {
+/// What was not examined, and so is a finding of its own: "no hazard found" holds for whole programs only.
+struct Unexamined {
+  Code code;
+  std::string_view kind;
+  std::string_view reason;  // added to the message
+};
+constexpr Unexamined kUnexamined[] = {
+    {Code::unknown_g_code, "left_out", "; it may be a motion"},
+    {Code::compensation_no_tool, "unknown_diameter", ""},
+    {Code::unknown_m_code, "left_out", "; it may move the machine"},
+    {Code::offset_unknown, "offset_unknown", ""},
+    {Code::value_unknown, "value_unknown", ""},
+    {Code::tool_length_other, "tool_length", ""},
+    {Code::turning_program, "not_checked", ""},
+    {Code::not_simulated, "not_checked", ""},
+    {Code::rotary_not_simulated, "not_checked", ""},
+    {Code::extrusion_not_simulated, "not_checked", ""},
+    {Code::z_correction_not_simulated, "not_checked", ""},
+    {Code::cut_at_unknown_place, "not_checked", ""},
+    {Code::stock_untouched, "stock_untouched", ""},
+};
+
+/// Whether the material not being checked stays a warning: a finding has the reason already, or the program
+/// is a print, whose material is not checked yet.
+bool is_reason_found(const std::vector<Finding>& findings, const Toolpath& path) {
+  return is_print(path) || std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
+           return f.kind == "unknown_tool" || f.kind == "no_tool" || f.kind == "z_downwards";
+         });
+}
+
+const Unexamined* find_unexamined(const Diagnostic& d, bool reason_found) {
+  if (d.severity == Severity::error || (d.code == Code::not_simulated && reason_found)) return nullptr;
+  const auto* found = std::find_if(std::begin(kUnexamined), std::end(kUnexamined),
+                                   [&](const Unexamined& u) { return u.code == d.code; });
+  return found == std::end(kUnexamined) ? nullptr : found;
+}
+
+/// Findings for what `diagnostics` reports as not examined, in the order of lines.
+std::vector<Finding> unexamined(const Diagnostics& diagnostics, bool reason_found) {
   std::vector<Finding> list;
-  for (const Diagnostic& d : diagnostics.list()) {
-    const bool skipped = has_code(d, Code::unknown_g_code);
-    if (!skipped && !has_code(d, Code::compensation_no_tool)) continue;
-    list.push_back({.kind = skipped ? "left_out" : "unknown_diameter",
-                    .at = {},
-                    .origin = d.where,
-                    .message = skipped ? d.message + "; it may be a motion" : d.message,
-                    .callers = {},
-                    .hint = d.hint});
-  }
+  for (const Diagnostic& d : diagnostics.list())
+    if (const Unexamined* what = find_unexamined(d, reason_found))
+      list.push_back({.kind = std::string(what->kind),
+                      .at = {},
+                      .origin = d.where,
+                      .message = d.message + std::string(what->reason),
+                      .callers = {},
+                      .hint = d.hint,
+                      .about = d.message});
+  const auto line_of = [](const Finding& f) {
+    const auto* text = std::get_if<TextLocation>(&f.origin);
+    return text == nullptr ? 0u : text->line;
+  };
+  std::stable_sort(list.begin(), list.end(),
+                   [&](const Finding& a, const Finding& b) { return line_of(a) < line_of(b); });
   return list;
 }
 
@@ -119,28 +161,31 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
                 findings_of(simulation->hazards, path));
 }
 
-std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& options,
-                                      const Diagnostics& diagnostics) {
+/// The box around a bar.
+Box3 box_of(const RoundBar& bar) {
+  const double radius = 0.5 * bar.diameter;
+  Box3 box;
+  box.add(Point3{bar.x_low, bar.axis_y - radius, bar.axis_z - radius});
+  box.add(Point3{bar.x_high, bar.axis_y + radius, bar.axis_z + radius});
+  return box;
+}
+
+std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& options) {
   CheckOptions checks;
   checks.end = job.program.end;
   checks.manual_spindle = job.program.manual_spindle;
   checks.machine = options.machine;
   checks.material = options.material;
   checks.tools = &job.tools;
-  if (job.stock) checks.stock = job.stock->block;
-  std::vector<Finding> findings =
-      merged(findings_of(check_path(job.program.path, checks), job.program.path), assumed_tools(job));
-  std::vector<Finding> of_reading = findings_of_reading(diagnostics);
-  assign_steps(of_reading, job.program.path);
-  return merged(std::move(findings), std::move(of_reading));
+  if (job.bar) checks.stock = box_of(*job.bar);
+  return merged(findings_of(check_path(job.program.path, checks), job.program.path), assumed_tools(job));
 }
 
 /// Removes the diagnostics that are also findings, so that each is reported once.
-void remove_hazards(Diagnostics& diagnostics) {
-  diagnostics.remove_if([](const Diagnostic& d) {
+void remove_hazards(Diagnostics& diagnostics, bool reason_found) {
+  diagnostics.remove_if([&](const Diagnostic& d) {
     return has_code(d, Code::no_feed) || has_code(d, Code::no_program_end) ||
-           has_code(d, Code::unknown_g_code) || has_code(d, Code::no_tool_shape) ||
-           has_code(d, Code::compensation_no_tool);
+           has_code(d, Code::no_tool_shape) || find_unexamined(d, reason_found) != nullptr;
   });
 }
 
@@ -148,7 +193,7 @@ void remove_hazards(Diagnostics& diagnostics) {
 
 std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,
                                Progress* progress) {
-  std::vector<Finding> findings = findings_in_path(job, options, diagnostics);
+  std::vector<Finding> findings = findings_in_path(job, options);
   if (job.z_downwards && !diagnostics.has_errors()) {
     diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
                         "the material is not checked, because Z seems to count downwards");
@@ -157,8 +202,11 @@ std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, D
     warn_assumed_flutes(in_material, job.program.path, job.tools, diagnostics);
     findings = merged(std::move(findings), std::move(in_material));
   }
-  remove_hazards(diagnostics);
-  return findings;
+  const bool reason_found = is_reason_found(findings, job.program.path);
+  std::vector<Finding> not_examined = unexamined(diagnostics, reason_found);
+  assign_steps(not_examined, job.program.path);
+  remove_hazards(diagnostics, reason_found);
+  return merged(std::move(findings), std::move(not_examined));
 }
 
 }  // namespace kerf

@@ -23,6 +23,7 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   out.unit = unit;
   out.tool_change = options.tool_change;
   out.missing_feed = options.missing_feed;
+  if (program.states_tool_lengths) out.tool_lengths = ToolLengths::by_path;
   for (const auto& [number, tool] : options.tools) {
     out.tool_names[number] = short_name(tool);
     // The comments are in the program's units, and are rounded for mm.

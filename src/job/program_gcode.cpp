@@ -89,6 +89,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   program.units = read.inch ? ProgramUnits::inch : ProgramUnits::mm;
   program.tools = std::move(read.tools);
   program.stock = read.stock;
+  program.states_tool_lengths = true;
   program.end = read.cut_short ? ProgramEnd::not_asked : read.ended ? ProgramEnd::seen : ProgramEnd::missing;
   if (read.assumed_diameter) program.assumed_diameter = options.assumed_diameter;
   return program;

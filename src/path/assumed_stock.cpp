@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "path/motion_box.h"
+
 namespace kerf {
 namespace {
 
@@ -122,19 +124,45 @@ std::pair<double, AssumedTop> top_above_bed(const Toolpath& path, const Heights&
   return {top, pass_above < start ? AssumedTop::passes : AssumedTop::plunge};
 }
 
-/// Bounds of the feeds that reach below the top.
-Box3 bounds_below(const Toolpath& path, double top) {
+/// The part of a straight motion at or below `limit`; its start point is complete.
+Box3 part_below(Point3 from, Point3 to, double limit) {
   Box3 box;
-  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
-    if (!s.is_cutting() || (s.unknown_axes() & kAxisZ) != 0) return;
-    Box3 of_step;
-    if (s.kind() == StepKind::arc) of_step = walk_of(s, context.from).bounds();
-    of_step.add(s.to());
-    const Feed feed = feed_of(s, context.from);
-    const bool lifts = feed.sideways <= kSameHeight && feed.up();
-    if (of_step.low.z <= top + kSameHeight && !lifts) box.add(of_step);
-  });
+  if (from.z <= limit) box.add(from);
+  if (to.z <= limit) box.add(to);
+  if ((from.z <= limit) != (to.z <= limit))
+    box.add(from + ((limit - from.z) / (to.z - from.z)) * (to - from));
   return box;
+}
+
+/// What a feed motion cuts below `limit`, and where a rapid goes down into it.
+Box3 part_below(const Step& s, const MotionContext& context, double limit) {
+  if (s.kind() == StepKind::arc) {
+    const Box3 box = detail::bounds_of(s, context.from, context.unknown_from);
+    return box.low.z <= limit ? box : Box3{};
+  }
+  const Feed feed = feed_of(s, context.from);
+  const bool lifts = feed.sideways <= kSameHeight && feed.up();
+  if (s.is_cutting() && lifts) return {};
+  Point3 from = context.from;
+  for (int axis = 0; axis < 3; ++axis)
+    if ((context.unknown_from >> axis & 1u) != 0) from[axis] = s.to()[axis];
+  if (s.is_cutting()) return part_below(from, s.to(), limit);
+  const bool descends = feed.down() || (context.unknown_from & kAxisZ) != 0;
+  const bool is_low = s.kind() == StepKind::rapid && s.unknown_axes() == 0 && std::isfinite(limit) &&
+                      s.to().z < limit - 2.0 * kSameHeight;
+  return is_low && descends ? part_below(s.to(), s.to(), limit) : Box3{};
+}
+
+/// Bounds of what is cut below the top, and of rapids that go down below it, which may be mistakes.
+Box3 bounds_below(const Toolpath& path, double top) {
+  Box3 cuts, plunges;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    if ((s.unknown_axes() & kAxisZ) != 0) return;
+    (s.is_cutting() ? cuts : plunges).add(part_below(s, context, top + kSameHeight));
+  });
+  plunges.low.z = plunges.high.z = cuts.low.z;
+  if (!cuts.empty()) cuts.add(plunges);
+  return cuts;
 }
 
 }  // namespace

@@ -8,16 +8,13 @@
 
 namespace kerf::detail {
 
-/// The start position of the next motion.
-struct StartPosition {
-  Point3 at;
-  unsigned unknown = 7;
-  bool known() const { return unknown == 0; }
+/// The start position of the next motion, as far as a pass may rely on it: an operator, or a line for the
+/// controller, may have moved the tool.
+struct StartPosition : PathPosition {
   void pass(const Step& s) {
-    if (!s.is_motion()) return;
-    at = s.to();
-    // The end of a probe motion is unknown.
-    unknown = s.kind() == StepKind::probe ? 7u : s.unknown_axes();
+    PathPosition::pass(s);
+    const bool stops = s.kind() == StepKind::tool_change || s.kind() == StepKind::pause;
+    if (stops || s.kind() == StepKind::verbatim || s.kind() == StepKind::unresolved) unknown = 7;
   }
 };
 

@@ -58,6 +58,8 @@ Message no_tool(const Step& s, const MotionContext& context, Setting& setting) {
   return "a cut before the first tool change: the tool is unknown";
 }
 
+constexpr unsigned kAxisZ = 4, kAxesXY = 3;  // in masks of axes
+
 Box3 box_of(const Step& s, const MotionContext& context) {
   Box3 box;
   box.add(s.to());
@@ -116,11 +118,12 @@ AxisTravel open_travel(const AxisTravel& travel, const Setting& setting, int axi
   return {setting.reached.high[axis] - travel.length(), setting.reached.low[axis] + travel.length()};
 }
 
-/// The exceeded limit: an end of the travel if the work zero is known, otherwise its length.
-std::string message_outside(const Box3& box, const AxisTravel& travel, const Setting& setting, int axis) {
+/// The exceeded limit: an end of the travel if the position in machine coordinates is known (`zero` is that
+/// of the work), otherwise its length.
+std::string message_outside(const Box3& box, const AxisTravel& travel, const std::optional<Point3>& zero,
+                            int axis) {
   const auto text = [](double v) { return number_text(v, kShownDecimals); };
   const char name = "XYZ"[axis];
-  const auto& zero = setting.options.machine->work_zero;
   if (!zero)
     return fmt::format(
         "outside of the machine's travel: its {} axis is {} mm long, and the motions so far span more", name,
@@ -132,33 +135,73 @@ std::string message_outside(const Box3& box, const AxisTravel& travel, const Set
       text(above ? high : low), above ? "above" : "below", text(above ? travel.high : travel.low));
 }
 
+/// Axes of the motion's end that are given in machine coordinates.
+unsigned machine_axes(const Step& s) { return s.reference() == Reference::machine ? s.reference_axes() : 0u; }
+
 Message outside_machine(const Step& s, const MotionContext& context, Setting& setting) {
   if (setting.options.machine == nullptr) return std::nullopt;
   const Box3 box = box_of(s, context);
   Message message;
   for (int axis = 0; axis < 3; ++axis) {
     const auto& travel = setting.options.machine->travel[static_cast<std::size_t>(axis)];
-    if (!travel || (s.unknown_axes() & (1u << axis)) != 0) continue;
-    const AxisTravel open = open_travel(*travel, setting, axis);
+    const bool in_machine = (machine_axes(s) >> axis & 1u) != 0;
+    if (!travel || (!in_machine && (s.unknown_axes() >> axis & 1u) != 0)) continue;
+    const AxisTravel open = in_machine ? *travel : open_travel(*travel, setting, axis);
     const bool longer = box.high[axis] - box.low[axis] > travel->length() + kRounding;
     if (longer || box.low[axis] < open.low - kRounding || box.high[axis] > open.high + kRounding) {
-      message = message_outside(box, *travel, setting, axis);
+      message =
+          message_outside(box, *travel, in_machine ? Point3{} : setting.options.machine->work_zero, axis);
       continue;
     }
+    if (in_machine) continue;
     setting.reached.low[axis] = std::min(setting.reached.low[axis], box.low[axis]);
     setting.reached.high[axis] = std::max(setting.reached.high[axis], box.high[axis]);
   }
   return message;
 }
 
-Message plunge(const Step& s, const MotionContext& context, Setting& setting) {
-  if (s.kind() != StepKind::cut || context.unknown_from != 0) return std::nullopt;
+/// Whether a motion goes straight down, also from an unknown height.
+bool goes_down(const Step& s, const MotionContext& context) {
   const Point3 way = s.to() - context.from;
-  if (way.x != 0.0 || way.y != 0.0 || !(way.z < 0.0)) return std::nullopt;
+  for (int axis = 0; axis < 2; ++axis)
+    if (((s.unknown_axes() ^ context.unknown_from) >> axis & 1u) != 0 || way[axis] != 0.0) return false;
+  if ((s.unknown_axes() & kAxisZ) != 0) return false;
+  return (context.unknown_from & kAxisZ) != 0 || way.z < 0.0;
+}
+
+Message plunge(const Step& s, const MotionContext& context, Setting& setting) {
+  if (s.kind() != StepKind::cut || !goes_down(s, context)) return std::nullopt;
   if (setting.options.stock && s.to().z >= setting.options.stock->high.z) return std::nullopt;
   const Tool* tool = known_tool(context.tool, setting);
   if (tool == nullptr || tool->plunges) return std::nullopt;
   return fmt::format("tool {} does not cut at its centre, and plunges here", *context.tool);
+}
+
+/// Whether the tool at `at` is, or may be, in the stock's block; false without a stock.
+bool may_be_in_stock(Point3 at, unsigned unknown, const MotionContext& context, const Setting& setting) {
+  if (!setting.options.stock || setting.laser || setting.printing) return false;
+  if ((unknown & kAxisZ) != 0 || at.z >= setting.options.stock->high.z - kRounding) return false;
+  Box3 tip;
+  tip.add(at);
+  return (unknown & kAxesXY) != 0 || can_be_in_stock(tip, radius_of(context.tool, setting), setting);
+}
+
+/// Where such a motion ends is unknown, so the material on its way cannot be examined.
+Message machine_move_low(const Step& s, const MotionContext& context, Setting& setting) {
+  if (s.reference() == Reference::work || (s.reference_axes() & kAxesXY) == 0) return std::nullopt;
+  if (!may_be_in_stock(context.from, context.unknown_from, context, setting)) return std::nullopt;
+  return fmt::format(
+      "a motion to a machine position starts at Z {}, below the stock's top, and moves sideways",
+      number_text(context.from.z, kShownDecimals));
+}
+
+Message rapid_unknown(const Step& s, const MotionContext& context, Setting& setting) {
+  const unsigned unknown = s.unknown_axes();
+  if (s.kind() != StepKind::rapid || (unknown & kAxesXY) == 0) return std::nullopt;
+  const bool down = (context.unknown_from & kAxisZ) != 0 || s.to().z < context.from.z;
+  if (!down || !may_be_in_stock(s.to(), unknown, context, setting)) return std::nullopt;
+  return fmt::format("a rapid down to Z {}, below the stock's top, where X or Y is unknown",
+                     number_text(s.to().z, kShownDecimals));
 }
 
 Message chip_load(const Step& s, const MotionContext& context, Setting& setting) {
@@ -192,6 +235,8 @@ constexpr Rule kRules[] = {
     {Code::path_arc_radii, arc_radii, "write the arc's end and centre with more decimals"},
     {Code::path_outside_machine, outside_machine, "move the work zero, or turn or split the part"},
     {Code::path_plunge, plunge, "ramp or spiral into the cut, or drill that position first"},
+    {Code::path_machine_move_low, machine_move_low, "retract (G0 Z...) before it"},
+    {Code::path_rapid_unknown, rapid_unknown, "move to a known X and Y first"},
     {Code::path_chip_load, chip_load, "lower the feed or raise the spindle speed"},
 };
 
@@ -217,9 +262,7 @@ StepMessage spindle_range(const Step& s, const Setting& setting) {
 }
 
 /// The position of the tool between two motions.
-struct Rest {
-  Point3 at;
-  unsigned unknown = 7;  // axes
+struct Rest : PathPosition {
   std::optional<int> tool;
   bool spindle_on = false;
 };
@@ -228,7 +271,6 @@ struct Rest {
 /// or Y is unknown.
 std::optional<double> depth_in_stock(const Rest& rest, const Setting& setting) {
   const auto& stock = setting.options.stock;
-  constexpr unsigned kAxisZ = 4;
   if (!stock || (rest.unknown & kAxisZ) != 0 || setting.laser || setting.printing) return std::nullopt;
   if (rest.at.z >= stock->high.z || rest.at.z < stock->low.z) return std::nullopt;
   Box3 tip;
@@ -267,10 +309,7 @@ StepMessage low_spindle_stop(const Step& s, const Setting& setting, const Rest& 
 }
 
 void follow(const Step& s, Rest& rest) {
-  if (s.is_motion()) {
-    rest.at = s.to();
-    rest.unknown = s.unknown_axes();
-  }
+  rest.pass(s);
   if (s.kind() == StepKind::tool_change) rest.tool = s.tool_change().tool;
   if (s.kind() == StepKind::spindle) rest.spindle_on = s.spindle().turn != SpindleTurn::off;
 }
@@ -304,7 +343,6 @@ struct Levels {
 };
 
 Levels levels_of(const Toolpath& path) {
-  constexpr unsigned kAxisZ = 4;
   Levels levels;
   for_each_motion(path, [&](const Step& s, const MotionContext& context) {
     if (((s.unknown_axes() | context.unknown_from) & kAxisZ) != 0) return;

@@ -121,7 +121,7 @@ PassResult chords_to_arcs(const Toolpath& path, const ArcFitOptions& options) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     std::optional<LineArc> fit;
     std::size_t last = i;
-    if (path[i].kind() == StepKind::cut && from.known() && detail::is_plain(path, i))
+    if (path[i].kind() == StepKind::cut && from.is_known() && detail::is_plain(path, i))
       fit = fitter.longest(from.at, i, last);
     if (fit)
       out.add(step::Arc{.to = path[last].to(),

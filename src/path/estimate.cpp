@@ -35,6 +35,7 @@ class Walker {
         move(i);
       else if (stops_at(i))
         stop(i);
+      if (path_[i].kind() == StepKind::work_zero) set_position(i);
       if (path_[i].kind() == StepKind::dwell)
         seconds_[i] += static_cast<float>(path_[i].dwell().time.seconds());
     }
@@ -47,6 +48,22 @@ class Walker {
   std::size_t not_timed() const { return not_timed_; }
 
  private:
+  void set_position(std::size_t step) {
+    const Point3 before = here_.at;
+    here_.pass(path_[step]);
+    machine_zero_ = machine_zero_ + (here_.at - before);
+    planner_.set_position(here_.at);
+  }
+
+  /// The end of a straight motion, machine coordinates in those of the work.
+  Point3 end_of(const Step& s) const {
+    Point3 to = s.to();
+    for (int axis = 0; axis < 3; ++axis)
+      if (s.reference() == Reference::machine && (s.reference_axes() >> axis & 1u) != 0)
+        to[axis] += machine_zero_[axis];
+    return to;
+  }
+
   void stop(std::size_t step) {
     planner_.stop();
     stops_.push_back(step);
@@ -59,21 +76,22 @@ class Walker {
     if (s.rests_before() || probes || homes) stop(i);
     const double feed =
         s.kind() == StepKind::rapid ? std::numeric_limits<double>::infinity() : s.feed().mm_per_min() / 60.0;
-    const bool turns_only = s.to() == here_ && s.kind() != StepKind::arc && path_.extra(i) != nullptr;
+    const bool turns_only = s.to() == here_.at && s.kind() != StepKind::arc && path_.extra(i) != nullptr;
     if (!(feed > 0.0) || turns_only || homes) {
       if (!homes) ++not_timed_;
       planner_.set_position(s.to());
     } else if (s.kind() == StepKind::arc) {
       arc(i, feed);
     } else {
-      planner_.move(s.to(), feed, i);
+      planner_.move(end_of(s), feed, i);
+      if (!(end_of(s) == s.to())) planner_.set_position(s.to());
     }
-    here_ = s.to();
+    here_.pass(s);
     if (probes || exact_stop_) planner_.stop();
   }
 
   void arc(std::size_t i, double feed) {
-    const ArcWalk walk = walk_of(path_[i], here_);
+    const ArcWalk walk = walk_of(path_[i], here_.at);
     std::size_t chords = chords_of(walk, machine_.arc_tolerance.mm());
     if (chords_ > kChordBudget) chords = std::min(chords, kFewChords);
     chords_ += chords;
@@ -131,7 +149,8 @@ class Walker {
   std::vector<float> seconds_;
   detail::Planner planner_;
   std::vector<std::size_t> stops_;
-  Point3 here_;
+  PathPosition here_;
+  Point3 machine_zero_;  // by which the positions of the work have changed, e.g. by G92
   step::Coolant coolant_;
   step::Spindle spindle_;
   step::LaserPower laser_;

@@ -94,7 +94,7 @@ PassResult join_straight(const Toolpath& path, Length tolerance) {
   for (std::size_t i = 0; i < path.size(); ++i) {
     const bool straight = path[i].kind() == StepKind::cut || path[i].kind() == StepKind::rapid;
     std::size_t last = i;
-    if (straight && detail::is_plain(path, i) && start.known())
+    if (straight && detail::is_plain(path, i) && start.is_known())
       while (last - i < kMaxChain && detail::chains(path, last + 1, i) &&
              is_straight(path, start.at, i, last + 1, tolerance.mm()))
         ++last;
@@ -130,7 +130,7 @@ PassResult shorten_rapids(const Toolpath& path) {
   detail::StartPosition start;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
-    const bool rapid = s.kind() == StepKind::rapid && start.known() && detail::is_plain(path, i);
+    const bool rapid = s.kind() == StepKind::rapid && start.is_known() && detail::is_plain(path, i);
     if (rapid && s.to() == start.at) continue;
     if (rapid && goes_up_and_down(path, i, start.at)) {
       // The second one alone ends at the same position, along the path of both.

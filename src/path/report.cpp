@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "path/motion_box.h"
+
 namespace kerf {
 namespace {
 
@@ -22,16 +24,22 @@ struct Motion {
   double length;  // mm
   Point3 way;     // mm, from start to end
   Box3 box;
+  Box3 end;
   Feed feed;
 };
 
-Motion measure(const Step& s, Point3 from) {
-  Motion motion{s.kind(), distance(from, s.to()), s.to() - from, {}, s.feed()};
-  motion.box.add(s.to());
+Motion measure(const Step& s, const PathPosition& start) {
+  Motion motion{s.kind(),
+                distance(start.at, s.to()),
+                s.to() - start.at,
+                detail::bounds_of(s, start.at, start.unknown),
+                {},
+                s.feed()};
+  motion.end.add(s.to());
   if (s.kind() == StepKind::arc) {
-    const ArcWalk walk = walk_of(s, from);
+    const ArcWalk walk = walk_of(s, start.at);
     motion.length = walk.length();
-    motion.box = walk.bounds();
+    motion.end = walk.bounds();
   }
   return motion;
 }
@@ -58,6 +66,7 @@ void add(MotionFigures& figures, const Motion& motion, const ReportOptions& opti
   ++(motion.kind == StepKind::arc ? figures.arcs : figures.lines);
   figures.cut_mm += motion.length;
   figures.cut_bounds.add(motion.box);
+  figures.cut_ends.add(motion.end);
   if (!(motion.feed.raw() > 0.0)) return;
   figures.feed.add(motion.feed.mm_per_min());
   figures.cutting = figures.cutting + mm(motion.length) / motion.feed;
@@ -75,6 +84,7 @@ void add(MotionFigures& all, const MotionFigures& more) {
   all.cut_mm += more.cut_mm;
   all.rapid_mm += more.rapid_mm;
   if (!more.cut_bounds.empty()) all.cut_bounds.add(more.cut_bounds);
+  if (!more.cut_ends.empty()) all.cut_ends.add(more.cut_ends);
   add(all.feed, more.feed);
   add(all.speed, more.speed);
   all.cutting = all.cutting + more.cutting;
@@ -83,10 +93,10 @@ void add(MotionFigures& all, const MotionFigures& more) {
 }
 
 /// The position of the tool before a step.
-Point3 position_before(const Toolpath& path, std::size_t step) {
-  while (step > 0)
-    if (path[--step].is_motion()) return path[step].to();
-  return {};
+PathPosition position_before(const Toolpath& path, std::size_t step) {
+  PathPosition start;
+  for (std::size_t i = path.motion_before(step).value_or(0); i < step; ++i) start.pass(path[i]);
+  return start;
 }
 
 }  // namespace
@@ -94,7 +104,7 @@ Point3 position_before(const Toolpath& path, std::size_t step) {
 PathReport report_on(const Toolpath& path, const ReportOptions& options) {
   PathReport report;
   const std::size_t end = std::min(options.end, path.size());
-  Point3 at = position_before(path, std::min(options.first, end));
+  PathPosition start = position_before(path, std::min(options.first, end));
   std::optional<int> tool;
   ToolFigures* current = nullptr;  // the tool's entry, looked up when it is first needed
   for (std::size_t i = options.first; i < end; ++i) {
@@ -105,6 +115,7 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
       continue;
     }
     const bool turns = s.kind() == StepKind::spindle && s.spindle().turn != SpindleTurn::off;
+    if (!s.is_motion()) start.pass(s);
     if (!s.is_motion() && !turns && s.kind() != StepKind::dwell) continue;
     if (current == nullptr) current = &figures_of(report, tool);
     MotionFigures& figures = current->figures;
@@ -112,14 +123,14 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
     if (turns) figures.speed.add(s.spindle().speed.rpm());
     if (!s.is_motion()) continue;
     if (s.reference() == Reference::end_switches) {  // the distance depends on the machine
-      at = s.to();
+      start.pass(s);
       continue;
     }
-    const Motion motion = measure(s, at);
+    const Motion motion = measure(s, start);
     add(figures, motion, options);
     if (s.is_cutting())
       current->deepest = std::min(current->deepest.value_or(motion.box.low.z), motion.box.low.z);
-    at = s.to();
+    start.pass(s);
   }
   for (const ToolFigures& entry : report.tools) add(report.all, entry.figures);
   return report;

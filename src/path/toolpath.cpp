@@ -9,9 +9,9 @@ namespace kerf {
 
 std::string_view name_of(StepKind kind) {
   static constexpr std::string_view kNames[] = {
-      "rapid",    "cut",      "arc",     "dwell",       "tool",      "spindle",   "coolant",
-      "pathmode", "probe",    "extrude", "temperature", "fan",       "laser",     "layer",
-      "note",     "verbatim", "pause",   "end",         "closepath", "storehome",
+      "rapid", "cut",     "arc",         "dwell",     "tool",     "spindle",    "coolant",    "pathmode",
+      "probe", "extrude", "temperature", "fan",       "laser",    "layer",      "note",       "verbatim",
+      "pause", "end",     "closepath",   "storehome", "workzero", "toollength", "unresolved",
   };
   return kNames[static_cast<std::size_t>(kind)];
 }
@@ -37,7 +37,7 @@ step::Dwell Step::dwell() const {
 }
 step::ToolChange Step::tool_change() const {
   assert(kind_ == StepKind::tool_change);
-  return {count_};
+  return {count_, static_cast<ToolChangeKind>(plane_)};
 }
 step::Spindle Step::spindle() const {
   assert(kind_ == StepKind::spindle);
@@ -79,6 +79,44 @@ step::End Step::end() const {
 step::StoreHome Step::store_home() const {
   assert(kind_ == StepKind::store_home);
   return {static_cast<Reference>(plane_)};
+}
+step::WorkZero Step::work_zero() const {
+  assert(kind_ == StepKind::work_zero);
+  return {.kind = static_cast<ZeroKind>(plane_),
+          .system = count_,
+          .axes = named_axes_,
+          .zero = to(),
+          .at = {values_[3], values_[4], values_[5]},
+          .known = (frame_ >> 3) & 7u,
+          .unknown = frame_ & 7u};
+}
+step::ToolLength Step::tool_length() const {
+  assert(kind_ == StepKind::tool_length);
+  return {static_cast<ToolLengthKind>(plane_), count_, to(), named_axes_};
+}
+NoteKind Step::note_kind() const {
+  assert(kind_ == StepKind::note);
+  return static_cast<NoteKind>(plane_);
+}
+UnresolvedKind Step::unresolved() const {
+  assert(kind_ == StepKind::unresolved);
+  return static_cast<UnresolvedKind>(plane_);
+}
+
+void PathPosition::pass(const Step& step) {
+  if (step.is_motion()) {
+    at = step.to();
+    unknown = step.unknown_axes();
+  } else if (step.kind() == StepKind::work_zero) {
+    const step::WorkZero zero = step.work_zero();
+    for (int axis = 0; axis < 3; ++axis)
+      if ((zero.known >> axis & 1u) != 0) at[axis] = zero.at[axis];
+    unknown = (unknown & ~zero.known) | zero.unknown;
+  } else if (step.kind() == StepKind::tool_length) {
+    unknown |= 4u;
+  } else if (step.kind() == StepKind::unresolved && step.unresolved() == UnresolvedKind::code) {
+    unknown = 7u;
+  }
 }
 
 // ---- adding steps
@@ -130,7 +168,9 @@ std::size_t Toolpath::add(const step::Dwell& s, OriginId origin) {
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::ToolChange& s, OriginId origin) {
-  append(StepKind::tool_change, origin).count_ = s.tool;
+  Step& out = append(StepKind::tool_change, origin);
+  out.count_ = s.tool;
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Spindle& s, OriginId origin) {
@@ -154,6 +194,7 @@ std::size_t Toolpath::add(const step::Probe& s, OriginId origin) {
   Step& out = append_motion(StepKind::probe, s.to, origin);
   out.values_[3] = s.feed.raw();
   out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
+  set_probed_axes(steps_.size() - 1, 7, 7, 0);
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Extrude& s, OriginId origin) {
@@ -191,7 +232,9 @@ std::size_t Toolpath::add(const step::Layer& s, OriginId origin) {
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Note& s, OriginId origin) {
-  append(StepKind::note, origin).count_ = intern(s.text);
+  Step& out = append(StepKind::note, origin);
+  out.count_ = intern(s.text);
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Verbatim& s, OriginId origin) {
@@ -216,6 +259,32 @@ std::size_t Toolpath::add(const step::StoreHome& s, OriginId origin) {
   return steps_.size() - 1;
 }
 
+std::size_t Toolpath::add(const step::WorkZero& s, OriginId origin) {
+  assert(finite(s.zero) && finite(s.at) && ((s.known | s.unknown) & ~7u) == 0 && (s.known & ~s.axes) == 0);
+  Step& out = append(StepKind::work_zero, origin);
+  out.values_ = {s.zero.x, s.zero.y, s.zero.z, s.at.x, s.at.y, s.at.z};
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
+  out.count_ = s.system;
+  out.named_axes_ = s.axes & 7;
+  out.frame_ = static_cast<std::uint8_t>((s.known << 3) | s.unknown);
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::ToolLength& s, OriginId origin) {
+  assert(finite(s.offset));
+  Step& out = append(StepKind::tool_length, origin);
+  out.values_ = {s.offset.x, s.offset.y, s.offset.z};
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
+  out.count_ = s.number;
+  out.named_axes_ = s.axes & 7;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::Unresolved& s, OriginId origin) {
+  Step& out = append(StepKind::unresolved, origin);
+  out.count_ = intern(s.text);
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
+  return steps_.size() - 1;
+}
+
 OriginId Toolpath::copy_origin(const Toolpath& other, std::size_t i) {
   const OriginId old = other.steps_[i].origin_;
   const OriginId origin = origins_.add(other.origins_.resolve(old));
@@ -232,7 +301,12 @@ std::size_t Toolpath::add_copy(const Toolpath& other, std::size_t i) {
   const OriginId origin = copy_origin(other, i);
   switch (other.steps_[i].kind_) {
     case StepKind::layer: return add(other.layer(i), origin);
-    case StepKind::note: return add(step::Note{std::string(other.text(i))}, origin);
+    case StepKind::note: {
+      const auto kind = static_cast<NoteKind>(other.steps_[i].plane_);
+      return add(step::Note{std::string(other.text(i)), kind}, origin);
+    }
+    case StepKind::unresolved:
+      return add(step::Unresolved{std::string(other.text(i)), other.steps_[i].unresolved()}, origin);
     case StepKind::verbatim: return add(step::Verbatim{std::string(other.text(i))}, origin);
     case StepKind::extrude: add(other.extrude(i), origin); break;
     default: {
@@ -264,6 +338,12 @@ void Toolpath::set_reference(std::size_t i, Reference reference, unsigned axes) 
   assert((axes & ~steps_[i].unknown_axes()) == 0);
   steps_[i].frame_ = static_cast<std::uint8_t>((axes << 3) | steps_[i].unknown_axes());
   steps_[i].reference_ = static_cast<std::uint8_t>(reference) & 7;
+}
+
+void Toolpath::set_probed_axes(std::size_t i, unsigned moved, unsigned known, unsigned unknown) {
+  assert(steps_[i].kind() == StepKind::probe && (moved | known | unknown) < 8);
+  steps_[i].frame_ = static_cast<std::uint8_t>((moved & known) << 3 | (moved | unknown));
+  steps_[i].reference_ = static_cast<std::uint8_t>(Reference::work) & 7;
 }
 
 void Toolpath::set_rests_before(std::size_t i) {
@@ -307,7 +387,7 @@ step::Layer Toolpath::layer(std::size_t i) const {
 
 std::string_view Toolpath::text(std::size_t i) const {
   const Step& s = steps_[i];
-  assert(s.kind_ == StepKind::note || s.kind_ == StepKind::verbatim);
+  assert(s.kind_ == StepKind::note || s.kind_ == StepKind::verbatim || s.kind_ == StepKind::unresolved);
   return texts_[static_cast<std::size_t>(s.count_)];
 }
 
@@ -327,8 +407,11 @@ ArcWalk walk_of(const Step& s, Point3 from) {
   return walk_arc(from, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
 }
 
-MotionReader::MotionReader(const Toolpath& path, std::size_t first) : path_(&path), next_(first) {
-  if (const auto before = path.motion_before(first)) motion_ = &path[*before];
+MotionReader::MotionReader(const Toolpath& path, std::size_t first) : path_(&path) {
+  if (const auto before = path.motion_before(first)) {
+    motion_ = &path[*before];
+    next_ = *before + 1;  // steps after it may set the position
+  }
   const auto none = path.changes_.begin();
   bool knows_tool = false, knows_spindle = false;
   for (auto change = std::lower_bound(none, path.changes_.end(), first);
@@ -355,6 +438,12 @@ bool MotionReader::next() {
     const Step& s = (*path_)[next_++];
     if (!s.is_motion()) {
       note_change(s);
+      if (s.kind() >= StepKind::work_zero) {  // those that may set the position
+        PathPosition position{context_.from, context_.unknown_from};
+        position.pass(s);
+        context_.from = position.at;
+        context_.unknown_from = position.unknown;
+      }
       continue;
     }
     context_.index = next_ - 1;

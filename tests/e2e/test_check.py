@@ -230,10 +230,11 @@ def test_an_unknown_g_code_is_a_hazard(kerf, program, code, dialect):
     assert "no hazard found" not in kerf("check", part).out
 
 
-def test_an_unknown_m_code_is_no_hazard(kerf, program):
+def test_an_unknown_m_code_is_a_finding(kerf, program):
     run = kerf("check", "--json", program(VALID.replace("G1 Z-1", "M77\nG1 Z-1")))
-    assert run.status == 0, run.out
-    assert [d["severity"] for d in run.json["diagnostics"] if d["name"] == "unknown_m_code"] == ["warning"]
+    assert run.status == 3, run.out
+    hazard, = run.json["hazards"]
+    assert hazard["kind"] == "left_out" and hazard["origin"]["line"] == 8 and "M77" in hazard["message"]
 
 
 def test_no_tool_names_the_option_without_a_number(kerf, program):
@@ -252,14 +253,14 @@ def test_a_stock_that_is_cut_away_wholly_is_a_warning(kerf, tmp_path):
         assert ("nothing_left" in run.codes()) == warned
 
 
-def test_a_program_beside_its_stock_is_a_warning(kerf, tmp_path):
+def test_a_program_beside_its_stock_is_reported(kerf, tmp_path):
     path = tmp_path / "beside.nc"
     path.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X500 Y5 Z5\nG1 Z-3 F200\nG1 X540\nG0 Z5\nM5\nM30\n")
     options = ("--tool", "1=square d=6 flute=20", "--stock", "60x40x20")
-    for command in ("check", "simulate"):
-        run = kerf(command, path, *options, "--json")
-        assert "stock_untouched" in run.codes(), command
-    assert "stock_untouched" not in kerf("check", path, *options[:2], "--json").codes()
+    assert "stock_untouched" in kerf("simulate", path, *options, "--json").codes()
+    run = kerf("check", path, *options, "--json")
+    assert run.status == 3 and kinds(run) == ["stock_untouched"]
+    assert kerf("check", path, *options[:2], "--json").status == 0
     between = tmp_path / "between.nc"  # narrower than the distance of the columns, not beside the stock
     between.write_text("G21 G90\nT1 M6\nM3 S9000\nG0 X2 Y2 Z5\nG1 Z-1 F200\nG1 X8\nG0 Z5\nM5\nM30\n")
     run = kerf("simulate", between, "--tool", "1=square d=3 flute=20", "--stock", "10x10x5",
@@ -268,4 +269,4 @@ def test_a_program_beside_its_stock_is_a_warning(kerf, tmp_path):
     assert "--resolution" in warning["hint"]
     inside = tmp_path / "inside.nc"
     inside.write_text(path.read_text().replace("X500", "X10").replace("X540", "X40"))
-    assert "stock_untouched" not in kerf("check", inside, *options, "--json").codes()
+    assert kinds(kerf("check", inside, *options, "--json")) == []

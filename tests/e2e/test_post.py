@@ -205,7 +205,7 @@ class TestToolChanges:
         # A further file first retracts, then moves across, from the last position of the tool before it.
         assert "G0 Z5\nX10 Y0\nX5 Y5\nG1 Z-2" in texts[1]
         # The header is the file's own.
-        assert "(cuts within X 5 to 20 Y 5 to 5 Z -2 to -2 mm)" in texts[1]
+        assert "(cuts within X 5 to 20 Y 5 to 5 Z -2 to 5 mm)" in texts[1]
         all_of_it = motion_of(kerf, program(TWO_TOOLS))
         parts = [motion_of(kerf, Path(tmp_path, name)) for name in run.json["outputs"]]
         assert sum(p["cut_mm"] for p in parts) == pytest.approx(all_of_it["cut_mm"])

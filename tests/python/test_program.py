@@ -305,3 +305,17 @@ def test_a_toolpath_is_written_to_a_file(tmp_path):
     path.rapid((0, 0, 5))
     assert kerf.post(path, "grbl", tmp_path / "part.nc") == [str(tmp_path / "part.nc")]
     assert "Z5" in (tmp_path / "part.nc").read_text()
+
+
+# ---- unknown positions
+
+
+def test_steps_name_the_axes_whose_position_is_unknown(write):
+    """Z is unknown before its first word, X and Z after a probe of them; G92 sets Z again."""
+    text = "G21 G90\nG0 X1 Y2\nG0 Z5\nG38.2 X9 Z-20 F50\nG92 Z1.5\nG0 Z5\nG0 X1\nM2\n"
+    path = kerf.load(write("probe.nc", text)).toolpath
+    steps = [path[i] for i in range(len(path))]
+    motions = [s["unknown_axes"] for s in steps if "to" in s]
+    assert motions == [["Z"], [], ["X", "Z"], ["X"], []]
+    zero, = [s for s in steps if s["step"] == "workzero"]
+    assert zero["unknown_axes"] == []

@@ -34,7 +34,8 @@ Json motion_json(const MotionFigures& f) {
           {"rapids", f.rapids},
           {"cut_mm", json_of(f.cut_mm)},
           {"rapid_mm", json_of(f.rapid_mm)},
-          {"cut_bounds_mm", json_of(f.cut_bounds)}};
+          {"cut_bounds_mm", json_of(f.cut_ends)},
+          {"cut_extent_mm", json_of(f.cut_bounds)}};
 }
 
 Json number_or_null(std::optional<int> tool) { return tool ? Json(*tool) : Json(nullptr); }

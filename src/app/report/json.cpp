@@ -42,9 +42,25 @@ std::string_view word(Reference reference) {
     case Reference::machine: return "machine";
     case Reference::home: return "home";
     case Reference::second_home: return "second_home";
-    case Reference::end_switches: break;
+    case Reference::end_switches: return "end_switches";
+    case Reference::measured: break;
   }
-  return "end_switches";
+  return "measured";
+}
+std::string_view word(ZeroKind kind) {
+  switch (kind) {
+    case ZeroKind::select: return "select";
+    case ZeroKind::offset: return "offset";
+    case ZeroKind::here: return "here";
+    case ZeroKind::shift: return "shift";
+    case ZeroKind::shift_off: return "shift_off";
+    case ZeroKind::shift_paused: return "shift_paused";
+    case ZeroKind::shift_on: break;
+  }
+  return "shift_on";
+}
+std::string_view word(ToolLengthKind kind) {
+  return kind == ToolLengthKind::none ? "none" : kind == ToolLengthKind::table ? "table" : "given";
 }
 std::string_view word(ProbeKind kind) {
   switch (kind) {
@@ -56,6 +72,13 @@ std::string_view word(ProbeKind kind) {
   return "release";
 }
 
+Json axes_json(unsigned bits) {
+  Json axes = Json::array();
+  for (unsigned axis = 0; axis < 3; ++axis)
+    if ((bits >> axis & 1u) != 0) axes.push_back(std::string(1, "XYZ"[axis]));
+  return axes;
+}
+
 void add_motion(Json& out, const Toolpath& path, std::size_t i) {
   const Step& s = path[i];
   out["to"] = json_of(s.to());
@@ -65,10 +88,23 @@ void add_motion(Json& out, const Toolpath& path, std::size_t i) {
     if (!extra->z_correction.empty()) out["z_correction"] = extra->z_correction;
   }
   if (s.unknown_axes() == 0) return;
-  Json& axes = out["unknown_axes"] = Json::array();
-  for (unsigned axis = 0; axis < 3; ++axis)
-    if ((s.unknown_axes() >> axis & 1u) != 0) axes.push_back(std::string(1, "XYZ"[axis]));
-  if (s.reference_axes() != 0) out["reference"] = word(s.reference());
+  out["unknown_axes"] = axes_json(s.unknown_axes());
+  if (s.reference_axes() != 0 && s.reference() != Reference::work) out["reference"] = word(s.reference());
+}
+
+void add_work_zero(Json& out, const step::WorkZero& zero) {
+  out["sets"] = word(zero.kind);
+  out["system"] = zero.system;
+  out["zero"] = json_of(zero.zero);
+  if (zero.axes != 0) out["axes"] = axes_json(zero.axes);
+  if (zero.known != 0) out["at"] = json_of(zero.at);
+  if (zero.unknown != 0) out["unknown_axes"] = axes_json(zero.unknown);
+}
+
+void add_tool_length(Json& out, const step::ToolLength& length) {
+  out["length"] = word(length.kind);
+  if (length.kind == ToolLengthKind::table && length.number >= 0) out["number"] = length.number;
+  if (length.kind == ToolLengthKind::given) out["offset"] = json_of(length.offset);
 }
 
 void add_arc(Json& out, const step::Arc& arc) {
@@ -118,11 +154,17 @@ void add_setting(Json& out, const Toolpath& path, std::size_t i) {
       out["name"] = path.layer(i).name;
       out["colour"] = path.layer(i).colour;
       break;
+    case StepKind::tool_change:
+      if (s.tool_change().kind == ToolChangeKind::number_only) out["number_only"] = true;
+      break;
     case StepKind::note:
     case StepKind::verbatim: out["text"] = path.text(i); break;
     case StepKind::pause: out["pause"] = word(s.pause().kind); break;
     case StepKind::end: out["rewind"] = s.end().rewind; break;
     case StepKind::store_home: out["home"] = word(s.store_home().home); break;
+    case StepKind::work_zero: add_work_zero(out, s.work_zero()); break;
+    case StepKind::tool_length: add_tool_length(out, s.tool_length()); break;
+    case StepKind::unresolved: out["text"] = path.text(i); break;
     default: break;
   }
 }

@@ -23,26 +23,25 @@ void walk_arc(const Step& s, Stroke stroke, const StrokeOptions& options, Stroke
 }  // namespace
 
 void walk_strokes(const Toolpath& path, const StrokeOptions& options, StrokeSink& sink) {
-  Point3 at;
-  unsigned unknown = 7;
+  PathPosition position;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
     if (!s.is_motion()) {
+      position.pass(s);
       sink.setting(i);
       continue;
     }
     Stroke stroke;
     stroke.step = i;
-    stroke.from = at;
+    stroke.from = position.at;
     stroke.to = s.to();
-    stroke.unknown_from = unknown;
+    stroke.unknown_from = position.unknown;
     stroke.unknown_to = s.unknown_axes();
     if (s.kind() == StepKind::arc)
       walk_arc(s, stroke, options, sink);
     else
       sink.stroke(stroke);
-    at = s.to();
-    unknown = s.unknown_axes();
+    position.pass(s);
   }
 }
 

@@ -64,10 +64,13 @@ void Poster::write_step(std::size_t i) {
     case StepKind::fan: return fan(i);
     case StepKind::laser_power: return laser(i);
     case StepKind::layer: return comment(path_.layer(i).name);
-    case StepKind::note: return comment(path_.text(i));
+    case StepKind::note: return comment(path_.text(i), s.note_kind());
     case StepKind::verbatim: return verbatim(i);
     case StepKind::pause: return pause(i);
     case StepKind::store_home: return store_home(i);
+    case StepKind::work_zero: return work_zero(i);
+    case StepKind::tool_length: return tool_length(i);
+    case StepKind::unresolved: return unresolved(i);
     default: return;  // the end of the program is written with the end of the file
   }
 }
@@ -77,7 +80,11 @@ void Poster::write_motion(std::size_t i) {
   if (!fits(i)) return;
   if (restore_) restore(i);
   if (!moved_ && files_.size() > 0) approach(i);
-  if (s.reference_axes() != 0)
+  if (s.reference() == Reference::measured)
+    report_unsupported(
+        i,
+        "the end of this motion is computed from what only the controller knows, such as a probed position");
+  else if (s.reference() != Reference::work)
     to_reference(s.kind() == StepKind::rapid ? 0 : 1, i);
   else if (s.kind() == StepKind::rapid)
     straight(0, i);
@@ -90,8 +97,11 @@ void Poster::write_motion(std::size_t i) {
   else
     extrude(i);
   moved_ = true;
-  from_ = s.to();
-  unknown_from_ = s.unknown_axes();
+  const double from_z = (position_.unknown & 4u) == 0 ? position_.at.z : s.to().z;
+  position_.pass(s);
+  if ((s.unknown_axes() & 4u) != 0) return;
+  path_top_ = std::max(path_top_, s.to().z);
+  if (s.is_cutting() && s.to().z <= from_z) cut_top_ = std::max(cut_top_, s.to().z);
 }
 
 /// Whether the motion can be written: numbers within the limits, no height correction.
@@ -135,37 +145,50 @@ void Poster::put_correction(std::size_t i) {
     line_.put("(="), line_.put(formula), line_.put(')');
 }
 
-/// The axes whose words the line needs.
-unsigned Poster::axes_to_write(std::size_t i, const Counts& to) {
-  const unsigned unknown = path_[i].unknown_axes();
-  unsigned axes = profile_.axes == Repeat::always ? kAllAxes & ~unknown : kAllAxes & ~unknown & ~known_axes_;
-  if (!correction_of(i).empty()) axes |= 4u & ~unknown;  // Z
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (to[axis] == at_[axis]) continue;
-    const unsigned bit = 1u << axis;
-    axes |= bit;
-    if ((unknown & bit) != 0)
-      diagnostics_.warning(
-          Code::post_place_unknown, path_.origin_of(i),
-          fmt::format("the position of {} in work coordinates is unknown here; written as {}", "XYZ"[axis],
-                      path_[i].to()[static_cast<int>(axis)]));
-  }
-  return axes;
+/// The axes whose words the line needs: those that move, and those of the program's line (all, where it is
+/// not known) that have not been written since the controller's position was last unknown, or since a pause.
+unsigned Poster::axes_to_write(std::size_t i, const Counts& to) const {
+  const Step& s = path_[i];
+  unsigned axes = profile_.axes == Repeat::always ? kAllAxes : kAllAxes & ~known_axes_;
+  if (s.named_axes() != 0) axes = (axes & (known_axes_ | s.named_axes())) | (paused_axes_ & s.named_axes());
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (to[axis] != at_[axis]) axes |= 1u << axis;
+  if (!correction_of(i).empty()) axes |= 4u;  // Z
+  const unsigned target_known = s.kind() == StepKind::probe ? s.reference_axes() : 0u;
+  return axes & (~s.unknown_axes() | target_known);
 }
 
-/// Adds the rotary words that change; false if there are none.
-bool Poster::add_rotary(std::size_t i) {
+/// The axes that move by a distance: their positions before and after are unknown.
+unsigned Poster::axes_by_distance(std::size_t i, const Counts& to) const {
+  const Step& s = path_[i];
+  unsigned axes = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (to[axis] != at_[axis]) axes |= 1u << axis;
+  return axes & s.unknown_axes() & ~s.reference_axes();
+}
+
+/// Adds the rotary words that change, at a fraction of the motion; false if there are none.
+bool Poster::add_rotary(std::size_t i, double fraction) {
   const MotionExtra* extra = path_.extra(i);
   if (extra == nullptr || !extra->abc) return false;
   bool any = false;
   const double scale = power_of_ten(profile_.decimals_degrees);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double degrees = (*extra->abc)[axis];
+    const double degrees = rotary_from_[axis] + fraction * ((*extra->abc)[axis] - rotary_from_[axis]);
     const auto counts = static_cast<std::int64_t>(std::llround(degrees * scale));
-    if (counts == rotary_[axis] && ((known_rotary_ >> axis & 1u) != 0 || counts == 0)) continue;
     const char letter = static_cast<char>('A' + axis);
+    const unsigned bit = 1u << axis;
+    if ((extra->unknown_abc & bit) != 0) {
+      if (counts != rotary_[axis])
+        report_unsupported(i, fmt::format("{} turns by an angle from an unknown position", letter));
+      rotary_[axis] = counts;
+      known_rotary_ &= ~bit;
+      continue;
+    }
+    const bool known = (known_rotary_ & bit) != 0 || (counts == 0 && !profile_.has_letter(letter));
+    if (counts == rotary_[axis] && known) continue;
     rotary_[axis] = counts;
-    known_rotary_ |= 1u << axis;
+    known_rotary_ |= bit;
     if (!profile_.has_letter(letter)) {
       report_unsupported(i, fmt::format("the controller has no rotary axis {}", letter));
       continue;
@@ -173,7 +196,16 @@ bool Poster::add_rotary(std::size_t i) {
     word(letter, counts, profile_.decimals_degrees);
     any = true;
   }
+  if (fraction == 1.0) rotary_from_ = *extra->abc;
   return any;
+}
+
+/// Whether only rotary axes move. The feed is in degrees per minute then.
+bool Poster::only_turns(std::size_t i) const {
+  const MotionExtra* extra = path_.extra(i);
+  const Step& s = path_[i];
+  return extra != nullptr && extra->abc && s.kind() != StepKind::arc && s.to() == position_.at &&
+         s.unknown_axes() == position_.unknown;
 }
 
 void Poster::put_motion(int g) {
@@ -208,7 +240,8 @@ void Poster::put_feed(std::size_t i) {
     no_feed_reported_ = true;
     return;
   }
-  const auto counts = std::max<std::int64_t>(1, std::llround(feed.mm_per_min() * counts_per_feed_));
+  const double scale = only_turns(i) ? power_of_ten(profile_.decimals_feed) : counts_per_feed_;
+  const auto counts = std::max<std::int64_t>(1, std::llround(feed.mm_per_min() * scale));
   if (counts == feed_ && profile_.feed == Repeat::when_changed) return;
   feed_ = counts;
   word('F', counts, profile_.decimals_feed);
@@ -220,31 +253,34 @@ void Poster::put_power() {
   pending_power_.reset();
 }
 
-void Poster::arrive(std::size_t i, const Counts& to) {
+void Poster::arrive(std::size_t i, const Counts& to, unsigned written) {
   at_ = to;
-  known_axes_ = kAllAxes & ~path_[i].unknown_axes();
-  touched_ = false;
+  known_axes_ = (known_axes_ | written) & ~path_[i].unknown_axes();
+  paused_axes_ &= ~written;
 }
 
-void Poster::straight(int g, std::size_t i) { straight_to(g, i, grid_.counts(path_[i].to())); }
+void Poster::straight(int g, std::size_t i) { straight_to(g, i, grid_counts(path_[i].to()), 1.0); }
 
-void Poster::straight_to(int g, std::size_t i, const Counts& to) {
-  const unsigned axes = axes_to_write(i, to);
+void Poster::straight_to(int g, std::size_t i, const Counts& to, double fraction) {
+  if (axes_by_distance(i, to) != 0) return move_by({10 * g}, i, to);
+  unsigned axes = axes_to_write(i, to);
   start_line();
   put_motion(g);
   put_axes(to, axes);
   put_correction(i);
-  const bool rotary = add_rotary(i);
-  arrive(i, to);
+  const bool rotary = add_rotary(i, fraction);
   if (axes == 0 && !rotary) {  // length 0: written all the same; passes remove such motions
-    const unsigned known = kAllAxes & ~path_[i].unknown_axes();
+    unsigned known = kAllAxes & ~path_[i].unknown_axes();
+    if (path_[i].named_axes() != 0) known &= path_[i].named_axes() | known_axes_;
     if (known == 0) {
       line_.clear();
       motion_ = -1;
-      return;
+      return arrive(i, to, 0);
     }
-    put_axes(to, known & (0u - known));
+    axes = known & (0u - known);
+    put_axes(to, axes);
   }
+  arrive(i, to, axes);
   if (g == 1) {
     put_feed(i);
     put_power();
@@ -252,16 +288,56 @@ void Poster::straight_to(int g, std::size_t i, const Counts& to) {
   end_line(i);
 }
 
+/// A motion of which an axis moves by a distance, and so all do: between lines with G91 and G90.
+void Poster::move_by(const std::vector<int>& codes, std::size_t i, const Counts& to) {
+  const Step& s = path_[i];
+  const unsigned found = position_.unknown & ~s.unknown_axes();  // axes that start at an unknown position
+  const MotionExtra* extra = path_.extra(i);
+  const bool turns = extra != nullptr && extra->abc && *extra->abc != rotary_from_;
+  if (found != 0 || turns || !profile_.has_g(910)) {
+    report_unsupported(i,
+                       "an axis moves by a distance from an unknown position, which cannot be combined "
+                       "with the other axes of this motion");
+    return arrive(i, to, 0);
+  }
+  Counts by{};
+  unsigned axes = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    by[axis] = to[axis] - at_[axis];
+    if (by[axis] != 0) axes |= 1u << axis;
+  }
+  start_line();
+  code('G', 910);
+  if (profile_.syntax == LineSyntax::commands) {
+    end_line(i);
+    start_line();
+  }
+  for (const int tenths : codes) code('G', tenths);
+  put_axes(by, axes);
+  if (s.kind() != StepKind::rapid) put_feed(i);
+  if (s.kind() == StepKind::cut) put_power();
+  end_line(i);
+  start_line();
+  code('G', 900);
+  end_line(i);
+  motion_ = -1;
+  arrive(i, to, axes);
+}
+
 void Poster::arc(std::size_t i) {
   const Step& s = path_[i];
   const step::Arc arc = s.arc();
-  const Counts to = grid_.counts(arc.to);
+  const Counts to = grid_counts(arc.to);
   const PlaneAxes axes = axes_of(arc.plane);
   const unsigned in_plane = (1u << axes.u) | (1u << axes.v);
-  if ((unknown_from_ & in_plane) != 0)
+  if (((position_.unknown | s.unknown_axes()) & in_plane) != 0 || axes_by_distance(i, to) != 0) {
     diagnostics_.error(Code::post_place_unknown, path_.origin_of(i),
                        "the start point of an arc is unknown in work coordinates");
-  const ArcWalk walk = walk_arc(from_, arc.to, arc.centre, arc.plane, arc.turn, arc.extra_turns);
+    return arrive(i, to, 0);
+  }
+  const Point2 zero = in_name_order(arc.plane, {zero_[axes.u], zero_[axes.v]});
+  const ArcWalk walk =
+      walk_arc(position_.at - zero_, arc.to - zero_, arc.centre - zero, arc.plane, arc.turn, arc.extra_turns);
   unsigned first_axes = axes_to_write(i, to);
   plan_arc(walk, at_, to, grid_, profile_, plan_);
   if (plan_.uneven)
@@ -273,7 +349,9 @@ void Poster::arc(std::size_t i) {
       (arc.plane != Plane::xy || walk.start_w != walk.end_w))
     return report_unsupported(i, "a helix whose height has a formula has to be divided for this controller");
   if (plan_.form != ArcForm::arcs) return chords(i);
+  double done = 0.0;
   for (const ArcSegment& segment : plan_.segments) {
+    done += 1.0;
     start_line();
     put_plane(i, arc.plane);
     code('G', arc.turn == Turn::cw ? 20 : 30);
@@ -281,16 +359,17 @@ void Poster::arc(std::size_t i) {
     const auto w = static_cast<std::size_t>(axes.w);
     const bool is_corrected = !correction_of(i).empty();
     const unsigned third = segment.to[w] != at_[w] || is_corrected ? 1u << w : 0u;
-    put_axes(segment.to, in_plane | third | first_axes);
+    const unsigned written = in_plane | third | first_axes;
+    put_axes(segment.to, written);
     put_correction(i);
     first_axes = 0;
     const std::int64_t centre[3] = {segment.u, segment.v, 0};
     for (const int axis : {0, 1, 2})
       if (axis != axes.w) word(static_cast<char>('I' + axis), centre[axis == axes.u ? 0 : 1], decimals_);
-    add_rotary(i);
+    add_rotary(i, done / static_cast<double>(plan_.segments.size()));
     put_feed(i);
     put_power();
-    arrive(i, segment.to);
+    arrive(i, segment.to, written);
     end_line(i);
   }
 }
@@ -298,29 +377,37 @@ void Poster::arc(std::size_t i) {
 /// The segments of the plan as straight cuts.
 void Poster::chords(std::size_t i) {
   const bool several = plan_.segments.size() > 1;
+  double done = 0.0;
   for (const ArcSegment& segment : plan_.segments) {
+    done += 1.0;
     const bool no_motion = segment.to == at_ && known_axes_ == kAllAxes;
-    if (!(several && no_motion)) straight_to(1, i, segment.to);
+    if (!(several && no_motion))
+      straight_to(1, i, segment.to, done / static_cast<double>(plan_.segments.size()));
   }
 }
 
 void Poster::probe(std::size_t i) {
   const step::Probe probe = path_[i].probe();
-  const int tenths = 382 + static_cast<int>(probe.kind);
+  int tenths = 382 + static_cast<int>(probe.kind);
+  constexpr int kSkip = 310;  // G31 of Mach3
+  if (!profile_.has_g(tenths) && probe.kind <= ProbeKind::contact && profile_.has_g(kSkip)) tenths = kSkip;
   if (!profile_.has_g(tenths))
     return report_unsupported(
         i, fmt::format("the controller has no probing motion G{}.{}", tenths / 10, tenths % 10));
-  const Counts to = grid_.counts(probe.to);
-  if (to == at_ && !touched_) return report_unsupported(i, "controllers refuse a probing motion of length 0");
+  const Counts to = grid_counts(probe.to);
   const unsigned axes = axes_to_write(i, to);
-  start_line();
-  code('G', tenths);
-  put_axes(to, axes == 0 ? 1u << 2 : axes);
-  put_feed(i);
-  end_line(i);
-  at_ = to;
-  known_axes_ = 0;  // the motion ends at contact
-  touched_ = true;
+  if (axes_by_distance(i, to) != 0) {
+    move_by({tenths}, i, to);
+  } else if (axes == 0) {
+    return report_unsupported(i, "controllers refuse a probing motion of length 0");
+  } else {
+    start_line();
+    code('G', tenths);
+    put_axes(to, axes);
+    put_feed(i);
+    end_line(i);
+    arrive(i, to, axes);
+  }
   motion_ = -1;
 }
 
@@ -332,8 +419,9 @@ void Poster::extrude(std::size_t i) {
   const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
   const std::int64_t whole = std::llround(extruded_ / unit_mm * power_of_ten(kDecimalsExtruded));
   const std::int64_t e = profile_.extruder == ExtruderMode::absolute ? whole : whole - written_extruded_;
-  const Counts to = grid_.counts(path_[i].to());
+  const Counts to = grid_counts(path_[i].to());
   const unsigned axes = axes_to_write(i, to);
+  if (axes_by_distance(i, to) != 0) report_unsupported(i, "a bead starts at an unknown position");
   start_line();
   if (axes == 0 && whole == written_extruded_) return;
   put_motion(1);
@@ -341,26 +429,38 @@ void Poster::extrude(std::size_t i) {
   if (whole != written_extruded_) word('E', e, kDecimalsExtruded);
   written_extruded_ = whole;
   put_feed(i);
-  arrive(i, to);
+  arrive(i, to, axes);
   end_line(i);
 }
 
 /// A motion to machine coordinates, or to a home stored in the controller.
 void Poster::to_reference(int g, std::size_t i) {
   const Step& s = path_[i];
-  const Counts to = grid_.counts(s.to());
+  const Counts to = grid_counts(s.to());
   if (s.reference() == Reference::end_switches) return to_end_switches(i);
   const bool machine = s.reference() == Reference::machine;
   const int tenths = machine ? 530 : s.reference() == Reference::home ? 280 : 300;
   if (!profile_.has_g(tenths) || profile_.syntax == LineSyntax::commands) {
-    return report_skipped(
-        i, fmt::format("the controller has no G{}; a motion to a machine position", tenths / 10));
+    report_skipped(i, fmt::format("the controller has no G{}; a motion to a machine position", tenths / 10));
+    return arrive(i, to, 0);
   }
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if ((s.reference_axes() >> axis & 1u) == 0 && to[axis] != at_[axis])
+      return report_unsupported(i,
+                                "axes move in machine coordinates and in work coordinates at once; move "
+                                "them one after the other");
+  const MotionExtra* extra = path_.extra(i);
+  unsigned rotary = extra != nullptr ? extra->reference_abc : 0u;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!profile_.has_letter(static_cast<char>('A' + axis))) rotary &= ~(1u << axis);
+  if ((s.reference_axes() | rotary) == 0)  // without words it would be all axes
+    return report_unsupported(i, "the controller has none of the axes that move to their home here");
   if (machine) {
     start_line();
     code('G', tenths);
     code('G', g * 10);
-    put_axes(to, s.reference_axes());
+    put_axes(grid_.counts(s.to()), s.reference_axes());
+    add_rotary(i, 1.0);
     if (g == 1) put_feed(i);
     end_line(i);
   } else {  // with an intermediate point at distance 0
@@ -368,26 +468,31 @@ void Poster::to_reference(int g, std::size_t i) {
     code('G', 910);
     code('G', tenths);
     put_axes(Counts{}, s.reference_axes());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if ((rotary >> axis & 1u) != 0) word(static_cast<char>('A' + axis), 0, profile_.decimals_degrees);
     end_line(i);
     start_line();
     code('G', 900);
     end_line(i);
+    known_rotary_ &= ~rotary;
   }
   motion_ = -1;
-  arrive(i, to);
+  arrive(i, to, 0);
 }
 
 /// G28 of printers; the axis words are flags.
 void Poster::to_end_switches(std::size_t i) {
   const Step& s = path_[i];
-  if (!profile_.has_g(280) || profile_.syntax != LineSyntax::commands)
-    return report_skipped(i, "the controller has no G28 that runs the axes to their end switches; homing");
+  if (!profile_.has_g(280) || profile_.syntax != LineSyntax::commands) {
+    report_skipped(i, "the controller has no G28 that runs the axes to their end switches; homing");
+    return arrive(i, grid_counts(s.to()), 0);
+  }
   start_line();
   code('G', 280);
   if (s.reference_axes() != kAllAxes) put_axes(Counts{}, s.reference_axes());
   end_line(i);
   motion_ = -1;
-  arrive(i, grid_.counts(s.to()));
+  arrive(i, grid_counts(s.to()), 0);
 }
 
 // ---- lines

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,8 @@ inline constexpr unsigned kAllAxes = 7;
 
 /// True for a line of a template that is a comment.
 bool is_comment(std::string_view line);
+/// True for the text of a comment that a controller would carry out.
+bool acts(std::string_view text);
 
 class Poster {
  public:
@@ -32,7 +35,8 @@ class Poster {
   void write_step(std::size_t i);
   void write_motion(std::size_t i);
   void straight(int g, std::size_t i);
-  void straight_to(int g, std::size_t i, const Counts& to);
+  void straight_to(int g, std::size_t i, const Counts& to, double fraction);
+  void move_by(const std::vector<int>& codes, std::size_t i, const Counts& to);
   void arc(std::size_t i);
   void chords(std::size_t i);
   void probe(std::size_t i);
@@ -42,9 +46,12 @@ class Poster {
   bool fits(std::size_t i);
   std::string_view correction_of(std::size_t i) const;
   void put_correction(std::size_t i);
-  unsigned axes_to_write(std::size_t i, const Counts& to);
-  bool add_rotary(std::size_t i);
-  void arrive(std::size_t i, const Counts& to);
+  unsigned axes_to_write(std::size_t i, const Counts& to) const;
+  unsigned axes_by_distance(std::size_t i, const Counts& to) const;
+  bool add_rotary(std::size_t i, double fraction);
+  bool only_turns(std::size_t i) const;
+  void arrive(std::size_t i, const Counts& to, unsigned written);
+  Counts grid_counts(Point3 p) const { return grid_.counts(p - zero_); }
   void put_feed(std::size_t i);
   void put_axes(const Counts& to, unsigned axes);
   void put_motion(int g);
@@ -60,9 +67,15 @@ class Poster {
   void temperature(std::size_t i);
   void fan(std::size_t i);
   void tool_change(std::size_t i);
+  void set_tool_number(std::size_t i);
   void change_file(std::size_t i);
   void pause(std::size_t i);
   void store_home(std::size_t i);
+  void work_zero(std::size_t i);
+  void select_system(std::size_t i);
+  bool can_set_zero(std::size_t i, const step::WorkZero& zero);
+  void tool_length(std::size_t i);
+  void unresolved(std::size_t i);
   void verbatim(std::size_t i);
   void restore(std::size_t i);
   void stop_spindle();
@@ -73,7 +86,7 @@ class Poster {
   void find_file_end();
   void close_file();
   void approach(std::size_t i);
-  void comment(std::string_view text);
+  void comment(std::string_view text, NoteKind kind = NoteKind::comment);
   void templates(const std::vector<std::string>& lines);
   std::string expanded(std::string_view line);
   std::optional<std::string> value_of(std::string_view key);
@@ -117,17 +130,22 @@ class Poster {
   ArcPlan plan_;
 
   // State of the toolpath.
-  Point3 from_;
-  unsigned unknown_from_ = kAllAxes;
+  PathPosition position_;
+  double path_top_ = -std::numeric_limits<double>::infinity();  // highest Z so far
+  double cut_top_ = path_top_;                                  // highest end of a cut that does not rise
   std::optional<int> tool_;
   step::Spindle wanted_spindle_;
   step::Coolant wanted_coolant_;
 
   // State of the controller.
+  Point3 zero_;     // of its coordinates, in those of the toolpath
+  int system_ = 1;  // selected work offset
+  bool system_selected_ = false;
   Counts at_{};
-  bool touched_ = false;     // a probe may have ended before at_
-  unsigned known_axes_ = 0;  // axes whose at_ has been written in work coordinates
+  unsigned known_axes_ = 0;   // axes whose at_ has been written in work coordinates
+  unsigned paused_axes_ = 0;  // axes not written since a pause, in which the operator may have moved them
   std::array<std::int64_t, 3> rotary_{};
+  std::array<double, 3> rotary_from_{};  // degrees, of the toolpath
   unsigned known_rotary_ = 0;
   int motion_ = -1;
   std::optional<Plane> plane_;

@@ -201,6 +201,7 @@ std::vector<Key> keys_of_policies() {
                                                        {"files", ToolChangePolicy::files},
                                                        {"ignore", ToolChangePolicy::ignore}})},
       {"tool_change", "command", "a list of lines", lines(&P::change_lines)},
+      {"tool_change", "length", "a list of lines", lines(&P::length_lines)},
       {"tool_change", "pause", "a list of lines", lines(&P::pause_lines)},
       {"dwell", "unit", "\"seconds\" or \"milliseconds\"",
        choice(&P::dwell_unit,

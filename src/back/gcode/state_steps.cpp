@@ -155,8 +155,10 @@ void Poster::restore(std::size_t i) {
 }
 
 void Poster::tool_change(std::size_t i) {
-  if (tool_policy_ == ToolChangePolicy::files) return change_file(i);
+  const bool only_number = path_[i].tool_change().kind == ToolChangeKind::number_only;
+  if (tool_policy_ == ToolChangePolicy::files && !only_number) return change_file(i);
   const int number = path_[i].tool_change().tool;
+  if (only_number) return set_tool_number(i);
   const bool first = !tool_.has_value();
   const bool same = tool_ == number;
   tool_ = number;
@@ -169,14 +171,29 @@ void Poster::tool_change(std::size_t i) {
       report_unsupported(i, fmt::format("the maximum tool number of the controller is {}; this one is {}",
                                         profile_.highest_tool, number));
     templates(profile_.change_lines);
+    if (options_.tool_lengths == ToolLengths::by_post) templates(profile_.length_lines);
   } else if (!first || moved_) {
     templates(profile_.pause_lines);
   }
   templates(profile_.section);
 }
 
+/// The tool is in the spindle already: only the controller that changes tools has to know (M61).
+void Poster::set_tool_number(std::size_t i) {
+  constexpr int kSetTool = 610;
+  tool_ = path_[i].tool_change().tool;
+  if (tool_policy_ != ToolChangePolicy::command) return;
+  if (!profile_.has_m(kSetTool))
+    return report_skipped(i, fmt::format("the controller has no M61; setting the tool number {}", *tool_));
+  start_line();
+  code('M', kSetTool);
+  word('Q', *tool_, 0);
+  end_line(i);
+}
+
 /// A pause; by the profile's pause lines if the controller has no such M code.
 void Poster::pause(std::size_t i) {
+  paused_axes_ = kAllAxes;
   const PauseKind kind = path_[i].pause().kind;
   const int m = kind == PauseKind::always ? 0 : kind == PauseKind::optional ? 10 : 600;
   if (profile_.has_m(m)) return m_line(i, m);
@@ -207,6 +224,103 @@ void Poster::store_home(std::size_t i) {
   start_line();
   code('G', tenths);
   end_line(i);
+}
+
+void Poster::select_system(std::size_t i) {
+  start_line();
+  code('G', system_ <= 6 ? 530 + 10 * system_ : 584 + system_);
+  end_line(i);
+}
+
+/// Whether the controller has the code for a zero; otherwise reports what that means.
+bool Poster::can_set_zero(std::size_t i, const step::WorkZero& zero) {
+  constexpr int kFirst[] = {0, 100, 100, 920, 921, 922, 923};
+  const int system_code = zero.system <= 6 ? 530 + 10 * zero.system : 584 + zero.system;
+  const bool selects = zero.kind == ZeroKind::select;
+  const int code = selects ? system_code : kFirst[static_cast<std::size_t>(zero.kind)];
+  const bool letters = code != 100 || (profile_.has_letter('L') && profile_.has_letter('P'));
+  if (profile_.has_g(code) && letters) return true;
+  const std::string name =
+      code % 10 == 0 ? fmt::format("G{}", code / 10) : fmt::format("G{}.{}", code / 10, code % 10);
+  const bool first = selects && !system_selected_ && !moved_;
+  if (first && zero.system == 1) return false;
+  if (first)
+    report_skipped(i,
+                   fmt::format("the controller has no {}; its selection, and so another work zero,", name));
+  else if (zero.unknown != 0 || zero.known != 0 || zero.kind == ZeroKind::offset)
+    report_unsupported(i,
+                       fmt::format("the controller has no {}, on which the positions after it depend", name));
+  return false;  // positions stay in the coordinates so far
+}
+
+/// The selection of a work offset, or what sets one: the same words for the controller as in the program.
+void Poster::work_zero(std::size_t i) {
+  const step::WorkZero zero = path_[i].work_zero();
+  const bool can = can_set_zero(i, zero);
+  position_.pass(path_[i]);
+  if (can && zero.kind == ZeroKind::select) {
+    system_ = zero.system;
+    system_selected_ = true;
+    select_system(i);
+    zero_ = zero.zero;
+  } else if (can) {
+    start_line();
+    switch (zero.kind) {
+      case ZeroKind::select: break;
+      case ZeroKind::offset:
+      case ZeroKind::here:
+        code('G', 100);
+        word('L', zero.kind == ZeroKind::offset ? 2 : 20, 0);
+        word('P', zero.system, 0);
+        break;
+      case ZeroKind::shift: code('G', 920); break;
+      case ZeroKind::shift_off: code('G', 921); break;
+      case ZeroKind::shift_paused: code('G', 922); break;
+      case ZeroKind::shift_on: code('G', 923); break;
+    }
+    const bool by_position = zero.kind == ZeroKind::here || zero.kind == ZeroKind::shift;
+    put_axes(grid_.counts(by_position ? zero.at - zero.zero : zero.zero), zero.axes);
+    end_line(i);
+    if (zero.system == system_) zero_ = zero.zero;
+  }
+  at_ = grid_counts(position_.at);
+  known_axes_ = 0;
+  motion_ = -1;
+}
+
+void Poster::tool_length(std::size_t i) {
+  const step::ToolLength length = path_[i].tool_length();
+  position_.pass(path_[i]);
+  known_axes_ &= ~4u;
+  const int tenths = length.kind == ToolLengthKind::none    ? 490
+                     : length.kind == ToolLengthKind::table ? 430
+                                                            : 431;
+  if (!profile_.has_g(tenths)) {
+    if (length.kind == ToolLengthKind::table)
+      report_skipped(i,
+                     "the controller has no tool lengths (G43): set the work zero in Z for each tool; G43");
+    if (length.kind == ToolLengthKind::given)
+      report_unsupported(i, "the controller has no G43.1, which states the length of the tool");
+    return;
+  }
+  start_line();
+  code('G', tenths);
+  if (length.kind == ToolLengthKind::table && length.number >= 0) word('H', length.number, 0);
+  if (length.kind == ToolLengthKind::given) put_axes(grid_.counts(length.offset), length.axes);
+  end_line(i);
+}
+
+/// What the program does from here on is known to its controller only.
+void Poster::unresolved(std::size_t i) {
+  position_.pass(path_[i]);
+  if (path_[i].unresolved() == UnresolvedKind::code) {
+    known_axes_ = 0;
+    return;  // reported by the reader
+  }
+  report_unsupported(i,
+                     fmt::format("{} depends on what only the controller knows, such as a probed position; "
+                                 "it cannot be written for another one",
+                                 path_.text(i)));
 }
 
 void Poster::verbatim(std::size_t i) {

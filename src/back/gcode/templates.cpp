@@ -1,4 +1,5 @@
 // Starts and ends of files, templates, comments.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -23,6 +24,14 @@ bool is_empty_comment(std::string_view line) {
 
 }  // namespace
 
+/// Whether LinuxCNC would carry out a comment with this text ("LOGOPEN, file"). MSG only shows a text.
+bool acts(std::string_view text) {
+  constexpr std::string_view kWords[] = {"LOG", "PROBEOPEN", "PROBECLOSE", "ABORT", "PY", "DEBUG", "PRINT"};
+  const std::string start = fold_name(text.substr(0, text.find_first_of(", ")));
+  return std::any_of(std::begin(kWords), std::end(kWords),
+                     [&](std::string_view word) { return start.rfind(fold_name(word), 0) == 0; });
+}
+
 bool is_comment(std::string_view line) {
   return !line.empty() && (line.front() == '(' || line.front() == ';');
 }
@@ -35,6 +44,7 @@ void Poster::find_file_end() {
     const Step& s = path_[file_end_];
     moved = moved || s.is_motion();
     if (s.kind() != StepKind::tool_change) continue;
+    if (moved && s.tool_change().kind == ToolChangeKind::number_only) continue;
     const int tool = s.tool_change().tool;
     if (!moved)
       file_tool_ = tool;
@@ -57,6 +67,7 @@ void Poster::open_file(std::size_t first_step) {
   forget();
   templates(profile_.header);
   if (!profile_.header.empty()) plane_ = Plane::xy;
+  if (system_selected_) select_system(first_step);
   if (tool_policy_ != ToolChangePolicy::files || !file_tool_) return;
   tool_ = file_tool_;
   templates(profile_.section);
@@ -74,22 +85,30 @@ void Poster::close_file() {
   out_ = {};
 }
 
-/// A further file starts with motions to the end position of the file before: up first, then across.
+/// A further file starts where the tool of the file before it stopped, but above the work: there, or at the
+/// height to which the file's own rapids lift before its first cut.
 void Poster::approach(std::size_t i) {
-  const Counts to = grid_.counts(from_);
   moved_ = true;
-  if ((unknown_from_ & 4u) != 0) return;
-  start_line();
-  put_motion(0);
-  put_axes(to, 4u);
-  end_line(i);
-  known_axes_ |= 4u;
-  if ((unknown_from_ & 3u) == 0) {
+  if (!position_.is_known()) return;  // all axes that the program names are written
+  double height = position_.at.z;
+  PathPosition at = position_;
+  for (std::size_t k = i; k < file_end_; ++k) {
+    const Step& s = path_[k];
+    if (s.is_motion() && s.kind() != StepKind::rapid) break;
+    at.pass(s);
+    if (s.is_motion() && (at.unknown & 4u) == 0) height = std::max(height, at.at.z);
+  }
+  if (!(height > cut_top_) && height < path_top_)
+    return report_unsupported(i,
+                              "the file of this tool starts in the work, where the tool before it stopped; "
+                              "retract (G0 Z...) before or after the tool change");
+  Counts to = grid_counts({position_.at.x, position_.at.y, height});
+  for (const unsigned axes : {4u, 3u}) {
     start_line();
     put_motion(0);
-    put_axes(to, 3u);
+    put_axes(to, axes);
     end_line(i);
-    known_axes_ |= 3u;
+    known_axes_ |= axes;
   }
   at_ = to;
 }
@@ -111,10 +130,16 @@ std::string Poster::sanitised(std::string_view text) const {
   return out;
 }
 
-void Poster::comment(std::string_view text) {
+/// A message for the operator is one where the controller has such comments.
+void Poster::comment(std::string_view text, NoteKind kind) {
   if (profile_.comments == CommentStyle::none) return;
   std::string clean = sanitised(trim(text));
   if (clean.empty()) return;
+  const bool message = kind == NoteKind::message && profile_.comments == CommentStyle::brackets;
+  if (message)
+    clean = "MSG, " + clean;
+  else if (acts(clean))
+    clean = "- " + clean;
   clean = clean.substr(0, profile_.longest_line - 3);
   start_line();
   line_.clear();

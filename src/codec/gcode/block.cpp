@@ -76,12 +76,29 @@ const char* after_blanks(const char* p, const char* end) {
   return p;
 }
 
+/// The end of an O-word with its values: the first comment that no value follows.
+const char* o_word_end(const char* begin, const char* end) {
+  const char* stop = std::find_if(begin, end, [](char c) { return class_of(c) == CharClass::comment; });
+  for (const char* p = stop; p != end && *p == '(';) {
+    const char* close = std::find(p, end, ')');
+    if (close == end) break;
+    p = after_blanks(close + 1, end);
+    if (p == end || (*p != '[' && *p != '#' && *p != '(')) break;
+    if (*p == '(') continue;
+    p = stop = std::find_if(p, end, [](char c) { return class_of(c) == CharClass::comment; });
+  }
+  return stop;
+}
+
+const char* after_computed_value(const char* p, const char* end);
+
 /// The end of a parameter's name that starts with '#' at `p`: #1, ##2, #[...], #<name>, #-less prefixes
 /// refused.
 const char* after_parameter(const char* p, const char* end) {
   while (p != end && (*p == '#' || is_blank(*p))) ++p;
   if (p == end) return p;
   if (*p == '[') return after_bracket(p, end);
+  if (class_of(*p) == CharClass::letter) return after_computed_value(p, end);
   if (*p == '<') {
     const char* close = std::find(p, end, '>');
     return close == end ? end : close + 1;
@@ -108,6 +125,13 @@ const char* after_computed_value(const char* p, const char* end) {
     if (second != end && *second == '[') return after_bracket(second, end);
   }
   return q;
+}
+
+/// The M codes of printers whose words have a meaning here; all others are passed on as they are.
+bool is_read_by_printers(double code) {
+  constexpr int kCodes[] = {0,  1,  2,   3,   4,   5,   7,   8,   9,   30,  82,
+                            83, 84, 104, 106, 107, 109, 140, 141, 190, 191, 200};
+  return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
 }
 
 }  // namespace
@@ -214,6 +238,7 @@ bool BlockReader::read_prefix(Block& block) {
   const bool alone = end_ - p_ == 1 && (*p_ == '?' || *p_ == '!' || *p_ == '~');
   if (*p_ == '$' || alone) {
     block.sender = true;
+    block.command = {p_, static_cast<std::size_t>(end_ - p_)};
     return false;
   }
   if (*p_ == '/') {
@@ -235,14 +260,21 @@ bool BlockReader::is_command() const {
     return end_ - p_ > i && (class_of(p_[i]) == CharClass::letter || p_[i] == '_');
   };
   if (letter(0) && letter(1) && letter(2)) return true;
-  const std::string_view start(p_, static_cast<std::size_t>(std::min<std::ptrdiff_t>(end_ - p_, 5)));
-  return start == "M117 " || start == "M118 " || start == "M486 ";
+  if (upper(*p_) != 'M') return false;
+  const char* number_end = std::find_if_not(p_ + 1, end_, [](char c) { return is_digit(c) || c == '.'; });
+  const Decimal number = read_decimal(p_ + 1, number_end);
+  return number.fault == DecimalFault::none && !is_read_by_printers(number.value);
 }
 
 bool BlockReader::read_item(Block& block) {
   switch (class_of(*p_)) {
     case CharClass::letter:
-      if (*p_ == '$' && block.words.empty()) break;  // a setting of GRBL, not part of a program
+      if (*p_ == '$' && block.words.empty()) {  // a setting or command for GRBL, not part of a program
+        block.sender = true;
+        block.command = {p_, static_cast<std::size_t>(end_ - p_)};
+        p_ = end_;
+        return true;
+      }
       return upper(*p_) == 'O' ? read_o_word(block) : read_word(block);
     case CharClass::comment: read_comment(block); return true;
     case CharClass::hash: return read_assignment(block);
@@ -251,6 +283,7 @@ bool BlockReader::read_item(Block& block) {
   }
   if (*p_ == '/' && block.number && block.words.empty()) {  // "N10 /G1"
     block.optional = true;
+    unusual(block, Code::bad_character, p_, "a '/' after the line number, which LinuxCNC refuses");
     ++p_;
     return true;
   }
@@ -286,6 +319,13 @@ bool BlockReader::read_word(Block& block) {
 bool BlockReader::read_computed_value(Block& block, Word& word) {
   const char* letter = p_;
   const char* value_end = after_computed_value(letter + 1, end_);
+  const bool printer = options_.commands == BlockReaderOptions::Commands::words;
+  if (value_end == letter + 1 && printer && class_of(*letter) == CharClass::letter && upper(*letter) != 'G' &&
+      upper(*letter) != 'M') {  // "G28 X": a flag
+    ++p_;
+    block.words.push_back(word);
+    return true;
+  }
   if (value_end == letter + 1)
     return fault(block, Code::number_missing, letter, fmt::format("no number after {}", shown(*letter)),
                  is_o_for_zero(line_start_, letter, end_) ? kOForZero : "");
@@ -332,7 +372,7 @@ bool BlockReader::read_o_word(Block& block) {
     const char* rest = after_blanks(number.end, end_);
     if (rest == end_ || class_of(*rest) == CharClass::comment) return read_word(block);
   }
-  const char* stop = std::find_if(begin, end_, [](char c) { return class_of(c) == CharClass::comment; });
+  const char* stop = o_word_end(begin, end_);
   while (stop != begin && is_blank(stop[-1])) --stop;
   block.o_word = Computation{{begin, static_cast<std::size_t>(stop - begin)}, column_of(begin)};
   p_ = stop;

@@ -46,11 +46,11 @@ struct Block {
   std::uint32_t line = 0;  // from 1
   std::string_view text;   // the line without its end
   bool faulty = false;
-  bool optional = false;     // starts with the block delete character '/'
-  bool percent = false;      // a line that starts with '%'
-  bool sender = false;       // a command of a sender: $H, $110=500, or ?, ! and ~ alone; the rest is empty
-  bool computed = false;     // has words or assignments whose value is an expression
-  std::string_view command;  // of BlockReaderOptions::Commands::words
+  bool optional = false;          // starts with the block delete character '/'
+  bool percent = false;           // a line that starts with '%'
+  bool sender = false;            // a command of a sender: $H, $110=500, or ?, ! and ~ alone
+  bool computed = false;          // has words or assignments whose value is an expression
+  std::string_view command;       // of BlockReaderOptions::Commands::words, or of a sender
   std::optional<double> number;   // N word
   std::vector<Word> words;        // in order, N left out
   std::vector<Comment> comments;  // in order

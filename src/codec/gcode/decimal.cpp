@@ -21,7 +21,9 @@ Decimal checked(Decimal number, const char* end) {
   const bool sign_or_point = *p == '.' || *p == '+' || *p == '-';
   const char* q = p + 1;
   if (q != end && (*q == '+' || *q == '-')) ++q;
-  const bool exponent = (*p == 'e' || *p == 'E') && q != end && is_digit(*q);
+  while (q != end && is_digit(*q)) ++q;
+  const bool integer = q != p + 1 && is_digit(q[-1]) && (q == end || *q != '.');  // "0E0.5" is two words
+  const bool exponent = (*p == 'e' || *p == 'E') && integer;
   if (sign_or_point || exponent) number.fault = DecimalFault::malformed;
   return number;
 }

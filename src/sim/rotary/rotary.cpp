@@ -172,14 +172,15 @@ void RotaryMotionReader::add(const Step& step, const MotionContext& context) {
   motion.tool = *tool;
   motion.cuts = step.is_cutting();
   motion.spindle_off = judges_spindle_ && spindle_stopped(context);
-  // Motions at unknown positions neither cut nor are reported, as in the simulator for three axes.
+  // Motions to unknown positions neither cut nor are reported, as in the simulator for three axes.
   constexpr unsigned kZ = 4;
-  if ((step.unknown_axes() & kZ) != 0 || (!motion.cuts && (step.unknown_axes() | context.unknown_from) != 0))
-    return;
+  if ((step.unknown_axes() & kZ) != 0 || (!motion.cuts && step.unknown_axes() != 0)) return;
   if ((context.unknown_from & kZ) != 0)
     motion.from.z = std::max(motion.to.z, bar_.axis_z + 0.5 * bar_.diameter);
   const bool walked = step.kind() == StepKind::arc && is_walked(context);
-  if ((context.unknown_from & 3u) != 0 && !walked) motion.from = {motion.to.x, motion.to.y, motion.from.z};
+  const unsigned needed = motion.cuts ? 3u : 7u;  // a rapid is only certain at its end
+  if ((context.unknown_from & needed) != 0 && !walked)
+    motion.from = {motion.to.x, motion.to.y, motion.from.z};
   if (!walked) return push(motion);
   const ArcWalk walk = walk_of(step, context.from);
   const int count = walk.chords(kPathChord);

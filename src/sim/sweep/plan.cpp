@@ -188,10 +188,11 @@ Planner::Motion Planner::motion_of(const Step& step, const MotionContext& contex
   motion.from = context.from - body_.bounds.low;
   motion.to = step.to() - body_.bounds.low;
   const unsigned start = context.unknown_from, end = step.unknown_axes();
-  constexpr unsigned kZ = 4, kXY = 3;
+  constexpr unsigned kZ = 4;
   if (!step.is_cutting()) {
-    motion.is_swept = end == 0 && (start & kZ) == 0;
-    if ((start & kXY) != 0) motion.from = motion.to;
+    motion.is_swept = end == 0;
+    if (start != 0) motion.from = motion.to;
+    if ((start & kZ) != 0) motion.from.z = std::max(motion.to.z, size_.z);
     return motion;
   }
   if ((end & kZ) != 0) motion.is_swept = false;

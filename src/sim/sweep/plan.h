@@ -2,7 +2,8 @@
 //
 // The start of a motion may be unknown (see Step::unknown_axes). A path that was never commanded must neither
 // cut nor be reported. Therefore:
-//   rapid   end, or start height, unknown: not swept
+//   rapid   end unknown: not swept
+//           start height unknown: down to its end from above the block
 //           start unknown in X or Y only: the tool at its end, the only position that is certain
 //   cut     end height unknown: not swept
 //           start height unknown: starts above the block, or at the end height if that is higher

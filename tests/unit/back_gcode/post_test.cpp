@@ -319,6 +319,8 @@ TEST(Post, reports_what_a_controller_lacks) {
   EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));
   Toolpath lost;
   lost.set_unknown_axes(lost.add(step::Rapid{{1, 0, 0}}, OriginId::none), 7);
+  EXPECT_EQ(posted(lost, bare("grbl")).text(), "G91 G0 X1\nG90\n") << "from an unknown start, by 1 mm";
+  lost.add(step::Arc{.to = {1, 0, 0}, .centre = {2, 0}, .feed = kFeed}, OriginId::none);
   EXPECT_TRUE(posted(lost, bare("grbl")).reports(Code::post_place_unknown));
   PostProfile narrow = bare("grbl");
   narrow.longest_line = 20;

@@ -106,6 +106,15 @@ TEST(Block, NumbersAreTheNearestDouble) {
   EXPECT_FALSE(std::signbit(zero.blocks[0].words[1].value));
 }
 
+TEST(Block, ALineThatStartsWithADollarSignIsACommand) {
+  const Reading r = read("$H\n$110 = 5000.000    (X-axis maximum rate)\nG1 X5");
+  EXPECT_TRUE(r.diagnostics.list().empty());
+  ASSERT_EQ(r.blocks.size(), 3u);
+  EXPECT_EQ(r.blocks[0].command, "$H");
+  EXPECT_TRUE(r.blocks[1].words.empty());
+  EXPECT_TRUE(r.blocks[2].command.empty());
+}
+
 struct Fault {
   std::string_view text;
   Code code;
@@ -127,7 +136,6 @@ TEST(Block, FaultsHaveTheirLocationAndReadingContinues) {
       {"X1000000000001", Code::number_too_large, 1},
       {"X99999999999999999999999", Code::number_too_large, 1},
       {"G1 $", Code::number_missing, 4},
-      {"$H", Code::bad_character, 1},
       {"G1 X1 )", Code::bad_character, 7},
       {"5", Code::bad_character, 1},
       {"G1 %", Code::bad_character, 4},

@@ -15,6 +15,8 @@ class NoController : public SystemValues {
   std::optional<double> system_number(int) const override { return std::nullopt; }
   std::optional<double> system_name(std::string_view) const override { return std::nullopt; }
   double unit_of(int) const override { return 1.0; }
+  bool is_unknown_number(int number) const override { return number == 5420; }
+  bool is_unknown_name(std::string_view) const override { return false; }
 };
 
 TEST(Expression, HasTheValueThatLinuxCncComputes) {
@@ -35,7 +37,8 @@ TEST(Expression, HasTheValueThatLinuxCncComputes) {
                 {"#5", 8},
                 {"##4", 8},
                 {"#<Foo Bar>", 3},
-                {"EXISTS[#<nope>]", 0}};
+                {"EXISTS[#<nope>]", 0},
+                {"EXISTS[#99999]", 0}};
   const NoController system;
   Parameters parameters(system);
   parameters.set_number(4, 5);
@@ -69,6 +72,37 @@ TEST(Expression, AFaultHasACodeAndAnOffset) {
   }
 }
 
+TEST(Expression, IsUnknownWhereAParameterIs) {
+  const NoController system;  // knows no #5420
+  Parameters parameters(system);
+  parameters.set_number(1, {2.0, true});
+  parameters.set_number(2, 3.0);
+  parameters.set_name("depth", {4.0, true});
+  const auto is_unknown = [&](std::string_view text) {
+    ExpressionReader reader(text, parameters);
+    EXPECT_TRUE(reader.value()) << text;
+    return reader.is_unknown();
+  };
+  for (const auto* text : {"#1", "[#2+2*#1]", "ABS[#<depth>]", "##1", "#5420"})
+    EXPECT_TRUE(is_unknown(text)) << text;
+  for (const auto* text : {"#2", "[#2*2]", "EXISTS[#<depth>]"}) EXPECT_FALSE(is_unknown(text)) << text;
+  parameters.set_number(1, 2.0);
+  EXPECT_FALSE(is_unknown("#1")) << "a known value has replaced it";
+}
+
+TEST(Parameters, ASubroutineKnowsWhichArgumentsAreUnknown) {
+  const NoController system;
+  Parameters parameters(system);
+  parameters.set_number(1, {7.0, true});
+  const ParameterValue arguments[] = {3.0, {4.0, true}};
+  parameters.enter(arguments);
+  EXPECT_FALSE(parameters.number(1)->unknown);
+  EXPECT_TRUE(parameters.number(2)->unknown);
+  parameters.leave();
+  EXPECT_TRUE(parameters.number(1)->unknown);
+  EXPECT_FALSE(parameters.number(2)->unknown);
+}
+
 TEST(Parameters, ASubroutineHasItsOwnArgumentsAndNames) {
   const NoController system;
   Parameters parameters(system);
@@ -76,7 +110,7 @@ TEST(Parameters, ASubroutineHasItsOwnArgumentsAndNames) {
   parameters.set_number(31, 9);
   parameters.set_name("depth", 2);
   parameters.set_name("_global", 4);
-  const double arguments[] = {3.0};
+  const ParameterValue arguments[] = {3.0};
   parameters.enter(arguments);
   EXPECT_EQ(parameters.number(1), 3.0);
   EXPECT_EQ(parameters.number(31), 9.0);

@@ -32,14 +32,14 @@ const Case kCases[] = {
     {"M98 P100", Code::sub_missing, kError, 1, 1, 0},
     {"O1 sub\nO1 call\nO1 endsub\nO1 call", Code::calls_too_deep, kError, 2, 1, 0},
     {"O1 while [1]\nO1 endwhile", Code::runs_too_long, kError, 1, 1, 0},
-    {"G0 ^45", Code::polar_from_zero, kError, 1, 1, 0},
+    {"G0 @5", Code::polar_from_zero, kError, 1, 1, 0},
     {"; LightBurn", Code::dialect_guessed, kNote, 1, 0, 0},
     {"G21\n(T4  D=3.175 CR=0 - flat end mill)", Code::tool_from_remark, kNote, 2, 1, 0},
     {"G0 X1 E5", Code::unknown_letter, kWarning, 1, 7, 1},
-    {"G0 X1 G77.7", Code::unknown_g_code, kWarning, 1, 7, 1},
-    {"G0 X1 G1000", Code::unknown_g_code, kWarning, 1, 7, 1},
+    {"G0 X1 G77.7", Code::unknown_g_code, kWarning, 1, 7, 0},
+    {"G0 X1 G1000", Code::unknown_g_code, kWarning, 1, 7, 0},
     {"G0 X1 M199", Code::unknown_m_code, kWarning, 1, 7, 1},
-    {"G0 X1 G1.05", Code::unknown_g_code, kWarning, 1, 7, 1},
+    {"G0 X1 G1.05", Code::unknown_g_code, kWarning, 1, 7, 0},
     {"G16", Code::code_unsupported, kError, 1, 1, 0},
     {"G41 D1", Code::compensation_no_tool, kError, 1, 1, 0},
     {"G42", Code::compensation_no_tool, kError, 1, 1, 0},
@@ -57,7 +57,7 @@ const Case kCases[] = {
     {"F9 G41.1 D4\nG1 X9\nX15\nY1\nX9", Code::compensation_gouge, kError, 5, 1, 4},
     {"F9 G41.1 D4\nG1 X9\nG3 X10 Y1 J1", Code::compensation_gouge, kError, 3, 1, 2},
     {"M48", Code::code_ignored, kNote, 1, 1, 0},
-    {"G43 H1", Code::code_ignored, kNote, 1, 1, 0},
+    {"M62 P0", Code::code_ignored, kNote, 1, 1, 0},
     {"F9 G2 X2 I1 K0", Code::word_unused, kWarning, 1, 13, 1},
     {"G0 X1 P2", Code::word_unused, kWarning, 1, 7, 1},
     {"G1 G0 X5", Code::modal_conflict, kWarning, 1, 4, 1},
@@ -102,6 +102,9 @@ const Case kCases[] = {
     {"F9 G82 X1 R1 Z0 P2000", Code::dwell_long, kWarning, 1, 17, 4},
     {"G54 G0 X1\nG55 X2", Code::offset_unknown, kWarning, 2, 1, 2},
     {"G59.3 G0 X1\nG54 X2", Code::offset_unknown, kWarning, 2, 1, 2},
+    {"T1 M6\nG43 H2", Code::tool_length_other, kWarning, 2, 5, 0},
+    {"G97 S900 M3\nG18 F9 G1 X4", Code::turning_program, kWarning, 1, 1, 1},
+    {"G0 Z[#5063+1]\nG38.2 Z0 F9\nG0 Z[#5063+1]", Code::value_unknown, kWarning, 3, 4, 3},
     {"F9 G2 X0 R20", Code::arc_in_place, kError, 1, 10, 1},
     {"F9 G81 X5 R1 Z2", Code::cycle_upside_down, kError, 1, 1, 0},
     {"G91 G53 G0 Z-5", Code::g53_incremental, kWarning, 1, 5, 1},
@@ -143,9 +146,11 @@ std::size_t count_of(Code code, std::string_view text) {
 
 TEST(GcodeDiagnostics, OffsetsAreNeededForMovesInTwoSystems) {
   EXPECT_EQ(count_of(Code::offset_unknown, "G54\nG55 G0 X1\nX2"), 0u);
-  EXPECT_EQ(count_of(Code::offset_unknown, "G0 G53 Z0\nG55 G0 X1\nG54"), 0u);  // no move in G54
-  EXPECT_EQ(count_of(Code::offset_unknown, "G10 L2 P2 X0\nG0 X1\nG55 X1"), 0u);
-  EXPECT_EQ(count_of(Code::offset_unknown, "#5241 = 50\nG0 X1\nG55 X1"), 0u);
+  EXPECT_EQ(count_of(Code::offset_unknown, "G0 G53 Z0\nG55 G0 X1\nG54"), 0u);    // no move in G54
+  EXPECT_EQ(count_of(Code::offset_unknown, "G10 L2 P2 X0\nG0 X1\nG55 X1"), 1u);  // from which G54?
+  EXPECT_EQ(count_of(Code::offset_unknown, "G10 L2 P1 X9 Y0 Z0\nG10 L2 P2 X0 Y0 Z0\nG0 X1\nG55 X1"), 0u);
+  EXPECT_EQ(count_of(Code::offset_unknown, "#5241 = 50\nG0 X1\nG55 X1"), 1u);
+  EXPECT_EQ(count_of(Code::offset_unknown, "#5221 = 9\n#5241 = 50\nG55 G0 X1\nG54 X1"), 0u);
   EXPECT_EQ(count_of(Code::offset_unknown, "G0 X1\nG55 X1\nG56 X1\nG55 X2"), 1u);
 }
 

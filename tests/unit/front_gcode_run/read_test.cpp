@@ -1,5 +1,6 @@
 // Reading of G-code beyond the moves: settings as steps, unknown axes, feeds, tools and stock of comments,
 // limits.
+#include <cmath>
 #include <gtest/gtest.h>
 
 #include "kerf/gcode.h"
@@ -102,8 +103,45 @@ TEST(ReadGcode, ShiftedZeroKeepsTheFrameOfWhatWasCutBefore) {
   EXPECT_EQ(r[4].to().x, 15);
   EXPECT_EQ(r[5].to().x, 5);
   const Reading first = read("G92 X3 Y4\nG91 G0 X1\nM2");  // unknown before: the coordinates as given
-  EXPECT_EQ(first[0].to(), (Point3{4, 4, 0}));
-  EXPECT_EQ(first[0].unknown_axes(), 4u);
+  EXPECT_EQ(first[1].to(), (Point3{4, 4, 0}));
+  EXPECT_EQ(first[1].unknown_axes(), 4u);
+}
+
+TEST(ReadGcode, RepeatsOfPolarWordsAreOnACircle) {
+  const Reading r = read("S9 M4 F100 G0 X10 Y0 Z5\nG91 G81 ^20 Z-1 R1 L17\nM2");
+  int holes = 0;
+  const auto& steps = r.program.path.steps();
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (steps[i].kind() != StepKind::cut) continue;
+    const double angle =
+        20.0 * ++holes * 3.14159265358979 / 180.0;  // each 20 degrees after the one before it
+    EXPECT_NEAR(steps[i].to().x, 10 * std::cos(angle), 1e-9) << holes;
+    EXPECT_NEAR(steps[i].to().y, 10 * std::sin(angle), 1e-9) << holes;
+  }
+  EXPECT_EQ(holes, 17);
+}
+
+TEST(ReadGcode, OffsetsInParametersTakeEffectWhereTheirSystemIsSelected) {
+  const Reading r = read("#5221=30\nG0 X5\nG54 X6\nG55 X7\nG54 X8\nM2");
+  EXPECT_EQ(r[0].to().x, 5);
+  std::vector<double> ends;
+  for (const Step& s : r.program.path.steps())
+    if (s.is_motion()) ends.push_back(s.to().x);
+  EXPECT_EQ(ends, (std::vector<double>{5, 6, 7, 38}))
+      << "as LinuxCNC: G54 is in force already in the third line";
+}
+
+TEST(ReadGcode, ArcsInOtherPlanesTurnWithTheCoordinates) {
+  const Reading r = read("F100 G0 X0 Y0 Z5\nG10 L2 P1 R90\nG18 G2 X10 Z5 I5\nM2");
+  std::size_t cuts = 0;
+  for (const Step& s : r.program.path.steps()) {
+    if (!s.is_cutting()) continue;
+    ++cuts;  // X of the program is Y of the toolpath
+    EXPECT_NEAR(s.to().x, 0, 1e-9);
+    EXPECT_NEAR(std::hypot(s.to().y - 5, s.to().z - 5), 5, 1e-9);
+    EXPECT_LE(s.to().z, 5 + 1e-9) << "seen from +Y, G2 passes below";
+  }
+  EXPECT_GT(cuts, 20u);
 }
 
 TEST(ReadGcode, ProbesAndRotaryAxes) {

@@ -107,6 +107,9 @@ std::string event_text(const Toolpath& path, std::size_t i) {
     case StepKind::pause: return text_of(s.pause());
     case StepKind::end: return "end";
     case StepKind::store_home:
+    case StepKind::work_zero:
+    case StepKind::tool_length:
+    case StepKind::unresolved:
     case StepKind::note: return {};
     default: return move_text(path, i);
   }

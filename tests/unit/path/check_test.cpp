@@ -285,7 +285,43 @@ TEST(CheckPath, ALowToolWithUnknownXAndYMayBeInTheStock) {
   job.add(step::ToolChange{1}).add(step::Spindle{rpm(10000), SpindleTurn::cw}).add(step::Rapid{{0, 0, -1}});
   job.path.set_unknown_axes(2, kXY);
   job.add(step::ToolChange{2}).add(step::Spindle{rpm(0), SpindleTurn::off});
-  EXPECT_EQ(kinds(job, {.stock = stock}), (Kinds{"tool_change_low", "stop_low"}));
+  EXPECT_EQ(kinds(job, {.stock = stock}), (Kinds{"rapid_unknown", "tool_change_low", "stop_low"}));
+}
+
+TEST(CheckPath, AMotionToAMachinePositionOutOfTheStock) {
+  constexpr unsigned kX = 1, kZ = 4, kAll = 7;
+  const auto found_from = [&](double height, unsigned axes) {
+    Box3 stock;
+    stock.add(Point3{0, 0, -10});
+    stock.add(Point3{100, 100, 0});
+    Job job = started();
+    job.add(step::Cut{{50, 50, height}, mm_per_min(100)}).add(step::Rapid{{0, 0, 0}});
+    job.path.set_unknown_axes(4, axes);
+    job.path.set_reference(4, Reference::home, axes);
+    const auto found = check_path(job.path, {.stock = stock});
+    return found.empty() ? Code{} : found[0].code;
+  };
+  EXPECT_EQ(found_from(-1, kAll), Code::path_machine_move_low);
+  EXPECT_EQ(found_from(-1, kX), Code::path_machine_move_low);
+  EXPECT_EQ(found_from(-1, kZ), Code{});
+  EXPECT_EQ(found_from(1, kAll), Code{});
+}
+
+TEST(CheckPath, ARapidDownAtAnUnknownPosition) {
+  constexpr unsigned kXY = 3;
+  Box3 stock;
+  stock.add(Point3{0, 0, -10});
+  stock.add(Point3{100, 100, 0});
+  for (const double height : {-1.0, 1.0}) {
+    Job job;
+    job.add(step::ToolChange{1}).add(step::Rapid{{0, 0, height}});
+    job.path.set_unknown_axes(1, kXY);
+    const auto found = check_path(job.path, {.stock = stock});
+    ASSERT_EQ(found.size(), height < 0 ? 1u : 0u);
+    if (height < 0) {
+      EXPECT_EQ(found[0].code, Code::path_rapid_unknown);
+    }
+  }
 }
 
 TEST(CheckPath, BesideTheStockAToolMayBeLow) {

@@ -36,6 +36,8 @@ TEST(Report, CountsLengthsBoundsAndTimes) {
   EXPECT_NEAR(all.cut_bounds.low.x, 1, 1e-12);
   EXPECT_NEAR(all.cut_bounds.high.y, 1, 1e-12);
   EXPECT_NEAR(all.cut_bounds.low.z, -3, 1e-12);
+  EXPECT_EQ(all.cut_bounds.high.z, 4) << "where the plunge starts";
+  EXPECT_EQ(all.cut_ends.high.z, -1);
   EXPECT_EQ(all.feed.low, 60);
   EXPECT_EQ(all.feed.high, 200);
   EXPECT_EQ(all.speed.low, 12000);

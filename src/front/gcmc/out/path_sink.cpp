@@ -127,6 +127,7 @@ void PathSink::note_motion(std::size_t step, unsigned named) {
   if (!rotary_used_) return;
   MotionExtra extra;
   extra.abc = std::array<double, 3>{at_[3], at_[4], at_[5]};
+  extra.unknown_abc = unknown_ >> 3 & 7u;
   path_.set_extra(step, std::move(extra));
 }
 

@@ -16,6 +16,7 @@ constexpr std::size_t kMaxWordBytes = 64 * 1024;  // examined from the start, li
 constexpr std::size_t kMaxTotalBytes = 1024 * 1024;  // with them: slicers store pictures in comments
 constexpr std::size_t kMaxEvidenceChars = 60;
 // A laser program has more than so many motions with S words, and fewer than 1 / so many of them in Z.
+constexpr int kExtrusions = 10;  // lines with E that make a print of a program without heating and spindle
 constexpr int kLaserMotions = 8;
 constexpr std::size_t kLaserPowers = 3;  // minimum number of different S words
 
@@ -156,6 +157,8 @@ DialectGuess guess_from_words(const WordEvidence& e) {
   if (e.heating.count > 1 && e.extruding)
     return {GcodeDialect::marlin, location_of(e.heating) + " and " + location_of(e.extruding),
             e.heating.line};
+  if (e.extruding.count > kExtrusions && !e.beam)
+    return {GcodeDialect::marlin, location_of(e.extruding), e.extruding.line};
   const bool beam = e.beam && e.motion_with_power.count > kLaserMotions && e.powers.size() >= kLaserPowers;
   if (beam && e.motions_in_z * kLaserMotions < e.motion_with_power.count)
     return {GcodeDialect::laser, fmt::format("{} and the S words of its motions", location_of(e.beam)),

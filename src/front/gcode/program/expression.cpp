@@ -1,6 +1,7 @@
 // Expressions by recursive descent; the depth is bounded.
 #include "front/gcode/program/expression.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -85,6 +86,10 @@ bool ExpressionReader::take_word(std::string_view word) {
   if (end == 0) return false;
   at_ = end;
   return true;
+}
+
+void ExpressionReader::skip_comments() {
+  while (take('(')) at_ = std::min(text_.find(')', at_), text_.size() - 1) + 1;
 }
 
 bool ExpressionReader::at_end() {
@@ -223,7 +228,10 @@ std::optional<double> ExpressionReader::parameter() {
   const std::optional<Target> what = target();
   if (!what) return std::nullopt;
   const auto found = what->name.empty() ? parameters_.number(what->number) : parameters_.name(what->name);
-  if (found) return found;
+  if (found) {
+    is_unknown_ = is_unknown_ || found->unknown;
+    return found->value;
+  }
   at_ = start;
   return fail(Code::parameter_unknown, fmt::format("the parameter #<{}> has no value", what->name));
 }
@@ -247,9 +255,14 @@ std::optional<double> ExpressionReader::function() {
 std::optional<double> ExpressionReader::exists() {
   ++at_;  // '['
   const std::optional<Target> what = target();
-  if (!what) return std::nullopt;
+  const bool no_such_number = !what && fault_.code == Code::parameter_unknown;
+  if (!what && !no_such_number) return std::nullopt;
+  if (no_such_number) {
+    fault_ = {};
+    at_ = std::min(text_.find(']', at_), text_.size());
+  }
   if (!take(']')) return fail(Code::expression_malformed, "a closing ] is missing here");
-  return what->name.empty() || parameters_.name(what->name) ? 1.0 : 0.0;
+  return what && (what->name.empty() || parameters_.name(what->name)) ? 1.0 : 0.0;
 }
 
 /// ATAN[y]/[x]: atan2.

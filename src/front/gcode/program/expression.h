@@ -42,9 +42,13 @@ class ExpressionReader {
   /// Takes the character if it is the next one after blanks.
   bool take(char c);
   bool at_end();
+  /// Skips blanks and comments in parentheses.
+  void skip_comments();
   std::size_t position() const { return at_; }
   std::string_view rest() const { return text_.substr(at_); }
   const ExpressionFault& fault() const { return fault_; }
+  /// Whether the values so far depend on a parameter whose value only the controller knows.
+  bool is_unknown() const { return is_unknown_; }
 
  private:
   enum class Operator : unsigned char;
@@ -69,6 +73,7 @@ class ExpressionReader {
   const Parameters& parameters_;
   std::size_t at_ = 0;
   int depth_ = 0;
+  bool is_unknown_ = false;
   ExpressionFault fault_;
 };
 

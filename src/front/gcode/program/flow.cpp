@@ -122,7 +122,9 @@ std::optional<double> Flow::condition_value(const Block& block) {
                     "expected an expression in square brackets after this word");
     return std::nullopt;
   }
-  return value_of(reader, block.o_word->column + offset);
+  const std::optional<double> value = value_of(reader, block.o_word->column + offset);
+  unknown_value_ = unknown_value_ || reader.is_unknown();
+  return value;
 }
 
 void Flow::control(const Block& block) {
@@ -143,7 +145,12 @@ void Flow::execute(std::size_t at, const Block& block) {
   switch (line.kind) {
     case OKind::sub:
       if (first_subroutine_.empty()) first_subroutine_ = read_o_word(block.o_word->text).label;
-      return paired ? jump_after(line.partner) : void(unmatched(line, column));
+      if (!paired) return void(unmatched(line, column));
+      if (depth() == 0 && called_.count(line.label) != 0)
+        reporter_.unusual(
+            Code::o_word_unmatched, column,
+            fmt::format("subroutine {} is defined after its call; LinuxCNC refuses that", line.label));
+      return jump_after(line.partner);
     case OKind::end_sub:
     case OKind::return_sub: return return_with_value(block);
     case OKind::call: return call(block);
@@ -237,6 +244,7 @@ std::optional<std::string> Flow::label_of(const OWord& word, std::uint32_t colum
   ExpressionReader reader(word.label, parameters_);
   const std::optional<double> value = value_of(reader, column);
   if (!value) return std::nullopt;
+  unknown_value_ = unknown_value_ || reader.is_unknown();
   return fmt::format("{:.0f}", *value);
 }
 
@@ -245,13 +253,13 @@ void Flow::call(const Block& block) {
   const std::uint32_t column = block.o_word->column;
   const std::optional<std::string> label = label_of(word, column);
   if (!label) return;
-  std::vector<double> arguments;
+  std::vector<ParameterValue> arguments;
   ExpressionReader reader(word.values, parameters_);
-  while (!reader.at_end()) {
+  for (reader.skip_comments(); !reader.at_end(); reader.skip_comments()) {
     const auto offset = static_cast<std::uint32_t>(word.values.data() - block.o_word->text.data());
     const std::optional<double> value = value_of(reader, column + offset);
     if (!value) return;
-    arguments.push_back(*value);
+    arguments.push_back({*value, reader.is_unknown()});
   }
   if (arguments.size() > Parameters::kArguments) {
     reporter_.error(Code::o_word_malformed, column,
@@ -259,6 +267,18 @@ void Flow::call(const Block& block) {
     return;
   }
   if (!enter(*label, 1, column)) return;
+  called_.insert(*label);
+  parameters_.enter(arguments);
+  frames_.back().own_parameters = true;
+}
+
+bool Flow::has_sub(int number) {
+  std::size_t entry = 0;
+  return source_of(std::to_string(number), entry) != nullptr;
+}
+
+void Flow::call_macro(int number, std::span<const ParameterValue> arguments, std::uint32_t column) {
+  if (!enter(std::to_string(number), 1, column)) return;
   parameters_.enter(arguments);
   frames_.back().own_parameters = true;
 }
@@ -341,8 +361,8 @@ void Flow::return_with_value(const Block& block) {
   std::optional<double> value;
   if (!reader.at_end()) value = value_of(reader, block.o_word->column);
   return_from_call();
-  parameters_.set_name("_value", value.value_or(0.0));
-  parameters_.set_name("_value_returned", value ? 1.0 : 0.0);
+  parameters_.set_name("_value", {value.value_or(0.0), reader.is_unknown()});
+  parameters_.set_name("_value_returned", {value ? 1.0 : 0.0});
 }
 
 bool Flow::skip_subprogram() {

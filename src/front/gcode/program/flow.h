@@ -13,6 +13,8 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "codec/gcode/block.h"
@@ -72,6 +74,13 @@ class Flow {
   bool limit_reached() const { return stopped_; }
   /// Executes the O-word of the last line of next().
   void control(const Block& block);
+  /// Whether a condition or a number of repeats since the last call depended on what only the controller
+  /// knows.
+  bool take_unknown_value() { return std::exchange(unknown_value_, false); }
+  /// Whether the program has the subroutine.
+  bool has_sub(int number);
+  /// G65: calls a subroutine with arguments for #1 to #30.
+  void call_macro(int number, std::span<const ParameterValue> arguments, std::uint32_t column);
   /// M98: calls a subroutine by its number, `repeats` times.
   void call_number(int number, int repeats, std::uint32_t column);
   /// M99. False in the main program, which has no caller.
@@ -149,6 +158,8 @@ class Flow {
   std::string first_subroutine_;
   bool jumped_ = false;
   bool stopped_ = false;  // a limit was reached
+  bool unknown_value_ = false;
+  std::unordered_set<std::string> called_;  // labels of called subroutines
 };
 
 }  // namespace kerf::gcode

@@ -27,7 +27,8 @@ Tenths tenths_of(double value) {
 }  // namespace
 
 bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& reporter) {
-  letters_ = used_ = groups_ = 0;
+  letters_ = used_ = groups_ = unknown_letters_ = with_point_ = 0;
+  unknown_g_column_ = 0;
   large_m_code_ = -1;
   polar_radius_.reset();
   polar_angle_.reset();
@@ -38,6 +39,8 @@ bool LineWords::sort(const Block& block, Parameters& parameters, LineReporter& r
   } else {
     for (const Word& word : block.words) add_word(word, word.value, reporter);
   }
+  if (has('P')) note_points(block);
+  if (rules_ == LetterRules::printer) drop_flags(block, reporter);
   if ((letters_ & kSpecialLetters) != 0) drop_unknown_letters(reporter);
   return true;
 }
@@ -48,7 +51,7 @@ void LineWords::drop_unknown_letters(LineReporter& reporter) {
   const bool taper = has(Group::motion) && code(Group::motion) == 760;
   const bool e_is_used = filament || has(Group::other) || taper;
   for (const char letter : {'E', 'U', 'V', 'W'}) {
-    if (!has(letter) || (letter == 'E' && e_is_used)) continue;
+    if (!has(letter) || (letter == 'E' && e_is_used) || (letter == 'U' && has(Group::dwell))) continue;
     letters_ &= ~bit(letter);
     if (letter == 'E' || filament)
       reporter.unusual(Code::unknown_letter, column(letter),
@@ -62,7 +65,7 @@ void LineWords::drop_unknown_letters(LineReporter& reporter) {
 
 struct LineWords::Assignment {
   ExpressionReader::Target what;
-  double value = 0.0;
+  ParameterValue value;
 };
 
 /// Evaluates the expressions of a line.
@@ -79,6 +82,7 @@ bool LineWords::compute(const Block& block, Parameters& parameters, LineReporter
         return false;
       }
       value = *computed;
+      if (reader.is_unknown()) note_unknown(word.letter);
     }
     add_word(word, value, reporter);
   }
@@ -96,13 +100,40 @@ bool LineWords::compute(const Block& block, Parameters& parameters, LineReporter
   return true;
 }
 
+/// A letter without a number is a flag of a printer's command; a motion has none.
+void LineWords::drop_flags(const Block& block, LineReporter& reporter) {
+  const bool moves = has(Group::motion) || !has_codes();
+  for (const Word& word : block.words) {
+    if (word.value_length != 0 || word.kind != ValueKind::number || !moves) continue;
+    letters_ &= ~bit(word.letter);
+    reporter.error(Code::number_missing, word.column, fmt::format("no number after {}", word.letter));
+  }
+}
+
+/// Fanuc's controls read a P without a decimal point in milliseconds.
+void LineWords::note_points(const Block& block) {
+  for (const Word& word : block.words)
+    if (word.letter == 'P' &&
+        (word.kind == ValueKind::expression || block.value_text(word).find('.') != std::string_view::npos))
+      with_point_ |= bit('P');
+}
+
+/// Polar words are those of X and Y.
+void LineWords::note_unknown(char letter) {
+  if (letter == '@' || letter == '^')
+    unknown_letters_ |= bit('X') | bit('Y');
+  else if (letter >= 'A' && letter <= 'Z')
+    unknown_letters_ |= bit(letter);
+}
+
 std::optional<LineWords::Assignment> LineWords::parse_assignment(const Computation& text,
                                                                  const Parameters& parameters,
                                                                  LineReporter& reporter) {
   ExpressionReader reader(text.text, parameters);
   const auto what = reader.target();
   if (what && reader.take('='))
-    if (const std::optional<double> value = reader.value()) return Assignment{*what, *value};
+    if (const std::optional<double> value = reader.value())
+      return Assignment{*what, {*value, reader.is_unknown()}};
   const bool has_fault = !reader.fault().message.empty();
   const auto offset = static_cast<std::uint32_t>(has_fault ? reader.fault().offset : reader.position());
   reporter.error(has_fault ? reader.fault().code : Code::expression_malformed, text.column + offset,
@@ -146,6 +177,7 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   if (entry == nullptr) {
     reporter.unusual(is_g ? Code::unknown_g_code : Code::unknown_m_code, word.column,
                      fmt::format("unknown code {}{:g}; skipped", word.letter, value), hint);
+    if (is_g) leave_out(fmt::format("G{:g}", value), word.column);
     return;
   }
   if (entry->support == Support::ignored)
@@ -162,6 +194,11 @@ void LineWords::add_code(const Word& word, double value, LineReporter& reporter)
   groups_ |= bit(entry->group);
   codes_[group] = number;
   code_columns_[group] = word.column;
+}
+
+void LineWords::leave_out(std::string code, std::uint32_t column) {
+  unknown_g_code_ = std::move(code);
+  unknown_g_column_ = column;
 }
 
 void LineWords::list_unused(LineReporter& reporter) const {

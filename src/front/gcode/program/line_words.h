@@ -35,6 +35,13 @@ class LineWords {
     used_ &= ~bit(letter);
     values_[index(letter)] = value;
   }
+  /// Letters (a mask of bit()) whose values depend on what only the controller knows; G and M for codes.
+  std::uint32_t unknown_letters() const { return unknown_letters_; }
+  /// The column of a G code that is not known, 0 if there is none; and its name.
+  std::uint32_t unknown_g_column() const { return unknown_g_column_; }
+  const std::string& unknown_g_code() const { return unknown_g_code_; }
+  /// Marks a code of this line as one that is not known.
+  void leave_out(std::string code, std::uint32_t column);
   /// "$1": the line's spindle words are for another spindle than the first.
   bool other_spindle() const { return other_spindle_; }
   /// M codes from M100 on, of printers and user-defined programs; -1: none.
@@ -58,6 +65,8 @@ class LineWords {
     used_ |= bit(letter);
     return values_[index(letter)];
   }
+  /// Whether the word is a number without a decimal point.
+  bool is_integer_text(char letter) const { return has(letter) && (with_point_ & bit(letter)) == 0; }
   /// Marks words (a mask of bit()) as used.
   void use(std::uint32_t letters) { used_ |= letters; }
   bool unused(char letter) const { return (letters_ & ~used_ & bit(letter)) != 0; }
@@ -76,6 +85,9 @@ class LineWords {
   bool compute(const Block& block, Parameters& parameters, LineReporter& reporter);
   std::optional<Assignment> parse_assignment(const Computation& text, const Parameters& parameters,
                                              LineReporter& reporter);
+  void note_points(const Block& block);
+  void drop_flags(const Block& block, LineReporter& reporter);
+  void note_unknown(char letter);
   void add_word(const Word& word, double value, LineReporter& reporter);
   void add_sign_word(const Word& word, double value, LineReporter& reporter);
   void drop_unknown_letters(LineReporter& reporter);
@@ -83,6 +95,9 @@ class LineWords {
   void add_code(const Word& word, double value, LineReporter& reporter);
 
   std::uint32_t letters_ = 0, used_ = 0, groups_ = 0;
+  std::uint32_t unknown_letters_ = 0, with_point_ = 0;
+  std::uint32_t unknown_g_column_ = 0;
+  std::string unknown_g_code_;
   LetterRules rules_ = LetterRules::mill;
   int large_m_code_ = -1;
   bool other_spindle_ = false;

@@ -45,6 +45,10 @@ std::size_t label_end(std::string_view text) {
     return close == std::string_view::npos ? text.size() : close + 1;
   }
   while (at < text.size() && text[at] == '#') ++at;
+  if (at > 0 && at < text.size() && text[at] == '<') {
+    const std::size_t close = text.find('>', at);
+    return close == std::string_view::npos ? text.size() : close + 1;
+  }
   if (at < text.size() && text[at] == '[') {
     int depth = 0;
     for (; at < text.size(); ++at) {

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 namespace kerf::gcode {
@@ -24,6 +25,18 @@ class SystemValues {
   virtual std::optional<double> system_name(std::string_view name) const = 0;
   /// The divisor for parameters that are stored in mm: mm per unit of the program; 1 for all others.
   virtual double unit_of(int number) const = 0;
+  /// Whether only the controller knows the value, which is an assumption here.
+  virtual bool is_unknown_number(int number) const = 0;
+  virtual bool is_unknown_name(std::string_view name) const = 0;
+};
+
+/// A value of a program. `unknown`: it depends on what only the controller knows.
+struct ParameterValue {
+  // NOLINTNEXTLINE(google-explicit-constructor): most values are known
+  ParameterValue(double v = 0.0, bool is_unknown = false) : value(v), unknown(is_unknown) {}
+  bool operator==(const ParameterValue&) const = default;
+  double value;
+  bool unknown;
 };
 
 class Parameters {
@@ -34,11 +47,11 @@ class Parameters {
   explicit Parameters(const SystemValues& system) : system_(system), numbers_(kLast + 1), frames_(1) {}
 
   /// Nothing where the number is not from 1 to kLast.
-  std::optional<double> number(int number) const;
-  bool set_number(int number, double value);
+  std::optional<ParameterValue> number(int number) const;
+  bool set_number(int number, ParameterValue value);
   /// Names as normal_name() gives them.
-  std::optional<double> name(const std::string& name) const;
-  void set_name(const std::string& name, double value);
+  std::optional<ParameterValue> name(const std::string& name) const;
+  void set_name(const std::string& name, ParameterValue value);
 
   /// Direct access to what the controller stores in numbered parameters (offsets, homes); `number` is not
   /// checked.
@@ -46,17 +59,20 @@ class Parameters {
   double slot(int number) const { return numbers_[static_cast<std::size_t>(number)]; }
 
   /// Starts a subroutine: its arguments are in #1 to #30. leave() restores the caller's values.
-  void enter(std::span<const double> arguments);
+  void enter(std::span<const ParameterValue> arguments);
   void leave();
 
  private:
-  using Names = std::unordered_map<std::string, double>;
+  using Names = std::unordered_map<std::string, ParameterValue>;
   struct Frame {
-    std::array<double, kArguments> caller{};  // values of #1 to #30
+    std::array<ParameterValue, kArguments> caller{};  // of #1 to #30
     Names names;
   };
+  void mark(int number, bool unknown);
+
   const SystemValues& system_;
   std::vector<double> numbers_;
+  std::unordered_set<int> unknown_;  // of these numbers
   Names globals_;
   std::vector<Frame> frames_;
 };

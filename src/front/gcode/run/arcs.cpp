@@ -3,6 +3,7 @@
 // Source: LinuxCNC's page "G2, G3 Arc Move"; radii that GRBL refuses are reported.
 #include <cmath>
 #include <fmt/format.h>
+#include <utility>
 
 #include "front/gcode/run/interpreter.h"
 
@@ -13,21 +14,19 @@ namespace {
 constexpr double kRadiusTolerance = 0.005;  // mm
 constexpr double kRadiusFraction =
     0.001;  // of the radius; also of half the chord, by which R may be too small
+constexpr double kNotableMismatch =
+    0.05;  // mm; controllers accept more in large arcs, but the part is off by it
 constexpr double kMaxRadiusMismatch = 2.83;  // mm, LinuxCNC's limit; above it the centre is certainly wrong
 constexpr double kChordTolerance =
-    0.0283;                          // mm by which R may be smaller than half the chord, without a warning
-constexpr double kMinRadius = 1e-9;  // mm
+    0.0283;  // mm by which R may be smaller than half the chord, without a warning
+constexpr Length kArcChord = mm(0.002);  // for arcs written as chords
+constexpr double kMinRadius = 1e-9;      // mm
 constexpr int kMaxTurns = 10'000;
 
 }  // namespace
 
 void Interpreter::arc(Turn turn) {
-  if (!frame_.only_shifted && modes_.plane != Plane::xy) {
-    reporter_.error(
-        Code::code_unsupported, line_.column(),
-        "with rotated or scaled coordinates, arcs are supported in the XY plane only; the line is skipped");
-    return line_.use(kAllLetters);
-  }
+  if (!frame_.only_shifted && modes_.plane != Plane::xy) return arc_as_chords(turn);
   const std::optional<ToolPosition> to = target();
   if (!to) return;
   const bool mirrored = frame_.scale.x * frame_.scale.y < 0.0;
@@ -46,6 +45,41 @@ void Interpreter::arc(Turn turn) {
     return extrude_arc(walk_arc(position_.at, to->at, *centre, modes_.plane, turn, extra), *to, feed);
   if (compensation_.cutter) return compensated_arc(*to, *centre, turn, extra, feed);
   if (add(step::Arc{to->at, *centre, modes_.plane, turn, extra, feed})) arrive(*to);
+}
+
+/// An arc in XZ or YZ is none of these planes in rotated or scaled coordinates.
+void Interpreter::arc_as_chords(Turn turn) {
+  if (compensation_.cutter || line_.unused('E')) {
+    reporter_.error(
+        Code::code_unsupported, line_.column(),
+        "with rotated or scaled coordinates, compensated and printed arcs are supported in the XY "
+        "plane only; the line is skipped");
+    return line_.use(kAllLetters);
+  }
+  const std::optional<ToolPosition> to = target();
+  if (!to) return;
+  const int extra = extra_turns();
+  const ToolPosition from = position_;
+  const ProgramFrame frame = std::exchange(frame_, {});  // the arc is one in program coordinates
+  ToolPosition end = *to;
+  end.at = frame.to_program(to->at);
+  position_.at = frame.to_program(from.at);
+  const std::optional<Point2> centre = centre_of(end, turn);
+  std::optional<ArcWalk> walk;
+  if (centre && radii_agree(end, *centre) && !refuse_arc_after_compensation())
+    walk = walk_arc(position_.at, end.at, *centre, modes_.plane, turn, extra);
+  position_ = from;
+  frame_ = frame;
+  line_.use(LineWords::bit('I') | LineWords::bit('J') | LineWords::bit('K') | LineWords::bit('R'));
+  const double feed = feed_for(walk ? walk->length() : straight_length(*to));
+  const int count = walk ? walk->chords(kArcChord) : 1;
+  if (!room_for(count)) return;
+  for (int i = 1; i < count; ++i) {
+    ToolPosition next = *to;
+    next.at = frame_.to_path(walk->at(static_cast<double>(i) / count));
+    cut(next, feed);
+  }
+  cut(*to, feed);
 }
 
 std::optional<Point2> Interpreter::centre_of(const ToolPosition& to, Turn turn) {
@@ -128,7 +162,7 @@ bool Interpreter::radii_agree(const ToolPosition& to, Point2 centre) {
   }
   const double off = std::abs(walk.start_radius - walk.end_radius);
   const double fraction = off / std::max(walk.start_radius, walk.end_radius);
-  if (off <= kRadiusTolerance || fraction <= kRadiusFraction) return true;
+  if (off <= kRadiusTolerance || (fraction <= kRadiusFraction && off <= kNotableMismatch)) return true;
   const std::string text = fmt::format("the arc starts {:.4f} mm and ends {:.4f} mm from its centre",
                                        walk.start_radius, walk.end_radius);
   if (off <= kMaxRadiusMismatch) {

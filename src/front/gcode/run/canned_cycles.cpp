@@ -1,6 +1,9 @@
 // The words of canned cycles G73, G74 and G81 to G89; kerf/drill.h computes their motions.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numbers>
+#include <utility>
 
 #include "front/gcode/run/interpreter.h"
 
@@ -27,6 +30,7 @@ DrillKind kind_of(Tenths cycle) {
 
 // Words that a cycle needs besides R and the bottom.
 bool needs_dwell(Tenths cycle) { return cycle == 820 || cycle == 860 || cycle == 880 || cycle == 890; }
+bool takes_dwell(Tenths cycle) { return needs_dwell(cycle) || cycle == 740 || cycle == 840; }
 bool needs_peck(Tenths cycle) { return cycle == 730 || cycle == 830; }
 
 }  // namespace
@@ -73,14 +77,33 @@ void Interpreter::cycle(Tenths motion) {
     line_.use(kAllLetters);
     return;
   }
+  report_wrong_turn(motion);
   const int holes = repeats();
   ToolPosition to;
   std::optional<DrillCycle> cycle = plan_cycle(motion, to);
   if (!cycle) return;
   cycle->holes = reachable_holes(*cycle, holes);
   if (cycle->holes == 0 || !room_for(min_steps(*cycle))) return;
+  named_ = 0;
+  const bool polar = line_.polar_radius() || line_.polar_angle();
+  if (polar && !modes_.absolute && cycle->holes > 1) return repeat_on_circle(*cycle, to);
   CycleSink sink(*this, *cycle, to, cycle_feed());
   expand(*cycle, position_.at, sink);
+}
+
+/// Repeats of incremental polar words: each hole has another radius and angle, not another X and Y.
+void Interpreter::repeat_on_circle(DrillCycle cycle, const ToolPosition& to) {
+  const double feed = cycle_feed();
+  for (int left = std::exchange(cycle.holes, 1); left > 0 && !full_; --left) {
+    CycleSink sink(*this, cycle, to, feed);
+    expand(cycle, position_.at, sink);
+    cycle.start_level = std::max(cycle.start_level, cycle.retract_plane);
+    const Point3 hole = frame_.to_program(cycle.at);
+    const double radius = std::hypot(hole.x, hole.y) + polar_step_.first;
+    const double angle = std::atan2(hole.y, hole.x) + polar_step_.second * std::numbers::pi / 180.0;
+    cycle.at = frame_.to_path({radius * std::cos(angle), radius * std::sin(angle), hole.z});
+    if (!reachable(cycle.at)) return;
+  }
 }
 
 /// Takes R, the bottom, P and Q, which are modal within a cycle.
@@ -92,8 +115,8 @@ bool Interpreter::take_cycle_words(Tenths motion) {
   const char bottom_letter = static_cast<char>('X' + axes.w);
   take(cycle_.r, 'R', modes_.scale);
   take(cycle_.bottom, bottom_letter, modes_.scale);
-  take(cycle_.dwell, 'P', 1.0);
-  take(cycle_.peck, 'Q', modes_.scale);
+  if (takes_dwell(motion)) take(cycle_.dwell, 'P', seconds_of_p(1.0));
+  if (needs_peck(motion)) take(cycle_.peck, 'Q', modes_.scale);
   if (motion == 870) {
     take(cycle_.aside_u, static_cast<char>('I' + axes.u), modes_.scale);
     take(cycle_.aside_v, static_cast<char>('I' + axes.v), modes_.scale);
@@ -122,6 +145,18 @@ bool Interpreter::take_cycle_words(Tenths motion) {
     cycle_.dwell = 0.0;
   }
   return true;
+}
+
+/// Taps need the sense of the thread.
+void Interpreter::report_wrong_turn(Tenths motion) {
+  if (motion != 740 && motion != 840) return;
+  const SpindleTurn wanted = motion == 840 ? SpindleTurn::cw : SpindleTurn::ccw;
+  if (modes_.spindle == wanted) return;
+  reporter_.unusual(
+      Code::modal_conflict, line_.column(),
+      fmt::format("{} with the spindle {}; LinuxCNC refuses it", code_text('G', motion),
+                  modes_.spindle == SpindleTurn::off ? "stopped" : "turning the other way"),
+      motion == 840 ? "G84 taps right-hand threads, with M3" : "G74 taps left-hand threads, with M4");
 }
 
 int Interpreter::repeats() {

@@ -46,7 +46,7 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
     origin_line_ = reporter_.line();
     origin_ = path_.origins().text(file_, origin_line_, comment.column);
     const std::string_view message = trimmed(rest.substr(1));
-    add(step::Note{std::string(message)});
+    add(step::Note{std::string(message), NoteKind::message});
     return read_cam_comment(message, where, at_tool_change);
   }
   if (starts_with(text, "STOCK")) {

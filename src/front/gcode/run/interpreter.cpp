@@ -49,16 +49,20 @@ void Interpreter::run(const Block& block) {
   for (const Comment& comment : block.comments) read_comment(comment, at_tool_change);
   if (block.percent) return read_percent();
   if (block.faulty || (block.optional && options_.block_delete == BlockDelete::skip)) return;
+  if (block.sender) return skip_setting(block);
   if (!block.command.empty()) {
     add(step::Verbatim{std::string(block.command.substr(0, kMaxCommandBytes))});
     return;
   }
-  if (block.sender) return reporter_.note(Code::sender_line, 0, "a command for the controller; skipped");
   const bool empty = block.words.empty() && block.assignments.empty() && !block.o_word;
   if (empty) return;
   words_since_percent_ = true;
   if (program_.ended && !reads_after_end(block)) return;
-  if (block.o_word) return flow_->control(block);
+  if (block.o_word) {
+    flow_->control(block);
+    if (flow_->take_unknown_value()) report_unresolved("the flow of the program", block.o_word->column);
+    return;
+  }
   if (!line_.sort(block, parameters_, reporter_)) return;
   if (printer_line()) return printer_code();
   execute();
@@ -119,7 +123,10 @@ void Interpreter::read_percent() {
 /// own line.
 void Interpreter::execute() {
   line_.use(LineWords::bit('O'));  // the program's number
+  named_ = 0;
+  if (line_.unknown_letters() != 0) note_unknown_words();
   if (line_.has_codes()) {
+    note_lathe_words();
     if (line_.has(Group::feed_mode)) set_feed_mode();
     if (line_.has(Group::units)) set_units();
   }
@@ -143,15 +150,67 @@ void Interpreter::execute() {
     if (line_.has(Group::lathe)) modes_.diameters = line_.code(Group::lathe) == 70;
     if (line_.has(Group::scaling)) scale_program();
     if (line_.has(Group::rotation)) rotate_program();
+    if (line_.has(Group::tool_length)) set_tool_length();
     use_words_of_other_codes();
     note_stop();
     if (line_.has(Group::reference)) use_reference();
   }
   if (line_.large_m_code() >= 0) read_large_m_code();
-  if (line_.polar_radius() || line_.polar_angle()) polar();
-  run_line_motion();
+  if (line_.has(Group::subroutine) && line_.code(Group::subroutine) == 650) macro_call();
+  if (line_.unknown_g_column() != 0) {
+    leave_out();
+  } else {
+    if (line_.polar_radius() || line_.polar_angle()) polar();
+    run_line_motion();
+  }
   if (line_.has(Group::subroutine)) subroutine();
   if (line_.has(Group::stop)) end_or_pause();
+}
+
+/// A line for GRBL itself, such as "$110=5000". "$H" homes and "$J=" jogs: the position is unknown after
+/// them.
+void Interpreter::skip_setting(const Block& block) {
+  reporter_.note(Code::sender_line, 0, "a command for the controller; skipped");
+  const std::string_view start = block.command.substr(0, 2);
+  if (start != "$H" && start != "$J" && start != "$h" && start != "$j") return;
+  add(step::Unresolved{std::string(start), UnresolvedKind::code});
+  lose(kAllAxes);
+}
+
+/// Words whose value depends on what only the controller knows. The targets of straight motions are unknown
+/// then (see target()); anything else cannot be represented.
+void Interpreter::note_unknown_words() {
+  const std::uint32_t letters = line_.unknown_letters();
+  std::uint32_t column = line_.column();
+  std::string which;
+  for (char letter = 'A'; letter <= 'Z'; ++letter) {
+    if ((letters & LineWords::bit(letter)) == 0) continue;
+    if (which.empty() && line_.has(letter)) column = line_.column(letter);
+    which += fmt::format("{}{}", which.empty() ? "" : ", ", letter);
+  }
+  reporter_.unusual(
+      Code::value_unknown, column,
+      fmt::format("{} depends on what only the machine knows, such as a probed position", which));
+  const Tenths motion = line_.has(Group::motion) ? line_.code(Group::motion) : modes_.motion;
+  const bool straight = motion == 0 || motion == 10 || (motion >= 382 && motion <= 385);
+  if ((letters & ~kAxisLetters) != 0 || !straight || line_.has(Group::reference) || !frame_.only_shifted)
+    add(step::Unresolved{fmt::format("the value of {}", which)});
+}
+
+void Interpreter::report_unresolved(std::string_view what, std::uint32_t column) {
+  reporter_.unusual(
+      Code::value_unknown, column,
+      fmt::format("{} depends on what only the machine knows, such as a probed position", what));
+  add(step::Unresolved{std::string(what)});
+}
+
+/// A code that is not known may be a motion: the words of its line belong to it, and the tool may be anywhere
+/// after it.
+void Interpreter::leave_out() {
+  line_.use(kAllLetters);
+  add(step::Unresolved{line_.unknown_g_code(), UnresolvedKind::code});
+  lose(kAllAxes);
+  rotary_unknown_ = kAllAxes;
 }
 
 void Interpreter::finish() {
@@ -159,8 +218,9 @@ void Interpreter::finish() {
   program_.stock = stock_.stock();
   if (!program_.stock) program_.stock = cam_stock_comments_.stock();
   tool_comments_.finish(reporter_.diagnostics());
-  check_system_offsets();
+  note_zeros();
   report_missing_speed();
+  report_turning();
   program_.cut_short = full_ || flow_->limit_reached();
   if (path_.size() == 0 && !flow_->first_subroutine().empty() && !program_.cut_short)
     reporter_.error(Code::subroutine_only, 0,
@@ -181,6 +241,35 @@ void Interpreter::report_missing_speed() {
                        fmt::format("{} starts the spindle without an S word; assuming a speed set by hand",
                                    code_text('M', code)),
                        "put an S word before it or on its line");
+}
+
+/// Words that programs for lathes have: diameters (G7, G8), the plane of X and Z (G18), feeds per turn (G95),
+/// cutting speeds (G96, G97), threads (G76).
+void Interpreter::note_lathe_words() {
+  const bool signs[] = {line_.has(Group::lathe), line_.has(Group::plane) && line_.code(Group::plane) == 180,
+                        line_.has(Group::feed_mode) && line_.code(Group::feed_mode) == 950,
+                        line_.has(Group::spindle_mode),
+                        line_.has(Group::motion) && line_.code(Group::motion) == 760};
+  for (std::size_t i = 0; i < std::size(signs); ++i) {
+    if (!signs[i]) continue;
+    if (lathe_signs_ == 0) lathe_location_ = reporter_.location(line_.column());
+    lathe_signs_ |= 1u << i;
+  }
+}
+
+/// A program with words of two kinds that moves in X and Z only is one for a lathe.
+void Interpreter::report_turning() {
+  if ((lathe_signs_ & (lathe_signs_ - 1)) == 0) return;
+  constexpr unsigned kY = 2;
+  bool cuts = false;
+  for (const Step& s : path_.steps()) {
+    if (s.is_motion() && (s.named_axes() & kY) != 0) return;
+    cuts = cuts || s.is_cutting();
+  }
+  if (cuts)
+    reporter_.unusual_at(
+        lathe_location_, Code::turning_program,
+        "the program seems to be for a lathe; turning is not supported, it is read as milling", "");
 }
 
 /// Whether `steps` more are within the limit; otherwise the program ends here, with an error.

@@ -75,6 +75,43 @@ struct Modes {
   std::optional<int> selected_tool, tool;
 };
 
+/// Offsets of the coordinate systems, and what they are measured from. Index 1 to 9: G54 to G59.3. The stored
+/// offset of a system that the program has not set is unknown and counts as 0.
+struct WorkOffsets {
+  /// What the zero of an axis is measured from: 0 machine zero, 1 to 9 the stored offset of that system,
+  /// above: a position at which the program has set it.
+  using Base = int;
+  static constexpr int kSystems = 9;
+
+  Point3 in_effect;                            // of the active system, mm
+  double rotation = 0.0;                       // of the active system, degrees
+  std::array<Point3, kSystems + 1> written{};  // as the steps so far set them in the controller
+  std::array<std::array<Base, 3>, kSystems + 1> base{};
+  std::array<Base, 3> shift_base{};  // of G92; 0: none of unknown size
+  Base next_base = kSystems + 1;
+  int selected = 0;         // by the last step; 0: none
+  unsigned kept_shift = 0;  // axes whose shift of unknown size G92.2 has stored
+
+  WorkOffsets() {
+    for (int system = 1; system <= kSystems; ++system) base[static_cast<std::size_t>(system)].fill(system);
+  }
+  /// Axes on which two systems are measured from different bases.
+  unsigned unrelated(int a, int b) const {
+    unsigned axes = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (base[static_cast<std::size_t>(a)][axis] != base[static_cast<std::size_t>(b)][axis])
+        axes |= 1u << axis;
+    return axes;
+  }
+  /// Axes with a shift (G92) of unknown size.
+  unsigned unknown_shift() const {
+    unsigned axes = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (shift_base[axis] != 0) axes |= 1u << axis;
+    return axes;
+  }
+};
+
 /// Transformation from program coordinates to those of the toolpath: scaled, rotated about zero, shifted.
 struct ProgramFrame {
   Point3 shift;           // mm
@@ -123,6 +160,8 @@ class Interpreter : public SystemValues {
   std::optional<double> system_number(int number) const override;
   std::optional<double> system_name(std::string_view name) const override;
   double unit_of(int number) const override;
+  bool is_unknown_number(int number) const override;
+  bool is_unknown_name(std::string_view name) const override;
 
   /// Executes one line.
   void run(const Block& block);
@@ -139,7 +178,13 @@ class Interpreter : public SystemValues {
   bool reads_after_end(const Block& block);
   void read_percent();
   void report_missing_speed();
+  void note_lathe_words();
+  void report_turning();
   void execute();
+
+  void skip_setting(const Block& block);
+  void note_unknown_words();
+  void leave_out();
 
   void follow_calls();
   bool is_printer() const {
@@ -169,33 +214,45 @@ class Interpreter : public SystemValues {
   void switch_spindle();
   void switch_coolant();
   void dwell();
+  double seconds_of_p(double p) const;
   void report_long_dwell(double time, char letter);
   void set_plane();
   void set_path_mode();
   void set_distance();
   void use_words_of_other_codes();
+  void set_tool_length();
   void end_or_pause();
   void end_program();
   void set_spindle_mode();
   void subroutine();
+  void macro_call();
   void save_modes();
   void restore_modes(const Modes& modes);
   void set_beam();
   void read_large_m_code();
 
   // work_offsets.cpp
+  /// The zero that motions had.
+  struct Zero {
+    int system = 1;
+    std::array<WorkOffsets::Base, 3> base, shift;
+  };
   void use_coordinates();
-  void check_system_offsets();
-  void report_unknown_offset(int system);
+  void select_system(int system);
+  void load_offsets();
+  void note_zeros();
+  void report_unknown_zero(const Zero& first, const Zero& now);
   void set_data();
   void set_system(int system);
   void touch_off(int system);
+  void add_touch_off(int system, unsigned axes, unsigned located, Point3 at);
+  void lose(unsigned axes);
+  void end_shift(Tenths code);
   void set_tool_data(int tool);
   void shift_locally();
   void scale_program();
   void rotate_program();
   void update_frame();
-  double system_offset(int axis) const;
   void set_home(int first, ToolPosition& home);
 
   // system_parameters.cpp
@@ -250,7 +307,8 @@ class Interpreter : public SystemValues {
   void run_line_motion();
   void run_motion(Tenths motion);
   void straight(Tenths motion);
-  void probe(Tenths motion);
+  bool may_move_after_cancel();
+  void probe(ProbeKind kind);
   void use_reference();
   void go_home(const ToolPosition& home, Reference reference);
   void note_stop();
@@ -262,9 +320,13 @@ class Interpreter : public SystemValues {
   bool reachable(Point3 p);
   double feed_for(double length);
   double straight_length(const ToolPosition& to) const;
+  double straight_feed(const ToolPosition& to);
+  unsigned take_rotary_words();
+  void mark_measured(ToolPosition& to) const;
 
   // arcs.cpp
   void arc(Turn turn);
+  void arc_as_chords(Turn turn);
   std::optional<Point2> centre_of(const ToolPosition& to, Turn turn);
   std::optional<Point2> centre_from_offsets();
   Point2 rotated_offset(Point2 offset) const;
@@ -277,11 +339,15 @@ class Interpreter : public SystemValues {
   class CycleSink;
   void cycle(Tenths motion);
   bool take_cycle_words(Tenths motion);
+  void report_wrong_turn(Tenths motion);
+  void repeat_on_circle(DrillCycle cycle, const ToolPosition& to);
   std::optional<DrillCycle> plan_cycle(Tenths motion, ToolPosition& target_position);
   void plan_back_bore(DrillCycle& cycle) const;
   int repeats();
   int reachable_holes(const DrillCycle& cycle, int holes);
   double cycle_feed();
+
+  void report_unresolved(std::string_view what, std::uint32_t column);
 
   // steps
   bool room_for(double steps);
@@ -313,16 +379,25 @@ class Interpreter : public SystemValues {
 
   Modes modes_;
   ToolPosition position_;
-  std::array<double, 3> rotary_{};  // degrees
+  std::array<double, 3> rotary_{};       // degrees
+  std::array<double, 3> rotary_from_{};  // before the line's words
+  unsigned rotary_unknown_ = kAllAxes;   // bits 1, 2, 4: A, B, C
+  unsigned rotary_unknown_from_ = kAllAxes;
+  unsigned rotary_reference_ = 0;  // axes that the next motion moves to its reference
+  unsigned rotary_axes_ = 0;       // those that the program has
   bool rotary_used_ = false;
+  Tenths motion_before_cycle_ = kMotionNotGiven;
+  std::pair<double, double> polar_step_{};  // radius in mm and angle in degrees of the line's polar words
+  unsigned named_ = 0;  // axes named by the line, for Step::named_axes; 0: its motions are computed
   ProgramFrame frame_;
-  std::size_t system_from_ = 0;                       // the first step in the current coordinate system
-  TextLocation system_location_;                      // of the word that selected it
-  std::uint32_t systems_used_ = 0, systems_set_ = 0;  // bit n: system n has motions; was set by G10
-  Point3 local_shift_;                                // by G92 and G52, mm
-  Point3 kept_local_shift_;                           // stored by G92.2
-  double program_rotation_ = 0.0;                     // G68, degrees
-  Point3 program_rotation_centre_;                    // program coordinates, mm
+  WorkOffsets offsets_;
+  std::size_t zero_from_ = 0;              // the first step with the present zero
+  TextLocation zero_location_;             // of the word that set it
+  std::optional<Zero> moved_in_, cut_in_;  // of the first motion, of the first cut
+  Point3 local_shift_;                     // by G92 and G52, mm
+  Point3 kept_local_shift_;                // stored by G92.2
+  double program_rotation_ = 0.0;          // G68, degrees
+  Point3 program_rotation_centre_;         // program coordinates, mm
   Tenths work_offset_ = 540;
   bool starts_at_rest_ = false;  // the next motion starts at rest: a zero was shifted
   ToolPosition home_28_, home_30_;
@@ -339,6 +414,8 @@ class Interpreter : public SystemValues {
   bool filament_relative_ = false;
   bool volumetric_ = false;                      // M200: E is a volume
   double bead_width_ = 0.0, bead_height_ = 0.0;  // mm, of comments; 0: unknown
+  std::optional<step::ToolLength> tool_length_;
+  std::optional<int> length_tool_;  // in the spindle when it was set
   CycleWords cycle_;
   Compensation compensation_;
 
@@ -361,7 +438,10 @@ class Interpreter : public SystemValues {
   std::optional<std::pair<Tenths, TextLocation>> spindle_without_speed_;  // first M3 or M4 before any S word
   bool units_given_ = false;
   bool moved_ = false;
+  unsigned lathe_signs_ = 0;  // kinds of words of lathes that the program has, as bits
+  TextLocation lathe_location_;
   bool no_feed_reported_ = false;
+  bool feed_mode_repeated_ = false;  // G94 or G95 again, and no F since
   bool unknown_offset_reported_ = false;
   bool long_dwell_reported_ = false;
   bool text_after_end_reported_ = false;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <utility>
 
 #include "front/gcode/run/interpreter.h"
 
@@ -15,7 +16,15 @@ constexpr std::uint32_t kArcLetters =
 
 bool is_arc(Tenths motion) { return motion == 20 || motion == 30; }
 bool is_probe(Tenths motion) { return motion >= 382 && motion <= 385; }
+constexpr Tenths kSkip = 310;                         // G31
+constexpr int kContact = 5061, kProbeSuccess = 5070;  // parameters with the result of a probe
+constexpr int kMachContact = 2000;                    // of Mach3
 bool is_cycle(Tenths motion) { return motion == 730 || motion == 740 || (motion >= 810 && motion <= 890); }
+
+/// Whether G31 is a probe: on Fanuc's and Haas' controls, and Mach3.
+bool has_skip(GcodeDialect dialect) {
+  return dialect == GcodeDialect::fanuc || dialect == GcodeDialect::mach3;
+}
 
 }  // namespace
 
@@ -24,6 +33,14 @@ void Interpreter::run_line_motion() {
   if (stated) {
     const Tenths code = line_.code(Group::motion);
     const CodeEntry* entry = find_g_code(code);
+    if (code == kSkip && !has_skip(program_.dialect)) {
+      reporter_.unusual(Code::unknown_g_code, line_.column(Group::motion), "unknown code G31; skipped",
+                        "it is a probe on Mach3, Fanuc and Haas: --dialect");
+      line_.leave_out("G31", line_.column(Group::motion));
+      return leave_out();
+    }
+    if (is_cycle(code) && !is_cycle(modes_.motion)) motion_before_cycle_ = modes_.motion;
+    if (code != kNoMotion && !is_cycle(code)) motion_before_cycle_ = kMotionNotGiven;
     modes_.motion = entry->support == Support::read ? code : kMotionUnsupported;
     if (!is_cycle(modes_.motion)) cycle_ = {};
     if (modes_.motion != 50) last_control_point_.reset();
@@ -51,6 +68,7 @@ void Interpreter::run_motion(Tenths motion) {
                       "axis words before any motion code; read as rapids");
     motion = modes_.motion = 0;
   }
+  if (motion == kNoMotion && may_move_after_cancel()) motion = modes_.motion = motion_before_cycle_;
   const bool in_machine = line_.has(Group::machine_coordinates);
   const bool straight_motion = motion == 0 || motion == 10;
   if (motion == kNoMotion || motion == kMotionUnsupported || (in_machine && !straight_motion)) {
@@ -62,32 +80,67 @@ void Interpreter::run_motion(Tenths motion) {
   }
   if (straight_motion) return straight(motion);
   if (is_arc(motion)) return arc(motion == 20 ? Turn::cw : Turn::ccw);
-  if (is_probe(motion)) return probe(motion);
+  if (is_probe(motion)) return probe(static_cast<ProbeKind>(motion - 382));
+  if (motion == kSkip) return probe(ProbeKind::contact);
   if (motion >= 50 && motion <= 53) return curve(motion);
   if (motion == 330 || motion == 331) return spindle_motion(motion);
   if (motion == 760) return thread_cycle();
   cycle(motion);
 }
 
+/// On Fanuc's and Haas' controls cycles are a modal group of their own: after G80 the motion before the cycle
+/// is in force again. Programs for GRBL rely on it too.
+bool Interpreter::may_move_after_cancel() {
+  const bool known = motion_before_cycle_ == 0 || motion_before_cycle_ == 10;
+  if (!known) return false;
+  if (program_.dialect == GcodeDialect::fanuc) return true;
+  if (program_.dialect != GcodeDialect::grbl) return false;
+  reporter_.unusual(Code::no_motion_mode, line_.column(),
+                    fmt::format("axis words after G80, which GRBL refuses; read with the {} before it",
+                                code_text('G', motion_before_cycle_)),
+                    "put G0 or G1 on the line");
+  return true;
+}
+
 void Interpreter::straight(Tenths motion) {
   const std::optional<ToolPosition> to = line_.has(Group::machine_coordinates) ? machine_target() : target();
   if (!to) return;
-  if (line_.unused('E')) return extrude(*to, motion == 0 ? modes_.feed : feed_for(straight_length(*to)));
+  const double feed = motion == 0 ? 0.0 : straight_feed(*to);
+  if (line_.unused('E')) return extrude(*to, motion == 0 ? modes_.feed : feed);
   compensation_.leaving = false;
-  const double feed = motion == 0 ? 0.0 : feed_for(straight_length(*to));
-  if (compensation_.cutter)
+  if (compensation_.cutter) {
+    named_ = 0;
     return compensated_line(*to, motion == 0 ? MotionKind::rapid : MotionKind::cut, feed);
+  }
   if (motion == 0) return rapid(*to);
   cut(*to, feed);
 }
 
-void Interpreter::probe(Tenths motion) {
-  constexpr ProbeKind kKinds[] = {ProbeKind::contact_or_error, ProbeKind::contact,
-                                  ProbeKind::release_or_error, ProbeKind::release};
-  const std::optional<ToolPosition> to = target();
+/// Where the probe touches is unknown.
+void Interpreter::probe(ProbeKind kind) {
+  std::optional<ToolPosition> to = target();
   if (!to) return;
-  const double feed = feed_for(straight_length(*to));
-  if (add(step::Probe{to->at, mm_per_min(feed), kKinds[motion - 382]})) arrive(*to);
+  const double feed = straight_feed(*to);
+  unsigned moved = position_.unknown & ~to->unknown;
+  for (int axis = 0; axis < 3; ++axis)
+    if (to->at[axis] != position_.at[axis]) moved |= 1u << axis;
+  moved |= to->reference_axes;
+  if (to->reference_axes != 0) add(step::Unresolved{"the target of a probe"});
+  to->reference_axes = 0;
+  const unsigned known = kAllAxes & ~to->unknown;
+  const Point3 target = frame_.to_program(to->at);
+  if (!add(step::Probe{to->at, mm_per_min(feed), kind})) return;
+  path_.set_probed_axes(path_.size() - 1, moved, known, to->unknown);
+  to->unknown |= moved;
+  arrive(*to);
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool unknown = (to->unknown >> axis & 1u) != 0;
+    const ParameterValue contact{target[axis] / modes_.scale, unknown};
+    parameters_.set_number(kContact + axis, contact);
+    if (program_.dialect == GcodeDialect::mach3) parameters_.set_number(kMachContact + axis, contact);
+  }
+  const bool may_miss = kind == ProbeKind::contact || kind == ProbeKind::release;
+  parameters_.set_number(kProbeSuccess, {1.0, may_miss});
 }
 
 /// The target of the line's axis words, which are marked as used. Nothing with an error if it is too far
@@ -101,19 +154,43 @@ std::optional<ToolPosition> Interpreter::target() {
       const double value = *word * modes_.scale;
       to.at[axis] = modes_.absolute ? value + frame_.shift[axis] : position_.at[axis] + value;
       if (modes_.absolute) to.unknown &= ~(1u << axis);
+      named_ |= 1u << axis;
     }
   } else {
     to = target_in_frame();
   }
-  if (line_.has_unused(kRotaryLetters)) {
-    rotary_used_ = true;
-    for (int axis = 0; axis < 3; ++axis)
-      if (const auto word = line_.take(static_cast<char>('A' + axis)))
-        rotary_[static_cast<std::size_t>(axis)] =
-            modes_.absolute ? *word : rotary_[static_cast<std::size_t>(axis)] + *word;
-  }
+  named_ |= take_rotary_words() << 3;
+  if (line_.unknown_letters() != 0) mark_measured(to);
   if (!reachable(to.at)) return std::nullopt;
   return to;
+}
+
+/// The axes whose words depend on what only the controller knows are unknown.
+void Interpreter::mark_measured(ToolPosition& to) const {
+  for (int axis = 0; axis < 3; ++axis)
+    if ((line_.unknown_letters() & LineWords::bit(static_cast<char>('X' + axis))) != 0)
+      to.reference_axes |= 1u << axis;
+  if (to.reference_axes == 0) return;
+  to.reference = Reference::measured;
+  to.unknown |= to.reference_axes;
+}
+
+/// Takes A, B and C; returns which of them the line has, as bits.
+unsigned Interpreter::take_rotary_words() {
+  rotary_from_ = rotary_;
+  rotary_unknown_from_ = rotary_unknown_;
+  if (!line_.has_unused(kRotaryLetters)) return 0;
+  rotary_used_ = true;
+  unsigned named = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto word = line_.take(static_cast<char>('A' + axis));
+    if (!word) continue;
+    named |= 1u << axis;
+    rotary_axes_ |= 1u << axis;
+    rotary_[axis] = modes_.absolute ? *word : rotary_[axis] + *word;
+    if (modes_.absolute) rotary_unknown_ &= ~(1u << axis);
+  }
+  return named;
 }
 
 /// The same for rotated or scaled coordinates and for X words that are diameters.
@@ -127,9 +204,11 @@ ToolPosition Interpreter::target_in_frame() {
     const double value = *word * modes_.scale * (axis == 0 && modes_.diameters ? 0.5 : 1.0);
     program[axis] = modes_.absolute ? value : program[axis] + value;
     if (modes_.absolute) to.unknown &= ~(1u << axis);
+    named_ |= 1u << axis;
     any = true;
   }
   if (any) to.at = frame_.to_path(program);
+  if ((named_ & 3u) != 0 && frame_.rotation != 0.0) named_ |= 3u;
   return to;
 }
 
@@ -138,12 +217,13 @@ void Interpreter::polar() {
   const Point3 from = frame_.to_program(position_.at);
   double radius = std::hypot(from.x, from.y);
   const bool at_zero = radius < kPolarZero;
-  if (at_zero && (!line_.polar_radius() || !modes_.absolute)) {
+  if (at_zero && (!line_.polar_angle() || !modes_.absolute)) {
     reporter_.error(Code::polar_from_zero, line_.column(),
                     "polar coordinates have no angle at the work zero; the line is skipped");
     return line_.use(kAllLetters);
   }
   double angle = at_zero ? 0.0 : std::atan2(from.y, from.x) / kDegree;
+  polar_step_ = {line_.polar_radius().value_or(0.0) * modes_.scale, line_.polar_angle().value_or(0.0)};
   if (line_.polar_radius()) radius = *line_.polar_radius() * modes_.scale + (modes_.absolute ? 0.0 : radius);
   if (line_.polar_angle()) angle = *line_.polar_angle() + (modes_.absolute ? 0.0 : angle);
   const Point3 base = modes_.absolute ? Point3{} : from;
@@ -164,7 +244,10 @@ std::optional<ToolPosition> Interpreter::machine_target() {
     to.unknown |= 1u << axis;
     to.reference_axes |= 1u << axis;
     to.reference = Reference::machine;
+    named_ |= 1u << axis;
   }
+  named_ |= take_rotary_words() << 3;
+  if (line_.unknown_letters() != 0) mark_measured(to);
   if (!reachable(to.at)) return std::nullopt;
   return to;
 }
@@ -184,6 +267,25 @@ double Interpreter::straight_length(const ToolPosition& to) const {
   return distance(position_.at, to.at);
 }
 
+/// Feed of a straight motion. If only rotary axes move, it is in degrees per minute, whatever the unit of
+/// lengths; in inverse time it is unknown (0) if the angle is.
+double Interpreter::straight_feed(const ToolPosition& to) {
+  double square = 0.0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    square += (rotary_[axis] - rotary_from_[axis]) * (rotary_[axis] - rotary_from_[axis]);
+  const bool from_unknown = (rotary_unknown_from_ & ~rotary_unknown_) != 0;
+  const bool turns = square > 0.0 || from_unknown;
+  if (!turns || !(to.at == position_.at) || to.unknown != position_.unknown)
+    return feed_for(straight_length(to));
+  if (modes_.feed_mode == FeedMode::per_minute) return feed_for(0.0) / modes_.scale;
+  if (!from_unknown || modes_.feed_mode == FeedMode::per_turn) return feed_for(std::sqrt(square));
+  reporter_.unusual(Code::no_feed, line_.column(),
+                    "an inverse time feed (G93) from an unknown angle: the feed is unknown",
+                    "move the rotary axis to a known angle first (G0 A0)");
+  no_feed_reported_ = true;
+  return 0.0;
+}
+
 /// Feed in mm/min of a motion of `length` mm; 0 with a single warning if the program has none.
 double Interpreter::feed_for(double length) {
   const bool inverse = modes_.feed_mode == FeedMode::inverse_time;
@@ -199,6 +301,10 @@ double Interpreter::feed_for(double length) {
     return 0.0;
   }
   no_feed_reported_ = false;
+  if (std::exchange(feed_mode_repeated_, false) && !inverse)
+    reporter_.unusual(Code::word_missing, line_.column(),
+                      "a cut without an F word since the last G94 or G95, after which LinuxCNC has no feed",
+                      "put an F word on the line of the G94");
   return feed;
 }
 
@@ -215,15 +321,11 @@ void Interpreter::use_reference() {
     case 301: return set_home(kHome30, home_30_);
     case 520: return shift_locally();
     case 920: return shift_zero();
-    case 921: local_shift_ = kept_local_shift_ = {}; break;
+    case 921:
     case 922:
-      kept_local_shift_ = local_shift_;
-      local_shift_ = {};
-      break;
-    case 923: local_shift_ = kept_local_shift_; break;
+    case 923: return end_shift(line_.code(Group::reference));
     default: line_.use(kAllLetters); return;
   }
-  update_frame();
 }
 
 /// Controllers stop where the work zero is shifted: at G10, G52 and G92, and where G54 to G59.3 select
@@ -238,12 +340,17 @@ void Interpreter::note_stop() {
   starts_at_rest_ = starts_at_rest_ || code == 100 || code == 520 || (code >= 920 && code <= 923);
 }
 
-/// Through the intermediate point to the home; the named axes, or all.
+/// Through the intermediate point to the home; the named axes, or all. Homes of rotary axes are unknown.
 void Interpreter::go_home(const ToolPosition& home, Reference reference) {
-  unsigned axes = 0;
-  for (int axis = 0; axis < 3; ++axis)
+  unsigned axes = 0, rotary = 0;
+  for (int axis = 0; axis < 3; ++axis) {
     if (line_.unused(static_cast<char>('X' + axis))) axes |= 1u << axis;
-  if (axes == 0) axes = kAllAxes;
+    if (line_.unused(static_cast<char>('A' + axis))) rotary |= 1u << axis;
+  }
+  if (axes == 0 && rotary == 0) {
+    axes = kAllAxes;
+    rotary = rotary_axes_;
+  }
   std::optional<ToolPosition> to = target();
   if (!to) return;
   rapid(*to);
@@ -259,6 +366,8 @@ void Interpreter::go_home(const ToolPosition& home, Reference reference) {
   if (!frame_.only_shifted) to->at = frame_.to_path(end);
   to->reference = reference;
   to->reference_axes = axes & to->unknown;
+  rotary_unknown_ |= rotary;
+  rotary_reference_ = rotary;
   rapid(*to);
 }
 
@@ -274,8 +383,13 @@ void Interpreter::cut(const ToolPosition& to, double feed) {
 
 void Interpreter::arrive(const ToolPosition& to) {
   if (to.unknown != 0) path_.set_unknown_axes(path_.size() - 1, to.unknown);
-  if (to.reference_axes != 0) path_.set_reference(path_.size() - 1, to.reference, to.reference_axes);
-  if (rotary_used_) path_.set_extra(path_.size() - 1, {rotary_, {}});
+  if (to.reference_axes != 0 || rotary_reference_ != 0)
+    path_.set_reference(path_.size() - 1, to.reference, to.reference_axes);
+  if (named_ != 0) path_.set_named_axes(path_.size() - 1, named_);
+  if (rotary_used_)
+    path_.set_extra(path_.size() - 1,
+                    {.abc = rotary_, .unknown_abc = rotary_unknown_, .reference_abc = rotary_reference_});
+  rotary_reference_ = 0;
   if (starts_at_rest_) path_.set_rests_before(path_.size() - 1);
   starts_at_rest_ = false;
   position_ = to;

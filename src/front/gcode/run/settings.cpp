@@ -19,6 +19,7 @@ void Interpreter::set_feed_mode() {
   const FeedMode mode = code == 930   ? FeedMode::inverse_time
                         : code == 950 ? FeedMode::per_turn
                                       : FeedMode::per_minute;
+  feed_mode_repeated_ = mode == modes_.feed_mode && modes_.feed > 0.0 && !line_.has('F');
   if (mode == modes_.feed_mode) return;
   modes_.feed_mode = mode;
   modes_.feed = 0.0;  // the number of one mode has no meaning in another
@@ -38,6 +39,7 @@ void Interpreter::set_units() {
 
 void Interpreter::set_feed() {
   const double feed = *line_.take('F');
+  feed_mode_repeated_ = false;
   if (feed < 0.0) {
     reporter_.error(Code::word_out_of_range, line_.column('F'), "a feed cannot be negative; skipped");
     return;
@@ -80,7 +82,7 @@ void Interpreter::change_tool() {
       return;
     }
     modes_.tool = static_cast<int>(*number);
-    add(step::ToolChange{*modes_.tool});
+    add(step::ToolChange{*modes_.tool, ToolChangeKind::number_only});
     return;
   }
   if (!modes_.selected_tool)
@@ -141,6 +143,7 @@ void Interpreter::set_spindle_mode() {
 
 /// M98 P100 L2 calls subroutine 100 twice; so does Fanuc's M98 P20100.
 void Interpreter::subroutine() {
+  if (line_.code(Group::subroutine) == 650) return;  // macro_call()
   if (line_.code(Group::subroutine) == 990) {
     if (flow_->return_from_call() || program_.ended) return;
     reporter_.unusual(Code::o_word_unmatched, line_.column(Group::subroutine),
@@ -164,6 +167,26 @@ void Interpreter::subroutine() {
     flow_->call_number(static_cast<int>(label), static_cast<int>(repeats), line_.column(Group::subroutine));
 }
 
+/// G65 P100 A1 B2: calls subroutine 100 with its letters as parameters, as on Fanuc's controls. A macro that
+/// is not in the program belongs to the machine.
+void Interpreter::macro_call() {
+  constexpr std::string_view kLetters = "ABCIJKDEF#H#M###QRSTUVWXYZ";  // of #1, #2 ...; '#': none
+  const double number = line_.take('P').value_or(-1.0);
+  const bool whole = number == std::floor(number) && number >= 0.0 && number <= 1e8;
+  const std::uint32_t column = line_.column(Group::subroutine);
+  if (!whole || !flow_->has_sub(static_cast<int>(number))) {
+    reporter_.unusual(Code::unknown_g_code, column,
+                      fmt::format("G65 calls the macro {:g}, which is not in the program; skipped", number));
+    return line_.leave_out("G65", column);
+  }
+  std::array<ParameterValue, Parameters::kArguments> arguments;
+  for (std::size_t i = 0; i < kLetters.size(); ++i)
+    if (kLetters[i] != '#')
+      if (const auto value = line_.take(kLetters[i]))
+        arguments[i] = {*value, (line_.unknown_letters() & LineWords::bit(kLetters[i])) != 0};
+  flow_->call_macro(static_cast<int>(number), arguments, column);
+}
+
 void Interpreter::save_modes() {
   std::optional<SavedModes>& kept = saved_modes_.back();
   switch (line_.code(Group::saved_modes)) {
@@ -180,14 +203,17 @@ void Interpreter::save_modes() {
 /// Motion, tool and position are not restored.
 void Interpreter::restore_modes(const Modes& kept) {
   const Modes now = modes_;
-  check_system_offsets();
+  note_zeros();
   modes_ = kept;
+  modes_.system = now.system;
   modes_.motion = now.motion;
   modes_.tool = now.tool;
   modes_.selected_tool = now.selected_tool;
   if (kept.spindle != now.spindle || kept.speed != now.speed) set_spindle(kept.spindle);
   if (kept.mist != now.mist || kept.flood != now.flood) add(step::Coolant{kept.mist, kept.flood});
-  if (kept.system != now.system) update_frame();
+  if (kept.system == now.system) return;
+  zero_location_ = reporter_.location(line_.column());
+  select_system(kept.system);
 }
 
 void Interpreter::read_large_m_code() {
@@ -212,29 +238,43 @@ void Interpreter::switch_coolant() {
 }
 
 void Interpreter::dwell() {
-  const std::optional<double> time = line_.take('P');
+  const bool fanuc = program_.dialect == GcodeDialect::fanuc;
+  char letter = 'P';
+  if (is_printer() && line_.unused('S')) letter = 'S';  // seconds
+  for (const char other : {'X', 'U'})
+    if (fanuc && line_.unused(other)) letter = other;  // seconds
+  const std::optional<double> time = line_.take(letter);
   if (!time) {
+    if (is_printer()) return;  // waits for the motions before it
     reporter_.error(Code::word_missing, line_.column(Group::dwell), "G4 needs a time: P in seconds");
     return;
   }
   if (*time < 0.0) {
-    reporter_.error(Code::word_out_of_range, line_.column('P'), "a time cannot be negative");
+    reporter_.error(Code::word_out_of_range, line_.column(letter), "a time cannot be negative");
     return;
   }
-  const double time_s = is_printer() ? *time / kMillisecondsPerSecond : *time;
-  report_long_dwell(time_s, 'P');
+  const double time_s = letter == 'P' ? seconds_of_p(*time) : *time;
+  report_long_dwell(time_s, letter);
   add(step::Dwell{seconds(time_s)});
+}
+
+/// P of a dwell or cycle in seconds. Printers give milliseconds; so do Fanuc's and Haas' controls, unless the
+/// number has a decimal point.
+double Interpreter::seconds_of_p(double p) const {
+  const bool fanuc = program_.dialect == GcodeDialect::fanuc && line_.is_integer_text('P');
+  return is_printer() || fanuc ? p / kMillisecondsPerSecond : p;
 }
 
 /// P is in seconds or milliseconds, depending on the controller; a dwell of minutes suggests the wrong unit.
 void Interpreter::report_long_dwell(double time, char letter) {
   if (time <= kLongDwell || long_dwell_reported_) return;
   long_dwell_reported_ = true;
-  const std::string_view unit = is_printer() ? "milliseconds" : "seconds";
-  reporter_.unusual(Code::dwell_long, line_.column(letter),
-                    fmt::format("a dwell of {:.3g} minutes: P is read in {}, as {} does", time / 60.0, unit,
-                                to_string(program_.dialect)),
-                    is_printer() ? "" : "if P is in milliseconds, divide it by 1000");
+  const bool milliseconds = letter == 'P' && seconds_of_p(1.0) != 1.0;
+  reporter_.unusual(
+      Code::dwell_long, line_.column(letter),
+      fmt::format("a dwell of {:.3g} minutes: {} is read in {}, as {} does", time / 60.0, letter,
+                  milliseconds ? "milliseconds" : "seconds", to_string(program_.dialect)),
+      milliseconds ? "" : "if P is in milliseconds, divide it by 1000");
 }
 
 void Interpreter::set_plane() {
@@ -270,11 +310,48 @@ void Interpreter::set_distance() {
 void Interpreter::use_words_of_other_codes() {
   using L = LineWords;
   if (line_.has(Group::tool_length)) line_.use(L::bit('H'));
-  if (line_.has(Group::tool_length) && line_.code(Group::tool_length) == 431)
-    line_.use(kAxisLetters | kRotaryLetters);
   if (line_.has(Group::other) || line_.has(Group::tool_change))
     line_.use(L::bit('P') | L::bit('Q') | L::bit('R') | L::bit('L') | L::bit('E'));
   if (line_.has(Group::spindle_mode)) line_.use(L::bit('D'));
+}
+
+/// G43, G43.1, G43.2, G49. The toolpath is that of the tip, but after a change of the length compensation the
+/// present height of the tip in work coordinates is unknown.
+void Interpreter::set_tool_length() {
+  const Tenths code = line_.code(Group::tool_length);
+  step::ToolLength length;
+  if (code == 431) {
+    length.kind = ToolLengthKind::given;
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
+      if (!word) continue;
+      length.offset[axis] = *word * modes_.scale;
+      length.axes |= 1u << axis;
+    }
+    line_.use(kRotaryLetters);
+  } else if (code != 490) {
+    length.kind = ToolLengthKind::table;
+    const std::optional<double> number = line_.take('H');
+    const bool valid = number && *number == std::floor(*number) && *number >= 0.0 && *number <= 1e6;
+    if (number && !valid)
+      reporter_.error(Code::word_out_of_range, line_.column('H'), "H is a whole number from 0");
+    if (valid) length.number = static_cast<int>(*number);
+    if (valid && modes_.tool && length.number != *modes_.tool)
+      reporter_.unusual(Code::tool_length_other, line_.column('H'),
+                        fmt::format("H{} is the length of another tool than T{}, which is in the spindle",
+                                    length.number, *modes_.tool),
+                        fmt::format("should it be H{}?", *modes_.tool));
+    if (code == 432) report_unresolved("a sum of tool lengths (G43.2)", line_.column(Group::tool_length));
+  }
+  const auto same = [&](const step::ToolLength& old) {
+    return old.kind == length.kind && old.number == length.number && old.offset == length.offset &&
+           old.axes == length.axes && (length.kind != ToolLengthKind::table || length_tool_ == modes_.tool);
+  };
+  if (tool_length_ && same(*tool_length_)) return;
+  tool_length_ = length;
+  length_tool_ = modes_.tool;
+  constexpr unsigned kZ = 4;
+  if (add(length)) position_.unknown |= kZ;
 }
 
 void Interpreter::end_or_pause() {
@@ -301,9 +378,13 @@ void Interpreter::end_program() {
   end_compensation();
   compensation_.leaving = false;
   modes_.motion = 10;
-  check_system_offsets();
+  note_zeros();
+  if (after_end_ == AfterEnd::read_on && offsets_.selected > 1) {
+    zero_location_ = reporter_.location(line_.column());
+    select_system(1);
+  }
   modes_.system = 1;
-  update_frame();
+  load_offsets();
   modes_.plane = Plane::xy;
   modes_.absolute = true;
   if (modes_.feed_mode != FeedMode::per_minute) modes_.feed = 0.0;

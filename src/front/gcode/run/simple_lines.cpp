@@ -99,6 +99,7 @@ bool Interpreter::run_simple_line(std::string_view text, std::uint32_t number) {
     path_.add(step::Rapid{to.at}, origin_);
   else
     path_.add(step::Cut{to.at, mm_per_min(feed)}, origin_);
+  named_ = words.axes;
   arrive(to);
   return true;
 }

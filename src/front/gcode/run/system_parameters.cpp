@@ -21,13 +21,42 @@ std::optional<double> Interpreter::system_number(int number) const {
   if (number >= 5420 && number <= 5422) return program_position()[number - 5420];
   if (number >= 5423 && number <= 5425) return rotary_[static_cast<std::size_t>(number - 5423)];
   switch (number) {
-    case 5070: return 1.0;  // success of a probe: contact is assumed at its end
     case 5210: return truth(local_shift_ != Point3{});
     case 5220: return modes_.system;
     case 5400: return modes_.tool.value_or(0);
     case 5410: return diameter_of(modes_.tool.value_or(0)).value_or(0.0) / modes_.scale;
     default: return std::nullopt;
   }
+}
+
+/// What the machine stores, and positions that it knows.
+bool Interpreter::is_unknown_number(int number) const {
+  const auto has = [](unsigned axes, int axis) { return (axes >> static_cast<unsigned>(axis) & 1u) != 0; };
+  if (number < 5161) return false;
+  if (number <= 5163) return has(home_28_.unknown, number - 5161);
+  if (number >= 5181 && number <= 5183) return has(home_30_.unknown, number - 5181);
+  if (number >= 5211 && number <= 5213) return has(offsets_.unknown_shift(), number - 5211);
+  if (number >= 5420 && number <= 5422) return has(position_.unknown, number - 5420);
+  if (number >= 5423 && number <= 5425) return has(rotary_unknown_, number - 5423);
+  if (number == 5410) return !diameter_of(modes_.tool.value_or(0));
+  const int system = (number - 5221) / 20 + 1, axis = (number - 5221) % 20;
+  if (number < 5221 || system > WorkOffsets::kSystems || axis > 2) return false;
+  const auto n = static_cast<std::size_t>(system);
+  const bool assigned = parameters_.slot(number) != offsets_.written[n][axis];
+  return !assigned && offsets_.base[n][static_cast<std::size_t>(axis)] != 0;
+}
+
+bool Interpreter::is_unknown_name(std::string_view name) const {
+  const std::string_view axes = "xyzabc";
+  const bool absolute = name.substr(0, 5) == "_abs_";
+  const std::string_view rest = name.substr(absolute ? 5 : 1);
+  if (rest.size() == 1 && axes.find(rest) != std::string_view::npos) {
+    const auto axis = axes.find(rest);
+    if (axis > 2) return (rotary_unknown_ >> (axis - 3) & 1u) != 0;
+    const bool in_machine = offsets_.base[static_cast<std::size_t>(modes_.system)][axis] == 0;
+    return (position_.unknown >> axis & 1u) != 0 || (absolute && !in_machine);
+  }
+  return name == "_tool_offset" && tool_length_ && tool_length_->kind == ToolLengthKind::table;
 }
 
 /// Homes and offsets are stored in mm.

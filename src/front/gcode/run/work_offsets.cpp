@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
+#include <utility>
 
 #include "front/gcode/run/interpreter.h"
 
@@ -14,7 +15,6 @@ namespace kerf::gcode {
 namespace {
 
 constexpr int kFirstSystem = 5221, kPerSystem = 20, kRotationOfSystem = 9;  // parameters of G54's offsets
-constexpr int kSystems = 9;
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMinScale = 1e-6, kMaxScale = 1e6;
 
@@ -44,13 +44,9 @@ Point3 ProgramFrame::to_program(Point3 p) const {
   return p;
 }
 
-double Interpreter::system_offset(int axis) const {
-  return parameters_.slot(first_parameter(modes_.system) + axis);
-}
-
 /// The frame from its components: (program + local shift) rotated, then shifted by the coordinate system.
 void Interpreter::update_frame() {
-  const double rotation = parameters_.slot(first_parameter(modes_.system) + kRotationOfSystem);
+  const double rotation = offsets_.rotation;
   frame_.rotation = rotation + program_rotation_;
   frame_.cosine = std::cos(frame_.rotation * kDegree);
   frame_.sine = std::sin(frame_.rotation * kDegree);
@@ -65,45 +61,102 @@ void Interpreter::update_frame() {
     shift = shift + Point3{about.x * tc - about.y * ts - (about.x * c - about.y * s),
                            about.x * ts + about.y * tc - (about.x * s + about.y * c), 0.0};
   }
-  for (int axis = 0; axis < 3; ++axis) frame_.shift[axis] = shift[axis] + system_offset(axis);
+  frame_.shift = shift + offsets_.in_effect;
 }
 
 void Interpreter::use_coordinates() {
-  check_system_offsets();
-  modes_.system = system_of(line_.code(Group::coordinates));
-  system_location_ = reporter_.location(line_.column(Group::coordinates));
+  note_zeros();
+  zero_location_ = reporter_.location(line_.column(Group::coordinates));
+  select_system(system_of(line_.code(Group::coordinates)));
+}
+
+/// Offsets that the program has written into parameters take effect where their system is selected; the
+/// selection of the present one changes nothing.
+void Interpreter::select_system(int system) {
+  const auto n = static_cast<std::size_t>(system);
+  if (system == modes_.system) {
+    if (std::exchange(offsets_.selected, system) != system)
+      add(step::WorkZero{.system = system, .zero = offsets_.written[n]});
+    return;
+  }
+  Point3 stored;
+  for (int axis = 0; axis < 3; ++axis) stored[axis] = parameters_.slot(first_parameter(system) + axis);
+  const bool set_directly = !(stored == offsets_.written[n]);
+  const auto before = offsets_.base[static_cast<std::size_t>(modes_.system)];
+  if (set_directly) offsets_.base[n].fill(0);
+  unsigned lost = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (offsets_.base[n][axis] != before[axis]) lost |= 1u << axis;
+  modes_.system = system;
+  offsets_.written[n] = stored;
+  if (set_directly)
+    add(step::WorkZero{.kind = ZeroKind::offset, .system = system, .axes = kAllAxes, .zero = stored});
+  add(step::WorkZero{.system = system, .zero = stored, .unknown = lost});
+  offsets_.selected = system;
+  lose(lost);
+  load_offsets();
+}
+
+/// Makes the active system's parameters take effect.
+void Interpreter::load_offsets() {
+  const int first = first_parameter(modes_.system);
+  for (int axis = 0; axis < 3; ++axis) offsets_.in_effect[axis] = parameters_.slot(first + axis);
+  offsets_.rotation = parameters_.slot(first + kRotationOfSystem);
   update_frame();
 }
 
-/// Called where a coordinate system is left: if the program has motions in more than one of them, all their
-/// offsets must be known. Motions in machine coordinates (G53, G28) do not count.
-void Interpreter::check_system_offsets() {
-  const auto& steps = path_.steps();
-  const bool used = std::any_of(steps.begin() + static_cast<std::ptrdiff_t>(system_from_), steps.end(),
-                                [](const Step& s) { return s.is_motion() && s.reference_axes() == 0; });
-  system_from_ = steps.size();
-  if (!used) return;
-  systems_used_ |= 1u << modes_.system;
-  const bool several = (systems_used_ & (systems_used_ - 1)) != 0;
-  for (int system = 2; several && !unknown_offset_reported_ && system <= kSystems; ++system)
-    if ((systems_used_ & (1u << system)) != 0) report_unknown_offset(system);
+/// The position, and the homes stored so far, are unknown in the present coordinates.
+void Interpreter::lose(unsigned axes) {
+  position_.unknown |= axes;
+  home_28_.unknown |= axes;
+  home_30_.unknown |= axes;
 }
 
-/// Reports an offset that is set neither by G10 nor by a parameter. The machine stores it, but the toolpath
-/// has a single work zero.
-void Interpreter::report_unknown_offset(int system) {
-  bool known = (systems_set_ & (1u << system)) != 0;
-  for (int i = 0; i <= kRotationOfSystem; ++i)
-    known = known || parameters_.slot(first_parameter(system) + i) != 0.0;
-  if (known) return;
+/// Called where the zero changes: the motions since the last call belong to the present one. All zeros with
+/// motions must have a known distance. Motions in machine coordinates (G53, G28) and probes do not count;
+/// of zeros set by touching off, only cuts count.
+void Interpreter::note_zeros() {
+  const auto& steps = path_.steps();
+  const auto first = steps.begin() + static_cast<std::ptrdiff_t>(zero_from_);
+  const bool moved =
+      std::any_of(first, steps.end(), [](const Step& s) { return s.is_motion() && s.reference_axes() == 0; });
+  const bool cut = std::any_of(first, steps.end(), [](const Step& s) { return s.is_cutting(); });
+  zero_from_ = steps.size();
+  const Zero now{modes_.system, offsets_.base[static_cast<std::size_t>(modes_.system)], offsets_.shift_base};
+  bool unrelated = false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (moved && moved_in_) {
+      const int a = moved_in_->base[axis], b = now.base[axis];
+      unrelated = unrelated || (a != b && std::max(a, b) <= WorkOffsets::kSystems);
+    }
+    if (cut && cut_in_)
+      unrelated =
+          unrelated || cut_in_->base[axis] != now.base[axis] || cut_in_->shift[axis] != now.shift[axis];
+  }
+  if (unrelated && !unknown_offset_reported_) report_unknown_zero(moved_in_ ? *moved_in_ : *cut_in_, now);
+  if (moved && !moved_in_) moved_in_ = now;
+  if (cut && !cut_in_) cut_in_ = now;
+}
+
+/// The machine knows the distance of the zeros, but the toolpath has a single one.
+void Interpreter::report_unknown_zero(const Zero& first, const Zero& now) {
   unknown_offset_reported_ = true;
-  const std::string name = system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
+  if (first.system == now.system) {
+    reporter_.unusual_at(zero_location_, Code::offset_unknown,
+                         "the work zero changes here by an unknown distance; assuming that it stays",
+                         "split the program here");
+    return;
+  }
+  const auto name = [](int system) {
+    return system <= 6 ? fmt::format("G{}", 53 + system) : fmt::format("G59.{}", system - 6);
+  };
   reporter_.unusual_at(
-      system_location_, Code::offset_unknown,
-      fmt::format("the program uses several work offsets, and that of {} is unknown; assuming that of G54",
-                  name),
-      fmt::format("set it in the program, e.g. G10 L2 P{} X100 Y0 Z0, or split the program by work offset",
-                  system));
+      zero_location_, Code::offset_unknown,
+      fmt::format("the program uses several work offsets, and the distance between {} and {} is unknown; "
+                  "an offset that it does not set counts as 0",
+                  name(first.system), name(now.system)),
+      fmt::format("set both in the program (G10 L2 P{} X... Y... Z... and P{}), or split it by work offset",
+                  first.system, now.system));
 }
 
 /// G10: L2 and L20 set a coordinate system, L1, L10 and L11 a tool.
@@ -116,7 +169,7 @@ void Interpreter::set_data() {
     return;
   }
   const bool whole = number == std::floor(number) && number >= 0.0 && number <= 1e6;
-  const bool system = (what == 2.0 || what == 20.0) && whole && number <= kSystems;
+  const bool system = (what == 2.0 || what == 20.0) && whole && number <= WorkOffsets::kSystems;
   const bool tool = (what == 1.0 || what == 10.0 || what == 11.0) && whole;
   if (system) {
     const int n = number == 0.0 ? modes_.system : static_cast<int>(number);
@@ -131,47 +184,93 @@ void Interpreter::set_data() {
 
 /// G10 L2: the offset itself, also in G91.
 void Interpreter::set_system(int system) {
-  systems_set_ |= 1u << system;
+  note_zeros();
+  const auto n = static_cast<std::size_t>(system);
   const int first = first_parameter(system);
+  unsigned axes = 0, lost = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
+    axes |= 1u << axis;
+    if (std::exchange(offsets_.base[n][static_cast<std::size_t>(axis)], 0) != 0) lost |= 1u << axis;
     parameters_.slot(first + axis) = *word * modes_.scale;
+    offsets_.written[n][axis] = parameters_.slot(first + axis);
   }
   if (const std::optional<double> rotation = line_.take('R'))
     parameters_.slot(first + kRotationOfSystem) = std::fmod(*rotation, 360.0);
   line_.use(kRotaryLetters);
-  update_frame();
+  if (system != modes_.system) lost = 0;
+  if (axes != 0)
+    add(step::WorkZero{.kind = ZeroKind::offset,
+                       .system = system,
+                       .axes = axes,
+                       .zero = offsets_.written[n],
+                       .unknown = lost});
+  lose(lost);
+  if (system != modes_.system) return;
+  zero_location_ = reporter_.location(line_.column(Group::reference));
+  load_offsets();
 }
 
 /// G10 L20: the offset with which the current position has the coordinates of the line. Axes of unknown
 /// position get these coordinates.
 void Interpreter::touch_off(int system) {
-  systems_set_ |= 1u << system;
+  note_zeros();
+  const auto n = static_cast<std::size_t>(system);
   const int first = first_parameter(system);
   Point3 offset;
   for (int axis = 0; axis < 3; ++axis) offset[axis] = parameters_.slot(first + axis);
   const double rotation = parameters_.slot(first + kRotationOfSystem);
   Point3 wanted =
       rotated(position_.at - offset, -rotation) - local_shift_;  // coordinates of the current position
+  unsigned axes = 0, unknown = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
-    const double value = *word * modes_.scale;
-    const unsigned bit = 1u << axis;
-    if ((position_.unknown & bit) == 0) {
-      wanted[axis] = value;
-    } else if (system == modes_.system) {
-      position_.at[axis] = value + frame_.shift[axis];
-      position_.unknown &= ~bit;
-    }
+    wanted[axis] = *word * modes_.scale;
+    axes |= 1u << axis;
+    const bool known = (position_.unknown >> axis & 1u) == 0;
+    const auto k = static_cast<std::size_t>(axis);
+    offsets_.base[n][k] =
+        known ? offsets_.base[static_cast<std::size_t>(modes_.system)][k] : offsets_.next_base++;
+    if (!known) unknown |= 1u << axis;
   }
-  offset = position_.at - rotated(wanted + local_shift_, rotation);
-  for (int axis = 0; axis < 3; ++axis)
-    if ((position_.unknown & (1u << axis)) == 0) parameters_.slot(first + axis) = offset[axis];
   line_.use(kRotaryLetters | LineWords::bit('R'));
-  reachable(position_.at);
-  update_frame();
+  // Where the position is unknown, the offset stays and the position follows from it.
+  const Point3 at = rotated(wanted + local_shift_, rotation) + offset;
+  const Point3 moved = position_.at - rotated(wanted + local_shift_, rotation);
+  for (int axis = 0; axis < 3; ++axis) {
+    const unsigned bit = 1u << axis;
+    const bool turned = rotation != 0.0 && axis < 2;
+    if ((axes & bit) != 0 || turned)
+      parameters_.slot(first + axis) = (position_.unknown & bit) == 0 ? moved[axis] : offset[axis];
+    offsets_.written[n][axis] = parameters_.slot(first + axis);
+  }
+  const unsigned located = system == modes_.system ? unknown : 0u;
+  lose(unknown);
+  for (int axis = 0; axis < 3; ++axis)
+    if ((located >> axis & 1u) != 0) position_.at[axis] = at[axis];
+  position_.unknown &= ~located;
+  if (!reachable(position_.at)) position_.unknown = kAllAxes;
+  add_touch_off(system, axes, located, rotated(wanted + local_shift_, rotation) + offsets_.written[n]);
+  if (system != modes_.system) return;
+  zero_location_ = reporter_.location(line_.column(Group::reference));
+  load_offsets();
+}
+
+/// The step of G10 L20. In rotated coordinates its words would mean something else.
+void Interpreter::add_touch_off(int system, unsigned axes, unsigned located, Point3 at) {
+  const auto n = static_cast<std::size_t>(system);
+  if (parameters_.slot(first_parameter(system) + kRotationOfSystem) != 0.0) {
+    if (located != 0) report_unresolved("the zero of rotated coordinates", line_.column(Group::reference));
+    return;
+  }
+  add(step::WorkZero{.kind = ZeroKind::here,
+                     .system = system,
+                     .axes = axes,
+                     .zero = offsets_.written[n],
+                     .at = at,
+                     .known = located});
 }
 
 /// Only the diameter of a tool is used; its length is compensated by the machine.
@@ -193,9 +292,13 @@ std::optional<double> Interpreter::diameter_of(int tool) const {
 
 /// G52: the shift itself.
 void Interpreter::shift_locally() {
-  for (int axis = 0; axis < 3; ++axis)
-    if (const auto word = line_.take(static_cast<char>('X' + axis)))
-      local_shift_[axis] = *word * modes_.scale;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto word = line_.take(static_cast<char>('X' + axis));
+    if (!word) continue;
+    if (offsets_.shift_base[static_cast<std::size_t>(axis)] != 0)
+      report_unresolved("G52 after a G92 at an unknown position", line_.column(Group::reference));
+    local_shift_[axis] = *word * modes_.scale;
+  }
   kept_local_shift_ = local_shift_;
   line_.use(kRotaryLetters);
   update_frame();
@@ -210,19 +313,63 @@ void Interpreter::shift_zero() {
   const Point3 program = frame_.to_program(position_.at);
   ToolPosition now = position_;
   Point3 shift = local_shift_;
+  unsigned located = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const std::optional<double> word = line_.take(static_cast<char>('X' + axis));
     if (!word) continue;
     const double value = *word * modes_.scale;
     const bool known = (position_.unknown & (1u << axis)) == 0;
     shift[axis] = known ? shift[axis] + program[axis] - value : 0.0;
-    if (!known) now.at[axis] = value + system_offset(axis);
-    now.unknown &= ~(1u << axis);
+    if (known) continue;
+    now.at[axis] = value + offsets_.in_effect[axis];
+    located |= 1u << axis;
   }
+  now.unknown &= ~located;
   line_.use(kRotaryLetters);
   if (!reachable(now.at) || !reachable(shift)) return;
+  if (located != 0) {
+    note_zeros();
+    zero_location_ = reporter_.location(line_.column(Group::reference));
+    lose(located);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if ((located >> axis & 1u) != 0) offsets_.shift_base[axis] = offsets_.next_base++;
+    if (!frame_.only_shifted)
+      report_unresolved("the zero of rotated or scaled coordinates", line_.column(Group::reference));
+    add(step::WorkZero{.kind = ZeroKind::shift,
+                       .system = modes_.system,
+                       .axes = located,
+                       .zero = offsets_.written[static_cast<std::size_t>(modes_.system)],
+                       .at = now.at,
+                       .known = located});
+  }
   position_ = now;
   local_shift_ = kept_local_shift_ = shift;
+  update_frame();
+}
+
+/// G92.1, G92.2, G92.3. After them the position is unknown on axes whose shift is.
+void Interpreter::end_shift(Tenths code) {
+  const unsigned unknown = offsets_.unknown_shift() | (code == 923 ? offsets_.kept_shift : 0u);
+  if (code == 922) kept_local_shift_ = local_shift_;
+  local_shift_ = code == 923 ? kept_local_shift_ : Point3{};
+  if (code == 921) kept_local_shift_ = {};
+  if (unknown != 0) {
+    note_zeros();
+    zero_location_ = reporter_.location(line_.column(Group::reference));
+    if (code == 922) offsets_.kept_shift = offsets_.unknown_shift();
+    if (code == 921) offsets_.kept_shift = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const bool kept = code == 923 && (offsets_.kept_shift >> axis & 1u) != 0;
+      offsets_.shift_base[axis] = kept ? offsets_.next_base++ : 0;
+    }
+    add(step::WorkZero{.kind = code == 921   ? ZeroKind::shift_off
+                               : code == 922 ? ZeroKind::shift_paused
+                                             : ZeroKind::shift_on,
+                       .system = modes_.system,
+                       .zero = offsets_.written[static_cast<std::size_t>(modes_.system)],
+                       .unknown = unknown});
+    lose(unknown);
+  }
   update_frame();
 }
 
