@@ -91,7 +91,8 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
     if (!file) throw py::value_error("'" + path + "' must end in .stl, .3mf, .glb, .obj, .png or .kstock");
     files.push_back(*file);
   }
-  const PartFileOptions options{to_view(view, size, section), grooves ? Grooves::kept : Grooves::closed};
+  const PartFileOptions options{.view = to_view(view, size, section),
+                                .grooves = grooves ? Grooves::kept : Grooves::closed};
   Diagnostics diagnostics;
   SignalProgress progress;
   {

@@ -80,9 +80,10 @@ constexpr Unexamined kUnexamined[] = {
 };
 
 /// Whether the material not being checked stays a warning: a finding has the reason already, or the program
-/// is a print, whose material is not checked yet.
+/// removes nothing: a print, whose material is not checked yet, or a laser's.
 bool is_reason_found(const std::vector<Finding>& findings, const Toolpath& path) {
-  return is_print(path) || std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
+  return is_print(path) || path.has(StepKind::laser_power) ||
+         std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
            return f.kind == "unknown_tool" || f.kind == "no_tool" || f.kind == "z_downwards";
          });
 }
@@ -177,6 +178,7 @@ std::vector<Finding> findings_in_path(const Job& job, const JobCheckOptions& opt
   checks.machine = options.machine;
   checks.material = options.material;
   checks.tools = &job.tools;
+  if (job.stock && !job.z_downwards) checks.stock = job.stock->block;
   if (job.bar) checks.stock = box_of(*job.bar);
   return merged(findings_of(check_path(job.program.path, checks), job.program.path), assumed_tools(job));
 }

@@ -154,5 +154,6 @@ def test_a_fourth_axis(kerf, program, files):
     assert hazard["depth_mm"] == pytest.approx(1, abs=0.05)
     assert "bar.stl" in files()
     check = kerf("check", "--json", "--rotary", "d=20 length=30", path)
-    assert check.status == 3 and [h["kind"] for h in check.json["hazards"]] == ["rapid_in_stock"]
+    assert check.status == 3 and [h["kind"] for h in check.json["hazards"]] == [
+        "rapid_in_stock", "stop_low"]  # it ends at Z9 in the bar, with the spindle on
     assert kerf("simulate", "--rotary", "d=20 length=30", path, "-o", "bar.kstock").status == 1

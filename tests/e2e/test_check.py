@@ -120,7 +120,7 @@ def test_an_unknown_tool_is_a_hazard_and_the_rest_is_checked(kerf, program):
     two = VALID.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM6 T77\nM3 S9000\nG1 Z-1\nG1 X35 Z-20\nG0 Z5\nM5")
     run = kerf("check", "--json", program(two))
     assert run.status == 3
-    assert kinds(run) == ["rapid_in_stock", "unknown_tool", "below_floor"]  # the last: assumed tool
+    assert kinds(run) == ["below_floor", "rapid_in_stock", "unknown_tool"]  # with the assumed tool
     unknown = run.json["hazards"][1]
     assert unknown["origin"]["line"] == 15 and unknown["steps"] == 2
     assert '--tool 77="square d=3.175"' in unknown["hint"]

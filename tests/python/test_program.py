@@ -93,7 +93,7 @@ def test_old_encodings_are_read(write):
     program = kerf.load(write("old.nc", text.replace(b" Y", b" F9")))
     notes = [program.toolpath[i].get("text", "") for i in range(len(program))]
     assert any("Fr\ufffdsen" in note for note in notes)
-    assert "(Fr_sen)" in kerf.post(program, "linuxcnc")  # comments of posts are ASCII
+    assert "(MSG, Fr_sen)" in kerf.post(program, "linuxcnc")  # comments of posts are ASCII
 
 
 def test_missing_files_are_os_errors(tmp_path):

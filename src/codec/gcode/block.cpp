@@ -193,7 +193,7 @@ bool BlockReader::next(Block& block) {
   const std::size_t end = line_end();
   block.text = text_.substr(position_, end - position_);
   block.line = ++line_;
-  block.faulty = block.optional = block.percent = block.computed = false;
+  block.faulty = block.optional = block.percent = block.sender = block.computed = false;
   block.command = {};
   block.number.reset();
   block.o_word.reset();

@@ -153,7 +153,7 @@ TEST(GcodeProgram, CommentsDescribeTools) {
   const auto program = read_gcode(
       "(T1  D=6. CR=1. - ZMIN=-2. - bullnose end mill)\n( T3 : 0.25 )\n( Tool #5 \"x\" / Diameter 3.175 mm "
       ")\n"
-      "(HSS, 2-Flute Endmill, 2mm)\nG20\nG0 X1\nM2\n",
+      "(HSS, 2-Flute Endmill, 2mm)\nG20\nG0 X1\nG1 X2 F9\nM2\n",
       {}, diagnostics);
   ASSERT_EQ(program.tools.size(), 4u);
   EXPECT_EQ(name_of(program.tools.at(1).shape), "bull nose");

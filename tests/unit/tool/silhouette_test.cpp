@@ -266,7 +266,7 @@ TEST(MakeTool, RefusesMeasuresThatDoNotFit) {
       shape::Lollipop{mm(5.0), mm(6.0), Length()},
       shape::Lollipop{mm(5.0), mm(2.0), mm(1.0)},
       shape::TSlot{mm(5.0), mm(2.0), mm(6.0), Length()},
-      shape::Drill{mm(6.0), mm(0.0), degrees(0.0)},
+      shape::Drill{mm(6.0), mm(0.0), degrees(-1.0)},
       shape::CentreDrill{mm(6.0), mm(9.0), degrees(90.0), mm(4.0), Length(), degrees(60.0)},
       shape::CentreDrill{mm(3.0), mm(1.0), degrees(90.0), mm(4.0), Length(), degrees(60.0)},
       shape::FlatGroove{mm(6.0), mm(5.0), mm(7.0)},

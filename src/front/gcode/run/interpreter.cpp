@@ -224,9 +224,9 @@ void Interpreter::finish() {
   program_.cut_short = full_ || flow_->limit_reached();
   if (path_.size() == 0 && !flow_->first_subroutine().empty() && !program_.cut_short)
     reporter_.error(Code::subroutine_only, 0,
-                    fmt::format("the file only defines the subroutine o<{0}>, and nothing calls it",
+                    fmt::format("the file only defines the subroutine o{}, and nothing calls it",
                                 flow_->first_subroutine()),
-                    fmt::format("call it from a program in the same folder, e.g. o<{}> call [1] [2]",
+                    fmt::format("call it from a program in the same folder, e.g. o{} call [1] [2]",
                                 flow_->first_subroutine()));
   const bool ends = !is_printer();  // printers need no end
   if (ends && !program_.ended && !program_.cut_short && path_.size() > 0)
