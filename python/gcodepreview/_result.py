@@ -48,6 +48,12 @@ def _box_stl(boxes):
     return bytes(data)
 
 
+def _block_size(stockXwidth, stockYheight, stockZthickness):
+    """The checked size of a block."""
+    named = {"stockXwidth": stockXwidth, "stockYheight": stockYheight, "stockZthickness": stockZthickness}
+    return [positive(value, name) for name, value in named.items()]
+
+
 class Result:
     """The part after the cuts: `simulation`, `hazards`, `report()`, `save(path, ...)`."""
 
@@ -135,14 +141,7 @@ class Files:
         """The stock: a block, the height of its zero (Top, Bottom) and its position (Lower-Left ... Top-
         Right).
         """
-        size = [
-            positive(v, n)
-            for v, n in (
-                (stockXwidth, "stockXwidth"),
-                (stockYheight, "stockYheight"),
-                (stockZthickness, "stockZthickness"),
-            )
-        ]
+        size = _block_size(stockXwidth, stockYheight, stockZthickness)
         height = choice(zeroheight, ("Top", "Bottom"), "zeroheight")
         corner = choice(stockzero, tuple(ZEROS), "stockzero")
         if retractheight is not None:
@@ -192,14 +191,7 @@ class Files:
         """Add a further block with its lowest corner at the given position."""
         self._require_stock("addtostock")
         low = [number(v, n) for v, n in ((shiftX, "shiftX"), (shiftY, "shiftY"), (shiftZ, "shiftZ"))]
-        size = [
-            positive(v, n)
-            for v, n in (
-                (stockXwidth, "stockXwidth"),
-                (stockYheight, "stockYheight"),
-                (stockZthickness, "stockZthickness"),
-            )
-        ]
+        size = _block_size(stockXwidth, stockYheight, stockZthickness)
         self._blocks.append((tuple(low), tuple(a + b for a, b in zip(low, size))))
         self.stock = _kerf._read_stock(_box_stl(self._blocks), "stock.stl")
 
