@@ -141,7 +141,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
                                           Diagnostics& diagnostics, Progress* progress) {
   if (!job.stock && !job.bar) {
     diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
-                        "the material is not checked, because nothing is cut and no stock is given");
+                        "the material is not checked, because no stock is given or assumed");
     return {};
   }
   const Toolpath& path = job.program.path;

@@ -87,7 +87,7 @@ std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnos
         run = run_milling(job, how, diagnostics, progress);
       } else {
         diagnostics.error(Code::nothing_to_cut, TextLocation{job.program.source, 0, 0},
-                          "no stock is given and the program cuts nothing: nothing to simulate");
+                          "no stock is given or assumed: nothing to simulate");
       }
   }
   if (diagnostics.has_errors() || (progress != nullptr && progress->stop_requested())) return std::nullopt;

@@ -5,6 +5,7 @@
 #include "job/choices.h"
 
 #include "kerf/assumed_stock.h"
+#include "kerf/limits.h"
 #include "kerf/number.h"
 #include "kerf/stock_files.h"
 
@@ -57,6 +58,18 @@ void report_assumed_stock(const AssumedStock& assumed, const Job& job, Diagnosti
       fmt::format("specify it, e.g. --stock \"{} to {}\"", text(b.low, "{},{},{}"), text(b.high, "{},{},{}"));
 }
 
+/// Whether an assumed block can be simulated; if not, a warning is appended.
+bool is_within_limits(const Box3& block, const Job& job, Diagnostics& diagnostics) {
+  const Point3 size = block.size();
+  if (std::max({size.x, size.y, size.z}) <= limits::kMaxStockSize) return true;
+  diagnostics
+      .warning(Code::stock_assumed, TextLocation{job.program.source, 0, 0},
+               fmt::format("no stock given, and none is assumed: the cuts extend over {} x {} x {} mm",
+                           number_text(size.x, 3), number_text(size.y, 3), number_text(size.z, 3)))
+      .hint = "check the units; or specify the stock with --stock";
+  return false;
+}
+
 void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics) {
   job.stock = settings.stock_file;
   job.stock_source = StockSource::file;
@@ -71,7 +84,7 @@ void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics)
   double radius = 0.0;
   for (const auto& [number, tool] : job.tools.tools()) radius = std::max(radius, tool.diameter.mm() / 2.0);
   const auto assumed = assume_stock(job.program.path, mm(radius) + kStockMargin, kStockFloor);
-  if (!assumed) return;
+  if (!assumed || !is_within_limits(assumed->stock.block, job, diagnostics)) return;
   job.stock = assumed->stock;
   job.stock_source = StockSource::assumed;
   report_assumed_stock(*assumed, job, diagnostics);

@@ -309,3 +309,11 @@ def test_a_program_with_a_byte_order_mark_and_no_ending(kerf, program):
     marked = program(b"\xef\xbb\xbf" + (START + BODY).encode(), "part")
     run = kerf("simulate", "--json", marked)
     assert run.status == 0, run.err
+
+
+def test_cuts_too_far_apart_for_a_stock_are_drawn(kerf, program):
+    far = program("G21 G90\nT102 M6\nM3 S9000\nG0 X0 Y0\nG1 Z-1 F100\nG1 X300000\nG0 Z5\n")
+    run = kerf("simulate", "--json", far, "-o", "far.png", *SMALL)
+    assert run.status == 0 and {"path_shown", "stock_assumed"} <= set(run.codes())
+    assert run.json["outputs"] == ["far.png"]
+    assert kerf("simulate", far).status == 1

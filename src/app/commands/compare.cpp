@@ -147,7 +147,7 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   const Job job = make_job(std::move(*program), inputs.job, UnknownTool::error, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextLocation{job.program.source, 0, 0},
-                      "no stock is given and the program cuts nothing: nothing to compare");
+                      "no stock is given or assumed: nothing to compare");
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   SimulationOptions how;
   how.resolution = resolution_for(*job.stock, options.resolution);

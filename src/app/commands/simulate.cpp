@@ -66,7 +66,8 @@ PictureContent content_of(const Options& options) {
   return options.show == "path" ? PictureContent::path : PictureContent::automatic;
 }
 
-/// A job without a stock, because nothing is cut: only pictures of its toolpath can be made.
+/// A job without a stock, because nothing is cut or none could be assumed: only pictures of its toolpath can
+/// be made.
 bool is_drawing(const Job& job, const std::vector<PartFile>& files, PictureContent content) {
   const auto is_picture = [](const PartFile& f) { return f.is_picture(); };
   return job.kind == JobKind::milling && !job.stock && content != PictureContent::part && !files.empty() &&
@@ -76,7 +77,9 @@ bool is_drawing(const Job& job, const std::vector<PartFile>& files, PictureConte
 Status draw_path(Console& console, const Job& job, const std::vector<PartFile>& files, const View& view,
                  Diagnostics& diagnostics) {
   diagnostics.warning(Code::path_shown, TextLocation{job.program.source, 0, 0},
-                      "the program cuts nothing: the picture shows its toolpath");
+                      job.report.all.cut_bounds.empty()
+                          ? "the program cuts nothing: the picture shows its toolpath"
+                          : "without a stock the picture shows the toolpath");
   OutputSet set(job.program.files);
   if (!write_path(files, job, view, set, diagnostics) || !set.commit(diagnostics))
     return fail(console, diagnostics, Status::input_errors);
