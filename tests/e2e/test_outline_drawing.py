@@ -1,9 +1,11 @@
 """kerf outline with DXF drawings: layers, units, open ends, outputs."""
 
 import math
+from pathlib import Path
 
 import pytest
 
+SOURCE = Path(__file__).resolve().parents[2]
 CUT = [("LINE", (0, 0, 40, 0)), ("LINE", (40, 20, 40, 0)), ("LINE", (40, 20, 0, 20)), ("LINE", (0, 20, 0, 0))]
 
 
@@ -181,3 +183,14 @@ def test_options_for_drawings_have_no_effect_on_other_files(kerf, tmp_path):
     )
     run = kerf("outline", "plate.json", "--layer", "CUT", "--json")
     assert run.status == 0 and run.codes() == ["option_unused"]
+
+
+def test_a_file_that_librecad_saved_has_the_same_geometry(kerf):
+    """examples/path/9001.1P.dxf opened in LibreCAD 2.2 (Debian 12) and saved by it as 2007 DXF."""
+    layer = ("--layer", "9001_1P", "--unit", "mm", "--json")
+    saved = kerf("outline", SOURCE / "tests/data/dxf_saved/librecad_2.2_9001.dxf", *layer)
+    original = kerf("outline", SOURCE / "examples/path/9001.1P.dxf", *layer)
+    assert saved.status == original.status == 0, saved.err + original.err
+    assert saved.json["drawing"]["version"] == "AC1021" and saved.json["unit"] == "mm"
+    shapes = lambda run: [{**outline, "handles": None} for outline in run.json["outlines"]]
+    assert len(shapes(saved)) == 4 and shapes(saved) == shapes(original)
