@@ -5,7 +5,7 @@
 #include <map>
 
 #include "job/choices.h"
-#include "job/fixture_findings.h"
+#include "job/job_findings.h"
 
 #include "kerf/number.h"
 #include "kerf/print.h"
@@ -159,7 +159,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   if (!simulation) return {};
   if (!simulation->stopped) warn_untouched(job, simulation->removed, diagnostics);
   return merged(findings_at_fixtures(path, job, how, diagnostics, progress),
-                findings_of(simulation->hazards, path));
+                findings_in_stock(job, *simulation));
 }
 
 /// The box around a bar.

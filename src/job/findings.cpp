@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <map>
 
-#include "job/fixture_findings.h"
+#include "job/job_findings.h"
 
 #include "kerf/number.h"
 
@@ -37,7 +37,9 @@ std::string_view hint_of(HazardKind kind) {
     case HazardKind::holder_contact: return "use a longer tool, or clear the material beside it first";
     case HazardKind::over_flute: return "use a tool with a longer flute, or a smaller stepdown";
     case HazardKind::below_floor:
-      return "reduce the depth; if the stock is thicker or at another position, specify it with --stock";
+      return "reduce the depth; if a spoilboard is below the stock, specify its thickness with --spoilboard; "
+             "if "
+             "the stock is thicker or at another position, specify it with --stock";
     case HazardKind::spindle_off: break;
   }
   return "start the spindle (S10000 M3) before the cut";
@@ -217,6 +219,16 @@ void warn_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, c
   }
   findings = std::move(rest);
   for (const auto& [number, of_tool] : deepest) warn_of_flute(of_tool.second, *of_tool.first, diagnostics);
+}
+
+std::vector<Finding> findings_in_stock(const Job& job, const Simulation& simulation) {
+  std::vector<Hazard> hazards = simulation.hazards;
+  const Length thickest = job.spoilboard + default_tolerance::kHazardDepth;
+  const auto is_in_spoilboard = [&](const Hazard& h) {
+    return job.spoilboard > Length() && h.kind == HazardKind::below_floor && h.depth <= thickest;
+  };
+  hazards.erase(std::remove_if(hazards.begin(), hazards.end(), is_in_spoilboard), hazards.end());
+  return findings_of(hazards, job.program.path);
 }
 
 std::vector<Finding> findings_at_fixtures(const Toolpath& path, const Job& job, const SimulationOptions& how,

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "job/choices.h"
-#include "job/fixture_findings.h"
+#include "job/job_findings.h"
 
 namespace kerf {
 namespace {
@@ -16,8 +16,8 @@ std::vector<Finding> findings_of_milling(const Job& job, const Simulation& simul
                                          Progress* progress) {
   const Toolpath& path = job.program.path;
   if (job.z_downwards) return findings_of({*job.z_downwards}, path);
-  std::vector<Finding> findings = merged(findings_of(simulation.hazards, path),
-                                         findings_at_fixtures(path, job, how, diagnostics, progress));
+  std::vector<Finding> findings =
+      merged(findings_in_stock(job, simulation), findings_at_fixtures(path, job, how, diagnostics, progress));
   warn_assumed_flutes(findings, path, job.tools, diagnostics);
   return findings;
 }

@@ -106,6 +106,7 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   find_stock(job, settings, diagnostics);
   if (job.stock && settings.move) job.stock = moved(*job.stock, *settings.move);
   job.fixtures = settings.fixtures;
+  job.spoilboard = settings.spoilboard;
 }
 
 void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {

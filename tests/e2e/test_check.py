@@ -36,6 +36,16 @@ def test_each_hazard_is_found_with_its_kind(kerf, program, old, new, kind):
         assert len(hazard["at"]) == 3 and hazard["origin"]["line"] > 0
 
 
+@pytest.mark.parametrize("board, status", [("1.9mm", 3), ("2", 0), ("0.08in", 0), ("0", 3)])
+def test_cuts_into_the_spoilboard_are_not_hazards(kerf, program, board, status):
+    """The stock of the program is 6 mm thick: Z-8 is 2 mm below its floor."""
+    path = program(VALID.replace("G1 Z-1", "G1 Z-8"))
+    flute = ("-t", "square d=3 flute=12")
+    assert kerf("check", *flute, "--spoilboard", board, path).status == status
+    simulated = kerf("simulate", "--json", *flute, "--spoilboard", board, path)
+    assert bool(simulated.json["hazards"]) == (status == 3)
+
+
 def test_the_result_is_the_same_for_any_number_of_threads(kerf, program):
     path = program(VALID.replace("G0 Z5\nM5", "G0 X30\nG0 Z5\nM5"))
     one, four = (kerf("check", "--json", "--threads", n, path).json for n in ("1", "4"))

@@ -95,6 +95,7 @@ Command add_check(CommandParser& root) {
   add_job_options(parser, options->job);
   add_unit_options(parser, options->job);
   add_body_options(parser, options->job.bodies);
+  add_spoilboard_option(parser, options->job.bodies);
   add_rotary_option(parser, options->job.bodies);
   add_machine_option(parser, options->job);
   parser

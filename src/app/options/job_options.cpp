@@ -11,6 +11,8 @@
 
 namespace kerf::app {
 
+constexpr double kThickestSpoilboard = 1000.0;  // mm
+
 const char* const kToolHelp =
     R"(
 Tools (--tool), with priority over the program's comments, tool files and the built-in table:
@@ -71,6 +73,7 @@ void read_body_options(const BodyOptions& options, JobSettings& settings, Diagno
     if (!settings.move) settings.move.emplace();
     settings.move->shift = shift.value_or(Point3{});
   }
+  settings.spoilboard = mm(options.spoilboard);
   for (const std::string& text : options.fixtures)
     if (auto fixture = read_fixture(text, usage, diagnostics))
       settings.fixtures.push_back(std::move(*fixture));
@@ -138,12 +141,17 @@ void add_body_options(CommandParser& parser, BodyOptions& options) {
                "A body that the tool must not touch: LOW to HIGH, or a mesh");
 }
 
+void add_spoilboard_option(CommandParser& parser, BodyOptions& options) {
+  add_length(parser, "--spoilboard", options.spoilboard, 0.0, kThickestSpoilboard,
+             "Thickness of the board below the stock: cuts into it are not hazards (default: 0)");
+}
+
 void add_rotary_option(CommandParser& parser, BodyOptions& options) {
   Option rotary = parser
                       .add_text("--rotary", options.rotary,
                                 "A round bar that A turns: d=.. length=.. [x=..] [y=..] [z=..]")
                       .value_name("SPEC");
-  for (const char* other : {"--stock", "--stock-mesh", "--stock-left", "--flip", "--shift"})
+  for (const char* other : {"--stock", "--stock-mesh", "--stock-left", "--flip", "--shift", "--spoilboard"})
     rotary.excludes(parser.option(other));
 }
 

@@ -23,6 +23,7 @@ struct BodyOptions {
   std::optional<std::string> flip;    // --flip SPEC
   std::optional<std::string> shift;   // --shift X,Y,Z
   std::vector<std::string> fixtures;  // --fixture SPEC or FILE
+  double spoilboard = 0.0;            // --spoilboard MM
   std::optional<std::string> rotary;  // --rotary SPEC
 };
 struct JobOptions {
@@ -41,6 +42,8 @@ void add_job_options(CommandParser& parser, JobOptions& options);
 void add_tool_options(CommandParser& parser, ToolOptions& options);
 /// Stock from files, and fixtures; after add_job_options.
 void add_body_options(CommandParser& parser, BodyOptions& options);
+/// --spoilboard, for the commands that report hazards; before add_rotary_option.
+void add_spoilboard_option(CommandParser& parser, BodyOptions& options);
 /// --rotary, for the commands that support a fourth axis; after add_body_options.
 void add_rotary_option(CommandParser& parser, BodyOptions& options);
 /// --machine, for the commands that use a machine profile.
