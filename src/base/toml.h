@@ -2,6 +2,8 @@
 // exceptions, and workarounds for two defects of version 3.3 that bad input can reach.
 #pragma once
 
+#include <cstdint>
+
 // clang-format off: the order matters
 #undef TOML_HEADER_ONLY
 #undef TOML_SHARED_LIB

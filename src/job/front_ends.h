@@ -10,6 +10,7 @@ namespace kerf {
 FrontEnd gcode_front_end();
 FrontEnd gcmc_front_end();
 FrontEnd pathdxf_front_end();
+FrontEnd cut_front_end();
 
 /// The folder of a file, including its last slash; empty for the current one.
 std::string folder_of(const std::string& file);

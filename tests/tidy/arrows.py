@@ -11,7 +11,8 @@ GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
 CODEC = {"codec_drawing", "codec_gcode", "codec_heights", "codec_mesh", "codec_png", "codec_zip"}
-FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline", "front_pathdxf"}
+FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline", "front_pathdxf",
+         "front_cut"}
 BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
 BELOW_JOB = OP | CODEC | FRONT | BACK | {"sim"}
 
@@ -97,7 +98,8 @@ PUBLIC = {
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h",
              "assumed_tool.h"],
-    "op": ["drill.h", "level.h"],
+    "op": ["drill.h", "level.h", "op/operation.h", "op/pocket.h", "op/contour.h", "op/holes.h",
+           "op/step_down.h", "op/resume.h"],
     "sim_dexel": ["workpiece.h"],
     "sim_sweep": ["hazard.h", "simulation_options.h"],
     "sim_cut": ["simulate.h", "live.h", "fixtures.h"],
@@ -119,13 +121,15 @@ PUBLIC = {
     "front_tools": ["tool_files.h", "machine_files.h", "material_files.h",
                     "tool_libraries.h"],
     "front_stock": ["stock_files.h"],
+    "front_cut": ["cut_job.h"],
     "front_outline": ["outline_files.h", "drawing_outlines.h"],
     "back_drawing": ["outline_drawing.h", "toolpath_drawing.h", "gcmc_drawing.h"],
     "codec_drawing": ["drawing_files.h", "dxf.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],
-    "job": ["program.h", "job.h", "findings.h", "outputs.h", "posting.h", "heights.h", "python_script.h"],
+    "job": ["program.h", "cut_program.h", "job.h", "findings.h", "outputs.h", "posting.h", "heights.h",
+            "python_script.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

@@ -22,6 +22,7 @@ Command add_compare(CommandParser& root);
 Command add_steps(CommandParser& root);
 Command add_outline(CommandParser& root);
 Command add_post(CommandParser& root);
+Command add_cut(CommandParser& root);
 Command add_run(CommandParser& root);
 Command add_level(CommandParser& root);
 Command add_tools_list(CommandParser& tools);

@@ -13,6 +13,8 @@
 #include "kerf/files.h"
 #include "kerf/heights.h"
 #include "kerf/number.h"
+#include "kerf/op/resume.h"
+#include "kerf/op/step_down.h"
 #include "kerf/posting.h"
 
 namespace kerf::app {
@@ -25,6 +27,7 @@ struct Options {
   double feed = 0.0;
   double fit_arcs = 0.0, join = 0.0;
   bool shorten = false;
+  double step_down = 0.0, top = 0.0, from_line = 0.0, safe_z = 0.0;
   std::string dxf_version = "r2000";
   bool rapids = false;
   std::string level;        // file of measured heights
@@ -76,6 +79,19 @@ Json improved(Toolpath& path, const Options& options, Console& console) {
                                   saving.after.rapid_mm));
   }
   return savings;
+}
+
+/// Passes that change what is cut at a time: the depth per pass, and the part that is left to run.
+void rework(Toolpath& path, const Options& options, Diagnostics& diagnostics) {
+  if (options.from_line > 0.0) {
+    const ResumeOptions resume{static_cast<std::uint32_t>(options.from_line), options.safe_z, {}};
+    if (auto rest = resume_from(path, resume, diagnostics)) path = std::move(rest->path);
+  }
+  if (options.step_down > 0.0 && !diagnostics.has_errors()) {
+    StepDownOptions passes;
+    passes.top = options.top, passes.stepdown = mm(options.step_down);
+    if (auto deeper = step_down(path, passes, diagnostics)) path = std::move(*deeper);
+  }
 }
 
 /// Lets the program follow measured heights, and reports the corrections. False with errors.
@@ -168,6 +184,8 @@ Status run(Console& console, const Options& options) {
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   refuse_input(options, *program, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  rework(program->path, options, diagnostics);
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   Json result{{"source", program->source}, {"post", target->name()}};
   result["passes"] = improved(program->path, options, console);
   if (!levelled(*program, options, console, result, diagnostics, &progress))
@@ -192,6 +210,8 @@ const char* const kExamples =
   kerf post --post mymill.toml part.nc -o out.nc    with your own post file
   kerf post --to grbl --tool 1="square d=6" part.nc -o out.nc    G41 and G42 need the tool
   kerf post --to dxf part.nc -o part.dxf            the cuts seen from above
+  kerf post --to grbl --step-down 2 part.nc -o part.nc           at most 2 mm deep at a time
+  kerf post --to grbl --from-line 1200 --safe-z 10 part.nc -o rest.nc
   kerf post --to grbl --level map.txt part.nc -o out.nc    heights follow a measured surface
   kerf post --list
 
@@ -204,6 +224,14 @@ void add_pass_options(CommandParser& parser, Options& options) {
   add_number(parser, "--join", options.join, 1e-6, 1, "MM",
              "Join straight cuts whose corners deviate by at most MM");
   parser.add_flag("--shorten-rapids", options.shorten, "Remove rapids that return to their start point");
+  add_number(parser, "--step-down", options.step_down, 1e-3, 1e4, "MM", "Cut in passes of at most MM depth");
+  add_number(parser, "--top", options.top, -1e4, 1e4, "MM", "Z of the surface for --step-down (default 0)");
+  Option line = add_number(parser, "--from-line", options.from_line, 1, 4e9, "LINE",
+                           "Resume from a line: tool, spindle, a safe approach, and the rest");
+  Option safe = add_number(parser, "--safe-z", options.safe_z, -1e4, 1e4, "MM",
+                           "Z of the approach for --from-line; required with it");
+  line.needs(safe);
+  safe.needs(line);
 }
 
 /// Returns --keep-above, which has no value that means "not given".

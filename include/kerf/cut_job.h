@@ -1,0 +1,111 @@
+// Cutting jobs: which operations to run on which outlines, with which tools. The input of `kerf cut`.
+//
+//   art = "plate.dxf"
+//
+//   [tools]
+//   1 = "square d=6"
+//
+//   [[operation]]
+//   op = "pocket"
+//   layers = ["POCKET"]
+//   tool = 1
+//   depth = 6
+//   stepdown = 2
+//   feed = 900
+//
+// Keys of [defaults] apply to all operations that do not have them. Lengths in mm, feeds in mm/min, angles in
+// degrees. docs/manual/operations.md describes every key. The table of keys below is the only one: the
+// reader, the options of the command, the example and the schema are made from it.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+#include "kerf/op/contour.h"
+#include "kerf/op/holes.h"
+#include "kerf/op/pocket.h"
+#include "kerf/outline.h"
+#include "kerf/progress.h"
+#include "kerf/tool.h"
+#include "kerf/toolpath.h"
+
+namespace kerf {
+
+/// A closed or open outline, circle or point of the art or of a job file.
+struct ArtShape {
+  std::string name, layer;
+  std::optional<Outline> outline;
+  std::optional<Circle> circle;  ///< of an outline that is one
+  std::optional<Point2> point;
+};
+
+enum class CutKind : std::uint8_t { pocket, contour, engrave, face, drill, bore };
+
+/// The keys of an operation with their values; a key that was not given is empty.
+struct CutOperation {
+  CutKind kind = CutKind::pocket;
+  std::string name;                           ///< "pocket 1" unless given
+  std::vector<std::string> layers, outlines;  ///< both empty: all shapes
+  int tool = 0;
+  SpindleSpeed speed{};  ///< 0: no spindle word
+  CutOptions cut{};
+  double stepover = 0.4;
+  PocketPattern pattern = PocketPattern::offset;
+  Angle angle{};
+  ContourSide side = ContourSide::outside;
+  Length lead{};
+  DrillKind cycle = DrillKind::plain;
+  Length peck{};
+  Duration dwell{};
+  std::optional<double> retract;  ///< Z; nothing: 5 mm above the highest surface
+};
+
+struct CutJob {
+  std::string art;                   ///< file, relative to that of the job; may be empty
+  std::vector<ArtShape> shapes;      ///< of the job itself, besides those of `art`
+  std::optional<Length> unit;        ///< of one unit of the drawing, if it specifies none
+  std::string stock;                 ///< as for --stock; may be empty
+  std::map<int, std::string> tools;  ///< by number, as for --tool
+  std::vector<CutOperation> operations;
+};
+
+/// Text of a value in the command line, or a value of a job file.
+using CutValue = std::variant<double, std::string, std::vector<std::string>>;
+/// A key of an operation.
+struct CutKey {
+  std::string_view name;
+  enum class Type : std::uint8_t { number, text, list } type = Type::number;
+  std::string_view unit;     ///< "mm", or the names that a text may have: "climb, conventional"
+  std::string_view meaning;  ///< one line
+  std::string_view example;  ///< a value as in a job file
+  /// Stores a value; false if it is none of the allowed ones.
+  bool (*set)(CutOperation& operation, const CutValue& value) = nullptr;
+};
+const std::vector<CutKey>& cut_keys();
+/// "pocket", "contour", ...
+const std::vector<std::string>& cut_kind_names();
+
+/// Reads the text of a job file. Nothing, with errors that name line and key, if it is invalid.
+std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
+                                   Diagnostics& diagnostics);
+/// A job of one operation from keys and their texts, as the command line has them.
+std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::string>>& values,
+                                 Diagnostics& diagnostics);
+/// A job file to start from, with all keys of an operation.
+std::optional<std::string> cut_job_example(std::string_view kind);
+/// The JSON schema of job files.
+std::string cut_job_schema();
+
+/// The program of a job: tool changes, spindle, the operations in their order. Nothing, with errors, if one
+/// of them cannot be cut; tools that do not fit everywhere are warnings.
+std::optional<Toolpath> compile_cut_job(const CutJob& job, const std::vector<ArtShape>& art,
+                                        const std::map<int, Tool>& tools, Diagnostics& diagnostics,
+                                        Progress* progress = nullptr);
+
+}  // namespace kerf

@@ -1,0 +1,42 @@
+// Pockets: all material inside a region, down to a floor. Holes of the region are islands that remain.
+//
+//   const auto made = pocket(region, tool, {.cut = {.depth = mm(6), .stepdown = mm(2),
+//       .feed = mm_per_min(900)}, .stepover = 0.4}, diagnostics);
+//
+// The tool's axis stays at least the tool's radius inside the region, so that nothing outside of it is cut.
+// All that the tool can reach is removed, at any stepover: see docs/manual/operations.md.
+#pragma once
+
+#include <optional>
+
+#include "kerf/op/operation.h"
+
+namespace kerf {
+
+enum class PocketPattern : std::uint8_t {
+  offset,  ///< rings parallel to the walls, from the inside to the outside
+  zigzag   ///< parallel lines in alternating directions, then a ring along the walls
+};
+
+struct PocketOptions {
+  CutOptions cut{};
+  double stepover = 0.4;  ///< distance of neighbouring paths as a fraction of the tool's diameter, (0, 1]
+  PocketPattern pattern = PocketPattern::offset;
+  Angle angle{};  ///< of the lines of a zigzag, from +x
+};
+std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
+                                Diagnostics& diagnostics);
+
+struct FacingOptions {
+  CutOptions cut{};
+  double stepover = 0.4;  ///< as of a pocket
+  double overhang =
+      0.6;        ///< how far the tool's axis leaves the region, as a fraction of its diameter: >= 0.5
+  Angle angle{};  ///< of the lines, from +x
+};
+/// Removes all above a region with parallel lines; the tool leaves the region on all sides, and its outline
+/// is no wall.
+std::optional<Operation> facing(const Region& region, const Tool& tool, const FacingOptions& options,
+                                Diagnostics& diagnostics);
+
+}  // namespace kerf

@@ -1,0 +1,178 @@
+// kerf cut: runs operations on the outlines of a drawing, and writes the program for a controller.
+#include <algorithm>
+#include <fmt/format.h>
+#include <memory>
+
+#include "app/commands/commands.h"
+#include "app/options/common.h"
+#include "app/options/output_options.h"
+#include "app/report/json.h"
+#include "app/report/terminal_progress.h"
+
+#include "kerf/cut_program.h"
+#include "kerf/files.h"
+#include "kerf/names.h"
+#include "kerf/posting.h"
+
+namespace kerf::app {
+namespace {
+
+struct Options {
+  OutputOptions output;
+  std::string file, out, to = "grbl", unit, stock, tool, example;
+  std::string op;
+  bool schema = false;
+  std::vector<std::pair<std::string, std::string>> values;  // keys of the operation that are given
+};
+
+bool is_job(const std::string& file) { return file.ends_with(".toml"); }
+
+Status show_text(Console& console, const std::string& text) {
+  console.print_json(text);
+  return Status::done;
+}
+
+Status show_example(Console& console, const Options& options) {
+  if (const auto text = cut_job_example(options.example)) return show_text(console, *text);
+  Diagnostics usage;
+  usage
+      .error(Code::cut_job_key, CallLocation{"", 0, "--example"},
+             fmt::format("there is no operation \"{}\"", options.example.substr(0, 60)))
+      .hint = "one of: " + joined(cut_kind_names(), ", ");
+  return fail(console, usage, Status::wrong_usage);
+}
+
+/// The job of the command line: a file, or one operation.
+std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
+  std::vector<std::pair<std::string, std::string>> values = options.values;
+  if (!options.op.empty()) values.emplace_back("op", options.op);
+  if (options.tool.empty())
+    usage.error(Code::cut_job_key, CallLocation{"", 0, "--tool"}, "the tool is missing").hint =
+        "--tool \"square d=6\"";
+  auto job = cut_job_of(values, usage);
+  if (!job) return std::nullopt;
+  if (!options.unit.empty()) job->unit = options.unit == "inch" ? inch(1) : mm(1);
+  job->tools[1] = options.tool;
+  job->stock = options.stock;
+  return job;
+}
+
+void check_usage(const Options& options, Diagnostics& usage) {
+  if (options.file.empty())
+    usage.error(Code::file_unreadable, CallLocation{"", 0, "FILE"},
+                "no drawing, outline file or job is given");
+  if (!options.out.empty() && is_same_file(options.out, options.file))
+    usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+  if (is_job(options.file))
+    for (const auto& [key, text] : options.values)
+      usage.error(Code::option_unused, CallLocation{"", 0, "--" + key}, "a job file contains its operations");
+}
+
+Status write(Console& console, const Options& options, const std::vector<PostedFile>& files,
+             Diagnostics& diagnostics) {
+  if (options.out.empty()) {
+    console.show(diagnostics, Console::Channel::always_text);
+    for (const PostedFile& file : files) console.print_json(file.text);
+    return Status::done;
+  }
+  const std::vector<std::string> names = posted_file_names(options.out, files);
+  OutputSet set;
+  for (std::size_t i = 0; i < files.size(); ++i)
+    if (!set.write(names[i], files[i].text, diagnostics))
+      return fail(console, diagnostics, Status::input_errors);
+  if (!set.commit(diagnostics)) return fail(console, diagnostics, Status::input_errors);
+  console.show(diagnostics);
+  if (console.json())
+    console.print_json(
+        text_of(Json{{"outputs", names}, {"diagnostics", json_of(diagnostics)}}, Layout::indented));
+  for (std::size_t i = 0; i < files.size() && !console.json(); ++i)
+    console.summary(fmt::format("wrote    {} ({} lines)", names[i], files[i].lines));
+  return Status::done;
+}
+
+Status run(Console& console, const Options& options) {
+  if (options.schema) return show_text(console, cut_job_schema());
+  if (!options.example.empty()) return show_example(console, options);
+  Diagnostics usage, diagnostics;
+  check_usage(options, usage);
+  const auto target = find_post_target(options.to);
+  if (!target)
+    usage
+        .error(Code::post_unknown, CallLocation{"", 0, "--to"},
+               fmt::format("there is no post \"{}\"", options.to.substr(0, 60)))
+        .hint = "kerf post --list prints their names";
+  std::optional<CutJob> job;
+  if (!usage.has_errors() && !is_job(options.file)) job = job_of(options, usage);
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  for (const Diagnostic& d : usage.list()) diagnostics.add(d);
+
+  TerminalProgress progress(console);
+  auto program = job ? load_cut_job(*job, options.file, options.file, diagnostics, &progress)
+                     : load_program(options.file, {}, diagnostics, &progress);
+  if (interrupted()) return report_stopped(console);
+  if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  for (const std::string& file : program->files)
+    if (!options.out.empty() && is_same_file(options.out, file)) {
+      usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
+      return fail(console, usage, Status::wrong_usage);
+    }
+  program->source = options.file;
+  PostingOptions posting;
+  posting.tools = program->tools;
+  const auto files = post_program(*program, *target, posting, diagnostics, &progress);
+  progress.clear();
+  if (interrupted()) return report_stopped(console);
+  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  return write(console, options, files, diagnostics);
+}
+
+const char* const kExamples =
+    R"(  kerf cut part.dxf --op pocket --tool "square d=6" --depth 6 --stepdown 2 --feed 900 -o part.nc
+  kerf cut part.dxf --op contour --tool "square d=3" --depth 3 --feed 600 --side outside -o part.nc
+  kerf cut part.dxf --op drill --layers HOLES --tool "drill d=3 angle=118" --depth 10 --feed 100
+  kerf cut --example pocket > job.toml              a job file to start from
+  kerf cut job.toml -o part.nc                      all operations of a job
+  kerf simulate job.toml -o part.png                what they leave
+
+Operations: pocket, contour, engrave, face, drill, bore. Lengths in mm, feeds in mm/min, angles in degrees.
+)";
+
+}  // namespace
+
+Command add_cut(CommandParser& root) {
+  auto options = std::make_shared<Options>();
+  CommandParser parser =
+      new_command(root, "cut", "Cut pockets, contours and holes of a drawing", kExamples, options->output);
+  parser.add_text("FILE", options->file, "A DXF drawing, an outline file (.json) or a job (.toml)")
+      .optional();
+  parser.add_text("--op", options->op, "The operation: pocket, contour, engrave, face, drill or bore")
+      .value_name("NAME");
+  parser.add_text("--tool", options->tool, "The tool, as \"square d=6\"").value_name("SPEC");
+  for (const CutKey& key : cut_keys()) {
+    if (key.name == "tool" || key.name == "name") continue;
+    const std::string name(key.name);
+    const std::string unit =
+        key.type == CutKey::Type::text && !key.unit.empty() ? fmt::format(" ({})", key.unit) : "";
+    parser
+        .add_parsed(
+            "--" + name,
+            [options, name](const std::string& text) {
+              options->values.emplace_back(name, text);
+              return std::string();
+            },
+            fmt::format("{}{}", key.meaning, unit))
+        .value_name(key.type == CutKey::Type::number ? (key.unit.empty() ? "N" : std::string(key.unit))
+                    : key.type == CutKey::Type::list ? "NAMES"
+                                                     : "NAME");
+  }
+  parser.add_text("--unit", options->unit, "Of a drawing that specifies none").one_of({"mm", "inch"});
+  parser.add_text("--to", options->to, "The controller: a name of kerf post --list (default grbl)")
+      .value_name("POST");
+  parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")
+      .value_name("PATH");
+  parser.add_text("--example", options->example, "Print a job file for an operation").value_name("OP");
+  parser.add_flag("--schema", options->schema, "Print the JSON schema of job files");
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
+}
+
+}  // namespace kerf::app

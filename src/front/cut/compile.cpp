@@ -1,0 +1,206 @@
+// The program of a job: the shapes of each operation, and the operation on them.
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "front/cut/keys.h"
+
+#include "kerf/names.h"
+
+namespace kerf {
+namespace {
+
+constexpr double kRetract = 5.0;  // mm above the highest surface
+
+/// The shapes of one operation.
+struct Selection {
+  std::vector<Outline> closed, open;
+  std::vector<Circle> circles;
+  std::vector<Point2> points;
+};
+
+bool listed(const std::vector<std::string>& names, const std::string& name) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const std::string& n) { return fold_name(n) == fold_name(name); });
+}
+
+/// The circle that an outline is, if all its segments are arcs of one.
+std::optional<Circle> circle_of(const Outline& outline, Length weld) {
+  if (!outline.closed()) return std::nullopt;
+  std::optional<Circle> circle;
+  Point2 from = outline.start;
+  double turned = 0.0;
+  for (const Segment& segment : outline.segments) {
+    const auto arc = arc_circle(from, segment);
+    if (!arc) return std::nullopt;
+    if (!circle) circle = Circle{arc->centre, mm(arc->radius)};
+    if (distance(circle->centre, arc->centre) > weld.mm() ||
+        std::abs(circle->radius.mm() - arc->radius) > weld.mm())
+      return std::nullopt;
+    turned += (arc->turn == Turn::ccw ? 1.0 : -1.0) * arc->sweep.deg();
+    from = segment.to;
+  }
+  return std::abs(std::abs(turned) - 360.0) < 1e-3 ? circle : std::nullopt;
+}
+
+class JobCompiler {
+ public:
+  JobCompiler(const CutJob& job, const std::vector<ArtShape>& art, const std::map<int, Tool>& tools,
+              Diagnostics& diagnostics, Progress* progress)
+      : job_(job), art_(art), tools_(tools), diagnostics_(diagnostics), progress_(progress) {
+    double top = -INFINITY;
+    for (const CutOperation& operation : job.operations) top = std::max(top, operation.cut.top);
+    // All operations have the highest retract plane, so that the way from one to the next is level.
+    retract_ = top + kRetract;
+    bool given = false;
+    for (const CutOperation& operation : job.operations)
+      if (operation.retract)
+        retract_ = given ? std::max(retract_, *operation.retract) : *operation.retract, given = true;
+  }
+
+  std::optional<Toolpath> run() {
+    for (const CutOperation& operation : job_.operations) {
+      if (stop_requested(progress_)) return std::nullopt;
+      add(operation);
+    }
+    if (failed_) return std::nullopt;
+    if (spindle_) path_.add(step::Spindle{}, OriginId::none);
+    path_.add(step::End{}, OriginId::none);
+    return std::move(path_);
+  }
+
+ private:
+  Selection select(const CutOperation& operation) {
+    Selection chosen;
+    const Length weld = operation.cut.tolerance.weld;
+    std::vector<std::string> found;
+    for (const ArtShape& shape : art_) {
+      const bool by_layer = listed(operation.layers, shape.layer),
+                 by_name = listed(operation.outlines, shape.name);
+      if (by_layer) found.push_back(fold_name(shape.layer));
+      if (by_name) found.push_back(fold_name(shape.name));
+      if (!by_layer && !by_name && !(operation.layers.empty() && operation.outlines.empty())) continue;
+      if (shape.point) chosen.points.push_back(*shape.point);
+      if (!shape.outline) continue;
+      (shape.outline->closed() ? chosen.closed : chosen.open).push_back(*shape.outline);
+      if (const auto circle = shape.circle ? shape.circle : circle_of(*shape.outline, weld))
+        chosen.circles.push_back(*circle);
+    }
+    for (const auto* names : {&operation.layers, &operation.outlines})
+      for (const std::string& name : *names)
+        if (std::find(found.begin(), found.end(), fold_name(name)) == found.end())
+          nothing(operation,
+                  fmt::format("no {} \"{}\" in the art", names == &operation.layers ? "layer" : "outline",
+                              name.substr(0, 60)))
+              .hint = "kerf outline --list-layers prints the layers of a drawing";
+    return chosen;
+  }
+  Diagnostic& nothing(const CutOperation& operation, const std::string& message) {
+    failed_ = true;
+    return diagnostics_.error(Code::cut_job_outlines, operation.cut.where, operation.name + ": " + message);
+  }
+
+  /// The region of the closed outlines; open ones are an error.
+  std::optional<Region> region_of(const CutOperation& operation, const Selection& chosen) {
+    if (!chosen.open.empty()) {
+      const Point2 at = chosen.open.front().start;
+      nothing(operation, fmt::format("{} of the outlines are open, the first at {:.6g}, {:.6g}",
+                                     chosen.open.size(), at.x, at.y))
+          .hint = "close them, or cut along them with engrave";
+      return std::nullopt;
+    }
+    if (chosen.closed.empty()) {
+      nothing(operation, "no closed outline is selected");
+      return std::nullopt;
+    }
+    RegionOptions options;
+    options.name = operation.name, options.where = operation.cut.where, options.progress = progress_;
+    return make_region(chosen.closed, FillRule::even_odd, options, diagnostics_);
+  }
+
+  std::optional<Operation> made(const CutOperation& operation, const Tool& tool, const Selection& chosen) {
+    CutOptions cut = operation.cut;
+    cut.retract_plane = retract_, cut.progress = progress_;
+    switch (operation.kind) {
+      case CutKind::engrave: {
+        std::vector<Outline> all = chosen.closed;
+        all.insert(all.end(), chosen.open.begin(), chosen.open.end());
+        return contour_on(all, tool, cut, diagnostics_);
+      }
+      case CutKind::bore: return bore(chosen.circles, tool, {cut, operation.stepover}, diagnostics_);
+      case CutKind::drill: return drilled(operation, tool, chosen);
+      default: break;
+    }
+    const auto region = region_of(operation, chosen);
+    if (!region) return std::nullopt;
+    if (operation.kind == CutKind::contour)
+      return contour(*region, tool, {cut, operation.side, {operation.lead}}, diagnostics_);
+    if (operation.kind == CutKind::face)
+      return facing(*region, tool, {.cut = cut, .stepover = operation.stepover, .angle = operation.angle},
+                    diagnostics_);
+    return pocket(*region, tool, {cut, operation.stepover, operation.pattern, operation.angle}, diagnostics_);
+  }
+
+  std::optional<Operation> drilled(const CutOperation& operation, const Tool& tool, const Selection& chosen) {
+    std::vector<Point2> points = chosen.points;
+    for (const Circle& circle : chosen.circles) points.push_back(circle.centre);
+    DrillOptions options;
+    options.kind = operation.cycle, options.top = operation.cut.top, options.depth = operation.cut.depth;
+    options.peck = operation.peck, options.dwell = operation.dwell, options.feed = operation.cut.feed;
+    options.retract_plane = retract_, options.clearance = operation.cut.clearance;
+    options.name = operation.name, options.where = operation.cut.where;
+    return drill(points, tool, options, diagnostics_);
+  }
+
+  void add(const CutOperation& operation) {
+    const auto tool = tools_.find(operation.tool);
+    if (tool == tools_.end()) {
+      failed_ = true;
+      diagnostics_
+          .error(Code::cut_job_key, operation.cut.where,
+                 fmt::format("{}: tool {} has no shape", operation.name, operation.tool))
+          .hint = fmt::format("[tools]\n{} = \"square d=6\"", operation.tool);
+      return;
+    }
+    const Selection chosen = select(operation);
+    if (failed_) return;
+    const auto piece = made(operation, tool->second, chosen);
+    if (!piece) {
+      failed_ = true;
+      return;
+    }
+    const OriginId origin = path_.origins().add(operation.cut.where);
+    path_.add(step::Note{operation.name}, origin);
+    if (tool_ != operation.tool) {
+      if (tool_ && spindle_) path_.add(step::Spindle{}, origin);
+      path_.add(step::ToolChange{operation.tool}, origin);
+      spindle_.reset();
+    }
+    tool_ = operation.tool;
+    if (operation.speed > SpindleSpeed{} && spindle_ != operation.speed) {
+      path_.add(step::Spindle{operation.speed, SpindleTurn::cw}, origin);
+      spindle_ = operation.speed;
+    }
+    append(path_, piece->path);
+  }
+
+  const CutJob& job_;
+  const std::vector<ArtShape>& art_;
+  const std::map<int, Tool>& tools_;
+  Diagnostics& diagnostics_;
+  Progress* progress_;
+  double retract_ = 0.0;
+  Toolpath path_;
+  std::optional<int> tool_;
+  std::optional<SpindleSpeed> spindle_;
+  bool failed_ = false;
+};
+
+}  // namespace
+
+std::optional<Toolpath> compile_cut_job(const CutJob& job, const std::vector<ArtShape>& art,
+                                        const std::map<int, Tool>& tools, Diagnostics& diagnostics,
+                                        Progress* progress) {
+  return JobCompiler(job, art, tools, diagnostics, progress).run();
+}
+
+}  // namespace kerf

@@ -1,0 +1,140 @@
+// An example of a job file, and the JSON schema of job files, from the table of keys.
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "front/cut/keys.h"
+
+#include "kerf/names.h"
+
+namespace kerf {
+namespace {
+
+using namespace cut_detail;
+using Json = nlohmann::ordered_json;
+
+std::vector<std::string> words_of(std::string_view list) {
+  std::vector<std::string> words;
+  while (!list.empty()) {
+    const std::size_t comma = std::min(list.find(','), list.size());
+    words.emplace_back(trim(list.substr(0, comma)));
+    list.remove_prefix(std::min(comma + 1, list.size()));
+  }
+  return words;
+}
+
+Json schema_of(const CutKey& key) {
+  Json schema{{"description", std::string(key.meaning)}};
+  switch (key.type) {
+    case CutKey::Type::number:
+      schema["type"] = "number";
+      if (!key.unit.empty()) schema["$comment"] = std::string(key.unit);
+      break;
+    case CutKey::Type::text:
+      schema["type"] = "string";
+      if (!key.unit.empty()) schema["enum"] = words_of(key.unit);
+      break;
+    case CutKey::Type::list:
+      schema["type"] = "array";
+      schema["items"] = Json{{"type", "string"}};
+      break;
+  }
+  return schema;
+}
+
+/// Shapes for an example of an operation, so that it can be simulated as it is.
+std::string_view shapes_of(CutKind kind) {
+  switch (kind) {
+    case CutKind::engrave:
+      return "[[shape]]                 # shapes of the job itself, besides those of art\n"
+             "name = \"arrow\"\n"
+             "line = [[0, 0], [40, 0], [30, 8]]\n\n";
+    case CutKind::face:
+      return "[[shape]]                 # shapes of the job itself, besides those of art\n"
+             "name = \"frame\"\n"
+             "rectangle = [0, 0, 60, 40]\n\n";
+    case CutKind::drill:
+    case CutKind::bore:
+      return "[[shape]]                 # shapes of the job itself, besides those of art\n"
+             "name = \"left\"\n"
+             "circle = [10, 20, 10]     # x, y, diameter\n\n"
+             "[[shape]]\n"
+             "name = \"right\"\n"
+             "circle = [50, 20, 10]\n\n";
+    default:
+      return "[[shape]]                 # shapes of the job itself, besides those of art\n"
+             "name = \"frame\"\n"
+             "rectangle = [0, 0, 60, 40]\n"
+             "corner = 8                # radius\n\n"
+             "[[shape]]\n"
+             "name = \"hole\"\n"
+             "circle = [30, 20, 16]     # x, y, diameter; polygon, line = [[x, y], ...]; point = [x, y]\n\n";
+  }
+}
+
+Json schema_of_shape() {
+  const Json numbers{{"type", "array"}, {"items", Json{{"type", "number"}}}};
+  const Json points{{"type", "array"}, {"items", numbers}};
+  Json shape{{"type", "object"}, {"additionalProperties", false}};
+  for (const char* name : {"name", "layer"}) shape["properties"][name] = Json{{"type", "string"}};
+  for (const char* name : {"rectangle", "circle", "point"}) shape["properties"][name] = numbers;
+  for (const char* name : {"polygon", "line"}) shape["properties"][name] = points;
+  shape["properties"]["corner"] = Json{{"type", "number"}, {"minimum", 0}};
+  return shape;
+}
+
+}  // namespace
+
+std::optional<std::string> cut_job_example(std::string_view name) {
+  const auto kind = kind_named(name);
+  if (!kind) return std::nullopt;
+  std::string text =
+      "# A job for kerf cut. Lengths in mm, feeds in mm/min, angles in degrees.\n"
+      "# art = \"part.dxf\"        # a DXF drawing, or an outline file (.json), with the shapes to cut\n"
+      "# unit = \"mm\"             # of a drawing that specifies none: mm or inch\n"
+      "# stock = \"100x60x12\"     # as for --stock\n\n" +
+      std::string(shapes_of(*kind)) + "[tools]                   # number = shape, as for --tool\n";
+  text += *kind == CutKind::drill ? "1 = \"drill d=3 angle=118\"\n\n" : "1 = \"square d=6\"\n\n";
+  text += fmt::format("[[operation]]             # operations are cut in this order\nop = \"{}\"\n",
+                      cut_kind_names()[static_cast<std::size_t>(*kind)]);
+  for (const CutKey& key : cut_keys()) {
+    if (!applies(*kind, key.name)) continue;
+    const bool select = key.name == "layers" || key.name == "outlines" || key.name == "name";
+    const std::string line = fmt::format("{}{} = {}", select ? "# " : "", key.name, key.example);
+    const std::string unit =
+        key.type == CutKey::Type::number && !key.unit.empty() ? fmt::format("{}: ", key.unit)
+        : key.type == CutKey::Type::text && !key.unit.empty() ? fmt::format("{}: ", key.unit)
+                                                              : std::string();
+    text += fmt::format("{:<26}# {}{}\n", line, unit, key.meaning);
+  }
+  return text;
+}
+
+std::string cut_job_schema() {
+  Json operation{{"type", "object"}, {"additionalProperties", false}};
+  Json defaults = operation;
+  operation["properties"]["op"] = Json{{"type", "string"}, {"enum", cut_kind_names()}};
+  Json required = Json::array({"op"});
+  for (const CutKey& key : cut_keys()) {
+    operation["properties"][std::string(key.name)] = schema_of(key);
+    defaults["properties"][std::string(key.name)] = schema_of(key);
+  }
+  operation["required"] = required;
+  const Json tools{{"type", "object"},
+                   {"patternProperties", Json{{"^[0-9]+$", Json{{"type", "string"}}}}},
+                   {"additionalProperties", false}};
+  Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+              {"title", "Job of kerf cut"},
+              {"type", "object"},
+              {"additionalProperties", false},
+              {"required", Json::array({"operation"})}};
+  schema["properties"]["art"] = Json{{"type", "string"}};
+  schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch"})}};
+  schema["properties"]["stock"] = Json{{"type", "string"}};
+  schema["properties"]["tools"] = tools;
+  schema["properties"]["shape"] = Json{{"type", "array"}, {"items", schema_of_shape()}};
+  schema["properties"]["defaults"] = defaults;
+  schema["properties"]["operation"] = Json{{"type", "array"}, {"minItems", 1}, {"items", operation}};
+  return schema.dump(2) + "\n";
+}
+
+}  // namespace kerf

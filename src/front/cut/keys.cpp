@@ -1,0 +1,191 @@
+// The table of keys of an operation.
+#include "front/cut/keys.h"
+
+#include <array>
+#include <cmath>
+
+#include "kerf/names.h"
+
+namespace kerf {
+
+const std::vector<std::string>& cut_kind_names() {
+  static const std::vector<std::string> names{"pocket", "contour", "engrave", "face", "drill", "bore"};
+  return names;
+}
+
+namespace {
+
+using Operation = CutOperation;
+using Type = CutKey::Type;
+
+std::optional<double> number(const CutValue& value) {
+  const double* given = std::get_if<double>(&value);
+  return given != nullptr && std::isfinite(*given) ? std::optional(*given) : std::nullopt;
+}
+
+template <class Value, std::size_t N>
+struct Names {
+  std::array<std::pair<std::string_view, Value>, N> rows;
+};
+
+template <class Value, std::size_t N>
+bool set_named(const Names<Value, N>& names, Value& target, const CutValue& value) {
+  const auto* given = std::get_if<std::string>(&value);
+  if (given == nullptr) return false;
+  for (const auto& [name, meaning] : names.rows)
+    if (fold_name(name) == fold_name(*given)) {
+      target = meaning;
+      return true;
+    }
+  return false;
+}
+
+constexpr Names<CutDirection, 2> kDirections{
+    {{{"climb", CutDirection::climb}, {"conventional", CutDirection::conventional}}}};
+constexpr Names<EntryKind, 3> kEntries{
+    {{{"helix", EntryKind::helix}, {"ramp", EntryKind::ramp}, {"plunge", EntryKind::plunge}}}};
+constexpr Names<PocketPattern, 2> kPatterns{
+    {{{"offset", PocketPattern::offset}, {"zigzag", PocketPattern::zigzag}}}};
+constexpr Names<ContourSide, 2> kSides{
+    {{{"outside", ContourSide::outside}, {"inside", ContourSide::inside}}}};
+constexpr Names<DrillKind, 6> kCycles{{{{"plain", DrillKind::plain},
+                                        {"dwell", DrillKind::dwell},
+                                        {"peck", DrillKind::peck},
+                                        {"chip-break", DrillKind::chip_break},
+                                        {"bore", DrillKind::bore},
+                                        {"dwell-bore", DrillKind::dwell_bore}}}};
+
+bool set_text(std::string& target, const CutValue& value) {
+  const auto* given = std::get_if<std::string>(&value);
+  if (given != nullptr) target = *given;
+  return given != nullptr && !given->empty();
+}
+bool set_list(std::vector<std::string>& target, const CutValue& value) {
+  if (const auto* one = std::get_if<std::string>(&value)) target = {*one};
+  const auto* many = std::get_if<std::vector<std::string>>(&value);
+  if (many != nullptr) target = *many;
+  return !std::holds_alternative<double>(value) && !target.empty();
+}
+bool set_tool(Operation& o, const CutValue& value) {
+  const auto given = number(value);
+  if (!given || *given < 0 || *given > limits::kMaxToolNumber || *given != std::floor(*given)) return false;
+  o.tool = static_cast<int>(*given);
+  return true;
+}
+bool set_speed(Operation& o, const CutValue& value) {
+  const auto given = number(value);
+  if (!given || !(*given >= 0.0) || *given > limits::kMaxSpeed) return false;
+  o.speed = rpm(*given);
+  return true;
+}
+bool set_dwell(Operation& o, const CutValue& value) {
+  const auto given = number(value);
+  if (!given || !(*given >= 0.0) || *given > limits::kMaxDwellSeconds) return false;
+  o.dwell = seconds(*given);
+  return true;
+}
+
+double plain(double v) { return v; }
+
+/// Functions that store a number made by `make`, and a value of a table of names.
+#define KERF_NUMBER(expression, make)       \
+  [](Operation& o, const CutValue& v) {     \
+    const auto given = number(v);           \
+    if (given) o.expression = make(*given); \
+    return given.has_value();               \
+  }
+#define KERF_NAMED(names, expression) \
+  [](Operation& o, const CutValue& v) { return set_named(names, o.expression, v); }
+
+std::vector<CutKey> make_keys() {
+  return {
+      {"name", Type::text, "", "of the operation, in messages and in the program", "\"left pocket\"",
+       [](Operation& o, const CutValue& v) { return set_text(o.name, v); }},
+      {"layers", Type::list, "", "layers of the drawing whose shapes are used; none: all", "[\"CUT\"]",
+       [](Operation& o, const CutValue& v) { return set_list(o.layers, v); }},
+      {"outlines", Type::list, "", "names of the outlines that are used, as kerf outline reports them",
+       "[\"CUT.1\"]", [](Operation& o, const CutValue& v) { return set_list(o.outlines, v); }},
+      {"tool", Type::number, "", "number of the tool", "1", set_tool},
+      {"rpm", Type::number, "rpm", "spindle speed, clockwise", "16000", set_speed},
+      {"top", Type::number, "mm", "Z of the surface of the material", "0", KERF_NUMBER(cut.top, plain)},
+      {"depth", Type::number, "mm", "below the surface", "6", KERF_NUMBER(cut.depth, mm)},
+      {"stepdown", Type::number, "mm", "maximum depth of a pass; 0: one pass", "2",
+       KERF_NUMBER(cut.stepdown, mm)},
+      {"stepover", Type::number, "", "distance of paths as a fraction of the diameter of the tool", "0.4",
+       KERF_NUMBER(stepover, plain)},
+      {"feed", Type::number, "mm/min", "of cuts", "900", KERF_NUMBER(cut.feed, mm_per_min)},
+      {"plunge", Type::number, "mm/min", "maximum feed downwards; 0: half of feed", "300",
+       KERF_NUMBER(cut.plunge, mm_per_min)},
+      {"retract", Type::number, "mm", "Z of rapids between cuts", "5", KERF_NUMBER(retract, plain)},
+      {"clearance", Type::number, "mm", "above material, where rapids downwards end", "0.5",
+       KERF_NUMBER(cut.clearance, mm)},
+      {"allowance", Type::number, "mm", "left on walls for a finishing pass", "0",
+       KERF_NUMBER(cut.allowance, mm)},
+      {"direction", Type::text, "climb, conventional", "direction along walls, of a clockwise spindle",
+       "\"climb\"", KERF_NAMED(kDirections, cut.direction)},
+      {"entry", Type::text, "helix, ramp, plunge", "how the tool enters the material", "\"helix\"",
+       KERF_NAMED(kEntries, cut.entry.kind)},
+      {"entry-angle", Type::number, "degrees", "maximum descent of a ramp or helix", "3",
+       KERF_NUMBER(cut.entry.angle, degrees)},
+      {"helix-radius", Type::number, "mm", "of the axis in an entry; 0: 0.45 times the diameter", "0",
+       KERF_NUMBER(cut.entry.radius, mm)},
+      {"pattern", Type::text, "offset, zigzag", "paths of a pocket", "\"offset\"",
+       KERF_NAMED(kPatterns, pattern)},
+      {"angle", Type::number, "degrees", "of the lines of a zigzag or of facing, from +X", "0",
+       KERF_NUMBER(angle, degrees)},
+      {"side", Type::text, "outside, inside", "of the outlines of a contour", "\"outside\"",
+       KERF_NAMED(kSides, side)},
+      {"lead", Type::number, "mm", "radius of the lead-in and lead-out of a contour; 0: none", "0",
+       KERF_NUMBER(lead, mm)},
+      {"cycle", Type::text, "plain, dwell, peck, chip-break, bore, dwell-bore", "of drilled holes",
+       "\"peck\"", KERF_NAMED(kCycles, cycle)},
+      {"peck", Type::number, "mm", "depth of a peck", "2", KERF_NUMBER(peck, mm)},
+      {"dwell", Type::number, "s", "at the bottom of a drilled hole", "0", set_dwell},
+  };
+}
+
+}  // namespace
+
+const std::vector<CutKey>& cut_keys() {
+  static const std::vector<CutKey> keys = make_keys();
+  return keys;
+}
+
+namespace cut_detail {
+
+std::optional<CutKind> kind_named(std::string_view name) {
+  const auto& names = cut_kind_names();
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (fold_name(names[i]) == fold_name(name)) return static_cast<CutKind>(i);
+  return std::nullopt;
+}
+
+const CutKey* key_named(std::string_view name) {
+  for (const CutKey& key : cut_keys())
+    if (key.name == name) return &key;
+  return nullptr;
+}
+
+bool is_required(std::string_view key) { return key == "tool" || key == "depth" || key == "feed"; }
+
+bool applies(CutKind kind, std::string_view key) {
+  const auto any = [&](std::initializer_list<CutKind> kinds) {
+    for (const CutKind k : kinds)
+      if (k == kind) return true;
+    return false;
+  };
+  using enum CutKind;
+  if (key == "pattern") return any({pocket});
+  if (key == "side" || key == "lead") return any({contour});
+  if (key == "cycle" || key == "peck" || key == "dwell") return any({drill});
+  if (key == "stepover") return any({pocket, face, bore});
+  if (key == "angle") return any({pocket, face});
+  if (key == "allowance") return any({pocket, contour, bore});
+  if (key == "direction") return any({pocket, contour, bore});
+  if (key == "stepdown" || key == "plunge" || key == "entry-angle") return kind != drill;
+  if (key == "entry" || key == "helix-radius") return any({pocket, contour, engrave, face});
+  return true;
+}
+
+}  // namespace cut_detail
+}  // namespace kerf

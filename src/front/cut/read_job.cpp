@@ -1,0 +1,291 @@
+// Job files and options as jobs.
+#include <fmt/format.h>
+#include <set>
+
+#include "base/toml.h"
+#include "front/cut/keys.h"
+#include "front/cut/shapes.h"
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf {
+namespace {
+
+using namespace cut_detail;
+
+constexpr std::size_t kMaxOperations = 10'000;
+
+/// "pocket 2": the default name of the second operation.
+std::string usual_name(const CutOperation& operation, std::size_t index) {
+  return fmt::format("{} {}", cut_kind_names()[static_cast<std::size_t>(operation.kind)], index + 1);
+}
+
+std::string rule_of(const CutKey& key) {
+  if (key.type == CutKey::Type::list) return "a list of texts";
+  if (key.type == CutKey::Type::number)
+    return key.unit.empty() ? std::string("a number") : fmt::format("a number in {}", key.unit);
+  return key.unit.empty() ? std::string("a text") : fmt::format("one of: {}", key.unit);
+}
+
+/// Sets the defaults that depend on the kind, before keys are read.
+CutOperation blank(CutKind kind) {
+  CutOperation operation;
+  operation.kind = kind;
+  if (kind == CutKind::contour || kind == CutKind::engrave) operation.cut.entry.kind = EntryKind::ramp;
+  return operation;
+}
+
+class JobReader {
+ public:
+  JobReader(const std::string& file, Diagnostics& diagnostics) : file_(file), diagnostics_(diagnostics) {}
+
+  std::optional<CutJob> read(std::string_view text) {
+    if (text.size() > limits::kMaxProfileBytes) {
+      error(Code::cut_job_syntax, TextLocation{file_, 0, 0}, "a job file is limited to 1 MB");
+      return std::nullopt;
+    }
+    const toml::parse_result parsed = toml::parse(text, std::string_view(file_));
+    if (!parsed) {
+      error(Code::cut_job_syntax, location(parsed.error().source()),
+            std::string(parsed.error().description()));
+      return std::nullopt;
+    }
+    const toml::table& root = parsed.table();
+    for (const auto& [key, node] : root) top_key(key, node);
+    const toml::table* defaults = root["defaults"].as_table();
+    if (defaults != nullptr) check_keys(*defaults, nullptr);
+    const toml::array* list = root["operation"].as_array();
+    if (list == nullptr || list->empty())
+      error(Code::cut_job_key, TextLocation{file_, 0, 0}, "the job has no [[operation]]");
+    for (std::size_t i = 0; list != nullptr && i < std::min(list->size(), kMaxOperations); ++i)
+      operation((*list)[i], defaults, i);
+    if (list != nullptr && list->size() > kMaxOperations)
+      error(Code::cut_job_key, location(list->source()),
+            fmt::format("more than {} operations", kMaxOperations));
+    if (job_.art.empty() && job_.shapes.empty() && !failed_)
+      error(Code::cut_job_key, TextLocation{file_, 0, 0},
+            "the job has no shapes: neither art, a file with outlines, nor [[shape]]")
+          .hint = "art = \"part.dxf\"";
+    if (failed_) return std::nullopt;
+    return std::move(job_);
+  }
+
+ private:
+  Origin location(const toml::source_region& at) const {
+    return TextLocation{file_, at.begin.line, at.begin.column};
+  }
+  Diagnostic& error(Code code, const Origin& where, std::string message) {
+    failed_ = true;
+    return diagnostics_.error(code, where, std::move(message));
+  }
+  std::string text_of(const toml::key& key, const toml::node& node) {
+    if (const auto text = node.value_exact<std::string>()) return *text;
+    error(Code::cut_job_key, location(node.source()), fmt::format("{} must be a text", key.str()));
+    return {};
+  }
+
+  void top_key(const toml::key& key, const toml::node& node) {
+    const std::string_view name = key.str();
+    if (name == "art") {
+      job_.art = text_of(key, node);
+    } else if (name == "stock") {
+      job_.stock = text_of(key, node);
+    } else if (name == "unit") {
+      unit(key, node);
+    } else if (name == "tools") {
+      tools(node);
+    } else if (name == "shape" && node.is_array()) {
+      shapes(*node.as_array());
+    } else if (name == "defaults" ? !node.is_table() : name == "operation" ? !node.is_array() : true) {
+      error(Code::cut_job_key, location(key.source()),
+            name == "defaults" || name == "operation" || name == "shape"
+                ? fmt::format("{} has the wrong form", name)
+                : fmt::format("unknown key \"{}\"", name.substr(0, 60)))
+          .hint = "keys of a job: art, unit, stock, [tools], [[shape]], [defaults], [[operation]]";
+    }
+  }
+  void unit(const toml::key& key, const toml::node& node) {
+    const std::string name = text_of(key, node);
+    if (name == "mm")
+      job_.unit = mm(1);
+    else if (name == "inch")
+      job_.unit = inch(1);
+    else if (!name.empty())
+      error(Code::cut_job_key, location(node.source()), "unit must be \"mm\" or \"inch\"");
+  }
+  void shapes(const toml::array& list) {
+    for (const toml::node& node : list) {
+      auto shape = read_shape(node, file_, diagnostics_);
+      if (shape)
+        job_.shapes.push_back(std::move(*shape));
+      else
+        failed_ = true;
+    }
+  }
+  void tools(const toml::node& node) {
+    const toml::table* table = node.as_table();
+    if (table == nullptr) {
+      error(Code::cut_job_key, location(node.source()),
+            "expected [tools] with lines such as 1 = \"square d=6\"");
+      return;
+    }
+    for (const auto& [key, value] : *table) {
+      const auto number = parse_number(key.str());
+      const bool good = number && *number >= 0 && *number <= limits::kMaxToolNumber &&
+                        *number == static_cast<double>(static_cast<int>(*number));
+      if (!good) {
+        error(Code::cut_job_key, location(key.source()), "the key of a tool is its number");
+        continue;
+      }
+      job_.tools[static_cast<int>(*number)] = text_of(key, value);
+    }
+  }
+
+  /// Unknown keys; those without effect on the kind are warnings.
+  void check_keys(const toml::table& table, const CutOperation* operation) {
+    for (const auto& [key, node] : table) {
+      const std::string_view name = key.str();
+      if (operation != nullptr && name == "op") continue;
+      if (key_named(name) == nullptr) {
+        std::vector<std::string> names;
+        for (const CutKey& k : cut_keys()) names.emplace_back(k.name);
+        error(Code::cut_job_key, location(key.source()),
+              fmt::format("unknown key \"{}\"", name.substr(0, 60)))
+            .hint = "keys of an operation: op, " + joined(names, ", ");
+      } else if (operation != nullptr && !applies(operation->kind, name)) {
+        diagnostics_.warning(Code::cut_job_key, location(key.source()),
+                             fmt::format("{} has no effect on a {}", name,
+                                         cut_kind_names()[static_cast<std::size_t>(operation->kind)]));
+      }
+    }
+  }
+
+  static std::optional<CutValue> value_of(const toml::node& node) {
+    if (const auto n = node.value_exact<double>()) return CutValue(*n);
+    if (const auto n = node.value_exact<std::int64_t>()) return CutValue(static_cast<double>(*n));
+    if (const auto text = node.value_exact<std::string>()) return CutValue(*text);
+    const toml::array* list = node.as_array();
+    if (list == nullptr) return std::nullopt;
+    std::vector<std::string> texts;
+    for (const toml::node& entry : *list) {
+      const auto text = entry.value_exact<std::string>();
+      if (!text) return std::nullopt;
+      texts.push_back(*text);
+    }
+    return CutValue(texts);
+  }
+
+  void set_keys(const toml::table& table, CutOperation& operation, std::set<std::string>& given) {
+    for (const auto& [key, node] : table) {
+      const CutKey* known = key_named(key.str());
+      if (known == nullptr) continue;
+      const auto value = value_of(node);
+      if (!value || !known->set(operation, *value))
+        error(Code::cut_job_key, location(node.source()),
+              fmt::format("{} must be {}", key.str(), rule_of(*known)));
+      given.insert(std::string(key.str()));
+    }
+  }
+
+  void operation(const toml::node& node, const toml::table* defaults, std::size_t index) {
+    const toml::table* table = node.as_table();
+    const auto op = table != nullptr ? (*table)["op"].value_exact<std::string>() : std::nullopt;
+    const auto kind = op ? kind_named(*op) : std::nullopt;
+    if (!kind) {
+      error(Code::cut_job_key, location(node.source()),
+            op ? fmt::format("there is no operation \"{}\"", op->substr(0, 60)) : "an operation has no op")
+          .hint = "op is one of: " + joined(cut_kind_names(), ", ");
+      return;
+    }
+    CutOperation made = blank(*kind);
+    made.cut.where = location(node.source());
+    std::set<std::string> given;
+    if (defaults != nullptr) set_keys(*defaults, made, given);
+    check_keys(*table, &made);
+    set_keys(*table, made, given);
+    if (made.name.empty()) made.name = usual_name(made, index);
+    made.cut.name = made.name;
+    for (const CutKey& key : cut_keys())
+      if (is_required(key.name) && !given.contains(std::string(key.name)))
+        error(Code::cut_job_key, made.cut.where, fmt::format("{}: {} is missing", made.name, key.name)).hint =
+            fmt::format("{} = {}", key.name, key.example);
+    job_.operations.push_back(std::move(made));
+  }
+
+  std::string file_;
+  Diagnostics& diagnostics_;
+  CutJob job_;
+  bool failed_ = false;
+};
+
+/// The value of a text in the command line.
+std::optional<CutValue> value_of(const CutKey& key, const std::string& text) {
+  if (key.type == CutKey::Type::text) return CutValue(text);
+  if (key.type == CutKey::Type::number) {
+    const auto number = parse_number(text);
+    return number ? std::optional(CutValue(*number)) : std::nullopt;
+  }
+  std::vector<std::string> texts;
+  std::size_t start = 0;
+  while (start <= text.size()) {
+    const std::size_t end = std::min(text.find(',', start), text.size());
+    texts.emplace_back(trim(std::string_view(text).substr(start, end - start)));
+    start = end + 1;
+  }
+  return CutValue(texts);
+}
+
+}  // namespace
+
+std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
+                                   Diagnostics& diagnostics) {
+  return JobReader(file_name, diagnostics).read(text);
+}
+
+std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::string>>& values,
+                                 Diagnostics& diagnostics) {
+  const auto where = [](std::string_view key) { return CallLocation{"", 0, "--" + std::string(key)}; };
+  std::optional<CutKind> kind;
+  for (const auto& [key, text] : values)
+    if (key == "op") kind = kind_named(text);
+  if (!kind) {
+    diagnostics.error(Code::cut_job_key, where("op"), "the operation is missing or unknown").hint =
+        "one of: " + joined(cut_kind_names(), ", ");
+    return std::nullopt;
+  }
+  CutOperation operation = blank(*kind);
+  operation.tool = 1;
+  bool good = true;
+  std::set<std::string> given{"tool"};
+  for (const auto& [name, text] : values) {
+    const CutKey* key = key_named(name);
+    if (key == nullptr || name == "tool") continue;
+    const auto value = value_of(*key, text);
+    if (!value || !key->set(operation, *value)) {
+      diagnostics.error(Code::cut_job_key, where(name),
+                        fmt::format("\"{}\" is not {}", text.substr(0, 60), rule_of(*key)));
+      good = false;
+    } else if (!applies(*kind, name)) {
+      diagnostics.warning(
+          Code::cut_job_key, where(name),
+          fmt::format("no effect on a {}", cut_kind_names()[static_cast<std::size_t>(*kind)]));
+    }
+    given.insert(name);
+  }
+  for (const CutKey& key : cut_keys())
+    if (is_required(key.name) && !given.contains(std::string(key.name))) {
+      diagnostics.error(Code::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
+          fmt::format("--{} {}", key.name, key.example);
+      good = false;
+    }
+  if (!good) return std::nullopt;
+  if (operation.name.empty()) operation.name = cut_kind_names()[static_cast<std::size_t>(*kind)];
+  operation.cut.name = operation.name;
+  operation.cut.where = where("op");
+  CutJob job;
+  job.operations.push_back(std::move(operation));
+  return job;
+}
+
+}  // namespace kerf

@@ -1,0 +1,13 @@
+// The shapes that a job file contains itself.
+#pragma once
+
+#include "base/toml.h"
+
+#include "kerf/cut_job.h"
+
+namespace kerf::cut_detail {
+
+/// Reads a [[shape]]: one of rectangle, circle, polygon, line and point. Nothing, with an error, if invalid.
+std::optional<ArtShape> read_shape(const toml::node& node, const std::string& file, Diagnostics& diagnostics);
+
+}  // namespace kerf::cut_detail

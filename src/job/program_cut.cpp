@@ -1,0 +1,90 @@
+// Cutting jobs as a way in: the art and the tools of a job file, and the program made of them.
+#include <utility>
+
+#include "job/front_ends.h"
+
+#include "kerf/cut_program.h"
+#include "kerf/drawing_outlines.h"
+#include "kerf/files.h"
+#include "kerf/stock_files.h"
+#include "kerf/tool_files.h"
+
+namespace kerf {
+namespace {
+
+bool looks_like_job(std::string_view text) { return text.find("[[operation]]") != std::string_view::npos; }
+
+bool ends_with(std::string_view name, std::string_view ending) {
+  if (name.size() < ending.size()) return false;
+  for (std::size_t i = 0; i < ending.size(); ++i) {
+    char c = name[name.size() - ending.size() + i];
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    if (c != ending[i]) return false;
+  }
+  return true;
+}
+
+std::vector<ArtShape> shapes_of(DrawingOutlines drawn) {
+  std::vector<ArtShape> shapes;
+  for (DrawnOutline& outline : drawn.outlines)
+    shapes.push_back({outline.name, outline.layer, std::move(outline.outline), outline.circle, {}});
+  for (const DrawnPoint& point : drawn.points) shapes.push_back({"", point.layer, {}, {}, point.at});
+  return shapes;
+}
+
+Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnostics, Progress* progress) {
+  Program program;
+  const auto job = read_cut_job(file.bytes(), file.path(), diagnostics);
+  if (!job) return program;
+  const bool absolute = job->art.empty() || job->art.front() == '/';
+  const std::string art = absolute ? job->art : folder_of(file.path()) + job->art;
+  if (auto made = load_cut_job(*job, art, file.path(), diagnostics, progress)) program = std::move(*made);
+  if (!art.empty()) program.files.push_back(art);
+  return program;
+}
+
+}  // namespace
+
+std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> unit,
+                               Diagnostics& diagnostics) {
+  const std::size_t errors = diagnostics.errors();
+  std::vector<ArtShape> shapes;
+  if (!ends_with(name, ".dxf")) {
+    for (NamedOutline& named : load_outlines(name, diagnostics))
+      shapes.push_back({named.name, "", std::move(named.outline), {}, {}});
+  } else if (const auto file = InputFile::open(name, diagnostics)) {
+    const auto drawing = dxf::read_dxf(file->bytes(), name, diagnostics);
+    DrawingOutlineOptions options;
+    options.unit = unit;
+    auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;
+    if (drawn) shapes = shapes_of(std::move(*drawn));
+  }
+  if (diagnostics.errors() > errors) shapes.clear();
+  return shapes;
+}
+
+std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, const std::string& where,
+                                    Diagnostics& diagnostics, Progress* progress) {
+  const std::size_t errors = diagnostics.errors();
+  const Origin origin = TextLocation{where, 0, 0};
+  Program program;
+  for (const auto& [number, text] : job.tools)
+    if (auto tool = read_tool_option(text, origin, diagnostics)) {
+      tool->number = number;
+      program.tools.emplace(number, std::move(*tool));
+    }
+  if (!job.stock.empty()) program.stock = read_stock_option(job.stock, origin, diagnostics);
+  std::vector<ArtShape> shapes = job.shapes;
+  if (!art.empty())
+    for (ArtShape& shape : load_art(art, job.unit, diagnostics)) shapes.push_back(std::move(shape));
+  if (diagnostics.errors() > errors) return std::nullopt;
+  auto path = compile_cut_job(job, shapes, program.tools, diagnostics, progress);
+  if (!path) return std::nullopt;
+  program.path = std::move(*path);
+  program.end = ProgramEnd::seen;
+  return program;
+}
+
+FrontEnd cut_front_end() { return {"cutting job", {".toml"}, looks_like_job, read}; }
+
+}  // namespace kerf

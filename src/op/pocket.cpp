@@ -1,0 +1,264 @@
+// Pockets by rings and by zigzag lines, and facing.
+#include "kerf/op/pocket.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "op/cutter.h"
+#include "op/hatch.h"
+#include "op/pocket_rings.h"
+#include "op/reach.h"
+
+namespace kerf {
+namespace {
+
+using namespace op_detail;
+
+constexpr double kLineInset =
+    0.1;  // of the tool's radius, from the ends of a zigzag's lines to the ring along the walls
+constexpr double kMaxLink = 1.5;  // of the tool's diameter: a longer way between rings is made above material
+
+/// The track of a loop in the direction that cuts as requested: loops of a region have their inside on the
+/// left, so the wall is on the right.
+Track track_of(const Outline& loop, const CutOptions& options) {
+  const double weld = options.tolerance.weld.mm();
+  return options.direction == CutDirection::climb ? Track(loop, weld) : Track(reversed(loop), weld);
+}
+
+class PocketRun {
+ public:
+  PocketRun(const CutOptions& options, const Tool& tool, Walls walls)
+      : options_(options), diameter_(tool.diameter.mm()), cutter_(options, tool, std::move(walls)) {}
+
+  void rings(const Rings& rings) {
+    std::vector<std::uint32_t> open = rings.roots;
+    while (!open.empty() && !cutter_.full()) {
+      const std::size_t next = nearest(rings, open);
+      const std::vector<std::vector<Track>> order = inside_out(rings, open[next]);
+      open.erase(open.begin() + static_cast<std::ptrdiff_t>(next));
+      cutter_.lift();
+      double cleared = options_.top;
+      for (const double z : pass_levels(options_.top, options_.depth, options_.stepdown)) {
+        for (const std::vector<Track>& loops : order) cell(loops, cleared, z);
+        cleared = z;
+      }
+    }
+  }
+
+  /// Lines in alternating directions, then a ring along the walls, at each level.
+  void zigzag(const std::vector<HatchLine>& lines, const Rings& walls, double spacing) {
+    cutter_.lift();
+    double cleared = options_.top;
+    for (const double z : pass_levels(options_.top, options_.depth, options_.stepdown)) {
+      std::vector<HatchLine> open = lines;
+      std::size_t at = 0;
+      while (!open.empty() && !cutter_.full()) {
+        hatch_line(open[at], cleared, z, spacing);
+        open.erase(open.begin() + static_cast<std::ptrdiff_t>(at));
+        at = next_line(open, at, spacing);
+      }
+      for (const RingCell& walls_of : walls.cells) cell(tracks_of(walls_of), cleared, z);
+      cleared = z;
+    }
+  }
+
+  /// Links between neighbouring lines may leave the region.
+  void free_links() { free_links_ = true; }
+  bool full() const { return cutter_.full(); }
+  Toolpath take() {
+    cutter_.lift();
+    return cutter_.take();
+  }
+
+ private:
+  std::vector<Track> tracks_of(const RingCell& cell) const {
+    std::vector<Track> tracks;
+    for (const Outline& loop : cell.loops)
+      if (Track track = track_of(loop, options_); !track.empty()) tracks.push_back(std::move(track));
+    return tracks;
+  }
+
+  /// The cells of a root, each after those inside of it; the nearest of several first.
+  std::vector<std::vector<Track>> inside_out(const Rings& rings, std::uint32_t root) const {
+    std::vector<std::vector<Track>> order;
+    struct Visit {
+      std::uint32_t cell;
+      std::size_t next = 0;
+    };
+    std::vector<Visit> stack{{root}};
+    while (!stack.empty()) {
+      Visit& top = stack.back();
+      const RingCell& cell = rings.cells[top.cell];
+      if (top.next < cell.inner.size()) {
+        stack.push_back({cell.inner[top.next++]});
+        continue;
+      }
+      order.push_back(tracks_of(cell));
+      stack.pop_back();
+    }
+    return order;
+  }
+
+  std::size_t nearest(const Rings& rings, const std::vector<std::uint32_t>& open) const {
+    if (!cutter_.position()) return 0;
+    std::size_t best = 0;
+    double shortest = INFINITY;
+    for (std::size_t i = 0; i < open.size(); ++i) {
+      const double d = distance(cutter_.position()->xy(), rings.cells[open[i]].loops.front().start);
+      if (d < shortest) shortest = d, best = i;
+    }
+    return best;
+  }
+
+  /// All loops of a cell, the nearest first.
+  void cell(const std::vector<Track>& loops, double cleared, double z) {
+    std::vector<const Track*> open;
+    for (const Track& loop : loops) open.push_back(&loop);
+    while (!open.empty() && !cutter_.full()) {
+      std::size_t best = 0;
+      double s = 0.0, shortest = INFINITY;
+      for (std::size_t i = 0; i < open.size() && cutter_.position(); ++i) {
+        const double here = open[i]->nearest(cutter_.position()->xy());
+        const double d = distance(open[i]->at(here), cutter_.position()->xy());
+        if (d < shortest) shortest = d, best = i, s = here;
+      }
+      const Track& track = *open[best];
+      if (const double from = start(track, s, cleared, z); !cutter_.full())
+        cutter_.follow(track, from, from + track.length(), z);
+      open.erase(open.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+  }
+
+  /// To the start of a track on a level, straight where it is near; the length along it there.
+  double start(const Track& track, double s, double cleared, double z) {
+    const Point2 to = track.at(s);
+    const auto here = cutter_.position();
+    if (here && here->z == z && distance(here->xy(), to) <= kMaxLink * diameter_ &&
+        cutter_.walls().permits_line(here->xy(), to)) {
+      cutter_.line(to);
+      return s;
+    }
+    cutter_.travel(to, cleared);
+    return cutter_.enter(track, s, cleared, z);
+  }
+
+  void hatch_line(const HatchLine& line, double cleared, double z, double spacing) {
+    Outline outline{line.from, {}, {{line.to, {}, {}}}};
+    const auto here = cutter_.position();
+    if (here && distance(here->xy(), line.to) < distance(here->xy(), line.from)) outline = reversed(outline);
+    const Track track(outline, options_.tolerance.weld.mm());
+    if (track.empty()) return;
+    const Point2 to = track.at(0.0);
+    if (here && here->z == z && distance(here->xy(), to) <= 2.0 * spacing + diameter_ &&
+        (free_links_ || cutter_.walls().permits_line(here->xy(), to))) {
+      cutter_.line(to);
+    } else {
+      cutter_.travel(to, cleared);
+      cutter_.enter(track, 0.0, cleared, z);
+    }
+    cutter_.follow(track, 0.0, track.length(), z);
+  }
+
+  /// The line of the next rows with the nearest end, or else the first that is left. `at` is the index after
+  /// the one that was cut; lines are in order of rows.
+  std::size_t next_line(const std::vector<HatchLine>& open, std::size_t at, double spacing) const {
+    const Point2 here = cutter_.position()->xy();
+    const double enough = 2.0 * spacing + diameter_;
+    const std::size_t first = at > kWindow ? at - kWindow : 0, last = std::min(open.size(), at + kWindow);
+    double shortest = INFINITY;
+    std::size_t best = 0;
+    for (std::size_t i = first; i < last; ++i) {
+      const double d = std::min(distance(here, open[i].from), distance(here, open[i].to));
+      if (d < shortest) shortest = d, best = i;
+    }
+    return shortest <= enough ? best : 0;
+  }
+  static constexpr std::size_t kWindow = 64;
+
+  const CutOptions& options_;
+  double diameter_;
+  bool free_links_ = false;
+  Cutter cutter_;
+};
+
+/// The operation made of a run; nothing, with an error, where it has too many steps.
+std::optional<Operation> finished(PocketRun& run, const CutOptions& options, Diagnostics& diagnostics) {
+  if (stop_requested(options.progress)) return std::nullopt;
+  if (run.full()) {
+    diagnostics.error(Code::op_limit, options.where,
+                      fmt::format("{}more than {} steps", prefix(options), options.max_steps));
+    return std::nullopt;
+  }
+  Operation made;
+  made.path = run.take();
+  return made;
+}
+
+/// False, with an error, where lines at this spacing are more than the limit of steps.
+bool few_lines(const Region& region, Length spacing, const CutOptions& options, Diagnostics& diagnostics) {
+  const Box2 box = bounds(region);
+  const double size = std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
+  if (size / spacing.mm() <= static_cast<double>(options.max_steps)) return true;
+  diagnostics.error(
+      Code::op_limit, options.where,
+      fmt::format("{}a stepover of {:g} mm needs too many lines", prefix(options), spacing.mm()));
+  return false;
+}
+
+}  // namespace
+
+std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
+                                Diagnostics& diagnostics) {
+  const CutOptions& cut = options.cut;
+  const bool in_range = valid(cut, tool, diagnostics);
+  if (!valid_stepover(options.stepover, cut, diagnostics) || !in_range) return std::nullopt;
+  if (!usable(region, cut, diagnostics)) return std::nullopt;
+  std::optional<Reach> reachable = reach(region, tool, ReachSide::inside, cut, diagnostics);
+  if (!reachable) return std::nullopt;
+  const double tool_radius = reachable->radius - cut.allowance.mm();
+  const Length spacing = mm(2.0 * options.stepover * tool_radius);
+  PocketRun run(cut, tool, Walls(region, reachable->radius, 0.1 * cut.tolerance.chord.mm()));
+  if (options.pattern == PocketPattern::zigzag) {
+    if (!few_lines(reachable->axis, spacing, cut, diagnostics)) return std::nullopt;
+    // The lines end short of the walls, so that links between them keep clear. The ring along the walls
+    // covers what lies up to the radius from it: half a spacing beside a line, and the inset.
+    const double inset = std::min(kLineInset * tool_radius, tool_radius - 0.5 * spacing.mm());
+    const auto lines = offset(reachable->axis, mm(-inset), region_options(cut), diagnostics);
+    if (!lines) return std::nullopt;
+    run.zigzag(hatch(lines->region, options.angle, spacing, cut.max_steps), outer_rings(reachable->axis),
+               spacing.mm());
+  } else {
+    const auto rings = pocket_rings(reachable->axis, spacing, tool_radius, cut, diagnostics);
+    if (!rings) return std::nullopt;
+    run.rings(*rings);
+  }
+  auto made = finished(run, cut, diagnostics);
+  if (made) made->unreached = std::move(reachable->unreached), made->narrow = std::move(reachable->narrow);
+  return made;
+}
+
+std::optional<Operation> facing(const Region& region, const Tool& tool, const FacingOptions& options,
+                                Diagnostics& diagnostics) {
+  const CutOptions& cut = options.cut;
+  const bool in_range = valid(cut, tool, diagnostics);
+  if (!valid_stepover(options.stepover, cut, diagnostics) || !in_range) return std::nullopt;
+  if (!(options.overhang >= 0.5 && options.overhang <= 10.0)) {
+    diagnostics.error(
+        Code::op_option, cut.where,
+        fmt::format("{}overhang is {:g}; it must be from 0.5 to 10", prefix(cut), options.overhang));
+    return std::nullopt;
+  }
+  if (!usable(region, cut, diagnostics)) return std::nullopt;
+  const double diameter = 2.0 * cutting_radius(tool, cut.depth).mm();
+  const auto area = offset(region, mm(options.overhang * diameter), region_options(cut), diagnostics);
+  if (!area) return std::nullopt;
+  const Length spacing = mm(options.stepover * diameter);
+  if (!few_lines(area->region, spacing, cut, diagnostics)) return std::nullopt;
+  PocketRun run(cut, tool, Walls(Walls::Kind::unknown));
+  run.free_links();
+  run.zigzag(hatch(area->region, options.angle, spacing, cut.max_steps), {}, spacing.mm());
+  return finished(run, cut, diagnostics);
+}
+
+}  // namespace kerf

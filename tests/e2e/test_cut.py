@@ -1,0 +1,217 @@
+"""kerf cut: operations on drawings and outline files, job files, and the programs that they make."""
+import json
+import math
+import re
+
+import pytest
+
+OUTLINES = {
+    "unit": "mm",
+    "outlines": [
+        {
+            "name": "frame",
+            "closed": True,
+            "first": {"at": [0, 0]},
+            "segments": [{"to": [60, 0]}, {"to": [60, 40]}, {"to": [0, 40]}, {"to": [0, 0]}],
+        },
+        {
+            "name": "island",
+            "closed": True,
+            "first": {"at": [25, 15]},
+            "segments": [{"to": [35, 15]}, {"to": [35, 25]}, {"to": [25, 25]}, {"to": [25, 15]}],
+        },
+        {
+            "name": "hole",
+            "closed": True,
+            "first": {"at": [15, 20]},
+            "segments": [{"to": [5, 20], "via": [10, 25]}, {"to": [15, 20], "via": [10, 15]}],
+        },
+        {"name": "line", "closed": False, "first": {"at": [40, 5]}, "segments": [{"to": [55, 5]}]},
+    ],
+}
+
+JOB = """art = "art.json"
+stock = "-5,-5,-10 to 65,45,0"
+
+[tools]
+1 = "square d=6"
+2 = "square d=3"
+
+[defaults]
+feed = 900
+tool = 1
+rpm = 16000
+
+[[operation]]
+op = "pocket"
+outlines = ["frame", "island"]
+depth = 4
+stepdown = 2
+
+[[operation]]
+op = "bore"
+outlines = ["hole"]
+tool = 2
+depth = 6
+"""
+
+
+@pytest.fixture
+def art(tmp_path):
+    (tmp_path / "art.json").write_text(json.dumps(OUTLINES))
+    return "art.json"
+
+
+def write_job(tmp_path, text=JOB):
+    (tmp_path / "job.toml").write_text(text)
+    return "job.toml"
+
+
+POCKET = ["--op", "pocket", "--tool", "square d=6", "--depth", "4", "--stepdown", "2", "--feed", "900"]
+
+
+def test_a_pocket_with_an_island_leaves_its_volume(kerf, art):
+    run = kerf("cut", art, *POCKET, "--outlines", "frame,island", "-o", "part.nc")
+    assert run.status == 0, run.err
+    done = kerf("simulate", "--json", "part.nc", "--tool", "square d=6", "--stock", "-5,-5,-10 to 65,45,0",
+                "--resolution", "0.1")
+    assert done.status == 0, done.err
+    # The area without the island, less what the tool leaves in the four inner corners.
+    area = 60 * 40 - 10 * 10 - (4 - math.pi) * 3**2
+    assert done.json["removed_mm3"] == pytest.approx(4 * area, rel=2e-3)
+    assert done.json["hazards"] == []
+
+
+def test_a_job_file_is_a_program_for_every_command(kerf, tmp_path, art):
+    job = write_job(tmp_path)
+    info = kerf("info", "--json", job)
+    assert info.status == 0, info.err
+    assert [t["number"] for t in info.json["tools"]] == [1, 2]
+    simulated = kerf("simulate", "--json", job)
+    assert simulated.status == 0, simulated.err
+    assert simulated.json["stock_mm3"] == pytest.approx(70 * 50 * 10)
+    assert simulated.json["hazards"] == []
+    area = 60 * 40 - 10 * 10 - (4 - math.pi) * 3**2
+    hole = math.pi * 5**2
+    assert simulated.json["removed_mm3"] == pytest.approx(4 * area + 2 * hole, rel=3e-3)
+    steps = [json.loads(line) for line in kerf("steps", job).out.splitlines()[1:]]
+    assert {s["origin"]["line"] for s in steps if s["step"] in ("cut", "arc")} == {13, 19}
+    posted = kerf("post", "--to", "linuxcnc", job)
+    assert posted.status == 0 and "M2" in posted.out
+    checked = kerf("check", job)
+    assert checked.status == 0, checked.out + checked.err
+
+
+def test_a_job_is_written_for_a_controller(kerf, tmp_path, art):
+    job = write_job(tmp_path)
+    assert kerf("cut", job, "--to", "linuxcnc", "-o", "part.ngc").status == 0
+    text = (tmp_path / "part.ngc").read_text()
+    assert "S16000" in text and text.count("M6") == 2
+
+
+@pytest.mark.parametrize("change, line, message", [
+    (("depth = 4", "depht = 4"), 16, 'unknown key "depht"'),
+    (("depth = 4", 'depth = "deep"'), 16, "depth must be a number in mm"),
+    (("stepdown = 2", 'entry = "slide"'), 17, "entry must be one of: helix, ramp, plunge"),
+    (('op = "bore"', 'op = "weld"'), 19, 'there is no operation "weld"'),
+    (("depth = 6", ""), 19, "depth is missing"),
+    (('art = "art.json"', 'art = 5'), 1, "art must be a text"),
+    (("[tools]", "[[shape]]\npoint = [1]\n[tools]"), 5, "point has 2 numbers"),
+    (("[tools]", "tuned = 1\n[tools]"), 4, 'unknown key "tuned"'),
+    (('2 = "square', 'two = "square'), 6, "the key of a tool is its number"),
+])
+def test_errors_name_line_and_key(kerf, tmp_path, art, change, line, message):
+    job = write_job(tmp_path, JOB.replace(*change, 1))
+    run = kerf("info", "--json", job)
+    assert run.status == 1
+    found = [d for d in run.json["diagnostics"] if message in d["message"]]
+    assert found, run.out
+    assert found[0]["origin"]["line"] == line
+    assert found[0]["name"] == "cut_job_key"
+
+
+def test_invalid_toml_is_an_error_with_its_line(kerf, tmp_path, art):
+    run = kerf("info", "--json", write_job(tmp_path, JOB.replace("depth = 4", "depth = = 4")))
+    assert run.status == 1
+    assert run.json["diagnostics"][0]["name"] == "cut_job_syntax"
+    assert run.json["diagnostics"][0]["origin"]["line"] == 16
+
+
+@pytest.mark.parametrize("names, message", [
+    ("frame,line", "outlines are open"),
+    ("line", "outlines are open"),
+    ("nothing", 'no outline "nothing"'),
+])
+def test_unusable_selections_are_errors(kerf, art, names, message):
+    run = kerf("cut", art, *POCKET, "--outlines", names, "--json")
+    assert run.status == 1
+    found = run.json["diagnostics"][-1]
+    assert found["name"] == "cut_job_outlines" and message in found["message"]
+
+
+def test_a_tool_too_wide_names_the_largest_that_fits(kerf, art):
+    run = kerf("cut", art, "--op", "pocket", "--tool", "square d=12", "--depth", "2", "--feed", "900",
+               "--outlines", "hole", "--json")
+    assert run.status == 1
+    found = run.json["diagnostics"][-1]
+    assert found["name"] == "op_tool_wide"
+    assert "has 10 mm" in found["message"]
+
+
+def test_usage_errors(kerf, tmp_path, art):
+    assert kerf("cut").status == 2
+    assert kerf("cut", art).status == 2
+    assert kerf("cut", art, *POCKET, "--to", "unknown").status == 2
+    assert kerf("cut", art, *POCKET, "--depth", "deep").status == 2
+    assert kerf("cut", art, *POCKET, "-o", art).status == 2
+    assert kerf("cut", write_job(tmp_path), "--depth", "4").status == 2
+    assert kerf("cut", "--example", "weld").status == 2
+
+
+@pytest.mark.parametrize("op", ["pocket", "contour", "engrave", "face", "drill", "bore"])
+def test_examples_run(kerf, tmp_path, art, op):
+    example = kerf("cut", "--example", op)
+    assert example.status == 0
+    text = example.out.replace('# art = "part.dxf"', f'art = "{art}"')
+    text = re.sub(r"\[\[shape\]\].*?\n\n", "", text, flags=re.DOTALL)
+    select = {"engrave": '"line"', "drill": '"hole"', "bore": '"hole"'}.get(op, '"frame"')
+    text += f"outlines = [{select}]\n"
+    run = kerf("simulate", "--json", write_job(tmp_path, text))
+    assert run.status == 0, run.err + run.out
+    assert run.json["hazards"] == []
+    assert run.json["removed_mm3"] > 0
+
+
+@pytest.mark.parametrize("op", ["pocket", "contour", "engrave", "face", "drill", "bore"])
+def test_examples_run_as_they_are(kerf, tmp_path, op):
+    example = kerf("cut", "--example", op).out
+    run = kerf("simulate", "--json", write_job(tmp_path, example))
+    assert run.status == 0, run.err + run.out
+    assert run.json["hazards"] == []
+    assert run.json["removed_mm3"] > 0
+    assert kerf("check", "job.toml").status == 0
+
+
+def test_the_schema_accepts_a_job_and_names_its_keys(kerf):
+    schema = json.loads(kerf("cut", "--schema").out)
+    keys = schema["properties"]["operation"]["items"]["properties"]
+    assert {"op", "depth", "stepdown", "stepover", "direction"} <= keys.keys()
+    assert keys["direction"]["enum"] == ["climb", "conventional"]
+
+
+def test_depth_per_pass_and_resuming_in_post(kerf, tmp_path):
+    (tmp_path / "deep.nc").write_text(
+        "G21 G90\nT1 M6\nM3 S9000\nG0 X0 Y0\nG0 Z5\nG1 Z-6 F100\nG1 X20 F400\nY20\nX0\nY0\nG0 Z5\nM2\n")
+    run = kerf("post", "--to", "linuxcnc", "--step-down", "2", "deep.nc", "-o", "passes.ngc")
+    assert run.status == 0, run.err
+    info = kerf("info", "--json", "passes.ngc", "--tool", "square d=3").json
+    assert info["motion"]["cut_mm"] == pytest.approx(3 * 80 + 11, abs=0.01)
+    run = kerf("post", "--to", "linuxcnc", "--from-line", "8", "--safe-z", "5", "deep.nc", "-o", "rest.ngc")
+    assert run.status == 0, run.err
+    info = kerf("info", "--json", "rest.ngc", "--tool", "square d=3").json
+    assert info["motion"]["cut_mm"] == pytest.approx(60 + 11, abs=0.01)
+    text = (tmp_path / "rest.ngc").read_text()
+    assert "S9000" in text and "M3" in text
+    run = kerf("post", "--to", "linuxcnc", "--from-line", "99", "--safe-z", "5", "deep.nc", "--json")
+    assert run.status == 1 and "resume_line" in run.codes()
+    assert kerf("post", "--to", "linuxcnc", "--from-line", "8", "deep.nc").status == 2

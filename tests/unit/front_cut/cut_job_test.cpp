@@ -1,0 +1,215 @@
+// Job files and options as jobs, and the programs made of them.
+#include "kerf/cut_job.h"
+
+#include <cmath>
+#include <gtest/gtest.h>
+
+namespace kerf {
+namespace {
+
+Outline rectangle(double x0, double y0, double x1, double y1) {
+  return {{x0, y0}, {}, {{{x1, y0}, {}, {}}, {{x1, y1}, {}, {}}, {{x0, y1}, {}, {}}, {{x0, y0}, {}, {}}}};
+}
+
+std::vector<ArtShape> art() {
+  std::vector<ArtShape> shapes;
+  shapes.push_back({"CUT.1", "CUT", rectangle(0, 0, 40, 30), {}, {}});
+  shapes.push_back({"HOLES.1", "HOLES", as_outline({{60, 10}, mm(4)}), {}, {}});
+  shapes.push_back({"", "HOLES", {}, {}, Point2{70, 10}});
+  shapes.push_back({"MARK.1", "MARK", Outline{{0, 40}, {}, {{{20, 40}, {}, {}}}}, {}, {}});
+  return shapes;
+}
+
+std::map<int, Tool> tools() {
+  Diagnostics diagnostics;
+  std::map<int, Tool> all;
+  all.emplace(1, *make_tool(1, shape::Square{mm(6), mm(20)}, {}, {}, diagnostics));
+  all.emplace(2, *make_tool(2, shape::Square{mm(3), mm(20)}, {}, {}, diagnostics));
+  return all;
+}
+
+std::optional<Toolpath> program(const std::string& text, Diagnostics& diagnostics) {
+  const auto job = read_cut_job("art = \"a.dxf\"\n" + text, "job.toml", diagnostics);
+  return job ? compile_cut_job(*job, art(), tools(), diagnostics) : std::nullopt;
+}
+
+Code code_of(const std::string& text) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(program(text, diagnostics)) << text;
+  return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
+}
+
+std::size_t count(const Toolpath& path, StepKind kind) {
+  std::size_t n = 0;
+  for (const Step& s : path.steps()) n += s.kind() == kind ? 1 : 0;
+  return n;
+}
+
+TEST(CutJob, OperationsFollowEachOtherWithTheirTools) {
+  Diagnostics diagnostics;
+  const auto path = program(R"(
+[defaults]
+feed = 600
+depth = 3
+rpm = 12000
+[[operation]]
+op = "pocket"
+layers = ["CUT"]
+tool = 1
+[[operation]]
+op = "drill"
+layers = "holes"
+tool = 2
+[[operation]]
+op = "engrave"
+layers = ["mark"]
+tool = 2
+depth = 0.5
+)",
+                            diagnostics);
+  ASSERT_TRUE(path) << to_string(diagnostics.list().front());
+  EXPECT_TRUE(diagnostics.list().empty());
+  EXPECT_EQ(count(*path, StepKind::tool_change), 2u);
+  EXPECT_EQ(count(*path, StepKind::note), 3u);
+  EXPECT_EQ(path->steps().back().kind(), StepKind::end);
+  // Two holes: the centre of the circle and the point.
+  std::size_t holes = 0;
+  double deepest_mark = 0.0;
+  for_each_motion(*path, [&](const Step& s, const MotionContext& context) {
+    if (s.is_cutting() && context.tool == 2 && s.to().z == -3.0) ++holes;
+    if (s.is_cutting() && s.to().y == 40.0) deepest_mark = std::min(deepest_mark, s.to().z);
+  });
+  EXPECT_EQ(holes, 2u);
+  EXPECT_EQ(deepest_mark, -0.5);
+}
+
+TEST(CutJob, TheWayBetweenOperationsIsAtTheHighestRetractPlane) {
+  Diagnostics diagnostics;
+  const auto path = program(R"(
+[defaults]
+feed = 600
+depth = 3
+tool = 1
+[[operation]]
+op = "pocket"
+layers = ["CUT"]
+[[operation]]
+op = "drill"
+layers = ["HOLES"]
+top = 20
+)",
+                            diagnostics);
+  ASSERT_TRUE(path) << to_string(diagnostics.list().front());
+  for_each_motion(*path, [](const Step& s, const MotionContext& context) {
+    if (s.kind() == StepKind::rapid && s.unknown_axes() == 0 &&
+        distance(s.to().xy(), context.from.xy()) > 40.0) {
+      EXPECT_EQ(s.to().z, 25.0);
+      EXPECT_EQ(context.from.z, 25.0);
+    }
+  });
+}
+
+TEST(CutJob, BadFilesAreErrors) {
+  const std::string good =
+      "[[operation]]\nop = \"pocket\"\nlayers = [\"CUT\"]\ntool = 1\ndepth = 2\nfeed = 600\n";
+  Diagnostics diagnostics;
+  EXPECT_TRUE(program(good, diagnostics));
+  EXPECT_EQ(code_of("[[operation"), Code::cut_job_syntax);
+  EXPECT_EQ(code_of(""), Code::cut_job_key);
+  EXPECT_EQ(code_of("operation = 3\n"), Code::cut_job_key);
+  EXPECT_EQ(code_of("operation = [3]\n"), Code::cut_job_key);
+  EXPECT_EQ(code_of("defaults = 3\n" + good), Code::cut_job_key);
+  EXPECT_EQ(code_of("unit = \"ell\"\n" + good), Code::cut_job_key);
+  EXPECT_EQ(code_of("tools = 3\n" + good), Code::cut_job_key);
+  EXPECT_EQ(code_of("[tools]\n-1 = \"square d=3\"\n" + good), Code::cut_job_key);
+  for (const char* line :
+       {"depth = []", "feed = true", "tool = 1.5", "layers = [1]", "outlines = []", "rpm = -1", "dwell = -1",
+        "feed = nan", "pattern = \"spiral\"", "name = \"\"", "depht = 2"})
+    EXPECT_EQ(code_of("[defaults]\n" + std::string(line) + "\n" + good), Code::cut_job_key) << line;
+  EXPECT_EQ(code_of("[[operation]]\nop = \"pocket\"\ntool = 9\ndepth = 2\nfeed = 600\n"), Code::cut_job_key);
+  EXPECT_EQ(code_of(good + "outlines = [\"CUT.9\"]\n"), Code::cut_job_outlines);
+  EXPECT_EQ(code_of("[[operation]]\nop = \"pocket\"\nlayers = [\"MARK\"]\ntool = 1\ndepth = 2\nfeed = 600\n"),
+            Code::cut_job_outlines);
+}
+
+TEST(CutJob, ShapesOfTheJobItself) {
+  Diagnostics diagnostics;
+  const std::string text =
+      "[[shape]]\nname = \"frame\"\nlayer = \"A\"\nrectangle = [30, 0, 0, 20]\ncorner = 2\n"
+      "[[shape]]\ncircle = [50, 10, 8]\n[[shape]]\npolygon = [[0, 30], [10, 30], [0, 40]]\n"
+      "[[shape]]\nline = [[0, 50], [10, 50.5]]\n[[shape]]\npoint = [1, 2]\n"
+      "[[operation]]\nop = \"pocket\"\ntool = 1\ndepth = 2\nfeed = 600\n";
+  const auto job = read_cut_job(text, "job.toml", diagnostics);
+  ASSERT_TRUE(job) << to_string(diagnostics.list().front());
+  ASSERT_EQ(job->shapes.size(), 5u);
+  EXPECT_EQ(job->shapes[0].name, "frame");
+  EXPECT_EQ(job->shapes[0].layer, "A");
+  // Four corners each keep the square of the radius less a quarter of the circle.
+  EXPECT_NEAR(area(*job->shapes[0].outline), 600 - 4 * 4 * (1 - M_PI / 4), 1e-9);
+  EXPECT_EQ(job->shapes[1].circle->centre, (Point2{50, 10}));
+  EXPECT_EQ(job->shapes[1].circle->radius, mm(4));
+  EXPECT_NEAR(area(*job->shapes[2].outline), 50, 1e-12);
+  EXPECT_FALSE(job->shapes[3].outline->closed());
+  EXPECT_EQ(job->shapes[4].point, (Point2{1, 2}));
+  const std::string rest = "\n[[operation]]\nop = \"pocket\"\ntool = 1\ndepth = 2\nfeed = 600\n";
+  for (const char* shape :
+       {"rectangle = [0, 0, 0, 20]", "rectangle = [0, 0, 1]", "rectangle = 5", "circle = [0, 0, 0]",
+        "circle = [0, 0, nan]", "polygon = [[0, 0], [1, 1]]", "line = [[0, 0], 5]", "point = [1e99, 0]",
+        "name = \"x\"", "point = [0, 0]\ncircle = [0, 0, 1]", "point = [0, 0]\ncorner = -1",
+        "point = [0, 0]\nname = 5", "square = [0, 0, 1]"}) {
+    Diagnostics bad;
+    EXPECT_FALSE(read_cut_job("[[shape]]\n" + std::string(shape) + rest, "job.toml", bad)) << shape;
+    ASSERT_GE(bad.errors(), 1u) << shape;
+    EXPECT_EQ(bad.list()[0].code, Code::cut_job_key);
+    EXPECT_GE(std::get<TextLocation>(bad.list()[0].where).line, 1u);
+  }
+  EXPECT_EQ(code_of("shape = 3" + rest), Code::cut_job_key);
+  EXPECT_EQ(code_of("shape = [3]" + rest), Code::cut_job_key);
+}
+
+TEST(CutJob, KeysWithoutEffectAreWarnings) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(program(
+      "[[operation]]\nop = \"drill\"\nlayers = [\"HOLES\"]\ntool = 2\ndepth = 2\nfeed = 60\nlead = 1\n",
+      diagnostics));
+  ASSERT_EQ(diagnostics.list().size(), 1u);
+  EXPECT_EQ(diagnostics.warnings(), 1u);
+  EXPECT_NE(diagnostics.list()[0].message.find("lead"), std::string::npos);
+}
+
+TEST(CutJob, OptionsMakeTheSameJobAsAFile) {
+  Diagnostics diagnostics;
+  const auto job = cut_job_of({{"op", "contour"},
+                               {"depth", "2.5"},
+                               {"feed", "600"},
+                               {"layers", "CUT, HOLES"},
+                               {"side", "inside"},
+                               {"entry", "plunge"}},
+                              diagnostics);
+  ASSERT_TRUE(job);
+  const CutOperation& operation = job->operations[0];
+  EXPECT_EQ(operation.kind, CutKind::contour);
+  EXPECT_EQ(operation.cut.depth, mm(2.5));
+  EXPECT_EQ(operation.layers, (std::vector<std::string>{"CUT", "HOLES"}));
+  EXPECT_EQ(operation.side, ContourSide::inside);
+  EXPECT_EQ(operation.cut.entry.kind, EntryKind::plunge);
+  EXPECT_FALSE(cut_job_of({{"op", "contour"}, {"depth", "deep"}, {"feed", "600"}}, diagnostics));
+  EXPECT_FALSE(cut_job_of({{"op", "contour"}, {"depth", "2"}}, diagnostics));
+  EXPECT_FALSE(cut_job_of({{"depth", "2"}}, diagnostics));
+  EXPECT_EQ(diagnostics.errors(), 3u);
+}
+
+TEST(CutJob, ExamplesAreReadWithoutAMessage) {
+  for (const std::string& name : cut_kind_names()) {
+    const auto text = cut_job_example(name);
+    ASSERT_TRUE(text);
+    Diagnostics diagnostics;
+    const auto job = read_cut_job(*text, "job.toml", diagnostics);
+    ASSERT_TRUE(job) << to_string(diagnostics.list().front());
+    EXPECT_TRUE(diagnostics.list().empty()) << to_string(diagnostics.list().front());
+  }
+  EXPECT_FALSE(cut_job_example("weld"));
+}
+
+}  // namespace
+}  // namespace kerf

@@ -1,0 +1,85 @@
+// Drilled and bored holes.
+#include "kerf/op/holes.h"
+
+#include <gtest/gtest.h>
+
+#include "swept.h"
+
+namespace kerf {
+namespace {
+
+using namespace test;
+
+TEST(Drill, EachPointIsDrilledOnceToItsDepth) {
+  DrillOptions options{
+      .kind = DrillKind::peck, .top = 1, .depth = mm(10), .peck = mm(3), .feed = mm_per_min(100)};
+  Diagnostics diagnostics;
+  const auto made = drill({{0, 0}, {30, 0}, {10, 0}, {20, 0}}, mill(3), options, diagnostics);
+  ASSERT_TRUE(made);
+  std::vector<double> bottoms;
+  double travel = 0.0;
+  for (const Motion& m : motions(made->path)) {
+    if (!m.rapid && m.to.z == -9.0) bottoms.push_back(m.to.x);
+    if (m.rapid && m.from.xy() != m.to.xy()) {
+      travel += distance(m.from.xy(), m.to.xy());
+      EXPECT_EQ(m.low(), 5.0);
+    }
+  }
+  // In the order of the way, not of the list.
+  EXPECT_EQ(bottoms, (std::vector<double>{0, 10, 20, 30}));
+  EXPECT_NEAR(travel, 30, 1e-9);
+}
+
+TEST(Drill, BadInputIsAnError) {
+  const DrillOptions good{.depth = mm(10), .feed = mm_per_min(100)};
+  const auto code = [](const std::vector<Point2>& points, const DrillOptions& options) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(drill(points, mill(3), options, diagnostics));
+    return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
+  };
+  EXPECT_EQ(code({}, good), Code::op_empty);
+  EXPECT_EQ(code({{INFINITY, 0}}, good), Code::op_option);
+  DrillOptions bad = good;
+  bad.kind = DrillKind::peck;
+  EXPECT_EQ(code({{0, 0}}, bad), Code::op_option);
+  bad.peck = mm(1e-12);
+  EXPECT_NE(code({{0, 0}}, bad), Code{});
+  bad = good;
+  bad.kind = DrillKind::back_bore;
+  EXPECT_EQ(code({{0, 0}}, bad), Code::op_option);
+}
+
+TEST(Bore, AHoleHasItsDiameterAndAFlatBottom) {
+  for (const double diameter : {7.0, 12.0, 30.0}) {
+    BoreOptions options;
+    options.cut.depth = mm(5), options.cut.stepdown = mm(1), options.cut.feed = mm_per_min(500);
+    Diagnostics diagnostics;
+    const auto made = bore({{{10, 20}, mm(diameter / 2)}}, mill(6), options, diagnostics);
+    ASSERT_TRUE(made);
+    const Region hole = region_of({as_outline({{10, 20}, mm(diameter / 2)})});
+    // Points that only the last turn of a helix covers are lower than its top; judged at the flat bottom.
+    const std::vector<Motion> cuts = motions(made->path);
+    for (double x = -8; x < 28; x += 0.31)
+      for (double y = 2; y < 38; y += 0.31) {
+        const double d = distance(Point2{x, y}, Point2{10, 20});
+        if (d > diameter / 2 + 0.001) {
+          ASSERT_FALSE(touched(cuts, {x, y}, 2.9999, 0));
+        }
+        if (d < diameter / 2 - 0.001) {
+          ASSERT_TRUE(removed_to(cuts, {x, y}, 3.0001, -5)) << diameter << " " << x << " " << y;
+        }
+      }
+  }
+}
+
+TEST(Bore, AHoleNoLargerThanTheToolIsAnError) {
+  BoreOptions options;
+  options.cut.depth = mm(5), options.cut.feed = mm_per_min(500);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(bore({{{10, 20}, mm(3)}}, mill(6), options, diagnostics));
+  EXPECT_EQ(diagnostics.list().front().code, Code::op_tool_wide);
+  EXPECT_FALSE(bore({}, mill(6), options, diagnostics));
+}
+
+}  // namespace
+}  // namespace kerf

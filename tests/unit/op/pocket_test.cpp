@@ -1,0 +1,276 @@
+// Pockets and facing: what is removed and what stays, from the geometry of the region.
+#include "kerf/op/pocket.h"
+
+#include <gtest/gtest.h>
+#include <numbers>
+#include <random>
+
+#include "op/pocket_rings.h"
+#include "swept.h"
+
+namespace kerf {
+namespace {
+
+using namespace test;
+
+CutOptions usual(double depth = 4.0, double stepdown = 2.0) {
+  CutOptions cut;
+  cut.depth = mm(depth), cut.stepdown = mm(stepdown);
+  cut.feed = mm_per_min(600), cut.plunge = mm_per_min(200);
+  return cut;
+}
+
+const Code* first_code(const Diagnostics& diagnostics) {
+  return diagnostics.list().empty() ? nullptr : &diagnostics.list().front().code;
+}
+
+TEST(Pocket, ARectangleIsClearedToItsCorners) {
+  const Region region = region_of({rectangle(0, 0, 40, 20)});
+  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag})
+    for (const double stepover : {0.2, 0.4, 0.6, 0.75, 0.9, 1.0}) {
+      Diagnostics diagnostics;
+      const auto made =
+          pocket(region, mill(6), {.cut = usual(), .stepover = stepover, .pattern = pattern}, diagnostics);
+      ASSERT_TRUE(made);
+      EXPECT_TRUE(diagnostics.list().empty());
+      // A corner keeps the square of the radius less a quarter of the circle.
+      EXPECT_NEAR(area(made->unreached), 4 * 9 * (1 - std::numbers::pi / 4), 1e-3);
+      EXPECT_EQ(wrong_points(made->path, region, made->unreached, 3, 0, -4, 0.37), "") << stepover;
+      EXPECT_EQ(rapid_problem(made->path, 3, 0), "") << stepover;
+    }
+}
+
+TEST(Pocket, IslandsStay) {
+  const Region region =
+      region_of({rectangle(0, 0, 60, 40), rectangle(20, 15, 30, 25), as_outline({{45, 20}, mm(5)})});
+  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag}) {
+    Diagnostics diagnostics;
+    const auto made =
+        pocket(region, mill(5), {.cut = usual(), .stepover = 0.45, .pattern = pattern, .angle = degrees(30)},
+               diagnostics);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(wrong_points(made->path, region, made->unreached, 2.5, 0, -4, 0.41), "");
+    EXPECT_EQ(rapid_problem(made->path, 2.5, 0), "");
+  }
+}
+
+TEST(Pocket, ASlotAsWideAsTheToolIsCut) {
+  const Region region = region_of({rectangle(0, 0, 30, 6)});
+  Diagnostics diagnostics;
+  const auto made = pocket(region, mill(6), {.cut = usual()}, diagnostics);
+  ASSERT_TRUE(made) << to_string(diagnostics.list().front());
+  EXPECT_FALSE(diagnostics.has_errors());
+  EXPECT_EQ(wrong_points(made->path, region, made->unreached, 3, 0, -4, 0.31), "");
+}
+
+TEST(Pocket, AToolTooWideIsReportedWithTheLargestThatFits) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(pocket(region_of({rectangle(0, 0, 30, 4)}), mill(6), {.cut = usual()}, diagnostics));
+  ASSERT_EQ(diagnostics.errors(), 1u);
+  EXPECT_EQ(*first_code(diagnostics), Code::op_tool_wide);
+  const std::string message = diagnostics.list().front().message;
+  EXPECT_NE(message.find("6 mm"), std::string::npos) << message;
+  EXPECT_NE(message.find("has 4 mm"), std::string::npos) << message;
+}
+
+TEST(Pocket, ANarrowPartIsAWarningAndTheRestIsCut) {
+  // A square with a channel of 4 mm to the right.
+  const Region region =
+      region_of({polygon({{0, 0}, {20, 0}, {20, 8}, {40, 8}, {40, 12}, {20, 12}, {20, 20}, {0, 20}})});
+  Diagnostics diagnostics;
+  const auto made = pocket(region, mill(6), {.cut = usual()}, diagnostics);
+  ASSERT_TRUE(made);
+  ASSERT_EQ(made->narrow.size(), 1u);
+  EXPECT_NEAR(made->narrow[0].diameter.mm(), 4.0, 0.05);
+  EXPECT_GT(made->narrow[0].at.x, 20.0);
+  EXPECT_NEAR(made->narrow[0].at.y, 10.0, 0.05);
+  EXPECT_EQ(diagnostics.warnings(), 1u);
+  EXPECT_EQ(wrong_points(made->path, region, made->unreached, 3, 0, -4, 0.37), "");
+}
+
+TEST(Pocket, ClimbHasTheWallOnTheRight) {
+  for (const CutDirection direction : {CutDirection::climb, CutDirection::conventional}) {
+    CutOptions cut = usual(1, 0);
+    cut.direction = direction;
+    cut.entry.kind = EntryKind::plunge;
+    Diagnostics diagnostics;
+    const auto made = pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6), {.cut = cut}, diagnostics);
+    ASSERT_TRUE(made);
+    // Along the lower wall, at y = 3.
+    double along = 0.0;
+    for (const Motion& m : motions(made->path))
+      if (!m.rapid && std::abs(m.from.y - 3) < 1e-6 && std::abs(m.to.y - 3) < 1e-6)
+        along += m.to.x - m.from.x;
+    EXPECT_NEAR(along, direction == CutDirection::climb ? 34.0 : -34.0, 1e-6);
+  }
+}
+
+TEST(Pocket, EntriesAreNoSteeperThanGiven) {
+  for (const EntryKind kind : {EntryKind::ramp, EntryKind::helix})
+    for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag}) {
+      CutOptions cut = usual(6, 2);
+      cut.entry = {.kind = kind, .angle = degrees(5)};
+      Diagnostics diagnostics;
+      const auto made = pocket(region_of({rectangle(0, 0, 40, 30)}), mill(6),
+                               {.cut = cut, .pattern = pattern}, diagnostics);
+      ASSERT_TRUE(made);
+      bool descends = false;
+      for_each_motion(made->path, [&](const Step& s, const MotionContext& context) {
+        if (!s.is_cutting() || s.to().z >= context.from.z) return;
+        const double drop = context.from.z - s.to().z;
+        const double along = s.kind() == StepKind::arc
+                                 ? std::sqrt(std::pow(walk_of(s, context.from).length(), 2) - drop * drop)
+                                 : distance(s.to().xy(), context.from.xy());
+        EXPECT_LE(std::atan2(drop, along), degrees(5).rad() + 1e-6);
+        // The speed downwards is at most that of plunging.
+        EXPECT_LE(s.feed().mm_per_min() * drop / std::hypot(drop, along), 200.0 + 1e-6);
+        descends = true;
+      });
+      EXPECT_TRUE(descends);
+    }
+}
+
+TEST(Pocket, AllPassesHaveOneDepth) {
+  Diagnostics diagnostics;
+  const auto made = pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6), {.cut = usual(5, 2)}, diagnostics);
+  ASSERT_TRUE(made);
+  for (const double z : {-5.0 / 3, -10.0 / 3, -5.0}) {
+    bool present = false;
+    for (const Motion& m : motions(made->path))
+      present |= !m.rapid && std::abs(m.from.z - z) < 1e-9 && std::abs(m.to.z - z) < 1e-9;
+    EXPECT_TRUE(present) << z;
+  }
+}
+
+TEST(Pocket, AllowanceStaysOnTheWalls) {
+  CutOptions cut = usual();
+  cut.allowance = mm(0.5);
+  Diagnostics diagnostics;
+  const auto made = pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6), {.cut = cut}, diagnostics);
+  ASSERT_TRUE(made);
+  const Region smaller = region_of({rectangle(0.5, 0.5, 39.5, 19.5)});
+  const auto opened = offset(smaller, mm(-3), {}, diagnostics);
+  const auto reached = offset(opened->region, mm(3), {}, diagnostics);
+  const auto corners = combine(smaller, reached->region, Boolean::subtract, {}, diagnostics);
+  EXPECT_EQ(wrong_points(made->path, smaller, corners->region, 3, 0, -4, 0.37), "");
+}
+
+TEST(Pocket, BadInputIsAnError) {
+  const Region region = region_of({rectangle(0, 0, 40, 20)});
+  const auto code = [&](const Region& r, const PocketOptions& options) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(pocket(r, mill(6), options, diagnostics));
+    return diagnostics.list().empty() ? Code{} : diagnostics.list().front().code;
+  };
+  PocketOptions good{.cut = usual()};
+  EXPECT_EQ(code({}, good), Code::op_empty);
+  Region open = region;
+  open.loops[0].segments.pop_back();
+  EXPECT_EQ(code(open, good), Code::op_open);
+  for (const double stepover : {0.0, -0.4, 1.5, std::nan("")}) {
+    PocketOptions bad = good;
+    bad.stepover = stepover;
+    EXPECT_EQ(code(region, bad), Code::op_option) << stepover;
+  }
+  for (const double number : {-1.0, std::nan(""), double{INFINITY}}) {
+    std::vector<PocketOptions> all(7, good);
+    all[0].cut.depth = mm(number), all[1].cut.stepdown = mm(number), all[2].cut.feed = mm_per_min(number);
+    all[3].cut.plunge = mm_per_min(number), all[4].cut.clearance = mm(number);
+    all[5].cut.allowance = mm(number), all[6].cut.entry.angle = degrees(number);
+    for (const PocketOptions& bad : all) EXPECT_EQ(code(region, bad), Code::op_option) << number;
+  }
+  PocketOptions low = good;
+  low.cut.retract_plane = -1;
+  EXPECT_EQ(code(region, low), Code::op_option);
+  PocketOptions fine = good;
+  fine.stepover = 1e-9;
+  EXPECT_EQ(code(region, fine), Code::op_limit);
+  PocketOptions few = good;
+  few.cut.max_steps = 10;
+  EXPECT_EQ(code(region, few), Code::op_limit);
+}
+
+TEST(Pocket, AFluteShorterThanTheDepthIsAWarning) {
+  Diagnostics diagnostics;
+  EXPECT_TRUE(pocket(region_of({rectangle(0, 0, 40, 20)}), mill(6, 3), {.cut = usual()}, diagnostics));
+  ASSERT_EQ(diagnostics.warnings(), 1u);
+  EXPECT_EQ(*first_code(diagnostics), Code::op_flute);
+}
+
+TEST(Facing, TheWholeRegionIsLevelled) {
+  const Region region = region_of({rectangle(0, 0, 50, 30)});
+  for (const double angle : {0.0, 90.0, 37.0})
+    for (const double stepover : {0.4, 1.0}) {
+      Diagnostics diagnostics;
+      const auto made =
+          facing(region, mill(10), {.cut = usual(1, 0.5), .stepover = stepover, .angle = degrees(angle)},
+                 diagnostics);
+      ASSERT_TRUE(made);
+      const std::vector<Motion> cuts = motions(made->path);
+      for (double x = 0.1; x < 50; x += 0.7)
+        for (double y = 0.1; y < 30; y += 0.7)
+          ASSERT_TRUE(removed_to(cuts, {x, y}, 5.0001, -1)) << x << " " << y << " " << angle;
+    }
+}
+
+/// Unions of rectangles, circles and triangles at random.
+Region random_region(std::mt19937_64& random) {
+  const auto in = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::vector<Region> parts;
+  const int count = 1 + static_cast<int>(in(0, 6));
+  for (int i = 0; i < count; ++i) {
+    const Point2 at{in(0, 50), in(0, 40)};
+    const double kind = in(0, 3);
+    if (kind < 1)
+      parts.push_back(region_of(
+          {rotated(rectangle(at.x, at.y, at.x + in(3, 30), at.y + in(3, 30)), at, degrees(in(0, 90)))}));
+    else if (kind < 2)
+      parts.push_back(region_of({as_outline({at, mm(in(1, 15))})}));
+    else
+      parts.push_back(region_of(
+          {polygon({at, {at.x + in(5, 30), at.y + in(-5, 5)}, {at.x + in(-5, 15), at.y + in(5, 30)}})}));
+  }
+  Diagnostics diagnostics;
+  Region all = *unite(parts, {}, diagnostics);
+  if (in(0, 1) < 0.6) {
+    const Region hole = region_of({as_outline({{in(5, 45), in(5, 35)}, mm(in(1, 8))})});
+    all = combine(all, hole, Boolean::subtract, {}, diagnostics)->region;
+  }
+  return all;
+}
+
+TEST(Pocket, RandomRegionsAreClearedAndNothingElse) {
+  std::mt19937_64 random(20261122);
+  const auto in = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int cut_count = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Region region = random_region(random);
+    const double diameter = in(1.5, 8);
+    PocketOptions options{.cut = usual(3, in(1, 4)), .stepover = in(0.15, 1.0)};
+    options.pattern = in(0, 1) < 0.5 ? PocketPattern::offset : PocketPattern::zigzag;
+    options.angle = degrees(in(0, 180));
+    options.cut.direction = in(0, 1) < 0.5 ? CutDirection::climb : CutDirection::conventional;
+    options.cut.entry.kind = in(0, 1) < 0.5   ? EntryKind::helix
+                             : in(0, 1) < 0.5 ? EntryKind::ramp
+                                              : EntryKind::plunge;
+    if (in(0, 1) < 0.3) options.cut.allowance = mm(0);
+    Diagnostics diagnostics;
+    const auto made = pocket(region, mill(diameter), options, diagnostics);
+    if (!made) {
+      ASSERT_EQ(diagnostics.list().front().code, Code::op_tool_wide) << to_string(diagnostics.list().front());
+      continue;
+    }
+    ++cut_count;
+    EXPECT_EQ(wrong_points(made->path, region, made->unreached, diameter / 2, 0, -3, 0.83), "")
+        << "case " << i << " stepover " << options.stepover << " diameter " << diameter;
+    EXPECT_EQ(rapid_problem(made->path, diameter / 2, 0), "") << "case " << i;
+  }
+  EXPECT_GT(cut_count, 40);
+}
+
+}  // namespace
+}  // namespace kerf
