@@ -97,6 +97,8 @@ struct PartFileOptions {
   View view = {};  // of pictures
   PictureContent content = PictureContent::automatic;
   Grooves grooves = Grooves::closed;
+  /// Nothing: exact for meshes, and for pictures whose pixels are smaller than the columns.
+  std::optional<SurfaceDetail> detail = {};
 };
 /// Writes pictures of the toolpath; all files must be pictures. False, with an error, if one fails.
 bool write_path(const std::vector<PartFile>& files, const Job& job, const View& view, OutputSet& set,

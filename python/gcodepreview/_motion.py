@@ -138,7 +138,7 @@ class Motion:
         if laser and self._commanded is not None:
             self.toolpath.laser(0, "off")
         if only_z:  # X and Y have no commanded position yet: they must not move
-            self.toolpath.rapid(end, unknown="XY")
+            self.toolpath.rapid((0.0, 0.0, end[2]), unknown="XY")
             moves = self._arrive("rapid", end)
             self._unknown = "XY"
             return moves

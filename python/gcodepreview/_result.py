@@ -75,7 +75,10 @@ class Result:
         self.simulation.save(*paths, **view)
 
     def _repr_png_(self):
-        return self.simulation.picture()
+        return self.simulation._repr_png_()
+
+    def _repr_html_(self):
+        return self.simulation._repr_html_()
 
     def show(self):
         show(self)
@@ -95,10 +98,10 @@ def show(result):
     outputs = os.environ.get("KERF_RUN_OUTPUTS", "").split("\n")
     outputs = [path for path in outputs if path]
     script = sys.argv[0] if sys.argv else ""
-    if not outputs and script.endswith(".py"):
-        outputs = [os.path.splitext(script)[0] + ".glb"]
     if outputs:
         result.save(*outputs)
+    elif script.endswith(".py"):
+        result.save(os.path.splitext(script)[0] + ".glb", detail="columns")  # a preview, for a viewer
 
 
 class Files:

@@ -3,7 +3,8 @@
 A toolpath is built by calls (`Toolpath`) or read from a file (`load`). `simulate` cuts it out of a `Stock`
 and returns the workpiece and its hazards; `check` reports hazards, `estimate` the machining time; `post`
 writes a program for a controller or a drawing. A `Region` is a part of the plane bounded by lines and arcs,
-with boolean operations, offsets and queries. Lengths are mm, feeds mm/min, angles degrees; Z points up.
+with boolean operations, offsets and queries. A `Job` keeps stock, tools, retract plane, feeds and units
+together. Lengths are mm, feeds mm/min, angles degrees; Z points up.
 """
 
 import os
@@ -47,6 +48,12 @@ from ._kerf import (
     simulate_rotary,
     widen,
 )
+from . import _job, _notebook
+from ._job import Job
+
+# Steps and messages name the line of the user's script, not lines of these files.
+_kerf._library_file(_job.__file__)
+_notebook.install((Simulation, PrintSimulation, RotarySimulation), Toolpath, Region)
 
 __all__ = [
     "Diagnostic",
@@ -54,6 +61,7 @@ __all__ = [
     "DrawingOutlines",
     "DrawingWriter",
     "Error",
+    "Job",
     "JobResult",
     "PrintSimulation",
     "Program",
@@ -174,6 +182,9 @@ def post(
     shorten_rapids=False,
     rapids=False,
     dxf_version="r2000",
+    on_open=None,
+    on_section=None,
+    on_close=None,
 ):
     """Write a program for a controller, or as a drawing seen from above.
 
@@ -201,6 +212,10 @@ def post(
     rapids : bool
         Draw rapids in drawings.
     dxf_version : {'r2000', 'r12'}
+    on_open, on_section, on_close : callable, optional
+        Return a list of lines to add: ``on_open()`` before the first step, ``on_section(number)`` before each
+        change to the tool of that number, ``on_close()`` before the end of the program. Lines that move the
+        machine or change how others are read are errors, as those of `Toolpath.verbatim`.
 
     Returns
     -------
@@ -217,6 +232,8 @@ def post(
         If the controller cannot run the program.
     """
     name = "program" if path is None else os.fsdecode(path)
+    if on_open is not None or on_section is not None or on_close is not None:
+        program = _with_hooks(program, on_open, on_section, on_close)
     options = dict(unit=unit, tool_change=tool_change, feed=feed, tools=tools, fit_arcs=fit_arcs, join=join,
                    shorten_rapids=shorten_rapids, rapids=rapids, dxf_version=dxf_version)
     texts = _kerf._post(program, os.fsdecode(to), name, **options)
@@ -226,6 +243,29 @@ def post(
         return texts[0][1].decode(errors="replace")
     _kerf._write_files(program, texts)
     return [file for file, text in texts]
+
+
+def _with_hooks(program, on_open, on_section, on_close):
+    """The program with the lines that hooks return."""
+    path = program.toolpath if isinstance(program, Program) else program
+    added, end = [], len(path)
+    if on_open is not None:
+        added.append((0, _lines(on_open(), "on_open")))
+    for i in range(len(path)):
+        step = path[i]
+        if step["step"] == "tool" and on_section is not None:
+            added.append((i, _lines(on_section(step["tool"]), "on_section")))
+        if step["step"] == "end":
+            end = min(end, i)
+    if on_close is not None:
+        added.append((end, _lines(on_close(), "on_close")))
+    return _kerf._with_lines(program, sorted(added, key=lambda entry: entry[0]))
+
+
+def _lines(value, hook):
+    if isinstance(value, str) or not all(isinstance(line, str) for line in value or ()):
+        raise TypeError(f"{hook} must return a list of str, or None")
+    return list(value or ())
 
 
 def load_drawing(path):

@@ -41,6 +41,12 @@ View to_view(const py::object& view, const py::object& size, const std::optional
   return out;
 }
 
+SurfaceDetail to_detail(const std::string& name) {
+  if (name == "exact") return SurfaceDetail::exact;
+  if (name == "columns") return SurfaceDetail::columns;
+  throw py::value_error("detail must be 'exact' or 'columns', not '" + name + "'");
+}
+
 MeshFormat to_format(const std::string& name) {
   const auto format = mesh_format_of("." + name);
   if (!format) throw py::value_error("format must be 'stl', '3mf', 'glb' or 'obj', not '" + name + "'");
@@ -64,9 +70,9 @@ std::string bytes_of(const JobResult& result, const SurfaceOptions& options, Wri
 }
 
 py::bytes mesh_file_of(const JobResult& result, const std::string& format, const std::string& name,
-                       bool grooves) {
+                       const std::string& detail, bool grooves) {
   const MeshFormat kind = to_format(format);
-  const SurfaceOptions options{SurfaceDetail::exact, grooves ? Grooves::kept : Grooves::closed};
+  const SurfaceOptions options{to_detail(detail), grooves ? Grooves::kept : Grooves::closed};
   return bytes_of(result, options, [&](const PartSurface& surface, Diagnostics& diagnostics) {
     return mesh_file(surface, kind, name, diagnostics);
   });
@@ -82,7 +88,7 @@ py::bytes picture_of(const JobResult& result, const py::object& view, const py::
 }
 
 void save(const JobResult& result, const py::args& paths, const py::object& view, const py::object& size,
-          const std::optional<std::string>& section, bool grooves) {
+          const std::optional<std::string>& section, const std::optional<std::string>& detail, bool grooves) {
   const py::object fspath = py::module_::import("os").attr("fspath");
   std::vector<PartFile> files;
   for (const py::handle item : paths) {
@@ -91,8 +97,9 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
     if (!file) throw py::value_error("'" + path + "' must end in .stl, .3mf, .glb, .obj, .png or .kstock");
     files.push_back(*file);
   }
-  const PartFileOptions options{.view = to_view(view, size, section),
-                                .grooves = grooves ? Grooves::kept : Grooves::closed};
+  PartFileOptions options{.view = to_view(view, size, section),
+                          .grooves = grooves ? Grooves::kept : Grooves::closed};
+  if (detail) options.detail = to_detail(*detail);
   Diagnostics diagnostics;
   SignalProgress progress;
   {
@@ -105,20 +112,17 @@ void save(const JobResult& result, const py::args& paths, const py::object& view
   raise_os_error_or_warn(diagnostics);
 }
 
-}  // namespace
-
-void bind_outputs(py::module_& m) {
-  const py::tuple view = py::make_tuple(-35.0, 50.0), size = py::make_tuple(1600, 1000);
-  py::class_<JobResult>(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.")
-      .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
-           py::arg("grooves") = false,
-           R"(The surface of the part as a mesh file, coloured by tool if the format has colours.
+constexpr const char* kMeshFile =
+    R"(The surface of the part as a mesh file, coloured by tool if the format has colours.
 
 Parameters
 ----------
 format : {'stl', '3mf', 'glb', 'obj'}
 name : str
     Name of the mesh, for formats that store one.
+detail : {'exact', 'columns'}
+    'exact': the surfaces of the tools, to a few microns. 'columns': interpolated between the columns, in a
+    fraction of the time, for viewers.
 grooves : bool
     Of a print: keep the grooves between beads.
 
@@ -130,7 +134,15 @@ bytes
 Raises
 ------
 kerf.Error
-    If the mesh is invalid: not closed, or of a wrong volume.)")
+    If the mesh is invalid: not closed, or of a wrong volume.)";
+
+}  // namespace
+
+void bind_outputs(py::module_& m) {
+  const py::tuple view = py::make_tuple(-35.0, 50.0), size = py::make_tuple(1600, 1000);
+  py::class_<JobResult>(m, "JobResult", "The base of all kinds of simulation: meshes, pictures and files.")
+      .def("mesh_file", &mesh_file_of, py::arg("format"), py::kw_only(), py::arg("name") = "part",
+           py::arg("detail") = "exact", py::arg("grooves") = false, kMeshFile)
       .def("picture", &picture_of, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
            py::arg("section") = py::none(), py::arg("grooves") = false,
            R"(A picture of the part, coloured by tool; surfaces made by hazards are red.
@@ -156,7 +168,7 @@ Raises
 kerf.Error
     If the section does not intersect the part.)")
       .def("save", &save, py::kw_only(), py::arg("view") = view, py::arg("size") = size,
-           py::arg("section") = py::none(), py::arg("grooves") = false,
+           py::arg("section") = py::none(), py::arg("detail") = py::none(), py::arg("grooves") = false,
            R"(Write the part to files: all of them, or none if one fails.
 
 Parameters
@@ -165,6 +177,8 @@ Parameters
     Meshes (.stl .3mf .glb .obj), pictures (.png), left-over stock (.kstock).
 view, size, section, grooves
     As in `picture`.
+detail : {'exact', 'columns'}, optional
+    As in `mesh_file`. Default: exact for meshes, and for pictures whose pixels are smaller than the columns.
 
 Raises
 ------

@@ -113,6 +113,28 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
   return texts;
 }
 
+/// A copy of the toolpath with lines passed on unchanged before some of its steps: (step, lines) in the order
+/// of the steps; the number of steps is the end of the toolpath.
+Program with_lines(const py::object& value,
+                   const std::vector<std::pair<std::size_t, std::vector<std::string>>>& added) {
+  Program program = to_program(value);
+  const Toolpath& path = program.path;
+  Toolpath out;
+  auto next = added.begin();
+  for (std::size_t i = 0; i <= path.size(); ++i) {
+    for (; next != added.end() && next->first == i; ++next) {
+      for (const std::string& line : next->second) {
+        if (line.find_first_of("\r\n") != std::string::npos)
+          throw py::value_error("a hook must return a list of lines, each without a line break");
+        out.add(step::Verbatim{line}, out.origins().add(script_location("post")));
+      }
+    }
+    if (i < path.size()) out.add_copy(path, i);
+  }
+  program.path = std::move(out);
+  return program;
+}
+
 void bind_program_class(py::module_& m) {
   py::class_<Program> c(m, "Program", R"(A toolpath with the units, tools and stock specified in its file.
 
@@ -155,6 +177,11 @@ void bind_program(py::module_& m) {
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("tools"), py::arg("fit_arcs"),
         py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"));
+  m.def(
+      "_stock_of_text",
+      [](const std::string& text) { return *to_settings(py::none(), py::str(text), {}).stock; },
+      py::arg("text"));
+  m.def("_with_lines", &with_lines, py::arg("program"), py::arg("added"));
   m.def(
       "_write_files",
       [](const py::object& program, const std::vector<std::pair<std::string, py::bytes>>& files) {

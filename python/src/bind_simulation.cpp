@@ -19,12 +19,11 @@ namespace py = pybind11;
 
 namespace {
 
+MillingResult simulate_program(const Program& program, const py::object& stock, const py::object& tools,
+                               double resolution, long long threads);
+
 /// A job of a toolpath with the given tools and stock only.
 std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& stock, const py::object& tools) {
-  if (!py::isinstance<Stock>(stock))
-    throw py::type_error("stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation)");
-  if (!tools.is_none() && !py::isinstance<ToolTable>(tools))
-    throw py::type_error("tools must be a ToolTable for a Toolpath");
   Job job;
   job.program = to_program(py::cast(path));
   job.stock = py::cast<const Stock&>(stock);
@@ -34,6 +33,12 @@ std::shared_ptr<const Job> plain_job(const Toolpath& path, const py::object& sto
 
 MillingResult simulate_toolpath(const Toolpath& path, const py::object& stock, const py::object& tools,
                                 double resolution, long long threads) {
+  if (stock.is_none())
+    throw py::type_error(
+        "stock must be a Stock: Stock.block(...), load_stock(path), left_stock(simulation); or a str such as "
+        "'100x60x12 at centre top'");
+  const bool plain = py::isinstance<Stock>(stock) && (tools.is_none() || py::isinstance<ToolTable>(tools));
+  if (!plain) return simulate_program(to_program(py::cast(path)), stock, tools, resolution, threads);
   std::shared_ptr<const Job> job = plain_job(path, stock, tools);
   SimulationOptions options;
   options.resolution = to_resolution(resolution);

@@ -309,9 +309,8 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
   }
   if (surfaces.empty()) return true;
   const bool exact = cut == nullptr || shows_columns(surfaces, cut->workpiece, options.view);
-  const auto surface =
-      make_surface(job, run, {exact ? SurfaceDetail::exact : SurfaceDetail::columns, options.grooves},
-                   diagnostics, progress);
+  const SurfaceDetail detail = options.detail.value_or(exact ? SurfaceDetail::exact : SurfaceDetail::columns);
+  const auto surface = make_surface(job, run, {detail, options.grooves}, diagnostics, progress);
   if (!surface) return false;
   const auto is_mesh = [](const PartFile& file) { return file.mesh.has_value(); };
   if (std::any_of(surfaces.begin(), surfaces.end(), is_mesh) && !verify_mesh(*surface, diagnostics))

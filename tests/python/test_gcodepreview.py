@@ -85,6 +85,17 @@ def test_a_position_set_without_motion_is_flagged(gcp):
     assert (gcp.xpos(), gcp.ypos()) == (30, 5)
 
 
+def test_a_start_position_is_not_a_motion():
+    gcp = gcodepreview("cut", True)
+    gcp.setupstock(100, 60, 12.7, "Top", "Lower-Left", 9)
+    gcp.setxpos(10)
+    gcp.movetosafeZ()
+    gcp.rapidXY(20, 5)
+    gcp.cutline(20, 5, -1)
+    text = gcp.gcode()
+    assert text.index("G0 Z9") < text.index("X10 Y0") < text.index("X20 Y5"), "up before across"
+
+
 def test_rapids_and_cuts_are_apart(gcp):
     gcp.cutline(1, 1, -1)
     gcp.rapid(1, 1, 5)

@@ -1,0 +1,379 @@
+"""`Job`: stock, tools, retract plane, feeds and units of one job, and the toolpath that its calls append."""
+
+import math
+import numbers
+import os
+
+from . import _kerf
+from ._kerf import Stock, Toolpath
+
+_INCH = 25.4
+_RETRACT = {"mm": 5.0, "inch": 0.2}
+_FAR = 1e-9  # mm: positions closer than this are equal
+_PROGRAMS = (".nc", ".ngc", ".gcode", ".tap", ".cnc")
+_DRAWINGS = (".dxf", ".svg")
+
+
+def _number(value, name, low=-math.inf):
+    """`value` as a float above `low`; the message names the argument."""
+    if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        raise TypeError(f"{name} must be a number, not {type(value).__name__}")
+    value = float(value)
+    if not math.isfinite(value):
+        raise ValueError(f"{name} must be a finite number, not {value}")
+    if value <= low:
+        raise ValueError(f"{name} must be above {low:g}, not {value:g}")
+    return value
+
+
+class Job:
+    """A job with its stock, tools, retract plane, feeds and units.
+
+    Calls append steps to `path`. Coordinates that are not given stay as they are. A ``with`` block ends the
+    program: the tool rises to the retract plane, the spindle stops. If the block raises an exception, nothing
+    is appended. A job can also be used without ``with``, and ended by `close`.
+
+    Parameters
+    ----------
+    stock : Stock, str or sequence of 3 float, optional
+        Such as ``"100x60x12 at centre top"``; a size in the units of the job is a block with its zero at the
+        lower left corner of its top. Required by `simulate`.
+    tools : Tool, str, ToolTable or list of them, optional
+        As in `kerf.check`; other tools are the built-in ones.
+    retract : float, optional
+        Z of rapids across. Default: 5 mm or 0.2 inch.
+    feed, plunge : float, optional
+        Feeds of cuts, and of cuts straight down (default: half of `feed`), per minute.
+    rpm : float, optional
+        Spindle speed after each tool change; without it the spindle is started by hand.
+    units : {'mm', 'inch'}
+        Of all lengths and feeds of this object, and of the programs that it writes.
+    fixtures : list of (str, Stock)
+        Bodies that no tool may touch, for `check`.
+    machine : str or os.PathLike, optional
+        A profile (TOML), or GRBL's ``$$`` settings, for `check` and `estimate`.
+    material : str, optional
+        For `check`: ``'plywood'``, ``'aluminium'`` ...
+
+    Raises
+    ------
+    ValueError, TypeError
+        By all methods, for wrong values and types; the message names the argument.
+    kerf.Error
+        If stock or tools are invalid.
+
+    Examples
+    --------
+    >>> with kerf.Job((100, 60, 12), retract=5, feed=900, rpm=16000) as job:
+    ...     job.tool(102)
+    ...     job.move_to(10, 10)
+    ...     job.cut(z=-3)
+    ...     job.cut(x=90)
+    >>> job.simulate().save("part.png")
+    >>> job.post("grbl", "part.nc")
+    """
+
+    def __init__(
+        self,
+        stock=None,
+        *,
+        tools=None,
+        retract=None,
+        feed=None,
+        plunge=None,
+        rpm=None,
+        units="mm",
+        fixtures=(),
+        machine=None,
+        material=None,
+    ):
+        if units not in ("mm", "inch"):
+            raise ValueError(f"units must be 'mm' or 'inch', not {units!r}")
+        self.units = units
+        self._scale = _INCH if units == "inch" else 1.0
+        self.tools, self.fixtures = tools, list(fixtures)
+        self.machine, self.material = machine, material
+        self.stock = self._to_stock(stock)
+        self.retract_plane = _number(_RETRACT[units] if retract is None else retract, "retract")
+        self.feed = None if feed is None else _number(feed, "feed", 0)
+        self.plunge = None if plunge is None else _number(plunge, "plunge", 0)
+        self.rpm = None if rpm is None else _number(rpm, "rpm", 0)
+        self.path = Toolpath()
+        self._ended = False
+        self._seen = 0  # steps of `path` that `_at` takes into account
+        self._at = [None, None, None]  # mm; None: not commanded yet
+
+    def _to_stock(self, stock):
+        if stock is None or isinstance(stock, Stock):
+            return stock
+        if isinstance(stock, str):
+            return _kerf._stock_of_text(stock)
+        size = [_number(v, "stock", 0) * self._scale for v in stock]
+        if len(size) != 3:
+            raise ValueError("stock must have three sizes")
+        return Stock.block(size)
+
+    # ---- start and end
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, kind, value, traceback):
+        if kind is None:
+            self.close()
+        return False
+
+    def close(self):
+        """End the program: retract, stop the spindle. Further motions are errors."""
+        if self._ended:
+            return
+        if len(self.path):
+            self.retract()
+            self.path.end()
+        self._ended = True
+
+    def _open(self):
+        if self._ended:
+            raise ValueError("the job has ended: no steps can be appended")
+
+    # ---- positions
+
+    def _position(self):
+        """The position after the last motion of `path`, mm; None where it is unknown."""
+        count = len(self.path)
+        for i in range(count - 1, self._seen - 1, -1):
+            step = self.path[i]
+            if "to" in step:
+                unknown = step.get("unknown_axes", [])
+                self._at = [None if "XYZ"[k] in unknown else step["to"][k] for k in range(3)]
+                break
+        self._seen = count
+        return self._at
+
+    @property
+    def position(self):
+        """tuple: X, Y and Z in the units of the job; None where no motion has commanded it."""
+        return tuple(None if v is None else v / self._scale for v in self._position())
+
+    def _end_point(self, x, y, z):
+        at = self._position()
+        end = []
+        for axis, value, here in zip("xyz", (x, y, z), at):
+            if value is None and here is None:
+                raise ValueError(f"{axis} is required: no motion has commanded it yet")
+            end.append(here if value is None else _number(value, axis) * self._scale)
+        return at, tuple(end)
+
+    def _moved(self, end):
+        self._at, self._seen = list(end), len(self.path)
+
+    def _feed_to(self, end, feed):
+        at = self._at
+        down = end[2] < at[2] - _FAR and math.hypot(end[0] - at[0], end[1] - at[1]) <= _FAR
+        value = feed
+        if value is None and down:
+            value = self.plunge if self.plunge is not None or self.feed is None else self.feed / 2
+        if value is None:
+            value = self.feed
+        if value is None:
+            raise ValueError("feed is required: neither the call nor the job has one")
+        return _number(value, "feed", 0) * self._scale
+
+    # ---- steps
+
+    def tool(self, number, *, rpm=None, feed=None, plunge=None):
+        """Retract, change to a tool, and start the spindle.
+
+        Parameters
+        ----------
+        number : int
+        rpm, feed, plunge : float, optional
+            Replace those of the job from here on.
+        """
+        self._open()
+        self.retract()
+        if feed is not None:
+            self.feed = _number(feed, "feed", 0)
+        if plunge is not None:
+            self.plunge = _number(plunge, "plunge", 0)
+        if rpm is not None:
+            self.rpm = _number(rpm, "rpm", 0)
+        self.path.tool(number)
+        if self.rpm is not None:
+            self.path.spindle(self.rpm)
+
+    def retract(self):
+        """Rise to the retract plane; nothing if the tool is there or higher, or has not moved yet."""
+        self._open()
+        x, y, z = self._position()
+        plane = self.retract_plane * self._scale
+        if z is not None and z < plane - _FAR:
+            if x is None or y is None:
+                self.path.rapid((x or 0.0, y or 0.0, plane), unknown="XY")
+            else:
+                self.path.rapid((x, y, plane))
+                self._moved((x, y, plane))
+
+    def rapid(self, x=None, y=None, z=None):
+        """Append a rapid straight to a position."""
+        self._open()
+        _, end = self._end_point(x, y, z)
+        self.path.rapid(end)
+        self._moved(end)
+
+    def move_to(self, x, y):
+        """Rise to the retract plane and append a rapid across."""
+        self._open()
+        x, y = _number(x, "x") * self._scale, _number(y, "y") * self._scale
+        self.retract()
+        z = self._position()[2]
+        if z is None:  # the first motion: up before across
+            z = self.retract_plane * self._scale
+            self.path.rapid((0.0, 0.0, z), unknown="XY")
+        end = (x, y, z)
+        self.path.rapid(end)
+        self._moved(end)
+
+    def cut(self, x=None, y=None, z=None, *, feed=None):
+        """Append a straight cut.
+
+        Parameters
+        ----------
+        x, y, z : float, optional
+            End point; those not given stay.
+        feed : float, optional
+            Default: `plunge` straight down, else `feed` of the job.
+        """
+        self._open()
+        _, end = self._end_point(x, y, z)
+        if None in self._at:
+            raise ValueError("a motion to a known position must precede the first cut")
+        self.path.cut(end, self._feed_to(end, feed))
+        self._moved(end)
+
+    def arc(self, x=None, y=None, z=None, *, centre, turn="ccw", feed=None):
+        """Append an arc or helix about `centre` (x, y) in the XY plane; `turn` is 'ccw' or 'cw'."""
+        self._open()
+        _, end = self._end_point(x, y, z)
+        if None in self._at:
+            raise ValueError("a motion to a known position must precede the first arc")
+        if len(centre) != 2:
+            raise ValueError("centre must have two coordinates")
+        about = tuple(_number(v, "centre") * self._scale for v in centre)
+        self.path.arc(end, about, turn, self._feed_to((*end[:2], math.inf), feed))
+        self._moved(end)
+
+    def follow(self, outline, z, *, feed=None):
+        """Move to the start of an outline, plunge to `z` and cut along it.
+
+        Parameters
+        ----------
+        outline : list
+            As of `kerf.Region`: a point, then points and arcs (via x, via y, x, y); or a circle (x, y,
+            radius). In the units of the job.
+        z : float
+        feed : float, optional
+            Of the cuts along the outline.
+        """
+        if len(outline) == 3 and not hasattr(outline[0], "__len__"):
+            x, y, r = (_number(v, "outline") for v in outline)
+            outline = [(x + r, y), (x, y + r, x - r, y), (x, y - r, x + r, y)]
+        self.move_to(*outline[0])
+        self.cut(z=z)
+        here = outline[0]
+        for element in outline[1:]:
+            if len(element) == 2:
+                self.cut(*element, feed=feed)
+            else:
+                centre, turn = _circle_through(here, element[:2], element[2:])
+                if centre is None:
+                    self.cut(*element[2:], feed=feed)
+                else:
+                    self.arc(*element[2:], centre=centre, turn=turn, feed=feed)
+            here = element[-2:]
+
+    def note(self, text):
+        """Append a comment."""
+        self._open()
+        self.path.note(text)
+
+    # ---- results
+
+    def simulate(self, resolution=0.0, threads=0):
+        """Cut the toolpath out of the stock; returns a `kerf.Simulation`. `resolution` is in mm."""
+        if self.stock is None:
+            raise ValueError("stock is required for a simulation")
+        return _kerf.simulate(self.path, self.stock, self.tools, resolution, threads)
+
+    def check(self):
+        """Hazards to tool, part and machine, as of `kerf.check`."""
+        return _kerf.check(
+            self.path,
+            tools=self.tools,
+            stock=self.stock,
+            fixtures=self.fixtures,
+            machine=self.machine,
+            material=self.material,
+        )
+
+    def estimate(self):
+        """The machining time, as of `kerf.estimate`."""
+        return _kerf.estimate(self.path, machine=self.machine)
+
+    def post(self, to, path=None, **options):
+        """Write the program for a controller or as a drawing; options as of `kerf.post`."""
+        from . import post
+
+        return post(self.path, to, path, **{"unit": self.units, "tools": self.tools, **options})
+
+    def save(self, *paths, to="grbl", resolution=0.0, **view):
+        """Write files by their endings.
+
+        Parameters
+        ----------
+        *paths : str or os.PathLike
+            Programs (.nc .ngc .gcode .tap .cnc), drawings of the path (.dxf .svg), and what
+            `kerf.Simulation.save` writes (.stl .3mf .glb .obj .png .kstock).
+        to : str
+            The controller of programs, see `kerf.posts`.
+        resolution : float
+            Of the simulation, mm; 0: by the size of the stock.
+        **view
+            As of `kerf.Simulation.save`.
+        """
+        parts = []
+        for name in map(os.fspath, paths):
+            ending = os.path.splitext(name)[1].lower()
+            if ending in _PROGRAMS:
+                self.post(to, name)
+            elif ending in _DRAWINGS:
+                self.post(ending[1:], name, unit="mm")
+            else:
+                parts.append(name)
+        if parts:
+            self.simulate(resolution).save(*parts, **view)
+
+    def __repr__(self):
+        return f"<kerf.Job: {len(self.path)} steps{', ended' if self._ended else ''}>"
+
+    def _repr_html_(self):
+        from ._notebook import job_html
+
+        return job_html(self)
+
+    def _result(self):
+        """The simulation for a notebook; None without stock or steps."""
+        if self.stock is None or not len(self.path):
+            return None
+        return self.simulate()
+
+
+def _circle_through(a, via, b):
+    """Centre and direction of the arc through three points; (None, None) on a line."""
+    ax, ay, bx, by = via[0] - a[0], via[1] - a[1], b[0] - a[0], b[1] - a[1]
+    cross = ax * by - ay * bx
+    if abs(cross) <= 1e-12 * max(math.hypot(ax, ay) * math.hypot(bx, by), 1e-300):
+        return None, None
+    p, q = ax * ax + ay * ay, bx * bx + by * by
+    x, y = (by * p - ay * q) / (2 * cross), (ax * q - bx * p) / (2 * cross)
+    return (a[0] + x, a[1] + y), "ccw" if cross > 0 else "cw"
