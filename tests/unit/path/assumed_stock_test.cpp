@@ -126,5 +126,21 @@ TEST(AssumedStock, WithoutACutThereIsNone) {
   EXPECT_FALSE(assume_stock(path, mm(5), mm(1)));
 }
 
+TEST(AssumedStock, RampsUpwardsCut) {
+  const AssumedStock assumed =
+      Program().rapid(0, 0, 5).feed(0, 0, -6).feed(60, 30, -1).rapid(60, 30, 5).assumed();
+  EXPECT_EQ(assumed.stock.block.low, (Point3{-5, -5, -7}));
+  EXPECT_EQ(assumed.stock.block.high, (Point3{65, 35, 0}));
+}
+
+TEST(AssumedStock, ARampOutOfTheMaterialCutsUpToTheTop) {
+  Program program;
+  program.rapid(0, 0, 5).feed(0, 0, -6);
+  for (int i = 0; i < 20; ++i) program.feed(i % 2 == 0 ? 20 : 0, 0, -6);
+  program.feed(0, 60, 6);  // half of it is below Z0
+  EXPECT_EQ(program.top(), 0.0);
+  EXPECT_NEAR(program.assumed().stock.block.high.y, 30 + 5, 1e-2);
+}
+
 }  // namespace
 }  // namespace kerf

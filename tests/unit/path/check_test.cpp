@@ -376,5 +376,76 @@ TEST(CheckPath, AFeedBeyondTheChipLoad) {
   EXPECT_NE(found[0].message.find("0.105 mm per tooth"), std::string::npos);
 }
 
+Box3 box_between(Point3 low, Point3 high) {
+  Box3 box;
+  box.add(low);
+  box.add(high);
+  return box;
+}
+
+TEST(CheckPath, UnknownAxesAreNotComparedWithTheTravel) {
+  const Machine machine = table_of(100, 100, 50);
+  for (int axis = 0; axis < 3; ++axis) {
+    Job job = started();
+    Point3 to{1, 1, 1};
+    to[axis] = 5000.0;  // means nothing where the axis is unknown
+    job.add(step::Rapid{to});
+    EXPECT_EQ(kinds(job, {.machine = &machine}), Kinds{"outside_machine"}) << axis;
+    job.path.set_unknown_axes(job.path.size() - 1, 1u << axis);
+    EXPECT_EQ(kinds(job, {.machine = &machine}), Kinds{}) << axis;
+  }
+}
+
+TEST(CheckPath, EverySideOfTheStockCounts) {
+  const ToolTable tools = table_with(2, true);  // 3 mm
+  const Box3 stock = box_between({10, 100, -10}, {40, 180, 0});
+  const auto cut_at = [&](double x, double y, double z) {
+    Job job = started();
+    job.add(step::Rapid{{x, y, 5}}).add(step::Spindle{}).add(step::Cut{{x, y, z}, mm_per_min(100)});
+    job.add(step::Rapid{{x, y, 5}});
+    return kinds(job, {.tools = &tools, .stock = stock});
+  };
+  const Kinds cuts{"spindle_off"}, passes{};
+  EXPECT_EQ(cut_at(25, 140, -1), cuts);
+  EXPECT_EQ(cut_at(25, 140, 0), passes);
+  EXPECT_EQ(cut_at(8.6, 140, -1), cuts);
+  EXPECT_EQ(cut_at(8.4, 140, -1), passes);
+  EXPECT_EQ(cut_at(41.4, 140, -1), cuts);
+  EXPECT_EQ(cut_at(41.6, 140, -1), passes);
+  EXPECT_EQ(cut_at(25, 98.6, -1), cuts);
+  EXPECT_EQ(cut_at(25, 98.4, -1), passes);
+  EXPECT_EQ(cut_at(25, 181.4, -1), cuts);
+  EXPECT_EQ(cut_at(25, 181.6, -1), passes);
+}
+
+TEST(CheckPath, TheSpindlesLimitsBelongToItsRange) {
+  Machine machine;
+  machine.slowest_spindle = rpm(8000);
+  machine.fastest_spindle = rpm(24000);
+  const auto at = [&](double speed) {
+    Job job;
+    job.add(step::Spindle{rpm(speed), SpindleTurn::cw});
+    return kinds(job, {.machine = &machine});
+  };
+  const Kinds outside{"spindle_range"}, inside{};
+  EXPECT_EQ(at(7999), outside);
+  EXPECT_EQ(at(8000), inside);
+  EXPECT_EQ(at(24000), inside);
+  EXPECT_EQ(at(24001), outside);
+}
+
+TEST(CheckPath, MessagesWithOtherValuesAreSeparate) {
+  Job job = started();
+  job.add(step::Cut{{0, 0, -1}, mm_per_min(-12)}).add(step::Cut{{1, 0, -1}, mm_per_min(-12)});
+  job.add(step::Cut{{2, 0, -1}, mm_per_min(-30)});
+  const auto found = check_path(job.path, {});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].steps, 2u);
+  EXPECT_EQ(found[1].steps, 1u);
+  EXPECT_EQ(found[1].step, 5u);
+  EXPECT_NE(found[0].message.find("-12"), std::string::npos);
+  EXPECT_NE(found[1].message.find("-30"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kerf

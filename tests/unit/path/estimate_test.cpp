@@ -163,5 +163,29 @@ TEST(EstimateTime, AMillionMovesTakeLessThanFiveSeconds) {
   EXPECT_LT(took.count(), 5.0);  // 1 s on an idle machine; tests run in parallel
 }
 
+TEST(EstimateTime, ExactStopsHoldUntilThePathModeChanges) {
+  const double leg = trapezoid(10, 1000 / 60.0, 200);
+  Job job;
+  job.add(step::PathMode{PathModeKind::exact_stop, {}}).cut({10, 0, 0}, 1000).cut({20, 0, 0}, 1000);
+  EXPECT_NEAR(job.motion(), 2 * leg, kExact);
+  job.add(step::PathMode{PathModeKind::exact_path, {}}).cut({30, 0, 0}, 1000).cut({40, 0, 0}, 1000);
+  EXPECT_NEAR(job.motion(), 2 * leg + trapezoid(20, 1000 / 60.0, 200), kExact);
+}
+
+TEST(EstimateTime, WhatPrecedesTheFirstMotionOfAnOperationBelongsToItAlone) {
+  Job job;
+  for (const int tool : {1, 2, 3})
+    job.add(step::ToolChange{tool})
+        .add(step::Dwell{seconds(tool)})
+        .cut({10.0 * tool, 0, 0}, 1000)
+        .add(step::Dwell{seconds(10)});
+  const TimeEstimate time = estimate_time(job.path, {});
+  ASSERT_EQ(time.operations.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(time.operations[i].time.dwell.seconds(), static_cast<double>(i + 1) + 10, 1e-9) << i;
+    EXPECT_NEAR(time.operations[i].time.motion.seconds(), trapezoid(10, 1000 / 60.0, 200), kExact) << i;
+  }
+}
+
 }  // namespace
 }  // namespace kerf

@@ -99,6 +99,19 @@ TEST(JoinStraight, joins_collinear_cuts_and_keeps_corners) {
   EXPECT_NEAR(result.before.cut_mm, result.after.cut_mm, 1e-9);
 }
 
+TEST(JoinStraight, motions_back_and_forth_on_one_line_are_kept) {
+  Toolpath path = started();
+  for (const double x : {10.0, 4.0, 20.0}) path.add(step::Cut{{x, 0, 0}, kFeed}, OriginId::none);
+  const PassResult result = join_straight(path, mm(0.001));
+  EXPECT_NEAR(result.after.cut_mm, 10 + 6 + 16, 1e-9);
+  Toolpath beyond = started();
+  for (const double x : {5.0, 25.0, 20.0}) beyond.add(step::Cut{{x, 0, 0}, kFeed}, OriginId::none);
+  EXPECT_NEAR(join_straight(beyond, mm(0.001)).after.cut_mm, 25 + 5, 1e-9);
+  Toolpath within = started();  // back by less than the tolerance
+  for (const double x : {10.0, 9.5, 20.0}) within.add(step::Cut{{x, 0, 0}, kFeed}, OriginId::none);
+  EXPECT_NEAR(join_straight(within, mm(1)).after.cut_mm, 10 + 0.5 + 10.5, 1e-9);
+}
+
 TEST(JoinStraight, a_slow_curve_is_not_joined) {
   Toolpath path = started();
   for (int i = 1; i <= 100; ++i) {

@@ -73,5 +73,30 @@ TEST(Report, ARapidTakesTheTimeOfItsSlowestAxis) {
   EXPECT_NEAR(report_on(path, options).all.rapid.seconds(), 60.0 / 3000 * 60, 1e-12);
 }
 
+TEST(Report, ARangeStartsWhereTheMotionBeforeItEnds) {
+  Toolpath path;
+  path.add(step::Rapid{{30, 0, 0}}, OriginId::none);
+  path.add(step::Cut{{30, 40, 0}, mm_per_min(100)}, OriginId::none);
+  path.add(step::Note{"between"}, OriginId::none);
+  path.add(step::Cut{{30, 40, -7}, mm_per_min(100)}, OriginId::none);
+  EXPECT_NEAR(report_on(path, {.first = 1}).all.cut_mm, 40 + 7, 1e-12) << "after a rapid";
+  EXPECT_NEAR(report_on(path, {.first = 2}).all.cut_mm, 7, 1e-12) << "after a cut";
+  EXPECT_NEAR(report_on(path, {.first = 1, .end = 2}).all.cut_mm, 40, 1e-12);
+  EXPECT_NEAR(report_on(path, {.first = 0, .end = 1}).all.rapid_mm, 30, 1e-12);
+}
+
+TEST(Report, TheDeepestPointOfAnArcCountsAlsoBetweenItsEnds) {
+  for (const Turn turn : {Turn::cw, Turn::ccw}) {
+    Toolpath path;
+    path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+    path.add(step::Arc{{10, 0, 0}, {5, 0}, Plane::xz, turn, 0, mm_per_min(100)}, OriginId::none);
+    const PathReport report = report_on(path, {});
+    ASSERT_EQ(report.tools.size(), 1u);
+    // Seen from +Y, counterclockwise turns +Z to +X, so -X to +Z: clockwise runs below the chord.
+    EXPECT_NEAR(*report.tools[0].deepest, turn == Turn::cw ? -5 : 0, 1e-12);
+    EXPECT_NEAR(report.all.cut_bounds.high.z, turn == Turn::cw ? 0 : 5, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace kerf
