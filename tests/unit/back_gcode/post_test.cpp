@@ -339,5 +339,73 @@ TEST(Post, one_arc_does_not_fill_the_memory) {
   EXPECT_LT(posted(path, bare("grbl")).text().size(), std::size_t{200} << 20);
 }
 
+TEST(Post, a_feed_is_never_rounded_to_zero) {
+  PostProfile profile = bare("grbl");
+  profile.decimals_feed = 1;
+  Toolpath path = at_origin();
+  path.add(step::Cut{{1, 0, 5}, mm_per_min(0.04)}, OriginId::none);
+  path.add(step::Cut{{2, 0, 5}, mm_per_min(0.16)}, OriginId::none);
+  EXPECT_EQ(posted(path, profile).text(), "G0 X0 Y0 Z5\nG1 X1 F0.1\nX2 F0.2\n");
+}
+
+TEST(Post, arcs_above_the_largest_radius_become_chords) {
+  PostProfile profile = bare("grbl");
+  profile.largest_radius = mm(100);
+  for (const double radius : {99.9, 100.1}) {
+    Toolpath path = at_origin();
+    path.add(step::Arc{.to = {radius, radius, 5}, .centre = {radius, 0}, .turn = Turn::cw, .feed = kFeed},
+             OriginId::none);
+    const Posted out = posted(path, profile);
+    EXPECT_EQ(out.text().find("G2 ") != std::string::npos, radius < 100) << out.text();
+    EXPECT_EQ(out.files.front().lines > 10, radius > 100);
+  }
+}
+
+TEST(Post, coolant_changes) {
+  const auto text = [](std::vector<step::Coolant> states) {
+    Toolpath path = at_origin();
+    for (const step::Coolant& state : states) path.add(state, OriginId::none);
+    const std::string all = posted(path, bare("linuxcnc")).text();
+    return all.substr(all.find('\n') + 1);
+  };
+  const step::Coolant off{}, mist{true, false}, flood{false, true}, both{true, true};
+  const std::string end = "M9\n";  // of the program
+  EXPECT_EQ(text({both, flood}), "M7\nM8\nM9\nM8\n" + end) << "M9 switches both off";
+  EXPECT_EQ(text({both, mist}), "M7\nM8\nM9\nM7\n" + end);
+  EXPECT_EQ(text({mist, both}), "M7\nM8\n" + end);
+  EXPECT_EQ(text({flood, flood}), "M8\n" + end);
+  EXPECT_EQ(text({mist, off}), "M7\nM9\n");
+}
+
+TEST(Post, each_file_of_a_tool_starts_spindle_and_coolant) {
+  Toolpath path;
+  path.add(step::ToolChange{1}, OriginId::none);
+  path.add(step::Spindle{rpm(9000), SpindleTurn::cw}, OriginId::none);
+  path.add(step::Coolant{false, true}, OriginId::none);
+  path.add(step::Rapid{{3, 4, 5}}, OriginId::none);
+  path.add(step::ToolChange{2}, OriginId::none);
+  path.add(step::Cut{{3, 4, -1}, kFeed}, OriginId::none);
+  PostOptions options;
+  options.tool_change = ToolChangePolicy::files;
+  const Posted out = posted(path, bare("linuxcnc"), options);
+  ASSERT_EQ(out.files.size(), 2u);
+  for (const PostedFile& file : out.files) {
+    const std::size_t spindle = file.text.find("M3 S9000\n"), coolant = file.text.find("M8\n");
+    ASSERT_NE(spindle, std::string::npos) << file.text;
+    ASSERT_NE(coolant, std::string::npos) << file.text;
+    EXPECT_LT(spindle, file.text.find("X3")) << file.text;
+    EXPECT_LT(coolant, file.text.find("X3")) << file.text;
+  }
+}
+
+TEST(Post, a_fan_turns_at_full_speed_at_most) {
+  for (const auto& [fraction, line] : {std::pair(1.5, "M106 S255\n"), std::pair(1.0, "M106 S255\n"),
+                                       std::pair(0.2, "M106 S51\n"), std::pair(0.0, "M107\n")}) {
+    Toolpath path;
+    path.add(step::Fan{0, fraction}, OriginId::none);
+    EXPECT_EQ(posted(path, bare("marlin")).text(), line) << fraction;
+  }
+}
+
 }  // namespace
 }  // namespace kerf

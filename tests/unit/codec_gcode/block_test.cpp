@@ -205,5 +205,17 @@ TEST(Block, HostileTextsTakeLinearTime) {
   }
 }
 
+TEST(Block, ABlockDeleteMayHaveASwitchNumber) {
+  for (const std::string_view text :
+       {"/G0 X10 Y-.5", "/2G0 X10 Y-.5", "/2 G0 X10 Y-.5", "/12N5 G0 X10 Y-.5"}) {
+    const Reading r = read(text);
+    ASSERT_EQ(r.blocks.size(), 1u) << text;
+    EXPECT_TRUE(r.blocks[0].optional) << text;
+    EXPECT_EQ(words_of(r.blocks[0]), "G0.000000 X10.000000 Y-0.500000") << text;
+    EXPECT_TRUE(r.diagnostics.list().empty()) << text;
+  }
+  EXPECT_EQ(read("/12N5 G0").blocks[0].number, 5.0);
+}
+
 }  // namespace
 }  // namespace kerf::gcode

@@ -283,5 +283,14 @@ TEST(GcodeDiagnostics, ManyFaultsCostBoundedMemory) {
   EXPECT_LT(diagnostics.list().size(), 100u);
 }
 
+// GRBL accepts 0.005 mm, or 0.1 percent of the radius (gcode.c, error 33).
+TEST(GcodeDiagnostics, RadiiOfAnArcMayDifferByAThousandth) {
+  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X4.004 Y0 I2"), 0u);
+  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X4.006 Y0 I2"), 1u);
+  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X80.039 Y0 I40"), 0u);
+  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X80.045 Y0 I40"), 1u);
+  EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X400.06 Y0 I200"), 1u) << "a visible step";
+}
+
 }  // namespace
 }  // namespace kerf

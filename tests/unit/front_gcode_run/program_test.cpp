@@ -163,5 +163,28 @@ TEST(GcodeProgram, CommentsDescribeTools) {
   EXPECT_NEAR(program.tools.at(0).diameter.mm(), 2.0, 1e-9);
 }
 
+TEST(GcodeProgram, AMirroredArcTurnsTheOtherWay) {
+  struct Mirror {
+    const char* scale;
+    double x, y;  // factors
+    Turn turn;    // of a clockwise arc
+  };
+  for (const Mirror& m : {Mirror{"G51 X1 Y-1", 1, -1, Turn::ccw}, Mirror{"G51 X-1 Y1", -1, 1, Turn::ccw},
+                          Mirror{"G51 X-1 Y-1", -1, -1, Turn::cw}, Mirror{"G50", 1, 1, Turn::cw}}) {
+    // Clockwise from the left of the centre (5, 0) to the point above it.
+    for (const char* arc : {"G2 X5 Y5 I5 J0", "G2 X5 Y5 R5"}) {
+      Diagnostics diagnostics;
+      const auto program =
+          read_gcode("F100\nG0 X0 Y0\n" + std::string(m.scale) + "\n" + arc + "\nM2\n", {}, diagnostics);
+      ASSERT_FALSE(diagnostics.has_errors()) << m.scale << to_string(diagnostics.list().front());
+      ASSERT_EQ(program.path[1].kind(), StepKind::arc) << m.scale;
+      const step::Arc made = program.path[1].arc();
+      EXPECT_EQ(made.turn, m.turn) << m.scale << " " << arc;
+      EXPECT_NEAR(distance(made.centre, {5 * m.x, 0}), 0, 1e-9) << m.scale << " " << arc;
+      EXPECT_NEAR(distance(made.to.xy(), {5 * m.x, 5 * m.y}), 0, 1e-9) << m.scale << " " << arc;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace kerf
