@@ -289,5 +289,28 @@ TEST(Grazes, OfAFixtureFromAFile) {
                           columns, [](const FixtureLimit&) { return std::vector{Travel::line}; });
 }
 
+/// An arc of 100 mm whose flutes, 3 mm in radius, enter the side Y0 by 0.02 mm: along 4 mm, from X32 to X28.
+TEST(Grazes, AnArcTouchesAFixtureWhereItEntersIt) {
+  constexpr double kDeep = 0.02, kRadius = 100;
+  ToolTable tools;
+  tools.set(1, flutes_only());
+  for (const Turn turn : {Turn::ccw, Turn::cw}) {
+    Path path;
+    const double side = turn == Turn::ccw ? kRadius : -kRadius, y = -3 + kDeep - kRadius;
+    path.rapid({30 + side, y, 70}).tool(1).rapid({30 + side, y, -4});
+    path.arc({.to = {30 - side, y, -4}, .centre = {30, y}, .turn = turn, .feed = mm_per_min(100)});
+    Diagnostics diagnostics;
+    const Stock solid = block({0, 0, -kBlockZ}, {60, 40, 0});
+    const auto found =
+        find_fixture_contacts(path.path(), tools, std::vector{Fixture{"clamp", solid}}, {}, diagnostics);
+    ASSERT_TRUE(found);
+    ASSERT_EQ(found->size(), 1u);
+    const double half = std::sqrt(kRadius * kRadius - (kRadius - kDeep) * (kRadius - kDeep));
+    EXPECT_NEAR(found->front().at.x, turn == Turn::ccw ? 30 + half : 30 - half, 0.15);
+    EXPECT_NEAR(found->front().at.y, 0, 1e-9);
+    EXPECT_NEAR(found->front().depth.mm(), 4, 1e-6);
+  }
+}
+
 }  // namespace
 }  // namespace kerf::test

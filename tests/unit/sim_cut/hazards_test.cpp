@@ -304,6 +304,25 @@ TEST(Hazards, BelowTheFloor) {
   EXPECT_TRUE(hazards_of(flush, 5).empty());
 }
 
+TEST(Hazards, BelowTheFloorStartsWhereTheToolPassesIt) {
+  // 2 mm down along 40 mm: the floor at Z-5 is passed halfway.
+  Path down;
+  down.tool(1).rapid({10, 20, 2}).cut({10, 20, -4}).cut({50, 20, -6});
+  const auto sinking = hazards_of(down, 5);
+  ASSERT_EQ(sinking.size(), 1u);
+  EXPECT_EQ(sinking[0].kind, HazardKind::below_floor);
+  EXPECT_NEAR(sinking[0].at.x, 30, 0.3);
+  EXPECT_NEAR(sinking[0].at.z, -5, 0.02);
+  EXPECT_NEAR(sinking[0].depth.mm(), 1, 1e-6);
+  Path up;
+  up.tool(1).rapid({10, 20, 2}).cut({10, 20, -4}).rapid({10, 20, 2}).rapid({-20, 20, 2}).rapid({-20, 20, -6});
+  up.cut({60, 20, -4});  // over the block from X-3 on, below the floor until X20
+  const auto rising = hazards_of(up, 5);
+  ASSERT_EQ(rising.size(), 1u);
+  EXPECT_NEAR(rising[0].at.x, 0, 1e-6) << "the nearest point of the block";
+  EXPECT_NEAR(rising[0].depth.mm(), 6 - 17.0 / 40 - 5, 0.01);
+}
+
 TEST(Hazards, SpindleOff) {
   Path off;
   off.tool(1)

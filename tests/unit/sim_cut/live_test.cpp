@@ -210,6 +210,37 @@ TEST(Live, ChunksListTheChangedColumns) {
     }
 }
 
+TEST(Live, CutsBelowTheFloorComeAndGoWithTheirMotions) {
+  std::vector<Move> moves{{StepKind::rapid, {10, 10, 5}, 0, false},
+                          {StepKind::cut, {10, 10, -1}, 0, false},
+                          {StepKind::cut, {20, 10, -11.5}, 0, false},  // the floor is at Z-10
+                          {StepKind::cut, {20, 30, -1}, 0, false},
+                          {StepKind::cut, {40, 30, -1}, 0, false}};
+  LiveSimulation live(two_tools(), block(), coarse());
+  Diagnostics diagnostics;
+  const auto below_floor = [&] {
+    std::vector<std::pair<std::uint32_t, double>> found;  // step and depth
+    for (const Hazard& h : live.hazards())
+      if (h.kind == HazardKind::below_floor) found.emplace_back(h.step, std::round(100 * h.depth.mm()) / 100);
+    return found;
+  };
+  using Found = std::vector<std::pair<std::uint32_t, double>>;
+  ASSERT_TRUE(live.update(path_of(moves), diagnostics));
+  EXPECT_EQ(below_floor(), (Found{{4, 1.5}, {5, 1.5}})) << "down to it, and up from it";
+  moves[2].to.z = -1;
+  ASSERT_TRUE(live.update(path_of(moves), diagnostics));
+  EXPECT_EQ(below_floor(), Found{});
+  moves[4].to.z = -12;
+  ASSERT_TRUE(live.update(path_of(moves), diagnostics));
+  EXPECT_EQ(below_floor(), (Found{{6, 2.0}}));
+  moves.insert(moves.begin() + 1, {StepKind::cut, {5, 5, -1}, 0, false});
+  ASSERT_TRUE(live.update(path_of(moves), diagnostics));
+  EXPECT_EQ(below_floor(), (Found{{7, 2.0}})) << "the same motion, one step later";
+  moves.pop_back();
+  ASSERT_TRUE(live.update(path_of(moves), diagnostics));
+  EXPECT_EQ(below_floor(), Found{});
+}
+
 TEST(Live, AnErrorChangesNothing) {
   RandomJob job(4);
   LiveSimulation live(two_tools(), block(), coarse());

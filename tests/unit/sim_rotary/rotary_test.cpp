@@ -285,6 +285,53 @@ TEST(Rotary, TheMeshIsClosedAndHasTheVolume) {
   EXPECT_LT(range.tolerance.mm3(), 0.2 * check.volume.mm3());
 }
 
+/// A plunge from an unknown height with a keyhole cutter, whose neck is thinner than its head, into bars
+/// above and below Z0: the head comes from the bar's top.
+TEST(Rotary, APlungeFromAnUnknownHeightStartsAtTheBarsTop) {
+  const ToolTable keyhole = one_tool(profile({{0, 0, 0}, {4, 0, 0}, {4, 2.5, 0}, {2, 2.5, 0}, {2, 60, 0}}));
+  // The volume within 4 mm of the tool's axis and above Z-5, in a bar of 20 mm along X.
+  double exact = 0.0;
+  constexpr int kSlices = 4000;
+  for (int i = 0; i < kSlices; ++i) {
+    const double y = -4 + 8 * (i + 0.5) / kSlices;
+    exact += 8.0 / kSlices * 2 * std::sqrt(16 - y * y) * (std::sqrt(100 - y * y) + 5);
+  }
+  for (const double axis_z : {0.0, 30.0, -30.0}) {
+    RoundBar bar = kBar;
+    bar.axis_z = axis_z;
+    SimulationOptions options;
+    options.resolution = mm(0.1);
+    Diagnostics diagnostics;
+    Toolpath from_nowhere;
+    from_nowhere.add(step::ToolChange{1}, OriginId::none);
+    const std::size_t over = from_nowhere.add(step::Rapid{{15, 0, 0}}, OriginId::none);
+    from_nowhere.set_unknown_axes(over, 4);
+    from_nowhere.add(step::Cut{{15, 0, axis_z - 5}, mm_per_min(500)}, OriginId::none);
+    const auto result = simulate_rotary(from_nowhere, keyhole, bar, options, diagnostics);
+    ASSERT_TRUE(result);
+    EXPECT_NEAR(result->removed.mm3(), exact, 0.01 * exact) << axis_z;
+  }
+}
+
+/// Rings of radius 10 and 4 in turn, one ray wide: the walls between them are as wide as the rays, so the
+/// mesh may have the volume of neither.
+TEST(Rotary, TheToleranceOfTheVolumeHasTheWallsAcrossTheAxis) {
+  RotaryWorkpiece work;
+  work.bar = kBar;
+  work.along = 60;
+  work.around = 90;
+  work.dx = 0.5;
+  for (int j = 0; j < work.around; ++j)
+    for (int i = 0; i < work.along; ++i) work.rays.push_back({{0.0f, i % 2 == 0 ? 10.0f : 4.0f, 1, 1}});
+  const VolumeRange range = mesh_volume(work);
+  EXPECT_NEAR(range.expected.mm3(), kPi * (100 + 16) * 15, 1e-6 * range.expected.mm3());
+  // 59 rings of the area between the circles, each off by a pitch: the larger one of 0.5 mm and the arc.
+  const double walls = 59 * kPi * (100 - 16), pitch = std::max(0.5, 10 * 2 * kPi / 90);
+  EXPECT_GE(range.tolerance.mm3(), walls * pitch);
+  EXPECT_LE(range.tolerance.mm3(), 1.2 * walls * pitch);
+  EXPECT_NEAR(check_mesh(extract_mesh(work)).volume.mm3(), range.expected.mm3(), range.tolerance.mm3());
+}
+
 TEST(Rotary, TheDefaultDistanceDependsOnTheBar) {
   struct Case {
     RoundBar bar;
