@@ -95,5 +95,18 @@ TEST(Drawing, SvgHasItsSizeInMillimetresAndYUp) {
   EXPECT_NE(svg.find("A5,5 0 0 0 10,0"), std::string::npos) << svg;
 }
 
+TEST(Drawing, AnglesOfArcsAreWrittenFrom0To360) {
+  Drawing drawing;
+  drawing.layers = {{"0", 7, {}, 0.5, LineKind::solid}};
+  for (const auto& [given, written] : {std::pair(-90.0, "270"), std::pair(-725.0, "355"),
+                                       std::pair(450.0, "90"), std::pair(359.5, "359.5")}) {
+    drawing.entities = {{0, drawing::Arc{0, 0, 10, given, given + 45.0}}};
+    const std::string dxf = write_dxf(drawing);
+    EXPECT_EQ(count(dxf, std::string("\n 50\n") + written + "\n"), 1u) << given;
+  }
+  drawing.entities = {{0, drawing::Arc{0, 0, 10, 10.0, -45.0}}};
+  EXPECT_EQ(count(write_dxf(drawing), "\n 51\n315\n"), 1u);
+}
+
 }  // namespace
 }  // namespace kerf

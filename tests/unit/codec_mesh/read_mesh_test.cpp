@@ -195,5 +195,12 @@ TEST(ReadMesh, EveryShortenedFileIsRefusedOrWhole) {
   }
 }
 
+TEST(ReadMesh, TextStlThatEndsWithinAFacet) {
+  const std::string whole = std::string("solid x\n") + kTextFacet, facet = kTextFacet;
+  for (const std::string last : {"vertex 0 0 0\n", "vertex 1e0 0 0\n"})
+    expect_code(whole + facet.substr(0, facet.find(last) + last.size()), MeshFormat::stl, Code::mesh_file,
+                "ends within a facet");
+}
+
 }  // namespace
 }  // namespace kerf

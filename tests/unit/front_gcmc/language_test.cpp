@@ -231,6 +231,8 @@ const std::vector<Case> kAssignments{
     {"x = 1.5; x <<= 1; message(x);", "3.000"},
     {"x = 7; x %= 4; x |= 8; x &= 10; x ^= 1; x -= 1; x *= 3; x /= 2; message(x);", "15"},
     {"v = [1, 2]; v.x++; --v.y; message(v, v.x++, v);", "[2,1]2[3,1]"},
+    {"l = {[1, 2], [3, 4]}; l[1][0]++; --l[0][1]; message(l);", "{[1,1],[4,4]}"},
+    {"l = {[1, 2], [3, 4]}; i = 0; message(l[i][1]--, ++l[1][i], l);", "24{[1,1],[4,4]}"},
     {"i = 1; message(i + (i = 5), i);", "65"},
     {"v = [1, 2, 3]; v = [v.z, v.y, v.x]; message(v);", "[3,2,1]"},
     {"x = 1; x = x ? x + 1 : x; message(x); x = x && x; message(x);", "2|1"},

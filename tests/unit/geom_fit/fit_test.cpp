@@ -93,6 +93,25 @@ TEST(FitBezier, StaysWithinTheTolerance) {
     }
 }
 
+/// The parabola (10 s, 10 s (1 - s)), and the same curve with s = t^2, whose derivative is zero at its start.
+TEST(FitBezier, ACurveThatStartsWithoutADerivativeNeedsFewArcs) {
+  const std::vector<Point2> regular{{0, 0}, {5, 5}, {10, 0}};
+  const std::vector<Point2> slow{{0, 0}, {0, 0}, {10.0 / 6, 10.0 / 6}, {5, 5}, {10, 0}};
+  for (const double t : {0.1, 0.5, 0.9})
+    ASSERT_LT(distance(bezier_at(slow, t), bezier_at(regular, t * t)), 1e-12);
+  for (const double within : {0.1, 0.01, 0.001}) {
+    Diagnostics diagnostics;
+    const auto want = fit_bezier(regular, mm(within), {}, diagnostics);
+    for (const bool backwards : {false, true}) {
+      std::vector<Point2> control = slow;
+      if (backwards) std::reverse(control.begin(), control.end());
+      const auto made = fit_bezier(control, mm(within), {}, diagnostics);
+      ASSERT_TRUE(made && want);
+      EXPECT_LE(made->segments.size(), 2 * want->segments.size()) << within;
+    }
+  }
+}
+
 TEST(FitSpline, MakesAnExactCircleOfWeights) {
   Diagnostics diagnostics;
   const double w = std::sqrt(0.5);

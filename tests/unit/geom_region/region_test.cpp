@@ -328,5 +328,20 @@ TEST(RegionErrors, TooManyCrossingsAreRefused) {
   EXPECT_EQ(diagnostics.list()[0].code, Code::region_too_complex);
 }
 
+/// A common side in both directions separates nothing, in both directions of winding.
+TEST(RegionParts, ThatSeparateNothingAreRemoved) {
+  region_detail::EdgeSet set(1e-6);
+  region_detail::add_outline(set, rectangle(0, 0, 1, 1), 0, 0);
+  region_detail::add_outline(set, rectangle(1, 0, 1, 1), 4, 0);
+  set.close();
+  Diagnostics diagnostics;
+  const auto inside = [](const region_detail::Winding& w) { return w.of[0] > 0; };
+  const auto made = region_detail::arrange(set, {}, diagnostics, inside);
+  ASSERT_TRUE(made);
+  std::size_t kept = 0;
+  for (const region_detail::Part& part : made->arrangement.parts()) kept += part.kept ? 1 : 0;
+  EXPECT_EQ(kept, 6u) << "of 8 sides, two of which are the same";
+}
+
 }  // namespace
 }  // namespace kerf

@@ -73,6 +73,18 @@ TEST(DecodeToolNumber, RefusesWhatIsNotOfTheScheme) {
   }
 }
 
+/// Tip codes 4, 7, 8 and 9 are the sizes of diameter codes 1, 2, 3 and 4: no taper.
+TEST(DecodeToolNumber, ATaperedBallIsThinnerAtItsTip) {
+  for (const int number : {510410, 510720, 510830, 510940, 510910, 510820})
+    EXPECT_FALSE(decoded(number)) << number;
+  for (const int number : {510130, 510420, 510730, 510840, 510950}) {
+    const auto shape = decoded(number);
+    ASSERT_TRUE(shape) << number;
+    const auto ball = std::get<shape::TaperedBall>(*shape);
+    EXPECT_LT(ball.tip_diameter.mm(), ball.diameter.mm()) << number;
+  }
+}
+
 TEST(DecodeToolNumber, EveryNumberThatDecodesMakesATool) {
   for (int number = 100000; number < 1000000; ++number) {
     Diagnostics diagnostics(1);

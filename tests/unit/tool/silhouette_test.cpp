@@ -191,6 +191,14 @@ TEST(Silhouette, DrillsAndChamfers) {
   EXPECT_NEAR(groove.radius_at(1.0), 4.175, kExact);
 }
 
+TEST(Silhouette, AnAssumedFluteOfADrillContainsItsPoint) {
+  // A point of 10 degrees is radius / tan(5 degrees) high: 34.29 mm at 6 mm.
+  const Tool slender = made(shape::Drill{mm(6.0), Length(), degrees(10.0)});
+  EXPECT_NEAR(slender.flute.mm(), 3.0 / std::tan(5.0 * std::acos(-1.0) / 180.0), 1e-9);
+  EXPECT_NEAR(slender.silhouette.cutting.radius_at(slender.flute.mm()), 3.0, 1e-9);
+  EXPECT_TRUE(slender.flute_assumed);
+}
+
 TEST(Silhouette, CornerRoundingEndsAtTheSecondDiameter) {
   const auto radius_at = [](const shape::CornerRounding& s, double z) {
     return made(s).silhouette.cutting.radius_at(z);
