@@ -9,7 +9,6 @@ find_package(tomlplusplus REQUIRED)
 find_package(Threads REQUIRED)
 find_package(Boost 1.74 REQUIRED)  # headers of Boost.Polygon
 find_package(hwy REQUIRED)
-find_package(PNG REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(EXPAT REQUIRED)
 find_package(PkgConfig REQUIRED)

@@ -1,7 +1,7 @@
 # The libraries of the WebAssembly build. Debian packages none for emscripten, but fmt, nlohmann-json, toml++
 # and Boost.Polygon can be used as headers only. They are found through a folder of links, because
 # /usr/include itself in the search path would add the headers of the host's C library. Modules leave out
-# features that need libraries which do not exist there (libpng, minizip, threads).
+# features that need libraries which do not exist there (zlib, minizip, threads).
 set(KERF_WASM_INCLUDE "${CMAKE_BINARY_DIR}/host-include")
 file(MAKE_DIRECTORY "${KERF_WASM_INCLUDE}")
 foreach(library fmt nlohmann toml++ hwy boost)
@@ -22,7 +22,7 @@ kerf_header_library(tomlplusplus::tomlplusplus TOML_HEADER_ONLY=1 TOML_SHARED_LI
 kerf_header_library(Boost::headers)
 kerf_header_library(hwy::hwy)  # one instruction set, so there is no selection at run time
 # Empty targets, so that a module's list of libraries is the same in every build.
-foreach(name Threads::Threads ZLIB::ZLIB PNG::PNG EXPAT::EXPAT PkgConfig::MINIZIP)
+foreach(name Threads::Threads ZLIB::ZLIB EXPAT::EXPAT PkgConfig::MINIZIP)
   add_library(${name} INTERFACE IMPORTED GLOBAL)
 endforeach()
 

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
+#include "sim/render/occlusion.h"
 #include "sim/render/render_raster.h"
 
 #include "kerf/limits.h"
@@ -119,14 +121,9 @@ class Painter {
   int samples() const { return fine_; }
 
  private:
-  static constexpr int kDirections = 8, kSteps = 5;  // of ambient occlusion: rays per pixel, samples per ray
+  enum Differs : std::uint8_t { with_right = 1, with_lower = 2 };
   struct Offset {
     int x, y;
-  };
-  using Ray = std::array<Offset, kSteps>;
-  enum Differs : std::uint8_t { with_right = 1, with_lower = 2 };
-  struct PixelPoint {
-    float x, y, z;
   };
 
   void aim(const View& view, double radius);
@@ -136,6 +133,7 @@ class Painter {
   }
   void draw_shadows();
   void smooth_normals();
+  float ground_depth(const Cut& plane, int x, int y) const;
   void add_ground_and_normals();
   /// The normals of a triangle at the samples of the picture, before they are scaled to length 1.
   struct NormalField {
@@ -152,7 +150,6 @@ class Painter {
   }
   void locate_pixels();
   std::vector<Ray> rays_of(int cell) const;
-  float occlusion_at(int x, int y, const std::vector<Ray>& rays) const;
   /// A value for every second pixel in both directions.
   struct Coarse {
     int columns, rows;
@@ -165,9 +162,21 @@ class Painter {
     float& at(int x, int y) { return values[index(x, y)]; }
     float at(int x, int y) const { return values[index(x, y)]; }
   };
+  /// Normals and results of every fourth point of a coarse row.
+  struct OcclusionLine {
+    std::vector<float> right, up, into, result;
+    explicit OcclusionLine(int columns) {
+      for (std::vector<float>* list : {&right, &up, &into, &result})
+        list->resize(static_cast<std::size_t>(columns / kPattern + 1 + kOcclusionLanes));
+    }
+  };
+  double occlusion_radius_in_pixels() const { return kOcclusionRadius * size_ * eye_.scale / fine_; }
+  int occlusion_reach() const {
+    return static_cast<int>(std::max(occlusion_radius_in_pixels(), 1.0 + kSteps)) + 2;
+  }
+  void occlude_line(int y, int cell, const std::vector<Ray>& rays, OcclusionLine& line, Coarse& result) const;
   void occlude();
   float mean_occlusion(const Coarse& values, float depth, Offset low, Offset high) const;
-  double far_of(float depth) const { return depth / (1.0 - eye_.nearness * depth); }
   bool differ(std::size_t a, std::size_t b) const;
   void compare_neighbours();
   bool is_plain(int x, int y) const;
@@ -180,6 +189,7 @@ class Painter {
   void paint_row(int y, std::uint8_t* rgba) const;
 
   const Srgb srgb_;
+  const Colour sky_top_ = srgb_.linear(kSkyTop), sky_low_ = srgb_.linear(kSkyLow);
   const Mesh& mesh_;
   std::span<const std::array<std::uint8_t, 3>> colours_;
   int width_, height_, fine_;  // pixels; samples along a pixel's side
@@ -187,15 +197,15 @@ class Painter {
   double size_ = 1.0;
   bool ground_ = false;
   Projection eye_, sun_;
-  Point3 fill_;
+  Point3 fill_, half_;  // half_: of a mirror that reflects the sun towards the viewer
   std::optional<CutPlane> section_;
   Target seen_, shadow_;
   std::vector<ScreenVertex> screen_;
   std::vector<std::array<float, 3>> vertex_normals_;
   std::vector<PackedNormal> normals_;
-  std::vector<std::uint8_t> differs_;     // per sample: the neighbours that it must not be averaged with
-  std::vector<PixelPoint> pixel_points_;  // per pixel, viewer's frame, mm
-  std::vector<float> occlusion_;          // per pixel, 0 open to 1 closed
+  std::vector<std::uint8_t> differs_;  // per sample: the neighbours that it must not be averaged with
+  PixelPoints points_;
+  std::vector<float> occlusion_;  // per pixel, 0 open to 1 closed
 };
 
 Painter::Painter(const Mesh& mesh, std::span<const std::array<std::uint8_t, 3>> colours, const View& view)
@@ -234,6 +244,7 @@ void Painter::aim(const View& view, double radius) {
   fill_ = unit(0.75 * eye_.right - 0.45 * ahead + Point3{0, 0, 0.35});
   sun_.centre = eye_.centre;
   sun_.into = -1.0 * light;
+  half_ = unit(light - eye_.into);
   sun_.right = unit(cross(sun_.into, std::abs(light.z) > 0.9 ? Point3{0, 1, 0} : Point3{0, 0, 1}));
   sun_.up = cross(sun_.right, sun_.into);
   sun_.fit(mesh_, section_, kShadowSize, kShadowSize, 0.01);
@@ -249,13 +260,13 @@ void Painter::set_section(const Section& section) {
 
 void Painter::draw_shadows() {
   shadow_.width = shadow_.height = kShadowSize;
-  shadow_.depth.assign(std::size_t{kShadowSize} * kShadowSize, kFarDepth);
+  fill(shadow_.depth, std::size_t{kShadowSize} * kShadowSize, kFarDepth);
   draw(mesh_, project_all(mesh_, sun_), cut_in(sun_), shadow_);
 }
 
 /// One normal per vertex, the mean of its faces weighted by area.
 void Painter::smooth_normals() {
-  vertex_normals_.assign(mesh_.positions.size() / 3, {});
+  fill(vertex_normals_, mesh_.positions.size() / 3, {});
   for (std::size_t t = 0; t + 2 < mesh_.triangles.size(); t += 3) {
     const Point3 a = vertex(mesh_, mesh_.triangles[t]);
     const Point3 n =
@@ -300,51 +311,56 @@ Painter::NormalField Painter::normals_of(std::uint32_t triangle) const {
   return field;
 }
 
+/// The depth of the ground at a sample without a surface; kFarDepth far away and above the horizon.
+float Painter::ground_depth(const Cut& plane, int x, int y) const {
+  const double depth = plane.depth_at(x + 0.5, y + 0.5);
+  constexpr double kHorizon = 0.999;  // of the largest depth
+  if (!(depth * eye_.nearness < kHorizon)) return kFarDepth;
+  const bool is_far = length(eye_.point(x + 0.5, y + 0.5, depth) - eye_.centre) > 4 * size_;
+  return is_far ? kFarDepth : static_cast<float>(depth);
+}
+
 void Painter::add_ground_and_normals() {
-  normals_.resize(seen_.depth.size());
-  const double floor = box_.low.z;
+  fill(normals_, seen_.depth.size(), {});
+  const Cut ground({{0, 0, 1}, box_.low.z}, eye_);
+  const PackedNormal up = PackedNormal::of({0, 0, 1});
   in_bands(seen_.height, [&](int first, int last) {
-    NormalField field;
-    std::uint32_t of = kNothing;
+    // Triangles return in the next row.
+    constexpr std::uint32_t kRecent = 1024;
+    std::vector<NormalField> recent(kRecent);
+    std::vector<std::uint32_t> recent_triangle(kRecent, kNothing);
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < seen_.width; ++x) {
         const std::size_t at = seen_.index(x, y);
-        if (seen_.triangle[at] == kCutFace) {
+        const std::uint32_t triangle = seen_.triangle[at];
+        if (triangle == kCutFace) {
           normals_[at] = PackedNormal::of(section_->normal);
-          continue;
-        }
-        if (seen_.triangle[at] != kNothing) {
-          if (seen_.triangle[at] != of) field = normals_of(of = seen_.triangle[at]);
+        } else if (triangle == kNothing) {
+          normals_[at] = up;
+          if (ground_) seen_.depth[at] = ground_depth(ground, x, y);
+        } else {
+          NormalField& field = recent[triangle % kRecent];
+          if (std::exchange(recent_triangle[triangle % kRecent], triangle) != triangle)
+            field = normals_of(triangle);
           normals_[at] = field.at(x + 0.5, y + 0.5);
-          continue;
         }
-        normals_[at] = PackedNormal::of({0, 0, 1});
-        if (!ground_) continue;
-        const Point3 near = eye_.point(x + 0.5, y + 0.5, -size_), far = eye_.point(x + 0.5, y + 0.5, 0.0);
-        const double fall = near.z - far.z;
-        if (fall <= 1e-9 * size_) continue;
-        const Point3 hit = near + (near.z - floor) / fall * (far - near);
-        if (length(hit - eye_.centre) > 4 * size_) continue;
-        seen_.depth[at] = static_cast<float>(eye_.project(hit).z);
       }
     }
   });
 }
 
-/// The surface point of each pixel in the viewer's frame: right, up, into.
+/// The surface point of each pixel in the viewer's frame.
 void Painter::locate_pixels() {
-  pixel_points_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+  points_ = PixelPoints(width_, height_, occlusion_reach());
   in_bands(height_, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       for (int x = 0; x < width_; ++x) {
         const float depth = seen_.depth[seen_.index(x * fine_, y * fine_)];
-        PixelPoint& point = pixel_points_[pixel(x, y)];
-        point.z = kFarDepth;
         if (depth >= kFarDepth) continue;
         const double far = depth / (1.0 - eye_.nearness * depth),
                      w = (1.0 + eye_.nearness * far) / eye_.scale;
-        point = {static_cast<float>((x * fine_ + 0.5 - eye_.x0) * w),
-                 static_cast<float>((eye_.y0 - y * fine_ - 0.5) * w), static_cast<float>(far)};
+        points_.set(x, y, static_cast<float>((x * fine_ + 0.5 - eye_.x0) * w),
+                    static_cast<float>((eye_.y0 - y * fine_ - 0.5) * w), static_cast<float>(far));
       }
     }
   });
@@ -352,8 +368,8 @@ void Painter::locate_pixels() {
 
 /// Sample offsets around a pixel, for one cell of a 4 x 4 pattern of rotations and lengths that the blur
 /// averages out.
-std::vector<Painter::Ray> Painter::rays_of(int cell) const {
-  const double reach = kOcclusionRadius * size_ * eye_.scale / fine_;
+std::vector<Ray> Painter::rays_of(int cell) const {
+  const double reach = occlusion_radius_in_pixels();
   const double turn = (cell * 7 % 16) / 16.0, stretch = (cell * 11 % 16 + 0.5) / 16.0;
   std::vector<Ray> rays(kDirections);
   for (int d = 0; d < kDirections; ++d) {
@@ -368,31 +384,22 @@ std::vector<Painter::Ray> Painter::rays_of(int cell) const {
   return rays;
 }
 
-/// The fraction of the sky that surfaces within the occlusion radius hide from a pixel's surface.
-float Painter::occlusion_at(int x, int y, const std::vector<Ray>& rays) const {
-  const PixelPoint& p = pixel_points_[pixel(x, y)];
-  if (p.z >= kFarDepth) return 0.0f;
-  const Point3 normal = normals_[seen_.index(x * fine_, y * fine_)].get();
-  const PixelPoint n{static_cast<float>(dot(normal, eye_.right)), static_cast<float>(dot(normal, eye_.up)),
-                     static_cast<float>(dot(normal, eye_.into))};
-  const auto radius = static_cast<float>(kOcclusionRadius * size_);
-  constexpr float kSlant = 0.08f;  // sine; lower horizons are unevenness of the surface itself
-  float sum = 0.0f;
-  for (const Ray& ray : rays) {
-    float highest = 0.0f;
-    for (const Offset& offset : ray) {
-      const int qx = x + offset.x, qy = y + offset.y;
-      if (qx < 0 || qy < 0 || qx >= width_ || qy >= height_) break;
-      const PixelPoint& q = pixel_points_[pixel(qx, qy)];
-      const float dx = q.x - p.x, dy = q.y - p.y, dz = q.z - p.z;
-      const float height = n.x * dx + n.y * dy + n.z * dz, square = dx * dx + dy * dy + dz * dz;
-      if (height <= 0.0f || square >= radius * radius) continue;
-      highest =
-          std::max(highest, (height / std::sqrt(square) - kSlant) * (1.0f - square / (radius * radius)));
-    }
-    sum += highest;
+/// The occlusion of every fourth point of a coarse row, from `cell` on.
+void Painter::occlude_line(int y, int cell, const std::vector<Ray>& rays, OcclusionLine& line,
+                           Coarse& result) const {
+  int count = 0;
+  for (int x = cell; x < result.columns; x += kPattern, ++count) {
+    const Point3 normal = normals_[seen_.index(2 * x * fine_, 2 * y * fine_)].get();
+    const auto n = static_cast<std::size_t>(count);
+    line.right[n] = static_cast<float>(dot(normal, eye_.right));
+    line.up[n] = static_cast<float>(dot(normal, eye_.up));
+    line.into[n] = static_cast<float>(dot(normal, eye_.into));
   }
-  return std::min(1.0f, sum / kDirections);
+  static_assert(2 * kPattern == PixelPoints::kStride);
+  occlusion_of({&points_, 2 * cell, 2 * y, count, line.right.data(), line.up.data(), line.into.data(), &rays,
+                static_cast<float>(kOcclusionRadius * size_), line.result.data()});
+  for (int n = 0; n < count; ++n)
+    result.at(cell + kPattern * n, y) = line.result[static_cast<std::size_t>(n)];
 }
 
 /// At every second pixel in both directions: occlusion varies over much larger distances.
@@ -402,21 +409,21 @@ void Painter::occlude() {
   for (int cell = 0; cell < 16; ++cell) rays.push_back(rays_of(cell));
   Coarse raw((width_ + 1) / 2, (height_ + 1) / 2), blurred(raw.columns, raw.rows);
   in_bands(raw.rows, [&](int first, int last) {
+    OcclusionLine line(raw.columns);
     for (int y = first; y < last; ++y)
-      for (int x = 0; x < raw.columns; ++x)
-        raw.at(x, y) = occlusion_at(2 * x, 2 * y, rays[static_cast<std::size_t>((x & 3) + 4 * (y & 3))]);
+      for (int cell = 0; cell < kPattern; ++cell)
+        occlude_line(y, cell, rays[static_cast<std::size_t>(cell + kPattern * (y % kPattern))], line, raw);
   });
   in_bands(raw.rows, [&](int first, int last) {  // over 4 x 4 values, which removes the pattern of rays_of
     for (int y = first; y < last; ++y)
       for (int x = 0; x < raw.columns; ++x)
-        blurred.at(x, y) =
-            mean_occlusion(raw, pixel_points_[pixel(2 * x, 2 * y)].z, {x - 2, y - 2}, {x + 2, y + 2});
+        blurred.at(x, y) = mean_occlusion(raw, points_.into(2 * x, 2 * y), {x - 2, y - 2}, {x + 2, y + 2});
   });
   in_bands(height_, [&](int first, int last) {
     for (int y = first; y < last; ++y)
       for (int x = 0; x < width_; ++x)
-        occlusion_[pixel(x, y)] = mean_occlusion(blurred, pixel_points_[pixel(x, y)].z, {x / 2, y / 2},
-                                                 {(x + 1) / 2 + 1, (y + 1) / 2 + 1});
+        occlusion_[pixel(x, y)] =
+            mean_occlusion(blurred, points_.into(x, y), {x / 2, y / 2}, {(x + 1) / 2 + 1, (y + 1) / 2 + 1});
   });
 }
 
@@ -428,7 +435,7 @@ float Painter::mean_occlusion(const Coarse& values, float depth, Offset low, Off
   int count = 0;
   for (int y = std::max(0, low.y); y < std::min(values.rows, high.y); ++y) {
     for (int x = std::max(0, low.x); x < std::min(values.columns, high.x); ++x) {
-      if (std::abs(pixel_points_[pixel(2 * x, 2 * y)].z - depth) > near) continue;
+      if (std::abs(points_.into(2 * x, 2 * y) - depth) > near) continue;
       sum += values.at(x, y);
       ++count;
     }
@@ -485,7 +492,11 @@ double Painter::line_at(int x, int y) const {
 /// Whether two neighbouring samples show different things, or have a line between them.
 bool Painter::differ(std::size_t a, std::size_t b) const {
   const std::uint32_t s = seen_.triangle[a], t = seen_.triangle[b];
-  if (std::abs(far_of(seen_.depth[a]) - far_of(seen_.depth[b])) > kLineJump * size_) return true;
+  // The difference of the distances of two samples is that of their depths, divided by both factors.
+  const double depth_a = seen_.depth[a], depth_b = seen_.depth[b];
+  if (std::abs(depth_a - depth_b) >
+      kLineJump * size_ * (1.0 - eye_.nearness * depth_a) * (1.0 - eye_.nearness * depth_b))
+    return true;
   if (s == t) {
     if (s == kCutFace || s == kNothing) return false;
   } else {
@@ -494,12 +505,13 @@ bool Painter::differ(std::size_t a, std::size_t b) const {
     if (s < colours_.size() && colours_[s] != colours_[t]) return true;
   }
   const auto &m = normals_[a].n, &n = normals_[b].n;
+  if (m[0] == n[0] && m[1] == n[1] && m[2] == n[2]) return false;
   const int cosine = (m[0] * n[0] >> 1) + (m[1] * n[1] >> 1) + (m[2] * n[2] >> 1);
   return cosine < static_cast<int>(kPlainCosine * 32767.0 * 32767.0 / 2.0);
 }
 
 void Painter::compare_neighbours() {
-  differs_.resize(seen_.depth.size());
+  fill(differs_, seen_.depth.size(), std::uint8_t{0});
   in_bands(seen_.height, [&](int first, int last) {
     for (int y = first; y < last; ++y) {
       const bool has_lower = y + 1 < seen_.height;
@@ -527,7 +539,7 @@ bool Painter::is_plain(int x, int y) const {
 
 Colour Painter::background(int y) const {
   const double t = static_cast<double>(y) / std::max(1, seen_.height - 1);
-  return (1.0 - t) * srgb_.linear(kSkyTop) + t * srgb_.linear(kSkyLow);
+  return (1.0 - t) * sky_top_ + t * sky_low_;
 }
 
 /// The colour of a surface in sample row y, without lines.
@@ -549,8 +561,7 @@ Colour Painter::shade(const Seen& seen, int y) const {
   const Colour sky = (0.36 * up * open) * Colour{0.97, 1.0, 1.04};
   const Colour bounce = (0.16 * (1.0 - up) * open) * Colour{1.05, 1.0, 0.94};
   const Colour direct = key * Colour{1.03, 1.0, 0.95} + fill * Colour{0.95, 0.98, 1.05};
-  const Point3 half = unit(light - eye_.into);
-  const double mirror = dot(n, half);
+  const double mirror = dot(n, half_);
   const double m4 = mirror * mirror * mirror * mirror, m12 = m4 * m4 * m4;
   const double shine = lit > 0.0 && mirror > 0.7 ? 0.08 * lit * m12 * m12 * m4 : 0.0;
   return times(albedo, direct + sky + bounce) + Colour{shine, shine, shine};
@@ -606,9 +617,9 @@ Image Painter::paint() {
   seen_.width = width_ * fine_;
   seen_.height = height_ * fine_;
   const std::size_t samples = static_cast<std::size_t>(seen_.width) * static_cast<std::size_t>(seen_.height);
-  seen_.depth.assign(samples, kFarDepth);
-  seen_.triangle.assign(samples, kNothing);
-  occlusion_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0f);
+  fill(seen_.depth, samples, kFarDepth);
+  fill(seen_.triangle, samples, kNothing);
+  fill(occlusion_, static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_), 0.0f);
   if (!box_.empty() && finite(box_.low) && finite(box_.high)) {
     screen_ = project_all(mesh_, eye_);
     draw(mesh_, screen_, cut_in(eye_), seen_);

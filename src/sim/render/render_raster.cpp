@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/parallel.h"
-
 namespace kerf::rendering {
 namespace {
 
@@ -30,72 +28,156 @@ struct Band {
   int width, first, last;
 };
 
+/// The samples within the box around a triangle; empty if no sample is.
+struct Window {
+  int x_first, x_last, y_first, y_last;
+  Window(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Band& band)
+      : x_first(std::max(0, static_cast<int>(std::ceil(std::min({p.x, q.x, r.x}) - 0.5f)))),
+        x_last(std::min(band.width - 1, static_cast<int>(std::floor(std::max({p.x, q.x, r.x}) - 0.5f)))),
+        y_first(std::max(band.first, static_cast<int>(std::ceil(std::min({p.y, q.y, r.y}) - 0.5f)))),
+        y_last(std::min(band.last - 1, static_cast<int>(std::floor(std::max({p.y, q.y, r.y}) - 0.5f)))) {}
+  bool empty() const { return y_first > y_last || x_first > x_last; }
+};
+
+/// Triangles of fewer samples across are tested sample by sample.
+constexpr int kWide = 6;
+
+/// The part of a row on the inner side of an edge, and up to a sample more.
+class RowSpan {
+ public:
+  explicit RowSpan(const Edge& edge) : a_(edge.a) {
+    const double per_a = a_ != 0.0 ? -1.0 / a_ : 0.0;
+    by_y_ = edge.b * per_a;
+    at_0_ = edge.c * per_a - 0.5;
+  }
+  void limit(double y, int& first, int& last) const {
+    if (a_ == 0.0) return;
+    const double x = std::clamp(at_0_ + by_y_ * y, first - 2.0, last + 2.0);
+    if (a_ > 0.0)
+      first = std::max(first, static_cast<int>(std::floor(x)));
+    else
+      last = std::min(last, static_cast<int>(std::ceil(x)));
+  }
+
+ private:
+  double a_, by_y_, at_0_;
+};
+
 /// Calls visit(x, y, depth) for each sample of a band that a triangle covers, if the triangle is clockwise in
 /// the picture (y downwards), that is, seen from outside.
 template <class Visit>
 void for_each_sample(const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r, const Band& band,
                      const Visit& visit) {
-  const float low_x = std::min({p.x, q.x, r.x}), high_x = std::max({p.x, q.x, r.x});
-  const float low_y = std::min({p.y, q.y, r.y}), high_y = std::max({p.y, q.y, r.y});
-  const int y_first = std::max(band.first, static_cast<int>(std::ceil(low_y - 0.5f)));
-  const int y_last = std::min(band.last - 1, static_cast<int>(std::floor(high_y - 0.5f)));
-  const int x_first = std::max(0, static_cast<int>(std::ceil(low_x - 0.5f)));
-  const int x_last = std::min(band.width - 1, static_cast<int>(std::floor(high_x - 0.5f)));
-  if (y_first > y_last || x_first > x_last) return;
+  const Window window(p, q, r, band);
+  if (window.empty()) return;
   const Edge pq(q, p), qr(r, q), rp(p, r);
   const double area = pq.at(r.x, r.y);
   if (!(area > 0.0)) return;
-  for (int y = y_first; y <= y_last; ++y) {
-    for (int x = x_first; x <= x_last; ++x) {
-      const double sx = x + 0.5, sy = y + 0.5;
-      const double wr = pq.at(sx, sy), wp = qr.at(sx, sy), wq = rp.at(sx, sy);
-      if (!pq.owns(wr) || !qr.owns(wp) || !rp.owns(wq)) continue;
-      visit(x, y, static_cast<float>((wp * p.z + wq * q.z + wr * r.z) / area));
-    }
+  // The depth is an affine function; rounding must not exceed the depths of the corners.
+  const double zp = p.z / area, zq = q.z / area, zr = r.z / area;
+  const double by_x = qr.a * zp + rp.a * zq + pq.a * zr, by_y = qr.b * zp + rp.b * zq + pq.b * zr;
+  const double at_p = p.z - by_x * p.x - by_y * p.y;
+  const double nearest = std::min({p.z, q.z, r.z}), furthest = std::max({p.z, q.z, r.z});
+  const auto covers = [&](int x, double sy) {
+    const double sx = x + 0.5;
+    return pq.owns(pq.at(sx, sy)) && qr.owns(qr.at(sx, sy)) && rp.owns(rp.at(sx, sy));
+  };
+  const bool is_wide = window.x_last - window.x_first >= kWide;
+  const RowSpan span_pq(pq), span_qr(qr), span_rp(rp);
+  for (int y = window.y_first; y <= window.y_last; ++y) {
+    const double sy = y + 0.5;
+    int first = window.x_first, last = window.x_last;
+    if (is_wide)
+      for (const RowSpan* span : {&span_pq, &span_qr, &span_rp}) span->limit(sy, first, last);
+    // The samples of a row that are covered follow each other.
+    while (first <= last && !covers(first, sy)) ++first;
+    while (first <= last && !covers(last, sy)) --last;
+    for (int x = first; x <= last; ++x)
+      visit(x, y, static_cast<float>(std::clamp(at_p + by_x * (x + 0.5) + by_y * sy, nearest, furthest)));
   }
 }
 
-/// Calls visit(number, p, q, r) for each triangle.
-template <class Visit>
-void for_each_triangle(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const Visit& visit) {
-  for (std::size_t t = 0; t + 2 < mesh.triangles.size(); t += 3)
-    visit(static_cast<std::uint32_t>(t / 3), vertices[mesh.triangles[t]], vertices[mesh.triangles[t + 1]],
-          vertices[mesh.triangles[t + 2]]);
-}
+/// The triangles of each band of rows, in their order.
+class Bins {
+ public:
+  static constexpr int kRows = 64;
+
+  /// Omits triangles without samples and, unless the back faces are wanted, those not seen from outside.
+  Bins(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, bool backs, int width, int height)
+      : mesh_(mesh), vertices_(vertices), bands_(static_cast<std::size_t>((height + kRows - 1) / kRows)) {
+    constexpr std::size_t kAtATime = 1 << 14;
+    const std::size_t count = mesh.triangles.size() / 3;
+    pieces_ = (count + kAtATime - 1) / kAtATime;
+    lists_.resize(pieces_ * bands_);
+    const Band whole{width, 0, height};
+    const auto work = [&](std::size_t piece) {
+      for (std::size_t t = piece * kAtATime; t < std::min(count, (piece + 1) * kAtATime); ++t) {
+        const auto& [p, q, r] = corners(static_cast<std::uint32_t>(t));
+        const Window window(p, q, r, whole);
+        if (window.empty() || (!backs && !(Edge(q, p).at(r.x, r.y) > 0.0))) continue;
+        for (int band = window.y_first / kRows; band <= window.y_last / kRows; ++band)
+          lists_[piece * bands_ + static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(t));
+      }
+    };
+    parallel_for(thread_count(0), pieces_, work, [] { return false; });
+  }
+  std::size_t bands() const { return bands_; }
+  /// Calls visit(number, p, q, r) for each triangle of a band.
+  template <class Visit>
+  void for_each(std::size_t band, const Visit& visit) const {
+    for (std::size_t piece = 0; piece < pieces_; ++piece)
+      for (const std::uint32_t t : lists_[piece * bands_ + band]) {
+        const auto& [p, q, r] = corners(t);
+        visit(t, p, q, r);
+      }
+  }
+
+ private:
+  struct Corners {
+    const ScreenVertex &p, &q, &r;
+  };
+  Corners corners(std::uint32_t t) const {
+    const std::uint32_t* v = mesh_.triangles.data() + std::size_t{3} * t;
+    return {vertices_[v[0]], vertices_[v[1]], vertices_[v[2]]};
+  }
+  const Mesh& mesh_;
+  const std::vector<ScreenVertex>& vertices_;
+  std::size_t bands_, pieces_ = 0;
+  std::vector<std::vector<std::uint32_t>> lists_;
+};
 
 /// The nearest of the faces towards the viewer at each sample of a band.
-void draw_faces(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
-                const Band& band, Target& target) {
-  for_each_triangle(
-      mesh, vertices,
-      [&](std::uint32_t number, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
-        for_each_sample(p, q, r, band, [&](int x, int y, float depth) {
-          const std::size_t at = target.index(x, y);
-          if (depth >= target.depth[at] || (cut && cut->removes(x + 0.5, y + 0.5, depth))) return;
-          target.depth[at] = depth;
-          if (!target.triangle.empty()) target.triangle[at] = number;
-        });
-      });
+void draw_faces(const Bins& bins, std::size_t number_of_band, const std::optional<Cut>& cut, const Band& band,
+                Target& target) {
+  bins.for_each(number_of_band, [&](std::uint32_t number, const ScreenVertex& p, const ScreenVertex& q,
+                                    const ScreenVertex& r) {
+    for_each_sample(p, q, r, band, [&](int x, int y, float depth) {
+      const std::size_t at = target.index(x, y);
+      if (depth >= target.depth[at] || (cut && cut->removes(x + 0.5, y + 0.5, depth))) return;
+      target.depth[at] = depth;
+      if (!target.triangle.empty()) target.triangle[at] = number;
+    });
+  });
 }
 
 /// The cut face in a band: a point of the plane is inside the material if the line of sight behind it leaves
 /// the mesh more often than it enters it.
-void draw_cut_face(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const Cut& cut,
-                   const Band& band, Target& target) {
+void draw_cut_face(const Bins& bins, std::size_t number_of_band, const Cut& cut, const Band& band,
+                   Target& target) {
   const std::size_t from = target.index(0, band.first), samples = target.index(0, band.last) - from;
   std::vector<std::int16_t> left(samples);
-  for_each_triangle(mesh, vertices,
-                    [&](std::uint32_t, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
-                      const auto count = [&](std::int16_t change) {
-                        return [&, change](int x, int y, float depth) {
-                          if (cut.removes(x + 0.5, y + 0.5, depth)) return;
-                          std::int16_t& sum = left[target.index(x, y) - from];
-                          sum = static_cast<std::int16_t>(sum + change);
-                        };
-                      };
-                      for_each_sample(p, q, r, band, count(-1));
-                      for_each_sample(p, r, q, band, count(1));
-                    });
+  bins.for_each(number_of_band,
+                [&](std::uint32_t, const ScreenVertex& p, const ScreenVertex& q, const ScreenVertex& r) {
+                  const auto count = [&](std::int16_t change) {
+                    return [&, change](int x, int y, float depth) {
+                      if (cut.removes(x + 0.5, y + 0.5, depth)) return;
+                      std::int16_t& sum = left[target.index(x, y) - from];
+                      sum = static_cast<std::int16_t>(sum + change);
+                    };
+                  };
+                  for_each_sample(p, q, r, band, count(-1));
+                  for_each_sample(p, r, q, band, count(1));
+                });
   for (int y = band.first; y < band.last; ++y) {
     for (int x = 0; x < band.width; ++x) {
       const std::size_t at = target.index(x, y);
@@ -131,7 +213,8 @@ void Projection::fit(const Mesh& mesh, const std::optional<CutPlane>& section, i
 }
 
 std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection) {
-  std::vector<ScreenVertex> vertices(mesh.positions.size() / 3);
+  std::vector<ScreenVertex> vertices;
+  fill(vertices, mesh.positions.size() / 3, {});
   in_bands(static_cast<int>(vertices.size()), [&](int first, int end) {
     for (int v = first; v < end; ++v) {
       const Point3 p = projection.project(vertex(mesh, static_cast<std::uint32_t>(v)));
@@ -152,20 +235,25 @@ Cut::Cut(const CutPlane& plane, const Projection& projection) {
 
 void draw(const Mesh& mesh, const std::vector<ScreenVertex>& vertices, const std::optional<Cut>& cut,
           Target& target) {
-  in_bands(target.height, [&](int first, int last) {
-    const Band band{target.width, first, last};
-    draw_faces(mesh, vertices, cut, band, target);
-    if (cut && cut->is_before()) draw_cut_face(mesh, vertices, *cut, band, target);
-  });
+  const bool has_face = cut && cut->is_before();
+  const Bins bins(mesh, vertices, has_face, target.width, target.height);
+  const auto work = [&](std::size_t n) {
+    const int first = static_cast<int>(n) * Bins::kRows;
+    const Band band{target.width, first, std::min(first + Bins::kRows, target.height)};
+    draw_faces(bins, n, cut, band, target);
+    if (has_face) draw_cut_face(bins, n, *cut, band, target);
+  };
+  parallel_for(thread_count(0), bins.bands(), work, [] { return false; });
 }
 
 void in_bands(int count, const std::function<void(int, int)>& work) {
-  const unsigned bands = thread_count(0);
+  constexpr unsigned kBandsPerThread = 8;  // as some take longer than others
+  const unsigned threads = thread_count(0), bands = threads > 1 ? threads * kBandsPerThread : 1;
   const auto bound = [&](std::size_t n) {
     return static_cast<int>(std::int64_t{count} * static_cast<std::int64_t>(n) / bands);
   };
   parallel_for(
-      bands, bands, [&](std::size_t n) { work(bound(n), bound(n + 1)); }, [] { return false; });
+      threads, bands, [&](std::size_t n) { work(bound(n), bound(n + 1)); }, [] { return false; });
 }
 
 }  // namespace kerf::rendering

@@ -8,6 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include "base/huge_pages.h"
+#include "base/parallel.h"
+
 #include "kerf/geometry.h"
 #include "kerf/render.h"
 
@@ -79,6 +82,17 @@ struct Target {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
 };
+
+/// Fills a large vector.
+template <class T>
+void fill(std::vector<T>& list, std::size_t size, T value) {
+  if (list.capacity() < size) {
+    list = {};
+    list.reserve(size);
+    prepare_pages(list.data(), size * sizeof(T), thread_count(0));
+  }
+  list.assign(size, value);
+}
 
 std::vector<ScreenVertex> project_all(const Mesh& mesh, const Projection& projection);
 /// Draws the triangles that face the viewer, except for what `cut` removes, and the cut face as kCutFace.
