@@ -27,6 +27,7 @@ from kerf import _kerf
 from . import _shapes as shapes
 from ._arguments import GcodePreviewError, flag, positive
 from ._drawing import Drawing
+from ._further import Further
 from ._joints import Joints
 from ._motion import Motion, Move, Moves
 from ._printing import Printing
@@ -59,7 +60,7 @@ def pygcpversion():
     return _VERSION
 
 
-class gcodepreview(Motion, Drawing, Tools, Joints, Printing, Shapes, Files):
+class gcodepreview(Motion, Drawing, Tools, Joints, Printing, Shapes, Further, Files):
     """A machine, its stock and its files.
 
     Parameters

@@ -153,6 +153,8 @@ class Drawing:
     def writedxf(self, toolnumber, *strings):
         raise GcodePreviewError("writedxf: text cannot be added to a drawing; use the dxf... calls")
 
+    writedxfs = writedxf
+
     def _draw(self, tool, *entity):
         if not self.generatedxf:
             return

@@ -5,7 +5,7 @@ import math
 
 from ._arguments import GcodePreviewError, number, positive, warn
 
-# What a call adds: `kind` is 'rapid', 'cut' or 'extrude'; `centre` and `turn` are None but for arcs.
+# What a call adds: `kind` is 'rapid', 'cut', 'extrude' or 'shaft'; `centre` and `turn` are None but for arcs.
 Move = collections.namedtuple("Move", "kind start end tool centre turn", defaults=(None, None))
 
 _FAR = 1e-6  # mm: positions closer than this are equal
@@ -35,7 +35,7 @@ class Motion:
         self.rapids, self.toolpaths = Moves(), Moves()
         self._commanded = None  # the end of the last step of the toolpath, None before the first
         self._unknown = ""  # its axes that were never commanded
-        self._flagged = False
+        self._rotary = None  # of the following motions: A, B and C in degrees
 
     # ---- positions
 
@@ -143,7 +143,7 @@ class Motion:
             self._unknown = "XY"
             return moves
         self._catch_up()
-        self.toolpath.rapid(end)
+        self.toolpath.rapid(end, rotary=self._rotary)
         return self._arrive("rapid", end)
 
     def movetosafeZ(self):
@@ -175,13 +175,24 @@ class Motion:
 
     # ---- straight cuts
 
+    def toolmovement(self, bx, by, bz, ex, ey, ez, step=0):
+        """A cut between two points as a list of one `Move`, which is not run: no step is appended."""
+        begin = (number(bx, "bx"), number(by, "by"), number(bz, "bz"))
+        end = (number(ex, "ex"), number(ey, "ey"), number(ez, "ez"))
+        return Moves([Move("cut", begin, end, self.currenttoolnum)])
+
+    def shaftmovement(self, bx, by, bz, ex, ey, ez):
+        """As toolmovement, for the shaft: what it touches is a hazard of `simulate`."""
+        (move,) = self.toolmovement(bx, by, bz, ex, ey, ez)
+        return Moves([move._replace(kind="shaft")])
+
     def cutline(self, ex, ey, ez, feed=None):
         """Cut a straight line from the current position; the feed is that of the tool unless given, mm/min.
         """
         end = (number(ex, "ex"), number(ey, "ey"), number(ez, "ez"))
         speed = self._feed_to(end, feed)
         self._catch_up()
-        self.toolpath.cut(end, feed=speed)
+        self.toolpath.cut(end, feed=speed, rotary=self._rotary)
         return self._arrive("cut", end)
 
     def cutlinedxf(self, ex, ey, ez):

@@ -8,7 +8,10 @@ import math
 
 import kerf
 
-from ._arguments import GcodePreviewError, number, positive
+from ._arguments import GcodePreviewError, choice, number, positive, whole
+from ._further import bezier, bezier_surface, text
+
+__all__ = ["SHAPES", "Shapes", "bezier", "bezier_surface", "bulge_of", "bulged", "round_corners", "text"]
 
 
 def _p(x, y, r, degrees):
@@ -218,17 +221,17 @@ def kite(x, y, width, upper, lower):
     return polygon([(x, y - v), (x + w / 2, y), (x, y + u), (x - w / 2, y)])
 
 
-def annulus_segment(x, y, outer, inner, begin, end):
+def annulus_segment(x, y, outer, inner, start, end):
     """The part of a ring between two angles, degrees."""
     r, q = _check(outer=outer, inner=inner)
     if q >= r:
         raise GcodePreviewError(f"inner must be below outer, not {q:g}")
     return [
-        _p(x, y, r, begin),
-        _arc(x, y, r, begin, end),
+        _p(x, y, r, start),
+        _arc(x, y, r, start, end),
         _p(x, y, q, end),
-        _arc(x, y, q, end, begin),
-        _p(x, y, r, begin),
+        _arc(x, y, q, end, start),
+        _p(x, y, r, start),
     ]
 
 
@@ -310,27 +313,80 @@ class Shapes:
         """Draw an outline as a closed polyline."""
         self._draw(tool_num, "polyline", bulged(outline), True)
 
-    def cutoutline(self, outline, bz, zdepth, offset="none"):
+    def cutoutline(self, outline, bz, zdepth, offset="none", corners=None):
         """Cut along an outline, `zdepth` mm below `bz`; offset: 'none', 'outside' or 'inside' by the tool's
-        radius.
+        radius. With corners 'dog-bone' or 't-bone' the tool clears the inner corners of a cut inside.
         """
         if offset not in ("none", "outside", "inside"):
             raise GcodePreviewError(f"offset must be 'none', 'outside' or 'inside', not {offset!r}")
         z = self._bottom(bz, zdepth)
         r = {"none": 0.0, "outside": self.diameter / 2, "inside": -self.diameter / 2}[offset]
-        outlines = kerf.Region([outline]).offset(r).outlines if r else [outline]
+        if corners is not None and offset != "inside":
+            raise GcodePreviewError(f"corners: {corners!r} requires the offset 'inside', not {offset!r}")
+        outlines = self._relieved(kerf.Region([outline]), corners).offset(r).outlines if r else [outline]
         if not outlines:
             raise GcodePreviewError(f"offset: the tool of {self.diameter:g} mm does not fit into the outline")
         return self._cut_outlines(outlines, bz, z)
 
-    def cutpocket(self, outline, bz, zdepth, stepover=0.4):
+    def cutpocket(self, outline, bz, zdepth, stepover=0.4, corners=None):
         """Clear the inside of an outline, `zdepth` mm below `bz`; the stepover is a fraction of the tool's
-        diameter.
+        diameter. With corners 'dog-bone' or 't-bone' a square part fits into it.
         """
+        return self._pocket(self._relieved(kerf.Region([outline]), corners), bz, zdepth, stepover)
+
+    def cutfingers(
+        self,
+        width,
+        depth,
+        count,
+        bz,
+        zdepth,
+        first=True,
+        fit=0.0,
+        corners="dog-bone",
+        bx=0,
+        by=0,
+        edge="lower",
+        stepover=0.4,
+    ):
+        """Cut the slots of a finger joint along an edge of a board, whose left end is (bx, by).
+
+        `count` fingers and slots together (odd); the boards of a joint are cut with `first` True (fingers
+        at both ends) and False. `depth` is the thickness of the other board, `fit` the clearance between a
+        finger and each side of its slot, mm; `edge` is 'lower' or 'upper'.
+        """
+        try:
+            slots = kerf.finger_slots(
+                positive(width, "width"),
+                positive(depth, "depth"),
+                whole(count, "count", 3),
+                first=bool(first),
+                fit=number(fit, "fit"),
+                overhang=self.diameter,
+            )
+        except ValueError as error:
+            raise GcodePreviewError(str(error)) from None
+        x, y = number(bx, "bx"), number(by, "by")
+        board = kerf.Region([rectangle(0, 0, width, 2 * depth)])
+        if choice(edge, ("lower", "upper"), "edge") == "upper":
+            slots, board = (region.rotated(180, (width / 2, 0)) for region in (slots, board))
+        region = self._relieved(slots, corners, board).moved(x, y)
+        return self._pocket(region, bz, zdepth, stepover)
+
+    def _relieved(self, region, corners, limits=None):
+        """The region with relieved corners for the tool in use."""
+        if corners is None:
+            return region
+        try:
+            return kerf.relieve_corners(region, self.diameter, corners, limits=limits)
+        except ValueError as error:
+            raise GcodePreviewError(f"corners: {error}") from None
+
+    def _pocket(self, region, bz, zdepth, stepover):
         z, step = self._bottom(bz, zdepth), positive(stepover, "stepover") * self.diameter
         if stepover > 1:
             raise GcodePreviewError(f"stepover is at most 1, not {stepover:g}")
-        region, rings = kerf.Region([outline]).offset(-self.diameter / 2), []
+        region, rings = region.offset(-self.diameter / 2), []
         while region.outlines:
             rings.append(region.outlines)
             region = region.offset(-step)
@@ -349,7 +405,7 @@ class Shapes:
                 self.rapidZ(self.retractheight), self.rapidXY(*rows[0][:2]), self.cutline(*rows[0][:2], z)
             )
             for (x, y, bulge), (u, v, _) in zip(rows, rows[1:] + rows[:1]):
-                moves = moves.union(self._cut_bulge(x, y, u, v, bulge, z))
+                moves.extend(self._cut_bulge(x, y, u, v, bulge, z))
         return moves.union(self.rapidZ(self.retractheight))
 
     def _cut_bulge(self, x, y, u, v, bulge, z):
@@ -374,6 +430,11 @@ def bulged(outline):
             rows.append((*here, 0.0))
         here = end
     return rows
+
+
+def bulge_of(here, element):
+    """The bulge of an element of an outline after the point `here`."""
+    return _bulge(here, element[:2], element[2:]) if len(element) == 4 else 0.0
 
 
 def _bulge(begin, via, end):

@@ -292,6 +292,14 @@ class Tools:
         self.toolpath.spindle(speed, "cw" if speed else "off")
         self._call_hook(self.on_section, n)
 
+    def addtool(self, tool_number, shape, **sizes):
+        """Add a tool of one's own, for toolchange: its shape and sizes as of kerf.Tool.make, mm and degrees.
+
+        >>> gcp.addtool(901, "lollipop", diameter=10, neck_diameter=4, flute=14)
+        """
+        n = whole(tool_number, "tool_number", 1)
+        self._table.add(n, kerf.Tool.make(shape, number=n, **sizes))
+
     def settoolparameters(self, tooltype, first, second, third, fourth, length=0):
         """Describe the tool of the following motions as a CutViewer comment does.
 

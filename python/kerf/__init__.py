@@ -50,6 +50,7 @@ from ._kerf import (
 )
 from . import _job, _notebook
 from ._job import Job
+from ._joints import finger_slots, relieve_corners
 
 # Steps and messages name the line of the user's script, not lines of these files.
 _kerf._library_file(_job.__file__)
@@ -77,6 +78,7 @@ __all__ = [
     "check",
     "compare",
     "estimate",
+    "finger_slots",
     "fit_arcs",
     "fit_bezier",
     "fit_spline",
@@ -93,6 +95,7 @@ __all__ = [
     "posts",
     "read_drawing",
     "read_gcode",
+    "relieve_corners",
     "save_left_stock",
     "segments",
     "self_meetings",

@@ -3,6 +3,7 @@
 import inspect
 import math
 import pathlib
+import re
 
 import ezdxf
 import pytest
@@ -1143,6 +1144,105 @@ def test_wrong_values_name_the_argument(gcp, call, name):
     assert len(gcp.toolpath) == steps
 
 
+# ---- movements that are not run; comments of CutViewer; colours
+
+
+def test_movements_of_tool_and_shaft_are_not_run(gcp):
+    steps = len(gcp.toolpath)
+    moves = gcp.toolmovement(0, 0, 0, 10, 0, -1).union(gcp.shaftmovement(0, 0, 0, 10, 0, -1))
+    assert [(m.kind, m.start, m.end) for m in moves] == [
+        ("cut", (0, 0, 0), (10, 0, -1)),
+        ("shaft", (0, 0, 0), (10, 0, -1)),
+    ]
+    assert len(gcp.toolpath) == steps and gcp.xpos() == 0
+    with pytest.raises(TypeError, match="ey"):
+        gcp.toolmovement(0, 0, 0, 1, "2", 3)
+
+
+def test_a_shaft_that_rubs_is_a_hazard(gcp):
+    gcp.toolchange(122, 16000)  # 1.5875 mm of flute, then a shaft of 3.175 mm
+    gcp.rapid(20, 20, 1)
+    gcp.cutline(20, 20, -4)
+    gcp.cutline(40, 20, -4)
+    assert "shank_contact" in {h["kind"] for h in gcp.simulate().hazards}
+
+
+CUTVIEWER = """(STOCK/BLOCK, 100, 70, 30, 50, 35, 30)
+;TOOL/MILL, 6, 0, 20, 0
+T1 M6
+G0 X0 Y0 Z5
+G1 Z-1 F100
+(TOOL/ID=12)
+(TOOL/Description=a bull nose)
+(TOOL/MILL, 6, 1, 20, 0)
+T2 M6
+(TOOL/MILL, 0.1, 0.05, 6.35, 45)
+(COLOR,255,0,0)
+T3 M6
+(TOOL/CRMILL, 0.508, 6.35, 3.175, 7.9375, 3.175)
+T4 M6
+(TOOL/CHAMFER, 6.35, 90, 10)
+T5 M6
+(TOOL/DRILL, 6, 118, 30)
+T6 M6
+(TOOL/CDRILL, 3, 118, 5, 6, 90, 20)
+T7 M6
+(TOOL/MILL, 6, 3, 20, 0)
+T8 M6
+(FROM/0,0,50)
+M2
+"""
+
+
+def test_comments_of_cutviewer():
+    # The guide: origin of the stock from its lowest corner; taper is the half angle; a corner radius of half
+    # the diameter is a ball with its control point at the tip.
+    pathlib.Path("cv.nc").write_text(CUTVIEWER)
+    program = kerf.load("cv.nc")
+    assert (program.stock.low, program.stock.high) == ((-50, -35, -30), (50, 35, 0))
+    tools = program.tools
+    assert [(n, t.shape) for n, t in tools.items() if n not in (3,)] == [
+        (1, "square"),
+        (2, "bull nose"),
+        (4, "corner rounding"),
+        (5, "chamfer"),
+        (6, "drill"),
+        (7, "centre drill"),
+        (8, "ball"),
+    ]
+    assert tools[1].diameter == 6 and tools[1].flute == 20
+    assert tools[2].diameter_at(1) == pytest.approx(6) and tools[2].diameter_at(0) == pytest.approx(4)
+    assert tools[3].diameter_at(2) - tools[3].diameter_at(1) == pytest.approx(2), "90 degrees"
+    assert tools[4].diameter_at(0) == pytest.approx(0.508)
+    assert tools[5].diameter_at(1) == pytest.approx(2)
+    assert tools[6].diameter_at(1) == pytest.approx(2 * math.tan(math.radians(59)))
+    assert tools[7].diameter_at(4) == pytest.approx(3) and tools[7].diameter_at(10) == pytest.approx(6)
+    assert tools[8].diameter_at(3) == pytest.approx(6)
+
+
+def test_a_ball_controlled_at_its_centre_is_refused():
+    pathlib.Path("cv.nc").write_text("(TOOL/MILL, 6, -3, 20, 0)\nT1 M6\nM2\n")
+    with pytest.raises(kerf.Error, match="controlled at its centre"):
+        kerf.load("cv.nc")
+
+
+@pytest.mark.parametrize(
+    "name, index",
+    [
+        ("Black", 7), ("Red", 1), ("Yellow", 2), ("Green", 3), ("Cyan", 4), ("Blue", 5), ("Magenta", 6),
+        ("White", 7), ("Dark Gray", 8), ("Light Gray", 9), ("Aqua", 4), ("Fuchsia", 6), ("Gray", 8),
+        ("Silver", 9), ("Maroon", 1), ("Olive", 2), ("Lime", 3), ("Teal", 4), ("Navy", 5), ("Purple", 6),
+    ],
+)
+def test_every_colour_has_its_index(gcp, name, index):
+    gcp.setdxfcolor(name)
+    gcp.dxfline(102, 0, 0, 10, 0)
+    (line,) = entities(gcp)
+    layer = line.doc.layers.get(line.dxf.layer)
+    assert (line.dxf.color if line.dxf.color != 256 else layer.color) == index
+    gcp.setcolor(name, name.upper(), name.lower())
+
+
 # ---- other names and the table
 
 
@@ -1156,17 +1256,36 @@ def test_other_names():
     assert openscad.show(None) is None
 
 
+SECTIONS = range(1, 25)  # of the inventory; those after them are about other versions, users and speed
+
+
 def test_the_table_names_every_command_and_its_tests():
-    text = (pathlib.Path(__file__).parent / "gcodepreview_rows.txt").read_text()
+    folder = pathlib.Path(__file__).parent
+    text = (folder / "gcodepreview_rows.txt").read_text()
     rows = [line.split("|") for line in text.splitlines() if line and not line.startswith("#")]
-    known = {n for n in globals() if n.startswith("test_")}
-    for module in ("test_gcodepreview_templates.py", "test_gcodepreview_joints.py"):
-        source = (pathlib.Path(__file__).parent / module).read_text()
-        known |= {line[4 : line.index("(")] for line in source.splitlines() if line.startswith("def test_")}
-    commands = set()
+    sources = "\n".join(path.read_text() for path in folder.glob("test_*.py"))
+    known = set(re.findall(r"^def (test_\w+)\(", sources, re.M))
+    differences = (folder.parents[1] / "docs" / "differences.md").read_text()
+    commands, sections = set(), set()
     for section, names, tests in rows:
+        sections.add(int(section.split()[0]))
         commands |= set(names.split())
+        if tests.startswith("docs/differences.md: "):
+            assert f"gcodepreview: {tests.split(': ')[1]} |" in differences, f"{section}: {names}"
+            continue
         assert tests.split(), f"{section}: {names} has no test"
         assert set(tests.split()) <= known, f"{section}: {set(tests.split()) - known}"
+    assert sections == set(SECTIONS)
     public = {n for n, f in inspect.getmembers(gcodepreview, inspect.isfunction) if not n.startswith("_")}
     assert public <= commands, f"without a row: {sorted(public - commands)}"
+
+
+def test_the_index_has_every_routine():
+    """docs/manual/routines.md is what tests/tools/make_routines.py writes."""
+    import importlib.util
+
+    root = pathlib.Path(__file__).parents[2]
+    spec = importlib.util.spec_from_file_location("make_routines", root / "tests/tools/make_routines.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    assert (root / "docs/manual/routines.md").read_text() == module.page(), "run tests/tools/make_routines.py"

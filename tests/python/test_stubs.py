@@ -33,15 +33,18 @@ def test_the_stub_has_every_name():
 
 def test_a_type_checker_accepts_the_stub(tmp_path):
     pytest.importorskip("mypy")
-    script = tmp_path / "part.py"
+    script, stub = tmp_path / "part.py", tmp_path / "_kerf.pyi"
+    # A copy: mypy refuses files in site-packages, where the module is after an installation.
+    stub.write_text(STUB.read_text())
     script.write_text(
         "import kerf\npath = kerf.Toolpath()\npath.coolant(flood=True)\npath.rapid((0, 0, 5))\n"
         "reveal_type(path.report())\n"
     )
     done = subprocess.run(
-        [sys.executable, "-m", "mypy", "--cache-dir", tmp_path / "cache", script, STUB],
+        [sys.executable, "-m", "mypy", "--cache-dir", tmp_path / "cache", script, stub],
         capture_output=True,
         text=True,
+        cwd=tmp_path,
     )
     assert done.returncode == 0, done.stdout
     assert re.search(r'Revealed type is "(builtins\.)?dict', done.stdout), done.stdout
@@ -50,5 +53,6 @@ def test_a_type_checker_accepts_the_stub(tmp_path):
         [sys.executable, "-m", "mypy", "--cache-dir", tmp_path / "cache", script],
         capture_output=True,
         text=True,
+        cwd=tmp_path,
     )
     assert wrong.returncode == 1 and "flod" in wrong.stdout

@@ -1,0 +1,357 @@
+"""Engraved text, Bézier curves, surfaces, countersinks, threads and a fourth axis."""
+
+import bisect
+import functools
+import math
+import os
+import tempfile
+
+import kerf
+
+from ._arguments import GcodePreviewError, choice, number, positive
+from ._motion import Moves
+
+FONTS = ("sans", "sans bold", "script", "script bold", "times", "times bold", "times italic")
+_GCMC = dict(
+    zip(
+        FONTS,
+        "HSANS_1 HSANS_2 HSCRIPT_1 HSCRIPT_2 HTIMES HTIMES_BOLD HTIMES_ITALIC".split(),
+    )
+)
+_STROKES = """feedrate(100mm);
+pen = 1;
+foreach(typeset("%s", FONT_%s); v) {
+  if(!isundef(v.z)) { pen = v.z; }
+  elif(pen > 0) { goto([v.x * 1mm, v.y * 1mm, 1mm]); }
+  else { move([v.x * 1mm, v.y * 1mm, 0mm]); }
+}
+"""
+_CURVE = 0.005  # mm between a Bézier curve and its arcs
+_SAMPLES = 10  # of a tool's radius on a surface
+_HEIGHTS = 2000  # of a tool's profile, closer together at its tip
+_FLAT = 0.005  # mm: points of a surface's rows that deviate by less are left out
+
+
+@functools.lru_cache(maxsize=256)
+def _strokes(text, font):
+    """The strokes of a line of text of height 1, starting at the origin: lists of points."""
+    if not text.strip():
+        return ()
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "text.gcmc")
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(_STROKES % (escaped, _GCMC[font]))
+        path = kerf.load(name).toolpath
+    strokes = []
+    for i in range(len(path)):
+        step = path[i]
+        if step["step"] == "rapid":
+            strokes.append([step["to"][:2]])
+        elif step["step"] == "cut" and strokes:
+            strokes[-1].append(step["to"][:2])
+    return tuple(tuple(stroke) for stroke in strokes if len(stroke) > 1)
+
+
+def text(x, y, string, height, font="sans", spacing=0.0, width=1.0):
+    """The strokes of a text in a single-line font: lists of points.
+
+    (x, y) is the left end of the base line, `height` that of capitals, `width` a factor of the letters'
+    width, `spacing` added between letters, mm. Lines are separated by line breaks.
+    """
+    h, w = positive(height, "height"), positive(width, "width")
+    name, gap = choice(font, FONTS, "font"), number(spacing, "spacing")
+    if not isinstance(string, str):
+        raise TypeError(f"string must be a str, not {type(string).__name__}")
+    made = []
+    for row, line in enumerate(string.split("\n")):
+        pieces = [(0.0, _strokes(line, name))]
+        if gap:  # letter by letter, each where a bar after the letters before it would start
+            bar = _bar_after("", name)
+            pieces = [(_bar_after(line[:i], name) - bar, _strokes(c, name)) for i, c in enumerate(line)]
+        for i, (offset, strokes) in enumerate(pieces):
+            for stroke in strokes:
+                made.append(
+                    [(x + (u + offset) * h * w + i * gap, y + (v - 2 * row) * h) for u, v in stroke]
+                )
+    return made
+
+
+def _bar_after(before, font):
+    """Where a bar after some letters is, in heights."""
+    return min(x for x, _ in _strokes(before + "|", font)[-1])
+
+
+def bezier(control, within=_CURVE):
+    """A Bézier curve of any degree through its control points as arcs: a point, then arcs and segments."""
+    points = [(number(x, "control"), number(y, "control")) for x, y in control]
+    if len(points) < 3:
+        raise GcodePreviewError("control: at least three points are required")
+    return kerf.fit_bezier(points, positive(within, "within"))
+
+
+def bezier_surface(bx, by, width, height, heights):
+    """The height above (x, y) of a bicubic Bézier surface over a rectangle.
+
+    `heights` are the Z of its four rows of four control points, which are evenly spaced, from the lower left
+    corner along X.
+    """
+    x0, y0 = number(bx, "bx"), number(by, "by")
+    w, h = positive(width, "width"), positive(height, "height")
+    rows = [[number(z, "heights") for z in row] for row in heights]
+    if len(rows) != 4 or any(len(row) != 4 for row in rows):
+        raise GcodePreviewError("heights: four rows of four are required")
+
+    def blend(t):
+        s = 1 - t
+        return (s * s * s, 3 * s * s * t, 3 * s * t * t, t * t * t)
+
+    def at(x, y):
+        u, v = min(1.0, max(0.0, (x - x0) / w)), min(1.0, max(0.0, (y - y0) / h))
+        return sum(
+            b * sum(a * z for a, z in zip(blend(u), row)) for b, row in zip(blend(v), rows)
+        )
+
+    return at
+
+
+class Further:
+    """The part of `gcodepreview` for text, curves, surfaces, countersinks, threads and a fourth axis."""
+
+    # ---- text and curves
+
+    def cuttext(self, string, bx, by, height, bz, zdepth, font="sans", spacing=0.0, width=1.0):
+        """Engrave a text in a single-line font, `zdepth` mm below `bz`; (bx, by) is the left end of its base
+        line, `height` that of capitals.
+        """
+        z = self._bottom(bz, zdepth)
+        moves = Moves()
+        for stroke in text(number(bx, "bx"), number(by, "by"), string, height, font, spacing, width):
+            moves = moves.union(
+                self.rapidZ(self.retractheight), self.rapidXY(*stroke[0]), self.cutline(*stroke[0], z)
+            )
+            for point in stroke[1:]:
+                moves.extend(self.cutline(*point, z))
+        return moves.union(self.rapidZ(self.retractheight))
+
+    def dxftext(self, tool_num, string, bx, by, height, font="sans", spacing=0.0, width=1.0):
+        """Draw a text in a single-line font as polylines."""
+        for stroke in text(number(bx, "bx"), number(by, "by"), string, height, font, spacing, width):
+            self._draw(tool_num, "polyline", [(x, y, 0.0) for x, y in stroke], False)
+
+    def cutbezier(self, control, bz, zdepth):
+        """Cut along a Bézier curve, `zdepth` mm below `bz`; it is run as arcs."""
+        from ._shapes import bulge_of
+
+        z, curve = self._bottom(bz, zdepth), bezier(control)
+        here = curve[0]
+        moves = self.rapidZ(self.retractheight).union(self.rapidXY(*here), self.cutline(*here, z))
+        for element in curve[1:]:
+            end = element[-2:]
+            bulge = bulge_of(here, element)
+            moves = moves.union(self._cut_bulge(*here, *end, bulge, z))
+            here = end
+        return moves.union(self.rapidZ(self.retractheight))
+
+    def dxfbezier(self, tool_num, control):
+        """Draw a Bézier curve as a polyline of arcs."""
+        from ._shapes import bulge_of
+
+        curve = bezier(control)
+        rows, here = [], curve[0]
+        for element in curve[1:]:
+            rows.append((*here, bulge_of(here, element)))
+            here = element[-2:]
+        self._draw(tool_num, "polyline", [*rows, (*here, 0.0)], False)
+
+    # ---- surfaces
+
+    def cutsurface(self, surface, bx, by, width, height, stepover=0.1, stepdown=0.0):
+        """Cut a surface in rows along X with the tool in use, without cutting below it.
+
+        Parameters
+        ----------
+        surface : callable
+            The height (Z) above (x, y), mm: a function, or `shapes.bezier_surface(...)`.
+        bx, by, width, height : float
+            The rectangle, mm: its lower left corner and size. The tool's axis stays inside of it.
+        stepover : float
+            Of the rows, as a fraction of the tool's diameter.
+        stepdown : float
+            Roughing passes of this depth from Z0 down, mm; 0: none.
+        """
+        x0, y0 = number(bx, "bx"), number(by, "by")
+        w, h = positive(width, "width"), positive(height, "height")
+        over = positive(stepover, "stepover")
+        if over > 1:
+            raise GcodePreviewError(f"stepover is at most 1, not {over:g}")
+        down = number(stepdown, "stepdown")
+        if down < 0:
+            raise GcodePreviewError(f"stepdown must not be below 0, not {down:g}")
+        rows = self._dropped(surface, x0, y0, w, h, over * self.diameter)
+        lowest = min(z for row in rows for _, _, z in row)
+        levels = [] if not down else [-down * i for i in range(1, math.ceil(-lowest / down))]
+        moves = Moves()
+        rough = rows[:: max(1, round(0.4 / over))]
+        for level in levels:
+            moves = moves.union(self._run_rows([[(x, y, max(z, level)) for x, y, z in row] for row in rough]))
+        return moves.union(self._run_rows(rows))
+
+    def _dropped(self, surface, x0, y0, w, h, over):
+        """Rows of points at which the tool touches the surface."""
+        import numpy as np
+
+        if not callable(surface):
+            raise TypeError("surface must be a function of x and y")
+        radius = self.diameter / 2
+        step = radius / _SAMPLES
+        nx, ny = math.ceil(w / step) + 1, math.ceil(h / over) + 1
+        xs = np.linspace(x0, x0 + w, nx)
+        at_x = np.linspace(x0 - radius, x0 + w + radius, nx + 2 * _SAMPLES)
+        at_y = np.linspace(y0 - radius, y0 + h + radius, math.ceil(h / step) + 1 + 2 * _SAMPLES)
+        heights = np.array([[float(surface(x, y)) for x in at_x] for y in at_y])
+        if not np.all(np.isfinite(heights)):
+            j, i = np.argwhere(~np.isfinite(heights))[0]
+            raise GcodePreviewError(f"surface: at X{at_x[i]:g} Y{at_y[j]:g} it is not a finite number")
+        under = self._points_under(radius, step)
+        rows = []
+        for j in range(ny):
+            y = min(y0 + j * over, y0 + h)
+            best = np.full(nx, -math.inf)
+            for dy, points in under:
+                line = _between(at_y, heights, y + dy)
+                for dx, lift in points:
+                    best = np.maximum(best, np.interp(xs + dx, at_x, line) - lift)
+            row = [(float(x), float(y), float(z)) for x, z in zip(xs, best)]
+            rows.append(_simplified(row if j % 2 == 0 else row[::-1]))
+        return rows
+
+    def _points_under(self, radius, step):
+        """Points of the tool's surface: (dy, [(dx, height above the tip)]), its rim included."""
+        drop, under = self._lift(), []
+        for k in range(-_SAMPLES, _SAMPLES + 1):
+            dy = k * step
+            rim = math.sqrt(max(0.0, radius * radius - dy * dy))
+            inner = (i * step for i in range(-_SAMPLES, _SAMPLES + 1) if abs(i * step) < rim)
+            under.append((dy, [(dx, drop(min(math.hypot(dx, dy), radius))) for dx in (-rim, *inner, rim)]))
+        return under
+
+    def _lift(self):
+        """The height of the tool's surface above its tip at a distance from the axis."""
+        top = min(self.flute, 2 * self.diameter)
+        heights = [top * (i / _HEIGHTS) ** 2 for i in range(_HEIGHTS + 1)]
+        widest, radii = 0.0, []
+        for z in heights:
+            widest = max(widest, self.tool_radius(self.currenttoolnum, z))
+            radii.append(widest)
+
+        def lift(d):  # the lower of the two samples: the tool stays above the surface
+            return heights[max(0, bisect.bisect_left(radii, d - 1e-9) - 1)]
+
+        return lift
+
+    def _run_rows(self, rows):
+        moves = self.rapidZ(self.retractheight).union(self.rapidXY(*rows[0][0][:2]))
+        for row in rows:
+            for point in row:
+                moves.extend(self.cutline(*point))
+        return moves.union(self.rapidZ(self.retractheight))
+
+    # ---- holes
+
+    def cutcountersink(self, xcenter, ycenter, diameter, angle, bz=0.0, stepover=0.1):
+        """Cut a conical countersink with a ball nose, ring by ring from the inside out.
+
+        `diameter` is that at the surface `bz`, `angle` that between its sides in degrees, `stepover` the
+        distance of the rings as a fraction of the tool's diameter.
+        """
+        x, y, d = number(xcenter, "xcenter"), number(ycenter, "ycenter"), positive(diameter, "diameter")
+        half, top = math.radians(positive(angle, "angle") / 2), number(bz, "bz")
+        if not 5 <= math.degrees(half) <= 85:
+            raise GcodePreviewError(f"angle must be from 10 to 170 degrees, not {angle:g}")
+        if self.endmilltype != "ball":
+            raise GcodePreviewError("cutcountersink: a ball nose must be in use")
+        r = self.diameter / 2
+        last = d / 2 - r * math.cos(half)  # radius of the ring at which the ball touches the edge
+        if last <= 0:
+            raise GcodePreviewError(f"diameter: the ball of {2 * r:g} mm does not fit into {d:g} mm")
+        count = math.ceil(last / (positive(stepover, "stepover") * 2 * r * math.sin(half)))
+        moves = self.rapidZ(self.retractheight).union(self.rapidXY(x, y))
+        for i in range(count + 1):
+            ring = last * i / count
+            tip = top + (ring - d / 2 + r / math.cos(half)) / math.tan(half) - r
+            moves = moves.union(self.cutline(x + ring, y, tip))
+            if i:
+                moves = moves.union(self._arc_to((x + ring, y, tip), (x, y), "ccw"))
+        return moves.union(self.rapidZ(self.retractheight))
+
+    def cutthread(self, xcenter, ycenter, diameter, pitch, bz, zdepth, hand="right"):
+        """Cut an internal thread with a thread mill: a helix of whole turns from the bottom up.
+
+        `diameter` is the nominal one; the hole must exist. `zdepth` mm below `bz` is the lowest point of the
+        tool.
+        """
+        x, y = number(xcenter, "xcenter"), number(ycenter, "ycenter")
+        d, p = positive(diameter, "diameter"), positive(pitch, "pitch")
+        z = self._bottom(bz, zdepth)
+        if hand not in ("right", "left"):
+            raise GcodePreviewError(f"hand must be 'right' or 'left', not {hand!r}")
+        radius = (d - self.diameter) / 2
+        if radius <= 0:
+            raise GcodePreviewError(f"diameter: the tool of {self.diameter:g} mm does not fit into {d:g} mm")
+        turns = math.floor((number(bz, "bz") - z) / p + 1e-9)
+        if turns < 1:
+            raise GcodePreviewError(f"zdepth: at least one turn of {p:g} mm is required")
+        moves = self.rapidZ(self.retractheight).union(self.rapidXY(x, y), self.rapidZ(number(bz, "bz")))
+        moves = moves.union(self.cutline(x, y, z), self.cutline(x + radius, y, z))
+        turn = "ccw" if hand == "right" else "cw"
+        moves = moves.union(self._arc_to((x + radius, y, z + turns * p), (x, y), turn, turns - 1))
+        return moves.union(self.cutline(x, y, z + turns * p), self.rapidZ(self.retractheight))
+
+    # ---- a fourth axis
+
+    def setrotary(self, a):
+        """The angle of the A axis, degrees, at the end of the following motions; None: they have no A word.
+
+        The post must have an A axis: `gcp.post = "linuxcnc"`.
+        """
+        self._rotary = None if a is None else (number(a, "a"), 0.0, 0.0)
+
+    def simulaterotary(self, diameter, bx, ex, y=0.0, z=0.0):
+        """The part turned from a round bar from X `bx` to `ex` by the A axis; Y and Z are those of its axis.
+
+        Returns a kerf.RotarySimulation.
+        """
+        return kerf.simulate_rotary(
+            self.toolpath,
+            positive(diameter, "diameter"),
+            (number(bx, "bx"), number(ex, "ex")),
+            (number(y, "y"), number(z, "z")),
+            self._table.tools,
+            self.resolution,
+        )
+
+
+def _between(at, rows, y):
+    """The row at `y`, interpolated between two of a grid."""
+    f = min(max((y - at[0]) / (at[1] - at[0]), 0.0), len(at) - 1.0)
+    i = min(int(f), len(at) - 2)
+    return rows[i] + (rows[i + 1] - rows[i]) * (f - i)
+
+
+def _simplified(row):
+    """Points of a row without those that a straight line between others passes within _FLAT."""
+    keep = [True] + [False] * (len(row) - 2) + [True]
+    work = [(0, len(row) - 1)]
+    while work:
+        a, b = work.pop()
+        (x, _, z), (u, _, w) = row[a], row[b]
+        far, at = _FLAT, None
+        for i in range(a + 1, b):
+            off = abs(row[i][2] - (z + (w - z) * (row[i][0] - x) / (u - x)))
+            if off > far:
+                far, at = off, i
+        if at is not None:
+            keep[at] = True
+            work += [(a, at), (at, b)]
+    return [p for p, kept in zip(row, keep) if kept]
