@@ -1,4 +1,5 @@
-// Outlines from the layers of a DXF drawing: loose entities joined, curves as arcs, blocks inserted, in mm.
+// Outlines from the layers of a DXF or SVG drawing: loose entities joined, curves as arcs, blocks inserted, in
+// mm.
 //
 //   Diagnostics diagnostics;
 //   const auto drawing = dxf::read_dxf(bytes, "part.dxf", diagnostics);
@@ -25,7 +26,8 @@ namespace kerf {
 
 struct DrawingOutlineOptions {
   std::vector<std::string> layers;  ///< only these; none: all that are neither off nor frozen
-  /// Of one drawing unit. None: as specified by the drawing ($INSUNITS); an error if it specifies none.
+  /// Of one drawing unit. None: as specified by the drawing ($INSUNITS, the width of an SVG); an error if it
+  /// specifies none.
   std::optional<Length> unit;
   Length within = mm(0.01);  ///< maximum deviation of arcs from ellipses and splines
   Length join = mm(0.01);    ///< maximum gap that is closed (ChainOptions)

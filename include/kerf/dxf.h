@@ -178,6 +178,7 @@ struct Entity {
   bool paper = false;            ///< on a layout, not in the model
   bool hidden = false;
   double linetype_scale = 1.0;
+  std::uint32_t chain = 0;  ///< not 0: a piece of one path of an SVG, in order; joined only with the others
   std::variant<Line, Circle, Arc, Dot, Boxed<Polyline>, Boxed<Text>, Boxed<Insert>, Boxed<Ellipse>,
                Boxed<Spline>, Other>
       shape;

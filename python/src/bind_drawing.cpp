@@ -5,6 +5,7 @@
 #include "kerf/drawing_outlines.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
+#include "kerf/svg.h"
 
 namespace kerf::python {
 namespace py = pybind11;
@@ -139,7 +140,7 @@ py::list layers_of(const PyDrawing& drawing) {
 
 PyDrawing read(const py::bytes& bytes, const std::string& name) {
   const auto view = static_cast<std::string_view>(bytes);
-  return {compute([&](Diagnostics& d) { return dxf::read_dxf(view, name, d); })};
+  return {compute([&](Diagnostics& d) { return read_drawing(view, name, d); })};
 }
 
 void bind_drawn(py::module_& m) {

@@ -7,6 +7,7 @@
 #include "kerf/drawing_outlines.h"
 #include "kerf/files.h"
 #include "kerf/stock_files.h"
+#include "kerf/svg.h"
 #include "kerf/tool_files.h"
 
 namespace kerf {
@@ -49,11 +50,11 @@ std::vector<ArtShape> load_art(const std::string& name, std::optional<Length> un
                                Diagnostics& diagnostics) {
   const std::size_t errors = diagnostics.errors();
   std::vector<ArtShape> shapes;
-  if (!ends_with(name, ".dxf")) {
+  if (!ends_with(name, ".dxf") && !ends_with(name, ".svg")) {
     for (NamedOutline& named : load_outlines(name, diagnostics))
       shapes.push_back({named.name, "", std::move(named.outline), {}, {}});
   } else if (const auto file = InputFile::open(name, diagnostics)) {
-    const auto drawing = dxf::read_dxf(file->bytes(), name, diagnostics);
+    const auto drawing = read_drawing(file->bytes(), name, diagnostics);
     DrawingOutlineOptions options;
     options.unit = unit;
     auto drawn = drawing ? drawn_outlines(*drawing, options, diagnostics) : std::nullopt;

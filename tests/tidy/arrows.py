@@ -124,7 +124,7 @@ PUBLIC = {
     "front_cut": ["cut_job.h"],
     "front_outline": ["outline_files.h", "drawing_outlines.h"],
     "back_drawing": ["outline_drawing.h", "toolpath_drawing.h", "gcmc_drawing.h"],
-    "codec_drawing": ["drawing_files.h", "dxf.h"],
+    "codec_drawing": ["drawing_files.h", "dxf.h", "svg.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],

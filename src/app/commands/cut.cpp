@@ -13,6 +13,7 @@
 #include "kerf/files.h"
 #include "kerf/names.h"
 #include "kerf/posting.h"
+#include "kerf/svg.h"
 
 namespace kerf::app {
 namespace {
@@ -51,7 +52,7 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
         "--tool \"square d=6\"";
   auto job = cut_job_of(values, usage);
   if (!job) return std::nullopt;
-  if (!options.unit.empty()) job->unit = options.unit == "inch" ? inch(1) : mm(1);
+  if (!options.unit.empty()) job->unit = drawing_unit(options.unit);
   job->tools[1] = options.tool;
   job->stock = options.stock;
   return job;
@@ -143,7 +144,7 @@ Command add_cut(CommandParser& root) {
   auto options = std::make_shared<Options>();
   CommandParser parser =
       new_command(root, "cut", "Cut pockets, contours and holes of a drawing", kExamples, options->output);
-  parser.add_text("FILE", options->file, "A DXF drawing, an outline file (.json) or a job (.toml)")
+  parser.add_text("FILE", options->file, "A drawing (.dxf, .svg), an outline file (.json) or a job (.toml)")
       .optional();
   parser.add_text("--op", options->op, "The operation: pocket, contour, engrave, face, drill or bore")
       .value_name("NAME");
@@ -165,7 +166,8 @@ Command add_cut(CommandParser& root) {
                     : key.type == CutKey::Type::list ? "NAMES"
                                                      : "NAME");
   }
-  parser.add_text("--unit", options->unit, "Of a drawing that specifies none").one_of({"mm", "inch"});
+  parser.add_text("--unit", options->unit, "Of a drawing that specifies none")
+      .one_of({"mm", "inch", "px", "pt"});
   parser.add_text("--to", options->to, "The controller: a name of kerf post --list (default grbl)")
       .value_name("POST");
   parser.add_text("-o,--output", options->out, "The file to write (default: standard output)")

@@ -128,6 +128,7 @@ const char* const kExamples = R"(  kerf outline plate.json --svg plate.svg
   kerf outline part.dxf --list-layers         the layers of a drawing and their entities
   kerf outline part.dxf --layer CUT --json    the outlines of a layer; open ends with their coordinates
   kerf outline part.dxf --layer CUT --region --dxf clean.dxf
+  kerf outline art.svg --unit px --dxf art.dxf
 
 The picture shows the ideal outlines (dashed), the cut ones over them, and the router bit's circle at each
 changed corner. A corner that cannot be cut stays sharp, with a warning that gives the reason.
@@ -137,12 +138,13 @@ changed corner. A corner that cannot be cut stays sharp, with a warning that giv
 
 Command add_outline(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CommandParser parser = new_command(
-      root, "outline", "Round the inside corners of outlines for a router bit; read outlines from DXF",
-      kExamples, options->output);
+  CommandParser parser =
+      new_command(root, "outline",
+                  "Round the inside corners of outlines for a router bit; read outlines from DXF and SVG",
+                  kExamples, options->output);
   parser
       .add_text("FILE", options->file,
-                "Outlines as JSON, a Python script (.py) that cuts outlines, or a drawing (.dxf)")
+                "Outlines as JSON, a Python script (.py) that cuts outlines, or a drawing (.dxf, .svg)")
       .required()
       .value_name("");
   parser.add_text("--svg", options->svg, "Write the picture of the corners").value_name("PATH");

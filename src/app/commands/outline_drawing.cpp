@@ -15,6 +15,7 @@
 #include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/outline_drawing.h"
+#include "kerf/svg.h"
 
 namespace kerf::app {
 namespace {
@@ -213,7 +214,7 @@ void compute(Result& result, const std::string& file, const DrawingOptions& opti
              Diagnostics& diagnostics) {
   const auto input = InputFile::open(file, diagnostics);
   if (!input) return;
-  result.drawing = dxf::read_dxf(input->bytes(), file, diagnostics);
+  result.drawing = read_drawing(input->bytes(), file, diagnostics);
   if (!result.drawing) return;
   if (options.list_layers) {
     result.layers = layer_contents(*result.drawing, {}, diagnostics);
@@ -234,29 +235,30 @@ void compute(Result& result, const std::string& file, const DrawingOptions& opti
 }  // namespace
 
 bool is_drawing(const std::string& file) {
-  return fold_name(std::filesystem::path(file).extension().string()) == ".dxf";
+  const std::string extension = fold_name(std::filesystem::path(file).extension().string());
+  return extension == ".dxf" || extension == ".svg";
 }
 
 void add_drawing_options(CommandParser& parser, DrawingOptions& options) {
-  add_repeated(parser, "--layer", options.layers, "NAME", "Of a DXF: only this layer; may be repeated");
+  add_repeated(parser, "--layer", options.layers, "NAME", "Of a drawing: only this layer; may be repeated");
   parser
       .add_parsed(
           "--unit",
           [&options](const std::string& text) -> std::string {
-            const auto scale = mm_per_unit(text);
-            if (!scale) return "expected mm or inch";
-            options.mm_per_unit = *scale;
+            const auto unit = drawing_unit(text);
+            if (!unit) return "expected mm, inch, px or pt";
+            options.mm_per_unit = unit->mm();
             return {};
           },
-          "Of a DXF: its unit, mm or inch; overrides that of the drawing")
+          "Of a drawing: its unit, mm, inch, px (1/96 inch) or pt (1/72 inch); overrides its own")
       .value_name("UNIT");
   add_length(parser, "--tolerance", options.within, 1e-6, 10.0,
-             "Of a DXF: maximum deviation of arcs from ellipses and splines (default: 0.01)");
+             "Of a drawing: maximum deviation of arcs from ellipses and splines (default: 0.01)");
   add_length(parser, "--join", options.join, 1e-6, 10.0,
-             "Of a DXF: maximum gap between entities that are joined (default: 0.01)");
+             "Of a drawing: maximum gap between entities that are joined (default: 0.01)");
   parser.add_flag("--region", options.region,
-                  "Of a DXF: unite the outlines to a region, outlines inside as holes");
-  parser.add_flag("--list-layers", options.list_layers, "Of a DXF: list the layers and their entities");
+                  "Of a drawing: unite the outlines to a region, outlines inside as holes");
+  parser.add_flag("--list-layers", options.list_layers, "Of a drawing: list the layers and their entities");
 }
 
 std::vector<std::string> given_drawing_options(const CommandParser& parser) {

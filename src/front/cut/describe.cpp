@@ -89,7 +89,8 @@ std::optional<std::string> cut_job_example(std::string_view name) {
   if (!kind) return std::nullopt;
   std::string text =
       "# A job for kerf cut. Lengths in mm, feeds in mm/min, angles in degrees.\n"
-      "# art = \"part.dxf\"        # a DXF drawing, or an outline file (.json), with the shapes to cut\n"
+      "# art = \"part.dxf\"        # a DXF or SVG drawing, or an outline file (.json), with the shapes to "
+      "cut\n"
       "# unit = \"mm\"             # of a drawing that specifies none: mm or inch\n"
       "# stock = \"100x60x12\"     # as for --stock\n\n" +
       std::string(shapes_of(*kind)) + "[tools]                   # number = shape, as for --tool\n";
@@ -128,7 +129,7 @@ std::string cut_job_schema() {
               {"additionalProperties", false},
               {"required", Json::array({"operation"})}};
   schema["properties"]["art"] = Json{{"type", "string"}};
-  schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch"})}};
+  schema["properties"]["unit"] = Json{{"enum", Json::array({"mm", "inch", "px", "pt"})}};
   schema["properties"]["stock"] = Json{{"type", "string"}};
   schema["properties"]["tools"] = tools;
   schema["properties"]["shape"] = Json{{"type", "array"}, {"items", schema_of_shape()}};

@@ -8,6 +8,7 @@
 
 #include "kerf/names.h"
 #include "kerf/number.h"
+#include "kerf/svg.h"
 
 namespace kerf {
 namespace {
@@ -107,12 +108,9 @@ class JobReader {
   }
   void unit(const toml::key& key, const toml::node& node) {
     const std::string name = text_of(key, node);
-    if (name == "mm")
-      job_.unit = mm(1);
-    else if (name == "inch")
-      job_.unit = inch(1);
-    else if (!name.empty())
-      error(Code::cut_job_key, location(node.source()), "unit must be \"mm\" or \"inch\"");
+    job_.unit = drawing_unit(name);
+    if (!job_.unit && !name.empty())
+      error(Code::cut_job_key, location(node.source()), "unit must be \"mm\", \"inch\", \"px\" or \"pt\"");
   }
   void shapes(const toml::array& list) {
     for (const toml::node& node : list) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <utility>
 
 #include "front/outline/entity_shapes.h"
 
@@ -25,7 +26,15 @@ struct LayerShapes {
   std::vector<std::string> names;
   std::vector<std::uint64_t> handles;
   std::vector<std::optional<Circle>> circles;
+  std::uint32_t chain = 0;  // dxf::Entity::chain of the last one
 };
+
+/// Appends the next piece of a path to the last shape of the layer.
+void append_piece(LayerShapes& shapes, const Outline& piece) {
+  Outline& path = shapes.outlines.back();
+  path.segments.insert(path.segments.end(), piece.segments.begin(), piece.segments.end());
+  shapes.circles.back().reset();
+}
 
 class OutlineDrawer {
  public:
@@ -69,10 +78,13 @@ std::optional<double> OutlineDrawer::mm_per_unit() {
     return options_.unit->mm();
   }
   if (own) return own;
-  const std::string what = number == 0 ? "the drawing does not specify its unit ($INSUNITS)"
-                                       : fmt::format("unknown unit {} ($INSUNITS)", number);
+  const bool is_page = drawing_.version == "SVG";
+  const std::string what = is_page       ? "the drawing does not specify its unit (width without mm or in)"
+                           : number == 0 ? "the drawing does not specify its unit ($INSUNITS)"
+                                         : fmt::format("unknown unit {} ($INSUNITS)", number);
   diagnostics_.error(Code::drawing_unit, file(), what).hint =
-      "specify it: mm or inch (--unit mm, --unit inch)";
+      is_page ? "specify it: mm, inch, px (96 per inch) or pt (72 per inch), as in --unit px"
+              : "specify it: mm or inch (--unit mm, --unit inch)";
   return std::nullopt;
 }
 
@@ -130,6 +142,9 @@ void OutlineDrawer::take(const dxf::Placed& placed, ShapeConverter& maker) {
   if (line != nullptr && !(*line)->widths.empty()) ++wide_;
   segments_ += shape->outline.segments.size();
   LayerShapes& shapes = shapes_[placed.style.layer];
+  const std::uint32_t chain = placed.entity.chain;
+  if (chain != 0 && chain == std::exchange(shapes.chain, chain)) return append_piece(shapes, shape->outline);
+  shapes.chain = chain;
   shapes.outlines.push_back(std::move(shape->outline));
   shapes.circles.push_back(shape->circle);
   shapes.names.push_back(std::move(name));

@@ -1,0 +1,30 @@
+// The elements of an XML file as a tree.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "kerf/diagnostics.h"
+
+namespace kerf::svg {
+
+struct Element {
+  std::string name;  // without the prefix "svg:"
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<Element> children;
+  std::string text;  // of the element itself
+  std::size_t line = 0;
+
+  /// The attribute's value; empty if there is none.
+  std::string_view attribute(std::string_view key) const;
+};
+
+/// The root; nothing, with an error appended, if the bytes are not well-formed or nested too deep.
+std::optional<Element> read_tree(std::string_view bytes, const std::string& file, std::size_t max_depth,
+                                 Diagnostics& diagnostics);
+
+}  // namespace kerf::svg

@@ -1,0 +1,226 @@
+"""SVG drawings: kerf outline and kerf cut. Expectations are computed by hand from the SVG specification."""
+
+import math
+
+import pytest
+
+HEAD = '<?xml version="1.0"?>\n<svg xmlns="http://www.w3.org/2000/svg" '
+PAGE = 'width="100mm" height="50mm" viewBox="0 0 100 50">\n'
+
+
+def svg(body, page=PAGE):
+    return HEAD + page + body + "\n</svg>\n"
+
+
+@pytest.fixture
+def outlines(kerf, program):
+    """The outlines of an SVG as (layer, points, closed), after `kerf outline --json`."""
+
+    def run(text, *options):
+        done = kerf("outline", program(text, "art.svg"), "--json", *options)
+        assert done.status == 0, done.err + done.out
+        return done.json["outlines"]
+
+    return run
+
+
+def ends(outline):
+    return [tuple(round(v, 6) for v in outline["first"]["at"])] + [
+        tuple(round(v, 6) for v in segment["to"]) for segment in outline["segments"]
+    ]
+
+
+def same_ring(found, wanted):
+    """Closed rings with the same points from any start, in the same direction."""
+    found, wanted = found[:-1] if found[0] == found[-1] else found, list(wanted)
+    turned = [found[k:] + found[:k] for k in range(len(found))]
+    return any(ring == wanted for ring in turned)
+
+
+def test_y_points_up_from_the_lower_edge_of_the_page(outlines):
+    (rect,) = outlines(svg('<rect x="10" y="5" width="30" height="20"/>'))
+    assert rect["closed"] and rect["layer"] == "#000000"
+    assert same_ring(ends(rect), [(10, 45), (40, 45), (40, 25), (10, 25)])
+
+
+@pytest.mark.parametrize("page, scale", [
+    ('width="4in" height="2in" viewBox="0 0 100 50">', 101.6 / 100),
+    ('width="100mm" viewBox="0 0 100 50">', 1.0),
+    ('height="10cm" viewBox="0 0 100 50">', 2.0),
+    ('width="72pt" height="36pt">', 25.4 / 96),  # no viewBox: user units are pixels
+    ('width="400Q" height="200Q" viewBox="0 0 1000 500">', 0.1),
+])
+def test_the_page_gives_true_units(outlines, page, scale):
+    (line,) = outlines(svg('<line x1="0" y1="0" x2="30" y2="0"/>', page))
+    (x1, y1), (x2, y2) = ends(line)
+    assert math.isclose(abs(x2 - x1), 30 * scale, abs_tol=1e-6) and y1 == y2
+
+
+@pytest.mark.parametrize("unit, scale", [("mm", 1), ("inch", 25.4), ("px", 25.4 / 96), ("pt", 25.4 / 72)])
+@pytest.mark.parametrize("page", [
+    'width="100" height="50">', 'viewBox="0 0 100 50">', 'width="100px" height="50px">'])
+def test_a_missing_unit_is_asked_for(kerf, program, outlines, page, unit, scale):
+    text = svg('<line x1="0" y1="50" x2="30" y2="50"/>', page)
+    refused = kerf("outline", program(text, "art.svg"), "--json")
+    assert refused.status == 1 and refused.codes() == ["drawing_unit"] and "px" in refused.out
+    (line,) = outlines(text, "--unit", unit)
+    assert ends(line) == [(0, 0), (round(30 * scale, 6), 0)]
+
+
+PATHS = [
+    # relative, implicit lines, and numbers without separators
+    ("m10,10 20,0 0-10z", [(10, 40), (30, 40), (30, 50)]),
+    ("M10 10H30V0Z", [(10, 40), (30, 40), (30, 50)]),
+    ("M10 10h2e1v-10.0L1.e1,10", [(10, 40), (30, 40), (30, 50)]),
+    ("M0 0L10 .5.5.5z", [(0, 50), (10, 49.5), (0.5, 49.5)]),
+]
+
+
+@pytest.mark.parametrize("data, ring", PATHS)
+def test_path_data(outlines, data, ring):
+    (path,) = outlines(svg(f'<path d="{data}"/>'))
+    assert path["closed"] and same_ring(ends(path), ring)
+
+
+def test_subpaths_that_touch_are_not_joined(outlines):
+    made = outlines(svg('<path d="M0 0h10v10h-10zm10 10h10v10h-10z M30 0L40 0 M40 0L50 0"/>'))
+    assert sorted((o["closed"], len(o["segments"])) for o in made)[-2:] == [(True, 4), (True, 4)]
+
+
+def test_arcs_of_circles_are_exact(outlines):
+    """A half circle of radius 10 above the line from 20,25 to 40,25; flags without separators."""
+    (path,) = outlines(svg('<path d="M20 25a10 10 0 0120 0z"/>'))
+    assert path["closed"] and math.isclose(path["length_mm"], 20 + 10 * math.pi, abs_tol=1e-9)
+    arcs = [s for s in path["segments"] if "via" in s]
+    assert [tuple(round(v, 6) for v in s["via"]) for s in arcs] == [(30, 35)]
+    (large,) = outlines(svg('<path d="M30 15A10 10 0 1 1 20 25"/>'))  # three quarters, clockwise on the page
+    assert math.isclose(large["length_mm"], 15 * math.pi, abs_tol=1e-9)
+
+
+def test_a_circle_stays_a_circle_and_an_ellipse_is_fitted(outlines):
+    made = outlines(svg('<circle cx="20" cy="20" r="5" transform="rotate(30) translate(1 2) scale(2)"/>'))
+    assert math.isclose(made[0]["circle"]["radius"], 10, abs_tol=1e-9)
+    x, y = 20 * 2 + 1, 20 * 2 + 2
+    c, s = math.cos(math.radians(30)), math.sin(math.radians(30))
+    assert made[0]["circle"]["at"] == pytest.approx([c * x - s * y, 50 - (s * x + c * y)])
+    (ellipse,) = outlines(svg('<ellipse cx="50" cy="25" rx="30" ry="10"/>'), "--tolerance", "0.001")
+    assert ellipse["closed"]
+    assert math.isclose(ellipse["length_mm"], 133.6489, abs_tol=0.01)  # 4 a E(e), e = sqrt(8) / 3
+    for x, y in ends(ellipse):
+        assert math.isclose(((x - 50) / 30) ** 2 + ((y - 25) / 10) ** 2, 1, abs_tol=2e-4)
+
+
+def test_curves_of_one_path_are_one_outline(outlines):
+    """Two cubic arches and a line; the smooth command mirrors the control point."""
+    (path,) = outlines(svg('<path d="M0 25C0 15 20 15 20 25S40 35 40 25Q40 45 0 45z"/>'))
+    assert path["closed"]
+    xs = [x for x, _ in ends(path)]
+    ys = [y for _, y in ends(path)]
+    assert min(xs) == 0 and max(xs) <= 40.01 and max(ys) <= 32.51
+    # the cubics' extremes: 25 - 0.75 * 10 above and below, seen with y up
+    assert any(abs(y - 32.5) < 0.3 for y in ys)
+
+
+def test_rounded_rectangles(outlines):
+    (rect,) = outlines(svg('<rect x="10" y="10" width="40" height="20" rx="5"/>'))
+    assert rect["closed"] and math.isclose(rect["length_mm"], 120 - 40 + 10 * math.pi, abs_tol=1e-9)
+    (stadium,) = outlines(svg('<rect x="10" y="10" width="40" height="20" rx="50" ry="50"/>'))
+    assert stadium["closed"]
+
+
+def test_polygons_lines_and_groups_with_transforms(outlines):
+    text = svg(
+        '<g transform="translate(10,10) scale(2 1)"><polygon points="0,0 10,0 10,10"/></g>'
+        '<polyline points="60 10 70 10,70 20" transform="matrix(1 0 0 1 5 0)"/>'
+    )
+    ring, line = outlines(text)
+    assert same_ring(ends(ring), [(10, 40), (30, 40), (30, 30)])
+    assert not line["closed"] and ends(line) == [(65, 40), (75, 40), (75, 30)]
+
+
+def test_layers_are_those_of_inkscape_else_colours(kerf, program, outlines):
+    text = svg(
+        '<g inkscape:groupmode="layer" inkscape:label="Pocket 3mm" id="layer1">'
+        '<g><rect width="9" height="9"/></g></g>'
+        '<rect x="20" width="9" height="9" style="fill:none;stroke:#F00"/>'
+        '<rect x="40" width="9" height="9" stroke="rgb(0, 0, 255)" fill="red"/>'
+        '<g stroke="green"><rect x="60" width="9" height="9" class="cut"/></g>'
+        '<style>.cut { stroke: #0a0; } .not, .hidden { display: none }</style>'
+        '<rect x="80" width="9" height="9" class="hidden"/>',
+        'xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape" ' + PAGE,
+    )
+    assert [o["layer"] for o in outlines(text)] == ["Pocket 3mm", "#ff0000", "#0000ff", "#00aa00"]
+    (one,) = outlines(text, "--layer", "#ff0000")
+    assert same_ring(ends(one), [(20, 50), (29, 50), (29, 41), (20, 41)])
+    unknown = kerf("outline", "art.svg", "--layer", "Pocket")
+    assert unknown.status == 1 and "Pocket 3mm" in unknown.err
+
+
+def test_use_symbol_and_nested_svg(outlines):
+    text = svg(
+        '<defs><rect id="r" width="10" height="5"/></defs>'
+        '<symbol id="s"><rect width="2" height="2"/></symbol>'
+        '<use href="#r" x="10" y="10"/><use xlink:href="#s" transform="translate(50 20)"/>'
+        '<svg x="80" y="30" width="20" height="20" viewBox="0 0 10 10"><rect width="5" height="5"/></svg>',
+        'xmlns:xlink="http://www.w3.org/1999/xlink" ' + PAGE,
+    )
+    rings = [ends(o) for o in outlines(text)]
+    assert same_ring(rings[0], [(10, 40), (20, 40), (20, 35), (10, 35)])
+    assert same_ring(rings[1], [(50, 30), (52, 30), (52, 28), (50, 28)])
+    assert same_ring(rings[2], [(80, 20), (90, 20), (90, 10), (80, 10)])
+
+
+def test_a_region_with_a_hole(kerf, program):
+    text = svg('<path fill-rule="evenodd" d="M0 0h20v20h-20z M5 5h10v10h-10z"/>')
+    run = kerf("outline", program(text, "art.svg"), "--region", "--json")
+    assert run.status == 0 and math.isclose(run.json["region"]["area_mm2"], 300, abs_tol=1e-6)
+
+
+def test_texts_and_images_are_reported(kerf, program):
+    text = svg('<text>a</text><image/><rect width="5" height="5"/>')
+    run = kerf("outline", program(text, "a.svg"), "--json")
+    assert run.status == 0 and "drawing_ignored" in run.codes() and "1 text" in run.out
+
+
+@pytest.mark.parametrize("body, code, line, words", [
+    ('<rect width="1o" height="5"/>', "svg_value", 3, 'rect: width="1o"'),
+    ('\n<path d="M0 0L10 10 20"/>', "svg_value", 4, "character 14"),
+    ('<path d="L0 0"/>', "svg_value", 3, "character 1"),
+    ('<path d="M0 0X"/>', "svg_value", 3, "character 6"),
+    ('<polygon points="0 0 1"/>', "svg_value", 3, "points"),
+    ('<g transform="turn(3)"/>', "svg_value", 3, "transform"),
+    ('<use href="#none"/>', "svg_reference", 3, "#none"),
+    ('<g><rect width="5" height="5">', "svg_xml", 4, "mismatched"),
+])
+def test_errors_name_the_line(kerf, program, body, code, line, words):
+    run = kerf("outline", program(svg(body + '<rect width="3" height="3"/>'), "art.svg"), "--json")
+    assert run.status == 1 and code in run.codes(), run.out
+    found = next(d for d in run.json["diagnostics"] if d["name"] == code)
+    assert found["origin"]["line"] == line and words in found["message"]
+
+
+def test_elements_that_use_themselves_end_with_an_error(kerf, program):
+    loop = svg('<g id="a"><use href="#a"/><use href="#a"/></g>')
+    run = kerf("outline", program(loop, "art.svg"), "--json")
+    assert run.status == 1 and "svg_limit" in run.codes()
+    deep = svg("<g>" * 500 + "</g>" * 500)
+    assert kerf("outline", program(deep, "deep.svg")).status == 1
+    other = program('<?xml version="1.0"?>\n<html><svg/></html>', "page.svg")
+    assert kerf("outline", other).status == 1
+
+
+def test_an_svg_is_cut_like_a_dxf(kerf, program):
+    """The same rectangle as SVG and as DXF gives the same program."""
+    art = program(svg('<rect x="10" y="10" width="40" height="20"/>'), "art.svg")
+    drawn = kerf("outline", art, "--dxf", "art.dxf")
+    assert drawn.status == 0, drawn.err
+    how = ("--op", "pocket", "--tool", "square d=6", "--depth", "3", "--feed", "600", "--json")
+    programs = []
+    for file, extra in ((art, ()), ("art.dxf", ("--unit", "mm"))):
+        run = kerf("cut", file, *how, *extra, "-o", "part.nc")
+        assert run.status == 0, run.out + run.err
+        info = kerf("info", "part.nc", "--json").json["motion"]
+        programs.append((info["cut_bounds_mm"], round(info["cut_mm"], 3)))
+    assert programs[0] == programs[1]
+    (low, high), _ = programs[0]
+    assert low[:2] == pytest.approx([13, 23]) and high[:2] == pytest.approx([47, 37])
