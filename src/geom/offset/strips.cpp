@@ -49,12 +49,14 @@ void Strips::ring(const Run& run, double outer, double inner) {
     set_.belongs_to(seam);
   } else {
     set_.line_to(c);
+    set_.belongs_to(source_of(run, Beside::second_seam));
   }
   set_.close();
   if (inner >= -set_.weld()) return;
   set_.belongs_to(seam);
   set_.start_chain(c);
   set_.line_to(c + inner * a);
+  set_.belongs_to(source_of(run, Beside::second_seam));
   set_.arc_to(c + inner * a, c + inner * b, c, -inner, 1.0);
   set_.close();
 }

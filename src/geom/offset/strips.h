@@ -19,14 +19,17 @@ enum class Beside : std::uint8_t {
   right_corner,
   left_corner,
   tangent_before,
-  tangent_after
+  tangent_after,
+  second_seam  // where two seams meet: edges of one source become one segment
 };
 inline std::uint32_t source_of(const Run& run, Beside what) {
   return 8 * run.number + static_cast<std::uint32_t>(what);
 }
 inline std::uint32_t run_of_source(std::uint32_t source) { return source / 8; }
 inline Beside beside(std::uint32_t source) { return static_cast<Beside>(source % 8); }
-inline bool is_corner(std::uint32_t source) { return beside(source) >= Beside::right_corner; }
+inline bool is_corner(std::uint32_t source) {
+  return beside(source) >= Beside::right_corner && beside(source) != Beside::second_seam;
+}
 /// The tangents of a line's mitre continue the line beside it.
 inline CornerSources corner_sources(const Run& run, const Run& next, Beside side, Beside corner) {
   return {source_of(run, corner), source_of(run, run.is_arc() ? Beside::tangent_before : side),

@@ -90,6 +90,25 @@ TEST_F(Offsets, OfPathsHaveRoundOrButtEnds) {
   EXPECT_NEAR(area(*buffer(circle(0, 0, 5), mm(6.0), PathEnds::round, {}, diagnostics)), kPi * 121.0, 1e-9);
 }
 
+/// An arc about (3, 4) in both directions: half widths below and above its radius of 5.
+TEST_F(Offsets, BuffersOfArcsHaveTheAreaOfTheirSectors) {
+  for (const double sweep : {0.5, 2.0, 4.5}) {
+    const auto at = [](double angle) { return Point2{3 + 5 * std::cos(angle), 4 + 5 * std::sin(angle)}; };
+    const Outline ccw{at(1), {}, {{at(1 + sweep), at(1 + 0.5 * sweep), {}}}};
+    const Outline cw{at(1 + sweep), {}, {{at(1), at(1 + 0.5 * sweep), {}}}};
+    for (const Outline& path : {ccw, cw}) {
+      const auto area_of = [&](double half, PathEnds ends) {
+        const auto found = buffer(path, mm(half), ends, {}, diagnostics);
+        return found ? area(*found) : 0.0;
+      };
+      EXPECT_NEAR(area_of(1.0, PathEnds::butt), sweep * 5 * 2, 1e-9) << sweep;
+      EXPECT_NEAR(area_of(0.3, PathEnds::round), sweep * 5 * 0.6 + kPi * 0.09, 1e-9) << sweep;
+      if (sweep > kPi) continue;  // the sector beyond the centre would overlap the other
+      EXPECT_NEAR(area_of(7.0, PathEnds::butt), 0.5 * sweep * (12 * 12 + 2 * 2), 1e-9) << sweep;
+    }
+  }
+}
+
 TEST_F(Offsets, ParallelCurvesRunInThePathsSense) {
   const Outline path{{0, 0}, {}, {{{10, 0}, {}, {}}, {{10, 10}, {}, {}}}};
   const auto left = offset_path(path, mm(1.0), {}, diagnostics);
