@@ -37,6 +37,8 @@ def moves(seed):
     """Straight moves, distance modes, work offsets, shifts. Systems are rotated only without G92 and G52:
     LinuxCNC drops that shift when it recomputes its position."""
     make = Maker(seed)
+    for system in (1, 2, 3, 7, 9):  # an offset that the program does not set is unknown
+        make.line(f"G21 G10 L2 P{system} X0 Y0 Z0")
     make.header()
     make.line("G28.1")
     make.line("G30.1")
