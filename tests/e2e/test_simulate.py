@@ -74,6 +74,16 @@ def test_views(kerf, program, files, view):
     assert "v.png" in files()
 
 
+def test_views_differ(kerf, program, folder_bytes):
+    pictures = {}
+    for view in ("top", "front", "back", "left", "right", "iso", "40,30", "120,-20"):
+        assert kerf("simulate", "--resolution", "0.5", program(), "-o", "v.png", "--view", view,
+                    "--size", "64x48").status == 0
+        pictures[view] = folder_bytes()["v.png"]
+        assert struct.unpack(">II", pictures[view][16:24]) == (64, 48)
+    assert len(set(pictures.values())) == len(pictures)
+
+
 @pytest.mark.parametrize("plane, view", [("x=20", "left"), ("Y=15", "-35,50"), ("z=-0.5", "top"),
                                          ("x=0.5in", "iso")])
 def test_a_section_changes_the_picture_alone(kerf, program, folder_bytes, plane, view):

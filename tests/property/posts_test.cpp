@@ -28,8 +28,13 @@ enum class Work { mill, laser, print };
 
 class RandomPath {
  public:
-  RandomPath(unsigned seed, Work work, double smallest_radius)
-      : random_(seed), work_(work), smallest_(std::log10(smallest_radius)) {}
+  /// `profile`: the coolants that it has are switched.
+  RandomPath(unsigned seed, Work work, double smallest_radius, const PostProfile& profile)
+      : random_(seed),
+        work_(work),
+        smallest_(std::log10(smallest_radius)),
+        has_mist_(profile.has_m(70)),
+        has_flood_(profile.has_m(80)) {}
 
   Toolpath make() {
     path_.add(step::ToolChange{1}, OriginId::none);
@@ -99,7 +104,11 @@ class RandomPath {
 
   void add_step() {
     if (work_ == Work::print && whole(0, 1) == 0) return add_printing();
-    switch (whole(0, 11)) {
+    switch (whole(0, 12)) {
+      case 12:
+        path_.add(step::Coolant{has_mist_ && whole(0, 1) == 0, has_flood_ && whole(0, 1) == 0},
+                  OriginId::none);
+        return;
       case 0: return go(step::Rapid{point()});
       case 1: path_.add(step::Dwell{seconds(0.25 * whole(1, 8))}, OriginId::none); return;
       case 2: return drive();
@@ -115,6 +124,7 @@ class RandomPath {
   std::mt19937 random_;
   Work work_;
   double smallest_;  // power of ten of the smallest radius
+  bool has_mist_, has_flood_;
   Toolpath path_;
   Point3 at_;
 };
@@ -126,6 +136,7 @@ struct Motion {
   step::Spindle spindle;
   step::LaserPower beam;
   double laid;  // mm3 of filament extruded so far
+  step::Coolant coolant;
 };
 
 std::vector<Motion> motions_of(const Toolpath& path) {
@@ -134,13 +145,15 @@ std::vector<Motion> motions_of(const Toolpath& path) {
   step::Spindle spindle;
   step::LaserPower beam;
   double laid = 0.0;
+  step::Coolant coolant;
   for (std::size_t i = 0; i < path.size(); ++i) {
     const Step& s = path[i];
     if (s.kind() == StepKind::spindle) spindle = s.spindle();
     if (s.kind() == StepKind::laser_power) beam = s.laser_power();
+    if (s.kind() == StepKind::coolant) coolant = s.coolant();
     if (s.kind() == StepKind::extrude) laid += path.extrude(i).volume.mm3();
     if (!s.is_motion()) continue;
-    list.push_back({&s, from, spindle, beam, laid});
+    list.push_back({&s, from, spindle, beam, laid, coolant});
     from = s.to();
   }
   return list;
@@ -206,6 +219,8 @@ void expect_same_state(const Motion& read, const Motion& written, std::size_t w)
     ASSERT_NEAR(read.beam.power, written.beam.power, 0.01);
   }
   ASSERT_NEAR(read.laid, written.laid, kVolumeSlack);
+  ASSERT_EQ(read.coolant.mist, written.coolant.mist);
+  ASSERT_EQ(read.coolant.flood, written.coolant.flood);
 }
 
 /// Heaters and fans in their order, as text.
@@ -296,7 +311,7 @@ GcodeProgram looped(const Toolpath& path, const PostProfile& profile, PostOption
 void expect_loop(const Loop& loop, LengthUnit unit, unsigned seed) {
   PostProfile profile = *find_post(loop.post);
   profile.spindle_dwell = Duration{};
-  const Toolpath path = RandomPath(seed, loop.work, kSmallestRadius).make();
+  const Toolpath path = RandomPath(seed, loop.work, kSmallestRadius, profile).make();
   PostOptions options;
   options.unit = unit;
   const GcodeProgram program = looped(path, profile, options);
@@ -323,13 +338,64 @@ TEST_P(ClosedLoop, returns_the_same_toolpath) {
 TEST_P(ClosedLoop, tiny_arcs_stay_tiny) {
   for (const unsigned seed : seeds()) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    const Toolpath path = RandomPath(seed, GetParam().work, kTinyRadius).make();
+    const Toolpath path = RandomPath(seed, GetParam().work, kTinyRadius, *find_post(GetParam().post)).make();
     const GcodeProgram program = looped(path, *find_post(GetParam().post), {});
     double written = 0.0, read = 0.0;
     for (const Motion& m : motions_of(path)) written += length_of(m);
     for (const Motion& m : motions_of(program.path)) read += length_of(m);
     EXPECT_NEAR(read, written, 1e-4 * written);
     ASSERT_EQ(HasFailure(), false);
+  }
+}
+
+/// The length of cuts between changes of the tool.
+struct CutsOfTool {
+  int tool = 0;
+  double length = 0.0;
+  std::size_t motions = 0;
+};
+
+std::vector<CutsOfTool> cuts_by_tool(const Toolpath& path) {
+  std::vector<CutsOfTool> list;
+  Point3 from;
+  int tool = 0;
+  for (const Step& s : path.steps()) {
+    if (s.kind() == StepKind::tool_change) tool = s.tool_change().tool;
+    if (!s.is_motion()) continue;
+    if (list.empty() || list.back().tool != tool) list.push_back({tool});
+    ++list.back().motions;
+    if (s.is_cutting()) list.back().length += length_of({&s, from, {}, {}, 0.0, {}});
+    from = s.to();
+  }
+  return list;
+}
+
+TEST(Files, of_each_tool_hold_its_cuts) {
+  std::size_t compared = 0;
+  for (const unsigned seed : seeds()) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    const PostProfile& profile = *find_post("linuxcnc");
+    const Toolpath path = RandomPath(seed, Work::mill, kSmallestRadius, profile).make();
+    PostOptions options;
+    options.tool_change = ToolChangePolicy::files;
+    Diagnostics diagnostics;
+    const auto files = post(path, profile, options, diagnostics);
+    ASSERT_TRUE(diagnostics.list().empty());
+    const std::vector<CutsOfTool> want = cuts_by_tool(path);
+    ASSERT_EQ(files.size(), want.size());
+    for (std::size_t k = 0; k < files.size(); ++k) {
+      Diagnostics reading;
+      const GcodeProgram program = read_gcode(files[k].text, {}, reading);
+      double length = 0.0;
+      for (const CutsOfTool& part : cuts_by_tool(program.path)) length += part.length;
+      EXPECT_EQ(files[k].tool, want[k].tool);
+      ASSERT_NEAR(length, want[k].length, 1e-4 * want[k].length + 0.02) << "file " << k << "\n"
+                                                                        << files[k].text;
+      ++compared;
+    }
+  }
+  if (std::getenv("KERF_SEED") == nullptr) {
+    EXPECT_GT(compared, 100u);
   }
 }
 

@@ -3,6 +3,7 @@
 // Outlines cross themselves and each other; a third of them has its points on a coarse grid, for coincident
 // corners, overlaps and tangent arcs. Prints the seed, and for each case that fails a seed that repeats
 // it alone. Exit status 1 if any does.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -78,12 +79,20 @@ class Case {
   bool on_grid_ = false;
 };
 
-/// The winding number of an outline around a point, from angles alone; not an integer near the outline.
-double turns_around(const Outline& outline, Point2 p) {
-  double turns = 0.0;
+/// Of an outline, whose arcs are 256 chords, and a point.
+struct Around {
+  double turns = 0.0;  // the winding number, from angles alone; not an integer near the outline
+  double distance = 1e300;
+};
+
+Around around(const Outline& outline, Point2 p) {
+  Around found;
   Point2 from = outline.start;
   const auto step = [&](Point2 a, Point2 b) {
-    turns += std::atan2(cross(a - p, b - p), dot(a - p, b - p)) / (2.0 * std::numbers::pi);
+    found.turns += std::atan2(cross(a - p, b - p), dot(a - p, b - p)) / (2.0 * std::numbers::pi);
+    const Point2 way = b - a;
+    const double t = dot(way, way) > 0.0 ? std::clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0) : 0.0;
+    found.distance = std::min(found.distance, distance(p, a + t * way));
   };
   for (const Segment& s : outline.segments) {
     if (const auto arc = arc_circle(from, s)) {
@@ -103,22 +112,26 @@ double turns_around(const Outline& outline, Point2 p) {
     }
     from = s.to;
   }
-  return turns;
+  return found;
 }
 
-/// True if a point is so far from all outlines that their chords (256 per arc) determine its side.
-bool is_clear(const RegionSearch& search, Point2 p, double margin) {
-  const auto nearest = search.nearest(p);
-  return !nearest || nearest->distance.mm() > margin;
-}
+/// Of all cases: points that were so far from the outlines that their chords determine the side, and all.
+long compared_points = 0, drawn_points = 0;
 
 std::string Case::membership(const std::vector<Outline>& outlines, const Region& made, FillRule rule) {
-  const RegionSearch search(made), raw(Region{outlines});
+  const RegionSearch search(made);
   for (int i = 0; i < 10; ++i) {
     const Point2 p = drawer_.point(1.5 * size_, false);
-    if (!is_clear(raw, p, 1e-3 * size_)) continue;
     long winding = 0;
-    for (const Outline& o : outlines) winding += std::lround(turns_around(o, p));
+    double nearest = 1e300;
+    for (const Outline& o : outlines) {
+      const Around found = around(o, p);
+      winding += std::lround(found.turns);
+      nearest = std::min(nearest, found.distance);
+    }
+    ++drawn_points;
+    if (nearest <= 1e-3 * size_) continue;
+    ++compared_points;
     const bool inside = rule == FillRule::positive  ? winding > 0
                         : rule == FillRule::nonzero ? winding != 0
                                                     : (winding & 1) != 0;
@@ -209,6 +222,7 @@ int main(int argc, char** argv) {
     ++failed;
     fmt::print("property_region 1 {}: {}\n", own, wrong);
   }
-  fmt::print("{} failed\n", failed);
+  fmt::print("{} failed; {} of {} points compared\n", failed, compared_points, drawn_points);
+  if (compared_points < drawn_points / 2) return 1;
   return failed == 0 ? 0 : 1;
 }

@@ -152,6 +152,13 @@ def test_curves_become_arcs():
     assert kerf.fit_bezier([(0, 0), (10, 10), (20, 0)], 0.01)[-1][-2:] == pytest.approx((20, 0))
     spline = kerf.fit_spline([(0, 0), (1, 2), (3, 2), (4, 0)], [0, 0, 0, 0, 1, 1, 1, 1], within=0.001)
     assert spline[0] == (0, 0)
+    assert spline[-1][-2:] == pytest.approx((4, 0))
+    # A clamped spline of one span is a Bezier curve: its points by Bernstein's formula.
+    curve = [(3 * t * (1 - t) ** 2 * 1 + 3 * t * t * (1 - t) * 3 + t ** 3 * 4,
+              3 * t * (1 - t) ** 2 * 2 + 3 * t * t * (1 - t) * 2) for t in (k / 5000 for k in range(5001))]
+    ends = [segment[-2:] for segment in spline]
+    assert len(ends) > 3
+    assert all(min(math.dist(end, point) for point in curve) < 0.0015 for end in ends)
     assert all(math.hypot(*p) == pytest.approx(1) for p in kerf.flattened([(1, 0), (0, 1, -1, 0)], 0.1))
 
 

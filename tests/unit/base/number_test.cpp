@@ -87,6 +87,10 @@ TEST(Number, LengthsWithTheirUnit) {
 
 TEST(Number, ExactTextReadsBackAsTheSame) {
   for (const double v : {0.1, -1.0 / 3.0, 1e-300, 123456789.125}) EXPECT_EQ(parse_number(exact_text(v)), v);
+  // The shortest digits that have the same value, as Python's repr gives them.
+  EXPECT_EQ(exact_text(0.1), "0.1");
+  EXPECT_EQ(exact_text(-1.0 / 3.0), "-0.3333333333333333");
+  EXPECT_EQ(exact_text(123456789.125), "123456789.125");
 }
 
 TEST(DidYouMean, FindsSlipsButNotOtherWords) {

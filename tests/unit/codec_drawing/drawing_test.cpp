@@ -27,11 +27,17 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(Drawing, BoundsFollowArcsAndBulges) {
   const auto b = drawing_bounds(sample());
-  EXPECT_NEAR(b[0], 10 * std::cos(100 * 3.14159265358979 / 180), 1.8);  // the circle reaches -2
   EXPECT_DOUBLE_EQ(b[0], -2.0);
   EXPECT_NEAR(b[1], -5.0, 1e-12);  // a bulge of 1 is half a circle, to the right of its chord
   EXPECT_NEAR(b[2], 10.0, 1e-12);
   EXPECT_NEAR(b[3], 10.0, 1e-12);
+  Drawing arc = sample();
+  arc.entities = {{0, drawing::Arc{0, 0, 10, 350, 100}}};
+  const auto of_arc = drawing_bounds(arc);
+  EXPECT_NEAR(of_arc[0], 10 * std::cos(100 * 3.14159265358979 / 180), 1e-9);
+  EXPECT_NEAR(of_arc[1], 10 * std::sin(350 * 3.14159265358979 / 180), 1e-9);
+  EXPECT_NEAR(of_arc[2], 10.0, 1e-9);
+  EXPECT_NEAR(of_arc[3], 10.0, 1e-9);
   EXPECT_EQ(drawing_bounds(Drawing{}), (std::array<double, 4>{0, 0, 0, 0}));
 }
 

@@ -184,13 +184,20 @@ TEST(ReadMesh, Damaged3mf) {
   expect_code(package(model_with("", "yard")), MeshFormat::three_mf, Code::mesh_file, "unit");
 }
 
+/// All three formats state their size, or have their directory at the end.
 TEST(ReadMesh, EveryShortenedFileIsRefusedOrWhole) {
   for (const MeshFormat format : {MeshFormat::stl, MeshFormat::three_mf, MeshFormat::glb}) {
     const std::string good = write_mesh(Tetrahedron().view(), format);
     for (std::size_t size = 0; size < good.size(); ++size) {
       Diagnostics diagnostics;
       const auto mesh = read(good.substr(0, size), format, diagnostics);
-      EXPECT_EQ(mesh.has_value(), !diagnostics.has_errors());
+      // The last bytes of an archive repeat where its directory is, and are the length of its comment.
+      const bool complete = format == MeshFormat::three_mf && size + 8 >= good.size();
+      EXPECT_TRUE(!mesh || complete) << size << " of " << good.size();
+      EXPECT_EQ(mesh.has_value(), !diagnostics.has_errors()) << size;
+      if (mesh) {
+        EXPECT_NEAR(volume(*mesh), -8.0 * 4.0 * -2.0 / 6.0, 1e-6);
+      }
     }
   }
 }

@@ -117,19 +117,26 @@ TEST(GcodeProgram, APrinterExtrudesFilament) {
       options, diagnostics);
   EXPECT_FALSE(diagnostics.has_errors()) << to_string(diagnostics.list().front());
   std::vector<double> volumes;
+  int dwells = 0, temperatures = 0, fans = 0;
   for (std::size_t i = 0; i < program.path.size(); ++i) {
     const Step& s = program.path[i];
     if (s.kind() == StepKind::extrude) volumes.push_back(program.path.extrude(i).volume.raw());
     if (s.kind() == StepKind::dwell) {
       EXPECT_NEAR(s.dwell().time.seconds(), 0.5, 1e-12);
+      ++dwells;
     }
     if (s.kind() == StepKind::temperature) {
       EXPECT_EQ(s.temperature().celsius, 200.0);
+      ++temperatures;
     }
     if (s.kind() == StepKind::fan) {
       EXPECT_EQ(s.fan().fraction, 1.0);
+      ++fans;
     }
   }
+  EXPECT_EQ(dwells, 1);
+  EXPECT_EQ(temperatures, 1);
+  EXPECT_EQ(fans, 1);
   ASSERT_EQ(volumes.size(), 2u);
   EXPECT_NEAR(volumes[0], 3.14159265, 1e-6);
   EXPECT_NEAR(volumes[1], 2 * 3.14159265, 1e-6);

@@ -27,6 +27,30 @@ TEST(StockFile, LeftOverStockReadsBack) {
   EXPECT_EQ(columns->runs, three_columns().columns.runs);
 }
 
+/// The file of these columns, byte by byte as the format has it: "KERFSTK1"; both corners of the block, the
+/// position of the first column and the pitch as doubles; two counts; for each group of equal columns their
+/// number, the number of runs, and each run as two floats. Written with Python's struct.
+constexpr std::string_view kThreeColumns =
+    "4b45524653544b31000000000000f03f000000000000004000000000000014c000000000000010400000000000000840"
+    "0000000000000000000000000000f83f0000000000000440000000000000f03f03000000010000000201000000000000"
+    "a0400102000000000000c03f0000104000008040";
+
+std::string from_hex(std::string_view digits) {
+  std::string bytes;
+  for (std::size_t k = 0; k + 1 < digits.size(); k += 2)
+    bytes += static_cast<char>(std::stoi(std::string(digits.substr(k, 2)), nullptr, 16));
+  return bytes;
+}
+
+TEST(StockFile, LeftOverStockIsOfItsFormat) {
+  EXPECT_EQ(write_left_file(three_columns()), from_hex(kThreeColumns));
+  Diagnostics diagnostics;
+  const auto stock = read_stock_file(from_hex(kThreeColumns), "part.kstock", diagnostics);
+  ASSERT_TRUE(stock && diagnostics.list().empty());
+  EXPECT_EQ(stock->block, (Box3{{1, 2, -5}, {4, 3, 0}}));
+  EXPECT_DOUBLE_EQ(stock->body->volume().mm3(), 5 + 5 + 1.5 + 1.75);
+}
+
 TEST(StockFile, DamagedLeftOverStock) {
   const std::string good = write_left_file(three_columns());
   for (std::size_t size = 0; size < good.size(); ++size) {
@@ -41,6 +65,9 @@ TEST(StockFile, DamagedLeftOverStock) {
     Diagnostics diagnostics;
     const auto stock = read_stock_file(bytes, "a.kstock", diagnostics);
     EXPECT_EQ(stock.has_value(), !diagnostics.has_errors());
+    // The magic word, both counts of columns, and those of the groups.
+    const bool must_fail = at < 8 || (at >= 80 && at < 90);
+    EXPECT_FALSE(must_fail && stock.has_value()) << at;
   }
   Diagnostics diagnostics;
   EXPECT_FALSE(read_stock_file(good + "x", "a.kstock", diagnostics));

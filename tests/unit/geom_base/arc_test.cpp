@@ -32,7 +32,8 @@ TEST(ArcWalk, CentreIsInTheOrderOfThePlanesName) {
   const ArcWalk w = walk_arc({5, 0, 0}, {15, 0, 0}, {10, 0}, Plane::xz, Turn::cw, 0);
   EXPECT_NEAR(w.start_radius, 5.0, 1e-12);
   EXPECT_NEAR(w.end_radius, 5.0, 1e-12);
-  EXPECT_NEAR(std::abs(w.at(0.5).z), 5.0, 1e-12);
+  EXPECT_NEAR(w.at(0.5).z, -5.0, 1e-12);  // clockwise from -X, seen from +Y: -X, -Z, +X
+  EXPECT_NEAR(w.at(0.5).x, 10.0, 1e-12);
 }
 
 TEST(ArcWalk, BoundsContainTheExtremes) {

@@ -187,5 +187,15 @@ TEST(EstimateTime, WhatPrecedesTheFirstMotionOfAnOperationBelongsToItAlone) {
   }
 }
 
+TEST(EstimateTime, AJointIsPassedAtTheSlowerFeed) {
+  const double fast = 25, slow = 10, a = 200;  // mm/s and mm/s2
+  // 20 mm up to the fast feed and down to the slow one, and 20 mm at the slow one down to a stop.
+  const double ramps = fast * fast / (2 * a) + (fast * fast - slow * slow) / (2 * a);
+  const double first = fast / a + (fast - slow) / a + (20 - ramps) / fast;
+  const double second = slow / a + (20 - slow * slow / (2 * a)) / slow;
+  EXPECT_NEAR(Job().cut({20, 0, 0}, 60 * fast).cut({40, 0, 0}, 60 * slow).motion(), first + second, kExact);
+  EXPECT_NEAR(Job().cut({20, 0, 0}, 60 * slow).cut({40, 0, 0}, 60 * fast).motion(), first + second, kExact);
+}
+
 }  // namespace
 }  // namespace kerf

@@ -72,6 +72,20 @@ TEST(ChordsToArcs, keeps_polygons_lines_and_changes_of_feed) {
   EXPECT_EQ(count_of(result.path, StepKind::arc), 2u);
 }
 
+TEST(ChordsToArcs, two_chords_are_no_arc) {
+  for (const std::size_t fewest : {1u, 2u, 3u}) {
+    EXPECT_EQ(count_of(chords_to_arcs(chords(10, 0.02, 2), {.tolerance = mm(0.01), .fewest = fewest}).path,
+                       StepKind::arc),
+              0u);
+    EXPECT_EQ(count_of(chords_to_arcs(chords(10, 0.3, 30), {.tolerance = mm(0.01), .fewest = fewest}).path,
+                       StepKind::arc),
+              1u);
+  }
+  EXPECT_EQ(
+      count_of(chords_to_arcs(chords(10, 0.1, 5), {.tolerance = mm(0.01), .fewest = 6}).path, StepKind::arc),
+      0u);
+}
+
 TEST(ChordsToArcs, a_whole_circle_keeps_its_length) {
   const PassResult result = chords_to_arcs(chords(10, 1.0, 360), {.tolerance = mm(0.01)});
   EXPECT_NEAR(result.after.cut_mm, result.before.cut_mm, 0.01);
@@ -135,6 +149,16 @@ TEST(ShortenRapids, removes_rapids_without_effect) {
   ASSERT_EQ(result.path.size(), 5u);
   EXPECT_EQ(result.path[2].to().z, 0.5);
   EXPECT_LT(result.after.rapid_mm, result.before.rapid_mm);
+}
+
+TEST(ShortenRapids, keeps_a_way_down_and_up) {
+  Toolpath path = started();
+  path.add(step::Cut{{0, 0, -1}, kFeed}, OriginId::none);
+  path.add(step::Rapid{{0, 0, -5}}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  const PassResult result = shorten_rapids(path);
+  EXPECT_EQ(result.path.size(), 4u);
+  EXPECT_EQ(result.after.rapid_mm, 4 + 10);
 }
 
 TEST(ShortenRapids, keeps_motions_at_unknown_positions) {

@@ -102,6 +102,13 @@ TEST(Compare, DifferencesWithinTheToleranceHaveVolumeButNoRegion) {
   EXPECT_EQ(c.gouge_beyond.mm3(), 0.0);
 }
 
+TEST(Compare, AHighWallWithinTheToleranceIsNoRegion) {
+  const Comparison c = compared(cut_step(-3, 19.9), stepped(5), 0.06);  // the column's centre is 0.05 off
+  EXPECT_EQ(c.region_count, 0u);
+  EXPECT_NEAR(c.rest.mm3(), 0.1 * 20 * 3, 0.1);
+  EXPECT_EQ(c.rest_beyond.mm3(), 0.0);
+}
+
 TEST(Compare, SeparateRegionsAreSortedByDepth) {
   Triangles target = box_mesh({0, 0, -8}, {40, 20, 0});
   const Workpiece part = part_of([](double x, double y) {  // two holes of 6 mm

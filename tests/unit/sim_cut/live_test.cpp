@@ -78,7 +78,7 @@ class RandomJob {
     // Short motions, so that an edit leaves most tiles unchanged.
     const Point3 near = moves_.empty() ? Point3{25, 20, 0} : moves_.back().to;
     out.to = {std::clamp(near.x + number(-8, 8), -5.0, 55.0), std::clamp(near.y + number(-8, 8), -5.0, 45.0),
-              number(-4, 1)};
+              pick(20) == 0 ? -10.5 : number(-4, 1)};  // also below the floor
     if (pick(8) == 0) out.kind = StepKind::rapid;
     if (pick(5) == 0) out.kind = StepKind::arc;
     if (pick(10) == 0) out.tool = 1 + static_cast<int>(pick(2));

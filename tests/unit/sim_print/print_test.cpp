@@ -160,6 +160,16 @@ TEST(Print, ARightAngleHasTheKnownExcess) {
   EXPECT_NEAR(s.total.ends.mm3(), kEnds, 0.02 * kEnds);
 }
 
+TEST(Print, ACornerBetweenTwoWidthsIsTheSameInBothDirections) {
+  const auto one =
+      run(Print().travel({0, 0, kHeight}).bead({10, 0, kHeight}, 1.0).bead({10, 10, kHeight}, 0.4), 0.01);
+  const auto other =
+      run(Print().travel({10, 10, kHeight}).bead({10, 0, kHeight}, 0.4).bead({0, 0, kHeight}, 1.0), 0.01);
+  EXPECT_GT(one.total.overlap.mm3(), 0.0);
+  EXPECT_NEAR(one.total.overlap.mm3(), other.total.overlap.mm3(), 1e-3 * one.total.overlap.mm3());
+  EXPECT_NEAR(in_columns(one), in_columns(other), 1e-4 * in_columns(one));
+}
+
 TEST(Print, AGridOfInfillEnclosesItsCells) {
   Print print;
   constexpr double kCell = 2.0, kSide = 10.0;

@@ -117,6 +117,12 @@ TEST(Render, SideViewsShowTheirSides) {
   EXPECT_EQ(look(render(mesh, colours, small("right"))).blue, 0);
 }
 
+TEST(Render, TheBackgroundIsBrighterAtTheTop) {
+  const Image image = render(stepped_block(3), {}, small("iso"));
+  const std::uint8_t *top = image.rgba.data(), *bottom = top + 4 * image.width * (image.height - 1);
+  for (int channel = 0; channel < 3; ++channel) EXPECT_GT(top[channel], bottom[channel] + 10);
+}
+
 TEST(Render, IsoViewIsShaded) {
   const Mesh mesh = stepped_block(3);
   const Image image = render(mesh, {}, small("iso"));
