@@ -292,5 +292,11 @@ TEST(GcodeDiagnostics, RadiiOfAnArcMayDifferByAThousandth) {
   EXPECT_EQ(count_of(Code::arc_radius_mismatch, "F9 G0 X0 Y0\nG2 X400.06 Y0 I200"), 1u) << "a visible step";
 }
 
+TEST(GcodeDiagnostics, ARepeatedFeedModeNeedsAFeed) {
+  EXPECT_EQ(count_of(Code::word_missing, "G94 F100 G1 X1\nG94 F200\nX2"), 0u);
+  EXPECT_EQ(count_of(Code::word_missing, "G94 F100 G1 X1\nG94\nX2"), 1u);
+  EXPECT_EQ(count_of(Code::word_missing, "G94\nF100 G1 X1"), 0u);
+}
+
 }  // namespace
 }  // namespace kerf

@@ -63,7 +63,7 @@ bool Interpreter::accepts_simple_lines() const {
   const bool modes = modes_.absolute && modes_.feed_mode == FeedMode::per_minute && !modes_.diameters &&
                      (modes_.motion == 0 || modes_.motion == 10);
   const bool path = frame_.only_shifted && !compensation_.cutter && !compensation_.leaving && !rotary_used_ &&
-                    !starts_at_rest_ && position_.reference_axes == 0;
+                    !starts_at_rest_ && !feed_mode_repeated_ && position_.reference_axes == 0;
   return modes && path && moved_ && !printer && !program_.ended && current_depth_ == 0;
 }
 
