@@ -36,6 +36,12 @@ def test_info_text(kerf, program):
         assert word in run.out
 
 
+def test_info_names_tools_that_cut_deeper_than_their_flute(kerf, program):
+    for depth, deeper in ((-12.6, False), (-12.8, True)):  # the flute of tool 102 is 12.7 mm
+        out = kerf("info", program(f"M6 T102\nM3 S1000\nG0 X0 Y0 Z2\nG1 Z{depth} F100\nM2\n")).out
+        assert ("deeper than its flute" in out) == deeper
+
+
 def test_info_of_inches(kerf, program):
     run = kerf("info", "--json", program("G20\nM6 T102\nM3 S1\nG1 X1 F10\nM2\n"))
     assert run.json["units"] == "inch"

@@ -407,5 +407,15 @@ TEST(Post, a_fan_turns_at_full_speed_at_most) {
   }
 }
 
+TEST(Post, long_comments_of_templates_are_cut_and_closed) {
+  PostProfile profile = bare("grbl");
+  profile.longest_line = 30;
+  profile.header = {"(a comment of the header that is longer than a line)"};
+  const std::string text = posted(at_origin(), profile).text();
+  const std::string first = text.substr(0, text.find('\n'));
+  EXPECT_EQ(first, "(a comment of the header that)");
+  EXPECT_EQ(first.size(), 30u);
+}
+
 }  // namespace
 }  // namespace kerf

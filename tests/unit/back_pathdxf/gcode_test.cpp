@@ -1,6 +1,7 @@
 // The G-code text of PathDxf2GCode from steps.
 #include <gtest/gtest.h>
 
+#include "kerf/adjust_z.h"
 #include "kerf/pathdxf_gcode.h"
 
 namespace kerf {
@@ -68,6 +69,17 @@ TEST(PathdxfGcode, RefusesOtherSteps) {
   Diagnostics diagnostics;
   pathdxf_gcode(path, {}, diagnostics);
   EXPECT_TRUE(diagnostics.has_errors());
+}
+
+TEST(AdjustZ, TheFirstExpectedHeightOfAProbeCounts) {
+  const auto heights = expected_heights("G01 Z1(=[#51-2.500])\nG01 Z1(=[#52-1]+[#51-9.000])\n");
+  EXPECT_EQ(heights, (std::map<int, double>{{51, 2.5}, {52, 1.0}}));
+}
+
+TEST(AdjustZ, PositionsInCommentsAreNotProbed) {
+  const auto at =
+      probed_positions("G00 X1 Y2 (X7 Y8)\nG38.2 Z0 F50\nG00 Y5 ; X9\nG38.2 Z0 (G38.2)\n(G38.2)\n");
+  EXPECT_EQ(at, (std::vector<std::array<double, 2>>{{1, 2}, {1, 5}}));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Drawings as DXF and SVG: the content of the files.
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <sstream>
 
 #include "kerf/drawing_files.h"
 
@@ -112,6 +114,23 @@ TEST(Drawing, AnglesOfArcsAreWrittenFrom0To360) {
   }
   drawing.entities = {{0, drawing::Arc{0, 0, 10, 10.0, -45.0}}};
   EXPECT_EQ(count(write_dxf(drawing), "\n 51\n315\n"), 1u);
+}
+
+TEST(Drawing, SvgArcsOfMoreThanHalfACircleAreTheLargeOnes) {
+  Drawing drawing;
+  drawing.layers = {{"0", 7, {}, 0.5, LineKind::solid}};
+  for (const auto& [end, large] : {std::pair(90.0, "0"), std::pair(200.0, "1"), std::pair(359.0, "1")}) {
+    drawing.entities = {{0, drawing::Arc{0, 0, 10, 0, end}}};
+    const std::string svg = write_svg(drawing);
+    const std::size_t arc = svg.find('A', svg.find(" d=\""));
+    ASSERT_NE(arc, std::string::npos) << svg;
+    std::string text = svg.substr(arc + 1, 40);
+    std::replace(text.begin(), text.end(), ',', ' ');
+    std::istringstream words(text);
+    std::string rx, ry, rotation, flag;
+    words >> rx >> ry >> rotation >> flag;
+    EXPECT_EQ(flag, large) << end << ": " << text;
+  }
 }
 
 }  // namespace

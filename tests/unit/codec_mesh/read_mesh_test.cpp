@@ -131,13 +131,19 @@ TEST(ReadMesh, DamagedObjAndGlb) {
 }
 
 /// A 3MF with the given model and nothing else.
-std::string package(const std::string& model, const std::string& part = "3D/3dmodel.model") {
+std::string package(const std::string& model, const std::string& part = "3D/3dmodel.model",
+                    const std::string& second = "") {
   const std::string path = testing::TempDir() + "/kerf_read_mesh.3mf";
   zipFile zip = zipOpen64(path.c_str(), APPEND_STATUS_CREATE);
   zip_fileinfo info{};
   zipOpenNewFileInZip(zip, part.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, 6);
   zipWriteInFileInZip(zip, model.data(), static_cast<unsigned>(model.size()));
   zipCloseFileInZip(zip);
+  if (!second.empty()) {
+    zipOpenNewFileInZip(zip, "3D/second.model", &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED, 6);
+    zipWriteInFileInZip(zip, second.data(), static_cast<unsigned>(second.size()));
+    zipCloseFileInZip(zip);
+  }
   zipClose(zip, nullptr);
   FILE* file = std::fopen(path.c_str(), "rb");
   std::string bytes(1 << 20, '\0');
@@ -169,6 +175,19 @@ TEST(ReadMesh, AssemblesThePartsOfA3mf) {
   EXPECT_DOUBLE_EQ(mesh->positions[3], 4.0 * 25.4);
   EXPECT_DOUBLE_EQ(mesh->positions[5], 2.0 * 25.4);
   EXPECT_DOUBLE_EQ(mesh->positions[14], 0.0);
+}
+
+TEST(ReadMesh, ThePartsOfA3mfAreThoseOfItsFirstModel) {
+  const std::string first =
+      "<model unit=\"millimeter\" "
+      "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\">"
+      "<resources/><build><item objectid=\"1\" p:path=\"/3D/second.model\"/></build></model>";
+  // The second file has a build of its own, which slicers write and which does not count.
+  const std::string second = model_with("<item objectid=\"1\"/><item objectid=\"2\"/>", "millimeter");
+  Diagnostics diagnostics;
+  const auto mesh = read(package(first, "3D/3dmodel.model", second), MeshFormat::three_mf, diagnostics);
+  ASSERT_TRUE(mesh) << to_string(diagnostics.list().front());
+  EXPECT_EQ(mesh->triangles.size(), 3u);
 }
 
 TEST(ReadMesh, Damaged3mf) {

@@ -98,5 +98,12 @@ TEST(Printer, TheFilamentDiameterIsThatOfTheOptionsElseOfTheComments) {
               std::numbers::pi / 4.0, 1e-9);
 }
 
+TEST(Printer, FilamentInInchesIsConverted) {
+  const auto made = beads("M104 S200\nG20\nM83\nG1 X0 Y0 Z0.01 F20\nG1 X1 E0.5\n");
+  ASSERT_EQ(made.size(), 1u);
+  EXPECT_NEAR(made[0].volume.mm3(), 0.5 * 25.4 * kUsual, 1e-9);
+  EXPECT_NEAR(made[0].to.x, 25.4, 1e-9);
+}
+
 }  // namespace
 }  // namespace kerf::test

@@ -328,5 +328,10 @@ TEST(ReadGcode, CanBeStopped) {
   EXPECT_LT(stopper.last, 0.5);
 }
 
+TEST(ReadGcode, ThePitchOfAThreadIsInTheProgramsUnit) {
+  EXPECT_NEAR(feed_of(read("G21 S100 M3\nG33 Z-5 K1.5\nM2"), 1), 1.5 * 100, 1e-9);
+  EXPECT_NEAR(feed_of(read("G20 S100 M3\nG33 Z-1 K0.1\nM2"), 1), 0.1 * 25.4 * 100, 1e-9);
+}
+
 }  // namespace
 }  // namespace kerf

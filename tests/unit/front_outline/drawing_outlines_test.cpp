@@ -211,6 +211,20 @@ TEST(DrawingOutlines, BlocksAreInsertedAndStretched) {
   EXPECT_NEAR(bounds(stretched.outline(1)).low.x, 110.0, 0.01);
 }
 
+/// Layer 0 of a block is that of its insert (AutoCAD's rule); entities on other layers keep theirs.
+TEST(DrawingOutlines, EntitiesOfBlocksKeepTheirLayers) {
+  const std::string blocks = "0\nBLOCK\n8\n0\n2\nB\n10\n0\n20\n0\n" +
+                             entity("CIRCLE", {{10, 0}, {20, 0}, {40, 1}}, "0") +
+                             entity("CIRCLE", {{10, 9}, {20, 0}, {40, 2}}, "CUT") + "0\nENDBLK\n";
+  const Drawn drawn = draw(file_of("0\nINSERT\n8\nDRILL\n2\nB\n10\n0\n20\n0\n", blocks));
+  ASSERT_TRUE(drawn.made);
+  ASSERT_EQ(drawn.made->outlines.size(), 2u);
+  for (const DrawnOutline& o : drawn.made->outlines) {
+    ASSERT_TRUE(o.circle);
+    EXPECT_EQ(o.layer, o.circle->radius.mm() < 1.5 ? "DRILL" : "CUT");
+  }
+}
+
 TEST(DrawingOutlines, TiltedFarAndOtherEntities) {
   const Drawn tilted = draw(file_of(entity("LINE", {{10, 0}, {20, 0}, {30, 5}, {11, 10}, {21, 0}, {31, 0}})));
   EXPECT_TRUE(tilted.made && tilted.has(Code::drawing_tilted));

@@ -62,6 +62,15 @@ TEST(PathWalk, ReportsWhatItDoesNotReach) {
   EXPECT_DOUBLE_EQ(open->distance, 0.5);
 }
 
+TEST(PathWalk, NamesTheNearestOfSeveralEnds) {
+  const std::vector<Link> links{{{90, 0}, {50, 0}, 0, 4}, {{30, 3}, {34, 0}, 0, 4}, {{40, 0}, {70, 0}, 0, 4}};
+  const auto open = nearest_end(links, {0, 1, 2}, {30, 0});
+  ASSERT_TRUE(open);
+  EXPECT_EQ(open->at, (Point2{30, 3}));
+  EXPECT_DOUBLE_EQ(open->distance, 3.0);
+  EXPECT_EQ(nearest_end(links, {0, 2}, {30, 0})->at, (Point2{40, 0}));
+}
+
 TEST(PathWalk, TakesTimeInProportionToTheElements) {
   std::vector<Link> links;  // a star: all at one point
   for (int i = 0; i < 100'000; ++i) links.push_back({{0, 0}, {0, 0}, double(i % 7), i % 3});
@@ -107,7 +116,8 @@ TEST(TextTargets, TakeTheNearest) {
   for (std::size_t i = 0; i < elements.size(); ++i) targets.add(elements[i], i);
   EXPECT_EQ(targets.take({{0, 0}, 2.0}), 1u);
   EXPECT_EQ(targets.take({{0, 0}, 2.0}), 0u);
-  EXPECT_FALSE(targets.take({{5.5, 0}, 2.0}));  // beyond the end of the third line
+  EXPECT_FALSE(targets.take({{5.5, 0}, 2.0}));  // before the start of the third line
+  EXPECT_FALSE(targets.take({{9.5, 0}, 2.0}));  // beyond its end
   EXPECT_EQ(targets.take({{6.5, 0}, 2.0}), 2u);
 }
 

@@ -128,5 +128,18 @@ TEST(StockFile, Shifts) {
   EXPECT_EQ(diagnostics.errors(), 4u);
 }
 
+TEST(StockFile, AGroupEndsWithTheLastColumn) {
+  std::string bytes = from_hex(kThreeColumns);
+  const std::size_t second = bytes.size() - 4 * 4 - 2;  // the group of the last column
+  ASSERT_EQ(bytes[second], 1);
+  Diagnostics diagnostics;
+  for (const char columns : {'\0', '\2', '\3'}) {
+    bytes[second] = columns;
+    EXPECT_FALSE(read_stock_file(bytes, "a.kstock", diagnostics)) << static_cast<int>(columns);
+  }
+  bytes[second] = char{1};
+  EXPECT_TRUE(read_stock_file(bytes, "a.kstock", diagnostics));
+}
+
 }  // namespace
 }  // namespace kerf

@@ -102,6 +102,29 @@ TEST(Compare, DifferencesWithinTheToleranceHaveVolumeButNoRegion) {
   EXPECT_EQ(c.gouge_beyond.mm3(), 0.0);
 }
 
+TEST(Compare, TheMapHasTheDeeperOfTheDifferencesOfAColumn) {
+  // A plate whose lower side is cut by `below`, with `above` left on top.
+  const auto map_of = [](float below, float above) {
+    LeftColumns left;
+    left.bounds = {{0, 0, -8}, {40, 20, 0}};
+    left.positions = {.x = 0.5, .y = 0.5, .z = -8.0, .pitch = 1.0, .nx = 40, .ny = 20};
+    left.columns.nx = 40;
+    left.columns.ny = 20;
+    for (std::uint32_t n = 0; n < 800; ++n) {
+      left.columns.first.push_back(n);
+      left.columns.runs.push_back({below, 5.0f + above});
+    }
+    left.columns.first.push_back(800);
+    const Stock stock = stock_of(make_columns_body(std::move(left)));
+    Workpiece part(stock, mm(1));
+    Diagnostics diagnostics;
+    EXPECT_TRUE(sim::fill_from_body(part.body(), *stock.body, diagnostics, nullptr));
+    return compared(part, box_mesh({0, 0, -8}, {40, 20, -3})).map[10 * 40 + 20];
+  };
+  EXPECT_NEAR(map_of(0.4f, 0.3f), -0.4f, 1e-4);
+  EXPECT_NEAR(map_of(0.2f, 0.6f), 0.6f, 1e-4);
+}
+
 TEST(Compare, AHighWallWithinTheToleranceIsNoRegion) {
   const Comparison c = compared(cut_step(-3, 19.9), stepped(5), 0.06);  // the column's centre is 0.05 off
   EXPECT_EQ(c.region_count, 0u);
