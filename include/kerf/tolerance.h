@@ -34,6 +34,7 @@ struct ArcMismatch {
 namespace default_tolerance {
 
 inline constexpr Length kHazardDepth = mm(0.001);  // shallower contacts of the simulator are not reported
+inline constexpr Length kGrazeDepth = mm(0.01);    // shallower contacts of its walls are not reported
 inline constexpr Length kNozzleDepth = mm(0.01);   // likewise of a nozzle in printed material
 inline constexpr Length kComparison = mm(0.05);    // smaller differences from a target are not reported
 inline constexpr Length kMeshMerging = mm(0.002);  // of merged triangles, in height

@@ -7,6 +7,7 @@
 #include "job/choices.h"
 #include "job/job_findings.h"
 
+#include "kerf/grazes.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
 #include "kerf/rotary.h"
@@ -158,8 +159,9 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   const auto simulation = simulate({borrowed(path), job.tools, *job.stock, how}, diagnostics, progress);
   if (!simulation) return {};
   if (!simulation->stopped) warn_untouched(job, simulation->removed, diagnostics);
-  return merged(findings_at_fixtures(path, job, how, diagnostics, progress),
-                findings_in_stock(job, *simulation));
+  std::vector<Finding> found = findings_in_stock(job, *simulation);
+  found = merged(std::move(found), findings_of(find_grazes(*simulation, {}, progress), path));
+  return merged(findings_at_fixtures(path, job, how, diagnostics, progress), std::move(found));
 }
 
 /// The box around a bar.

@@ -104,7 +104,7 @@ PUBLIC = {
     "sim_sweep": ["hazard.h", "simulation_options.h"],
     "sim_cut": ["simulate.h", "live.h", "fixtures.h"],
     "sim_mesh": ["mesh.h"],
-    "sim_exact": ["exact_mesh.h"],
+    "sim_exact": ["exact_mesh.h", "grazes.h"],
     "sim_render": ["render.h"],
     "sim_compare": ["compare.h"],
     "sim_rotary": ["rotary.h"],
