@@ -39,7 +39,8 @@ class InputFile {
 };
 
 /// An output file that is written in chunks next to its target and appears complete, by rename, or not at
-/// all. A symbolic link is followed. Anything but a regular file (a device, a pipe) is written directly.
+/// all. A symbolic link is followed. The permissions of a replaced file are kept; one that is write-protected
+/// is not replaced. Anything but a regular file (a device, a pipe) is written directly.
 class OutputFile {
  public:
   /// Creates the file. Nothing, with an error appended, on failure.

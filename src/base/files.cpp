@@ -166,10 +166,35 @@ std::string part_name(const std::string& target) {
 
 }  // namespace
 
+namespace {
+
+/// Permissions of a file that an output replaces; nothing if there is none.
+std::optional<std::filesystem::perms> permissions_of(const std::string& target) {
+  std::error_code failed;
+  const auto status = std::filesystem::status(target, failed);
+  if (failed || !std::filesystem::is_regular_file(status)) return std::nullopt;
+  return status.permissions();
+}
+
+/// Renaming replaces files that cannot be written: that they are protected is tested here.
+bool is_protected(const std::string& target, std::filesystem::perms permissions) {
+  using std::filesystem::perms;
+  constexpr perms kWrite = perms::owner_write | perms::group_write | perms::others_write;
+  if ((permissions & kWrite) == perms::none) return true;
+#if defined(__unix__) || defined(__APPLE__)
+  return access(target.c_str(), W_OK) != 0;
+#else
+  return false;
+#endif
+}
+
+}  // namespace
+
 struct OutputFile::Body {
-  std::string path;       // as given by the user
-  std::string target;     // links followed
-  std::string temporary;  // empty if the target is written directly
+  std::string path;                                   // as given by the user
+  std::string target;                                 // links followed
+  std::string temporary;                              // empty if the target is written directly
+  std::optional<std::filesystem::perms> permissions;  // of the replaced file
   std::FILE* stream = nullptr;
   bool good = true;
 
@@ -198,6 +223,11 @@ std::optional<OutputFile> OutputFile::create(const std::string& path, Diagnostic
   body->path = path;
   const bool replaces = can_be_replaced(path);
   body->target = replaces ? followed(path) : path;
+  if (replaces) body->permissions = permissions_of(body->target);
+  if (body->permissions && is_protected(body->target, *body->permissions)) {
+    body->fail("cannot write the file", "it is write-protected", diagnostics);
+    return std::nullopt;
+  }
   const std::string name = replaces ? part_name(body->target) : path;
   body->stream = std::fopen(name.c_str(), replaces ? "wbx" : "wb");
   if (body->stream == nullptr) {
@@ -225,6 +255,7 @@ bool OutputFile::commit(Diagnostics& diagnostics) {
   if (!close(diagnostics)) return false;
   if (body_->temporary.empty()) return true;
   std::error_code error;
+  if (body_->permissions) std::filesystem::permissions(body_->temporary, *body_->permissions, error);
   std::filesystem::rename(body_->temporary, body_->target, error);
   if (error) return body_->fail("cannot rename the file to its target", error.message(), diagnostics);
   body_->temporary.clear();

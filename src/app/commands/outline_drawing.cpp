@@ -197,7 +197,7 @@ void mark_faults(Drawing& drawing, const DrawingOutlines& drawn) {
 
 void write_files(Result& result, const std::string& file, const std::string& svg, const std::string& dxf,
                  Diagnostics& diagnostics) {
-  OutputSet set;
+  OutputSet set({file});
   Drawing drawing = picture(result, std::filesystem::path(file).filename().string());
   bool written = true;
   if (!dxf.empty()) written = set.write(dxf, write_dxf(drawing), diagnostics);

@@ -115,15 +115,16 @@ bool levelled(Program& program, const Options& options, Console& console, Json& 
   return true;
 }
 
-Status write(Console& console, const Options& options, const std::vector<PostedFile>& files, Json result,
-             Diagnostics& diagnostics) {
+/// `inputs`: files that must not be replaced, also under the names of files per tool.
+Status write(Console& console, const Options& options, const std::vector<PostedFile>& files,
+             std::vector<std::string> inputs, Json result, Diagnostics& diagnostics) {
   if (options.out.empty()) {
     console.show(diagnostics, Console::Channel::always_text);
     for (const PostedFile& file : files) console.print_json(file.text);
     return Status::done;
   }
   const std::vector<std::string> names = posted_file_names(options.out, files);
-  OutputSet set;
+  OutputSet set(std::move(inputs));
   for (std::size_t i = 0; i < files.size(); ++i)
     if (!set.write(names[i], files[i].text, diagnostics))
       return fail(console, diagnostics, Status::input_errors);
@@ -200,7 +201,7 @@ Status run(Console& console, const Options& options) {
                 "one file per tool is written; specify their name with -o");
     return fail(console, usage, Status::wrong_usage);
   }
-  return write(console, options, files, std::move(result), diagnostics);
+  return write(console, options, files, program->files, std::move(result), diagnostics);
 }
 
 const char* const kExamples =
