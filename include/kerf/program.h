@@ -36,6 +36,7 @@ struct Program {
   Toolpath path;
   ProgramUnits units = ProgramUnits::mm;  // of the program's text; the toolpath is always in mm
   std::map<int, Tool> tools;              // those described in the program itself
+  ToolTable tools_beside;                 // LinuxCNC's tool.tbl in its folder, for G-code of that dialect
   std::optional<Stock> stock;             // if described in the program itself
   ProgramEnd end = ProgramEnd::not_asked;
   bool manual_spindle = false;             // inputs of its kind have no means to start the spindle

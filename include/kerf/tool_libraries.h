@@ -1,9 +1,10 @@
 // Reading tool libraries of other programs: LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON (and its
-// .tools, a zip of it), FreeCAD's .fctb, CAMotics' project JSON. Writing tools as Kerf's TOML and as
-// tool.tbl.
+// .tools, a zip of it), FreeCAD's .fctb and .fctl, CAMotics' project JSON. Writing tools as Kerf's TOML and
+// as tool.tbl.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -13,7 +14,15 @@
 
 namespace kerf {
 
-enum class ToolLibraryKind : std::uint8_t { kerf, linuxcnc, carbide_create, fusion, freecad, camotics };
+enum class ToolLibraryKind : std::uint8_t {
+  kerf,
+  linuxcnc,
+  carbide_create,
+  fusion,
+  freecad,
+  camotics,
+  freecad_library
+};
 std::string_view to_string(ToolLibraryKind kind);
 
 /// The kind of a library, detected from its text; nothing if it is none.
@@ -22,12 +31,18 @@ std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes);
 struct ToolLibraryOptions {
   double unit_mm = 1.0;  // mm per unit of files without a unit (tool.tbl): 1 or 25.4
   int first_number = 1;  // for tools without a number; used numbers are skipped
+  /// Returns the text of a tool bit that a FreeCAD library (.fctl) names. Without it they are skipped.
+  std::function<std::optional<std::string>(const std::string& name)> read_bit = {};
 };
 
 /// Reads a library of any kind into `table`. Unsupported tools are skipped with a warning that gives the
 /// reason; assumptions are reported in notes. Errors: a damaged file or an unknown format.
 void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
                        ToolTable& table, Diagnostics& diagnostics);
+
+/// Searches tool bits as FreeCAD does: next to the library and in the folder Bit beside it or beside its
+/// folder.
+std::function<std::optional<std::string>(const std::string&)> tool_bits_of(const std::string& library_path);
 
 /// The tools as a Kerf tool file; reading it gives the same tools.
 std::string write_tool_file(const ToolTable& table);

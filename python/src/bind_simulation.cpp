@@ -64,8 +64,8 @@ MillingResult simulate_program(const Program& program, const py::object& stock, 
   options.threads = to_threads(threads);
   Diagnostics made, diagnostics;
   MillingResult result;
-  result.job =
-      std::make_shared<const Job>(make_job(program, to_settings(tools, stock, {}), UnknownTool::error, made));
+  result.job = std::make_shared<const Job>(
+      make_job(program, to_settings(tools, stock, {}), UnknownTool::assume, made));
   raise_or_warn(made);
   SignalProgress progress;
   std::optional<JobRun> run;

@@ -12,6 +12,10 @@ FrontEnd gcmc_front_end();
 FrontEnd pathdxf_front_end();
 FrontEnd cut_front_end();
 
+/// The tools of LinuxCNC's tool.tbl in the folder of a G-code program, with diameters in the program's unit,
+/// and a note that says so; empty if there is none.
+ToolTable tool_table_beside(const InputFile& program, Diagnostics& diagnostics);
+
 /// The folder of a file, including its last slash; empty for the current one.
 std::string folder_of(const std::string& file);
 

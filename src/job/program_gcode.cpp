@@ -79,7 +79,13 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   options.dialect = input.dialect;
   options.strict = input.strict;
   options.filament_diameter = input.filament_diameter;
-  options.tool_diameter = input.tool_diameter;
+  const bool other = input.dialect && *input.dialect != GcodeDialect::rs274;
+  if (!other) program.tools_beside = tool_table_beside(file, diagnostics);
+  options.tool_diameter = [&](int number, const Tool* described) -> std::optional<double> {
+    const auto given = input.tool_diameter ? input.tool_diameter(number, described) : std::nullopt;
+    const Tool* beside = program.tools_beside.find(number);
+    return given || beside == nullptr ? given : beside->diameter.mm();
+  };
   options.file_name = file.path();
   options.read_file = [&](const std::string& name) { return read_beside(file.path(), name, program.files); };
   GcodeProgram read = input.unknown_diameter == UnknownDiameter::assume

@@ -70,7 +70,7 @@ void add_tool_file(const std::string& name, ToolChoices& choices, Diagnostics& d
   ToolTable table;
   const auto kind = library_kind_of(file->bytes());
   if (kind && *kind != ToolLibraryKind::kerf)
-    read_tool_library(file->bytes(), name, {}, table, diagnostics);
+    read_tool_library(file->bytes(), name, {.read_bit = tool_bits_of(name)}, table, diagnostics);
   else
     read_tool_file(file->bytes(), name, table, diagnostics);
   for (const auto& [number, tool] : table.tools()) {
@@ -182,13 +182,15 @@ Choice choose(int number, const Program& program, const ToolChoices& choices, Di
   if (const auto it = choices.numbered.find(number); it != choices.numbered.end())
     return {&it->second, ToolSource::option};
   if (choices.any_number) return {&*choices.any_number, ToolSource::option};
-  const Tool* in_table = choices.table.find(number);
+  const bool from_file = choices.from_file.count(number) > 0;
+  const Tool* beside = from_file ? nullptr : program.tools_beside.find(number);
+  const Tool* in_table = beside != nullptr ? beside : choices.table.find(number);
   const auto described = program.tools.find(number);
   const Tool* in_comment = described == program.tools.end() ? nullptr : &described->second;
   const Tool* chosen = choose_tool(in_table, in_comment, first_use_of(number, program.path), diagnostics);
   if (chosen == nullptr) return {};
   if (chosen == in_comment) return {chosen, ToolSource::comment};
-  return {chosen, choices.from_file.count(number) > 0 ? ToolSource::file : ToolSource::built_in};
+  return {chosen, from_file || beside != nullptr ? ToolSource::file : ToolSource::built_in};
 }
 
 /// Warns of --tool N=... with an N that the program does not use: most likely a wrong number.

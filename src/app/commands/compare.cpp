@@ -144,7 +144,7 @@ Status compare_job(Console& console, const Options& options, const JobInputs& in
   TerminalProgress progress(console);
   auto program = load_program(options.job.file, inputs.program, diagnostics, &progress);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
-  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::error, diagnostics);
+  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
   if (!job.stock && !diagnostics.has_errors())
     diagnostics.error(Code::nothing_to_cut, TextLocation{job.program.source, 0, 0},
                       "no stock is given or assumed: nothing to compare");
@@ -186,7 +186,8 @@ void refuse_meshes(const std::vector<PartFile>& outputs, Diagnostics& usage) {
 
 Status run(Console& console, const Options& options) {
   Diagnostics usage, diagnostics;
-  const JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  inputs.program.unknown_diameter = UnknownDiameter::assume;
   std::vector<std::string> files = input_files(options.job);
   files.push_back(options.target);
   const auto outputs = read_outputs(options.outputs, files, usage, diagnostics);

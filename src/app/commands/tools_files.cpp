@@ -61,7 +61,7 @@ Status show_result(Console& console, const ToolTable& table, const Options& opti
 Status write(Console& console, const ToolTable& table, const Options& options, Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) {
     const std::string text = written(table, options, diagnostics);
-    OutputSet outputs;
+    OutputSet outputs(options.files);
     if (options.target.empty())
       print_text(console, text);
     else if (outputs.write(options.target, text, diagnostics))
@@ -85,10 +85,12 @@ Status run_import(Console& console, const Options& options) {
   Diagnostics diagnostics;
   if (!check_usage(options, diagnostics)) return fail(console, diagnostics, Status::wrong_usage);
   ToolTable table;
-  const ToolLibraryOptions how{unit_mm(options), static_cast<int>(options.first)};
+  ToolLibraryOptions how{unit_mm(options), static_cast<int>(options.first)};
   for (const std::string& name : options.files)
-    if (const auto file = InputFile::open(name, diagnostics))
+    if (const auto file = InputFile::open(name, diagnostics)) {
+      how.read_bit = tool_bits_of(name);
       read_tool_library(file->bytes(), name, how, table, diagnostics);
+    }
   return write(console, table, options, diagnostics);
 }
 
@@ -116,7 +118,8 @@ const char* const kImportExamples = R"(  kerf tools import library.json -o tools
   kerf tools import tool.tbl --unit inch -o tools.toml
   kerf simulate part.nc --tools tools.toml -o part.png
 
-Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb and CAMotics' JSON.
+Reads LinuxCNC's tool.tbl, Carbide Create's CSV, Fusion's JSON and .tools, FreeCAD's .fctb and .fctl, and
+CAMotics' JSON.
 The format is detected from the content. Tools of unsupported shapes are skipped with a warning.
 )";
 const char* const kExportExamples = R"(  kerf tools export -o tool.tbl --unit inch

@@ -177,6 +177,10 @@ bool Scene::add_triangles(const std::optional<Accessor>& indices, std::size_t fi
 
 constexpr std::uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
+bool is_binary_chunk(std::string_view bytes, std::size_t at) {
+  return at + 8 <= bytes.size() && little_at<std::uint32_t>(bytes, at + 4) == kBinaryChunk;
+}
+
 }  // namespace
 
 bool read_glb(std::string_view bytes, MeshMaker& out) {
@@ -190,7 +194,9 @@ bool read_glb(std::string_view bytes, MeshMaker& out) {
     if (kind != (n == 0 ? kJsonChunk : kBinaryChunk)) break;
     if (length > bytes.size() - at - 8) return out.fail("the file ends within a chunk");
     chunks[n] = bytes.substr(at + 8, length);
-    at += 8 + (length + 3) / 4 * 4;
+    const std::size_t end = at + 8 + length, padded = at + 8 + (length + 3) / 4 * 4;
+    // Some programs do not pad the JSON part to four bytes, as the format requires.
+    at = n == 0 && is_binary_chunk(bytes, end) ? end : padded;
   }
   const Json json = Json::parse(chunks[0], nullptr, false);
   if (json.is_discarded() || !json.is_object()) return out.fail("the JSON part of the file is not an object");

@@ -1,4 +1,5 @@
-// Zip archives in memory, by minizip. Without minizip (WebAssembly) no archive opens.
+// Zip archives in memory: read with zlib, written by minizip, whose reader does not know zip64. Without them
+// (WebAssembly) no archive opens.
 #pragma once
 
 #include <functional>
@@ -27,8 +28,6 @@ class Reader {
   std::optional<std::string> first(std::size_t limit);
 
  private:
-  bool unpack_current(const Take& take);
-
   struct Archive;
   std::unique_ptr<Archive> archive_;
 };

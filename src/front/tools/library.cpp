@@ -1,12 +1,14 @@
 // Tool libraries: detects the kind of a file and adds its tools to the table.
 #include "front/tools/library.h"
 
+#include <filesystem>
 #include <fmt/format.h>
 #include <vector>
 
 #include "codec/zip/zip.h"
 #include "front/tools/settings.h"
 
+#include "kerf/files.h"
 #include "kerf/limits.h"
 #include "kerf/names.h"
 #include "kerf/number.h"
@@ -31,6 +33,14 @@ std::vector<Setting> settings_of(const LibraryTool& tool, const ToolShape& blank
   add_setting(settings, blank, "tip_diameter", tool.tip_diameter, tool.where);
   add_setting(settings, blank, "neck_diameter", tool.neck_diameter, tool.where);
   add_setting(settings, blank, "angle", tool.angle, tool.where);
+  add_setting(settings, blank, "minor_diameter", tool.neck_diameter, tool.where);
+  add_setting(settings, blank, "major_diameter", tool.diameter, tool.where);
+  add_setting(settings, blank, "cut_height", tool.cut_height, tool.where);
+  add_setting(settings, blank, "length", tool.flute, tool.where);
+  if (tool.neck_length != 0.0) {
+    settings.push_back({"neck_diameter", tool.where, tool.neck_diameter});
+    settings.push_back({"neck_length", tool.where, tool.neck_length});
+  }
   if (tool.shank_diameter != 0.0) settings.push_back({"shank_diameter", tool.where, tool.shank_diameter});
   if (tool.teeth > 0) settings.push_back({"teeth", tool.where, static_cast<double>(tool.teeth)});
   if (!tool.name.empty()) settings.push_back({"name", tool.where, tool.name});
@@ -69,15 +79,15 @@ int LibraryWriter::number_for(const LibraryTool& tool) {
 }
 
 void LibraryWriter::add(const LibraryTool& described) {
+  const std::string& name = described.name.empty() ? described.description : described.name;
   const auto blank = shape_named(described.shape);
-  if (!blank)
-    return skip(described.where, described.name, fmt::format("unknown shape \"{}\"", described.shape));
+  if (!blank) return skip(described.where, name, fmt::format("unknown shape \"{}\"", described.shape));
   Diagnostics faults;
   std::optional<Tool> tool = tool_of(*blank, settings_of(described, *blank), 1.0, described.where, faults);
   if (!tool) {
     const std::string reason =
         faults.list().empty() ? "its dimensions are inconsistent" : faults.list()[0].message;
-    return skip(described.where, described.name.empty() ? described.description : described.name, reason);
+    return skip(described.where, name, reason);
   }
   tool->number = number_for(described);
   given_.emplace(tool->number, described.where);
@@ -123,6 +133,7 @@ std::string_view to_string(ToolLibraryKind kind) {
     case ToolLibraryKind::carbide_create: return "Carbide Create library";
     case ToolLibraryKind::fusion: return "Fusion library";
     case ToolLibraryKind::freecad: return "FreeCAD tool bit";
+    case ToolLibraryKind::freecad_library: return "FreeCAD library";
     case ToolLibraryKind::camotics: break;
   }
   return "CAMotics project";
@@ -137,6 +148,19 @@ std::optional<ToolLibraryKind> library_kind_of(std::string_view bytes) {
   if (is_kerf_file(text)) return ToolLibraryKind::kerf;
   if (is_carbide_csv(text)) return ToolLibraryKind::carbide_create;
   return std::nullopt;
+}
+
+std::function<std::optional<std::string>(const std::string&)> tool_bits_of(const std::string& library_path) {
+  const std::filesystem::path folder = std::filesystem::path(library_path).parent_path();
+  return [folder](const std::string& name) -> std::optional<std::string> {
+    const std::filesystem::path file = std::filesystem::path(name).filename();
+    for (const std::filesystem::path& searched : {folder, folder / "Bit", folder / ".." / "Bit"}) {
+      Diagnostics ignored;  // the next folder may have it
+      if (const auto bit = InputFile::open((searched / file).string(), ignored, limits::kMaxToolLibraryBytes))
+        return std::string(bit->bytes());
+    }
+    return std::nullopt;
+  };
 }
 
 void read_tool_library(std::string_view bytes, std::string_view file_name, const ToolLibraryOptions& options,
@@ -155,8 +179,8 @@ void read_tool_library(std::string_view bytes, std::string_view file_name, const
   const auto kind = bytes.size() > limits::kMaxToolLibraryBytes ? std::nullopt : library_kind_of(bytes);
   if (!kind) {
     diagnostics.error(Code::tool_library_unknown, where, "unknown format of a tool library").hint =
-        "supported: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb, CAMotics "
-        "JSON";
+        "supported: LinuxCNC tool.tbl, Carbide Create CSV, Fusion JSON and .tools, FreeCAD .fctb and .fctl, "
+        "CAMotics JSON";
     return;
   }
   const std::string_view text = without_mark(bytes);

@@ -14,7 +14,9 @@ namespace kerf::detail {
 struct LibraryTool {
   std::optional<int> number;
   std::string shape;  // a name of shape_named
-  double diameter = 0, flute = 0, corner_radius = 0, tip_diameter = 0, neck_diameter = 0, shank_diameter = 0;
+  double diameter = 0, flute = 0, corner_radius = 0, tip_diameter = 0, neck_diameter = 0, neck_length = 0,
+         shank_diameter = 0;
+  double cut_height = 0;
   double angle = 0;  // as in the shape of that name (kerf/tool.h)
   int teeth = 0;
   std::string name, description;

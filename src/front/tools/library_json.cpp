@@ -1,4 +1,5 @@
 // Tool libraries in JSON: Fusion's, FreeCAD's tool bits, CAMotics' projects.
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -111,19 +112,41 @@ double freecad_value(const Json& parameters, std::string_view key) {
   const Json* value = member(parameters, key);
   if (value == nullptr) return 0.0;
   if (value->is_number()) return number_of(parameters, key);
-  const std::string text = text_of(parameters, key);
+  std::string text = text_of(parameters, key);
+  if (text.find('.') == std::string::npos)
+    std::replace(text.begin(), text.end(), ',', '.');  // as some locales
   if (const auto length = parse_length(text, 1.0)) return *length;
   return parse_number(trim(std::string_view(text).substr(0, text.find_first_not_of("+-.0123456789"))))
       .value_or(0.0);
 }
 
-void read_freecad_bit(const Json& root, LibraryWriter& out) {
+/// FreeCAD's angle of a dovetail is between the bottom and the side.
+void set_freecad_dovetail(const Json& p, double angle, LibraryTool& tool) {
+  tool.shape = "dovetail";
+  if (angle > 0.0) tool.angle = 90.0 - angle;
+  tool.neck_diameter = freecad_value(p, "NeckDiameter");
+  tool.neck_length = freecad_value(p, "NeckHeight");
+}
+
+/// One tooth with the angle of the thread and a flat crest, on a neck.
+void set_freecad_thread_mill(const Json& p, LibraryTool& tool) {
+  tool.shape = "thread mill";
+  tool.neck_diameter = freecad_value(p, "NeckDiameter");
+  const double half_angle = 0.5 * freecad_value(p, "cuttingAngle");
+  const double depth = 0.5 * (tool.diameter - tool.neck_diameter);
+  tool.cut_height = freecad_value(p, "Crest") + 2.0 * depth * std::tan(degrees(half_angle).rad());
+  const double neck = freecad_value(p, "NeckLength");
+  if (neck > 0.0) tool.flute = tool.cut_height + neck;  // the whole length
+}
+
+void read_freecad_bit(const Json& root, std::optional<int> number, LibraryWriter& out) {
   const Json none = Json::object();
   const Json* parameters = member(root, "parameter");
   const Json& p = parameters == nullptr ? none : *parameters;
   std::string type = fold_name(text_of(root, "shape-type"));
   if (type.empty()) type = fold_name(text_of(root, "shape"));
   LibraryTool tool;
+  tool.number = number;
   tool.where = out.location(0);
   tool.description = text_of(root, "name");
   tool.diameter = freecad_value(p, "Diameter");
@@ -137,10 +160,14 @@ void read_freecad_bit(const Json& root, LibraryWriter& out) {
     tool.angle = freecad_value(p, "TaperAngle");
   } else if (has(type, "ball")) {
     tool.shape = "ball";
-  } else if (has(type, "bull")) {
+  } else if (has(type, "bull") || has(type, "torus") || has(type, "toroid")) {
     tool.shape = "bull nose";
-    tool.corner_radius = freecad_value(p, "FlatRadius");
-    if (tool.corner_radius == 0.0) tool.corner_radius = freecad_value(p, "CornerRadius");
+    for (const char* key : {"FlatRadius", "CornerRadius", "TorusRadius"})
+      if (tool.corner_radius == 0.0) tool.corner_radius = freecad_value(p, key);
+  } else if (has(type, "dovetail")) {
+    set_freecad_dovetail(p, angle, tool);
+  } else if (has(type, "threadmill")) {
+    set_freecad_thread_mill(p, tool);
   } else if (has(type, "vbit") || has(type, "chamfer")) {
     tool.shape = "V";
     tool.angle = angle;
@@ -153,6 +180,20 @@ void read_freecad_bit(const Json& root, LibraryWriter& out) {
     tool.shape = has(type, "endmill") ? "square" : type;
   }
   out.add(tool);
+}
+
+/// A library lists numbers and the files of its bits.
+void read_freecad_library(const Json& root, LibraryWriter& out) {
+  for (const Json& entry : *member(root, "tools")) {
+    std::string name = text_of(entry, "path");
+    if (name.empty() && !text_of(entry, "id").empty()) name = text_of(entry, "id") + ".fctb";
+    const auto text = out.options().read_bit && !name.empty() ? out.options().read_bit(name) : std::nullopt;
+    const Json bit = text ? Json::parse(*text, nullptr, false) : Json();
+    if (bit.is_object())
+      read_freecad_bit(bit, whole(number_of(entry, "nr")), out);
+    else
+      out.skip(out.location(0), name, text ? "its file is not JSON" : "its file is missing");
+  }
 }
 
 // ---- CAMotics
@@ -196,12 +237,15 @@ std::optional<ToolLibraryKind> json_library_kind(std::string_view text) {
     return ToolLibraryKind::freecad;
   if (const Json* tools = member(root, "tools"); tools != nullptr && tools->is_object())
     return ToolLibraryKind::camotics;
+  if (const Json* tools = member(root, "tools"); tools != nullptr && tools->is_array())
+    return ToolLibraryKind::freecad_library;
   return std::nullopt;
 }
 
 void read_json_library(std::string_view text, ToolLibraryKind kind, LibraryWriter& out) {
   const Json root = Json::parse(text, nullptr, false);
-  if (kind == ToolLibraryKind::freecad) return read_freecad_bit(root, out);
+  if (kind == ToolLibraryKind::freecad) return read_freecad_bit(root, std::nullopt, out);
+  if (kind == ToolLibraryKind::freecad_library) return read_freecad_library(root, out);
   if (kind == ToolLibraryKind::camotics) {
     for (const auto& [key, entry] : member(root, "tools")->items()) read_camotics_tool(key, entry, root, out);
     return;

@@ -1,4 +1,5 @@
 // Tool libraries as lines of text: LinuxCNC's tool table and Carbide Create's CSV.
+#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <vector>
@@ -13,6 +14,7 @@
 namespace kerf::detail {
 namespace {
 
+constexpr double kDrillPoint = 118.0;    // degrees
 constexpr std::size_t kMaxFields = 200;  // of a line; the rest is read as one
 
 /// Calls visit(line, number) for each line without its end.
@@ -99,7 +101,7 @@ void read_carbide_row(const Row& row, const Origin& where, LibraryWriter& out) {
   if (tool.shape == "bull nose") tool.corner_radius = scale * row.number("cornerradius");
   if (tool.shape == "tapered ball") tool.tip_diameter = 2.0 * scale * row.number("cornerradius");
   if (tool.shape == "V") tool.angle = row.number("angle");
-  if (tool.shape == "drill") tool.angle = row.number("angle") > 0.0 ? row.number("angle") : 118.0;
+  if (tool.shape == "drill") tool.angle = row.number("angle") > 0.0 ? row.number("angle") : kDrillPoint;
   tool.teeth = whole(row.text("numflutes")).value_or(0);
   const std::string vendor = row.text("vendor"), model = row.text("model");
   tool.name = vendor.empty() || model.empty() ? vendor + model : vendor + " " + model;
@@ -122,14 +124,36 @@ void read_carbide_csv(std::string_view text, LibraryWriter& out) {
   });
 }
 
-/// "T1 P17 Z0 D6 I45 J45 Q0 ;comment". The table has no shapes: every tool becomes a square mill.
+/// The shape that the comment of a tool table names, without blanks and in lower case; "" for what is not a
+/// rotating cutter. A drill has its usual point, a V needs an angle.
+std::string_view shape_of_comment(const std::string& comment, double& angle) {
+  for (const std::string_view other : {"probe", "edgefinder", "toolsetter", "dragknife"})
+    if (has(comment, other)) return {};
+  if (has(comment, "ball")) return "ball";
+  if (has(comment, "drill") && !has(comment, "mill")) {
+    angle = kDrillPoint;
+    return "drill";
+  }
+  for (const std::string_view vee : {"vbit", "vcarve", "vgroove", "vee", "engrav", "chamfer"}) {
+    if (!has(comment, vee)) continue;
+    const std::size_t degrees = comment.find("deg");
+    std::size_t start = std::min(degrees, comment.size());
+    while (start > 0 && std::isdigit(static_cast<unsigned char>(comment[start - 1])) != 0) --start;
+    angle = parse_number(std::string_view(comment).substr(start, degrees - start)).value_or(0.0);
+    if (degrees != std::string::npos && angle > 0.0 && angle < 180.0) return "V";
+  }
+  angle = 0.0;
+  return "square";
+}
+
+/// "T1 P17 Z0 D6 I45 J45 Q0 ;comment". The table has no shapes: a comment may name one, else a tool becomes a
+/// square mill.
 void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
   bool any = false;
   for_each_line(text, [&](std::string_view line, std::size_t number) {
     const std::size_t comment = std::min(line.find(';'), line.size());
     LibraryTool tool;
     tool.where = out.location(number);
-    tool.shape = "square";
     if (comment < line.size())
       tool.description = std::string(trim(line.substr(comment + 1)).substr(0, limits::kMaxNameBytes));
     std::string_view words = trim(line.substr(0, comment));
@@ -147,14 +171,19 @@ void read_linuxcnc_table(std::string_view text, LibraryWriter& out) {
       if (word[0] == 'D' || word[0] == 'd') tool.diameter = out.options().unit_mm * *value;
     }
     any = true;
+    tool.shape = shape_of_comment(fold_name(tool.description), tool.angle);
+    if (tool.shape.empty())
+      return out.skip(tool.where, fmt::format("T{}", tool.number.value_or(0)), "it is not a rotating cutter");
     if (tool.diameter == 0.0)
       return out.skip(tool.where, fmt::format("T{}", tool.number.value_or(0)), "it has no D");
     out.add(tool);
   });
   if (any)
-    out.diagnostics().note(Code::tool_library_assumed, out.location(0),
-                           fmt::format("a tool.tbl has neither shapes nor units: read as square mills in {}",
-                                       out.options().unit_mm == 1.0 ? "mm" : "inches"));
+    out.diagnostics().note(
+        Code::tool_library_assumed, out.location(0),
+        fmt::format("a tool.tbl has neither shapes nor units: read as square mills, unless a comment "
+                    "names another shape, in {}",
+                    out.options().unit_mm == 1.0 ? "mm" : "inches"));
 }
 
 }  // namespace kerf::detail

@@ -94,6 +94,14 @@ std::optional<Tool> tool_of_words(const std::vector<std::string_view>& words, co
   if (settings.empty()) {
     if (const Tool* known = built_in_tools().find_name(name)) return *known;
   }
+  if (name.empty() && !settings.empty() && settings.front().key != "shape") {
+    diagnostics
+        .error(Code::tool_value_type, where,
+               fmt::format("\"{}\" is neither a tool number nor the name of a shape",
+                           settings.front().key.substr(0, 40)))
+        .hint = "expected [N=]SHAPE KEY=VALUE ..., e.g. 2=\"square d=6\"";
+    return std::nullopt;
+  }
   const auto blank = detail::blank_shape(name, where, diagnostics);
   if (!blank) return std::nullopt;
   std::optional<Tool> tool = detail::tool_of(*blank, settings, 1.0, where, diagnostics);
