@@ -42,7 +42,7 @@ struct GcmcOptions {
 
   std::size_t max_memory = std::size_t{2} << 30;      // bytes of vectors, lists and strings
   std::size_t max_calls = 20'000;                     // nesting of calls
-  std::uint64_t max_quiet_steps = 2'000'000'000;      // loop steps and calls without output or message
+  std::uint64_t max_quiet_steps = 500'000'000;        // loop steps and calls without output or message
   std::uint64_t max_steps = 1'000'000'000'000;        // loop steps and calls in all
   std::uint64_t max_output = std::uint64_t{2} << 30;  // bytes of text and messages, plus 1 for each call
   std::size_t max_path_steps = 50'000'000;            // steps of the toolpath

@@ -276,3 +276,10 @@ def test_a_pipe_as_output_stays_one(program, tmp_path):
         assert done.returncode == 0 and reader.wait(timeout=60) == 0
     assert pipe.is_fifo() and (tmp_path / "link.ngc").is_symlink()
     assert b"G0 X1" in taken.read_bytes()
+
+
+def test_an_endless_loop_is_stopped_at_an_adjustable_limit(kerf, program):
+    path = program("a = [1]; while(1) { a += a; }\n", "loop.gcmc")
+    run = kerf("gcmc", "--max-steps", "2", path)
+    assert run.status == 1 and "No output or message in 2 million loop steps" in run.err
+    assert kerf("gcmc", "--max-steps", "0", path).status == 1

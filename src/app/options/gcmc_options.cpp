@@ -17,7 +17,8 @@ namespace {
 
 constexpr double kLargestOffset = 1e6;
 constexpr double kBytesPerMegabyte = 1 << 20;
-constexpr double kMaxOutput = 1e9;  // MB; their number of bytes fits 64 bits
+constexpr double kMaxOutput = 1e9;       // MB; their number of bytes fits 64 bits
+constexpr double kMaxStepsOption = 1e6;  // millions, the limit of all steps
 constexpr double kDegreesPerRadian = 57.29577951308232;
 
 enum class Id : std::uint8_t {
@@ -37,6 +38,7 @@ enum class Id : std::uint8_t {
   include,
   json,
   max_output,
+  max_steps,
   no_flip,
   no_grid,
   no_m2,
@@ -105,6 +107,8 @@ constexpr Option kOptions[] = {
     {'\0', "json", "", Id::json, "With --check: print the diagnostics as JSON (Kerf)"},
     {'\0', "explain", "", Id::explain, "Print source line, hint and calls of each message (Kerf)"},
     {'\0', "max-output", "MB", Id::max_output, "Maximum output in MB (Kerf, default 2048)"},
+    {'\0', "max-steps", "MILLIONS", Id::max_steps,
+     "Maximum of loop steps without output, in millions (Kerf, default 500: some 10 s)"},
     {'\0', "hex-handles", "", Id::hex_handles, "DXF entities with handles, as AutoCAD requires (Kerf)"},
 };
 
@@ -246,6 +250,7 @@ class Reader {
       case Id::include: run.include_paths.push_back(value); break;
       case Id::json: out_.json = true; break;
       case Id::max_output: max_output(value); break;
+      case Id::max_steps: max_steps(value); break;
       case Id::no_flip: drawing.flip = false; break;
       case Id::no_grid: drawing.show_grid = false; break;
       case Id::no_m2: run.subroutine_ends_program = false; break;
@@ -300,6 +305,13 @@ class Reader {
     if (!megabytes || *megabytes <= 0.0 || *megabytes > kMaxOutput)
       return error(fmt::format("Output limit must be a number of MB above 0 and up to {}", kMaxOutput));
     out_.run.max_output = static_cast<std::uint64_t>(*megabytes * kBytesPerMegabyte);
+  }
+  void max_steps(const std::string& text) {
+    const auto millions = parse_number(text);
+    if (!millions || *millions <= 0.0 || *millions > kMaxStepsOption)
+      return error(
+          fmt::format("Step limit must be a number of millions above 0 and up to {}", kMaxStepsOption));
+    out_.run.max_quiet_steps = static_cast<std::uint64_t>(*millions * 1e6);
   }
 
   void opacity(const std::string& text) {

@@ -178,7 +178,9 @@ void Vm::refuel() {
   }
   if (quiet_steps_ > options_.max_quiet_steps)
     fail(Code::gcmc_limit,
-         fmt::format("No output or message in {} loop steps: an endless loop?", quiet_steps_));
+         fmt::format("No output or message in {} million loop steps: an endless loop?",
+                     options_.max_quiet_steps / 1'000'000),
+         "--max-steps raises the limit");
   if (steps_ > options_.max_steps)
     fail(Code::gcmc_limit, fmt::format("The program runs more than {} loop steps", options_.max_steps));
 }
