@@ -33,4 +33,11 @@ struct DialectGuess {
 };
 DialectGuess guess_dialect(std::string_view text);
 
+/// A program in the language of a control that is not supported, such as Heidenhain's.
+struct ForeignProgram {
+  std::string_view control, word;  // `word`, without blanks, gives it away
+  std::uint32_t line = 0;
+};
+std::optional<ForeignProgram> find_foreign_language(std::string_view text);
+
 }  // namespace kerf

@@ -280,12 +280,19 @@ class Step {
 };
 static_assert(sizeof(Step) == 64, "a million steps fit in 64 MB");
 
-/// Rare data of a motion: rotary axes, and a Z that is corrected by probed points.
+/// How a cut depends on the spindle's angle: not at all; it follows it (G33); it does so down and, with the
+/// spindle reversed, up again (G33.1); it taps with a floating holder (G84, G74), down and up again.
+enum class SpindleLock : std::uint8_t { none, thread, rigid_tap, tap };
+std::string_view to_string(SpindleLock lock);
+
+/// Rare data of a motion: rotary axes, a Z that is corrected by probed points, threads.
 struct MotionExtra {
   std::optional<std::array<double, 3>> abc;  // degrees
   std::string z_correction = {};             // expression over probed values; empty = none
   unsigned unknown_abc = 0;                  // bits 1, 2, 4: A, B, C is unknown at the end
   unsigned reference_abc = 0;                // bits: goes to the motion's reference (G28 A0)
+  SpindleLock lock = SpindleLock::none;
+  double per_turn = 0.0;  // mm per revolution of the spindle, of a motion with a lock
 };
 
 /// The position of the tool between steps. At the start all axes are unknown.

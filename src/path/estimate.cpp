@@ -76,7 +76,8 @@ class Walker {
     if (s.rests_before() || probes || homes) stop(i);
     const double feed =
         s.kind() == StepKind::rapid ? std::numeric_limits<double>::infinity() : s.feed().mm_per_min() / 60.0;
-    const bool turns_only = s.to() == here_.at && s.kind() != StepKind::arc && path_.extra(i) != nullptr;
+    const bool turns_only =
+        s.to() == here_.at && s.kind() != StepKind::arc && path_.extra(i) != nullptr && path_.extra(i)->abc;
     if (!(feed > 0.0) || turns_only || homes) {
       if (!homes) ++not_timed_;
       planner_.set_position(s.to());

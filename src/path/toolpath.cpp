@@ -356,6 +356,16 @@ void Toolpath::set_named_axes(std::size_t i, unsigned bits) {
   steps_[i].named_axes_ = bits & 63;
 }
 
+std::string_view to_string(SpindleLock lock) {
+  switch (lock) {
+    case SpindleLock::none: break;
+    case SpindleLock::thread: return "thread";
+    case SpindleLock::rigid_tap: return "rigid_tap";
+    case SpindleLock::tap: return "tap";
+  }
+  return "none";
+}
+
 void Toolpath::set_extra(std::size_t i, MotionExtra extra) {
   assert(steps_[i].is_motion());
   steps_[i].extra_ = static_cast<std::uint32_t>(extras_.size());

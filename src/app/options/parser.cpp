@@ -2,6 +2,7 @@
 #include "app/options/parser.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <fmt/format.h>
 #include <utility>
 
@@ -34,7 +35,10 @@ std::string about_extra(const CLI::App& app, const std::string& word) {
   const std::string shown = word.substr(0, 80);
   if (word.size() > 1 && word[0] == '-') {
     const std::string name = word.substr(0, word.find('='));
-    return with_guess(fmt::format("unknown option {}", shown), name, option_names(app));
+    const std::vector<std::string> known = option_names(app);
+    if (std::find(known.begin(), known.end(), name) != known.end())  // given to the command before it
+      return fmt::format("the option {} belongs after the command: kerf {} {}", shown, app.get_name(), shown);
+    return with_guess(fmt::format("unknown option {}", shown), name, known);
   }
   const std::vector<std::string> commands = command_names(app);
   if (!commands.empty()) return with_guess(fmt::format("unknown command \"{}\"", shown), word, commands);

@@ -85,6 +85,10 @@ void add_motion(Json& out, const Toolpath& path, std::size_t i) {
   if (const MotionExtra* extra = path.extra(i)) {
     if (extra->abc)
       out["abc"] = {json_of((*extra->abc)[0]), json_of((*extra->abc)[1]), json_of((*extra->abc)[2])};
+    if (extra->lock != SpindleLock::none) {
+      out["spindle_lock"] = to_string(extra->lock);
+      out["per_turn"] = json_of(extra->per_turn);
+    }
     if (!extra->z_correction.empty()) out["z_correction"] = extra->z_correction;
   }
   if (s.unknown_axes() == 0) return;

@@ -24,6 +24,8 @@ class LengthText {
   std::string volume(double mm3, int decimals) const;
   /// "100 x 60 x 12 mm"
   std::string size(Point3 mm) const;
+  /// A message of the library with its lengths, feeds and coordinates converted: "25.4 mm deep at Z -2.54".
+  std::string message(std::string_view text) const;
   /// "square 3.175 mm"
   std::string tool(const Tool& tool) const;
 

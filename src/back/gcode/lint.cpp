@@ -39,8 +39,8 @@ constexpr Group group(std::initializer_list<int> list) {
   return g;
 }
 constexpr Group kGGroups[] = {
-    group(
-        {0, 10, 20, 30, 330, 382, 383, 384, 385, 730, 760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890}),
+    group({0,   10,  20,  30,  330, 331, 382, 383, 384, 385, 730, 740,
+           760, 800, 810, 820, 830, 840, 850, 860, 870, 880, 890}),
     group({40, 100, 280, 281, 300, 301, 530, 920, 921, 922, 923}),
     group({170, 180, 190}),
     group({200, 210}),
@@ -378,13 +378,17 @@ void Linter::move() {
     if (axes) refuse(Code::lint_conflict, "axis words after G80, which ends the modal motion");
     return;
   }
-  const bool feeds = motion_ >= 10 && motion_ < 800;
+  const bool thread = motion_ == 330 || motion_ == 331;  // its feed follows from the spindle
+  const bool feeds = motion_ >= 10 && motion_ < 800 && !thread;
   if (feeds && (inverse_time_ ? !(has('F') && value('F') > 0.0) : !feed_known_))
     return refuse(Code::lint_missing, "a cut before any feed");
   const bool probe = motion_ >= 382 && motion_ <= 385;
   const bool arc = motion_ == 20 || motion_ == 30;
   if (!axes && (probe || arc)) return refuse(Code::lint_missing, "the motion needs axis words");
-  if (motion_ == 730 || motion_ >= 800) use(bit('R') | bit('Q') | bit('P') | bit('L') | kCentre);
+  if (thread && !has('K')) return refuse(Code::lint_missing, "G33 needs K, the distance per revolution");
+  if (thread) use(bit('K'));
+  if (motion_ == 730 || motion_ == 740 || motion_ >= 800)
+    use(bit('R') | bit('Q') | bit('P') | bit('L') | kCentre);
   use(kAxes | bit('E'));
   const Point3 to = target();
   if (probe && position_known_ && to == at_) return refuse(Code::lint_value, "a probing motion of length 0");

@@ -53,6 +53,7 @@ std::vector<PostedFile> Poster::run(Progress* progress) {
 
 void Poster::write_step(std::size_t i) {
   const Step& s = path_[i];
+  if (i < skip_to_) return position_.pass(s);
   if (s.is_motion()) return write_motion(i);
   switch (s.kind()) {
     case StepKind::dwell: return dwell(i, s.dwell().time);
@@ -89,7 +90,7 @@ void Poster::write_motion(std::size_t i) {
   else if (s.kind() == StepKind::rapid)
     straight(0, i);
   else if (s.kind() == StepKind::cut)
-    straight(1, i);
+    cut(i);
   else if (s.kind() == StepKind::arc)
     arc(i);
   else if (s.kind() == StepKind::probe)
@@ -257,6 +258,10 @@ void Poster::arrive(std::size_t i, const Counts& to, unsigned written) {
   at_ = to;
   known_axes_ = (known_axes_ | written) & ~path_[i].unknown_axes();
   paused_axes_ &= ~written;
+}
+
+void Poster::cut(std::size_t i) {
+  if (!locked_motion(i)) straight(1, i);
 }
 
 void Poster::straight(int g, std::size_t i) { straight_to(g, i, grid_counts(path_[i].to()), 1.0); }

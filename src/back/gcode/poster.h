@@ -34,6 +34,7 @@ class Poster {
   // poster.cpp
   void write_step(std::size_t i);
   void write_motion(std::size_t i);
+  void cut(std::size_t i);
   void straight(int g, std::size_t i);
   void straight_to(int g, std::size_t i, const Counts& to, double fraction);
   void move_by(const std::vector<int>& codes, std::size_t i, const Counts& to);
@@ -57,6 +58,17 @@ class Poster {
   void put_motion(int g);
   void put_plane(std::size_t i, Plane plane);
   void put_power();
+
+  // threads.cpp
+  struct Tap {
+    std::size_t end = 0;  // the step after it
+    Duration dwell{};
+  };
+  SpindleLock lock_of(std::size_t i) const;
+  std::optional<Tap> tap_at(std::size_t i) const;
+  bool locked_motion(std::size_t i);
+  bool tapping_cycle(std::size_t i);
+  void put_tap(std::size_t i, const Tap& tap, int cycle);
 
   // state_steps.cpp
   void spindle(std::size_t i);
@@ -158,7 +170,8 @@ class Poster {
   std::int64_t written_extruded_ = 0;  // in counts of E
   bool restore_ = false;               // spindle or coolant may have been stopped by a tool change
   bool moved_ = false;                 // in this file
-  bool no_feed_reported_ = false, uncorrected_reported_ = false;
+  bool no_feed_reported_ = false, uncorrected_reported_ = false, tap_reported_ = false;
+  std::size_t skip_to_ = 0;  // the steps before it are part of a tap that has been written
 };
 
 }  // namespace kerf::gcode

@@ -208,6 +208,8 @@ void Poster::pause(std::size_t i) {
 /// open_file() has found already.
 void Poster::change_file(std::size_t i) {
   if (!moved_ || file_tool_ == path_[i].tool_change().tool) return;
+  const auto last_motion = path_.motion_before(path_.size());
+  if (!last_motion || *last_motion < i) return;  // T0 M6 at the end puts the last tool away
   if (files_.size() + 1 == limits::kMaxPostedFiles)
     report_unsupported(i, fmt::format("there are more than {} tool changes, each of which starts a file",
                                       limits::kMaxPostedFiles));

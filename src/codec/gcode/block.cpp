@@ -134,6 +134,9 @@ bool is_read_by_printers(double code) {
   return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
 }
 
+/// Letters whose numbers are whole or have one decimal, and no exponent.
+bool is_code_letter(char letter) { return letter == 'M' || letter == 'G' || letter == 'H' || letter == 'T'; }
+
 }  // namespace
 
 BlockReader::BlockReader(std::string_view text, BlockReaderOptions options, Diagnostics& diagnostics)
@@ -299,6 +302,7 @@ bool BlockReader::read_word(Block& block) {
     case DecimalFault::none: break;
     case DecimalFault::missing: return read_computed_value(block, word);
     case DecimalFault::malformed:
+      if (is_code_letter(word.letter) && upper(*number.end) == 'E') break;  // "M68E0Q1" is M68 E0 Q1
       return fault(block, Code::number_malformed, number.end,
                    fmt::format("{} cannot follow the number of the {} word", shown(*number.end), word.letter),
                    "numbers have a sign, digits and one point, and no exponent");
@@ -414,6 +418,7 @@ void BlockReader::skip_space() {
 
 bool BlockReader::fault(Block& block, Code code, const char* at, std::string message, std::string_view hint) {
   block.faulty = true;
+  if (ended_) return false;
   Diagnostic& d = diagnostics_.error(code, TextLocation{options_.file_name, block.line, column_of(at)},
                                      std::move(message));
   d.hint = hint;
@@ -421,6 +426,7 @@ bool BlockReader::fault(Block& block, Code code, const char* at, std::string mes
 }
 
 void BlockReader::unusual(const Block& block, Code code, const char* at, std::string message) {
+  if (ended_) return;
   const Severity severity = options_.strict ? Severity::error : Severity::warning;
   diagnostics_.add({severity,
                     code,

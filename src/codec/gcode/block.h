@@ -86,6 +86,8 @@ class BlockReader {
   void seek(std::size_t position, std::uint32_t lines);
   std::uint32_t lines() const { return line_; }
   std::string_view text() const { return text_; }
+  /// The text after the program's end need not be G-code: faults of its lines are no longer reported.
+  void note_program_end() { ended_ = true; }
 
  private:
   std::size_t line_end();
@@ -113,6 +115,7 @@ class BlockReader {
   std::size_t next_line_feed_ = 0;  // first '\n' at or after position_, found once
   std::size_t next_return_ = 0;     // first '\r' before that, otherwise the same
   bool has_returns_ = false;
+  bool ended_ = false;  // note_program_end()
   std::uint32_t line_ = 0;
   bool unbalanced_ = false;  // a comment of this line opens more parentheses than it closes
   const char* line_start_ = nullptr;

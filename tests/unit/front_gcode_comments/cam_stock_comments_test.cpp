@@ -34,6 +34,12 @@ TEST(CamStockComments, OfEachProgramAreUnderstood) {
   EXPECT_EQ(pycam->low, (Point3{-10, -5, -3}));
 }
 
+TEST(CamStockComments, InASentence) {
+  const auto stock = block_of({"Stock is 3\"x3\"x1\""});
+  ASSERT_TRUE(stock);
+  EXPECT_LT(length(stock->size() - Point3{76.2, 76.2, 25.4}), 1e-9);
+}
+
 TEST(CamStockComments, ABlockWithoutVolumeOrWithoutACornerIsNone) {
   EXPECT_FALSE(block_of({"maxz = 0.0", "maxx = 90", "maxy = 60", "minx = -10", "miny = -5", "minz = 0"}));
   EXPECT_FALSE(block_of({"X MIN:-150 Y MIN:-115 Z MIN:-20"}));

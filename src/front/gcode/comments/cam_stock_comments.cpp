@@ -65,6 +65,12 @@ void CamStockComments::read_sizes(std::string_view text, double scale) {
                                                                : scale;
     size_ = Point3{mm_of(numbers[0], unit), mm_of(numbers[1], unit), mm_of(numbers[2], unit)};
   }
+  if (contains_words(tokens, {"STOCK", "IS"})) {  // "Stock is 3"x3"x1""
+    std::vector<double> lengths;
+    for (const CommentToken& t : tokens)
+      if (t.is_number()) lengths.push_back(mm_of(t, scale));
+    if (lengths.size() == 3) size_ = Point3{lengths[0], lengths[1], lengths[2]};
+  }
   const auto value = [&](const CommentToken* t) {
     return t != nullptr ? std::optional(mm_of(*t, scale)) : std::nullopt;
   };

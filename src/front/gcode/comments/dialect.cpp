@@ -238,6 +238,45 @@ const std::vector<std::string>& dialect_names() {
   return names;
 }
 
+namespace {
+
+/// A word of another control's language, in a line in capitals without blanks and without what is in
+/// parentheses.
+struct ForeignWord {
+  std::string_view word, control;
+  bool starts_line;
+};
+constexpr ForeignWord kForeignWords[] = {{"BEGINPGM", "Heidenhain", false}, {"TOOLCALL", "Heidenhain", false},
+                                         {"BLKFORM", "Heidenhain", false},  {"WORKPIECE", "Siemens", true},
+                                         {"SUPA", "Siemens", true},         {"CYCLE8", "Siemens", true},
+                                         {"MCALL", "Siemens", true},        {"CR=", "Siemens", false}};
+
+/// Start of a line without its number.
+std::size_t after_number(std::string_view line) {
+  std::size_t at = !line.empty() && line[0] == 'N' ? 1 : 0;
+  while (at < line.size() && is_digit(line[at])) ++at;
+  return at;
+}
+
+bool has_foreign_word(std::string_view line, const ForeignWord& foreign) {
+  const std::size_t at = line.find(foreign.word);
+  if (at == std::string_view::npos) return false;
+  if (foreign.word == "CR=") return at > 0 && (is_digit(line[at - 1]) || line[at - 1] == '.');
+  return !foreign.starts_line || at == after_number(line);
+}
+
+}  // namespace
+
+std::optional<ForeignProgram> find_foreign_language(std::string_view text) {
+  for (LineScanner scanner(text); scanner.next();) {
+    const std::string words = words_of(scanner.line);
+    for (const ForeignWord& foreign : kForeignWords)
+      if (has_foreign_word(words, foreign))
+        return ForeignProgram{foreign.control, foreign.word, scanner.number};
+  }
+  return std::nullopt;
+}
+
 DialectGuess guess_dialect(std::string_view text) {
   WordEvidence words;
   CommentEvidence named;

@@ -15,7 +15,10 @@ constexpr int kMaxDepth = 200;   // of nested brackets
 constexpr double kEqual = 1e-4;  // tolerance of EQ and NE in LinuxCNC
 constexpr double kMaxResult = 1e30;
 constexpr double kIndexTolerance = 1e-4;  // of the distance of a parameter's number from a whole one
-constexpr double kDegree = std::numbers::pi / 180.0;
+/// As LinuxCNC: ASIN[0.5] is 30 and not the next number above it, so that FUP[ASIN[0.5]] is 30 too.
+constexpr long double kPi = std::numbers::pi_v<long double>;
+double radians_of(double degrees) { return static_cast<double>(degrees * kPi / 180.0L); }
+double degrees_of(double radians) { return static_cast<double>(radians * 180.0L / kPi); }
 
 constexpr std::string_view kFunctions[] = {"ABS", "ACOS", "ASIN", "ATAN",  "COS", "EXISTS", "EXP",
                                            "FIX", "FUP",  "LN",   "ROUND", "SIN", "SQRT",   "TAN"};
@@ -275,7 +278,7 @@ std::optional<double> ExpressionReader::arc_tangent() {
     return fail(Code::expression_malformed, "ATAN needs two values: ATAN[y]/[x]");
   const std::optional<double> x = bracket();
   if (!x) return x;
-  return std::atan2(*y, *x) / kDegree;
+  return degrees_of(std::atan2(*y, *x));
 }
 
 std::optional<double> ExpressionReader::apply(std::string_view function, double x) {
@@ -283,9 +286,9 @@ std::optional<double> ExpressionReader::apply(std::string_view function, double 
     return fail(Code::expression_impossible, fmt::format("{} of {:g}: {}", function, x, why));
   };
   if (function == "ABS") return std::abs(x);
-  if (function == "SIN") return std::sin(x * kDegree);
-  if (function == "COS") return std::cos(x * kDegree);
-  if (function == "TAN") return checked(std::tan(x * kDegree));
+  if (function == "SIN") return std::sin(radians_of(x));
+  if (function == "COS") return std::cos(radians_of(x));
+  if (function == "TAN") return checked(std::tan(radians_of(x)));
   if (function == "EXP") return checked(std::exp(x));
   if (function == "FIX") return std::floor(x) + 0.0;
   if (function == "FUP") return std::ceil(x) + 0.0;
@@ -293,7 +296,7 @@ std::optional<double> ExpressionReader::apply(std::string_view function, double 
   if (function == "LN") return x > 0.0 ? checked(std::log(x)) : impossible("the argument must be above 0");
   if (function == "SQRT") return x >= 0.0 ? std::sqrt(x) : impossible("the argument must not be negative");
   if (std::abs(x) > 1.0) return impossible("the argument must be from -1 to 1");
-  return (function == "ASIN" ? std::asin(x) : std::acos(x)) / kDegree;
+  return degrees_of(function == "ASIN" ? std::asin(x) : std::acos(x));
 }
 
 }  // namespace kerf::gcode

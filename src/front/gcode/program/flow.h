@@ -68,6 +68,8 @@ class Flow {
 
   /// The next line to execute; false at the end, or with an error for a loop that does not end.
   bool next(Block& block);
+  /// Faults in lines after the program's end are not reported.
+  void note_program_end() { sources_.front()->reader->note_program_end(); }
   /// The text's reader before the first jump; null after it.
   BlockReader* sequential_reader() { return jumped_ ? nullptr : sources_.front()->reader.get(); }
   /// True if next() has stopped at a limit, before the end of the text.

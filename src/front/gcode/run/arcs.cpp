@@ -25,7 +25,14 @@ constexpr int kMaxTurns = 10'000;
 
 }  // namespace
 
+/// An offset of 0 along the third axis, which some programs write with every arc, has no effect.
+void Interpreter::use_idle_offset() {
+  const char letter = static_cast<char>('I' + axes_of(modes_.plane).w);
+  if (line_.value(letter) == 0.0) line_.use(LineWords::bit(letter));
+}
+
 void Interpreter::arc(Turn turn) {
+  use_idle_offset();
   if (!frame_.only_shifted && modes_.plane != Plane::xy) return arc_as_chords(turn);
   const std::optional<ToolPosition> to = target();
   if (!to) return;

@@ -41,12 +41,13 @@ class Interpreter::CycleSink final : public DrillSink {
   /// `at_holes` has the axes that are unknown at the holes.
   CycleSink(Interpreter& interpreter, const DrillCycle& cycle, const ToolPosition& at_holes, double feed)
       : interpreter_(interpreter), next_(at_holes), unknown_(at_holes.unknown), feed_(feed) {
+    if (cycle.kind == DrillKind::tap || cycle.kind == DrillKind::left_tap) lock_ = SpindleLock::tap;
     if (!rises_first(cycle)) return;
     next_.unknown = interpreter.position_.unknown;
     if (interpreter.modes_.absolute) next_.unknown &= ~(1u << axes_of(cycle.plane).w);
   }
   void rapid(Point3 to) override { interpreter_.rapid(position_of(to)); }
-  void cut(Point3 to) override { interpreter_.cut(position_of(to), feed_); }
+  void cut(Point3 to) override { interpreter_.locked_cut(position_of(to), feed_, lock_); }
   void dwell(Duration time) override { interpreter_.add(step::Dwell{time}); }
   void spindle(SpindleTurn turn) override { interpreter_.set_spindle(turn); }
   void pause() override { interpreter_.add(step::Pause{}); }
@@ -63,6 +64,7 @@ class Interpreter::CycleSink final : public DrillSink {
   ToolPosition next_;  // of the next motion
   unsigned unknown_;   // after the first motion
   double feed_;        // mm/min
+  SpindleLock lock_ = SpindleLock::none;
 };
 
 void Interpreter::cycle(Tenths motion) {
@@ -147,8 +149,11 @@ bool Interpreter::take_cycle_words(Tenths motion) {
   return true;
 }
 
-/// Taps need the sense of the thread.
+/// Taps need the sense of the thread, and G86 a spindle that it can stop.
 void Interpreter::report_wrong_turn(Tenths motion) {
+  if (motion == 860 && modes_.spindle == SpindleTurn::off)
+    reporter_.unusual(Code::modal_conflict, line_.column(),
+                      "G86 with the spindle stopped; LinuxCNC refuses it", "start it with M3 or M4");
   if (motion != 740 && motion != 840) return;
   const SpindleTurn wanted = motion == 840 ? SpindleTurn::cw : SpindleTurn::ccw;
   if (modes_.spindle == wanted) return;

@@ -49,7 +49,7 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
     add(step::Note{std::string(message), NoteKind::message});
     return read_cam_comment(message, where, at_tool_change);
   }
-  if (starts_with(text, "STOCK")) {
+  if (starts_with(text, "STOCK") && !starts_with(text, "STOCK IS ")) {
     stock_.read(text, modes_.scale, where, reporter_.diagnostics());
     return;
   }

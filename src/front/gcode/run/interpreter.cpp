@@ -48,6 +48,7 @@ void Interpreter::run(const Block& block) {
   const bool at_tool_change = !block.comments.empty() && changes_tool(block);
   for (const Comment& comment : block.comments) read_comment(comment, at_tool_change);
   if (block.percent) return read_percent();
+  if (block.faulty && program_.ended) return report_unreadable_end();
   if (block.faulty || (block.optional && options_.block_delete == BlockDelete::skip)) return;
   if (block.sender) return skip_setting(block);
   if (!block.command.empty()) {
@@ -108,13 +109,26 @@ bool Interpreter::reads_after_end(const Block& block) {
   return !stopped_;
 }
 
+/// A line after the program's end that is not G-code.
+void Interpreter::report_unreadable_end() {
+  stopped_ = stopped_ || after_end_ == AfterEnd::stop;
+  if (text_after_end_reported_) return;
+  text_after_end_reported_ = true;
+  reporter_.unusual(Code::text_after_end, 1, "text after the end of the program is not G-code; skipped");
+}
+
+void Interpreter::note_program_end() {
+  program_.ended = true;
+  flow_->note_program_end();
+}
+
 /// A program is enclosed in two percent lines, or has none.
 void Interpreter::read_percent() {
   if (flow_->depth() > 0) return;  // in a subroutine's file
   const bool closes = percent_open_ || words_since_percent_;
   if (closes && !percent_open_)
     reporter_.unusual(Code::lone_percent, 1, "this percent line closes a program without an opening one");
-  if (closes) program_.ended = true;
+  if (closes) note_program_end();
   percent_open_ = !closes;
   words_since_percent_ = false;
 }

@@ -63,8 +63,9 @@ struct Modes {
   bool absolute_centres = false;
   double scale = 1.0;  // mm of one unit of the program
   FeedMode feed_mode = FeedMode::per_minute;
-  double feed = 0.0;   // mm/min, 1/min or mm/turn; 0: none given
-  double speed = 0.0;  // rpm
+  double feed = 0.0;        // mm/min, 1/min or mm/turn; 0: none given
+  double feed_scale = 1.0;  // `scale` at the F word: #<_feed> is its number, also after a change of units
+  double speed = 0.0;       // rpm
   SpindleTurn spindle = SpindleTurn::off;
   bool mist = false, flood = false;
   double surface_speed = 0.0;     // m/min of G96; 0: the speed is in rpm
@@ -176,6 +177,8 @@ class Interpreter : public SystemValues {
  private:
   // interpreter.cpp
   bool reads_after_end(const Block& block);
+  void report_unreadable_end();
+  void note_program_end();
   void read_percent();
   void report_missing_speed();
   void note_lathe_words();
@@ -325,6 +328,7 @@ class Interpreter : public SystemValues {
   void mark_measured(ToolPosition& to) const;
 
   // arcs.cpp
+  void use_idle_offset();
   void arc(Turn turn);
   void arc_as_chords(Turn turn);
   std::optional<Point2> centre_of(const ToolPosition& to, Turn turn);
@@ -356,7 +360,9 @@ class Interpreter : public SystemValues {
   bool add(const S& step);
   void rapid(const ToolPosition& to);
   void cut(const ToolPosition& to, double feed);
+  void locked_cut(const ToolPosition& to, double feed, SpindleLock lock);
   void arrive(const ToolPosition& to);
+  void set_motion_extra();
   void set_spindle(SpindleTurn turn);
 
   GcodeProgram& program_;
@@ -386,6 +392,7 @@ class Interpreter : public SystemValues {
   unsigned rotary_reference_ = 0;  // axes that the next motion moves to its reference
   unsigned rotary_axes_ = 0;       // those that the program has
   bool rotary_used_ = false;
+  SpindleLock lock_ = SpindleLock::none;  // of the motion that is added
   Tenths motion_before_cycle_ = kMotionNotGiven;
   std::pair<double, double> polar_step_{};  // radius in mm and angle in degrees of the line's polar words
   unsigned named_ = 0;  // axes named by the line, for Step::named_axes; 0: its motions are computed

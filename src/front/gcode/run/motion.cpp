@@ -381,14 +381,29 @@ void Interpreter::cut(const ToolPosition& to, double feed) {
   if (add(step::Cut{to.at, mm_per_min(feed)})) arrive(to);
 }
 
+void Interpreter::set_motion_extra() {
+  MotionExtra extra;
+  if (rotary_used_)
+    extra = {.abc = rotary_, .unknown_abc = rotary_unknown_, .reference_abc = rotary_reference_};
+  extra.lock = lock_;
+  const double feed = path_[path_.size() - 1].feed().mm_per_min();
+  if (lock_ != SpindleLock::none && modes_.speed > 0.0) extra.per_turn = feed / modes_.speed;
+  path_.set_extra(path_.size() - 1, std::move(extra));
+}
+
+/// A cut that depends on the spindle's angle.
+void Interpreter::locked_cut(const ToolPosition& to, double feed, SpindleLock lock) {
+  lock_ = lock;
+  cut(to, feed);
+  lock_ = SpindleLock::none;
+}
+
 void Interpreter::arrive(const ToolPosition& to) {
   if (to.unknown != 0) path_.set_unknown_axes(path_.size() - 1, to.unknown);
   if (to.reference_axes != 0 || rotary_reference_ != 0)
     path_.set_reference(path_.size() - 1, to.reference, to.reference_axes);
   if (named_ != 0) path_.set_named_axes(path_.size() - 1, named_);
-  if (rotary_used_)
-    path_.set_extra(path_.size() - 1,
-                    {.abc = rotary_, .unknown_abc = rotary_unknown_, .reference_abc = rotary_reference_});
+  if (rotary_used_ || lock_ != SpindleLock::none) set_motion_extra();
   rotary_reference_ = 0;
   if (starts_at_rest_) path_.set_rests_before(path_.size() - 1);
   starts_at_rest_ = false;

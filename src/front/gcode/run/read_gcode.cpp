@@ -12,9 +12,19 @@
 namespace kerf {
 namespace {
 
-constexpr std::size_t kLinesPerReport = 16'384;       // a stop request takes effect within milliseconds
-constexpr std::size_t kBytesPerStep = 16;             // typical, for the first reservation
-constexpr std::size_t kMaxReservedSteps = 2'000'000;  // a longer path is reallocated
+constexpr std::size_t kLinesPerReport = 16'384;  // a stop request takes effect within milliseconds
+// For the first reservation; a longer path is reallocated, which takes three times its memory for a moment.
+constexpr std::size_t kSampledBytes = 64 * 1024;
+constexpr std::size_t kMaxReservedSteps = sizeof(void*) > 4 ? 32'000'000 : 2'000'000;
+
+/// The number of lines, by the length of the first ones: each makes one step in most programs.
+std::size_t expected_steps(std::string_view text) {
+  const std::string_view sample = text.substr(0, kSampledBytes);
+  const auto lines = static_cast<std::size_t>(std::count(sample.begin(), sample.end(), '\n')) + 1;
+  return static_cast<std::size_t>(static_cast<double>(lines) * static_cast<double>(text.size()) /
+                                  static_cast<double>(sample.size() + 1)) +
+         1;
+}
 
 GcodeDialect dialect_of(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics) {
   if (options.dialect) return *options.dialect;
@@ -43,6 +53,20 @@ bool is_text(std::string_view text, const GcodeReadOptions& options, Diagnostics
   return false;
 }
 
+/// False with one error for a program in another language; otherwise each of its lines would be an error.
+bool is_gcode(std::string_view text, const GcodeReadOptions& options, GcodeDialect dialect,
+              Diagnostics& diagnostics) {
+  if (dialect == GcodeDialect::marlin || dialect == GcodeDialect::klipper) return true;
+  const auto foreign = find_foreign_language(text);
+  if (!foreign) return true;
+  diagnostics
+      .error(Code::other_language, TextLocation{options.file_name, foreign->line, 0},
+             fmt::format("a program for a {} control ({}), whose language is not supported", foreign->control,
+                         foreign->word))
+      .hint = "post it as G-code for LinuxCNC, GRBL, Mach3 or Fanuc";
+  return false;
+}
+
 }  // namespace
 
 GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, Diagnostics& diagnostics,
@@ -53,8 +77,12 @@ GcodeProgram read_gcode(std::string_view text, const GcodeReadOptions& options, 
     program.cut_short = true;
     return program;
   }
-  program.path.reserve(std::min({text.size() / kBytesPerStep + 1, options.max_steps, kMaxReservedSteps}));
+  program.path.reserve(std::min({expected_steps(text), options.max_steps, kMaxReservedSteps}));
   program.dialect = dialect_of(text, options, diagnostics);
+  if (!is_gcode(text, options, program.dialect, diagnostics)) {
+    program.cut_short = true;
+    return program;
+  }
   gcode::LineReporter reporter(options.file_name, options.strict, diagnostics);
   gcode::Interpreter interpreter(program, text, options, reporter);
   gcode::Flow flow(text, options, reporter, interpreter.parameters(), program.dialect, diagnostics);

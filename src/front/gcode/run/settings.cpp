@@ -45,6 +45,7 @@ void Interpreter::set_feed() {
     return;
   }
   modes_.feed = modes_.feed_mode == FeedMode::inverse_time ? feed : feed * modes_.scale;
+  modes_.feed_scale = modes_.scale;
 }
 
 void Interpreter::set_speed() {
@@ -369,7 +370,7 @@ void Interpreter::end_or_pause() {
 /// M2 and M30 reset the modes (LinuxCNC's page "M2, M30"; GRBL does the same), but not units, position and
 /// tool.
 void Interpreter::end_program() {
-  program_.ended = true;
+  note_program_end();
   if (modes_.spindle != SpindleTurn::off) set_spindle(SpindleTurn::off);
   if (modes_.mist || modes_.flood) {
     modes_.mist = modes_.flood = false;

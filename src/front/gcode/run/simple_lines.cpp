@@ -90,6 +90,7 @@ bool Interpreter::run_simple_line(std::string_view text, std::uint32_t number) {
   if (!within_limit(to.at)) return false;
   modes_.motion = motion;
   modes_.feed = feed;
+  if (words.has_feed) modes_.feed_scale = modes_.scale;
   if (motion == 10) no_feed_reported_ = false;
   words_since_percent_ = true;
   reporter_.at_line(number);

@@ -123,7 +123,9 @@ std::optional<double> Interpreter::position_parameter(std::string_view name) con
   static const std::map<std::string_view, Read> kNames{
       {"_feed",
        [](const I& i) {
-         return i.modes_.feed_mode == FeedMode::inverse_time ? i.modes_.feed : i.modes_.feed / i.modes_.scale;
+         if (i.feed_mode_repeated_) return 0.0;  // G94 or G95 without F
+         return i.modes_.feed_mode == FeedMode::inverse_time ? i.modes_.feed
+                                                             : i.modes_.feed / i.modes_.feed_scale;
        }},
       {"_rpm", [](const I& i) { return i.modes_.speed; }},
       {"_x", [](const I& i) { return i.program_position().x; }},

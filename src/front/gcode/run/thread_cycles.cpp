@@ -27,11 +27,12 @@ void Interpreter::spindle_motion(Tenths motion) {
   }
   if (!to) return;
   const double feed = std::abs(*pitch) * modes_.scale * modes_.speed;
-  cut(*to, feed);
+  const SpindleLock lock = motion == 330 ? SpindleLock::thread : SpindleLock::rigid_tap;
+  locked_cut(*to, feed, lock);
   if (motion == 330) return;
   const SpindleTurn turn = modes_.spindle;
   set_spindle(turn == SpindleTurn::cw ? SpindleTurn::ccw : SpindleTurn::cw);
-  cut(from, feed);
+  locked_cut(from, feed, lock);
   set_spindle(turn);
 }
 
@@ -89,13 +90,13 @@ void Interpreter::thread_pass(const Thread& t, const ToolPosition& start, double
   };
   rapid(go(clear, start_z));
   if (t.tapered_entry) {
-    cut(go(outside, start_z), taper_feed);
-    cut(go(bottom, start_z + t.way * t.taper), taper_feed);
+    locked_cut(go(outside, start_z), taper_feed, SpindleLock::thread);
+    locked_cut(go(bottom, start_z + t.way * t.taper), taper_feed, SpindleLock::thread);
   } else {
     rapid(go(bottom, start_z));
   }
-  cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed);
-  if (t.tapered_exit) cut(go(outside, last_z), taper_feed);
+  locked_cut(go(bottom, t.tapered_exit ? last_z - t.way * t.taper : last_z), feed, SpindleLock::thread);
+  if (t.tapered_exit) locked_cut(go(outside, last_z), taper_feed, SpindleLock::thread);
   rapid(go(clear, last_z));
 }
 

@@ -1,0 +1,343 @@
+"""Files of other programs: tool bits and libraries, tables beside a program, meshes in all forms of zip,
+programs in other languages, text after the end; and threads for controllers with and without them."""
+import json
+import os
+import stat
+import struct
+import zlib
+from pathlib import Path
+
+import pytest
+
+HEAD = "G21 G90\nT1 M6\nS1000 M3\n"
+BODY = "G0 X10 Y10 Z5\nG1 Z-1 F100\nX30\nG0 Z5\nM2\n"
+
+
+def tool_list(kerf, path):
+    """The tools of a converted library, by number: key = value."""
+    run = kerf("tools", "import", path)
+    assert run.status == 0, run.err
+    tools = []
+    for line in run.out.splitlines():
+        if line == "[[tool]]":
+            tools.append({})
+        elif " = " in line and tools:
+            key, value = line.split(" = ", 1)
+            tools[-1][key] = json.loads(value)
+    return {t["number"]: t for t in tools}
+
+
+# ---- FreeCAD
+
+def bit(name, shape, **parameters):
+    return json.dumps({"version": 2, "name": name, "shape": shape, "parameter": parameters, "attribute": {}})
+
+
+def test_lengths_with_a_decimal_comma(kerf, program):
+    """As FreeCAD writes them with German or Russian settings."""
+    text = bit("12,65mm Endmill", "endmill.fcstd", CuttingEdgeHeight="30,5000 mm", Diameter="12,65 mm",
+               ShankDiameter="3,0000 mm")
+    tool = tool_list(kerf, program(text, "bit.fctb"))[1]
+    assert (tool["diameter"], tool["flute"], tool["shank_diameter"]) == (12.65, 30.5, 3)
+
+
+def test_shapes_of_freecad(kerf, program):
+    """The angle of a dovetail is between its bottom and its side. A thread mill has a flat crest of 0.1 mm
+    and flanks of 60 degrees from 6 to 4.1 mm."""
+    dovetail = bit("dove", "dovetail.fcstd", CuttingEdgeAngle="60.00 °", CuttingEdgeHeight="9.0000 mm",
+                   Diameter="20.0000 mm", NeckDiameter="8.0000 mm", NeckHeight="5.0000 mm",
+                   ShankDiameter="8.0000 mm")
+    tool = tool_list(kerf, program(dovetail, "dove.fctb"))[1]
+    assert tool["shape"] == "dovetail" and tool["angle"] == pytest.approx(30) and tool["flute"] == 9
+    assert tool["neck_diameter"] == 8 and tool["neck_length"] == 5
+    torus = bit("torus", "torus.fcstd", CuttingEdgeHeight="40 mm", Diameter="6 mm", TorusRadius="1.5 mm",
+                ShankDiameter="3 mm")
+    tool = tool_list(kerf, program(torus, "torus.fctb"))[1]
+    assert tool["shape"] == "bull nose" and tool["corner_radius"] == 1.5
+    thread = bit("thread", "thread-mill.fcstd", Crest="0.10 mm", Diameter="6.00 mm", NeckDiameter="4.10 mm",
+                 NeckLength="20.00 mm", ShankDiameter="6.00 mm", cuttingAngle="60.00 °")
+    tool = tool_list(kerf, program(thread, "thread.fctb"))[1]
+    assert tool["shape"] == "thread mill"
+    assert (tool["minor_diameter"], tool["major_diameter"]) == (4.1, 6)
+    assert tool["cut_height"] == pytest.approx(0.1 + (6 - 4.1) * 3 ** -0.5, abs=1e-4)
+
+
+def test_the_name_of_a_skipped_bit_is_given(kerf, program):
+    run = kerf("tools", "import", program(bit("my saw", "slittingsaw.fcstd", Diameter="60 mm"), "saw.fctb"))
+    assert '"my saw" is skipped' in run.err
+
+
+def test_a_freecad_library(kerf, tmp_path):
+    """Default.fctl names bits in the folder Bit beside its own."""
+    (tmp_path / "Library").mkdir()
+    (tmp_path / "Bit").mkdir()
+    (tmp_path / "Bit" / "5mm_Endmill.fctb").write_text(
+        bit("5mm Endmill", "endmill.fcstd", Diameter="5 mm", CuttingEdgeHeight="30 mm"))
+    library = tmp_path / "Library" / "Default.fctl"
+    library.write_text(json.dumps({"label": "Default", "version": 1, "tools": [
+        {"nr": 7, "path": "5mm_Endmill.fctb"}, {"nr": 8, "path": "gone.fctb"}]}))
+    run = kerf("tools", "import", library)
+    assert run.status == 0 and "number = 7" in run.out and "diameter = 5" in run.out
+    assert '"gone.fctb" is skipped' in run.err
+    part = tmp_path / "part.nc"
+    part.write_text("G21 G90\nT7 M6\nS1000 M3\n" + BODY)
+    tools = kerf("info", "--json", "--tools", library, part).json["tools"]
+    assert tools[0]["name"] == "square 5 mm" and tools[0]["source"] == "tool file"
+
+
+# ---- LinuxCNC's tool table
+
+TABLE = ("T1 P1 D6 ;1/4 end mill\nT2 P2 D3 Z1 ;PROBE\nT3 P3 D6.35 ;1/4 ball mill\nT4 P4 D12.7 ;90 deg V-bit\n"
+         "T5 P5 D3 ;drill\n")
+
+
+def test_the_comments_of_a_tool_table_name_shapes(kerf, program):
+    path = program(TABLE, "tool.tbl")
+    tools = tool_list(kerf, path)
+    assert {n: t["shape"] for n, t in tools.items()} == {1: "square", 3: "ball", 4: "V", 5: "drill"}
+    assert tools[4]["angle"] == 90 and tools[5]["angle"] == 118
+    assert "T2" in kerf("tools", "import", path).err
+
+
+def test_a_tool_table_beside_a_program(kerf, program):
+    program(TABLE, "tool.tbl")
+    tools = kerf("info", "--json", program("G21 G90\nT3 M6\nS1000 M3\n" + BODY)).json["tools"]
+    assert tools[0]["name"] == "ball 6.35 mm" and tools[0]["source"] == "tool file"
+    # A comment and an option have precedence.
+    described = program("(T3 D=4. CR=0. - flat end mill)\nG21 G90\nT3 M6\nS1000 M3\n" + BODY)
+    tools = kerf("info", "--json", described).json["tools"]
+    assert tools[0]["name"] == "square 4 mm" and tools[0]["source"] == "comment"
+    tools = kerf("info", "--json", "--tool", "3=square d=2", described).json["tools"]
+    assert tools[0]["name"] == "square 2 mm"
+    # Its diameters are those of the program's unit, and those of its cutter compensation.
+    inch = program("G20 G90\nT1 M6\nS1000 M3\n" + BODY)
+    assert kerf("info", "--json", inch).json["tools"][0]["name"] == "square 152.4 mm"
+    side = program(HEAD + "G0 X-10 Y-10 Z5\nG1 Z-1 F100\nG41 X0 Y0\nY30\nG40 X-10\nG0 Z5\nM2\n")
+    run = kerf("steps", side)
+    assert run.status == 0, run.err
+    ends = [json.loads(line).get("to") for line in run.out.splitlines()]
+    assert [-3.0, 30.0, -1.0] in ends
+
+
+def test_a_tool_table_is_not_for_grbl(kerf, program):
+    program(TABLE, "tool.tbl")
+    run = kerf("info", "--json", "--dialect", "grbl", program(HEAD + BODY))
+    assert run.json["tools"][0]["source"] != "tool file"
+
+
+# ---- meshes
+
+MODEL = """<?xml version="1.0"?>
+<model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>
+<object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="10" y="0" z="0"/>
+<vertex x="0" y="10" z="0"/><vertex x="0" y="0" z="10"/></vertices><triangles><triangle v1="0" v2="2" v3="1"/>
+<triangle v1="0" v2="1" v3="3"/><triangle v1="1" v2="2" v3="3"/><triangle v1="0" v2="3" v3="2"/></triangles>
+</mesh></object></resources><build><item objectid="1"/></build></model>"""
+RELATIONS = """<?xml version="1.0"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship
+Target="/3D/3dmodel.model" Id="rel0" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
+</Relationships>"""
+
+
+def archive(descriptor, end64, packed=True, break_checksum=False):
+    """A zip whose sizes and offsets are in zip64 fields; with `descriptor` the sizes follow the data."""
+    out, directory, count = b"", b"", 0
+    for name, text in (("_rels/.rels", RELATIONS), ("3D/3dmodel.model", MODEL)):
+        data = text.encode()
+        crc = zlib.crc32(data) ^ (1 if break_checksum else 0)
+        deflate = zlib.compressobj(9, zlib.DEFLATED, -15)
+        body = deflate.compress(data) + deflate.flush() if packed else data
+        name, method, at = name.encode(), 8 if packed else 0, len(out)
+        flags, here = (8, (0, 0, 0)) if descriptor else (0, (crc, len(data), len(body)))
+        out += struct.pack("<IHHHHHIIIHH", 0x04034b50, 45, flags, method, 0, 33, here[0], 0xffffffff,
+                           0xffffffff, len(name), 20)
+        out += name + struct.pack("<HHQQ", 1, 16, here[1], here[2]) + body
+        if descriptor:
+            out += struct.pack("<IIQQ", 0x08074b50, crc, len(body), len(data))
+        directory += struct.pack("<IHHHHHHIIIHHHHHII", 0x02014b50, 45, 45, flags, method, 0, 33, crc,
+                                 0xffffffff, 0xffffffff, len(name), 28, 0, 0, 0, 0, 0xffffffff)
+        directory += name + struct.pack("<HHQQQ", 1, 24, len(data), len(body), at)
+        count += 1
+    start = len(out)
+    out += directory
+    if end64:
+        at = len(out)
+        out += struct.pack("<IQHHIIQQQQ", 0x06064b50, 44, 45, 45, 0, 0, count, count, len(directory), start)
+        out += struct.pack("<IIQI", 0x07064b50, 0, at, 1)
+        return out + struct.pack("<IHHHHIIH", 0x06054b50, 0, 0, 0xffff, 0xffff, 0xffffffff, 0xffffffff, 0)
+    return out + struct.pack("<IHHHHIIH", 0x06054b50, 0, 0, count, count, len(directory), start, 0)
+
+
+@pytest.mark.parametrize("form", [(d, e, p) for d in (0, 1) for e in (0, 1) for p in (0, 1)])
+def test_3mf_in_every_form_of_zip(kerf, program, form):
+    mesh = program(archive(*form), "mesh.3mf")
+    run = kerf("simulate", "--json", "--stock-mesh", mesh, "--tool", "square d=3", program(HEAD + BODY))
+    assert run.status == 0, run.out
+    assert run.json["stock_mm3"] == pytest.approx(1000 / 6, rel=1e-3)
+
+
+def test_a_damaged_3mf_is_refused(kerf, program):
+    whole = archive(True, True)
+    packed = whole.index(b"3D/3dmodel.model") + 16 + 20 + 40  # within the deflated data
+    for name, data in {"crc.3mf": archive(False, False, True, True), "cut.3mf": whole[:-30],
+                       "body.3mf": whole[:packed] + b"\xff" * 8 + whole[packed + 8:]}.items():
+        run = kerf("simulate", "--json", "--stock-mesh", program(data, name), program(HEAD + BODY))
+        assert run.status == 1 and "mesh_file" in run.codes(), name
+
+
+def glb(pad):
+    positions = struct.pack("<12f", 0, 0, 0, .01, 0, 0, 0, .01, 0, 0, 0, .01)
+    triangles = struct.pack("<12H", 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2)
+    scene = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+             "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
+             "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                           {"bufferView": 1, "componentType": 5123, "count": 12, "type": "SCALAR"}],
+             "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": 48},
+                             {"buffer": 0, "byteOffset": 48, "byteLength": 24}],
+             "buffers": [{"byteLength": 72}]}
+    text = json.dumps(scene).encode()
+    text += b" " * (1 - len(text) % 4) if pad is None else b" " * (-len(text) % 4)
+    while pad is None and len(text) % 4 != 1:
+        text += b" "
+    data = positions + triangles
+    head = struct.pack("<4sII", b"glTF", 2, 12 + 16 + len(text) + len(data))
+    chunks = [(text, b"JSON"), (data, b"BIN\0")]
+    return head + b"".join(struct.pack("<I4s", len(body), kind) + body for body, kind in chunks)
+
+
+@pytest.mark.parametrize("pad", [None, True])
+def test_glb_with_and_without_padding(kerf, program, pad):
+    mesh = program(glb(pad), "mesh.glb")
+    run = kerf("simulate", "--json", "--stock-mesh", mesh, "--tool", "square d=3", program(HEAD + BODY))
+    assert run.status == 0, run.out
+    assert run.json["stock_mm3"] == pytest.approx(1000 / 6, rel=1e-3)
+
+
+# ---- programs in other languages, and text after the end
+
+DATA = Path(__file__).parent.parent / "data" / "gcode" / "languages"
+
+
+@pytest.mark.parametrize("text, control", [
+    ((DATA / "heidenhain.txt").read_text(), "Heidenhain"),
+    ('G17 G90 G71\nWORKPIECE(,"",,"BOX",112,0,-51,,50,25,-50,-25)\nG0 X0 Y0\nM30\n', "Siemens"),
+    ("G17 G90\nG0 X0 Y0 Z5\nG2 X10 Y0 CR=5 F100\nM30\n", "Siemens"),
+    ("N10 G90\nN20 SUPA G0 Z0\nN30 M30\n", "Siemens"),
+    ("G90\nMCALL CYCLE81(5,0,1,-5,)\nX5 Y5\nM30\n", "Siemens")])
+def test_the_language_of_another_control_is_named(kerf, program, text, control):
+    run = kerf("info", "--json", program(text))
+    assert run.status == 1 and run.codes() == ["other_language"]
+    assert control in run.json["diagnostics"][0]["message"]
+
+
+def test_words_of_other_controls_in_comments_are_comments(kerf, program):
+    text = "(WORKPIECE(\n(CYCLE81( and CR=5)\n; TOOL CALL\n#<cr>=5\n" + HEAD + BODY
+    assert "other_language" not in kerf("info", "--json", program(text)).codes()
+
+
+@pytest.mark.parametrize("end", ["M30\n", "M30\n%\n"])
+@pytest.mark.parametrize("tail", ["Some text: after [garbage 1.2.3.4 G1 X\nand {more}\n",
+                                  "(unclosed\nX 1.2.3\n",
+                                  "O100 foo\n#1=[\n"])
+def test_text_after_the_end_need_not_be_gcode(kerf, program, end, tail):
+    text = ("%\n" if "%" in end else "") + HEAD + BODY.replace("M2\n", end) + tail
+    run = kerf("info", "--json", program(text))
+    assert run.status == 0, run.out
+    after = [d["severity"] for d in run.json["diagnostics"] if d["name"] == "text_after_end"]
+    assert after == ([] if tail[0] == "O" else ["warning"])  # a subroutine may follow the end
+    if tail[0] != "O":  # on Fanuc's controls subprograms follow the end
+        assert kerf("info", program(text), "--dialect", "fanuc").status == 0
+
+
+def test_an_offset_of_0_along_the_third_axis_is_silent(kerf, program):
+    """FreeCAD writes K0.000 with every arc."""
+    arc = HEAD + "G0 X0 Y0 Z5\nG2 X10 Y0 I5 J0 K{} F100\nM2\n"
+    assert "word_unused" not in kerf("info", "--json", program(arc.format("0.000"))).codes()
+    assert "word_unused" in kerf("info", "--json", program(arc.format("1.000"))).codes()
+
+
+# ---- threads
+
+def motions(kerf, path, post, *options):
+    run = kerf("post", "--json", "--to", post, path, "-o", "out.nc", *options)
+    if run.status:
+        return run.codes()
+    lines = (path.parent / "out.nc").read_text().splitlines()
+    return [line for line in lines if line[:1] != "(" and not line.startswith("G21")]
+
+
+def test_a_tapping_cycle_is_written_as_one(kerf, program):
+    text = HEAD.replace("S1000", "S500") + "G0 X10 Y10 Z5\nG84 X10 Y10 Z-8 R2 F625\nX20\nG80\nG0 Z5\nM2\n"
+    lines = motions(kerf, program(text), "linuxcnc")
+    assert lines[2:] == ["G0 X10 Y10 Z5", "X10", "Z2", "G17 G84 Z-8 R2 F625", "G80", "G0 X20", "G84 Z-8 R2",
+                         "G80", "G0 Z5", "M5", "M2"]
+    left = text.replace("M3", "M4").replace("G84", "G74")
+    assert "G17 G74 Z-8 R2 F625" in motions(kerf, program(left), "linuxcnc")
+    run = kerf("post", "--json", "--to", "grbl", program(text), "-o", "out.nc")
+    assert run.status == 0 and run.codes().count("post_tap") == 1
+
+
+def test_threads_are_written_or_refused(kerf, program):
+    thread = HEAD + "G0 X10 Y10 Z5\nG33 Z-8 K1.25\nG0 Z5\nM2\n"
+    assert "G33 Z-8 K1.25" in motions(kerf, program(thread), "linuxcnc")
+    assert motions(kerf, program(thread), "grbl") == ["post_cannot"]
+    rigid = HEAD + "G0 X10 Y10 Z5\nG33.1 Z-8 K1.25\nG0 X20\nM2\n"
+    lines = motions(kerf, program(rigid), "linuxcnc")
+    at = lines.index("G33.1 Z-8 K1.25")
+    assert lines[at + 1:] == ["G0 X20", "M5", "M2"]
+    assert set(motions(kerf, program(rigid), "mach3")) == {"post_cannot"}
+    inch = motions(kerf, program(thread.replace("K1.25", "K1.27")), "linuxcnc", "--inch")
+    assert any(line.startswith("G33 Z-0.31496 K0.05") for line in inch)
+
+
+def test_steps_show_what_follows_the_spindle(kerf, program):
+    thread = HEAD + "G0 X10 Y10 Z5\nG33 Z-8 K1.25\nG0 Z5\nM2\n"
+    steps = [json.loads(line) for line in kerf("steps", program(thread)).out.splitlines()[1:]]
+    locked = [s for s in steps if "spindle_lock" in s]
+    assert [(s["spindle_lock"], s["per_turn"], s["feed"]) for s in locked] == [("thread", 1.25, 1250)]
+
+
+# ---- outputs
+
+def test_a_derived_name_does_not_replace_the_input(kerf, program):
+    text = HEAD + BODY.replace("M2\n", "T2 M6\nS900 M3\n" + BODY)
+    part = program(text, "part-T1.nc")
+    run = kerf("post", "--json", "--to", "grbl", "--tool-change", "files", part, "-o", "part.nc")
+    assert run.status != 0 and "output_is_input" in run.codes()
+    assert part.read_text() == text
+
+
+def test_putting_the_last_tool_away_makes_no_file(kerf, program, files):
+    """T0 M6 at the end: no motion follows, so that no file is needed for tool 0."""
+    text = HEAD + BODY.replace("M2\n", "M5\nT2 M6\nS900 M3\n" + BODY.replace("M2\n", "M5\nT0 M6\nM2\n"))
+    run = kerf("post", "-q", "--to", "grbl", "--tool-change", "files", program(text), "-o", "out.nc")
+    assert run.status == 0, run.err
+    assert [name for name in files() if name.startswith("out")] == ["out-T1.nc", "out-T2.nc"]
+
+
+def test_a_write_protected_file_is_not_replaced(kerf, program):
+    target = program("keep\n", "out.nc")
+    target.chmod(0o444)
+    run = kerf("post", "--json", "--to", "grbl", program(HEAD + BODY), "-o", target)
+    assert run.status == 1 and "file_unwritable" in run.codes()
+    assert target.read_text() == "keep\n"
+
+
+def test_the_permissions_of_a_replaced_file_are_kept(kerf, program):
+    target = program("old\n", "out.nc")
+    for mode in (0o600, 0o640, 0o755):
+        target.chmod(mode)
+        assert kerf("post", "-q", "--to", "grbl", program(HEAD + BODY), "-o", target).status == 0
+        assert stat.S_IMODE(os.stat(target).st_mode) == mode
+
+
+# ---- options
+
+def test_options_before_the_command(kerf):
+    run = kerf("--json", "simulate")
+    assert run.status == 2 and "belongs after the command: kerf simulate --json" in run.err + run.out
+
+
+def test_a_tool_option_with_a_word_for_its_number(kerf, program):
+    run = kerf("info", "--tool", "x=square d=3", program(HEAD + BODY))
+    assert run.status == 2 and '"x" is neither a tool number nor the name of a shape' in run.err
