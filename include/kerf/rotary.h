@@ -57,8 +57,7 @@ std::optional<RotarySimulation> simulate_rotary(const Toolpath& path, const Tool
                                                 const RoundBar& bar, const SimulationOptions& options,
                                                 Diagnostics& diagnostics, Progress* progress = nullptr);
 
-/// The surface of the remaining material, at A = 0. Closed; along A = 0 two faces coincide inside the
-/// material.
+/// The surface of the remaining material, at A = 0. Closed: every edge has two triangles.
 Mesh extract_mesh(const RotaryWorkpiece& workpiece, Progress* progress = nullptr);
 /// The volume that this mesh should have.
 VolumeRange mesh_volume(const RotaryWorkpiece& workpiece);

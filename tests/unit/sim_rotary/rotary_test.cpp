@@ -1,7 +1,9 @@
 // The rotary simulator against solids of known volume.
 #include "kerf/rotary.h"
 
+#include <array>
 #include <gtest/gtest.h>
+#include <random>
 
 #include "../path/jobs.h"
 
@@ -330,6 +332,65 @@ TEST(Rotary, TheToleranceOfTheVolumeHasTheWallsAcrossTheAxis) {
   EXPECT_GE(range.tolerance.mm3(), walls * pitch);
   EXPECT_LE(range.tolerance.mm3(), 1.2 * walls * pitch);
   EXPECT_NEAR(check_mesh(extract_mesh(work)).volume.mm3(), range.expected.mm3(), range.tolerance.mm3());
+}
+
+double area(const Mesh& mesh, std::size_t triangle) {
+  std::array<Point3, 3> p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* const at = mesh.positions.data() + std::size_t{3} * mesh.triangles[3 * triangle + k];
+    p[k] = {at[0], at[1], at[2]};
+  }
+  return 0.5 * length(cross(p[1] - p[0], p[2] - p[0]));
+}
+
+/// Every edge has two triangles, in opposite directions, and no triangle is without area.
+void expect_valid(const RotarySimulation& result) {
+  const Mesh mesh = extract_mesh(result.workpiece);
+  const MeshCheck check = check_mesh(mesh);
+  EXPECT_EQ(check.bad_edges, 0u);
+  for (std::size_t t = 0; t < mesh.step.size(); ++t)
+    EXPECT_GT(area(mesh, t), 1e-10) << t << " of " << mesh.step.size();
+  const VolumeRange range = mesh_volume(result.workpiece);
+  EXPECT_NEAR(check.volume.mm3(), range.expected.mm3(), range.tolerance.mm3());
+}
+
+/// The area of a prism: its lateral face and its ends. The axis and the seam add none.
+TEST(Rotary, TheMeshHasNoFacesInside) {
+  Diagnostics diagnostics;
+  RotaryPath path;
+  path.tool(1).rapid({-10, 0, 20}).rapid({-5, 0, 20});
+  const auto result = run(path, square(2), 0.25, diagnostics);
+  ASSERT_TRUE(result);
+  expect_valid(*result);
+  const Mesh mesh = extract_mesh(result->workpiece);
+  double sum = 0.0;
+  for (std::size_t t = 0; t < mesh.step.size(); ++t) sum += area(mesh, t);
+  const double r = 0.5 * kBar.diameter, long_side = kBar.x_high - kBar.x_low;
+  EXPECT_NEAR(sum, 2.0 * kPi * r * (r + long_side), 1e-3 * sum);
+}
+
+TEST(Rotary, MeshesOfRandomJobsAreValid) {
+  std::mt19937 random(5);
+  const auto between = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (int job = 0; job < 30; ++job) {
+    RotaryPath path;
+    path.tool(1);
+    double a = between(-90, 90);
+    for (int cut = 0; cut < 6; ++cut) {
+      path.rapid({between(-2, 32), between(-6, 6), 20}, a);
+      path.cut({between(-2, 32), between(-6, 6), job % 3 == 0 ? 0.0 : between(-8, 9)}, a);
+      if (cut % 2 == 0) a += between(-400, 400);
+      path.cut({between(-2, 32), between(-6, 6), job % 3 == 0 ? 0.0 : between(-8, 9)}, a);
+      path.rapid({15, 0, 20}, a);
+    }
+    Diagnostics diagnostics;
+    const auto result = run(path, square(between(0.5, 3)), between(0.3, 0.7), diagnostics);
+    ASSERT_TRUE(result);
+    SCOPED_TRACE(job);
+    expect_valid(*result);
+  }
 }
 
 TEST(Rotary, TheDefaultDistanceDependsOnTheBar) {
