@@ -2,7 +2,9 @@
 //
 // Three passes over the beads: the survey; beads and the wedges of corners in time order; the free ends last,
 // so that they get only space that no bead fills. Within a tile, pieces are laid in time order; sums are
-// added in the order of tiles, so that the result does not depend on threads.
+// added in the order of tiles, so that the result does not depend on threads. Each piece is laid twice: in
+// the columns of the material, and in columns spread evenly about, whose sums are the volumes: those of a
+// regular grid depend on how a bead along X or Y lies in it.
 #include "kerf/print.h"
 
 #include <algorithm>
@@ -11,7 +13,6 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
-#include <memory>
 #include <utility>
 
 #include "base/parallel.h"
@@ -19,6 +20,7 @@
 #include "sim/print/print_support.h"
 #include "sim/print/print_survey.h"
 #include "sim/print/print_tile.h"
+#include "sim/print/tile_set.h"
 
 #include "kerf/limits.h"
 #include "kerf/number.h"
@@ -46,18 +48,10 @@ struct LayerSums {
 struct PieceBatch {
   std::vector<BeadPiece> pieces;
   std::vector<Bead> beads;
-  struct Pair {
-    std::uint32_t tile, piece;
-  };
-  std::vector<Pair> pairs;
-  std::size_t columns = 0;  // maximum number that the pieces can touch
 
-  bool full() const { return pairs.size() >= kBatchPairs || columns >= kBatchColumns; }
   void clear() {
     pieces.clear();
     beads.clear();
-    pairs.clear();
-    columns = 0;
   }
 };
 
@@ -72,9 +66,8 @@ class Printer final : public BeadSink {
         diagnostics_(diagnostics),
         progress_(progress),
         threads_(thread_count(options.threads)),
-        tiles_x_((frame.nx + kTileSide - 1) / kTileSide),
-        tiles_y_((frame.ny + kTileSide - 1) / kTileSide),
-        tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)),
+        columns_(frame),
+        samples_(make_sample_frame(frame, survey)),
         layers_(survey.levels.size()),
         unsupported_(hazards_) {}
 
@@ -111,12 +104,11 @@ class Printer final : public BeadSink {
   void add(const BeadPiece& piece);
   void meet_bed(const BeadPiece& piece);
   void meet(const NozzleContact& contact);
-  bool passes(const BeadPiece& piece, double reach, int tile_y, int& first_x, int& last_x) const;
   void flush();
   void lay_batch();
   void merge();
+  void add_to_layers();
   void check_size();
-  ColumnGrid grid() const;
 
   const Toolpath& path_;
   const PrintOptions& options_;
@@ -125,10 +117,9 @@ class Printer final : public BeadSink {
   Diagnostics& diagnostics_;
   Progress* progress_;
   unsigned threads_;
-  int tiles_x_, tiles_y_;
-  std::vector<std::unique_ptr<PrintTile>> tiles_;
+  TileSet columns_;  // the material
+  TileSet samples_;  // for the volumes
   PieceBatch batch_;
-  std::vector<PieceSums> sums_;  // one per pair of the batch
   std::vector<LayerSums> layers_;
   std::vector<PrintHazard> hazards_;
   std::map<std::uint32_t, NozzleContact> contacts_;  // by step
@@ -215,28 +206,6 @@ void Printer::blob(std::uint32_t step, Point3 at, double volume) {
   hazards_.push_back({PrintHazardKind::blob, step, 1, at, {}, {}, mm3(volume)});
 }
 
-/// The tiles of a row within reach of a piece; false if there are none.
-bool Printer::passes(const BeadPiece& p, double reach, int tile_y, int& first_x, int& last_x) const {
-  const double side = kTileSide * frame_.pitch;
-  const double low = tile_y * side - reach - frame_.pitch, high = (tile_y + 1) * side + reach;
-  double a = 0.0, b = p.length;  // range of the centre line within these y
-  const double rise = p.along.y;
-  if (std::abs(rise) * p.length > frame_.pitch) {
-    const double at_low = (low - p.from.y) / rise, at_high = (high - p.from.y) / rise;
-    a = std::max(a, std::min(at_low, at_high));
-    b = std::min(b, std::max(at_low, at_high));
-  }
-  if (a > b) return false;
-  const double xa = p.from.x + a * p.along.x, xb = p.from.x + b * p.along.x;
-  const auto tile_at = [&](double x) { return std::floor(x / side); };
-  const double first = tile_at(std::min(xa, xb) - reach - frame_.pitch);
-  const double last = tile_at(std::max(xa, xb) + reach + frame_.pitch);
-  if (last < 0.0 || first >= tiles_x_) return false;
-  first_x = static_cast<int>(std::max(first, 0.0));
-  last_x = static_cast<int>(std::min(last, tiles_x_ - 1.0));
-  return true;
-}
-
 /// Contacts with the bed, which extends beyond the columns.
 void Printer::meet_bed(const BeadPiece& p) {
   const double deepest = -std::min(p.z, p.z + p.length * p.slope), min_depth = options_.contact_depth.mm();
@@ -251,25 +220,13 @@ void Printer::meet_bed(const BeadPiece& p) {
 void Printer::add(const BeadPiece& piece) {
   if (ended_) return;
   if (piece.kind != PieceKind::wedge) meet_bed(piece);
-  const double reach = piece.kind == PieceKind::travel ? frame_.pitch : piece.reach();
-  const double side = kTileSide * frame_.pitch, end = piece.from.y + piece.length * piece.along.y;
-  const double first = std::floor((std::min(piece.from.y, end) - reach) / side);
-  const double last = std::floor((std::max(piece.from.y, end) + reach) / side + 1.0 / kTileSide);
   const auto number = static_cast<std::uint32_t>(batch_.pieces.size());
   batch_.pieces.push_back(piece);
-  if (last >= 0.0 && first < tiles_y_) {
-    const int last_y = static_cast<int>(std::min(last, tiles_y_ - 1.0));
-    for (int y = static_cast<int>(std::max(first, 0.0)); y <= last_y; ++y) {
-      int first_x = 0, last_x = -1;
-      if (!passes(piece, reach, y, first_x, last_x)) continue;
-      for (int x = first_x; x <= last_x; ++x)
-        batch_.pairs.push_back({static_cast<std::uint32_t>(y * tiles_x_ + x), number});
-    }
-  }
-  const double columns = (piece.length / frame_.pitch + 2.0) * (2.0 * reach / frame_.pitch + 2.0);
-  batch_.columns += static_cast<std::size_t>(
-      std::min(columns, static_cast<double>(frame_.nx) * static_cast<double>(frame_.ny)));
-  if (batch_.full() || batch_.pieces.size() >= kBatchPairs) flush();
+  columns_.add(piece, number);
+  if (piece.kind != PieceKind::travel) samples_.add(piece, number);
+  const bool full = columns_.pairs() >= kBatchPairs || samples_.pairs() >= kBatchPairs ||
+                    columns_.columns() + samples_.columns() >= kBatchColumns;
+  if (full || batch_.pieces.size() >= kBatchPairs) flush();
 }
 
 void Printer::flush() {
@@ -281,34 +238,15 @@ void Printer::flush() {
   if (!batch_.pieces.empty() && path_.size() > 0)
     report(progress_, static_cast<double>(batch_.pieces.back().step) / static_cast<double>(path_.size()));
   batch_.clear();
+  columns_.clear_batch();
+  samples_.clear_batch();
 }
 
 void Printer::lay_batch() {
-  // By tile; within a tile by time.
-  std::stable_sort(batch_.pairs.begin(), batch_.pairs.end(),
-                   [](const PieceBatch::Pair& a, const PieceBatch::Pair& b) { return a.tile < b.tile; });
-  std::vector<std::size_t> starts;
-  for (std::size_t k = 0; k < batch_.pairs.size(); ++k)
-    if (k == 0 || batch_.pairs[k].tile != batch_.pairs[k - 1].tile) starts.push_back(k);
-  starts.push_back(batch_.pairs.size());
-  sums_.assign(batch_.pairs.size(), {});
-  std::vector<std::vector<NozzleContact>> contacts(starts.size());
-  const double depth = options_.contact_depth.mm();
-  const auto lay_tile = [&](std::size_t n) {
-    const std::uint32_t number = batch_.pairs[starts[n]].tile;
-    std::unique_ptr<PrintTile>& tile = tiles_[number];
-    if (!tile)
-      tile = std::make_unique<PrintTile>(frame_, static_cast<int>(number) % tiles_x_,
-                                         static_cast<int>(number) / tiles_x_);
-    for (std::size_t k = starts[n]; k < starts[n + 1]; ++k)
-      tile->add(batch_.pieces[batch_.pairs[k].piece], depth, sums_[k], contacts[n]);
-  };
-  parallel_for(threads_, starts.size() - 1, lay_tile,
-               [&] { return stopped_ = stopped_ || stop_requested(progress_); });
-  stopped_ = stopped_ || stop_requested(progress_);
-  if (stopped_) return;
-  for (const std::vector<NozzleContact>& of_tile : contacts)
-    for (const NozzleContact& contact : of_tile) meet(contact);
+  const auto stop = [&] { return stopped_ = stopped_ || stop_requested(progress_); };
+  columns_.lay(batch_.pieces, options_.contact_depth.mm(), threads_, stop);
+  if (!stop()) samples_.lay(batch_.pieces, std::numeric_limits<double>::infinity(), threads_, stop);
+  if (!stop()) columns_.for_each_contact([&](const NozzleContact& contact) { meet(contact); });
 }
 
 void Printer::meet(const NozzleContact& contact) {
@@ -321,40 +259,40 @@ void Printer::meet(const NozzleContact& contact) {
   all.at = contact.at;
 }
 
-/// Adds the sums of the batch to the layers, in the order of tiles, and finds unsupported beads, in time
-/// order.
-void Printer::merge() {
-  std::vector<PieceSums> of_bead(batch_.beads.size());
-  for (std::size_t k = 0; k < batch_.pairs.size(); ++k) {
-    const BeadPiece& piece = batch_.pieces[batch_.pairs[k].piece];
-    if (piece.kind == PieceKind::travel) continue;
-    const PieceSums& sums = sums_[k];
+/// Adds the volumes of the batch to the layers.
+void Printer::add_to_layers() {
+  samples_.for_each_sum([&](std::uint32_t number, const PieceSums& sums) {
+    const BeadPiece& piece = batch_.pieces[number];
     LayerSums& layer = layers_[piece.layer];
     if (piece.kind == PieceKind::wedge) {
       (laying_ends_ ? layer.filled_ends : layer.filled_corners) += sums.full - sums.covered;
-      continue;
+      return;
     }
     layer.full += sums.full;
     layer.covered += sums.covered;
+  });
+}
+
+/// Adds up the batch, and finds unsupported beads, in time order.
+void Printer::merge() {
+  add_to_layers();
+  std::vector<PieceSums> of_bead(batch_.beads.size());
+  columns_.for_each_sum([&](std::uint32_t number, const PieceSums& sums) {
+    const BeadPiece& piece = batch_.pieces[number];
+    if (piece.kind != PieceKind::bead) return;
     PieceSums& bead = of_bead[piece.bead];
     bead.full += sums.full;
     bead.centre += sums.centre;
     bead.bare += sums.bare;
     bead.supported = bead.supported || sums.supported;
-  }
+  });
   for (std::size_t r = 0; r < batch_.beads.size(); ++r)
     layers_[survey_.layer_of(batch_.beads[r].level)].bare += unsupported_.add(batch_.beads[r], of_bead[r]);
 }
 
 void Printer::check_size() {
-  std::size_t runs = 0;
-  bool too_deep = false;
-  for (const auto& tile : tiles_) {
-    if (!tile) continue;
-    runs += tile->runs();
-    too_deep = too_deep || tile->too_deep();
-  }
-  if (!too_deep && runs <= options_.max_intervals) return;
+  const bool too_deep = columns_.too_deep();
+  if (!too_deep && columns_.runs() <= options_.max_intervals) return;
   ended_ = true;
   if (too_deep) {
     diagnostics_.error(Code::print_too_large, {},
@@ -367,30 +305,6 @@ void Printer::check_size() {
              fmt::format("the columns of the print have more than {} intervals of material",
                          options_.max_intervals))
       .hint = fmt::format("use a resolution coarser than {} mm", number_text(frame_.pitch, 4));
-}
-
-ColumnGrid Printer::grid() const {
-  ColumnGrid grid;
-  const double high = std::max(survey_.box.high.z - frame_.bed, frame_.pitch);
-  grid.bounds.low = {frame_.x - 0.5 * frame_.pitch, frame_.y - 0.5 * frame_.pitch, frame_.bed};
-  grid.bounds.high = grid.bounds.low + Point3{frame_.nx * frame_.pitch, frame_.ny * frame_.pitch, high};
-  grid.pitch = frame_.pitch;
-  grid.nx = frame_.nx;
-  grid.ny = frame_.ny;
-  std::size_t runs = 0;
-  for (const auto& tile : tiles_) runs += tile ? tile->runs() : 0;
-  grid.intervals.reserve(runs);
-  grid.first.reserve(static_cast<std::size_t>(frame_.nx) * static_cast<std::size_t>(frame_.ny) + 1);
-  for (int j = 0; j < frame_.ny; ++j) {
-    for (int i = 0; i < frame_.nx; ++i) {
-      grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
-      const auto number = static_cast<std::size_t>(j / kTileSide * tiles_x_ + i / kTileSide);
-      if (tiles_[number])
-        tiles_[number]->intervals(j % kTileSide * kTileSide + i % kTileSide, grid.intervals);
-    }
-  }
-  grid.first.push_back(static_cast<std::uint32_t>(grid.intervals.size()));
-  return grid;
 }
 
 /// The figures of a layer from the sums of its columns; see print.h.
@@ -419,7 +333,7 @@ PrintSimulation Printer::result() {
   PrintSimulation out;
   out.beads = survey_.beads;
   for (std::size_t i = 0; i < layers_.size(); ++i) {
-    const PrintVolumes volumes = volumes_of(layers_[i], frame_.pitch * frame_.pitch);
+    const PrintVolumes volumes = volumes_of(layers_[i], samples_.frame().pitch * samples_.frame().pitch);
     out.layers.push_back({mm(survey_.levels[i]), mm(layers_[i].height), layers_[i].beads, volumes});
     add_up(out.total, volumes);
   }
@@ -433,8 +347,7 @@ PrintSimulation Printer::result() {
   std::stable_sort(out.hazards.begin(), out.hazards.end(), [](const PrintHazard& a, const PrintHazard& b) {
     return std::pair(a.step, a.kind) < std::pair(b.step, b.kind);
   });
-  out.columns = grid();
-  tiles_.clear();
+  out.columns = columns_.grid(std::max(survey_.box.high.z - frame_.bed, frame_.pitch));
   out.stopped = stopped_;
   if (!stopped_)
     out.stopped =

@@ -16,6 +16,8 @@ constexpr double kFinestPitch = 0.02;     // mm, of a chosen pitch
 constexpr double kColumnsPerWidth = 5.0;  // of the usual bead
 constexpr double kChosenColumns = 4e6;    // for a chosen pitch
 constexpr double kChosenIntervals = 2e7;  // for a chosen pitch; every column of every bead may keep one
+constexpr double kSamples = 2e6;          // in beads: 0.1% of the volume or better, also of a single layer
+constexpr double kSampledColumns = 1e9;   // in the area of the print; few of them are used
 constexpr double kPitchDigits = 1000.0;   // a chosen pitch is a multiple of 1 mm / this
 constexpr double kCoarse = 0.5;           // pitch, of the usual bead width
 constexpr int kMargin = 2;                // columns without material around the print
@@ -65,6 +67,16 @@ void PrintSurvey::sort_levels() {
 std::uint32_t PrintSurvey::layer_of(double level) const {
   const auto it = std::upper_bound(levels.begin(), levels.end(), level);
   return static_cast<std::uint32_t>(std::max<std::ptrdiff_t>(it - levels.begin() - 1, 0));
+}
+
+Frame make_sample_frame(const Frame& columns, const PrintSurvey& survey) {
+  const double side_x = columns.nx * columns.pitch, side_y = columns.ny * columns.pitch;
+  Frame frame = columns;
+  frame.positions = ColumnPositions::spread;
+  frame.pitch = std::max(std::sqrt(survey.area / kSamples), std::sqrt(side_x * side_y / kSampledColumns));
+  frame.nx = static_cast<int>(std::ceil(side_x / frame.pitch)) + 2;
+  frame.ny = static_cast<int>(std::ceil(side_y / frame.pitch)) + 2;
+  return frame;
 }
 
 std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& options,

@@ -31,6 +31,10 @@ struct PrintSurvey final : BeadSink {
   bool stopped = false;
 };
 
+/// The columns for volumes: spread evenly over the same area, about two million in all beads, whatever the
+/// pitch.
+Frame make_sample_frame(const Frame& columns, const PrintSurvey& survey);
+
 /// The grid of columns. Nothing, with an error appended, if there are too many.
 std::optional<Frame> make_frame(const PrintSurvey& survey, const PrintOptions& options,
                                 Diagnostics& diagnostics);

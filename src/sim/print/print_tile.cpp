@@ -2,6 +2,7 @@
 #include "sim/print/print_tile.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kerf/limits.h"
@@ -38,11 +39,30 @@ struct ColumnRange {
   }
 };
 
+/// Multiples of the golden ratio, less whole numbers: any few successive ones are spread evenly from -1/2 to
+/// 1/2.
+TileOffsets spread_offsets() {
+  constexpr double kGolden = 0.618033988749895;
+  TileOffsets offsets{};
+  for (std::size_t i = 0; i < offsets.size(); ++i) {
+    const double multiple = static_cast<double>(i) * kGolden;
+    offsets[i] = multiple - std::floor(multiple) - 0.5;
+  }
+  return offsets;
+}
+
 }  // namespace
+
+const TileOffsets& PrintTile::offsets_of(ColumnPositions positions) {
+  static const TileOffsets on_grid{}, spread = spread_offsets();
+  return positions == ColumnPositions::spread ? spread : on_grid;
+}
 
 PrintTile::PrintTile(const Frame& frame, int tile_x, int tile_y)
     : pitch_(frame.pitch),
       touch_(frame.touch),
+      spread_(frame.positions == ColumnPositions::spread ? 0.5 * frame.pitch : 0.0),
+      offsets_(offsets_of(frame.positions)),
       first_x_(tile_x * kTileSide),
       first_y_(tile_y * kTileSide),
       columns_x_(std::min(kTileSide, frame.nx - first_x_)),
@@ -54,16 +74,18 @@ PrintTile::PrintTile(const Frame& frame, int tile_x, int tile_y)
 template <class Visit>
 void PrintTile::for_each_column(const BeadPiece& p, double reach, const Visit& visit) const {
   const double end_y = p.from.y + p.length * p.along.y;
-  const ColumnRange rows(std::min(p.from.y, end_y) - reach, std::max(p.from.y, end_y) + reach, pitch_,
-                         first_y_, columns_y_);
+  const ColumnRange rows(std::min(p.from.y, end_y) - reach - spread_,
+                         std::max(p.from.y, end_y) + reach + spread_, pitch_, first_y_, columns_y_);
+  // Moved in Y by up to `spread_`, a column of the row may be that much further along and across.
+  const double more_u = spread_ * std::abs(p.along.y), more_v = spread_ * std::abs(p.along.x);
   for (int j = rows.first; j <= rows.last; ++j) {
-    const double y = j * pitch_ - p.from.y;
+    const double y_of_row = j * pitch_ - p.from.y, x_of_row = offset(j - first_y_) * pitch_ - p.from.x;
     ClippedRange span;
-    span.clip(p.along.x, y * p.along.y, 0.0, p.length);
-    span.clip(-p.along.y, y * p.along.x, -reach, reach);
-    const ColumnRange columns(span.low + p.from.x, span.high + p.from.x, pitch_, first_x_, columns_x_);
+    span.clip(p.along.x, y_of_row * p.along.y, -more_u, p.length + more_u);
+    span.clip(-p.along.y, y_of_row * p.along.x, -reach - more_v, reach + more_v);
+    const ColumnRange columns(span.low - x_of_row, span.high - x_of_row, pitch_, first_x_, columns_x_);
     for (int i = columns.first; i <= columns.last; ++i) {
-      const double x = i * pitch_ - p.from.x;
+      const double x = i * pitch_ + x_of_row, y = y_of_row + offset(i - first_x_) * pitch_;
       const double u = x * p.along.x + y * p.along.y, v = y * p.along.x - x * p.along.y;
       if (u < 0.0 || u >= p.length || std::abs(v) > reach) continue;
       visit((j - first_y_) * kTileSide + i - first_x_, u, std::abs(v));
@@ -74,12 +96,13 @@ void PrintTile::for_each_column(const BeadPiece& p, double reach, const Visit& v
 /// Calls visit(column, distance from the centre of the wedge).
 template <class Visit>
 void PrintTile::for_each_wedge_column(const BeadPiece& p, const Visit& visit) const {
-  const double reach = p.reach();
-  const ColumnRange rows(p.from.y - reach, p.from.y + reach, pitch_, first_y_, columns_y_);
-  const ColumnRange columns(p.from.x - reach, p.from.x + reach, pitch_, first_x_, columns_x_);
+  const double reach = p.reach(), wide = reach + spread_;
+  const ColumnRange rows(p.from.y - wide, p.from.y + wide, pitch_, first_y_, columns_y_);
+  const ColumnRange columns(p.from.x - wide, p.from.x + wide, pitch_, first_x_, columns_x_);
   for (int j = rows.first; j <= rows.last; ++j) {
     for (int i = columns.first; i <= columns.last; ++i) {
-      const Point2 at{i * pitch_ - p.from.x, j * pitch_ - p.from.y};
+      const Point2 at{(i + offset(j - first_y_)) * pitch_ - p.from.x,
+                      (j + offset(i - first_x_)) * pitch_ - p.from.y};
       if (dot(at, at) > reach * reach || dot(at, p.after) < 0.0 || dot(at, p.before) > 0.0) continue;
       visit((j - first_y_) * kTileSide + i - first_x_, length(at));
     }
@@ -138,7 +161,7 @@ void PrintTile::lay_bead(const BeadPiece& p, double contact_depth, PieceSums& su
     }
     const Laid laid = lay_section(p, column, nozzle, v, sums);
     sums.bare += on_centre_line && !laid.supported ? 1 : 0;
-    sums.supported = sums.supported || laid.supported || laid.oldest < p.chain_start;
+    sums.supported = sums.supported || laid.supported || laid.lies_near || laid.oldest < p.chain_start;
   });
 }
 
@@ -152,8 +175,10 @@ PrintTile::Laid PrintTile::lay_section(const BeadPiece& p, int column, double no
   const double half = half_height(p, aside), centre = nozzle - p.round;
   const auto low = static_cast<float>(centre - half), high = static_cast<float>(centre + half);
   const double bottom = centre - p.round;
-  const Laid laid =
-      lay(column, low, high, p.step, {static_cast<float>(bottom), static_cast<float>(bottom - p.round)});
+  constexpr double kGap = 1.05;  // heights
+  const Laid laid = lay(column, low, high, p.step,
+                        {static_cast<float>(bottom), static_cast<float>(bottom - p.round),
+                         static_cast<float>(bottom - 2.0 * kGap * p.round)});
   sums.full += static_cast<double>(high - low);
   sums.covered += static_cast<double>(laid.covered);
   return laid;
@@ -211,6 +236,7 @@ PrintTile::Laid PrintTile::lay(int column, float low, float high, std::uint32_t 
     next = link(above, column);
   }
   laid.supported = laid.supported || (next != kNoRun && runs_[next].high >= under.reach);
+  laid.lies_near = next != kNoRun && runs_[next].high >= under.near;
   insert(above, column, joined);
   top_ = std::max(top_, static_cast<double>(joined.high));
   return laid;

@@ -2,6 +2,7 @@
 // beads, the round wedges of their corners and ends; and travels, which lay nothing but may hit material.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -16,6 +17,10 @@ inline constexpr std::uint32_t kNoRun = 0xffffffffu;
 /// line between two beads.
 inline constexpr double kShift = 0.381966;
 
+/// Positions of columns: on the grid, or each moved off it by less than half the pitch, so that beads along X
+/// or Y meet them at all distances from their centre lines, and sums over them are right for such beads too.
+enum class ColumnPositions : std::uint8_t { on_grid, spread };
+
 /// The grid of columns of a print.
 struct Frame {
   double x = 0.0, y = 0.0;  // mm, of column 0, 0
@@ -23,6 +28,7 @@ struct Frame {
   double pitch = 0.0;       // mm
   int nx = 0, ny = 0;
   float touch = 0.0f;  // closer runs are joined: rounding
+  ColumnPositions positions = ColumnPositions::on_grid;
 };
 
 /// The kind of a piece.
@@ -48,12 +54,12 @@ struct BeadPiece {
   double reach() const { return flat + round; }  // from the centre line of a bead or the centre of a wedge
 };
 
-/// PieceSums of laying a piece in a tile. Heights are summed over columns.
+/// Sums of laying a piece in a tile, over columns.
 struct PieceSums {
   double full = 0.0;                   // height of the piece
   double covered = 0.0;                // of this, in existing material or below the bed
   std::uint32_t centre = 0, bare = 0;  // columns of the centre line; those with nothing below
-  bool supported = false;              // by material below, or by that of another chain
+  bool supported = false;              // by material below or near below, or by that of another chain
 };
 
 /// A contact of the nozzle with material.
@@ -63,6 +69,9 @@ struct NozzleContact {
   Point3 at;              // position of the first contact, relative to the frame
   double depth = 0.0;     // mm, maximum
 };
+
+/// By row and column of a tile: how far its columns are moved in X and in Y, in pitches.
+using TileOffsets = std::array<double, kTileSide>;
 
 class PrintTile {
  public:
@@ -88,11 +97,14 @@ class PrintTile {
   struct Laid {
     float covered = 0.0f;
     bool supported = false;                                            // by material below
+    bool lies_near = false;                                            // over material: see Support
     std::uint32_t oldest = std::numeric_limits<std::uint32_t>::max();  // step of the oldest material touched
   };
-  /// The bottom of the bead, and the height that material below must reach to support it.
+  /// The bottom of the bead; the height that material below must reach to support it; and the height from
+  /// which on the bead sags onto the material, as onto the support structures that slicers print a layer
+  /// below.
   struct Support {
-    float bottom, reach;
+    float bottom, reach, near;
   };
   template <class Visit>
   void for_each_column(const BeadPiece& piece, double reach, const Visit& visit) const;
@@ -115,8 +127,13 @@ class PrintTile {
     return head == kNoRun ? 0.0 : static_cast<double>(runs_[head].high);
   }
 
+  static const TileOffsets& offsets_of(ColumnPositions positions);
+  double offset(int row) const { return offsets_[static_cast<std::size_t>(row)]; }
+
   double pitch_;
   float touch_;
+  double spread_;  // mm; maximum distance of a column from its position on the grid, in X and Y
+  const TileOffsets& offsets_;
   int first_x_, first_y_, columns_x_, columns_y_;
   std::vector<std::uint32_t> heads_;  // the highest run of each column
   std::vector<MaterialRun> runs_;
