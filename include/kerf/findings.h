@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,10 +59,11 @@ struct JobCheckOptions {
   Length resolution = {};  // of the material; 0: coarse, by the stock's size
   unsigned threads = 0;    // 0: all
   const Machine* machine = nullptr;
-  const Material* material = nullptr;  // of the stock, for the chip load
+  const Material* material = nullptr;       // of the stock, for the chip load
+  std::optional<Length> layer_height = {};  // of a print; nothing: by the program
 };
-/// All hazards of a job, in the order of steps: those of the toolpath, of the material and of the fixtures,
-/// assumed tools, and skipped codes that may be motions. `diagnostics` are those of reading the
+/// All hazards of a job, in the order of steps: those of the toolpath, of the material or print and of the
+/// fixtures, assumed tools, and skipped codes that may be motions. `diagnostics` are those of reading the
 /// program: warnings that are also findings are removed from it, and warnings of skipped checks are added. If
 /// it has errors, only the toolpath is checked.
 std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,

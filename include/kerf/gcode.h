@@ -17,12 +17,16 @@ namespace kerf {
 
 struct GcodeProgram {
   Toolpath path;
-  bool inch = false;              // units at the first motion
-  std::map<int, Tool> tools;      // described in the program's comments, by tool number
-  std::optional<Stock> stock;     // from STOCK/BLOCK or stockMin/stockMax comments
-  bool ended = false;             // M2, M30 or a closing % was read
-  bool assumed_diameter = false;  // the option was used
-  bool cut_short = false;         // a limit was reached or the input is not text; the end is unknown
+  bool inch = false;           // units at the first motion
+  std::map<int, Tool> tools;   // described in the program's comments, by tool number
+  std::optional<Stock> stock;  // from STOCK/BLOCK or stockMin/stockMax comments
+  bool ended = false;          // M2, M30 or a closing % was read
+  bool units_given = false;    // G20 or G21 was read
+  double filament_diameter =
+      1.75;  // mm, of a printer's program: by the options, its comments, else the default
+  std::optional<double> filament_density;  // g/cm3, by a printer's comments
+  bool assumed_diameter = false;           // the option was used
+  bool cut_short = false;                  // a limit was reached or the input is not text; the end is unknown
   GcodeDialect dialect = GcodeDialect::rs274;
 };
 

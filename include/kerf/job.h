@@ -98,6 +98,9 @@ enum class UnknownTool { error, warning, assume };
 Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics);
 /// A job of a program that prints (is_print): it has neither tools nor stock.
 Job make_print_job(Program program);
+/// A print job if the program prints, else make_job().
+Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool unknown,
+                      Diagnostics& diagnostics);
 
 /// The tools that a program changes to or describes, by number, as far as they are known.
 std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
@@ -129,6 +132,9 @@ std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnos
 
 /// Warns if a job that cuts removes nothing from a stock that was given: a wrong zero, unit or corner.
 void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics);
+/// Warns if the cuts of a job fill a stock that was given only if they are read in the other unit: inches for
+/// a program that names no unit, millimetres for one in inches whose cuts are larger than the stock.
+void warn_units(const Job& job, Diagnostics& diagnostics);
 
 // ---- time
 

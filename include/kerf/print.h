@@ -24,8 +24,9 @@
 //
 //   extruded = laid - ends + overlap + blobs
 //
-// Volumes are measured in columns; in each layer they are scaled to the extruded volume given by E, so that
-// the figures do not depend on the position of a bead in the grid. The results do not depend on `threads`.
+// Volumes are measured at points spread evenly over the beads; in each layer they are scaled to the extruded
+// volume given by E. They do not depend on the position of a bead in the grid. The results do not depend on
+// `threads`.
 #pragma once
 
 #include <cstddef>
@@ -59,10 +60,10 @@ struct PrintOptions {
 
 enum class PrintHazardKind : std::uint8_t {
   nozzle_contact,  // a motion, extruding or not, whose nozzle passes through material or the bed
-  in_air,  // beads without support: no material below or beside them, and not a continuation of a supported
-           // bead
-  unsupported,  // consecutive beads, longer than wide in all, with nothing below their centre line
-  blob,         // filament extruded without motion, more than was retracted
+  in_air,          // beads without support: no material beside or up to their height below them, and not a
+                   // continuation of a supported bead
+  unsupported,     // consecutive beads, longer than wide in all, with nothing below their centre line
+  blob,            // filament extruded without motion, more than was retracted
 };
 std::string_view to_string(PrintHazardKind kind);
 
@@ -101,6 +102,21 @@ struct PrintLayer {
   PrintVolumes volumes;  // without blobs, which belong to no layer
 };
 
+/// What a program prints, without simulating the material.
+struct PrintFigures {
+  struct Layer {
+    Length z;       // of the nozzle
+    Length height;  // of its highest bead
+  };
+  Volume extruded;  // as given by E: in beads and blobs, and where the position is unknown
+  Volume blobs;     // of this, extruded without motion
+  Length bead_length;
+  std::size_t beads = 0;
+  std::optional<std::uint32_t> first_bead;  // its step
+  std::vector<Layer> layers;                // lowest first
+  Box3 box;                                 // mm, of the beads
+};
+
 struct PrintSimulation {
   ColumnGrid columns;              // input of extract_mesh; bounds.low.z is the bed
   std::vector<PrintLayer> layers;  // lowest first
@@ -116,6 +132,9 @@ Volume bead_volume(Length length, Length width, Length height);
 
 /// Whether a program only prints: it extrudes while moving and starts no spindle.
 bool is_print(const Toolpath& path);
+
+/// The figures of a print; no beads if the program does not print.
+PrintFigures figures_of_print(const Toolpath& path, const PrintOptions& options);
 
 /// Lays the beads of a program. Appends errors (no beads, too many columns) and returns nothing if it cannot
 /// run. Warns if a height is unknown, if widths in comments contradict E (wrong filament diameter?), if a

@@ -34,10 +34,13 @@ struct Program {
   std::string source;     // the file's name as given
   std::string front_end;  // "G-code"
   Toolpath path;
-  ProgramUnits units = ProgramUnits::mm;  // of the program's text; the toolpath is always in mm
-  std::map<int, Tool> tools;              // those described in the program itself
-  ToolTable tools_beside;                 // LinuxCNC's tool.tbl in its folder, for G-code of that dialect
-  std::optional<Stock> stock;             // if described in the program itself
+  ProgramUnits units = ProgramUnits::mm;    // of the program's text; the toolpath is always in mm
+  std::map<int, Tool> tools;                // those described in the program itself
+  ToolTable tools_beside;                   // LinuxCNC's tool.tbl in its folder, for G-code of that dialect
+  std::optional<Stock> stock;               // if described in the program itself
+  std::optional<double> filament_diameter;  // mm, of a printer's program
+  std::optional<double> filament_density;   // g/cm3, by its comments
+  bool units_given = true;                  // the program itself says that it is in mm or inches
   ProgramEnd end = ProgramEnd::not_asked;
   bool manual_spindle = false;             // inputs of its kind have no means to start the spindle
   std::vector<HeightTarget> probes;        // points whose heights correct the program's

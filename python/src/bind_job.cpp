@@ -40,7 +40,7 @@ py::list check(const py::object& program, const py::object& tools, const py::obj
   options.threads = to_threads(threads);
   options.machine = on ? &*on : nullptr;
   options.material = of ? &*of : nullptr;
-  const Job job = make_job(to_program(program), settings, UnknownTool::assume, diagnostics);
+  const Job job = make_job_or_print(to_program(program), settings, UnknownTool::assume, diagnostics);
   SignalProgress progress;
   std::vector<Finding> findings;
   {

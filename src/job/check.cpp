@@ -6,6 +6,7 @@
 
 #include "job/choices.h"
 #include "job/job_findings.h"
+#include "job/print_findings.h"
 
 #include "kerf/grazes.h"
 #include "kerf/number.h"
@@ -78,19 +79,22 @@ constexpr Unexamined kUnexamined[] = {
     {Code::z_correction_not_simulated, "not_checked", ""},
     {Code::cut_at_unknown_place, "not_checked", ""},
     {Code::stock_untouched, "stock_untouched", ""},
+    {Code::units_doubtful, "units_doubtful", ""},
+    {Code::print_width_differs, "width_differs", ""},
+    {Code::print_at_unknown_place, "not_checked", ""},
 };
 
 /// Whether the material not being checked stays a warning: a finding has the reason already, or the program
-/// removes nothing: a print, whose material is not checked yet, or a laser's.
+/// removes nothing, as a laser's.
 bool is_reason_found(const std::vector<Finding>& findings, const Toolpath& path) {
-  return is_print(path) || path.has(StepKind::laser_power) ||
+  return path.has(StepKind::laser_power) ||
          std::any_of(findings.begin(), findings.end(), [](const Finding& f) {
            return f.kind == "unknown_tool" || f.kind == "no_tool" || f.kind == "z_downwards";
          });
 }
 
 const Unexamined* find_unexamined(const Diagnostic& d, bool reason_found) {
-  if (d.severity == Severity::error || (d.code == Code::not_simulated && reason_found)) return nullptr;
+  if (d.severity != Severity::warning || (d.code == Code::not_simulated && reason_found)) return nullptr;
   const auto* found = std::find_if(std::begin(kUnexamined), std::end(kUnexamined),
                                    [&](const Unexamined& u) { return u.code == d.code; });
   return found == std::end(kUnexamined) ? nullptr : found;
@@ -140,6 +144,7 @@ void assign_steps(std::vector<Finding>& findings, const Toolpath& path) {
 /// The hazards in the material, as far as it can be simulated; a warning if not completely.
 std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions& options,
                                           Diagnostics& diagnostics, Progress* progress) {
+  if (job.kind == JobKind::print) return findings_in_print(job, options, diagnostics, progress);
   if (!job.stock && !job.bar) {
     diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
                         "the material is not checked, because no stock is given or assumed");
@@ -158,6 +163,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   if (progress != nullptr) progress->phase("checking");
   const auto simulation = simulate({borrowed(path), job.tools, *job.stock, how}, diagnostics, progress);
   if (!simulation) return {};
+  warn_units(job, diagnostics);
   if (!simulation->stopped) warn_untouched(job, simulation->removed, diagnostics);
   std::vector<Finding> found = findings_in_stock(job, *simulation);
   found = merged(std::move(found), findings_of(find_grazes(*simulation, {}, progress), path));

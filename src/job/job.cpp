@@ -27,6 +27,7 @@ std::optional<JobRun> run_milling(const Job& job, const SimulationOptions& how, 
   if (progress != nullptr) progress->phase("cutting");
   auto simulation = simulate({borrowed(job.program.path), job.tools, *job.stock, how}, diagnostics, progress);
   if (!simulation || simulation->stopped) return std::nullopt;
+  warn_units(job, diagnostics);
   warn_untouched(job, simulation->removed, diagnostics);
   auto findings = findings_of_milling(job, *simulation, how, diagnostics, progress);
   return JobRun{std::move(*simulation), std::move(findings)};
@@ -71,6 +72,12 @@ Job make_print_job(Program program) {
   job.program = std::move(program);
   job.report = report_on(job.program.path, {});
   return job;
+}
+
+Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool unknown,
+                      Diagnostics& diagnostics) {
+  if (is_print(program.path)) return make_print_job(std::move(program));
+  return make_job(std::move(program), settings, unknown, diagnostics);
 }
 
 std::optional<JobRun> run_job(const Job& job, const RunOptions& options, Diagnostics& diagnostics,

@@ -96,7 +96,12 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   program.tools = std::move(read.tools);
   program.stock = read.stock;
   program.states_tool_lengths = true;
-  program.end = read.cut_short ? ProgramEnd::not_asked : read.ended ? ProgramEnd::seen : ProgramEnd::missing;
+  program.units_given = read.units_given;
+  const bool printer = read.dialect == GcodeDialect::marlin || read.dialect == GcodeDialect::klipper;
+  if (printer) program.filament_diameter = read.filament_diameter;
+  program.filament_density = read.filament_density;
+  const bool needs_end = !printer && !read.cut_short;
+  program.end = !needs_end ? ProgramEnd::not_asked : read.ended ? ProgramEnd::seen : ProgramEnd::missing;
   if (read.assumed_diameter) program.assumed_diameter = options.assumed_diameter;
   return program;
 }

@@ -90,6 +90,25 @@ void find_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostics)
   report_assumed_stock(*assumed, job, diagnostics);
 }
 
+Box3 scaled(const Box3& box, double factor) {
+  Box3 out;
+  out.add(factor * box.low);
+  out.add(factor * box.high);
+  return out;
+}
+
+/// Whether cuts lie in the block, but for a run-out of a tenth of its size, and cover half of it or more in X
+/// and Y.
+bool fills(const Box3& cuts, const Box3& block) {
+  constexpr double kRunOut = 0.1, kCover = 0.5;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double size = block.high[axis] - block.low[axis], room = kRunOut * size;
+    if (cuts.low[axis] < block.low[axis] - room || cuts.high[axis] > block.high[axis] + room) return false;
+    if (cuts.high[axis] - cuts.low[axis] < kCover * size) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::optional<Stock> load_stock(const std::string& path, Diagnostics& diagnostics) {
@@ -107,6 +126,24 @@ void choose_stock(Job& job, const JobSettings& settings, Diagnostics& diagnostic
   if (job.stock && settings.move) job.stock = moved(*job.stock, *settings.move);
   job.fixtures = settings.fixtures;
   job.spoilboard = settings.spoilboard;
+}
+
+void warn_units(const Job& job, Diagnostics& diagnostics) {
+  const Box3& cuts = job.report.all.cut_bounds;
+  if (cuts.empty() || !job.stock || job.stock_source == StockSource::assumed) return;
+  const Box3& block = job.stock->block;
+  const bool in_inches = !job.program.units_given && fills(scaled(cuts, kMmPerInch), block);
+  if (!in_inches && !fills(scaled(cuts, 1.0 / kMmPerInch), block)) return;
+  const auto text = [](const Box3& box) {
+    const Point3 size = box.size();
+    return fmt::format("{} x {}", number_text(size.x, 3), number_text(size.y, 3));
+  };
+  diagnostics
+      .warning(Code::units_doubtful, TextLocation{job.program.source, 0, 0},
+               fmt::format("the units seem wrong: the cuts measure {} mm, the stock {} mm{}", text(cuts),
+                           text(block), in_inches ? ", and the program has no G20 or G21" : ""))
+      .hint = in_inches ? "if the program is in inches, put G20 at its start"
+                        : "check G20 and G21, and the unit of the stock (--stock \"4x2x0.5in\")";
 }
 
 void warn_untouched(const Job& job, Volume removed, Diagnostics& diagnostics) {

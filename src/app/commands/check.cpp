@@ -25,6 +25,9 @@ struct Options {
   JobOptions job;
   double resolution = 0.0, threads = 0.0;
   std::string material;
+  double layer_height = 0.0;
+  std::vector<Option> cutting_options;   // without effect on a print
+  std::vector<Option> printing_options;  // without effect on a milling job
 };
 
 void show_result(Console& console, const Program& program, const std::vector<Finding>& findings,
@@ -57,8 +60,13 @@ Status run(Console& console, const Options& options) {
     show_result(console, Program{}, {}, diagnostics);
     return Status::input_errors;
   }
-  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
+  const Job job = make_job_or_print(std::move(*program), inputs.job, UnknownTool::assume, diagnostics);
+  if (job.kind == JobKind::print)
+    warn_unused(options.cutting_options, "the program prints and cuts nothing", "", diagnostics);
+  else
+    warn_unused(options.printing_options, "the program does not print, or cuts as well", "", diagnostics);
   JobCheckOptions how;
+  if (options.layer_height > 0.0) how.layer_height = mm(options.layer_height);
   how.resolution = mm(options.resolution);
   how.threads = static_cast<unsigned>(options.threads);
   how.machine = inputs.program.machine ? &*inputs.program.machine : nullptr;
@@ -98,10 +106,13 @@ Command add_check(CommandParser& root) {
   add_spoilboard_option(parser, options->job.bodies);
   add_rotary_option(parser, options->job.bodies);
   add_machine_option(parser, options->job);
-  parser
-      .add_text("--material", options->material,
-                "Material of the stock, for the chip load: plywood, aluminium ...")
-      .value_name("NAME");
+  options->cutting_options = {
+      parser
+          .add_text("--material", options->material,
+                    "Material of the stock, for the chip load: plywood, aluminium ...")
+          .value_name("NAME")};
+  for (const char* name : kCuttingOptions) options->cutting_options.push_back(parser.option(name));
+  options->printing_options = {add_layer_height(parser, options->layer_height)};
   add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
              "Distance of the dexel columns, e.g. 0.2 or 0.01in (default: coarse, by the stock's size)");
   add_threads(parser, options->threads);

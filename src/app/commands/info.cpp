@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/info_print.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
 #include "app/report/findings.h"
@@ -16,14 +17,13 @@
 namespace kerf::app {
 namespace {
 
-constexpr const char* kPlainMethod = "programmed feeds and rapid rates, without acceleration";
-constexpr const char* kPlannedMethod = "planned with the accelerations of the machine profile";
 constexpr double kNoTime = 0.5;             // seconds; less is printed as "0:00"
 constexpr std::size_t kMaxOperations = 30;  // printed as text; JSON has them all
 
 struct Options {
   OutputOptions output;
   JobOptions job;
+  double density = 0.0;  // g/cm3, of a print's filament
 };
 
 // ---- JSON
@@ -224,7 +224,7 @@ Status run(Console& console, const Options& options) {
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (!program) return fail(console, diagnostics, Status::input_errors);
-  const Job job = make_job(std::move(*program), inputs.job, UnknownTool::warning, diagnostics);
+  const Job job = make_job_or_print(std::move(*program), inputs.job, UnknownTool::warning, diagnostics);
   const JobTimes times = times_of(job, inputs.program.machine ? &*inputs.program.machine : nullptr);
   if (job.z_downwards)
     diagnostics
@@ -233,7 +233,9 @@ Status run(Console& console, const Options& options) {
         .hint = job.z_downwards->hint;
   console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   console.show(diagnostics);
-  if (console.json()) {
+  if (job.kind == JobKind::print) {
+    print_info_of_print(console, job, times, options.density, diagnostics);
+  } else if (console.json()) {
     console.print_json(text_of(info_json(job, times, diagnostics), Layout::indented));
   } else {
     print_info(console, job, times);
@@ -246,18 +248,22 @@ const char* const kExamples =
   kerf info --json part.nc
   kerf info part.nc --machine grbl_settings.txt      times of a GRBL with these $$ settings
   kerf info part.nc --machine data/machines/grbl_router.toml
+  kerf info print.gcode --density 1.27               a print of PETG: filament, mass, layers, time
 )";
 
 }  // namespace
 
 Command add_info(CommandParser& root) {
   auto options = std::make_shared<Options>();
-  CommandParser parser =
-      new_command(root, "info", "Print the size, time, tools, feeds and stock of a program",
-                  kExamples + std::string(kToolHelp) + kStockHelp, options->output);
+  CommandParser parser = new_command(
+      root, "info",
+      "Print the size, time, tools, feeds and stock of a program, or the filament and layers of a print",
+      kExamples + std::string(kToolHelp) + kStockHelp, options->output);
   add_job_options(parser, options->job);
   add_unit_options(parser, options->job);
   add_machine_option(parser, options->job);
+  add_number(parser, "--density", options->density, 0.1, 25.0, "G/CM3",
+             "Density of a print's filament (default: from comments, else 1.24, that of PLA)");
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }
 

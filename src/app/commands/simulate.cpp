@@ -16,8 +16,7 @@
 namespace kerf::app {
 namespace {
 
-constexpr double kFinest = 0.0005, kCoarsest = 50.0;            // mm, --resolution
-constexpr double kThinnestLayer = 0.02, kThickestLayer = 20.0;  // mm, --layer-height
+constexpr double kFinest = 0.0005, kCoarsest = 50.0;  // mm, --resolution
 
 struct Options {
   OutputOptions output;
@@ -33,13 +32,6 @@ struct Options {
   std::vector<Option> cutting_options;   // without effect on a print
   std::vector<Option> printing_options;  // without effect on a milling job
 };
-
-void warn_unused(const std::vector<Option>& options, const std::string& why, const std::string& hint,
-                 Diagnostics& diagnostics) {
-  for (const Option& option : options)
-    if (option.is_given())
-      diagnostics.warning(Code::option_unused, CallLocation{"", 0, option.name()}, why).hint = hint;
-}
 
 /// The job of a program, with a warning for each given option that has no effect on it.
 Job make_job_of(const Options& options, const JobSettings& settings, Program program,
@@ -178,13 +170,10 @@ Command add_simulate(CommandParser& root) {
           .one_of({"auto", "part", "path"}),
       add_section(parser, options->picture)};
   options->printing_options = {
-      add_length(parser, "--layer-height", options->layer_height, kThinnestLayer, kThickestLayer,
-                 "Of a print: layer height in mm (default: from comments, else the steps in Z)"),
+      add_layer_height(parser, options->layer_height),
       parser.add_flag("--grooves", options->grooves,
                       "Of a print: keep the grooves between beads in meshes and pictures; larger files")};
-  for (const char* name : {"--tool", "--tools", "--stock", "--stock-mesh", "--stock-left", "--flip",
-                           "--shift", "--fixture", "--rotary"})
-    options->cutting_options.push_back(parser.option(name));
+  for (const char* name : kCuttingOptions) options->cutting_options.push_back(parser.option(name));
   add_threads(parser, options->threads);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
 }

@@ -67,4 +67,17 @@ Option add_repeated(CommandParser& parser, const std::string& name, std::vector<
   return parser.add_repeated(name, values, summary).value_name(kind);
 }
 
+Option add_layer_height(CommandParser& parser, double& mm) {
+  constexpr double kThinnest = 0.02, kThickest = 20.0;  // mm
+  return add_length(parser, "--layer-height", mm, kThinnest, kThickest,
+                    "Of a print: layer height in mm (default: from comments, else the steps in Z)");
+}
+
+void warn_unused(const std::vector<Option>& options, const std::string& why, const std::string& hint,
+                 Diagnostics& diagnostics) {
+  for (const Option& option : options)
+    if (option.is_given())
+      diagnostics.warning(Code::option_unused, CallLocation{"", 0, option.name()}, why).hint = hint;
+}
+
 }  // namespace kerf::app

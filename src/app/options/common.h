@@ -21,6 +21,15 @@ Option add_length(CommandParser& parser, const std::string& name, double& mm, do
                   const std::string& summary);
 /// The option --threads; 0: all.
 Option add_threads(CommandParser& parser, double& threads);
+/// The option --layer-height of a print.
+Option add_layer_height(CommandParser& parser, double& mm);
+/// The options of tools, stock and fixtures, without effect on a print.
+inline constexpr const char* kCuttingOptions[] = {"--tool",       "--tools",      "--stock",
+                                                  "--stock-mesh", "--stock-left", "--flip",
+                                                  "--shift",      "--fixture",    "--rotary"};
+/// A warning for each option that is given without effect.
+void warn_unused(const std::vector<Option>& options, const std::string& why, const std::string& hint,
+                 Diagnostics& diagnostics);
 /// The positional FILE of the commands that read a program.
 Option add_program(CommandParser& parser, std::string& file);
 /// An option that may be given several times, one value each time.

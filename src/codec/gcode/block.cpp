@@ -136,6 +136,14 @@ bool is_read_by_printers(double code) {
 
 /// Letters whose numbers are whole or have one decimal, and no exponent.
 bool is_code_letter(char letter) { return letter == 'M' || letter == 'G' || letter == 'H' || letter == 'T'; }
+/// G codes of printers that run a procedure of the firmware: levelling, calibration, parking, cleaning,
+/// probing, firmware retraction. Sources: Marlin's list of G-codes, Prusa's firmware (G75 to G89), start
+/// programs of Bambu's printers (G29.1, G39.4, G150.3, G380, G383).
+bool is_printer_procedure(double code) {
+  constexpr int kCodes[] = {10, 11, 12, 26, 27, 29, 30, 31, 32, 33, 34, 35, 39,  42,  60,  61, 75,
+                            76, 77, 78, 79, 80, 81, 82, 83, 86, 87, 88, 89, 150, 380, 383, 425};
+  return std::find(std::begin(kCodes), std::end(kCodes), std::floor(code)) != std::end(kCodes);
+}
 
 }  // namespace
 
@@ -257,16 +265,23 @@ bool BlockReader::read_prefix(Block& block) {
   return true;
 }
 
-/// "SET_FAN 1": three letters in a row; "M117 text".
+/// "SET_FAN 1": three letters in a row; "M117 text"; "G29 A".
 bool BlockReader::is_command() const {
   const auto letter = [this](std::ptrdiff_t i) {
     return end_ - p_ > i && (class_of(p_[i]) == CharClass::letter || p_[i] == '_');
   };
   if (letter(0) && letter(1) && letter(2)) return true;
-  if (upper(*p_) != 'M') return false;
+  const char first = upper(*p_);
+  if (first != 'M' && first != 'G') return false;
   const char* number_end = std::find_if_not(p_ + 1, end_, [](char c) { return is_digit(c) || c == '.'; });
   const Decimal number = read_decimal(p_ + 1, number_end);
-  return number.fault == DecimalFault::none && !is_read_by_printers(number.value);
+  if (number.fault != DecimalFault::none) return false;
+  return first == 'G' ? is_printer_procedure(number.value) : !is_read_by_printers(number.value);
+}
+
+/// "G28 O": printers have no O-words; after a code the letter belongs to it.
+bool BlockReader::is_flag(const Block& block) const {
+  return options_.commands == BlockReaderOptions::Commands::words && !block.words.empty();
 }
 
 bool BlockReader::read_item(Block& block) {
@@ -278,7 +293,7 @@ bool BlockReader::read_item(Block& block) {
         p_ = end_;
         return true;
       }
-      return upper(*p_) == 'O' ? read_o_word(block) : read_word(block);
+      return upper(*p_) == 'O' && !is_flag(block) ? read_o_word(block) : read_word(block);
     case CharClass::comment: read_comment(block); return true;
     case CharClass::hash: return read_assignment(block);
     case CharClass::blank:

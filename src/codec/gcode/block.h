@@ -96,6 +96,7 @@ class BlockReader {
   void read_line(Block& block);
   bool read_prefix(Block& block);
   bool is_command() const;
+  bool is_flag(const Block& block) const;
   bool read_item(Block& block);
   bool read_word(Block& block);
   bool read_computed_value(Block& block, Word& word);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <numbers>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "kerf/limits.h"
@@ -98,8 +99,8 @@ class ExtrusionReader {
     }
     if (!known) {
       finish_chain();
-      return warn_once(warned_position_, Code::print_at_unknown_place, context.index,
-                       "extrusion at an unknown position: X, Y or Z is not known; ignored");
+      sink_.unplaced(volume);
+      return report_unknown_position(context.index);
     }
     lay(step, context, volume);
   }
@@ -135,6 +136,7 @@ class ExtrusionReader {
     if (last_) sink_.corner(*last_, bead);
     if (!last_) first_ = bead;
     last_ = bead;
+    laid_ = true;
     sink_.bead(bead);
   }
 
@@ -181,6 +183,14 @@ class ExtrusionReader {
     last_.reset();
   }
 
+  /// Before the first bead it is a purge line, which starts where the homing has left the nozzle.
+  void report_unknown_position(std::size_t step) {
+    constexpr const char* kText = "extrusion at an unknown position: X, Y or Z is not known; ignored";
+    if (laid_) return warn_once(warned_position_, Code::print_at_unknown_place, step, kText);
+    if (diagnostics_ != nullptr && !std::exchange(noted_position_, true))
+      diagnostics_->note(Code::print_at_unknown_place, path_.origin_of(step), kText);
+  }
+
   void warn_once(bool& warned, Code code, std::size_t step, std::string message) {
     if (warned || diagnostics_ == nullptr) return;
     warned = true;
@@ -215,7 +225,8 @@ class ExtrusionReader {
   double retracted_ = 0.0;  // mm3
   double commented_length_ = 0.0, differing_length_ = 0.0;
   Differing differing_;
-  bool warned_position_ = false, warned_height_ = false, ended_ = false;
+  bool laid_ = false, ended_ = false;
+  bool noted_position_ = false, warned_position_ = false, warned_height_ = false;
 };
 
 }  // namespace

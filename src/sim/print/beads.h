@@ -46,6 +46,8 @@ class BeadSink {
   virtual void free_end(const Bead&) {}
   virtual void travel(std::uint32_t /*step*/, Point3 /*from*/, Point3 /*to*/) {}
   virtual void blob(std::uint32_t /*step*/, Point3 /*at*/, double /*mm3*/) {}
+  /// Filament extruded while moving from an unknown position.
+  virtual void unplaced(double /*mm3*/) {}
   /// Called before each motion; false ends the pass.
   virtual bool wants_more() { return true; }
 };

@@ -72,6 +72,15 @@ TEST(Dialect, TheGuessNamesItsEvidence) {
   }
 }
 
+TEST(Dialect, EWordsOfMotionsMakeAPrint) {
+  const std::string cold = "G28\nG1 X10 Y0 E0.3\nG1 X0 Y1 E0.3\nG1 X10 Y1 E0.3\n";
+  EXPECT_EQ(guess_dialect(cold).dialect, GcodeDialect::marlin);
+  EXPECT_EQ(guess_dialect("M3 S9000\n" + cold).dialect, GcodeDialect::rs274);
+  EXPECT_EQ(guess_dialect("M104 S200\nG1 X10 E0.3\n").dialect, GcodeDialect::marlin);
+  const std::string thread = "G76 P0.05 Z-1 I-.075 J0.008 K0.045 Q29.5 L2 E0.045\n";
+  EXPECT_EQ(guess_dialect(thread + thread + thread).dialect, GcodeDialect::rs274);
+}
+
 TEST(Dialect, PicturesInCommentsDoNotHideTheWords) {
   std::string text;
   for (int i = 0; i < 3000; ++i) text += "; iVBORw0KGgoAAAANSUhEUgAAASwAAAEsCAIAAAD2HxkiAAAA\r\n";

@@ -38,6 +38,63 @@ TEST(Printer, HomingLeavesItsAxesUnknown) {
   homing(2, 7);
 }
 
+/// Words of slicers' start and end programs: no errors and no warnings, and the position is unknown after a
+/// procedure.
+TEST(Printer, WordsOfSlicersAreHarmless) {
+  const char* const kLines[] = {"M84 X Y E",
+                                "M18 E",
+                                "G28 X",
+                                "G28 X Y",
+                                "G28 W",
+                                "G28 O",
+                                "G4",
+                                "G4 S3",
+                                "M862.3 P \"MK3S\"",
+                                "G29 A",
+                                "G29",
+                                "G29 P1",
+                                "G29.2 S1",
+                                "G39.4",
+                                "G80",
+                                "G150.3",
+                                "G380 S2 Z-25 F300",
+                                "M221 S95",
+                                "M569 S1 X Y",
+                                "M1002 gcode_claim_action : 2",
+                                "M620 S0A",
+                                "M1006 W",
+                                "M1006 A0 B10 L100",
+                                "T1000",
+                                "T0",
+                                "M73 P50 R5",
+                                "M73 Q50 S5",
+                                "M486 AName of object",
+                                "G10",
+                                "G11"};
+  for (const char* line : kLines) {
+    for (const GcodeDialect dialect : {GcodeDialect::marlin, GcodeDialect::klipper}) {
+      Diagnostics diagnostics;
+      GcodeReadOptions options;
+      options.dialect = dialect;
+      const auto program = read_gcode(kHead + line + "\nG1 X5 F600\n", options, diagnostics);
+      for (const Diagnostic& d : diagnostics.list()) EXPECT_EQ(d.severity, Severity::note) << to_string(d);
+      const Step& last = program.path[program.path.size() - 1];
+      const bool procedure = line[0] == 'G' && line[1] != '4' && std::string(line).rfind("G1", 0) != 0;
+      const bool homes_x_only = std::string(line) == "G28 X";
+      const unsigned unknown = std::string(line) == "G150.3"    ? 6u
+                               : !procedure || homes_x_only     ? 0u
+                               : std::string(line) == "G28 X Y" ? 2u
+                                                                : 6u;
+      EXPECT_EQ(last.unknown_axes(), unknown) << line;
+      if (line[0] == 'T') {
+        const Step& change = program.path[program.path.size() - 2];
+        ASSERT_EQ(change.kind(), StepKind::tool_change) << line;
+        EXPECT_EQ(change.tool_change().tool, std::stoi(line + 1));
+      }
+    }
+  }
+}
+
 TEST(Printer, FilamentIsRetractedWhileMovingToo) {
   const auto b = beads(kHead + "M83\nG1 X10 E1\nG1 X5 E-0.5\nG1 E-0.25\nG1 X5\n");
   ASSERT_EQ(b.size(), 3u);

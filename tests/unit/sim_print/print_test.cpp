@@ -125,6 +125,47 @@ TEST(Print, ParallelBeadsOverlapByTheirSections) {
   }
 }
 
+/// 40 beads of 20 mm, 0.45 mm wide, 0.42 mm apart and turned: neighbours share a lens of their round sides,
+/// two circles of radius 0.1 mm whose centres are 0.17 mm apart.
+TEST(Print, OverlapDependsNeitherOnTheDirectionNorOnTheColumns) {
+  constexpr double kRadius = 0.1, kApart = 0.17, kLength = 20.0, kSpacing = 0.42;
+  constexpr int kBeads = 40;
+  const double lens = 2.0 * kRadius * kRadius * std::acos(kApart / (2.0 * kRadius)) -
+                      0.5 * kApart * std::sqrt(4.0 * kRadius * kRadius - kApart * kApart);
+  const double overlap = (kBeads - 1) * kLength * lens;
+  const double extruded = kBeads * bead_volume(mm(kLength), mm(0.45), mm(0.2)).mm3();
+  for (const double degrees : {0.0, 90.0, 45.0, 17.0}) {
+    const double turn = degrees / 180.0 * kPi;
+    const Point2 along{std::cos(turn), std::sin(turn)}, across{-along.y, along.x};
+    Print print;
+    for (int i = 0; i < kBeads; ++i) {
+      const Point2 from = (i * kSpacing) * across, to = from + kLength * along;
+      print.travel({from.x, from.y, 0.2}).bead({to.x, to.y, 0.2}, 0.45, 0.2);
+    }
+    for (const double pitch : {0.05, 0.09, 0.2}) {
+      const auto s = run(print, pitch);
+      EXPECT_NEAR(s.total.overlap.mm3(), overlap, 0.01 * overlap) << degrees << " degrees, " << pitch;
+      EXPECT_NEAR((s.total.laid - s.total.ends).mm3(), extruded - overlap, 0.001 * extruded) << degrees;
+    }
+  }
+}
+
+TEST(Print, FiguresNeedNoSimulation) {
+  Print print;
+  print.line({0, 0, 0.2}, {10, 0, 0.2}).line({0, 0, 0.5}, {0, 20, 0.5});
+  const auto f = figures_of_print(print.path(), {});
+  EXPECT_EQ(f.beads, 2u);
+  EXPECT_NEAR(f.extruded.mm3(), 30 * kArea, 1e-12);
+  EXPECT_EQ(f.blobs.mm3(), 0.0);
+  EXPECT_NEAR(f.bead_length.mm(), 30.0, 1e-12);
+  ASSERT_EQ(f.layers.size(), 2u);
+  EXPECT_NEAR(f.layers[0].height.mm(), 0.2, 1e-12);
+  EXPECT_NEAR(f.layers[1].z.mm(), 0.5, 1e-12);
+  EXPECT_NEAR(f.layers[1].height.mm(), 0.3, 1e-12);  // from the step in Z
+  EXPECT_EQ(f.first_bead, 1u);
+  EXPECT_FALSE(figures_of_print(Toolpath{}, {}).first_bead);
+}
+
 TEST(Print, CrossingBeadsOverlapOnce) {
   const auto s =
       run(Print().line({0, 10, kHeight}, {20, 10, kHeight}).line({10, 0, kHeight}, {10, 20, kHeight}), 0.01);
@@ -253,6 +294,20 @@ TEST(Print, ABridgeIsUnsupportedAndABeadInTheAirIsReported) {
   EXPECT_EQ(s.hazards[1].kind, PrintHazardKind::in_air);
   EXPECT_EQ(s.hazards[1].steps, 2u);
   EXPECT_NEAR(s.hazards[1].length.mm(), 7.0, 1e-9);
+}
+
+/// Slicers leave a gap of up to a layer above support structures; the bead sags onto them.
+TEST(Print, ABeadALayerAboveOtherMaterialIsNotInTheAir) {
+  const auto hazards_at = [](double bottom) {
+    Print print;
+    print.line({0, 0, kHeight}, {20, 0, kHeight});
+    const double z = bottom + kHeight;
+    print.travel({0, 0, z}).push({20, 0, z}, 20 * kArea, mm(kWidth), mm(kHeight));
+    return run(print, 0.05);
+  };
+  EXPECT_EQ(count(hazards_at(2.0 * kHeight), PrintHazardKind::in_air), 0u);
+  EXPECT_EQ(count(hazards_at(2.0 * kHeight), PrintHazardKind::unsupported), 1u);
+  EXPECT_EQ(count(hazards_at(2.5 * kHeight), PrintHazardKind::in_air), 1u);
 }
 
 TEST(Print, AnOverhangOfLessThanHalfAWidthIsSupported) {

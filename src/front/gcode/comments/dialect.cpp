@@ -16,7 +16,7 @@ constexpr std::size_t kMaxWordBytes = 64 * 1024;  // examined from the start, li
 constexpr std::size_t kMaxTotalBytes = 1024 * 1024;  // with them: slicers store pictures in comments
 constexpr std::size_t kMaxEvidenceChars = 60;
 // A laser program has more than so many motions with S words, and fewer than 1 / so many of them in Z.
-constexpr int kExtrusions = 10;  // lines with E that make a print of a program without heating and spindle
+constexpr int kExtrusions = 3;  // motions with E that make a print of a program without heating and spindle
 constexpr int kLaserMotions = 8;
 constexpr std::size_t kLaserPowers = 3;  // minimum number of different S words
 
@@ -81,7 +81,7 @@ struct WordEvidence {
   Evidence heating, extruding, klipper_command;
   Evidence beam, motion_with_power;
   Evidence program_number, call;
-  int motions_in_z = 0;
+  int motions_in_z = 0, beads = 0;
   std::set<std::string, std::less<>> powers;
 };
 
@@ -127,6 +127,12 @@ bool is_program_number(const std::string& line) {
   return line[0] == 'O' && line.size() > 4 && std::all_of(line.begin() + 1, line.end(), is_digit);
 }
 
+/// G0 to G3, which have no E word on mills.
+bool is_straight_or_arc(const std::string& line) {
+  const std::string_view code = after(line, 'G');
+  return (code.size() == 1 || (code.size() == 2 && code[0] == '0')) && code.back() <= '3';
+}
+
 /// Adds a line's words to the evidence. `line` is in capitals without blanks (words_of), `raw` the original.
 void count_words(const std::string& line, std::string_view raw, std::uint32_t number, WordEvidence& found) {
   if (line.empty()) return;
@@ -140,7 +146,10 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
   if (code == "98" || code == "99") found.call.add(number, "M" + std::string(code));
   if (is_program_number(line)) found.program_number.add(number, line);
   const bool moves = line.find_first_of("XY") != std::string::npos;
-  if (line[0] == 'G' && !after(line, 'E').empty()) found.extruding.add(number, "E");
+  if (line[0] == 'G' && !after(line, 'E').empty()) {
+    found.extruding.add(number, "E");
+    if (moves && is_straight_or_arc(line)) ++found.beads;
+  }
   if (line.find('Z') != std::string::npos) ++found.motions_in_z;
   const std::string_view power = after(line, 'S');
   if (!moves || power.empty()) return;
@@ -151,13 +160,13 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
 std::string location_of(const Evidence& e) { return fmt::format("{} in line {}", e.text, e.line); }
 
 DialectGuess guess_from_words(const WordEvidence& e) {
-  if (e.heating.count > 1 && e.extruding && e.klipper_command)
+  if (e.heating && e.extruding && e.klipper_command)
     return {GcodeDialect::klipper, location_of(e.heating) + " and " + location_of(e.klipper_command),
             e.heating.line};
-  if (e.heating.count > 1 && e.extruding)
+  if (e.heating && e.extruding)
     return {GcodeDialect::marlin, location_of(e.heating) + " and " + location_of(e.extruding),
             e.heating.line};
-  if (e.extruding.count > kExtrusions && !e.beam)
+  if (e.beads >= kExtrusions && !e.beam)
     return {GcodeDialect::marlin, location_of(e.extruding), e.extruding.line};
   const bool beam = e.beam && e.motion_with_power.count > kLaserMotions && e.powers.size() >= kLaserPowers;
   if (beam && e.motions_in_z * kLaserMotions < e.motion_with_power.count)

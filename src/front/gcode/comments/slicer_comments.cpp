@@ -11,10 +11,16 @@
 namespace kerf::gcode {
 namespace {
 
-constexpr double kMaxBeadSize = 20.0;                      // mm
-constexpr double kMinFilament = 0.5, kMaxFilament = 10.0;  // mm, diameter
-constexpr std::size_t kSettings = std::size_t{64} * 1024;  // bytes examined at the start and at the end
-constexpr std::size_t kMaxLineBytes = 200;                 // of a line with a diameter
+constexpr double kMaxBeadSize = 20.0;  // mm
+/// A setting of the filament, and the values that it can have.
+struct FilamentSetting {
+  std::string_view name;
+  double low, high;
+};
+constexpr FilamentSetting kDiameter{"DIAMETER", 0.5, 10.0};  // mm
+constexpr FilamentSetting kDensity{"DENSITY", 0.1, 25.0};    // g/cm3; slicers write 0 where it is not set
+constexpr std::size_t kSettings = std::size_t{64} * 1024;    // bytes examined at the start and at the end
+constexpr std::size_t kMaxLineBytes = 200;                   // of a line with a setting
 
 std::string capitals(std::string_view text) {
   std::string out(text);
@@ -29,26 +35,32 @@ std::optional<double> leading_number(std::string_view text) {
   return parse_number(text.substr(0, end));
 }
 
-std::optional<double> diameter_in(std::string_view line) {
+std::optional<double> value_in(std::string_view line, const FilamentSetting& setting) {
   if (line.size() > kMaxLineBytes || line.empty() || line.front() != ';') return std::nullopt;
   const std::string text = capitals(line);
   const std::size_t filament = text.find("FILAMENT");
   if (filament == std::string::npos) return std::nullopt;
-  const std::size_t diameter = text.find("DIAMETER", filament);
-  if (diameter == std::string::npos) return std::nullopt;
-  const std::size_t sign = text.find_first_of("=:,", diameter);
+  const std::size_t name = text.find(setting.name, filament);
+  if (name == std::string::npos) return std::nullopt;
+  const std::size_t sign = text.find_first_of("=:,", name);
   if (sign == std::string::npos) return std::nullopt;
   const auto value = leading_number(std::string_view(text).substr(sign + 1));
-  return value && *value >= kMinFilament && *value <= kMaxFilament ? value : std::nullopt;
+  return value && *value >= setting.low && *value <= setting.high ? value : std::nullopt;
 }
 
-std::optional<double> diameter_in_lines(std::string_view text) {
+std::optional<double> value_in_lines(std::string_view text, const FilamentSetting& setting) {
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    if (const auto value = diameter_in(trim(text.substr(0, end)))) return value;
+    if (const auto value = value_in(trim(text.substr(0, end)), setting)) return value;
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return std::nullopt;
+}
+
+std::optional<double> find_setting(std::string_view text, const FilamentSetting& setting) {
+  if (const auto value = value_in_lines(text.substr(0, kSettings), setting)) return value;
+  if (text.size() <= kSettings) return std::nullopt;
+  return value_in_lines(text.substr(text.size() - std::min(kSettings, text.size() - kSettings)), setting);
 }
 
 }  // namespace
@@ -70,10 +82,8 @@ std::optional<BeadSize> read_bead_size(std::string_view text) {
   return std::nullopt;
 }
 
-std::optional<double> find_filament_diameter(std::string_view text) {
-  if (const auto value = diameter_in_lines(text.substr(0, kSettings))) return value;
-  if (text.size() <= kSettings) return std::nullopt;
-  return diameter_in_lines(text.substr(text.size() - std::min(kSettings, text.size() - kSettings)));
-}
+std::optional<double> find_filament_diameter(std::string_view text) { return find_setting(text, kDiameter); }
+
+std::optional<double> find_filament_density(std::string_view text) { return find_setting(text, kDensity); }
 
 }  // namespace kerf::gcode

@@ -20,5 +20,7 @@ std::optional<BeadSize> read_bead_size(std::string_view text);
 /// "filament_diameter = 1.75" (Slic3r and its derivatives), "filamentDiameters,1.75" (Simplify3D), "Filament
 /// Diameter #1: 1.75" (ideaMaker).
 std::optional<double> find_filament_diameter(std::string_view text);
+/// The density of the filament in g/cm3, likewise: "filament_density = 1.24".
+std::optional<double> find_filament_density(std::string_view text);
 
 }  // namespace kerf::gcode

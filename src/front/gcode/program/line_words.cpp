@@ -52,6 +52,7 @@ void LineWords::drop_unknown_letters(LineReporter& reporter) {
   const bool e_is_used = filament || has(Group::other) || taper;
   for (const char letter : {'E', 'U', 'V', 'W'}) {
     if (!has(letter) || (letter == 'E' && e_is_used) || (letter == 'U' && has(Group::dwell))) continue;
+    if (filament && has(Group::reference)) continue;  // "G28 W": a flag
     letters_ &= ~bit(letter);
     if (letter == 'E' || filament)
       reporter.unusual(Code::unknown_letter, column(letter),

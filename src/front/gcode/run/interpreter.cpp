@@ -51,10 +51,7 @@ void Interpreter::run(const Block& block) {
   if (block.faulty && program_.ended) return report_unreadable_end();
   if (block.faulty || (block.optional && options_.block_delete == BlockDelete::skip)) return;
   if (block.sender) return skip_setting(block);
-  if (!block.command.empty()) {
-    add(step::Verbatim{std::string(block.command.substr(0, kMaxCommandBytes))});
-    return;
-  }
+  if (!block.command.empty()) return printer_command(block.command.substr(0, kMaxCommandBytes));
   const bool empty = block.words.empty() && block.assignments.empty() && !block.o_word;
   if (empty) return;
   words_since_percent_ = true;
@@ -148,7 +145,7 @@ void Interpreter::execute() {
   if (line_.other_spindle()) line_.use(LineWords::bit('S') | LineWords::bit('D'));
   if (line_.has(Group::spindle_mode) && !line_.other_spindle()) set_spindle_mode();
   if (line_.unused('S')) set_speed();
-  if (line_.has('T')) select_tool();
+  if (line_.unused('T')) select_tool();
   if (line_.has_codes()) {
     if (line_.has(Group::tool_change)) change_tool();
     if (line_.has(Group::spindle) && !line_.other_spindle()) switch_spindle();
@@ -229,6 +226,7 @@ void Interpreter::leave_out() {
 
 void Interpreter::finish() {
   use_pending_comments();
+  program_.units_given = units_given_;
   program_.stock = stock_.stock();
   if (!program_.stock) program_.stock = cam_stock_comments_.stock();
   tool_comments_.finish(reporter_.diagnostics());

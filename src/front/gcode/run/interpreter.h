@@ -264,6 +264,7 @@ class Interpreter : public SystemValues {
   std::optional<double> diameter_of(int tool) const;
 
   // printer.cpp
+  void printer_command(std::string_view text);
   void printer_code();
   void printer_reference();
   void run_to_end_switches();

@@ -37,6 +37,25 @@ bool Interpreter::printer_line() {
   return code == 820 || code == 830 || code == 840;
 }
 
+/// A command that has no meaning here. A G code runs a procedure of the firmware, such as levelling the bed
+/// (G29), after which the nozzle may be anywhere; firmware retraction (G10, G11) leaves it where it is.
+void Interpreter::printer_command(std::string_view text) {
+  const char first = text.front();
+  if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
+  const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
+  if (code == "G10" || code == "G11")
+    return reporter_.note(
+        Code::code_ignored, 1,
+        code + " retracts or returns the filament by lengths that only the printer knows; skipped");
+  reporter_.note(
+      Code::code_ignored, 1,
+      code +
+          " runs a procedure of the printer, which is neither simulated nor posted; the position is "
+          "unknown after it");
+  add(step::Unresolved{code, UnresolvedKind::code});
+  lose(kAllAxes);
+}
+
 void Interpreter::printer_code() {
   const int code = line_.large_m_code();
   if (code < 0) {
@@ -99,6 +118,8 @@ void Interpreter::run_to_end_switches() {
 void Interpreter::set_filament(std::string_view text) {
   filament_diameter_ = options_.filament_diameter ? *options_.filament_diameter
                                                   : find_filament_diameter(text).value_or(kDefaultFilament);
+  program_.filament_diameter = filament_diameter_;
+  program_.filament_density = find_filament_density(text);
 }
 
 /// M200: with a diameter (D) above 0 the E words are volumes from here on; S1 and S0 switch only that.

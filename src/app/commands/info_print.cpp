@@ -1,0 +1,126 @@
+// kerf info of a print: filament, layers, size and time.
+#include "app/commands/info_print.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numbers>
+
+#include "app/report/json.h"
+#include "app/report/terminal_progress.h"
+
+#include "kerf/number.h"
+#include "kerf/print.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr const char* kFeedsMethod = "programmed feeds, without acceleration";
+constexpr double kPla = 1.24;              // g/cm3
+constexpr double kDefaultFilament = 1.75;  // mm
+constexpr double kMm3PerCm3 = 1000.0;
+
+struct Filament {
+  double diameter = 0.0;  // mm
+  double density = 0.0;   // g/cm3
+  bool assumed = false;   // that of PLA
+  double length = 0.0;    // mm
+  double volume = 0.0;    // mm3
+
+  double grams() const { return density * volume / kMm3PerCm3; }
+};
+
+Filament filament_of(const Program& program, const PrintFigures& figures, double density) {
+  Filament f;
+  f.diameter = program.filament_diameter.value_or(kDefaultFilament);
+  f.assumed = !(density > 0.0) && !program.filament_density;
+  f.density = density > 0.0 ? density : program.filament_density.value_or(kPla);
+  f.volume = figures.extruded.mm3();
+  f.length = f.volume / (std::numbers::pi / 4.0 * f.diameter * f.diameter);
+  return f;
+}
+
+/// The lowest and highest of the layers' heights, mm.
+Range heights_of(const PrintFigures& figures) {
+  Range heights;
+  for (const PrintFigures::Layer& layer : figures.layers) heights.add(layer.height.mm());
+  return heights;
+}
+
+Json print_json(const PrintFigures& figures, const Filament& filament) {
+  const Range heights = heights_of(figures);
+  return {{"filament_mm", json_of(filament.length)},
+          {"filament_mm3", json_of(filament.volume)},
+          {"filament_diameter_mm", json_of(filament.diameter)},
+          {"mass_g", json_of(filament.grams())},
+          {"density_g_cm3", json_of(filament.density)},
+          {"density_assumed", filament.assumed},
+          {"layers", figures.layers.size()},
+          {"layer_height_mm", heights.empty() ? Json(nullptr) : json_of(heights)},
+          {"beads", figures.beads},
+          {"bead_mm", json_of(figures.bead_length.mm())},
+          {"bounds_mm", json_of(figures.box)}};
+}
+
+Json time_json(const JobTimes& times) {
+  const TimeFigures& all = times.estimate.all;
+  return {{"total", json_of(all.total().seconds())},
+          {"motion", json_of(all.motion.seconds())},
+          {"dwell", json_of(all.dwell.seconds())},
+          {"method", times.planned() ? kPlannedMethod : kFeedsMethod},
+          {"machine", times.planned() ? Json(times.machine) : Json(nullptr)}};
+}
+
+std::string heights_text(const Range& heights, const LengthText& lengths) {
+  if (heights.empty()) return "";
+  if (heights.high - heights.low < 1e-6) return fmt::format(", {} high", lengths.with_unit(heights.low, 3));
+  return fmt::format(", {} to {} high", lengths.of(heights.low, 3), lengths.with_unit(heights.high, 3));
+}
+
+void print_text(Console& console, const Job& job, const JobTimes& times, const PrintFigures& figures,
+                const Filament& filament) {
+  const LengthText& lengths = console.lengths();
+  console.print(fmt::format("{}: {}, {} steps, a print\n\n", job.program.source, job.program.front_end,
+                            job.program.path.size()));
+  if (!figures.box.empty())
+    console.print(fmt::format("Size      {}, from X{} Y{} Z{}\n", lengths.size(figures.box.size()),
+                              lengths.of(figures.box.low.x, 3), lengths.of(figures.box.low.y, 3),
+                              lengths.of(figures.box.low.z, 3)));
+  console.print(
+      fmt::format("Layers    {}{}\n", figures.layers.size(), heights_text(heights_of(figures), lengths)));
+  console.print(fmt::format("Filament  {} of {}, {}\n", lengths.with_unit(filament.length, 1),
+                            lengths.with_unit(filament.diameter, 3), lengths.volume(filament.volume, 1)));
+  console.print(fmt::format("Mass      {} g at {} g/cm3{}\n", number_text(filament.grams(), 2),
+                            number_text(filament.density, 3),
+                            filament.assumed ? ", assuming PLA; specify another with --density" : ""));
+  console.print(
+      fmt::format("Beads     {}, {} long\n", figures.beads, lengths.with_unit(figures.bead_length.mm(), 1)));
+  const TimeFigures& all = times.estimate.all;
+  console.print(fmt::format("Time      about {}, without heating: {} motion, {} dwell\n",
+                            clock_text(all.total().seconds()), clock_text(all.motion.seconds()),
+                            clock_text(all.dwell.seconds())));
+  console.print(times.planned()
+                    ? fmt::format("          on {}, {}\n", times.machine, kPlannedMethod)
+                    : fmt::format("          {}; --machine plans with accelerations\n", kFeedsMethod));
+}
+
+}  // namespace
+
+void print_info_of_print(Console& console, const Job& job, const JobTimes& times, double density,
+                         const Diagnostics& diagnostics) {
+  const PrintFigures figures = figures_of_print(job.program.path, {});
+  const Filament filament = filament_of(job.program, figures, density);
+  if (!console.json()) return print_text(console, job, times, figures, filament);
+  Json out;
+  out["source"] = job.program.source;
+  out["front_end"] = job.program.front_end;
+  out["kind"] = "print";
+  out["units"] = job.program.units == ProgramUnits::inch ? "inch" : "mm";
+  out["steps"] = job.program.path.size();
+  out["print"] = print_json(figures, filament);
+  out["time_s"] = time_json(times);
+  out["feeds"] = json_of(job.report.all.feed);
+  out["diagnostics"] = json_of(diagnostics);
+  console.print_json(text_of(out, Layout::indented));
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,103 @@
+// The findings of a print, and which of its hazards are none.
+#include "job/print_findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+#include <utility>
+
+#include "kerf/number.h"
+#include "kerf/print.h"
+
+namespace kerf {
+namespace {
+
+constexpr double kMinBlob = 0.5;      // mm3: a drop of 1 mm
+constexpr double kMaxOverlap = 0.35;  // fraction of the filament of a layer laid where there is material
+constexpr double kMinOverlap = 2.0;   // mm3 in a layer; in small ones ends and corners are most of it
+
+/// Filament that runs out before the print, or beside it: the nozzle is primed there.
+bool is_purge(const PrintHazard& hazard, const PrintFigures& figures) {
+  const Box3& box = figures.box;
+  const bool beside = hazard.at.x < box.low.x || hazard.at.x > box.high.x || hazard.at.y < box.low.y ||
+                      hazard.at.y > box.high.y;
+  return beside || !figures.first_bead || hazard.step < *figures.first_bead;
+}
+
+bool is_failure(const PrintHazard& hazard, const PrintFigures& figures) {
+  switch (hazard.kind) {
+    case PrintHazardKind::nozzle_contact:
+    case PrintHazardKind::in_air: return true;
+    case PrintHazardKind::unsupported: return false;  // bridges and overhangs, as slicers make them
+    case PrintHazardKind::blob: break;
+  }
+  return hazard.volume.mm3() >= kMinBlob && !is_purge(hazard, figures);
+}
+
+bool is_overfull(const PrintLayer& layer) {
+  const PrintVolumes& v = layer.volumes;
+  return v.overlap.mm3() >= kMinOverlap && v.overlap > kMaxOverlap * v.extruded;
+}
+
+/// The first bead with this nozzle height.
+std::size_t first_step_at(Length z, const Toolpath& path) {
+  constexpr double kSameHeight = 0.02;  // mm; layers are further apart
+  Point3 from;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!path[i].is_motion()) continue;
+    const Point3 to = path[i].to();
+    const bool moves = distance(std::exchange(from, to).xy(), to.xy()) > 0.0;
+    if (path[i].kind() == StepKind::extrude && moves && std::abs(to.z - z.mm()) < kSameHeight &&
+        path.extrude(i).volume > Volume())
+      return i;
+  }
+  return 0;
+}
+
+/// One finding for each run of layers that are fuller than full.
+std::vector<Finding> overfull_layers(const std::vector<PrintLayer>& layers, const Toolpath& path) {
+  std::vector<Finding> list;
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    if (!is_overfull(layers[i])) continue;
+    const std::size_t first = i;
+    PrintVolumes sum;
+    for (; i < layers.size() && is_overfull(layers[i]); ++i) {
+      sum.overlap = sum.overlap + layers[i].volumes.overlap;
+      sum.extruded = sum.extruded + layers[i].volumes.extruded;
+    }
+    Finding finding;
+    finding.kind = "overfill";
+    finding.step = first_step_at(layers[first].z, path);
+    finding.at = path[finding.step].to();
+    finding.origin = path.origin_of(finding.step);
+    finding.callers = path.origins().callers(path[finding.step].origin());
+    finding.message = fmt::format(
+        "{}% of the filament of {} layers from Z{} to Z{} is laid where there is material already",
+        number_text(100.0 * (sum.overlap / sum.extruded), 0), i - first, number_text(layers[first].z.mm(), 3),
+        number_text(layers[i - 1].z.mm(), 3));
+    finding.hint = "check the flow, the filament diameter (--filament) and the distance of the beads";
+    list.push_back(std::move(finding));
+  }
+  return list;
+}
+
+}  // namespace
+
+std::vector<Finding> findings_in_print(const Job& job, const JobCheckOptions& options,
+                                       Diagnostics& diagnostics, Progress* progress) {
+  const Toolpath& path = job.program.path;
+  PrintOptions how;
+  how.resolution = options.resolution;
+  how.threads = options.threads;
+  how.layer_height = options.layer_height;
+  const auto print = simulate_print(path, how, diagnostics, progress);
+  if (!print || print->stopped) return {};
+  const PrintFigures figures = figures_of_print(path, how);
+  std::vector<PrintHazard> failures;
+  std::copy_if(print->hazards.begin(), print->hazards.end(), std::back_inserter(failures),
+               [&](const PrintHazard& hazard) { return is_failure(hazard, figures); });
+  return merged(findings_of(failures, path), overfull_layers(print->layers, path));
+}
+
+}  // namespace kerf
