@@ -30,6 +30,8 @@
 #include "kerf/op/contour.h"
 #include "kerf/op/holes.h"
 #include "kerf/op/pocket.h"
+#include "kerf/op/threads.h"
+#include "kerf/op/undercut.h"
 #include "kerf/outline.h"
 #include "kerf/progress.h"
 #include "kerf/tool.h"
@@ -45,7 +47,18 @@ struct ArtShape {
   std::optional<Point2> point;
 };
 
-enum class CutKind : std::uint8_t { pocket, contour, engrave, face, drill, bore };
+enum class CutKind : std::uint8_t {
+  pocket,
+  contour,
+  engrave,
+  face,
+  drill,
+  bore,
+  keyhole,
+  slot,
+  thread,
+  countersink
+};
 
 /// The keys of an operation with their values; a key that was not given is empty.
 struct CutOperation {
@@ -59,10 +72,16 @@ struct CutOperation {
   PocketPattern pattern = PocketPattern::offset;
   Angle angle{};
   ContourSide side = ContourSide::outside;
-  Length lead{};
+  LeadKind lead_kind = LeadKind::arc;
+  Length lead{}, overlap{}, finish{};
+  std::optional<Length> lead_out;  ///< nothing: as `lead`
+  TabOptions tabs{};
   DrillKind cycle = DrillKind::plain;
   Length peck{};
   Duration dwell{};
+  Length length{}, slot_clearance{}, width{};
+  ThreadOptions thread{};         ///< without `cut`
+  std::optional<Angle> cone{};    ///< of a countersink; nothing: 90 degrees
   std::optional<double> retract;  ///< Z; nothing: 5 mm above the highest surface
 };
 

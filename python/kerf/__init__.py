@@ -77,6 +77,7 @@ __all__ = [
     "built_in_tools",
     "check",
     "compare",
+    "cut",
     "estimate",
     "finger_slots",
     "fit_arcs",
@@ -96,6 +97,7 @@ __all__ = [
     "read_drawing",
     "read_gcode",
     "relieve_corners",
+    "rework",
     "save_left_stock",
     "segments",
     "self_meetings",
@@ -169,6 +171,80 @@ def load(
         tools=tools,
         machine=machine,
     )
+
+
+def _texts(options):
+    """Options as the texts that the command takes, without those that are None or False."""
+    texts = []
+    for name, value in options.items():
+        if value is None or value is False:
+            continue
+        if isinstance(value, (list, tuple)):
+            value = ",".join(str(v) for v in value)
+        texts.append((name.replace("_", "-"), "" if value is True else str(value)))
+    return texts
+
+
+def cut(op, shapes=None, tool=None, *, points=None, **options):
+    """Make the program of an operation.
+
+    Parameters
+    ----------
+    op : str
+        'pocket', 'contour', 'engrave', 'face', 'drill', 'bore' ... (`kerf cut --help`).
+    shapes : Region or list, optional
+        What is cut: a region, or a list of outlines, each a list of points and arcs or the three numbers of a
+        circle, as in `Region`.
+    tool : str
+        As for `kerf cut --tool`: 'square d=6'.
+    points : sequence, optional
+        Where holes are drilled.
+    **options
+        The keys of job files, with underscores: depth=6, stepdown=2, feed=900, tab_height=1.5.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    kerf.Error
+        An option is missing or out of range, or the tool does not fit.
+
+    Examples
+    --------
+    >>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40)]])
+    >>> program = kerf.cut('pocket', plate, 'square d=6', depth=4, stepdown=2, feed=900)
+    """
+    if tool is None:
+        raise TypeError("tool is missing, as in tool='square d=6'")
+    return _kerf._cut(op, shapes, points, tool, _texts(options))
+
+
+def rework(program, *, tools=None, **options):
+    """Change a finished program: depth per pass, tabs, order, copies, and more.
+
+    Parameters
+    ----------
+    program : Program or Toolpath
+    tools : Tool, str, ToolTable or list of them, optional
+        Their diameters are needed for tabs and for the order of cuts; see `check`.
+    **options
+        The options of `kerf post`, with underscores: step_down=2, entry='ramp', tab_height=1.5, tabs=4,
+        order=True, rotate=90, mirror='x', move=(10, 0), columns=3, rows=2, pitch=(60, 40), from_line=1200.
+
+    Returns
+    -------
+    Program
+
+    Raises
+    ------
+    ValueError
+        An option is unknown or has an invalid value.
+    kerf.Error
+        The program has motions that cannot be changed.
+    """
+    return _kerf._rework(program, _texts(options), tools)
 
 
 def post(

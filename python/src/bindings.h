@@ -64,6 +64,7 @@ void bind_toolpath(pybind11::module_& m);
 void bind_tools(pybind11::module_& m);
 void bind_program(pybind11::module_& m);
 void bind_job(pybind11::module_& m);
+void bind_operations(pybind11::module_& m);
 void bind_outputs(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_print(pybind11::module_& m);

@@ -224,6 +224,7 @@ PYBIND11_MODULE(_kerf, m) {
   bind_program(m);
   bind_toolpath(m);
   bind_job(m);
+  bind_operations(m);
   bind_outputs(m);
   bind_simulation(m);
   bind_print(m);

@@ -102,6 +102,15 @@ void Cutter::plunge(double z) {
   path_.add(step::Cut{*at_, plunge_}, origin_);
 }
 
+void Cutter::rise(double z) { slope({at_->x, at_->y, z}); }
+
+void Cutter::slope(Point3 to) {
+  if (to == *at_) return;
+  const Feed feed = descent_feed(at_->z - to.z, distance(at_->xy(), to.xy()));
+  at_ = to;
+  path_.add(step::Cut{to, feed}, origin_);
+}
+
 void Cutter::arc(Point2 to, Point2 centre, Turn turn, double z, int turns) {
   const double along = 2.0 * std::numbers::pi * std::max(turns, 1) * distance(centre, to);
   const Feed feed = descent_feed(at_->z - z, along);
@@ -123,28 +132,35 @@ void Cutter::helix(Point2 centre, Turn turn, double z) {
     arc(at_->xy(), centre, turn, z, static_cast<int>(std::min(turns, double{limits::kMaxTurns})));
 }
 
-void Cutter::follow(const Track& track, double from, double to, double z) {
-  const double z0 = at_->z, whole = std::abs(to - from);
-  if (!(whole > 0.0)) return;
-  const Feed feed = descent_feed(z0 - z, whole);
+Point3 add_along(Toolpath& path, const Track& track, double from, double to, Point3 here, double z, Feed feed,
+                 OriginId origin, double weld, std::size_t max_steps) {
+  const double z0 = here.z, whole = std::abs(to - from);
+  if (!(whole > 0.0)) return here;
   const std::vector<LineArc> pieces = track.pieces(from, to);
   double along = 0.0;
-  for (std::size_t i = 0; i < pieces.size() && !full(); ++i) {
+  for (std::size_t i = 0; i < pieces.size() && path.size() < max_steps; ++i) {
     const LineArc& piece = pieces[i];
     along += length_of(piece);
     const double level = i + 1 == pieces.size() ? z : z0 + (z - z0) * std::min(along / whole, 1.0);
-    at_ = Point3{piece.to.x, piece.to.y, level};
-    if (is_curved(piece, options_.tolerance.weld.mm()))
-      path_.add(step::Arc{.to = *at_,
-                          .centre = piece.circle_centre(),
-                          .plane = Plane::xy,
-                          .turn = piece.turn > 0.0 ? Turn::ccw : Turn::cw,
-                          .extra_turns = 0,
-                          .feed = feed},
-                origin_);
+    here = Point3{piece.to.x, piece.to.y, level};
+    if (is_curved(piece, weld))
+      path.add(step::Arc{.to = here,
+                         .centre = piece.circle_centre(),
+                         .plane = Plane::xy,
+                         .turn = piece.turn > 0.0 ? Turn::ccw : Turn::cw,
+                         .extra_turns = 0,
+                         .feed = feed},
+               origin);
     else
-      path_.add(step::Cut{*at_, feed}, origin_);
+      path.add(step::Cut{here, feed}, origin);
   }
+  return here;
+}
+
+void Cutter::follow(const Track& track, double from, double to, double z) {
+  const Feed feed = descent_feed(at_->z - z, std::abs(to - from));
+  at_ = add_along(path_, track, from, to, *at_, z, feed, origin_, options_.tolerance.weld.mm(),
+                  options_.max_steps);
 }
 
 double Cutter::helix_radius() const {

@@ -35,6 +35,11 @@ class Walls {
   double radius_ = 0.0, tolerance_ = 0.0;
 };
 
+/// Appends the lines and arcs of a track from length `from` to `to`, Z from `here` to `z` in proportion to
+/// the length, and returns where they end. Stops where the path has `max_steps`.
+Point3 add_along(Toolpath& path, const Track& track, double from, double to, Point3 here, double z, Feed feed,
+                 OriginId origin, double weld, std::size_t max_steps);
+
 class Cutter {
  public:
   Cutter(const CutOptions& options, const Tool& tool, Walls walls);
@@ -57,6 +62,12 @@ class Cutter {
   /// Down to `z` about a centre; the axis is on the circle. Ends where it starts.
   void helix(Point2 centre, Turn turn, double z);
   void plunge(double z);
+  /// Straight at feed: up, or to a point at another level.
+  void rise(double z);
+  void slope(Point3 to);
+  /// Down along a track to `z` at the angle of the entry: around a closed one, back and forth on the first
+  /// part of an open one, from either end. Returns the length of the track at which it ends.
+  double ramp(const Track& track, double s, double z);
   void lift();
   void rapid_down(double z);
 
@@ -67,8 +78,6 @@ class Cutter {
   void rapid(Point3 to);
   Feed descent_feed(double drop, double along) const;
   double helix_radius() const;
-  double ramp(const Track& track, double s, double z);
-
   const CutOptions& options_;
   const Tool& tool_;
   Walls walls_;

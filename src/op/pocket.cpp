@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "op/cutter.h"
+#include "op/finish.h"
 #include "op/hatch.h"
 #include "op/pocket_rings.h"
 #include "op/reach.h"
@@ -208,33 +209,72 @@ bool few_lines(const Region& region, Length spacing, const CutOptions& options, 
 
 }  // namespace
 
+namespace {
+
+/// The path of a pocket without its finishing pass.
+std::optional<Toolpath> cleared(const Region& region, const Tool& tool, const Reach& reachable,
+                                const CutOptions& cut, const PocketOptions& options,
+                                Diagnostics& diagnostics) {
+  const double tool_radius = reachable.radius - cut.allowance.mm();
+  const Length spacing = mm(2.0 * options.stepover * tool_radius);
+  PocketRun run(cut, tool, Walls(region, reachable.radius, 0.1 * cut.tolerance.chord.mm()));
+  if (options.pattern == PocketPattern::zigzag) {
+    if (!few_lines(reachable.axis, spacing, cut, diagnostics)) return std::nullopt;
+    // The lines end short of the walls, so that links between them keep clear. The ring along the walls
+    // covers what lies up to the radius from it: half a spacing beside a line, and the inset.
+    const double inset = std::min(kLineInset * tool_radius, tool_radius - 0.5 * spacing.mm());
+    const auto lines = offset(reachable.axis, mm(-inset), region_options(cut), diagnostics);
+    if (!lines) return std::nullopt;
+    run.zigzag(hatch(lines->region, options.angle, spacing, cut.max_steps), outer_rings(reachable.axis),
+               spacing.mm());
+  } else {
+    const auto rings = pocket_rings(reachable.axis, spacing, tool_radius, cut, diagnostics);
+    if (!rings) return std::nullopt;
+    run.rings(*rings);
+  }
+  auto made = finished(run, cut, diagnostics);
+  if (!made) return std::nullopt;
+  return std::move(made->path);
+}
+
+}  // namespace
+
 std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
                                 Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
   const bool in_range = valid(cut, tool, diagnostics);
   if (!valid_stepover(options.stepover, cut, diagnostics) || !in_range) return std::nullopt;
-  if (!usable(region, cut, diagnostics)) return std::nullopt;
-  std::optional<Reach> reachable = reach(region, tool, ReachSide::inside, cut, diagnostics);
-  if (!reachable) return std::nullopt;
-  const double tool_radius = reachable->radius - cut.allowance.mm();
-  const Length spacing = mm(2.0 * options.stepover * tool_radius);
-  PocketRun run(cut, tool, Walls(region, reachable->radius, 0.1 * cut.tolerance.chord.mm()));
-  if (options.pattern == PocketPattern::zigzag) {
-    if (!few_lines(reachable->axis, spacing, cut, diagnostics)) return std::nullopt;
-    // The lines end short of the walls, so that links between them keep clear. The ring along the walls
-    // covers what lies up to the radius from it: half a spacing beside a line, and the inset.
-    const double inset = std::min(kLineInset * tool_radius, tool_radius - 0.5 * spacing.mm());
-    const auto lines = offset(reachable->axis, mm(-inset), region_options(cut), diagnostics);
-    if (!lines) return std::nullopt;
-    run.zigzag(hatch(lines->region, options.angle, spacing, cut.max_steps), outer_rings(reachable->axis),
-               spacing.mm());
-  } else {
-    const auto rings = pocket_rings(reachable->axis, spacing, tool_radius, cut, diagnostics);
-    if (!rings) return std::nullopt;
-    run.rings(*rings);
+  if (!(options.finish >= Length{} && options.finish.mm() <= limits::kMaxToolSize)) {
+    diagnostics.error(Code::op_option, cut.where,
+                      fmt::format("{}finishing allowance is {:g}; it must be 0 mm or more", prefix(cut),
+                                  options.finish.mm()));
+    return std::nullopt;
   }
-  auto made = finished(run, cut, diagnostics);
-  if (made) made->unreached = std::move(reachable->unreached), made->narrow = std::move(reachable->narrow);
+  if (!usable(region, cut, diagnostics)) return std::nullopt;
+  std::optional<Reach> last = reach(region, tool, ReachSide::inside, cut, diagnostics);
+  if (!last) return std::nullopt;
+  Operation made;
+  if (options.finish > Length{}) {
+    CutOptions rough = cut;
+    rough.allowance = cut.allowance + options.finish;
+    // Parts that are too narrow with the allowance are left to the finishing pass, which then has passes.
+    Diagnostics unused;
+    const auto before = reach(region, tool, ReachSide::inside, rough, unused);
+    if (before) {
+      auto path = cleared(region, tool, *before, rough, options, diagnostics);
+      if (!path) return std::nullopt;
+      made.path = std::move(*path);
+    }
+    const auto walls =
+        finish_walls(region, tool, *last, before ? &*before : nullptr, cut, options.finish, diagnostics);
+    if (!walls) return std::nullopt;
+    append(made.path, *walls);
+  } else {
+    auto path = cleared(region, tool, *last, cut, options, diagnostics);
+    if (!path) return std::nullopt;
+    made.path = std::move(*path);
+  }
+  made.unreached = std::move(last->unreached), made.narrow = std::move(last->narrow);
   return made;
 }
 

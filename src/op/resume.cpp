@@ -20,6 +20,8 @@ void restore(const Toolpath& path, std::size_t first, const MotionContext& conte
              Toolpath& out) {
   std::optional<std::size_t> coolant, mode;
   for (std::size_t i = 0; i < first; ++i) {
+    if (path[i].kind() == StepKind::work_zero || path[i].kind() == StepKind::tool_length)
+      out.add_copy(path, i);
     if (path[i].kind() == StepKind::coolant) coolant = i;
     if (path[i].kind() == StepKind::path_mode) mode = i;
   }
@@ -67,6 +69,13 @@ std::optional<Resumed> resume_from(const Toolpath& path, const ResumeOptions& op
   if (!at_start && context.unknown_from != 0 && !is_known_rapid(motion))
     return fail(Code::resume_line, path.origin_of(context.index),
                 "the position before this line is unknown; resume from another line");
+
+  for (std::size_t i = 0; i < *first; ++i)
+    if (path[i].kind() == StepKind::work_zero && path[i].work_zero().kind != ZeroKind::select &&
+        path[i].work_zero().kind != ZeroKind::offset)
+      return fail(
+          Code::resume_line, path.origin_of(i),
+          "a zero is set at the position of the tool here, before the line; resume from a line before it");
 
   Resumed made;
   made.first = *first;

@@ -182,7 +182,8 @@ def test_examples_run(kerf, tmp_path, art, op):
     assert run.json["removed_mm3"] > 0
 
 
-@pytest.mark.parametrize("op", ["pocket", "contour", "engrave", "face", "drill", "bore"])
+@pytest.mark.parametrize("op", ["pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot",
+                                "thread", "countersink"])
 def test_examples_run_as_they_are(kerf, tmp_path, op):
     example = kerf("cut", "--example", op).out
     run = kerf("simulate", "--json", write_job(tmp_path, example))
@@ -215,3 +216,75 @@ def test_depth_per_pass_and_resuming_in_post(kerf, tmp_path):
     run = kerf("post", "--to", "linuxcnc", "--from-line", "99", "--safe-z", "5", "deep.nc", "--json")
     assert run.status == 1 and "resume_line" in run.codes()
     assert kerf("post", "--to", "linuxcnc", "--from-line", "8", "deep.nc").status == 2
+
+
+def test_tabs_and_a_finishing_pass(kerf, art):
+    run = kerf("cut", art, "--op", "contour", "--outlines", "frame", "--tool", "square d=4", "--depth", "6",
+               "--stepdown", "2", "--feed", "900", "--finish", "0.3", "--tab-height", "2",
+               "--tab-length", "6", "--tabs", "4", "--tab-shape", "triangular", "-o", "part.nc")
+    assert run.status == 0, run.err
+    stock = ("--stock", "-10,-10,-6 to 70,50,0", "--resolution", "0.1", "--tool", "square d=4")
+    held = kerf("simulate", "--json", "part.nc", *stock)
+    assert held.json["hazards"] == []
+    # A ring of 4.3 mm around the part, less four tabs of triangles, 6 mm long and 2 mm high; their ends are
+    # concave, which leaves a little more.
+    width = 4.3
+    ring = 2 * (60 + 40) * width + math.pi * width**2
+    assert held.json["removed_mm3"] == pytest.approx(6 * ring - 4 * (0.5 * 6 * 2) * width, rel=1e-2)
+
+
+PLATE = """G21 G90
+T1 M6
+M3 S9000
+G0 Z5
+G0 X0 Y0
+G1 Z-3 F100
+G1 X20 F400
+Y20
+X0
+Y0
+G0 Z5
+G0 X5 Y5
+G1 Z-3 F100
+G1 X10 F400
+Y10
+X5
+Y5
+G0 Z5
+M5
+M2
+"""
+
+
+def simulated(kerf, name):
+    run = kerf("simulate", "--json", name, "--tool", "square d=2", "--stock", "-100,-100,-5 to 200,200,0",
+               "--resolution", "0.2")
+    assert run.status == 0, run.err
+    assert run.json["hazards"] == []
+    return run.json
+
+
+def test_changes_of_a_finished_program_in_post(kerf, tmp_path):
+    (tmp_path / "plate.nc").write_text(PLATE)
+    once = simulated(kerf, "plate.nc")["removed_mm3"]
+    for options, factor in [
+        (["--rotate", "90", "--move", "50,10"], 1),
+        (["--mirror", "x", "--reverse-loops"], 1),
+        (["--columns", "3", "--rows", "2", "--pitch", "40,30"], 6),
+        (["--order"], 1),
+        (["--step-down", "1", "--entry", "ramp", "--entry-angle", "10"], 1),
+    ]:
+        run = kerf("post", "--to", "linuxcnc", *options, "plate.nc", "-o", "new.ngc")
+        assert run.status == 0, run.err
+        assert simulated(kerf, "new.ngc")["removed_mm3"] == pytest.approx(factor * once, rel=1e-3)
+    ordered = kerf("post", "--to", "linuxcnc", "--order", "plate.nc", "-o", "new.ngc", "--json").json
+    assert ordered["order"]["blocks"] == 2
+    run = kerf("post", "--to", "linuxcnc", "--tool", "1=square d=2", "--tab-height", "1", "--tabs", "4",
+               "--tab-length", "2", "plate.nc", "-o", "tabs.ngc")
+    assert run.status == 0, run.err
+    # Eight tabs of 2 by 1 mm across the groove of 2 mm, and a little more: their ends are concave.
+    left = once - simulated(kerf, "tabs.ngc")["removed_mm3"]
+    assert 8 * 4 < left < 8 * 4 + 8 * 2
+    for bad in (["--columns", "2"], ["--rows", "0"], ["--mirror", "z"], ["--move", "1"],
+                ["--entry", "helix"]):
+        assert kerf("post", "--to", "linuxcnc", *bad, "plate.nc").status != 0

@@ -3,13 +3,15 @@
 //   const auto made = contour(part, tool, {.cut = {.depth = mm(3), .feed = mm_per_min(600)},
 //       .side = ContourSide::outside}, diagnostics);
 //
-// Holes and inner parts are cut before what surrounds them.
+// Holes and inner parts are cut before what surrounds them. With tabs, parts stay connected to the material
+// around them.
 #pragma once
 
 #include <optional>
 #include <vector>
 
 #include "kerf/op/operation.h"
+#include "kerf/op/tabs.h"
 
 namespace kerf {
 
@@ -17,15 +19,25 @@ enum class ContourSide : std::uint8_t {
   outside,  ///< the region is the part that remains: around it, and inside its holes
   inside    ///< the region is cut out: along its walls
 };
-/// The end of an open or closed path on which a tool enters and leaves the wall.
+/// How the tool gets to the wall and leaves it.
+enum class LeadKind : std::uint8_t {
+  none,
+  arc,  ///< a quarter circle tangent to the wall
+  line  ///< square to the wall
+};
+/// Left out where it does not fit.
 struct Lead {
-  Length radius{};  ///< of a quarter circle tangent to the wall; 0: none. Left out where it does not fit
+  LeadKind kind = LeadKind::none;
+  Length size{};  ///< the radius of the arc, or the length of the line
 };
 
 struct ContourOptions {
   CutOptions cut{.entry = {.kind = EntryKind::ramp}};
   ContourSide side = ContourSide::outside;
-  Lead lead{};
+  Lead lead_in{}, lead_out{};
+  Length overlap{};   ///< how far the tool continues along a wall beyond its start
+  Length finish{};    ///< left by all passes, and then removed by one pass at the full depth
+  TabOptions tabs{};  ///< where the height is above 0
 };
 std::optional<Operation> contour(const Region& region, const Tool& tool, const ContourOptions& options,
                                  Diagnostics& diagnostics);

@@ -22,7 +22,8 @@ struct PocketOptions {
   CutOptions cut{};
   double stepover = 0.4;  ///< distance of neighbouring paths as a fraction of the tool's diameter, (0, 1]
   PocketPattern pattern = PocketPattern::offset;
-  Angle angle{};  ///< of the lines of a zigzag, from +x
+  Angle angle{};    ///< of the lines of a zigzag, from +x
+  Length finish{};  ///< left on the walls, and then removed by one pass at the full depth
 };
 std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
                                 Diagnostics& diagnostics);

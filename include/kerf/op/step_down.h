@@ -6,8 +6,9 @@
 //
 // A chain is what is cut between two rapids. Every pass but the last is the chain with all heights below the
 // level of the pass raised to that level, so a curved floor is approached in steps; the last is the chain
-// itself. A chain that ends where it starts continues down there, after another one the tool rises to the
-// height of the rapid that led to it. All other steps are kept, with their origins.
+// itself. With ramps, a chain that starts with a descent at one point goes down back and forth along its
+// first level part instead. A chain that ends where it starts continues down there, after another one the
+// tool rises to the height of the rapid that led to it. All other steps are kept, with their origins.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +16,7 @@
 
 #include "kerf/diagnostics.h"
 #include "kerf/limits.h"
+#include "kerf/op/operation.h"
 #include "kerf/tolerance.h"
 #include "kerf/toolpath.h"
 #include "kerf/units.h"
@@ -23,7 +25,9 @@ namespace kerf {
 
 struct StepDownOptions {
   double top = 0.0;   ///< Z of the surface of the material
-  Length stepdown{};  ///< maximum depth of a pass, > 0; the passes of a chain have the same depth
+  Length stepdown{};  ///< maximum depth of a pass; the passes of a chain have the same depth. 0: one pass
+  EntryKind entry = EntryKind::plunge;  ///< plunge: as the chain has it; ramp: along its first level part
+  Angle entry_angle = degrees(3);       ///< maximum descent of a ramp
   Length chord = default_tolerance::kPostChord;  ///< of chords that replace an arc which is raised in part
   std::size_t max_steps = limits::kMaxPathSteps;
 };

@@ -135,7 +135,7 @@ const char* const kExamples =
   kerf cut job.toml -o part.nc                      all operations of a job
   kerf simulate job.toml -o part.png                what they leave
 
-Operations: pocket, contour, engrave, face, drill, bore. Lengths in mm, feeds in mm/min, angles in degrees.
+Lengths in mm, feeds in mm/min, angles in degrees.
 )";
 
 }  // namespace
@@ -146,8 +146,7 @@ Command add_cut(CommandParser& root) {
       new_command(root, "cut", "Cut pockets, contours and holes of a drawing", kExamples, options->output);
   parser.add_text("FILE", options->file, "A drawing (.dxf, .svg), an outline file (.json) or a job (.toml)")
       .optional();
-  parser.add_text("--op", options->op, "The operation: pocket, contour, engrave, face, drill or bore")
-      .value_name("NAME");
+  parser.add_text("--op", options->op, "The operation: " + joined(cut_kind_names(), ", ")).value_name("NAME");
   parser.add_text("--tool", options->tool, "The tool, as \"square d=6\"").value_name("SPEC");
   for (const CutKey& key : cut_keys()) {
     if (key.name == "tool" || key.name == "name") continue;

@@ -13,8 +13,7 @@
 #include "kerf/files.h"
 #include "kerf/heights.h"
 #include "kerf/number.h"
-#include "kerf/op/resume.h"
-#include "kerf/op/step_down.h"
+#include "kerf/op/rework.h"
 #include "kerf/posting.h"
 
 namespace kerf::app {
@@ -27,7 +26,8 @@ struct Options {
   double feed = 0.0;
   double fit_arcs = 0.0, join = 0.0;
   bool shorten = false;
-  double step_down = 0.0, top = 0.0, from_line = 0.0, safe_z = 0.0;
+  ReworkOptions rework;
+  bool order = false, reverse_loops = false;
   std::string dxf_version = "r2000";
   bool rapids = false;
   std::string level;        // file of measured heights
@@ -81,17 +81,25 @@ Json improved(Toolpath& path, const Options& options, Console& console) {
   return savings;
 }
 
-/// Passes that change what is cut at a time: the depth per pass, and the part that is left to run.
-void rework(Toolpath& path, const Options& options, Diagnostics& diagnostics) {
-  if (options.from_line > 0.0) {
-    const ResumeOptions resume{static_cast<std::uint32_t>(options.from_line), options.safe_z, {}};
-    if (auto rest = resume_from(path, resume, diagnostics)) path = std::move(rest->path);
-  }
-  if (options.step_down > 0.0 && !diagnostics.has_errors()) {
-    StepDownOptions passes;
-    passes.top = options.top, passes.stepdown = mm(options.step_down);
-    if (auto deeper = step_down(path, passes, diagnostics)) path = std::move(*deeper);
-  }
+/// Changes of what is cut where; false with errors.
+bool reworked(Program& program, const Options& options, const std::map<int, Tool>& tools, Console& console,
+              Json& result, Diagnostics& diagnostics) {
+  ReworkOptions how = options.rework;
+  how.order = options.order, how.reverse_loops = options.reverse_loops;
+  std::map<int, Length> diameters;
+  for (const auto& [number, tool] : tools) diameters[number] = tool.diameter;
+  auto changed = rework(std::move(program.path), diameters, how, diagnostics);
+  if (!changed) return false;
+  program.path = std::move(changed->path);
+  if (!changed->ordered) return true;
+  const Ordered& order = *changed->ordered;
+  result["order"] = Json{{"blocks", order.blocks},
+                         {"rapid_mm_before", order.rapid_before},
+                         {"rapid_mm_after", order.rapid_after}};
+  if (!console.json() && !options.out.empty())
+    console.summary(fmt::format("order    {} blocks, rapids between them {:.0f} -> {:.0f} mm", order.blocks,
+                                order.rapid_before, order.rapid_after));
+  return true;
 }
 
 /// Lets the program follow measured heights, and reports the corrections. False with errors.
@@ -185,14 +193,14 @@ Status run(Console& console, const Options& options) {
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   refuse_input(options, *program, usage);
   if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
-  rework(program->path, options, diagnostics);
-  if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
   Json result{{"source", program->source}, {"post", target->name()}};
+  const std::map<int, Tool> known = used_tools(*program, tools);
+  if (!reworked(*program, options, known, console, result, diagnostics))
+    return fail(console, diagnostics, Status::input_errors);
   result["passes"] = improved(program->path, options, console);
   if (!levelled(*program, options, console, result, diagnostics, &progress))
     return fail(console, diagnostics, Status::input_errors);
-  const auto files = post_program(*program, *target, posting_options(options, used_tools(*program, tools)),
-                                  diagnostics, &progress);
+  const auto files = post_program(*program, *target, posting_options(options, known), diagnostics, &progress);
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
@@ -212,6 +220,9 @@ const char* const kExamples =
   kerf post --to grbl --tool 1="square d=6" part.nc -o out.nc    G41 and G42 need the tool
   kerf post --to dxf part.nc -o part.dxf            the cuts seen from above
   kerf post --to grbl --step-down 2 part.nc -o part.nc           at most 2 mm deep at a time
+  kerf post --to grbl --tab-height 1.5 --tabs 4 --tool 1="square d=6" part.nc -o part.nc
+  kerf post --to grbl --rotate 90 --move 100,0 --columns 3 --rows 2 --pitch 60,40 part.nc -o panel.nc
+  kerf post --to grbl --order part.nc -o part.nc    short rapids, inner contours first
   kerf post --to grbl --from-line 1200 --safe-z 10 part.nc -o rest.nc
   kerf post --to grbl --level map.txt part.nc -o out.nc    heights follow a measured surface
   kerf post --list
@@ -225,14 +236,32 @@ void add_pass_options(CommandParser& parser, Options& options) {
   add_number(parser, "--join", options.join, 1e-6, 1, "MM",
              "Join straight cuts whose corners deviate by at most MM");
   parser.add_flag("--shorten-rapids", options.shorten, "Remove rapids that return to their start point");
-  add_number(parser, "--step-down", options.step_down, 1e-3, 1e4, "MM", "Cut in passes of at most MM depth");
-  add_number(parser, "--top", options.top, -1e4, 1e4, "MM", "Z of the surface for --step-down (default 0)");
-  Option line = add_number(parser, "--from-line", options.from_line, 1, 4e9, "LINE",
-                           "Resume from a line: tool, spindle, a safe approach, and the rest");
-  Option safe = add_number(parser, "--safe-z", options.safe_z, -1e4, 1e4, "MM",
-                           "Z of the approach for --from-line; required with it");
-  line.needs(safe);
-  safe.needs(line);
+}
+
+/// The options of kerf/op/rework.h.
+void add_rework_options(CommandParser& parser, const std::shared_ptr<Options>& options) {
+  std::optional<Option> line, safe;
+  for (const ReworkKey& key : rework_keys()) {
+    const std::string name = "--" + std::string(key.name), meaning(key.meaning);
+    if (key.value.empty()) {
+      parser.add_flag(name, key.name == "order" ? options->order : options->reverse_loops, meaning);
+      continue;
+    }
+    Option option = parser
+                        .add_parsed(
+                            name,
+                            [options, key](const std::string& text) {
+                              return key.set(options->rework, text)
+                                         ? std::string()
+                                         : fmt::format("\"{}\" is not possible", text.substr(0, 60));
+                            },
+                            meaning)
+                        .value_name(std::string(key.value));
+    if (key.name == "from-line") line = option;
+    if (key.name == "safe-z") safe = option;
+  }
+  line->needs(*safe);
+  safe->needs(*line);
 }
 
 /// Returns --keep-above, which has no value that means "not given".
@@ -273,6 +302,7 @@ Command add_post(CommandParser& root) {
       .value_name("HOW");
   add_number(parser, "--feed", options->feed, 1e-3, 1e6, "MM/MIN", "Feed of cuts that have none");
   add_pass_options(parser, *options);
+  add_rework_options(parser, options);
   add_drawing_options(parser, *options);
   const Option keep_above = add_level_options(parser, *options);
   add_tool_options(parser, options->tools);

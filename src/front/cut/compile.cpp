@@ -128,27 +128,59 @@ class JobCompiler {
       }
       case CutKind::bore: return bore(chosen.circles, tool, {cut, operation.stepover}, diagnostics_);
       case CutKind::drill: return drilled(operation, tool, chosen);
+      case CutKind::keyhole:
+        return keyhole(points_of(chosen), tool,
+                       {cut, operation.length, operation.angle, operation.slot_clearance}, diagnostics_);
+      case CutKind::slot: {
+        SlotOptions options{.cut = cut, .stepover = operation.stepover, .width = operation.width};
+        return slot(chosen.open, tool, options, diagnostics_);
+      }
+      case CutKind::thread: {
+        ThreadOptions options = operation.thread;
+        options.cut = cut;
+        options.side = operation.side == ContourSide::inside ? ThreadSide::inside : ThreadSide::outside;
+        return thread(chosen.circles, tool, options, diagnostics_);
+      }
+      case CutKind::countersink:
+        return countersink(chosen.circles, tool, {.cut = cut, .angle = operation.cone.value_or(degrees(90))},
+                           diagnostics_);
       default: break;
     }
     const auto region = region_of(operation, chosen);
     if (!region) return std::nullopt;
     if (operation.kind == CutKind::contour)
-      return contour(*region, tool, {cut, operation.side, {operation.lead}}, diagnostics_);
+      return contour(*region, tool, contour_options(operation, cut), diagnostics_);
     if (operation.kind == CutKind::face)
       return facing(*region, tool, {.cut = cut, .stepover = operation.stepover, .angle = operation.angle},
                     diagnostics_);
-    return pocket(*region, tool, {cut, operation.stepover, operation.pattern, operation.angle}, diagnostics_);
+    return pocket(*region, tool,
+                  {cut, operation.stepover, operation.pattern, operation.angle, operation.finish},
+                  diagnostics_);
+  }
+
+  static ContourOptions contour_options(const CutOperation& operation, const CutOptions& cut) {
+    ContourOptions options;
+    options.cut = cut, options.side = operation.side, options.overlap = operation.overlap;
+    options.lead_in = {operation.lead_kind, operation.lead};
+    options.lead_out = {operation.lead_kind, operation.lead_out.value_or(operation.lead)};
+    options.finish = operation.finish, options.tabs = operation.tabs;
+    return options;
+  }
+
+  /// Points, and the centres of circles.
+  static std::vector<Point2> points_of(const Selection& chosen) {
+    std::vector<Point2> points = chosen.points;
+    for (const Circle& circle : chosen.circles) points.push_back(circle.centre);
+    return points;
   }
 
   std::optional<Operation> drilled(const CutOperation& operation, const Tool& tool, const Selection& chosen) {
-    std::vector<Point2> points = chosen.points;
-    for (const Circle& circle : chosen.circles) points.push_back(circle.centre);
     DrillOptions options;
     options.kind = operation.cycle, options.top = operation.cut.top, options.depth = operation.cut.depth;
     options.peck = operation.peck, options.dwell = operation.dwell, options.feed = operation.cut.feed;
     options.retract_plane = retract_, options.clearance = operation.cut.clearance;
     options.name = operation.name, options.where = operation.cut.where;
-    return drill(points, tool, options, diagnostics_);
+    return drill(points_of(chosen), tool, options, diagnostics_);
   }
 
   void add(const CutOperation& operation) {

@@ -44,6 +44,24 @@ Json schema_of(const CutKey& key) {
 /// Shapes for an example of an operation, so that it can be simulated as it is.
 std::string_view shapes_of(CutKind kind) {
   switch (kind) {
+    case CutKind::thread:
+      return "[[shape]]                 # shapes of the job itself, besides those of art\n"
+             "name = \"hole\"\n"
+             "circle = [10, 20, 8.7]    # x, y, diameter\n\n"
+             "[[shape]]\n"
+             "name = \"thread\"\n"
+             "circle = [10, 20, 10]     # the major diameter\n\n"
+             "[[operation]]\n"
+             "op = \"bore\"\n"
+             "outlines = [\"hole\"]\n"
+             "tool = 2\n"
+             "depth = 7\n"
+             "rpm = 12000\n"
+             "feed = 600\n\n";
+    case CutKind::slot:
+      return "[[shape]]                 # shapes of the job itself, besides those of art\n"
+             "name = \"groove\"\n"
+             "line = [[0, 20], [60, 20]]\n\n";
     case CutKind::engrave:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"arrow\"\n"
@@ -54,6 +72,8 @@ std::string_view shapes_of(CutKind kind) {
              "rectangle = [0, 0, 60, 40]\n\n";
     case CutKind::drill:
     case CutKind::bore:
+    case CutKind::keyhole:
+    case CutKind::countersink:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"left\"\n"
              "circle = [10, 20, 10]     # x, y, diameter\n\n"
@@ -69,6 +89,31 @@ std::string_view shapes_of(CutKind kind) {
              "name = \"hole\"\n"
              "circle = [30, 20, 16]     # x, y, diameter; polygon, line = [[x, y], ...]; point = [x, y]\n\n";
   }
+}
+
+std::string_view stock_of(CutKind kind) {
+  // A slot ends at the edges of the material.
+  if (kind == CutKind::slot) return "stock = \"0,0,-12 to 60,40,0\"   # as for --stock\n\n";
+  return "# stock = \"100x60x12\"     # as for --stock\n\n";
+}
+
+std::string_view tool_of(CutKind kind) {
+  switch (kind) {
+    case CutKind::drill: return "drill d=3 angle=118";
+    case CutKind::keyhole: return "keyhole d=9.5 head=4 neck=4.8";
+    case CutKind::slot: return "dovetail d=12.7 flute=9 angle=14";
+    case CutKind::thread: return "thread mill minor_diameter=4.6 major_diameter=6 pitch=1.4 length=15";
+    case CutKind::countersink: return "ball d=6";
+    default: return "square d=6";
+  }
+}
+
+/// The value of a key in the example of an operation.
+std::string example_of(CutKind kind, const CutKey& key) {
+  if (kind == CutKind::thread && key.name == "side") return "\"inside\"";
+  if (kind == CutKind::thread && key.name == "outlines") return "[\"thread\"]";
+  if (kind == CutKind::countersink && key.name == "depth") return "3";
+  return std::string(key.example);
 }
 
 Json schema_of_shape() {
@@ -89,18 +134,21 @@ std::optional<std::string> cut_job_example(std::string_view name) {
   if (!kind) return std::nullopt;
   std::string text =
       "# A job for kerf cut. Lengths in mm, feeds in mm/min, angles in degrees.\n"
-      "# art = \"part.dxf\"        # a DXF or SVG drawing, or an outline file (.json), with the shapes to "
-      "cut\n"
-      "# unit = \"mm\"             # of a drawing that specifies none: mm or inch\n"
-      "# stock = \"100x60x12\"     # as for --stock\n\n" +
-      std::string(shapes_of(*kind)) + "[tools]                   # number = shape, as for --tool\n";
-  text += *kind == CutKind::drill ? "1 = \"drill d=3 angle=118\"\n\n" : "1 = \"square d=6\"\n\n";
+      "# art = \"part.dxf\"        # a drawing (.dxf, .svg) or an outline file (.json) with the shapes\n"
+      "# unit = \"mm\"             # of a drawing that specifies none: mm or inch\n" +
+      std::string(stock_of(*kind)) + std::string(shapes_of(*kind)) +
+      "[tools]                   # number = shape, as for --tool\n";
+  text +=
+      fmt::format("1 = \"{}\"\n{}\n", tool_of(*kind), *kind == CutKind::thread ? "2 = \"square d=6\"\n" : "");
   text += fmt::format("[[operation]]             # operations are cut in this order\nop = \"{}\"\n",
                       cut_kind_names()[static_cast<std::size_t>(*kind)]);
   for (const CutKey& key : cut_keys()) {
     if (!applies(*kind, key.name)) continue;
+    const std::string example = example_of(*kind, key);
     const bool select = key.name == "layers" || key.name == "outlines" || key.name == "name";
-    const std::string line = fmt::format("{}{} = {}", select ? "# " : "", key.name, key.example);
+    // What selects shapes is a comment, unless the example needs it.
+    const bool used = !select || example != key.example;
+    const std::string line = fmt::format("{}{} = {}", used ? "" : "# ", key.name, example);
     const std::string unit =
         key.type == CutKey::Type::number && !key.unit.empty() ? fmt::format("{}: ", key.unit)
         : key.type == CutKey::Type::text && !key.unit.empty() ? fmt::format("{}: ", key.unit)

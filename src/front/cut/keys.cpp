@@ -9,7 +9,8 @@
 namespace kerf {
 
 const std::vector<std::string>& cut_kind_names() {
-  static const std::vector<std::string> names{"pocket", "contour", "engrave", "face", "drill", "bore"};
+  static const std::vector<std::string> names{"pocket", "contour", "engrave", "face",   "drill",
+                                              "bore",   "keyhole", "slot",    "thread", "countersink"};
   return names;
 }
 
@@ -48,6 +49,10 @@ constexpr Names<PocketPattern, 2> kPatterns{
     {{{"offset", PocketPattern::offset}, {"zigzag", PocketPattern::zigzag}}}};
 constexpr Names<ContourSide, 2> kSides{
     {{{"outside", ContourSide::outside}, {"inside", ContourSide::inside}}}};
+constexpr Names<ThreadHand, 2> kHands{{{{"right", ThreadHand::right}, {"left", ThreadHand::left}}}};
+constexpr Names<LeadKind, 2> kLeads{{{{"arc", LeadKind::arc}, {"line", LeadKind::line}}}};
+constexpr Names<TabShape, 2> kTabs{
+    {{{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}}}};
 constexpr Names<DrillKind, 6> kCycles{{{{"plain", DrillKind::plain},
                                         {"dwell", DrillKind::dwell},
                                         {"peck", DrillKind::peck},
@@ -70,6 +75,12 @@ bool set_tool(Operation& o, const CutValue& value) {
   const auto given = number(value);
   if (!given || *given < 0 || *given > limits::kMaxToolNumber || *given != std::floor(*given)) return false;
   o.tool = static_cast<int>(*given);
+  return true;
+}
+bool set_count(int& target, const CutValue& value, int maximum) {
+  const auto given = number(value);
+  if (!given || !(*given >= 1) || *given > maximum || *given != std::floor(*given)) return false;
+  target = static_cast<int>(*given);
   return true;
 }
 bool set_speed(Operation& o, const CutValue& value) {
@@ -97,7 +108,8 @@ double plain(double v) { return v; }
 #define KERF_NAMED(names, expression) \
   [](Operation& o, const CutValue& v) { return set_named(names, o.expression, v); }
 
-std::vector<CutKey> make_keys() {
+/// What is cut, how deep, and how fast.
+std::vector<CutKey> frame_keys() {
   return {
       {"name", Type::text, "", "of the operation, in messages and in the program", "\"left pocket\"",
        [](Operation& o, const CutValue& v) { return set_text(o.name, v); }},
@@ -121,6 +133,12 @@ std::vector<CutKey> make_keys() {
        KERF_NUMBER(cut.clearance, mm)},
       {"allowance", Type::number, "mm", "left on walls for a finishing pass", "0",
        KERF_NUMBER(cut.allowance, mm)},
+  };
+}
+
+/// Directions, entries and patterns.
+std::vector<CutKey> way_keys() {
+  return {
       {"direction", Type::text, "climb, conventional", "direction along walls, of a clockwise spindle",
        "\"climb\"", KERF_NAMED(kDirections, cut.direction)},
       {"entry", Type::text, "helix, ramp, plunge", "how the tool enters the material", "\"helix\"",
@@ -135,8 +153,51 @@ std::vector<CutKey> make_keys() {
        KERF_NUMBER(angle, degrees)},
       {"side", Type::text, "outside, inside", "of the outlines of a contour", "\"outside\"",
        KERF_NAMED(kSides, side)},
-      {"lead", Type::number, "mm", "radius of the lead-in and lead-out of a contour; 0: none", "0",
+  };
+}
+
+/// Of walls: finishing passes, leads, tabs.
+std::vector<CutKey> wall_keys() {
+  return {
+      {"finish", Type::number, "mm", "left on walls, and removed by a last pass at the full depth", "0",
+       KERF_NUMBER(finish, mm)},
+      {"lead", Type::number, "mm", "radius or length of the lead-in and lead-out of a contour; 0: none", "0",
        KERF_NUMBER(lead, mm)},
+      {"lead-out", Type::number, "mm", "of the lead-out, where it differs", "0", KERF_NUMBER(lead_out, mm)},
+      {"lead-kind", Type::text, "arc, line", "arcs tangent to the wall, or lines square to it", "\"arc\"",
+       KERF_NAMED(kLeads, lead_kind)},
+      {"overlap", Type::number, "mm", "how far a contour continues beyond its start", "0",
+       KERF_NUMBER(overlap, mm)},
+      {"tab-height", Type::number, "mm", "of tabs above the bottom; 0: no tabs", "0",
+       KERF_NUMBER(tabs.height, mm)},
+      {"tab-length", Type::number, "mm", "of tabs; 0: the diameter of the tool", "6",
+       KERF_NUMBER(tabs.length, mm)},
+      {"tabs", Type::number, "", "number of tabs on each contour", "4",
+       [](Operation& o, const CutValue& v) { return set_count(o.tabs.count, v, 1000); }},
+      {"tab-spacing", Type::number, "mm", "distance of tabs; 0: by their number", "0",
+       KERF_NUMBER(tabs.spacing, mm)},
+      {"tab-shape", Type::text, "rectangular, triangular", "of tabs", "\"rectangular\"",
+       KERF_NAMED(kTabs, tabs.shape)},
+  };
+}
+
+/// Of holes, slots and threads.
+std::vector<CutKey> hole_keys() {
+  return {
+      {"length", Type::number, "mm", "of a keyhole, from its entry in the direction of angle", "12",
+       KERF_NUMBER(length, mm)},
+      {"slot-clearance", Type::number, "mm", "by which a keyhole is wider than its tool", "0.2",
+       KERF_NUMBER(slot_clearance, mm)},
+      {"width", Type::number, "mm", "of a slot where the tool is widest; 0: the diameter", "0",
+       KERF_NUMBER(width, mm)},
+      {"pitch", Type::number, "mm", "of a thread", "1.25", KERF_NUMBER(thread.pitch, mm)},
+      {"hand", Type::text, "right, left", "of a thread", "\"right\"", KERF_NAMED(kHands, thread.hand)},
+      {"thread-passes", Type::number, "", "of a thread, deeper each time", "1",
+       [](Operation& o, const CutValue& v) { return set_count(o.thread.passes, v, 100); }},
+      {"thread-teeth", Type::number, "", "of the thread mill, one pitch apart", "1",
+       [](Operation& o, const CutValue& v) { return set_count(o.thread.teeth, v, 1000); }},
+      {"cone-angle", Type::number, "degrees", "of a countersink, between its sides", "90",
+       KERF_NUMBER(cone, degrees)},
       {"cycle", Type::text, "plain, dwell, peck, chip-break, bore, dwell-bore", "of drilled holes",
        "\"peck\"", KERF_NAMED(kCycles, cycle)},
       {"peck", Type::number, "mm", "depth of a peck", "2", KERF_NUMBER(peck, mm)},
@@ -147,7 +208,12 @@ std::vector<CutKey> make_keys() {
 }  // namespace
 
 const std::vector<CutKey>& cut_keys() {
-  static const std::vector<CutKey> keys = make_keys();
+  static const std::vector<CutKey> keys = [] {
+    std::vector<CutKey> all;
+    for (const auto& part : {frame_keys(), way_keys(), wall_keys(), hole_keys()})
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }();
   return keys;
 }
 
@@ -176,13 +242,20 @@ bool applies(CutKind kind, std::string_view key) {
   };
   using enum CutKind;
   if (key == "pattern") return any({pocket});
-  if (key == "side" || key == "lead") return any({contour});
+  if (key == "length" || key == "slot-clearance") return any({keyhole});
+  if (key == "width") return any({slot});
+  if (key == "cone-angle") return any({countersink});
+  if (key == "pitch" || key == "hand" || key.starts_with("thread")) return any({thread});
+  if (key == "side") return any({contour, thread});
+  if (key == "overlap" || key.starts_with("lead") || key.starts_with("tab")) return any({contour});
+  if (key == "finish") return any({contour, pocket});
   if (key == "cycle" || key == "peck" || key == "dwell") return any({drill});
-  if (key == "stepover") return any({pocket, face, bore});
-  if (key == "angle") return any({pocket, face});
+  if (key == "stepover") return any({pocket, face, bore, slot});
+  if (key == "angle") return any({pocket, face, keyhole});
   if (key == "allowance") return any({pocket, contour, bore});
-  if (key == "direction") return any({pocket, contour, bore});
-  if (key == "stepdown" || key == "plunge" || key == "entry-angle") return kind != drill;
+  if (key == "direction") return kind != drill && kind != engrave && kind != face;
+  if (key == "plunge") return kind != drill;
+  if (key == "stepdown" || key == "entry-angle") return any({pocket, contour, engrave, face, bore});
   if (key == "entry" || key == "helix-radius") return any({pocket, contour, engrave, face});
   return true;
 }

@@ -34,6 +34,7 @@ CutOperation blank(CutKind kind) {
   CutOperation operation;
   operation.kind = kind;
   if (kind == CutKind::contour || kind == CutKind::engrave) operation.cut.entry.kind = EntryKind::ramp;
+  if (kind == CutKind::thread) operation.side = ContourSide::inside;
   return operation;
 }
 

@@ -68,8 +68,12 @@ TEST(Contour, ClimbAroundAPartIsClockwise) {
 TEST(Contour, InsideStaysInside) {
   const Region region = region_of({polygon({{0, 0}, {50, 0}, {40, 30}, {25, 12}, {5, 35}})});
   Diagnostics diagnostics;
-  const auto made =
-      contour(region, mill(4), {.cut = usual(), .side = ContourSide::inside, .lead = {mm(2)}}, diagnostics);
+  const auto made = contour(region, mill(4),
+                            {.cut = usual(),
+                             .side = ContourSide::inside,
+                             .lead_in = {LeadKind::arc, mm(2)},
+                             .lead_out = {LeadKind::arc, mm(2)}},
+                            diagnostics);
   ASSERT_TRUE(made);
   const std::vector<Motion> cuts = motions(made->path);
   const RegionSearch inside(region);
@@ -84,7 +88,9 @@ TEST(Contour, InsideStaysInside) {
 TEST(Contour, ALeadIsTangentAndLeavesThePart) {
   const Region part = region_of({rectangle(0, 0, 40, 30)});
   Diagnostics diagnostics;
-  const auto made = contour(part, mill(4), {.cut = usual(), .lead = {mm(3)}}, diagnostics);
+  const auto made = contour(
+      part, mill(4), {.cut = usual(), .lead_in = {LeadKind::arc, mm(3)}, .lead_out = {LeadKind::arc, mm(3)}},
+      diagnostics);
   ASSERT_TRUE(made);
   const std::vector<Motion> cuts = motions(made->path);
   const RegionSearch walls(part);
@@ -148,6 +154,150 @@ TEST(Contour, DegeneratePathsAreIgnoredOrErrors) {
   EXPECT_EQ(diagnostics.list().back().code, Code::op_option);
   // A path much shorter than the tool is cut by a plunge.
   EXPECT_TRUE(contour_on({Outline{{1, 1}, {}, {{{1.001, 1}, {}, {}}}}}, mill(3), usual(), diagnostics));
+}
+
+/// Parts, sides and leads: the part stays, all rapids are free, and the whole loop is cut to the bottom.
+TEST(Contour, LeadsOfAllKinds) {
+  const Region part = region_of({rectangle(0, 0, 40, 30), as_outline({{20, 15}, mm(9)})});
+  for (const LeadKind in : {LeadKind::none, LeadKind::arc, LeadKind::line})
+    for (const LeadKind out : {LeadKind::none, LeadKind::arc, LeadKind::line})
+      for (const CutDirection direction : {CutDirection::climb, CutDirection::conventional})
+        for (const EntryKind entry : {EntryKind::plunge, EntryKind::ramp, EntryKind::helix}) {
+          ContourOptions options{.cut = usual(), .lead_in = {in, mm(3)}, .lead_out = {out, mm(2)}};
+          options.overlap = mm(1.5);
+          options.cut.direction = direction, options.cut.entry.kind = entry;
+          Diagnostics diagnostics;
+          const auto made = contour(part, mill(4), options, diagnostics);
+          ASSERT_TRUE(made);
+          const std::vector<Motion> cuts = motions(made->path);
+          const RegionSearch inside(part);
+          for (double x = 0.3; x < 40; x += 1.3)
+            for (double y = 0.3; y < 30; y += 1.3)
+              if (inside.locate({x, y}, mm(0.01)) == Location::inside) {
+                ASSERT_FALSE(touched(cuts, {x, y}, 1.9998, 0)) << x << " " << y;
+              }
+          for (double t = 0; t < 2 * std::numbers::pi; t += 0.1) {
+            const Point2 d{std::cos(t), std::sin(t)};
+            ASSERT_TRUE(removed_to(cuts, Point2{20, 15} + 8.99 * d, 2.0001, -4)) << t;
+          }
+          for (double x = 0; x <= 40; x += 0.7) {
+            ASSERT_TRUE(removed_to(cuts, {x, -0.01}, 2.0001, -4)) << x;
+          }
+          EXPECT_EQ(rapid_problem(made->path, 2, 0), "");
+        }
+}
+
+TEST(Contour, TheFinishingPassRemovesTheAllowance) {
+  const Region part = region_of({rectangle(0, 0, 40, 30), as_outline({{20, 15}, mm(9)})});
+  ContourOptions options{.cut = usual(6, 2), .lead_in = {LeadKind::arc, mm(2)}};
+  options.finish = mm(0.4);
+  Diagnostics diagnostics;
+  const auto made = contour(part, mill(4), options, diagnostics);
+  ASSERT_TRUE(made);
+  // Around the part 2.4 mm away in three passes, and 2 mm away in one; so too in the hole.
+  const double outside = 2 * (40 + 30), hole = 2 * std::numbers::pi * 9;
+  const double rough = outside + 2 * std::numbers::pi * 2.4 + hole - 2 * std::numbers::pi * 2.4;
+  const double last = outside + 2 * std::numbers::pi * 2 + hole - 2 * std::numbers::pi * 2;
+  const double lead = 2 * std::numbers::pi * 2;  // at most, at each start and level
+  EXPECT_NEAR(length_at(made->path, -2), rough, 2 * lead);
+  EXPECT_NEAR(length_at(made->path, -4), rough, 2 * lead);
+  EXPECT_NEAR(length_at(made->path, -6), rough + last, 4 * lead);
+  const std::vector<Motion> cuts = motions(made->path);
+  std::vector<Motion> before;
+  bool finishing = false;
+  for (const Motion& m : cuts) {
+    if (!m.rapid && !m.arc && std::abs(m.from.y + 2) < 1e-6 && std::abs(m.to.y + 2) < 1e-6) finishing = true;
+    if (finishing) break;
+    before.push_back(m);
+  }
+  ASSERT_TRUE(finishing);
+  EXPECT_FALSE(touched(before, {20, -0.39}, 2.0, 0));     // the allowance was left,
+  EXPECT_TRUE(removed_to(before, {20, -0.41}, 2.0, -6));  // and no more,
+  EXPECT_TRUE(removed_to(cuts, {20, -0.001}, 2.0, -6));   // and then removed
+  EXPECT_EQ(rapid_problem(made->path, 2, 0), "");
+}
+
+/// The depth to which the point is cut.
+double depth_at(const std::vector<Motion>& cuts, Point2 p, double radius) {
+  double low = 0.0;
+  for (const Motion& m : cuts)
+    if (!m.rapid && m.distance_to(p) <= radius) low = std::min(low, m.high());
+  return low;
+}
+
+TEST(Contour, TabsHoldThePart) {
+  const Region part = region_of({rectangle(0, 0, 80, 60)});
+  for (const TabShape shape : {TabShape::rectangular, TabShape::triangular})
+    for (const double finish : {0.0, 0.5}) {
+      ContourOptions options{.cut = usual(6, 2)};
+      options.finish = mm(finish);
+      options.tabs = {.height = mm(1.5), .length = mm(5), .count = 4, .shape = shape};
+      Diagnostics diagnostics;
+      const auto made = contour(part, mill(4), options, diagnostics);
+      ASSERT_TRUE(made);
+      EXPECT_TRUE(diagnostics.list().empty());
+      const std::vector<Motion> cuts = motions(made->path);
+      // Along a line 1 mm outside of the part: 4 bridges, as long as given at their bottom.
+      const std::vector<Point2> corners{{-1, -1}, {81, -1}, {81, 61}, {-1, 61}, {-1, -1}};
+      int bridges = 0;
+      double length = 0.0, highest = -6.0;
+      bool on = false;
+      for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+        for (double s = 0; s < distance(corners[i], corners[i + 1]); s += 0.05) {
+          const Point2 p =
+              corners[i] + (s / distance(corners[i], corners[i + 1])) * (corners[i + 1] - corners[i]);
+          const double z = depth_at(cuts, p, 2.0);
+          highest = std::max(highest, z);
+          const bool now = z > -6 + 1e-6;
+          if (now && !on) ++bridges;
+          if (now) length += 0.05;
+          on = now;
+        }
+      EXPECT_EQ(bridges, 4);
+      EXPECT_NEAR(highest, -4.5, shape == TabShape::rectangular ? 1e-6 : 0.15);
+      // 1 mm from the tool's path the disc is narrower than its diameter: the tab is a little longer there.
+      EXPECT_NEAR(length / 4, 5 + 2 * (2 - std::sqrt(3.0)), 0.3);
+    }
+}
+
+TEST(Tabs, AreAddedToAFinishedPath) {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  for (const double z : {-2.0, -4.0}) {
+    path.add(step::Cut{{0, 0, z}, mm_per_min(100)}, OriginId::none);
+    path.add(step::Cut{{50, 0, z}, mm_per_min(500)}, OriginId::none);
+    path.add(step::Arc{.to = {50, 40, z}, .centre = {50, 20}, .turn = Turn::ccw, .feed = mm_per_min(500)},
+             OriginId::none);
+    path.add(step::Cut{{0, 40, z}, mm_per_min(500)}, OriginId::none);
+    path.add(step::Cut{{0, 0, z}, mm_per_min(500)}, OriginId::none);
+  }
+  path.add(step::Rapid{{0, 0, 5}}, OriginId::none);
+  for (const TabShape shape : {TabShape::rectangular, TabShape::triangular}) {
+    Diagnostics diagnostics;
+    const auto made = add_tabs(path, {.height = mm(3), .length = mm(4), .spacing = mm(40), .shape = shape},
+                               mm(4), diagnostics);
+    ASSERT_TRUE(made);
+    double below = 0.0, raised = 0.0;
+    for (const Motion& m : motions(*made)) {
+      if (m.rapid) continue;
+      EXPECT_GE(m.low(), -4.0);
+      const double along = m.arc ? std::abs(m.sweep) * m.radius : distance(m.from.xy(), m.to.xy());
+      (m.low() > -2.0 + 1e-9 ? raised : below) += along;
+    }
+    // Both passes rise to -1 over five tabs of 4 mm and the tool's 4 mm.
+    const double whole = 140 + 20 * std::numbers::pi;
+    EXPECT_NEAR(below + raised, 2 * whole, 1e-6);
+    if (shape == TabShape::rectangular) {
+      EXPECT_NEAR(raised, 2 * 5 * 8, 0.2);
+    }
+  }
+  Diagnostics diagnostics;
+  EXPECT_TRUE(add_tabs(path, {.height = mm(1), .count = 500}, mm(4), diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+  EXPECT_FALSE(add_tabs(path, {.height = mm(-1)}, mm(4), diagnostics));
+  EXPECT_FALSE(add_tabs(path, {.height = mm(1), .count = 0}, mm(4), diagnostics));
+  EXPECT_FALSE(add_tabs(path, {.height = mm(1)}, mm(0), diagnostics));
+  EXPECT_EQ(diagnostics.errors(), 3u);
 }
 
 }  // namespace

@@ -155,6 +155,44 @@ TEST(Pocket, AllowanceStaysOnTheWalls) {
   EXPECT_EQ(wrong_points(made->path, smaller, corners->region, 3, 0, -4, 0.37), "");
 }
 
+TEST(Pocket, TheFinishingPassRemovesTheAllowance) {
+  const Region region = region_of({rectangle(0, 0, 40, 24), as_outline({{14, 12}, mm(4)})});
+  for (const PocketPattern pattern : {PocketPattern::offset, PocketPattern::zigzag}) {
+    PocketOptions options{.cut = usual(6, 2), .pattern = pattern};
+    options.finish = mm(0.3);
+    Diagnostics diagnostics;
+    const auto made = pocket(region, mill(5), options, diagnostics);
+    ASSERT_TRUE(made);
+    EXPECT_TRUE(diagnostics.list().empty());
+    EXPECT_EQ(wrong_points(made->path, region, made->unreached, 2.5, 0, -6, 0.37), "");
+    EXPECT_EQ(rapid_problem(made->path, 2.5, 0), "");
+    // The wall at y = 0 is cut once, at the bottom.
+    double along = 0.0;
+    for (const Motion& m : motions(made->path))
+      if (!m.rapid && std::abs(m.from.y - 2.5) < 1e-6 && std::abs(m.to.y - 2.5) < 1e-6)
+        along += std::abs(m.to.x - m.from.x);
+    EXPECT_NEAR(along, 35, 1e-6);
+  }
+}
+
+TEST(Pocket, APartThatOnlyTheFinishingPassReachesIsCutInPasses) {
+  // A slot 5.2 mm wide to the right of a square.
+  const Region region =
+      region_of({polygon({{0, 0}, {20, 0}, {20, 7}, {40, 7}, {40, 12.2}, {20, 12.2}, {20, 20}, {0, 20}})});
+  PocketOptions options{.cut = usual(6, 2)};
+  options.finish = mm(0.3);
+  Diagnostics diagnostics;
+  const auto made = pocket(region, mill(5), options, diagnostics);
+  ASSERT_TRUE(made);
+  EXPECT_TRUE(diagnostics.list().empty());
+  EXPECT_EQ(wrong_points(made->path, region, made->unreached, 2.5, 0, -6, 0.37), "");
+  EXPECT_EQ(rapid_problem(made->path, 2.5, 0), "");
+  bool first = false;
+  for (const Motion& m : motions(made->path))
+    first |= !m.rapid && m.from.x > 30 && std::abs(m.from.z + 2) < 1e-9 && std::abs(m.to.z + 2) < 1e-9;
+  EXPECT_TRUE(first);
+}
+
 TEST(Pocket, BadInputIsAnError) {
   const Region region = region_of({rectangle(0, 0, 40, 20)});
   const auto code = [&](const Region& r, const PocketOptions& options) {
@@ -178,6 +216,11 @@ TEST(Pocket, BadInputIsAnError) {
     all[3].cut.plunge = mm_per_min(number), all[4].cut.clearance = mm(number);
     all[5].cut.allowance = mm(number), all[6].cut.entry.angle = degrees(number);
     for (const PocketOptions& bad : all) EXPECT_EQ(code(region, bad), Code::op_option) << number;
+  }
+  for (const double finish : {-1.0, std::nan("")}) {
+    PocketOptions bad = good;
+    bad.finish = mm(finish);
+    EXPECT_EQ(code(region, bad), Code::op_option) << finish;
   }
   PocketOptions low = good;
   low.cut.retract_plane = -1;

@@ -113,6 +113,39 @@ TEST(StepDown, SlopesAndArcsStayAboveTheLevelOfTheirPass) {
   }
 }
 
+TEST(StepDown, RampsReplacePlunges) {
+  for (const double stepdown : {0.0, 2.0}) {
+    Diagnostics diagnostics;
+    const auto made =
+        step_down(square_cut(6),
+                  {.top = 0, .stepdown = mm(stepdown), .entry = EntryKind::ramp, .entry_angle = degrees(10)},
+                  diagnostics);
+    ASSERT_TRUE(made);
+    double whole = 0.0;  // of descents
+    for (const Motion& m : motions(*made)) {
+      if (m.rapid || m.to.z > m.from.z - 1e-12 || m.from.z > 0) continue;
+      EXPECT_LE(m.from.z - m.to.z, std::tan(degrees(10).rad()) * distance(m.from.xy(), m.to.xy()) + 1e-9);
+      whole += m.from.z - m.to.z;
+      // On the first side of the square.
+      EXPECT_EQ(m.from.y, 0.0);
+      EXPECT_EQ(m.to.y, 0.0);
+    }
+    EXPECT_NEAR(whole, 6, 1e-9);
+    EXPECT_GE(length_at(*made, -6), 80 - 1e-9);
+    EXPECT_EQ(rapid_problem(*made, 2, 0), "");
+    // The feed downwards is at most that of the plunge.
+    for_each_motion(*made, [](const Step& s, const MotionContext& c) {
+      if (!s.is_cutting() || s.to().z >= c.from.z) return;
+      const double drop = c.from.z - s.to().z;
+      EXPECT_LE(s.feed().mm_per_min() * drop / std::hypot(drop, distance(s.to().xy(), c.from.xy())),
+                100 + 1e-9);
+    });
+  }
+  Diagnostics diagnostics;
+  EXPECT_FALSE(step_down(square_cut(6), {.stepdown = mm(2), .entry = EntryKind::helix}, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::pass_option);
+}
+
 TEST(StepDown, WhatCannotBeDividedIsRefused) {
   Diagnostics diagnostics;
   EXPECT_FALSE(step_down(square_cut(6), {.top = 0, .stepdown = mm(0)}, diagnostics));
@@ -196,6 +229,27 @@ TEST(Resume, LinesWithoutMotionAndUnknownPositionsAreErrors) {
   print.add(step::Extrude{{1, 1, 1}, mm3(1), mm(0.4), mm(0.2), mm_per_min(1000)}, OriginId::none);
   EXPECT_FALSE(resume_from(print, {.line = 1, .safe_z = 5}, diagnostics));
   EXPECT_EQ(diagnostics.list().back().code, Code::pass_refused);
+}
+
+TEST(Resume, CoordinatesSelectedBeforeStay) {
+  Toolpath path;
+  const std::uint32_t file = path.origins().file("part.nc");
+  const auto line = [&](std::uint32_t n) { return path.origins().text(file, n, 1); };
+  path.add(step::WorkZero{.kind = ZeroKind::select, .system = 2}, line(1));
+  path.add(step::Rapid{{0, 0, 5}}, line(2));
+  path.add(step::Cut{{0, 0, -1}, mm_per_min(100)}, line(3));
+  path.add(step::Cut{{9, 0, -1}, mm_per_min(100)}, line(4));
+  Diagnostics diagnostics;
+  auto rest = resume_from(path, {.line = 4, .safe_z = 5}, diagnostics);
+  ASSERT_TRUE(rest);
+  ASSERT_TRUE(rest->path.has(StepKind::work_zero));
+  Toolpath shifted;
+  const std::uint32_t again = shifted.origins().file("part.nc");
+  shifted.add(step::Rapid{{0, 0, 5}}, shifted.origins().text(again, 1, 1));
+  shifted.add(step::WorkZero{.kind = ZeroKind::shift, .axes = 1}, shifted.origins().text(again, 2, 1));
+  shifted.add(step::Cut{{9, 0, -1}, mm_per_min(100)}, shifted.origins().text(again, 3, 1));
+  EXPECT_FALSE(resume_from(shifted, {.line = 3, .safe_z = 5}, diagnostics));
+  EXPECT_EQ(diagnostics.list().back().code, Code::resume_line);
 }
 
 }  // namespace

@@ -1,0 +1,195 @@
+// All changes that can be made to a finished program, and the table of their options.
+#include "kerf/op/rework.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf {
+namespace {
+
+using Options = ReworkOptions;
+
+template <std::size_t N>
+std::optional<std::array<double, N>> numbers(std::string_view text, std::size_t least) {
+  std::array<double, N> values{};
+  std::size_t count = 0;
+  while (count < N) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    const auto value = parse_number(trim(text.substr(0, comma)));
+    if (!value || !std::isfinite(*value)) return std::nullopt;
+    values[count++] = *value;
+    if (comma == text.size()) return count >= least ? std::optional(values) : std::nullopt;
+    text.remove_prefix(comma + 1);
+  }
+  return std::nullopt;
+}
+
+/// Stores a number from `low` to `high`, made by `make`.
+template <class Target, class Make>
+bool store(Target& target, std::string_view text, double low, double high, Make make) {
+  const auto value = parse_number(trim(text));
+  if (!value || !(*value >= low && *value <= high)) return false;
+  target = make(*value);
+  return true;
+}
+double plain(double v) { return v; }
+int whole(double v) { return static_cast<int>(v); }
+bool is_whole(std::string_view text) {
+  const auto value = parse_number(trim(text));
+  return value && *value == std::floor(*value);
+}
+
+template <class Value>
+bool choose(Value& target, std::string_view text,
+            std::initializer_list<std::pair<std::string_view, Value>> rows) {
+  for (const auto& [name, value] : rows)
+    if (fold_name(name) == fold_name(text)) {
+      target = value;
+      return true;
+    }
+  return false;
+}
+
+bool set_move(Options& o, std::string_view text) {
+  const auto v = numbers<3>(text, 2);
+  if (v) o.transform.move = {(*v)[0], (*v)[1], (*v)[2]};
+  return v.has_value();
+}
+bool set_point(Point2& target, std::string_view text) {
+  const auto v = numbers<2>(text, 2);
+  if (v) target = {(*v)[0], (*v)[1]};
+  return v.has_value();
+}
+
+using Text = std::string_view;
+
+const std::vector<ReworkKey>& passes_of_cuts() {
+  static const std::vector<ReworkKey> keys{
+      {"step-down", "MM", "Cut in passes of at most MM depth",
+       [](Options& o, Text t) { return store(o.passes.stepdown, t, 1e-3, 1e4, mm); }},
+      {"top", "Z", "Surface of the material, for --step-down and --entry (default 0)",
+       [](Options& o, Text t) { return store(o.passes.top, t, -1e4, 1e4, plain); }},
+      {"entry", "KIND", "Of cuts that start with a plunge: plunge or ramp",
+       [](Options& o, Text t) {
+         return choose(o.passes.entry, t, {{"plunge", EntryKind::plunge}, {"ramp", EntryKind::ramp}});
+       }},
+      {"entry-angle", "DEGREES", "Maximum descent of ramps (default 3)",
+       [](Options& o, Text t) { return store(o.passes.entry_angle, t, 0.1, 89, degrees); }},
+      {"from-line", "LINE", "Resume from a line: tool, spindle, a safe approach, and the rest",
+       [](Options& o, Text t) {
+         return is_whole(t) &&
+                store(o.resume.line, t, 1, 4e9, [](double v) { return static_cast<std::uint32_t>(v); });
+       }},
+      {"safe-z", "Z", "Height of the approach for --from-line; required with it",
+       [](Options& o, Text t) { return store(o.resume.safe_z, t, -1e4, 1e4, plain); }},
+      {"tab-height", "MM", "Leave tabs of this height on closed paths that are cut to the lowest level",
+       [](Options& o, Text t) { return store(o.tabs.height, t, 1e-3, 1e4, mm); }},
+      {"tab-length", "MM", "Of tabs (default: the diameter of the tool)",
+       [](Options& o, Text t) { return store(o.tabs.length, t, 1e-3, 1e4, mm); }},
+      {"tabs", "N", "Number of tabs on each path (default 4)",
+       [](Options& o, Text t) { return is_whole(t) && store(o.tabs.count, t, 1, 1000, whole); }},
+      {"tab-spacing", "MM", "Distance of tabs, instead of their number",
+       [](Options& o, Text t) { return store(o.tabs.spacing, t, 1e-3, 1e4, mm); }},
+      {"tab-shape", "SHAPE", "rectangular or triangular", [](Options& o, Text t) {
+         return choose(o.tabs.shape, t,
+                       {{"rectangular", TabShape::rectangular}, {"triangular", TabShape::triangular}});
+       }}};
+  return keys;
+}
+
+const std::vector<ReworkKey>& keys_of_placement() {
+  static const std::vector<ReworkKey> keys{
+      {"order", "", "Order cuts by short rapids, inner contours before those around them",
+       [](Options& o, Text) { return o.order = true; }},
+      {"scale", "FACTOR", "Scale X and Y",
+       [](Options& o, Text t) { return store(o.transform.scale, t, 1e-6, 1e6, plain); }},
+      {"mirror", "AXIS", "x or y changes its sign; climb becomes conventional, unless loops are reversed",
+       [](Options& o, Text t) {
+         return choose(o.transform.mirror, t, {{"x", Mirror::x}, {"y", Mirror::y}});
+       }},
+      {"rotate", "DEGREES", "Rotate counter-clockwise",
+       [](Options& o, Text t) { return store(o.transform.rotate, t, -1e6, 1e6, degrees); }},
+      {"centre", "X,Y", "Of --scale, --mirror and --rotate (default 0,0)",
+       [](Options& o, Text t) { return set_point(o.transform.centre, t); }},
+      {"move", "X,Y[,Z]", "Move by these distances in mm", set_move},
+      {"reverse-loops", "", "Cut closed paths in the opposite direction",
+       [](Options& o, Text) { return o.reverse_loops = true; }},
+      {"columns", "N", "Repeat N times along X",
+       [](Options& o, Text t) { return is_whole(t) && store(o.copies.columns, t, 1, 1e4, whole); }},
+      {"rows", "N", "Repeat N times along Y",
+       [](Options& o, Text t) { return is_whole(t) && store(o.copies.rows, t, 1, 1e4, whole); }},
+      {"pitch", "X,Y", "Distances of columns and rows in mm",
+       [](Options& o, Text t) { return set_point(o.copies.pitch, t); }}};
+  return keys;
+}
+
+/// The diameter of the tool that cuts deepest.
+Length deepest_tool(const Toolpath& path, const std::map<int, Length>& diameters) {
+  double low = INFINITY;
+  int tool = -1;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    if (s.is_cutting() && s.to().z < low) low = s.to().z, tool = context.tool.value_or(-1);
+  });
+  const auto known = diameters.find(tool);
+  if (known != diameters.end()) return known->second;
+  return diameters.size() == 1 ? diameters.begin()->second : Length{};
+}
+
+}  // namespace
+
+const std::vector<ReworkKey>& rework_keys() {
+  static const std::vector<ReworkKey> keys = [] {
+    std::vector<ReworkKey> all = passes_of_cuts();
+    all.insert(all.end(), keys_of_placement().begin(), keys_of_placement().end());
+    return all;
+  }();
+  return keys;
+}
+
+bool set_rework(ReworkOptions& options, std::string_view name, std::string_view text) {
+  for (const ReworkKey& key : rework_keys())
+    if (key.name == name) return key.set(options, text);
+  return false;
+}
+
+std::optional<Reworked> rework(Toolpath path, const std::map<int, Length>& diameters,
+                               const ReworkOptions& options, Diagnostics& diagnostics) {
+  Reworked made;
+  made.path = std::move(path);
+  const auto take = [&](std::optional<Toolpath> changed) {
+    if (changed) made.path = std::move(*changed);
+    return changed.has_value();
+  };
+  if (options.resume.line > 0) {
+    auto rest = resume_from(made.path, options.resume, diagnostics);
+    if (!rest) return std::nullopt;
+    made.path = std::move(rest->path);
+  }
+  if ((options.passes.stepdown != Length{} || options.passes.entry != EntryKind::plunge) &&
+      !take(step_down(made.path, options.passes, diagnostics)))
+    return std::nullopt;
+  if (options.tabs.height > Length{}) {
+    const Length diameter = deepest_tool(made.path, diameters);
+    if (!(diameter > Length{})) {
+      diagnostics.error(Code::pass_option, {}, "tabs require the diameter of the tool").hint =
+          "--tool 1=\"square d=6\"";
+      return std::nullopt;
+    }
+    if (!take(add_tabs(made.path, options.tabs, diameter, diagnostics))) return std::nullopt;
+  }
+  if (options.order) {
+    made.ordered = order_cuts(made.path, diameters);
+    made.path = std::move(made.ordered->path);
+    made.ordered->path = Toolpath();
+  }
+  if (!take(transformed(made.path, options.transform, diagnostics))) return std::nullopt;
+  if (options.reverse_loops) made.path = reversed_loops(made.path);
+  if (!take(repeated(made.path, options.copies, diagnostics))) return std::nullopt;
+  return made;
+}
+
+}  // namespace kerf
