@@ -32,7 +32,8 @@ bool make_mesh_exact(Mesh& mesh, const Simulation& simulation, const ExactMeshOp
 /// a block of a few coarse columns, the extracted mesh after relabel_mesh, with a warning. Nothing if
 /// stopped.
 std::optional<CheckedMesh> extract_exact_mesh(const Simulation& simulation, const MeshOptions& options,
-                                              Diagnostics& diagnostics, Progress* progress = nullptr);
+                                              Diagnostics& diagnostics, Progress* progress = nullptr,
+                                              const ExactMeshOptions& exact = {});
 
 /// For an extracted mesh: along the edge between the stock's surface and a steep cut there is a strip of one
 /// column's width whose triangles belong alternately to both. Assigns all of them to the cut, as in an exact

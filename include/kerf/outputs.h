@@ -25,6 +25,8 @@
 #include "kerf/progress.h"
 #include "kerf/render.h"
 #include "kerf/simulate.h"
+#include "kerf/tolerance.h"
+#include "kerf/units.h"
 
 namespace kerf {
 
@@ -37,6 +39,7 @@ enum class Grooves : std::uint8_t { closed, kept };
 struct SurfaceOptions {
   SurfaceDetail detail = SurfaceDetail::exact;
   Grooves grooves = Grooves::closed;
+  Length tolerance = default_tolerance::kExactMesh;  // of exact surfaces
 };
 
 /// A surface with the colour of each triangle: stock, hazard, or tool.
@@ -97,7 +100,8 @@ struct PartFileOptions {
   View view = {};  // of pictures
   PictureContent content = PictureContent::automatic;
   Grooves grooves = Grooves::closed;
-  /// Nothing: exact for meshes, and for pictures whose pixels are smaller than the columns.
+  /// Nothing: exact for meshes; for pictures of columns smaller than the pixels, to which the job is cut
+  /// again if necessary.
   std::optional<SurfaceDetail> detail = {};
 };
 /// Writes pictures of the toolpath; all files must be pictures. False, with an error, if one fails.

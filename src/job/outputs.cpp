@@ -104,7 +104,8 @@ std::vector<std::uint32_t> red_steps(const PrintSimulation& s) {
 
 std::optional<CheckedMesh> mesh_of(const Simulation& s, const MeshOptions& options, const SurfaceOptions& how,
                                    Diagnostics& diagnostics, Progress* progress) {
-  if (how.detail == SurfaceDetail::exact) return extract_exact_mesh(s, options, diagnostics, progress);
+  if (how.detail == SurfaceDetail::exact)
+    return extract_exact_mesh(s, options, diagnostics, progress, {.tolerance = how.tolerance});
   const MeshColumns columns(s.workpiece);
   CheckedMesh made{extract_mesh(columns, options, progress), mesh_volume(columns, options)};
   relabel_mesh(made.mesh, s.workpiece);
@@ -138,12 +139,60 @@ std::string mesh_bytes(const PartSurface& surface, MeshFormat format, std::strin
   return write_mesh(view, format);
 }
 
-/// Whether the columns would be visible: in a mesh, or in a picture with pixels smaller than the columns.
-bool shows_columns(const std::vector<PartFile>& files, const Workpiece& workpiece, const View& view) {
-  const auto is_mesh = [](const PartFile& file) { return file.mesh.has_value(); };
-  if (std::any_of(files.begin(), files.end(), is_mesh)) return true;
+/// The size on the part, about, of one of `pixels` across it.
+Length pixel_size(const Workpiece& workpiece, int pixels) {
   const Point3 size = workpiece.bounds().size();
-  return workpiece.pitch().mm() * std::min(view.width, view.height) > std::max(size.x, size.y);
+  return mm(std::max(size.x, size.y) / pixels);
+}
+Length pixel_size(const Workpiece& workpiece, const View& view) {
+  return pixel_size(workpiece, std::min(view.width, view.height));
+}
+
+/// Whether the columns would be visible in a picture.
+bool shows_columns(const Simulation& simulation, const View& view) {
+  return simulation.workpiece.pitch() > pixel_size(simulation.workpiece, view);
+}
+
+bool has_mesh(const std::vector<PartFile>& files) {
+  return std::any_of(files.begin(), files.end(), [](const PartFile& file) { return file.mesh.has_value(); });
+}
+
+/// The same job with columns smaller than a pixel, if only pictures are written and the columns would be
+/// visible in them: cutting again takes less time than an exact surface of coarse columns, and shows more.
+/// Its hazards are those of both runs. Nothing otherwise, or if stopped.
+std::optional<JobRun> finer_run(const std::vector<PartFile>& files, const JobRun& run, const View& view,
+                                Progress* progress) {
+  const auto* cut = std::get_if<Simulation>(&run.result);
+  if (cut == nullptr || has_mesh(files) || !shows_columns(*cut, view)) return std::nullopt;
+  SimulationJob job = cut->job;
+  constexpr int kMaxAcross = 1600;  // pixels; of larger pictures the surface is exact instead
+  constexpr double kColumn = 0.7;   // pixels: walls and rims are smooth
+  job.options.resolution =
+      kColumn * pixel_size(cut->workpiece, std::min({view.width, view.height, kMaxAcross}));
+  if (job.options.resolution >= cut->workpiece.pitch()) return std::nullopt;
+  Diagnostics reported_before;
+  std::optional<Simulation> finer = simulate(std::move(job), reported_before, progress);
+  if (!finer || finer->stopped) return std::nullopt;
+  finer->hazards.insert(finer->hazards.end(), cut->hazards.begin(), cut->hazards.end());
+  return JobRun{std::move(*finer), {}};
+}
+
+/// The surface that the files show. Where all are pictures, that of the columns if they are smaller than the
+/// pixels, else an exact one within a fraction of a pixel.
+SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
+                          const PartFileOptions& options) {
+  constexpr double kVisible =
+      0.03;  // pixels; more in the position would hardly show, but does in the shading
+  SurfaceOptions surface{.grooves = options.grooves};
+  const auto* cut = std::get_if<Simulation>(&run.result);
+  if (options.detail) {
+    surface.detail = *options.detail;
+    return surface;
+  }
+  if (cut == nullptr || has_mesh(files)) return surface;
+  if (!shows_columns(*cut, options.view)) surface.detail = SurfaceDetail::columns;
+  surface.tolerance = std::max(surface.tolerance, kVisible * pixel_size(cut->workpiece, options.view));
+  return surface;
 }
 
 std::vector<PartFile> without_left(const std::vector<PartFile>& files) {
@@ -308,13 +357,13 @@ bool write_part(const std::vector<PartFile>& files, const Job& job, const JobRun
                        "no material is removed: the picture shows the toolpath");
   }
   if (surfaces.empty()) return true;
-  const bool exact = cut == nullptr || shows_columns(surfaces, cut->workpiece, options.view);
-  const SurfaceDetail detail = options.detail.value_or(exact ? SurfaceDetail::exact : SurfaceDetail::columns);
-  const auto surface = make_surface(job, run, {detail, options.grooves}, diagnostics, progress);
+  const std::optional<JobRun> finer =
+      options.detail ? std::nullopt : finer_run(surfaces, run, options.view, progress);
+  if (progress != nullptr && progress->stop_requested()) return false;
+  const JobRun& shown = finer ? *finer : run;
+  const auto surface = make_surface(job, shown, surface_of(surfaces, shown, options), diagnostics, progress);
   if (!surface) return false;
-  const auto is_mesh = [](const PartFile& file) { return file.mesh.has_value(); };
-  if (std::any_of(surfaces.begin(), surfaces.end(), is_mesh) && !verify_mesh(*surface, diagnostics))
-    return false;
+  if (has_mesh(surfaces) && !verify_mesh(*surface, diagnostics)) return false;
   const std::string name = std::filesystem::path(job.program.source).stem().string();
   if (progress != nullptr) progress->phase("writing");
   for (std::size_t i = 0; i < surfaces.size(); ++i) {

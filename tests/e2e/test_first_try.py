@@ -279,6 +279,23 @@ def test_a_file_that_only_defines_a_subroutine(kerf, program):
     assert "o<pocket> call" in run.json["diagnostics"][0]["hint"]
 
 
+@pytest.mark.parametrize("resolution", ["3", "1"])
+def test_coarse_columns_do_not_make_coarse_pictures(kerf, program, tmp_path, resolution):
+    """Grooves 1 mm wide at columns of 3 mm: the picture shows them as at a fine resolution."""
+    grooves = "".join(f"G0 X{x} Y-5\nG1 Z-2 F100\nG1 Y35\nG0 Z5\n" for x in range(4, 40, 8))
+    part = program("G21 G90\nM3 S9000\nG0 Z5\n" + grooves + "M2\n")
+    seen = []
+    for pitch in (resolution, "0.05"):
+        run = kerf("simulate", part, "--tool", "square d=1 flute=6", "--stock", "0,0,-6 to 40,30,0",
+                   "--show", "part", "--view", "top", "--size", "400x300", "--resolution", pitch,
+                   "-o", f"at_{pitch}.png")
+        assert run.status == 0, run.err
+        seen.append(pixels((tmp_path / f"at_{pitch}.png").read_bytes())[2])
+    pairs = [(p, q) for one, other in zip(*seen) for p, q in zip(one, other)]
+    differing = sum(max(abs(a - b) for a, b in zip(p, q)) > 40 for p, q in pairs)
+    assert differing < 0.02 * 400 * 300
+
+
 def test_gcmc_refuses_a_second_program(kerf, program):
     a, b = program("goto([1mm]);\n", "a.gcmc"), program("goto([2mm]);\n", "b.gcmc")
     run = kerf("gcmc", a, b)

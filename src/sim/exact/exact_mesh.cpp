@@ -179,8 +179,8 @@ bool make_mesh_exact(Mesh& mesh, const Simulation& simulation, const ExactMeshOp
 }
 
 std::optional<CheckedMesh> extract_exact_mesh(const Simulation& simulation, const MeshOptions& options,
-                                              Diagnostics& diagnostics, Progress* progress) {
-  const ExactMeshOptions exact;
+                                              Diagnostics& diagnostics, Progress* progress,
+                                              const ExactMeshOptions& exact) {
   const MeshColumns columns(simulation.workpiece, options.threads);
   CheckedMesh result{extract_mesh(columns, options, progress), {}};
   if (stop_requested(progress) || !make_mesh_exact(result.mesh, simulation, exact, progress))

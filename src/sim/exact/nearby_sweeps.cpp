@@ -252,6 +252,16 @@ void SweepsByTile::take(const Batch& batch) {
       of_tile_[batch.busy[k]].push_back(number[batch.list[at]]);
 }
 
+void SweepsByTile::sort_for_gathering() {
+  ready_of_tile_ = of_tile_;
+  const auto work = [&](std::size_t tile) {
+    std::vector<std::uint32_t>& list = ready_of_tile_[tile];
+    std::sort(list.begin(), list.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return is_gathered_before(&sweeps_[a], &sweeps_[b]); });
+  };
+  parallel_for(thread_count(0), ready_of_tile_.size(), work, [] { return false; });
+}
+
 /// Takes the sweeps of a kept batch that are in the planner's scope.
 void SweepsByTile::take_kept(const Batch& batch, Planner& planner) {
   Batch wanted;
@@ -288,14 +298,12 @@ void SweepFinder::gather_block() {
   const Point2 centre = this->cube_centre().xy();
   const double half = std::numbers::sqrt2 * 0.5 * kBlock * body.pitch + sweeps_.reach_;
   reachable_.clear();
-  for (const std::uint32_t n : sweeps_.of_tile_[query_.tile]) {
+  for (const std::uint32_t n : sweeps_.ready_of_tile_[query_.tile]) {
     const Sweep& sweep = sweeps_.sweeps_[n];
     const Point2 vector = centre - nearest_in_plan(sweep, centre);
     const double limit = sweeps_.tools_[sweep.tool].rim() + half;
     if (dot(vector, vector) <= limit * limit) reachable_.push_back({&sweep, vector});
   }
-  std::sort(reachable_.begin(), reachable_.end(),
-            [](const Reachable& a, const Reachable& b) { return is_gathered_before(a.sweep, b.sweep); });
   of_block_.clear();
   for (std::size_t k = 0; k < reachable_.size();) {
     std::size_t end = k;

@@ -110,13 +110,15 @@ class SweepsByTile {
  private:
   void take(const Batch& batch);
   void take_kept(const Batch& batch, Planner& planner);
+  void sort_for_gathering();
   friend class SweepFinder;
 
   const Workpiece::Body& body_;
   const std::vector<ToolDistance>& tools_;
   double reach_;
   std::vector<Sweep> sweeps_;
-  std::vector<std::vector<std::uint32_t>> of_tile_;
+  std::vector<std::vector<std::uint32_t>> of_tile_;        // in order of steps
+  std::vector<std::vector<std::uint32_t>> ready_of_tile_;  // the same in the order of is_gathered_before
 };
 
 /// The sweeps near the query points of one tile, visited in sorted order, so that the lists of a block and of
@@ -162,9 +164,10 @@ void SweepsByTile::gather(const Simulation& simulation, const std::vector<QueryP
   if (plan.batches.complete()) {
     Planner planner(body_, plan.survey.solids, Length(), scope);
     for (const auto& batch : plan.batches.batches()) {
-      if (stop()) return;
+      if (stop()) break;
       take_kept(*batch, planner);
     }
+    sort_for_gathering();
     return;
   }
   const Toolpath& path = *simulation.job.path;
@@ -175,6 +178,7 @@ void SweepsByTile::gather(const Simulation& simulation, const std::vector<QueryP
     take(*batch);
     more = !batch->is_last && !stop();
   }
+  sort_for_gathering();
 }
 
 template <class Work, class Stop>
