@@ -213,7 +213,7 @@ def cut(op, shapes=None, tool=None, *, points=None, **options):
 
     Examples
     --------
-    >>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40)]])
+    >>> plate = kerf.Region([[(0, 0), (60, 0), (60, 40), (0, 40), (0, 0)]])
     >>> program = kerf.cut('pocket', plate, 'square d=6', depth=4, stepdown=2, feed=900)
     """
     if tool is None:

@@ -71,11 +71,6 @@ void bind_operations(py::module_& m) {
   m.def("_cut", &cut, py::arg("op"), py::arg("shapes"), py::arg("points"), py::arg("tool"),
         py::arg("options"));
   m.def("_rework", &reworked, py::arg("program"), py::arg("options"), py::arg("tools"));
-  m.def("_cut_keys", [] {
-    py::list names;
-    for (const CutKey& key : cut_keys()) names.append(std::string(key.name));
-    return names;
-  });
 }
 
 }  // namespace kerf::python
