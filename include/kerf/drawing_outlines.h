@@ -1,5 +1,5 @@
-// Outlines from the layers of a DXF or SVG drawing: loose entities joined, curves as arcs, blocks inserted, in
-// mm.
+// Outlines from the layers of a DXF or SVG drawing: loose entities joined, curves as arcs, blocks inserted,
+// in mm.
 //
 //   Diagnostics diagnostics;
 //   const auto drawing = dxf::read_dxf(bytes, "part.dxf", diagnostics);

@@ -205,33 +205,6 @@ def compensated(seed):
     return make.text()
 
 
-def offsets(seed):
-    """Cuts in several work offsets, all of them set by the program, with shifts and retracts between."""
-    make = Maker(seed)
-    make.header()
-    systems = ("G54", "G55", "G56", "G59.1", "G59.3")
-    numbers = {"G54": 1, "G55": 2, "G56": 3, "G59.1": 7, "G59.3": 9}
-    for system in systems:
-        make.line(f"G10 L2 P{numbers[system]}", make.axes(1.0))
-    make.line("M3")
-    for _ in range(20):
-        kind = make.random.randrange(9)
-        if kind < 2:
-            make.line(make.either(*systems))
-            make.line("G0", make.axes(1.0))
-        elif kind < 6:
-            make.line(make.either("G0", "G1", "G1"), make.axes())
-        elif kind == 6:
-            make.line("G2", make.word("I"), make.word("J"), make.word("Z", chance=0.3))
-        elif kind == 7:
-            make.line("G10 L20", f"P{make.either(*numbers.values())}", make.axes())
-            make.line("G0", make.axes(1.0))
-        else:
-            make.line(make.either("G92 " + make.axes(), "G92.1"))
-            make.line("G0", make.axes(1.0))
-    return make.text()
-
-
 def checksums(seed):
     """Straight moves as senders number them: "N5 G1 X3*87". LinuxCNC knows no checksums."""
     lines = []
@@ -248,4 +221,4 @@ def without_checksums(text):
     return "\n".join(line.split("*")[0] for line in text.splitlines()) + "\n"
 
 
-FAMILIES = {f.__name__: f for f in (moves, arcs, cycles, computed, compensated, offsets, checksums)}
+FAMILIES = {f.__name__: f for f in (moves, arcs, cycles, computed, compensated, checksums)}

@@ -348,57 +348,6 @@ TEST_P(ClosedLoop, tiny_arcs_stay_tiny) {
   }
 }
 
-/// The length of cuts between changes of the tool.
-struct CutsOfTool {
-  int tool = 0;
-  double length = 0.0;
-  std::size_t motions = 0;
-};
-
-std::vector<CutsOfTool> cuts_by_tool(const Toolpath& path) {
-  std::vector<CutsOfTool> list;
-  Point3 from;
-  int tool = 0;
-  for (const Step& s : path.steps()) {
-    if (s.kind() == StepKind::tool_change) tool = s.tool_change().tool;
-    if (!s.is_motion()) continue;
-    if (list.empty() || list.back().tool != tool) list.push_back({tool});
-    ++list.back().motions;
-    if (s.is_cutting()) list.back().length += length_of({&s, from, {}, {}, 0.0, {}});
-    from = s.to();
-  }
-  return list;
-}
-
-TEST(Files, of_each_tool_hold_its_cuts) {
-  std::size_t compared = 0;
-  for (const unsigned seed : seeds()) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    const PostProfile& profile = *find_post("linuxcnc");
-    const Toolpath path = RandomPath(seed, Work::mill, kSmallestRadius, profile).make();
-    PostOptions options;
-    options.tool_change = ToolChangePolicy::files;
-    Diagnostics diagnostics;
-    const auto files = post(path, profile, options, diagnostics);
-    ASSERT_TRUE(diagnostics.list().empty());
-    const std::vector<CutsOfTool> want = cuts_by_tool(path);
-    ASSERT_EQ(files.size(), want.size());
-    for (std::size_t k = 0; k < files.size(); ++k) {
-      Diagnostics reading;
-      const GcodeProgram program = read_gcode(files[k].text, {}, reading);
-      double length = 0.0;
-      for (const CutsOfTool& part : cuts_by_tool(program.path)) length += part.length;
-      EXPECT_EQ(files[k].tool, want[k].tool);
-      ASSERT_NEAR(length, want[k].length, 1e-4 * want[k].length + 0.02) << "file " << k << "\n"
-                                                                        << files[k].text;
-      ++compared;
-    }
-  }
-  if (std::getenv("KERF_SEED") == nullptr) {
-    EXPECT_GT(compared, 100u);
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(
     Posts, ClosedLoop,
     testing::Values(Loop{"grbl", GcodeDialect::grbl}, Loop{"grblhal", GcodeDialect::grbl},

@@ -135,13 +135,15 @@ void Linter::check(const Block& block) {
   if (read_words(block) && !refused_) run();
 }
 
-/// A line in words: "M117 ready", or a macro such as "PAUSE".
+/// A line in words: "M117 ready", "G29 A", or a macro such as "PAUSE".
 void Linter::check_command(std::string_view command) {
-  if (command.front() == 'M') {
+  if (command.front() == 'M' || command.front() == 'G') {
+    const bool is_m = command.front() == 'M';
     const auto digits = std::min(command.find_first_not_of("0123456789", 1), command.size());
     if (const auto number = parse_number(command.substr(1, digits - 1))) {
-      if (!profile_.has_m(static_cast<int>(std::lround(std::min(*number, 1e6) * 10.0))))
-        refuse(Code::lint_code, fmt::format("the controller has no M{:g}", *number));
+      const int tenths = static_cast<int>(std::lround(std::min(*number, 1e6) * 10.0));
+      if (!(is_m ? profile_.has_m(tenths) : profile_.has_g(tenths)))
+        refuse(Code::lint_code, fmt::format("the controller has no {}{:g}", is_m ? 'M' : 'G', *number));
       return;
     }
   }

@@ -58,7 +58,7 @@ const Case kCases[] = {
     {"F9 G41.1 D4\nG1 X9\nG3 X10 Y1 J1", Code::compensation_gouge, kError, 3, 1, 2},
     {"M48", Code::code_ignored, kNote, 1, 1, 0},
     {"M62 P0", Code::code_ignored, kNote, 1, 1, 0},
-    {"F9 G2 X2 I1 K0", Code::word_unused, kWarning, 1, 13, 1},
+    {"F9 G2 X2 I1 K2", Code::word_unused, kWarning, 1, 13, 1},
     {"G0 X1 P2", Code::word_unused, kWarning, 1, 7, 1},
     {"G1 G0 X5", Code::modal_conflict, kWarning, 1, 4, 1},
     {"G0 X5 X6", Code::word_repeated, kWarning, 1, 7, 1},
