@@ -288,3 +288,16 @@ def test_changes_of_a_finished_program_in_post(kerf, tmp_path):
     for bad in (["--columns", "2"], ["--rows", "0"], ["--mirror", "z"], ["--move", "1"],
                 ["--entry", "helix"]):
         assert kerf("post", "--to", "linuxcnc", *bad, "plate.nc").status != 0
+
+
+@pytest.mark.parametrize("post", ["grbl", "linuxcnc", "mach3", "grblhal", "carbide"])
+def test_a_written_program_has_its_tool(kerf, program, post):
+    """The comment that the post writes describes the tool: no --tool is needed to simulate the file."""
+    job = kerf("cut", "--example", "pocket").out
+    file = program(job, "job.toml")
+    assert kerf("cut", file, "--to", post, "-o", "part.nc").status == 0
+    stock = ("--stock", "-2,-2,-7 to 62,42,0")
+    written = kerf("simulate", "--json", "part.nc", *stock)
+    assert written.status == 0 and not {"no_tool_shape", "tool_assumed"} & set(written.codes()), written.out
+    assert written.json["removed_mm3"] == pytest.approx(
+        kerf("simulate", "--json", file, *stock).json["removed_mm3"], rel=1e-4)

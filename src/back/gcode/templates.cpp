@@ -152,6 +152,8 @@ void Poster::comment(std::string_view text, NoteKind kind) {
 
 void Poster::templates(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
+    const bool has_name = line.find("{tool_name}") != std::string::npos;
+    if (has_name && value_of("tool_name").value_or("").empty()) continue;
     std::string text = expanded(line);
     if (is_empty_comment(text)) continue;
     if (is_comment(text)) {
