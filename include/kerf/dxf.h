@@ -206,10 +206,13 @@ struct UnusedTag {
   std::size_t count = 0;
 };
 
+enum class Format { dxf, svg };
+
 struct Drawing {
   std::string file;
+  Format format = Format::dxf;
   bool binary = false;
-  std::string version;      ///< "AC1015"; empty: not specified
+  std::string version;      ///< "AC1015"; empty: not specified, or not a DXF
   std::string code_page;    ///< as specified; empty: not specified
   std::optional<int> unit;  ///< $INSUNITS; see mm_per_unit
   std::vector<HeaderVariable> header;

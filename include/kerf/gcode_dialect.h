@@ -22,7 +22,7 @@ enum class GcodeDialect : unsigned char {
 std::string_view to_string(GcodeDialect dialect);
 /// The dialect of a name such as "linuxcnc", "GRBL", "grblhal", "Mach3"; nothing for an unknown name.
 std::optional<GcodeDialect> dialect_named(std::string_view name);
-/// Every name that dialect_named knows, for messages.
+/// Every name that dialect_named accepts, for messages.
 const std::vector<std::string>& dialect_names();
 
 /// The dialect detected from comments and words; rs274 without evidence.

@@ -169,8 +169,8 @@ struct ToolLength {
   Point3 offset = {};  // mm, of a given length
   unsigned axes = 0;   // of `offset` that are given
 };
-/// Something whose effect is unknown. `values`: from here on the program depends on values that only the
-/// controller knows, such as the result of a probe in a condition; the toolpath continues with assumed ones,
+/// Something whose effect is unknown. `values`: from here on the program depends on values known only at
+/// run time, such as the result of a probe in a condition; the toolpath continues with assumed ones,
 /// and posts refuse it. `code`: a code that was left out and may have moved the tool, whose position is
 /// unknown.
 struct Unresolved {

@@ -97,7 +97,7 @@ class CutColours {
       if (s.kind() == StepKind::laser_power) strongest_ = std::max(strongest_, s.laser_power().power);
   }
 
-  /// Nothing: a laser's motion without its beam. The motions are asked for in their order.
+  /// Nothing: a laser's motion without its beam. Called for motions in their order.
   std::optional<Colour> of(const MotionContext& context) {
     for (; next_ <= context.index; ++next_) {
       const Step& s = path_[next_];

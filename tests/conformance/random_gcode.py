@@ -206,7 +206,7 @@ def compensated(seed):
 
 
 def checksums(seed):
-    """Straight moves as senders number them: "N5 G1 X3*87". LinuxCNC knows no checksums."""
+    """Straight moves as senders number them: "N5 G1 X3*87". LinuxCNC has no checksums."""
     lines = []
     for number, line in enumerate(moves(seed).splitlines()):
         line = f"N{number} {line}"

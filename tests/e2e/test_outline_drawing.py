@@ -98,7 +98,7 @@ def test_the_region_has_holes(kerf, part, tmp_path):
     assert (tmp_path / "clean.svg").read_text().startswith("<?xml")
 
 
-def test_a_missing_unit_is_asked_for(kerf, part):
+def test_a_missing_unit_must_be_given(kerf, part):
     file = part(*PLATE, unit=None)
     run = kerf("outline", file)
     assert run.status == 1 and "does not specify its unit" in run.err and "--unit inch" in run.err

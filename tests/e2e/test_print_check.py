@@ -1,4 +1,4 @@
-"""kerf check and kerf info on printing programs: good and bad prints are told apart by the exit status;
+"""kerf check and kerf info on printing programs: the exit status of good and bad prints;
 filament, mass, layers. And programs whose unit is evidently wrong for their stock."""
 import math
 import re

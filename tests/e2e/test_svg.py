@@ -59,7 +59,7 @@ def test_the_page_gives_true_units(outlines, page, scale):
 @pytest.mark.parametrize("unit, scale", [("mm", 1), ("inch", 25.4), ("px", 25.4 / 96), ("pt", 25.4 / 72)])
 @pytest.mark.parametrize("page", [
     'width="100" height="50">', 'viewBox="0 0 100 50">', 'width="100px" height="50px">'])
-def test_a_missing_unit_is_asked_for(kerf, program, outlines, page, unit, scale):
+def test_a_missing_unit_must_be_given(kerf, program, outlines, page, unit, scale):
     text = svg('<line x1="0" y1="50" x2="30" y2="50"/>', page)
     refused = kerf("outline", program(text, "art.svg"), "--json")
     assert refused.status == 1 and refused.codes() == ["drawing_unit"] and "px" in refused.out

@@ -55,7 +55,7 @@ def test_layers_are_listed(tmp_path):
     assert layers["NOTES"]["off"] and layers["NOTES"]["entities"] == {"TEXT": 1}
 
 
-def test_a_missing_unit_is_asked_for(tmp_path):
+def test_a_missing_unit_must_be_given(tmp_path):
     drawing = kerf.load_drawing(saved(tmp_path, plate, units=0))
     assert drawing.unit is None
     with pytest.raises(kerf.Error, match="does not specify its unit") as error:

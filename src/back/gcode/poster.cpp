@@ -84,7 +84,7 @@ void Poster::write_motion(std::size_t i) {
   if (s.reference() == Reference::measured)
     report_unsupported(
         i,
-        "the end of this motion is computed from what only the controller knows, such as a probed position");
+        "the end of this motion is computed from a value known only at run time, such as a probed position");
   else if (s.reference() != Reference::work)
     to_reference(s.kind() == StepKind::rapid ? 0 : 1, i);
   else if (s.kind() == StepKind::rapid)

@@ -178,7 +178,7 @@ void Poster::tool_change(std::size_t i) {
   templates(profile_.section);
 }
 
-/// The tool is in the spindle already: only the controller that changes tools has to know (M61).
+/// The tool is in the spindle already: only a controller with a tool changer needs it (M61).
 void Poster::set_tool_number(std::size_t i) {
   constexpr int kSetTool = 610;
   tool_ = path_[i].tool_change().tool;
@@ -320,7 +320,7 @@ void Poster::unresolved(std::size_t i) {
     return;  // reported by the reader
   }
   report_unsupported(i,
-                     fmt::format("{} depends on what only the controller knows, such as a probed position; "
+                     fmt::format("{} depends on a value known only at run time, such as a probed position; "
                                  "it cannot be written for another one",
                                  path_.text(i)));
 }

@@ -1,4 +1,5 @@
 // Reads SVG: walks the elements with their transforms and styles, and appends their shapes to the drawing.
+#include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/svg.h"
 
@@ -44,12 +45,6 @@ namespace {
 
 using Declarations = std::vector<std::pair<std::string, std::string>>;
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
 /// "fill:none; stroke:#f00"
 Declarations declarations_of(std::string_view text) {
   Declarations out;
@@ -58,7 +53,7 @@ Declarations declarations_of(std::string_view text) {
     const std::string_view one = text.substr(0, end);
     const std::size_t colon = one.find(':');
     if (colon != std::string_view::npos)
-      out.emplace_back(trimmed(one.substr(0, colon)), trimmed(one.substr(colon + 1)));
+      out.emplace_back(trim(one.substr(0, colon)), trim(one.substr(colon + 1)));
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return out;
@@ -201,7 +196,7 @@ void SvgReader::read_rules(std::string_view text) {
     const Declarations found = declarations_of(text.substr(open + 1, close - open - 1));
     while (!selectors.empty()) {
       const std::size_t comma = std::min(selectors.find(','), selectors.size());
-      Declarations& rule = rules_[std::string(trimmed(selectors.substr(0, comma)))];
+      Declarations& rule = rules_[std::string(trim(selectors.substr(0, comma)))];
       rule.insert(rule.end(), found.begin(), found.end());
       selectors.remove_prefix(std::min(comma + 1, selectors.size()));
     }
@@ -221,7 +216,7 @@ void SvgReader::apply_style(const Element& element, Style& style) const {
   if (!rules_.empty()) {
     apply(element.name);
     std::string_view classes = element.attribute("class");
-    while (!(classes = trimmed(classes)).empty()) {
+    while (!(classes = trim(classes)).empty()) {
       const std::size_t end = std::min(classes.find_first_of(" \t\r\n"), classes.size());
       apply("." + std::string(classes.substr(0, end)));
       classes.remove_prefix(end);
@@ -418,7 +413,7 @@ void SvgReader::count_other(const Element& element, const EntityWriter::Setting&
 }
 
 std::optional<dxf::Drawing> SvgReader::read(const Element& root) {
-  drawing_.version = "SVG";
+  drawing_.format = dxf::Format::svg;
   drawing_.layers.emplace_back().name = "0";
   for (const char* name : {"BYLAYER", "BYBLOCK", "CONTINUOUS"}) drawing_.linetypes.emplace_back().name = name;
   drawing_.extrusions.push_back({0.0, 0.0, 1.0});

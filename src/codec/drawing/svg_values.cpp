@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/units.h"
 
@@ -25,11 +26,6 @@ std::string lowered(std::string_view text) {
   std::string out(text);
   std::transform(out.begin(), out.end(), out.begin(), lower);
   return out;
-}
-std::string_view trimmed(std::string_view text) {
-  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
-  return text;
 }
 
 }  // namespace
@@ -97,7 +93,7 @@ std::string_view Scanner::word() {
 }
 
 std::optional<UnitLength> read_length(std::string_view text) {
-  Scanner scanner(trimmed(text));
+  Scanner scanner(trim(text));
   const auto value = scanner.number();
   if (!value) return std::nullopt;
   UnitLength out{*value, lowered(scanner.word())};
@@ -164,13 +160,13 @@ std::optional<Affine> transform_of(std::string_view name, const std::vector<doub
 
 std::optional<Affine> read_transform(std::string_view text) {
   Affine out;
-  text = trimmed(text);
+  text = trim(text);
   while (!text.empty()) {
     const std::size_t open = text.find('('), close = text.find(')');
     if (open == std::string_view::npos || close == std::string_view::npos || close < open)
       return std::nullopt;
-    const auto values = read_numbers(trimmed(text.substr(open + 1, close - open - 1)));
-    const auto next = values ? transform_of(trimmed(text.substr(0, open)), *values) : std::nullopt;
+    const auto values = read_numbers(trim(text.substr(open + 1, close - open - 1)));
+    const auto next = values ? transform_of(trim(text.substr(0, open)), *values) : std::nullopt;
     if (!next) return std::nullopt;
     out = out * *next;
     text.remove_prefix(close + 1);
@@ -183,7 +179,7 @@ std::optional<Affine> read_transform(std::string_view text) {
 // colours
 
 std::string colour_name(std::string_view text) {
-  std::string name = lowered(trimmed(text));
+  std::string name = lowered(trim(text));
   if (name.size() == 4 && name[0] == '#') return {'#', name[1], name[1], name[2], name[2], name[3], name[3]};
   if (name.rfind("rgb(", 0) == 0 && name.back() == ')') {
     const auto parts = read_numbers(std::string_view(name).substr(4, name.size() - 5));

@@ -78,7 +78,7 @@ std::optional<double> OutlineDrawer::mm_per_unit() {
     return options_.unit->mm();
   }
   if (own) return own;
-  const bool is_page = drawing_.version == "SVG";
+  const bool is_page = drawing_.format == dxf::Format::svg;
   const std::string what = is_page       ? "the drawing does not specify its unit (width without mm or in)"
                            : number == 0 ? "the drawing does not specify its unit ($INSUNITS)"
                                          : fmt::format("unknown unit {} ($INSUNITS)", number);

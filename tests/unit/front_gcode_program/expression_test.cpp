@@ -73,7 +73,7 @@ TEST(Expression, AFaultHasACodeAndAnOffset) {
 }
 
 TEST(Expression, IsUnknownWhereAParameterIs) {
-  const NoController system;  // knows no #5420
+  const NoController system;  // has no #5420
   Parameters parameters(system);
   parameters.set_number(1, {2.0, true});
   parameters.set_number(2, 3.0);

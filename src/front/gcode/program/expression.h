@@ -47,7 +47,7 @@ class ExpressionReader {
   std::size_t position() const { return at_; }
   std::string_view rest() const { return text_.substr(at_); }
   const ExpressionFault& fault() const { return fault_; }
-  /// Whether the values so far depend on a parameter whose value only the controller knows.
+  /// Whether the values so far depend on a parameter whose value is known only at run time.
   bool is_unknown() const { return is_unknown_; }
 
  private:

@@ -76,8 +76,8 @@ class Flow {
   bool limit_reached() const { return stopped_; }
   /// Executes the O-word of the last line of next().
   void control(const Block& block);
-  /// Whether a condition or a number of repeats since the last call depended on what only the controller
-  /// knows.
+  /// Whether a condition or a number of repeats since the last call depended on a value
+  /// known only at run time.
   bool take_unknown_value() { return std::exchange(unknown_value_, false); }
   /// Whether the program has the subroutine.
   bool has_sub(int number);

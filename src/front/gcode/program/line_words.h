@@ -35,7 +35,7 @@ class LineWords {
     used_ &= ~bit(letter);
     values_[index(letter)] = value;
   }
-  /// Letters (a mask of bit()) whose values depend on what only the controller knows; G and M for codes.
+  /// Letters (a mask of bit()) whose values are known only at run time; G and M for codes.
   std::uint32_t unknown_letters() const { return unknown_letters_; }
   /// The column of a G code that is not known, 0 if there is none; and its name.
   std::uint32_t unknown_g_column() const { return unknown_g_column_; }

@@ -25,12 +25,12 @@ class SystemValues {
   virtual std::optional<double> system_name(std::string_view name) const = 0;
   /// The divisor for parameters that are stored in mm: mm per unit of the program; 1 for all others.
   virtual double unit_of(int number) const = 0;
-  /// Whether only the controller knows the value, which is an assumption here.
+  /// Whether the value is known only at run time and is an assumption here.
   virtual bool is_unknown_number(int number) const = 0;
   virtual bool is_unknown_name(std::string_view name) const = 0;
 };
 
-/// A value of a program. `unknown`: it depends on what only the controller knows.
+/// A value of a program. `unknown`: known only at run time.
 struct ParameterValue {
   // NOLINTNEXTLINE(google-explicit-constructor): most values are known
   ParameterValue(double v = 0.0, bool is_unknown = false) : value(v), unknown(is_unknown) {}

@@ -188,7 +188,7 @@ void Interpreter::skip_setting(const Block& block) {
   lose(kAllAxes);
 }
 
-/// Words whose value depends on what only the controller knows. The targets of straight motions are unknown
+/// Words whose value is known only at run time. The targets of straight motions are unknown
 /// then (see target()); anything else cannot be represented.
 void Interpreter::note_unknown_words() {
   const std::uint32_t letters = line_.unknown_letters();
@@ -201,7 +201,7 @@ void Interpreter::note_unknown_words() {
   }
   reporter_.unusual(
       Code::value_unknown, column,
-      fmt::format("{} depends on what only the machine knows, such as a probed position", which));
+      fmt::format("{} depends on a value known only at run time, such as a probed position", which));
   const Tenths motion = line_.has(Group::motion) ? line_.code(Group::motion) : modes_.motion;
   const bool straight = motion == 0 || motion == 10 || (motion >= 382 && motion <= 385);
   if ((letters & ~kAxisLetters) != 0 || !straight || line_.has(Group::reference) || !frame_.only_shifted)
@@ -211,7 +211,7 @@ void Interpreter::note_unknown_words() {
 void Interpreter::report_unresolved(std::string_view what, std::uint32_t column) {
   reporter_.unusual(
       Code::value_unknown, column,
-      fmt::format("{} depends on what only the machine knows, such as a probed position", what));
+      fmt::format("{} depends on a value known only at run time, such as a probed position", what));
   add(step::Unresolved{std::string(what)});
 }
 

@@ -165,7 +165,7 @@ std::optional<ToolPosition> Interpreter::target() {
   return to;
 }
 
-/// The axes whose words depend on what only the controller knows are unknown.
+/// The axes whose words depend on values known only at run time are unknown.
 void Interpreter::mark_measured(ToolPosition& to) const {
   for (int axis = 0; axis < 3; ++axis)
     if ((line_.unknown_letters() & LineWords::bit(static_cast<char>('X' + axis))) != 0)

@@ -46,7 +46,7 @@ void Interpreter::printer_command(std::string_view text) {
   if (code == "G10" || code == "G11")
     return reporter_.note(
         Code::code_ignored, 1,
-        code + " retracts or returns the filament by lengths that only the printer knows; skipped");
+        code + " retracts or returns the filament by lengths set in the printer's firmware; skipped");
   reporter_.note(
       Code::code_ignored, 1,
       code +

@@ -29,7 +29,7 @@ std::optional<double> Interpreter::system_number(int number) const {
   }
 }
 
-/// What the machine stores, and positions that it knows.
+/// Stored values and positions of the machine.
 bool Interpreter::is_unknown_number(int number) const {
   const auto has = [](unsigned axes, int axis) { return (axes >> static_cast<unsigned>(axis) & 1u) != 0; };
   if (number < 5161) return false;

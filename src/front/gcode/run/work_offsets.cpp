@@ -138,7 +138,7 @@ void Interpreter::note_zeros() {
   if (cut && !cut_in_) cut_in_ = now;
 }
 
-/// The machine knows the distance of the zeros, but the toolpath has a single one.
+/// The distance of the zeros is set on the machine, but the toolpath has a single zero.
 void Interpreter::report_unknown_zero(const Zero& first, const Zero& now) {
   unknown_offset_reported_ = true;
   if (first.system == now.system) {
