@@ -57,8 +57,8 @@ def test_cuts_follow_the_surface(name, tmp_path):
     (tmp_path / "part.nc").write_text(PROGRAM)
     (tmp_path / "map.txt").write_text("".join(
         f"{x} {y} {surface(x, y):.6f}\n" for y in range(0, 41, 2) for x in range(0, 61, 2)))
-    done = subprocess.run([os.environ["KERF"], "post", "--to", "linuxcnc", "--level", "map.txt", "part.nc", "-o",
-                           "out.ngc"], cwd=tmp_path, capture_output=True, text=True)
+    words = "post --to linuxcnc --level map.txt part.nc -o out.ngc".split()
+    done = subprocess.run([os.environ["KERF"], *words], cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     moves, refused = rs274.moves_of((tmp_path / "out.ngc").read_text())
     assert refused is None

@@ -1,0 +1,55 @@
+"""Makes the pictures of the README and the manual from the bundled examples.
+
+    make_pictures.py KERF FOLDER [NAME...]
+
+KERF is the command, FOLDER receives the pictures, NAMEs (without ending) select some of them.
+`./dev pictures` makes all in this folder.
+"""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
+SIZE = (640, 400)  # pixels
+COLOURS = 64  # of the palette: small files
+
+# Name of the picture, and the command that makes it: {examples} is the folder of examples, {out} the picture.
+PICTURES = {
+    "demo": "simulate {examples}/demo.nc -o {out}",
+    **{name: f"run {{examples}}/gcodepreview/{name}.py -o {{out}}"
+       for name in ("box", "commands", "hanger", "relief", "sign")},
+    "tray-top": "run {examples}/gcodepreview/tray.py -o {out}.glb",  # a file that the script writes
+    **{f"path-{number}": f"simulate {{examples}}/path/{number}.1P.dxf -o {{out}} --spoilboard 3"
+       for number in ("9001", "9002", "9003", "9004", "9005", "9006", "9008", "9009")},
+}
+
+
+def make(kerf, name, folder):
+    """Runs the command of one picture and writes it with a palette; findings are no errors here."""
+    from PIL import Image  # only here: the table is read where Pillow is not installed
+
+    with tempfile.TemporaryDirectory() as scratch:
+        out = Path(scratch, name + ".png")
+        words = [word.format(examples=EXAMPLES, out=out) for word in PICTURES[name].split()]
+        done = subprocess.run([kerf, *words], cwd=scratch, capture_output=True, text=True,
+                              env={**os.environ, "KERF_PYTHON": sys.executable})
+        if not out.exists():
+            sys.exit(f"{name}: {' '.join(words)}: {done.stderr}")
+        picture = Image.open(out).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
+        picture.quantize(COLOURS, dither=Image.Dither.NONE).save(Path(folder, name + ".png"), optimize=True)
+
+
+def main():
+    kerf, folder, *names = sys.argv[1:]
+    unknown = [name for name in names if name not in PICTURES]
+    if unknown:
+        sys.exit(f"no such picture: {', '.join(unknown)}; there are {', '.join(PICTURES)}")
+    for name in names or PICTURES:
+        make(str(Path(kerf).resolve()), name, folder)
+        print(Path(folder, name + ".png"))
+
+
+if __name__ == "__main__":
+    main()
