@@ -22,13 +22,17 @@ std::string interpreter() {
   return "python3";
 }
 
-/// The folder of Kerf's Python modules in a build folder, next to the command; empty if they are installed.
+/// The folder of Kerf's Python modules: next to the command in a build folder, or below the prefix where the
+/// command is installed; empty if the interpreter has them (a wheel).
 std::string module_folder() {
   std::error_code failed;
   const auto command = std::filesystem::read_symlink("/proc/self/exe", failed);
   if (failed) return "";
-  const auto folder = command.parent_path() / "python";
-  return std::filesystem::is_directory(folder, failed) ? folder.string() : "";
+  for (const char* place : {"python", "../lib/kerf/python"}) {
+    const auto folder = (command.parent_path() / place).lexically_normal();
+    if (std::filesystem::is_directory(folder / "kerf", failed)) return folder.string();
+  }
+  return "";
 }
 
 /// The environment of the script as "NAME=value" texts.
