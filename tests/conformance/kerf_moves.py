@@ -1,5 +1,5 @@
-"""Kerf's moves of a G-code program, in the form of rs274.moves_of: (kind, x, y, z); of arcs also
-(u, v, turns)."""
+"""Kerf's moves of a G-code program, in the form of rs274.moves_of: (kind, x, y, z), None for an axis whose
+position is unknown in work coordinates; of arcs also (u, v, turns)."""
 import json
 import os
 import subprocess
@@ -15,16 +15,19 @@ def kerf_moves(path, *options):
     for line in done.stdout.splitlines():
         step = json.loads(line)
         kind = KINDS.get(step.get("step"))
+        lost = step.get("unknown_axes", [])
+        to = [None if axis in lost else at for axis, at in zip("XYZ", step.get("to", []))]
         if kind == "D":
             moves.append((kind, step["seconds"]))
         elif kind == "A":
             turns = (step["extra_turns"] + 1) * (-1 if step["turn"] == "cw" else 1)
-            moves.append((kind, *step["to"], *step["centre"], turns))
+            moves.append((kind, *to, *step["centre"], turns))
         elif kind:
-            moves.append((kind, *step["to"]))
+            moves.append((kind, *to))
     return moves, done.returncode, done.stderr
 
 
 def same_move(one, other, slack):
+    """Whether both moves are the same, as far as the position of `one` is known."""
     return len(one) == len(other) and one[0] == other[0] and all(
-        abs(a - b) <= slack for a, b in zip(one[1:], other[1:]))
+        a is None or abs(a - b) <= slack for a, b in zip(one[1:], other[1:]))

@@ -220,5 +220,182 @@ def checksums(seed):
 def without_checksums(text):
     return "\n".join(line.split("*")[0] for line in text.splitlines()) + "\n"
 
+class Offsets(Maker):
+    """Lines that change coordinates, in mm and inches, with degenerate values among them. `lost`: the axes
+    whose position in work coordinates is unknown after them."""
 
-FAMILIES = {f.__name__: f for f in (moves, arcs, cycles, computed, compensated, checksums)}
+    SYSTEMS = ("G54", "G55", "G56", "G57", "G58", "G59", "G59.1", "G59.2", "G59.3")
+
+    def __init__(self, seed):
+        super().__init__(seed)
+        self.inch = self.absolute = self.measured = False
+        self.lost = ""
+
+    def number(self, low=-1.0, high=1.0):
+        kind = self.random.randrange(12)
+        if kind < 3:
+            return self.either(0, 0, 0.0001, -0.001, 1, 25.4)
+        return round(super().number(low, high) * self.either(1, 1, 1, 10) / (25.4 if self.inch else 1), 4)
+
+    def some_axes(self):
+        return self.either("X", "Y", "Z", "XY", "XZ", "YZ", "XYZ")
+
+    def words(self, axes):
+        return " ".join(f"{axis}{self.number():g}" for axis in axes)
+
+    def mode(self, absolute):
+        self.absolute = absolute
+        self.line("G90" if absolute else "G91")
+
+    def unit(self, inch):
+        if self.measured and inch != self.inch:
+            return  # rs274 without a machine does not convert the length of the tool here
+        self.inch = inch
+        self.line("G20 F20" if inch else "G21 F500")
+
+    def find(self):
+        """Moves to a known position."""
+        if self.lost:
+            self.mode(True)
+            self.line("G0", self.words(self.lost))
+            self.lost = ""
+
+    def lose(self, axes):
+        self.lost = "".join(a for a in "XYZ" if a in self.lost + axes)
+
+    def start(self):
+        self.line("G17 G40 G49 G54 G80 G92.1 G94 S1000")
+        self.unit(self.either(True, False))
+        self.mode(True)
+
+    def move(self):
+        self.line(self.either("G0", "G1", "G1"), self.words(self.some_axes()))
+
+    def shift(self):
+        self.find()
+        self.line(self.either("G92", "G92", "G52"), self.words(self.some_axes()))
+        for _ in range(self.random.randrange(3)):
+            self.line(self.either("G92.1", "G92.2", "G92.2", "G92.3", "G92.3"))
+
+    def touch_off(self):
+        self.find()
+        self.line("G10 L20", f"P{self.random.randrange(10)}", self.words(self.some_axes()))
+
+    def length(self):
+        word = self.either("G43 H1", "G43 H2", "G43", "G49", f"G43.1 Z{self.number():g}")
+        self.line(word)
+        self.measured = word != "G49"
+        self.lose("Z")
+
+    def change_tool(self):
+        self.line(self.either("T1 M6", "T2 M6"))
+
+    def machine(self):
+        axes = self.some_axes()
+        self.mode(True)
+        self.line("G53", self.either("G0", "G1"), self.words(axes))
+        self.lose(axes)
+
+
+def offsets(seed):
+    """All work offsets, each set by the program, with the lengths of tools, homes and machine coordinates."""
+    make = Offsets(seed)
+    make.start()
+    for system in range(1, 10):
+        make.line(f"G10 L2 P{system}", make.words("XYZ"))
+    make.line("G0", make.words("XYZ"))
+    make.line("G28.1")
+    make.line("G30.1")
+    for _ in range(30):
+        kind = make.random.randrange(20)
+        if kind < 6:
+            make.move()
+        elif kind < 9:
+            make.line(make.either(*make.SYSTEMS))
+        elif kind < 11:
+            make.line("G10 L2", f"P{make.random.randrange(10)}", make.words(make.some_axes()))
+        elif kind == 11:
+            make.either(make.touch_off, make.shift)()
+        elif kind == 12:
+            make.line(make.either("G92.1", "G92.2", "G92.3"))
+        elif kind == 13:
+            make.mode(not make.absolute)
+        elif kind == 14:
+            make.unit(not make.inch)
+        elif kind == 15:
+            make.find()
+            make.line(make.either("G28", "G30"), make.either("", make.words(make.some_axes())))
+            make.lose("XYZ")
+        elif kind == 16:
+            make.find()
+            make.line(make.either("G28.1", "G30.1"))
+        elif kind == 17:
+            make.length()
+        elif kind == 18:
+            make.change_tool()
+        else:
+            make.machine()
+    make.find()
+    make.line("G90 G0 X0 Y0 Z0")
+    return make.text()
+
+
+class UnsetOffsets(Offsets):
+    """The same where the machine has offsets, homes and lengths of its own."""
+
+    def find(self):
+        """Some positions stay unknown here."""
+        if self.random.randrange(3) == 0:
+            super().find()
+
+    def arc(self):
+        """Half a circle from a known position."""
+        super().find()
+        u, v = self.number(), self.number()
+        self.mode(False)
+        self.line(self.either("G2", "G3"), f"X{2 * u:.4f} Y{2 * v:.4f} I{u:.4f} J{v:.4f}")
+        self.mode(True)
+
+
+def unset_offsets(seed):
+    make = UnsetOffsets(seed)
+    make.start()
+    make.lost = "XYZ"
+    steps = [make.move] * 6 + [make.arc, make.touch_off, make.shift, make.length, make.change_tool,
+                               make.machine]
+    for _ in range(make.random.randrange(4, 30)):
+        kind = make.random.randrange(20)
+        if kind < 12:
+            steps[kind]()
+        elif kind < 15:
+            make.line(make.either(*make.SYSTEMS[:3], make.either(*make.SYSTEMS)))
+            make.lost = "XYZ"
+        elif kind == 15:
+            make.line("G10 L2", f"P{make.random.randrange(4)}", make.words(make.some_axes()))
+            make.lost = "XYZ"
+        elif kind == 16:
+            make.line(make.either("G92.1", "G92.2", "G92.3"))
+            make.lost = "XYZ"
+        elif kind == 17:
+            make.either(make.mode, make.unit)(make.either(True, False))
+        elif kind == 18:
+            make.line(make.either("G28", "G30"), make.either("", make.words(make.some_axes())))
+            make.lost = "XYZ"
+        else:
+            make.line(make.either("G28.1", "G30.1"))
+    return make.text()
+
+
+def machine(seed):
+    """Numbers that a machine has stored: homes and work offsets, in its parameter file, and a tool table;
+    both in inches."""
+    make = Offsets(seed)
+    numbers = [(first + axis, make.number() / 25.4) for first in (5161, 5181) for axis in range(3)]
+    for first in range(5221, 5382, 20):
+        numbers += [(first + axis, make.number() / 25.4) for axis in range(3)]
+    stored = "".join(f"{number} {value:.6f}\n" for number, value in numbers)
+    lengths = [abs(make.number()) / 25.4 for _ in range(2)]
+    return stored, "".join(f"T{i} P{i} D0.25 Z{z:.6f}\n" for i, z in enumerate(lengths, 1))
+
+
+FAMILIES = {f.__name__: f for f in (moves, arcs, cycles, computed, compensated, offsets, checksums)}

@@ -71,6 +71,22 @@ class Canon:
         self.moves.append(("A", *self.position(end), *in_name_order, int(v[4])))
 
 
+class Machine(Canon):
+    """The same moves in machine coordinates, with the tool's length: where the spindle goes."""
+
+    def __init__(self):
+        super().__init__()
+        self.length = [0.0] * 3
+
+    def position(self, p):
+        return tuple(a + b for a, b in zip(super().position(p), self.length))
+
+    def call(self, name, text):
+        if name == "USE_TOOL_LENGTH_OFFSET":
+            self.length = [float(v) * self.scale for v in text.split(",")[0].split()]
+        super().call(name, text)
+
+
 class Events(Canon):
     """The events of a program, in the notation of tests/data/gcode/words.txt."""
 
@@ -181,11 +197,19 @@ def moves_of(text):
     return canon.moves, error
 
 
-def follow(text, canon):
-    """Runs a program in the interpreter, whose calls go to `canon`; returns the error message or None."""
+def machine_moves_of(text, stored, tools):
+    """As moves_of, in the coordinates of a machine with stored offsets, homes and lengths of tools."""
+    canon = Machine()
+    error = follow(text, canon, stored, tools)
+    return canon.moves, error
+
+
+def follow(text, canon, stored="", tools=TOOLS):
+    """Runs a program in the interpreter, whose calls go to `canon`; returns the error message or None.
+    `stored` and `tools` are the machine's parameter file and tool table."""
     with tempfile.TemporaryDirectory() as folder:
-        Path(folder, "tool.tbl").write_text(TOOLS)
-        Path(folder, "v.var").write_text("")
+        Path(folder, "tool.tbl").write_text(tools)
+        Path(folder, "v.var").write_text(stored)
         Path(folder, "part.ngc").write_text(text)
         done = subprocess.run(["rs274", "-v", "v.var", "-t", "tool.tbl", "-g", "part.ngc"], cwd=folder,
                               env=at_home_in(folder), capture_output=True, text=True, timeout=300)

@@ -83,6 +83,7 @@ class Linter {
   void check_single();
   void run();
   void set_modes();
+  void use_offset_words(bool axes);
   void use_special();
   void move();
   void use_arc();
@@ -330,6 +331,17 @@ void Linter::set_modes() {
   if (other) use((1u << 26) - 1);  // printers' codes take words of their own
 }
 
+/// G10 L2 and L20: P0 is the selected work offset, P1 is G54, and so on.
+void Linter::use_offset_words(bool axes) {
+  const double l = has('L') ? value('L') : 0.0, p = has('P') ? value('P') : -1.0;
+  if (!axes) return refuse(Code::lint_missing, "G10 needs axis words");
+  int highest = 0;
+  while (profile_.has_g(work_offset_code(highest + 1))) ++highest;
+  if ((l != 2.0 && l != 20.0) || !(p >= 0.0 && p <= highest) || p != std::floor(p))
+    return refuse(Code::lint_value, fmt::format("G10 takes L2 or L20 and P0 to P{}", highest));
+  use(bit('L') | bit('P') | kAxes);
+}
+
 /// Codes that use the line's axis words or P themselves.
 void Linter::use_special() {
   const bool axes = (letters_ & kAxes) != 0;
@@ -341,15 +353,10 @@ void Linter::use_special() {
     if (value('P') < 0.0) refuse(Code::lint_value, "a time cannot be negative");
     use(bit('P'));
   }
-  if (has_code(100)) {
-    const double l = has('L') ? value('L') : 0.0, p = has('P') ? value('P') : -1.0;
-    if (!axes) return refuse(Code::lint_missing, "G10 needs axis words");
-    if ((l != 2.0 && l != 20.0) || p < 0.0 || p > 6.0)
-      return refuse(Code::lint_value, "G10 takes L2 or L20 and P0 to P6");
-    use(bit('L') | bit('P') | kAxes);
-  }
+  if (has_code(100)) use_offset_words(axes);
   if (has_code(920) && !axes) return refuse(Code::lint_missing, "G92 needs axis words");
-  if (has_code(431) && (letters_ & kAxes) != bit('Z'))
+  const bool only_z = !profile_.has_g(432);  // GRBL has lengths along Z only; LinuxCNC, with G43.2, along all
+  if (has_code(431) && only_z && (letters_ & kAxes) != bit('Z'))
     return refuse(Code::lint_missing, "G43.1 needs Z and nothing else");
   if (has_code(490) && (g_groups_ >> kMotionGroup & 1u) != 0 && axes)
     refuse(Code::lint_conflict, "G49 on a line with a motion");

@@ -230,14 +230,14 @@ void Poster::store_home(std::size_t i) {
 
 void Poster::select_system(std::size_t i) {
   start_line();
-  code('G', system_ <= 6 ? 530 + 10 * system_ : 584 + system_);
+  code('G', work_offset_code(system_));
   end_line(i);
 }
 
 /// Whether the controller has the code for a zero; otherwise reports what that means.
 bool Poster::can_set_zero(std::size_t i, const step::WorkZero& zero) {
   constexpr int kFirst[] = {0, 100, 100, 920, 921, 922, 923};
-  const int system_code = zero.system <= 6 ? 530 + 10 * zero.system : 584 + zero.system;
+  const int system_code = work_offset_code(zero.system);
   const bool selects = zero.kind == ZeroKind::select;
   const int code = selects ? system_code : kFirst[static_cast<std::size_t>(zero.kind)];
   const bool letters = code != 100 || (profile_.has_letter('L') && profile_.has_letter('P'));

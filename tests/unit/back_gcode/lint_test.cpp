@@ -55,6 +55,10 @@ TEST(Lint, reports_each_code) {
       {"grbl", "G0 X1 P1", Code::lint_unused},
       {"grbl", "G1 X1", Code::lint_missing},
       {"grbl", "T256", Code::lint_value},
+      {"grbl", "G10 L2 P7 X1", Code::lint_value},  // GRBL has G54 to G59
+      {"grbl", "G43.1 X1", Code::lint_missing},
+      {"linuxcnc", "G10 L2 P10 X1", Code::lint_value},  // LinuxCNC G54 to G59.3
+      {"linuxcnc", "G10 L2 P1.5 X1", Code::lint_value},
       {"grbl", "F100\nG2 X5 I1 J0", Code::lint_arc},
       {"grbl", "G0 X1.00000000000000000000000000000000000000000000000000000000000000000000000000000000000",
        Code::lint_line},
@@ -73,6 +77,15 @@ TEST(Lint, reports_each_code) {
     ASSERT_FALSE(diagnostics.list().empty()) << c.text;
     EXPECT_EQ(diagnostics.list().front().code, c.code)
         << c.text << ": " << diagnostics.list().front().message;
+  }
+}
+
+TEST(Lint, accepts_the_offsets_of_the_controller) {
+  for (const auto& [post, text] :
+       {std::pair("grbl", "G10 L2 P6 X1\nG10 L20 P0 Z2"),
+        std::pair("linuxcnc", "G10 L20 P9 X1\nG59.3\nG10 L2 P7 Y0"), std::pair("linuxcnc", "G43.1 X1 Z2")}) {
+    Diagnostics diagnostics;
+    EXPECT_TRUE(lint_gcode(text, *find_post(post), "text", diagnostics)) << text;
   }
 }
 

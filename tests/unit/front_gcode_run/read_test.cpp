@@ -107,6 +107,30 @@ TEST(ReadGcode, ShiftedZeroKeepsTheFrameOfWhatWasCutBefore) {
   EXPECT_EQ(first[1].unknown_axes(), 4u);
 }
 
+/// A home is stored in machine coordinates: where the tip is there depends on the tool's length.
+TEST(ReadGcode, HeightsOfHomesAreUnknownAfterAnotherToolLength) {
+  for (const char* length : {"G43 H1", "G43.1 Z5", "G49"}) {
+    const Reading r = read(std::string("G0 X1 Y2 Z3\nG28.1\nG0 X9\n") + length + "\nG0 Z8\nG28\nM2");
+    ASSERT_EQ(r.size(), 8u);
+    EXPECT_EQ(r[4].unknown_axes(), 0u) << length;
+    EXPECT_EQ(r[6].reference(), Reference::home);
+    EXPECT_EQ(r[6].unknown_axes(), 4u) << length;
+    EXPECT_EQ(r[6].to().x, 1.0);
+  }
+}
+
+/// The controller has stored the shift of a G92 at an unknown position, so that G92.1 to G92.3 matter to it.
+TEST(ReadGcode, AShiftOfUnknownSizeEndsOnlyWithG921) {
+  for (const auto& [words, ends] :
+       {std::pair("G92.3", 1u), std::pair("G92.2\nG92.3", 2u), std::pair("G92.2\nG92.2\nG92.3", 2u)}) {
+    const Reading r = read(std::string("G92 X5\n") + words + "\nG0 X1\nG92.1\nM2");
+    unsigned zeros = 0;
+    for (const Step& s : r.program.path.steps())
+      zeros += s.kind() == StepKind::work_zero && s.work_zero().kind != ZeroKind::shift;
+    EXPECT_EQ(zeros, ends + 1) << words;
+  }
+}
+
 TEST(ReadGcode, RepeatsOfPolarWordsAreOnACircle) {
   const Reading r = read("S9 M4 F100 G0 X10 Y0 Z5\nG91 G81 ^20 Z-1 R1 L17\nM2");
   int holes = 0;

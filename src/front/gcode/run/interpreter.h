@@ -91,7 +91,7 @@ struct WorkOffsets {
   std::array<Base, 3> shift_base{};  // of G92; 0: none of unknown size
   Base next_base = kSystems + 1;
   int selected = 0;         // by the last step; 0: none
-  unsigned kept_shift = 0;  // axes whose shift of unknown size G92.2 has stored
+  unsigned kept_shift = 0;  // axes whose stored shift is of unknown size
 
   WorkOffsets() {
     for (int system = 1; system <= kSystems; ++system) base[static_cast<std::size_t>(system)].fill(system);
@@ -403,7 +403,7 @@ class Interpreter : public SystemValues {
   TextLocation zero_location_;             // of the word that set it
   std::optional<Zero> moved_in_, cut_in_;  // of the first motion, of the first cut
   Point3 local_shift_;                     // by G92 and G52, mm
-  Point3 kept_local_shift_;                // stored by G92.2
+  Point3 kept_local_shift_;                // stored by G92 and G52, for G92.3
   double program_rotation_ = 0.0;          // G68, degrees
   Point3 program_rotation_centre_;         // program coordinates, mm
   Tenths work_offset_ = 540;

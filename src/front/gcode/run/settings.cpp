@@ -317,7 +317,7 @@ void Interpreter::use_words_of_other_codes() {
 }
 
 /// G43, G43.1, G43.2, G49. The toolpath is that of the tip, but after a change of the length compensation the
-/// present height of the tip in work coordinates is unknown.
+/// present height of the tip in work coordinates is unknown, and so are those of the homes.
 void Interpreter::set_tool_length() {
   const Tenths code = line_.code(Group::tool_length);
   step::ToolLength length;
@@ -352,7 +352,7 @@ void Interpreter::set_tool_length() {
   tool_length_ = length;
   length_tool_ = modes_.tool;
   constexpr unsigned kZ = 4;
-  if (add(length)) position_.unknown |= kZ;
+  if (add(length)) lose(kZ);
 }
 
 void Interpreter::end_or_pause() {

@@ -344,19 +344,19 @@ void Interpreter::shift_zero() {
   }
   position_ = now;
   local_shift_ = kept_local_shift_ = shift;
+  offsets_.kept_shift = offsets_.unknown_shift();
   update_frame();
 }
 
-/// G92.1, G92.2, G92.3. After them the position is unknown on axes whose shift is.
+/// G92.1, G92.2, G92.3: G92 and G52 have stored the shift; only G92.1 clears what is stored. After them the
+/// position is unknown on axes whose shift is.
 void Interpreter::end_shift(Tenths code) {
   const unsigned unknown = offsets_.unknown_shift() | (code == 923 ? offsets_.kept_shift : 0u);
-  if (code == 922) kept_local_shift_ = local_shift_;
   local_shift_ = code == 923 ? kept_local_shift_ : Point3{};
   if (code == 921) kept_local_shift_ = {};
   if (unknown != 0) {
     note_zeros();
     zero_location_ = reporter_.location(line_.column(Group::reference));
-    if (code == 922) offsets_.kept_shift = offsets_.unknown_shift();
     if (code == 921) offsets_.kept_shift = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const bool kept = code == 923 && (offsets_.kept_shift >> axis & 1u) != 0;
