@@ -32,6 +32,7 @@
 #include "kerf/op/pocket.h"
 #include "kerf/op/threads.h"
 #include "kerf/op/undercut.h"
+#include "kerf/op/v_carve.h"
 #include "kerf/outline.h"
 #include "kerf/progress.h"
 #include "kerf/tool.h"
@@ -57,8 +58,12 @@ enum class CutKind : std::uint8_t {
   keyhole,
   slot,
   thread,
-  countersink
+  countersink,
+  vcarve,
+  vcarve_floor
 };
+/// The two parts of an inlay.
+enum class InlayPart : std::uint8_t { pocket, plug };
 
 /// The keys of an operation with their values; a key that was not given is empty.
 struct CutOperation {
@@ -80,9 +85,12 @@ struct CutOperation {
   Length peck{};
   Duration dwell{};
   Length length{}, slot_clearance{}, width{};
-  ThreadOptions thread{};         ///< without `cut`
-  std::optional<Angle> cone{};    ///< of a countersink; nothing: 90 degrees
-  std::optional<double> retract;  ///< Z; nothing: 5 mm above the highest surface
+  ThreadOptions thread{};                   ///< without `cut`
+  std::optional<Angle> cone{};              ///< of a countersink; nothing: 90 degrees
+  InlayPart part = InlayPart::pocket;       ///< of a V-carving
+  Length glue_gap{}, base_gap{}, margin{};  ///< of a plug
+  int carve_tool = 0;                       ///< of a vcarve_floor: the tool of the walls
+  std::optional<double> retract;            ///< Z; nothing: 5 mm above the highest surface
 };
 
 struct CutJob {

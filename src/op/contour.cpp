@@ -127,10 +127,7 @@ class ContourRun {
   }
 
   bool full() const { return cutter_.full(); }
-  Toolpath take() {
-    cutter_.lift();
-    return cutter_.take();
-  }
+  Cutter& cutter() { return cutter_; }
 
  private:
   static Point2 arc_centre(const Lead& lead, const Track& track, double s, double free) {
@@ -191,25 +188,10 @@ class ContourRun {
   Cutter cutter_;
 };
 
-std::optional<Operation> finished(ContourRun& run, const CutOptions& options, Diagnostics& diagnostics) {
-  if (stop_requested(options.progress)) return std::nullopt;
-  if (run.full()) {
-    diagnostics.error(Code::op_limit, options.where,
-                      fmt::format("{}more than {} steps", prefix(options), options.max_steps));
-    return std::nullopt;
-  }
-  Operation made;
-  made.path = run.take();
-  return made;
-}
-
 bool finite(const Outline& outline) {
-  const auto usable = [](Point2 p) {
-    return std::abs(p.x) <= limits::kMaxCoordinate && std::abs(p.y) <= limits::kMaxCoordinate;
-  };
-  return usable(outline.start) &&
+  return in_range(outline.start) &&
          std::all_of(outline.segments.begin(), outline.segments.end(),
-                     [&](const Segment& s) { return usable(s.to) && (!s.via || usable(*s.via)); });
+                     [&](const Segment& s) { return in_range(s.to) && (!s.via || in_range(*s.via)); });
 }
 
 /// The contours of a region: roughing loops, finishing loops, and the tabs of both.
@@ -238,7 +220,7 @@ class RegionContour {
     const bool deep = !rough || rough->narrow.size() > last->narrow.size() || rough->axis.empty();
     ContourRun run(cut, tool_, Walls(region_, last->radius, 0.1 * cut.tolerance.chord.mm()));
     cut_all(run, loops, rough_loops, rough ? &rough->axis : nullptr, deep);
-    auto made = finished(run, cut, diagnostics_);
+    auto made = finished(run.cutter(), cut, diagnostics_);
     if (!made) return std::nullopt;
     if (options_.tabs.height > Length{} && !hold(made->path)) return std::nullopt;
     made->unreached = std::move(last->unreached), made->narrow = std::move(last->narrow);
@@ -347,7 +329,7 @@ std::optional<Toolpath> op_detail::finish_walls(const Region& region, const Tool
   InnerFirst order(loops);
   while (!order.done() && !run.full())
     run.loop(loops[order.take(run.here())].track, climb ? 1.0 : -1.0, passes);
-  auto made = finished(run, cut, diagnostics);
+  auto made = finished(run.cutter(), cut, diagnostics);
   if (!made) return std::nullopt;
   return std::move(made->path);
 }
@@ -398,7 +380,7 @@ std::optional<Operation> contour_on(const std::vector<Outline>& outlines, const 
     else
       run.open_path(track, passes);
   }
-  return finished(run, options, diagnostics);
+  return finished(run.cutter(), options, diagnostics);
 }
 
 }  // namespace kerf

@@ -93,5 +93,12 @@ bool valid_stepover(double stepover, const CutOptions& options, Diagnostics& dia
 RegionOptions region_options(const CutOptions& options);
 /// "pocket 'left': " or nothing: the start of a message.
 std::string prefix(const CutOptions& options);
+/// Appends an error of the operation; false.
+bool fail(const CutOptions& options, Code code, const std::string& message, Diagnostics& diagnostics);
+/// Whether a point is within the limit for coordinates.
+bool in_range(Point2 p);
+/// The operation of a cutter that has made its motions, which ends on the retract plane. Nothing where it was
+/// stopped, or, with an error, where it has too many steps.
+std::optional<Operation> finished(Cutter& cutter, const CutOptions& options, Diagnostics& diagnostics);
 
 }  // namespace kerf::op_detail

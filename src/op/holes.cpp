@@ -35,10 +35,6 @@ std::vector<std::size_t> nearest_order(const std::vector<Point2>& points) {
   return order;
 }
 
-bool usable(Point2 p) {
-  return std::abs(p.x) <= limits::kMaxCoordinate && std::abs(p.y) <= limits::kMaxCoordinate;
-}
-
 CutOptions frame_of(const DrillOptions& o) {
   CutOptions cut;
   cut.top = o.top, cut.depth = o.depth, cut.feed = o.feed;
@@ -62,11 +58,7 @@ class BoreRun {
     for (double k = 0.0; k <= more && !cutter_.full(); k += 1.0)
       helix(hole.centre, k < more ? first + k * step : axis_radius, k > 0.0);
   }
-  bool full() const { return cutter_.full(); }
-  Toolpath take() {
-    cutter_.lift();
-    return cutter_.take();
-  }
+  Cutter& cutter() { return cutter_; }
 
  private:
   void helix(Point2 centre, double radius, bool inner_cleared) {
@@ -123,7 +115,7 @@ std::optional<Operation> drill(const std::vector<Point2>& points, const Tool& to
   if (supported)
     if (const auto found = fault_of(cycle)) fault = found->message;
   for (const Point2& p : points)
-    if (!usable(p)) fault = fmt::format("a point lies beyond {:g} mm", limits::kMaxCoordinate);
+    if (!in_range(p)) fault = fmt::format("a point lies beyond {:g} mm", limits::kMaxCoordinate);
   if (fault.empty() &&
       min_steps(cycle) * static_cast<double>(points.size()) > static_cast<double>(cut.max_steps)) {
     diagnostics.error(Code::op_limit, options.where,
@@ -151,8 +143,8 @@ std::optional<Operation> drill(const std::vector<Point2>& points, const Tool& to
 std::optional<Operation> bore(const std::vector<Circle>& holes, const Tool& tool, const BoreOptions& options,
                               Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
-  const bool in_range = valid(cut, tool, diagnostics);
-  if (!valid_stepover(options.stepover, cut, diagnostics) || !in_range) return std::nullopt;
+  const bool permitted = valid(cut, tool, diagnostics);
+  if (!valid_stepover(options.stepover, cut, diagnostics) || !permitted) return std::nullopt;
   if (holes.empty()) {
     diagnostics.error(Code::op_empty, cut.where, prefix(cut) + "no circles; nothing to bore");
     return std::nullopt;
@@ -163,7 +155,7 @@ std::optional<Operation> bore(const std::vector<Circle>& holes, const Tool& tool
   for (const Circle& hole : holes) {
     centres.push_back(hole.centre);
     const double axis = hole.radius.mm() - radius - cut.allowance.mm();
-    if (usable(hole.centre) && hole.radius.mm() <= limits::kMaxCoordinate && axis >= kMinAxis * radius)
+    if (in_range(hole.centre) && hole.radius.mm() <= limits::kMaxCoordinate && axis >= kMinAxis * radius)
       continue;
     fit = false;
     diagnostics
@@ -177,18 +169,10 @@ std::optional<Operation> bore(const std::vector<Circle>& holes, const Tool& tool
   if (!fit) return std::nullopt;
   BoreRun run(options, tool);
   for (const std::size_t i : nearest_order(centres)) {
-    if (run.full()) break;
+    if (run.cutter().full()) break;
     run.hole(holes[i], holes[i].radius.mm() - radius - cut.allowance.mm());
   }
-  if (stop_requested(cut.progress)) return std::nullopt;
-  if (run.full()) {
-    diagnostics.error(Code::op_limit, cut.where,
-                      fmt::format("{}more than {} steps", prefix(cut), cut.max_steps));
-    return std::nullopt;
-  }
-  Operation made;
-  made.path = run.take();
-  return made;
+  return finished(run.cutter(), cut, diagnostics);
 }
 
 }  // namespace kerf

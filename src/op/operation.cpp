@@ -61,6 +61,27 @@ namespace op_detail {
 
 std::string prefix(const CutOptions& options) { return options.name.empty() ? "" : options.name + ": "; }
 
+bool fail(const CutOptions& options, Code code, const std::string& message, Diagnostics& diagnostics) {
+  diagnostics.error(code, options.where, prefix(options) + message);
+  return false;
+}
+
+bool in_range(Point2 p) {
+  return std::abs(p.x) <= limits::kMaxCoordinate && std::abs(p.y) <= limits::kMaxCoordinate;
+}
+
+std::optional<Operation> finished(Cutter& cutter, const CutOptions& options, Diagnostics& diagnostics) {
+  if (stop_requested(options.progress)) return std::nullopt;
+  if (cutter.full()) {
+    fail(options, Code::op_limit, fmt::format("more than {} steps", options.max_steps), diagnostics);
+    return std::nullopt;
+  }
+  cutter.lift();
+  Operation made;
+  made.path = cutter.take();
+  return made;
+}
+
 RegionOptions region_options(const CutOptions& options) {
   return {.tolerance = options.tolerance,
           .name = options.name,

@@ -66,11 +66,7 @@ class PocketRun {
 
   /// Links between neighbouring lines may leave the region.
   void free_links() { free_links_ = true; }
-  bool full() const { return cutter_.full(); }
-  Toolpath take() {
-    cutter_.lift();
-    return cutter_.take();
-  }
+  Cutter& cutter() { return cutter_; }
 
  private:
   std::vector<Track> tracks_of(const RingCell& cell) const {
@@ -183,19 +179,6 @@ class PocketRun {
   Cutter cutter_;
 };
 
-/// The operation made of a run; nothing, with an error, where it has too many steps.
-std::optional<Operation> finished(PocketRun& run, const CutOptions& options, Diagnostics& diagnostics) {
-  if (stop_requested(options.progress)) return std::nullopt;
-  if (run.full()) {
-    diagnostics.error(Code::op_limit, options.where,
-                      fmt::format("{}more than {} steps", prefix(options), options.max_steps));
-    return std::nullopt;
-  }
-  Operation made;
-  made.path = run.take();
-  return made;
-}
-
 /// False, with an error, where lines at this spacing are more than the limit of steps.
 bool few_lines(const Region& region, Length spacing, const CutOptions& options, Diagnostics& diagnostics) {
   const Box2 box = bounds(region);
@@ -232,7 +215,7 @@ std::optional<Toolpath> cleared(const Region& region, const Tool& tool, const Re
     if (!rings) return std::nullopt;
     run.rings(*rings);
   }
-  auto made = finished(run, cut, diagnostics);
+  auto made = finished(run.cutter(), cut, diagnostics);
   if (!made) return std::nullopt;
   return std::move(made->path);
 }
@@ -242,8 +225,8 @@ std::optional<Toolpath> cleared(const Region& region, const Tool& tool, const Re
 std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
                                 Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
-  const bool in_range = valid(cut, tool, diagnostics);
-  if (!valid_stepover(options.stepover, cut, diagnostics) || !in_range) return std::nullopt;
+  const bool permitted = valid(cut, tool, diagnostics);
+  if (!valid_stepover(options.stepover, cut, diagnostics) || !permitted) return std::nullopt;
   if (!(options.finish >= Length{} && options.finish.mm() <= limits::kMaxToolSize)) {
     diagnostics.error(Code::op_option, cut.where,
                       fmt::format("{}finishing allowance is {:g}; it must be 0 mm or more", prefix(cut),
@@ -281,8 +264,8 @@ std::optional<Operation> pocket(const Region& region, const Tool& tool, const Po
 std::optional<Operation> facing(const Region& region, const Tool& tool, const FacingOptions& options,
                                 Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;
-  const bool in_range = valid(cut, tool, diagnostics);
-  if (!valid_stepover(options.stepover, cut, diagnostics) || !in_range) return std::nullopt;
+  const bool permitted = valid(cut, tool, diagnostics);
+  if (!valid_stepover(options.stepover, cut, diagnostics) || !permitted) return std::nullopt;
   if (!(options.overhang >= 0.5 && options.overhang <= 10.0)) {
     diagnostics.error(
         Code::op_option, cut.where,
@@ -298,7 +281,7 @@ std::optional<Operation> facing(const Region& region, const Tool& tool, const Fa
   PocketRun run(cut, tool, Walls(Walls::Kind::unknown));
   run.free_links();
   run.zigzag(hatch(area->region, options.angle, spacing, cut.max_steps), {}, spacing.mm());
-  return finished(run, cut, diagnostics);
+  return finished(run.cutter(), cut, diagnostics);
 }
 
 }  // namespace kerf

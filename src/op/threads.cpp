@@ -17,26 +17,8 @@ constexpr double kExternalDepth = 0.6134;  // of an external ISO thread, in pitc
 constexpr double kInternalDepth = 0.5413;  // of an internal one (5/8 H)
 constexpr double kMaxTurns = 1000.0;
 
-bool fail(const CutOptions& cut, Code code, const std::string& message, Diagnostics& diagnostics) {
-  diagnostics.error(code, cut.where, prefix(cut) + message);
-  return false;
-}
-
-std::optional<Operation> finished(Cutter& cutter, const CutOptions& cut, Diagnostics& diagnostics) {
-  if (stop_requested(cut.progress)) return std::nullopt;
-  if (cutter.full()) {
-    fail(cut, Code::op_limit, fmt::format("more than {} steps", cut.max_steps), diagnostics);
-    return std::nullopt;
-  }
-  cutter.lift();
-  Operation made;
-  made.path = cutter.take();
-  return made;
-}
-
 bool usable_circle(const Circle& c) {
-  return std::abs(c.centre.x) <= limits::kMaxCoordinate && std::abs(c.centre.y) <= limits::kMaxCoordinate &&
-         c.radius.mm() > 0.0 && c.radius.mm() <= limits::kMaxCoordinate;
+  return in_range(c.centre) && c.radius.mm() > 0.0 && c.radius.mm() <= limits::kMaxCoordinate;
 }
 
 class ThreadRun {

@@ -14,28 +14,6 @@ namespace {
 
 using namespace op_detail;
 
-bool in_range(Point2 p) {
-  return std::abs(p.x) <= limits::kMaxCoordinate && std::abs(p.y) <= limits::kMaxCoordinate;
-}
-
-bool fail(const CutOptions& cut, Code code, const std::string& message, Diagnostics& diagnostics) {
-  diagnostics.error(code, cut.where, prefix(cut) + message);
-  return false;
-}
-
-/// The operation of a cutter that has made its motions.
-std::optional<Operation> finished(Cutter& cutter, const CutOptions& cut, Diagnostics& diagnostics) {
-  if (stop_requested(cut.progress)) return std::nullopt;
-  if (cutter.full()) {
-    fail(cut, Code::op_limit, fmt::format("more than {} steps", cut.max_steps), diagnostics);
-    return std::nullopt;
-  }
-  cutter.lift();
-  Operation made;
-  made.path = cutter.take();
-  return made;
-}
-
 /// Distances from the centre line of passes that make a slot wider by `half` on both sides, from the inside.
 std::vector<double> widening(double half, double step) {
   std::vector<double> distances;

@@ -16,6 +16,14 @@ def test_operations_make_programs():
     assert len(kerf.cut("engrave", [[(0, 0), (30, 0)]], MILL, depth=1, feed=100)) > 3
 
 
+def test_carving_and_the_plug_of_an_inlay():
+    carved = kerf.cut("vcarve", PLATE, "V d=20 angle=60", feed=900, depth=3)
+    plug = kerf.cut("vcarve", PLATE, "V d=20 angle=60", feed=900, depth=3, part="plug", glue_gap=0.2)
+    assert len(carved) > 10 and len(plug) > 10
+    with pytest.raises(kerf.Error, match="no sloping edge"):
+        kerf.cut("vcarve", PLATE, MILL, feed=900)
+
+
 def test_errors_are_raised():
     with pytest.raises(kerf.Error, match="depth is missing"):
         kerf.cut("pocket", PLATE, MILL, feed=900)

@@ -148,14 +148,42 @@ class JobCompiler {
     }
     const auto region = region_of(operation, chosen);
     if (!region) return std::nullopt;
+    if (operation.kind == CutKind::vcarve) return carved(operation, tool, *region, cut);
+    if (operation.kind == CutKind::vcarve_floor) return carved_floor(operation, tool, *region, cut);
     if (operation.kind == CutKind::contour)
       return contour(*region, tool, contour_options(operation, cut), diagnostics_);
     if (operation.kind == CutKind::face)
       return facing(*region, tool, {.cut = cut, .stepover = operation.stepover, .angle = operation.angle},
                     diagnostics_);
-    return pocket(*region, tool,
-                  {cut, operation.stepover, operation.pattern, operation.angle, operation.finish},
-                  diagnostics_);
+    return pocket(*region, tool, pocket_options(operation, cut), diagnostics_);
+  }
+
+  static PocketOptions pocket_options(const CutOperation& operation, const CutOptions& cut) {
+    return {cut, operation.stepover, operation.pattern, operation.angle, operation.finish};
+  }
+
+  static InlayOptions plug_options(const CutOperation& operation, const CutOptions& cut) {
+    return {cut, operation.glue_gap, operation.base_gap, operation.margin};
+  }
+
+  std::optional<Operation> carved(const CutOperation& operation, const Tool& tool, const Region& region,
+                                  const CutOptions& cut) {
+    if (operation.part == InlayPart::pocket) return v_carve(region, tool, {.cut = cut}, diagnostics_);
+    return inlay_plug(region, tool, plug_options(operation, cut), diagnostics_);
+  }
+
+  /// The floor that the carving tool leaves, by this one.
+  std::optional<Operation> carved_floor(const CutOperation& operation, const Tool& tool, const Region& region,
+                                        CutOptions cut) {
+    const auto carver = tools_.find(operation.carve_tool);
+    if (carver == tools_.end()) return no_shape(operation, operation.carve_tool), std::nullopt;
+    const bool plug = operation.part == InlayPart::plug;
+    const InlayOptions options = plug_options(operation, cut);
+    const auto floor = plug ? inlay_plug_floor(region, carver->second, options, diagnostics_)
+                            : v_carve_floor(region, carver->second, {.cut = cut}, diagnostics_);
+    if (!floor) return std::nullopt;
+    if (plug) cut.depth = inlay_plug_depth(options);
+    return pocket(*floor, tool, pocket_options(operation, cut), diagnostics_);
   }
 
   static ContourOptions contour_options(const CutOperation& operation, const CutOptions& cut) {
@@ -183,14 +211,18 @@ class JobCompiler {
     return drill(points_of(chosen), tool, options, diagnostics_);
   }
 
+  void no_shape(const CutOperation& operation, int tool) {
+    failed_ = true;
+    diagnostics_
+        .error(Code::cut_job_key, operation.cut.where,
+               fmt::format("{}: tool {} has no shape", operation.name, tool))
+        .hint = fmt::format("[tools]\n{} = \"square d=6\"", tool);
+  }
+
   void add(const CutOperation& operation) {
     const auto tool = tools_.find(operation.tool);
     if (tool == tools_.end()) {
-      failed_ = true;
-      diagnostics_
-          .error(Code::cut_job_key, operation.cut.where,
-                 fmt::format("{}: tool {} has no shape", operation.name, operation.tool))
-          .hint = fmt::format("[tools]\n{} = \"square d=6\"", operation.tool);
+      no_shape(operation, operation.tool);
       return;
     }
     const Selection chosen = select(operation);

@@ -41,6 +41,19 @@ Json schema_of(const CutKey& key) {
   return schema;
 }
 
+constexpr std::string_view kStar =
+    "[[shape]]                 # shapes of the job itself, besides those of art\n"
+    "name = \"star\"\n"
+    "polygon = [[0, 14], [18, 14], [24, 0], [30, 14], [48, 14], [34, 24], [39, 40], [24, 30], [9, 40], "
+    "[14, 24]]\n\n";
+constexpr std::string_view kCarveFirst =
+    "[[operation]]             # the walls, and the corners up to their points\n"
+    "op = \"vcarve\"\n"
+    "tool = 2\n"
+    "depth = 3\n"
+    "rpm = 16000\n"
+    "feed = 900\n\n";
+
 /// Shapes for an example of an operation, so that it can be simulated as it is.
 std::string_view shapes_of(CutKind kind) {
   switch (kind) {
@@ -58,6 +71,8 @@ std::string_view shapes_of(CutKind kind) {
              "depth = 7\n"
              "rpm = 12000\n"
              "feed = 600\n\n";
+    case CutKind::vcarve:
+    case CutKind::vcarve_floor: return kStar;
     case CutKind::slot:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"groove\"\n"
@@ -104,15 +119,25 @@ std::string_view tool_of(CutKind kind) {
     case CutKind::slot: return "dovetail d=12.7 flute=9 angle=14";
     case CutKind::thread: return "thread mill minor_diameter=4.6 major_diameter=6 pitch=1.4 length=15";
     case CutKind::countersink: return "ball d=6";
+    case CutKind::vcarve: return "V d=20 angle=60";
+    case CutKind::vcarve_floor: return "square d=3";
     default: return "square d=6";
   }
+}
+
+std::string_view second_tool_of(CutKind kind) {
+  if (kind == CutKind::thread) return "2 = \"square d=6\"\n";
+  if (kind == CutKind::vcarve_floor) return "2 = \"V d=20 angle=60\"\n";
+  return "";
 }
 
 /// The value of a key in the example of an operation.
 std::string example_of(CutKind kind, const CutKey& key) {
   if (kind == CutKind::thread && key.name == "side") return "\"inside\"";
   if (kind == CutKind::thread && key.name == "outlines") return "[\"thread\"]";
-  if (kind == CutKind::countersink && key.name == "depth") return "3";
+  const bool carves = kind == CutKind::vcarve || kind == CutKind::vcarve_floor;
+  if ((kind == CutKind::countersink || carves) && key.name == "depth") return "3";
+  if (kind == CutKind::vcarve && key.name == "entry") return "\"ramp\"";
   return std::string(key.example);
 }
 
@@ -138,8 +163,8 @@ std::optional<std::string> cut_job_example(std::string_view name) {
       "# unit = \"mm\"             # of a drawing that specifies none: mm or inch\n" +
       std::string(stock_of(*kind)) + std::string(shapes_of(*kind)) +
       "[tools]                   # number = shape, as for --tool\n";
-  text +=
-      fmt::format("1 = \"{}\"\n{}\n", tool_of(*kind), *kind == CutKind::thread ? "2 = \"square d=6\"\n" : "");
+  text += fmt::format("1 = \"{}\"\n{}\n", tool_of(*kind), second_tool_of(*kind));
+  if (*kind == CutKind::vcarve_floor) text += kCarveFirst;
   text += fmt::format("[[operation]]             # operations are cut in this order\nop = \"{}\"\n",
                       cut_kind_names()[static_cast<std::size_t>(*kind)]);
   for (const CutKey& key : cut_keys()) {

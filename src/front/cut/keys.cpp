@@ -9,8 +9,9 @@
 namespace kerf {
 
 const std::vector<std::string>& cut_kind_names() {
-  static const std::vector<std::string> names{"pocket", "contour", "engrave", "face",   "drill",
-                                              "bore",   "keyhole", "slot",    "thread", "countersink"};
+  static const std::vector<std::string> names{"pocket", "contour",     "engrave", "face",
+                                              "drill",  "bore",        "keyhole", "slot",
+                                              "thread", "countersink", "vcarve",  "vcarve-floor"};
   return names;
 }
 
@@ -49,6 +50,7 @@ constexpr Names<PocketPattern, 2> kPatterns{
     {{{"offset", PocketPattern::offset}, {"zigzag", PocketPattern::zigzag}}}};
 constexpr Names<ContourSide, 2> kSides{
     {{{"outside", ContourSide::outside}, {"inside", ContourSide::inside}}}};
+constexpr Names<InlayPart, 2> kParts{{{{"pocket", InlayPart::pocket}, {"plug", InlayPart::plug}}}};
 constexpr Names<ThreadHand, 2> kHands{{{{"right", ThreadHand::right}, {"left", ThreadHand::left}}}};
 constexpr Names<LeadKind, 2> kLeads{{{{"arc", LeadKind::arc}, {"line", LeadKind::line}}}};
 constexpr Names<TabShape, 2> kTabs{
@@ -71,10 +73,10 @@ bool set_list(std::vector<std::string>& target, const CutValue& value) {
   if (many != nullptr) target = *many;
   return !std::holds_alternative<double>(value) && !target.empty();
 }
-bool set_tool(Operation& o, const CutValue& value) {
+bool set_tool(int& target, const CutValue& value) {
   const auto given = number(value);
   if (!given || *given < 0 || *given > limits::kMaxToolNumber || *given != std::floor(*given)) return false;
-  o.tool = static_cast<int>(*given);
+  target = static_cast<int>(*given);
   return true;
 }
 bool set_count(int& target, const CutValue& value, int maximum) {
@@ -117,7 +119,8 @@ std::vector<CutKey> frame_keys() {
        [](Operation& o, const CutValue& v) { return set_list(o.layers, v); }},
       {"outlines", Type::list, "", "names of the outlines that are used, as kerf outline reports them",
        "[\"CUT.1\"]", [](Operation& o, const CutValue& v) { return set_list(o.outlines, v); }},
-      {"tool", Type::number, "", "number of the tool", "1", set_tool},
+      {"tool", Type::number, "", "number of the tool", "1",
+       [](Operation& o, const CutValue& v) { return set_tool(o.tool, v); }},
       {"rpm", Type::number, "rpm", "spindle speed, clockwise", "16000", set_speed},
       {"top", Type::number, "mm", "Z of the surface of the material", "0", KERF_NUMBER(cut.top, plain)},
       {"depth", Type::number, "mm", "below the surface", "6", KERF_NUMBER(cut.depth, mm)},
@@ -205,12 +208,28 @@ std::vector<CutKey> hole_keys() {
   };
 }
 
+/// Of V-carving and inlays.
+std::vector<CutKey> carving_keys() {
+  return {
+      {"part", Type::text, "pocket, plug", "of an inlay: what is carved, or what fits into it, mirrored",
+       "\"pocket\"", KERF_NAMED(kParts, part)},
+      {"glue-gap", Type::number, "mm", "between the face of a plug and the floor of its pocket", "0.3",
+       KERF_NUMBER(glue_gap, mm)},
+      {"base-gap", Type::number, "mm", "between the surfaces around a plug and around its pocket", "0.5",
+       KERF_NUMBER(base_gap, mm)},
+      {"margin", Type::number, "mm", "width of the floor around a plug; 0: twice the diameter", "0",
+       KERF_NUMBER(margin, mm)},
+      {"carve-tool", Type::number, "", "number of the tool that carves the walls of a floor", "2",
+       [](Operation& o, const CutValue& v) { return set_tool(o.carve_tool, v); }},
+  };
+}
+
 }  // namespace
 
 const std::vector<CutKey>& cut_keys() {
   static const std::vector<CutKey> keys = [] {
     std::vector<CutKey> all;
-    for (const auto& part : {frame_keys(), way_keys(), wall_keys(), hole_keys()})
+    for (const auto& part : {frame_keys(), way_keys(), wall_keys(), hole_keys(), carving_keys()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
@@ -232,7 +251,11 @@ const CutKey* key_named(std::string_view name) {
   return nullptr;
 }
 
-bool is_required(std::string_view key) { return key == "tool" || key == "depth" || key == "feed"; }
+bool is_required(CutKind kind, std::string_view key) {
+  if (key == "depth") return kind != CutKind::vcarve;
+  if (key == "carve-tool") return kind == CutKind::vcarve_floor;
+  return key == "tool" || key == "feed";
+}
 
 bool applies(CutKind kind, std::string_view key) {
   const auto any = [&](std::initializer_list<CutKind> kinds) {
@@ -241,22 +264,27 @@ bool applies(CutKind kind, std::string_view key) {
     return false;
   };
   using enum CutKind;
-  if (key == "pattern") return any({pocket});
+  if (key == "pattern") return any({pocket, vcarve_floor});
+  if (key == "carve-tool") return any({vcarve_floor});
+  if (key == "part" || key == "glue-gap" || key == "base-gap" || key == "margin")
+    return any({vcarve, vcarve_floor});
   if (key == "length" || key == "slot-clearance") return any({keyhole});
   if (key == "width") return any({slot});
   if (key == "cone-angle") return any({countersink});
   if (key == "pitch" || key == "hand" || key.starts_with("thread")) return any({thread});
   if (key == "side") return any({contour, thread});
   if (key == "overlap" || key.starts_with("lead") || key.starts_with("tab")) return any({contour});
-  if (key == "finish") return any({contour, pocket});
+  if (key == "finish") return any({contour, pocket, vcarve_floor});
   if (key == "cycle" || key == "peck" || key == "dwell") return any({drill});
-  if (key == "stepover") return any({pocket, face, bore, slot});
-  if (key == "angle") return any({pocket, face, keyhole});
-  if (key == "allowance") return any({pocket, contour, bore});
+  if (key == "stepover") return any({pocket, face, bore, slot, vcarve_floor});
+  if (key == "angle") return any({pocket, face, keyhole, vcarve_floor});
+  if (key == "allowance") return any({pocket, contour, bore, vcarve_floor});
   if (key == "direction") return kind != drill && kind != engrave && kind != face;
   if (key == "plunge") return kind != drill;
-  if (key == "stepdown" || key == "entry-angle") return any({pocket, contour, engrave, face, bore});
-  if (key == "entry" || key == "helix-radius") return any({pocket, contour, engrave, face});
+  if (key == "stepdown" || key == "entry-angle")
+    return kind != drill && kind != keyhole && kind != slot && kind != thread && kind != countersink;
+  if (key == "entry" || key == "helix-radius")
+    return any({pocket, contour, engrave, face, vcarve, vcarve_floor});
   return true;
 }
 

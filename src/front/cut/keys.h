@@ -7,7 +7,7 @@ namespace kerf::cut_detail {
 
 std::optional<CutKind> kind_named(std::string_view name);
 const CutKey* key_named(std::string_view name);
-bool is_required(std::string_view key);
+bool is_required(CutKind kind, std::string_view key);
 /// Whether a key has an effect on operations of a kind.
 bool applies(CutKind kind, std::string_view key);
 

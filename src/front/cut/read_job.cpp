@@ -33,7 +33,8 @@ std::string rule_of(const CutKey& key) {
 CutOperation blank(CutKind kind) {
   CutOperation operation;
   operation.kind = kind;
-  if (kind == CutKind::contour || kind == CutKind::engrave) operation.cut.entry.kind = EntryKind::ramp;
+  if (kind == CutKind::contour || kind == CutKind::engrave || kind == CutKind::vcarve)
+    operation.cut.entry.kind = EntryKind::ramp;
   if (kind == CutKind::thread) operation.side = ContourSide::inside;
   return operation;
 }
@@ -206,7 +207,7 @@ class JobReader {
     if (made.name.empty()) made.name = usual_name(made, index);
     made.cut.name = made.name;
     for (const CutKey& key : cut_keys())
-      if (is_required(key.name) && !given.contains(std::string(key.name)))
+      if (is_required(*kind, key.name) && !given.contains(std::string(key.name)))
         error(Code::cut_job_key, made.cut.where, fmt::format("{}: {} is missing", made.name, key.name)).hint =
             fmt::format("{} = {}", key.name, key.example);
     job_.operations.push_back(std::move(made));
@@ -273,7 +274,7 @@ std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::s
     given.insert(name);
   }
   for (const CutKey& key : cut_keys())
-    if (is_required(key.name) && !given.contains(std::string(key.name))) {
+    if (is_required(*kind, key.name) && !given.contains(std::string(key.name))) {
       diagnostics.error(Code::cut_job_key, where(key.name), fmt::format("{} is missing", key.name)).hint =
           fmt::format("--{} {}", key.name, key.example);
       good = false;
