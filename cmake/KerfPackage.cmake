@@ -1,5 +1,5 @@
-# What is installed, and the Debian package: the command, the Python modules in a folder of their own where `kerf run` and
-# Debian's python3 find them, the manual, the examples.
+# What is installed, and the Debian package: the command, the Python modules in a folder of their own where
+# `kerf run` and Debian's python3 find them, the manual, the examples.
 set(doc_folder share/doc/kerf)
 install(FILES README.md CHANGELOG.md NOTICE DESTINATION ${doc_folder} COMPONENT doc)
 install(FILES LICENSE DESTINATION ${doc_folder} RENAME copyright COMPONENT doc)
@@ -9,7 +9,8 @@ install(DIRECTORY examples DESTINATION ${doc_folder} COMPONENT doc)
 
 # Debian's python3 reads this file at its start and adds the folder in it to its path.
 file(CONFIGURE OUTPUT "${CMAKE_BINARY_DIR}/kerf.pth" CONTENT "/usr/${KERF_PYTHON_DIR}\n")
-install(FILES "${CMAKE_BINARY_DIR}/kerf.pth" DESTINATION lib/python3/dist-packages COMPONENT python_path EXCLUDE_FROM_ALL)
+install(FILES "${CMAKE_BINARY_DIR}/kerf.pth" DESTINATION lib/python3/dist-packages
+  COMPONENT python_path EXCLUDE_FROM_ALL)
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME kerf)

@@ -28,8 +28,8 @@ std::string module_folder() {
   std::error_code failed;
   const auto command = std::filesystem::read_symlink("/proc/self/exe", failed);
   if (failed) return "";
-  for (const char* place : {"python", "../lib/kerf/python"}) {
-    const auto folder = (command.parent_path() / place).lexically_normal();
+  for (const char* relative : {"python", "../lib/kerf/python"}) {
+    const auto folder = (command.parent_path() / relative).lexically_normal();
     if (std::filesystem::is_directory(folder / "kerf", failed)) return folder.string();
   }
   return "";

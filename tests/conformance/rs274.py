@@ -190,10 +190,10 @@ def events_of(text, canon=None):
     return canon.events, error
 
 
-def moves_of(text):
+def moves_of(text, tools=TOOLS):
     """The moves of a program, and the interpreter's error message or None."""
     canon = Canon()
-    error = follow(text, canon)
+    error = follow(text, canon, tools=tools)
     return canon.moves, error
 
 

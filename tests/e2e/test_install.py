@@ -18,8 +18,8 @@ def prefix(tmp_path_factory):
         pytest.skip("the command is not in its build folder, or CMake is missing")
     folder = tmp_path_factory.mktemp("prefix")
     for component in COMPONENTS:
-        subprocess.run(["cmake", "--install", BUILD, "--prefix", folder, "--component", component], check=True,
-                       capture_output=True)
+        words = ["cmake", "--install", BUILD, "--prefix", folder, "--component", component]
+        subprocess.run(words, check=True, capture_output=True)
     return folder
 
 
@@ -32,7 +32,8 @@ def run(prefix, folder, *words):
 
 def test_the_example_and_the_manual_are_installed(prefix, tmp_path):
     doc = prefix / "share" / "doc" / "kerf"
-    for page in ("README.md", "copyright", "NOTICE", "docs/manual/command.md", "docs/manual/pictures/demo.png"):
+    pages = ("README.md", "copyright", "NOTICE", "docs/manual/command.md", "docs/manual/pictures/demo.png")
+    for page in pages:
         assert (doc / page).is_file(), page
     assert not list(doc.rglob("*.pyc"))
     done = run(prefix, tmp_path, "simulate", doc / "examples" / "demo.nc", "-o", "demo.png")

@@ -30,4 +30,5 @@ def test_the_commands_read_bundled_files():
     for name, command in table().items():
         words = command.format(examples=ROOT / "examples", out="x.png").split()
         inputs = [Path(word) for word in words if "/examples/" in word]
-        assert inputs and all(path.is_file() for path in inputs), name
+        assert inputs or words[:2] == ["cut", "--example"], name
+        assert all(path.is_file() for path in inputs), name

@@ -38,8 +38,8 @@ def rs274_errors(text):
     if not rs274.is_installed():
         return None
     numbers = {102, *(int(word[1:]) for word in text.split() if word[0] == "T" and word[1:].isdigit())}
-    rs274.TOOLS = "".join(f"T{n} P{i + 1} D0.125\n" for i, n in enumerate(sorted(numbers)))
-    moves, error = rs274.moves_of(text)
+    tools = "".join(f"T{n} P{i + 1} D0.125\n" for i, n in enumerate(sorted(numbers)))
+    moves, error = rs274.moves_of(text, tools)
     assert moves or error
     return error
 

@@ -15,12 +15,18 @@ EXAMPLES = Path(__file__).resolve().parents[3] / "examples"
 SIZE = (640, 400)  # pixels
 COLOURS = 64  # of the palette: small files
 
-# Name of the picture, and the command that makes it: {examples} is the folder of examples, {out} the picture.
+OPERATIONS = ("pocket", "contour", "engrave", "face", "drill", "bore", "keyhole", "slot", "thread",
+              "countersink", "vcarve", "vcarve-floor")
+
+# Name of the picture, and the commands that make it, after one another: {examples} is the folder of examples,
+# {out} the picture. What a command before the last one prints is kept as job.toml.
 PICTURES = {
     "demo": "simulate {examples}/demo.nc -o {out}",
     **{name: f"run {{examples}}/gcodepreview/{name}.py -o {{out}}"
        for name in ("box", "commands", "hanger", "relief", "sign")},
     "tray-top": "run {examples}/gcodepreview/tray.py -o {out}.glb",  # a file that the script writes
+    **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}}" for name in OPERATIONS},
+    "inlay": "simulate {examples}/inlay.toml -o {out}",
     **{f"path-{number}": f"simulate {{examples}}/path/{number}.1P.dxf -o {{out}} --spoilboard 3"
        for number in ("9001", "9002", "9003", "9004", "9005", "9006", "9008", "9009")},
 }
@@ -32,11 +38,13 @@ def make(kerf, name, folder):
 
     with tempfile.TemporaryDirectory() as scratch:
         out = Path(scratch, name + ".png")
-        words = [word.format(examples=EXAMPLES, out=out) for word in PICTURES[name].split()]
-        done = subprocess.run([kerf, *words], cwd=scratch, capture_output=True, text=True,
-                              env={**os.environ, "KERF_PYTHON": sys.executable})
+        for command in PICTURES[name].split(";"):
+            words = [word.format(examples=EXAMPLES, out=out) for word in command.split()]
+            done = subprocess.run([kerf, *words], cwd=scratch, capture_output=True, text=True,
+                                  env={**os.environ, "KERF_PYTHON": sys.executable})
+            Path(scratch, "job.toml").write_text(done.stdout)
         if not out.exists():
-            sys.exit(f"{name}: {' '.join(words)}: {done.stderr}")
+            sys.exit(f"{name}: {PICTURES[name]}: {done.stderr}")
         picture = Image.open(out).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
         picture.quantize(COLOURS, dither=Image.Dither.NONE).save(Path(folder, name + ".png"), optimize=True)
 
