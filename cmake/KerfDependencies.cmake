@@ -11,6 +11,7 @@ find_package(Boost 1.74 REQUIRED)  # headers of Boost.Polygon
 find_package(hwy REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(EXPAT REQUIRED)
+find_package(Freetype REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(MINIZIP REQUIRED QUIET IMPORTED_TARGET minizip)
 if(KERF_APP)

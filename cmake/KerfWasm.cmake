@@ -22,7 +22,7 @@ kerf_header_library(tomlplusplus::tomlplusplus TOML_HEADER_ONLY=1 TOML_SHARED_LI
 kerf_header_library(Boost::headers)
 kerf_header_library(hwy::hwy)  # one instruction set, so there is no selection at run time
 # Empty targets, so that a module's list of libraries is the same in every build.
-foreach(name Threads::Threads ZLIB::ZLIB EXPAT::EXPAT PkgConfig::MINIZIP)
+foreach(name Threads::Threads ZLIB::ZLIB EXPAT::EXPAT Freetype::Freetype PkgConfig::MINIZIP)
   add_library(${name} INTERFACE IMPORTED GLOBAL)
 endforeach()
 

@@ -35,6 +35,7 @@
 #include "kerf/op/v_carve.h"
 #include "kerf/outline.h"
 #include "kerf/progress.h"
+#include "kerf/text.h"
 #include "kerf/tool.h"
 #include "kerf/toolpath.h"
 
@@ -46,6 +47,14 @@ struct ArtShape {
   std::optional<Outline> outline;
   std::optional<Circle> circle;  ///< of an outline that is one
   std::optional<Point2> point;
+};
+
+/// A text of a job, which becomes shapes of its own.
+struct TextShape {
+  std::string name = "text", layer;
+  std::string text;           ///< UTF-8
+  std::string font = "sans";  ///< a built-in font of single strokes, or the name of a font file
+  TextOptions options{};
 };
 
 enum class CutKind : std::uint8_t {
@@ -89,13 +98,15 @@ struct CutOperation {
   std::optional<Angle> cone{};              ///< of a countersink; nothing: 90 degrees
   InlayPart part = InlayPart::pocket;       ///< of a V-carving
   Length glue_gap{}, base_gap{}, margin{};  ///< of a plug
+  std::optional<int> rest_tool;             ///< of a pocket: only what this tool has left
   int carve_tool = 0;                       ///< of a vcarve_floor: the tool of the walls
   std::optional<double> retract;            ///< Z; nothing: 5 mm above the highest surface
 };
 
 struct CutJob {
-  std::string art;                   ///< file, relative to that of the job; may be empty
-  std::vector<ArtShape> shapes;      ///< of the job itself, besides those of `art`
+  std::string art;               ///< file, relative to that of the job; may be empty
+  std::vector<ArtShape> shapes;  ///< of the job itself, besides those of `art`
+  std::vector<TextShape> texts;
   std::optional<Length> unit;        ///< of one unit of the drawing, if it specifies none
   std::string stock;                 ///< as for --stock; may be empty
   std::map<int, std::string> tools;  ///< by number, as for --tool
@@ -117,6 +128,21 @@ struct CutKey {
 const std::vector<CutKey>& cut_keys();
 /// "pocket", "contour", ...
 const std::vector<std::string>& cut_kind_names();
+
+/// A key of a text: in a [[shape]], and an option of the command.
+struct CutTextKey {
+  std::string_view name;
+  CutKey::Type type = CutKey::Type::number;
+  std::string_view unit, meaning, example;  ///< as of CutKey
+  bool (*set)(TextShape& shape, const CutValue& value) = nullptr;
+};
+const std::vector<CutTextKey>& cut_text_keys();
+/// Whether the font of a text is a file.
+bool has_font_file(const TextShape& shape);
+/// The outlines of a text; `font` is the content of its font file, if it has one. Nothing, with errors, if
+/// invalid.
+std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std::string_view font,
+                                                    Diagnostics& diagnostics);
 
 /// Reads the text of a job file. Nothing, with errors that name line and key, if it is invalid.
 std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,

@@ -33,6 +33,21 @@ std::vector<ArtShape> shapes_of(DrawingOutlines drawn) {
   return shapes;
 }
 
+/// The outlines of a text; its font file is relative to the folder of the job.
+void add_text(const TextShape& text, const std::string& folder, std::vector<ArtShape>& shapes,
+              std::vector<std::string>& files, Diagnostics& diagnostics) {
+  std::optional<InputFile> font;
+  if (has_font_file(text)) {
+    const std::string name = text.font.front() == '/' ? text.font : folder + text.font;
+    font = InputFile::open(name, diagnostics);
+    if (!font) return;
+    files.push_back(name);
+  }
+  auto made = shapes_of_text(text, font ? font->bytes() : std::string_view{}, diagnostics);
+  if (!made) return;
+  for (ArtShape& shape : *made) shapes.push_back(std::move(shape));
+}
+
 Program read(const InputFile& file, const ProgramOptions&, Diagnostics& diagnostics, Progress* progress) {
   Program program;
   const auto job = read_cut_job(file.bytes(), file.path(), diagnostics);
@@ -76,6 +91,8 @@ std::optional<Program> load_cut_job(const CutJob& job, const std::string& art, c
     }
   if (!job.stock.empty()) program.stock = read_stock_option(job.stock, origin, diagnostics);
   std::vector<ArtShape> shapes = job.shapes;
+  for (const TextShape& text : job.texts)
+    add_text(text, folder_of(where), shapes, program.files, diagnostics);
   if (!art.empty())
     for (ArtShape& shape : load_art(art, job.unit, diagnostics)) shapes.push_back(std::move(shape));
   if (diagnostics.errors() > errors) return std::nullopt;

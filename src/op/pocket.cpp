@@ -261,6 +261,34 @@ std::optional<Operation> pocket(const Region& region, const Tool& tool, const Po
   return made;
 }
 
+std::optional<Operation> rest_pocket(const Region& region, const Tool& earlier, const Tool& tool,
+                                     const PocketOptions& options, Diagnostics& diagnostics) {
+  const CutOptions& cut = options.cut;
+  if (!valid(cut, tool, diagnostics) || !usable(region, cut, diagnostics)) return std::nullopt;
+  Diagnostics of_earlier;  // parts too narrow for it are what is cut here
+  auto before = reach(region, earlier, ReachSide::inside, cut, of_earlier);
+  auto last = reach(region, tool, ReachSide::inside, cut, diagnostics);
+  if (!last || stop_requested(cut.progress)) return std::nullopt;
+  // Where the axis may be and the tool reaches what is left.
+  const RegionOptions regions = region_options(cut);
+  const Length radius = mm(last->radius);
+  const auto near =
+      before ? offset(before->unreached, radius, regions, diagnostics) : std::optional(Offset{region, 0, {}});
+  const auto axis =
+      near ? combine(last->axis, near->region, Boolean::intersect, regions, diagnostics) : std::nullopt;
+  const auto part = axis ? offset(axis->region, radius, regions, diagnostics) : std::nullopt;
+  if (!part) return std::nullopt;
+  if (area(part->region) <= cut.tolerance.chord.mm() * length(part->region).mm()) {
+    fail(cut, Code::op_empty,
+         fmt::format("tool {} leaves nothing that tool {} reaches", earlier.number, tool.number),
+         diagnostics);
+    return std::nullopt;
+  }
+  auto made = pocket(part->region, tool, options, diagnostics);
+  if (made) made->unreached = std::move(last->unreached), made->narrow = std::move(last->narrow);
+  return made;
+}
+
 std::optional<Operation> facing(const Region& region, const Tool& tool, const FacingOptions& options,
                                 Diagnostics& diagnostics) {
   const CutOptions& cut = options.cut;

@@ -24,6 +24,13 @@ def test_carving_and_the_plug_of_an_inlay():
         kerf.cut("vcarve", PLATE, MILL, feed=900)
 
 
+def test_text_is_engraved():
+    word = kerf.cut("engrave", tool="V d=6 angle=60", text="HI", height=10, at=(5, 5), depth=0.4, feed=600)
+    assert len(word) > 10
+    with pytest.raises(kerf.Error, match="no font"):
+        kerf.cut("engrave", tool="V d=6 angle=60", text="HI", height=10, font="gothic", depth=0.4, feed=600)
+
+
 def test_errors_are_raised():
     with pytest.raises(kerf.Error, match="depth is missing"):
         kerf.cut("pocket", PLATE, MILL, feed=900)

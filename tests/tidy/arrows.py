@@ -10,7 +10,8 @@ from sources import CPP, files, finish, root_of
 GEOMETRY = {"geom", "base"}
 PATH = {"path", "tool", "stock"} | GEOMETRY
 OP = {"op"} | PATH
-CODEC = {"codec_drawing", "codec_gcode", "codec_heights", "codec_mesh", "codec_png", "codec_zip"}
+CODEC = {"codec_drawing", "codec_font", "codec_gcode", "codec_heights", "codec_mesh", "codec_png",
+         "codec_zip"}
 FRONT = {"front_gcode", "front_gcmc", "front_tools", "front_stock", "front_outline", "front_pathdxf",
          "front_cut"}
 BACK = {"back_drawing", "back_gcode", "back_pathdxf"}
@@ -36,6 +37,7 @@ ALLOWED = {
         "region": ["outline", "base"],
         "offset": ["region", "outline", "base"],
         "medial": ["region", "outline", "base"],
+        "text": ["outline", "base"],
     }),
     "tool": GEOMETRY,
     "stock": GEOMETRY,
@@ -94,6 +96,7 @@ PUBLIC = {
     "geom_region": ["region.h"],
     "geom_offset": ["offset.h"],
     "geom_medial": ["medial_axis.h"],
+    "geom_text": ["text.h", "stroke_fonts.h"],
     "tool": ["tool.h", "tool_comments.h", "material.h"],
     "stock": ["stock.h", "stock_body.h", "round_bar.h"],
     "path": ["toolpath.h", "report.h", "check.h", "passes.h", "machine.h", "estimate.h", "assumed_stock.h",
@@ -126,6 +129,7 @@ PUBLIC = {
     "front_outline": ["outline_files.h", "drawing_outlines.h"],
     "back_drawing": ["outline_drawing.h", "toolpath_drawing.h", "gcmc_drawing.h"],
     "codec_drawing": ["drawing_files.h", "dxf.h", "svg.h"],
+    "codec_font": ["font_files.h"],
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],

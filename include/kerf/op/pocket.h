@@ -28,6 +28,12 @@ struct PocketOptions {
 std::optional<Operation> pocket(const Region& region, const Tool& tool, const PocketOptions& options,
                                 Diagnostics& diagnostics);
 
+/// Rest machining: only what a pocket of the same region by an earlier tool has left, with the same options
+/// but for the tool. Also cuts what is up to the tool's diameter around that. op_empty if nothing is left
+/// that the tool could reach.
+std::optional<Operation> rest_pocket(const Region& region, const Tool& earlier, const Tool& tool,
+                                     const PocketOptions& options, Diagnostics& diagnostics);
+
 struct FacingOptions {
   CutOptions cut{};
   double stepover = 0.4;  ///< as of a pocket

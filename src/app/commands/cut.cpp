@@ -1,5 +1,6 @@
 // kerf cut: runs operations on the outlines of a drawing, and writes the program for a controller.
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <memory>
 
@@ -24,6 +25,10 @@ struct Options {
   std::string op;
   bool schema = false;
   std::vector<std::pair<std::string, std::string>> values;  // keys of the operation that are given
+
+  bool has(std::string_view key) const {
+    return std::any_of(values.begin(), values.end(), [&](const auto& v) { return v.first == key; });
+  }
 };
 
 bool is_job(const std::string& file) { return file.ends_with(".toml"); }
@@ -53,16 +58,19 @@ std::optional<CutJob> job_of(const Options& options, Diagnostics& usage) {
   auto job = cut_job_of(values, usage);
   if (!job) return std::nullopt;
   if (!options.unit.empty()) job->unit = drawing_unit(options.unit);
+  // Fonts are files beside the current folder, not beside the drawing.
+  for (TextShape& text : job->texts)
+    if (has_font_file(text)) text.font = std::filesystem::absolute(text.font).string();
   job->tools[1] = options.tool;
   job->stock = options.stock;
   return job;
 }
 
 void check_usage(const Options& options, Diagnostics& usage) {
-  if (options.file.empty())
+  if (options.file.empty() && !options.has("text"))
     usage.error(Code::file_unreadable, CallLocation{"", 0, "FILE"},
-                "no drawing, outline file or job is given");
-  if (!options.out.empty() && is_same_file(options.out, options.file))
+                "no drawing, outline file, job or --text is given");
+  if (!options.out.empty() && !options.file.empty() && is_same_file(options.out, options.file))
     usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
   if (is_job(options.file))
     for (const auto& [key, text] : options.values)
@@ -117,7 +125,7 @@ Status run(Console& console, const Options& options) {
       usage.error(Code::output_is_input, CallLocation{"", 0, "-o"}, "the output would replace the input");
       return fail(console, usage, Status::wrong_usage);
     }
-  program->source = options.file;
+  program->source = options.file.empty() ? "text" : options.file;
   PostingOptions posting;
   posting.tools = program->tools;
   const auto files = post_program(*program, *target, posting, diagnostics, &progress);
@@ -131,12 +139,33 @@ const char* const kExamples =
     R"(  kerf cut part.dxf --op pocket --tool "square d=6" --depth 6 --stepdown 2 --feed 900 -o part.nc
   kerf cut part.dxf --op contour --tool "square d=3" --depth 3 --feed 600 --side outside -o part.nc
   kerf cut part.dxf --op drill --layers HOLES --tool "drill d=3 angle=118" --depth 10 --feed 100
+  kerf cut --op engrave --text "WORD" --height 10 --tool "V d=6 angle=60" --depth 0.4 --feed 600
+  kerf cut --op vcarve --text "Word" --height 20 --font DejaVuSerif.ttf --tool "V d=12 angle=60" --feed 900
   kerf cut --example pocket > job.toml              a job file to start from
   kerf cut job.toml -o part.nc                      all operations of a job
   kerf simulate job.toml -o part.png                what they leave
 
 Lengths in mm, feeds in mm/min, angles in degrees.
 )";
+
+/// An option for a key of an operation or a text.
+template <class Key>
+void add_key(CommandParser& parser, const std::shared_ptr<Options>& options, const Key& key) {
+  const std::string name(key.name);
+  const std::string unit =
+      key.type == CutKey::Type::text && !key.unit.empty() ? fmt::format(" ({})", key.unit) : "";
+  parser
+      .add_parsed(
+          "--" + name,
+          [options, name](const std::string& text) {
+            options->values.emplace_back(name, text);
+            return std::string();
+          },
+          fmt::format("{}{}", key.meaning, unit))
+      .value_name(key.type == CutKey::Type::number ? (key.unit.empty() ? "N" : std::string(key.unit))
+                  : key.type == CutKey::Type::list ? "NAMES"
+                                                   : "NAME");
+}
 
 }  // namespace
 
@@ -148,23 +177,9 @@ Command add_cut(CommandParser& root) {
       .optional();
   parser.add_text("--op", options->op, "The operation: " + joined(cut_kind_names(), ", ")).value_name("NAME");
   parser.add_text("--tool", options->tool, "The tool, as \"square d=6\"").value_name("SPEC");
-  for (const CutKey& key : cut_keys()) {
-    if (key.name == "tool" || key.name == "name") continue;
-    const std::string name(key.name);
-    const std::string unit =
-        key.type == CutKey::Type::text && !key.unit.empty() ? fmt::format(" ({})", key.unit) : "";
-    parser
-        .add_parsed(
-            "--" + name,
-            [options, name](const std::string& text) {
-              options->values.emplace_back(name, text);
-              return std::string();
-            },
-            fmt::format("{}{}", key.meaning, unit))
-        .value_name(key.type == CutKey::Type::number ? (key.unit.empty() ? "N" : std::string(key.unit))
-                    : key.type == CutKey::Type::list ? "NAMES"
-                                                     : "NAME");
-  }
+  for (const CutKey& key : cut_keys())
+    if (key.name != "tool" && key.name != "name") add_key(parser, options, key);
+  for (const CutTextKey& key : cut_text_keys()) add_key(parser, options, key);
   parser.add_text("--unit", options->unit, "Of a drawing that specifies none")
       .one_of({"mm", "inch", "px", "pt"});
   parser.add_text("--to", options->to, "The controller: a name of kerf post --list (default grbl)")

@@ -155,7 +155,17 @@ class JobCompiler {
     if (operation.kind == CutKind::face)
       return facing(*region, tool, {.cut = cut, .stepover = operation.stepover, .angle = operation.angle},
                     diagnostics_);
-    return pocket(*region, tool, pocket_options(operation, cut), diagnostics_);
+    return pocketed(operation, tool, *region, cut);
+  }
+
+  /// A pocket, or what an earlier tool has left of it.
+  std::optional<Operation> pocketed(const CutOperation& operation, const Tool& tool, const Region& region,
+                                    const CutOptions& cut) {
+    const PocketOptions options = pocket_options(operation, cut);
+    if (!operation.rest_tool) return pocket(region, tool, options, diagnostics_);
+    const auto earlier = tools_.find(*operation.rest_tool);
+    if (earlier == tools_.end()) return no_shape(operation, *operation.rest_tool), std::nullopt;
+    return rest_pocket(region, earlier->second, tool, options, diagnostics_);
   }
 
   static PocketOptions pocket_options(const CutOperation& operation, const CutOptions& cut) {
@@ -183,7 +193,7 @@ class JobCompiler {
                             : v_carve_floor(region, carver->second, {.cut = cut}, diagnostics_);
     if (!floor) return std::nullopt;
     if (plug) cut.depth = inlay_plug_depth(options);
-    return pocket(*floor, tool, pocket_options(operation, cut), diagnostics_);
+    return pocketed(operation, tool, *floor, cut);
   }
 
   static ContourOptions contour_options(const CutOperation& operation, const CutOptions& cut) {

@@ -80,7 +80,11 @@ std::string_view shapes_of(CutKind kind) {
     case CutKind::engrave:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"arrow\"\n"
-             "line = [[0, 0], [40, 0], [30, 8]]\n\n";
+             "line = [[0, 0], [40, 0], [30, 8]]\n\n"
+             "[[shape]]\n"
+             "text = \"KERF\"            # font, text-angle, align, letter-spacing\n"
+             "height = 8                # of capital letters\n"
+             "at = [0, 12]              # start of the baseline\n\n";
     case CutKind::face:
       return "[[shape]]                 # shapes of the job itself, besides those of art\n"
              "name = \"frame\"\n"
@@ -148,6 +152,14 @@ Json schema_of_shape() {
   for (const char* name : {"name", "layer"}) shape["properties"][name] = Json{{"type", "string"}};
   for (const char* name : {"rectangle", "circle", "point"}) shape["properties"][name] = numbers;
   for (const char* name : {"polygon", "line"}) shape["properties"][name] = points;
+  for (const CutTextKey& key : cut_text_keys()) {
+    if (key.name == "at") {
+      shape["properties"]["at"] = numbers;
+      continue;
+    }
+    shape["properties"][std::string(key.name)] =
+        schema_of({key.name, key.type, key.unit, key.meaning, key.example, nullptr});
+  }
   shape["properties"]["corner"] = Json{{"type", "number"}, {"minimum", 0}};
   return shape;
 }
@@ -170,7 +182,8 @@ std::optional<std::string> cut_job_example(std::string_view name) {
   for (const CutKey& key : cut_keys()) {
     if (!applies(*kind, key.name)) continue;
     const std::string example = example_of(*kind, key);
-    const bool select = key.name == "layers" || key.name == "outlines" || key.name == "name";
+    const bool select =
+        key.name == "layers" || key.name == "outlines" || key.name == "name" || key.name == "rest-tool";
     // What selects shapes is a comment, unless the example needs it.
     const bool used = !select || example != key.example;
     const std::string line = fmt::format("{}{} = {}", used ? "" : "# ", key.name, example);

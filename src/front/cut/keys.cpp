@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "front/cut/values.h"
+
 #include "kerf/names.h"
 
 namespace kerf {
@@ -17,30 +19,9 @@ const std::vector<std::string>& cut_kind_names() {
 
 namespace {
 
+using namespace cut_detail;
 using Operation = CutOperation;
 using Type = CutKey::Type;
-
-std::optional<double> number(const CutValue& value) {
-  const double* given = std::get_if<double>(&value);
-  return given != nullptr && std::isfinite(*given) ? std::optional(*given) : std::nullopt;
-}
-
-template <class Value, std::size_t N>
-struct Names {
-  std::array<std::pair<std::string_view, Value>, N> rows;
-};
-
-template <class Value, std::size_t N>
-bool set_named(const Names<Value, N>& names, Value& target, const CutValue& value) {
-  const auto* given = std::get_if<std::string>(&value);
-  if (given == nullptr) return false;
-  for (const auto& [name, meaning] : names.rows)
-    if (fold_name(name) == fold_name(*given)) {
-      target = meaning;
-      return true;
-    }
-  return false;
-}
 
 constexpr Names<CutDirection, 2> kDirections{
     {{{"climb", CutDirection::climb}, {"conventional", CutDirection::conventional}}}};
@@ -62,11 +43,6 @@ constexpr Names<DrillKind, 6> kCycles{{{{"plain", DrillKind::plain},
                                         {"bore", DrillKind::bore},
                                         {"dwell-bore", DrillKind::dwell_bore}}}};
 
-bool set_text(std::string& target, const CutValue& value) {
-  const auto* given = std::get_if<std::string>(&value);
-  if (given != nullptr) target = *given;
-  return given != nullptr && !given->empty();
-}
 bool set_list(std::vector<std::string>& target, const CutValue& value) {
   if (const auto* one = std::get_if<std::string>(&value)) target = {*one};
   const auto* many = std::get_if<std::vector<std::string>>(&value);
@@ -219,6 +195,14 @@ std::vector<CutKey> carving_keys() {
        KERF_NUMBER(base_gap, mm)},
       {"margin", Type::number, "mm", "width of the floor around a plug; 0: twice the diameter", "0",
        KERF_NUMBER(margin, mm)},
+      {"rest-tool", Type::number, "", "number of the tool of an earlier pocket: only what it left is cut",
+       "2",
+       [](Operation& o, const CutValue& v) {
+         int tool = 0;
+         if (!set_tool(tool, v)) return false;
+         o.rest_tool = tool;
+         return true;
+       }},
       {"carve-tool", Type::number, "", "number of the tool that carves the walls of a floor", "2",
        [](Operation& o, const CutValue& v) { return set_tool(o.carve_tool, v); }},
   };
@@ -265,6 +249,7 @@ bool applies(CutKind kind, std::string_view key) {
   };
   using enum CutKind;
   if (key == "pattern") return any({pocket, vcarve_floor});
+  if (key == "rest-tool") return any({pocket, vcarve_floor});
   if (key == "carve-tool") return any({vcarve_floor});
   if (key == "part" || key == "glue-gap" || key == "base-gap" || key == "margin")
     return any({vcarve, vcarve_floor});

@@ -66,7 +66,7 @@ class JobReader {
     if (list != nullptr && list->size() > kMaxOperations)
       error(Code::cut_job_key, location(list->source()),
             fmt::format("more than {} operations", kMaxOperations));
-    if (job_.art.empty() && job_.shapes.empty() && !failed_)
+    if (job_.art.empty() && job_.shapes.empty() && job_.texts.empty() && !failed_)
       error(Code::cut_job_key, TextLocation{file_, 0, 0},
             "the job has no shapes: neither art, a file with outlines, nor [[shape]]")
           .hint = "art = \"part.dxf\"";
@@ -116,6 +116,14 @@ class JobReader {
   }
   void shapes(const toml::array& list) {
     for (const toml::node& node : list) {
+      if (is_text_shape(node)) {
+        auto text = read_text_shape(node, file_, diagnostics_);
+        if (text)
+          job_.texts.push_back(std::move(*text));
+        else
+          failed_ = true;
+        continue;
+      }
       auto shape = read_shape(node, file_, diagnostics_);
       if (shape)
         job_.shapes.push_back(std::move(*shape));
@@ -236,6 +244,31 @@ std::optional<CutValue> value_of(const CutKey& key, const std::string& text) {
   return CutValue(texts);
 }
 
+/// The text of the command line, if it has one; false, with errors, if it is invalid.
+bool read_texts(const std::vector<std::pair<std::string, std::string>>& values, CutJob& job,
+                Diagnostics& diagnostics) {
+  TextShape shape;
+  bool good = true, given = false;
+  for (const auto& [name, text] : values)
+    for (const CutTextKey& key : cut_text_keys()) {
+      if (key.name != name) continue;
+      given = true;
+      shape.options.where = CallLocation{"", 0, "--text"};
+      const auto number = key.type == CutKey::Type::number ? parse_number(text) : std::nullopt;
+      if (number ? key.set(shape, *number) : key.type == CutKey::Type::text && key.set(shape, text)) continue;
+      good = false;
+      diagnostics.error(Code::cut_job_key, CallLocation{"", 0, "--" + name},
+                        fmt::format("\"{}\" is not as in {}", text.substr(0, 60), key.example));
+    }
+  if (good && given && (shape.text.empty() || !(shape.options.height > Length{}))) {
+    good = false;
+    diagnostics.error(Code::cut_job_key, CallLocation{"", 0, shape.text.empty() ? "--text" : "--height"},
+                      "a text has --text and --height");
+  }
+  if (good && given) job.texts.push_back(std::move(shape));
+  return good;
+}
+
 }  // namespace
 
 std::optional<CutJob> read_cut_job(std::string_view text, const std::string& file_name,
@@ -256,7 +289,8 @@ std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::s
   }
   CutOperation operation = blank(*kind);
   operation.tool = 1;
-  bool good = true;
+  CutJob job;
+  bool good = read_texts(values, job, diagnostics);
   std::set<std::string> given{"tool"};
   for (const auto& [name, text] : values) {
     const CutKey* key = key_named(name);
@@ -283,7 +317,6 @@ std::optional<CutJob> cut_job_of(const std::vector<std::pair<std::string, std::s
   if (operation.name.empty()) operation.name = cut_kind_names()[static_cast<std::size_t>(*kind)];
   operation.cut.name = operation.name;
   operation.cut.where = where("op");
-  CutJob job;
   job.operations.push_back(std::move(operation));
   return job;
 }

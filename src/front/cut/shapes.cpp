@@ -162,4 +162,50 @@ std::optional<ArtShape> read_shape(const toml::node& node, const std::string& fi
   return std::nullopt;
 }
 
+bool is_text_shape(const toml::node& node) {
+  const toml::table* table = node.as_table();
+  return table != nullptr && table->contains("text");
+}
+
+std::optional<TextShape> read_text_shape(const toml::node& node, const std::string& file,
+                                         Diagnostics& diagnostics) {
+  TextShape shape;
+  const auto location = [&](const toml::source_region& at) {
+    return TextLocation{file, at.begin.line, at.begin.column};
+  };
+  shape.options.where = location(node.source());
+  bool good = true;
+  const auto fail = [&](const toml::source_region& at, std::string message) {
+    good = false;
+    diagnostics.error(Code::cut_job_key, location(at), std::move(message)).hint =
+        "text = \"KERF\", height = 10, at = [x, y], font, text-angle, align, letter-spacing, name, layer";
+  };
+  for (const auto& [key, value] : *node.as_table()) {
+    const std::string_view name = key.str();
+    if (name == "name" || name == "layer") {
+      const auto text = value.value_exact<std::string>();
+      if (!text) fail(value.source(), fmt::format("{} must be a text", name));
+      if (text) (name == "name" ? shape.name : shape.layer) = *text;
+      continue;
+    }
+    const auto& keys = cut_text_keys();
+    const auto known =
+        std::find_if(keys.begin(), keys.end(), [&](const CutTextKey& k) { return k.name == name; });
+    if (known == keys.end()) {
+      fail(key.source(), fmt::format("unknown key \"{}\" of a text", name.substr(0, 60)));
+      continue;
+    }
+    std::optional<CutValue> given;
+    if (const auto text = value.value_exact<std::string>()) given = CutValue(*text);
+    if (value.is_number()) given = CutValue(*value.value<double>());
+    if (const toml::array* pair = value.as_array();
+        pair != nullptr && pair->size() == 2 && (*pair)[0].is_number() && (*pair)[1].is_number())
+      given = CutValue(fmt::format("{},{}", *(*pair)[0].value<double>(), *(*pair)[1].value<double>()));
+    if (!given || !known->set(shape, *given))
+      fail(value.source(), fmt::format("{} must be as in {} = {}", name, name, known->example));
+  }
+  if (good && !(shape.options.height > Length{})) fail(node.source(), "the height of the text is missing");
+  return good ? std::optional(std::move(shape)) : std::nullopt;
+}
+
 }  // namespace kerf::cut_detail

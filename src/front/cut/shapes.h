@@ -10,4 +10,10 @@ namespace kerf::cut_detail {
 /// Reads a [[shape]]: one of rectangle, circle, polygon, line and point. Nothing, with an error, if invalid.
 std::optional<ArtShape> read_shape(const toml::node& node, const std::string& file, Diagnostics& diagnostics);
 
+/// Whether a [[shape]] is a text.
+bool is_text_shape(const toml::node& node);
+/// Reads a [[shape]] that is a text. Nothing, with an error, if invalid.
+std::optional<TextShape> read_text_shape(const toml::node& node, const std::string& file,
+                                         Diagnostics& diagnostics);
+
 }  // namespace kerf::cut_detail

@@ -241,6 +241,64 @@ TEST(Pocket, AFluteShorterThanTheDepthIsAWarning) {
   EXPECT_EQ(*first_code(diagnostics), Code::op_flute);
 }
 
+TEST(Pocket, RestMachiningCutsWhatTheEarlierToolLeft) {
+  std::mt19937_64 random(41);
+  int cut_count = 0;
+  for (int i = 0; i < 20; ++i) {
+    const Region region = i == 0 ? region_of({rectangle(0, 0, 40, 20)}) : random_region(random);
+    const Tool big = mill(8), small = mill(2.5);
+    PocketOptions options{.cut = usual(3, 1.5)};
+    options.pattern = i % 2 == 0 ? PocketPattern::offset : PocketPattern::zigzag;
+    Diagnostics diagnostics;
+    const auto first = pocket(region, big, options, diagnostics);
+    Diagnostics found;
+    const auto rest = rest_pocket(region, big, small, options, found);
+    if (!rest) {
+      for (const Diagnostic& d : found.list())
+        EXPECT_TRUE(d.severity != Severity::error || d.code == Code::op_empty || d.code == Code::op_tool_wide)
+            << to_string(d);
+      continue;
+    }
+    ++cut_count;
+    EXPECT_EQ(rapid_problem(rest->path, 1.25, 0), "") << i;
+    // Together they leave what the small tool alone would leave.
+    Diagnostics unused;
+    const auto alone = pocket(region, small, options, unused);
+    ASSERT_TRUE(alone);
+    const std::vector<Motion> of_big = first ? motions(first->path) : std::vector<Motion>{};
+    const std::vector<Motion> of_small = motions(rest->path);
+    const RegionSearch inside(region), left(alone->unreached);
+    const Box2 box = bounds(region).grown(2);
+    double whole = 0.0, again = 0.0;
+    for (const Motion& m : of_small) again += m.rapid ? 0.0 : distance(m.from, m.to);
+    for (const Motion& m : motions(alone->path)) whole += m.rapid ? 0.0 : distance(m.from, m.to);
+    for (double x = box.low.x; x < box.high.x; x += 0.83)
+      for (double y = box.low.y; y < box.high.y; y += 0.79) {
+        const double clearance = inside.clearance({x, y})->mm();
+        const auto stays = left.clearance({x, y});
+        if (clearance < -0.01) {
+          ASSERT_FALSE(touched(of_small, {x, y}, 1.25, 0)) << i << ": " << x << " " << y;
+        }
+        if (clearance > 0.01 && !(stays && stays->mm() > -0.02)) {
+          ASSERT_TRUE(removed_to(of_big, {x, y}, 4.0001, -3) || removed_to(of_small, {x, y}, 1.2501, -3))
+              << i << ": " << x << " " << y;
+        }
+      }
+    if (i == 0) {
+      EXPECT_LT(again, 0.5 * whole);
+    }
+  }
+  EXPECT_GT(cut_count, 12);
+}
+
+TEST(Pocket, RestMachiningWithNothingLeftIsAnError) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(rest_pocket(region_of({as_outline({{0, 0}, mm(10)})}), mill(6), mill(3), {.cut = usual()},
+                           diagnostics));
+  ASSERT_EQ(diagnostics.errors(), 1u);
+  EXPECT_EQ(diagnostics.list().front().code, Code::op_empty);
+}
+
 TEST(Facing, TheWholeRegionIsLevelled) {
   const Region region = region_of({rectangle(0, 0, 50, 30)});
   for (const double angle : {0.0, 90.0, 37.0})

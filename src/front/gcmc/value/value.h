@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/utf8.h"
+
 namespace kerf::gcmc {
 
 enum class Unit : std::uint8_t { none, mm, inch, deg, rad };
@@ -296,7 +298,5 @@ void append_text(std::string& out, Scalar s, int decimals);
 std::string text_of(Scalar s);
 std::string to_utf8(const std::u32string& text);
 void append_utf8(std::string& out, char32_t c);
-/// Code points of UTF-8; a byte that is not UTF-8 becomes the code point of its value.
-std::u32string from_utf8(std::string_view bytes);
 
 }  // namespace kerf::gcmc

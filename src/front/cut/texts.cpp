@@ -1,0 +1,144 @@
+// Texts of a job: their keys, and their outlines from the built-in fonts or a font file.
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "base/utf8.h"
+#include "front/cut/shapes.h"
+#include "front/cut/values.h"
+
+#include "kerf/fit.h"
+#include "kerf/font_files.h"
+#include "kerf/names.h"
+#include "kerf/number.h"
+#include "kerf/stroke_fonts.h"
+
+namespace kerf {
+namespace {
+
+using namespace cut_detail;
+using Type = CutKey::Type;
+
+constexpr Names<TextAlign, 3> kAligns{
+    {{{"left", TextAlign::left}, {"centre", TextAlign::centre}, {"right", TextAlign::right}}}};
+
+/// "10, 20"
+bool set_point(Point2& target, const CutValue& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  const std::size_t comma = text != nullptr ? text->find(',') : std::string::npos;
+  if (comma == std::string::npos) return false;
+  const auto x = parse_number(trim(std::string_view(*text).substr(0, comma)));
+  const auto y = parse_number(trim(std::string_view(*text).substr(comma + 1)));
+  if (!x || !y || std::abs(*x) > limits::kMaxCoordinate || std::abs(*y) > limits::kMaxCoordinate)
+    return false;
+  target = {*x, *y};
+  return true;
+}
+
+/// The outlines of one character of a font file, resolved to loops that do not overlap.
+std::optional<TextGlyph> glyph_of(const FontGlyph& source, double height, const TextShape& shape,
+                                  Diagnostics& diagnostics) {
+  TextGlyph glyph{source.advance, {}};
+  const FitOptions fit{shape.name, shape.options.where};
+  const Length within = (1.0 / height) * default_tolerance::kCurveChord;
+  std::vector<Outline> contours;
+  for (const FontContour& contour : source.contours) {
+    Outline outline{{contour.start.x, contour.start.y}, {}, {}};
+    const auto here = [&] { return outline.point(outline.segments.size()); };
+    const auto line = [&](Point2 to) {
+      if (distance(here(), to) > 0.0) outline.segments.push_back({to, {}, {}});
+    };
+    for (const FontCurve& curve : contour.curves) {
+      const Point2 to{curve.to.x, curve.to.y};
+      std::vector<Point2> control{here()};
+      for (const FontPoint& p : curve.control) control.push_back({p.x, p.y});
+      control.push_back(to);
+      const bool point = std::all_of(control.begin(), control.end(), [&](Point2 p) { return p == to; });
+      if (point) continue;
+      const auto arcs = curve.control.empty() ? std::nullopt : fit_bezier(control, within, fit, diagnostics);
+      if (!curve.control.empty() && !arcs) return std::nullopt;
+      if (!arcs) {
+        line(to);
+        continue;
+      }
+      for (const Segment& s : arcs->segments) outline.segments.push_back(s);
+    }
+    line(outline.start);
+    if (outline.closed() && outline.segments.size() > 1) contours.push_back(std::move(outline));
+  }
+  if (contours.empty()) return glyph;
+  RegionOptions options;
+  options.name = shape.name, options.where = shape.options.where;
+  auto region = make_region(contours, FillRule::nonzero, options, diagnostics);
+  if (!region) return std::nullopt;
+  glyph.paths = std::move(region->loops);
+  return glyph;
+}
+
+std::optional<TextFont> font_of_file(const TextShape& shape, std::string_view bytes,
+                                     Diagnostics& diagnostics) {
+  const double height = shape.options.height.mm();
+  if (!(height > 0.0 && height <= limits::kMaxCoordinate)) return TextFont{};  // an error of set_text
+  const auto file = read_font(bytes, shape.font, from_utf8(shape.text), diagnostics);
+  if (!file) return std::nullopt;
+  TextFont font;
+  font.kerning = file->kerning;
+  for (const auto& [code, source] : file->glyphs) {
+    auto glyph = glyph_of(source, height, shape, diagnostics);
+    if (!glyph) return std::nullopt;
+    font.glyphs.emplace(code, std::move(*glyph));
+  }
+  return font;
+}
+
+}  // namespace
+
+const std::vector<CutTextKey>& cut_text_keys() {
+  static const std::vector<CutTextKey> keys{
+      {"text", Type::text, "", "a text to cut, instead of a drawing or with it", "\"KERF\"",
+       [](TextShape& s, const CutValue& v) { return set_text(s.text, v); }},
+      {"height", Type::number, "mm", "of the capital letters of a text", "10",
+       [](TextShape& s, const CutValue& v) { return set_number(s.options.height, v, mm); }},
+      {"font", Type::text, "",
+       "of a text: sans, sans-2, script, script-2, serif, serif-bold, serif-italic, serif-bold-italic "
+       "(single "
+       "strokes), or an outline font file (.ttf, .otf)",
+       "\"sans\"", [](TextShape& s, const CutValue& v) { return set_text(s.font, v); }},
+      {"at", Type::text, "", "X,Y of the start, centre or end of a text's first baseline", "[0, 0]",
+       [](TextShape& s, const CutValue& v) { return set_point(s.options.at, v); }},
+      {"text-angle", Type::number, "degrees", "of a text's baseline, from +X", "0",
+       [](TextShape& s, const CutValue& v) { return set_number(s.options.angle, v, degrees); }},
+      {"align", Type::text, "left, centre, right", "of a text", "\"left\"",
+       [](TextShape& s, const CutValue& v) { return set_named(kAligns, s.options.align, v); }},
+      {"letter-spacing", Type::number, "mm", "added between the characters of a text", "0",
+       [](TextShape& s, const CutValue& v) { return set_number(s.options.spacing, v, mm); }},
+  };
+  return keys;
+}
+
+bool has_font_file(const TextShape& shape) { return shape.font.find('.') != std::string::npos; }
+
+std::optional<std::vector<ArtShape>> shapes_of_text(const TextShape& shape, std::string_view font,
+                                                    Diagnostics& diagnostics) {
+  const bool file = has_font_file(shape);
+  const auto made = file ? font_of_file(shape, font, diagnostics) : stroke_text_font(shape.font);
+  if (!made) {
+    std::vector<std::string> names;
+    for (const std::string_view name : stroke_font_names()) names.emplace_back(name);
+    if (!file)
+      diagnostics
+          .error(Code::cut_job_key, shape.options.where,
+                 fmt::format("{}: there is no font \"{}\"", shape.name, shape.font.substr(0, 60)))
+          .hint = "one of: " + joined(names, ", ") + "; or a font file (.ttf, .otf)";
+    return std::nullopt;
+  }
+  TextOptions options = shape.options;
+  options.name = shape.name;
+  auto paths = set_text(shape.text, *made, options, diagnostics);
+  if (!paths) return std::nullopt;
+  std::vector<ArtShape> shapes;
+  for (Outline& path : *paths) shapes.push_back({shape.name, shape.layer, std::move(path), {}, {}});
+  return shapes;
+}
+
+}  // namespace kerf

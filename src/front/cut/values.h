@@ -1,0 +1,50 @@
+// Values of keys: numbers, texts, and names of choices.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "kerf/cut_job.h"
+#include "kerf/names.h"
+
+namespace kerf::cut_detail {
+
+inline std::optional<double> number(const CutValue& value) {
+  const double* given = std::get_if<double>(&value);
+  return given != nullptr && std::isfinite(*given) ? std::optional(*given) : std::nullopt;
+}
+
+template <class Value, std::size_t N>
+struct Names {
+  std::array<std::pair<std::string_view, Value>, N> rows;
+};
+
+template <class Value, std::size_t N>
+bool set_named(const Names<Value, N>& names, Value& target, const CutValue& value) {
+  const auto* given = std::get_if<std::string>(&value);
+  if (given == nullptr) return false;
+  for (const auto& [name, meaning] : names.rows)
+    if (fold_name(name) == fold_name(*given)) {
+      target = meaning;
+      return true;
+    }
+  return false;
+}
+
+inline bool set_text(std::string& target, const CutValue& value) {
+  const auto* given = std::get_if<std::string>(&value);
+  if (given != nullptr) target = *given;
+  return given != nullptr && !given->empty();
+}
+/// Stores a number made by `make`, such as mm.
+template <class Value, class Make>
+bool set_number(Value& target, const CutValue& value, Make make) {
+  const auto given = number(value);
+  if (given) target = make(*given);
+  return given.has_value();
+}
+
+}  // namespace kerf::cut_detail
