@@ -1,0 +1,342 @@
+// The application: connects the model, the picture and the panes.
+import { isContact } from './colours';
+import { FINAL, type MeshAnswer, NO_STEP, type PathAnswer } from './decode';
+import { byId } from './dom';
+import { length, lengthNumber, type Unit } from './format';
+import { InstantLoader } from './instant_loader';
+import type { ModelListener, ModelSource } from './model_source';
+import { type Location, Program } from './program';
+import type { Diagnostic, ErrorsEvent, Finding, Model, Origin, ProgressEvent, Vec3 } from './protocol';
+import { Scene } from './scene';
+import { Memory, type Settings } from './settings';
+import { Controls } from './ui/controls';
+import { FindingsPane, originText } from './ui/findings_pane';
+import { Player } from './ui/player';
+import { ReportPane } from './ui/report_pane';
+import { SourcePane } from './ui/source_pane';
+import { Tabs } from './ui/tabs';
+
+const CLICK_REACH = 4; // CSS pixels between pressing and releasing; more is a turn of the view
+
+export class App implements ModelListener {
+  private readonly memory = new Memory();
+  private readonly settings: Settings = this.memory.settings();
+  private readonly scene = new Scene(byId<HTMLCanvasElement>('canvas'));
+  private readonly tabs = new Tabs();
+  private readonly sources = new SourcePane();
+  private readonly report = new ReportPane();
+  private readonly player = new Player(this.settings.speed);
+  private readonly controls: Controls;
+  private readonly instants: InstantLoader;
+  private readonly findings = new FindingsPane({
+    toOrigin: (origin) => this.toOrigin(origin),
+    toFinding: (finding) => this.toFinding(finding),
+  });
+  private program: Program | null = null;
+  private errorList: Diagnostic[] = [];
+  private measured: Vec3[] = [];
+
+  constructor(private readonly source: ModelSource) {
+    this.instants = new InstantLoader(
+      source,
+      this.scene.part,
+      () => this.scene.stage.draw(),
+      (m) => this.failed(m),
+    );
+    this.controls = new Controls(this.settings, this.scene.stage, this.player, source, {
+      settingsChanged: () => this.settingsChanged(),
+      pickCentre: () => this.pickCentre(),
+      measureChanged: () => this.clearMeasured(),
+      sectionChanged: () => this.scene.stage.draw(),
+      clear: () => this.clearSelection(),
+    });
+  }
+
+  start(): void {
+    this.player.onTime = () => this.showInstant();
+    this.player.onSpeed = (speed) => {
+      this.settings.speed = speed;
+      this.memory.saveSettings(this.settings);
+    };
+    this.sources.onPick = (where) => this.selectLine(where);
+    this.listenToPointer();
+    let saving = 0;
+    this.scene.stage.onViewChanged = () => {
+      window.clearTimeout(saving);
+      saving = window.setTimeout(() => this.saveView(), 300);
+    };
+    window.addEventListener('pagehide', () => this.saveView());
+    this.settingsChanged();
+    this.setState('Loading…', false);
+    this.source.start(this);
+  }
+
+  get unit(): Unit {
+    if (this.settings.units !== 'auto') return this.settings.units;
+    return this.program?.model.units === 'inch' ? 'inch' : 'mm';
+  }
+
+  // What the source of the model reports.
+
+  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null): void {
+    const isFirst = this.program === null || this.program.model.name !== model.name;
+    const motions = path ?? this.program?.path;
+    if (!motions) return this.failed('The toolpath is missing');
+    const program = new Program(model, motions);
+    this.program = program;
+    this.errorList = model.errors;
+    byId('message').hidden = true;
+    byId('name').textContent = model.name;
+    document.title = `${model.name} - Kerf`;
+    this.scene.update(program, mesh, this.settings.colour);
+    if (isFirst) this.firstView(program);
+    this.controls.update(program);
+    this.player.update(program);
+    this.instants.modelChanged();
+    this.sources.setFiles(model.files);
+    this.settingsChanged();
+    this.showErrors();
+    this.showInstant();
+    document.documentElement.dataset.revision = String(model.revision);
+  }
+
+  errors(event: ErrorsEvent): void {
+    this.errorList = event.diagnostics;
+    this.showErrors();
+    if (event.diagnostics.length > 0) this.tabs.show('problems');
+  }
+
+  progress(event: ProgressEvent): void {
+    this.controls.progress(event);
+    this.setState(`${event.phase}…`, false);
+  }
+
+  connected(isConnected: boolean): void {
+    if (!isConnected) this.setState('Not connected to kerf view', true);
+    else if (this.program) this.showErrors();
+  }
+
+  failed(message: string): void {
+    this.setState(message, true);
+    if (this.program) return;
+    const box = byId('message');
+    box.textContent = message;
+    box.hidden = false;
+  }
+
+  private showErrors(): void {
+    const hasErrors = this.errorList.length > 0;
+    byId('stage').classList.toggle('outdated', hasErrors && this.program !== null);
+    this.findings.update(this.program?.model ?? null, this.errorList, this.unit);
+    const lines = this.errorList
+      .map((d) => this.program?.locate(d.origin))
+      .filter((l): l is Location => !!l);
+    this.sources.setErrors(lines);
+    this.controls.progress(null);
+    if (hasErrors)
+      this.setState(`${this.errorList.length} error${this.errorList.length > 1 ? 's' : ''}`, true);
+    else this.setState(this.summary(), (this.program?.model.findings.length ?? 0) > 0);
+  }
+
+  private summary(): string {
+    const count = this.program?.model.findings.length ?? 0;
+    if (count === 0) return this.program ? 'Up to date' : 'Loading…';
+    return `${count} hazard${count > 1 ? 's' : ''}`;
+  }
+
+  private setState(text: string, isBad: boolean): void {
+    const state = byId('state');
+    if (state.textContent !== text) state.textContent = text;
+    state.classList.toggle('bad', isBad);
+  }
+
+  private firstView(program: Program): void {
+    const saved = this.memory.view(program.model.source ?? program.model.name);
+    if (saved) this.scene.stage.setView(saved);
+    else this.scene.stage.show('iso');
+  }
+
+  private saveView(): void {
+    if (!this.program) return;
+    this.memory.saveView(this.program.model.source ?? this.program.model.name, this.scene.stage.view());
+  }
+
+  // Settings and panes.
+
+  private settingsChanged(): void {
+    this.memory.saveSettings(this.settings);
+    this.controls.show(this.unit);
+    this.scene.setColourMode(this.settings.colour);
+    this.scene.show(this.settings.show);
+    if (!this.program) return;
+    this.report.update(this.program, this.unit);
+    this.findings.update(this.program.model, this.errorList, this.unit);
+    this.showMeasured();
+    this.showInstant();
+  }
+
+  private showInstant(): void {
+    const program = this.program;
+    if (!program) return;
+    const { time, isAtEnd } = this.player;
+    this.scene.setInstant(time, isAtEnd, this.settings.show.tool);
+    const m = this.player.motion;
+    const where = !isAtEnd && m >= 0 ? (program.chain(program.path.origin[m]!)[0] ?? null) : null;
+    this.sources.setRunning(where, this.player.isPlaying);
+    this.player.showText(this.unit, where ? `line ${where.line}` : '');
+    if (program.model.kind === 'milling')
+      this.instants.want(isAtEnd ? FINAL : m < 0 ? 0 : program.path.step[m]! + 1);
+  }
+
+  // From the picture to the source, and back.
+
+  private listenToPointer(): void {
+    const canvas = this.scene.stage.canvas;
+    let down: [number, number] | null = null;
+    let waiting = false;
+    canvas.addEventListener('pointerdown', (e) => (down = [e.offsetX, e.offsetY]));
+    canvas.addEventListener('pointerup', (e) => {
+      if (down && e.button === 0 && Math.hypot(e.offsetX - down[0], e.offsetY - down[1]) <= CLICK_REACH) {
+        this.pick(e.offsetX, e.offsetY);
+      }
+      down = null;
+    });
+    canvas.addEventListener('pointermove', (e) => {
+      if (down || waiting) return;
+      waiting = true;
+      requestAnimationFrame(() => {
+        waiting = false;
+        this.readOut(e.offsetX, e.offsetY);
+      });
+    });
+    canvas.addEventListener('pointerleave', () => (byId('readout').textContent = ''));
+  }
+
+  private pickCentre(): void {
+    const { clientWidth, clientHeight } = this.scene.stage.canvas;
+    this.pick(clientWidth / 2, clientHeight / 2);
+    this.readOut(clientWidth / 2, clientHeight / 2);
+  }
+
+  private pick(x: number, y: number): void {
+    const program = this.program;
+    if (!program) return;
+    const picked = this.scene.pick(x, y, !this.controls.isMeasuring);
+    if (this.controls.isMeasuring) {
+      if (picked) this.addMeasured(picked.point);
+      return;
+    }
+    if (!picked || picked.step === NO_STEP) return this.clearSelection();
+    const chain =
+      picked.motion >= 0
+        ? program.chain(program.path.origin[picked.motion]!)
+        : program.chainOfStep(picked.step);
+    this.sources.show(chain);
+    this.tabs.show('source');
+    this.scene.marks.setPoint(picked.point);
+    this.scene.select(motionsOfStep(program, picked.step));
+    this.setState(this.pickedText(chain, picked.step), false);
+  }
+
+  private pickedText(chain: Location[], step: number): string {
+    const where = chain
+      .map((l) => `${this.program!.model.files[l.file]?.path ?? '?'}:${l.line}`)
+      .join(', called by ');
+    return where || `Step ${step}`;
+  }
+
+  private selectLine(where: Location): void {
+    const program = this.program;
+    if (!program) return;
+    const motions = program.motionsOf(where);
+    this.scene.marks.setPoint(null);
+    this.scene.select(motions);
+    const count = motions.length;
+    this.setState(
+      `Line ${where.line}: ${count === 0 ? 'no motion' : count === 1 ? '1 motion' : `${count} motions`}`,
+      false,
+    );
+  }
+
+  private clearSelection(): void {
+    this.sources.show([]);
+    this.scene.marks.setPoint(null);
+    this.scene.select(new Uint32Array());
+    this.clearMeasured();
+    if (this.program) this.showErrors();
+  }
+
+  private toOrigin(origin: Origin): void {
+    const where = this.program?.locate(origin);
+    if (!where)
+      return this.setState(`${originText(origin) ?? 'This location'} is not among the files shown`, false);
+    this.tabs.show('source');
+    this.sources.show([where]);
+    this.selectLine(where);
+  }
+
+  private toFinding(finding: Finding): void {
+    const program = this.program;
+    if (!program) return;
+    if (finding.origin) this.toOrigin(finding.origin);
+    if (typeof finding.step === 'number') {
+      const m = program.motionOfStep(finding.step);
+      this.player.pause();
+      this.player.seek(program.startTime[Math.min(m + 1, program.motions)]!);
+    }
+    if (finding.at && isContact(finding)) this.scene.marks.setPoint(finding.at);
+    this.scene.stage.draw();
+  }
+
+  // Depth under the pointer, and distances.
+
+  private readOut(x: number, y: number): void {
+    const picked = this.scene.pick(x, y, false);
+    const out = byId('readout');
+    if (!picked) {
+      out.textContent = '';
+      return;
+    }
+    const [px, py, pz] = picked.point;
+    const number = (v: number) => lengthNumber(v, this.unit);
+    const top = this.program?.model.stock?.block[1][2];
+    const depth = top === undefined ? '' : `   depth ${length(Math.max(top - pz, 0), this.unit)}`;
+    out.textContent = `X ${number(px)}  Y ${number(py)}  Z ${number(pz)}${depth}`;
+  }
+
+  private addMeasured(point: Vec3): void {
+    if (this.measured.length === 2) this.measured = [];
+    this.measured.push(point);
+    this.showMeasured();
+  }
+
+  private clearMeasured(): void {
+    this.measured = [];
+    this.scene.marks.setPoint(null);
+    this.showMeasured();
+  }
+
+  private showMeasured(): void {
+    const box = byId('measured');
+    box.hidden = !this.controls.isMeasuring;
+    this.scene.marks.setDistance(this.measured);
+    const [a, b] = this.measured;
+    if (a && b) {
+      const d = b.map((v, i) => v - a[i]!);
+      const axes = ['X', 'Y', 'Z'].map((axis, i) => `${axis} ${lengthNumber(d[i], this.unit)}`).join('  ');
+      box.textContent = `Distance ${length(Math.hypot(...d), this.unit)}   ${axes}`;
+    } else {
+      box.textContent = a
+        ? 'Click the second point.'
+        : 'Click the first point (P: the centre of the view).';
+    }
+    this.scene.stage.draw();
+  }
+}
+
+function motionsOfStep(program: Program, step: number): Uint32Array {
+  const first = program.motionOfStep(step);
+  let last = first;
+  while (last < program.motions && program.path.step[last] === step) ++last;
+  return Uint32Array.from({ length: last - first }, (_, i) => first + i);
+}

@@ -1,0 +1,186 @@
+// The colour of each step, and of each triangle: by tool, operation, depth, step, speed or layer; hazards
+// in the hazard colour. Colours are sRGB bytes.
+import { NO_STEP, type Tile } from './decode';
+import { RAPID, type Program } from './program';
+import type { Rgb } from './protocol';
+import type { ColourMode } from './settings';
+
+const STOCK: Rgb = [188, 170, 140];
+const HAZARD: Rgb = [214, 32, 40];
+const SELECTED: Rgb = [255, 110, 185];
+
+// Distinct under the common kinds of colour blindness (Okabe and Ito, without black and the hazard's red).
+const GROUPS: readonly Rgb[] = [
+  [86, 180, 233],
+  [230, 159, 0],
+  [0, 158, 115],
+  [204, 121, 167],
+  [240, 228, 66],
+  [0, 114, 178],
+  [150, 150, 150],
+];
+// From low to high: dark blue, green, yellow; increasing in lightness.
+const RAMP: readonly Rgb[] = [
+  [68, 60, 140],
+  [49, 104, 142],
+  [33, 145, 140],
+  [94, 201, 98],
+  [253, 231, 37],
+];
+
+export function ramp(t: number): Rgb {
+  const x = Math.min(Math.max(Number.isFinite(t) ? t : 0, 0), 1) * (RAMP.length - 1);
+  const i = Math.min(Math.floor(x), RAMP.length - 2);
+  const a = RAMP[i]!;
+  const b = RAMP[i + 1]!;
+  return [0, 1, 2].map((k) => Math.round(a[k]! + (x - i) * (b[k]! - a[k]!))) as Rgb;
+}
+
+export function group(index: number): Rgb {
+  return GROUPS[index % GROUPS.length]!;
+}
+
+/** Colours of the steps of one program in one mode. */
+export class Palette {
+  readonly stock: Rgb;
+  readonly hazard: Rgb;
+  readonly byDepth: boolean;
+  private readonly bytes: Uint8Array;
+  private readonly marked: Uint8Array;
+  private readonly low: number;
+  private readonly high: number;
+
+  constructor(
+    private readonly program: Program,
+    readonly mode: ColourMode,
+    selectedMotions?: Uint32Array,
+  ) {
+    const { model } = program;
+    this.stock = model.stock_colour ?? STOCK;
+    this.hazard = model.hazard_colour ?? HAZARD;
+    this.byDepth = mode === 'depth';
+    this.low = model.bounds?.[0][2] ?? 0;
+    this.high = model.bounds?.[1][2] ?? 0;
+    this.bytes = new Uint8Array(3 * stepCount(program));
+    this.marked = new Uint8Array(stepCount(program));
+    this.fill();
+    for (const finding of model.findings) {
+      if (!isContact(finding)) continue;
+      const first = finding.step ?? NO_STEP;
+      for (let s = first; s < first + (finding.steps ?? 1); ++s) this.mark(s, this.hazard);
+    }
+    for (const m of selectedMotions ?? []) this.mark(program.path.step[m]!, SELECTED);
+  }
+
+  ofStep(step: number): Rgb {
+    const at = 3 * step;
+    if (step === NO_STEP || at + 2 >= this.bytes.length) return this.stock;
+    return [this.bytes[at]!, this.bytes[at + 1]!, this.bytes[at + 2]!];
+  }
+
+  /** Whether a step has the colour of hazards or of the selection, whatever the mode. */
+  isMarked(step: number): boolean {
+    return this.marked[step] === 1;
+  }
+
+  ofDepth(z: number): Rgb {
+    return ramp(this.high > this.low ? (z - this.low) / (this.high - this.low) : 1);
+  }
+
+  /** Four bytes for each corner of each triangle of a tile. */
+  paint(tile: Tile): Uint8Array {
+    const out = new Uint8Array(12 * tile.step.length);
+    for (let t = 0; t < tile.step.length; ++t) {
+      const step = tile.step[t]!;
+      const rgb = this.ofStep(step);
+      for (let corner = 0; corner < 3; ++corner) {
+        const at = 12 * t + 4 * corner;
+        const z = tile.positions[3 * tile.index[3 * t + corner]! + 2]!;
+        const c = this.byDepth && !this.isMarked(step) ? this.ofDepth(z) : rgb;
+        out[at] = c[0];
+        out[at + 1] = c[1];
+        out[at + 2] = c[2];
+        out[at + 3] = 255;
+      }
+    }
+    return out;
+  }
+
+  private mark(step: number, rgb: Rgb): void {
+    if (step >= this.marked.length) return;
+    this.marked[step] = 1;
+    this.set(step, rgb);
+  }
+
+  private set(step: number, rgb: Rgb): void {
+    if (3 * step + 2 < this.bytes.length) this.bytes.set(rgb, 3 * step);
+  }
+
+  private fill(): void {
+    const { program } = this;
+    const { path } = program;
+    const colour = motionColours(program, this.mode);
+    this.bytes.fill(150);
+    for (let m = 0; m < program.motions; ++m) this.set(path.step[m]!, colour(m));
+  }
+}
+
+function motionColours(program: Program, mode: ColourMode): (m: number) => Rgb {
+  const { path, model } = program;
+  switch (mode) {
+    case 'operation': {
+      const starts = operationStarts(program);
+      return (m) => group(Math.max(countNotAbove(starts, path.step[m]!) - 1, 0));
+    }
+    case 'step':
+      return (m) => ramp(program.motions > 1 ? m / (program.motions - 1) : 0);
+    case 'speed': {
+      let max = 0;
+      for (let m = 0; m < program.motions; ++m)
+        if (path.kind[m] !== RAPID) max = Math.max(max, path.feed[m]!);
+      return (m) => ramp(max > 0 ? path.feed[m]! / max : 0);
+    }
+    case 'layer':
+    case 'depth': {
+      const [low, high] = [model.bounds?.[0][2] ?? 0, model.bounds?.[1][2] ?? 0];
+      return (m) => ramp(high > low ? (endZ(program, m) - low) / (high - low) : 1);
+    }
+    default: {
+      const colours = new Map(model.tools.map((tool) => [tool.number ?? -1, tool.colour]));
+      return (m) => colours.get(path.tool[m]!) ?? group(Math.max(path.tool[m]!, 0));
+    }
+  }
+}
+
+/** The steps at which operations start: notes of the program, else tool changes. */
+export function operationStarts(program: Program): number[] {
+  const notes = program.model.marks.filter((mark) => mark.kind === 'note');
+  const marks = notes.length > 0 ? notes : program.model.marks.filter((mark) => mark.kind === 'tool');
+  return marks.map((mark) => mark.step);
+}
+
+function endZ(program: Program, m: number): number {
+  const last = program.path.firstPoint[m + 1]! - 1;
+  return last < 0 ? 0 : program.path.points[3 * last + 2]!;
+}
+
+/** Whether material was touched, so that the surface shows the hazard. */
+export function isContact(finding: { removed_mm3?: number | null; depth_mm?: number | null }): boolean {
+  return (finding.removed_mm3 ?? 0) > 0 || (finding.depth_mm ?? 0) > 0;
+}
+
+function stepCount(program: Program): number {
+  const last = program.motions > 0 ? program.path.step[program.motions - 1]! + 1 : 0;
+  return Math.max(last, 0);
+}
+
+function countNotAbove(sorted: readonly number[], value: number): number {
+  let low = 0;
+  let high = sorted.length;
+  while (low < high) {
+    const mid = (low + high) >> 1;
+    if (sorted[mid]! <= value) low = mid + 1;
+    else high = mid;
+  }
+  return low;
+}

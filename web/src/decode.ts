@@ -1,0 +1,235 @@
+// Reads the binary answers of the server: tiles of the part's surface, and the motions of the toolpath.
+// Every count is compared with the bytes that are there before anything is allocated, so that a damaged
+// answer gives a DecodeError and never an endless loop, a huge array or an index outside its array.
+
+export const NO_STEP = 0xffffffff;
+export const FINAL = 0xffffffff;
+export const NONE = 0xffffffff;
+
+export class DecodeError extends Error {}
+
+export interface Tile {
+  id: number;
+  level: number;
+  positions: Float32Array;
+  index: Uint32Array;
+  /** The step that made each triangle; NO_STEP: a face of the stock. */
+  step: Uint32Array;
+}
+
+/** Numbers of steps after an edit: a step s becomes s + by[i] of the last i with first[i] <= s. */
+export interface Renumbering {
+  first: Uint32Array;
+  by: Int32Array;
+}
+
+export interface MeshAnswer {
+  revision: number;
+  reset: boolean;
+  /** FINAL, or the number of steps after which this is the part. */
+  atStep: number;
+  /** For the tiles that the page already has, in this order. */
+  renumberings: Renumbering[];
+  tiles: Tile[];
+}
+
+export interface PathAnswer {
+  revision: number;
+  motions: number;
+  step: Uint32Array;
+  firstPoint: Uint32Array;
+  tool: Int32Array;
+  origin: Uint32Array;
+  seconds: Float32Array;
+  feed: Float32Array;
+  points: Float32Array;
+  originFile: Uint32Array;
+  originLine: Uint32Array;
+  originCaller: Uint32Array;
+  kind: Uint8Array;
+}
+
+/** Takes fields from a buffer; the arrays share its memory. */
+class Reader {
+  private at = 0;
+  private readonly view: DataView;
+
+  constructor(
+    private readonly buffer: ArrayBuffer,
+    private readonly what: string,
+  ) {
+    this.view = new DataView(buffer);
+  }
+
+  private take(bytes: number): number {
+    if (bytes > this.buffer.byteLength - this.at) {
+      throw new DecodeError(
+        `The ${this.what} ends after ${this.buffer.byteLength} bytes; more are expected`,
+      );
+    }
+    const from = this.at;
+    this.at += bytes;
+    return from;
+  }
+
+  magic(expected: string): void {
+    const from = this.take(4);
+    const found = String.fromCharCode(...new Uint8Array(this.buffer, from, 4));
+    if (found !== expected) throw new DecodeError(`The ${this.what} starts with unknown bytes`);
+    const version = this.u32();
+    if (version !== 1)
+      throw new DecodeError(`The ${this.what} has version ${version}; this page reads version 1`);
+  }
+
+  u32(): number {
+    return this.view.getUint32(this.take(4), true);
+  }
+
+  u32s(count: number): Uint32Array {
+    return new Uint32Array(this.buffer, this.take(4 * count), count);
+  }
+
+  i32s(count: number): Int32Array {
+    return new Int32Array(this.buffer, this.take(4 * count), count);
+  }
+
+  f32s(count: number): Float32Array {
+    return new Float32Array(this.buffer, this.take(4 * count), count);
+  }
+
+  u8s(count: number): Uint8Array {
+    return new Uint8Array(this.buffer, this.take(count), count);
+  }
+
+  finish(): void {
+    const left = this.buffer.byteLength - this.at;
+    if (left > 3) throw new DecodeError(`The ${this.what} has ${left} unexpected bytes at its end`);
+  }
+}
+
+export function decodeMesh(buffer: ArrayBuffer): MeshAnswer {
+  const read = new Reader(buffer, 'mesh');
+  read.magic('KMSH');
+  const revision = read.u32();
+  const flags = read.u32();
+  const atStep = read.u32();
+  const count = read.u32();
+  const tables = read.u32();
+  const renumberings: Renumbering[] = [];
+  for (let i = 0; i < tables; ++i) renumberings.push(readRenumbering(read));
+  const tiles: Tile[] = [];
+  for (let i = 0; i < count; ++i) {
+    const id = read.u32();
+    const level = read.u32();
+    const vertices = read.u32();
+    const triangles = read.u32();
+    const positions = read.f32s(3 * vertices);
+    const index = read.u32s(3 * triangles);
+    const step = read.u32s(triangles);
+    checkIndices(index, vertices, 'mesh');
+    checkFinite(positions, 'mesh');
+    tiles.push({ id, level, positions, index, step });
+  }
+  read.finish();
+  return { revision, reset: (flags & 1) !== 0, atStep, renumberings, tiles };
+}
+
+function readRenumbering(read: Reader): Renumbering {
+  read.u32(); // its revision: the server sends only those that the page needs
+  const runs = read.u32();
+  const pairs = read.i32s(2 * runs);
+  const table = { first: new Uint32Array(runs), by: new Int32Array(runs) };
+  for (let i = 0; i < runs; ++i) {
+    table.first[i] = pairs[2 * i]!;
+    table.by[i] = pairs[2 * i + 1]!;
+    if (i > 0 && table.first[i]! <= table.first[i - 1]!)
+      throw new DecodeError('The numbers of steps are not in order');
+  }
+  return table;
+}
+
+/** Gives the triangles of a tile the step numbers that hold after an edit. */
+export function renumber(step: Uint32Array, { first, by }: Renumbering): void {
+  for (let t = 0; t < step.length; ++t) {
+    const old = step[t]!;
+    if (old === NO_STEP) continue;
+    let run = -1;
+    for (let low = 0, high = first.length - 1; low <= high; ) {
+      const mid = (low + high) >> 1;
+      if (first[mid]! <= old) {
+        run = mid;
+        low = mid + 1;
+      } else {
+        high = mid - 1;
+      }
+    }
+    if (run >= 0) step[t] = old + by[run]!;
+  }
+}
+
+export function decodePath(buffer: ArrayBuffer): PathAnswer {
+  const read = new Reader(buffer, 'toolpath');
+  read.magic('KPTH');
+  const revision = read.u32();
+  const motions = read.u32();
+  const points = read.u32();
+  const origins = read.u32();
+  read.u32s(2);
+  const path: PathAnswer = {
+    revision,
+    motions,
+    step: read.u32s(motions),
+    firstPoint: read.u32s(motions + 1),
+    tool: read.i32s(motions),
+    origin: read.u32s(motions),
+    seconds: read.f32s(motions),
+    feed: read.f32s(motions),
+    points: read.f32s(3 * points),
+    originFile: read.u32s(origins),
+    originLine: read.u32s(origins),
+    originCaller: read.u32s(origins),
+    kind: read.u8s(motions),
+  };
+  read.finish();
+  checkPath(path, points, origins);
+  return path;
+}
+
+function checkPath(path: PathAnswer, points: number, origins: number): void {
+  for (let m = 0; m < path.motions; ++m) {
+    if (path.firstPoint[m]! > path.firstPoint[m + 1]!)
+      throw new DecodeError('The points of the toolpath are not in order');
+    if (m > 0 && path.step[m]! < path.step[m - 1]!)
+      throw new DecodeError('The steps of the toolpath are not in order');
+    const origin = path.origin[m]!;
+    if (origin !== NONE && origin >= origins) throw new DecodeError('The toolpath names an unknown origin');
+    if (!(path.seconds[m]! >= 0)) throw new DecodeError('A motion of the toolpath has no valid time');
+  }
+  if (path.firstPoint[path.motions]! > points)
+    throw new DecodeError('The toolpath names points that it does not have');
+  for (const caller of path.originCaller) {
+    if (caller !== NONE && caller >= origins) throw new DecodeError('The toolpath names an unknown caller');
+  }
+  checkFinite(path.points, 'toolpath');
+}
+
+function checkIndices(index: Uint32Array, vertices: number, what: string): void {
+  for (const i of index) {
+    if (i >= vertices) throw new DecodeError(`The ${what} names vertex ${i} of ${vertices}`);
+  }
+}
+
+function checkFinite(values: Float32Array, what: string): void {
+  for (const value of values) {
+    if (!Number.isFinite(value)) throw new DecodeError(`The ${what} contains a number that is not finite`);
+  }
+}
+
+/** The bytes of a data block of an exported page: base64 of zlib data. */
+export async function unpack(text: string): Promise<ArrayBuffer> {
+  const binary = atob(text.trim());
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < binary.length; ++i) bytes[i] = binary.charCodeAt(i);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate'));
+  return new Response(stream).arrayBuffer();
+}

@@ -1,0 +1,155 @@
+// Where the model comes from: the server of `kerf view`, or the data inside an exported page.
+import { decodeMesh, decodePath, type MeshAnswer, type PathAnswer, unpack } from './decode';
+import type { ErrorsEvent, Model, ModelEvent, ProgressEvent } from './protocol';
+
+export interface ModelListener {
+  model(model: Model, mesh: MeshAnswer, path: PathAnswer | null): void;
+  errors(event: ErrorsEvent): void;
+  progress(event: ProgressEvent): void;
+  /** Whether the server answers; false until it does again. */
+  connected(isConnected: boolean): void;
+  failed(message: string): void;
+}
+
+export interface ModelSource {
+  start(listener: ModelListener): void;
+  /** The part after `step` steps, or null if this source has only the finished part. */
+  instant(step: number, from: number | null): Promise<MeshAnswer> | null;
+  stop?(): void;
+  /** The address of a file made by the server, or null without one. */
+  download(what: string): string | null;
+}
+
+export class ServerSource implements ModelSource {
+  private listener: ModelListener | null = null;
+  private meshRevision = 0;
+  private hasPath = false;
+  private loading = false;
+  private next: ModelEvent | null = null;
+
+  constructor(private readonly token: string) {}
+
+  start(listener: ModelListener): void {
+    this.listener = listener;
+    const events = new EventSource(this.address('events'));
+    events.addEventListener('open', () => listener.connected(true));
+    events.addEventListener('error', () => listener.connected(false));
+    events.addEventListener('progress', (e) => listener.progress(JSON.parse(e.data) as ProgressEvent));
+    events.addEventListener('errors', (e) => void this.onErrors(JSON.parse(e.data) as ErrorsEvent));
+    events.addEventListener('model', (e) => void this.load(JSON.parse(e.data) as ModelEvent));
+  }
+
+  /** A page opened while the program has an error still shows the last good part. */
+  private async onErrors(event: ErrorsEvent): Promise<void> {
+    if (event.revision > 0 && this.meshRevision === 0) await this.load({ revision: event.revision });
+    this.listener?.errors(event);
+  }
+
+  /** Loads the newest state; what is announced meanwhile is loaded once afterwards. */
+  private async load(event: ModelEvent): Promise<void> {
+    if (this.loading) {
+      this.next = { ...event, path: (event.path ?? true) || (this.next?.path ?? false) };
+      return;
+    }
+    this.loading = true;
+    try {
+      await this.loadOnce(event);
+    } catch (error) {
+      this.listener?.failed(error instanceof Error ? error.message : String(error));
+    } finally {
+      this.loading = false;
+    }
+    const next = this.next;
+    this.next = null;
+    if (next) await this.load(next);
+  }
+
+  private async loadOnce(event: ModelEvent): Promise<void> {
+    // After a restart of the server its revisions start over.
+    const restarted = event.reset === true || event.revision < this.meshRevision;
+    const since = restarted ? 0 : this.meshRevision;
+    const wantsPath = !this.hasPath || restarted || event.path !== false;
+    const [model, mesh, path] = await Promise.all([
+      this.get('model').then((r) => r.json() as Promise<Model>),
+      this.get('mesh', { since: String(since) }).then((r) => r.arrayBuffer()),
+      wantsPath ? this.get('path').then((r) => r.arrayBuffer()) : null,
+    ]);
+    if (model.protocol !== 1)
+      throw new Error(`The server uses protocol ${model.protocol}; this page is for protocol 1`);
+    const answer = decodeMesh(mesh);
+    if (since === 0) answer.reset = true;
+    const motions = path ? decodePath(path) : null;
+    this.meshRevision = answer.revision;
+    this.hasPath ||= motions !== null;
+    this.listener?.model(model, answer, motions);
+  }
+
+  instant(step: number, from: number | null): Promise<MeshAnswer> {
+    const query: Record<string, string> = { step: String(step) };
+    if (from !== null) query.from = String(from);
+    return this.get('at', query)
+      .then((r) => r.arrayBuffer())
+      .then(decodeMesh);
+  }
+
+  stop(): void {
+    void fetch(this.address('stop'), { method: 'POST' });
+  }
+
+  download(what: string): string {
+    return this.address(what);
+  }
+
+  private async get(what: string, query: Record<string, string> = {}): Promise<Response> {
+    const response = await fetch(this.address(what, query));
+    if (response.ok) return response;
+    const text = await response.json().then(
+      (b: { error?: string }) => b.error,
+      () => undefined,
+    );
+    throw new Error(text ?? `The server answered ${response.status} for ${what}`);
+  }
+
+  private address(what: string, query: Record<string, string> = {}): string {
+    const [name, own = ''] = what.split('?');
+    const all = new URLSearchParams(own);
+    all.set('t', this.token);
+    for (const [key, value] of Object.entries(query)) all.set(key, value);
+    return `/${name}?${all.toString()}`;
+  }
+}
+
+/** The data blocks of an exported page. */
+export class ExportedSource implements ModelSource {
+  static isHere(): boolean {
+    return document.getElementById('kerf-model') !== null;
+  }
+
+  start(listener: ModelListener): void {
+    void this.load(listener);
+  }
+
+  private async load(listener: ModelListener): Promise<void> {
+    try {
+      const [model, mesh, path] = await Promise.all(
+        ['model', 'mesh', 'path'].map((name) => {
+          const block = document.getElementById(`kerf-${name}`);
+          if (!block) throw new Error(`This file does not contain its ${name}: it is incomplete`);
+          return unpack(block.textContent ?? '');
+        }),
+      );
+      const parsed = JSON.parse(new TextDecoder().decode(model)) as Model;
+      listener.model(parsed, decodeMesh(mesh!), decodePath(path!));
+    } catch (error) {
+      listener.failed(error instanceof Error ? error.message : String(error));
+    }
+  }
+
+  instant(): null {
+    return null;
+  }
+
+  download(): null {
+    return null;
+  }
+}

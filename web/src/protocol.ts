@@ -1,0 +1,125 @@
+// The JSON of the server's answers: types only. Lengths are mm in work coordinates, times are seconds.
+// Texts come from users' files: they are shown as text, never as HTML.
+
+export type Vec3 = [number, number, number];
+export type Rgb = [number, number, number];
+
+export interface Origin {
+  file?: string | null;
+  line?: number | null;
+  column?: number | null;
+  layer?: string;
+  handle?: string;
+  call?: string;
+}
+
+export interface Diagnostic {
+  severity: string;
+  code?: number | string;
+  name?: string;
+  message: string;
+  hint?: string;
+  origin?: Origin | null;
+}
+
+export interface Finding {
+  kind: string;
+  at?: Vec3 | null;
+  depth_mm?: number | null;
+  removed_mm3?: number | null;
+  step?: number | null;
+  steps?: number;
+  message: string;
+  hint?: string;
+  origin?: Origin | null;
+  callers?: Origin[];
+}
+
+export interface ToolProfile {
+  part: string;
+  points: [number, number][];
+}
+
+export interface Tool {
+  number: number | null;
+  name: string;
+  source?: string;
+  colour: Rgb;
+  profiles: ToolProfile[];
+  flute_length?: number | null;
+  time_s?: number | null;
+  removed_mm3?: number | null;
+}
+
+export interface Mark {
+  step: number;
+  kind: string;
+  text: string;
+  tool?: number | null;
+}
+
+export interface SourceFile {
+  path: string;
+  text: string | null;
+  complete: boolean;
+}
+
+export interface Times {
+  total_s: number;
+  cutting_s?: number;
+  rapid_s?: number;
+  dwell_s?: number;
+  planned?: boolean;
+  machine?: string;
+}
+
+export interface Stock {
+  block: [Vec3, Vec3];
+  source?: string;
+  shape?: string;
+  diameter?: number;
+}
+
+export interface Model {
+  protocol: number;
+  revision: number;
+  state: 'loading' | 'ready' | 'failed';
+  errors: Diagnostic[];
+  name: string;
+  source?: string;
+  front_end?: string;
+  kind: 'milling' | 'rotary' | 'print' | 'drawing';
+  units: 'mm' | 'inch';
+  bounds?: [Vec3, Vec3] | null;
+  stock?: Stock | null;
+  pitch?: number | null;
+  steps: number;
+  motions: number;
+  tools: Tool[];
+  stock_colour?: Rgb;
+  hazard_colour?: Rgb;
+  findings: Finding[];
+  diagnostics: Diagnostic[];
+  report?: Record<string, unknown> | null;
+  times?: Times | null;
+  marks: Mark[];
+  files: SourceFile[];
+  tiles?: { count: number; level: number };
+}
+
+export interface ModelEvent {
+  revision: number;
+  tiles?: number;
+  reset?: boolean;
+  path?: boolean;
+}
+
+export interface ErrorsEvent {
+  revision: number;
+  diagnostics: Diagnostic[];
+}
+
+export interface ProgressEvent {
+  phase: string;
+  fraction: number | null;
+}

@@ -1,0 +1,181 @@
+// The source pane: the lines of one file, of which only the visible ones are in the document, so that files
+// with hundreds of thousands of lines stay quick. A listbox for the keyboard: arrows move, Enter shows the
+// motions.
+import { byId, el, linkButton } from '../dom';
+import type { SourceFile } from '../protocol';
+import type { Location } from '../program';
+
+const ROW = 20; // px, as in style.css
+const EXTRA = 20;
+const MAX_SHOWN = 2000; // characters of a line; longer ones are cut, drawing them would take seconds
+
+export class SourcePane {
+  onPick: (where: Location) => void = () => {};
+  private readonly list = byId('source-list');
+  private readonly rows = el('div', { class: 'rows', role: 'presentation' });
+  private readonly room = el('div', { 'aria-hidden': 'true' });
+  private readonly choice = byId<HTMLSelectElement>('file');
+  private readonly calls = byId('calls');
+  private files: SourceFile[] = [];
+  private lines: string[] = [];
+  private file = 0;
+  private current = 1;
+  private picked: Location[] = [];
+  private running: Location | null = null;
+  private errors: Location[] = [];
+
+  constructor() {
+    this.list.append(this.room, this.rows);
+    this.list.addEventListener('scroll', () => this.draw());
+    this.list.addEventListener('keydown', (event) => this.onKey(event));
+    this.list.addEventListener('click', (event) => {
+      // By the position: the rows may have been drawn again since the button was pressed.
+      const y = event.clientY - this.list.getBoundingClientRect().top + this.list.scrollTop;
+      const line = Math.floor(y / ROW) + 1;
+      if (line < 1 || line > this.lines.length) return;
+      this.current = line;
+      this.pickCurrent();
+    });
+    this.choice.addEventListener('change', () => this.open(Number(this.choice.value), 1));
+    new ResizeObserver(() => this.draw()).observe(this.list);
+  }
+
+  setFiles(files: SourceFile[]): void {
+    const open = this.files[this.file]?.path;
+    this.files = files;
+    this.choice.replaceChildren(...files.map((f, i) => el('option', { value: String(i) }, f.path)));
+    this.choice.hidden = files.length < 2;
+    const again = files.findIndex((f) => f.path === open);
+    this.load(Math.max(again, 0));
+    this.draw();
+  }
+
+  setErrors(errors: Location[]): void {
+    this.errors = errors;
+    this.draw();
+  }
+
+  /** Marks lines, innermost first, and shows the first. */
+  show(chain: Location[]): void {
+    this.picked = chain;
+    this.calls.hidden = chain.length < 2;
+    this.calls.replaceChildren(
+      ...chain.map((where, i) => {
+        const name = `${this.files[where.file]?.path ?? '?'}:${where.line}`;
+        return el(
+          'li',
+          {},
+          i === 0 ? null : 'called by ',
+          linkButton(name, () => this.open(where.file, where.line)),
+        );
+      }),
+    );
+    const first = chain[0];
+    if (first) this.open(first.file, first.line);
+    else this.draw();
+  }
+
+  /** Marks the line of the motion that runs; `follow` scrolls to it. */
+  setRunning(where: Location | null, follow: boolean): void {
+    if (where?.file === this.running?.file && where?.line === this.running?.line) return;
+    this.running = where;
+    if (follow && where && where.file === this.file) this.reveal(where.line);
+    this.draw();
+  }
+
+  /** Shows a line of a file. */
+  open(file: number, line: number): void {
+    if (file !== this.file) this.load(file);
+    this.current = Math.min(Math.max(line, 1), Math.max(this.lines.length, 1));
+    this.reveal(this.current);
+    this.draw();
+  }
+
+  private load(file: number): void {
+    const found = this.files[file];
+    this.file = file;
+    this.lines = found?.text === null ? ['(not a text file)'] : (found?.text ?? '').split(/\r\n|\n|\r/);
+    if (found && !found.complete) this.lines.push('(the rest of this file is not shown)');
+    this.choice.value = String(file);
+    this.current = Math.min(this.current, this.lines.length);
+    this.room.style.height = `${this.lines.length * ROW}px`;
+  }
+
+  private reveal(line: number): void {
+    const top = (line - 1) * ROW;
+    const { scrollTop, clientHeight } = this.list;
+    if (top < scrollTop || top + ROW > scrollTop + clientHeight) {
+      this.list.scrollTop = Math.max(top - clientHeight / 2, 0);
+    }
+  }
+
+  private draw(): void {
+    const first = Math.max(Math.floor(this.list.scrollTop / ROW) - EXTRA, 0);
+    const last = Math.min(
+      Math.ceil((this.list.scrollTop + this.list.clientHeight) / ROW) + EXTRA,
+      this.lines.length,
+    );
+    const rows: HTMLElement[] = [];
+    for (let i = first; i < last; ++i) rows.push(this.row(i + 1));
+    this.rows.style.top = `${first * ROW}px`;
+    this.rows.replaceChildren(...rows);
+    if (this.rows.querySelector(`#line-${this.current}`)) {
+      this.list.setAttribute('aria-activedescendant', `line-${this.current}`);
+    } else {
+      this.list.removeAttribute('aria-activedescendant');
+    }
+  }
+
+  private row(line: number): HTMLElement {
+    const isHere = (where: Location | null | undefined) => where?.file === this.file && where.line === line;
+    const isPicked = this.picked.some(isHere);
+    const classes = ['row'];
+    if (isPicked) classes.push('active');
+    if (line === this.current) classes.push('current');
+    if (isHere(this.running)) classes.push('running');
+    if (this.errors.some(isHere)) classes.push('error');
+    const text = this.lines[line - 1]!;
+    return el(
+      'div',
+      {
+        class: classes.join(' '),
+        id: `line-${line}`,
+        role: 'option',
+        'data-line': String(line),
+        'aria-selected': String(isPicked),
+        'aria-setsize': String(this.lines.length),
+        'aria-posinset': String(line),
+      },
+      el('span', { class: 'number' }, String(line)),
+      el('span', { class: 'text' }, text.length > MAX_SHOWN ? `${text.slice(0, MAX_SHOWN)} …` : text),
+    );
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    const page = Math.max(Math.floor(this.list.clientHeight / ROW) - 1, 1);
+    const moves: Record<string, number> = {
+      ArrowDown: 1,
+      ArrowUp: -1,
+      PageDown: page,
+      PageUp: -page,
+      Home: -Infinity,
+      End: Infinity,
+    };
+    if (event.key in moves) {
+      const to = this.current + moves[event.key]!;
+      this.open(this.file, Math.min(Math.max(to, 1), this.lines.length));
+    } else if (event.key === 'Enter') {
+      this.pickCurrent();
+    } else {
+      return;
+    }
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  private pickCurrent(): void {
+    const where = { file: this.file, line: this.current };
+    this.show([where]);
+    this.onPick(where);
+  }
+}

@@ -1,0 +1,210 @@
+// The toolpath as lines: cuts in the colours of the part, rapids in a colour of their own, and highlighted
+// motions on top.
+import * as THREE from 'three';
+import type { Palette } from '../colours';
+import { RAPID, type Program } from '../program';
+
+const RAPID_COLOUR = [217, 130, 43];
+const HIGHLIGHT = 0xff2d95;
+
+export interface LineHit {
+  motion: number;
+  point: THREE.Vector3;
+  /** CSS pixels between the line and the pointer. */
+  pixels: number;
+}
+
+export class MovesView {
+  readonly group = new THREE.Group();
+  private readonly cuts = lines(new THREE.LineBasicMaterial({ vertexColors: true }));
+  private readonly rapids = lines(new THREE.LineBasicMaterial({ vertexColors: true }));
+  private readonly chosen = lines(new THREE.LineBasicMaterial({ color: HIGHLIGHT, depthTest: false }));
+  private program: Program | null = null;
+  private cutIndex: Uint32Array = new Uint32Array();
+  private rapidIndex: Uint32Array = new Uint32Array();
+
+  constructor() {
+    this.chosen.renderOrder = 10;
+    this.group.add(this.cuts, this.rapids, this.chosen);
+  }
+
+  show(cuts: boolean, rapids: boolean): void {
+    this.cuts.visible = cuts;
+    this.rapids.visible = rapids;
+  }
+
+  update(program: Program, palette: Palette): void {
+    this.program = program;
+    const { points, kind } = program.path;
+    const position = new THREE.BufferAttribute(points, 3);
+    this.cutIndex = segments(program, (m) => kind[m] !== RAPID);
+    this.rapidIndex = segments(program, (m) => kind[m] === RAPID);
+    this.replace(this.cuts, position, this.cutIndex);
+    this.replace(this.rapids, position, this.rapidIndex);
+    this.replace(this.chosen, position, new Uint32Array());
+    this.recolour(palette);
+  }
+
+  private replace(object: THREE.LineSegments, position: THREE.BufferAttribute, index: Uint32Array): void {
+    object.geometry.dispose();
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', position);
+    geometry.setIndex(new THREE.BufferAttribute(index, 1));
+    object.geometry = geometry;
+    object.frustumCulled = false;
+  }
+
+  recolour(palette: Palette): void {
+    const program = this.program;
+    if (!program) return;
+    const { firstPoint, kind, step, points } = program.path;
+    const colours = new Uint8Array((4 * points.length) / 3);
+    for (let m = 0; m < program.motions; ++m) {
+      const own = palette.ofStep(step[m]!);
+      const isMarked = palette.isMarked(step[m]!);
+      for (let p = firstPoint[m]!; p < firstPoint[m + 1]!; ++p) {
+        const cut = palette.byDepth && !isMarked ? palette.ofDepth(points[3 * p + 2]!) : own;
+        // Darker than the surface that the motion made, so that the line is visible on it.
+        const rgb = kind[m] === RAPID && !isMarked ? RAPID_COLOUR : cut.map((c) => 0.62 * c);
+        colours.set(rgb, 4 * p);
+        colours[4 * p + 3] = 255;
+      }
+    }
+    const attribute = new THREE.BufferAttribute(colours, 4, true);
+    this.rapids.geometry.setAttribute('color', attribute);
+    this.cuts.geometry.setAttribute('color', attribute);
+  }
+
+  /** Shows only the motions before `motion`, and that one. */
+  limit(motion: number): void {
+    const end = this.program
+      ? this.program.path.firstPoint[Math.min(motion + 1, this.program.motions)]!
+      : 0;
+    this.cuts.geometry.setDrawRange(0, countBelow(this.cutIndex, end));
+    this.rapids.geometry.setDrawRange(0, countBelow(this.rapidIndex, end));
+  }
+
+  highlight(motions: Uint32Array): void {
+    if (!this.program) return;
+    const wanted = new Set(motions);
+    this.chosen.geometry.setIndex(
+      new THREE.BufferAttribute(
+        segments(this.program, (m) => wanted.has(m)),
+        1,
+      ),
+    );
+    this.chosen.geometry.setDrawRange(0, Infinity);
+  }
+
+  /** The box around motions, or null if none of them has a known position. */
+  boundsOf(motions: Uint32Array): THREE.Box3 | null {
+    const box = new THREE.Box3();
+    if (!this.program) return null;
+    const { firstPoint, points } = this.program.path;
+    const point = new THREE.Vector3();
+    for (const m of motions) {
+      for (let p = firstPoint[m]!; p < firstPoint[m + 1]!; ++p)
+        box.expandByPoint(point.fromArray(points, 3 * p));
+    }
+    return box.isEmpty() ? null : box;
+  }
+
+  /** The visible line nearest to a pixel, within `reach` CSS pixels; `rows` as from Stage.toPixels. */
+  hit(
+    x: number,
+    y: number,
+    reach: number,
+    rows: number[],
+    isVisible: (p: THREE.Vector3) => boolean,
+  ): LineHit | null {
+    let best: LineHit | null = null;
+    for (const [object, index] of [
+      [this.cuts, this.cutIndex],
+      [this.rapids, this.rapidIndex],
+    ] as const) {
+      if (object.visible) best = this.nearest(object, index, x, y, rows, best, reach, isVisible);
+    }
+    return best;
+  }
+
+  private nearest(
+    object: THREE.LineSegments,
+    index: Uint32Array,
+    x: number,
+    y: number,
+    r: number[],
+    best: LineHit | null,
+    reach: number,
+    isVisible: (p: THREE.Vector3) => boolean,
+  ): LineHit | null {
+    const points = this.program!.path.points;
+    const px = (p: number) => r[0]! * points[p]! + r[1]! * points[p + 1]! + r[2]! * points[p + 2]! + r[3]!;
+    const py = (p: number) => r[4]! * points[p]! + r[5]! * points[p + 1]! + r[6]! * points[p + 2]! + r[7]!;
+    const count = Math.min(index.length, object.geometry.drawRange.count);
+    for (let i = 0; i + 1 < count; i += 2) {
+      const a = 3 * index[i]!;
+      const b = 3 * index[i + 1]!;
+      const ax = px(a);
+      const ay = py(a);
+      const dx = px(b) - ax;
+      const dy = py(b) - ay;
+      const squared = dx * dx + dy * dy;
+      const t = squared > 0 ? Math.min(Math.max(((x - ax) * dx + (y - ay) * dy) / squared, 0), 1) : 0;
+      const pixels = Math.hypot(ax + t * dx - x, ay + t * dy - y);
+      if (pixels > reach || (best && pixels >= best.pixels)) continue;
+      const point = new THREE.Vector3()
+        .fromArray(points, a)
+        .lerp(new THREE.Vector3().fromArray(points, b), t);
+      if (isVisible(point)) best = { motion: this.motionOfPoint(index[i]!), point, pixels };
+    }
+    return best;
+  }
+
+  private motionOfPoint(point: number): number {
+    const { firstPoint } = this.program!.path;
+    let low = 0;
+    let high = firstPoint.length - 1;
+    while (low < high) {
+      // the last motion whose first point is not above `point`
+      const mid = (low + high + 1) >> 1;
+      if (firstPoint[mid]! <= point) low = mid;
+      else high = mid - 1;
+    }
+    return low;
+  }
+}
+
+function lines(material: THREE.LineBasicMaterial): THREE.LineSegments {
+  return new THREE.LineSegments(new THREE.BufferGeometry(), material);
+}
+
+/** Pairs of points of the chosen motions, in order. */
+function segments(program: Program, isWanted: (m: number) => boolean): Uint32Array {
+  const { firstPoint } = program.path;
+  let count = 0;
+  for (let m = 0; m < program.motions; ++m) {
+    if (isWanted(m)) count += Math.max(firstPoint[m + 1]! - firstPoint[m]! - 1, 0);
+  }
+  const pairs = new Uint32Array(2 * count);
+  let at = 0;
+  for (let m = 0; m < program.motions; ++m) {
+    if (!isWanted(m)) continue;
+    for (let p = firstPoint[m]!; p + 1 < firstPoint[m + 1]!; ++p) {
+      pairs[at++] = p;
+      pairs[at++] = p + 1;
+    }
+  }
+  return pairs;
+}
+
+/** How many entries of an increasing list of pairs are below `end`. */
+function countBelow(index: Uint32Array, end: number): number {
+  let low = 0;
+  let high = index.length;
+  while (low < high) {
+    const mid = (low + high) >> 1;
+    if (index[mid]! < end) low = mid + 1;
+    else high = mid;
+  }
+  return low - (low % 2);
+}

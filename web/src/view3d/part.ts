@@ -1,0 +1,174 @@
+// The surface of the part: one mesh per tile, coloured per triangle. While another instant than the end of
+// the job is shown, tiles of that instant replace those of the finished part.
+import * as THREE from 'three';
+import type { Palette } from '../colours';
+import type { MeshAnswer, Tile } from '../decode';
+import { FINAL, NO_STEP, renumber } from '../decode';
+
+const CUT_FACE = '0.969, 0.886, 0.361'; // as in the pictures of `kerf simulate`
+
+export interface SurfaceHit {
+  point: THREE.Vector3;
+  distance: number;
+  /** The step that made the surface; NO_STEP on faces of the stock and on the section. */
+  step: number;
+}
+
+interface Shown {
+  tile: Tile;
+  mesh: THREE.Mesh;
+}
+
+export class PartView {
+  readonly group = new THREE.Group();
+  /** The instant that is shown: FINAL, or a number of steps. */
+  shownStep = FINAL;
+  private readonly finished = new Map<number, Tile>();
+  private readonly instant = new Map<number, Tile>();
+  private readonly shown = new Map<number, Shown>();
+  private readonly material = partMaterial();
+  private palette: Palette | null = null;
+  private stepLimit = FINAL;
+
+  get triangles(): number {
+    let sum = 0;
+    for (const { tile } of this.shown.values()) sum += tile.step.length;
+    return sum;
+  }
+
+  /** Tiles of the finished part; the finished part is shown afterwards. */
+  update(answer: MeshAnswer, palette: Palette): void {
+    this.palette = palette;
+    if (answer.reset) this.finished.clear();
+    for (const table of answer.renumberings) {
+      for (const tile of this.finished.values()) renumber(tile.step, table);
+    }
+    for (const tile of answer.tiles) this.finished.set(tile.id, tile);
+    this.showFinished();
+  }
+
+  /** Tiles of the instant after answer.atStep steps. */
+  updateInstant(answer: MeshAnswer): void {
+    this.shownStep = answer.atStep;
+    if (answer.atStep === FINAL) {
+      this.showFinished();
+      return;
+    }
+    for (const tile of answer.tiles) {
+      this.instant.set(tile.id, tile);
+      this.refresh(tile.id);
+    }
+  }
+
+  showFinished(): void {
+    this.shownStep = FINAL;
+    this.instant.clear();
+    const ids = new Set([...this.finished.keys(), ...this.shown.keys()]);
+    for (const id of ids) this.refresh(id);
+  }
+
+  /** Shows only triangles of the first `steps` steps: for prints, which only grow. */
+  limit(steps: number): void {
+    if (steps === this.stepLimit) return;
+    this.stepLimit = steps;
+    for (const shown of this.shown.values()) this.limitOne(shown);
+  }
+
+  recolour(palette: Palette): void {
+    this.palette = palette;
+    for (const { tile, mesh } of this.shown.values()) setColours(mesh.geometry, palette.paint(tile));
+  }
+
+  /** The first visible surface along a ray. */
+  hit(
+    caster: THREE.Raycaster,
+    isHidden: (p: THREE.Vector3) => boolean,
+    onSection: (ray: THREE.Ray) => THREE.Vector3 | null,
+  ): SurfaceHit | null {
+    if (!this.group.visible) return null;
+    for (const found of caster.intersectObject(this.group, true)) {
+      if (isHidden(found.point)) continue;
+      const shown = this.shown.get(found.object.userData.tile as number);
+      if (!shown) continue;
+      const facesAway = (found.face?.normal.dot(caster.ray.direction) ?? 0) > 0;
+      const section = facesAway ? onSection(caster.ray) : null;
+      if (section)
+        return { point: section, distance: caster.ray.origin.distanceTo(section), step: NO_STEP };
+      const step = shown.tile.step[found.faceIndex ?? 0] ?? NO_STEP;
+      return { point: found.point, distance: found.distance, step };
+    }
+    return null;
+  }
+
+  private refresh(id: number): void {
+    const tile = this.instant.get(id) ?? this.finished.get(id);
+    const old = this.shown.get(id);
+    if (old?.tile === tile) return;
+    if (old) {
+      this.group.remove(old.mesh);
+      old.mesh.geometry.dispose();
+      this.shown.delete(id);
+    }
+    if (!tile || tile.step.length === 0 || !this.palette) return;
+    const mesh = new THREE.Mesh(geometryOf(tile), this.material);
+    mesh.userData.tile = id;
+    setColours(mesh.geometry, this.palette.paint(tile));
+    const shown = { tile, mesh };
+    this.shown.set(id, shown);
+    this.limitOne(shown);
+    this.group.add(mesh);
+  }
+
+  private limitOne({ tile, mesh }: Shown): void {
+    if (this.stepLimit === FINAL) {
+      mesh.geometry.setIndex(null);
+      return;
+    }
+    const kept: number[] = [];
+    for (let t = 0; t < tile.step.length; ++t) {
+      if (tile.step[t]! < this.stepLimit) kept.push(3 * t, 3 * t + 1, 3 * t + 2);
+    }
+    mesh.geometry.setIndex(kept);
+  }
+}
+
+/** Corners are not shared between triangles, so that each triangle has its own colour. */
+function geometryOf(tile: Tile): THREE.BufferGeometry {
+  const positions = new Float32Array(3 * tile.index.length);
+  for (let i = 0; i < tile.index.length; ++i) {
+    const v = 3 * tile.index[i]!;
+    positions[3 * i] = tile.positions[v]!;
+    positions[3 * i + 1] = tile.positions[v + 1]!;
+    positions[3 * i + 2] = tile.positions[v + 2]!;
+  }
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute('position', new THREE.BufferAttribute(positions, 3));
+  geometry.computeBoundingSphere();
+  return geometry;
+}
+
+function setColours(geometry: THREE.BufferGeometry, colours: Uint8Array): void {
+  geometry.setAttribute('color', new THREE.BufferAttribute(colours, 4, true));
+}
+
+/**
+ * Faces seen from inside are those that the section plane has opened: one flat colour, which looks like a
+ * cap.
+ */
+function partMaterial(): THREE.Material {
+  const material = new THREE.MeshLambertMaterial({
+    vertexColors: true,
+    flatShading: true,
+    side: THREE.DoubleSide,
+    polygonOffset: true, // lines on the surface stay visible
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
+  material.onBeforeCompile = (shader) => {
+    shader.fragmentShader = shader.fragmentShader.replace(
+      '#include <opaque_fragment>',
+      `#include <opaque_fragment>\n if (!gl_FrontFacing) gl_FragColor = vec4(${CUT_FACE}, 1.0);`,
+    );
+  };
+  return material;
+}
