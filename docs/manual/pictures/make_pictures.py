@@ -26,7 +26,7 @@ PICTURES = {
        for name in ("box", "commands", "hanger", "relief", "sign")},
     "tray-top": "run {examples}/gcodepreview/tray.py -o {out}.glb",  # a file that the script writes
     **{f"op-{name}": f"cut --example {name}; simulate job.toml -o {{out}}" for name in OPERATIONS},
-    "inlay": "simulate {examples}/inlay.toml -o {out}",
+    **{name: f"simulate {{examples}}/{name}.toml -o {{out}}" for name in ("inlay", "rest", "text")},
     **{f"path-{number}": f"simulate {{examples}}/path/{number}.1P.dxf -o {{out}} --spoilboard 3"
        for number in ("9001", "9002", "9003", "9004", "9005", "9006", "9008", "9009")},
 }
