@@ -18,7 +18,10 @@ enum class GcodeDialect : unsigned char {
   laser,    // GRBL with a laser: M3 and M4 switch the beam, S is its power on each line
   marlin,   // printers: E, heaters, fans; G4 P in milliseconds
   klipper,  // as marlin, with commands in words
+  reprap,   // RepRapFirmware: as marlin, speeds of M203 and M566 in mm/min, fans from 0 to 1
 };
+/// Whether the controller is that of a printer.
+constexpr bool is_printer(GcodeDialect dialect) { return dialect >= GcodeDialect::marlin; }
 std::string_view to_string(GcodeDialect dialect);
 /// The dialect of a name such as "linuxcnc", "GRBL", "grblhal", "Mach3"; nothing for an unknown name.
 std::optional<GcodeDialect> dialect_named(std::string_view name);

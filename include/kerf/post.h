@@ -9,7 +9,7 @@
 //   std::vector<PostedFile> files = post(path, *grbl, {.program_name = "part"}, diagnostics);
 //   lint_gcode(files[0].text, *grbl, "part.nc", diagnostics);
 //
-// Sources: the manuals of LinuxCNC, GRBL, grblHAL, Marlin, Klipper and Mach3.
+// Sources: the manuals of LinuxCNC, GRBL, grblHAL, Marlin, Klipper, RepRapFirmware and Mach3.
 #pragma once
 
 #include <cstddef>
@@ -50,10 +50,19 @@ enum class LineSyntax : std::uint8_t { words, commands };
 /// What counts towards the maximum line length: every byte, or (GRBL) neither blanks nor comments.
 enum class LineMeasure : std::uint8_t { bytes, significant };
 enum class ExtruderMode : std::uint8_t { relative, absolute };
+/// Comments on beads. `slicer`: layers, kinds, widths and heights as PrusaSlicer writes them
+/// (";LAYER_CHANGE",
+/// ";TYPE:External perimeter", ";WIDTH:0.45"), which the viewers of slicers and printers read.
+enum class BeadComments : std::uint8_t { none, slicer };
+/// How the limits of motions (step::MotionLimits) are written: not at all; M201, M203, M204, M205 with mm/s;
+/// the same with mm/min and M566; SET_VELOCITY_LIMIT.
+enum class LimitCommands : std::uint8_t { none, marlin, reprap, klipper };
 
 /// One controller's dialect. Lines of templates may hold {name}, {units}, {tool}, {tool_name},
-/// {tool_comment}, {tools}, {bounds}, {time}, {version} and {profile}; a comment that ends up empty is left
-/// out.
+/// {tool_comment}, {tools}, {bounds}, {time}, {version}, {profile}, of a print {extruder} (M82 or M83),
+/// {filament_diameter}, {filament_mm}, {filament_cm3}, {layers}, {layer_height} (of the first layer),
+/// {nozzle}, {bed}, {chamber} (the first temperature of each in the program, C), and the names of
+/// `variables`; a comment that ends up empty is left out.
 struct PostProfile {
   std::string name;   // "grbl"
   std::string title;  // "GRBL 1.1"
@@ -95,6 +104,9 @@ struct PostProfile {
   Length filament = mm(1.75);  // diameter, for E words
   ExtruderMode extruder = ExtruderMode::relative;
   double fan_full = 255.0;  // S of a fan at full speed
+  BeadComments bead_comments = BeadComments::none;
+  LimitCommands limits = LimitCommands::none;
+  std::map<std::string, std::string> variables;  // for templates; PostOptions::variables come first
 
   std::vector<std::string> header, section, footer;
   std::vector<std::string> change_lines{"T{tool} M6"};  // for ToolChangePolicy::command
@@ -119,14 +131,22 @@ std::optional<PostProfile> read_post_profile(std::string_view text, std::string_
 /// toolpath's own steps.
 enum class ToolLengths : std::uint8_t { by_post, by_path };
 
+/// A picture in the comments at the start of a printer's program, as slicers write them.
+struct Thumbnail {
+  int width = 0, height = 0;  // pixels
+  std::string png;            // bytes of the file
+};
+
 struct PostOptions {
   std::string program_name;        // for the header's comment
   std::optional<LengthUnit> unit;  // instead of the profile's
   std::optional<ToolChangePolicy> tool_change;
   ToolLengths tool_lengths = ToolLengths::by_post;
-  Feed missing_feed;                         // for cuts without a feed; 0: an error
-  std::map<int, std::string> tool_names;     // for comments
-  std::map<int, std::string> tool_comments;  // "TOOL/MILL, 6, 0, 20, 0"
+  Feed missing_feed;                             // for cuts without a feed; 0: an error
+  std::map<int, std::string> tool_names;         // for comments
+  std::map<int, std::string> tool_comments;      // "TOOL/MILL, 6, 0, 20, 0"
+  std::map<std::string, std::string> variables;  // for templates
+  std::vector<Thumbnail> thumbnails;             // not written for mills
 };
 
 struct PostedFile {

@@ -59,6 +59,14 @@ struct PassSaving {
 /// Applies the passes to a toolpath and returns the savings of each.
 std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes);
 
+/// The size of a picture of the print in its program, pixels.
+struct ThumbnailSize {
+  int width = 0, height = 0;
+};
+inline constexpr int kMaxThumbnailSide = 1000;  // pixels
+/// "220x124"; nothing for other texts and for sides outside of 1 to kMaxThumbnailSide pixels.
+std::optional<ThumbnailSize> thumbnail_size(std::string_view text);
+
 struct PostingOptions {
   std::optional<LengthUnit> unit = {};  // nothing: the profile's; mm in a drawing
   std::optional<ToolChangePolicy> tool_change = {};
@@ -66,6 +74,8 @@ struct PostingOptions {
   std::map<int, Tool> tools = {};            // by number: for names in comments, and sizes of drilled holes
   RapidLines rapids = RapidLines::left_out;  // of a drawing
   DxfVersion dxf_version = DxfVersion::r2000;
+  std::map<std::string, std::string> variables = {};  // of templates, before those of the post
+  std::vector<ThumbnailSize> thumbnails = {};         // of a print; it is simulated for them
 };
 /// The text of a program for a target, checked by its rules (lint_gcode). With an error in `diagnostics` it
 /// must not be used. Empty if stopped.

@@ -35,6 +35,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kerf/bead.h"
 #include "kerf/diagnostics.h"
 #include "kerf/limits.h"
 #include "kerf/mesh.h"
@@ -126,9 +127,6 @@ struct PrintSimulation {
   double seconds = 0.0;              // of the simulation alone
   bool stopped = false;              // interrupted: the result is incomplete
 };
-
-/// The volume of a bead of this length in plan, width and height; height <= width.
-Volume bead_volume(Length length, Length width, Length height);
 
 /// Whether a program only prints: it extrudes while moving and starts no spindle.
 bool is_print(const Toolpath& path);

@@ -34,6 +34,38 @@ enum class SpindleTurn : std::uint8_t { off, cw, ccw };
 enum class PathModeKind : std::uint8_t { exact_path, exact_stop, blend };
 enum class Heater : std::uint8_t { nozzle, bed, chamber };
 enum class LaserMode : std::uint8_t { off, constant, dynamic };
+/// What a bead is part of, as slicers name it. `wall` is an inner wall, `solid_infill` includes bottoms.
+enum class BeadKind : std::uint8_t {
+  none,
+  skirt,
+  outer_wall,
+  wall,
+  overhang,
+  infill,
+  solid_infill,
+  top,
+  bridge,
+  gap_fill,
+  ironing,
+  support,
+  support_interface,
+  purge,
+  custom,
+};
+inline constexpr std::size_t kBeadKinds = 15;
+/// "outer_wall", as in JSON and Python; "" for none.
+std::string_view to_string(BeadKind kind);
+/// A limit of a printer's motions; see step::MotionLimits.
+enum class LimitKind : std::uint8_t {
+  axis_acceleration,  // X, Y, Z, E, mm/s2 (M201)
+  axis_speed,         // X, Y, Z, E, mm/s (M203)
+  acceleration,       // of beads, of retractions, of travel, mm/s2 (M204 P, R, T)
+  jerk,  // X, Y, Z, E, mm/s: the change of speed without acceleration (M205; M566 of RepRapFirmware)
+  junction_deviation,  // mm, the first value only (M205 J)
+  corner_speed,        // mm/s at a corner of 90 degrees, the first value only (Klipper)
+};
+/// "axis_acceleration" and so on, as in JSON and Python.
+std::string_view to_string(LimitKind kind);
 /// Probing: the event that ends the motion (contact made or lost) and whether its absence is an error
 /// (G38.2-G38.5).
 enum class ProbeKind : std::uint8_t { contact_or_error, contact, release_or_error, release };
@@ -112,6 +144,7 @@ struct Extrude {
   Length width;
   Length height;
   Feed feed;
+  BeadKind kind = BeadKind::none;
 };
 struct Temperature {
   Heater heater = Heater::nozzle;
@@ -121,6 +154,12 @@ struct Temperature {
 struct Fan {
   int fan = 0;
   double fraction = 0.0;  // 0 to 1
+};
+/// The firmware of a printer plans the motions that follow with these limits; values that are not given stay.
+struct MotionLimits {
+  LimitKind kind = LimitKind::acceleration;
+  std::array<double, 4> values{};  // see LimitKind
+  unsigned given = 0;              // bits 1, 2, 4, 8 of `values`
 };
 struct LaserPower {
   LaserMode mode = LaserMode::off;
@@ -209,6 +248,7 @@ enum class StepKind : std::uint8_t {
   work_zero,
   tool_length,
   unresolved,
+  motion_limits,
 };
 /// The name used in `kerf steps`: "rapid", "cut", "tool", "pathmode" and so on.
 std::string_view name_of(StepKind kind);
@@ -255,6 +295,7 @@ class Step {
   step::Probe probe() const;
   step::Temperature temperature() const;
   step::Fan fan() const;
+  step::MotionLimits motion_limits() const;
   step::LaserPower laser_power() const;
   step::Pause pause() const;
   step::End end() const;
@@ -276,7 +317,8 @@ class Step {
   bool rests_before_ : 1 = false;
   std::uint8_t turn_ : 2 = 0;  // Turn or SpindleTurn, or two flags
   std::uint8_t named_axes_ : 6 = 0;
-  std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference (or known) axes
+  std::uint8_t frame_ = 0;  // from the low end: 3 bits unknown axes, 3 bits reference (or known) axes; of
+                            // limits: the values given
 };
 static_assert(sizeof(Step) == 64, "a million steps fit in 64 MB");
 
@@ -332,6 +374,7 @@ class Toolpath {
   std::size_t add(const step::Extrude& s, OriginId origin);
   std::size_t add(const step::Temperature& s, OriginId origin);
   std::size_t add(const step::Fan& s, OriginId origin);
+  std::size_t add(const step::MotionLimits& s, OriginId origin);
   std::size_t add(const step::LaserPower& s, OriginId origin);
   std::size_t add(const step::Layer& s, OriginId origin);
   std::size_t add(const step::Note& s, OriginId origin);
@@ -381,6 +424,7 @@ class Toolpath {
   std::int32_t intern(std::string_view text);
   struct Bead {
     Length width, height;
+    BeadKind kind = BeadKind::none;
     bool operator==(const Bead&) const = default;
   };
 

@@ -261,6 +261,8 @@ def post(
     shorten_rapids=False,
     rapids=False,
     dxf_version="r2000",
+    variables=None,
+    thumbnails=(),
     on_open=None,
     on_section=None,
     on_close=None,
@@ -291,6 +293,10 @@ def post(
     rapids : bool
         Draw rapids in drawings.
     dxf_version : {'r2000', 'r12'}
+    variables : dict, optional
+        Texts and numbers for names in the templates of the post, before its own variables.
+    thumbnails : sequence of (int, int)
+        Sizes in pixels of pictures of a print in its program.
     on_open, on_section, on_close : callable, optional
         Return a list of lines to add: ``on_open()`` before the first step, ``on_section(number)`` before each
         change to the tool of that number, ``on_close()`` before the end of the program. Lines that move the
@@ -314,7 +320,9 @@ def post(
     if on_open is not None or on_section is not None or on_close is not None:
         program = _with_hooks(program, on_open, on_section, on_close)
     options = dict(unit=unit, tool_change=tool_change, feed=feed, tools=tools, fit_arcs=fit_arcs, join=join,
-                   shorten_rapids=shorten_rapids, rapids=rapids, dxf_version=dxf_version)
+                   shorten_rapids=shorten_rapids, rapids=rapids, dxf_version=dxf_version,
+                   variables={name: str(value) for name, value in (variables or {}).items()},
+                   thumbnails=[tuple(size) for size in thumbnails])
     texts = _kerf._post(program, os.fsdecode(to), name, **options)
     if path is None:
         if len(texts) != 1:

@@ -79,7 +79,9 @@ Length to_tolerance(double value, const char* argument) {
 py::list post_texts(const py::object& value, const std::string& to, const std::string& file_name,
                     const std::optional<std::string>& unit, const std::optional<std::string>& tool_change,
                     double feed, const py::object& tools, double fit_arcs, double join, bool shorten_rapids,
-                    bool rapids, const std::string& dxf_version) {
+                    bool rapids, const std::string& dxf_version,
+                    const std::map<std::string, std::string>& variables,
+                    const std::vector<std::pair<int, int>>& thumbnails) {
   Program program = to_program(value);
   const PostTarget target = to_target(to);
   PostingOptions options;
@@ -94,6 +96,10 @@ py::list post_texts(const py::object& value, const std::string& to, const std::s
   const auto version = dxf_version_named(dxf_version);
   if (!version) throw py::value_error("dxf_version must be 'r2000' or 'r12', not '" + dxf_version + "'");
   options.dxf_version = *version;
+  options.variables = variables;
+  for (const auto& [width, height] : thumbnails)
+    options.thumbnails.push_back({whole_within(width, 1, kMaxThumbnailSide, "width"),
+                                  whole_within(height, 1, kMaxThumbnailSide, "height")});
   options.tools = used_tools(program, to_tool_choices(tools));
   const PassChoices passes{to_tolerance(fit_arcs, "fit_arcs"), to_tolerance(join, "join"), shorten_rapids};
   Diagnostics diagnostics;
@@ -176,7 +182,8 @@ void bind_program(py::module_& m) {
         py::arg("tools"), py::arg("machine"));
   m.def("_post", &post_texts, py::arg("program"), py::arg("to"), py::arg("name"), py::kw_only(),
         py::arg("unit"), py::arg("tool_change"), py::arg("feed"), py::arg("tools"), py::arg("fit_arcs"),
-        py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"));
+        py::arg("join"), py::arg("shorten_rapids"), py::arg("rapids"), py::arg("dxf_version"),
+        py::arg("variables"), py::arg("thumbnails"));
   m.def(
       "_stock_of_text",
       [](const std::string& text) { return *to_settings(py::none(), py::str(text), {}).stock; },

@@ -1,4 +1,5 @@
 // The toolpath in Python: adding steps, reading G-code, accessing steps.
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -9,6 +10,8 @@
 #include "kerf/files.h"
 #include "kerf/gcode.h"
 #include "kerf/limits.h"
+#include "kerf/motion_limits.h"
+#include "kerf/names.h"
 #include "kerf/number.h"
 #include "kerf/print.h"
 #include "kerf/program.h"
@@ -21,12 +24,23 @@ namespace py = pybind11;
 
 namespace {
 
+constexpr double kMaxMotionLimit = 1e9;                              // mm/s, mm/s2
 constexpr double kThinnestFilament = 0.1, kThickestFilament = 20.0;  // mm
 
 Turn to_turn(const std::string& name) {
   if (name == "cw") return Turn::cw;
   if (name == "ccw") return Turn::ccw;
   throw py::value_error("turn must be 'cw' or 'ccw', not '" + name + "'");
+}
+
+BeadKind to_bead_kind(const std::string& name) {
+  if (const auto kind = bead_kind_named(name)) return *kind;
+  throw py::value_error("there is no kind of bead '" + clipped(name, 60) + "'");
+}
+
+LimitKind to_limit_kind(const std::string& name) {
+  if (const auto kind = limit_named(name)) return *kind;
+  throw py::value_error("there is no limit '" + clipped(name, 60) + "'");
 }
 
 Plane to_plane(const std::string& name) {
@@ -69,6 +83,14 @@ void describe_machine_step(py::dict& d, const Step& s) {
       d["fan"] = s.fan().fan;
       d["fraction"] = s.fan().fraction;
       break;
+    case StepKind::motion_limits: {
+      const step::MotionLimits limits = s.motion_limits();
+      d["limit"] = std::string(to_string(limits.kind));
+      for (std::size_t k = 0; k < limits.values.size(); ++k)
+        if ((limits.given >> k & 1u) != 0)
+          d[py::str(std::string(value_names(limits.kind)[k]))] = limits.values[k];
+      break;
+    }
     case StepKind::laser_power: {
       static constexpr const char* kModes[] = {"off", "constant", "dynamic"};
       d["mode"] = kModes[static_cast<int>(s.laser_power().mode)];
@@ -111,6 +133,7 @@ py::dict describe(const Toolpath& path, std::size_t i) {
       d["volume"] = bead.volume.mm3();
       d["width"] = bead.width.mm();
       d["height"] = bead.height.mm();
+      if (bead.kind != BeadKind::none) d["kind"] = std::string(to_string(bead.kind));
       break;
     }
     case StepKind::dwell: d["seconds"] = s.dwell().time.seconds(); break;
@@ -286,8 +309,9 @@ void bind_extrude(py::class_<Toolpath>& c) {
   c.def(
       "extrude",
       [](Toolpath& path, const py::object& to, double feed, const std::optional<double>& volume, double width,
-         double height) {
+         double height, const std::string& kind) {
         step::Extrude bead;
+        bead.kind = to_bead_kind(kind);
         bead.to = to_point3(to, "to");
         bead.feed = positive_feed(feed);
         bead.width = mm(number_within(width, 0.0, limits::kMaxBeadWidth, "width", "mm"));
@@ -298,7 +322,7 @@ void bind_extrude(py::class_<Toolpath>& c) {
         path.add(bead, path.origins().add(script_location("extrude")));
       },
       py::arg("to"), py::arg("feed"), py::arg("volume") = py::none(), py::arg("width") = 0.0,
-      py::arg("height") = 0.0,
+      py::arg("height") = 0.0, py::arg("kind") = "",
       R"(Append an extruding motion, which lays a bead whose top is at the height of the nozzle.
 
 Parameters
@@ -311,11 +335,51 @@ volume : float, optional
     Of the whole bead, mm3; below 0 retracts filament. Default: from `width` and `height`.
 width, height : float
     Of the bead, mm; 0: from the volume and the step in Z, see `simulate_print`.
+kind : str
+    What the bead is part of: 'skirt', 'outer_wall', 'wall', 'overhang', 'infill', 'solid_infill', 'top',
+    'bridge', 'gap_fill', 'ironing', 'support', 'support_interface', 'purge', 'custom'.
 
 Raises
 ------
 ValueError
-    If neither a volume nor a valid width and height are given.)");
+    If neither a volume nor a valid width and height are given, or the kind is unknown.)");
+}
+
+void bind_motion_limits(py::class_<Toolpath>& c) {
+  c.def(
+      "motion_limits",
+      [](Toolpath& path, const std::string& limit, const py::kwargs& values) {
+        step::MotionLimits limits;
+        limits.kind = to_limit_kind(limit);
+        const auto& names = value_names(limits.kind);
+        for (const auto& [key, value] : values) {
+          const auto it = std::find(names.begin(), names.end(), py::cast<std::string>(key));
+          if (it == names.end() || it->empty())
+            throw py::value_error(limit + " has no value \"" + py::cast<std::string>(key) + "\"");
+          const auto k = static_cast<std::size_t>(it - names.begin());
+          limits.values[k] = number_within(py::cast<double>(value), 0.0, kMaxMotionLimit,
+                                           py::cast<std::string>(key).c_str(), "mm");
+          limits.given |= 1u << k;
+        }
+        if (limits.given == 0) throw py::value_error("no value is given");
+        path.add(limits, path.origins().add(script_location("motion_limits")));
+      },
+      py::arg("limit"),
+      R"(Set limits with which a printer's firmware plans the motions that follow.
+
+Parameters
+----------
+limit : str
+    'axis_acceleration' (x, y, z, e, mm/s2), 'axis_speed' (x, y, z, e, mm/s), 'acceleration' (beads,
+    retractions, travel, mm/s2), 'jerk' (x, y, z, e, mm/s), 'junction_deviation' (value, mm) or
+    'corner_speed' (value, mm/s).
+values : float
+    The values by these names, from 0; those that are not given stay.
+
+Raises
+------
+ValueError
+    For an unknown limit, an unknown or missing value, or one that is negative or not finite.)");
 }
 
 void bind_other_steps(py::class_<Toolpath>& c) {
@@ -404,6 +468,7 @@ Examples
   bind_motions(c);
   bind_arc(c);
   bind_extrude(c);
+  bind_motion_limits(c);
   bind_other_steps(c);
   bind_steps(c);
   bind_copy(c);

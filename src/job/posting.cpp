@@ -2,12 +2,15 @@
 #include "kerf/posting.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
 #include "kerf/job.h"
 #include "kerf/names.h"
+#include "kerf/number.h"
+#include "kerf/outputs.h"
 #include "kerf/tool_files.h"
 
 namespace kerf {
@@ -23,6 +26,7 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   out.unit = unit;
   out.tool_change = options.tool_change;
   out.missing_feed = options.missing_feed;
+  out.variables = options.variables;
   if (program.states_tool_lengths) out.tool_lengths = ToolLengths::by_path;
   for (const auto& [number, tool] : options.tools) {
     out.tool_names[number] = short_name(tool);
@@ -33,11 +37,38 @@ PostOptions post_options(const Program& program, const PostingOptions& options, 
   return out;
 }
 
+/// Pictures of the print, which is simulated once. Errors are appended.
+std::vector<Thumbnail> make_thumbnails(const Program& program, const std::vector<ThumbnailSize>& sizes,
+                                       Diagnostics& diagnostics, Progress* progress) {
+  std::vector<Thumbnail> pictures;
+  if (sizes.empty()) return pictures;
+  if (!is_print(program.path)) {
+    diagnostics.error(Code::post_cannot, {}, "a thumbnail shows a print; this program does not print");
+    return pictures;
+  }
+  const Job job = make_print_job(program);
+  const auto run = run_job(job, {}, diagnostics, progress);
+  const auto surface =
+      run ? make_surface(job, *run, {.detail = SurfaceDetail::columns}, diagnostics, progress) : std::nullopt;
+  if (!surface) return pictures;
+  for (const ThumbnailSize& size : sizes) {
+    View view;
+    view.width = size.width;
+    view.height = size.height;
+    auto png = picture_file(*surface, view, diagnostics);
+    if (png) pictures.push_back({size.width, size.height, std::move(*png)});
+  }
+  return pictures;
+}
+
 std::vector<PostedFile> post_gcode(const Program& program, const PostProfile& profile,
                                    const PostingOptions& options, Diagnostics& diagnostics,
                                    Progress* progress) {
   const LengthUnit unit = options.unit.value_or(profile.unit);
-  auto files = post(program.path, profile, post_options(program, options, unit), diagnostics, progress);
+  PostOptions how = post_options(program, options, unit);
+  how.thumbnails = make_thumbnails(program, options.thumbnails, diagnostics, progress);
+  if (stop_requested(progress)) return {};
+  auto files = post(program.path, profile, how, diagnostics, progress);
   for (const PostedFile& file : files) lint_gcode(file.text, profile, "output", diagnostics);
   return files;
 }
@@ -106,6 +137,18 @@ std::optional<DxfVersion> dxf_version_named(std::string_view name) {
   if (folded == "r2000") return DxfVersion::r2000;
   if (folded == "r12") return DxfVersion::r12;
   return std::nullopt;
+}
+
+std::optional<ThumbnailSize> thumbnail_size(std::string_view text) {
+  const std::size_t cross = text.find('x');
+  if (cross == std::string_view::npos) return std::nullopt;
+  const auto whole = [](std::string_view digits) {
+    const auto value = parse_number(digits);
+    const bool fits = value && *value >= 1.0 && *value <= kMaxThumbnailSide && *value == std::floor(*value);
+    return fits ? static_cast<int>(*value) : 0;
+  };
+  const ThumbnailSize size{whole(text.substr(0, cross)), whole(text.substr(cross + 1))};
+  return size.width > 0 && size.height > 0 ? std::optional(size) : std::nullopt;
 }
 
 std::vector<PassSaving> improve(Toolpath& path, const PassChoices& passes) {

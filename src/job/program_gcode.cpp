@@ -97,7 +97,7 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   program.stock = read.stock;
   program.states_tool_lengths = true;
   program.units_given = read.units_given;
-  const bool printer = read.dialect == GcodeDialect::marlin || read.dialect == GcodeDialect::klipper;
+  const bool printer = is_printer(read.dialect);
   if (printer) program.filament_diameter = read.filament_diameter;
   program.filament_density = read.filament_density;
   const bool needs_end = !printer && !read.cut_short;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace kerf {
@@ -11,8 +13,23 @@ std::string_view name_of(StepKind kind) {
   static constexpr std::string_view kNames[] = {
       "rapid", "cut",     "arc",         "dwell",     "tool",     "spindle",    "coolant",    "pathmode",
       "probe", "extrude", "temperature", "fan",       "laser",    "layer",      "note",       "verbatim",
-      "pause", "end",     "closepath",   "storehome", "workzero", "toollength", "unresolved",
+      "pause", "end",     "closepath",   "storehome", "workzero", "toollength", "unresolved", "limits",
   };
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(BeadKind kind) {
+  static constexpr std::string_view kNames[] = {
+      "",       "skirt",    "outer_wall", "wall",    "overhang",          "infill", "solid_infill", "top",
+      "bridge", "gap_fill", "ironing",    "support", "support_interface", "purge",  "custom",
+  };
+  static_assert(std::size(kNames) == kBeadKinds);
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view to_string(LimitKind kind) {
+  static constexpr std::string_view kNames[] = {"axis_acceleration",  "axis_speed",  "acceleration", "jerk",
+                                                "junction_deviation", "corner_speed"};
   return kNames[static_cast<std::size_t>(kind)];
 }
 
@@ -54,6 +71,10 @@ step::PathMode Step::path_mode() const {
 step::Probe Step::probe() const {
   assert(kind_ == StepKind::probe);
   return {to(), feed(), static_cast<ProbeKind>(plane_)};
+}
+step::MotionLimits Step::motion_limits() const {
+  assert(kind_ == StepKind::motion_limits);
+  return {static_cast<LimitKind>(plane_), {values_[0], values_[1], values_[2], values_[3]}, frame_};
 }
 step::Temperature Step::temperature() const {
   assert(kind_ == StepKind::temperature);
@@ -198,7 +219,7 @@ std::size_t Toolpath::add(const step::Probe& s, OriginId origin) {
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::Extrude& s, OriginId origin) {
-  const Bead bead{s.width, s.height};
+  const Bead bead{s.width, s.height, s.kind};
   if (beads_.empty() || beads_.back() != bead) beads_.push_back(bead);  // a print has long runs of one bead
   Step& out = append_motion(StepKind::extrude, s.to, origin);
   out.values_[3] = s.feed.raw();
@@ -217,6 +238,17 @@ std::size_t Toolpath::add(const step::Fan& s, OriginId origin) {
   Step& out = append(StepKind::fan, origin);
   out.count_ = s.fan;
   out.values_[0] = s.fraction;
+  return steps_.size() - 1;
+}
+std::size_t Toolpath::add(const step::MotionLimits& s, OriginId origin) {
+  assert(s.given < 16);
+  Step& out = append(StepKind::motion_limits, origin);
+  out.plane_ = static_cast<std::uint8_t>(s.kind) & 7;
+  for (std::size_t i = 0; i < s.values.size(); ++i) {
+    assert((s.given >> i & 1u) == 0 || (std::isfinite(s.values[i]) && s.values[i] >= 0.0));
+    out.values_[i] = s.values[i];
+  }
+  out.frame_ = static_cast<std::uint8_t>(s.given);
   return steps_.size() - 1;
 }
 std::size_t Toolpath::add(const step::LaserPower& s, OriginId origin) {
@@ -386,7 +418,7 @@ step::Extrude Toolpath::extrude(std::size_t i) const {
   const Step& s = steps_[i];
   assert(s.kind_ == StepKind::extrude);
   const Bead& bead = beads_[static_cast<std::size_t>(s.count_)];
-  return {s.to(), Volume::raw(s.values_[4]), bead.width, bead.height, s.feed()};
+  return {s.to(), Volume::raw(s.values_[4]), bead.width, bead.height, s.feed(), bead.kind};
 }
 
 step::Layer Toolpath::layer(std::size_t i) const {

@@ -13,6 +13,7 @@
 #include "kerf/gcode.h"
 #include "kerf/number.h"
 #include "kerf/post.h"
+#include "kerf/print.h"
 
 namespace kerf {
 namespace {
@@ -348,12 +349,126 @@ TEST_P(ClosedLoop, tiny_arcs_stay_tiny) {
   }
 }
 
+/// A print in layers with beads of random kinds and sizes, retractions, and limits that every firmware has.
+Toolpath random_print(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto real = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  Toolpath path;
+  double z = 0.0;
+  for (int layer = 0; layer < 8; ++layer) {
+    const double height = std::round(real(8, 40)) / 100.0;
+    z += height;
+    Point3 at{real(0, 100), real(0, 100), z};
+    path.add(step::Rapid{at}, OriginId::none);
+    for (int i = 0; i < 25; ++i) {
+      const double width = height + std::round(real(0, 60)) / 100.0;
+      const Point3 to{at.x + real(-20, 20), at.y + real(1, 20), z};
+      const Volume volume = bead_volume(mm(distance(at, to)), mm(width), mm(height));
+      const auto kind = static_cast<BeadKind>(1 + static_cast<int>(real(0, kBeadKinds - 1.01)));
+      path.add(step::Extrude{to, volume, mm(width), mm(height), mm_per_min(1800), kind}, OriginId::none);
+      at = to;
+      if (i % 5 != 4) continue;
+      path.add(step::Extrude{at, mm3(-2), {}, {}, mm_per_min(2400)}, OriginId::none);
+      at = {real(0, 100), real(0, 100), z};
+      path.add(step::Rapid{at}, OriginId::none);
+      path.add(step::Extrude{at, mm3(2), {}, {}, mm_per_min(2400)}, OriginId::none);
+    }
+  }
+  return path;
+}
+
+std::vector<step::Extrude> beads_of(const Toolpath& path) {
+  std::vector<step::Extrude> beads;
+  for (std::size_t i = 0; i < path.size(); ++i)
+    if (path[i].kind() == StepKind::extrude) beads.push_back(path.extrude(i));
+  return beads;
+}
+
+TEST(PrintedLoop, every_firmware_returns_the_same_beads) {
+  constexpr double kSlack = 1e-3;  // of the volume
+  for (const char* name : {"marlin", "klipper", "reprapfirmware", "plain"}) {
+    for (const double filament : {1.75, 2.85}) {
+      for (unsigned seed = 1; seed <= 2; ++seed) {
+        SCOPED_TRACE(std::string(name) + " seed " + std::to_string(seed));
+        PostProfile profile = *find_post(name);
+        profile.filament = mm(filament);
+        const Toolpath path = random_print(seed);
+        const GcodeProgram read = looped(path, profile, {});
+        EXPECT_EQ(read.filament_diameter, filament);
+        const auto want = beads_of(path), got = beads_of(read.path);
+        ASSERT_EQ(got.size(), want.size());
+        ASSERT_EQ(want.size(), 8u * (25u + 10u));
+        for (std::size_t i = 0; i < want.size(); ++i) {
+          ASSERT_LE(distance(got[i].to, want[i].to), 1e-3);
+          const double rounding = 1e-5 * std::acos(-1.0) / 4.0 * filament * filament;  // of E
+          ASSERT_NEAR(got[i].volume.mm3(), want[i].volume.mm3(),
+                      std::max(kSlack * std::abs(want[i].volume.mm3()), rounding));
+          if (want[i].volume < Volume() || want[i].width == Length()) continue;
+          ASSERT_EQ(got[i].kind, want[i].kind);
+          ASSERT_NEAR(got[i].width.mm(), want[i].width.mm(), 1e-5);
+          ASSERT_NEAR(got[i].height.mm(), want[i].height.mm(), 1e-5);
+        }
+        PrintOptions options;
+        options.resolution = mm(0.2);
+        Diagnostics diagnostics;
+        const auto before = simulate_print(path, options, diagnostics),
+                   after = simulate_print(read.path, options, diagnostics);
+        ASSERT_TRUE(before && after);
+        EXPECT_NEAR(after->total.extruded.mm3(), before->total.extruded.mm3(),
+                    kSlack * before->total.extruded.mm3());
+        EXPECT_NEAR(after->total.laid.mm3(), before->total.laid.mm3(), kSlack * before->total.laid.mm3());
+        ASSERT_EQ(after->layers.size(), before->layers.size());
+      }
+    }
+  }
+}
+
+/// The limits of a program as text, in their order.
+std::vector<std::string> limits_of(const Toolpath& path) {
+  std::vector<std::string> list;
+  for (const Step& s : path.steps()) {
+    if (s.kind() != StepKind::motion_limits) continue;
+    const step::MotionLimits limits = s.motion_limits();
+    list.emplace_back(to_string(limits.kind));
+    for (std::size_t i = 0; i < 4; ++i)
+      if ((limits.given >> i & 1u) != 0)
+        list.back() += " " + std::to_string(i) + ":" + number_text(limits.values[i], 3);
+  }
+  return list;
+}
+
+TEST(PrintedLoop, every_firmware_returns_the_limits_that_it_has) {
+  using K = LimitKind;
+  const std::vector<step::MotionLimits> axes{{K::axis_acceleration, {500, 600, 70, 800}, 15},
+                                             {K::axis_speed, {200, 180, 12, 0}, 7},
+                                             {K::acceleration, {1000, 0, 1500, 0}, 5},
+                                             {K::jerk, {8, 9, 0, 2.5}, 11}},
+      klipper{{K::axis_speed, {200, 200, 0, 0}, 3},
+              {K::acceleration, {900, 0, 900, 0}, 5},
+              {K::corner_speed, {5, 0, 0, 0}, 1}};
+  for (const auto& [name, limits] :
+       {std::pair{"marlin", axes}, std::pair{"reprapfirmware", axes}, std::pair{"klipper", klipper}}) {
+    SCOPED_TRACE(name);
+    Toolpath path;
+    for (const step::MotionLimits& one : limits) path.add(one, OriginId::none);
+    path.add(step::Temperature{Heater::nozzle, 200, true}, OriginId::none);
+    path.add(step::Rapid{{0, 0, 0.2}}, OriginId::none);
+    path.add(step::Extrude{{10, 0, 0.2}, mm3(1), {}, {}, mm_per_min(600)}, OriginId::none);
+    const GcodeProgram read = looped(path, *find_post(name), {});
+    EXPECT_EQ(limits_of(read.path), limits_of(path));
+    EXPECT_EQ(limits_of(path).size(), limits.size());
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Posts, ClosedLoop,
     testing::Values(Loop{"grbl", GcodeDialect::grbl}, Loop{"grblhal", GcodeDialect::grbl},
                     Loop{"linuxcnc", GcodeDialect::rs274}, Loop{"mach3", GcodeDialect::mach3},
                     Loop{"carbide", GcodeDialect::grbl}, Loop{"marlin", GcodeDialect::marlin, Work::print},
                     Loop{"klipper", GcodeDialect::klipper, Work::print},
+                    Loop{"reprapfirmware", GcodeDialect::reprap, Work::print},
                     Loop{"laser", GcodeDialect::laser, Work::laser}),
     [](const auto& one) { return one.param.post; });
 

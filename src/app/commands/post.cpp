@@ -34,6 +34,7 @@ struct Options {
   double level_max = 2.0;   // mm
   double keep_above = 0.0;  // mm
   bool keep_above_given = false;
+  std::vector<std::string> variables, thumbnails;  // "bed=60", "220x124"
   ToolOptions tools;
   ReadingOptions reading;
 };
@@ -175,6 +176,11 @@ PostingOptions posting_options(const Options& options, std::map<int, Tool> tools
   out.tools = std::move(tools);
   out.rapids = options.rapids ? RapidLines::drawn : RapidLines::left_out;
   out.dxf_version = *dxf_version_named(options.dxf_version);
+  for (const std::string& text : options.variables) {
+    const std::size_t sign = text.find('=');
+    out.variables[text.substr(0, sign)] = text.substr(sign + 1);
+  }
+  for (const std::string& text : options.thumbnails) out.thumbnails.push_back(*thumbnail_size(text));
   return out;
 }
 
@@ -225,6 +231,8 @@ const char* const kExamples =
   kerf post --to grbl --order part.nc -o part.nc    short rapids, inner contours first
   kerf post --to grbl --from-line 1200 --safe-z 10 part.nc -o rest.nc
   kerf post --to grbl --level map.txt part.nc -o out.nc    heights follow a measured surface
+  kerf post --to klipper --thumbnail 300x300 print.gcode -o out.gcode    with a picture for the display
+  kerf post --post printer.toml --set bed=65 print.gcode -o out.gcode    a variable of its templates
   kerf post --list
 
 The result is checked against the rules of the controller; if it violates one, nothing is written.
@@ -277,6 +285,17 @@ Option add_level_options(CommandParser& parser, Options& options) {
                     "Leave motions at this Z and above as they are");
 }
 
+void add_printing_options(CommandParser& parser, Options& options) {
+  parser
+      .add_repeated("--set", options.variables,
+                    "The value of {NAME} in the templates of the post; may be given several times")
+      .value_name("NAME=VALUE");
+  parser
+      .add_repeated("--thumbnail", options.thumbnails,
+                    "Put a picture of the print into its program; may be given several times")
+      .value_name("WxH");
+}
+
 void add_drawing_options(CommandParser& parser, Options& options) {
   parser.add_text("--dxf-version", options.dxf_version, "r2000 or r12, for --to dxf").value_name("VERSION");
   parser.add_flag("--rapids", options.rapids, "Draw rapids too, for --to dxf and svg");
@@ -304,6 +323,7 @@ Command add_post(CommandParser& root) {
   add_pass_options(parser, *options);
   add_rework_options(parser, options);
   add_drawing_options(parser, *options);
+  add_printing_options(parser, *options);
   const Option keep_above = add_level_options(parser, *options);
   add_tool_options(parser, options->tools);
   add_reading_options(parser, options->reading);

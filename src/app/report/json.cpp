@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "kerf/motion_limits.h"
+
 namespace kerf::app {
 namespace {
 
@@ -122,6 +124,14 @@ void add_bead(Json& out, const step::Extrude& bead) {
   out["volume"] = json_of(bead.volume.mm3());
   out["width"] = json_of(bead.width.mm());
   out["height"] = json_of(bead.height.mm());
+  if (bead.kind != BeadKind::none) out["kind"] = to_string(bead.kind);
+}
+
+/// The limits that are given, by their axis or motion.
+void add_limits(Json& out, const step::MotionLimits& limits) {
+  out["limit"] = to_string(limits.kind);
+  for (std::size_t i = 0; i < limits.values.size(); ++i)
+    if ((limits.given >> i & 1u) != 0) out[value_names(limits.kind)[i]] = json_of(limits.values[i]);
 }
 
 /// The values of a step that is not a motion.
@@ -150,6 +160,7 @@ void add_setting(Json& out, const Toolpath& path, std::size_t i) {
       out["fan"] = s.fan().fan;
       out["share"] = json_of(s.fan().fraction);
       break;
+    case StepKind::motion_limits: add_limits(out, s.motion_limits()); break;
     case StepKind::laser_power:
       out["mode"] = word(s.laser_power().mode);
       out["power"] = json_of(s.laser_power().power);

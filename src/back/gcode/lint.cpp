@@ -354,7 +354,9 @@ void Linter::use_special() {
     use(bit('P'));
   }
   if (has_code(100)) use_offset_words(axes);
-  if (has_code(920) && !axes) return refuse(Code::lint_missing, "G92 needs axis words");
+  const bool filament = has_code(920) && has('E');  // of a printer
+  if (filament) use(bit('E'));
+  if (has_code(920) && !axes && !filament) return refuse(Code::lint_missing, "G92 needs axis words");
   const bool only_z = !profile_.has_g(432);  // GRBL has lengths along Z only; LinuxCNC, with G43.2, along all
   if (has_code(431) && only_z && (letters_ & kAxes) != bit('Z'))
     return refuse(Code::lint_missing, "G43.1 needs Z and nothing else");

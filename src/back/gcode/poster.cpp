@@ -13,7 +13,6 @@ namespace {
 constexpr double kMaxCounts = 1e13;  // of a position; exact in a double with room for differences
 constexpr std::size_t kStepsBetweenReports = 1 << 16;
 constexpr std::size_t kBytesPerStep = 24;  // typical
-constexpr int kDecimalsExtruded = 5;
 
 double power_of_ten(int exponent) { return std::pow(10.0, exponent); }
 
@@ -63,6 +62,7 @@ void Poster::write_step(std::size_t i) {
     case StepKind::path_mode: return path_mode(i);
     case StepKind::temperature: return temperature(i);
     case StepKind::fan: return fan(i);
+    case StepKind::motion_limits: return motion_limits(i);
     case StepKind::laser_power: return laser(i);
     case StepKind::layer: return comment(path_.layer(i).name);
     case StepKind::note: return comment(path_.text(i), s.note_kind());
@@ -98,6 +98,7 @@ void Poster::write_motion(std::size_t i) {
   else
     extrude(i);
   moved_ = true;
+  on_bead_ = s.kind() == StepKind::extrude && path_.extrude(i).volume > Volume();
   const double from_z = (position_.unknown & 4u) == 0 ? position_.at.z : s.to().z;
   position_.pass(s);
   if ((s.unknown_axes() & 4u) != 0) return;
@@ -414,28 +415,6 @@ void Poster::probe(std::size_t i) {
     arrive(i, to, axes);
   }
   motion_ = -1;
-}
-
-void Poster::extrude(std::size_t i) {
-  if (!profile_.has_letter('E')) return report_unsupported(i, "the controller cannot extrude (no E word)");
-  const double radius = 0.5 * profile_.filament.mm();
-  const double area = std::acos(-1.0) * radius * radius;
-  extruded_ += path_.extrude(i).volume.mm3() / area;
-  const double unit_mm = unit_ == LengthUnit::mm ? 1.0 : kMmPerInch;
-  const std::int64_t whole = std::llround(extruded_ / unit_mm * power_of_ten(kDecimalsExtruded));
-  const std::int64_t e = profile_.extruder == ExtruderMode::absolute ? whole : whole - written_extruded_;
-  const Counts to = grid_counts(path_[i].to());
-  const unsigned axes = axes_to_write(i, to);
-  if (axes_by_distance(i, to) != 0) report_unsupported(i, "a bead starts at an unknown position");
-  start_line();
-  if (axes == 0 && whole == written_extruded_) return;
-  put_motion(1);
-  put_axes(to, axes);
-  if (whole != written_extruded_) word('E', e, kDecimalsExtruded);
-  written_extruded_ = whole;
-  put_feed(i);
-  arrive(i, to, axes);
-  end_line(i);
 }
 
 /// A motion to machine coordinates, or to a home stored in the controller.

@@ -41,7 +41,6 @@ class Poster {
   void arc(std::size_t i);
   void chords(std::size_t i);
   void probe(std::size_t i);
-  void extrude(std::size_t i);
   void to_reference(int g, std::size_t i);
   void to_end_switches(std::size_t i);
   bool fits(std::size_t i);
@@ -58,6 +57,20 @@ class Poster {
   void put_motion(int g);
   void put_plane(std::size_t i, Plane plane);
   void put_power();
+
+  // printing.cpp
+  void extrude(std::size_t i);
+  void comment_on_bead(std::size_t i, const step::Extrude& bead);
+  void put_comment(std::string_view text);
+  void temperature(std::size_t i);
+  void fan(std::size_t i);
+  void motion_limits(std::size_t i);
+  void put_limits(std::size_t i, const step::MotionLimits& limits, std::string_view letters, double factor);
+  void put_klipper_limit(std::size_t i, const step::MotionLimits& limits);
+  void skip_limits(std::size_t i, LimitKind kind);
+  void thumbnails();
+  std::optional<std::string> print_value_of(std::string_view key);
+  double filament_area() const;
 
   // threads.cpp
   struct Tap {
@@ -76,8 +89,6 @@ class Poster {
   void coolant(std::size_t i, const step::Coolant& wanted);
   void dwell(std::size_t i, Duration time);
   void path_mode(std::size_t i);
-  void temperature(std::size_t i);
-  void fan(std::size_t i);
   void tool_change(std::size_t i);
   void set_tool_number(std::size_t i);
   void change_file(std::size_t i);
@@ -168,8 +179,13 @@ class Poster {
   std::optional<double> pending_power_;
   double extruded_ = 0.0;              // mm of filament
   std::int64_t written_extruded_ = 0;  // in counts of E
-  bool restore_ = false;               // spindle or coolant may have been stopped by a tool change
-  bool moved_ = false;                 // in this file
+  std::optional<double> layer_z_;      // of the last layer in comments, mm
+  std::optional<BeadKind> commented_kind_;
+  double commented_width_ = 0.0, commented_height_ = 0.0;  // mm
+  bool on_bead_ = false;                                   // the last motion laid a bead
+  unsigned skipped_limits_ = 0;                            // one bit per LimitKind that was reported
+  bool restore_ = false;  // spindle or coolant may have been stopped by a tool change
+  bool moved_ = false;    // in this file
   bool no_feed_reported_ = false, uncorrected_reported_ = false, tap_reported_ = false;
   std::size_t skip_to_ = 0;  // the steps before it are part of a tap that has been written
 };

@@ -17,6 +17,8 @@
 namespace kerf {
 namespace {
 
+constexpr int kVariableDecimals = 6;
+
 /// Sets a value; false if it has the wrong type or is out of range.
 using Take = std::function<bool(const toml::node&, PostProfile&)>;
 
@@ -218,6 +220,14 @@ std::vector<Key> keys_of_policies() {
          if (value && *value >= 1.0 && *value <= 1e5) profile.fan_full = *value;
          return value && *value >= 1.0 && *value <= 1e5;
        }},
+      {"printer", "bead_comments", "\"none\" or \"slicer\"",
+       choice(&P::bead_comments,
+              Names<BeadComments>{{"none", BeadComments::none}, {"slicer", BeadComments::slicer}})},
+      {"printer", "limits", "\"none\", \"marlin\", \"reprap\" or \"klipper\"",
+       choice(&P::limits, Names<LimitCommands>{{"none", LimitCommands::none},
+                                               {"marlin", LimitCommands::marlin},
+                                               {"reprap", LimitCommands::reprap},
+                                               {"klipper", LimitCommands::klipper}})},
       {"templates", "header", "a list of lines", lines(&P::header)},
       {"templates", "section", "a list of lines", lines(&P::section)},
       {"templates", "footer", "a list of lines", lines(&P::footer)},
@@ -245,6 +255,7 @@ class ProfileReader {
   Origin location(const toml::source_position& at) const { return TextLocation{file_, at.line, at.column}; }
   Origin location(const toml::node& node) const { return location(node.source().begin); }
   void read_table(std::string_view section, const toml::table& table);
+  void read_variables(const toml::table& table);
   void read_key(std::string_view section, const toml::key& key, const toml::node& node);
   bool inherit(const toml::node& base, const PostProfile* (*find)(std::string_view));
 
@@ -274,10 +285,30 @@ void ProfileReader::read_table(std::string_view section, const toml::table& tabl
   for (const auto& [key, node] : table) {
     const toml::table* inner = node.as_table();
     const auto belongs = [&k = key](const Key& known) { return known.section == k.str(); };
-    if (section.empty() && inner != nullptr && std::any_of(all_keys().begin(), all_keys().end(), belongs))
+    if (section.empty() && inner != nullptr && key.str() == "variables")
+      read_variables(*inner);
+    else if (section.empty() && inner != nullptr &&
+             std::any_of(all_keys().begin(), all_keys().end(), belongs))
       read_table(key.str(), *inner);
     else if (!section.empty() || key.str() != "base")
       read_key(section, key, node);
+  }
+}
+
+/// Variables of templates: texts, numbers or truth values under any name.
+void ProfileReader::read_variables(const toml::table& table) {
+  for (const auto& [key, node] : table) {
+    const auto number = number_of(node);
+    const auto truth = node.value_exact<bool>();
+    auto value = node.value_exact<std::string>();
+    if (number) value = number_text(*number, kVariableDecimals);
+    if (truth) value = *truth ? "true" : "false";
+    if (!value || profile_.variables.size() >= limits::kMaxTemplateLines)
+      diagnostics_.error(
+          Code::post_value_bad, location(node),
+          fmt::format("the variable {} must be a text, a number, true or false", clipped(key.str(), 60)));
+    else
+      profile_.variables[std::string(key.str())] = *value;
   }
 }
 

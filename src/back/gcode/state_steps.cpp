@@ -1,4 +1,4 @@
-// Steps other than motions: spindle, laser, coolant, dwell, heaters, fans, tool changes, verbatim lines.
+// Steps other than motions: spindle, laser, coolant, dwell, tool changes, verbatim lines.
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -117,27 +117,6 @@ void Poster::path_mode(std::size_t i) {
   code('G', tenths);
   if (mode.kind == PathModeKind::blend && mode.tolerance > Length{} && profile_.has_letter('P'))
     word('P', grid_.count(mode.tolerance.mm()), decimals_);
-  end_line(i);
-}
-
-void Poster::temperature(std::size_t i) {
-  const step::Temperature t = path_[i].temperature();
-  constexpr int kSet[] = {1040, 1400, 1410}, kWait[] = {1090, 1900, 1910};
-  const int tenths = (t.wait ? kWait : kSet)[static_cast<std::size_t>(t.heater)];
-  if (!can_m(i, tenths, "a heater")) return;
-  start_line();
-  code('M', tenths);
-  word('S', counts_of(t.celsius, 1), 1);
-  end_line(i);
-}
-
-void Poster::fan(std::size_t i) {
-  const step::Fan f = path_[i].fan();
-  if (!can_m(i, f.fraction > 0.0 ? 1060 : 1070, "a fan")) return;
-  start_line();
-  code('M', f.fraction > 0.0 ? 1060 : 1070);
-  if (f.fan != 0) word('P', f.fan, 0);
-  if (f.fraction > 0.0) word('S', counts_of(std::min(f.fraction, 1.0) * profile_.fan_full, 0), 0);
   end_line(i);
 }
 

@@ -64,8 +64,16 @@ void Poster::open_file(std::size_t first_step) {
   coolant_ = {};
   laser_ = LaserMode::off;
   moved_ = false;
+  extruded_ = 0.0;
+  written_extruded_ = 0;
+  layer_z_.reset();
+  commented_kind_.reset();
+  commented_width_ = commented_height_ = 0.0;
   forget();
-  templates(profile_.header);
+  const auto first_code = std::find_if_not(profile_.header.begin(), profile_.header.end(), is_comment);
+  templates({profile_.header.begin(), first_code});
+  thumbnails();
+  templates({first_code, profile_.header.end()});
   if (!profile_.header.empty()) plane_ = Plane::xy;
   if (system_selected_) select_system(first_step);
   if (tool_policy_ != ToolChangePolicy::files || !file_tool_) return;
@@ -181,7 +189,10 @@ std::string Poster::expanded(std::string_view line) {
     else
       diagnostics_
           .error(Code::post_placeholder, {}, fmt::format("post {}: unknown name {{{}}}", profile_.name, key))
-          .hint = "names: name, units, tool, tool_name, tool_comment, tools, bounds, time, version, profile";
+          .hint =
+          "names: name, units, tool, tool_name, tool_comment, tools, bounds, time, version, profile, "
+          "extruder, filament_diameter, filament_mm, filament_cm3, layers, layer_height, nozzle, bed, "
+          "chamber, and those of the section variables";
     if (close == std::string_view::npos) break;
     line.remove_prefix(close + 1);
   }
@@ -204,7 +215,9 @@ std::optional<std::string> Poster::value_of(std::string_view key) {
   if (key == "time") return time_text();
   if (key == "version") return KERF_VERSION;
   if (key == "profile") return profile_.name;
-  return std::nullopt;
+  for (const auto* variables : {&options_.variables, &profile_.variables})
+    if (const auto it = variables->find(std::string(key)); it != variables->end()) return it->second;
+  return print_value_of(key);
 }
 
 /// Figures of the file, computed at the first use in a template.

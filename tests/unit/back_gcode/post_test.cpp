@@ -205,7 +205,9 @@ TEST(Post, beads_for_printers_only) {
   path.add(step::Extrude{{10, 0, 5}, mm3(area), mm(0.4), mm(0.2), kFeed}, OriginId::none);
   path.add(step::Temperature{Heater::nozzle, 210, true}, OriginId::none);
   path.add(step::Fan{0, 0.5}, OriginId::none);
-  EXPECT_EQ(posted(path, bare("marlin")).text(), "G0 X0 Y0 Z5\nG1 X10 E1 F600\nM109 S210\nM106 S128\n");
+  EXPECT_EQ(
+      posted(path, bare("marlin")).text(),
+      "G0 X0 Y0 Z5\n;LAYER_CHANGE\n;Z:5\n;WIDTH:0.4\n;HEIGHT:0.2\nG1 X10 E1 F600\nM109 S210\nM106 S128\n");
   EXPECT_TRUE(posted(path, bare("grbl")).reports(Code::post_cannot));
 }
 

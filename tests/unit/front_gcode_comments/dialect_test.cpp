@@ -45,7 +45,8 @@ TEST(Dialect, IsTheOneInTheFileName) {
 
 TEST(Dialect, EachHasAFile) {
   const std::vector<Path> files = fixtures();
-  for (const std::string_view name : {"rs274", "grbl", "mach3", "fanuc", "laser", "marlin", "klipper"})
+  for (const std::string_view name :
+       {"rs274", "grbl", "mach3", "fanuc", "laser", "marlin", "klipper", "reprapfirmware"})
     EXPECT_TRUE(std::any_of(files.begin(), files.end(), [&](const Path& p) {
       return p.filename().string().rfind(std::string(name) + "-", 0) == 0;
     })) << name;

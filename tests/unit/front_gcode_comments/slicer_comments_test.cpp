@@ -20,5 +20,17 @@ TEST(SlicerComments, TheFilamentDiameterIsInTheSettings) {
   EXPECT_EQ(find_filament_diameter(longer), 2.85);
 }
 
+TEST(SlicerComments, KindsOfBeadsHaveTheNamesOfEachSlicer) {
+  EXPECT_EQ(read_bead_kind("TYPE:External perimeter"), BeadKind::outer_wall);
+  EXPECT_EQ(read_bead_kind("TYPE:Outer wall"), BeadKind::outer_wall);
+  EXPECT_EQ(read_bead_kind("FEATURE: Outer wall"), BeadKind::outer_wall);
+  EXPECT_EQ(read_bead_kind("TYPE:WALL-OUTER"), BeadKind::outer_wall);
+  EXPECT_EQ(read_bead_kind("TYPE:Top solid infill"), BeadKind::top);
+  EXPECT_EQ(read_bead_kind("TYPE:SKIN "), BeadKind::solid_infill);
+  EXPECT_EQ(read_bead_kind("TYPE:something new"), BeadKind::custom);
+  EXPECT_EQ(read_bead_kind("TYPES: Outer wall"), std::nullopt);
+  EXPECT_EQ(read_bead_kind(""), std::nullopt);
+}
+
 }  // namespace
 }  // namespace kerf::gcode

@@ -138,6 +138,95 @@ TEST(Printer, CommentsGiveTheSizesOfBeads) {
   EXPECT_EQ(milled.dialect, GcodeDialect::rs274);
 }
 
+TEST(Printer, CommentsGiveTheKindsOfBeads) {
+  const auto list = beads(kHead +
+                          "M83\nG1 X1 E1\n;TYPE:Outer wall\n"
+                          "G1 X2 E1\nG1 X3 E1\n;TYPE:Bridge\nG1 X4 E1\n");
+  ASSERT_EQ(list.size(), 4u);
+  EXPECT_EQ(list[0].kind, BeadKind::none);
+  EXPECT_EQ(list[1].kind, BeadKind::outer_wall);
+  EXPECT_EQ(list[2].kind, BeadKind::outer_wall);
+  EXPECT_EQ(list[3].kind, BeadKind::bridge);
+}
+
+std::vector<step::MotionLimits> limits(const std::string& line, GcodeDialect dialect) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = dialect;
+  const auto program = read_gcode(kHead + line + "\n", options, diagnostics);
+  std::vector<step::MotionLimits> out;
+  for (const Step& s : program.path.steps())
+    if (s.kind() == StepKind::motion_limits) out.push_back(s.motion_limits());
+  return out;
+}
+
+TEST(Printer, LimitsOfMotionsAreSteps) {
+  constexpr GcodeDialect marlin = GcodeDialect::marlin, reprap = GcodeDialect::reprap;
+  const auto both = limits("M204 S800", marlin);  // beads and travel
+  ASSERT_EQ(both.size(), 1u);
+  EXPECT_EQ(both[0].given, 5u);
+  EXPECT_EQ(both[0].values[0], 800);
+  EXPECT_EQ(both[0].values[2], 800);
+  const auto three = limits("M204 P1000 R1200 T1500 ; all", marlin);
+  ASSERT_EQ(three.size(), 1u);
+  EXPECT_EQ(three[0].values, (std::array<double, 4>{1000, 1200, 1500, 0}));
+  const auto jerk = limits("M205 X8 Y9 J0.02", marlin);
+  ASSERT_EQ(jerk.size(), 2u);
+  EXPECT_EQ(jerk[0].kind, LimitKind::jerk);
+  EXPECT_EQ(jerk[0].given, 3u);
+  EXPECT_EQ(jerk[1].kind, LimitKind::junction_deviation);
+  EXPECT_EQ(jerk[1].values[0], 0.02);
+  const auto slow = limits("M203 X6000", reprap), fast = limits("M203 X100", marlin);
+  ASSERT_TRUE(slow.size() == 1 && fast.size() == 1);
+  EXPECT_EQ(slow[0].values[0], 100);  // mm/min there
+  EXPECT_EQ(fast[0].values[0], 100);
+  const auto own = limits("SET_VELOCITY_LIMIT ACCEL=3000 SQUARE_CORNER_VELOCITY=6", GcodeDialect::klipper);
+  ASSERT_EQ(own.size(), 2u);
+  EXPECT_EQ(own[0].values[2], 3000);
+  EXPECT_EQ(own[1].kind, LimitKind::corner_speed);
+}
+
+TEST(Printer, RepRapFirmwareSetsTemperaturesOfToolsToo) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = GcodeDialect::reprap;
+  const auto program =
+      read_gcode("G10 S205 P0 ; set temperature\nG28\nM116 ; wait\nG10\n", options, diagnostics);
+  ASSERT_EQ(program.path.size(), 3u);
+  EXPECT_EQ(program.path[0].temperature().celsius, 205);
+  EXPECT_FALSE(program.path[0].temperature().wait);
+  EXPECT_TRUE(program.path[2].temperature().wait);
+  EXPECT_EQ(program.path[2].temperature().celsius, 205);
+}
+
+TEST(Printer, MinimumFeedsOfZeroAreNoLimit) {
+  Diagnostics diagnostics;
+  GcodeReadOptions options;
+  options.dialect = GcodeDialect::marlin;
+  const auto program = read_gcode("M205 S0 T0 ; none\nM205 S5\n", options, diagnostics);
+  ASSERT_EQ(program.path.size(), 1u);
+  EXPECT_EQ(program.path.text(0), "M205 S5");
+}
+
+/// They stay lines that are passed on.
+TEST(Printer, LimitsWithOtherWordsAreLeftAsTheyAre) {
+  for (const char* line :
+       {"M204", "M204 P-5", "M204 Pfast", "M204 P1e99", "M205 B20000", "M201 Q5", "M566 X60"})
+    EXPECT_TRUE(limits(line, GcodeDialect::marlin).empty()) << line;
+  EXPECT_TRUE(limits("SET_VELOCITY_LIMIT ACCEL=nan", GcodeDialect::klipper).empty());
+  EXPECT_TRUE(limits("SET_VELOCITY_LIMIT MINIMUM_CRUISE_RATIO=0.5", GcodeDialect::klipper).empty());
+}
+
+TEST(Printer, FansOfRepRapFirmwareAreFractionsToo) {
+  for (const auto& [line, fraction] : {std::pair{"M106 S0.5", 0.5}, {"M106 S1", 1.0}, {"M106 S255", 1.0}}) {
+    Diagnostics diagnostics;
+    GcodeReadOptions options;
+    options.dialect = GcodeDialect::reprap;
+    const auto program = read_gcode(kHead + line + "\n", options, diagnostics);
+    EXPECT_EQ(program.path[program.path.size() - 1].fan().fraction, fraction) << line;
+  }
+}
+
 TEST(Printer, ProgramsNeedNoEnd) {
   Diagnostics diagnostics;
   GcodeReadOptions options;

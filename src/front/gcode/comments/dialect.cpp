@@ -24,26 +24,24 @@ struct Name {
   std::string_view name;
   GcodeDialect dialect;
 };
-constexpr Name kNames[] = {
-    {"linuxcnc", GcodeDialect::rs274},    {"rs274", GcodeDialect::rs274},    {"grbl", GcodeDialect::grbl},
-    {"grblhal", GcodeDialect::grbl},      {"fluidnc", GcodeDialect::grbl},   {"carbide", GcodeDialect::grbl},
-    {"smoothieware", GcodeDialect::grbl}, {"mach3", GcodeDialect::mach3},    {"mach4", GcodeDialect::mach3},
-    {"fanuc", GcodeDialect::fanuc},       {"haas", GcodeDialect::fanuc},     {"laser", GcodeDialect::laser},
-    {"marlin", GcodeDialect::marlin},     {"klipper", GcodeDialect::klipper}};
+constexpr Name kNames[] = {{"linuxcnc", GcodeDialect::rs274},    {"rs274", GcodeDialect::rs274},
+                           {"grbl", GcodeDialect::grbl},         {"grblhal", GcodeDialect::grbl},
+                           {"fluidnc", GcodeDialect::grbl},      {"carbide", GcodeDialect::grbl},
+                           {"smoothieware", GcodeDialect::grbl}, {"mach3", GcodeDialect::mach3},
+                           {"mach4", GcodeDialect::mach3},       {"fanuc", GcodeDialect::fanuc},
+                           {"haas", GcodeDialect::fanuc},        {"laser", GcodeDialect::laser},
+                           {"marlin", GcodeDialect::marlin},     {"klipper", GcodeDialect::klipper},
+                           {"plain", GcodeDialect::marlin},      {"reprapfirmware", GcodeDialect::reprap}};
 
 /// Names of controllers, and of programs that write for one dialect only.
-constexpr Name kNamesInComments[] = {{"LIGHTBURN", GcodeDialect::laser},
-                                     {"LASERGRBL", GcodeDialect::laser},
-                                     {"LASERWEB", GcodeDialect::laser},
-                                     {"LASER TOOL", GcodeDialect::laser},
-                                     {"KLIPPER", GcodeDialect::klipper},
-                                     {"FLAVOR:MARLIN", GcodeDialect::marlin},
-                                     {"GCODE_FLAVOR = MARLIN", GcodeDialect::marlin},
-                                     {"MACH3", GcodeDialect::mach3},
-                                     {"MACH 3", GcodeDialect::mach3},
-                                     {"MACH2", GcodeDialect::mach3},
-                                     {"GRBL", GcodeDialect::grbl},
-                                     {"CARBIDE CREATE", GcodeDialect::grbl}};
+constexpr Name kNamesInComments[] = {
+    {"LIGHTBURN", GcodeDialect::laser},      {"LASERGRBL", GcodeDialect::laser},
+    {"LASERWEB", GcodeDialect::laser},       {"LASER TOOL", GcodeDialect::laser},
+    {"KLIPPER", GcodeDialect::klipper},      {"REPRAPFIRMWARE", GcodeDialect::reprap},
+    {"FLAVOR:MARLIN", GcodeDialect::marlin}, {"GCODE_FLAVOR = MARLIN", GcodeDialect::marlin},
+    {"MACH3", GcodeDialect::mach3},          {"MACH 3", GcodeDialect::mach3},
+    {"MACH2", GcodeDialect::mach3},          {"GRBL", GcodeDialect::grbl},
+    {"CARBIDE CREATE", GcodeDialect::grbl}};
 
 /// The profile of a file that Kerf has written: its posts start with "(Kerf 0.1.0, laser)".
 std::optional<GcodeDialect> written_by_kerf(std::string_view comment) {
@@ -180,8 +178,7 @@ DialectGuess guess_from_words(const WordEvidence& e) {
 
 /// A comment alone does not make a printer's program: a mill may cut a model of the ship klipper.
 bool is_plausible(GcodeDialect dialect, const WordEvidence& e) {
-  const bool printer = dialect == GcodeDialect::marlin || dialect == GcodeDialect::klipper;
-  return !printer || e.heating || e.extruding;
+  return !is_printer(dialect) || e.heating || e.extruding;
 }
 
 /// A comment for a message, without control characters and quotes.
@@ -226,6 +223,7 @@ std::string_view to_string(GcodeDialect dialect) {
     case GcodeDialect::laser: return "laser";
     case GcodeDialect::marlin: return "Marlin";
     case GcodeDialect::klipper: return "Klipper";
+    case GcodeDialect::reprap: return "RepRapFirmware";
     case GcodeDialect::rs274: break;
   }
   return "LinuxCNC";

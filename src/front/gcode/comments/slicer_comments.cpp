@@ -77,9 +77,60 @@ std::optional<BeadSize> read_bead_size(std::string_view text) {
   for (const Name& n : kNames) {
     if (text.substr(0, n.name.size()) != n.name) continue;
     const auto value = leading_number(text.substr(n.name.size()));
-    if (value && *value > 0.0 && *value <= kMaxBeadSize) return BeadSize{n.measure, *value};
+    if (value && *value >= 0.0 && *value <= kMaxBeadSize) return BeadSize{n.measure, *value};
   }
   return std::nullopt;
+}
+
+std::optional<BeadKind> read_bead_kind(std::string_view text) {
+  struct Name {
+    std::string_view name;
+    BeadKind kind;
+  };
+  static constexpr Name kNames[] = {
+      {"EXTERNAL PERIMETER", BeadKind::outer_wall},
+      {"OUTER WALL", BeadKind::outer_wall},
+      {"WALL-OUTER", BeadKind::outer_wall},
+      {"PERIMETER", BeadKind::wall},
+      {"INNER WALL", BeadKind::wall},
+      {"WALL-INNER", BeadKind::wall},
+      {"OVERHANG PERIMETER", BeadKind::overhang},
+      {"OVERHANG WALL", BeadKind::overhang},
+      {"INTERNAL INFILL", BeadKind::infill},
+      {"SPARSE INFILL", BeadKind::infill},
+      {"FILL", BeadKind::infill},
+      {"SOLID INFILL", BeadKind::solid_infill},
+      {"INTERNAL SOLID INFILL", BeadKind::solid_infill},
+      {"BOTTOM SURFACE", BeadKind::solid_infill},
+      {"SKIN", BeadKind::solid_infill},
+      {"TOP SOLID INFILL", BeadKind::top},
+      {"TOP SURFACE", BeadKind::top},
+      {"BRIDGE INFILL", BeadKind::bridge},
+      {"INTERNAL BRIDGE INFILL", BeadKind::bridge},
+      {"BRIDGE", BeadKind::bridge},
+      {"INTERNAL BRIDGE", BeadKind::bridge},
+      {"GAP FILL", BeadKind::gap_fill},
+      {"GAP INFILL", BeadKind::gap_fill},
+      {"IRONING", BeadKind::ironing},
+      {"SKIRT", BeadKind::skirt},
+      {"SKIRT/BRIM", BeadKind::skirt},
+      {"BRIM", BeadKind::skirt},
+      {"SUPPORT MATERIAL", BeadKind::support},
+      {"SUPPORT", BeadKind::support},
+      {"SUPPORT MATERIAL INTERFACE", BeadKind::support_interface},
+      {"SUPPORT INTERFACE", BeadKind::support_interface},
+      {"SUPPORT-INTERFACE", BeadKind::support_interface},
+      {"WIPE TOWER", BeadKind::purge},
+      {"PRIME TOWER", BeadKind::purge},
+      {"PRIME-TOWER", BeadKind::purge},
+  };
+  constexpr std::string_view kType = "TYPE:", kFeature = "FEATURE:";
+  const bool is_type = text.substr(0, kType.size()) == kType;
+  if (!is_type && text.substr(0, kFeature.size()) != kFeature) return std::nullopt;
+  const std::string name = capitals(trim(text.substr(is_type ? kType.size() : kFeature.size())));
+  for (const Name& n : kNames)
+    if (n.name == name) return n.kind;
+  return BeadKind::custom;
 }
 
 std::optional<double> find_filament_diameter(std::string_view text) { return find_setting(text, kDiameter); }

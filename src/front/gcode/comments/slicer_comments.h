@@ -1,9 +1,11 @@
-// Comments of slicers: width and height of the beads that follow, diameter of the filament.
+// Comments of slicers: kind, width and height of the beads that follow, diameter of the filament.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string_view>
+
+#include "kerf/toolpath.h"
 
 namespace kerf::gcode {
 
@@ -13,8 +15,13 @@ struct BeadSize {
   double mm = 0.0;
 };
 /// "HEIGHT:0.2" and "WIDTH:0.45" (PrusaSlicer, SuperSlicer, OrcaSlicer), "LAYER_HEIGHT: 0.2" and "LINE_WIDTH:
-/// 0.42" (Bambu Studio); in force until the next one.
+/// 0.42" (Bambu Studio); in force until the next one. 0: unknown from here on.
 std::optional<BeadSize> read_bead_size(std::string_view text);
+
+/// "TYPE:External perimeter" (PrusaSlicer, SuperSlicer), "TYPE:Outer wall" (OrcaSlicer), "FEATURE: Outer
+/// wall" (Bambu Studio), "TYPE:WALL-OUTER" (Cura); nothing for other comments and BeadKind::custom for other
+/// names.
+std::optional<BeadKind> read_bead_kind(std::string_view text);
 
 /// The filament diameter in mm of the first extruder, from the settings at the start or end of a program:
 /// "filament_diameter = 1.75" (Slic3r and its derivatives), "filamentDiameters,1.75" (Simplify3D), "Filament

@@ -53,7 +53,7 @@ Flow::Flow(std::string_view text, const GcodeReadOptions& options, LineReporter&
 Flow::~Flow() = default;
 
 BlockReaderOptions Flow::reader_options(const std::string& name) const {
-  const bool printer = dialect_ == GcodeDialect::marlin || dialect_ == GcodeDialect::klipper;
+  const bool printer = is_printer(dialect_);
   const auto commands = printer ? BlockReaderOptions::Commands::words : BlockReaderOptions::Commands::letters;
   return {name, options_.max_line_bytes, options_.strict, commands};
 }

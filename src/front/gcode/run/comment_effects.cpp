@@ -38,6 +38,10 @@ void Interpreter::read_comment(const Comment& comment, bool at_tool_change) {
       (size->measure == BeadMeasure::width ? bead_width_ : bead_height_) = size->mm;
       return;
     }
+    if (const auto kind = read_bead_kind(text)) {
+      bead_kind_ = *kind;
+      return;
+    }
   }
   const TextLocation where = reporter_.location(comment.column);
   if (starts_with(text, "MSG")) {

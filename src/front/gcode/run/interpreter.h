@@ -190,9 +190,7 @@ class Interpreter : public SystemValues {
   void leave_out();
 
   void follow_calls();
-  bool is_printer() const {
-    return program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
-  }
+  bool is_printer() const { return kerf::is_printer(program_.dialect); }
   bool printer_line();
 
   // simple_lines.cpp
@@ -266,6 +264,7 @@ class Interpreter : public SystemValues {
   // printer.cpp
   void printer_command(std::string_view text);
   void printer_code();
+  bool set_tool_temperature(std::string_view text);
   void printer_reference();
   void run_to_end_switches();
   void set_filament(std::string_view text);
@@ -422,6 +421,8 @@ class Interpreter : public SystemValues {
   bool filament_relative_ = false;
   bool volumetric_ = false;                      // M200: E is a volume
   double bead_width_ = 0.0, bead_height_ = 0.0;  // mm, of comments; 0: unknown
+  std::optional<double> nozzle_celsius_;         // as G10 of RepRapFirmware has set it
+  BeadKind bead_kind_ = BeadKind::none;          // of comments
   std::optional<step::ToolLength> tool_length_;
   std::optional<int> length_tool_;  // in the spindle when it was set
   CycleWords cycle_;

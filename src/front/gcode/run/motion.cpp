@@ -311,7 +311,7 @@ double Interpreter::feed_for(double length) {
 // ---- codes that use the axis words themselves
 
 void Interpreter::use_reference() {
-  const bool printer = program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
+  const bool printer = is_printer();
   if (printer) return printer_reference();
   switch (line_.code(Group::reference)) {
     case 100: return set_data();

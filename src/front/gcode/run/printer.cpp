@@ -1,6 +1,6 @@
-// Printers: Marlin and Klipper. E is the filament; heaters and fans are separate steps.
+// Printers: Marlin, Klipper and RepRapFirmware. E is the filament; heaters and fans are separate steps.
 //
-// Source: Marlin's list of G-codes; Klipper's page "G-Codes".
+// Source: Marlin's list of G-codes; Klipper's page "G-Codes"; Duet's "GCode dictionary".
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -8,6 +8,9 @@
 
 #include "front/gcode/comments/slicer_comments.h"
 #include "front/gcode/run/interpreter.h"
+#include "front/gcode/run/printer_limits.h"
+
+#include "kerf/names.h"
 
 namespace kerf::gcode {
 namespace {
@@ -40,6 +43,10 @@ bool Interpreter::printer_line() {
 /// A command that has no meaning here. A G code runs a procedure of the firmware, such as levelling the bed
 /// (G29), after which the nozzle may be anywhere; firmware retraction (G10, G11) leaves it where it is.
 void Interpreter::printer_command(std::string_view text) {
+  const auto limits = read_limits(text, program_.dialect, modes_.scale);
+  for (const step::MotionLimits& given : limits) add(given);
+  if (!limits.empty() || sets_no_minimum_feed(text)) return;
+  if (program_.dialect == GcodeDialect::reprap && set_tool_temperature(text)) return;
   const char first = text.front();
   if (first != 'G' && first != 'g') return void(add(step::Verbatim{std::string(text)}));
   const std::string code = "G" + std::string(text.substr(1, text.find_first_not_of("0123456789.", 1) - 1));
@@ -54,6 +61,18 @@ void Interpreter::printer_command(std::string_view text) {
           "unknown after it");
   add(step::Unresolved{code, UnresolvedKind::code});
   lose(kAllAxes);
+}
+
+/// RepRapFirmware: G10 P0 S200 sets the temperature of a tool, M116 waits for it.
+bool Interpreter::set_tool_temperature(std::string_view text) {
+  if (const auto celsius = read_tool_temperature(text)) {
+    nozzle_celsius_ = std::min(*celsius, kMaxCelsius);
+    add(step::Temperature{Heater::nozzle, *nozzle_celsius_, false});
+    return true;
+  }
+  if (fold_name(text) != "m116" || !nozzle_celsius_) return false;
+  add(step::Temperature{Heater::nozzle, *nozzle_celsius_, true});
+  return true;
 }
 
 void Interpreter::printer_code() {
@@ -78,7 +97,8 @@ void Interpreter::printer_code() {
     case 106:
     case 107: {
       const auto fan = static_cast<int>(std::clamp(line_.take('P').value_or(0.0), 0.0, double{kMaxFans}));
-      const double power = code == 107 ? 0.0 : line_.take('S').value_or(kFullFan);
+      double power = code == 107 ? 0.0 : line_.take('S').value_or(kFullFan);
+      if (program_.dialect == GcodeDialect::reprap && power <= 1.0) power *= kFullFan;
       add(step::Fan{fan, std::clamp(power / kFullFan, 0.0, 1.0)});
       return;
     }
@@ -147,6 +167,7 @@ void Interpreter::extrude(const ToolPosition& to, double feed) {
   bead.volume = Volume::raw(volumetric_ ? pushed : pushed * modes_.scale * area);
   bead.width = mm(bead_width_);
   bead.height = mm(bead_height_);
+  bead.kind = bead_kind_;
   bead.feed = mm_per_min(feed);
   if (std::isfinite(bead.volume.raw()) && add(bead)) arrive(to);
 }

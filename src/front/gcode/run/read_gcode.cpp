@@ -56,7 +56,7 @@ bool is_text(std::string_view text, const GcodeReadOptions& options, Diagnostics
 /// False with one error for a program in another language; otherwise each of its lines would be an error.
 bool is_gcode(std::string_view text, const GcodeReadOptions& options, GcodeDialect dialect,
               Diagnostics& diagnostics) {
-  if (dialect == GcodeDialect::marlin || dialect == GcodeDialect::klipper) return true;
+  if (is_printer(dialect)) return true;
   const auto foreign = find_foreign_language(text);
   if (!foreign) return true;
   diagnostics

@@ -59,7 +59,7 @@ bool read_simple(std::string_view text, SimpleWords& words) {
 /// Whether the modal state lets a line have only its plain meaning: absolute, per minute, unscaled, no
 /// compensation.
 bool Interpreter::accepts_simple_lines() const {
-  const bool printer = program_.dialect == GcodeDialect::marlin || program_.dialect == GcodeDialect::klipper;
+  const bool printer = is_printer();
   const bool modes = modes_.absolute && modes_.feed_mode == FeedMode::per_minute && !modes_.diameters &&
                      (modes_.motion == 0 || modes_.motion == 10);
   const bool path = frame_.only_shifted && !compensation_.cutter && !compensation_.leaving && !rotary_used_ &&

@@ -1,0 +1,150 @@
+// M201, M203, M204, M205 (Marlin, RepRapFirmware), M566 (RepRapFirmware), SET_VELOCITY_LIMIT (Klipper).
+#include "front/gcode/run/printer_limits.h"
+
+#include <algorithm>
+#include <string>
+
+#include "kerf/names.h"
+#include "kerf/number.h"
+
+namespace kerf::gcode {
+namespace {
+
+constexpr double kMaxLimit = 1e9;
+constexpr std::size_t kMaxWords = 8;
+
+struct Word {
+  std::string name;  // folded: "x", "accel"
+  double value = 0.0;
+};
+
+/// The words after the command; nothing if one is no number from 0.
+std::optional<std::vector<Word>> words_of(std::string_view text, bool with_names) {
+  std::vector<Word> words;
+  for (text = trim(text); !text.empty(); text = trim(text)) {
+    std::size_t end = text.find_first_of(" \t");
+    if (end == std::string_view::npos) end = text.size();
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(end);
+    const std::size_t sign = with_names ? word.find('=') : 0;
+    if (sign == std::string_view::npos || words.size() == kMaxWords) return std::nullopt;
+    const auto value = parse_number(word.substr(sign + 1));
+    if (!value || !(*value >= 0.0 && *value <= kMaxLimit)) return std::nullopt;
+    const std::string_view name = with_names ? word.substr(0, sign) : word.substr(0, 1);
+    words.push_back({fold_name(name), *value});
+  }
+  if (words.empty()) return std::nullopt;
+  return words;
+}
+
+void set(step::MotionLimits& limits, std::size_t i, double value) {
+  limits.values[i] = value;
+  limits.given |= 1u << i;
+}
+
+/// The words as values, in the order of `letters`; nothing with another word.
+std::vector<step::MotionLimits> by_letters(LimitKind kind, const std::vector<Word>& words,
+                                           std::string_view letters, double factor) {
+  step::MotionLimits limits{kind};
+  for (const Word& word : words) {
+    const std::size_t i = word.name.size() == 1 ? letters.find(word.name[0]) : std::string_view::npos;
+    if (i == std::string_view::npos) return {};
+    set(limits, i, word.value * factor);
+  }
+  return {limits};
+}
+
+/// M204: S is the acceleration of beads and travel; P, R and T those of beads, retractions and travel.
+/// Klipper has one for all, of P and T the smaller one.
+std::vector<step::MotionLimits> accelerations(const std::vector<Word>& words, GcodeDialect dialect,
+                                              double scale) {
+  step::MotionLimits limits{LimitKind::acceleration};
+  if (words.size() == 1 && words[0].name == "s") {
+    for (const std::size_t i : {0u, 2u}) set(limits, i, words[0].value * scale);
+    return {limits};
+  }
+  auto list = by_letters(LimitKind::acceleration, words, "prt", scale);
+  if (dialect != GcodeDialect::klipper || list.empty()) return list;
+  if ((list[0].given & 5u) != 5u) return {};
+  const double smaller = std::min(list[0].values[0], list[0].values[2]);
+  for (const std::size_t i : {0u, 2u}) set(limits, i, smaller);
+  return {limits};
+}
+
+/// M205: X, Y, Z and E are jerks, J is the junction deviation.
+std::vector<step::MotionLimits> jerks(const std::vector<Word>& words, double scale) {
+  std::vector<Word> jerk, deviation;
+  for (const Word& word : words) (word.name == "j" ? deviation : jerk).push_back(word);
+  auto limits =
+      jerk.empty() ? std::vector<step::MotionLimits>{} : by_letters(LimitKind::jerk, jerk, "xyze", scale);
+  if (!jerk.empty() && limits.empty()) return {};
+  if (!deviation.empty()) {
+    limits.push_back({LimitKind::junction_deviation});
+    set(limits.back(), 0, deviation.back().value * scale);
+  }
+  return limits;
+}
+
+/// Klipper's limits hold for beads and travel alike. Its VELOCITY holds for X and Y together; here it is the
+/// limit of each.
+std::vector<step::MotionLimits> velocity_limits(std::string_view text) {
+  const auto words = words_of(text, true);
+  if (!words) return {};
+  std::vector<step::MotionLimits> list;
+  for (const Word& word : *words) {
+    step::MotionLimits limits;
+    if (word.name == "velocity") {
+      limits.kind = LimitKind::axis_speed;
+      for (const std::size_t i : {0u, 1u}) set(limits, i, word.value);
+    } else if (word.name == "accel") {
+      limits.kind = LimitKind::acceleration;
+      for (const std::size_t i : {0u, 2u}) set(limits, i, word.value);
+    } else if (word.name == "squarecornervelocity") {
+      limits.kind = LimitKind::corner_speed;
+      set(limits, 0, word.value);
+    } else {
+      return {};
+    }
+    list.push_back(limits);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::optional<double> read_tool_temperature(std::string_view command) {
+  const std::size_t end = std::min(command.find_first_of(" \t"), command.size());
+  const auto words = words_of(command.substr(end), false);
+  if (!words || fold_name(command.substr(0, end)) != "g10") return std::nullopt;
+  const auto s = std::find_if(words->begin(), words->end(), [](const Word& w) { return w.name == "s"; });
+  return s == words->end() ? std::nullopt : std::optional(s->value);
+}
+
+bool sets_no_minimum_feed(std::string_view command) {
+  const std::size_t end = std::min(command.find_first_of(" \t"), command.size());
+  const auto words = words_of(command.substr(end), false);
+  return fold_name(command.substr(0, end)) == "m205" && words &&
+         std::all_of(words->begin(), words->end(),
+                     [](const Word& w) { return (w.name == "s" || w.name == "t") && w.value == 0.0; });
+}
+
+std::vector<step::MotionLimits> read_limits(std::string_view command, GcodeDialect dialect, double scale) {
+  const std::size_t end = std::min(command.find_first_of(" \t"), command.size());
+  const std::string_view name = command.substr(0, end), rest = command.substr(end);
+  if (dialect == GcodeDialect::klipper && fold_name(name) == fold_name("SET_VELOCITY_LIMIT"))
+    return velocity_limits(rest);
+  if (name.empty() || (name[0] != 'M' && name[0] != 'm')) return {};
+  const auto code = parse_number(name.substr(1));
+  if (!code || (*code != 201 && *code != 203 && *code != 204 && *code != 205 && *code != 566)) return {};
+  const auto words = words_of(rest, false);
+  if (!words) return {};
+  const double per_second = dialect == GcodeDialect::reprap ? scale / 60.0 : scale;
+  if (*code == 201) return by_letters(LimitKind::axis_acceleration, *words, "xyze", scale);
+  if (*code == 203) return by_letters(LimitKind::axis_speed, *words, "xyze", per_second);
+  if (*code == 204) return accelerations(*words, dialect, scale);
+  if (*code == 205) return jerks(*words, scale);
+  return dialect == GcodeDialect::reprap ? by_letters(LimitKind::jerk, *words, "xyze", per_second)
+                                         : std::vector<step::MotionLimits>{};
+}
+
+}  // namespace kerf::gcode

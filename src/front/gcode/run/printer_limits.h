@@ -1,0 +1,22 @@
+// The commands of printers with words of their own: limits of motions, temperatures of tools.
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "kerf/gcode_dialect.h"
+#include "kerf/toolpath.h"
+
+namespace kerf::gcode {
+
+/// The limits that a command sets: M201, M203, M204, M205, M566 and, for Klipper, SET_VELOCITY_LIMIT.
+/// `scale`: mm per unit of the program. Empty for other commands, and for those with words that have no step.
+std::vector<step::MotionLimits> read_limits(std::string_view command, GcodeDialect dialect, double scale);
+
+/// The temperature that RepRapFirmware's G10 sets for a tool (S), C; nothing without it.
+std::optional<double> read_tool_temperature(std::string_view command);
+/// Whether a command sets minimum feeds of 0, which is no limit (M205 S0 T0).
+bool sets_no_minimum_feed(std::string_view command);
+
+}  // namespace kerf::gcode

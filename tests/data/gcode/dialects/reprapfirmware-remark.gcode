@@ -1,0 +1,6 @@
+; gcode_flavor = reprapfirmware
+M140 S60
+M104 S200
+M566 X480 Y480
+M109 S200
+G1 X50 E2.5 F900

@@ -1,0 +1,168 @@
+// Programs for printers: comments on beads, limits of motions, variables, thumbnails, absolute E.
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <string>
+
+#include "kerf/post.h"
+
+namespace kerf {
+namespace {
+
+const double kFilament = std::numbers::pi * 0.875 * 0.875;  // mm2, of 1.75 mm
+const Feed kFeed = mm_per_min(1200);
+
+PostProfile bare(std::string_view name) {
+  PostProfile profile = *find_post(name);
+  profile.header.clear();
+  profile.section.clear();
+  profile.footer.clear();
+  return profile;
+}
+
+struct Posted {
+  std::string text;
+  Diagnostics diagnostics;
+};
+
+Posted posted(const Toolpath& path, const PostProfile& profile, const PostOptions& options = {}) {
+  Posted out;
+  const auto files = post(path, profile, options, out.diagnostics);
+  if (files.size() == 1) out.text = files[0].text;
+  return out;
+}
+
+void lay(Toolpath& path, Point3 to, double filament, BeadKind kind, double width = 0.45) {
+  path.add(step::Extrude{to, mm3(filament * kFilament), mm(width), mm(0.2), kFeed, kind}, OriginId::none);
+}
+
+TEST(PrintPost, beads_get_the_comments_of_slicers_where_they_change) {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 0.2}}, OriginId::none);
+  lay(path, {10, 0, 0.2}, 1, BeadKind::outer_wall);
+  lay(path, {10, 10, 0.2}, 1, BeadKind::outer_wall);
+  lay(path, {0, 10, 0.2}, 0.5, BeadKind::bridge, 0.4);
+  path.add(step::Rapid{{0, 0, 0.4}}, OriginId::none);
+  lay(path, {10, 0, 0.4}, 1, BeadKind::bridge, 0.4);
+  EXPECT_EQ(posted(path, bare("marlin")).text,
+            "G0 X0 Y0 Z0.2\n"
+            ";LAYER_CHANGE\n;Z:0.2\n;TYPE:External perimeter\n;WIDTH:0.45\n;HEIGHT:0.2\n"
+            "G1 X10 E1 F1200\nG1 Y10 E1\n"
+            ";TYPE:Bridge infill\n;WIDTH:0.4\nG1 X0 E0.5\nG0 Y0 Z0.4\n"
+            ";LAYER_CHANGE\n;Z:0.4\nG1 X10 E1\n");
+}
+
+TEST(PrintPost, a_vase_starts_a_layer_where_it_has_climbed_by_a_bead) {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 0.2}}, OriginId::none);
+  for (int i = 1; i <= 16; ++i)
+    lay(path, {i % 2 == 0 ? 0.0 : 10.0, i % 4 < 2 ? 0.0 : 10.0, 0.2 + 0.05 * i}, 1, BeadKind::outer_wall);
+  const std::string text = posted(path, bare("klipper")).text;
+  std::size_t layers = 0;
+  for (std::size_t at = text.find(";LAYER_CHANGE"); at != std::string::npos;
+       at = text.find(";LAYER_CHANGE", at + 1))
+    ++layers;
+  EXPECT_EQ(layers, 4u);  // at Z0.2, 0.4, 0.6 and 0.8; the last bead starts at Z0.95
+}
+
+TEST(PrintPost, plain_printers_get_absolute_filament_lengths) {
+  Toolpath path;
+  path.add(step::Rapid{{0, 0, 0.2}}, OriginId::none);
+  for (int i = 1; i <= 3; ++i) lay(path, {10.0 * i, 0, 0.2}, 1, BeadKind::none);
+  PostProfile plain = bare("plain");
+  plain.bead_comments = BeadComments::none;
+  EXPECT_EQ(posted(path, plain).text, "G0 X0 Y0 Z0.2\nG1 X10 E1 F1200\nG1 X20 E2\nG1 X30 E3\n");
+  const std::string whole = posted(path, *find_post("plain")).text;
+  EXPECT_NE(whole.find("\nM82\nG92 E0\n"), std::string::npos) << whole;
+  EXPECT_NE(posted(path, *find_post("marlin")).text.find("\nM83\nG92 E0\n"), std::string::npos);
+}
+
+Toolpath with_limits() {
+  Toolpath path;
+  path.add(step::MotionLimits{LimitKind::axis_acceleration, {500, 600, 70, 800}, 15}, OriginId::none);
+  path.add(step::MotionLimits{LimitKind::axis_speed, {200, 180, 12, 0}, 7}, OriginId::none);
+  path.add(step::MotionLimits{LimitKind::acceleration, {1000, 0, 1500, 0}, 5}, OriginId::none);
+  path.add(step::MotionLimits{LimitKind::jerk, {8, 9, 0, 2.5}, 11}, OriginId::none);
+  path.add(step::MotionLimits{LimitKind::junction_deviation, {0.013, 0, 0, 0}, 1}, OriginId::none);
+  path.add(step::MotionLimits{LimitKind::corner_speed, {5, 0, 0, 0}, 1}, OriginId::none);
+  return path;
+}
+
+TEST(PrintPost, limits_are_those_of_the_firmware) {
+  const Toolpath path = with_limits();
+  const Posted marlin = posted(path, bare("marlin")), reprap = posted(path, bare("reprapfirmware")),
+               klipper = posted(path, bare("klipper")), plain = posted(path, bare("plain"));
+  EXPECT_EQ(marlin.text,
+            "M201 X500 Y600 Z70 E800\nM203 X200 Y180 Z12\nM204 P1000 T1500\nM205 X8 Y9 E2.5\nM205 J0.013\n");
+  EXPECT_EQ(reprap.text,
+            "M201 X500 Y600 Z70 E800\nM203 X12000 Y10800 Z720\nM204 P1000 T1500\nM566 X480 Y540 E150\n");
+  EXPECT_EQ(klipper.text,
+            "SET_VELOCITY_LIMIT VELOCITY=180\nSET_VELOCITY_LIMIT ACCEL=1000\n"
+            "SET_VELOCITY_LIMIT SQUARE_CORNER_VELOCITY=5\n");
+  EXPECT_EQ(plain.text, "");
+  EXPECT_EQ(marlin.diagnostics.list().size(), 1u);   // corner speed
+  EXPECT_EQ(reprap.diagnostics.list().size(), 2u);   // and junction deviation
+  EXPECT_EQ(klipper.diagnostics.list().size(), 3u);  // accelerations of axes, jerk, junction deviation
+  EXPECT_EQ(plain.diagnostics.list().size(), 6u);
+  for (const Posted* one : {&marlin, &reprap, &klipper, &plain})
+    for (const Diagnostic& d : one->diagnostics.list()) EXPECT_EQ(d.code, Code::post_left_out);
+}
+
+TEST(PrintPost, fans_of_reprapfirmware_are_fractions) {
+  Toolpath path;
+  path.add(step::Fan{1, 0.25}, OriginId::none);
+  path.add(step::Fan{0, 0.0}, OriginId::none);
+  EXPECT_EQ(posted(path, bare("reprapfirmware")).text, "M106 P1 S0.25\nM107\n");
+  EXPECT_EQ(posted(path, bare("marlin")).text, "M106 P1 S64\nM107\n");
+}
+
+TEST(PrintPost, templates_have_the_figures_of_the_print_and_variables) {
+  Diagnostics diagnostics;
+  const auto profile = read_post_profile(
+      "base = \"marlin\"\nname = \"mine\"\n[variables]\nbed_sheet = \"smooth\"\nlift = 5\nfast = true\n"
+      "[templates]\nheader = [\"; {bed_sheet} {lift} {fast} {nozzle} {bed} {chamber}\", \"; {layers} of "
+      "{layer_height}, {filament_mm} mm, {filament_cm3} cm3\"]\nfooter = []\n",
+      "mine.toml", diagnostics);
+  ASSERT_TRUE(profile);
+  Toolpath path;
+  path.add(step::Temperature{Heater::nozzle, 0, false}, OriginId::none);
+  path.add(step::Temperature{Heater::nozzle, 215, true}, OriginId::none);
+  path.add(step::Temperature{Heater::bed, 60.5, true}, OriginId::none);
+  path.add(step::Rapid{{0, 0, 0.3}}, OriginId::none);
+  lay(path, {10, 0, 0.3}, 2, BeadKind::wall);
+  path.add(step::Rapid{{0, 0, 0.5}}, OriginId::none);
+  lay(path, {10, 0, 0.5}, 2, BeadKind::wall);
+  PostOptions options;
+  options.variables["lift"] = "7\nM112";  // stays within its comment
+  const std::string text = posted(path, *profile, options).text;
+  EXPECT_EQ(text.substr(0, text.find("G0")),
+            "; smooth 7_M112 true 215 60.5 0\n; 2 of 0.3, 4 mm, 0.01 cm3\nM104 S0\nM109 S215\nM190 S60.5\n");
+}
+
+TEST(PrintPost, variables_must_be_values) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(
+      read_post_profile("base = \"marlin\"\n[variables]\nlift = [1, 2]\n", "mine.toml", diagnostics));
+  ASSERT_EQ(diagnostics.list().size(), 1u);
+  EXPECT_EQ(diagnostics.list()[0].code, Code::post_value_bad);
+}
+
+TEST(PrintPost, thumbnails_are_base64_in_lines_of_comments) {
+  PostOptions options;
+  std::string bytes;
+  for (int i = 0; i < 100; ++i) bytes += static_cast<char>(i);
+  options.thumbnails = {{16, 12, bytes}, {2, 2, "kerf!"}};
+  PostProfile marlin = bare("marlin");
+  marlin.header = {"; first", "G90", "; later"};
+  const std::string text = posted({}, marlin, options).text;
+  // python3 -c "import base64; print(base64.b64encode(bytes(range(100))).decode())"
+  EXPECT_EQ(text,
+            "; first\n;\n; thumbnail begin 16x12 136\n"
+            "; AAECAwQFBgcICQoLDA0ODxAREhMUFRYXGBkaGxwdHh8gISIjJCUmJygpKissLS4vMDEyMzQ1Njc4OT\n"
+            "; o7PD0+P0BBQkNERUZHSElKS0xNTk9QUVJTVFVWV1hZWltcXV5fYGFiYw==\n; thumbnail end\n;\n"
+            ";\n; thumbnail begin 2x2 8\n; a2VyZiE=\n; thumbnail end\n;\nG90\n; later\n");
+  EXPECT_EQ(posted({}, bare("grbl"), options).text, "");
+}
+
+}  // namespace
+}  // namespace kerf
