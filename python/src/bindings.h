@@ -66,6 +66,7 @@ void bind_program(pybind11::module_& m);
 void bind_job(pybind11::module_& m);
 void bind_operations(pybind11::module_& m);
 void bind_outputs(pybind11::module_& m);
+void bind_printer(pybind11::module_& m);
 void bind_simulation(pybind11::module_& m);
 void bind_print(pybind11::module_& m);
 void bind_bodies(pybind11::module_& m);

@@ -228,6 +228,7 @@ PYBIND11_MODULE(_kerf, m) {
   bind_outputs(m);
   bind_simulation(m);
   bind_print(m);
+  bind_printer(m);
   bind_bodies(m);
   bind_region(m);
   bind_drawing(m);

@@ -1,0 +1,255 @@
+// The printer in Python: layers, walls, fills and travel as calls (kerf/op/printer.h).
+#include <functional>
+
+#include "bindings.h"
+#include "region_binding.h"
+
+#include "kerf/limits.h"
+#include "kerf/motion_limits.h"
+#include "kerf/names.h"
+#include "kerf/op/printer.h"
+
+namespace kerf::python {
+namespace py = pybind11;
+
+namespace {
+
+/// A printer with the diagnostics that it appends to.
+class PyPrinter {
+ public:
+  explicit PyPrinter(const PrinterSettings& settings)
+      : printer_(settings, diagnostics_, script_location("Printer")) {
+    raise();
+  }
+  /// Runs `work(printer)` for a call of this name and raises its errors.
+  template <class Work>
+  auto call(const char* name, Work work) {
+    printer_.set_origin(script_location(name));
+    auto made = work(printer_);
+    raise();
+    return made;
+  }
+  const Printer& printer() const { return printer_; }
+  Toolpath& path() { return printer_.path(); }
+
+ private:
+  void raise() {
+    const Diagnostics found = std::move(diagnostics_);
+    diagnostics_ = Diagnostics();
+    raise_or_warn(found);
+  }
+
+  Diagnostics diagnostics_;
+  Printer printer_;
+};
+
+BeadKind to_kind(const std::string& name) {
+  if (const auto kind = bead_kind_named(name)) return *kind;
+  throw py::value_error("there is no kind of bead '" + clipped(name, 60) + "'");
+}
+
+Seam to_seam(const std::string& name) {
+  if (name == "nearest") return Seam::nearest;
+  if (name == "rear") return Seam::rear;
+  throw py::value_error("seam must be 'nearest' or 'rear', not '" + clipped(name, 60) + "'");
+}
+
+FillPattern to_pattern(const std::string& name) {
+  if (name == "zigzag") return FillPattern::zigzag;
+  if (name == "concentric") return FillPattern::concentric;
+  throw py::value_error("pattern must be 'zigzag' or 'concentric', not '" + clipped(name, 60) + "'");
+}
+
+PyRegion region_of(std::optional<Region> made) { return PyRegion(made ? std::move(*made) : Region()); }
+
+void bind_state(py::class_<PyPrinter>& c) {
+  c.def_property_readonly(
+      "path", [](PyPrinter& p) -> Toolpath& { return p.path(); }, py::return_value_policy::reference_internal,
+      "The toolpath so far; steps such as fans can be appended to it between calls.");
+  c.def_property_readonly(
+      "z", [](const PyPrinter& p) { return p.printer().z(); }, "Top of the present layer, mm.");
+  c.def_property_readonly(
+      "spacing", [](const PyPrinter& p) { return p.printer().spacing().mm(); },
+      "Distance of neighbouring beads, mm.");
+  c.def_property_readonly(
+      "printed_mm3", [](const PyPrinter& p) { return p.printer().printed().mm3(); },
+      "Volume of all beads so far, mm3.");
+  c.def(
+      "start",
+      [](PyPrinter& p, double nozzle, double bed, double lift) {
+        p.call("start", [&](Printer& printer) { return printer.start({nozzle, bed, lift}), 0; });
+      },
+      py::arg("nozzle") = 0.0, py::arg("bed") = 0.0, py::arg("lift") = 5.0,
+      "Heat the nozzle and the bed (C; 0: not), run to the end switches, lift the nozzle to `lift`, mm.");
+  c.def(
+      "finish",
+      [](PyPrinter& p, double lift) {
+        p.call("finish", [&](Printer& printer) { return printer.finish({lift}), 0; });
+      },
+      py::arg("lift") = 10.0,
+      "Draw the filament back, lift the nozzle by `lift` mm, switch heaters and fan off.");
+  c.def(
+      "next_layer",
+      [](PyPrinter& p, const std::optional<double>& height) {
+        const auto wanted = height ? std::optional(mm(*height)) : std::nullopt;
+        p.call("next_layer", [&](Printer& printer) { return printer.next_layer(wanted); });
+        return p.printer().z();
+      },
+      py::arg("height") = py::none(), "Start a layer above the last one, mm; returns its Z.");
+  c.def(
+      "travel",
+      [](PyPrinter& p, const py::object& to) {
+        const Point2 end = to_point2(to, "to");
+        p.call("travel", [&](Printer& printer) { return printer.travel(end); });
+      },
+      py::arg("to"), "Move to a point of the layer without printing.");
+}
+
+void bind_beads(py::class_<PyPrinter>& c) {
+  c.def(
+      "bead",
+      [](PyPrinter& p, const py::object& path, const std::string& kind, double width, double speed) {
+        const Outline outline = path_of(path);
+        const BeadOptions how{to_kind(kind), mm(width), mm_per_min(speed)};
+        p.call("bead", [&](Printer& printer) { return printer.bead(outline, how); });
+      },
+      py::arg("path"), py::arg("kind") = "", py::arg("width") = 0.0, py::arg("speed") = 0.0,
+      "Print a bead along a path of points and arcs, as of Region; width in mm and speed in mm/min, 0: those "
+      "of the printer.");
+  c.def(
+      "walls",
+      [](PyPrinter& p, const PyRegion& region, int count) {
+        return region_of(
+            p.call("walls", [&](Printer& printer) { return printer.walls(region.region, count); }));
+      },
+      py::arg("region"), py::arg("count") = 1,
+      "Print walls inside the boundary of a region, the outermost first; returns the region inside them.");
+  c.def(
+      "fill",
+      [](PyPrinter& p, const PyRegion& region, const std::string& pattern, double angle, double density,
+         const std::string& kind, double speed) {
+        const FillOptions how{to_pattern(pattern), degrees(finite_number(angle, "angle")), density,
+                              to_kind(kind), mm_per_min(speed)};
+        return region_of(p.call("fill", [&](Printer& printer) { return printer.fill(region.region, how); }));
+      },
+      py::arg("region"), py::arg("pattern") = "zigzag", py::arg("angle") = 0.0, py::arg("density") = 1.0,
+      py::arg("kind") = "", py::arg("speed") = 0.0,
+      R"(Fill a region up to its boundary.
+
+Parameters
+----------
+region : Region
+pattern : {'zigzag', 'concentric'}
+angle : float
+    Of the beads of a zigzag, degrees from +x.
+density : float
+    Above 0 and at most 1, which is solid.
+kind : str
+    As of `Toolpath.extrude`; default: 'solid_infill' or 'infill'.
+speed : float
+    mm/min; 0: that of the printer.
+
+Returns
+-------
+Region
+    The parts that beads are too wide for.)");
+}
+
+void bind_other_beads(py::class_<PyPrinter>& c) {
+  c.def(
+      "brim",
+      [](PyPrinter& p, const PyRegion& region, int loops, double gap) {
+        p.call("brim", [&](Printer& printer) { return printer.brim(region.region, loops, mm(gap)); });
+      },
+      py::arg("region"), py::arg("loops") = 5, py::arg("gap") = 0.0,
+      "Print loops around a region, from the outside, the last one `gap` mm beside it.");
+  c.def(
+      "vase",
+      [](PyPrinter& p, const py::object& path, double top) {
+        const Outline outline = path_of(path);
+        p.call("vase", [&](Printer& printer) { return printer.vase(outline, top); });
+      },
+      py::arg("path"), py::arg("top"),
+      "Print a wall along a closed path, rising without a seam from the present layer to Z `top`, mm.");
+  c.def(
+      "iron",
+      [](PyPrinter& p, const PyRegion& region, double spacing, double angle, double flow, double speed) {
+        const IroningOptions how{mm(spacing), degrees(finite_number(angle, "angle")), flow,
+                                 mm_per_min(speed)};
+        p.call("iron", [&](Printer& printer) { return printer.iron(region.region, how); });
+      },
+      py::arg("region"), py::arg("spacing") = 0.1, py::arg("angle") = 0.0, py::arg("flow") = 0.0,
+      py::arg("speed") = 1200.0,
+      "Run over a region at the height of the layer in rows `spacing` mm apart; `flow` is extruded, as a "
+      "fraction of a layer.");
+}
+
+PrinterSettings settings_of(double width, double height, double speed, const py::kwargs& more) {
+  PrinterSettings s;
+  s.width = mm(width), s.height = mm(height), s.speed = mm_per_min(speed);
+  const std::pair<const char*, std::function<void(double)>> numbers[] = {
+      {"filament", [&](double v) { s.filament = mm(v); }},
+      {"first_layer_speed", [&](double v) { s.first_layer_speed = mm_per_min(v); }},
+      {"travel_speed", [&](double v) { s.travel_speed = mm_per_min(v); }},
+      {"max_flow", [&](double v) { s.max_flow = mm3_per_s(v); }},
+      {"flow", [&](double v) { s.flow = v; }},
+      {"side_overlap", [&](double v) { s.side_overlap = v; }},
+      {"retract", [&](double v) { s.retract = mm(v); }},
+      {"retract_speed", [&](double v) { s.retract_speed = mm_per_min(v); }},
+      {"min_travel", [&](double v) { s.min_travel = mm(v); }},
+      {"hop", [&](double v) { s.hop = mm(v); }},
+      {"wipe", [&](double v) { s.wipe = mm(v); }},
+      {"chord", [&](double v) { s.chord = mm(v); }}};
+  for (const auto& [key, value] : more) {
+    const auto name = py::cast<std::string>(key);
+    bool known = name == "seam";
+    if (known) s.seam = to_seam(py::cast<std::string>(value));
+    for (const auto& [number, set] : numbers)
+      if (name == number) set(py::cast<double>(value)), known = true;
+    if (!known) throw py::type_error("Printer has no setting '" + clipped(name, 60) + "'");
+  }
+  return s;
+}
+
+}  // namespace
+
+void bind_printer(py::module_& m) {
+  py::class_<PyPrinter> c(m, "Printer", R"(Prints layers of beads into a toolpath.
+
+Parameters
+----------
+width, height : float
+    Of beads, mm.
+speed : float
+    Of beads, mm/min.
+filament : float
+    Diameter, mm (1.75).
+first_layer_speed, travel_speed : float
+    mm/min; 0: `speed`; 9000.
+max_flow : float
+    Of the hot end, mm3/s, which limits the speed; 0: no limit.
+flow : float
+    Factor of all volumes (1).
+side_overlap : float
+    Of neighbouring beads, as a fraction of the height (0.08).
+retract, retract_speed, min_travel, hop, wipe : float
+    Filament drawn back before a travel, mm (0.8), at mm/min (2400), from this length of travel on, mm (1.5);
+    the rise of the nozzle, mm (0), and the way back along the bead over which it is drawn back, mm (0).
+seam : {'nearest', 'rear'}
+chord : float
+    Of the straight beads that arcs are printed as, mm (0.01).
+
+Raises
+------
+kerf.Error
+    For a setting out of range.)");
+  c.def(py::init([](double width, double height, double speed, const py::kwargs& more) {
+          return std::make_unique<PyPrinter>(settings_of(width, height, speed, more));
+        }),
+        py::arg("width") = 0.45, py::arg("height") = 0.2, py::arg("speed") = 3000.0);
+  bind_state(c);
+  bind_beads(c);
+  bind_other_beads(c);
+}
+
+}  // namespace kerf::python
