@@ -1,7 +1,8 @@
 // Hazards of a toolpath that do not depend on the material removed: cuts without a feed, a tool or a running
 // spindle, arcs with different radii at their ends, truncated programs. With a machine, tools, a stock or a
 // material also: motions outside the travel, spindle speeds out of range, plunges with tools that cannot
-// plunge, tool changes below the stock's top, excessive chip loads.
+// plunge, tool changes below the stock's top, excessive chip loads. Of a laser: a beam that is on during a
+// rapid, while X and Y do not move, or at the end.
 //
 // Hazards in the material (rapids through the stock, shank and holder contact) are found by simulate.h;
 // `kerf check` reports both.
@@ -35,7 +36,7 @@ struct CheckOptions {
   ProgramEnd end = ProgramEnd::not_asked;
   bool manual_spindle = false;  // a program without spindle steps is run with a spindle started by hand
   // Without them (nullptr, nothing) the related checks are skipped. They must outlive the check.
-  const Machine* machine = nullptr;          // travel and spindle
+  const Machine* machine = nullptr;          // travel, spindle, laser mode
   const ToolTable* tools = nullptr;          // plunges and chip loads
   const Material* material = nullptr;        // chip loads
   std::optional<Box3> stock = std::nullopt;  // tool changes; plunges only below its top
@@ -61,7 +62,10 @@ std::optional<PathHazard> find_z_downwards(const Toolpath& path);
 
 /// Checks a whole toolpath; hazards are in the order of steps. Programs that switch a laser or lay beads need
 /// neither spindle nor tool. A spindle running at 0 rpm has a manually set speed: the G-code reader turns S0
-/// into a stopped spindle.
+/// into a stopped spindle. Without a machine the beam of a laser (step::LaserPower) counts as on during
+/// rapids and dwells with LaserMode::constant, and as off with LaserMode::dynamic. With one,
+/// LaserDrive::follows is GRBL's laser mode, which runs no beam during rapids, and with LaserDrive::stops
+/// both modes do.
 std::vector<PathHazard> check_path(const Toolpath& path, const CheckOptions& options);
 
 }  // namespace kerf

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <vector>
 
+#include "kerf/burn.h"
 #include "kerf/compare.h"
 #include "kerf/diagnostics.h"
 #include "kerf/files.h"
@@ -67,6 +68,9 @@ std::optional<std::string> picture_file(const PartSurface& surface, const View& 
 /// colours of the tools, rapids as thin lines, a laser's cuts by their power. Motions at unknown positions
 /// are omitted.
 std::string path_picture(const Job& job, const View& view);
+
+/// The map of a laser's burn as the bytes of a PNG, from above; see draw_burn().
+std::string burn_picture(const BurnMap& map, double black, int width, int height);
 
 /// The comparison of a part with its target as the bytes of a PNG: its map from above, or, with a view, the
 /// part in the colours of the map. `full` is the difference with the saturated colour. Nothing if stopped,

@@ -306,6 +306,10 @@ std::optional<std::string> picture_file(const PartSurface& surface, const View& 
   return png_of(render(surface.mesh, rgb, view));
 }
 
+std::string burn_picture(const BurnMap& map, double black, int width, int height) {
+  return png_of(draw_burn(map, black, width, height));
+}
+
 std::optional<std::string> comparison_picture(const Simulation& simulation, const Comparison& comparison,
                                               Length full, const std::optional<View>& view,
                                               Diagnostics& diagnostics, Progress* progress) {

@@ -77,6 +77,8 @@ Program read(const InputFile& file, const ProgramOptions& input, Diagnostics& di
   const bool streamed = input.machine && input.machine->controller == Controller::grbl;
   if (input.read_on || streamed) options.after_end = AfterEnd::read_on;
   options.dialect = input.dialect;
+  if (!input.dialect && streamed && input.machine->laser == LaserDrive::follows)
+    options.dialect = GcodeDialect::laser;
   options.strict = input.strict;
   options.filament_diameter = input.filament_diameter;
   const bool other = input.dialect && *input.dialect != GcodeDialect::rs274;

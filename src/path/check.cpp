@@ -8,6 +8,8 @@
 #include <limits>
 #include <optional>
 
+#include "path/check_beam.h"
+
 #include "kerf/number.h"
 #include "kerf/report.h"
 
@@ -330,6 +332,7 @@ void check_other_steps(const Toolpath& path, const Setting& setting, std::vector
     follow(s, rest);
   }
   if (path.size() > 0) keep(low_stop(rest, setting, "the program ends"), path.size() - 1);
+  for (PathHazard& hazard : check_beam(path, setting.options)) found.push_back(std::move(hazard));
   std::stable_sort(found.begin(), found.end(),
                    [](const PathHazard& a, const PathHazard& b) { return a.step < b.step; });
 }

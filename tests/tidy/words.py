@@ -31,7 +31,7 @@ NAMES_WITHOUT_SUFFIX = {"dev", "CMakeLists.txt", "run"}
 FIXED = re.compile(
     r"/usr/share|(?:source\(\)|\bat)\.begin|\b(?:road_mm|in_place|std::begin|std::shared_\w+)\b"
     r"|\bself_meetings\b|\bkerf\.widen\b|[\"`]widen[\"`(]|(?<=    )widen(?=,)|\.roads\b|\bpng_image_begin_\w+"
-    r"|\"roads\"|`roads`|\*road\*|-- (?:pro|epi)logue begin --|\bAcDbBlockBegin\b|\"spot\""
+    r"|\"roads\"|`roads`|\*road\*|-- (?:pro|epi)logue begin --|\bAcDbBlockBegin\b|\"spot\"|--spot\b"
     r"|\bthumbnail begin\b"
     r"|\b(?:in-place|stand-?ins?|stand-?alone)\b|(?<=[.>])c?r?begin(?=\()|\bc?r?begin(?=\(\))"
     r"|\bplace-?holders?\b|\b(?:decimal|first) places?\b|\b(?:in|into|takes?|taken|took|taking) place\b"

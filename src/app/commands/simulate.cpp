@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <memory>
 
+#include "app/commands/burn.h"
 #include "app/commands/commands.h"
 #include "app/options/common.h"
 #include "app/options/job_options.h"
@@ -28,6 +29,7 @@ struct Options {
   double layer_height = 0.0;
   bool grooves = false;
   std::string show = "auto";
+  BurnCommand burn;
   std::vector<Option> picture_options;   // without effect where no picture is written
   std::vector<Option> cutting_options;   // without effect on a print
   std::vector<Option> printing_options;  // without effect on a milling job
@@ -86,6 +88,12 @@ Status simulate_job(Console& console, const Options& options, const JobInputs& i
   progress.clear();
   if (interrupted()) return report_stopped(console);
   if (!program || diagnostics.has_errors()) return fail(console, diagnostics, Status::input_errors);
+  if (options.show == "burn") {
+    for (const auto* unused : {&options.cutting_options, &options.printing_options})
+      warn_unused(*unused, "the picture shows the burn of a laser", "", diagnostics);
+    return run_burn(console, options.burn, *program, files, view, progress, diagnostics);
+  }
+  warn_unused(options.burn.options, "no burn is shown", "--show burn", diagnostics);
   const Job job = make_job_of(options, inputs.job, std::move(*program), diagnostics);
   console.set_lengths(LengthText(units_of_text(options.job, job.program)));
   if (diagnostics.has_errors() || !can_write(files, job.kind, diagnostics))
@@ -131,6 +139,7 @@ const char* const kExamples =
   kerf simulate side1.nc -o left.kstock              the left-over stock, for the next job:
   kerf simulate side2.nc --stock-left left.kstock --flip x
   kerf simulate print.gcode -o print.png             a print: beads, overlap, bridges, collisions
+  kerf simulate engraving.nc -o burn.png --show burn --spot 0.15 --max-power 10   a laser's energy per area
   cat part.nc | kerf simulate - --json --resolution 0.05
 )";
 
@@ -164,15 +173,16 @@ Command add_simulate(CommandParser& root) {
       parser
           .add_text(
               "--show", options->show,
-              "The picture shows the part or the toolpath: part, path or auto (default: the part, or the "
-              "toolpath if no material is removed)")
+              "The picture shows the part, the toolpath or the burn of a laser: part, path, burn or auto "
+              "(default: the part, or the toolpath if no material is removed)")
           .value_name("WHAT")
-          .one_of({"auto", "part", "path"}),
+          .one_of({"auto", "part", "path", "burn"}),
       add_section(parser, options->picture)};
   options->printing_options = {
       add_layer_height(parser, options->layer_height),
       parser.add_flag("--grooves", options->grooves,
                       "Of a print: keep the grooves between beads in meshes and pictures; larger files")};
+  add_burn_options(parser, options->burn);
   for (const char* name : kCuttingOptions) options->cutting_options.push_back(parser.option(name));
   add_threads(parser, options->threads);
   return {parser, &options->output, [options](Console& console) { return run(console, *options); }};

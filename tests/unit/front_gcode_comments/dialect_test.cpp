@@ -62,6 +62,7 @@ TEST(Dialect, TheGuessNamesItsEvidence) {
       {"grbl-maker.nc", "GRBL", "\"(Written by Carbide Create)\" in line 3", 3},
       {"fanuc-numbered.nc", "Fanuc", "O1001 in line 2 and M98 in line 4", 2},
       {"laser-powers.gc", "laser", "M4 in line 2 and the S words of its motions", 2},
+      {"laser-focus.nc", "laser", "M3 in line 1, switched on and off without motions in Z", 1},
       {"marlin-words.gcode", "Marlin", "M140 in line 1 and E in line 5", 1},
       {"klipper-words.gcode", "Klipper", "M140 in line 2 and SET_PRESSURE_ADVANCE in line 4", 2},
   };

@@ -103,8 +103,44 @@ TEST(CheckPath, SpindleNeverStartedOrStopped) {
 TEST(CheckPath, ALaserNeedsNoSpindle) {
   Job job;
   job.add(step::ToolChange{1}).add(step::LaserPower{LaserMode::dynamic, 255.0});
-  job.add(step::Cut{{1, 0, 0}, mm_per_min(10)});
+  job.add(step::Cut{{1, 0, 0}, mm_per_min(10)}).add(step::LaserPower{});
   EXPECT_EQ(kinds(job), Kinds{});
+}
+
+TEST(CheckPath, TheBeamOfALaser) {
+  const auto found = [](LaserMode mode, std::optional<LaserDrive> drive) {
+    Job job;
+    job.add(step::Rapid{{0, 0, 0}})
+        .add(step::LaserPower{mode, 300})
+        .add(step::Cut{{9, 0, 0}, mm_per_min(600)});
+    job.add(step::Dwell{seconds(1)}).add(step::Rapid{{0, 5, 0}}).add(step::Rapid{{5, 5, 0}});
+    job.add(step::Dwell{seconds(1)}).add(step::Cut{{9, 5, 0}, mm_per_min(600)});
+    Machine machine;
+    if (drive) machine.laser = *drive;
+    return kinds(job, {.machine = drive ? &machine : nullptr});
+  };
+  const Kinds all{"beam_standing", "beam_in_rapid", "beam_standing", "beam_left_on"};
+  EXPECT_EQ(found(LaserMode::constant, std::nullopt), all);
+  EXPECT_EQ(found(LaserMode::dynamic, std::nullopt), Kinds{"beam_left_on"});
+  EXPECT_EQ(found(LaserMode::constant, LaserDrive::follows), (Kinds{"beam_standing", "beam_left_on"}));
+  EXPECT_EQ(found(LaserMode::dynamic, LaserDrive::follows), Kinds{"beam_left_on"});
+  EXPECT_EQ(found(LaserMode::constant, LaserDrive::stops), all);
+  EXPECT_EQ(found(LaserMode::dynamic, LaserDrive::stops), all);
+}
+
+TEST(CheckPath, ABeamInRapidsIsOneEntryAndARestAnother) {
+  Job job;
+  job.add(step::LaserPower{LaserMode::constant, 300}).add(step::Cut{{9, 0, 0}, mm_per_min(600)});
+  job.add(step::Rapid{{0, 5, 0}}).add(step::Rapid{{5, 5, 0}}).add(step::Pause{}).add(step::LaserPower{});
+  const auto found = check_path(job.path, {});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].code, Code::path_beam_in_rapid);
+  EXPECT_EQ(found[0].step, 2u);
+  EXPECT_EQ(found[0].steps, 2u);
+  EXPECT_EQ(found[0].at, (Point3{0, 5, 0}));
+  EXPECT_EQ(found[1].code, Code::path_beam_standing);
+  EXPECT_EQ(found[1].step, 4u);
+  EXPECT_EQ(found[1].at, (Point3{5, 5, 0}));
 }
 
 TEST(CheckPath, APrinterNeedsNeitherToolNorSpindle) {

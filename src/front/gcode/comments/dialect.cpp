@@ -19,6 +19,8 @@ constexpr std::size_t kMaxEvidenceChars = 60;
 constexpr int kExtrusions = 3;  // motions with E that make a print of a program without heating and spindle
 constexpr int kLaserMotions = 8;
 constexpr std::size_t kLaserPowers = 3;  // minimum number of different S words
+// So has a program without Z words and tools that has S0, or starts and stops the spindle, this often.
+constexpr int kLaserSwitches = 2;
 
 struct Name {
   std::string_view name;
@@ -77,9 +79,9 @@ struct Evidence {
 
 struct WordEvidence {
   Evidence heating, extruding, klipper_command;
-  Evidence beam, motion_with_power;
+  Evidence beam, motion_with_power, motion;
   Evidence program_number, call;
-  int motions_in_z = 0, beads = 0;
+  int motions_in_z = 0, beads = 0, stops = 0, zero_powers = 0, tools = 0;
   std::set<std::string, std::less<>> powers;
 };
 
@@ -131,6 +133,11 @@ bool is_straight_or_arc(const std::string& line) {
   return (code.size() == 1 || (code.size() == 2 && code[0] == '0')) && code.back() <= '3';
 }
 
+/// "0", "0.0" and so on.
+bool is_zero(std::string_view number) {
+  return !number.empty() && number.find_first_not_of("0.") == std::string_view::npos;
+}
+
 /// Adds a line's words to the evidence. `line` is in capitals without blanks (words_of), `raw` the original.
 void count_words(const std::string& line, std::string_view raw, std::uint32_t number, WordEvidence& found) {
   if (line.empty()) return;
@@ -150,9 +157,20 @@ void count_words(const std::string& line, std::string_view raw, std::uint32_t nu
   }
   if (line.find('Z') != std::string::npos) ++found.motions_in_z;
   const std::string_view power = after(line, 'S');
+  if (code == "5" || code == "05") ++found.stops;
+  if (is_zero(power)) ++found.zero_powers;
+  if (line.find('T') != std::string::npos || code == "6" || code == "06") ++found.tools;
+  if (moves) found.motion.add(number, "X");
   if (!moves || power.empty()) return;
   found.motion_with_power.add(number, "S");
   if (found.powers.size() <= kLaserPowers) found.powers.emplace(power);
+}
+
+/// A beam that is switched on and off between motions in X and Y alone.
+bool is_switched(const WordEvidence& e) {
+  const bool is_often =
+      e.zero_powers >= kLaserSwitches || (e.beam.count >= kLaserSwitches && e.stops >= kLaserSwitches);
+  return e.beam && is_often && e.motion && e.motions_in_z == 0 && e.tools == 0;
 }
 
 std::string location_of(const Evidence& e) { return fmt::format("{} in line {}", e.text, e.line); }
@@ -170,6 +188,9 @@ DialectGuess guess_from_words(const WordEvidence& e) {
   if (beam && e.motions_in_z * kLaserMotions < e.motion_with_power.count)
     return {GcodeDialect::laser, fmt::format("{} and the S words of its motions", location_of(e.beam)),
             e.beam.line};
+  if (is_switched(e))
+    return {GcodeDialect::laser,
+            fmt::format("{}, switched on and off without motions in Z", location_of(e.beam)), e.beam.line};
   if (e.program_number && e.call)
     return {GcodeDialect::fanuc, location_of(e.program_number) + " and " + location_of(e.call),
             e.program_number.line};
