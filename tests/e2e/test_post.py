@@ -7,6 +7,7 @@ import pytest
 from conftest import VALID
 
 POSTS = ["carbide", "grbl", "grblhal", "klipper", "laser", "linuxcnc", "mach3", "marlin"]
+PRINTER_POSTS = ["plain", "reprap"]  # of prints alone
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
 FILES = sorted(p for p in CASES.glob("*.*") if p.suffix in (".nc", ".ngc", ".gcode"))
 # Programs with features that the controller lacks.
@@ -41,9 +42,9 @@ M2
 def test_lists_the_posts(kerf):
     run = kerf("post", "--list")
     assert run.status == 0
-    assert [line.split()[0] for line in run.out.splitlines()] == [*POSTS, "dxf", "svg"]
+    assert [line.split()[0] for line in run.out.splitlines()] == [*POSTS, *PRINTER_POSTS, "dxf", "svg"]
     listed = kerf("post", "--list", "--json").json
-    assert [p["name"] for p in listed] == [*POSTS, "dxf", "svg"]
+    assert [p["name"] for p in listed] == [*POSTS, *PRINTER_POSTS, "dxf", "svg"]
     assert all(p["title"] and p["file_ending"].startswith(".") for p in listed)
 
 
