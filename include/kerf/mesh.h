@@ -43,6 +43,7 @@ class MeshColumns {
   ~MeshColumns();
 
   struct Body;
+  explicit MeshColumns(std::unique_ptr<Body> body);
   const Body& body() const { return *body_; }
 
  private:
@@ -55,6 +56,29 @@ class MeshColumns {
 Mesh extract_mesh(const MeshColumns& columns, const MeshOptions& options, Progress* progress = nullptr);
 Mesh extract_mesh(const ColumnGrid& columns, Progress* progress = nullptr);
 Mesh extract_mesh(const ColumnGrid& columns, const MeshOptions& options, Progress* progress = nullptr);
+
+/// A division of the mesh of a workpiece into the parts over squares of columns, numbered row by row from the
+/// low corner: after a change only some of them have to be made again.
+struct MeshTiling {
+  int columns = 0;     // along a tile's side
+  int nx = 0, ny = 0;  // numbers of tiles
+  std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+  bool operator==(const MeshTiling&) const = default;
+};
+/// Tiles of at least 64 columns, about `max_tiles` at most.
+MeshTiling mesh_tiling(const Workpiece& workpiece, std::size_t max_tiles);
+
+/// A part of a mesh: open at its sides, where the neighbouring tiles have the same vertices.
+struct MeshTile {
+  std::uint32_t number = 0;
+  Mesh mesh;
+};
+/// The triangles of extract_mesh() over some tiles, `numbers` in ascending order. A wall between two tiles
+/// belongs to the one with the higher number. Takes the time of the tiles and of 64 columns around them. A
+/// tile depends on columns up to 64 outside of it. A stopped run returns nothing.
+std::vector<MeshTile> extract_mesh_tiles(const Workpiece& workpiece, const MeshTiling& tiling,
+                                         std::span<const std::uint32_t> numbers, const MeshOptions& options,
+                                         Progress* progress = nullptr);
 
 MeshCheck check_mesh(const Mesh& mesh);
 

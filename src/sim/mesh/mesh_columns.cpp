@@ -27,6 +27,22 @@ void copy_tops(const sim::Tile& tile, Ends& out) {
   }
 }
 
+/// Block, pitch and numbers of the columns of some squares.
+ColumnGrid frame_of(const Workpiece& workpiece, const SquareRange& squares) {
+  const Box3& bounds = workpiece.bounds();
+  const double pitch = workpiece.pitch().mm();
+  const int i = squares.x * kSquare, j = squares.y * kSquare;
+  const int end_i = std::min(i + squares.count_x * kSquare, workpiece.columns_x());
+  const int end_j = std::min(j + squares.count_y * kSquare, workpiece.columns_y());
+  ColumnGrid frame{
+      .bounds = bounds, .pitch = pitch, .nx = end_i - i, .ny = end_j - j, .first = {}, .intervals = {}};
+  frame.bounds.low.x += i * pitch;
+  frame.bounds.low.y += j * pitch;
+  if (end_i < workpiece.columns_x()) frame.bounds.high.x = bounds.low.x + end_i * pitch;
+  if (end_j < workpiece.columns_y()) frame.bounds.high.y = bounds.low.y + end_j * pitch;
+  return frame;
+}
+
 }  // namespace
 
 Columns::Columns(ColumnGrid frame, float full_height)
@@ -57,7 +73,17 @@ Columns::Columns(const Workpiece& workpiece, unsigned threads)
                .first = {},
                .intervals = {}},
               workpiece.body().height) {
-  fill(threads, [&](std::size_t n) { read_tile(workpiece.body(), n); });
+  fill(threads, [&](std::size_t n) { read_tile(workpiece.body(), n, n); });
+}
+
+Columns::Columns(const Workpiece& workpiece, const SquareRange& squares, unsigned threads)
+    : Columns(frame_of(workpiece, squares), workpiece.body().height) {
+  const auto wide = static_cast<std::size_t>(squares_x());
+  fill(threads, [&](std::size_t n) {
+    const std::size_t x = static_cast<std::size_t>(squares.x) + n % wide;
+    const std::size_t y = static_cast<std::size_t>(squares.y) + n / wide;
+    read_tile(workpiece.body(), n, y * static_cast<std::size_t>(workpiece.body().tiles_x) + x);
+  });
 }
 
 Columns::Columns(const ColumnGrid& grid, unsigned threads)
@@ -132,10 +158,10 @@ void Columns::fill_many(std::size_t number, const Add& add) {
   many_[number] = std::move(many);
 }
 
-void Columns::read_tile(const Workpiece::Body& body, std::size_t number) {
+void Columns::read_tile(const Workpiece::Body& body, std::size_t number, std::size_t tile_number) {
   ColumnSquare& square = squares_[number];
   square.low = floor_.get();
-  const sim::Tile* const tile = body.tiles[number].get();
+  const sim::Tile* const tile = body.tiles[tile_number].get();
   if (tile == nullptr) {
     square.high = full_.get();
     return;
@@ -198,6 +224,7 @@ namespace kerf {
 
 MeshColumns::MeshColumns(const Workpiece& workpiece, unsigned threads)
     : body_(std::make_unique<Body>(workpiece, thread_count(threads))) {}
+MeshColumns::MeshColumns(std::unique_ptr<Body> body) : body_(std::move(body)) {}
 MeshColumns::MeshColumns(const ColumnGrid& grid, unsigned threads)
     : body_(std::make_unique<Body>(grid, thread_count(threads))) {}
 MeshColumns::MeshColumns(MeshColumns&&) noexcept = default;

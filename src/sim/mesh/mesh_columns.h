@@ -47,11 +47,19 @@ struct ColumnSquare {
 /// The intervals of a column, lowest first.
 using Runs = std::span<const Interval>;
 
+/// Squares of a workpiece: `count_x` by `count_y` of them from (x, y) on.
+struct SquareRange {
+  int x = 0, y = 0;
+  int count_x = 0, count_y = 0;
+};
+
 /// Reads columns by number. An interval has two ends: end 2k is the low one of interval k, 2k + 1 the high
 /// one.
 class Columns {
  public:
   Columns(const Workpiece& workpiece, unsigned threads);
+  /// The columns of some squares alone, as if they were the whole workpiece.
+  Columns(const Workpiece& workpiece, const SquareRange& squares, unsigned threads);
   Columns(const ColumnGrid& grid, unsigned threads);
   Columns(const Columns&) = delete;
 
@@ -143,7 +151,8 @@ class Columns {
   int columns_x(std::size_t square) const;
   int columns_y(std::size_t square) const;
   Ends& own(std::size_t square, int end);
-  void read_tile(const Workpiece::Body& body, std::size_t number);
+  /// Fills square `number` from a tile.
+  void read_tile(const Workpiece::Body& body, std::size_t number, std::size_t tile_number);
   void read_grid(const ColumnGrid& grid, std::size_t number);
   /// Calls add(x, y, runs) for each column of a square; add appends the column's intervals and returns the
   /// step that cut through an empty column.
@@ -173,8 +182,8 @@ namespace kerf {
 
 /// Implementation of MeshColumns.
 struct MeshColumns::Body {
-  template <class From>
-  Body(const From& from, unsigned threads) : columns(from, threads) {}
+  template <class... From>
+  explicit Body(const From&... from) : columns(from...) {}
   meshing::Columns columns;
 };
 
