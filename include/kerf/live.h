@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -44,10 +45,20 @@ struct LiveChunk {
 /// Called between two batches, while the workpiece does not change.
 using LiveProgress = std::function<void(const LiveChunk&)>;
 
+/// New numbers of steps: those of the previous toolpath from `first` to the next entry's `first` are `by`
+/// higher.
+struct StepShift {
+  std::uint32_t first = 0;
+  std::int32_t by = 0;
+  bool operator==(const StepShift&) const = default;
+};
+
 /// The result of an update.
 struct LiveUpdate {
   std::size_t motions_kept = 0;     // unchanged motions of the toolpath
   std::vector<ColumnBlock> redone;  // all columns that may have changed
+  /// Of the steps that made the surfaces of all other columns, in ascending order; none: unchanged.
+  std::vector<StepShift> shifts;
   double seconds = 0.0;
   bool stopped = false;  // the state then contains only part of the job; the next update starts over
 };

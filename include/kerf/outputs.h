@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "kerf/burn.h"
@@ -48,7 +49,10 @@ struct PartSurface : CheckedMesh {
   std::vector<std::uint8_t> colours;      // one per triangle: an index into part_palette()
   std::vector<std::string> colour_names;  // of the palette, as far as it is used
 };
+/// Index 0: the surface of the stock; 1: surfaces cut by a hazard; from 2: of tools, see tool_colours().
 std::span<const std::array<std::uint8_t, 3>> part_palette();
+/// The tools in order of first use, and the index of each one's colour in the palette.
+std::vector<std::pair<int, std::uint8_t>> tool_colours(const Toolpath& path);
 
 /// Tolerance of merged triangles, about the deviation of the columns from the cut itself.
 inline constexpr Length kMeshTolerance = mm(0.002);

@@ -165,7 +165,7 @@ std::vector<Finding> findings_in_material(const Job& job, const JobCheckOptions&
   if (!simulation) return {};
   warn_units(job, diagnostics);
   if (!simulation->stopped) warn_untouched(job, simulation->removed, diagnostics);
-  std::vector<Finding> found = findings_in_stock(job, *simulation);
+  std::vector<Finding> found = findings_in_stock(job, simulation->hazards);
   found = merged(std::move(found), findings_of(find_grazes(*simulation, {}, progress), path));
   return merged(findings_at_fixtures(path, job, how, diagnostics, progress), std::move(found));
 }
@@ -201,22 +201,27 @@ void remove_hazards(Diagnostics& diagnostics, bool reason_found) {
 
 }  // namespace
 
-std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,
-                               Progress* progress) {
-  std::vector<Finding> findings = findings_in_path(job, options);
-  if (job.z_downwards && !diagnostics.has_errors()) {
-    diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
-                        "the material is not checked, because Z seems to count downwards");
-  } else if (!diagnostics.has_errors()) {
-    std::vector<Finding> in_material = findings_in_material(job, options, diagnostics, progress);
-    warn_assumed_flutes(in_material, job.program.path, job.tools, diagnostics);
-    findings = merged(std::move(findings), std::move(in_material));
-  }
+std::vector<Finding> check_with_material(const Job& job, const JobCheckOptions& options,
+                                         std::vector<Finding> in_material, Diagnostics& diagnostics) {
+  std::vector<Finding> findings = merged(findings_in_path(job, options), std::move(in_material));
   const bool reason_found = is_reason_found(findings, job.program.path);
   std::vector<Finding> not_examined = unexamined(diagnostics, reason_found);
   assign_steps(not_examined, job.program.path);
   remove_hazards(diagnostics, reason_found);
   return merged(std::move(findings), std::move(not_examined));
+}
+
+std::vector<Finding> check_job(const Job& job, const JobCheckOptions& options, Diagnostics& diagnostics,
+                               Progress* progress) {
+  std::vector<Finding> in_material;
+  if (job.z_downwards && !diagnostics.has_errors()) {
+    diagnostics.warning(Code::not_simulated, TextLocation{job.program.source, 0, 0},
+                        "the material is not checked, because Z seems to count downwards");
+  } else if (!diagnostics.has_errors()) {
+    in_material = findings_in_material(job, options, diagnostics, progress);
+    warn_assumed_flutes(in_material, job.program.path, job.tools, diagnostics);
+  }
+  return check_with_material(job, options, std::move(in_material), diagnostics);
 }
 
 }  // namespace kerf

@@ -221,8 +221,7 @@ void warn_assumed_flutes(std::vector<Finding>& findings, const Toolpath& path, c
   for (const auto& [number, of_tool] : deepest) warn_of_flute(of_tool.second, *of_tool.first, diagnostics);
 }
 
-std::vector<Finding> findings_in_stock(const Job& job, const Simulation& simulation) {
-  std::vector<Hazard> hazards = simulation.hazards;
+std::vector<Finding> findings_in_stock(const Job& job, std::vector<Hazard> hazards) {
   const Length thickest = job.spoilboard + default_tolerance::kHazardDepth;
   const auto is_in_spoilboard = [&](const Hazard& h) {
     return job.spoilboard > Length() && h.kind == HazardKind::below_floor && h.depth <= thickest;

@@ -9,19 +9,6 @@
 namespace kerf {
 namespace {
 
-/// The hazards in the material and at the fixtures. If Z counts downwards, only that is reported: the other
-/// hazards follow from it.
-std::vector<Finding> findings_of_milling(const Job& job, const Simulation& simulation,
-                                         const SimulationOptions& how, Diagnostics& diagnostics,
-                                         Progress* progress) {
-  const Toolpath& path = job.program.path;
-  if (job.z_downwards) return findings_of({*job.z_downwards}, path);
-  std::vector<Finding> findings =
-      merged(findings_in_stock(job, simulation), findings_at_fixtures(path, job, how, diagnostics, progress));
-  warn_assumed_flutes(findings, path, job.tools, diagnostics);
-  return findings;
-}
-
 std::optional<JobRun> run_milling(const Job& job, const SimulationOptions& how, Diagnostics& diagnostics,
                                   Progress* progress) {
   if (progress != nullptr) progress->phase("cutting");
@@ -29,7 +16,7 @@ std::optional<JobRun> run_milling(const Job& job, const SimulationOptions& how, 
   if (!simulation || simulation->stopped) return std::nullopt;
   warn_units(job, diagnostics);
   warn_untouched(job, simulation->removed, diagnostics);
-  auto findings = findings_of_milling(job, *simulation, how, diagnostics, progress);
+  auto findings = findings_of_milling(job, simulation->hazards, how, diagnostics, progress);
   return JobRun{std::move(*simulation), std::move(findings)};
 }
 
@@ -55,6 +42,17 @@ std::optional<JobRun> run_print(const Job& job, const RunOptions& options, Diagn
 }
 
 }  // namespace
+
+std::vector<Finding> findings_of_milling(const Job& job, std::vector<Hazard> hazards,
+                                         const SimulationOptions& how, Diagnostics& diagnostics,
+                                         Progress* progress) {
+  const Toolpath& path = job.program.path;
+  if (job.z_downwards) return findings_of({*job.z_downwards}, path);
+  std::vector<Finding> findings = merged(findings_in_stock(job, std::move(hazards)),
+                                         findings_at_fixtures(path, job, how, diagnostics, progress));
+  warn_assumed_flutes(findings, path, job.tools, diagnostics);
+  return findings;
+}
 
 Job make_job(Program program, const JobSettings& settings, UnknownTool unknown, Diagnostics& diagnostics) {
   Job job;

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
+#include <set>
 #include <utility>
 
 #include "kerf/exact_mesh.h"
@@ -55,20 +57,15 @@ StepColours colour_steps(const Toolpath& path, const std::vector<std::uint32_t>&
   StepColours out;
   out.names = {"stock", "hazard"};
   out.of_step.assign(path.size(), kFirstToolColour);
-  std::vector<int> seen;
+  std::map<int, std::uint8_t> colours;
+  for (const auto& [tool, colour] : tool_colours(path)) {
+    colours[tool] = colour;
+    if (colour == out.names.size()) out.names.emplace_back();
+    out.names[colour] += fmt::format("{}tool {}", out.names[colour].empty() ? "" : ", ", tool);
+  }
   std::uint8_t now = kFirstToolColour;
   for (std::size_t i = 0; i < path.size(); ++i) {
-    if (path[i].kind() == StepKind::tool_change) {
-      const int tool = path[i].tool_change().tool;
-      const auto it = std::find(seen.begin(), seen.end(), tool);
-      const auto index = static_cast<std::size_t>(it - seen.begin());
-      now = static_cast<std::uint8_t>(kFirstToolColour + index % (kPalette.size() - kFirstToolColour));
-      if (it == seen.end()) {
-        seen.push_back(tool);
-        if (now == out.names.size()) out.names.emplace_back();
-        out.names[now] += fmt::format("{}tool {}", out.names[now].empty() ? "" : ", ", tool);
-      }
-    }
+    if (path[i].kind() == StepKind::tool_change) now = colours.at(path[i].tool_change().tool);
     out.of_step[i] = now;
   }
   for (const std::uint32_t step : hazard_steps) out.of_step[step] = kHazardColour;
@@ -268,6 +265,17 @@ std::optional<Section> parse_section(std::string_view text) {
 std::string to_string(const Section& section) {
   return fmt::format("{}={}", kAxes[static_cast<std::size_t>(axes_of(section.plane).w)],
                      exact_text(section.at));
+}
+
+std::vector<std::pair<int, std::uint8_t>> tool_colours(const Toolpath& path) {
+  std::vector<std::pair<int, std::uint8_t>> colours;
+  std::set<int> seen;
+  for (const Step& s : path.steps()) {
+    if (s.kind() != StepKind::tool_change || !seen.insert(s.tool_change().tool).second) continue;
+    const std::size_t colour = kFirstToolColour + colours.size() % (kPalette.size() - kFirstToolColour);
+    colours.emplace_back(s.tool_change().tool, static_cast<std::uint8_t>(colour));
+  }
+  return colours;
 }
 
 std::span<const std::array<std::uint8_t, 3>> part_palette() { return kPalette; }

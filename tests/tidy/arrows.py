@@ -81,8 +81,9 @@ ALLOWED = {
     "app": BELOW_JOB | {"job"},
     **rooms("app", BELOW_JOB | {"job"}, {
         "report": [],
+        "view": ["report"],
         "options": ["report"],
-        "commands": ["options", "report"],
+        "commands": ["options", "view", "report"],
     }),
     "python": BELOW_JOB | {"job"},
 }
@@ -137,8 +138,8 @@ PUBLIC = {
     "codec_mesh": ["mesh_files.h", "column_files.h"],
     "codec_heights": ["measured.h"],
     "codec_png": ["image_files.h"],
-    "job": ["program.h", "cut_program.h", "job.h", "findings.h", "outputs.h", "posting.h", "heights.h",
-            "python_script.h"],
+    "job": ["program.h", "cut_program.h", "job.h", "live_job.h", "findings.h", "outputs.h", "posting.h",
+            "heights.h", "python_script.h"],
 }
 HEADER_MODULE = {f"include/kerf/{header}": module for module, headers in PUBLIC.items() for header in headers}
 

@@ -379,6 +379,8 @@ std::optional<LiveUpdate> LiveSimulation::update(Toolpath path, Diagnostics& dia
   const sim::MotionChange change = sim::change_of(s.motions, keys);
   std::vector<bool> tiles = restarts ? std::vector<bool>(s.logs.size(), true) : s.tiles_of_old(change);
   const std::uint32_t fresh_number = s.next_number;
+  LiveUpdate done;
+  if (!restarts) done.shifts = sim::step_shifts(s.motions, keys, change);
   s.adopt(std::move(path), std::move(setup->survey), std::move(keys), change);
   if (restarts) {
     s.add_keyframes();
@@ -388,7 +390,6 @@ std::optional<LiveUpdate> LiveSimulation::update(Toolpath path, Diagnostics& dia
   std::vector<sim::StepRange> steps = s.steps_for(tiles, change);
   if (!restarts) s.clear(tiles);
   s.is_whole = change.none() || sim::LiveRun(s, tiles, fresh_number, progress, chunk).cut(std::move(steps));
-  LiveUpdate done;
   done.motions_kept = s.motions.size() - (change.new_end - change.first);
   done.redone = sim::blocks_of(s.workpiece->body(), tiles);
   done.stopped = !s.is_whole;

@@ -73,4 +73,18 @@ MotionChange change_of(const std::vector<MotionKey>& old_keys, const std::vector
   return {first, old_end, new_end};
 }
 
+std::vector<StepShift> step_shifts(const std::vector<MotionKey>& old_keys,
+                                   const std::vector<MotionKey>& new_keys, const MotionChange& change) {
+  std::vector<StepShift> shifts;
+  const auto add = [&](std::uint32_t before, std::uint32_t now) {
+    const auto by = static_cast<std::int32_t>(static_cast<std::int64_t>(now) - before);
+    const std::int32_t in_force = shifts.empty() ? 0 : shifts.back().by;
+    if (by != in_force) shifts.push_back({before, by});
+  };
+  for (std::size_t m = 0; m < change.first; ++m) add(old_keys[m].step, new_keys[m].step);
+  for (std::size_t m = change.old_end; m < old_keys.size(); ++m)
+    add(old_keys[m].step, new_keys[change.moved(m)].step);
+  return shifts;
+}
+
 }  // namespace kerf::sim

@@ -6,6 +6,7 @@
 
 #include "sim/sweep/survey.h"
 
+#include "kerf/live.h"
 #include "kerf/toolpath.h"
 
 namespace kerf::sim {
@@ -30,5 +31,8 @@ struct MotionChange {
   }
 };
 MotionChange change_of(const std::vector<MotionKey>& old_keys, const std::vector<MotionKey>& new_keys);
+/// The new numbers of the steps of the motions that are the same.
+std::vector<StepShift> step_shifts(const std::vector<MotionKey>& old_keys,
+                                   const std::vector<MotionKey>& new_keys, const MotionChange& change);
 
 }  // namespace kerf::sim
