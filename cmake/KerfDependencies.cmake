@@ -16,6 +16,7 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(MINIZIP REQUIRED QUIET IMPORTED_TARGET minizip)
 if(KERF_APP)
   find_package(CLI11 REQUIRED)
+  pkg_check_modules(HTTPLIB REQUIRED QUIET IMPORTED_TARGET cpp-httplib)
 endif()
 
 # Python: the virtual environment that ./dev creates, otherwise Debian's. Another Python earlier in PATH

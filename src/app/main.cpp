@@ -25,6 +25,7 @@ Examples:
   kerf simulate part.nc -o part.png    what a program cuts, as a picture
   kerf check part.nc                   its hazards; exit status 3 if there are any
   kerf info part.nc                    size, time, tools, feeds, stock
+  kerf view part.nc                    the part in a browser, while the program is edited
   kerf post --to grbl part.ngc         the program for another controller
   kerf tools show 102                  a tool of the built-in table
   kerf help simulate                   the options of a command
@@ -43,7 +44,7 @@ Examples:
 std::vector<Command> add_commands(CommandParser& root) {
   std::vector<Command> commands{add_simulate(root), add_check(root),   add_compare(root), add_info(root),
                                 add_steps(root),    add_outline(root), add_post(root),    add_run(root),
-                                add_level(root),    add_cut(root)};
+                                add_level(root),    add_cut(root),     add_view(root)};
   CommandParser tools = root.add_command("tools", "The tool table: list, show, shapes, import, export");
   tools.require_command();
   tools.set_footer(kToolsExamples);

@@ -7,7 +7,7 @@ import pytest
 from conftest import VALID
 
 POSTS = ["carbide", "grbl", "grblhal", "klipper", "laser", "linuxcnc", "mach3", "marlin"]
-PRINTER_POSTS = ["plain", "reprap"]  # of prints alone
+PRINTER_POSTS = ["plain", "reprapfirmware"]  # of prints alone
 CASES = Path(os.environ.get("KERF_CASES_DIR") or "none", "gcode")
 FILES = sorted(p for p in CASES.glob("*.*") if p.suffix in (".nc", ".ngc", ".gcode"))
 # Programs with features that the controller lacks.

@@ -24,6 +24,7 @@ Command add_outline(CommandParser& root);
 Command add_post(CommandParser& root);
 Command add_cut(CommandParser& root);
 Command add_run(CommandParser& root);
+Command add_view(CommandParser& root);
 Command add_level(CommandParser& root);
 Command add_tools_list(CommandParser& tools);
 Command add_tools_show(CommandParser& tools);

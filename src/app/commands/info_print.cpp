@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <numbers>
 
-#include "app/report/json.h"
+#include "app/report/info_json.h"
 #include "app/report/terminal_progress.h"
 
 #include "kerf/number.h"

@@ -7,9 +7,6 @@
 
 namespace kerf::app {
 
-inline constexpr const char* kPlainMethod = "programmed feeds and rapid rates, without acceleration";
-inline constexpr const char* kPlannedMethod = "planned with the accelerations of the machine profile";
-
 /// The filament, layers and time of a print. `density` in g/cm3; 0: that of the program, else that of PLA.
 void print_info_of_print(Console& console, const Job& job, const JobTimes& times, double density,
                          const Diagnostics& diagnostics);

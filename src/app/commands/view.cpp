@@ -1,0 +1,154 @@
+// kerf view: shows a program and what it cuts in a browser, and follows the file while it is edited.
+#include <chrono>
+#include <fmt/format.h>
+#include <memory>
+#include <thread>
+
+#include "app/commands/commands.h"
+#include "app/options/common.h"
+#include "app/options/job_options.h"
+#include "app/report/terminal_progress.h"
+#include "app/view/access.h"
+#include "app/view/page.h"
+#include "app/view/server.h"
+
+#include "kerf/files.h"
+
+namespace kerf::app {
+namespace {
+
+constexpr double kFinest = 0.0005, kCoarsest = 50.0;  // mm, --resolution
+constexpr double kMaxPort = 65535;
+constexpr double kMinLimit = 0.1, kMaxLimit = 86400;  // s, --limit
+constexpr std::chrono::milliseconds kTick{50};        // between checks for interrupts
+
+struct Options {
+  OutputOptions output;
+  JobOptions job;
+  double resolution = 0.0, threads = 0.0, port = 0.0, limit = 60.0;
+  std::string token, export_to;
+};
+
+/// Reads the options again: files of tools and stock may have changed.
+view::Inputs read_inputs(const Options& options, Diagnostics& diagnostics) {
+  Diagnostics usage;
+  JobInputs inputs = read_job_options(options.job, usage, diagnostics);
+  for (const Diagnostic& d : usage.list()) diagnostics.add(d);
+  inputs.program.unknown_diameter = UnknownDiameter::assume;
+  return {std::move(inputs.job), std::move(inputs.program)};
+}
+
+view::SessionOptions session_options(const Options& options) {
+  view::SessionOptions out;
+  out.file = options.job.file;
+  out.other_files = input_files(options.job);
+  out.other_files.insert(out.other_files.end(), options.job.tools.files.begin(),
+                         options.job.tools.files.end());
+  if (!options.job.machine.empty()) out.other_files.push_back(options.job.machine);
+  out.read_inputs = [options](Diagnostics& diagnostics) { return read_inputs(options, diagnostics); };
+  out.resolution = mm(options.resolution);
+  out.threads = static_cast<unsigned>(options.threads);
+  out.reading_limit = std::chrono::milliseconds(static_cast<long>(options.limit * 1e3));
+  return out;
+}
+
+Status write_export(Console& console, const Options& options) {
+  view::Events events;
+  view::Session session(session_options(options), events);
+  session.load_once();
+  const auto shown = session.shown();
+  if (interrupted()) return report_stopped(console);
+  Diagnostics diagnostics = session.last_diagnostics();
+  if (shown->state != view::State::ready) return fail(console, diagnostics, Status::input_errors);
+  OutputSet set(shown->job->program.files);
+  if (!set.write(options.export_to, view::exported_page(*shown), diagnostics) || !set.commit(diagnostics))
+    return fail(console, diagnostics, Status::input_errors);
+  console.show(diagnostics);
+  console.summary(fmt::format("written  {}", options.export_to));
+  return Status::done;
+}
+
+Status serve(Console& console, const Options& options) {
+  Diagnostics diagnostics;
+  const std::string token = options.token.empty() ? view::random_token() : options.token;
+  view::Events events;
+  view::Session session(session_options(options), events);
+  view::Server server(session, events, token);
+  if (token.empty() || !server.bind(static_cast<int>(options.port))) {
+    diagnostics
+        .error(Code::usage, CallLocation{"", 0, "--port"},
+               fmt::format("port {} is in use", static_cast<int>(options.port)))
+        .hint = "without --port a free one is used";
+    return fail(console, diagnostics, Status::input_errors);
+  }
+  server.start();
+  session.start();
+  const std::string address = fmt::format("http://127.0.0.1:{}/?t={}", server.port(), token);
+  if (console.json()) {
+    console.print_json(text_of(Json{{"address", address}, {"port", server.port()}}, Layout::line));
+  } else {
+    console.print(address + "\n");
+    if (!view::has_full_page())
+      console.summary("this build has a simple page without controls: it was made without Node.js");
+  }
+  console.finish();
+  while (!interrupted()) std::this_thread::sleep_for(kTick);
+  session.end();
+  server.stop();
+  return Status::done;
+}
+
+Status run(Console& console, const Options& options) {
+  Diagnostics usage, diagnostics;
+  read_job_options(options.job, usage, diagnostics);
+  if (usage.has_errors()) return fail(console, usage, Status::wrong_usage);
+  return options.export_to.empty() ? serve(console, options) : write_export(console, options);
+}
+
+const char* const kExamples =
+    R"(  kerf view part.nc                      open the printed address in a browser
+  kerf view part.gcmc --port 8000        at this port instead of a free one
+  kerf view part.nc --export part.html   one file to keep or to send; it needs no server
+
+The page shows the part, the toolpath, the source and the hazards, and follows the file: after each save, of
+an included file too, only what has changed is cut again. Errors are shown with their lines; the last good
+part stays. The server answers this machine alone, and only pages opened with the printed address. Ctrl-C
+ends it.
+)";
+
+}  // namespace
+
+Command add_view(CommandParser& root) {
+  auto options = std::make_shared<Options>();
+  CommandParser parser =
+      new_command(root, "view", "Show a program and what it cuts in a browser while it is edited",
+                  kExamples + std::string(kToolHelp) + kStockHelp + kBodyHelp + kRotaryHelp, options->output);
+  add_job_options(parser, options->job);
+  add_body_options(parser, options->job.bodies);
+  add_spoilboard_option(parser, options->job.bodies);
+  add_rotary_option(parser, options->job.bodies);
+  add_machine_option(parser, options->job);
+  add_length(parser, "--resolution", options->resolution, kFinest, kCoarsest,
+             "Distance of the dexel columns, e.g. 0.1 or 0.002in (default: by the stock's size)");
+  add_number(parser, "--port", options->port, 0, kMaxPort, "PORT",
+             "Port of the server (default: a free one)");
+  parser
+      .add_text("--token", options->token,
+                "Secret of the address, for a page that stays open over a restart (default: random)")
+      .value_name("TEXT")
+      .check([](const std::string& text) {
+        return text.size() >= 16 && view::download_name(text) == text
+                   ? std::string()
+                   : std::string("expected 16 to 100 letters, digits, - or _");
+      });
+  add_number(parser, "--limit", options->limit, kMinLimit, kMaxLimit, "SECONDS",
+             "A program that is not read by then is stopped (default: 60)");
+  parser
+      .add_text("--export", options->export_to,
+                "Write one HTML file that needs no server, instead of serving")
+      .value_name("FILE");
+  add_threads(parser, options->threads);
+  return {parser, &options->output, [options](Console& console) { return run(console, *options); }};
+}
+
+}  // namespace kerf::app

@@ -1,0 +1,80 @@
+// The check of requests.
+#include "app/view/access.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fmt/format.h>
+#include <sys/random.h>
+
+namespace kerf::app::view {
+namespace {
+
+constexpr std::size_t kTokenBytes = 18;  // 144 bits
+constexpr std::size_t kMaxName = 100;
+constexpr std::string_view kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+
+/// In a time that does not depend on where the texts differ.
+bool equal_in_constant_time(std::string_view a, std::string_view b) {
+  unsigned different = a.size() == b.size() ? 0u : 1u;
+  for (std::size_t k = 0; k < a.size(); ++k)
+    different |=
+        static_cast<unsigned char>(a[k]) ^ static_cast<unsigned char>(b[b.empty() ? 0 : k % b.size()]);
+  return different == 0;
+}
+
+bool is_own_host(std::string_view host, int port) {
+  return host == fmt::format("127.0.0.1:{}", port) || host == fmt::format("localhost:{}", port);
+}
+
+}  // namespace
+
+std::string random_token() {
+  unsigned char bytes[kTokenBytes];
+  std::size_t have = 0;
+  while (have < kTokenBytes) {
+    const ssize_t got = getrandom(bytes + have, kTokenBytes - have, 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return "";
+    have += static_cast<std::size_t>(got);
+  }
+  std::string text;  // six bits per letter
+  for (std::size_t k = 0; k < kTokenBytes; k += 3) {
+    const unsigned all = static_cast<unsigned>(bytes[k] << 16 | bytes[k + 1] << 8 | bytes[k + 2]);
+    for (int shift = 18; shift >= 0; shift -= 6) text += kLetters[all >> shift & 63u];
+  }
+  return text;
+}
+
+std::string refusal(const Sender& sender, int port, const std::string& token) {
+  if (!is_own_host(sender.host, port)) return "the request is for another host";
+  constexpr std::string_view kScheme = "http://";
+  if (!sender.origin.empty() && (sender.origin.substr(0, kScheme.size()) != kScheme ||
+                                 !is_own_host(std::string_view(sender.origin).substr(kScheme.size()), port)))
+    return "the request is from another page";
+  if (token.empty() || !equal_in_constant_time(sender.token, token))
+    return "the token is missing or wrong; open the address that kerf view has printed";
+  return "";
+}
+
+std::optional<std::uint32_t> parse_number(std::string_view text) {
+  constexpr std::size_t kMaxDigits = 10;
+  if (text.empty() || text.size() > kMaxDigits) return std::nullopt;
+  std::uint64_t value = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9') return std::nullopt;
+    value = 10 * value + static_cast<std::uint64_t>(c - '0');
+  }
+  if (value > 0xffffffffu) return std::nullopt;
+  return static_cast<std::uint32_t>(value);
+}
+
+std::string download_name(std::string_view name) {
+  std::string out(name.substr(0, kMaxName));
+  std::replace_if(
+      out.begin(), out.end(), [](char c) { return kLetters.find(c) == std::string_view::npos && c != '.'; },
+      '_');
+  if (out.empty() || out.front() == '.') out.insert(out.begin(), '_');
+  return out;
+}
+
+}  // namespace kerf::app::view

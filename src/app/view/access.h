@@ -1,0 +1,30 @@
+// Which requests are answered: those of pages that this server has given out, on this machine.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace kerf::app::view {
+
+/// Random letters and digits from the system's random numbers; empty if it has none.
+std::string random_token();
+
+/// What a request says about where it comes from.
+struct Sender {
+  std::string host;    // header Host
+  std::string origin;  // header Origin; empty: none
+  std::string token;   // query parameter t, else header X-Kerf-Token
+};
+/// The reason for refusing it; empty: it is accepted. A name that leads to this machine's address from
+/// outside (DNS rebinding) has another Host, a foreign page another Origin.
+std::string refusal(const Sender& sender, int port, const std::string& token);
+
+/// A step or revision of a query: digits alone, at most 2^32 - 1.
+std::optional<std::uint32_t> parse_number(std::string_view text);
+
+/// A file name for a Content-Disposition header: letters, digits, ".", "-" and "_", at most 100.
+std::string download_name(std::string_view name);
+
+}  // namespace kerf::app::view

@@ -1,0 +1,75 @@
+// Making the files of downloads.
+#include "app/view/downloads.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "app/view/access.h"
+
+#include "kerf/outputs.h"
+#include "kerf/posting.h"
+
+namespace kerf::app::view {
+namespace {
+
+Download refused(std::string problem) { return {{}, {}, {}, std::move(problem)}; }
+
+/// The first error as text.
+Download failed(const Diagnostics& diagnostics) {
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.severity == Severity::error) return refused(to_string(d));
+  return refused("the file could not be made");
+}
+
+std::string name_of(const Shown& shown, std::string_view ending) {
+  const std::string stem = std::filesystem::path(shown.job->program.source).stem().string();
+  return download_name(stem) + std::string(ending);
+}
+
+Download gcode(const Shown& shown, const std::string& post) {
+  const auto target = find_post_target(post.empty() ? "grbl" : post);
+  if (!target || !target->profile) return refused("unknown post; `kerf post --list` names them");
+  PostingOptions options;
+  options.tools = shown.job->tools.tools();
+  Diagnostics diagnostics;
+  const auto files = post_program(shown.job->program, *target, options, diagnostics);
+  if (diagnostics.has_errors() || files.empty()) return failed(diagnostics);
+  if (files.size() > 1) return refused("this post makes one file per tool; use kerf post");
+  return {files.front().text, "text/plain; charset=utf-8", name_of(shown, ".nc"), {}};
+}
+
+Download of_surface(const Shown& shown, const DownloadRequest& request, unsigned threads) {
+  const bool is_picture = request.format == "png";
+  const auto format = mesh_format_of("part." + request.format);
+  View view;
+  if (const auto named = named_view(request.view)) view = *named;
+  if (!request.view.empty() && !named_view(request.view)) return refused("unknown view");
+  Diagnostics diagnostics;
+  if (!shown.job->stock && shown.job->kind == JobKind::milling) {
+    if (!is_picture) return refused("there is no part: nothing is removed");
+    return {path_picture(*shown.job, view), "image/png", name_of(shown, ".png"), {}};
+  }
+  const auto run = run_job(*shown.job, {.threads = threads}, diagnostics);
+  if (!run) return failed(diagnostics);
+  const auto surface = make_surface(*shown.job, *run, {}, diagnostics);
+  if (!surface) return failed(diagnostics);
+  const auto bytes = is_picture ? picture_file(*surface, view, diagnostics)
+                                : mesh_file(*surface, *format, name_of(shown, ""), diagnostics);
+  if (!bytes) return failed(diagnostics);
+  return {*bytes,
+          is_picture ? "image/png" : "application/octet-stream",
+          name_of(shown, "." + request.format),
+          {}};
+}
+
+}  // namespace
+
+Download make_download(const Shown& shown, const DownloadRequest& request, unsigned threads) {
+  if (!shown.job) return refused("there is no part yet");
+  if (request.format == "gcode") return gcode(shown, request.post);
+  if (request.format != "png" && !mesh_format_of("part." + request.format))
+    return refused("unknown format; there are stl, 3mf, glb, obj, png and gcode");
+  return of_surface(shown, request, threads);
+}
+
+}  // namespace kerf::app::view

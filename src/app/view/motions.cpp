@@ -1,0 +1,182 @@
+// Motions as arrays: points, times, origins with their callers.
+#include "app/view/motions.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+#include "app/view/binary.h"
+
+#include "kerf/estimate.h"
+#include "kerf/report.h"
+
+namespace kerf::app::view {
+namespace {
+
+constexpr std::uint32_t kNone = 0xffffffffu;
+constexpr Length kChord = mm(0.01);  // deviation of chords from their arc, below what a picture shows
+constexpr int kMaxChords = 512;      // of one arc
+
+enum class Kind : std::uint8_t { rapid, cut, arc, probe, extrude };
+
+Kind kind_of(StepKind kind) {
+  switch (kind) {
+    case StepKind::cut: return Kind::cut;
+    case StepKind::arc: return Kind::arc;
+    case StepKind::probe: return Kind::probe;
+    case StepKind::extrude: return Kind::extrude;
+    default: return Kind::rapid;
+  }
+}
+
+/// The locations in the sources, each once, with the calls that led there.
+class Origins {
+ public:
+  Origins(const OriginTable& table, const std::vector<std::string>& names) : table_(table) {
+    for (std::size_t k = 0; k < names.size(); ++k) file_[names[k]] = static_cast<std::uint32_t>(k);
+  }
+
+  std::uint32_t number(OriginId id) {
+    if (id == last_id_) return last_;
+    last_id_ = id;
+    last_ = find(id);
+    return last_;
+  }
+
+  std::vector<std::uint32_t> files, lines, callers;
+
+ private:
+  std::uint32_t find(OriginId id) {
+    if (id == OriginId::none) return kNone;
+    std::uint32_t caller = kNone;
+    const std::vector<Origin> calls = table_.callers(id);
+    for (auto call = calls.rbegin(); call != calls.rend(); ++call) caller = add(*call, caller);
+    return add(table_.resolve(id), caller);
+  }
+
+  std::uint32_t add(const Origin& origin, std::uint32_t caller) {
+    std::string_view name;
+    std::uint32_t line = 0;
+    if (const auto* text = std::get_if<TextLocation>(&origin)) {
+      name = text->file;
+      line = text->line;
+    } else if (const auto* call = std::get_if<CallLocation>(&origin)) {
+      name = call->file;
+      line = call->line;
+    } else if (const auto* drawing = std::get_if<DrawingLocation>(&origin)) {
+      name = drawing->file;
+    } else {
+      return kNone;
+    }
+    const auto known = file_.find(std::string(name));
+    const std::uint32_t file = known == file_.end() ? kNone : known->second;
+    const auto [it, is_new] =
+        number_.try_emplace({file, line, caller}, static_cast<std::uint32_t>(files.size()));
+    if (is_new) {
+      files.push_back(file);
+      lines.push_back(line);
+      callers.push_back(caller);
+    }
+    return it->second;
+  }
+
+  const OriginTable& table_;
+  std::unordered_map<std::string, std::uint32_t> file_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::uint32_t> number_;
+  OriginId last_id_ = OriginId::none;
+  std::uint32_t last_ = kNone;
+};
+
+/// The arrays of /path.
+struct Arrays {
+  std::vector<std::uint32_t> step, first_point, origin;
+  std::vector<std::int32_t> tool;
+  std::vector<float> seconds, feed, points;
+  std::vector<std::uint8_t> kind;
+
+  void add_point(Point3 p) {
+    for (const double v : {p.x, p.y, p.z}) points.push_back(static_cast<float>(v));
+  }
+  std::uint32_t point_count() const { return static_cast<std::uint32_t>(points.size() / 3); }
+  /// The points of a motion; none if a position is unknown. Returns its length in mm.
+  double add_points(const Step& s, const MotionContext& context);
+};
+
+double Arrays::add_points(const Step& s, const MotionContext& context) {
+  if ((s.unknown_axes() | context.unknown_from) != 0) return 0.0;
+  add_point(context.from);
+  double length = distance(context.from, s.to());
+  if (s.kind() == StepKind::arc) {
+    const ArcWalk walk = walk_of(s, context.from);
+    const int chords = walk.chords(kChord, kMaxChords);
+    for (int k = 1; k < chords; ++k) add_point(walk.at(static_cast<double>(k) / chords));
+    length = walk.length();
+  }
+  add_point(s.to());
+  return length;
+}
+
+/// Seconds of a motion at its feed, of a rapid at the usual rate; 0 without a feed.
+double plain_seconds(const Step& s, double length) {
+  const Feed feed = s.kind() == StepKind::rapid ? ReportOptions{}.rapid_feed : s.feed();
+  return feed > Feed() ? (mm(length) / feed).seconds() : 0.0;
+}
+
+/// Seconds of each step's dwell and motion, of motions by their length.
+Arrays arrays_of(const Toolpath& path, const std::optional<Machine>& machine, Origins& origins) {
+  Arrays out;
+  const std::vector<float> planned = machine ? step_seconds(path, *machine) : std::vector<float>();
+  std::size_t next = 0;
+  for_each_motion(path, [&](const Step& s, const MotionContext& context) {
+    out.step.push_back(static_cast<std::uint32_t>(context.index));
+    out.first_point.push_back(out.point_count());
+    out.tool.push_back(context.tool ? *context.tool : -1);
+    out.origin.push_back(origins.number(s.origin()));
+    out.kind.push_back(static_cast<std::uint8_t>(kind_of(s.kind())));
+    out.feed.push_back(s.kind() == StepKind::rapid ? 0.0f : static_cast<float>(s.feed().mm_per_min()));
+    const double length = out.add_points(s, context);
+    double seconds = 0.0;
+    for (; next <= context.index; ++next) {
+      if (machine) seconds += static_cast<double>(planned[next]);
+      if (!machine && path[next].kind() == StepKind::dwell) seconds += path[next].dwell().time.seconds();
+    }
+    if (!machine) seconds += plain_seconds(s, length);
+    out.seconds.push_back(static_cast<float>(seconds));
+  });
+  out.first_point.push_back(out.point_count());
+  return out;
+}
+
+}  // namespace
+
+std::string path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
+                      const std::optional<Machine>& machine, std::size_t& motions) {
+  constexpr std::uint32_t kVersion = 1;
+  Origins origins(path.origins(), files);
+  const Arrays arrays = arrays_of(path, machine, origins);
+  motions = arrays.step.size();
+  BinaryWriter out;
+  out.mark("KPTH");
+  out.number(kVersion);
+  out.number(revision);
+  out.number(static_cast<std::uint32_t>(motions));
+  out.number(arrays.point_count());
+  out.number(static_cast<std::uint32_t>(origins.files.size()));
+  out.number(0);
+  out.number(0);
+  out.array(arrays.step);
+  out.array(arrays.first_point);
+  out.array(arrays.tool);
+  out.array(arrays.origin);
+  out.array(arrays.seconds);
+  out.array(arrays.feed);
+  out.array(arrays.points);
+  out.array(origins.files);
+  out.array(origins.lines);
+  out.array(origins.callers);
+  out.array(arrays.kind);
+  return out.take();
+}
+
+}  // namespace kerf::app::view

@@ -1,0 +1,19 @@
+// The motions of a toolpath as the bytes of /path.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kerf/machine.h"
+#include "kerf/toolpath.h"
+
+namespace kerf::app::view {
+
+/// The body of /path. `files`: the names that origins refer to by number; `machine`: for the times, nothing:
+/// programmed feeds and usual rapids, without acceleration. `motions` is set to their number.
+std::string path_body(const Toolpath& path, std::uint32_t revision, const std::vector<std::string>& files,
+                      const std::optional<Machine>& machine, std::size_t& motions);
+
+}  // namespace kerf::app::view

@@ -1,0 +1,84 @@
+// Replacing the marks of the page.
+#include "app/view/page.h"
+
+#include <array>
+#include <fmt/format.h>
+#include <vector>
+#include <zlib.h>
+
+#include "app/view/access.h"
+#include "embedded_view_page.h"
+
+namespace kerf::app::view {
+namespace {
+
+constexpr std::string_view kNonce = "KERF_NONCE", kData = "<!--KERF_DATA-->";
+constexpr std::string_view kFullPage = "index.html";  // the other one is minimal.html
+
+/// The text with each `mark` replaced.
+std::string replaced(std::string_view text, std::string_view mark, std::string_view by) {
+  std::string out;
+  for (std::size_t at = 0;;) {
+    const std::size_t next = text.find(mark, at);
+    out.append(text.substr(at, next - at));
+    if (next == std::string_view::npos) return out;
+    out.append(by);
+    at = next + mark.size();
+  }
+}
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    std::array<unsigned, 3> group{};
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - k);
+    for (std::size_t i = 0; i < count; ++i) group[i] = static_cast<unsigned char>(bytes[k + i]);
+    const unsigned all = group[0] << 16 | group[1] << 8 | group[2];
+    for (std::size_t i = 0; i < 4; ++i) out += i <= count ? kDigits[all >> (18 - 6 * i) & 63u] : '=';
+  }
+  return out;
+}
+
+std::string data_block(std::string_view name, std::string_view bytes) {
+  return fmt::format(
+      "<script type=\"text/plain\" id=\"kerf-{}\" data-encoding=\"deflate-base64\" "
+      "nonce=\"{}\">{}</script>\n",
+      name, kNonce, packed(bytes));
+}
+
+}  // namespace
+
+bool has_full_page() { return embedded::view_page[0].name == kFullPage; }
+std::string_view page_text() { return embedded::view_page[0].bytes; }
+
+Page served_page() {
+  const std::string nonce = random_token();
+  Page page;
+  page.html = replaced(replaced(page_text(), kData, ""), kNonce, nonce);
+  page.policy = fmt::format(
+      "default-src 'none'; script-src 'nonce-{}' 'wasm-unsafe-eval'; style-src 'nonce-{}' 'unsafe-inline'; "
+      "img-src data: blob:; worker-src blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+      "frame-ancestors 'none'",
+      nonce, nonce);
+  return page;
+}
+
+std::string exported_page(const Shown& shown) {
+  const std::string blocks = data_block("model", model_body(shown)) +
+                             data_block("mesh", shown.tiles.changed_since(0, shown.revision)) +
+                             data_block("path", *shown.path);
+  return replaced(replaced(page_text(), kData, blocks), kNonce, random_token());
+}
+
+std::string packed(std::string_view bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string out(size, '\0');
+  compress2(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+            bytes.size(), Z_DEFAULT_COMPRESSION);
+  out.resize(size);
+  return base64(out);
+}
+
+}  // namespace kerf::app::view

@@ -1,0 +1,243 @@
+// HTTP: the routes of web/PROTOCOL.md. The HTTP library is included here alone, because it is slow to
+// compile.
+#include "app/view/server.h"
+
+#include <atomic>
+#include <chrono>
+#include <httplib.h>
+#include <mutex>
+#include <thread>
+
+#include "app/report/json.h"
+#include "app/view/access.h"
+#include "app/view/downloads.h"
+#include "app/view/page.h"
+
+namespace kerf::app::view {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr const char* kHost = "127.0.0.1";
+constexpr const char* kJson = "application/json; charset=utf-8";
+constexpr const char* kBinary = "application/octet-stream";
+constexpr std::size_t kThreads = 20;         // answers at a time
+constexpr int kMaxPages = 8;                 // that wait for events; each takes a thread
+constexpr std::size_t kMaxRequestBody = 64;  // bytes; no request has one
+constexpr int kTimeout = 5;                  // seconds for a request to arrive, and for each write
+constexpr milliseconds kEventWait{500};      // between checks whether the server ends
+constexpr int kWaitsPerSign = 10;            // then a comment is sent, which fails if the page is closed
+constexpr int kForbidden = 403, kNotFound = 404, kBad = 400, kBusy = 503;
+
+/// A large body without a copy, and without compression, which takes longer than the loopback interface.
+void send(httplib::Response& response, std::string body, const std::string& type) {
+  auto kept = std::make_shared<const std::string>(std::move(body));
+  if (kept->empty()) return response.set_content("", type);
+  response.set_content_provider(kept->size(), type,
+                                [kept](std::size_t offset, std::size_t length, httplib::DataSink& sink) {
+                                  return sink.write(kept->data() + offset, length);
+                                });
+}
+
+void refuse(httplib::Response& response, int status, const std::string& why) {
+  response.status = status;
+  response.set_content(Json{{"error", why}}.text(Layout::line), kJson);
+}
+
+Sender sender_of(const httplib::Request& request) {
+  Sender sender{request.get_header_value("Host"), request.get_header_value("Origin"),
+                request.get_header_value("X-Kerf-Token")};
+  if (request.has_param("t")) sender.token = request.get_param_value("t");
+  return sender;
+}
+
+}  // namespace
+
+struct Server::Inside {
+  Session& session;
+  Events& events;
+  std::string token;
+  httplib::Server http;
+  int port = 0;
+  std::thread thread;
+  std::atomic<int> pages{0};
+  std::mutex downloading;  // one at a time: each may take all of the machine
+
+  Inside(Session& of, Events& from, std::string its_token)
+      : session(of), events(from), token(std::move(its_token)) {}
+
+  void set_limits();
+  void set_checks();
+  void set_routes();
+  void send_page(httplib::Response& response) const;
+  void send_mesh(const httplib::Request& request, httplib::Response& response) const;
+  void send_state_at(const httplib::Request& request, httplib::Response& response);
+  void send_events(httplib::Response& response);
+  void send_download(const httplib::Request& request, httplib::Response& response);
+  void send_export(httplib::Response& response) const;
+  std::string present_state() const;
+};
+
+void Server::Inside::set_limits() {
+  http.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+  http.set_payload_max_length(kMaxRequestBody);
+  http.set_read_timeout(kTimeout);
+  http.set_write_timeout(kTimeout);
+  http.set_keep_alive_timeout(kTimeout);
+  http.set_tcp_nodelay(true);
+  http.set_socket_options([](socket_t socket) {
+    // The library's own options would let two servers share a port.
+    const int yes = 1;
+    setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+  http.set_default_headers({{"Cache-Control", "no-store"},
+                            {"X-Content-Type-Options", "nosniff"},
+                            {"Referrer-Policy", "no-referrer"},
+                            {"Cross-Origin-Opener-Policy", "same-origin"},
+                            {"Cross-Origin-Embedder-Policy", "require-corp"},
+                            {"Cross-Origin-Resource-Policy", "same-origin"}});
+}
+
+void Server::Inside::set_checks() {
+  using Next = httplib::Server::HandlerResponse;
+  http.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    const std::string why = refusal(sender_of(request), port, token);
+    if (why.empty()) return Next::Unhandled;
+    refuse(response, kForbidden, why);
+    return Next::Handled;
+  });
+  http.set_error_handler([](const httplib::Request&, httplib::Response& response) {
+    if (response.body.empty()) refuse(response, response.status, "there is no such page");
+  });
+  http.set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr) {
+    refuse(response, kBusy, "out of memory");
+  });
+}
+
+void Server::Inside::send_page(httplib::Response& response) const {
+  Page page = served_page();
+  response.set_header("Content-Security-Policy", page.policy);
+  send(response, std::move(page.html), "text/html; charset=utf-8");
+}
+
+void Server::Inside::send_mesh(const httplib::Request& request, httplib::Response& response) const {
+  const std::string text = request.get_param_value("since");
+  const auto since = parse_number(text.empty() ? "0" : text);
+  if (!since) return refuse(response, kBad, "since must be a revision");
+  const auto shown = session.shown();
+  send(response, shown->tiles.changed_since(*since, shown->revision), kBinary);
+}
+
+void Server::Inside::send_state_at(const httplib::Request& request, httplib::Response& response) {
+  const auto step = parse_number(request.get_param_value("step"));
+  const auto from = request.has_param("from") ? parse_number(request.get_param_value("from"))
+                                              : std::optional<std::uint32_t>(kWholeJob);
+  if (!step || !from) return refuse(response, kBad, "step and from must be numbers of steps");
+  if (auto body = session.at(*step, *from)) return send(response, std::move(*body), kBinary);
+  refuse(response, kNotFound, "the part has no states, or is being cut");
+}
+
+/// What a page needs to know when it connects.
+std::string Server::Inside::present_state() const {
+  const auto shown = session.shown();
+  std::string text;
+  if (shown->revision > 0) text += event_text("model", model_event(*shown, shown->tiles.tiles().size()));
+  if (shown->state == State::failed) text += event_text("errors", errors_event(*shown));
+  return text.empty() ? ": loading\n\n" : text;
+}
+
+void Server::Inside::send_events(httplib::Response& response) {
+  if (++pages > kMaxPages) {
+    --pages;
+    return refuse(response, kBusy, "too many pages are open");
+  }
+  struct Reader {
+    std::uint64_t newest;
+    int waits = 0;
+    bool greeted = false;
+  };
+  auto reader = std::make_shared<Reader>(Reader{events.newest()});
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [this, reader](std::size_t, httplib::DataSink& sink) {
+        const auto batch = events.wait(reader->newest, reader->greeted ? kEventWait : milliseconds(0));
+        if (!batch) return false;
+        std::string text = batch->text;
+        if (!reader->greeted || batch->has_missed) text = present_state();
+        reader->newest = batch->newest;
+        reader->greeted = true;
+        if (text.empty() && ++reader->waits % kWaitsPerSign == 0) text = ": waiting\n\n";
+        return text.empty() || sink.write(text.data(), text.size());
+      },
+      [this](bool) { --pages; });
+}
+
+void Server::Inside::send_download(const httplib::Request& request, httplib::Response& response) {
+  const std::lock_guard lock(downloading);
+  Download file =
+      make_download(*session.shown(),
+                    {request.matches[1], request.get_param_value("post"), request.get_param_value("view")},
+                    session.options().threads);
+  if (!file.problem.empty()) return refuse(response, kNotFound, file.problem);
+  response.set_header("Content-Disposition", "attachment; filename=\"" + file.name + "\"");
+  send(response, std::move(file.bytes), file.type);
+}
+
+void Server::Inside::send_export(httplib::Response& response) const {
+  const auto shown = session.shown();
+  if (!shown->job) return refuse(response, kNotFound, "there is no part yet");
+  const std::string name =
+      download_name(shown->job->program.source.substr(shown->job->program.source.find_last_of('/') + 1));
+  response.set_header("Content-Disposition", "attachment; filename=\"" + name + ".html\"");
+  send(response, exported_page(*shown), "text/html; charset=utf-8");
+}
+
+void Server::Inside::set_routes() {
+  using Request = httplib::Request;
+  using Response = httplib::Response;
+  http.Get("/", [this](const Request&, Response& response) { send_page(response); });
+  http.Get("/events", [this](const Request&, Response& response) { send_events(response); });
+  http.Get("/model", [this](const Request&, Response& response) {
+    send(response, model_body(*session.shown()), kJson);
+  });
+  http.Get("/mesh", [this](const Request& request, Response& response) { send_mesh(request, response); });
+  http.Get("/path",
+           [this](const Request&, Response& response) { send(response, *session.shown()->path, kBinary); });
+  http.Get("/at", [this](const Request& request, Response& response) { send_state_at(request, response); });
+  http.Get(R"(/download/([a-z0-9]{1,8}))",
+           [this](const Request& request, Response& response) { send_download(request, response); });
+  http.Get("/export", [this](const Request&, Response& response) { send_export(response); });
+  http.Post("/stop", [this](const Request&, Response& response) {
+    session.stop_work();
+    send(response, "{}", kJson);
+  });
+}
+
+Server::Server(Session& session, Events& events, std::string token)
+    : inside_(std::make_unique<Inside>(session, events, std::move(token))) {
+  inside_->set_limits();
+  inside_->set_checks();
+  inside_->set_routes();
+}
+
+Server::~Server() { stop(); }
+
+bool Server::bind(int port) {
+  Inside& s = *inside_;
+  s.port = port == 0 ? s.http.bind_to_any_port(kHost) : port;
+  return port == 0 ? s.port > 0 : s.http.bind_to_port(kHost, port);
+}
+
+int Server::port() const { return inside_->port; }
+
+void Server::start() {
+  inside_->thread = std::thread([this] { inside_->http.listen_after_bind(); });
+}
+
+void Server::stop() {
+  inside_->events.close();
+  inside_->http.stop();
+  if (inside_->thread.joinable()) inside_->thread.join();
+}
+
+}  // namespace kerf::app::view

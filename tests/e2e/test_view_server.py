@@ -1,0 +1,641 @@
+"""kerf view: its server, what it refuses, and how it follows the file."""
+import base64
+import http.client
+import json
+import os
+import re
+import select
+import signal
+import socket
+import struct
+import subprocess
+import threading
+import time
+import zlib
+from pathlib import Path
+
+import pytest
+
+from conftest import KERF, VALID
+
+TOKEN = "a-token-for-the-tests"
+
+
+class View:
+    """A running server on a file."""
+
+    def __init__(self, file, *options):
+        self.process = subprocess.Popen(
+            [KERF, "view", str(file), "--json", "--token", TOKEN, "--resolution", "0.3", *options],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, cwd=Path(file).parent)
+        ready, _, _ = select.select([self.process.stdout], [], [], 20)
+        assert ready, "no address within 20 s"
+        line = self.process.stdout.readline()
+        assert line, self.process.stderr.read().decode()
+        self.port = json.loads(line)["port"]
+        self.address = json.loads(line)["address"]
+
+    def request(self, path, method="GET", headers=None, token=TOKEN, timeout=60):
+        """Status, headers and body."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=timeout)
+        try:
+            if token is not None:
+                path += ("&" if "?" in path else "?") + "t=" + token
+            connection.request(method, path, headers=headers or {})
+            answer = connection.getresponse()
+            return answer.status, {k.lower(): v for k, v in answer.getheaders()}, answer.read()
+        finally:
+            connection.close()
+
+    def get(self, path, **arguments):
+        status, _, body = self.request(path, **arguments)
+        assert status == 200, body[:300]
+        return body
+
+    def model(self):
+        return json.loads(self.get("/model"))
+
+    def wait(self, test, seconds=30):
+        """The model once it fulfils the test."""
+        end = time.monotonic() + seconds
+        while True:
+            model = self.model()
+            if test(model):
+                return model
+            assert time.monotonic() < end, {k: model.get(k) for k in ("revision", "state", "errors")}
+            time.sleep(0.03)
+
+    def ready(self, after=0):
+        return self.wait(lambda m: m["state"] == "ready" and m["revision"] > after)
+
+    def mesh(self, since=0):
+        return read_mesh(self.get(f"/mesh?since={since}"))
+
+    def end(self, how=signal.SIGINT):
+        if self.process.poll() is None:
+            self.process.send_signal(how)
+        out, err = self.process.communicate(timeout=20)
+        return self.process.returncode, err.decode()
+
+
+def read_mesh(body):
+    """Revision, flags, step and the tiles: id, level, positions, index, step."""
+    assert body[:4] == b"KMSH"
+    version, revision, flags, step, count, tables = struct.unpack_from("<6I", body, 4)
+    assert version == 1
+    tiles, at = {}, 28
+    for _ in range(tables):
+        at += 8 + 8 * struct.unpack_from("<I", body, at + 4)[0]
+    for _ in range(count):
+        number, level, vertices, triangles = struct.unpack_from("<4I", body, at)
+        at += 16
+        positions = struct.unpack_from(f"<{3 * vertices}f", body, at)
+        index = struct.unpack_from(f"<{3 * triangles}I", body, at + 12 * vertices)
+        steps = struct.unpack_from(f"<{triangles}I", body, at + 12 * (vertices + triangles))
+        at += 12 * vertices + 16 * triangles
+        tiles[number] = (level, positions, index, steps)
+    assert at == len(body)
+    return revision, flags, step, tiles
+
+
+def volume_of(tiles):
+    """The volume that all tiles together enclose, mm3."""
+    volume = 0.0
+    for _, p, index, _ in tiles.values():
+        for t in range(0, len(index), 3):
+            a, b, c = (p[3 * v:3 * v + 3] for v in index[t:t + 3])
+            volume += (a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+                       + a[2] * (b[0] * c[1] - b[1] * c[0])) / 6
+    return volume
+
+
+@pytest.fixture
+def view(program):
+    """view(text, options...): a server on the program; ended after the test."""
+    started = []
+
+    def start(text=VALID, *options, name="part.nc"):
+        started.append(View(program(text, name), *options))
+        return started[-1]
+
+    yield start
+    for each in started:
+        if each.process.poll() is None:
+            each.process.kill()
+        each.process.communicate(timeout=20)
+
+
+class EventReader(threading.Thread):
+    """Reads /events in the background."""
+
+    def __init__(self, server):
+        super().__init__(daemon=True)
+        self.connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=30)
+        self.connection.request("GET", f"/events?t={TOKEN}")
+        self.answer = self.connection.getresponse()
+        assert self.answer.status == 200
+        assert self.answer.getheader("Content-Type") == "text/event-stream"
+        assert self.answer.getheader("Content-Encoding") is None
+        self.events = []
+        self.start()
+
+    def run(self):
+        name = None
+        try:
+            for line in self.answer:
+                line = line.decode().rstrip("\n")
+                if line.startswith("event: "):
+                    name = line[7:]
+                elif line.startswith("data: "):
+                    self.events.append((name, json.loads(line[6:])))
+        except (OSError, ValueError, http.client.HTTPException, AttributeError):
+            pass  # the server has ended
+
+    def wait(self, test, seconds=30):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            for event in list(self.events):
+                if test(*event):
+                    return event
+            time.sleep(0.01)
+        raise AssertionError(self.events[-5:])
+
+
+def test_shows_a_part_with_its_path(view):
+    server = view()
+    model = server.ready()
+    assert model["protocol"] == 1 and model["revision"] == 1 and model["errors"] == []
+    assert model["name"] == "part.nc" and model["kind"] == "milling" and model["units"] == "mm"
+    assert model["bounds"] == [[0, 0, -6], [40, 30, 0]]
+    assert model["stock"]["block"] == [[0, 0, -6], [40, 30, 0]] and model["stock"]["shape"] == "block"
+    assert [f["text"] for f in model["files"]] == [VALID]
+    tool = next(t for t in model["tools"] if t["number"] == 102)
+    flute = next(p for p in tool["profiles"] if p["part"] == "flute")
+    assert max(r for r, _ in flute["points"]) == pytest.approx(3.175 / 2)
+    assert tool["flute_length"] == pytest.approx(12.7)
+
+    revision, flags, step, tiles = server.mesh()
+    assert (revision, flags & 1, step) == (1, 1, 0xffffffff)
+    assert len(tiles) == model["tiles"]["count"]
+    left = model["report"]["volumes"]["left_mm3"]
+    # Heights are interpolated between columns, so that a wall leans by half a column on both sides.
+    assert volume_of(tiles) == pytest.approx(left, rel=0.01)
+    assert all(s < model["steps"] or s == 0xffffffff for t in tiles.values() for s in t[3])
+
+    path = server.get("/path")
+    assert path[:4] == b"KPTH"
+    version, revision, motions, points, origins = struct.unpack_from("<5I", path, 4)
+    assert (version, revision, motions) == (1, 1, model["motions"])
+    at = 32
+    steps = struct.unpack_from(f"<{motions}I", path, at)
+    first = struct.unpack_from(f"<{motions + 1}I", path, at + 4 * motions)
+    at += 4 * (2 * motions + 1)
+    tools = struct.unpack_from(f"<{motions}i", path, at)
+    origin = struct.unpack_from(f"<{motions}I", path, at + 4 * motions)
+    seconds = struct.unpack_from(f"<{motions}f", path, at + 8 * motions)
+    feed = struct.unpack_from(f"<{motions}f", path, at + 12 * motions)
+    at += 16 * motions
+    xyz = struct.unpack_from(f"<{3 * points}f", path, at)
+    at += 12 * points
+    files = struct.unpack_from(f"<{origins}I", path, at)
+    lines = struct.unpack_from(f"<{origins}I", path, at + 4 * origins)
+    kinds = path[at + 12 * origins:at + 12 * origins + motions]
+    assert sorted(steps) == list(steps) and set(tools) == {102}
+    # G0 X10 Y10 Z5, G1 Z-1 F100, G1 X20 F400, G3, G0 Z5: lines 7 to 11
+    assert [lines[o] for o in origin] == [7, 8, 9, 10, 11] and {files[o] for o in origin} == {0}
+    assert list(kinds) == [0, 1, 1, 2, 0]
+    assert list(feed) == [0, 100, 400, 400, 0]
+    assert first[1] == first[0]  # the start of the first motion is unknown
+    ends = [xyz[3 * e - 3:3 * e] for e in first[2:]]
+    assert ends[0] == (10, 10, -1) and ends[1] == (20, 10, -1) and ends[3] == (20, 20, 5)
+    assert ends[2] == pytest.approx((20, 20, -1))
+    assert seconds[1] == pytest.approx(6 / 100 * 60) and seconds[2] == pytest.approx(10 / 400 * 60)
+    assert seconds[3] == pytest.approx(3.14159265 * 5 / 400 * 60)
+    arc = [xyz[3 * k:3 * k + 2] for k in range(first[3], first[4])]
+    assert len(arc) > 5 and all(abs(((x - 20) ** 2 + (y - 15) ** 2) ** 0.5 - 5) < 1e-4 for x, y in arc)
+
+
+def test_the_page_has_a_policy_and_needs_nothing_else(view):
+    server = view()
+    status, headers, body = server.request("/")
+    assert status == 200 and headers["content-type"] == "text/html; charset=utf-8"
+    policy = headers["content-security-policy"]
+    nonce = re.search(r"script-src 'nonce-([^']+)'", policy).group(1)
+    assert "default-src 'none'" in policy and "frame-ancestors 'none'" in policy
+    assert headers["cache-control"] == "no-store" and headers["x-content-type-options"] == "nosniff"
+    assert "set-cookie" not in headers
+    text = body.decode()
+    assert "KERF_NONCE" not in text and "KERF_DATA" not in text
+    for tag in re.findall(r"<script[^>]*>", text):
+        assert f'nonce="{nonce}"' in tag and "src=" not in tag
+    assert nonce not in server.request("/")[2].decode()
+
+
+def test_refuses_other_pages_and_hosts(view):
+    server = view()
+    server.ready()
+    for path in ("/", "/model", "/mesh", "/path", "/at?step=1", "/events", "/export", "/download/stl",
+                 "/nothing"):
+        for token in (None, "", "wrong", TOKEN[:-1], TOKEN + "x"):
+            assert server.request(path, token=token)[0] == 403, path
+        assert server.request(path, headers={"Host": "example.com"})[0] == 403
+        assert server.request(path, headers={"Host": f"example.com:{server.port}"})[0] == 403
+        assert server.request(path, headers={"Origin": "http://example.com"})[0] == 403
+    assert server.request("/stop", method="POST", token="wrong")[0] == 403
+    own = {"Host": f"localhost:{server.port}", "Origin": f"http://localhost:{server.port}"}
+    assert server.request("/model", headers=own)[0] == 200
+    assert server.request("/model", token=None, headers={"X-Kerf-Token": TOKEN})[0] == 200
+
+
+def test_answers_on_the_loopback_interface_alone(view):
+    server = view()
+    listening = Path("/proc/net/tcp").read_text() + Path("/proc/net/tcp6").read_text()
+    rows = [line.split() for line in listening.splitlines()]
+    ours = [row[1] for row in rows if row[1].endswith(f":{server.port:04X}") and row[3] == "0A"]
+    assert ours == [f"0100007F:{server.port:04X}"]
+
+
+def test_gives_out_no_files(view, tmp_path):
+    (tmp_path / "secret.txt").write_text("a secret")
+    server = view()
+    server.ready()
+    for path in ("/secret.txt", "/../secret.txt", "/..%2fsecret.txt", "/%2e%2e/secret.txt", "//secret.txt",
+                 "/download/../secret.txt", "/download/%2e%2e%2fsecret.txt", "/etc/passwd",
+                 "/../../../../etc/passwd",
+                 "/download/nc", "/mesh/../secret.txt", "/part.nc", "/%00", "/index.html"):
+        status, _, body = server.request(path)
+        assert status == 404, path
+        assert b"secret" not in body and b"root:" not in body and "error" in json.loads(body)
+
+
+def test_wrong_parameters_are_errors(view):
+    server = view()
+    server.ready()
+    for path in ("/mesh?since=-1", "/mesh?since=x", "/mesh?since=99999999999", "/at", "/at?step=",
+                 "/at?step=1.5", "/at?step=1&from=-2", "/at?from=1"):
+        assert server.request(path)[0] == 400, path
+    assert server.request("/download/gcode?post=nonsense")[0] == 404
+    assert server.request("/download/png?view=nonsense")[0] == 404
+    assert server.request("/model", method="POST")[0] == 404
+    assert server.request("/stop")[0] == 404
+    assert server.mesh(since=4294967295)[3] == {}
+
+
+def raw(server, request, wait=8):
+    """Bytes sent as they are; the answer's bytes."""
+    with socket.create_connection(("127.0.0.1", server.port), timeout=wait) as connection:
+        answer = b""
+        try:
+            connection.sendall(request)
+            while chunk := connection.recv(65536):
+                answer += chunk
+        except (TimeoutError, ConnectionError):
+            pass
+        return answer
+
+
+def test_oversized_and_malformed_requests(view):
+    server = view()
+    server.ready()
+    host = f"Host: 127.0.0.1:{server.port}\r\n".encode()
+    close = b"Connection: close\r\n"
+    long_path = b"GET /" + b"x" * 100_000 + b" HTTP/1.1\r\n" + host + close + b"\r\n"
+    long_header = b"GET /model HTTP/1.1\r\n" + host + close + b"X-Long: " + b"y" * 200_000 + b"\r\n\r\n"
+    body = (f"POST /stop?t={TOKEN} HTTP/1.1\r\n".encode() + host + close + b"Content-Length: 100000\r\n\r\n"
+            + b"z" * 100_000)
+    huge = (f"POST /stop?t={TOKEN} HTTP/1.1\r\n".encode() + host + close
+            + b"Content-Length: 99999999999999\r\n\r\n")
+    for request in (long_path, long_header, body, huge, b"\x00\xff\xfe\r\n\r\n", b"GET\r\n\r\n", b"\r\n\r\n",
+                    b"GET / HTTP/9.9\r\n\r\n", b"GET /model HTTP/1.1\r\n" + close + b"\r\n"):
+        answer = raw(server, request)
+        assert not answer.startswith(b"HTTP/1.1 200"), request[:60]
+        assert server.request("/model")[0] == 200  # and it continues
+
+
+def test_slow_requests_do_not_block_others(view):
+    server = view()
+    server.ready()
+    slow = []
+    for _ in range(10):
+        connection = socket.create_connection(("127.0.0.1", server.port))
+        connection.sendall(b"GET /model HTTP/1.1\r\nHost: 127")
+        slow.append(connection)
+    start = time.monotonic()
+    assert server.request("/model")[0] == 200
+    assert time.monotonic() - start < 3
+    for connection in slow:  # ended by the server after its limit
+        connection.settimeout(20)
+        answer = connection.recv(1000)
+        assert answer == b"" or b"200" not in answer.split(b"\r\n")[0]
+    for connection in slow:
+        connection.close()
+
+
+def test_cuts_again_after_a_save(view, program):
+    server = view()
+    server.ready()
+    events = EventReader(server)
+    events.wait(lambda name, data: name == "model" and data["revision"] == 1)
+    before = server.mesh()
+    program(VALID.replace("G1 Z-1 F100", "G1 Z-3 F100"))
+    events.wait(lambda name, data: name == "model" and data["revision"] == 2)
+    model = server.ready()
+    assert model["revision"] == 2
+    revision, flags, _, changed = server.mesh(since=1)
+    assert (revision, flags) == (2, 0) and 0 < len(changed)
+    all_tiles = {**before[3], **changed}
+    assert all_tiles == server.mesh()[3]
+    assert volume_of(all_tiles) < volume_of(before[3]) - 50
+
+
+def test_a_small_edit_changes_a_few_tiles(view, program):
+    lines = "".join(f"G0 Z2\nG0 X{10 + 20 * (k % 10)} Y{10 + 20 * (k // 10)}\nG1 Z-1 F100\n"
+                    f"G1 X{15 + 20 * (k % 10)}\n" for k in range(100))
+    text = ("(stockMin:0mm, 0mm, -6mm)\n(stockMax:220mm, 220mm, 0mm)\nG21 G90\nM6 T102\nM3 S9000\n" + lines
+            + "G0 Z5\nM2\n")
+    server = view(text)
+    count = server.ready()["tiles"]["count"]
+    program(text.replace("G0 X30 Y10\nG1 Z-1", "G0 X30 Y10\nG1 Z-2"))
+    server.ready(after=1)
+    assert 0 < len(server.mesh(since=1)[3]) <= count / 10
+
+
+def test_an_error_keeps_the_last_part_until_it_is_repaired(view, program):
+    server = view()
+    first = server.ready()
+    events = EventReader(server)
+    program(VALID.replace("G1 X20 F400", "G1 X20 F400 Y"))
+    _, data = events.wait(lambda name, data: name == "errors" and data["diagnostics"])
+    error = data["diagnostics"][0]
+    assert error["severity"] == "error" and error["origin"]["line"] == 9
+    assert error["origin"]["file"].endswith("part.nc")
+    model = server.model()
+    assert (model["state"], model["revision"]) == ("failed", first["revision"])
+    assert model["errors"][0]["message"] == error["message"] and model["name"] == "part.nc"
+    assert len(server.mesh()[3]) == first["tiles"]["count"]
+    late = EventReader(server)  # a page that is opened now
+    late.wait(lambda name, data: name == "model")
+    late.wait(lambda name, data: name == "errors")
+    program(VALID)
+    model = server.ready(after=first["revision"])
+    assert model["errors"] == []
+
+
+def test_a_program_that_is_wrong_at_first(view, program):
+    server = view("G1 X Y\n")
+    model = server.wait(lambda m: m["state"] == "failed")
+    assert model["revision"] == 0 and model["errors"]
+    assert server.request("/export")[0] == 404 and server.request("/download/stl")[0] == 404
+    assert server.request("/at?step=0")[0] == 404
+    assert server.mesh()[3] == {} and server.get("/path") == b""
+    program(VALID)
+    server.ready()
+
+
+def test_files_that_vanish_or_become_folders(view, tmp_path):
+    server = view()
+    server.ready()
+    part = tmp_path / "part.nc"
+    part.unlink()
+    assert server.wait(lambda m: m["state"] == "failed")["errors"][0]["message"]
+    part.mkdir()
+    time.sleep(0.3)
+    assert server.wait(lambda m: m["state"] == "failed")
+    part.rmdir()
+    part.write_text(VALID)
+    after = server.ready()["revision"]
+    new = tmp_path / "new.nc"  # as editors save: a new file renamed over the old one
+    new.write_text(VALID.replace("Z-1", "Z-2"))
+    new.rename(part)
+    server.ready(after=after)
+    part.write_bytes(b"\x00\x01\x02\xff" * 1000)
+    server.wait(lambda m: m["state"] == "failed")
+    part.write_text("")
+    time.sleep(0.3)
+    assert server.model()["state"] == "failed"
+
+
+def test_half_saved_files_end_in_the_whole_one(view, tmp_path):
+    server = view()
+    server.ready()
+    text = VALID.replace("G1 Z-1", "G1 Z-2").encode()
+    for _ in range(5):
+        with open(tmp_path / "part.nc", "wb") as file:
+            for k in range(0, len(text), 40):
+                file.write(text[k:k + 40])
+                file.flush()
+                time.sleep(0.01)
+    server.wait(lambda m: m["state"] == "ready" and m["files"][0]["text"].encode() == text)
+
+
+def test_included_files_are_watched(view, tmp_path):
+    (tmp_path / "depth.inc.gcmc").write_text("depth = -2mm;\n")
+    main = ('include("depth.inc.gcmc");\ncomment("stockMin:0mm,0mm,-6mm");\n'
+            'comment("stockMax:40mm,30mm,0mm");\n'
+            'feedrate(200mm);\ngoto([10mm,10mm,5mm]);\nmove([-,-,depth]);\nmove([30mm,-,-]);\n')
+    server = view(main, "--tool", "square d=6 flute=20", name="part.gcmc")
+    first = server.ready()
+    assert [Path(f["path"]).name for f in first["files"]] == ["part.gcmc", "depth.inc.gcmc"]
+    (tmp_path / "depth.inc.gcmc").write_text("depth = -4mm;\n")
+    second = server.ready(after=first["revision"])
+    removed = [m["report"]["volumes"]["removed_mm3"] for m in (first, second)]
+    assert removed[1] == pytest.approx(2 * removed[0], rel=0.02)
+    (tmp_path / "depth.inc.gcmc").unlink()
+    server.wait(lambda m: m["state"] == "failed")
+    (tmp_path / "depth.inc.gcmc").write_text("depth = -2mm;\n")
+    server.ready(after=second["revision"])
+
+
+def test_tool_files_are_watched(view, tmp_path):
+    tools = tmp_path / "tools.toml"
+    tools.write_text('[[tool]]\nnumber = 7\nshape = "square"\ndiameter = 4\nflute = 20\n')
+    server = view(VALID.replace("T102", "T7"), "--tools", str(tools))
+    first = server.ready()
+    tools.write_text('[[tool]]\nnumber = 7\nshape = "square"\ndiameter = 8\nflute = 20\n')
+    second = server.ready(after=first["revision"])
+    assert second["report"]["volumes"]["removed_mm3"] > 1.5 * first["report"]["volumes"]["removed_mm3"]
+
+
+def test_a_program_without_end_is_stopped(view, program):
+    server = view("a = 1;\nwhile(1) { a = a + 1; }\n", "--limit", "1", name="part.gcmc")
+    start = time.monotonic()
+    model = server.wait(lambda m: m["state"] == "failed")
+    assert "stopped" in json.dumps(model["errors"])
+    assert time.monotonic() - start < 15
+    server.request("/model")
+    program("goto([1mm,1mm,1mm]);\nmove([5mm,1mm,1mm]);\n", "part.gcmc")
+    server.ready()
+
+
+def test_work_can_be_stopped(view, program):
+    server = view("a = 1;\nwhile(1) { a = a + 1; }\n", "--limit", "50", name="part.gcmc")
+    time.sleep(0.5)
+    assert server.request("/stop", method="POST")[0] == 200
+    assert "stopped" in json.dumps(server.wait(lambda m: m["state"] == "failed")["errors"])
+
+
+def test_a_save_stops_the_work_of_the_one_before(view, program):
+    server = view("a = 1;\nwhile(1) { a = a + 1; }\n", "--limit", "50", name="part.gcmc")
+    time.sleep(0.5)
+    start = time.monotonic()
+    program("goto([1mm,1mm,1mm]);\nmove([5mm,1mm,1mm]);\n", "part.gcmc")
+    server.ready()
+    assert time.monotonic() - start < 15
+
+
+def test_states_on_the_way(view):
+    server = view()
+    model = server.ready()
+    final = server.mesh()[3]
+    steps = model["steps"]
+    _, _, at, start = read_mesh(server.get("/at?step=0"))
+    assert at == 0
+    shown = {**final, **start}
+    assert volume_of(shown) == pytest.approx(40 * 30 * 6, rel=1e-4)  # the stock
+    volumes, state = [], 0
+    for step in range(1, steps + 1):
+        _, _, at, tiles = read_mesh(server.get(f"/at?step={step}&from={state}"))
+        shown.update(tiles)
+        volumes.append(volume_of(shown))
+        state = step
+    assert at == 0xffffffff and shown == final
+    assert all(a >= b - 1e-3 for a, b in zip(volumes, volumes[1:]))
+    assert read_mesh(server.get("/at?step=4000000000"))[2] == 0xffffffff
+    assert read_mesh(server.get(f"/at?step={steps}&from={steps}"))[3] == {}
+
+
+def test_exports_one_file(view, kerf, tmp_path):
+    server = view()
+    server.ready()
+    status, headers, body = server.request("/export")
+    assert status == 200 and headers["content-disposition"] == 'attachment; filename="part.nc.html"'
+    result = kerf("view", "part.nc", "--resolution", "0.3", "--export", "out.html")
+    assert result.status == 0, result.err
+    text = (tmp_path / "out.html").read_text()
+    for page in (body.decode(), text):
+        blocks = dict(re.findall(r'<script type="text/plain" id="kerf-(\w+)" '
+                                 r'data-encoding="deflate-base64"[^>]*>([A-Za-z0-9+/=]*)</script>', page))
+        assert set(blocks) == {"model", "mesh", "path"}
+        unpacked = {name: zlib.decompress(base64.b64decode(block)) for name, block in blocks.items()}
+        assert json.loads(unpacked["model"])["name"] == "part.nc"
+        assert read_mesh(unpacked["mesh"])[3] == server.mesh()[3]
+        assert unpacked["path"] == server.get("/path")
+        assert "127.0.0.1" not in page and TOKEN not in page
+
+
+def test_export_refuses_what_it_cannot_write(kerf, program, files):
+    part = program()
+    assert kerf("view", part, "--export", "part.nc").status == 1
+    assert part.read_text() == VALID
+    assert kerf("view", part, "--export", "no/such/folder/x.html").status == 1
+    assert kerf("view", program("G1 X Y\n", "bad.nc"), "--export", "x.html").status == 1
+    assert kerf("view", "missing.nc", "--export", "x.html").status == 1
+    assert files() == ["bad.nc", "part.nc"]
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs /dev/full")
+def test_export_to_a_full_disk(kerf, program):
+    result = kerf("view", program(), "--export", "/dev/full")
+    assert result.status == 1 and result.err
+
+
+def test_downloads(view):
+    server = view()
+    server.ready()
+    start = {"stl": None, "3mf": b"PK", "glb": b"glTF", "obj": None, "png": b"\x89PNG", "gcode": None}
+    for name, mark in start.items():
+        status, headers, body = server.request(f"/download/{name}")
+        assert status == 200, name
+        ending = "nc" if name == "gcode" else name
+        assert headers["content-disposition"] == f'attachment; filename="part.{ending}"'
+        assert len(body) > 50 and (mark is None or body.startswith(mark)), name
+    assert b"G1" in server.get("/download/gcode?post=linuxcnc")
+
+
+def test_texts_of_files_are_data(view):
+    """Names and comments with markup arrive as JSON texts, and cannot leave their block in an export."""
+    evil = "</script><script>alert(1)</script>"
+    text = f"({evil})\n(MSG, {evil})\n" + VALID
+    server = view(text, name="a<b>&'.nc")
+    model = server.ready()
+    assert model["name"] == "a<b>&'.nc" and model["files"][0]["text"] == text
+    assert any(evil in mark["text"] for mark in model["marks"])
+    status, headers, body = server.request("/export")
+    assert headers["content-disposition"] == 'attachment; filename="a_b___.nc.html"'
+    assert b"alert(1)" not in body
+
+
+def test_two_pages_at_once_and_not_too_many(view, program):
+    server = view()
+    server.ready()
+    pages = [EventReader(server) for _ in range(8)]
+    assert server.request("/events")[0] == 503
+    program(VALID.replace("Z-1", "Z-2"))
+    for page in pages:
+        page.wait(lambda name, data: name == "model" and data["revision"] == 2)
+    for page in pages[1:]:
+        page.connection.sock.shutdown(socket.SHUT_RDWR)
+    end = time.monotonic() + 20
+    while time.monotonic() < end:  # the server notices at its next sign of life
+        connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=5)
+        connection.request("GET", f"/events?t={TOKEN}")
+        status = connection.getresponse().status
+        connection.close()
+        if status == 200:
+            break
+        time.sleep(0.5)
+    assert status == 200
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_ends_cleanly(view, how, tmp_path):
+    server = view()
+    server.ready()
+    events = EventReader(server)
+    start = time.monotonic()
+    status, err = server.end(how)
+    assert status == 0 and err == ""
+    assert time.monotonic() - start < 5
+    events.join(5)
+    assert not events.is_alive()
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["part.nc"]
+
+
+def test_ends_while_it_works(view):
+    server = view("a = 1;\nwhile(1) { a = a + 1; }\n", "--limit", "50", name="part.gcmc")
+    time.sleep(0.3)
+    start = time.monotonic()
+    assert server.end()[0] == 0
+    assert time.monotonic() - start < 5
+
+
+def test_a_port_in_use_is_an_error(view, kerf, program):
+    server = view()
+    result = kerf("view", program(), "--port", server.port)
+    assert result.status == 1 and f"port {server.port} is in use" in result.err
+    assert server.request("/model")[0] == 200
+
+
+def test_wrong_usage(kerf, program):
+    part = program()
+    for options in (["--port", "70000"], ["--port", "x"], ["--token", "short"],
+                    ["--token", "has spaces in it, 16"], ["--limit", "0"], ["--resolution", "0"]):
+        assert kerf("view", part, *options).status == 2, options
+    assert kerf("view").status == 2
+
+
+def test_other_kinds_of_input(view, kerf):
+    rapids = view("G21 G90\nG0 X1 Y1 Z1\nG0 X5\nM2\n", name="rapids.nc").ready()
+    assert rapids["kind"] == "drawing" and rapids["tiles"]["count"] == 0 and rapids["stock"] is None
+    printed = view("M82\nG28\nG1 X10 Y10 Z0.2 F3000\nG1 X30 Y10 E1.0 F1200\nG1 X30 Y30 E2.0\nG1 X10 Y30 E3\n",
+                   name="print.gcode")
+    model = printed.ready()
+    assert model["kind"] == "print" and model["tiles"]["count"] == 1
+    assert model["report"]["volumes"]["beads"] == 3
+    assert printed.mesh()[3][0][2]
+    assert printed.request("/at?step=1")[0] == 404
+    turned = view("G21 G90\nM6 T102\nM3 S9000\nG0 X0 Y0 Z12\nG1 Z8 F100\nG1 A360 F2000\nG0 Z12\nM2\n",
+                  "--rotary", "d=20 length=40 x=-20", name="turned.nc")
+    model = turned.wait(lambda m: m["state"] != "loading")
+    assert model["kind"] == "rotary" and model["stock"]["shape"] == "bar", model["errors"]
+    assert turned.mesh()[3][0][2]
