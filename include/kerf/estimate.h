@@ -50,9 +50,11 @@ struct TimeEstimate {
   TimeFigures all;
   std::vector<ToolTime> tools;  // in order of first use; a tool used again is one entry
   std::vector<OperationTime>
-      operations;             // those with motions; at most 1000, the last one then contains the rest
-  std::size_t moves = 0;      // planned ones: chords of arcs each count
-  std::size_t not_timed = 0;  // motions without a feed, and motions of rotary axes alone
+      operations;         // those with motions; at most 1000, the last one then contains the rest
+  std::size_t moves = 0;  // planned ones: chords of arcs each count
+  /// Motions without a feed, and motions of rotary axes alone that are rapids or start at an unknown angle.
+  /// Others of rotary axes alone take the time of their feed, from rest to rest, without acceleration.
+  std::size_t not_timed = 0;
 };
 
 TimeEstimate estimate_time(const Toolpath& path, const Machine& machine);

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "path/planner.h"
+#include "path/rotary_way.h"
 
 namespace kerf {
 namespace {
@@ -76,9 +78,11 @@ class Walker {
     if (s.rests_before() || probes || homes) stop(i);
     const double feed =
         s.kind() == StepKind::rapid ? std::numeric_limits<double>::infinity() : s.feed().mm_per_min() / 60.0;
-    const bool turns_only =
-        s.to() == here_.at && s.kind() != StepKind::arc && path_.extra(i) != nullptr && path_.extra(i)->abc;
-    if (!(feed > 0.0) || turns_only || homes) {
+    const std::optional<double> degrees = rotary_.pass(path_, i, here_.at);
+    if (degrees && *degrees > 0.0 && feed > 0.0 && std::isfinite(feed)) {
+      stop(i);  // rotary axes have no accelerations here
+      seconds_[i] += static_cast<float>(*degrees / feed);
+    } else if (!(feed > 0.0) || degrees || homes) {
       if (!homes) ++not_timed_;
       planner_.set_position(s.to());
     } else if (s.kind() == StepKind::arc) {
@@ -151,6 +155,7 @@ class Walker {
   detail::Planner planner_;
   std::vector<std::size_t> stops_;
   PathPosition here_;
+  detail::RotaryWay rotary_;
   Point3 machine_zero_;  // by which the positions of the work have changed, e.g. by G92
   step::Coolant coolant_;
   step::Spindle spindle_;

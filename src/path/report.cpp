@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "path/motion_box.h"
+#include "path/rotary_way.h"
 
 namespace kerf {
 namespace {
@@ -26,6 +27,7 @@ struct Motion {
   Box3 box;
   Box3 end;
   Feed feed;
+  double degrees = 0.0;  // of rotary axes that turn alone, at a feed in degrees per minute
 };
 
 Motion measure(const Step& s, const PathPosition& start) {
@@ -34,7 +36,8 @@ Motion measure(const Step& s, const PathPosition& start) {
                 s.to() - start.at,
                 detail::bounds_of(s, start.at, start.unknown),
                 {},
-                s.feed()};
+                s.feed(),
+                0.0};
   motion.end.add(s.to());
   if (s.kind() == StepKind::arc) {
     const ArcWalk walk = walk_of(s, start.at);
@@ -68,6 +71,11 @@ void add(MotionFigures& figures, const Motion& motion, const ReportOptions& opti
   figures.cut_bounds.add(motion.box);
   figures.cut_ends.add(motion.end);
   if (!(motion.feed.raw() > 0.0)) return;
+  if (motion.degrees > 0.0) {
+    figures.turn_feed.add(motion.feed.mm_per_min());
+    figures.cutting = figures.cutting + minutes(motion.degrees / motion.feed.mm_per_min());
+    return;
+  }
   figures.feed.add(motion.feed.mm_per_min());
   figures.cutting = figures.cutting + mm(motion.length) / motion.feed;
 }
@@ -86,6 +94,7 @@ void add(MotionFigures& all, const MotionFigures& more) {
   if (!more.cut_bounds.empty()) all.cut_bounds.add(more.cut_bounds);
   if (!more.cut_ends.empty()) all.cut_ends.add(more.cut_ends);
   add(all.feed, more.feed);
+  add(all.turn_feed, more.turn_feed);
   add(all.speed, more.speed);
   all.cutting = all.cutting + more.cutting;
   all.rapid = all.rapid + more.rapid;
@@ -105,6 +114,8 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
   PathReport report;
   const std::size_t end = std::min(options.end, path.size());
   PathPosition start = position_before(path, std::min(options.first, end));
+  detail::RotaryWay rotary;
+  if (const auto before = path.motion_before(std::min(options.first, end))) rotary.pass(path, *before, {});
   std::optional<int> tool;
   ToolFigures* current = nullptr;  // the tool's entry, looked up when it is first needed
   for (std::size_t i = options.first; i < end; ++i) {
@@ -126,7 +137,8 @@ PathReport report_on(const Toolpath& path, const ReportOptions& options) {
       start.pass(s);
       continue;
     }
-    const Motion motion = measure(s, start);
+    Motion motion = measure(s, start);
+    motion.degrees = rotary.pass(path, i, start.at).value_or(0.0);
     add(figures, motion, options);
     if (s.is_cutting())
       current->deepest = std::min(current->deepest.value_or(motion.box.low.z), motion.box.low.z);

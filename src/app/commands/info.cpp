@@ -36,6 +36,14 @@ Range in_units(const Range& feed, const LengthText& lengths) {
   return feed.empty() ? feed : Range{feed.low / scale, feed.high / scale};
 }
 
+std::string feeds_text(const MotionFigures& all, const LengthText& lengths) {
+  const std::string turning =
+      all.turn_feed.empty() ? "" : range_text(all.turn_feed, "degrees/min of rotary axes alone");
+  if (all.feed.empty() && !turning.empty()) return turning;
+  const std::string feeds = range_text(in_units(all.feed, lengths), lengths.feed_unit());
+  return turning.empty() ? feeds : feeds + ", " + turning;
+}
+
 std::string box_text(const Box3& box, const LengthText& lengths) {
   return fmt::format("X {} to {}, Y {} to {}, Z {} to {}  ({})", lengths.of(box.low.x, 3),
                      lengths.of(box.high.x, 3), lengths.of(box.low.y, 3), lengths.of(box.high.y, 3),
@@ -112,7 +120,7 @@ void print_info(Console& console, const Job& job, const JobTimes& times) {
   if (job.stock)
     console.print(
         fmt::format("Stock     {}, {}\n", box_text(job.stock->block, lengths), to_string(job.stock_source)));
-  console.print(fmt::format("Feeds     {}\n", range_text(in_units(all.feed, lengths), lengths.feed_unit())));
+  console.print(fmt::format("Feeds     {}\n", feeds_text(all, lengths)));
   console.print(fmt::format("Spindle   {}\n", range_text(all.speed, "rpm")));
   print_time(console, times);
   print_tools(console, job, times);

@@ -153,6 +153,19 @@ TEST(EstimateTime, MovesWithoutAFeedAreNotTimed) {
   EXPECT_NEAR(time.all.motion.seconds(), trapezoid(10, 1000 / 60.0, 200), kExact);
 }
 
+TEST(EstimateTime, RotaryAxesAloneTakeDegreesPerMinuteFromRestToRest) {
+  Job job = Job().cut({10, 0, 0}, 1000);
+  for (const double a : {0.0, 360.0, 400.0}) {
+    job.cut({10, 0, 0}, 100);
+    job.path.set_extra(job.path.size() - 1, {.abc = std::array<double, 3>{a, 0, 0}});
+  }
+  job.cut({20, 0, 0}, 1000);
+  const TimeEstimate time = estimate_time(job.path, {});
+  const double line = trapezoid(10, 1000 / 60.0, 200);
+  EXPECT_NEAR(time.all.motion.seconds(), 2 * line + 4.0 * 60.0, kExact);  // 400 degrees
+  EXPECT_EQ(time.not_timed, 1u) << "the first angle is unknown before";
+}
+
 TEST(EstimateTime, AMillionMovesTakeLessThanFiveSeconds) {
   Job job;
   for (int i = 1; i <= 1'000'000; ++i) job.cut({0.1 * i, 0.01 * (i % 7), -0.01 * (i % 3)}, 2000);

@@ -55,6 +55,36 @@ TEST(Report, CountsLengthsBoundsAndTimes) {
   EXPECT_NEAR(report.tools[2].figures.cut_mm, 0, 1e-12);
 }
 
+/// At 0,0,0: to these angles of A, B, C, all of them known.
+void turn(Toolpath& path, std::array<double, 3> abc, double feed) {
+  const std::size_t i = feed > 0.0 ? path.add(step::Cut{{0, 0, 0}, mm_per_min(feed)}, OriginId::none)
+                                   : path.add(step::Rapid{{0, 0, 0}}, OriginId::none);
+  path.set_extra(i, {.abc = abc});
+}
+
+TEST(Report, RotaryAxesAloneTakeDegreesPerMinute) {
+  Toolpath path;
+  turn(path, {0, 0, 0}, 0);
+  turn(path, {3600, 0, 0}, 100);   // ten turns: 36 min
+  turn(path, {3600, 30, 40}, 25);  // 50 degrees: 2 min
+  path.set_extra(path.add(step::Cut{{7, 0, 0}, mm_per_min(70)}, OriginId::none),
+                 {.abc = std::array<double, 3>{0, 30, 40}});  // of a motion that moves X, too, 0.1 min
+  const PathReport report = report_on(path, {});
+  EXPECT_NEAR(report.all.cutting.minutes(), 38.1, 1e-12);
+  EXPECT_EQ(report.all.feed.high, 70) << "degrees are no mm";
+  EXPECT_EQ(report.all.turn_feed.low, 25);
+  EXPECT_EQ(report.all.turn_feed.high, 100);
+  EXPECT_NEAR(report_on(path, {.first = 2, .end = 3}).all.cutting.minutes(), 2, 1e-12);
+  EXPECT_NEAR(report_on(path, {.end = 2}).all.cutting.minutes(), 36, 1e-12);
+}
+
+TEST(Report, ATurnFromAnUnknownAngleTakesNoTime) {
+  Toolpath path;
+  turn(path, {360, 0, 0}, 100);
+  turn(path, {0, 0, 0}, 100);
+  EXPECT_NEAR(report_on(path, {}).all.cutting.minutes(), 3.6, 1e-12);
+}
+
 TEST(Report, OfAnEmptyPathIsEmpty) {
   const PathReport report = report_on(Toolpath{}, {});
   EXPECT_TRUE(report.tools.empty());
