@@ -57,6 +57,10 @@ std::vector<std::pair<int, std::uint8_t>> tool_colours(const Toolpath& path);
 /// Tolerance of merged triangles, about the deviation of the columns from the cut itself.
 inline constexpr Length kMeshTolerance = mm(0.002);
 
+/// Tolerance of exact surfaces in GLB files that are written without another mesh or picture: a tenth of a
+/// pixel, about, of a part of 200 mm across a screen.
+inline constexpr Length kViewedMeshTolerance = mm(0.02);
+
 /// The surface of a run. Nothing if stopped.
 std::optional<PartSurface> make_surface(const Job& job, const JobRun& run, const SurfaceOptions& options,
                                         Diagnostics& diagnostics, Progress* progress = nullptr);
@@ -108,8 +112,8 @@ struct PartFileOptions {
   View view = {};  // of pictures
   PictureContent content = PictureContent::automatic;
   Grooves grooves = Grooves::closed;
-  /// Nothing: exact for meshes; for pictures of columns smaller than the pixels, to which the job is cut
-  /// again if necessary.
+  /// Nothing: exact for meshes, within kViewedMeshTolerance if all files are GLB; for pictures of columns
+  /// smaller than the pixels, to which the job is cut again if necessary.
   std::optional<SurfaceDetail> detail = {};
 };
 /// Writes pictures of the toolpath; all files must be pictures. False, with an error, if one fails.

@@ -154,6 +154,12 @@ bool has_mesh(const std::vector<PartFile>& files) {
   return std::any_of(files.begin(), files.end(), [](const PartFile& file) { return file.mesh.has_value(); });
 }
 
+/// Whether all files are for viewers: GLB, without pictures, which show more than such a viewer.
+bool only_viewed(const std::vector<PartFile>& files) {
+  return std::all_of(files.begin(), files.end(),
+                     [](const PartFile& file) { return file.mesh == MeshFormat::glb; });
+}
+
 /// The same job with columns smaller than a pixel, if only pictures are written and the columns would be
 /// visible in them: cutting again takes less time than an exact surface of coarse columns, and shows more.
 /// Its hazards are those of both runs. Nothing otherwise, or if stopped.
@@ -175,7 +181,7 @@ std::optional<JobRun> finer_run(const std::vector<PartFile>& files, const JobRun
 }
 
 /// The surface that the files show. Where all are pictures, that of the columns if they are smaller than the
-/// pixels, else an exact one within a fraction of a pixel.
+/// pixels, else an exact one within a fraction of a pixel. GLB files alone are coarser.
 SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
                           const PartFileOptions& options) {
   constexpr double kVisible =
@@ -186,6 +192,7 @@ SurfaceOptions surface_of(const std::vector<PartFile>& files, const JobRun& run,
     surface.detail = *options.detail;
     return surface;
   }
+  if (only_viewed(files)) surface.tolerance = kViewedMeshTolerance;
   if (cut == nullptr || has_mesh(files)) return surface;
   if (!shows_columns(*cut, options.view)) surface.detail = SurfaceDetail::columns;
   surface.tolerance = std::max(surface.tolerance, kVisible * pixel_size(cut->workpiece, options.view));

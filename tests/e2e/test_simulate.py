@@ -242,6 +242,88 @@ def test_a_tool_that_cuts_nothing_has_no_line(kerf, program):
     assert "tool 102" in run.out and "tool 101" not in run.out
 
 
+SLOTS = """G21 G90
+S1000 M3
+G0 X0 Y0 Z2
+G1 Z-1 F100
+G1 X10
+G0 Z2
+T1 M6
+M3
+G0 X20
+G1 Z-1
+G1 X30
+G0 Z2
+T2 M6
+M3
+G0 X40
+G1 Z-1
+G0 Z2
+M2
+"""
+
+
+def test_the_tool_before_the_first_change_has_a_number_of_its_own(kerf, program):
+    """3, as the program uses 1 and 2: each tool has what it removes itself."""
+    slot, hole = 3 * 10 + math.pi * 1.5**2, math.pi * 1.5**2
+    run = kerf("simulate", "--json", "--stock", "-5,-5,-5 to 50,5,0", "--tool", "square d=3 flute=9",
+               "--resolution", "0.02", program(SLOTS))
+    assert [t["number"] for t in run.json["tools"]] == [3, 1, 2]
+    assert [t["source"] for t in run.json["tools"]] == ["option"] * 3
+    removed = [t["removed_mm3"] for t in run.json["tools"]]
+    assert removed == pytest.approx([slot, slot, hole], rel=2e-3)
+
+
+def test_a_numbered_tool_is_the_one_before_the_first_change_only_without_changes(kerf, program):
+    stock = ("--stock", "-5,-5,-5 to 50,5,0")
+    alone = "\n".join(SLOTS.splitlines()[:6]) + "\nM2\n"
+    tool = ("--tool", "7=square d=2 flute=9")
+    run = kerf("simulate", "--json", "--resolution", "0.02", *stock, *tool, program(alone))
+    assert [(t["number"], t["source"]) for t in run.json["tools"]] == [(7, "option")]
+    assert run.json["removed_mm3"] == pytest.approx(2 * 10 + math.pi, rel=2e-3)
+    run = kerf("simulate", "--json", *stock, *tool, program(SLOTS))
+    assert [t["source"] for t in run.json["tools"]][0] == "assumed"
+
+
+def glb_volume(path):
+    """mm3 that the triangles of a GLB enclose."""
+    data = path.read_bytes()
+    size = int.from_bytes(data[12:16], "little")
+    scene, binary = json.loads(data[20:20 + size]), data[28 + size:]
+
+    def numbers(index, kind, count):
+        accessor = scene["accessors"][index]
+        view = scene["bufferViews"][accessor["bufferView"]]
+        start = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        return struct.unpack_from(f"<{count * accessor['count']}{kind}", binary, start)
+
+    six = 0.0
+    for primitive in scene["meshes"][0]["primitives"]:
+        at = numbers(primitive["attributes"]["POSITION"], "f", 3)
+        corners = list(zip(*[iter(at)] * 3))
+        if "indices" in primitive:
+            corners = [corners[i] for i in numbers(primitive["indices"], "I", 1)]
+        for (ax, ay, az), (bx, by, bz), (cx, cy, cz) in zip(*[iter(corners)] * 3):
+            six += ax * (by * cz - bz * cy) + ay * (bz * cx - bx * cz) + az * (bx * cy - by * cx)
+    return six / 6
+
+
+def test_a_glb_alone_is_coarser_than_beside_other_meshes(kerf, program, tmp_path):
+    """Within 0.02 mm instead of 0.002: fewer triangles, and the volume of a slot of a ball, half a cylinder
+    between two quarters of the ball, as deep as its radius, within its surface times 0.02."""
+    slot = program("G21 G90\nT1 M6\nS9000 M3\nG0 X10 Y10 Z5\nG1 Z-3 F100\nX30 Y17\nG0 Z5\nM2\n")
+    options = ("--resolution", "0.3", "--stock", "0,0,-5 to 40,30,0", "--tool", "ball d=6 flute=9")
+    assert kerf("simulate", *options, slot, "-o", "alone.glb").status == 0
+    assert kerf("simulate", *options, slot, "-o", "both.glb", "-o", "both.stl").status == 0
+    alone, both = tmp_path / "alone.glb", tmp_path / "both.glb"
+    assert alone.stat().st_size < 0.8 * both.stat().st_size
+    long = math.hypot(20, 7)
+    left = 40 * 30 * 5 - math.pi * 9 / 2 * long - 2 / 3 * math.pi * 27
+    surface = math.pi * 3 * long + 2 * math.pi * 9
+    assert glb_volume(both) == pytest.approx(left, abs=surface * 0.002)
+    assert glb_volume(alone) == pytest.approx(left, abs=surface * 0.02)
+
+
 def test_the_materials_of_a_glb_name_the_tools(kerf, program, tmp_path):
     two = VALID.replace("M5\n", "G0 X30 Y5\nM6 T101\nM3 S9000\nG1 Z-1\nG0 Z5\nM5\n")
     kerf("simulate", program(two), "-o", "part.glb")
