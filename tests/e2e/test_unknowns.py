@@ -329,3 +329,19 @@ def test_a_turning_program_is_named(kerf, program):
 
     assert names_a_lathe(TURNED)
     assert not names_a_lathe(TURNED.replace("G0 X10 Z5", "G0 X10 Y2 Z5"))
+
+
+@pytest.mark.parametrize("first, second", [("#5063 GT 99", "1 GT 0"), ("1 GT 2", "#5063 LT 99")])
+def test_a_choice_by_a_probed_value_is_unresolved(kerf, program, first, second):
+    """Whichever of the conditions that are evaluated depends on the probe, the first or the last."""
+    text = (f"G21 G90\nG0 X0 Y0 Z5\nG38.2 Z-5 F50\no1 if [{first}]\nG0 X1\no1 elseif [{second}]\nG0 X2\n"
+            "o1 endif\nG0 Z5\nM2\n")
+    found = [s for s in steps_of(kerf, program(text)) if s["step"] == "unresolved"]
+    assert [s["text"] for s in found] == ["the flow of the program"]
+    assert refused(kerf, program(text))
+
+
+def test_known_conditions_after_a_probed_one_are_resolved(kerf, program):
+    text = ("G21 G90\nG0 X0 Y0 Z5\nG38.2 Z-5 F50\no1 if [#5063 GT 99]\no1 endif\no2 if [1 GT 0]\nG0 X2\n"
+            "o2 endif\no3 repeat [2]\nG91 G0 X1\no3 endrepeat\nM2\n")
+    assert sum(s["step"] == "unresolved" for s in steps_of(kerf, program(text))) == 1

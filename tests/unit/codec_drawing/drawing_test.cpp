@@ -1,10 +1,12 @@
 // Drawings as DXF and SVG: the content of the files.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <sstream>
 
 #include "kerf/drawing_files.h"
+#include "kerf/dxf.h"
 
 namespace kerf {
 namespace {
@@ -130,6 +132,28 @@ TEST(Drawing, SvgArcsOfMoreThanHalfACircleAreTheLargeOnes) {
     std::string rx, ry, rotation, flag;
     words >> rx >> ry >> rotation >> flag;
     EXPECT_EQ(flag, large) << end << ": " << text;
+  }
+}
+
+/// The arbitrary axis algorithm of the DXF reference: the X axis of an extrusion direction within 1/64 of Z
+/// is at right angles to Y, of any other to Z.
+TEST(Dxf, AxesOfAnExtrusionDirectionChangeNearZ) {
+  const auto x_axis = [](double nx, double ny) {
+    const dxf::Matrix m = dxf::object_axes({nx, ny, std::sqrt(1.0 - nx * nx - ny * ny)});
+    return std::array<double, 3>{m.m[0][0], m.m[1][0], m.m[2][0]};
+  };
+  const double inside = 0.0156, outside = 0.0157;  // 1/64 is 0.015625
+  struct Case {
+    double nx, ny;
+    std::array<double, 3> x;  // Y x N or Z x N, as a unit vector
+  };
+  const double along = std::sqrt(1.0 - inside * inside);
+  for (const Case& c : {Case{inside, 0, {along, 0, -inside}}, Case{-inside, 0, {along, 0, inside}},
+                        Case{0, inside, {1, 0, 0}}, Case{0, -inside, {1, 0, 0}}, Case{outside, 0, {0, 1, 0}},
+                        Case{-outside, 0, {0, -1, 0}}, Case{0, outside, {-1, 0, 0}},
+                        Case{0, -outside, {1, 0, 0}}, Case{0, 0, {1, 0, 0}}}) {
+    const auto x = x_axis(c.nx, c.ny);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(x[i], c.x[i], 1e-12) << c.nx << ' ' << c.ny << ' ' << i;
   }
 }
 

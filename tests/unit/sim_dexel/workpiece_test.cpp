@@ -53,6 +53,18 @@ TEST(Workpiece, IsFilledFromLeftOverColumns) {
   EXPECT_TRUE(workpiece.column(1, 0).empty());
 }
 
+TEST(Tile, LengthsAddUpAllIntervalsOfAColumn) {
+  const Stock stock = stock_of(make_columns_body(bridge_and_nothing()));
+  Workpiece workpiece(stock, mm(1));
+  Diagnostics diagnostics;
+  ASSERT_TRUE(sim::fill_from_body(workpiece.body(), *stock.body, diagnostics, nullptr));
+  const sim::Tile& tile = *workpiece.body().tiles.front();
+  sim::Lanes lengths;
+  tile.lengths(0, lengths);
+  EXPECT_EQ(lengths[sim::lane_index(0, 0)], 4.0f) << "1 below the gap, 3 above";
+  EXPECT_EQ(lengths[sim::lane_index(1, 0)], 0.0f) << "its slot above the floor is empty";
+}
+
 TEST(Workpiece, LeavesTheColumnsThatItWasFilledFrom) {
   const LeftColumns given = bridge_and_nothing();
   const Stock stock = stock_of(make_columns_body(given));
