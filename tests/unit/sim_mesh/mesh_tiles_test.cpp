@@ -36,7 +36,7 @@ LeftColumns columns_of(const Part& part) {
   std::vector<Feature> features;
   for (int k = 0; k < 40; ++k)
     features.push_back({part.nx * number(random), part.ny * number(random), 2.0 + 20.0 * number(random),
-                     0.5 + 8.0 * number(random), k % 4});
+                        0.5 + 8.0 * number(random), k % 4});
   LeftColumns out;
   out.bounds = {{-3, 7, -10}, {-3 + part.nx * part.pitch - part.end_x, 7 + part.ny * part.pitch, 0}};
   out.positions = {out.bounds.low.x + 0.5 * part.pitch,
