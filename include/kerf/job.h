@@ -104,7 +104,7 @@ Job make_job_or_print(Program program, const JobSettings& settings, UnknownTool 
 
 /// The tools that a program changes to or describes, by number, as far as they are known.
 std::map<int, Tool> used_tools(const Program& program, const ToolChoices& choices);
-/// A tool in a few words: "square 3.175 mm".
+/// A tool in a few words: "square 3.175 mm", "V 20 mm, 60 degrees". Readers of tool comments understand it.
 std::string short_name(const Tool& tool);
 
 // ---- simulation

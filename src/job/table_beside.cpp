@@ -1,5 +1,7 @@
 // The tool table of LinuxCNC next to a program.
+#include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "job/front_ends.h"
@@ -33,6 +35,22 @@ double unit_of(std::string_view text) {
   return 1.0;
 }
 
+/// A table has no unit. One in which every tool would be at most 1 mm thick, has the diameter of a fraction
+/// of an inch, and one of them none of a mill in mm, is of a machine in inches.
+bool seems_in_inches(const ToolTable& read_as_mm) {
+  constexpr double kThickest = 1.0, kInchStep = 1.0 / 64.0, kMmStep = 0.1, kSame = 1e-9;
+  const auto is_multiple = [](double value, double step) {
+    return std::abs(value / step - std::round(value / step)) < kSame;
+  };
+  bool odd_in_mm = false;
+  for (const auto& [number, tool] : read_as_mm.tools()) {
+    const double diameter = tool.diameter.mm();
+    if (diameter > kThickest || !is_multiple(diameter, kInchStep)) return false;
+    odd_in_mm = odd_in_mm || !is_multiple(diameter, kMmStep);
+  }
+  return odd_in_mm;
+}
+
 }  // namespace
 
 ToolTable tool_table_beside(const InputFile& program, Diagnostics& diagnostics) {
@@ -41,7 +59,13 @@ ToolTable tool_table_beside(const InputFile& program, Diagnostics& diagnostics) 
   const auto file = InputFile::open(folder_of(program.path()) + std::string(kTable), ignored, kMaxTable);
   if (!file || library_kind_of(file->bytes()) != ToolLibraryKind::linuxcnc) return table;
   Diagnostics found;
-  read_tool_library(file->bytes(), file->path(), {.unit_mm = unit_of(program.bytes())}, table, found);
+  const auto read = [&](double unit_mm) {
+    table = {};
+    found = Diagnostics{};
+    read_tool_library(file->bytes(), file->path(), {.unit_mm = unit_mm}, table, found);
+  };
+  read(unit_of(program.bytes()));
+  if (seems_in_inches(table)) read(kMmPerInch);
   for (const Diagnostic& d : found.list())
     if (d.code == Code::tool_library_assumed) diagnostics.add(d);
   return table;

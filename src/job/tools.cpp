@@ -333,8 +333,25 @@ std::string_view to_string(ToolSource source) {
   return "unknown";
 }
 
+namespace {
+
+/// What a diameter does not say of a shape; worded so that readers of comments understand it.
+std::string further_size(const ToolShape& shape) {
+  const auto cone = [](Angle angle) { return fmt::format(", {} degrees", number_text(angle.deg(), 2)); };
+  const auto radius = [](Length r) { return fmt::format(", radius {} mm", number_text(r.mm(), 3)); };
+  if (const auto* s = std::get_if<shape::Vee>(&shape)) return cone(s->included_angle);
+  if (const auto* s = std::get_if<shape::Chamfer>(&shape)) return cone(s->included_angle);
+  if (const auto* s = std::get_if<shape::Drill>(&shape)) return cone(s->point_angle);
+  if (const auto* s = std::get_if<shape::BullNose>(&shape)) return radius(s->corner_radius);
+  if (const auto* s = std::get_if<shape::Bowl>(&shape)) return radius(s->corner_radius);
+  return {};
+}
+
+}  // namespace
+
 std::string short_name(const Tool& tool) {
-  return fmt::format("{} {} mm", name_of(tool.shape), number_text(tool.diameter.mm(), 3));
+  return fmt::format("{} {} mm{}", name_of(tool.shape), number_text(tool.diameter.mm(), 3),
+                     further_size(tool.shape));
 }
 
 }  // namespace kerf

@@ -18,7 +18,7 @@ CAM_PROGRAMS = {
     "vcarve": (
         "( part )\n(Tools used in this file: )\n(1 = End Mill {6 mm})\nG21\nT1 M6\nS9000 M3\n",
         "square 6 mm"),
-    "aspire": ("G20\n(V-Bit {90 deg 0.5\"})\nT3 M6\nS9000 M3\n", "V 12.7 mm"),
+    "aspire": ("G20\n(V-Bit {90 deg 0.5\"})\nT3 M6\nS9000 M3\n", "V 12.7 mm, 90 degrees"),
     "carbide create": (
         "(TOOL/MILL,3.17, 0.00, 0.00, 0.00)\nG90\nG21\nM6T7\nM3S9000\n",
         "square 3.17 mm"),
@@ -35,7 +35,7 @@ CAM_PROGRAMS = {
         "square 3 mm"),
     "coppercam": (
         "( Tool #5 \"0.3mm30degree\" / Diameter 3.175 mm )\nG21\nT5 M06\nM03 S6000\n",
-        "V 3.175 mm"),
+        "V 3.175 mm, 30 degrees"),
     "flatcam": ("(Units: MM)\nG21\n(TOOL DIAMETER: 0.4 mm)\nG90\nM03 S6000\n", "square 0.4 mm"),
     "pcb2gcode": (
         "G94\nG21\nT0\nM5\n(MSG, Change tool bit to cutter diameter 0.8mm)\nM6\nM3 S9000\n",
@@ -264,6 +264,40 @@ def test_tools_takes_libraries_of_other_programs(kerf, program):
     assert kerf("simulate", "--json", part, "--tools", own).json["tools"][0]["name"] == "square 5 mm"
     broken = program("neither this nor that", "broken.toml")
     assert kerf("simulate", part, "--tools", broken).status == 1
+
+
+@pytest.mark.parametrize("words,name", [
+    ("D0.125", "square 3.175 mm"), ("D0.5", "square 0.5 mm"), ("D0.3", "square 0.3 mm"),
+    ("D3.175", "square 3.175 mm")])
+def test_a_table_of_a_machine_in_inches_beside_a_program_in_mm(kerf, program, words, name):
+    program(f"T1 P1 Z0 {words}\nT2 P2 Z0 D0.25\n" if words != "D0.5" else "T1 P1 Z0 D0.5\n", "tool.tbl")
+    part = program("G21 G90\nT1 M6\nM3 S9000\n" + BODY)
+    assert kerf("info", "--json", part).json["tools"][0]["name"] == name
+
+
+@pytest.mark.parametrize("shape", [
+    "V d=20 angle=60 flute=17.320508", "drill d=3 angle=90", "ball d=6", "bull nose d=8 r=1.5",
+    "chamfer d=10 angle=90 tip_diameter=0"])
+def test_the_comments_of_posted_programs_describe_their_tools(kerf, program, tmp_path, shape):
+    """A program of `post` removes the same material when it is read without the tool."""
+    part = program("G21 G90\nT2 M6\nM3 S9000\n" + BODY)
+    posted = tmp_path / "posted.nc"
+    assert kerf("post", part, "--to", "grbl", "--tool", f"2 = {shape}", "-o", posted).status == 0
+    stock = ["--stock", "-20,-20,-8 to 60,60,0", "--resolution", "0.1"]
+    given = kerf("simulate", "--json", posted, "--tool", f"2 = {shape}", *stock).json["removed_mm3"]
+    read = kerf("simulate", "--json", posted, *stock)
+    assert read.json["removed_mm3"] == pytest.approx(given, rel=1e-3) and given > 0
+
+
+@pytest.mark.parametrize("shape", [
+    "T-slot d=20 thickness=5 neck_diameter=8 flute=10", "dovetail d=12 flute=8 angle=14",
+    "corner rounding tip_diameter=4 diameter=12 radius=4", "flat groove d=6 flute=5 tip_diameter=2"])
+def test_comments_of_other_shapes_are_not_square_mills(kerf, program, tmp_path, shape):
+    part = program("G21 G90\nT2 M6\nM3 S9000\n" + BODY)
+    posted = tmp_path / "posted.nc"
+    done = kerf("post", part, "--to", "grbl", "--tool", f"2 = {shape}", "-o", posted)
+    assert done.status == 0, done.err
+    assert kerf("info", "--json", posted).json["tools"][0]["source"] in ("assumed", "unknown")
 
 
 def test_a_drill_has_a_usual_point(kerf):

@@ -43,6 +43,10 @@ const KindName kKinds[] = {{{"LOLLIPOP"}, Kind::unusable},
                            {{"TAPERED"}, Kind::unusable},
                            {{"DRAG"}, Kind::unusable},
                            {{"TURNING"}, Kind::unusable},
+                           {{"DRAWN"}, Kind::unusable},
+                           {{"CORNER", "ROUNDING"}, Kind::unusable},
+                           {{"FLAT", "GROOVE"}, Kind::unusable},
+                           {{"BOWL"}, Kind::bull_nose},
                            {{"BULL"}, Kind::bull_nose},
                            {{"BULLNOSE"}, Kind::bull_nose},
                            {{"TOROIDAL"}, Kind::bull_nose},
@@ -89,7 +93,9 @@ const KindName kKinds[] = {{{"LOLLIPOP"}, Kind::unusable},
                            {{"CARBIDE"}, Kind::square},
                            {{"CUTTER"}, Kind::square},
                            {{"MILL"}, Kind::square},
-                           {{"BIT"}, Kind::square}};
+                           {{"BIT"}, Kind::square},
+                           {{"CHAMFER"}, Kind::vee},
+                           {{"V"}, Kind::vee}};
 
 /// Words of comments about the part, an operation or the stock.
 constexpr std::string_view kOther[] = {"HOLE",     "HOLES",   "POCKET",  "DEEP",      "DEPTH",    "WORKPIECE",
