@@ -1,9 +1,13 @@
 // Path drawings from memory: callers, limits, messages.
 #include "kerf/pathdxf.h"
 
+#include <algorithm>
+#include <array>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <map>
+#include <random>
+#include <set>
 
 namespace kerf {
 namespace {
@@ -138,6 +142,76 @@ TEST_F(Pathdxf, ReadsNoDrawingTwice) {
   compile();
   EXPECT_FALSE(diagnostics_.has_errors());
   EXPECT_EQ(reads["8998.dxf"], 1);
+}
+
+/// A random walk over a grid, each piece once: chains meet themselves at many points.
+std::vector<std::pair<Point2, Point2>> walk(std::mt19937& random, int pieces) {
+  constexpr double kGrid = 4.0;  // mm; the marks of start and end are circles of 1 and 2 mm
+  std::vector<std::pair<Point2, Point2>> list;
+  std::set<std::array<double, 4>> used;
+  Point2 at{0, 0};
+  while (static_cast<int>(list.size()) < pieces) {
+    const auto draw = [&] { return kGrid * (static_cast<double>(random() % 4) - 1.0); };
+    const Point2 to{at.x + draw(), at.y + draw()};
+    if (to == at || !used.insert({at.x, at.y, to.x, to.y}).second) continue;
+    if (!used.insert({to.x, to.y, at.x, at.y}).second) continue;
+    list.emplace_back(at, to);
+    at = to;
+  }
+  return list;
+}
+
+/// The cuts in the plane of a program, in their order.
+std::vector<std::pair<Point3, Point3>> level_cuts(const Toolpath& path) {
+  std::vector<std::pair<Point3, Point3>> cuts;
+  Point3 at{};
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (!path[i].is_motion()) continue;
+    const Point3 to = path[i].to();
+    if (path[i].is_cutting() && to.xy() != at.xy()) cuts.emplace_back(at, to);
+    at = to;
+  }
+  return cuts;
+}
+
+/// A chain is milled in any order of its passes in which none is nearer to the tool than the next one (a
+/// piece's next level at either end), here found among all of them.
+TEST_F(Pathdxf, MillsTheNearestPassNext) {
+  std::mt19937 random(7);
+  int compared = 0;
+  for (int round = 0; round < 60; ++round) {
+    const auto pieces = walk(random, 2 + round % 25);
+    std::string elements;
+    for (const auto& [a, b] : pieces) elements += line(a.x, a.y, b.x, b.y, "CONTINUOUS", "8999_1P");
+    const Point2 last = pieces.back().second;
+    diagnostics_ = Diagnostics{};
+    files_["8999.1P.dxf"] = "0\nSECTION\n2\nENTITIES\n" + circle(0, 0, 1, "8999_1P") +
+                            text(0, 0, "M1 O2 T3 I1 B0 S5", "8999_1P") + elements +
+                            circle(last.x, last.y, 2, "8999_1P") + "0\nENDSEC\n0\nEOF\n";
+    const PathdxfRun run = compile();
+    if (diagnostics_.has_errors() || run.programs.size() != 1) continue;  // no way over all pieces was found
+    const auto cuts = level_cuts(run.programs[0].milling);
+    ASSERT_EQ(cuts.size(), 3 * pieces.size());
+    std::vector<double> next(pieces.size(), 2.0);  // levels 2, 1 and 0
+    Point3 head{0, 0, 2.0};
+    for (const auto& [from, to] : cuts) {
+      double nearest = 1e9;
+      std::size_t milled = pieces.size();
+      for (std::size_t k = 0; k < pieces.size(); ++k) {
+        if (next[k] < 0.0) continue;
+        const auto [a, b] = pieces[k];
+        const Point3 start{a.x, a.y, next[k]}, end{b.x, b.y, next[k]};
+        nearest = std::min({nearest, distance(head, start), distance(head, end)});
+        if ((from == start && to == end) || (from == end && to == start)) milled = k;
+      }
+      ASSERT_LT(milled, pieces.size()) << "round " << round;
+      ASSERT_NEAR(distance(head, from), nearest, 1e-9) << "round " << round;
+      next[milled] -= 1.0;
+      head = to;
+    }
+    ++compared;
+  }
+  EXPECT_GE(compared, 15);
 }
 
 }  // namespace

@@ -210,12 +210,15 @@ void Miller::mill_section(const MillSegment& s, double from, double to, double f
 
 /// A segment at a level, or at its own bottom where that is higher; with support bars below their height.
 void Miller::mill_segment(const MillSegment& segment, double level, bool reversed) {
+  if (!reversed) return mill_forwards(segment, level);
   MillSegment s = segment;
-  if (reversed) {
-    std::swap(s.start, s.end);
-    s.start_angle += s.turn;
-    s.turn = -s.turn;
-  }
+  std::swap(s.start, s.end);
+  s.start_angle += s.turn;
+  s.turn = -s.turn;
+  mill_forwards(s, level);
+}
+
+void Miller::mill_forwards(const MillSegment& s, double level) {
   const bool has_bars = s.values.depth == Depth::bars;
   const double bars = has_bars ? *s.values.d + frame_.raise : 0.0;
   const double length = s.is_arc ? std::abs(s.turn) * s.radius : distance(s.start, s.end);

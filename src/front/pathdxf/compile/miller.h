@@ -47,11 +47,12 @@ class Miller {
     std::size_t segment = 0;
     bool reversed = false;
   };
-  static NextPass next_pass(const std::vector<Pass>& passes, const BoxTree& tips, Point3 head);
+  class Tips;
   void greedy(std::vector<Pass>& passes);
   void slow(std::vector<Pass>& passes);
   void mill(const Pass& pass, double level, bool reversed);
   void mill_segment(const MillSegment& segment, double level, bool reversed);
+  void mill_forwards(const MillSegment& s, double level);
   void mill_section(const MillSegment& segment, double from, double to, double from_z, double to_z);
   void line(Point2 from, Point2 to, double from_z, double to_z, double feed);
   void arc(Point2 centre, double radius, double start_angle, double turn, Point2 from, Point2 to,
